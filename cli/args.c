@@ -1,0 +1,288 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/args.h"
+
+#include <mxgen/mxgen.h>
+
+#include <errno.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Programs end where there is no memory for their arguments. */
+static void *grow(void *items, size_t len, size_t item_size)
+{
+    if (len & (len - 1)) /* room doubles at powers of two */
+        return items;
+    void *more = realloc(items, (len ? len * 2 : 1) * item_size);
+    if (!more) {
+        fputs("mxgen: out of memory\n", stderr);
+        exit(1);
+    }
+    return more;
+}
+
+void args_append(struct arg_list *list, const char *item)
+{
+    list->items = grow(list->items, list->len, sizeof *list->items);
+    list->items[list->len++] = item;
+}
+
+static void add_setting(struct arg_parser *parser, const char *key, const char *value)
+{
+    parser->settings = grow(parser->settings, parser->num_settings, sizeof *parser->settings);
+    parser->settings[parser->num_settings++] = (struct arg_setting){key, value};
+}
+
+void args_finish(struct arg_parser *parser)
+{
+    free(parser->inputs.items);
+    free(parser->settings);
+}
+
+/* An option as written: "--name=value" or "-n". */
+struct written {
+    const char *text;  /* the whole argument */
+    const char *name;  /* behind the dashes */
+    size_t len;        /* of the name */
+    const char *value; /* behind '='; NULL */
+    bool is_letter;
+};
+
+static bool name_is(const struct written *option, const char *name)
+{
+    return strlen(name) == option->len && memcmp(name, option->name, option->len) == 0;
+}
+
+/* "--no-key" is the flag "key" switched off. */
+static bool strip_no(struct written *option)
+{
+    if (option->is_letter || option->len < 4 || memcmp(option->name, "no-", 3) != 0)
+        return false;
+    option->name += 3;
+    option->len -= 3;
+    return true;
+}
+
+static const struct arg *find_arg(const struct arg_parser *parser, const struct written *option)
+{
+    for (size_t i = 0; i < parser->num_args; ++i) {
+        const struct arg *arg = &parser->args[i];
+        if (option->is_letter ? arg->letter && option->len == 1 && arg->letter == option->name[0] : name_is(option, arg->name))
+            return arg;
+    }
+    return NULL;
+}
+
+static bool find_generation_option(const struct arg_parser *parser, const struct written *option, mxg_option *out)
+{
+    if (!parser->generation || option->is_letter)
+        return false;
+    for (uint32_t i = 0; i < mxg_num_options(); ++i) {
+        out->size = sizeof *out;
+        if (mxg_get_option(i, out) == MXG_OK && name_is(option, out->key))
+            return true;
+    }
+    return false;
+}
+
+/* Levenshtein distance, for words shorter than the row. */
+static size_t edit_distance(const char *a, const char *b)
+{
+    size_t row[64], len = strlen(b);
+    if (len >= 64)
+        return SIZE_MAX;
+    for (size_t j = 0; j <= len; ++j)
+        row[j] = j;
+    for (size_t i = 0; a[i]; ++i) {
+        size_t corner = row[0];
+        row[0] = i + 1;
+        for (size_t j = 1; j <= len; ++j) {
+            size_t replace = corner + (a[i] != b[j - 1]);
+            size_t insert = (row[j] < row[j - 1] ? row[j] : row[j - 1]) + 1;
+            corner = row[j];
+            row[j] = replace < insert ? replace : insert;
+        }
+    }
+    return row[len];
+}
+
+const char *args_closest(const char *word, const char *const *candidates, size_t num_candidates)
+{
+    size_t best_distance = strlen(word) / 3 + 2; /* a third of the letters may be wrong, and one more */
+    const char *best = NULL;
+    for (size_t i = 0; i < num_candidates; ++i) {
+        size_t distance = edit_distance(word, candidates[i]);
+        if (distance < best_distance) {
+            best_distance = distance;
+            best = candidates[i];
+        }
+    }
+    return best;
+}
+
+static void print_unknown(const struct arg_parser *parser, const struct written *option)
+{
+    struct arg_list names = {0};
+    for (size_t i = 0; i < parser->num_args; ++i)
+        args_append(&names, parser->args[i].name);
+    for (uint32_t i = 0; parser->generation && i < mxg_num_options(); ++i) {
+        mxg_option known = {sizeof known};
+        mxg_get_option(i, &known);
+        args_append(&names, known.key);
+    }
+    char word[64];
+    snprintf(word, sizeof word, "%.*s", (int)option->len, option->name);
+    const char *near = option->is_letter ? NULL : args_closest(word, names.items, names.len);
+    if (near)
+        fprintf(stderr, "mxgen: unknown option '%s' (did you mean '--%s'?)\n", option->text, near);
+    else
+        fprintf(stderr, "mxgen: unknown option '%s'; see --help\n", option->text);
+    free(names.items);
+}
+
+static bool store_size(const struct written *option, const char *text, size_t *out)
+{
+    char *end;
+    errno = 0;
+    unsigned long long value = strtoull(text, &end, 10);
+    if (errno || end == text || *end || text[0] == '-' || value > SIZE_MAX) {
+        fprintf(stderr, "mxgen: '%s' of option '%s' is not a count\n", text, option->text);
+        return false;
+    }
+    *out = (size_t)value;
+    return true;
+}
+
+static bool store(const struct arg *arg, const struct written *option, const char *value)
+{
+    switch (arg->kind) {
+    case ARG_FLAG:
+        break;
+    case ARG_TEXT:
+        *(const char **)arg->out = value;
+        break;
+    case ARG_SIZE:
+        return store_size(option, value, arg->out);
+    case ARG_LIST:
+        args_append(arg->out, value);
+        break;
+    }
+    return true;
+}
+
+/* Whether the option is a flag, with or without "no-". `known` is a generation option where `arg` is NULL. */
+static bool parse_flag(struct arg_parser *parser, const struct arg *arg, const mxg_option *known,
+                       const struct written *option, bool on)
+{
+    if (arg && option->value) {
+        fprintf(stderr, "mxgen: option '%s' takes no value\n", option->text);
+        return false;
+    }
+    if (arg)
+        *(bool *)arg->out = on;
+    else
+        add_setting(parser, known->key, option->value && on ? option->value : on ? "true" : "false");
+    return true;
+}
+
+/* One option; *index moves on where its value is the next argument. */
+static bool parse_option(struct arg_parser *parser, struct written option, int argc, char **argv, int *index)
+{
+    mxg_option known = {sizeof known};
+    const struct arg *arg = find_arg(parser, &option);
+    bool found = arg || find_generation_option(parser, &option, &known);
+    if (found && (arg ? arg->kind == ARG_FLAG : known.type == MXG_OPTION_BOOL))
+        return parse_flag(parser, arg, &known, &option, true);
+    if (!found) {
+        struct written positive = option;
+        if (strip_no(&positive)) {
+            arg = find_arg(parser, &positive);
+            found = arg ? arg->kind == ARG_FLAG
+                        : find_generation_option(parser, &positive, &known) && known.type == MXG_OPTION_BOOL;
+        }
+        if (found && !option.value)
+            return parse_flag(parser, arg, &known, &positive, false);
+        print_unknown(parser, &option);
+        return false;
+    }
+    const char *value = option.value;
+    if (!value && *index + 1 < argc)
+        value = argv[++*index];
+    if (!value) {
+        fprintf(stderr, "mxgen: option '%s' needs a value\n", option.text);
+        return false;
+    }
+    if (arg)
+        return store(arg, &option, value);
+    add_setting(parser, known.key, value);
+    return true;
+}
+
+bool args_parse(struct arg_parser *parser, int argc, char **argv)
+{
+    bool only_inputs = false;
+    for (int i = 1; i < argc; ++i) {
+        const char *text = argv[i];
+        if (only_inputs || text[0] != '-' || !text[1]) {
+            args_append(&parser->inputs, text);
+        } else if (strcmp(text, "--") == 0) {
+            only_inputs = true;
+        } else {
+            bool is_letter = text[1] != '-';
+            const char *name = text + (is_letter ? 1 : 2);
+            const char *equals = is_letter ? NULL : strchr(name, '=');
+            struct written option = {text, name, equals ? (size_t)(equals - name) : strlen(name),
+                                     equals ? equals + 1 : NULL, is_letter};
+            if (!parse_option(parser, option, argc, argv, &i))
+                return false;
+        }
+    }
+    return true;
+}
+
+static void print_row(FILE *out, char letter, const char *name, const char *value, const char *help)
+{
+    char left[128];
+    int len = letter ? snprintf(left, sizeof left, "  -%c, --%s", letter, name) : snprintf(left, sizeof left, "      --%s", name);
+    if (value && *value && len > 0 && (size_t)len < sizeof left)
+        snprintf(left + len, sizeof left - (size_t)len, " %s", value);
+    if (strlen(left) < 34)
+        fprintf(out, "%-34s %s", left, help);
+    else
+        fprintf(out, "%s\n%35s%s", left, "", help);
+}
+
+static const char *option_value_text(const mxg_option *option)
+{
+    switch (option->type) {
+    case MXG_OPTION_BOOL:
+        return "";
+    case MXG_OPTION_INT:
+        return "N";
+    case MXG_OPTION_ENUM:
+        return option->values;
+    default:
+        return "TEXT";
+    }
+}
+
+void args_print_help(const struct arg_parser *parser, FILE *out)
+{
+    fputs("\nOptions:\n", out);
+    for (size_t i = 0; i < parser->num_args; ++i) {
+        const struct arg *arg = &parser->args[i];
+        print_row(out, arg->letter, arg->name, arg->value, arg->help);
+        fputc('\n', out);
+    }
+    if (!parser->generation)
+        return;
+    fputs("\nOptions of generation (flags: --key, --no-key):\n", out);
+    for (uint32_t i = 0; i < mxg_num_options(); ++i) {
+        mxg_option option = {sizeof option};
+        mxg_get_option(i, &option);
+        print_row(out, 0, option.key, option_value_text(&option), option.doc);
+        if (option.initial && *option.initial)
+            fprintf(out, " (default: %s)", option.initial);
+        fputc('\n', out);
+    }
+}

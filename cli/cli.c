@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/cli.h"
+
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define MAX_ARGS 40 /* of a command, the common ones included */
+
+/* The options that every command has, written behind the command's own. */
+static size_t add_common_args(struct cli *cli, struct arg *table)
+{
+    const struct arg common[] = {
+        {"library", 0, ARG_LIST, "PATH", "adds a library: a folder, file or image", &cli->library_paths},
+        {"no-builtin-library", 0, ARG_FLAG, NULL, "starts without the library that is built in", &cli->no_builtin_library},
+        {"max-memory", 0, ARG_SIZE, "BYTES", "gives up beyond that", &cli->max_memory},
+        {"max-file-size", 0, ARG_SIZE, "MIB", "largest file that is read", &cli->max_file_size},
+        {"max-elements", 0, ARG_SIZE, "N", "largest document", &cli->max_elements},
+        {"max-nodes", 0, ARG_SIZE, "N", "largest graph of operations", &cli->max_nodes},
+        {"max-output-size", 0, ARG_SIZE, "MIB", "largest shader", &cli->max_output_size},
+        {"max-errors", 0, ARG_SIZE, "N", "stops telling more", &cli->max_errors},
+        {"quiet", 'q', ARG_FLAG, NULL, "prints errors only", &cli->quiet},
+        {"verbose", 0, ARG_FLAG, NULL, "prints also how older documents were upgraded", &cli->verbose},
+        {"version", 0, ARG_FLAG, NULL, "prints the version", &cli->version},
+        {"help", 'h', ARG_FLAG, NULL, "prints this", &cli->help},
+    };
+    memcpy(table, common, sizeof common);
+    return sizeof common / sizeof *common;
+}
+
+static void print_usage(const struct cli *cli, const struct command *command)
+{
+    printf("Usage: mxgen %s\n%s\n", command->usage, command->brief);
+    args_print_help(&cli->parser, stdout);
+}
+
+/* True where the arguments ask for a text only. */
+static bool answer_help(const struct cli *cli, const struct command *command)
+{
+    if (cli->help)
+        print_usage(cli, command);
+    else if (cli->version)
+        printf("mxgen %s\n", mxg_version_string());
+    return cli->help || cli->version;
+}
+
+static uint32_t limit_u32(size_t value)
+{
+    return value > UINT32_MAX ? UINT32_MAX : (uint32_t)value;
+}
+
+static bool create_context(struct cli *cli)
+{
+    mxg_context_desc desc = MXG_CONTEXT_DESC_INIT;
+    desc.max_memory = cli->max_memory;
+    desc.max_file_mib = limit_u32(cli->max_file_size);
+    desc.max_elements = limit_u32(cli->max_elements);
+    desc.max_nodes = limit_u32(cli->max_nodes);
+    desc.max_output_mib = limit_u32(cli->max_output_size);
+    desc.max_errors = limit_u32(cli->max_errors);
+    return report_status(&cli->report, mxg_context_create(&desc, &cli->context));
+}
+
+static bool load_library(struct cli *cli)
+{
+    mxg_library *base = cli->no_builtin_library ? NULL : mxg_library_builtin(cli->context);
+    if (base && cli->library_paths.len == 0) {
+        cli->library = base;
+        return true;
+    }
+    mxg_status status = mxg_library_load(cli->context, base, cli->library_paths.items, cli->library_paths.len, &cli->library);
+    mxg_library_unref(base);
+    if (cli->library)
+        report_list(&cli->report, mxg_library_diagnostics(cli->library));
+    return report_status(&cli->report, status);
+}
+
+/* Bad values are bad usage: the option's own words say why. */
+static bool apply_settings(struct cli *cli)
+{
+    for (size_t i = 0; i < cli->parser.num_settings; ++i) {
+        const struct arg_setting *setting = &cli->parser.settings[i];
+        if (mxg_options_set(cli->options, setting->key, setting->value) != MXG_OK) {
+            fprintf(stderr, "mxgen: %s\n", mxg_options_error(cli->options));
+            return false;
+        }
+    }
+    return true;
+}
+
+bool cli_start(struct cli *cli, const struct command *command, const struct arg *args, size_t num_args, unsigned wants,
+               int argc, char **argv, int *out_exit)
+{
+    *cli = (struct cli){0};
+    struct arg table[MAX_ARGS];
+    memcpy(table, args, num_args * sizeof *args);
+    cli->parser.args = table;
+    cli->parser.num_args = num_args + add_common_args(cli, table + num_args);
+    cli->parser.generation = wants & CLI_GENERATES;
+    report_init(&cli->report);
+
+    *out_exit = EXIT_USAGE;
+    bool parsed = args_parse(&cli->parser, argc, argv);
+    cli->report.quiet = cli->quiet;
+    cli->report.verbose = cli->verbose;
+    if (!parsed)
+        return false;
+    if (answer_help(cli, command)) {
+        *out_exit = EXIT_DONE;
+        return false;
+    }
+    if ((wants & CLI_NEEDS_INPUT) && cli->parser.inputs.len == 0) {
+        fprintf(stderr, "usage: mxgen %s\n", command->usage);
+        return false;
+    }
+    if (!create_context(cli) || !report_status(&cli->report, mxg_options_create(cli->context, &cli->options))) {
+        *out_exit = EXIT_FAULT;
+        return false;
+    }
+    if (!apply_settings(cli))
+        return false;
+    *out_exit = EXIT_FAULT;
+    return (wants & CLI_LIBRARY_IS_INPUT) || load_library(cli);
+}
+
+void cli_finish(struct cli *cli)
+{
+    mxg_options_destroy(cli->options);
+    mxg_library_unref(cli->library);
+    mxg_context_destroy(cli->context);
+    report_finish(&cli->report);
+    free(cli->library_paths.items);
+    args_finish(&cli->parser);
+}
+
+mxg_document *cli_load(struct cli *cli, const char *path)
+{
+    mxg_document *document = NULL;
+    mxg_status status = mxg_document_load(cli->context, cli->library, path, &document);
+    if (document)
+        report_list(&cli->report, mxg_document_diagnostics(document));
+    if (report_status(&cli->report, status))
+        return document;
+    mxg_document_destroy(document);
+    return NULL;
+}
+
+char *cli_file_name(const char *element_path)
+{
+    char *name = cli_format("%s", element_path);
+    for (char *c = name; *c; ++c) {
+        if (*c == '/')
+            *c = '.';
+    }
+    return name;
+}
+
+char *cli_format(const char *format, ...)
+{
+    va_list args, again;
+    va_start(args, format);
+    va_copy(again, args);
+    int len = vsnprintf(NULL, 0, format, args);
+    char *text = len < 0 ? NULL : malloc((size_t)len + 1);
+    if (!text) {
+        fputs("mxgen: out of memory\n", stderr);
+        exit(EXIT_FAULT);
+    }
+    vsnprintf(text, (size_t)len + 1, format, again);
+    va_end(again);
+    va_end(args);
+    return text;
+}

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * What the commands share: their common options, and the objects of the library made from them. Everything stands on mxgen.h.
+ *
+ * Exit codes: 0 everything asked for was done, 1 errors in the input or while writing, 2 bad usage.
+ */
+#ifndef MXG_CLI_CLI_H
+#define MXG_CLI_CLI_H
+
+#include "cli/args.h"
+#include "cli/report.h"
+
+#include <mxgen/mxgen.h>
+
+enum exit_code { EXIT_DONE = 0, EXIT_FAULT = 1, EXIT_USAGE = 2 };
+
+struct command {
+    const char *name;
+    const char *usage; /* "FILE... [--target T] [options]" */
+    const char *brief;
+    int (*run)(const struct command *command, int argc, char **argv);
+};
+
+struct cli {
+    struct arg_parser parser;
+    struct arg_list library_paths;
+    bool quiet, verbose, help, version, no_builtin_library;
+    size_t max_memory, max_file_size, max_elements, max_nodes, max_output_size, max_errors;
+
+    struct report report;
+    mxg_context *context;
+    mxg_library *library;
+    mxg_options *options; /* of generation */
+};
+
+/* What a command wants besides its own table of options. */
+enum cli_wants { CLI_GENERATES = 1, CLI_NEEDS_INPUT = 2, CLI_LIBRARY_IS_INPUT = 4 /* loads none by itself */ };
+
+/*
+ * Parses the arguments and makes context, library and options. False: the command ends with *out_exit, after --help or
+ * an error. cli_finish must follow in both cases.
+ */
+bool cli_start(struct cli *cli, const struct command *command, const struct arg *args, size_t num_args, unsigned wants,
+               int argc, char **argv, int *out_exit);
+void cli_finish(struct cli *cli);
+
+/* Loads a document and prints its diagnostics; NULL where it has errors. */
+mxg_document *cli_load(struct cli *cli, const char *path);
+
+/* What a file of an element is called: its path with dots. To be freed. */
+char *cli_file_name(const char *element_path);
+
+/* Formats into new memory, to be freed; ends the program where there is none. */
+#if defined(__GNUC__)
+__attribute__((format(printf, 1, 2)))
+#endif
+char *cli_format(const char *format, ...);
+
+/* generate.c, inspect.c, library.c, validate.c, render.c */
+int command_generate(const struct command *command, int argc, char **argv);
+int command_inspect(const struct command *command, int argc, char **argv);
+int command_library(const struct command *command, int argc, char **argv);
+int command_validate(const struct command *command, int argc, char **argv);
+int command_render(const struct command *command, int argc, char **argv);
+
+#endif

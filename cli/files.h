@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+/* Files of the programs. The library opens none but through its resolver; what is written is written here. */
+#ifndef MXG_CLI_FILES_H
+#define MXG_CLI_FILES_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+/* The bytes of a file with a NUL behind them, to be freed by the caller; NULL with errno set. */
+char *files_read(const char *path, size_t *out_size);
+
+/*
+ * Writes a file whole or not at all: the bytes go to a new file beside it, which then takes its name. What is no plain
+ * file (a pipe, /dev/stdout) is written directly. Returns NULL, or why it failed.
+ */
+const char *files_write(const char *path, const void *data, size_t size);
+
+/* Makes a folder and the folders above it. Returns NULL, or why it failed. */
+const char *files_make_folder(const char *path);
+
+bool files_is_regular(const char *path);
+
+/* The part of a path behind its last '/'. */
+const char *files_base_name(const char *path);
+
+#endif

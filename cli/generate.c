@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: Apache-2.0
+/* mxgen FILE...: shaders of the renderable elements of documents, as files or on standard output. */
+#include "cli/cli.h"
+#include "cli/files.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+struct generate {
+    struct cli cli;
+    const char *target, *folder, *depfile;
+    struct arg_list elements; /* empty: every renderable */
+    bool to_stdout, reflect;
+    bool several;             /* input files: each gets a folder of its own */
+
+    const mxg_target *target_info; /* NULL: unknown, which generation reports */
+    struct arg_list outputs, sources; /* for the depfile; items are allocated */
+    struct arg_list folders;  /* of several inputs */
+};
+
+/* Writes one file of an element, "<folder>/<element>.<suffix>", or prints it below its name. */
+static void write_file(struct generate *gen, const char *folder, const char *element, const char *suffix, const char *text,
+                       size_t size)
+{
+    char *name = cli_file_name(element);
+    if (gen->to_stdout) {
+        printf("// %s.%s\n", name, suffix);
+        fwrite(text, 1, size, stdout);
+    } else {
+        char *path = cli_format("%s/%s.%s", folder, name, suffix);
+        const char *tidy = strncmp(path, "./", 2) == 0 ? path + 2 : path;
+        const char *reason = files_write(tidy, text, size);
+        if (reason)
+            report_error(&gen->cli.report, "output-failed", "cannot write '%s': %s", tidy, reason);
+        args_append(&gen->outputs, cli_format("%s", tidy));
+        free(path);
+    }
+    free(name);
+}
+
+static void write_result(struct generate *gen, const char *folder, const char *element, const mxg_result *result)
+{
+    for (int stage = 0; stage < MXG_NUM_STAGES; ++stage) {
+        size_t size = 0;
+        const char *text = mxg_result_source(result, (mxg_stage)stage, &size);
+        const char *suffix = gen->target_info ? gen->target_info->stage_suffix[stage] : NULL;
+        if (text && suffix)
+            write_file(gen, folder, element, suffix, text, size);
+    }
+    if (gen->reflect) {
+        size_t size = 0;
+        const char *text = mxg_result_reflection_json(result, &size);
+        write_file(gen, folder, element, "json", text, size);
+    }
+}
+
+static void generate_element(struct generate *gen, const mxg_document *document, const char *folder, const char *element)
+{
+    mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
+    desc.target = gen->target;
+    desc.element = element;
+    desc.options = gen->cli.options;
+    mxg_result *result = NULL;
+    mxg_status status = mxg_generate(gen->cli.context, document, &desc, &result);
+    if (result)
+        report_list(&gen->cli.report, mxg_result_diagnostics(result));
+    if (report_status(&gen->cli.report, status)) {
+        mxg_shader_info info = {sizeof info};
+        mxg_result_info(result, &info);
+        write_result(gen, folder, info.path, result);
+    }
+    mxg_result_destroy(result);
+}
+
+static void generate_elements(struct generate *gen, const mxg_document *document, const char *folder)
+{
+    for (size_t i = 0; i < gen->elements.len; ++i)
+        generate_element(gen, document, folder, gen->elements.items[i]);
+    if (gen->elements.len)
+        return;
+    uint32_t count = mxg_document_num_renderables(document);
+    for (uint32_t i = 0; i < count; ++i) {
+        mxg_renderable renderable = {sizeof renderable};
+        mxg_document_renderable(document, i, &renderable);
+        generate_element(gen, document, folder, renderable.path);
+    }
+    if (count == 0) /* generation says what is missing */
+        generate_element(gen, document, folder, NULL);
+}
+
+/* The folder that an input's files go to, which is made; to be freed. NULL after an error. */
+static char *output_folder(struct generate *gen, const char *input)
+{
+    const char *base = files_base_name(input);
+    const char *dot = strrchr(base, '.');
+    int len = (int)(dot && dot != base ? (size_t)(dot - base) : strlen(base));
+    char *folder = gen->several ? cli_format("%s/%.*s", gen->folder, len, base) : cli_format("%s", gen->folder);
+    for (size_t i = 0; i < gen->folders.len; ++i) {
+        if (strcmp(gen->folders.items[i], folder) == 0) {
+            report_error(&gen->cli.report, "output-failed", "'%s': another input writes to '%s' already", input, folder);
+            free(folder);
+            return NULL;
+        }
+    }
+    const char *reason = gen->to_stdout ? NULL : files_make_folder(folder);
+    if (reason) {
+        report_error(&gen->cli.report, "output-failed", "cannot make the folder '%s': %s", folder, reason);
+        free(folder);
+        return NULL;
+    }
+    args_append(&gen->folders, cli_format("%s", folder));
+    return folder;
+}
+
+static void generate_file(struct generate *gen, const char *input)
+{
+    mxg_document *document = cli_load(&gen->cli, input);
+    if (!document)
+        return;
+    for (uint32_t i = 0; i < mxg_document_num_files(document); ++i)
+        args_append(&gen->sources, cli_format("%s", mxg_document_file(document, i)));
+    char *folder = output_folder(gen, input);
+    if (folder)
+        generate_elements(gen, document, folder);
+    free(folder);
+    mxg_document_destroy(document);
+}
+
+/* Appends a file name as make reads it: spaces and '#' escaped, '$' doubled. */
+static void append_make_name(char **text, size_t *len, const char *name)
+{
+    char *grown = realloc(*text, *len + 2 * strlen(name) + 4);
+    if (!grown) {
+        fputs("mxgen: out of memory\n", stderr);
+        exit(EXIT_FAULT);
+    }
+    *text = grown;
+    for (const char *c = name; *c; ++c) {
+        if (*c == ' ' || *c == '#')
+            grown[(*len)++] = '\\';
+        else if (*c == '$')
+            grown[(*len)++] = '$';
+        grown[(*len)++] = *c;
+    }
+}
+
+/* "out1 out2: in1 in2": what make and ninja need to know when to run again. */
+static void write_depfile(struct generate *gen)
+{
+    char *text = NULL;
+    size_t len = 0;
+    for (size_t i = 0; i < gen->outputs.len; ++i) {
+        append_make_name(&text, &len, gen->outputs.items[i]);
+        text[len++] = i + 1 < gen->outputs.len ? ' ' : ':';
+    }
+    for (size_t i = 0; len && i < gen->sources.len; ++i) {
+        text[len++] = ' ';
+        append_make_name(&text, &len, gen->sources.items[i]);
+    }
+    if (len)
+        text[len++] = '\n';
+    const char *reason = files_write(gen->depfile, text ? text : "", len);
+    if (reason)
+        report_error(&gen->cli.report, "output-failed", "cannot write '%s': %s", gen->depfile, reason);
+    free(text);
+}
+
+static void free_items(struct arg_list *list)
+{
+    for (size_t i = 0; i < list->len; ++i)
+        free((void *)(uintptr_t)list->items[i]);
+    free(list->items);
+}
+
+static bool find_target(const char *name, mxg_target *out)
+{
+    for (uint32_t i = 0; i < mxg_num_targets(); ++i) {
+        out->size = sizeof *out;
+        if (mxg_get_target(i, out) == MXG_OK && (strcmp(name, out->name) == 0 || strcmp(name, out->materialx_name) == 0))
+            return true;
+    }
+    return false;
+}
+
+static int generate_all(struct generate *gen)
+{
+    mxg_target target = {sizeof target};
+    if (find_target(gen->target, &target))
+        gen->target_info = &target;
+    gen->several = gen->cli.parser.inputs.len > 1;
+    for (size_t i = 0; i < gen->cli.parser.inputs.len; ++i)
+        generate_file(gen, gen->cli.parser.inputs.items[i]);
+    if (gen->depfile && gen->cli.report.errors == 0)
+        write_depfile(gen);
+    return gen->cli.report.errors ? EXIT_FAULT : EXIT_DONE;
+}
+
+int command_generate(const struct command *command, int argc, char **argv)
+{
+    struct generate gen = {.target = "glsl", .folder = "."};
+    const struct arg args[] = {
+        {"target", 't', ARG_TEXT, "T", "the shading language to write (default: glsl)", &gen.target},
+        {"element", 'e', ARG_LIST, "PATH", "an element to generate (default: all that can be rendered)", &gen.elements},
+        {"output", 'o', ARG_TEXT, "DIR", "the folder to write to (default: the current one)", &gen.folder},
+        {"reflect", 0, ARG_FLAG, NULL, "writes the reflection too, as JSON", &gen.reflect},
+        {"stdout", 0, ARG_FLAG, NULL, "prints instead of writing files", &gen.to_stdout},
+        {"depfile", 0, ARG_TEXT, "FILE", "writes which files the output depends on, for make and ninja", &gen.depfile},
+    };
+    int code;
+    if (cli_start(&gen.cli, command, args, sizeof args / sizeof *args, CLI_GENERATES | CLI_NEEDS_INPUT, argc, argv, &code))
+        code = generate_all(&gen);
+    cli_finish(&gen.cli);
+    free(gen.elements.items);
+    free_items(&gen.outputs);
+    free_items(&gen.sources);
+    free_items(&gen.folders);
+    return code;
+}

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+/* mxgen inspect: what the compiler sees at each stage, as text. */
+#include "cli/cli.h"
+
+struct inspect {
+    bool views[MXG_VIEW_STATISTICS + 1];
+    const char *target, *element;
+};
+
+static bool print_view(struct cli *cli, const mxg_document *document, const struct inspect *inspect, mxg_view view)
+{
+    mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
+    desc.target = inspect->target;
+    desc.element = inspect->element;
+    desc.options = cli->options;
+    mxg_result *result = NULL;
+    mxg_status status = mxg_inspect(cli->context, document, view, &desc, &result);
+    if (result) {
+        size_t size = 0;
+        const char *text = mxg_result_text(result, &size);
+        report_list(&cli->report, mxg_result_diagnostics(result));
+        if (text)
+            fwrite(text, 1, size, stdout);
+    }
+    mxg_result_destroy(result);
+    return report_status(&cli->report, status);
+}
+
+/* Every view that was asked for; the elements where none was. */
+static void print_views(struct cli *cli, const mxg_document *document, const struct inspect *inspect)
+{
+    bool any = false, good = true;
+    for (int view = 0; view <= MXG_VIEW_STATISTICS && good; ++view) {
+        if (!inspect->views[view])
+            continue;
+        any = true;
+        good = print_view(cli, document, inspect, (mxg_view)view);
+    }
+    if (!any)
+        print_view(cli, document, inspect, MXG_VIEW_ELEMENTS);
+}
+
+int command_inspect(const struct command *command, int argc, char **argv)
+{
+    struct inspect inspect = {.target = "glsl"};
+    const struct arg args[] = {
+        {"elements", 0, ARG_FLAG, NULL, "the element tree and what can be rendered (the default)", &inspect.views[MXG_VIEW_ELEMENTS]},
+        {"graph", 0, ARG_FLAG, NULL, "nodes and connections", &inspect.views[MXG_VIEW_GRAPH]},
+        {"dot", 0, ARG_FLAG, NULL, "the same for Graphviz", &inspect.views[MXG_VIEW_DOT]},
+        {"ir", 0, ARG_FLAG, NULL, "the optimised intermediate representation", &inspect.views[MXG_VIEW_IR]},
+        {"closures", 0, ARG_FLAG, NULL, "closure leaves with their weights", &inspect.views[MXG_VIEW_CLOSURES]},
+        {"statistics", 0, ARG_FLAG, NULL, "counts", &inspect.views[MXG_VIEW_STATISTICS]},
+        {"element", 'e', ARG_TEXT, "PATH", "the element to look at", &inspect.element},
+        {"target", 't', ARG_TEXT, "T", "the target to look at it for (default: glsl)", &inspect.target},
+    };
+    struct cli cli;
+    int code;
+    if (cli_start(&cli, command, args, sizeof args / sizeof *args, CLI_NEEDS_INPUT | CLI_GENERATES, argc, argv, &code)) {
+        for (size_t i = 0; i < cli.parser.inputs.len; ++i) {
+            mxg_document *document = cli_load(&cli, cli.parser.inputs.items[i]);
+            if (document)
+                print_views(&cli, document, &inspect);
+            mxg_document_destroy(document);
+        }
+        code = cli.report.errors ? EXIT_FAULT : EXIT_DONE;
+    }
+    cli_finish(&cli);
+    return code;
+}

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#define _POSIX_C_SOURCE 200809L
+#include "cli/report.h"
+
+#include "cli/files.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+void report_init(struct report *report)
+{
+    *report = (struct report){.colour = isatty(STDERR_FILENO) != 0};
+}
+
+void report_finish(struct report *report)
+{
+    free(report->source_name);
+    free(report->source);
+    *report = (struct report){0};
+}
+
+/* Makes `source` the text of the file, or NULL where it cannot be read (a file of the built-in library). */
+static void load_source(struct report *report, const char *file)
+{
+    if (report->source_name && strcmp(report->source_name, file) == 0)
+        return;
+    free(report->source_name);
+    free(report->source);
+    report->source = NULL;
+    report->source_size = 0;
+    size_t len = strlen(file) + 1;
+    report->source_name = malloc(len);
+    if (report->source_name)
+        memcpy(report->source_name, file, len);
+    if (files_is_regular(file))
+        report->source = files_read(file, &report->source_size);
+}
+
+static void print_one(struct report *report, const mxg_diagnostics *list, uint32_t index, const char *file)
+{
+    if (file)
+        load_source(report, file);
+    const char *source = file ? report->source : NULL;
+    size_t size = file ? report->source_size : 0;
+    char small[1024], *text = small;
+    size_t len = mxg_diagnostics_format(list, index, source, size, report->colour, small, sizeof small);
+    if (len >= sizeof small) {
+        text = malloc(len + 1);
+        if (!text)
+            return;
+        mxg_diagnostics_format(list, index, source, size, report->colour, text, len + 1);
+    }
+    fputs(text, stderr);
+    if (len && text[len - 1] != '\n')
+        fputc('\n', stderr);
+    if (text != small)
+        free(text);
+}
+
+/* Notes are shown where their message is; those about upgrades only when asked for. */
+static bool is_shown(const struct report *report, const mxg_diagnostic *diagnostic)
+{
+    if (diagnostic->severity == MXG_SEVERITY_NOTE && strcmp(diagnostic->id, "upgraded") == 0)
+        return report->verbose;
+    return diagnostic->severity == MXG_SEVERITY_ERROR || !report->quiet;
+}
+
+void report_list(struct report *report, const mxg_diagnostics *list)
+{
+    uint32_t count = mxg_diagnostics_count(list);
+    for (uint32_t i = 0; i < count; ++i) {
+        mxg_diagnostic diagnostic = {sizeof diagnostic}, message = {sizeof message};
+        mxg_diagnostics_get(list, i, &diagnostic);
+        mxg_diagnostics_get(list, diagnostic.parent, &message);
+        if (is_shown(report, &diagnostic) && (diagnostic.parent == i || is_shown(report, &message)))
+            print_one(report, list, i, diagnostic.file);
+    }
+    report->errors += mxg_diagnostics_errors(list);
+}
+
+void report_error(struct report *report, const char *id, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    fputs(report->colour ? "\033[1;31merror:\033[0m " : "error: ", stderr);
+    vfprintf(stderr, format, args);
+    fprintf(stderr, " [%s]\n", id);
+    va_end(args);
+    ++report->errors;
+}
+
+bool report_status(struct report *report, mxg_status status)
+{
+    if (status != MXG_OK && status != MXG_ERROR_DOCUMENT)
+        report_error(report, "failed", "%s", mxg_status_string(status));
+    return status == MXG_OK;
+}

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+/* Diagnostics on a terminal: what the library found is printed as compilers do, with the source line read again. */
+#ifndef MXG_CLI_REPORT_H
+#define MXG_CLI_REPORT_H
+
+#include <mxgen/mxgen.h>
+
+struct report {
+    bool quiet;   /* errors only */
+    bool verbose; /* also what was upgraded in older documents */
+    bool colour;
+    uint32_t errors; /* printed so far */
+    char *source_name, *source; /* the file read last */
+    size_t source_size;
+};
+
+void report_init(struct report *report); /* colour where stderr is a terminal */
+void report_finish(struct report *report);
+
+/* Prints a list. */
+void report_list(struct report *report, const mxg_diagnostics *list);
+
+/* An error of the program itself: "error: message [id]". */
+#if defined(__GNUC__)
+__attribute__((format(printf, 3, 4)))
+#endif
+void report_error(struct report *report, const char *id, const char *format, ...);
+
+/* What a status says beyond diagnostics: out of memory, cancelled, internal. Returns whether it is MXG_OK. */
+bool report_status(struct report *report, mxg_status status);
+
+#endif

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+/* mxgen validate: documents against the library, without generation. */
+#include "cli/cli.h"
+
+static void validate(struct cli *cli, const char *path)
+{
+    mxg_document *document = cli_load(cli, path);
+    if (!document)
+        return;
+    mxg_result *result = NULL;
+    mxg_status status = mxg_document_validate(cli->context, document, &result);
+    if (result)
+        report_list(&cli->report, mxg_result_diagnostics(result));
+    report_status(&cli->report, status);
+    mxg_result_destroy(result);
+    mxg_document_destroy(document);
+}
+
+int command_validate(const struct command *command, int argc, char **argv)
+{
+    struct cli cli;
+    int code;
+    if (cli_start(&cli, command, NULL, 0, CLI_NEEDS_INPUT, argc, argv, &code)) {
+        for (size_t i = 0; i < cli.parser.inputs.len; ++i)
+            validate(&cli, cli.parser.inputs.items[i]);
+        code = cli.report.errors ? EXIT_FAULT : EXIT_DONE;
+    }
+    cli_finish(&cli);
+    return code;
+}

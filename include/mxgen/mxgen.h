@@ -1,0 +1,351 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * mxgen: MaterialX documents to shaders. The whole public interface.
+ *
+ *     mxg_context *ctx;
+ *     mxg_context_create(NULL, &ctx);
+ *     mxg_library *lib = mxg_library_builtin(ctx);
+ *     mxg_document *doc;
+ *     mxg_document_load(ctx, lib, "gold.mtlx", &doc);
+ *     mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
+ *     desc.target = "glsl";
+ *     mxg_result *res;
+ *     mxg_generate(ctx, doc, &desc, &res);
+ *     puts(mxg_result_source(res, MXG_STAGE_PIXEL, NULL));
+ *
+ * Objects and lifetimes
+ *     context    allocator, resolver, limits, cancel callback      until mxg_context_destroy
+ *     library    node definitions; immutable, reference-counted    until the last mxg_library_unref
+ *     document   a loaded document; immutable; holds its library   until mxg_document_destroy
+ *     options    values by key; belongs to the caller              until mxg_options_destroy
+ *     result     source, reflection and diagnostics of one call; immutable; until mxg_result_destroy
+ * Whatever an accessor returns lives as long as the object asked. Nothing is returned for the caller to free but objects.
+ * A context must outlive what was made with it. Destroying NULL is allowed.
+ *
+ * Errors: functions return an mxg_status for what the *caller* did or the machine lacks. Faults of a document are diagnostics,
+ * found in the document or result, which exist even then.
+ *
+ * Threads: different contexts are independent. One context, and objects while they are made with it, belong to one thread at a time; a
+ * library, document or result may be read by any number of threads, each generating with a context of its own.
+ *
+ * Strings are UTF-8 and NUL-terminated; lengths are given where a text may be large. The library prints nothing, reads no environment
+ * variable, changes no locale and opens no file but through the resolver.
+ */
+#ifndef MXGEN_MXGEN_H
+#define MXGEN_MXGEN_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#if defined(_WIN32)
+#define MXG_API
+#else
+#define MXG_API __attribute__((visibility("default")))
+#endif
+
+/* ---- Version ---- */
+
+/* major: incompatible; minor: additions; patch: neither. The soname carries the major. */
+#define MXG_VERSION_MAJOR 0
+#define MXG_VERSION_MINOR 1
+#define MXG_VERSION_PATCH 0
+
+/* The version of the library at run time, as major * 1000000 + minor * 1000 + patch, and as text "0.1.0". */
+MXG_API uint32_t mxg_version(void);
+MXG_API const char *mxg_version_string(void);
+
+/* ---- Status ---- */
+
+typedef enum mxg_status {
+    MXG_OK = 0,
+    MXG_ERROR_DOCUMENT = 1,  /* the document, library or request has errors: read the diagnostics */
+    MXG_ERROR_ARGUMENT = 2,  /* NULL where an object must be, an index out of range, a struct of unknown size */
+    MXG_ERROR_MEMORY = 3,    /* the allocator failed, or the context's memory limit was reached */
+    MXG_ERROR_CANCELLED = 4, /* the cancel callback said so */
+    MXG_ERROR_INTERNAL = 5,  /* a bug of mxgen */
+    MXG_STATUS_MAX_ENUM = 0x7fffffff
+} mxg_status;
+
+MXG_API const char *mxg_status_string(mxg_status status);
+
+typedef struct mxg_context mxg_context;
+typedef struct mxg_library mxg_library;
+typedef struct mxg_document mxg_document;
+typedef struct mxg_options mxg_options;
+typedef struct mxg_result mxg_result;
+
+/* ---- Context ---- */
+
+/*
+ * As realloc, told both sizes; new_size 0 frees. NULL for a size above 0 is a failure, which the current call reports as
+ * MXG_ERROR_MEMORY. Called on the thread that uses the context; it must not call mxgen.
+ */
+typedef void *(*mxg_realloc_fn)(void *user_data, void *block, size_t old_size, size_t new_size);
+
+/* A file's bytes, borrowed from the host between open and release. */
+typedef struct mxg_blob {
+    const char *name; /* canonical name: what messages show and what includes in it are relative to */
+    const char *data;
+    size_t size;
+    void *handle;     /* the host's own */
+} mxg_blob;
+
+/*
+ * How files are found. `from` is the canonical name of the referring file, "" for a file named by the caller. On failure open returns
+ * false and may point *out_reason at a text that lives until the next call. release is called once for each successful open.
+ */
+typedef struct mxg_resolver {
+    void *user_data;
+    bool (*open)(void *user_data, const char *from, const char *ref, mxg_blob *out_blob, const char **out_reason);
+    void (*release)(void *user_data, mxg_blob *blob);
+} mxg_resolver;
+
+typedef struct mxg_context_desc {
+    size_t size; /* sizeof(mxg_context_desc) */
+    mxg_realloc_fn realloc; /* NULL: the C library's */
+    void *realloc_user_data;
+    const mxg_resolver *resolver; /* copied; NULL: files relative to the referring file, then to the working directory */
+    bool (*cancel)(void *user_data); /* asked now and then; true stops the call. NULL: never */
+    void *cancel_user_data;
+    size_t max_memory;        /* bytes; 0 = unlimited */
+    uint32_t max_file_mib;    /* 0 = 256 */
+    uint32_t max_elements;    /* 0 = 16,000,000 */
+    uint32_t max_nodes;       /* IR operations of a generation; 0 = 64,000,000 */
+    uint32_t max_output_mib;  /* 0 = 256 */
+    uint32_t max_errors;      /* diagnostics kept per call; 0 = 100 */
+} mxg_context_desc;
+#define MXG_CONTEXT_DESC_INIT {sizeof(mxg_context_desc)}
+
+/* desc may be NULL: all defaults. */
+MXG_API mxg_status mxg_context_create(const mxg_context_desc *desc, mxg_context **out_context);
+MXG_API void mxg_context_destroy(mxg_context *context);
+
+/* ---- Diagnostics ---- */
+
+typedef enum mxg_severity { MXG_SEVERITY_ERROR, MXG_SEVERITY_WARNING, MXG_SEVERITY_NOTE, MXG_SEVERITY_MAX_ENUM = 0x7fffffff } mxg_severity;
+
+typedef struct mxg_diagnostic {
+    size_t size;          /* in: sizeof(mxg_diagnostic) */
+    mxg_severity severity;
+    const char *id;       /* "type-mismatch": stable */
+    const char *message;  /* one line, no location inside */
+    const char *file;     /* NULL: none */
+    uint32_t line, column, length; /* from 1, columns in code points; 0 = unknown */
+    uint32_t parent;      /* for a note: index of its message; else the own index */
+} mxg_diagnostic;
+
+/* Diagnostics of whatever can have them; each list is in order of discovery, notes behind their message. */
+typedef struct mxg_diagnostics mxg_diagnostics;
+MXG_API uint32_t mxg_diagnostics_count(const mxg_diagnostics *list);
+MXG_API uint32_t mxg_diagnostics_errors(const mxg_diagnostics *list); /* how many errors, those not kept included */
+MXG_API uint32_t mxg_diagnostics_warnings(const mxg_diagnostics *list);
+MXG_API mxg_status mxg_diagnostics_get(const mxg_diagnostics *list, uint32_t index, mxg_diagnostic *out);
+/*
+ * Renders one as compilers do, with the source line and a caret where `source` (may be NULL) holds the file's text.
+ * Writes at most `capacity` bytes with a NUL; returns the length it needs without the NUL.
+ */
+MXG_API size_t mxg_diagnostics_format(const mxg_diagnostics *list, uint32_t index, const char *source, size_t source_size,
+                                      bool colour, char *buffer, size_t capacity);
+
+MXG_API const mxg_diagnostics *mxg_library_diagnostics(const mxg_library *library);
+MXG_API const mxg_diagnostics *mxg_document_diagnostics(const mxg_document *document);
+MXG_API const mxg_diagnostics *mxg_result_diagnostics(const mxg_result *result);
+
+/* ---- Library ---- */
+
+/* The library that is built in; never NULL for a context of this build. Own one reference. */
+MXG_API mxg_library *mxg_library_builtin(mxg_context *context);
+
+/*
+ * A library of `base` (may be NULL: an empty one) and the given files, folders (every .mtlx below) or library images (.mxlib). Where a
+ * definition stands in both, the new one wins. *out_library is set even with MXG_ERROR_DOCUMENT, for its diagnostics.
+ */
+MXG_API mxg_status mxg_library_load(mxg_context *context, mxg_library *base, const char *const *paths, size_t num_paths,
+                                    mxg_library **out_library);
+MXG_API mxg_library *mxg_library_ref(mxg_library *library); /* atomic; returns its argument */
+MXG_API void mxg_library_unref(mxg_library *library);
+
+/* The library image, for mxg_library_load and for embedding; it lives as long as the library. Only of libraries on no base. */
+MXG_API mxg_status mxg_library_image(mxg_library *library, const void **out_data, size_t *out_size);
+/* The library as a plain MaterialX document: templates expanded. */
+MXG_API mxg_status mxg_library_expand(mxg_library *library, const char **out_text, size_t *out_size);
+
+typedef struct mxg_nodedef {
+    size_t size; /* in */
+    const char *name, *node, *version, *group, *doc, *file; /* "" where absent */
+    uint32_t num_inputs, num_outputs;
+    bool has_implementation; /* for some target */
+} mxg_nodedef;
+
+typedef struct mxg_port {
+    size_t size; /* in */
+    const char *name, *type, *value, *defaultgeomprop, *enum_names, *unit, *doc; /* "" where absent */
+    bool uniform;
+} mxg_port;
+
+MXG_API uint32_t mxg_library_num_nodedefs(const mxg_library *library); /* those of its base included */
+MXG_API mxg_status mxg_library_nodedef(const mxg_library *library, uint32_t index, mxg_nodedef *out);
+/* Port `index` of a definition: inputs first, then outputs. */
+MXG_API mxg_status mxg_library_port(const mxg_library *library, uint32_t nodedef, uint32_t index, mxg_port *out);
+
+/* ---- Document ---- */
+
+/* Loads and resolves a file. *out_document is set whenever memory allows, also with MXG_ERROR_DOCUMENT. */
+MXG_API mxg_status mxg_document_load(mxg_context *context, mxg_library *library, const char *path, mxg_document **out_document);
+/* The same from memory; `name` is for messages and as the base of includes. */
+MXG_API mxg_status mxg_document_parse(mxg_context *context, mxg_library *library, const char *name, const char *data,
+                                      size_t size, mxg_document **out_document);
+MXG_API void mxg_document_destroy(mxg_document *document);
+
+/* Files that were read, the document itself first: for depfiles and watchers. */
+MXG_API uint32_t mxg_document_num_files(const mxg_document *document);
+MXG_API const char *mxg_document_file(const mxg_document *document, uint32_t index);
+
+/*
+ * Elements that can be generated: materials, shaders that no material uses, and outputs of node graphs that no shader uses; in document order.
+ */
+typedef struct mxg_renderable {
+    size_t size; /* in */
+    const char *path; /* "Gold", "NG_marble1/out" */
+    const char *type; /* "material", "surfaceshader", "color3" … */
+    const char *category; /* "surfacematerial", "output" … */
+} mxg_renderable;
+MXG_API uint32_t mxg_document_num_renderables(const mxg_document *document);
+MXG_API mxg_status mxg_document_renderable(const mxg_document *document, uint32_t index, mxg_renderable *out);
+
+/* Checks the whole document against its library without generating: every node, connection and value. */
+MXG_API mxg_status mxg_document_validate(mxg_context *context, const mxg_document *document, mxg_result **out_result);
+
+/* ---- Targets and options ---- */
+
+typedef struct mxg_target {
+    size_t size; /* in */
+    const char *name, *materialx_name, *brief;
+    const char *stage_suffix[2]; /* file endings of vertex and pixel stage; NULL: no such stage */
+} mxg_target;
+MXG_API uint32_t mxg_num_targets(void);
+MXG_API mxg_status mxg_get_target(uint32_t index, mxg_target *out);
+
+typedef enum mxg_option_type { MXG_OPTION_BOOL, MXG_OPTION_INT, MXG_OPTION_STRING, MXG_OPTION_ENUM, MXG_OPTION_LIST, MXG_OPTION_MAX_ENUM = 0x7fffffff } mxg_option_type;
+typedef struct mxg_option {
+    size_t size; /* in */
+    const char *key;      /* "interface" */
+    mxg_option_type type;
+    const char *values;   /* ENUM: "complete|authored|reduced"; INT: "0..1024" */
+    const char *initial;  /* the default, as text */
+    const char *doc;
+} mxg_option;
+/* Every option of generation: hosts build their interface, and the command line its flags, from it. */
+MXG_API uint32_t mxg_num_options(void);
+MXG_API mxg_status mxg_get_option(uint32_t index, mxg_option *out);
+
+MXG_API mxg_status mxg_options_create(mxg_context *context, mxg_options **out_options);
+MXG_API void mxg_options_destroy(mxg_options *options);
+/*
+ * Sets an option by key from text ("true", "16", "reduced"); lists append. MXG_ERROR_ARGUMENT for an unknown key or a bad
+ * value; mxg_options_error then says what is wrong.
+ */
+MXG_API mxg_status mxg_options_set(mxg_options *options, const char *key, const char *value);
+MXG_API const char *mxg_options_error(const mxg_options *options);
+
+/* ---- Generation ---- */
+
+typedef enum mxg_stage { MXG_STAGE_VERTEX, MXG_STAGE_PIXEL, MXG_NUM_STAGES, MXG_STAGE_MAX_ENUM = 0x7fffffff } mxg_stage;
+
+typedef struct mxg_generate_desc {
+    size_t size;
+    const char *target;         /* name of a target: "glsl" */
+    const char *element;        /* path of what to generate; NULL: the document's only renderable, or its first */
+    const mxg_options *options; /* NULL: defaults */
+} mxg_generate_desc;
+#define MXG_GENERATE_DESC_INIT {sizeof(mxg_generate_desc)}
+
+/* *out_result is set whenever memory allows. With MXG_ERROR_DOCUMENT it has diagnostics and no source. */
+MXG_API mxg_status mxg_generate(mxg_context *context, const mxg_document *document, const mxg_generate_desc *desc,
+                                mxg_result **out_result);
+MXG_API void mxg_result_destroy(mxg_result *result);
+
+/* The source of a stage; NULL where there is none. */
+MXG_API const char *mxg_result_source(const mxg_result *result, mxg_stage stage, size_t *out_size);
+/* The place in the document that a line (from 1) of a stage's source comes from; false: none. */
+MXG_API bool mxg_result_source_place(const mxg_result *result, mxg_stage stage, uint32_t line, const char **out_file,
+                                     uint32_t *out_line, uint32_t *out_column, const char **out_path);
+
+/* ---- Reflection ---- */
+
+typedef enum mxg_block {
+    MXG_BLOCK_PUBLIC_UNIFORMS, MXG_BLOCK_PRIVATE_UNIFORMS, MXG_BLOCK_LIGHT_DATA, MXG_BLOCK_TEXTURES,
+    MXG_BLOCK_APP_DATA, MXG_BLOCK_VERTEX_DATA, MXG_BLOCK_OUTPUTS, MXG_NUM_BLOCKS, MXG_BLOCK_MAX_ENUM = 0x7fffffff
+} mxg_block;
+
+typedef struct mxg_variable {
+    size_t size;            /* in */
+    const char *name;       /* as in the source; members of blocks without the block's name */
+    mxg_block block;
+    uint32_t stages;        /* bit s: stage s reads it */
+    const char *type;       /* in the shading language's terms: "vec3", "sampler2D" */
+    const char *document_type; /* "color3"; "" for private variables */
+    const char *path;       /* "SR_gold/base_color"; "" for private variables */
+    const char *semantic;   /* "worldMatrix", "geomprop:st"; "" for public ones */
+    const char *colorspace, *unit;
+    uint32_t array_length;  /* 0: not an array */
+    uint32_t set, binding, location;
+    uint32_t offset, byte_size, array_stride, matrix_stride; /* std140 */
+    uint32_t num_values;    /* components of the default; 0: none */
+    float values[16];       /* integers and booleans as numbers */
+    /* textures */
+    const char *file, *uaddressmode, *vaddressmode, *filtertype;
+    /* user interface, from the definition: "" where absent */
+    const char *uiname, *uifolder, *uimin, *uimax, *uisoftmin, *uisoftmax, *doc;
+} mxg_variable;
+MXG_API uint32_t mxg_result_num_variables(const mxg_result *result);
+MXG_API mxg_status mxg_result_variable(const mxg_result *result, uint32_t index, mxg_variable *out);
+/* Index of the variable of a document path; false: there is none (unused, or compiled in). */
+MXG_API bool mxg_result_find_variable(const mxg_result *result, const char *path, uint32_t *out_index);
+
+/* Inputs whose value is compiled in: changing one needs a new generation. */
+typedef struct mxg_compiled_input {
+    size_t size; /* in */
+    const char *path, *type, *value;
+} mxg_compiled_input;
+MXG_API uint32_t mxg_result_num_compiled_inputs(const mxg_result *result);
+MXG_API mxg_status mxg_result_compiled_input(const mxg_result *result, uint32_t index, mxg_compiled_input *out);
+
+typedef struct mxg_shader_info {
+    size_t size; /* in */
+    const char *name, *path, *target;
+    uint64_t topology; /* equal for shaders that differ in names and uniform values alone */
+    uint32_t num_closures, num_textures, num_lights;
+    bool transparent, lit;
+} mxg_shader_info;
+MXG_API mxg_status mxg_result_info(const mxg_result *result, mxg_shader_info *out);
+
+/* All of the above as JSON (docs/reflection.md). */
+MXG_API const char *mxg_result_reflection_json(const mxg_result *result, size_t *out_size);
+
+/* ---- Looking inside ---- */
+
+typedef enum mxg_view {
+    MXG_VIEW_ELEMENTS,   /* the element tree and what can be rendered */
+    MXG_VIEW_GRAPH,      /* nodes and connections as text */
+    MXG_VIEW_DOT,        /* the same for Graphviz */
+    MXG_VIEW_IR,         /* the optimised IR, parseable (docs/ir.md) */
+    MXG_VIEW_CLOSURES,   /* leaves with weights */
+    MXG_VIEW_STATISTICS,
+    MXG_VIEW_MAX_ENUM = 0x7fffffff
+} mxg_view;
+/* A text for people; *out_result holds it as mxg_result_text. desc says element, target and options where the view needs them. */
+MXG_API mxg_status mxg_inspect(mxg_context *context, const mxg_document *document, mxg_view view,
+                               const mxg_generate_desc *desc, mxg_result **out_result);
+MXG_API const char *mxg_result_text(const mxg_result *result, size_t *out_size);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

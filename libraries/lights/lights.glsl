@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// Light sources; the falloff pow(distance + 1, -decay) stays finite at the light.
+
+void mx_directional_light(vec3 direction, vec3 color, float intensity, vec3 P, out vec3 to_light, out vec3 radiance)
+{
+    to_light = -direction;
+    radiance = color * intensity;
+}
+
+void mx_point_light(vec3 position, vec3 color, float intensity, float decay_rate, vec3 P, out vec3 to_light,
+                    out vec3 radiance)
+{
+    to_light = normalize(position - P);
+    radiance = color * (intensity / pow(distance(position, P) + 1.0, decay_rate));
+}
+
+// inner_angle and outer_angle are cosines.
+void mx_spot_light(vec3 position, vec3 direction, vec3 color, float intensity, float decay_rate, float inner_angle,
+                   float outer_angle, vec3 P, out vec3 to_light, out vec3 radiance)
+{
+    to_light = normalize(position - P);
+    float cone = smoothstep(min(inner_angle, outer_angle), inner_angle, -dot(to_light, direction));
+    radiance = color * (cone * intensity / pow(distance(position, P) + 1.0, decay_rate));
+}

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+// oren_nayar_diffuse_bsdf, burley_diffuse_bsdf, translucent_bsdf and subsurface_bsdf.
+
+#include "environment.glsl"
+
+// max(cos, epsilon) between the side of N seen from V and a direction.
+float mx_facing_cosine(vec3 N, vec3 V, vec3 direction)
+{
+    return max(dot(mx_facing(N, V), direction), MX_EPSILON);
+}
+
+// ---- oren_nayar_diffuse_bsdf ----------------------------------------------------------------------------------------
+
+// Energy-preserving Oren-Nayar of OpenPBR: Fujii's lobe (2012) with roughness `r`, and what it loses scattered again.
+const float MX_FUJII_A = 0.28779335; // 1/2 - 2 / (3 pi)
+const float MX_FUJII_B = 0.07248821; // 2/3 - 28 / (15 pi)
+
+// Directional albedo of Fujii's lobe.
+float mx_fujii_albedo(float cosine, float r)
+{
+    float sine = sqrt(max(1.0 - cosine * cosine, 0.0));
+    float g = sine * (acos(min(cosine, 1.0)) - sine * cosine)
+            + (2.0 / 3.0) * (sine / cosine * (1.0 - sine * sine * sine) - sine);
+    return (1.0 + r * g / MX_PI) / (1.0 + MX_FUJII_A * r);
+}
+
+// Mean albedo of the lobe.
+float mx_fujii_mean(float r)
+{
+    return (1.0 + MX_FUJII_B * r) / (1.0 + MX_FUJII_A * r);
+}
+
+// Albedo of what the lobe scatters more than once, relative to `color`.
+vec3 mx_fujii_multiple(vec3 color, float mean)
+{
+    return color * mean / (1.0 - color * max(1.0 - mean, 0.0));
+}
+
+vec3 mx_oren_nayar_diffuse_bsdf_eval(vec3 color, float roughness, vec3 N, bool energy_compensation, vec3 V, vec3 L)
+{
+    float cos_l = mx_facing_cosine(N, V, L);
+    vec3 lambert = color * (cos_l / MX_PI);
+    if (roughness == 0.0)
+        return lambert;
+
+    float cos_v = mx_facing_cosine(N, V, V);
+    float s = max(dot(L, V), MX_EPSILON) - cos_l * cos_v;
+    if (s > 0.0)
+        s /= max(cos_l, cos_v);
+    if (!energy_compensation)
+    {
+        // Qualitative model of Oren and Nayar 1994, equation 30
+        float r2 = roughness * roughness;
+        return lambert * (1.0 - 0.5 * r2 / (r2 + 0.33) + 0.45 * r2 / (r2 + 0.09) * max(s, 0.0));
+    }
+    float mean = mx_fujii_mean(roughness);
+    float multiple = max(1.0 - mx_fujii_albedo(cos_v, roughness), MX_EPSILON)
+                   * max(1.0 - mx_fujii_albedo(cos_l, roughness), MX_EPSILON) / max(1.0 - mean, MX_EPSILON);
+    return lambert * ((1.0 + roughness * s) / (1.0 + MX_FUJII_A * roughness)
+                      + mx_fujii_multiple(color, mean) * multiple);
+}
+
+vec3 mx_oren_nayar_diffuse_bsdf_environment(vec3 color, float roughness, vec3 N, bool energy_compensation, vec3 V)
+{
+    vec3 light = color * mx_environment_irradiance(mx_facing(N, V));
+    if (roughness == 0.0)
+        return light;
+
+    float cos_v = mx_facing_cosine(N, V, V);
+    if (energy_compensation)
+        return light * mix(mx_fujii_multiple(color, mx_fujii_mean(roughness)), vec3(1.0),
+                           mx_fujii_albedo(cos_v, roughness));
+
+    // Rational fit to the directional albedo of the qualitative model
+    vec2 fit = 1.0 + roughness * (vec2(-0.4297, -0.6076) + vec2(-0.7632, -0.4993) * cos_v
+                                  + vec2(1.4385, 2.0315) * roughness);
+    return light * clamp(fit.x / fit.y, 0.0, 1.0);
+}
+
+// ---- burley_diffuse_bsdf --------------------------------------------------------------------------------------------
+
+// Burley 2012, section 5.3.
+vec3 mx_burley_diffuse_bsdf_eval(vec3 color, float roughness, vec3 N, vec3 V, vec3 L)
+{
+    float cos_l = mx_facing_cosine(N, V, L);
+    float cos_d = dot(L, normalize(L + V));
+    vec2 x = 1.0 - vec2(cos_l, mx_facing_cosine(N, V, V));
+    vec2 f = 1.0 + (2.0 * roughness * cos_d * cos_d - 0.5) * (x * x * x * x * x);
+    return color * (f.x * f.y * cos_l / MX_PI);
+}
+
+// Directional albedo fitted by Stephen Hill.
+vec3 mx_burley_diffuse_bsdf_environment(vec3 color, float roughness, vec3 N, vec3 V)
+{
+    float c = mx_facing_cosine(N, V, V);
+    float x = 1.0 - c;
+    float smooth_fit = 0.97619 - 0.488095 * (x * x * x * x * x);
+    float rough_fit = 1.55754 + c * (-2.02221 + c * (2.56283 - 1.06244 * c));
+    return color * mix(smooth_fit, rough_fit, roughness) * mx_environment_irradiance(mx_facing(N, V));
+}
+
+// ---- translucent_bsdf -----------------------------------------------------------------------------------------------
+
+vec3 mx_translucent_bsdf_eval(vec3 color, vec3 N, vec3 L)
+{
+    return color * (max(-dot(N, L), 0.0) / MX_PI);
+}
+
+vec3 mx_translucent_bsdf_environment(vec3 color, vec3 N)
+{
+    return color * mx_environment_irradiance(-N);
+}
+
+// ---- subsurface_bsdf ------------------------------------------------------------------------------------------------
+
+// Burley's normalised diffusion profile (Christensen 2015) gathered around a circle of the local curvature
+// (after Penner 2011, "Pre-integrated skin shading").
+vec3 mx_subsurface_bsdf_eval(vec3 color, vec3 radius, float anisotropy, vec3 N, vec3 V, vec3 L, vec3 P)
+{
+    const int SAMPLES = 32;
+    vec3 n = mx_facing(N, V);
+    float r = 1.0 / max(length(fwidth(n)) / length(fwidth(P)), 0.01);
+    float theta = acos(dot(n, L));
+    vec3 light = vec3(0.0);
+    vec3 sum = vec3(0.0);
+    for (int i = 0; i < SAMPLES; ++i)
+    {
+        float x = (float(i) + 0.5) * (2.0 * MX_PI / float(SAMPLES)) - MX_PI;
+        float d = r * abs(2.0 * sin(0.5 * x));
+        vec3 e = exp(-d / (3.0 * max(radius, 0.1)));
+        vec3 profile = (e + e * e * e) / max(d, MX_EPSILON);
+        light += profile * max(cos(theta + x), 0.0);
+        sum += profile;
+    }
+    return color * light / (MX_PI * sum);
+}
+
+vec3 mx_subsurface_bsdf_environment(vec3 color, vec3 radius, float anisotropy, vec3 N, vec3 V)
+{
+    return color * mx_environment_irradiance(mx_facing(N, V));
+}

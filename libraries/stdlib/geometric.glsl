@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// The surface that is shaded, and changes of space.
+
+in vec3 positionObject;
+in vec3 positionWorld;
+in vec3 normalObject;
+in vec3 normalWorld;
+in vec3 tangentObject;
+in vec3 tangentWorld;
+in vec3 bitangentObject;
+in vec3 bitangentWorld;
+
+uniform mat4 u_worldMatrix;
+uniform mat4 u_worldInverseMatrix;
+uniform mat4 u_worldTransposeMatrix;
+uniform mat4 u_worldInverseTransposeMatrix;
+
+bool mx_is_object(string space)
+{
+    return space == "object" || space == "model";
+}
+
+vec3 mx_transformpoint(vec3 p, string from, string to)
+{
+    if (mx_is_object(from) && to == "world")
+        return (u_worldMatrix * vec4(p, 1.0)).xyz;
+    if (from == "world" && mx_is_object(to))
+        return (u_worldInverseMatrix * vec4(p, 1.0)).xyz;
+    return p;
+}
+
+vec3 mx_transformvector(vec3 v, string from, string to)
+{
+    if (mx_is_object(from) && to == "world")
+        return (u_worldMatrix * vec4(v, 0.0)).xyz;
+    if (from == "world" && mx_is_object(to))
+        return (u_worldInverseMatrix * vec4(v, 0.0)).xyz;
+    return v;
+}
+
+// Normals transform by the inverse transpose, and have unit length.
+vec3 mx_transformnormal(vec3 n, string from, string to)
+{
+    if (mx_is_object(from) && to == "world")
+        return normalize((u_worldInverseTransposeMatrix * vec4(n, 0.0)).xyz);
+    if (from == "world" && mx_is_object(to))
+        return normalize((u_worldTransposeMatrix * vec4(n, 0.0)).xyz);
+    return normalize(n);
+}
+
+// A texel of zeros is a missing map, and means the normal itself.
+vec3 mx_normalmap(vec3 texel, vec2 scale, vec3 normal, vec3 tangent, vec3 bitangent)
+{
+    vec3 n = dot(texel, texel) == 0.0 ? vec3(0.0, 0.0, 1.0) : texel * 2.0 - 1.0;
+    return normalize(tangent * (n.x * scale.x) + bitangent * (n.y * scale.y) + normal * n.z);
+}
+
+// The graph (u, v, height) is a surface over the screen. Its normal is the cross product of its two screen-space
+// derivatives, whatever the mapping between screen and texture is.
+vec3 mx_heighttonormal(float height, float scale, vec2 texcoord)
+{
+    float steepness = scale / 16.0; // heights count as they do in a Sobel filter
+    vec3 n = cross(vec3(dFdx(texcoord), dFdx(height) * steepness), vec3(dFdy(texcoord), dFdy(height) * steepness));
+    if (dot(n, n) < 1e-16)
+        n = vec3(0.0, 0.0, 1.0);
+    else if (n.z < 0.0)
+        n = -n; // mirrored texture coordinates
+    return normalize(n) * 0.5 + 0.5;
+}

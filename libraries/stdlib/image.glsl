@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+// Textures. The sampler repeats and filters linearly; other address modes and filters are arithmetic on coordinates, and
+// disappear where the modes, which are known at compile time, do not ask for them.
+
+// Cubic B-spline filtering by four linear lookups: Christian Sigg and Markus Hadwiger, "Fast Third-Order Texture
+// Filtering", GPU Gems 2, 2005, chapter 20. Each lookup stands for two texels of a row and two of a column, between
+// which it lies by the ratio of their weights.
+vec4 mx_sample_cubic(sampler2D file, vec2 uv)
+{
+    vec2 size = vec2(textureSize(file, 0));
+    vec2 texel = uv * size - 0.5;
+    vec2 f = fract(texel);
+    vec2 g = 1.0 - f;
+    vec2 w0 = g * g * g / 6.0;
+    vec2 w1 = 2.0 / 3.0 - f * f * (1.0 - 0.5 * f);
+    vec2 w2 = 2.0 / 3.0 - g * g * (1.0 - 0.5 * g);
+    vec2 w3 = f * f * f / 6.0;
+
+    vec2 low = (floor(texel) - 0.5 + w1 / (w0 + w1)) / size;
+    vec2 high = (floor(texel) + 1.5 + w3 / (w2 + w3)) / size;
+    vec2 t = w2 + w3;
+    vec2 dx = dFdx(uv);
+    vec2 dy = dFdy(uv);
+    return mix(mix(textureGrad(file, low, dx, dy), textureGrad(file, vec2(high.x, low.y), dx, dy), t.x),
+               mix(textureGrad(file, vec2(low.x, high.y), dx, dy), textureGrad(file, high, dx, dy), t.x), t.y);
+}
+
+vec4 mx_sample(sampler2D file, vec2 uv, string filtertype)
+{
+    if (filtertype == "closest") {
+        vec2 size = vec2(textureSize(file, 0));
+        return textureLod(file, (floor(uv * size) + 0.5) / size, 0.0);
+    }
+    if (filtertype == "cubic")
+        return mx_sample_cubic(file, uv);
+    return texture(file, uv);
+}
+
+// A coordinate in the image. Half a texel is kept from the border, lest the repeating sampler mixes in the other side
+// (of which cubic filtering, which reaches a texel further, still sees a little).
+float mx_address(float x, int size, string mode)
+{
+    if (mode == "periodic")
+        return x;
+    float mirrored = mode == "mirror" ? 1.0 - abs(mod(x, 2.0) - 1.0) : x;
+    float border = 0.5 / float(size);
+    return clamp(mirrored, border, 1.0 - border);
+}
+
+bool mx_outside(float x, string mode)
+{
+    return mode == "constant" && (x < 0.0 || x > 1.0);
+}
+
+vec4 mx_image(sampler2D file, vec4 fallback, vec2 texcoord, string uaddressmode, string vaddressmode, string filtertype)
+{
+    ivec2 size = textureSize(file, 0);
+    vec2 uv = vec2(mx_address(texcoord.x, size.x, uaddressmode), mx_address(texcoord.y, size.y, vaddressmode));
+    vec4 texel = mx_sample(file, uv, filtertype);
+    return mx_outside(texcoord.x, uaddressmode) || mx_outside(texcoord.y, vaddressmode) ? fallback : texel;
+}
+
+// Longitude 0, in the middle of the image, is +z; latitude runs from -y at the bottom to +y at the top.
+vec2 mx_latlong(vec3 direction, float rotation)
+{
+    float longitude = 0.5 - atan(direction.x, direction.z) / 6.2831853 + rotation / 360.0;
+    float latitude = 0.5 + asin(direction.y) / 3.1415927;
+    return vec2(longitude, latitude);
+}
+
+vec4 mx_triplanar(sampler2D filex, sampler2D filey, sampler2D filez, vec3 position, vec3 normal, int upaxis,
+                  float blend, string filtertype)
+{
+    vec2 along_x = upaxis == 2 ? position.yz : position.zy;
+    vec2 along_y = upaxis == 0 ? position.zx : position.xz;
+    vec2 along_z = upaxis == 0 ? vec2(-position.y, position.x) : position.xy;
+
+    vec3 weight = abs(normalize(normal));
+    weight /= dot(weight, vec3(1.0));
+    weight = pow(weight, vec3(1.0 / clamp(blend, 0.03, 1.0))); // below 0.03 powers lose all precision
+    weight /= dot(weight, vec3(1.0));
+    return mx_sample(filex, along_x, filtertype) * weight.x +
+           mx_sample(filey, along_y, filtertype) * weight.y +
+           mx_sample(filez, along_z, filtertype) * weight.z;
+}

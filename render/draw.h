@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+/* One draw: a program, its inputs as plain data, a picture of floats. Knows nothing of MaterialX. */
+#ifndef MXG_RENDER_DRAW_H
+#define MXG_RENDER_DRAW_H
+
+#include "render/gpu.h"
+
+#define DRAW_MAX_ATTRIBUTES 32
+#define DRAW_MAX_BLOCKS 8
+#define DRAW_MAX_TEXTURES 128
+#define DRAW_MAX_SETS 4
+
+struct draw_attribute {
+    uint32_t location;
+    VkFormat format; /* of 16 bytes for each vertex, as the shader reads it */
+    void *data;      /* 16 bytes for each vertex; malloc */
+};
+
+struct draw_block {
+    uint32_t set, binding;
+    unsigned char *data; /* malloc */
+    size_t size;
+};
+
+struct draw_texture {
+    uint32_t set, binding;
+    const struct image *image;
+    bool bottom_first;
+    VkSamplerAddressMode u, v;
+    VkFilter filter;
+};
+
+struct draw {
+    const uint32_t *code[2]; /* SPIR-V of the vertex and pixel stage */
+    size_t code_words[2];
+    uint32_t num_vertices, num_indices;
+    const uint32_t *indices;
+    struct draw_attribute attributes[DRAW_MAX_ATTRIBUTES];
+    struct draw_block blocks[DRAW_MAX_BLOCKS];
+    struct draw_texture textures[DRAW_MAX_TEXTURES];
+    uint32_t num_attributes, num_blocks, num_textures;
+    bool blend; /* colours are premultiplied; back faces are drawn first */
+    uint32_t width, height;
+};
+
+/* Draws to RGBA floats, first row on top, cleared to 0. False: see gpu->reason. */
+bool draw_run(struct gpu *gpu, const struct draw *draw, float *out_pixels);
+
+#endif

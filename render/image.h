@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+/* Pictures: read and written by OpenImageIO, which has a C++ interface only (image_oiio.cpp). */
+#ifndef MXG_RENDER_IMAGE_H
+#define MXG_RENDER_IMAGE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Four channels, rows from the top. Grey is spread over red, green and blue; a missing alpha is 1. */
+struct image {
+    uint32_t width, height;
+    bool is_float;  /* float, else uint8_t of a whole */
+    void *pixels;   /* malloc; NULL: no image */
+};
+
+/* Reads a picture; on failure false, with why in `reason`. Values are those of the file: no colour space is changed. */
+bool image_read(const char *path, struct image *out, char *reason, size_t capacity);
+
+/* Writes 8-bit RGBA; the format follows from the name's ending. The file appears whole or not at all. */
+bool image_write(const char *path, uint32_t width, uint32_t height, const uint8_t *rgba, char *reason, size_t capacity);
+
+void image_finish(struct image *image);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

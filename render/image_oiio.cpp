@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/image.h"
+
+#include <OpenImageIO/imageio.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+
+namespace {
+
+bool fail(char *reason, size_t capacity, const std::string &text)
+{
+    std::snprintf(reason, capacity, "%s", text.empty() ? "unknown error" : text.c_str());
+    return false;
+}
+
+/* Spreads what a pixel has over four channels: grey, grey and alpha, colour, colour and alpha. */
+template <typename T> void spread(T *pixels, size_t count, int channels, T one)
+{
+    for (size_t i = count; i-- > 0;) {
+        const T *in = pixels + i * static_cast<size_t>(channels);
+        bool grey = channels < 3;
+        T r = in[0], g = grey ? in[0] : in[1], b = grey ? in[0] : in[2];
+        T a = channels == 2 ? in[1] : channels >= 4 ? in[3] : one;
+        T *out = pixels + i * 4;
+        out[0] = r, out[1] = g, out[2] = b, out[3] = a;
+    }
+}
+
+} // namespace
+
+bool image_read(const char *path, struct image *out, char *reason, size_t capacity)
+{
+    *out = {};
+    auto input = OIIO::ImageInput::open(path);
+    if (!input)
+        return fail(reason, capacity, OIIO::geterror());
+    const OIIO::ImageSpec &spec = input->spec();
+    if (spec.width <= 0 || spec.height <= 0 || spec.nchannels <= 0)
+        return fail(reason, capacity, "the picture is empty");
+    int channels = spec.nchannels < 4 ? spec.nchannels : 4;
+    out->is_float = spec.format != OIIO::TypeDesc::UINT8;
+    out->width = static_cast<uint32_t>(spec.width);
+    out->height = static_cast<uint32_t>(spec.height);
+    size_t count = size_t{out->width} * out->height;
+    out->pixels = std::malloc(count * 4 * (out->is_float ? sizeof(float) : 1));
+    if (!out->pixels)
+        return fail(reason, capacity, "out of memory");
+    OIIO::TypeDesc type = out->is_float ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT8;
+    if (!input->read_image(0, 0, 0, channels, type, out->pixels)) {
+        fail(reason, capacity, input->geterror());
+        image_finish(out);
+        return false;
+    }
+    if (out->is_float)
+        spread(static_cast<float *>(out->pixels), count, channels, 1.0f);
+    else
+        spread(static_cast<uint8_t *>(out->pixels), count, channels, uint8_t{255});
+    return true;
+}
+
+bool image_write(const char *path, uint32_t width, uint32_t height, const uint8_t *rgba, char *reason, size_t capacity)
+{
+    /* The format is chosen by the ending, so the temporary name keeps it. */
+    std::string name(path);
+    size_t base = name.rfind('/') + 1;
+    std::string temporary = name.substr(0, base) + ".tmp-" + name.substr(base);
+    auto output = OIIO::ImageOutput::create(temporary);
+    if (!output)
+        return fail(reason, capacity, OIIO::geterror());
+    OIIO::ImageSpec spec(static_cast<int>(width), static_cast<int>(height), 4, OIIO::TypeDesc::UINT8);
+    spec.attribute("oiio:ColorSpace", "sRGB");
+    bool good = output->open(temporary, spec) && output->write_image(OIIO::TypeDesc::UINT8, rgba);
+    good = output->close() && good;
+    if (!good)
+        fail(reason, capacity, output->geterror());
+    if (good && std::rename(temporary.c_str(), path) != 0)
+        good = fail(reason, capacity, std::strerror(errno));
+    if (!good)
+        std::remove(temporary.c_str());
+    return good;
+}
+
+void image_finish(struct image *image)
+{
+    std::free(image->pixels);
+    *image = {};
+}

@@ -1,0 +1,29 @@
+# SPDX-License-Identifier: Apache-2.0
+# Sourced by the scripts beside it: goes to the project's root, offers `build`.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+install_missing_packages() {
+    local missing=() package
+    command -v dpkg >/dev/null || return 0 # another system: its user knows best
+    while read -r package; do
+        dpkg -s "$package" >/dev/null 2>&1 || missing+=("$package")
+    done < <(sed 's/#.*//; /^[[:space:]]*$/d' script/packages.txt)
+    [ ${#missing[@]} -gt 0 ] || return 0
+    echo "installing ${missing[*]}" >&2
+    local root=()
+    [ "$(id -u)" -eq 0 ] || root=(sudo)
+    "${root[@]}" env DEBIAN_FRONTEND=noninteractive sh -c \
+        'apt-get install -y --no-install-recommends "$@" || { apt-get update && apt-get install -y --no-install-recommends "$@"; }' \
+        sh "${missing[@]}" >&2
+}
+
+# Configures once, then builds; prints only when it fails.
+build() {
+    local log=build/build.log
+    if [ ! -f build/build.ninja ]; then
+        meson setup build >build-setup.log 2>&1 || { cat build-setup.log >&2; rm -f build-setup.log; return 1; }
+        rm -f build-setup.log
+    fi
+    ninja -C build "$@" >"$log" 2>&1 || { cat "$log" >&2; return 1; }
+}

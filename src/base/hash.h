@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+/* Hashes for tables inside one process and one library image. Not stable between versions or byte orders. */
+#ifndef MXG_BASE_HASH_H
+#define MXG_BASE_HASH_H
+
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+static inline uint64_t hash_mix(uint64_t h, uint64_t word)
+{
+    h = (h ^ word) * 0x9e3779b97f4a7c15u;
+    return h ^ (h >> 29);
+}
+
+static inline uint32_t hash_bytes(const void *data, size_t size)
+{
+    const unsigned char *p = data;
+    uint64_t h = 0xcbf29ce484222325u ^ size;
+    for (; size >= 8; size -= 8, p += 8) {
+        uint64_t word;
+        memcpy(&word, p, 8);
+        h = hash_mix(h, word);
+    }
+    uint64_t tail = 0;
+    for (size_t i = 0; i < size; i++)
+        tail |= (uint64_t)p[i] << (8 * i);
+    h = hash_mix(h, tail);
+    return (uint32_t)(h ^ (h >> 32));
+}
+
+static inline uint32_t hash_pair(uint32_t a, uint32_t b)
+{
+    uint64_t h = hash_mix(0x51ed270b0a1f39c1u, (uint64_t)a << 32 | b);
+    return (uint32_t)(h ^ (h >> 32));
+}
+
+/* FNV-1a of 64 bits: stable everywhere, for hashes that leave the process (topology hash, image checksum). */
+static inline uint64_t hash_stable(uint64_t h, const void *data, size_t size)
+{
+    const unsigned char *p = data;
+    for (size_t i = 0; i < size; i++)
+        h = (h ^ p[i]) * 0x100000001b3u;
+    return h;
+}
+#define HASH_STABLE_SEED 0xcbf29ce484222325u
+
+#endif

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/strpool.h"
+
+#include "base/hash.h"
+
+#include <assert.h>
+
+static const struct strpool *layer_of(const struct strpool *pool, str_id id)
+{
+    while (id < pool->first)
+        pool = pool->base;
+    assert(id - pool->first < pool->num);
+    return pool;
+}
+
+const char *str_text(const struct strpool *pool, str_id id)
+{
+    pool = layer_of(pool, id);
+    uint32_t i = id - pool->first;
+    return pool->offsets ? pool->bytes + pool->offsets[i] : pool->entries.items[i].text;
+}
+
+size_t str_len(const struct strpool *pool, str_id id)
+{
+    pool = layer_of(pool, id);
+    uint32_t i = id - pool->first;
+    return pool->offsets ? pool->offsets[i + 1] - pool->offsets[i] - 1 : pool->entries.items[i].len;
+}
+
+static bool matches(const struct strpool *pool, str_id id, const char *text, size_t len, uint32_t hash)
+{
+    uint32_t i = id - pool->first;
+    if (!pool->offsets) {
+        const struct str_entry *e = &pool->entries.items[i];
+        return e->hash == hash && e->len == len && memcmp(e->text, text, len) == 0;
+    }
+    uint32_t at = pool->offsets[i];
+    return pool->offsets[i + 1] - at - 1 == len && memcmp(pool->bytes + at, text, len) == 0;
+}
+
+static str_id find_hashed(const struct strpool *pool, const char *text, size_t len, uint32_t hash)
+{
+    for (; pool; pool = pool->base) {
+        if (!pool->table)
+            continue;
+        for (uint32_t slot = hash & pool->table_mask; pool->table[slot]; slot = (slot + 1) & pool->table_mask)
+            if (matches(pool, pool->table[slot], text, len, hash))
+                return pool->table[slot];
+    }
+    return 0;
+}
+
+str_id str_find(const struct strpool *pool, const char *text, size_t len)
+{
+    return len ? find_hashed(pool, text, len, hash_bytes(text, len)) : 0;
+}
+
+static void grow_table(struct strpool *pool)
+{
+    uint32_t slots = pool->table ? (pool->table_mask + 1) * 2 : 64;
+    uint32_t *table = ARENA_ARRAY(pool->arena, uint32_t, slots);
+    for (uint32_t i = 0; i < pool->entries.len; i++) {
+        if (pool->first + i == 0)
+            continue;
+        uint32_t slot = pool->entries.items[i].hash & (slots - 1);
+        while (table[slot])
+            slot = (slot + 1) & (slots - 1);
+        table[slot] = pool->first + i;
+    }
+    pool->table = table;
+    pool->table_mask = slots - 1;
+}
+
+static str_id add(struct strpool *pool, const char *text, size_t len, uint32_t hash)
+{
+    if (len > UINT32_MAX - 1 || pool->first + pool->num == UINT32_MAX)
+        mem_fail(pool->arena->mem);
+    if (!pool->table || (pool->num + 1) * 4 > (pool->table_mask + 1) * 3)
+        grow_table(pool);
+    str_id id = pool->first + pool->num;
+    vec_push(pool->arena, &pool->entries,
+             (struct str_entry){arena_strndup(pool->arena, text, len), (uint32_t)len, hash});
+    pool->num++;
+    uint32_t *table = (uint32_t *)(uintptr_t)pool->table; /* ours: a growing layer owns its table */
+    uint32_t slot = hash & pool->table_mask;
+    while (table[slot])
+        slot = (slot + 1) & pool->table_mask;
+    table[slot] = id;
+    return id;
+}
+
+str_id str_intern(struct strpool *pool, const char *text, size_t len)
+{
+    if (len == 0)
+        return 0;
+    uint32_t hash = hash_bytes(text, len);
+    str_id id = find_hashed(pool, text, len, hash);
+    return id ? id : add(pool, text, len, hash);
+}
+
+str_id str_intern_z(struct strpool *pool, const char *text)
+{
+    return str_intern(pool, text, strlen(text));
+}
+
+void strpool_init(struct strpool *pool, struct arena *arena, const struct strpool *base)
+{
+    *pool = (struct strpool){.base = base, .arena = arena};
+    if (base) {
+        pool->first = base->first + base->num;
+        return;
+    }
+    vec_push(arena, &pool->entries, (struct str_entry){"", 0, 0});
+    pool->num = 1;
+    static const char *const words[] = {
+#define WORD(id, text) text,
+#include "base/words.def"
+#undef WORD
+    };
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        str_intern_z(pool, words[i]);
+    assert(pool->num == STR_NUM_WORDS); /* a word stands twice in words.def */
+}

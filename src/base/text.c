@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/text.h"
+
+#include "base/num.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+
+void text_init(struct text *text, struct arena *arena)
+{
+    *text = (struct text){.arena = arena};
+}
+
+void text_reserve(struct text *text, size_t more)
+{
+    if (text->cap - text->len >= more)
+        return;
+    if (more > SIZE_MAX / 4 || text->cap > SIZE_MAX / 4)
+        mem_fail(text->arena->mem);
+    size_t cap = text->cap ? text->cap * 2 : 256;
+    while (cap - text->len < more)
+        cap *= 2;
+    text->data = arena_grow(text->arena, text->data, text->cap, cap);
+    text->cap = cap;
+}
+
+void text_u32(struct text *text, uint32_t value)
+{
+    char digits[10];
+    size_t n = sizeof digits;
+    do
+        digits[--n] = (char)('0' + value % 10);
+    while ((value /= 10) != 0);
+    text_mem(text, digits + n, sizeof digits - n);
+}
+
+void text_i32(struct text *text, int32_t value)
+{
+    if (value < 0)
+        text_char(text, '-');
+    text_u32(text, value < 0 ? 0u - (uint32_t)value : (uint32_t)value);
+}
+
+void text_hex64(struct text *text, uint64_t value)
+{
+    for (int shift = 60; shift >= 0; shift -= 4)
+        text_char(text, "0123456789abcdef"[value >> shift & 15]);
+}
+
+void text_float(struct text *text, float value)
+{
+    char digits[NUM_FLOAT_MAX];
+    text_mem(text, digits, num_print_float(digits, value));
+}
+
+void text_fmt(struct text *text, const char *format, ...)
+{
+    va_list args, again;
+    va_start(args, format);
+    va_copy(again, args);
+    int len = vsnprintf(NULL, 0, format, args);
+    va_end(args);
+    if (len > 0) {
+        text_reserve(text, (size_t)len + 1);
+        vsnprintf(text->data + text->len, (size_t)len + 1, format, again);
+        text->len += (size_t)len;
+    }
+    va_end(again);
+}
+
+/* Length of the UTF-8 sequence at p (1 to 4), or 0 where it is not well formed (RFC 3629). */
+static size_t utf8_length(const unsigned char *p, size_t len)
+{
+    static const uint32_t least[5] = {0, 0, 0x80, 0x800, 0x10000};
+    if (p[0] < 0x80)
+        return 1;
+    size_t n = p[0] >= 0xf0 && p[0] < 0xf5 ? 4 : p[0] >= 0xe0 && p[0] < 0xf0 ? 3 : p[0] >= 0xc2 && p[0] < 0xe0 ? 2 : 0;
+    if (n == 0 || n > len)
+        return 0;
+    uint32_t code = p[0] & (0x7fu >> n);
+    for (size_t i = 1; i < n; i++) {
+        if ((p[i] & 0xc0) != 0x80)
+            return 0;
+        code = code << 6 | (p[i] & 0x3fu);
+    }
+    return code < least[n] || code > 0x10ffff || (code >= 0xd800 && code < 0xe000) ? 0 : n;
+}
+
+void text_json_string(struct text *text, const char *bytes, size_t len)
+{
+    const unsigned char *p = (const unsigned char *)bytes, *end = p + len;
+    text_char(text, '"');
+    while (p < end) {
+        size_t n = utf8_length(p, (size_t)(end - p));
+        if (*p == '"' || *p == '\\') {
+            text_char(text, '\\');
+            text_char(text, (char)*p);
+        } else if (*p < 0x20) {
+            text_fmt(text, "\\u%04x", *p);
+        } else if (n == 0) {
+            text_str(text, "\xef\xbf\xbd");
+        } else {
+            text_mem(text, (const char *)p, n);
+        }
+        p += n ? n : 1;
+    }
+    text_char(text, '"');
+}
+
+const char *text_cstr(struct text *text)
+{
+    text_reserve(text, 1);
+    text->data[text->len] = '\0';
+    return text->data;
+}

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+/* Text that grows: the writer of everything mxgen emits. Appending never fails but by running out of memory (mem.h). */
+#ifndef MXG_BASE_TEXT_H
+#define MXG_BASE_TEXT_H
+
+#include "base/mem.h"
+
+struct text {
+    struct arena *arena;
+    char *data; /* not NUL-terminated until text_cstr */
+    size_t len, cap;
+};
+
+void text_init(struct text *text, struct arena *arena);
+
+/* Room for `more` bytes behind the end; text->data + text->len is where they go. */
+void text_reserve(struct text *text, size_t more);
+
+static inline void text_mem(struct text *text, const char *bytes, size_t len)
+{
+    if (text->cap - text->len < len)
+        text_reserve(text, len);
+    if (len)
+        memcpy(text->data + text->len, bytes, len);
+    text->len += len;
+}
+
+static inline void text_char(struct text *text, char c)
+{
+    if (text->cap == text->len)
+        text_reserve(text, 1);
+    text->data[text->len++] = c;
+}
+
+static inline void text_str(struct text *text, const char *z)
+{
+    text_mem(text, z, strlen(z));
+}
+
+void text_u32(struct text *text, uint32_t value);
+void text_i32(struct text *text, int32_t value);
+void text_hex64(struct text *text, uint64_t value); /* 16 digits */
+
+/* The shortest decimal that reads back to the same float, always with '.' or an exponent; "inf", "-inf", "nan". */
+void text_float(struct text *text, float value);
+
+/* As printf; for messages, not for floats (the locale's decimal point would show). */
+#if defined(__GNUC__)
+__attribute__((format(printf, 2, 3)))
+#endif
+void text_fmt(struct text *text, const char *format, ...);
+
+/* A JSON string literal with its quotes; invalid UTF-8 becomes U+FFFD. */
+void text_json_string(struct text *text, const char *bytes, size_t len);
+
+/* The text with a NUL behind it; valid until the next append. */
+const char *text_cstr(struct text *text);
+
+#endif

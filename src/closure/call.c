@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+/* Calls of a leaf's functions: the node's inputs in order, then what the function wants to know of the shaded point. */
+#include "closure/closure_priv.h"
+
+static ir_ref view_position(struct shader *shader)
+{
+    uint32_t variable = shader_private_uniform(shader, str_intern_z(shader->strings, "u_viewPosition"), IR_TYPE_VEC3, 0);
+    return shader_read(shader, variable);
+}
+
+static ir_ref stream(struct shader *shader, const char *name)
+{
+    return shader_stream(shader, str_intern_z(shader->strings, name), IR_TYPE_VEC3);
+}
+
+static ir_ref context_value(struct shader *shader, const char *name, const ir_ref *light)
+{
+    struct ir_graph *g = shader->graph;
+    uint32_t before = g->origin;
+    ir_ref value = 0;
+    g->origin = ir_add_origin(g, str_intern_z(shader->strings, name), 0, 0);
+    if (strcmp(name, "V") == 0)
+        value = ir_op1(g, IR_NORMALIZE, ir_op2(g, IR_SUB, view_position(shader), stream(shader, "positionWorld")));
+    else if (strcmp(name, "N") == 0)
+        value = ir_op1(g, IR_NORMALIZE, stream(shader, "normalWorld"));
+    else if (strcmp(name, "P") == 0)
+        value = stream(shader, "positionWorld");
+    else if (strcmp(name, "L") == 0 && light)
+        value = *light;
+    g->origin = before;
+    return value ? value : ir_poison(g, IR_TYPE_VEC3);
+}
+
+ir_ref closure_call(struct shader *shader, const struct closure_host *host, ir_ref leaf, enum leaf_function which,
+                    const ir_ref *light)
+{
+    struct ir_graph *g = shader->graph;
+    const struct ir_node node = *ir_get(g, leaf);
+    const uint32_t *functions = host->leaf_functions(host->user_data, node.attr);
+    uint32_t id = functions[which];
+    if (id == LANG_NONE)
+        return 0;
+    const struct lang_unit *unit;
+    const struct lang_function *fn = lang_function(shader->unit, id, &unit);
+    /* Operands: the weight, the inputs, and a modifier's base. */
+    unsigned num_inputs = node.num_args - 1 - (functions[LEAF_FACTOR] != LANG_NONE);
+    ir_ref *args = ARENA_ARRAY(shader->arena, ir_ref, fn->num_params);
+    for (unsigned i = 0; i < fn->num_params; i++) {
+        const struct lang_slot *slot = &unit->slots.items[fn->first_slot + i];
+        args[i] = i < num_inputs ? ir_arg(g, leaf, i + 1)
+                                 : context_value(shader, str_text(unit->strings, slot->name), light);
+    }
+    ir_ref *results = ARENA_ARRAY(shader->arena, ir_ref, lang_num_results(shader->unit, id));
+    uint32_t before = g->origin;
+    g->origin = node.origin;
+    lang_lower_call(shader->unit, g, host->lang, id, args, results);
+    g->origin = before;
+    return results[0];
+}

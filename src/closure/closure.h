@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * From closures to effects: a tree of BSDFs becomes a flat list of leaves with weights, and the list becomes what the pixel stage
+ * does: lights, environment, emission, opacity (design section 7).
+ */
+#ifndef MXG_CLOSURE_CLOSURE_H
+#define MXG_CLOSURE_CLOSURE_H
+
+#include "shader/shader.h"
+
+/* A leaf's functions (lang ids; LANG_NONE: absent), in the order of enum family_member of library/library.h. */
+enum leaf_function { LEAF_EVAL, LEAF_ENVIRONMENT, LEAF_TRANSMISSION, LEAF_THROUGHPUT, LEAF_EMISSION, LEAF_FACTOR, NUM_LEAF_FUNCTIONS };
+
+struct closure_host {
+    void *user_data;
+    /* The functions of the family behind a LEAF node's callee. */
+    const uint32_t *(*leaf_functions)(void *user_data, uint32_t callee);
+    const struct lang_host *lang;
+};
+
+/* A leaf of the flattened tree. Its weight is scalar · color; scalar decides whether the leaf is evaluated at all. */
+struct closure_leaf {
+    ir_ref leaf;   /* LEAF node with weight 1 */
+    ir_ref scalar; /* float */
+    ir_ref color;  /* vec3; 0 = white */
+};
+
+struct closure_list {
+    VEC(struct closure_leaf) leaves;
+};
+
+/*
+ * Flattens a BSDF, EDF or VDF: leaves with their total weight, in order of first use, equal leaves merged, leaves of weight 0 gone.
+ * root 0: an empty list.
+ */
+void closure_flatten(struct shader *shader, const struct closure_host *host, ir_ref root, struct closure_list *out);
+
+/* How light reaches the shaded point, decided by the caller's options. */
+struct closure_lighting {
+    bool lights;      /* light shaders are bound */
+    bool environment; /* `--environment` is not none */
+};
+
+/*
+ * Writes the effects of the pixel stage for a root of any type: a material, a surface or other shader, a closure (seen as a surface's), or
+ * a plain value, which is shown as a colour. False where a type has no meaning in a pixel stage (the caller reports it).
+ */
+bool closure_emit(struct shader *shader, const struct closure_host *host, const struct closure_lighting *lighting, ir_ref root);
+
+/* Leaves and weights as text: `mxgen inspect --closures`. */
+void closure_describe(struct shader *shader, const struct closure_host *host, ir_ref root, struct text *out);
+
+#endif

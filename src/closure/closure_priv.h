@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+/* Shared by the files of this room. */
+#ifndef MXG_CLOSURE_CLOSURE_PRIV_H
+#define MXG_CLOSURE_CLOSURE_PRIV_H
+
+#include "closure/closure.h"
+
+/*
+ * The value of one function of a leaf's family for the leaf's inputs; 0 where the family has none. `light` gives L for LEAF_EVAL;
+ * view direction, normal and position are the shaded point's.
+ */
+ir_ref closure_call(struct shader *shader, const struct closure_host *host, ir_ref leaf, enum leaf_function which,
+                    const ir_ref *light);
+
+/* a · b, where 0 stands for 1. */
+ir_ref closure_mul(struct ir_graph *graph, ir_ref a, ir_ref b);
+ir_ref closure_one_minus(struct ir_graph *graph, ir_ref a);
+
+#endif

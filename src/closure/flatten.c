@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * The closure tree as a list. Every operator is linear in its operands' response, so a leaf's total weight is the sum over its uses
+ * of the products on the way to the root:
+ *
+ *     layer(top, base)     top · w,  base · w · T(top)
+ *     mix(bg, fg, m)       bg · w(1-m),  fg · w m
+ *     add(a, b)            a · w,  b · w
+ *     scale(a, c)          a · w c
+ *
+ * T, the throughput, is what an operand lets through to what lies beneath. Operands have smaller indices than operators, so one pass
+ * upwards finds every throughput that a layer asks for and one pass downwards every weight; nothing recurses.
+ */
+#include "closure/closure_priv.h"
+
+struct weight {
+    ir_ref scalar, color; /* scalar 0: not reached */
+};
+
+struct flattener {
+    struct shader *shader;
+    struct ir_graph *graph;
+    const struct closure_host *host;
+    ir_ref root;
+    struct weight *weights;     /* per node */
+    ir_ref *throughputs;        /* per node; 0: not asked for */
+    uint8_t *wanted;            /* per node: its throughput is needed */
+};
+
+static bool is_operator(const struct ir_node *node)
+{
+    return node->op == IR_LAYER || node->op == IR_CLOSURE_MIX || node->op == IR_CLOSURE_ADD || node->op == IR_CLOSURE_SCALE;
+}
+
+ir_ref closure_mul(struct ir_graph *g, ir_ref a, ir_ref b)
+{
+    if (!a || !b)
+        return a ? a : b;
+    return ir_op2(g, IR_MUL, a, b);
+}
+
+ir_ref closure_one_minus(struct ir_graph *g, ir_ref a)
+{
+    ir_ref one = ir_const_splat(g, ir_type_of(g, a), 1.0f);
+    return ir_op2(g, IR_SUB, one, a);
+}
+
+/* ---- throughput, upwards ---- */
+
+static ir_ref leaf_throughput(struct flattener *f, ir_ref ref)
+{
+    struct ir_graph *g = f->graph;
+    ir_ref through = closure_call(f->shader, f->host, ref, LEAF_THROUGHPUT, NULL);
+    ir_ref weight = ir_arg(g, ref, 0);
+    if (!through) /* opaque */
+        return closure_one_minus(g, ir_convert(g, IR_TYPE_VEC3, weight));
+    if (ir_const_is(g, weight, 1.0f))
+        return through;
+    /* 1 - w (1 - T) */
+    ir_ref stopped = ir_op2(g, IR_MUL, closure_one_minus(g, through), weight);
+    return closure_one_minus(g, stopped);
+}
+
+static ir_ref through_of(const struct flattener *f, ir_ref ref)
+{
+    return ref && f->throughputs[ref] ? f->throughputs[ref] : ir_const_splat(f->graph, IR_TYPE_VEC3, 1.0f);
+}
+
+static ir_ref operator_throughput(struct flattener *f, ir_ref ref)
+{
+    struct ir_graph *g = f->graph;
+    const struct ir_node node = *ir_get(g, ref);
+    ir_ref a = ir_arg(g, ref, 0), b = ir_arg(g, ref, 1);
+    switch (node.op) {
+    case IR_LAYER:
+        return ir_op2(g, IR_MUL, through_of(f, a), through_of(f, b));
+    case IR_CLOSURE_MIX: {
+        ir_ref mix = ir_arg(g, ref, 2);
+        return ir_op3(g, IR_MIX, through_of(f, a), through_of(f, b), mix);
+    }
+    case IR_CLOSURE_ADD: {
+        /* 1 - ((1 - Ta) + (1 - Tb)), which must not become negative */
+        ir_ref sum = ir_op2(g, IR_ADD, through_of(f, a), through_of(f, b));
+        return ir_op2(g, IR_MAX, ir_op2(g, IR_SUB, sum, ir_const_float(g, 1.0f)), ir_const_float(g, 0.0f));
+    }
+    default: /* a scaled closure hides as much as before */
+        return through_of(f, a);
+    }
+}
+
+/* Marks what a layer's top is made of: the throughputs that are needed. */
+static void want_throughputs(struct flattener *f, uint32_t num_nodes)
+{
+    for (ir_ref ref = num_nodes; ref-- > 1;) {
+        const struct ir_node *node = ir_get(f->graph, ref);
+        if (!f->weights[ref].scalar && !f->wanted[ref])
+            continue;
+        if (!is_operator(node))
+            continue;
+        const ir_ref *args = ir_args(f->graph, ref);
+        unsigned closures = node->op == IR_CLOSURE_SCALE ? 1 : 2;
+        for (unsigned i = 0; i < closures; i++) {
+            if (args[i] && f->weights[ref].scalar)
+                f->weights[args[i]].scalar = 1; /* reached: the weight itself comes later */
+            if (args[i] && (f->wanted[ref] || (node->op == IR_LAYER && i == 0)))
+                f->wanted[args[i]] = 1;
+        }
+    }
+}
+
+static void find_throughputs(struct flattener *f, uint32_t num_nodes)
+{
+    for (ir_ref ref = 1; ref < num_nodes; ref++) {
+        if (!f->wanted[ref])
+            continue;
+        uint8_t op = ir_get(f->graph, ref)->op;
+        if (op == IR_LEAF)
+            f->throughputs[ref] = leaf_throughput(f, ref);
+        else if (is_operator(ir_get(f->graph, ref)))
+            f->throughputs[ref] = operator_throughput(f, ref);
+    }
+}
+
+/* ---- weights, downwards ---- */
+
+/* s·c as one value: for sums of weights. */
+static ir_ref combined(struct ir_graph *g, struct weight w)
+{
+    return w.color ? closure_mul(g, w.color, w.scalar) : w.scalar;
+}
+
+static void add_weight(struct flattener *f, ir_ref ref, ir_ref scalar, ir_ref color)
+{
+    struct ir_graph *g = f->graph;
+    if (!ref || ir_const_is(g, scalar, 0.0f) || (color && ir_const_is(g, color, 0.0f)))
+        return;
+    struct weight *w = &f->weights[ref];
+    if (!w->scalar) {
+        *w = (struct weight){scalar, color};
+        return;
+    }
+    if (w->color == color) {
+        w->scalar = ir_op2(g, IR_ADD, w->scalar, scalar);
+        return;
+    }
+    ir_ref sum = ir_op2(g, IR_ADD, ir_convert(g, IR_TYPE_VEC3, combined(g, *w)),
+                        ir_convert(g, IR_TYPE_VEC3, combined(g, (struct weight){scalar, color})));
+    *w = (struct weight){ir_const_float(g, 1.0f), sum};
+}
+
+/* A factor goes with the scalar part when it is a float, else with the colour. */
+static void add_scaled(struct flattener *f, ir_ref ref, struct weight w, ir_ref factor)
+{
+    struct ir_graph *g = f->graph;
+    if (ir_const_is(g, factor, 1.0f))
+        add_weight(f, ref, w.scalar, w.color);
+    else if (ir_type_of(g, factor) == IR_TYPE_FLOAT)
+        add_weight(f, ref, closure_mul(g, w.scalar, factor), w.color);
+    else
+        add_weight(f, ref, w.scalar, closure_mul(g, w.color, factor));
+}
+
+static void spread(struct flattener *f, ir_ref ref)
+{
+    struct ir_graph *g = f->graph;
+    struct weight w = f->weights[ref];
+    uint8_t op = ir_get(g, ref)->op;
+    ir_ref a = ir_arg(g, ref, 0), b = ir_arg(g, ref, 1);
+    if (op == IR_LAYER) {
+        add_weight(f, a, w.scalar, w.color);
+        if (b && ir_type_of(g, b) != IR_TYPE_VDF) /* a volume below does not change the surface's response */
+            add_scaled(f, b, w, through_of(f, a));
+    } else if (op == IR_CLOSURE_MIX) {
+        ir_ref mix = ir_arg(g, ref, 2);
+        add_scaled(f, a, w, closure_one_minus(g, mix));
+        add_scaled(f, b, w, mix);
+    } else if (op == IR_CLOSURE_ADD) {
+        add_weight(f, a, w.scalar, w.color);
+        add_weight(f, b, w.scalar, w.color);
+    } else { /* scale: BSDFs must not gain energy by it */
+        ir_ref zero = ir_const_float(g, 0.0f), one = ir_const_float(g, 1.0f);
+        bool emits = ir_type_of(g, ref) == IR_TYPE_EDF;
+        add_scaled(f, a, w, emits ? b : ir_op3(g, IR_CLAMP, b, zero, one));
+    }
+}
+
+/* A leaf as the list has it: its own weight moves into the total. */
+static ir_ref unit_leaf(struct ir_graph *g, ir_ref ref, struct arena *arena)
+{
+    const struct ir_node node = *ir_get(g, ref);
+    ir_ref *args = ARENA_ARRAY(arena, ir_ref, node.num_args);
+    memcpy(args, ir_args(g, ref), node.num_args * sizeof *args);
+    args[0] = ir_const_float(g, 1.0f);
+    uint32_t before = g->origin;
+    g->origin = node.origin;
+    ir_ref unit = ir_build(g, IR_LEAF, node.type, node.attr, args, node.num_args);
+    g->origin = before;
+    return unit;
+}
+
+static void merge_leaf(struct flattener *f, struct closure_list *out, ir_ref leaf, struct weight w)
+{
+    struct ir_graph *g = f->graph;
+    for (uint32_t i = 0; i < out->leaves.len; i++) {
+        struct closure_leaf *have = &out->leaves.items[i];
+        if (have->leaf != leaf)
+            continue;
+        ir_ref sum = ir_op2(g, IR_ADD, ir_convert(g, IR_TYPE_VEC3, combined(g, (struct weight){have->scalar, have->color})),
+                            ir_convert(g, IR_TYPE_VEC3, combined(g, w)));
+        have->color = sum;
+        have->scalar = ir_const_float(g, 1.0f);
+        return;
+    }
+    vec_push(f->shader->arena, &out->leaves, (struct closure_leaf){leaf, w.scalar, w.color});
+}
+
+static void take_leaf(struct flattener *f, ir_ref ref, struct closure_list *out)
+{
+    struct ir_graph *g = f->graph;
+    struct weight w = f->weights[ref];
+    if (f->host->leaf_functions(f->host->user_data, ir_get(g, ref)->attr)[LEAF_FACTOR] != LANG_NONE) {
+        ir_ref base = ir_arg(g, ref, ir_get(g, ref)->num_args - 1);
+        add_scaled(f, base, w, closure_call(f->shader, f->host, ref, LEAF_FACTOR, NULL));
+        return;
+    }
+    ir_ref scalar = closure_mul(g, w.scalar, ir_arg(g, ref, 0));
+    if (!ir_const_is(g, scalar, 0.0f))
+        merge_leaf(f, out, unit_leaf(g, ref, f->shader->arena), (struct weight){scalar, w.color});
+}
+
+
+
+void closure_flatten(struct shader *shader, const struct closure_host *host, ir_ref root, struct closure_list *out)
+{
+    memset(out, 0, sizeof *out);
+    if (!root)
+        return;
+    uint32_t num_nodes = root + 1;
+    struct flattener f = {.shader = shader, .graph = shader->graph, .host = host, .root = root};
+    f.weights = ARENA_ARRAY(shader->arena, struct weight, num_nodes);
+    f.throughputs = ARENA_ARRAY(shader->arena, ir_ref, num_nodes);
+    f.wanted = ARENA_ARRAY(shader->arena, uint8_t, num_nodes);
+    f.weights[root].scalar = 1;
+    want_throughputs(&f, num_nodes);
+    find_throughputs(&f, num_nodes);
+    memset(f.weights, 0, num_nodes * sizeof *f.weights);
+    f.weights[root].scalar = ir_const_float(shader->graph, 1.0f);
+    for (ir_ref ref = num_nodes; ref-- > 1;) {
+        if (!f.weights[ref].scalar)
+            continue;
+        if (is_operator(ir_get(f.graph, ref)))
+            spread(&f, ref);
+        else if (ir_get(f.graph, ref)->op == IR_LEAF)
+            take_leaf(&f, ref, out);
+    }
+    /* Found from the root downwards; shown as written: bases first. */
+    for (uint32_t i = 0, j = out->leaves.len; i + 1 < j; i++) {
+        struct closure_leaf swap = out->leaves.items[i];
+        out->leaves.items[i] = out->leaves.items[--j];
+        out->leaves.items[j] = swap;
+    }
+}

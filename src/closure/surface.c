@@ -1,0 +1,391 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * What the pixel stage does for a surface:
+ *
+ *     color = emission
+ *     for each light: color += intensity · Σ w · eval
+ *     color += Σ w · environment + Σ w · transmission
+ *     out1 = vec4(color · opacity, opacity)
+ *
+ * A leaf whose weight is not known at compile time stands behind `if (weight > 0)`.
+ */
+#include "closure/closure_priv.h"
+
+struct emitter {
+    struct shader *shader;
+    struct ir_graph *graph;
+    const struct closure_host *host;
+    const struct closure_lighting *lighting;
+    uint32_t color;      /* index of the mutable variable; UINT32_MAX while there is none */
+    ir_ref base;         /* what the colour begins with; 0 = black */
+};
+
+static void effect(struct emitter *e, enum effect_kind kind, uint32_t index, ir_ref value)
+{
+    shader_effect(e->shader, STAGE_PIXEL, (struct effect){.kind = (uint8_t)kind, .index = index, .value = value});
+}
+
+static ir_ref add(struct emitter *e, ir_ref a, ir_ref b)
+{
+    if (!a || !b)
+        return a ? a : b;
+    return ir_op2(e->graph, IR_ADD, a, b);
+}
+
+static ir_ref vec3_of(struct emitter *e, ir_ref value)
+{
+    return ir_convert(e->graph, IR_TYPE_VEC3, value);
+}
+
+/* The weight as one factor, and whether it needs a guard: it is not constant, so it may be 0. */
+static bool is_guarded(const struct emitter *e, const struct closure_leaf *leaf)
+{
+    return !ir_is_const(e->graph, leaf->scalar);
+}
+
+static ir_ref weighted(struct emitter *e, const struct closure_leaf *leaf, ir_ref value)
+{
+    if (leaf->color)
+        value = ir_op2(e->graph, IR_MUL, value, leaf->color);
+    return ir_const_is(e->graph, leaf->scalar, 1.0f) ? value : ir_op2(e->graph, IR_MUL, value, leaf->scalar);
+}
+
+static void declare_color(struct emitter *e)
+{
+    if (e->color != UINT32_MAX)
+        return;
+    e->color = shader_add_local(e->shader, str_intern_z(e->shader->strings, "color"), IR_TYPE_VEC3);
+    effect(e, EFFECT_VAR, e->color, e->base ? vec3_of(e, e->base) : ir_const_splat(e->graph, IR_TYPE_VEC3, 0.0f));
+}
+
+static void accumulate(struct emitter *e, const struct closure_leaf *leaf, ir_ref value)
+{
+    bool guarded = is_guarded(e, leaf);
+    if (guarded)
+        effect(e, EFFECT_IF, 0, ir_op2(e->graph, IR_GT, leaf->scalar, ir_const_float(e->graph, 0.0f)));
+    effect(e, EFFECT_ACCUMULATE, e->color, value);
+    if (guarded)
+        effect(e, EFFECT_END, 0, 0);
+}
+
+static bool has_function(const struct emitter *e, const struct closure_leaf *leaf, enum leaf_function which)
+{
+    return e->host->leaf_functions(e->host->user_data, ir_get(e->graph, leaf->leaf)->attr)[which] != LANG_NONE;
+}
+
+static bool any_has(const struct emitter *e, const struct closure_list *list, enum leaf_function which)
+{
+    for (uint32_t i = 0; i < list->leaves.len; i++)
+        if (has_function(e, &list->leaves.items[i], which))
+            return true;
+    return false;
+}
+
+static ir_ref context(struct emitter *e, enum ir_context which)
+{
+    return ir_build(e->graph, IR_CONTEXT, IR_TYPE_VEC3, which, NULL, 0);
+}
+
+/* Leaves that are always there share one line; the others have their own behind their guard. */
+static void emit_lights(struct emitter *e, const struct closure_list *list)
+{
+    if (!e->lighting->lights || !any_has(e, list, LEAF_EVAL))
+        return;
+    declare_color(e);
+    effect(e, EFFECT_LIGHTS, 0, 0);
+    ir_ref light = context(e, IR_CONTEXT_L), intensity = context(e, IR_CONTEXT_LIGHT_INTENSITY);
+    ir_ref always = 0;
+    for (uint32_t i = 0; i < list->leaves.len; i++) {
+        const struct closure_leaf *leaf = &list->leaves.items[i];
+        ir_ref value = closure_call(e->shader, e->host, leaf->leaf, LEAF_EVAL, &light);
+        if (!value)
+            continue;
+        value = weighted(e, leaf, value);
+        if (is_guarded(e, leaf))
+            accumulate(e, leaf, ir_op2(e->graph, IR_MUL, intensity, value));
+        else
+            always = add(e, always, value);
+    }
+    if (always)
+        effect(e, EFFECT_ACCUMULATE, e->color, ir_op2(e->graph, IR_MUL, intensity, always));
+    effect(e, EFFECT_END, 0, 0);
+    e->shader->lit = true;
+}
+
+static void emit_environment(struct emitter *e, const struct closure_list *list)
+{
+    if (!e->lighting->environment)
+        return;
+    ir_ref always = 0;
+    for (uint32_t i = 0; i < list->leaves.len; i++) {
+        const struct closure_leaf *leaf = &list->leaves.items[i];
+        ir_ref value = add(e, closure_call(e->shader, e->host, leaf->leaf, LEAF_ENVIRONMENT, NULL),
+                           closure_call(e->shader, e->host, leaf->leaf, LEAF_TRANSMISSION, NULL));
+        if (!value)
+            continue;
+        value = weighted(e, leaf, value);
+        e->shader->lit = true;
+        if (is_guarded(e, leaf)) {
+            declare_color(e);
+            accumulate(e, leaf, value);
+        } else {
+            always = add(e, always, value);
+        }
+    }
+    if (always) {
+        declare_color(e);
+        effect(e, EFFECT_ACCUMULATE, e->color, always);
+    }
+}
+
+static ir_ref emission(struct emitter *e, ir_ref edf)
+{
+    struct closure_list list;
+    closure_flatten(e->shader, e->host, edf, &list);
+    ir_ref sum = 0;
+    for (uint32_t i = 0; i < list.leaves.len; i++) {
+        ir_ref value = closure_call(e->shader, e->host, list.leaves.items[i].leaf, LEAF_EMISSION, NULL);
+        if (value)
+            sum = add(e, sum, weighted(e, &list.leaves.items[i], value));
+    }
+    e->shader->num_closures += list.leaves.len;
+    return sum;
+}
+
+/* ---- outputs ---- */
+
+static void write_output(struct emitter *e, ir_ref color, ir_ref alpha)
+{
+    struct ir_graph *g = e->graph;
+    uint32_t out = shader_find_variable(e->shader, BLOCK_OUTPUTS, str_intern_z(e->shader->strings, "out1"));
+    if (out == UINT32_MAX)
+        out = shader_add_variable(e->shader, &(struct shader_variable){.name = str_intern_z(e->shader->strings, "out1"),
+                                                                       .block = BLOCK_OUTPUTS, .type = IR_TYPE_VEC4});
+    ir_ref parts[2] = {color, alpha};
+    effect(e, EFFECT_OUTPUT, out, ir_construct(g, IR_TYPE_VEC4, parts, 2));
+}
+
+/* Pixels below the host's threshold are not drawn at all. */
+static void alpha_test(struct emitter *e, ir_ref alpha)
+{
+    uint32_t threshold = shader_private_uniform(e->shader, str_intern_z(e->shader->strings, "u_alphaThreshold"),
+                                                IR_TYPE_FLOAT, 0);
+    effect(e, EFFECT_DISCARD, 0, ir_op2(e->graph, IR_LT, alpha, shader_read(e->shader, threshold)));
+    e->shader->transparent = true;
+}
+
+static bool is_opaque(const struct emitter *e, ir_ref opacity)
+{
+    return !opacity || ir_const_is(e->graph, opacity, 1.0f);
+}
+
+static ir_ref final_color(struct emitter *e)
+{
+    if (e->color != UINT32_MAX)
+        return ir_build(e->graph, IR_LOCAL, IR_TYPE_VEC3, e->color, NULL, 0);
+    return e->base ? vec3_of(e, e->base) : ir_const_splat(e->graph, IR_TYPE_VEC3, 0.0f);
+}
+
+/* ---- surfaces ---- */
+
+struct surface { /* parts of a surface, each 0 where absent */
+    ir_ref bsdf, edf;
+    ir_ref unlit;        /* colour that no light changes */
+    ir_ref alpha;        /* 0 = 1 */
+    bool premultiplied;  /* the parts are scaled by alpha already */
+};
+
+static void finish_surface(struct emitter *e, const struct surface *s)
+{
+    ir_ref alpha = s->alpha;
+    if (is_opaque(e, alpha)) {
+        write_output(e, final_color(e), ir_const_float(e->graph, 1.0f));
+        return;
+    }
+    alpha_test(e, alpha);
+    ir_ref color = final_color(e);
+    write_output(e, s->premultiplied ? color : ir_op2(e->graph, IR_MUL, color, alpha), alpha);
+}
+
+static ir_ref scaled_closure(struct ir_graph *g, ir_ref closure, ir_ref factor)
+{
+    ir_ref args[2] = {closure, factor};
+    return closure ? ir_build(g, IR_CLOSURE_SCALE, ir_type_of(g, closure), 0, args, 2) : 0;
+}
+
+static ir_ref mixed_closure(struct ir_graph *g, ir_ref bg, ir_ref fg, ir_ref mix)
+{
+    ir_ref args[3] = {bg, fg, mix};
+    return bg == fg ? bg : ir_build(g, IR_CLOSURE_MIX, ir_type_of(g, bg ? bg : fg), 0, args, 3);
+}
+
+static struct surface premultiplied(struct emitter *e, struct surface s)
+{
+    if (s.premultiplied || is_opaque(e, s.alpha))
+        return s;
+    s.bsdf = scaled_closure(e->graph, s.bsdf, s.alpha);
+    s.edf = scaled_closure(e->graph, s.edf, s.alpha);
+    if (s.unlit)
+        s.unlit = ir_op2(e->graph, IR_MUL, vec3_of(e, s.unlit), s.alpha);
+    s.premultiplied = true;
+    return s;
+}
+
+static struct surface mixed(struct emitter *e, struct surface bg, struct surface fg, ir_ref mix)
+{
+    struct ir_graph *g = e->graph;
+    bg = premultiplied(e, bg);
+    fg = premultiplied(e, fg);
+    ir_ref one = ir_const_float(g, 1.0f), black = ir_const_splat(g, IR_TYPE_VEC3, 0.0f);
+    struct surface s = {.bsdf = mixed_closure(g, bg.bsdf, fg.bsdf, mix), .edf = mixed_closure(g, bg.edf, fg.edf, mix),
+                        .premultiplied = true};
+    if (bg.unlit || fg.unlit)
+        s.unlit = ir_op3(g, IR_MIX, bg.unlit ? vec3_of(e, bg.unlit) : black, fg.unlit ? vec3_of(e, fg.unlit) : black, mix);
+    s.alpha = ir_op3(g, IR_MIX, bg.alpha ? bg.alpha : one, fg.alpha ? fg.alpha : one, mix);
+    return s;
+}
+
+/* What it transmits lets what is behind show through (MaterialX PBR specification, <surface_unlit>). */
+static struct surface unlit_surface(struct emitter *e, ir_ref emitted, ir_ref transmitted, ir_ref opacity)
+{
+    struct ir_graph *g = e->graph;
+    ir_ref through = ir_op2(g, IR_DOT, vec3_of(e, transmitted), ir_const_splat(g, IR_TYPE_VEC3, 1.0f / 3.0f));
+    return (struct surface){.unlit = ir_op2(g, IR_MUL, emitted, opacity),
+                            .alpha = ir_op2(g, IR_MUL, opacity, closure_one_minus(g, through)), .premultiplied = true};
+}
+
+/* Operands come before their node, so mixes of mixes are found in one pass. */
+static struct surface surface_of(struct emitter *e, ir_ref root)
+{
+    struct ir_graph *g = e->graph;
+    struct surface *known = ARENA_ARRAY(e->shader->arena, struct surface, root + 1);
+    uint8_t *needed = ir_mark(g, &root, 1, e->shader->arena);
+    for (ir_ref ref = 1; ref <= root; ref++) {
+        if (!needed[ref])
+            continue;
+        ir_ref args[4] = {0};
+        const struct ir_node *node = ir_get(g, ref);
+        memcpy(args, ir_args(g, ref), (node->num_args < 4 ? node->num_args : 4) * sizeof *args);
+        if (node->op == IR_SURFACE_SHADER)
+            known[ref] = (struct surface){.bsdf = args[0], .edf = args[1], .alpha = args[2]};
+        else if (node->op == IR_SURFACE_UNLIT)
+            known[ref] = unlit_surface(e, args[0], args[1], args[2]);
+        else if (node->op == IR_SHADER_MIX && node->type == IR_TYPE_SURFACE)
+            known[ref] = mixed(e, known[args[0]], known[args[1]], args[2]);
+    }
+    return known[root];
+}
+
+static void emit_surface(struct emitter *e, ir_ref root)
+{
+    struct surface s = root ? surface_of(e, root) : (struct surface){0};
+    struct closure_list list;
+    closure_flatten(e->shader, e->host, s.bsdf, &list);
+    e->shader->num_closures += list.leaves.len;
+    e->base = add(e, s.unlit ? vec3_of(e, s.unlit) : 0, emission(e, s.edf));
+    emit_lights(e, &list);
+    emit_environment(e, &list);
+    finish_surface(e, &s);
+}
+
+/* ---- values ---- */
+
+/* A value as a colour: scalars grey, two components red and green, an alpha kept. */
+static bool emit_value(struct emitter *e, ir_ref root)
+{
+    struct ir_graph *g = e->graph;
+    ir_ref one = ir_const_float(g, 1.0f), zero = ir_const_float(g, 0.0f);
+    ir_type_id type = ir_type_of(g, root);
+    if (type == IR_TYPE_BOOL || type == IR_TYPE_INT || type == IR_TYPE_UINT) {
+        root = ir_convert(g, IR_TYPE_FLOAT, root);
+        type = IR_TYPE_FLOAT;
+    }
+    ir_ref parts[3] = {root, zero, one};
+    uint32_t out = shader_add_variable(e->shader, &(struct shader_variable){.name = str_intern_z(e->shader->strings, "out1"),
+                                                                            .block = BLOCK_OUTPUTS, .type = IR_TYPE_VEC4});
+    switch (type) {
+    case IR_TYPE_FLOAT:
+        parts[0] = ir_convert(g, IR_TYPE_VEC3, root);
+        parts[1] = one;
+        root = ir_construct(g, IR_TYPE_VEC4, parts, 2);
+        break;
+    case IR_TYPE_VEC2:
+        root = ir_construct(g, IR_TYPE_VEC4, parts, 3);
+        break;
+    case IR_TYPE_VEC3:
+        parts[1] = one;
+        root = ir_construct(g, IR_TYPE_VEC4, parts, 2);
+        break;
+    case IR_TYPE_VEC4:
+        break;
+    default:
+        return false;
+    }
+    effect(e, EFFECT_OUTPUT, out, root);
+    return true;
+}
+
+bool closure_emit(struct shader *shader, const struct closure_host *host, const struct closure_lighting *lighting, ir_ref root)
+{
+    struct emitter e = {.shader = shader, .graph = shader->graph, .host = host, .lighting = lighting, .color = UINT32_MAX};
+    if (root && ir_get(e.graph, root)->op == IR_MATERIAL)
+        root = ir_arg(e.graph, root, 0);
+    ir_type_id type = root ? ir_type_of(e.graph, root) : IR_TYPE_SURFACE;
+    if (type == IR_TYPE_BSDF || type == IR_TYPE_EDF) {
+        ir_ref args[4] = {type == IR_TYPE_BSDF ? root : 0, type == IR_TYPE_EDF ? root : 0, ir_const_float(e.graph, 1.0f),
+                          ir_const_bool(e.graph, false)};
+        root = ir_build(e.graph, IR_SURFACE_SHADER, IR_TYPE_SURFACE, 0, args, 4);
+        type = IR_TYPE_SURFACE;
+    }
+    if (type != IR_TYPE_SURFACE)
+        return emit_value(&e, root);
+    emit_surface(&e, root);
+    return true;
+}
+
+/* ---- looking inside ---- */
+
+static void describe_weight(struct shader *shader, const struct closure_leaf *leaf, struct text *out)
+{
+    struct ir_value value;
+    if (ir_get_const(shader->graph, leaf->scalar, &value))
+        text_float(out, value.w[0].f);
+    else
+        text_fmt(out, "%%%u", leaf->scalar);
+    if (leaf->color)
+        text_fmt(out, " * %%%u", leaf->color);
+}
+
+static void describe_list(struct shader *shader, const struct closure_host *host, ir_ref root, struct text *out)
+{
+    struct closure_list list;
+    closure_flatten(shader, host, root, &list);
+    for (uint32_t i = 0; i < list.leaves.len; i++) {
+        const struct ir_node *node = ir_get(shader->graph, list.leaves.items[i].leaf);
+        const struct ir_origin *origin = &shader->graph->origins.items[node->origin];
+        text_fmt(out, "  %-24s %-32s weight ", str_text(shader->strings, origin->name),
+                 str_text(shader->strings, shader->graph->callees.items[node->attr].name));
+        describe_weight(shader, &list.leaves.items[i], out);
+        text_char(out, '\n');
+    }
+}
+
+void closure_describe(struct shader *shader, const struct closure_host *host, ir_ref root, struct text *out)
+{
+    struct closure_lighting lighting = {true, true};
+    struct emitter e = {.shader = shader, .graph = shader->graph, .host = host, .lighting = &lighting, .color = UINT32_MAX};
+    if (root && ir_get(e.graph, root)->op == IR_MATERIAL)
+        root = ir_arg(e.graph, root, 0);
+    if (!root)
+        return;
+    ir_type_id type = ir_type_of(e.graph, root);
+    struct surface s = type == IR_TYPE_SURFACE ? surface_of(&e, root) : (struct surface){0};
+    if (type == IR_TYPE_BSDF)
+        s.bsdf = root;
+    if (type == IR_TYPE_EDF)
+        s.edf = root;
+    text_str(out, "bsdf\n");
+    describe_list(shader, host, s.bsdf, out);
+    text_str(out, "edf\n");
+    describe_list(shader, host, s.edf, out);
+}

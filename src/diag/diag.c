@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+/* diag: the catalogue and the list. */
+#include "diag/diag.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+
+static const struct {
+    const char *stable;
+    const char *format;
+    enum diag_severity severity;
+} catalogue[DIAG_NUM_IDS] = {
+#define DIAG(id, severity, stable, format) {stable, format, DIAG_##severity},
+#include "diag/catalogue.def"
+#undef DIAG
+};
+
+const char *diag_id_text(enum diag_id id)
+{
+    return catalogue[id].stable;
+}
+
+enum diag_severity diag_id_severity(enum diag_id id)
+{
+    return catalogue[id].severity;
+}
+
+const char *diag_severity_text(enum diag_severity severity)
+{
+    static const char *const texts[] = {
+        [DIAG_ERROR] = "error", [DIAG_WARNING] = "warning", [DIAG_NOTE] = "note", [DIAG_REMARK] = "remark"};
+    return texts[severity];
+}
+
+void diag_list_init(struct diag_list *list, struct arena *arena)
+{
+    *list = (struct diag_list){.arena = arena};
+}
+
+static const char *format_message(struct arena *arena, const char *format, va_list args)
+{
+    va_list again;
+    va_copy(again, args);
+    int len = vsnprintf(NULL, 0, format, again);
+    va_end(again);
+    if (len < 0)
+        return format;
+    char *message = arena_alloc(arena, (size_t)len + 1);
+    vsnprintf(message, (size_t)len + 1, format, args);
+    return message;
+}
+
+/* Messages in a row are often about one file. */
+static const char *keep_file(const struct diag_list *list, const char *file)
+{
+    if (!file)
+        return NULL;
+    if (list->items.len) {
+        const char *previous = vec_last(&list->items).place.file;
+        if (previous && strcmp(previous, file) == 0)
+            return previous;
+    }
+    return arena_strndup(list->arena, file, strlen(file));
+}
+
+static void append(struct diag_list *list, enum diag_id id, struct diag_place place, va_list args)
+{
+    enum diag_severity severity = catalogue[id].severity;
+    if (severity != DIAG_NOTE || list->items.len == 0)
+        list->last = list->items.len;
+    place.file = keep_file(list, place.file);
+    vec_push(list->arena, &list->items,
+             (struct diag){
+                 .id = id,
+                 .severity = severity,
+                 .message = format_message(list->arena, catalogue[id].format, args),
+                 .place = place,
+                 .parent = list->last,
+             });
+}
+
+/* Counts the message; false where it is dropped. */
+static bool is_kept(struct diag_list *list, enum diag_severity severity)
+{
+    if (severity == DIAG_NOTE)
+        return !list->muted_notes;
+    list->num_errors += severity == DIAG_ERROR;
+    list->num_warnings += severity == DIAG_WARNING;
+    list->muted_notes = severity == DIAG_ERROR && list->max_errors && list->num_errors > list->max_errors;
+    return !list->muted_notes;
+}
+
+void diag_add(struct diag_list *list, enum diag_id id, struct diag_place place, ...)
+{
+    if (is_kept(list, catalogue[id].severity)) {
+        va_list args;
+        va_start(args, place);
+        append(list, id, place, args);
+        va_end(args);
+    } else if (catalogue[id].severity == DIAG_ERROR && list->num_errors == list->max_errors + 1) {
+        list->muted_notes = false;
+        diag_add(list, DIAG_ID_too_many_errors, (struct diag_place){0}, list->max_errors);
+        list->muted_notes = true;
+    }
+}

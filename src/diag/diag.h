@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * Diagnostics: what mxgen says to the author of a document. A catalogue of messages with stable ids (catalogue.def), a
+ * list that collects them, and renderers. Nothing here prints: a list is data until somebody renders it.
+ */
+#ifndef MXG_DIAG_DIAG_H
+#define MXG_DIAG_DIAG_H
+
+#include "base/mem.h"
+#include "base/text.h"
+
+enum diag_severity {
+    DIAG_ERROR,
+    DIAG_WARNING,
+    DIAG_NOTE,   /* belongs to the message before it */
+    DIAG_REMARK, /* stands alone; of interest to who asks for it */
+};
+
+enum diag_id {
+#define DIAG(id, severity, stable, format) DIAG_ID_##id,
+#include "diag/catalogue.def"
+#undef DIAG
+    DIAG_NUM_IDS
+};
+
+/* A place in a source file. Lines and columns count from 1, columns in code points; line 0: the file as a whole. */
+struct diag_place {
+    const char *file; /* as the user named it; NULL: no file */
+    uint32_t line, column;
+    uint32_t length; /* code points to underline; 0 = 1 */
+};
+
+struct diag {
+    enum diag_id id;
+    enum diag_severity severity;
+    const char *message; /* one line, no location inside */
+    struct diag_place place;
+    uint32_t parent; /* for notes: index of the message they belong to; else its own index */
+};
+
+struct diag_list {
+    struct arena *arena; /* owns messages and file names */
+    VEC(struct diag) items;
+    uint32_t num_errors, num_warnings;
+    uint32_t max_errors;  /* further errors are counted but not kept; 0 = unlimited */
+    uint32_t last;        /* index of the last message that is not a note */
+    bool muted_notes;     /* the last message was dropped: so are its notes */
+};
+
+void diag_list_init(struct diag_list *list, struct arena *arena);
+
+/*
+ * Adds a message; the arguments are those of the id's format. Notes attach to the message before them, and are dropped
+ * with it. The place's file name is copied.
+ */
+void diag_add(struct diag_list *list, enum diag_id id, struct diag_place place, ...);
+
+/* Adds a copy of a message of another list; notes attach to the message before them. */
+void diag_repeat(struct diag_list *list, const struct diag *diag);
+
+/* The stable id: "type-mismatch". */
+const char *diag_id_text(enum diag_id id);
+enum diag_severity diag_id_severity(enum diag_id id);
+const char *diag_severity_text(enum diag_severity severity); /* "error" … */
+
+/*
+ * Renders one message as compilers do:
+ *     file:line:col: error: message [id]
+ *         <source line>
+ *         ^~~~
+ * `source` (the file's text, may be NULL) gives the line, of which a long one is cut around the column. Control characters are
+ * replaced, tabs kept. Notes are printed without their id; `colour` adds terminal escapes.
+ */
+void diag_render_text(const struct diag *diag, const char *source, size_t source_len, bool colour, struct text *out);
+
+/* One JSON object per message, notes nested in their message: an array. */
+void diag_render_json(const struct diag_list *list, struct text *out);
+
+/*
+ * " (did you mean 'x'?)" for the closest of the candidates by edit distance, "" where none is near; the first of equally
+ * close ones. Lives in the arena.
+ */
+const char *diag_suggest(struct arena *arena, const char *word, const char *const *candidates, size_t num_candidates);
+
+#endif

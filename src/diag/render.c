@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+/* render: messages for people (with the source line and a caret) and for programs (JSON). */
+#include "diag/diag.h"
+
+enum {
+    LINE_SHOWN = 160, /* code points of a source line that are shown */
+    LINE_BEFORE = 80, /* of these, before the column, where the line is longer */
+};
+
+static const char *const colours[] = {
+    [DIAG_ERROR] = "\x1b[1;31m", [DIAG_WARNING] = "\x1b[1;35m", [DIAG_NOTE] = "\x1b[1;36m", [DIAG_REMARK] = "\x1b[1;34m"};
+static const char bold[] = "\x1b[1m", green[] = "\x1b[1;32m", plain[] = "\x1b[0m";
+
+static void paint(struct text *out, bool colour, const char *escape)
+{
+    if (colour)
+        text_str(out, escape);
+}
+
+static bool is_control(char c)
+{
+    return (unsigned char)c < 0x20 || c == 0x7f;
+}
+
+/* Text of a document may hold anything, terminal escapes too. */
+static void put_clean(struct text *out, const char *bytes, size_t len)
+{
+    for (size_t i = 0; i < len; i++)
+        text_char(out, is_control(bytes[i]) && bytes[i] != '\t' ? '?' : bytes[i]);
+}
+
+struct line {
+    const char *text;
+    size_t len;
+};
+
+static struct line find_line(const char *source, size_t source_len, uint32_t number)
+{
+    const char *end = source + source_len;
+    while (number > 1 && source) {
+        source = source < end ? memchr(source, '\n', (size_t)(end - source)) : NULL;
+        source = source ? source + 1 : NULL;
+        number--;
+    }
+    if (!source)
+        return (struct line){0};
+    const char *stop = source < end ? memchr(source, '\n', (size_t)(end - source)) : NULL;
+    size_t len = (size_t)((stop ? stop : end) - source);
+    if (len && source[len - 1] == '\r')
+        len--;
+    return (struct line){source, len};
+}
+
+/* Bytes of the first `count` code points, or all of them. */
+static size_t bytes_of(struct line line, uint32_t count)
+{
+    size_t at = 0;
+    for (; count > 0 && at < line.len; count--) {
+        at++;
+        while (at < line.len && (line.text[at] & 0xc0) == 0x80)
+            at++;
+    }
+    return at;
+}
+
+static uint32_t code_points(struct line line)
+{
+    uint32_t count = 0;
+    for (size_t i = 0; i < line.len; i++)
+        count += (line.text[i] & 0xc0) != 0x80;
+    return count;
+}
+
+/* White space as wide as `line`, tabs being tabs. */
+static void put_margin(struct text *out, struct line line)
+{
+    for (size_t i = 0; i < line.len; i++)
+        if ((line.text[i] & 0xc0) != 0x80)
+            text_char(out, line.text[i] == '\t' ? '\t' : ' ');
+}
+
+static void render_source(const struct diag_place *place, struct line line, bool colour, struct text *out)
+{
+    uint32_t before = place->column - 1, total = code_points(line);
+    const char *ellipsis = "";
+    if (before > total)
+        return; /* the text is not the one that the message is about */
+    if (total > LINE_SHOWN && before > LINE_BEFORE) {
+        size_t skipped = bytes_of(line, before - LINE_BEFORE);
+        line = (struct line){line.text + skipped, line.len - skipped};
+        before = LINE_BEFORE;
+        ellipsis = "...";
+    }
+    struct line shown = {line.text, bytes_of(line, LINE_SHOWN)};
+    text_fmt(out, "    %s", ellipsis);
+    put_clean(out, shown.text, shown.len);
+    text_str(out, shown.len < line.len ? "...\n    " : "\n    ");
+    put_margin(out, (struct line){ellipsis, strlen(ellipsis)});
+    put_margin(out, (struct line){shown.text, bytes_of(shown, before)});
+    paint(out, colour, green);
+    text_char(out, '^');
+    uint32_t room = code_points(shown) - before;
+    for (uint32_t i = 1; i < place->length && i < room; i++)
+        text_char(out, '~');
+    paint(out, colour, plain);
+    text_char(out, '\n');
+}
+
+static void render_place(const struct diag_place *place, struct text *out)
+{
+    if (!place->file)
+        return;
+    put_clean(out, place->file, strlen(place->file));
+    text_char(out, ':');
+    if (place->line)
+        text_fmt(out, "%u:", (unsigned)place->line);
+    if (place->line && place->column)
+        text_fmt(out, "%u:", (unsigned)place->column);
+    text_char(out, ' ');
+}
+
+void diag_render_text(const struct diag *diag, const char *source, size_t source_len, bool colour, struct text *out)
+{
+    paint(out, colour, bold);
+    render_place(&diag->place, out);
+    paint(out, colour, colours[diag->severity]);
+    text_fmt(out, "%s: ", diag_severity_text(diag->severity));
+    paint(out, colour, plain);
+    put_clean(out, diag->message, strlen(diag->message));
+    if (diag->severity != DIAG_NOTE)
+        text_fmt(out, " [%s]", diag_id_text(diag->id));
+    text_char(out, '\n');
+    if (!source || !diag->place.line || !diag->place.column)
+        return;
+    struct line line = find_line(source, source_len, diag->place.line);
+    if (line.text)
+        render_source(&diag->place, line, colour, out);
+}
+
+static void json_field(struct text *out, const char *name, const char *value)
+{
+    text_fmt(out, "\"%s\": ", name);
+    text_json_string(out, value, strlen(value));
+}
+
+/* The members of a message's object, without its braces. */
+static void json_members(const struct diag *diag, struct text *out)
+{
+    json_field(out, "severity", diag_severity_text(diag->severity));
+    text_str(out, ", ");
+    json_field(out, "id", diag_id_text(diag->id));
+    text_str(out, ", ");
+    json_field(out, "message", diag->message);
+    if (!diag->place.file)
+        return;
+    text_str(out, ", ");
+    json_field(out, "file", diag->place.file);
+    if (diag->place.line)
+        text_fmt(out, ", \"line\": %u, \"column\": %u, \"length\": %u", (unsigned)diag->place.line,
+                 (unsigned)diag->place.column, (unsigned)(diag->place.length ? diag->place.length : 1));
+}
+
+void diag_render_json(const struct diag_list *list, struct text *out)
+{
+    text_char(out, '[');
+    for (uint32_t i = 0; i < list->items.len;) {
+        text_str(out, i ? ",\n  {" : "\n  {");
+        json_members(&list->items.items[i], out);
+        uint32_t first = ++i;
+        for (; i < list->items.len && list->items.items[i].parent == first - 1; i++) {
+            text_str(out, i == first ? ", \"notes\": [" : ",");
+            text_str(out, "\n    {");
+            json_members(&list->items.items[i], out);
+            text_char(out, '}');
+        }
+        text_str(out, i > first ? "]}" : "}");
+    }
+    text_str(out, list->items.len ? "\n]\n" : "]\n");
+}

@@ -1,0 +1,437 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "document/document.h"
+
+#include "base/hash.h"
+
+#include <assert.h>
+
+/* Kinds */
+
+enum element_kind doc_kind_of(str_id category)
+{
+    static const uint8_t kind_of_word[STR_NUM_WORDS] = {
+#define KIND(ID, word) [STR_##word] = KIND_##ID,
+#include "document/kinds.def"
+#undef KIND
+    };
+    return category < STR_NUM_WORDS ? (enum element_kind)kind_of_word[category] : KIND_NODE;
+}
+
+/* Layers */
+
+static const struct document *layer_of(const struct document *doc, elem_id element)
+{
+    while (element < doc->first_element)
+        doc = doc->base;
+    assert(element - doc->first_element < doc->elements.len);
+    return doc;
+}
+
+const struct element *doc_element(const struct document *doc, elem_id element)
+{
+    doc = layer_of(doc, element);
+    return &doc->elements.items[element - doc->first_element];
+}
+
+const struct attribute *doc_attrs(const struct document *doc, elem_id element)
+{
+    doc = layer_of(doc, element);
+    return doc->attrs.items + (doc->elements.items[element - doc->first_element].first_attr - doc->first_attr);
+}
+
+static struct element *own(struct document *doc, elem_id element)
+{
+    assert(element >= doc->first_element && element - doc->first_element < doc->elements.len);
+    return &doc->elements.items[element - doc->first_element];
+}
+
+static struct doc_link *link_of(struct document *doc, elem_id element)
+{
+    return &doc->links.items[element - doc->first_element];
+}
+
+void doc_init(struct document *doc, struct arena *arena, struct strpool *strings, const struct document *base)
+{
+    *doc = (struct document){.base = base, .strings = strings, .arena = arena,
+                             .first_element = 1, .first_attr = 0, .first_file = 1};
+    if (base) {
+        doc->first_element = base->first_element + base->elements.len;
+        doc->first_attr = base->first_attr + base->attrs.len;
+        doc->first_file = base->first_file + base->files.len;
+    }
+    doc->root = doc_add_element(doc, 0, STR_materialx, STR_EMPTY, 0, 0, 0);
+}
+
+/* Building */
+
+static void link_last(struct document *doc, elem_id parent, elem_id element)
+{
+    struct doc_link *link = link_of(doc, parent);
+    if (link->last_child)
+        own(doc, link->last_child)->next = element;
+    else
+        own(doc, parent)->first_child = element;
+    link_of(doc, element)->previous = link->last_child;
+    link->last_child = element;
+    own(doc, element)->parent = parent;
+    own(doc, element)->next = 0;
+}
+
+elem_id doc_add_element(struct document *doc, elem_id parent, str_id category, str_id name, uint16_t file, uint32_t line,
+                        uint16_t column)
+{
+    uint32_t index = doc->elements.len;
+    if (index >= UINT32_MAX - doc->first_element)
+        mem_fail(doc->arena->mem);
+    vec_push(doc->arena, &doc->elements,
+             (struct element){.category = category, .name = name, .line = line, .column = column, .file = file,
+                              .first_attr = doc->first_attr + doc->attrs.len,
+                              .kind = (uint16_t)doc_kind_of(category)});
+    vec_push(doc->arena, &doc->links, (struct doc_link){0});
+    doc->has_templates |= category == STR_template;
+    elem_id element = doc->first_element + index;
+    if (parent)
+        link_last(doc, parent, element);
+    return element;
+}
+
+elem_id doc_add_like(struct document *doc, elem_id parent, str_id category, str_id name, elem_id origin)
+{
+    const struct element *like = doc_element(doc, origin);
+    return doc_add_element(doc, parent, category, name, like->file, like->line, like->column);
+}
+
+/* An element's attributes stand together: where others follow them, they move to the end first. */
+void doc_add_attr(struct document *doc, elem_id element, struct attribute attr)
+{
+    struct element *e = own(doc, element);
+    uint32_t at = e->first_attr - doc->first_attr;
+    if (e->num_attrs == UINT16_MAX)
+        mem_fail(doc->arena->mem);
+    if (at + e->num_attrs != doc->attrs.len) {
+        struct attribute *moved = vec_extend(doc->arena, &doc->attrs, e->num_attrs);
+        if (e->num_attrs)
+            memcpy(moved, doc->attrs.items + at, e->num_attrs * sizeof *moved);
+        e->first_attr = doc->first_attr + doc->attrs.len - e->num_attrs;
+    }
+    vec_push(doc->arena, &doc->attrs, attr);
+    e->num_attrs++;
+}
+
+void doc_set_attr(struct document *doc, elem_id element, str_id name, str_id value)
+{
+    const struct attribute *attr = doc_attr(doc, element, name);
+    if (attr)
+        doc->attrs.items[attr - doc->attrs.items].value = value;
+    else
+        doc_add_attr(doc, element, (struct attribute){.name = name, .value = value, .column = own(doc, element)->column});
+}
+
+void doc_remove_attr(struct document *doc, elem_id element, str_id name)
+{
+    const struct attribute *found = doc_attr(doc, element, name);
+    if (!found)
+        return;
+    struct element *e = own(doc, element);
+    struct attribute *attr = &doc->attrs.items[found - doc->attrs.items];
+    const struct attribute *end = doc->attrs.items + (e->first_attr - doc->first_attr) + e->num_attrs;
+    memmove(attr, attr + 1, (size_t)(end - attr - 1) * sizeof *attr);
+    e->num_attrs--;
+}
+
+void doc_set_category(struct document *doc, elem_id element, str_id category)
+{
+    own(doc, element)->category = category;
+    own(doc, element)->kind = (uint16_t)doc_kind_of(category);
+}
+
+void doc_set_name(struct document *doc, elem_id element, str_id name)
+{
+    own(doc, element)->name = name;
+}
+
+void doc_set_place(struct document *doc, elem_id element, uint16_t file, uint32_t line, uint16_t column)
+{
+    struct element *e = own(doc, element);
+    e->file = file;
+    e->line = line;
+    e->column = column;
+}
+
+void doc_remove_element(struct document *doc, elem_id element)
+{
+    struct element *e = own(doc, element);
+    if (!e->parent)
+        return;
+    elem_id previous = link_of(doc, element)->previous;
+    if (previous)
+        own(doc, previous)->next = e->next;
+    else
+        own(doc, e->parent)->first_child = e->next;
+    if (e->next)
+        link_of(doc, e->next)->previous = previous;
+    else
+        link_of(doc, e->parent)->last_child = previous;
+    e->parent = e->next = 0;
+    link_of(doc, element)->previous = 0;
+}
+
+void doc_move_element(struct document *doc, elem_id element, elem_id new_parent)
+{
+    doc_remove_element(doc, element);
+    link_last(doc, new_parent, element);
+}
+
+void doc_move_before(struct document *doc, elem_id element, elem_id sibling)
+{
+    doc_remove_element(doc, element);
+    struct element *e = own(doc, element);
+    elem_id previous = link_of(doc, sibling)->previous;
+    e->parent = own(doc, sibling)->parent;
+    e->next = sibling;
+    if (previous)
+        own(doc, previous)->next = element;
+    else
+        own(doc, e->parent)->first_child = element;
+    link_of(doc, element)->previous = previous;
+    link_of(doc, sibling)->previous = element;
+}
+
+uint16_t doc_add_file(struct document *doc, str_id name)
+{
+    for (uint32_t i = 0; i < doc->files.len; i++)
+        if (doc->files.items[i] == name)
+            return (uint16_t)(doc->first_file + i);
+    if (doc->first_file + doc->files.len > UINT16_MAX)
+        return 0;
+    vec_push(doc->arena, &doc->files, name);
+    return (uint16_t)(doc->first_file + doc->files.len - 1);
+}
+
+struct doc_mark doc_mark(const struct document *doc, elem_id root)
+{
+    return (struct doc_mark){doc->elements.len, doc->attrs.len, *doc_element(doc, root), doc->has_templates};
+}
+
+void doc_rollback(struct document *doc, elem_id root, const struct doc_mark *mark)
+{
+    doc->elements.len = doc->links.len = mark->num_elements;
+    doc->attrs.len = mark->num_attrs;
+    *own(doc, root) = mark->root;
+    link_of(doc, root)->last_child = 0;
+    doc->has_templates = mark->has_templates;
+}
+
+/* Reading */
+
+elem_id doc_next_in_tree(const struct document *doc, elem_id root, elem_id element)
+{
+    const struct element *e = doc_element(doc, element);
+    if (e->first_child)
+        return e->first_child;
+    for (; element != root; element = e->parent, e = doc_element(doc, element))
+        if (e->next)
+            return e->next;
+    return 0;
+}
+
+const struct attribute *doc_attr(const struct document *doc, elem_id element, str_id name)
+{
+    doc = layer_of(doc, element);
+    const struct element *e = &doc->elements.items[element - doc->first_element];
+    for (uint32_t i = 0; i < e->num_attrs; i++) {
+        const struct attribute *attr = &doc->attrs.items[e->first_attr - doc->first_attr + i];
+        if (attr->name == name)
+            return attr;
+    }
+    return NULL;
+}
+
+str_id doc_attr_value(const struct document *doc, elem_id element, str_id name)
+{
+    const struct attribute *attr = doc_attr(doc, element, name);
+    return attr ? attr->value : STR_EMPTY;
+}
+
+bool doc_attr_is_true(const struct document *doc, elem_id element, str_id name)
+{
+    return doc_attr_value(doc, element, name) == STR_true;
+}
+
+str_id doc_inherited_attr(const struct document *doc, elem_id element, str_id name)
+{
+    for (; element; element = doc_element(doc, element)->parent) {
+        const struct attribute *attr = doc_attr(doc, element, name);
+        if (attr)
+            return attr->value;
+    }
+    return STR_EMPTY;
+}
+
+const char *doc_file_name(const struct document *doc, uint16_t file)
+{
+    if (file == 0)
+        return NULL;
+    while (file < doc->first_file)
+        doc = doc->base;
+    return str_text(doc->strings, doc->files.items[file - doc->first_file]);
+}
+
+struct diag_place doc_place(const struct document *doc, elem_id element)
+{
+    const struct element *e = doc_element(doc, element);
+    return (struct diag_place){.file = doc_file_name(doc, e->file), .line = e->line, .column = e->column};
+}
+
+struct diag_place doc_attr_place(const struct document *doc, elem_id element, str_id attr)
+{
+    struct diag_place place = doc_place(doc, element);
+    const struct attribute *found = doc_attr(doc, element, attr);
+    if (found && found->column) {
+        place.line += found->line_delta;
+        place.column = found->column;
+    }
+    return place;
+}
+
+/* Names */
+
+static bool is_named_child(const struct document *doc, elem_id element)
+{
+    const struct element *e = doc_element(doc, element);
+    return e->name && e->parent;
+}
+
+/* The slot of a name below a parent, or the free slot where it would stand. */
+static uint32_t find_slot(const struct document *doc, elem_id parent, str_id name)
+{
+    uint32_t slot = hash_pair(parent, name) & doc->name_mask;
+    for (; doc->name_table[slot]; slot = (slot + 1) & doc->name_mask) {
+        const struct element *e = &doc->elements.items[doc->name_table[slot] - doc->first_element];
+        if (e->parent == parent && e->name == name)
+            break;
+    }
+    return slot;
+}
+
+/* Two elements with equal content: the second adds nothing and may stand. */
+static bool are_equal(const struct document *doc, elem_id a, elem_id b)
+{
+    elem_id root_a = a, root_b = b;
+    while (a && b) {
+        const struct element *ea = doc_element(doc, a), *eb = doc_element(doc, b);
+        if (ea->category != eb->category || ea->name != eb->name || ea->num_attrs != eb->num_attrs
+            || !ea->first_child != !eb->first_child || (a != root_a && !ea->next != !eb->next))
+            return false;
+        for (uint32_t i = 0; i < ea->num_attrs; i++) {
+            const struct attribute *attr = &doc_attrs(doc, a)[i], *other = doc_attr(doc, b, attr->name);
+            if (!other || other->value != attr->value)
+                return false;
+        }
+        a = doc_next_in_tree(doc, root_a, a);
+        b = doc_next_in_tree(doc, root_b, b);
+    }
+    return a == b;
+}
+
+static void report_duplicate(struct document *doc, elem_id first, elem_id second, struct diag_list *diags)
+{
+    bool equal = are_equal(doc, first, second);
+    diag_add(diags, equal ? DIAG_ID_repeated_element : DIAG_ID_duplicate_name, doc_place(doc, second),
+             str_text(doc->strings, doc_element(doc, second)->name));
+    diag_add(diags, DIAG_ID_previous_definition, doc_place(doc, first));
+    if (equal)
+        doc_remove_element(doc, second);
+}
+
+void doc_index_names(struct document *doc, struct diag_list *diags)
+{
+    uint32_t slots = 16;
+    while (slots / 4 * 3 <= doc->elements.len)
+        slots *= 2;
+    doc->name_table = ARENA_ARRAY(doc->arena, uint32_t, slots);
+    doc->name_mask = slots - 1;
+    for (uint32_t i = 0; i < doc->elements.len; i++) {
+        elem_id element = doc->first_element + i;
+        if (!is_named_child(doc, element))
+            continue;
+        const struct element *e = &doc->elements.items[i];
+        uint32_t slot = find_slot(doc, e->parent, e->name);
+        if (!doc->name_table[slot])
+            doc->name_table[slot] = element;
+        else if (diags)
+            report_duplicate(doc, doc->name_table[slot], element, diags);
+    }
+}
+
+elem_id doc_child(const struct document *doc, elem_id parent, str_id name)
+{
+    doc = layer_of(doc, parent);
+    return doc->name_table && name ? doc->name_table[find_slot(doc, parent, name)] : 0;
+}
+
+elem_id doc_child_of_kind(const struct document *doc, elem_id parent, enum element_kind kind, str_id name)
+{
+    elem_id child = doc_child(doc, parent, name);
+    return child && doc_element(doc, child)->kind == kind ? child : 0;
+}
+
+/* A top-level name with the namespace of the root before it; 0: no such text is known. */
+static str_id qualified(const struct document *doc, const char *name, size_t len)
+{
+    str_id namespace = doc_attr_value(doc, doc->root, STR_namespace);
+    char text[256];
+    size_t prefix = str_len(doc->strings, namespace);
+    if (!namespace || prefix + 1 + len > sizeof text)
+        return 0;
+    memcpy(text, str_text(doc->strings, namespace), prefix);
+    text[prefix] = ':';
+    memcpy(text + prefix + 1, name, len);
+    return str_find(doc->strings, text, prefix + 1 + len);
+}
+
+static elem_id find_in_layer(const struct document *doc, const char *path, size_t len)
+{
+    elem_id element = doc->root;
+    for (size_t at = 0; at < len && element;) {
+        const char *slash = memchr(path + at, '/', len - at);
+        size_t end = slash ? (size_t)(slash - path) : len;
+        elem_id child = doc_child(doc, element, str_find(doc->strings, path + at, end - at));
+        if (!child && element == doc->root)
+            child = doc_child(doc, element, qualified(doc, path + at, end - at));
+        element = child;
+        at = end + 1;
+    }
+    return element;
+}
+
+elem_id doc_find(const struct document *doc, const char *path, size_t len)
+{
+    while (len && *path == '/')
+        path++, len--;
+    elem_id found = 0;
+    for (; doc && !found && len; doc = doc->base)
+        found = find_in_layer(doc, path, len);
+    return found;
+}
+
+void doc_path(const struct document *doc, elem_id element, char separator, struct text *out)
+{
+    size_t start = out->len;
+    elem_id top = element;
+    size_t len = 0;
+    for (; doc_element(doc, top)->parent; top = doc_element(doc, top)->parent)
+        len += str_len(doc->strings, doc_element(doc, top)->name) + 1;
+    if (len == 0)
+        return;
+    text_reserve(out, len);
+    out->len = start + len - 1;
+    for (size_t end = out->len; element != top; element = doc_element(doc, element)->parent) {
+        str_id name = doc_element(doc, element)->name;
+        size_t size = str_len(doc->strings, name);
+        memcpy(out->data + end - size, str_text(doc->strings, name), size);
+        end -= size;
+        if (end > start)
+            out->data[--end] = separator;
+    }
+}

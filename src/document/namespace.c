@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * "MaterialX Namespaces" made static: definitions get the names that others use for them, and references inside a namespace, which
+ * say the short name, get the name of what they mean. A name of the namespace comes before a global one.
+ */
+#include "document/document.h"
+
+/* Attributes whose value names top-level elements, perhaps several with commas. */
+static const str_id references[] = {
+    STR_nodedef, STR_nodegraph, STR_inherit, STR_material, STR_collection, STR_includecollection, STR_look, STR_looks,
+    STR_variantset, STR_geomprop, STR_defaultgeomprop,
+};
+
+struct qualifier {
+    struct document *doc;
+    str_id namespace;
+    VEC(str_id) nodes; /* categories with a namespace that nodedefs define, in all layers */
+    struct text scratch;
+};
+
+static bool is_qualified(const struct document *doc, str_id name)
+{
+    return memchr(str_text(doc->strings, name), ':', str_len(doc->strings, name)) != NULL;
+}
+
+static void print_qualified(struct qualifier *q, const char *name, size_t len)
+{
+    text_mem(&q->scratch, str_text(q->doc->strings, q->namespace), str_len(q->doc->strings, q->namespace));
+    text_char(&q->scratch, ':');
+    text_mem(&q->scratch, name, len);
+}
+
+static str_id add_qualified(struct qualifier *q, str_id name)
+{
+    q->scratch.len = 0;
+    print_qualified(q, str_text(q->doc->strings, name), str_len(q->doc->strings, name));
+    return str_intern(q->doc->strings, q->scratch.data, q->scratch.len);
+}
+
+/* The qualified name where anything is called so; 0: nothing is. */
+static str_id find_qualified(struct qualifier *q, const char *name, size_t len)
+{
+    q->scratch.len = 0;
+    print_qualified(q, name, len);
+    return str_find(q->doc->strings, q->scratch.data, q->scratch.len);
+}
+
+static bool is_top_level(const struct document *doc, str_id name)
+{
+    for (; doc; doc = doc->base)
+        if (doc_child(doc, doc->root, name))
+            return true;
+    return false;
+}
+
+static void qualify_definition(struct qualifier *q, elem_id element)
+{
+    struct document *doc = q->doc;
+    const struct element *e = doc_element(doc, element);
+    if (e->name && !is_qualified(doc, e->name))
+        doc_set_name(doc, element, add_qualified(q, e->name));
+    str_id node = e->kind == KIND_NODEDEF ? doc_attr_value(doc, element, STR_node) : STR_EMPTY;
+    if (node && !is_qualified(doc, node))
+        doc_set_attr(doc, element, STR_node, add_qualified(q, node));
+}
+
+/* One name after the other of a list: those that the namespace has are replaced. */
+static void qualify_reference(struct qualifier *q, elem_id element, str_id attr)
+{
+    struct document *doc = q->doc;
+    str_id value = doc_attr_value(doc, element, attr);
+    const char *text = str_text(doc->strings, value), *end = text + str_len(doc->strings, value);
+    struct text list;
+    text_init(&list, doc->arena);
+    bool changed = false;
+    while (text < end) {
+        size_t separator = strspn(text, ", "), len = strcspn(text + separator, ", ");
+        str_id qualified = len ? find_qualified(q, text + separator, len) : STR_EMPTY;
+        bool found = qualified && is_top_level(doc, qualified);
+        text_mem(&list, text, separator);
+        text += separator;
+        text_mem(&list, found ? str_text(doc->strings, qualified) : text, found ? str_len(doc->strings, qualified) : len);
+        text += len;
+        changed |= found;
+    }
+    if (changed)
+        doc_set_attr(doc, element, attr, str_intern(doc->strings, list.data, list.len));
+}
+
+static void qualify_category(struct qualifier *q, elem_id element)
+{
+    struct document *doc = q->doc;
+    str_id category = doc_element(doc, element)->category;
+    str_id qualified = find_qualified(q, str_text(doc->strings, category), str_len(doc->strings, category));
+    for (uint32_t i = 0; qualified && i < q->nodes.len; i++)
+        if (q->nodes.items[i] == qualified)
+            doc_set_category(doc, element, qualified);
+}
+
+/* References of an element and of all below it. Names of nodes are looked for at the top level only by what stands there. */
+static void qualify_references(struct qualifier *q, elem_id top)
+{
+    struct document *doc = q->doc;
+    bool in_graph = doc_element(doc, top)->kind == KIND_NODEGRAPH;
+    for (elem_id element = top; element; element = doc_next_in_tree(doc, top, element)) {
+        q->namespace = doc_inherited_attr(doc, element, STR_namespace);
+        if (!q->namespace)
+            continue;
+        if (doc_element(doc, element)->kind == KIND_NODE)
+            qualify_category(q, element);
+        for (size_t i = 0; i < sizeof references / sizeof *references; i++)
+            if (doc_attr_value(doc, element, references[i]))
+                qualify_reference(q, element, references[i]);
+        if (!in_graph && doc_attr_value(doc, element, STR_nodename))
+            qualify_reference(q, element, STR_nodename);
+        str_id type = doc_attr_value(doc, element, STR_type);
+        if (type && !doc_type_of(type))
+            qualify_reference(q, element, STR_type);
+    }
+}
+
+static void collect_nodes(struct qualifier *q, const struct document *layer)
+{
+    for (elem_id e = doc_element(layer, layer->root)->first_child; e; e = doc_element(layer, e)->next) {
+        str_id node = doc_element(layer, e)->kind == KIND_NODEDEF ? doc_attr_value(layer, e, STR_node) : STR_EMPTY;
+        if (node && is_qualified(q->doc, node))
+            vec_push(q->doc->arena, &q->nodes, node);
+    }
+}
+
+static bool has_namespaces(const struct document *doc)
+{
+    for (uint32_t i = 0; i < doc->attrs.len; i++)
+        if (doc->attrs.items[i].name == STR_namespace)
+            return true;
+    return false;
+}
+
+void doc_qualify_names(struct document *doc)
+{
+    if (!has_namespaces(doc))
+        return;
+    struct qualifier q = {.doc = doc};
+    text_init(&q.scratch, doc->arena);
+    elem_id first = doc_element(doc, doc->root)->first_child;
+    for (elem_id e = first; e; e = doc_element(doc, e)->next) {
+        q.namespace = doc_inherited_attr(doc, e, STR_namespace);
+        if (q.namespace)
+            qualify_definition(&q, e);
+    }
+    doc_index_names(doc, NULL);
+    for (const struct document *layer = doc; layer; layer = layer->base)
+        collect_nodes(&q, layer);
+    for (elem_id e = first; e; e = doc_element(doc, e)->next)
+        qualify_references(&q, e);
+}

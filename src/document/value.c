@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+/* Values as documents write them: "0.5", "1, 0, 0", "true" (MaterialX 1.39, "MaterialX Data Types"). */
+#include "base/num.h"
+#include "document/document.h"
+
+static bool is_space(char c)
+{
+    return c == ' ' || c == '\t' || c == '\n' || c == '\r';
+}
+
+static size_t skip_spaces(const char *text, size_t len, size_t at)
+{
+    while (at < len && is_space(text[at]))
+        at++;
+    return at;
+}
+
+/* Between two numbers: a comma with or without spaces; spaces alone, which MaterialX reads too. 0: no separator. */
+static size_t skip_separator(const char *text, size_t len, size_t at)
+{
+    size_t start = at;
+    at = skip_spaces(text, len, at);
+    if (at < len && text[at] == ',')
+        return skip_spaces(text, len, at + 1);
+    return at > start ? at : 0;
+}
+
+static size_t parse_number(bool integer, const char *text, size_t len, union ir_word *out)
+{
+    if (!integer)
+        return num_parse_float(text, len, &out->f);
+    int64_t value;
+    size_t read = num_parse_int(text, len, &value);
+    if (read == 0 || value < INT32_MIN || value > INT32_MAX)
+        return 0;
+    out->i = (int32_t)value;
+    return read;
+}
+
+/* Reads numbers up to the end of the text; returns how many, or -1 where something else stands there. */
+static int64_t parse_numbers(bool integer, const char *text, size_t len, union ir_word *out, size_t max_kept)
+{
+    size_t at = skip_spaces(text, len, 0), count = 0;
+    if (at == len)
+        return 0;
+    for (;;) {
+        union ir_word word;
+        size_t read = parse_number(integer, text + at, len - at, &word);
+        if (read == 0)
+            return -1;
+        if (count < max_kept)
+            out[count] = word;
+        count++;
+        at += read;
+        if (skip_spaces(text, len, at) == len)
+            return (int64_t)count;
+        at = skip_separator(text, len, at);
+        if (at == 0 || at == len)
+            return -1;
+    }
+}
+
+static bool parse_bool(const char *text, size_t len, union ir_word *out)
+{
+    size_t at = skip_spaces(text, len, 0);
+    while (len > at && is_space(text[len - 1]))
+        len--;
+    out->u = len - at == 4 && memcmp(text + at, "true", 4) == 0;
+    return out->u || (len - at == 5 && memcmp(text + at, "false", 5) == 0);
+}
+
+bool doc_parse_value(doc_type type, const char *text, size_t len, struct strpool *strings, struct ir_value *out)
+{
+    out->type = doc_type_ir(type);
+    switch (type) {
+    case DOC_TYPE_boolean:
+        return parse_bool(text, len, &out->w[0]);
+    case DOC_TYPE_string:
+    case DOC_TYPE_geomname:
+        out->w[0].u = strings ? str_intern(strings, text, len) : STR_EMPTY;
+        return true;
+    default:
+        break;
+    }
+    unsigned components = doc_type_components(type);
+    return components && parse_numbers(type == DOC_TYPE_integer, text, len, out->w, 16) == (int64_t)components;
+}
+
+bool doc_value_is_valid(doc_type type, const char *text, size_t len)
+{
+    struct ir_value value;
+    if (doc_type_components(type) || type == DOC_TYPE_boolean)
+        return doc_parse_value(type, text, len, NULL, &value);
+    if (type < DOC_TYPE_integerarray || type > DOC_TYPE_vector4array)
+        return true; /* text, or a type that has no values */
+    static const uint8_t group[] = {1, 1, 3, 4, 2, 3, 4};
+    int64_t count = parse_numbers(type == DOC_TYPE_integerarray, text, len, NULL, 0);
+    return count >= 0 && count % group[type - DOC_TYPE_integerarray] == 0;
+}

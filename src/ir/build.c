@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * build: the one way to make nodes. In order: commutative operands are sorted, constants folded, rules.def applied,
+ * constructors and swizzles cancelled, and what remains is hash-consed.
+ */
+#include "ir/internal.h"
+
+#include <assert.h>
+#include <math.h>
+
+enum { MAX_FOLD_ARGS = 16 }; /* a mat4 from scalars */
+
+static bool is_finite(const struct ir_value *value)
+{
+    const struct ir_type_info *info = ir_type_info(value->type);
+    if (info->scalar == IR_TYPE_FLOAT)
+        for (unsigned i = 0; i < info->components; i++)
+            if (!isfinite(value->w[i].f))
+                return false;
+    return true;
+}
+
+static ir_ref fold(struct ir_graph *graph, enum ir_op op, ir_type_id type, uint32_t attr, const ir_ref *args,
+                   unsigned num_args)
+{
+    struct ir_value values[MAX_FOLD_ARGS], result;
+    for (unsigned i = 0; i < num_args; i++)
+        ir_get_const(graph, args[i], &values[i]);
+    if (!ir_eval_op(op, type, attr, values, num_args, &result) || !is_finite(&result))
+        return 0;
+    return ir_intern_const(graph, type, result.w);
+}
+
+/*
+ * Constants go last, so that rules look for them in one place; otherwise the older operand goes first. Products of
+ * linear algebra do not commute.
+ */
+static void sort_operands(const struct ir_graph *graph, enum ir_op op, ir_ref *args)
+{
+    if (op != IR_MUL && !(ir_op_info(op)->flags & OP_COMMUTES))
+        return;
+    const struct ir_node *a = ir_get(graph, args[0]), *b = ir_get(graph, args[1]);
+    bool a_is_const = a->op == IR_CONST, b_is_const = b->op == IR_CONST;
+    bool sorted = a_is_const == b_is_const ? args[0] <= args[1] : b_is_const;
+    if (sorted || (op == IR_MUL && ir_is_linear_mul(a->type, b->type)))
+        return;
+    ir_ref first = args[0];
+    args[0] = args[1];
+    args[1] = first;
+}
+
+static bool any_poison(const struct ir_graph *graph, const ir_ref *args, unsigned num_args)
+{
+    for (unsigned i = 0; i < num_args; i++)
+        if (ir_get(graph, args[i])->op == IR_POISON)
+            return true;
+    return false;
+}
+
+static bool all_const(const struct ir_graph *graph, const ir_ref *args, unsigned num_args)
+{
+    for (unsigned i = 0; i < num_args; i++)
+        if (ir_get(graph, args[i])->op != IR_CONST)
+            return false;
+    return true;
+}
+
+static ir_ref simpler(struct ir_graph *graph, enum ir_op op, ir_type_id type, uint32_t attr, const ir_ref *args,
+                      unsigned num_args)
+{
+    bool pure = ir_op_info(op)->flags & OP_PURE;
+    if (pure && op != IR_SELECT && any_poison(graph, args, num_args))
+        return ir_poison(graph, type);
+    ir_ref result = 0;
+    if (pure && all_const(graph, args, num_args))
+        result = fold(graph, op, type, attr, args, num_args);
+    if (!result)
+        result = ir_apply_rules(graph, op, type, args, num_args);
+    return result ? result : ir_simplify(graph, op, type, attr, args, num_args);
+}
+
+ir_ref ir_build(struct ir_graph *graph, enum ir_op op, ir_type_id type, uint32_t attr, const ir_ref *args,
+                unsigned num_args)
+{
+    assert(!ir_node_problem(graph, op, type, attr, args, num_args));
+    if (graph->no_fold || num_args == 0 || num_args > MAX_FOLD_ARGS)
+        return ir_intern(graph, op, type, attr, args, num_args);
+    ir_ref own[MAX_FOLD_ARGS]; /* simplifying adds nodes, and `args` may lie in the graph */
+    memcpy(own, args, num_args * sizeof *args);
+    sort_operands(graph, op, own);
+    ir_ref result = simpler(graph, op, type, attr, own, num_args);
+    return result ? result : ir_intern(graph, op, type, attr, own, num_args);
+}
+
+static ir_ref build_by_rule(struct ir_graph *graph, enum ir_op op, const ir_ref *args, unsigned num_args)
+{
+    ir_type_id types[3];
+    for (unsigned i = 0; i < num_args; i++)
+        types[i] = ir_type_of(graph, args[i]);
+    ir_type_id type = ir_op_result(op, types, num_args);
+    return type == IR_TYPE_VOID ? 0 : ir_build(graph, op, type, 0, args, num_args);
+}
+
+ir_ref ir_op1(struct ir_graph *graph, enum ir_op op, ir_ref a)
+{
+    return build_by_rule(graph, op, &a, 1);
+}
+
+ir_ref ir_op2(struct ir_graph *graph, enum ir_op op, ir_ref a, ir_ref b)
+{
+    return build_by_rule(graph, op, (ir_ref[]){a, b}, 2);
+}
+
+ir_ref ir_op3(struct ir_graph *graph, enum ir_op op, ir_ref a, ir_ref b, ir_ref c)
+{
+    return build_by_rule(graph, op, (ir_ref[]){a, b, c}, 3);
+}
+
+/* Constants */
+
+ir_ref ir_const(struct ir_graph *graph, const struct ir_value *value)
+{
+    return ir_intern_const(graph, value->type, value->w);
+}
+
+ir_ref ir_const_float(struct ir_graph *graph, float f)
+{
+    return ir_intern_const(graph, IR_TYPE_FLOAT, &(union ir_word){.f = f});
+}
+
+ir_ref ir_const_int(struct ir_graph *graph, int32_t i)
+{
+    return ir_intern_const(graph, IR_TYPE_INT, &(union ir_word){.i = i});
+}
+
+ir_ref ir_const_bool(struct ir_graph *graph, bool b)
+{
+    return ir_intern_const(graph, IR_TYPE_BOOL, &(union ir_word){.u = b});
+}
+
+ir_ref ir_const_string(struct ir_graph *graph, str_id s)
+{
+    return ir_intern_const(graph, IR_TYPE_STRING, &(union ir_word){.u = s});
+}
+
+ir_ref ir_const_splat(struct ir_graph *graph, ir_type_id type, float f)
+{
+    struct ir_value scalar = ir_value_float(f), value;
+    bool fits = ir_eval_op(IR_CONSTRUCT, type, 0, &scalar, 1, &value);
+    assert(fits);
+    return fits ? ir_const(graph, &value) : ir_poison(graph, type);
+}
+
+ir_ref ir_poison(struct ir_graph *graph, ir_type_id type)
+{
+    return ir_intern(graph, IR_POISON, type, 0, NULL, 0);
+}
+
+bool ir_is_const(const struct ir_graph *graph, ir_ref ref)
+{
+    return ir_get(graph, ref)->op == IR_CONST;
+}
+
+bool ir_get_const(const struct ir_graph *graph, ir_ref ref, struct ir_value *out)
+{
+    const struct ir_node *node = ir_get(graph, ref);
+    if (node->op != IR_CONST)
+        return false;
+    out->type = node->type;
+    memcpy(out->w, graph->words.items + node->attr, ir_type_info(node->type)->components * sizeof *out->w);
+    return true;
+}
+
+bool ir_const_is(const struct ir_graph *graph, ir_ref ref, float f)
+{
+    struct ir_value value;
+    if (!ir_get_const(graph, ref, &value) || value.type == IR_TYPE_STRING)
+        return false;
+    const struct ir_type_info *info = ir_type_info(value.type);
+    for (unsigned i = 0; i < info->components; i++) {
+        union ir_word w = value.w[i];
+        float component = info->scalar == IR_TYPE_FLOAT ? w.f : info->scalar == IR_TYPE_INT ? (float)w.i : (float)w.u;
+        if (component != f)
+            return false;
+    }
+    return true;
+}
+
+/* Building and taking apart */
+
+ir_ref ir_swizzle(struct ir_graph *graph, ir_ref a, const uint8_t *components, unsigned count)
+{
+    uint32_t attr = count << 8;
+    for (unsigned i = 0; i < count; i++)
+        attr |= (uint32_t)components[i] << (2 * i);
+    ir_type_id scalar = ir_type_info(ir_type_of(graph, a))->scalar;
+    return ir_build(graph, IR_SWIZZLE, ir_type_vector(scalar, count), attr, &a, 1);
+}
+
+ir_ref ir_component(struct ir_graph *graph, ir_ref a, unsigned index)
+{
+    uint8_t component = (uint8_t)index;
+    return ir_swizzle(graph, a, &component, 1);
+}
+
+/* The type of `from`'s shape and another scalar type; VOID where there is none. */
+static ir_type_id with_scalar(ir_type_id from, ir_type_id scalar)
+{
+    const struct ir_type_info *info = ir_type_info(from);
+    if (info->scalar == scalar)
+        return from;
+    bool fits = info->columns == 1 && info->scalar >= IR_TYPE_BOOL && info->scalar <= IR_TYPE_FLOAT
+             && scalar >= IR_TYPE_BOOL && scalar <= IR_TYPE_FLOAT;
+    return fits ? ir_type_vector(scalar, info->components) : IR_TYPE_VOID;
+}
+
+ir_ref ir_construct(struct ir_graph *graph, ir_type_id type, const ir_ref *args, unsigned num_args)
+{
+    ir_ref parts[MAX_FOLD_ARGS];
+    if (type >= IR_NUM_TYPES)
+        return ir_node_problem(graph, IR_CONSTRUCT, type, 0, args, num_args)
+                   ? 0 : ir_build(graph, IR_CONSTRUCT, type, 0, args, num_args);
+    if (num_args > MAX_FOLD_ARGS)
+        return 0;
+    for (unsigned i = 0; i < num_args; i++) {
+        ir_type_id from = ir_type_of(graph, args[i]);
+        ir_type_id to = from < IR_NUM_TYPES ? with_scalar(from, ir_type_info(type)->scalar) : IR_TYPE_VOID;
+        if (to == IR_TYPE_VOID)
+            return 0;
+        parts[i] = ir_build(graph, IR_CONVERT, to, 0, &args[i], 1);
+    }
+    if (ir_node_problem(graph, IR_CONSTRUCT, type, 0, parts, num_args))
+        return 0;
+    return ir_build(graph, IR_CONSTRUCT, type, 0, parts, num_args);
+}
+
+ir_ref ir_convert(struct ir_graph *graph, ir_type_id type, ir_ref a)
+{
+    ir_type_id from = ir_type_of(graph, a);
+    if (from == type)
+        return a;
+    if (from >= IR_NUM_TYPES || type >= IR_NUM_TYPES)
+        return 0;
+    const struct ir_type_info *info = ir_type_info(type);
+    if (ir_type_info(from)->components == 1 && info->components > 1)
+        return ir_construct(graph, type, &a, 1);
+    if (!ir_type_is_matrix(type)) { /* cut before converting: fewer components to convert */
+        if (ir_type_info(from)->components > info->components && ir_type_info(from)->columns == 1)
+            a = ir_build(graph, IR_CONVERT, ir_type_vector(ir_type_info(from)->scalar, info->components), 0, &a, 1);
+    }
+    if (ir_node_problem(graph, IR_CONVERT, type, 0, &a, 1))
+        return 0;
+    return ir_build(graph, IR_CONVERT, type, 0, &a, 1);
+}

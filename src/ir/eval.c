@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * eval: the value of a node, computed in array order over what it needs. An unknown value makes its users unknown, but
+ * not a SELECT that does not choose it, so that undefined operations behind a condition do no harm. Calls of IR
+ * functions are frames on a stack of ours.
+ */
+#include "ir/ir.h"
+
+struct frame {
+    ir_ref at, end;    /* next node, and where to stop */
+    uint8_t *needed;   /* per node */
+    uint32_t *places;  /* per node: its value in ->words, or for a call of a function its results in ->results; 0 = unknown */
+    ir_ref call;       /* the node of the frame below that waits for this one; 0 in the lowest */
+};
+
+struct evaluator {
+    const struct ir_graph *graph;
+    const struct ir_eval_env *env;
+    struct arena *scratch;
+    VEC(struct frame) frames;
+    VEC(union ir_word) words; /* [0] unused */
+    VEC(uint32_t) results;    /* [0] unused; places in words */
+};
+
+static void push_frame(struct evaluator *e, const ir_ref *roots, uint32_t num_roots, ir_ref call)
+{
+    ir_ref end = 0;
+    for (uint32_t i = 0; i < num_roots; i++)
+        end = roots[i] >= end ? roots[i] + 1 : end;
+    struct frame frame = {.at = 1, .end = end, .call = call};
+    frame.needed = ARENA_ARRAY(e->scratch, uint8_t, end);
+    frame.places = ARENA_ARRAY(e->scratch, uint32_t, end);
+    for (uint32_t i = 0; i < num_roots; i++)
+        frame.needed[roots[i]] = 1;
+    for (ir_ref ref = end; --ref > 0;) {
+        const ir_ref *args = ir_args(e->graph, ref);
+        for (uint32_t i = 0; frame.needed[ref] && i < ir_get(e->graph, ref)->num_args; i++)
+            frame.needed[args[i]] = 1;
+    }
+    vec_push(e->scratch, &e->frames, frame);
+}
+
+static uint32_t store(struct evaluator *e, const struct ir_value *value)
+{
+    unsigned count = ir_type_info(value->type)->components;
+    uint32_t place = e->words.len;
+    memcpy(vec_extend(e->scratch, &e->words, count), value->w, count * sizeof *value->w);
+    return place;
+}
+
+static bool load(const struct evaluator *e, uint32_t place, ir_type_id type, struct ir_value *out)
+{
+    if (place == 0 || type >= IR_NUM_TYPES)
+        return false;
+    out->type = type;
+    memcpy(out->w, e->words.items + place, ir_type_info(type)->components * sizeof *out->w);
+    return true;
+}
+
+/* The value of an operand that has been passed. */
+static bool value_of(const struct evaluator *e, const struct frame *frame, ir_ref ref, struct ir_value *out)
+{
+    if (ir_get_const(e->graph, ref, out))
+        return true;
+    uint32_t place = frame->places[ref];
+    if (place && ir_get(e->graph, ref)->op == IR_GRAPH_CALL)
+        place = e->results.items[place];
+    return load(e, place, ir_type_of(e->graph, ref), out);
+}
+
+static bool values_of(const struct evaluator *e, const struct frame *frame, ir_ref ref, struct ir_value *out)
+{
+    for (uint32_t i = 0; i < ir_get(e->graph, ref)->num_args; i++)
+        if (!value_of(e, frame, ir_arg(e->graph, ref, i), &out[i]))
+            return false;
+    return true;
+}
+
+static bool eval_source(const struct evaluator *e, ir_ref ref, struct ir_value *out)
+{
+    const struct frame *frame = &vec_last(&e->frames);
+    const struct ir_node *node = ir_get(e->graph, ref);
+    if (node->op == IR_PARAM && frame->call) {
+        const struct frame *caller = frame - 1;
+        return value_of(e, caller, ir_arg(e->graph, frame->call, node->attr & 0xffff), out);
+    }
+    return e->env && e->env->source && e->env->source(e->env->user_data, e->graph, ref, out);
+}
+
+static bool eval_call(const struct evaluator *e, ir_ref call, uint32_t result, ir_type_id type, struct ir_value *out)
+{
+    const struct frame *frame = &vec_last(&e->frames);
+    if (ir_get(e->graph, call)->op == IR_GRAPH_CALL)
+        return frame->places[call] && load(e, e->results.items[frame->places[call] + result], type, out);
+    struct ir_value *args = ARENA_ARRAY(e->scratch, struct ir_value, ir_get(e->graph, call)->num_args);
+    return e->env && e->env->call && values_of(e, frame, call, args)
+        && e->env->call(e->env->user_data, e->graph, call, args, result, out);
+}
+
+/* SELECT, LAND and LOR may be known where an operand is not. */
+static bool eval_choice(const struct evaluator *e, ir_ref ref, struct ir_value *out)
+{
+    const struct frame *frame = &vec_last(&e->frames);
+    const ir_ref *args = ir_args(e->graph, ref);
+    unsigned op = ir_get(e->graph, ref)->op;
+    bool first = value_of(e, frame, args[0], out);
+    if (op == IR_SELECT)
+        return first && value_of(e, frame, args[out->w[0].u ? 1 : 2], out);
+    uint32_t decisive = op == IR_LOR;
+    if (first && out->w[0].u == decisive)
+        return true;
+    bool second = value_of(e, frame, args[1], out);
+    return second && (first || out->w[0].u == decisive);
+}
+
+static bool eval_node(const struct evaluator *e, ir_ref ref, struct ir_value *out)
+{
+    const struct ir_node *node = ir_get(e->graph, ref);
+    struct ir_value args[16];
+    switch (node->op) {
+    case IR_UNIFORM:
+    case IR_STREAM:
+    case IR_PARAM:
+    case IR_LOCAL:
+    case IR_CONTEXT:
+        return eval_source(e, ref, out);
+    case IR_CALL:
+        return eval_call(e, ref, 0, node->type, out);
+    case IR_RESULT:
+        return eval_call(e, ir_arg(e->graph, ref, 0), node->attr, node->type, out);
+    case IR_SELECT:
+    case IR_LAND:
+    case IR_LOR:
+        return eval_choice(e, ref, out);
+    default:
+        return node->num_args <= 16 && values_of(e, &vec_last(&e->frames), ref, args)
+            && ir_eval_op((enum ir_op)node->op, node->type, node->attr, args, node->num_args, out);
+    }
+}
+
+/* The body of a called function has been passed: its results go to the call, the frame goes. */
+static void return_to_caller(struct evaluator *e)
+{
+    const struct frame *frame = &vec_last(&e->frames);
+    struct frame *caller = &e->frames.items[e->frames.len - 2];
+    const struct ir_function *function = &e->graph->functions.items[ir_get(e->graph, frame->call)->attr];
+    caller->places[frame->call] = e->results.len;
+    for (uint32_t i = 0; i < function->num_results; i++) {
+        struct ir_value value;
+        ir_ref result = e->graph->function_results.items[function->first_result + i];
+        vec_push(e->scratch, &e->results, value_of(e, frame, result, &value) ? store(e, &value) : 0);
+    }
+    e->frames.len--;
+}
+
+static void step(struct evaluator *e)
+{
+    struct frame *frame = &vec_last(&e->frames);
+    ir_ref ref = frame->at++;
+    const struct ir_node *node = ir_get(e->graph, ref);
+    if (!frame->needed[ref] || node->op == IR_CONST)
+        return;
+    if (node->op == IR_GRAPH_CALL) {
+        const struct ir_function *function = &e->graph->functions.items[node->attr];
+        push_frame(e, e->graph->function_results.items + function->first_result, function->num_results, ref);
+        return;
+    }
+    struct ir_value value;
+    if (eval_node(e, ref, &value))
+        frame->places[ref] = store(e, &value);
+}
+
+bool ir_eval(const struct ir_graph *graph, ir_ref root, const struct ir_eval_env *env, struct arena *scratch,
+             struct ir_value *out)
+{
+    struct evaluator e = {.graph = graph, .env = env, .scratch = scratch};
+    vec_push(scratch, &e.words, (union ir_word){.u = 0});
+    vec_push(scratch, &e.results, 0);
+    push_frame(&e, &root, 1, 0);
+    for (;;) {
+        const struct frame *frame = &vec_last(&e.frames);
+        if (frame->at < frame->end)
+            step(&e);
+        else if (frame->call)
+            return_to_caller(&e);
+        else
+            return value_of(&e, frame, root, out);
+    }
+}

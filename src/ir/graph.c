@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: Apache-2.0
+/* graph: the arrays of a graph, and hash-consing: content that is asked for twice is one node. */
+#include "ir/internal.h"
+
+#include "base/hash.h"
+
+#include <assert.h>
+
+enum { FIRST_SLOTS = 256 };
+
+void ir_graph_init(struct ir_graph *graph, struct arena *arena, struct strpool *strings)
+{
+    *graph = (struct ir_graph){.arena = arena, .strings = strings};
+    vec_push(arena, &graph->nodes, (struct ir_node){.op = IR_POISON}); /* 0 is no node; it must not look like a constant */
+    vec_push(arena, &graph->origins, (struct ir_origin){0});
+}
+
+/* What makes a node the node it is: all of struct ir_node but its flags and origin. */
+struct content {
+    enum ir_op op;
+    ir_type_id type;
+    uint32_t attr, num_args;
+    const ir_ref *args;
+    const union ir_word *words; /* of a constant, whose attr does not count */
+    uint32_t num_words;
+};
+
+static struct content content_of(const struct ir_graph *graph, ir_ref ref)
+{
+    const struct ir_node *node = ir_get(graph, ref);
+    struct content c = {.op = (enum ir_op)node->op, .type = node->type};
+    if (node->op == IR_CONST) {
+        c.words = graph->words.items + node->attr;
+        c.num_words = ir_type_info(node->type)->components;
+    } else {
+        c.attr = node->attr;
+        c.num_args = node->num_args;
+        c.args = graph->args.items + node->first_arg;
+    }
+    return c;
+}
+
+static uint64_t hash_words(uint64_t h, const void *words, uint32_t count)
+{
+    const uint32_t *w = words;
+    for (; count >= 2; count -= 2, w += 2)
+        h = hash_mix(h, (uint64_t)w[0] << 32 | w[1]);
+    return count ? hash_mix(h, w[0]) : h;
+}
+
+static uint32_t hash_content(const struct content *c)
+{
+    uint64_t h = hash_mix((uint64_t)c->attr << 32 | c->num_args, (uint64_t)c->op << 16 | c->type);
+    h = hash_words(h, c->args, c->num_args);
+    h = hash_words(h, c->words, c->num_words);
+    return (uint32_t)(h ^ (h >> 32));
+}
+
+static bool has_content(const struct ir_graph *graph, ir_ref ref, const struct content *c)
+{
+    const struct ir_node *node = ir_get(graph, ref);
+    if (node->op != c->op || node->type != c->type)
+        return false;
+    if (c->op == IR_CONST)
+        return memcmp(graph->words.items + node->attr, c->words, c->num_words * sizeof *c->words) == 0;
+    if (node->attr != c->attr || node->num_args != c->num_args)
+        return false;
+    const ir_ref *args = graph->args.items + node->first_arg;
+    for (uint32_t i = 0; i < c->num_args; i++)
+        if (args[i] != c->args[i])
+            return false;
+    return true;
+}
+
+/* The slot where a node of this content is, or the empty one where it belongs. */
+static uint32_t find_slot(const struct ir_graph *graph, const struct content *c)
+{
+    uint32_t slot = hash_content(c) & graph->table_mask;
+    while (graph->table[slot] && !has_content(graph, graph->table[slot], c))
+        slot = (slot + 1) & graph->table_mask;
+    return slot;
+}
+
+static void grow_table(struct ir_graph *graph)
+{
+    uint32_t old = graph->table ? graph->table_mask + 1 : 0;
+    uint32_t slots = old ? old * 2 : FIRST_SLOTS;
+    if (slots < old)
+        mem_fail(graph->arena->mem);
+    graph->table = arena_grow(graph->arena, graph->table, old * sizeof *graph->table,
+                              mem_array_size(graph->arena->mem, slots, sizeof *graph->table));
+    graph->table_mask = slots - 1;
+    memset(graph->table, 0, slots * sizeof *graph->table);
+    for (ir_ref ref = 1; ref < graph->nodes.len; ref++) {
+        struct content c = content_of(graph, ref);
+        uint32_t slot = hash_content(&c) & graph->table_mask;
+        while (graph->table[slot])
+            slot = (slot + 1) & graph->table_mask;
+        graph->table[slot] = ref;
+    }
+}
+
+ir_ref ir_find_equal(const struct ir_graph *graph, ir_ref ref)
+{
+    struct content c = content_of(graph, ref);
+    return graph->table[find_slot(graph, &c)];
+}
+
+static bool function_has_derivative(const struct ir_graph *graph, const struct ir_function *function)
+{
+    for (uint32_t i = 0; i < function->num_results; i++)
+        if (ir_get(graph, graph->function_results.items[function->first_result + i])->flags & IR_NODE_DERIVATIVE)
+            return true;
+    return false;
+}
+
+static uint8_t node_flags(const struct ir_graph *graph, const struct content *c)
+{
+    bool derivative = ir_op_info(c->op)->flags & OP_DERIVATIVE;
+    if (c->op == IR_CALL || c->op == IR_VERBATIM || c->op == IR_LEAF)
+        derivative = graph->callees.items[c->attr].derivative;
+    else if (c->op == IR_GRAPH_CALL)
+        derivative = function_has_derivative(graph, &graph->functions.items[c->attr]);
+    unsigned flags = derivative ? IR_NODE_DERIVATIVE : 0;
+    for (uint32_t i = 0; i < c->num_args; i++)
+        flags |= ir_get(graph, c->args[i])->flags & IR_NODE_DERIVATIVE;
+    if (ir_type_is_closure(c->type) || ir_type_is_shader(c->type))
+        flags |= IR_NODE_CLOSURE;
+    return (uint8_t)flags;
+}
+
+/* The operands' place in graph->args; they may lie there already, so that growing would move them. */
+static uint32_t push_args(struct ir_graph *graph, const ir_ref *args, uint32_t num_args)
+{
+    uint32_t first = graph->args.len;
+    if (num_args == 0)
+        return first;
+    uintptr_t offset = (uintptr_t)args - (uintptr_t)graph->args.items;
+    bool inside = graph->args.len && offset < graph->args.len * sizeof *args;
+    ir_ref *place = vec_extend(graph->arena, &graph->args, num_args);
+    memcpy(place, inside ? graph->args.items + offset / sizeof *args : args, num_args * sizeof *args);
+    return first;
+}
+
+/* The node of this content, made where it is new. */
+static ir_ref intern(struct ir_graph *graph, const struct content *c)
+{
+    if (graph->nodes.len >= graph->table_mask / 4 * 3)
+        grow_table(graph);
+    uint32_t slot = find_slot(graph, c);
+    if (graph->table[slot])
+        return graph->table[slot];
+    if (graph->max_nodes && graph->nodes.len > graph->max_nodes && c->op != IR_POISON) {
+        graph->overflow = true;
+        return ir_poison(graph, c->type);
+    }
+    struct ir_node node = {
+        .op = (uint8_t)c->op,
+        .type = c->type,
+        .flags = node_flags(graph, c),
+        .num_args = c->num_args,
+        .attr = c->attr,
+        .origin = graph->origin,
+    };
+    node.first_arg = push_args(graph, c->args, c->num_args);
+    if (c->op == IR_CONST) {
+        node.attr = graph->words.len;
+        memcpy(vec_extend(graph->arena, &graph->words, c->num_words), c->words, c->num_words * sizeof *c->words);
+    }
+    ir_ref ref = graph->nodes.len;
+    vec_push(graph->arena, &graph->nodes, node);
+    graph->table[slot] = ref;
+    return ref;
+}
+
+ir_ref ir_intern(struct ir_graph *graph, enum ir_op op, ir_type_id type, uint32_t attr, const ir_ref *args,
+                 unsigned num_args)
+{
+    struct content c = {.op = op, .type = type, .attr = attr, .num_args = num_args, .args = args};
+    return intern(graph, &c);
+}
+
+ir_ref ir_intern_const(struct ir_graph *graph, ir_type_id type, const union ir_word *words)
+{
+    struct content c = {.op = IR_CONST, .type = type, .words = words};
+    c.num_words = ir_type_info(type)->components;
+    return intern(graph, &c);
+}
+
+uint32_t ir_add_origin(struct ir_graph *graph, str_id name, uint32_t element, uint32_t parent)
+{
+    uint32_t index = graph->origins.len;
+    vec_push(graph->arena, &graph->origins, (struct ir_origin){name, element, parent});
+    return index;
+}
+
+static uint32_t find_callee_slot(const struct ir_graph *graph, uint64_t id)
+{
+    uint32_t slot = hash_pair((uint32_t)(id >> 32), (uint32_t)id) & graph->callee_mask;
+    while (graph->callee_table[slot] && graph->callees.items[graph->callee_table[slot] - 1].id != id)
+        slot = (slot + 1) & graph->callee_mask;
+    return slot;
+}
+
+static void grow_callee_table(struct ir_graph *graph)
+{
+    uint32_t slots = graph->callee_table ? (graph->callee_mask + 1) * 2 : 16;
+    graph->callee_table = ARENA_ARRAY(graph->arena, uint32_t, slots);
+    graph->callee_mask = slots - 1;
+    for (uint32_t i = 0; i < graph->callees.len; i++)
+        graph->callee_table[find_callee_slot(graph, graph->callees.items[i].id)] = i + 1;
+}
+
+uint32_t ir_add_callee(struct ir_graph *graph, struct ir_callee callee)
+{
+    if (graph->callees.len >= graph->callee_mask / 4 * 3)
+        grow_callee_table(graph);
+    uint32_t slot = find_callee_slot(graph, callee.id);
+    if (!graph->callee_table[slot]) {
+        vec_push(graph->arena, &graph->callees, callee);
+        graph->callee_table[slot] = graph->callees.len;
+    }
+    return graph->callee_table[slot] - 1;
+}
+
+static uint32_t add_user_type(struct ir_graph *graph, struct ir_user_type type)
+{
+    if (graph->user_types.len >= UINT16_MAX - IR_TYPE_FIRST_USER)
+        mem_fail(graph->arena->mem);
+    vec_push(graph->arena, &graph->user_types, type);
+    return IR_TYPE_FIRST_USER + graph->user_types.len - 1;
+}
+
+static bool same_members(const struct ir_member *a, const struct ir_member *b, unsigned count)
+{
+    for (unsigned i = 0; i < count; i++)
+        if (a[i].name != b[i].name || a[i].type != b[i].type)
+            return false;
+    return true;
+}
+
+uint32_t ir_add_struct(struct ir_graph *graph, str_id name, const struct ir_member *members, unsigned num_members)
+{
+    assert(num_members > 0 && num_members <= UINT16_MAX);
+    for (uint32_t i = 0; i < graph->user_types.len; i++) {
+        const struct ir_user_type *type = &graph->user_types.items[i];
+        if (type->array_length == 0 && type->name == name && type->num_members == num_members
+            && same_members(graph->members.items + type->first_member, members, num_members))
+            return IR_TYPE_FIRST_USER + i;
+    }
+    uint32_t first = graph->members.len;
+    memcpy(vec_extend(graph->arena, &graph->members, num_members), members, num_members * sizeof *members);
+    return add_user_type(graph, (struct ir_user_type){
+                                    .name = name, .num_members = (uint16_t)num_members, .first_member = first});
+}
+
+uint32_t ir_add_array(struct ir_graph *graph, ir_type_id element, uint32_t length)
+{
+    assert(length > 0);
+    for (uint32_t i = 0; i < graph->user_types.len; i++)
+        if (graph->user_types.items[i].array_length == length && graph->user_types.items[i].element == element)
+            return IR_TYPE_FIRST_USER + i;
+    return add_user_type(graph, (struct ir_user_type){.element = element, .array_length = length});
+}
+
+uint32_t ir_add_function(struct ir_graph *graph, str_id name, const ir_type_id *param_types, unsigned num_params)
+{
+    assert(graph->functions.len < 1u << 16 && num_params < 1u << 16);
+    struct ir_function function = {.name = name, .num_params = num_params, .first_param_type = graph->param_types.len};
+    if (num_params)
+        memcpy(vec_extend(graph->arena, &graph->param_types, num_params), param_types, num_params * sizeof *param_types);
+    vec_push(graph->arena, &graph->functions, function);
+    return graph->functions.len - 1;
+}
+
+ir_ref ir_param(struct ir_graph *graph, uint32_t function, unsigned index)
+{
+    const struct ir_function *f = &graph->functions.items[function];
+    assert(index < f->num_params);
+    ir_type_id type = graph->param_types.items[f->first_param_type + index];
+    return ir_intern(graph, IR_PARAM, type, function << 16 | index, NULL, 0);
+}
+
+void ir_set_results(struct ir_graph *graph, uint32_t function, const ir_ref *results, unsigned num_results)
+{
+    struct ir_function *f = &graph->functions.items[function];
+    assert(f->num_results == 0 && num_results > 0);
+    f->num_results = num_results;
+    f->first_result = graph->function_results.len;
+    memcpy(vec_extend(graph->arena, &graph->function_results, num_results), results, num_results * sizeof *results);
+}

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+/* What the files of this folder share among themselves. */
+#ifndef MXG_IR_INTERNAL_H
+#define MXG_IR_INTERNAL_H
+
+#include "ir/ir.h"
+
+/* types.c: whether a product of these is one of linear algebra, not a componentwise one. */
+bool ir_is_linear_mul(ir_type_id a, ir_type_id b);
+
+/* graph.c: the node with this content, which is added where there is none. Nothing is folded. */
+ir_ref ir_intern(struct ir_graph *graph, enum ir_op op, ir_type_id type, uint32_t attr, const ir_ref *args,
+                 unsigned num_args);
+/* The same for a constant of a built-in type. */
+ir_ref ir_intern_const(struct ir_graph *graph, ir_type_id type, const union ir_word *words);
+/* The node with the content of node `ref`: itself, unless it stands twice. For ir_check. */
+ir_ref ir_find_equal(const struct ir_graph *graph, ir_ref ref);
+
+/* simplify.c: a simpler node for an op that builds or takes apart; 0 where there is none. */
+ir_ref ir_simplify(struct ir_graph *graph, enum ir_op op, ir_type_id type, uint32_t attr, const ir_ref *args,
+                   unsigned num_args);
+
+/* rules.c */
+
+/*
+ * A rewrite in prefix form: ops are enum ir_op, everything else an enum rule_token. A pattern is an op whose operands
+ * are variables, constants, or ops of such; a replacement is anything that is cheaper.
+ */
+enum rule_token {
+    RULE_A = 200, RULE_B, RULE_C, RULE_D, /* any node; the same one where the variable stands twice */
+    RULE_K,                               /* any constant */
+    RULE_ZERO, RULE_ONE, RULE_TWO, RULE_HALF, RULE_MINUS_ONE, RULE_TRUE, RULE_FALSE,
+    RULE_END
+};
+
+enum { RULE_LENGTH = 8 };
+
+struct rule {
+    const char *name;
+    bool exact; /* holds for every input; otherwise where all values are finite, and up to rounding and the sign of 0 */
+    uint8_t pattern[RULE_LENGTH], replacement[RULE_LENGTH]; /* ended by RULE_END */
+};
+const struct rule *ir_rules_of(enum ir_op op, unsigned *out_num);
+
+/* What the first rule that fits makes of an op; 0 where none does. */
+ir_ref ir_apply_rules(struct ir_graph *graph, enum ir_op op, ir_type_id type, const ir_ref *args, unsigned num_args);
+
+/* check.c: NULL, or why no node may look like this. */
+const char *ir_node_problem(const struct ir_graph *graph, enum ir_op op, ir_type_id type, uint32_t attr,
+                            const ir_ref *args, unsigned num_args);
+
+#endif

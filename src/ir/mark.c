@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+/* mark: what the roots need. Operands are older than their users, so one walk from the newest node to the oldest does. */
+#include "ir/ir.h"
+
+static void mark_results(const struct ir_graph *graph, const struct ir_function *function, uint8_t *marked)
+{
+    for (uint32_t i = 0; i < function->num_results; i++)
+        marked[graph->function_results.items[function->first_result + i]] = 1;
+}
+
+uint8_t *ir_mark(const struct ir_graph *graph, const ir_ref *roots, uint32_t num_roots, struct arena *arena)
+{
+    uint8_t *marked = ARENA_ARRAY(arena, uint8_t, graph->nodes.len);
+    for (uint32_t i = 0; i < num_roots; i++)
+        marked[roots[i]] = 1;
+    for (ir_ref ref = graph->nodes.len; --ref > 0;) {
+        if (!marked[ref])
+            continue;
+        const struct ir_node *node = ir_get(graph, ref);
+        const ir_ref *args = ir_args(graph, ref);
+        for (uint32_t i = 0; i < node->num_args; i++)
+            marked[args[i]] = 1;
+        if (node->op == IR_GRAPH_CALL) /* the body is older than the call */
+            mark_results(graph, &graph->functions.items[node->attr], marked);
+    }
+    marked[0] = 0; /* absent operands */
+    return marked;
+}
+
+static void count_all(uint8_t *uses, const ir_ref *refs, uint32_t num_refs)
+{
+    for (uint32_t i = 0; i < num_refs; i++)
+        uses[refs[i]] = (uint8_t)(uses[refs[i]] + (uses[refs[i]] < UINT8_MAX));
+}
+
+uint8_t *ir_count_uses(const struct ir_graph *graph, const uint8_t *marked, const ir_ref *roots, uint32_t num_roots,
+                       struct arena *arena)
+{
+    uint8_t *uses = ARENA_ARRAY(arena, uint8_t, graph->nodes.len);
+    uint8_t *called = ARENA_ARRAY(arena, uint8_t, graph->functions.len);
+    count_all(uses, roots, num_roots);
+    for (ir_ref ref = 1; ref < graph->nodes.len; ref++) {
+        const struct ir_node *node = ir_get(graph, ref);
+        if (!marked[ref])
+            continue;
+        count_all(uses, ir_args(graph, ref), node->num_args);
+        if (node->op == IR_GRAPH_CALL && !called[node->attr]) {
+            const struct ir_function *function = &graph->functions.items[node->attr];
+            count_all(uses, graph->function_results.items + function->first_result, function->num_results);
+            called[node->attr] = 1;
+        }
+    }
+    uses[0] = 0;
+    return uses;
+}

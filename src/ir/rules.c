@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: Apache-2.0
+/* rules: the table of algebraic rules (rules.def) and its interpreter. */
+#include "ir/internal.h"
+
+#include <assert.h>
+
+static_assert((unsigned)IR_NUM_OPS <= (unsigned)RULE_A, "ops and rule tokens share a byte");
+
+/* The names that rules.def uses: ops and tokens without their prefixes. */
+enum {
+#define OP(ID, text, arity, rule, flags, doc) ID = IR_##ID,
+#include "ir/ops.def"
+#undef OP
+    A = RULE_A, B = RULE_B, C = RULE_C, D = RULE_D, K = RULE_K, ZERO = RULE_ZERO, ONE = RULE_ONE, TWO = RULE_TWO,
+    HALF = RULE_HALF, MINUS_ONE = RULE_MINUS_ONE, TRUE_ = RULE_TRUE, FALSE_ = RULE_FALSE
+};
+
+enum { FINITE, EXACT };
+
+#define TOKENS(...) __VA_ARGS__, RULE_END
+#define RULE(name, exactness, pattern, replacement) {#name, exactness, {TOKENS pattern}, {TOKENS replacement}},
+
+#define RULES(op, ...) static const struct rule rules_of_##op[] = {__VA_ARGS__};
+#include "ir/rules.def"
+#undef RULES
+
+static const struct {
+    const struct rule *rules;
+    unsigned num;
+} table[IR_NUM_OPS] = {
+#define RULES(op, ...) [IR_##op] = {rules_of_##op, sizeof rules_of_##op / sizeof *rules_of_##op},
+#include "ir/rules.def"
+#undef RULES
+};
+
+const struct rule *ir_rules_of(enum ir_op op, unsigned *out_num)
+{
+    *out_num = table[op].num;
+    return table[op].rules;
+}
+
+static float token_value(unsigned token)
+{
+    static const float values[] = {0.0f, 1.0f, 2.0f, 0.5f, -1.0f, 1.0f, 0.0f};
+    return values[token - RULE_ZERO];
+}
+
+struct match {
+    const struct ir_graph *graph;
+    bool exact;           /* the rule's mark */
+    bool linear;          /* the root is a product of linear algebra */
+    ir_ref bound[4];      /* to A B C D; 0 = not yet */
+};
+
+static bool has_word(const struct match *m, unsigned token, ir_type_id scalar, union ir_word w)
+{
+    float value = token_value(token);
+    switch (scalar) {
+    case IR_TYPE_FLOAT:
+        return w.f == value && (w.u == 0 || value != 0.0f || !m->exact); /* x - -0 is not x: only +0 is exact */
+    case IR_TYPE_INT:
+        return (float)w.i == value;
+    case IR_TYPE_UINT:
+        return (float)w.u == value;
+    default:
+        return false;
+    }
+}
+
+static bool match_constant(const struct match *m, unsigned token, const struct ir_node *node)
+{
+    if (node->op != IR_CONST)
+        return false;
+    const union ir_word *words = m->graph->words.items + node->attr;
+    if (node->type == IR_TYPE_BOOL || token >= RULE_TRUE)
+        return node->type == IR_TYPE_BOOL && token >= RULE_TRUE && words[0].u == (token == RULE_TRUE);
+    const struct ir_type_info *info = ir_type_info(node->type);
+    bool identity = m->linear && token == RULE_ONE;
+    if (identity && info->columns == 1)
+        return false;
+    for (unsigned i = 0; i < info->components; i++) {
+        bool off_diagonal = identity && i % (info->columns + 1u) != 0;
+        if (!has_word(m, off_diagonal ? RULE_ZERO : token, info->scalar, words[i]))
+            return false;
+    }
+    return !m->linear || identity || token == RULE_ZERO;
+}
+
+static bool match_leaf(struct match *m, unsigned token, ir_ref ref)
+{
+    if (token < RULE_K) {
+        ir_ref *bound = &m->bound[token - RULE_A];
+        if (!*bound)
+            *bound = ref;
+        return *bound == ref;
+    }
+    const struct ir_node *node = ir_get(m->graph, ref);
+    return token == RULE_K ? node->op == IR_CONST : match_constant(m, token, node);
+}
+
+/* Patterns are two ops deep at most, so that no stack is needed. */
+static bool match(struct match *m, const struct rule *rule, const ir_ref *args, unsigned num_args)
+{
+    const uint8_t *token = rule->pattern + 1;
+    for (unsigned i = 0; i < num_args; i++) {
+        unsigned t = *token++;
+        if (t >= RULE_A) {
+            if (!match_leaf(m, t, args[i]))
+                return false;
+            continue;
+        }
+        const struct ir_node *inner = ir_get(m->graph, args[i]);
+        if (inner->op != t)
+            return false;
+        const ir_ref *inner_args = m->graph->args.items + inner->first_arg;
+        for (uint32_t k = 0; k < inner->num_args; k++)
+            if (!match_leaf(m, *token++, inner_args[k]))
+                return false;
+    }
+    return true;
+}
+
+static ir_ref build_op(struct ir_graph *graph, enum ir_op op, const ir_ref *args)
+{
+    switch (ir_op_info(op)->arity) {
+    case 1:
+        return ir_op1(graph, op, args[0]);
+    case 2:
+        return ir_op2(graph, op, args[0], args[1]);
+    default:
+        return ir_op3(graph, op, args[0], args[1], args[2]);
+    }
+}
+
+/* A scalar where a vector is due fills it; 0 where it would have to fill a matrix. */
+static ir_ref widen(struct ir_graph *graph, ir_type_id type, ir_ref ref)
+{
+    if (ir_type_of(graph, ref) == type)
+        return ref;
+    return ir_type_is_matrix(type) ? 0 : ir_build(graph, IR_CONSTRUCT, type, 0, &ref, 1);
+}
+
+/* Builds the replacement: prefix form read backwards needs only a stack of operands. */
+static ir_ref replace(struct ir_graph *graph, const struct rule *rule, ir_type_id type, const ir_ref *bound)
+{
+    const uint8_t *tokens = rule->replacement;
+    if (tokens[0] >= RULE_ZERO)
+        return ir_const_splat(graph, type, token_value(tokens[0]));
+    ir_ref stack[RULE_LENGTH + 1];
+    unsigned top = RULE_LENGTH, length = 0;
+    while (tokens[length] != RULE_END)
+        length++;
+    while (length-- > 0) {
+        unsigned token = tokens[length];
+        ir_ref ref;
+        if (token < RULE_A) {
+            ref = build_op(graph, (enum ir_op)token, &stack[top]);
+            top += (unsigned)ir_op_info((enum ir_op)token)->arity;
+        } else {
+            ref = token < RULE_K ? bound[token - RULE_A]
+                                 : ir_const_splat(graph, ir_type_info(type)->scalar, token_value(token));
+        }
+        assert(ref);
+        stack[--top] = ref;
+    }
+    return widen(graph, type, stack[top]);
+}
+
+ir_ref ir_apply_rules(struct ir_graph *graph, enum ir_op op, ir_type_id type, const ir_ref *args, unsigned num_args)
+{
+    if (table[op].num == 0)
+        return 0;
+    bool linear = op == IR_MUL && ir_is_linear_mul(ir_type_of(graph, args[0]), ir_type_of(graph, args[1]));
+    for (unsigned i = 0; i < table[op].num; i++) {
+        const struct rule *rule = &table[op].rules[i];
+        if (graph->exact && !rule->exact)
+            continue;
+        struct match m = {.graph = graph, .exact = rule->exact, .linear = linear};
+        if (match(&m, rule, args, num_args)) {
+            ir_ref result = replace(graph, rule, type, m.bound);
+            if (result)
+                return result;
+        }
+    }
+    return 0;
+}

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * simplify: ops that build and take apart cancel out.
+ *
+ * Vectors are seen as lists of components, each a scalar node or one component of a vector node. Swizzles and
+ * constructors are taken to such lists and put together again in one canonical way:
+ *
+ *     construct(v.x, v.y, v.z)        →  v              construct(v.x, v.y, s)  →  construct(v.xy, s)
+ *     construct(a, b, c).yx           →  construct(b, a)        v.zyx.xy        →  v.zy
+ */
+#include "ir/internal.h"
+
+#include <assert.h>
+
+struct component {
+    ir_ref source;  /* a scalar, or a vector other than a constant, swizzle or constructor */
+    unsigned index; /* in a vector */
+};
+
+static bool is_vector(ir_type_id type)
+{
+    return type < IR_NUM_TYPES && ir_type_info(type)->components > 1 && ir_type_info(type)->columns == 1;
+}
+
+static unsigned components_of(const struct ir_graph *graph, ir_ref ref)
+{
+    return ir_type_info(ir_type_of(graph, ref))->components;
+}
+
+static struct component component_of_const(struct ir_graph *graph, ir_ref ref, unsigned index)
+{
+    const struct ir_node *node = ir_get(graph, ref);
+    union ir_word word = graph->words.items[node->attr + index];
+    return (struct component){.source = ir_intern_const(graph, ir_type_info(node->type)->scalar, &word)};
+}
+
+/* Component `index` of scalar or vector `ref`, looked up through one swizzle. */
+static struct component component_of_part(struct ir_graph *graph, ir_ref ref, unsigned index)
+{
+    const struct ir_node *node = ir_get(graph, ref);
+    if (node->op == IR_CONST)
+        return component_of_const(graph, ref, index);
+    if (node->op == IR_SWIZZLE)
+        return (struct component){.source = ir_arg(graph, ref, 0), .index = node->attr >> (2 * index) & 3};
+    return (struct component){.source = ref, .index = index};
+}
+
+/* The same through a constructor too, whose own parts are no constructors any more. */
+static struct component component_of(struct ir_graph *graph, ir_ref ref, unsigned index)
+{
+    const struct ir_node *node = ir_get(graph, ref);
+    if (node->op != IR_CONSTRUCT)
+        return component_of_part(graph, ref, index);
+    if (node->num_args == 1)
+        return component_of_part(graph, ir_arg(graph, ref, 0), 0);
+    for (unsigned k = 0;; k++) {
+        ir_ref part = ir_arg(graph, ref, k);
+        unsigned count = components_of(graph, part);
+        if (index < count)
+            return component_of_part(graph, part, index);
+        index -= count;
+    }
+}
+
+/* How many components, from the first, come from one vector. */
+static unsigned run_length(const struct ir_graph *graph, const struct component *list, unsigned count)
+{
+    unsigned n = 1;
+    if (is_vector(ir_type_of(graph, list[0].source)))
+        while (n < count && list[n].source == list[0].source)
+            n++;
+    return n;
+}
+
+/* Components of one vector: the vector itself or a swizzle; a scalar stands for itself. */
+static ir_ref join_run(struct ir_graph *graph, const struct component *list, unsigned count)
+{
+    ir_ref source = list[0].source;
+    ir_type_id type = ir_type_of(graph, source);
+    if (!is_vector(type))
+        return source;
+    uint32_t attr = count << 8;
+    bool whole = count == ir_type_info(type)->components;
+    for (unsigned i = 0; i < count; i++) {
+        attr |= (uint32_t)list[i].index << (2 * i);
+        whole = whole && list[i].index == i;
+    }
+    ir_type_id result = ir_type_vector(ir_type_info(type)->scalar, count);
+    return whole ? source : ir_intern(graph, IR_SWIZZLE, result, attr, &source, 1);
+}
+
+static bool is_splat(const struct ir_graph *graph, const struct component *list, unsigned count)
+{
+    if (is_vector(ir_type_of(graph, list[0].source)))
+        return false;
+    for (unsigned i = 1; i < count; i++)
+        if (list[i].source != list[0].source)
+            return false;
+    return true;
+}
+
+static ir_ref join(struct ir_graph *graph, ir_type_id type, const struct component *list, unsigned count)
+{
+    unsigned length = run_length(graph, list, count);
+    if (length == count)
+        return join_run(graph, list, count);
+    if (is_splat(graph, list, count)) {
+        ir_ref scalar = list[0].source;
+        return ir_intern(graph, IR_CONSTRUCT, type, 0, &scalar, 1);
+    }
+    ir_ref parts[4];
+    unsigned num_parts = 0;
+    for (unsigned at = 0; at < count; at += length) {
+        length = run_length(graph, list + at, count - at);
+        parts[num_parts++] = join_run(graph, list + at, length);
+    }
+    return ir_intern(graph, IR_CONSTRUCT, type, 0, parts, num_parts);
+}
+
+/* Constants are folded before; so some component here is not one. */
+static ir_ref simplify_swizzle(struct ir_graph *graph, ir_type_id type, uint32_t attr, ir_ref a)
+{
+    struct component list[4];
+    unsigned count = ir_type_info(type)->components;
+    for (unsigned i = 0; i < count; i++)
+        list[i] = component_of(graph, a, attr >> (2 * i) & 3);
+    union ir_word words[4];
+    for (unsigned i = 0; i < count; i++) {
+        const struct ir_node *node = ir_get(graph, list[i].source);
+        if (node->op != IR_CONST)
+            return join(graph, type, list, count);
+        words[i] = graph->words.items[node->attr];
+    }
+    return ir_intern_const(graph, type, words); /* of a constructor with a variable that was not asked for */
+}
+
+static ir_ref simplify_construct(struct ir_graph *graph, ir_type_id type, const ir_ref *args, unsigned num_args)
+{
+    if (num_args == 1 && ir_type_of(graph, args[0]) == type)
+        return args[0];
+    if (!is_vector(type))
+        return 0;
+    struct component list[4];
+    unsigned count = ir_type_info(type)->components, at = 0;
+    if (num_args == 1)
+        for (; at < count; at++)
+            list[at] = component_of(graph, args[0], 0);
+    for (unsigned k = 0; at < count; k++)
+        for (unsigned i = 0, n = components_of(graph, args[k]); i < n; i++)
+            list[at++] = component_of(graph, args[k], i);
+    return join(graph, type, list, count);
+}
+
+static ir_ref simplify_convert(struct ir_graph *graph, ir_type_id type, ir_ref a)
+{
+    ir_type_id from = ir_type_of(graph, a);
+    if (from == type)
+        return a;
+    if (!is_vector(from) || ir_type_info(from)->scalar != ir_type_info(type)->scalar)
+        return 0;
+    static const uint8_t leading[4] = {0, 1, 2, 3};
+    return ir_swizzle(graph, a, leading, ir_type_info(type)->components);
+}
+
+/* The index-th part of a constructor of a struct, array or matrix of columns; 0 where `a` is none. */
+static ir_ref part_of(const struct ir_graph *graph, ir_ref a, uint32_t index)
+{
+    const struct ir_node *node = ir_get(graph, a);
+    if (node->op != IR_CONSTRUCT || index >= node->num_args)
+        return 0;
+    if (ir_type_is_matrix(node->type) && node->num_args != ir_type_info(node->type)->columns)
+        return 0;
+    return ir_arg(graph, a, index);
+}
+
+static ir_ref simplify_index(struct ir_graph *graph, ir_ref a, ir_ref index)
+{
+    const struct ir_node *node = ir_get(graph, index);
+    if (node->op != IR_CONST)
+        return 0;
+    uint32_t i = graph->words.items[node->attr].u;
+    ir_type_id type = ir_type_of(graph, a);
+    if (!is_vector(type))
+        return part_of(graph, a, i);
+    return i < ir_type_info(type)->components ? ir_component(graph, a, i) : 0;
+}
+
+ir_ref ir_simplify(struct ir_graph *graph, enum ir_op op, ir_type_id type, uint32_t attr, const ir_ref *args,
+                   unsigned num_args)
+{
+    switch (op) {
+    case IR_SWIZZLE:
+        return simplify_swizzle(graph, type, attr, args[0]);
+    case IR_CONSTRUCT:
+        return simplify_construct(graph, type, args, num_args);
+    case IR_CONVERT:
+        return simplify_convert(graph, type, args[0]);
+    case IR_MEMBER:
+        return part_of(graph, args[0], attr);
+    case IR_INDEX:
+        return simplify_index(graph, args[0], args[1]);
+    default:
+        return 0;
+    }
+}

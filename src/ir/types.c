@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: Apache-2.0
+/* types: the tables of types and ops, and how an op's operand types give its result type. */
+#include "ir/internal.h"
+
+#include <assert.h>
+
+static const struct ir_type_info types[IR_NUM_TYPES] = {
+#define IR_TYPE(ID, text, scalar, components, columns) {text, IR_TYPE_##scalar, components, columns},
+#include "ir/types.def"
+#undef IR_TYPE
+};
+
+static const struct ir_op_info ops[IR_NUM_OPS] = {
+#define OP(ID, text, arity, rule, flags, doc) {text, arity, IR_RULE_##rule, flags, doc},
+#include "ir/ops.def"
+#undef OP
+};
+
+const struct ir_type_info *ir_type_info(ir_type_id type)
+{
+    assert(type < IR_NUM_TYPES);
+    return &types[type];
+}
+
+const char *ir_type_text(ir_type_id type)
+{
+    return type < IR_NUM_TYPES ? types[type].text : "struct or array";
+}
+
+const struct ir_op_info *ir_op_info(enum ir_op op)
+{
+    assert(op < IR_NUM_OPS);
+    return &ops[op];
+}
+
+bool ir_type_is_closure(ir_type_id type)
+{
+    return type >= IR_TYPE_BSDF && type <= IR_TYPE_VDF;
+}
+
+bool ir_type_is_shader(ir_type_id type)
+{
+    return type >= IR_TYPE_SURFACE && type <= IR_TYPE_MATERIAL;
+}
+
+ir_type_id ir_type_vector(ir_type_id scalar, unsigned components)
+{
+    if (components == 1 && scalar < IR_NUM_TYPES && types[scalar].scalar == scalar && types[scalar].components == 1)
+        return scalar;
+    if (scalar == IR_TYPE_FLOAT && components >= 2 && components <= 4)
+        return (ir_type_id)(IR_TYPE_VEC2 + components - 2);
+    return scalar == IR_TYPE_INT && components == 2 ? IR_TYPE_IVEC2 : IR_TYPE_VOID;
+}
+
+static bool is_scalar(ir_type_id type)
+{
+    return type < IR_NUM_TYPES && types[type].components == 1;
+}
+
+static bool is_numeric(ir_type_id type)
+{
+    return type >= IR_TYPE_INT && type <= IR_TYPE_MAT4;
+}
+
+static bool is_integer(ir_type_id type)
+{
+    return type == IR_TYPE_INT || type == IR_TYPE_UINT || type == IR_TYPE_IVEC2;
+}
+
+bool ir_is_linear_mul(ir_type_id a, ir_type_id b)
+{
+    return (ir_type_is_matrix(a) && !is_scalar(b)) || (ir_type_is_matrix(b) && !is_scalar(a));
+}
+
+/* Whether SAME, SPLAT and REDUCE ops compute over `type`. */
+static bool in_domain(enum ir_op op, ir_type_id type)
+{
+    unsigned flags = ops[op].flags;
+    if (flags & OP_MATRIX)
+        return ir_type_is_matrix(type);
+    if (op == IR_CROSS)
+        return type == IR_TYPE_VEC3;
+    if (type >= IR_NUM_TYPES || types[type].columns > 1)
+        return false;
+    ir_type_id scalar = types[type].scalar;
+    return scalar == IR_TYPE_FLOAT || (scalar == IR_TYPE_INT && (flags & OP_SIGNED))
+        || (scalar == IR_TYPE_UINT && (flags & OP_UNSIGNED));
+}
+
+static bool all_equal(const ir_type_id *args, unsigned num_args)
+{
+    for (unsigned i = 1; i < num_args; i++)
+        if (args[i] != args[0])
+            return false;
+    return true;
+}
+
+static ir_type_id result_arith(enum ir_op op, const ir_type_id *args, unsigned num_args)
+{
+    ir_type_id a = args[0], b = args[num_args - 1];
+    if (!is_numeric(a) || !is_numeric(b) || types[a].scalar != types[b].scalar)
+        return IR_TYPE_VOID;
+    if (a == b || is_scalar(b))
+        return a;
+    if (is_scalar(a))
+        return b;
+    if (op != IR_MUL || !ir_is_linear_mul(a, b))
+        return IR_TYPE_VOID;
+    if (ir_type_is_matrix(a))
+        return types[a].columns == types[b].components ? b : IR_TYPE_VOID;
+    return types[b].columns == types[a].components ? a : IR_TYPE_VOID;
+}
+
+static ir_type_id result_splat(enum ir_op op, const ir_type_id *args, unsigned num_args)
+{
+    ir_type_id type = args[0], last = args[num_args - 1];
+    if (!in_domain(op, type) || (op == IR_REFRACT && last != IR_TYPE_FLOAT))
+        return IR_TYPE_VOID;
+    if (last != type && last != types[type].scalar)
+        return IR_TYPE_VOID;
+    ir_type_id middle = op == IR_MIX || op == IR_REFRACT ? type : last;
+    return num_args < 3 || args[1] == middle ? type : IR_TYPE_VOID;
+}
+
+static ir_type_id result_compare(enum ir_op op, const ir_type_id *args, unsigned num_args)
+{
+    ir_type_id type = args[0];
+    if (!all_equal(args, num_args) || type >= IR_NUM_TYPES || types[type].components == 0)
+        return IR_TYPE_VOID;
+    if (op == IR_EQ || op == IR_NE)
+        return IR_TYPE_BOOL;
+    bool fits = num_args == 1 ? type == IR_TYPE_FLOAT : is_scalar(type) && is_numeric(type);
+    return fits ? IR_TYPE_BOOL : IR_TYPE_VOID;
+}
+
+static ir_type_id result_integer(enum ir_op op, const ir_type_id *args, unsigned num_args)
+{
+    ir_type_id a = args[0], b = args[num_args - 1];
+    bool shift = op == IR_SHL || op == IR_SHR;
+    if (!is_integer(a) || !is_integer(b))
+        return IR_TYPE_VOID;
+    return a == b || (shift && is_scalar(b)) ? a : IR_TYPE_VOID;
+}
+
+/* Operands of the built-in functions whose types follow no rule. */
+static const struct signature {
+    uint8_t op;
+    ir_type_id result, args[4];
+} signatures[] = {
+    {IR_FLOAT_TO_INT_BITS, IR_TYPE_INT, {IR_TYPE_FLOAT}},
+    {IR_FLOAT_TO_INT_BITS, IR_TYPE_IVEC2, {IR_TYPE_VEC2}},
+    {IR_FLOAT_TO_UINT_BITS, IR_TYPE_UINT, {IR_TYPE_FLOAT}},
+    {IR_INT_BITS_TO_FLOAT, IR_TYPE_FLOAT, {IR_TYPE_INT}},
+    {IR_INT_BITS_TO_FLOAT, IR_TYPE_VEC2, {IR_TYPE_IVEC2}},
+    {IR_UINT_BITS_TO_FLOAT, IR_TYPE_FLOAT, {IR_TYPE_UINT}},
+    {IR_TEX, IR_TYPE_VEC4, {IR_TYPE_SAMPLER, IR_TYPE_VEC2}},
+    {IR_TEX_LOD, IR_TYPE_VEC4, {IR_TYPE_SAMPLER, IR_TYPE_VEC2, IR_TYPE_FLOAT}},
+    {IR_TEX_GRAD, IR_TYPE_VEC4, {IR_TYPE_SAMPLER, IR_TYPE_VEC2, IR_TYPE_VEC2, IR_TYPE_VEC2}},
+    {IR_TEX_SIZE, IR_TYPE_IVEC2, {IR_TYPE_SAMPLER, IR_TYPE_INT}},
+    {IR_TEX_FETCH, IR_TYPE_VEC4, {IR_TYPE_SAMPLER, IR_TYPE_IVEC2, IR_TYPE_INT}},
+};
+
+static ir_type_id result_builtin(enum ir_op op, const ir_type_id *args, unsigned num_args)
+{
+    if (op == IR_STEP || op == IR_SMOOTHSTEP) { /* edges first: all of x's type, or all scalar */
+        ir_type_id x = args[num_args - 1];
+        bool fits = in_domain(op, x) && all_equal(args, num_args - 1) && (args[0] == x || args[0] == IR_TYPE_FLOAT);
+        return fits ? x : IR_TYPE_VOID;
+    }
+    for (size_t i = 0; i < sizeof signatures / sizeof *signatures; i++)
+        if (signatures[i].op == op && memcmp(signatures[i].args, args, num_args * sizeof *args) == 0)
+            return signatures[i].result;
+    return IR_TYPE_VOID;
+}
+
+ir_type_id ir_op_result(enum ir_op op, const ir_type_id *args, unsigned num_args)
+{
+    const struct ir_op_info *info = &ops[op];
+    if (num_args == 0 || (info->arity >= 0 && num_args != (unsigned)info->arity))
+        return IR_TYPE_VOID;
+    switch ((enum ir_rule)info->rule) {
+    case IR_RULE_NONE:
+        return info->flags & OP_BUILTIN ? result_builtin(op, args, num_args) : IR_TYPE_VOID;
+    case IR_RULE_SAME:
+        return all_equal(args, num_args) && in_domain(op, args[0]) ? args[0] : IR_TYPE_VOID;
+    case IR_RULE_REDUCE:
+        return all_equal(args, num_args) && in_domain(op, args[0]) ? types[args[0]].scalar : IR_TYPE_VOID;
+    case IR_RULE_ARITH:
+        return result_arith(op, args, num_args);
+    case IR_RULE_SPLAT:
+        return result_splat(op, args, num_args);
+    case IR_RULE_COMPARE:
+        return result_compare(op, args, num_args);
+    case IR_RULE_LOGIC:
+        return all_equal(args, num_args) && args[0] == IR_TYPE_BOOL ? IR_TYPE_BOOL : IR_TYPE_VOID;
+    case IR_RULE_INTEGER:
+        return result_integer(op, args, num_args);
+    case IR_RULE_SELECT:
+        return args[0] == IR_TYPE_BOOL && args[1] == args[2] ? args[1] : IR_TYPE_VOID;
+    }
+    return IR_TYPE_VOID;
+}

@@ -1,0 +1,313 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * The portable shading language (docs/shading-language.md): from text to typed trees, and what can be done with them.
+ *
+ * A unit is the set of functions of one library layer. Source files are parsed and type-checked once, when a library is
+ * packed; the result is flat arrays without pointers, so it is part of the library image. Trees are immutable: specialising
+ * a function makes a new function in a unit of the generation.
+ *
+ *     text ─lex→ tokens ─parse+check→ typed tree ─┬ lower:      a call becomes IR nodes (straight-line code, known branches)
+ *                                                ├ specialise: constant arguments bound, dead code dropped
+ *                                                ├ evaluate:   a value
+ *                                                └ print:      text in the language of a syntax table
+ */
+#ifndef MXG_LANG_LANG_H
+#define MXG_LANG_LANG_H
+
+#include "base/strpool.h"
+#include "base/text.h"
+#include "diag/diag.h"
+#include "ir/ir.h"
+
+/* The tree */
+
+typedef uint32_t lang_ref; /* index of a node in its unit; 0 = none */
+
+enum lang_kind {
+    /* expressions */
+    LANG_CONST,    /* a: index in unit->words; type says how many */
+    LANG_VAR,      /* a: slot of a parameter or local of the function */
+    LANG_GLOBAL,   /* a: index in unit->globals */
+    LANG_INPUT,    /* a: slot of an inline expression's {{input}} */
+    LANG_OP,       /* op: enum ir_op (operators and built-ins; attr in b for SWIZZLE and MEMBER); first operand a, chained by next */
+    LANG_CALL,     /* a: function id; first argument b, chained by next */
+    /* statements */
+    LANG_DECLARE,  /* a: slot; b: initialiser or 0 */
+    LANG_ASSIGN,   /* a: target expression (VAR, SWIZZLE, INDEX, MEMBER of one); b: value; op: IR_NUM_OPS for =, else the operator of `op=` */
+    LANG_EXPR,     /* a: a call for its effect */
+    LANG_IF,       /* a: condition; b: then block; c: else block or 0 */
+    LANG_FOR,      /* a: init statement or 0; b: condition or 0; c: step statement or 0; d: body block */
+    LANG_WHILE,    /* b: condition; d: body block */
+    LANG_DO,       /* b: condition; d: body block */
+    LANG_BLOCK,    /* a: first statement, chained by next */
+    LANG_RETURN,   /* a: value or 0 */
+    LANG_BREAK,
+    LANG_CONTINUE,
+};
+
+struct lang_node {
+    uint8_t kind;
+    uint8_t op;
+    ir_type_id type; /* of an expression */
+    lang_ref next;   /* next sibling: operand, argument or statement */
+    uint32_t a, b, c, d;
+    uint32_t place;  /* line << 12 | column in the function's file */
+};
+
+enum lang_param_mode { LANG_IN, LANG_OUT, LANG_INOUT };
+
+struct lang_slot { /* a parameter or local variable */
+    str_id name;
+    ir_type_id type;
+    uint8_t mode;      /* enum lang_param_mode; of a parameter */
+    uint8_t assigned;  /* somebody assigns it after its declaration */
+};
+
+enum lang_function_flags {
+    LANG_FN_DERIVATIVE = 1, /* it or what it calls reads derivatives or textures with implicit level of detail */
+    LANG_FN_PURE = 2,       /* it and what it calls read no uniform, stream or sampler */
+    LANG_FN_STRAIGHT = 4,   /* no loops, nor in what it calls: may be lowered to IR whole */
+    LANG_FN_STRINGS = 8,    /* it has string parameters: to be specialised before it is printed for hardware */
+    LANG_FN_EXPRESSION = 16, /* an inline expression: no name, LANG_INPUT slots, body is RETURN expr */
+};
+
+struct lang_function {
+    str_id name;
+    uint16_t flags;
+    ir_type_id return_type;
+    uint16_t num_params, num_slots; /* parameters come first among the slots */
+    uint32_t first_slot;            /* in unit->slots */
+    lang_ref body;                  /* a BLOCK */
+    uint32_t file;                  /* index in unit->files */
+    uint32_t place;
+    uint32_t num_nodes;             /* size of the body: for inlining decisions */
+    uint32_t origin;                /* 1 + id of the function this is a version of (lang_specialise); 0 = written by hand */
+    uint32_t dropped[2];            /* of a version: bit i is set where parameter i of the origin is gone */
+    uint32_t first_callee, num_callees;   /* in unit->refs: function ids called directly, each once */
+    uint32_t first_global, num_globals;   /* in unit->refs: globals read directly, each once */
+};
+
+enum lang_global_kind { LANG_GLOBAL_CONST, LANG_GLOBAL_UNIFORM, LANG_GLOBAL_STREAM, LANG_GLOBAL_OPTION };
+
+struct lang_global {
+    str_id name;
+    uint8_t kind; /* enum lang_global_kind */
+    ir_type_id type;
+    uint32_t words;        /* value of a CONST or OPTION of built-in or array type, in unit->words (arrays: elements in order) */
+    uint32_t num_words;
+    uint32_t array_length; /* of a uniform array; 0 = none */
+    uint32_t file;
+};
+
+struct lang_file {
+    str_id name;         /* as given to the reader */
+    uint32_t first_include, num_includes; /* in unit->refs: files included directly */
+    uint32_t first_function, num_functions; /* ids of the functions that the file itself defines are contiguous */
+    uint32_t first_global, num_globals;
+};
+
+/*
+ * A layer of functions. Function, file, global and type ids count through the layers (base first); node, slot, word and ref
+ * indices are the layer's own. User type ids also count through the layers.
+ */
+struct lang_unit {
+    const struct lang_unit *base;
+    struct strpool *strings;
+    struct arena *arena; /* NULL in an image layer */
+    uint32_t base_functions, base_files, base_globals, base_user_types; /* how many the layers below have */
+    VEC(struct lang_node) nodes; /* [0] unused; cap 0 in an image layer */
+    VEC(struct lang_slot) slots;
+    VEC(struct lang_function) functions;
+    VEC(struct lang_global) globals;
+    VEC(struct lang_file) files;
+    VEC(union ir_word) words;
+    VEC(uint32_t) refs;
+    VEC(struct ir_user_type) user_types;
+    VEC(struct ir_member) members;
+    struct lang_versions *versions; /* specialise.c: what has been specialised; made on demand */
+};
+
+void lang_unit_init(struct lang_unit *unit, struct arena *arena, struct strpool *strings, const struct lang_unit *base);
+
+/* Access by id through the layers. *out_unit (may be NULL) receives the layer, which the function's own indices refer to. */
+const struct lang_function *lang_function(const struct lang_unit *unit, uint32_t id, const struct lang_unit **out_unit);
+const struct lang_global *lang_global(const struct lang_unit *unit, uint32_t id, const struct lang_unit **out_unit);
+const struct lang_file *lang_file(const struct lang_unit *unit, uint32_t id, const struct lang_unit **out_unit);
+const struct ir_user_type *lang_user_type(const struct lang_unit *unit, ir_type_id type, const struct lang_unit **out_unit);
+#define LANG_NONE UINT32_MAX /* no function, file… */
+
+/* parse.c (lex.c, check.c): text to trees */
+
+/* Where source files come from: false with *out_reason set where a file cannot be read. `from` is the including file or "". */
+struct lang_reader {
+    void *user_data;
+    bool (*read)(void *user_data, const char *from, const char *ref, const char **out_name, const char **out_text,
+                 size_t *out_len, const char **out_reason);
+};
+
+/* Parses a file with its includes, each file once per unit and the layers below. LANG_NONE after errors, which are in diags. */
+uint32_t lang_parse_file(struct lang_unit *unit, const struct lang_reader *reader, const char *from, const char *ref,
+                         struct diag_place where, struct diag_list *diags);
+
+struct lang_input {
+    str_id name;
+    ir_type_id type;
+};
+
+/*
+ * Parses an inline expression; {{name}} stands for an input. `file` (or LANG_NONE) makes its functions and declarations visible.
+ * The result is a function of the unit with LANG_FN_EXPRESSION: its slots are the inputs in order (all of them, used or
+ * not), its body returns the expression, converted to `type`. `where` is the place of the first character. LANG_NONE after errors.
+ */
+uint32_t lang_parse_expression(struct lang_unit *unit, const char *text, size_t len, const struct lang_input *inputs,
+                               unsigned num_inputs, ir_type_id type, uint32_t file, struct diag_place where,
+                               struct diag_list *diags);
+
+/*
+ * A function by name in a file and its includes; `params` (may be NULL: then the only one of that name) chooses among
+ * overloads by exact types, then by implicit conversion. LANG_NONE where there is none.
+ */
+uint32_t lang_find_function(const struct lang_unit *unit, uint32_t file, str_id name, const ir_type_id *params,
+                            unsigned num_params);
+
+/* lower.c: calls into IR */
+
+struct lang_host; /* how globals become IR nodes */
+struct lang_host {
+    void *user_data;
+    /* The IR node for a uniform or stream (by its name and type); option constants give a constant. */
+    ir_ref (*global)(void *user_data, struct ir_graph *graph, const struct lang_unit *unit, uint32_t global_id);
+    uint32_t max_inline_nodes; /* functions larger than this are called, not lowered, unless their result folds to constants */
+};
+
+/*
+ * Builds a call of function `id`: args are one IR node per `in`/`inout` parameter in order (for expressions: per input; a ref of 0
+ * means the input is absent and must not be read). results receives the returned value, if any, then each `out`/`inout` parameter.
+ * Straight-line code and branches that are known or can be merged by SELECT become nodes; all-constant calls are evaluated; anything else
+ * becomes a CALL of a specialisation. Writes num_results (lang_num_results) refs. Never fails: POISON after an error.
+ * `generated` is the unit of the generation: specialisations go there; its base is the library's unit.
+ */
+void lang_lower_call(struct lang_unit *generated, struct ir_graph *graph, const struct lang_host *host, uint32_t id,
+                     const ir_ref *args, ir_ref *results);
+unsigned lang_num_results(const struct lang_unit *unit, uint32_t id);
+
+/* specialise.c */
+
+/*
+ * A version of function `id` with some parameters bound to constants and option globals to their values: code is folded, and
+ * branches that are never taken, locals and assignments nobody needs are dropped. Bound parameters are gone, and `in`
+ * parameters that turn out to be unused: whoever calls a version passes what lang_param_dropped leaves.
+ * bound[i] is NULL or parameter i's value (built-in types, strings included). Returns `id` itself where nothing changes;
+ * the same arguments give the same id. option(user_data, global id, out) gives an option's value; it must not vary within a unit.
+ */
+struct lang_bindings {
+    const struct ir_value *const *bound; /* one per parameter, NULL entries for free ones; NULL: all are free */
+    void *user_data;
+    bool (*option)(void *user_data, const struct lang_unit *unit, uint32_t global_id, struct ir_value *out);
+};
+uint32_t lang_specialise(struct lang_unit *generated, uint32_t id, const struct lang_bindings *bindings);
+
+/* Is parameter `index` of the function that was given to lang_specialise gone from the version it returned? */
+bool lang_param_dropped(const struct lang_unit *generated, uint32_t version, uint32_t given, unsigned index);
+
+/* eval.c */
+
+/*
+ * Calls a function with constant arguments (built-in types; samplers not allowed). false where it reads a uniform, stream or
+ * texture, runs for more than `max_steps`, or hits undefined behaviour. results as for lang_lower_call.
+ */
+bool lang_eval_call(const struct lang_unit *unit, uint32_t id, const struct ir_value *args, struct ir_value *results,
+                    uint32_t max_steps, struct arena *scratch);
+
+/* reach.c */
+
+/* Adds to `functions` (ids, callees before callers, each once) what function `id` needs, itself last, and to `globals` what these read. */
+struct lang_reach {
+    struct arena *arena;
+    VEC(uint32_t) functions, globals;
+    VEC(ir_type_id) user_types; /* structs used in signatures and locals, in order of need */
+    uint8_t *seen_functions, *seen_globals, *seen_types;
+    uint32_t cap_functions, cap_globals, cap_types;
+};
+void lang_reach_add(struct lang_reach *reach, const struct lang_unit *unit, uint32_t id);
+
+/* print.c: trees as text. One printer for all C-like targets, driven by a table; the IR's expressions use the same forms. */
+
+enum lang_precedence { /* binds tighter as it grows; an operand is parenthesised when its own is lower */
+    LANG_PREC_COMMA, LANG_PREC_ASSIGN, LANG_PREC_TERNARY, LANG_PREC_LOR, LANG_PREC_LXOR, LANG_PREC_LAND, LANG_PREC_OR,
+    LANG_PREC_XOR, LANG_PREC_AND, LANG_PREC_EQUAL, LANG_PREC_COMPARE, LANG_PREC_SHIFT, LANG_PREC_SUM, LANG_PREC_PRODUCT,
+    LANG_PREC_UNARY, LANG_PREC_POSTFIX, LANG_PREC_PRIMARY
+};
+
+/*
+ * How a target spells one op: "$0 * $1" with $0…$3 the operands, $T the result type's name. `precedence` is the form's own. An
+ * operand between parentheses, brackets or commas needs none; else `infix` ops associate to the left ($0 needs `precedence`, the
+ * others one more), `?:` to the right, "$0[$1]" and the like take another of their kind on the left, and prefixes take none.
+ * CONSTRUCT ("$T(operands)"), SWIZZLE, MEMBER and calls have no form.
+ */
+struct lang_form {
+    const char *text;   /* NULL: the target cannot spell it */
+    uint8_t precedence; /* enum lang_precedence */
+    bool infix;
+};
+
+struct lang_syntax {
+    const char *name;                   /* "glsl" */
+    const struct lang_syntax *base;     /* rows absent here come from there; NULL for the portable form itself */
+    const char *const *type_names;      /* [IR_NUM_TYPES], NULL entries: from base */
+    const struct lang_form *forms;      /* [IR_NUM_OPS], text NULL: from base */
+    const char *const *reserved;        /* sorted; identifiers that must be renamed */
+    uint32_t num_reserved;
+    const char *param_in;               /* prefix of a parameter that is never assigned: "const " in GLSL, "" elsewhere */
+    const char *param_in_assigned;      /* prefix of one that is: "" in GLSL */
+    const char *param_out, *param_inout; /* "out ", "inout "; OSL: "output " */
+    bool float_literals_need_suffix;    /* 1.0f */
+    bool array_braces;                  /* arrays are built as {a, b}, not float[2](a, b) */
+};
+
+const struct lang_form *lang_syntax_form(const struct lang_syntax *syntax, enum ir_op op);
+const char *lang_syntax_type(const struct lang_syntax *syntax, ir_type_id type);
+bool lang_syntax_is_reserved(const struct lang_syntax *syntax, const char *name);
+
+/* Writes operand `index` so that it binds at least as tightly as `least`. */
+typedef void lang_operand_fn(void *user_data, unsigned index, enum lang_precedence least, struct text *out);
+
+/* Writes a form. Parentheses around the whole are the caller's: where form->precedence is below what the context needs. */
+void lang_write_form(const struct lang_form *form, const char *type_name, lang_operand_fn *operand, void *user_data,
+                     struct text *out);
+
+/*
+ * How names of functions, globals and user types appear in the output; the strings live at least as long as the printing.
+ * A callback of NULL, or one that returns NULL, stands for the name in the source.
+ */
+struct lang_names {
+    void *user_data;
+    const char *(*function)(void *user_data, uint32_t id);
+    const char *(*global)(void *user_data, uint32_t id);
+    const char *(*user_type)(void *user_data, ir_type_id type);
+};
+
+extern const struct lang_syntax lang_syntax_portable; /* prints what the parser reads */
+
+/* `names` may be NULL below: the names of the source. */
+void lang_print_type(const struct lang_syntax *syntax, const struct lang_names *names, const struct lang_unit *unit,
+                     ir_type_id type, struct text *out);
+/* "float x[3]": a variable with its type. */
+void lang_print_variable(const struct lang_syntax *syntax, const struct lang_names *names, const struct lang_unit *unit,
+                         ir_type_id type, const char *name, struct text *out);
+/* vec3(1.0) when equal; `strings` may be NULL where the value is not a string. */
+void lang_print_value(const struct lang_syntax *syntax, const struct strpool *strings, const struct ir_value *value,
+                      struct text *out);
+/* How tightly such a literal binds: -1.0 less than 1.0 or vec3(1.0). */
+enum lang_precedence lang_value_precedence(const struct ir_value *value);
+void lang_print_prototype(const struct lang_syntax *syntax, const struct lang_names *names, const struct lang_unit *unit,
+                          uint32_t id, struct text *out);
+void lang_print_function(const struct lang_syntax *syntax, const struct lang_names *names, const struct lang_unit *unit,
+                         uint32_t id, struct text *out);
+/* "const float PI = 3.14;", and "struct S {…};", each with its newline. */
+void lang_print_constant(const struct lang_syntax *syntax, const struct lang_names *names, const struct lang_unit *unit,
+                         uint32_t global_id, struct text *out);
+void lang_print_struct(const struct lang_syntax *syntax, const struct lang_names *names, const struct lang_unit *unit,
+                       ir_type_id type, struct text *out);
+
+#endif

@@ -1,0 +1,361 @@
+// SPDX-License-Identifier: Apache-2.0
+/* Calls into IR. A call is, in this order of preference: a constant, the nodes of the callee's body, a CALL. */
+#include "lang/lower.h"
+#include "lang/specialise.h"
+
+enum { MAX_EVAL_STEPS = 20000, FEW_SLOTS = 32, FEW_LEAVES = 64 };
+
+unsigned lang_num_results(const struct lang_unit *unit, uint32_t id)
+{
+    const struct lang_function *fn = lang_function(unit, id, NULL);
+    unsigned count = fn->return_type != IR_TYPE_VOID;
+    for (uint32_t i = 0; i < fn->num_params; i++)
+        count += ast_param_mode(unit, id, i) != LANG_IN;
+    return count;
+}
+
+static void poison_results(struct lower *lo, uint32_t id, ir_ref *out);
+
+/* Structs and arrays between rows of leaves and single nodes */
+
+static ir_type_id graph_type(struct lower *lo, ir_type_id type)
+{
+    if (!ast_is_user_type(type))
+        return type;
+    const struct lang_unit *layer;
+    const struct ir_user_type *user = lang_user_type(lo->unit, type, &layer);
+    if (user->array_length)
+        return (ir_type_id)ir_add_array(lo->graph, graph_type(lo, user->element), user->array_length);
+    struct ir_member *members = ARENA_ARRAY(lo->graph->arena, struct ir_member, user->num_members);
+    for (uint32_t i = 0; i < user->num_members; i++) {
+        members[i] = layer->members.items[user->first_member + i];
+        members[i].type = graph_type(lo, members[i].type);
+    }
+    return (ir_type_id)ir_add_struct(lo->graph, user->name, members, user->num_members);
+}
+
+static ir_type_id part_type(const struct lower *lo, ir_type_id type, uint32_t index, uint32_t *out_count)
+{
+    const struct lang_unit *layer;
+    const struct ir_user_type *user = lang_user_type(lo->unit, type, &layer);
+    *out_count = user->array_length ? user->array_length : user->num_members;
+    return user->array_length ? user->element : layer->members.items[user->first_member + index].type;
+}
+
+static const ir_ref *join(struct lower *lo, ir_type_id type, const ir_ref *leaves, ir_ref *out)
+{
+    if (!ast_is_user_type(type)) {
+        *out = *leaves;
+        return leaves + 1;
+    }
+    uint32_t count;
+    part_type(lo, type, 0, &count);
+    ir_ref *parts = ARENA_ARRAY(lo->graph->arena, ir_ref, count);
+    for (uint32_t i = 0; i < count; i++) {
+        ir_type_id part = part_type(lo, type, i, &count);
+        leaves = join(lo, part, leaves, &parts[i]);
+        if (!parts[i])
+            parts[i] = ir_poison(lo->graph, graph_type(lo, part));
+    }
+    *out = ir_construct(lo->graph, graph_type(lo, type), parts, count);
+    return leaves;
+}
+
+static ir_ref *split(struct lower *lo, ir_type_id type, ir_ref node, ir_ref *leaves)
+{
+    if (!ast_is_user_type(type)) {
+        *leaves = node;
+        return leaves + 1;
+    }
+    uint32_t count;
+    part_type(lo, type, 0, &count);
+    bool is_array = lang_user_type(lo->unit, type, NULL)->array_length;
+    for (uint32_t i = 0; i < count; i++) {
+        ir_type_id part = part_type(lo, type, i, &count);
+        ir_ref args[2] = {node, is_array ? ir_const_int(lo->graph, (int32_t)i) : 0};
+        ir_ref value = node ? ir_build(lo->graph, is_array ? IR_INDEX : IR_MEMBER, graph_type(lo, part), is_array ? 0 : i,
+                                       args, is_array ? 2 : 1) : 0;
+        leaves = split(lo, part, value, leaves);
+    }
+    return leaves;
+}
+
+/* A constant */
+
+static bool evaluate(struct lower *lo, uint32_t id, const ir_ref *in, ir_ref *out)
+{
+    const struct lang_unit *layer;
+    const struct lang_function *fn = lang_function(lo->unit, id, &layer);
+    if (!(fn->flags & LANG_FN_PURE) || fn->num_params > AST_MAX_OPERANDS * 2)
+        return false;
+    uint32_t num_in = 0, num_out = fn->return_type != IR_TYPE_VOID;
+    for (uint32_t i = 0; i < fn->num_params; i++) {
+        const struct lang_slot *slot = ast_slot(layer, fn, i);
+        num_out += slot->mode != LANG_IN;
+        if (slot->mode == LANG_OUT)
+            continue;
+        if (ast_is_user_type(slot->type) || !in[num_in] || !ir_is_const(lo->graph, in[num_in]))
+            return false;
+        num_in++;
+    }
+    struct ir_value args[AST_MAX_OPERANDS * 2], results[AST_MAX_OPERANDS * 2 + 1];
+    for (uint32_t i = 0; i < num_in; i++)
+        if (!ir_get_const(lo->graph, in[i], &args[i]))
+            return false;
+    if (!lang_eval_call(lo->unit, id, args, results, MAX_EVAL_STEPS, lo->graph->arena))
+        return false;
+    for (uint32_t i = 0; i < num_out; i++)
+        out[i] = ir_const(lo->graph, &results[i]);
+    return true;
+}
+
+/* The callee's body */
+
+struct few { /* room for the frame of a usual function */
+    uint32_t offsets[FEW_SLOTS + 1];
+    ir_ref leaves[FEW_LEAVES];
+};
+
+static void open_frame(struct lower *lo, uint32_t id, const ir_ref *in, struct few *few)
+{
+    struct lower_frame *frame = &lo->frame;
+    *frame = (struct lower_frame){0};
+    frame->fn = *lang_function(lo->unit, id, &frame->layer);
+    uint32_t num_slots = frame->fn.num_slots;
+    frame->offsets = num_slots <= FEW_SLOTS ? few->offsets : ARENA_ARRAY(lo->graph->arena, uint32_t, num_slots + 1);
+    frame->offsets[0] = 0;
+    for (uint32_t i = 0; i < num_slots; i++)
+        frame->offsets[i + 1] = frame->offsets[i] + lower_leaves(lo, ast_slot(frame->layer, &frame->fn, i)->type);
+    frame->num_leaves = frame->offsets[num_slots] + lower_leaves(lo, frame->fn.return_type);
+    if (frame->num_leaves > FEW_LEAVES)
+        frame->leaves = ARENA_ARRAY(lo->graph->arena, ir_ref, frame->num_leaves);
+    else
+        frame->leaves = memset(few->leaves, 0, sizeof few->leaves);
+    for (uint32_t i = 0; i < frame->fn.num_params; i++) {
+        uint32_t count = frame->offsets[i + 1] - frame->offsets[i];
+        if (ast_slot(frame->layer, &frame->fn, i)->mode == LANG_OUT)
+            continue;
+        memcpy(frame->leaves + frame->offsets[i], in, count * sizeof *in);
+        in += count;
+    }
+}
+
+static void collect_results(const struct lower *lo, ir_ref *out)
+{
+    const struct lower_frame *frame = &lo->frame;
+    uint32_t returned = frame->offsets[frame->fn.num_slots];
+    memcpy(out, frame->leaves + returned, (frame->num_leaves - returned) * sizeof *out);
+    out += frame->num_leaves - returned;
+    for (uint32_t i = 0; i < frame->fn.num_params; i++) {
+        uint32_t count = frame->offsets[i + 1] - frame->offsets[i];
+        if (ast_slot(frame->layer, &frame->fn, i)->mode == LANG_IN)
+            continue;
+        memcpy(out, frame->leaves + frame->offsets[i], count * sizeof *out);
+        out += count;
+    }
+}
+
+/* False where the body cannot become nodes; those that it has made by then are not used by anybody. */
+static bool lower_inline(struct lower *lo, uint32_t id, const ir_ref *in, ir_ref *out)
+{
+    const struct lang_function *fn = lang_function(lo->unit, id, NULL);
+    uint32_t limit = lo->host->max_inline_nodes > LOWER_TINY ? lo->host->max_inline_nodes : LOWER_TINY;
+    if (fn->num_nodes > limit || lo->depth == LOWER_MAX_DEPTH)
+        return false;
+    struct lower_frame caller = lo->frame;
+    struct few few;
+    open_frame(lo, id, in, &few);
+    lo->depth++;
+    lower_statements(lo, ast_node(lo->frame.layer, lo->frame.fn.body)->a);
+    lo->depth--;
+    if (!lo->failed)
+        collect_results(lo, out);
+    lo->frame = caller;
+    bool done = !lo->failed;
+    lo->failed = false;
+    return done;
+}
+
+/* A CALL */
+
+static bool option_value(void *user_data, const struct lang_unit *unit, uint32_t global_id, struct ir_value *out)
+{
+    struct lower *lo = user_data;
+    ir_ref ref = lo->host->global(lo->host->user_data, lo->graph, unit, global_id);
+    return ref && ir_get_const(lo->graph, ref, out);
+}
+
+static uint32_t specialise(struct lower *lo, uint32_t id, const ir_ref *in)
+{
+    const struct lang_unit *layer;
+    const struct lang_function *fn = lang_function(lo->unit, id, &layer);
+    struct ir_value values[SPEC_MAX_PARAMS];
+    const struct ir_value *bound[SPEC_MAX_PARAMS] = {0};
+    uint32_t num_params = fn->num_params < SPEC_MAX_PARAMS ? fn->num_params : SPEC_MAX_PARAMS;
+    for (uint32_t i = 0; i < num_params; i++) {
+        const struct lang_slot *slot = ast_slot(layer, fn, i);
+        bool is_plain = slot->mode == LANG_IN && !ast_is_user_type(slot->type);
+        if (is_plain && *in && ir_get_const(lo->graph, *in, &values[i])
+            && spec_is_worth_binding(lo->unit, id, &values[i]))
+            bound[i] = &values[i];
+        in += slot->mode == LANG_OUT ? 0 : lower_leaves(lo, slot->type);
+    }
+    struct lang_bindings bindings = {.bound = fn->num_params <= SPEC_MAX_PARAMS ? bound : NULL, .user_data = lo,
+                                     .option = option_value};
+    return lang_specialise(lo->unit, id, &bindings);
+}
+
+/* Leaves of the arguments that the version still takes; returns how many. */
+static uint32_t remaining_arguments(struct lower *lo, uint32_t version, uint32_t given, const ir_ref *in, ir_ref *out)
+{
+    const struct lang_unit *layer;
+    const struct lang_function *fn = lang_function(lo->unit, given, &layer);
+    uint32_t total = 0;
+    for (uint32_t i = 0; i < fn->num_params; i++) {
+        const struct lang_slot *slot = ast_slot(layer, fn, i);
+        uint32_t count = slot->mode == LANG_OUT ? 0 : lower_leaves(lo, slot->type);
+        if (!lang_param_dropped(lo->unit, version, given, i)) {
+            memcpy(out + total, in, count * sizeof *in);
+            total += count;
+        }
+        in += count;
+    }
+    return total;
+}
+
+/* Operands of a CALL: one node per in and inout parameter; false where one has no value. */
+static bool join_arguments(struct lower *lo, uint32_t id, const ir_ref *in, ir_ref *args, uint32_t *out_count)
+{
+    const struct lang_unit *layer;
+    const struct lang_function *fn = lang_function(lo->unit, id, &layer);
+    *out_count = 0;
+    for (uint32_t i = 0; i < fn->num_params; i++) {
+        const struct lang_slot *slot = ast_slot(layer, fn, i);
+        if (slot->mode == LANG_OUT)
+            continue;
+        in = join(lo, slot->type, in, &args[*out_count]);
+        if (!args[(*out_count)++])
+            return false;
+    }
+    return true;
+}
+
+static void build_call(struct lower *lo, uint32_t id, const ir_ref *in, ir_ref *out)
+{
+    ir_ref args[LOWER_MAX_LEAVES];
+    uint32_t num_args;
+    if (!join_arguments(lo, id, in, args, &num_args)) {
+        poison_results(lo, id, out);
+        return;
+    }
+    const struct lang_unit *layer;
+    const struct lang_function *fn = lang_function(lo->unit, id, &layer);
+    struct ir_callee callee = {.id = id, .name = fn->name, .derivative = (fn->flags & LANG_FN_DERIVATIVE) != 0,
+                               .pure = (fn->flags & LANG_FN_PURE) != 0};
+    ir_type_id type = graph_type(lo, fn->return_type);
+    ir_ref call = ir_build(lo->graph, IR_CALL, type, ir_add_callee(lo->graph, callee), args, num_args);
+    bool is_single = fn->return_type != IR_TYPE_VOID && lang_num_results(lo->unit, id) == 1;
+    if (fn->return_type != IR_TYPE_VOID) {
+        ir_ref value = is_single ? call : ir_build(lo->graph, IR_RESULT, type, 0, &call, 1);
+        out = split(lo, fn->return_type, value, out);
+    }
+    uint32_t number = 0;
+    for (uint32_t i = 0; i < fn->num_params; i++) {
+        const struct lang_slot *slot = ast_slot(layer, fn, i);
+        if (slot->mode == LANG_IN)
+            continue;
+        ir_ref value = ir_build(lo->graph, IR_RESULT, graph_type(lo, slot->type), ++number, &call, 1);
+        out = split(lo, slot->type, value, out);
+    }
+}
+
+static ir_ref *poison(struct lower *lo, ir_type_id type, ir_ref *out)
+{
+    return split(lo, type, ir_poison(lo->graph, graph_type(lo, type)), out);
+}
+
+static void poison_results(struct lower *lo, uint32_t id, ir_ref *out)
+{
+    const struct lang_unit *layer;
+    const struct lang_function *fn = lang_function(lo->unit, id, &layer);
+    if (fn->return_type != IR_TYPE_VOID)
+        out = poison(lo, fn->return_type, out);
+    for (uint32_t i = 0; i < fn->num_params; i++)
+        if (ast_slot(layer, fn, i)->mode != LANG_IN)
+            out = poison(lo, ast_slot(layer, fn, i)->type, out);
+}
+
+void lower_call(struct lower *lo, uint32_t id, const ir_ref *in, ir_ref *out)
+{
+    if (evaluate(lo, id, in, out) || lower_inline(lo, id, in, out))
+        return;
+    ir_ref left[LOWER_MAX_LEAVES];
+    uint32_t version = specialise(lo, id, in);
+    if (version != id) {
+        remaining_arguments(lo, version, id, in, left);
+        if (lower_inline(lo, version, left, out))
+            return;
+        in = left;
+    }
+    build_call(lo, version, in, out);
+}
+
+/* The entry */
+
+static void lower_inline_expression(struct lower *lo, const ir_ref *args, ir_ref *results)
+{
+    struct few few = {{0}, {0}};
+    lo->inputs = args;
+    lo->frame.offsets = few.offsets;
+    lo->frame.leaves = few.leaves;
+    ir_type_id type = lo->frame.fn.return_type;
+    results[0] = lower_single(lo, ast_returned(lo->frame.layer, &lo->frame.fn));
+    if (lo->failed)
+        results[0] = ir_poison(lo->graph, type);
+}
+
+/* Does everything that the call takes and gives fit into the arrays here? */
+static bool fits(const struct lower *lo)
+{
+    const struct lang_function *fn = &lo->frame.fn;
+    uint32_t leaves = lower_leaves(lo, fn->return_type);
+    for (uint32_t i = 0; i < fn->num_params; i++)
+        leaves += lower_leaves(lo, ast_slot(lo->frame.layer, fn, i)->type);
+    return leaves <= LOWER_MAX_LEAVES;
+}
+
+static void lower_function(struct lower *lo, uint32_t id, const ir_ref *args, ir_ref *results)
+{
+    const struct lang_unit *layer = lo->frame.layer;
+    const struct lang_function fn = lo->frame.fn;
+    ir_ref in[LOWER_MAX_LEAVES], out[LOWER_MAX_LEAVES], *end = in;
+    for (uint32_t i = 0; i < fn.num_params; i++)
+        if (ast_slot(layer, &fn, i)->mode != LANG_OUT)
+            end = split(lo, ast_slot(layer, &fn, i)->type, *args++, end);
+    lower_call(lo, id, in, out);
+    const ir_ref *from = out;
+    unsigned count = 0;
+    if (fn.return_type != IR_TYPE_VOID)
+        from = join(lo, fn.return_type, from, &results[count++]);
+    for (uint32_t i = 0; i < fn.num_params; i++)
+        if (ast_slot(layer, &fn, i)->mode != LANG_IN)
+            from = join(lo, ast_slot(layer, &fn, i)->type, from, &results[count++]);
+}
+
+void lang_lower_call(struct lang_unit *generated, struct ir_graph *graph, const struct lang_host *host, uint32_t id,
+                     const ir_ref *args, ir_ref *results)
+{
+    struct lower lo = {.unit = generated, .graph = graph, .host = host};
+    lo.frame.fn = *lang_function(generated, id, &lo.frame.layer);
+    unsigned num_results = lang_num_results(generated, id);
+    memset(results, 0, num_results * sizeof *results);
+    if (lo.frame.fn.flags & LANG_FN_EXPRESSION)
+        lower_inline_expression(&lo, args, results);
+    else if (fits(&lo))
+        lower_function(&lo, id, args, results);
+    else
+        poison_results(&lo, id, results);
+    const struct lang_function *fn = lang_function(generated, id, NULL);
+    if (num_results && !results[0])
+        results[0] = ir_poison(graph, graph_type(&lo, fn->return_type));
+}

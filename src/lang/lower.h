@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * Lowering: a function body is executed with IR nodes for values. Shared by lower.c (calls), lower_expr.c and lower_stmt.c.
+ *
+ * A value of any type is a row of leaves, nodes of built-in type: one for a vector, one per member for a struct. 0 stands
+ * for what has no value: an absent input, a variable before its first assignment.
+ */
+#ifndef MXG_LANG_LOWER_H
+#define MXG_LANG_LOWER_H
+
+#include "lang/ast.h"
+
+enum {
+    LOWER_MAX_LEAVES = 128,       /* of an expression, or of all arguments of a call */
+    LOWER_MAX_DEPTH = 40,         /* of calls lowered inside of calls */
+    LOWER_MAX_BRANCH_NODES = 12,  /* that a branch may add where both are computed and one is selected */
+    LOWER_TINY = 8,               /* functions of so few nodes are never worth a call */
+};
+
+struct lower_frame { /* the function being lowered */
+    const struct lang_unit *layer;
+    struct lang_function fn;
+    uint32_t *offsets;   /* by slot, in leaves; num_slots + 1 of them */
+    ir_ref *leaves;      /* of all slots, and behind them of the returned value */
+    uint32_t num_leaves; /* of all of these */
+    unsigned nesting;    /* of bodies in bodies */
+};
+
+struct lower {
+    struct lang_unit *unit; /* the generation's */
+    struct ir_graph *graph;
+    const struct lang_host *host;
+    const ir_ref *inputs;   /* of an inline expression */
+    struct lower_frame frame;
+    unsigned depth;
+    bool failed; /* the function cannot become nodes: the result is of no use */
+};
+
+static inline uint32_t lower_leaves(const struct lower *lo, ir_type_id type)
+{
+    return ast_type_leaves(lo->unit, type);
+}
+
+/* lower_expr.c */
+void lower_expression(struct lower *lo, lang_ref ref, ir_ref *out);
+ir_ref lower_single(struct lower *lo, lang_ref ref); /* of a built-in type */
+void lower_assign(struct lower *lo, lang_ref target, const ir_ref *leaves);
+
+/* lower_stmt.c. True where the function has returned. */
+bool lower_statements(struct lower *lo, lang_ref first);
+
+/* lower.c: leaves of the in and inout parameters to leaves of the returned value and the out and inout parameters. */
+void lower_call(struct lower *lo, uint32_t id, const ir_ref *in, ir_ref *out);
+
+#endif

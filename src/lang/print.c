@@ -1,0 +1,502 @@
+// SPDX-License-Identifier: Apache-2.0
+/* Printing functions: statements and expressions of one tree in the syntax of a target. */
+#include "lang/print.h"
+
+struct local { /* what a slot is called in the output */
+    const char *name;
+    uint32_t variant; /* 0: as in the source; k: the k-th attempt at another name */
+};
+
+struct printer {
+    const struct lang_syntax *syntax;
+    const struct lang_names *names;
+    const struct lang_unit *unit, *layer;
+    const struct lang_function *fn;
+    struct text *out;
+    struct local *locals; /* by slot */
+    uint32_t *visible;    /* slots in scope, innermost last */
+    uint32_t num_visible;
+    unsigned indent;
+};
+
+static void print_expression(struct printer *p, lang_ref ref, enum lang_precedence least);
+static void print_statement(struct printer *p, lang_ref ref);
+
+/* Names. Pruning moves declarations into outer scopes, so that names which were apart may meet: the later one changes. */
+
+static bool is_taken(const struct printer *p, const struct local *local)
+{
+    for (uint32_t i = 0; i < p->num_visible; i++) {
+        const struct local *other = &p->locals[p->visible[i]];
+        if (other->variant == local->variant && strcmp(other->name, local->name) == 0)
+            return true;
+    }
+    if (local->variant)
+        return false;
+    if (lang_syntax_is_reserved(p->syntax, local->name))
+        return true;
+    const uint32_t *callees = p->layer->refs.items + p->fn->first_callee;
+    for (uint32_t i = 0; i < p->fn->num_callees; i++)
+        if (strcmp(print_function_name(p->names, p->unit, callees[i]), local->name) == 0)
+            return true;
+    const uint32_t *globals = p->layer->refs.items + p->fn->first_global;
+    for (uint32_t i = 0; i < p->fn->num_globals; i++)
+        if (strcmp(print_global_name(p->names, p->unit, globals[i]), local->name) == 0)
+            return true;
+    return false;
+}
+
+static void bring_into_scope(struct printer *p, uint32_t slot)
+{
+    struct local *local = &p->locals[slot];
+    *local = (struct local){.name = str_text(p->unit->strings, ast_slot(p->layer, p->fn, slot)->name)};
+    while (is_taken(p, local))
+        local->variant++;
+    p->visible[p->num_visible++] = slot;
+}
+
+/* "x", "x_", "x_2", "x_3"…; "x_" becomes "x_2" at once, since "__" is reserved in GLSL. */
+static void print_local(struct printer *p, uint32_t slot)
+{
+    const struct local *local = &p->locals[slot];
+    size_t len = strlen(local->name);
+    text_mem(p->out, local->name, len);
+    if (local->variant == 0)
+        return;
+    bool ends_low = len && local->name[len - 1] == '_';
+    if (!ends_low)
+        text_char(p->out, '_');
+    if (ends_low || local->variant > 1)
+        text_u32(p->out, local->variant + ends_low);
+}
+
+static void print_variable(struct printer *p, uint32_t slot)
+{
+    ir_type_id type = ast_slot(p->layer, p->fn, slot)->type;
+    print_base_type(p->syntax, p->names, p->unit, type, p->out);
+    text_char(p->out, ' ');
+    print_local(p, slot);
+    print_lengths(p->unit, type, p->out);
+}
+
+/* Expressions */
+
+static void print_list(struct printer *p, lang_ref first)
+{
+    for (lang_ref ref = first; ref; ref = ast_node(p->layer, ref)->next) {
+        if (ref != first)
+            text_mem(p->out, ", ", 2);
+        print_expression(p, ref, LANG_PREC_ASSIGN);
+    }
+}
+
+static void print_construct(struct printer *p, const struct lang_node *node)
+{
+    bool is_array = ast_is_user_type(node->type) && lang_user_type(p->unit, node->type, NULL)->array_length;
+    if (is_array) {
+        print_open_array(p->syntax, p->names, p->unit, node->type, p->out);
+    } else {
+        lang_print_type(p->syntax, p->names, p->unit, node->type, p->out);
+        text_char(p->out, '(');
+    }
+    print_list(p, node->a);
+    text_char(p->out, is_array && p->syntax->array_braces ? '}' : ')');
+}
+
+static void print_swizzle(struct printer *p, const struct lang_node *node)
+{
+    print_expression(p, node->a, LANG_PREC_POSTFIX);
+    text_char(p->out, '.');
+    for (unsigned i = 0; i < node->b >> 8; i++)
+        text_char(p->out, "xyzw"[node->b >> 2 * i & 3]);
+}
+
+static void print_member(struct printer *p, const struct lang_node *node)
+{
+    print_expression(p, node->a, LANG_PREC_POSTFIX);
+    const struct lang_unit *layer;
+    const struct ir_user_type *user = lang_user_type(p->unit, ast_node(p->layer, node->a)->type, &layer);
+    text_char(p->out, '.');
+    text_str(p->out, str_text(p->unit->strings, layer->members.items[user->first_member + node->b].name));
+}
+
+struct operands {
+    struct printer *printer;
+    lang_ref refs[4];
+};
+
+static void print_operand(void *user_data, unsigned index, enum lang_precedence least, struct text *out)
+{
+    struct operands *operands = user_data;
+    (void)out; /* the printer's own */
+    print_expression(operands->printer, operands->refs[index], least);
+}
+
+static void print_form(struct printer *p, const struct lang_form *form, ir_type_id type, struct operands *operands)
+{
+    const char *type_name = ast_is_user_type(type) ? "" : lang_syntax_type(p->syntax, type);
+    lang_write_form(form, type_name, print_operand, operands, p->out);
+}
+
+static void print_op(struct printer *p, const struct lang_node *node, enum lang_precedence least)
+{
+    switch (node->op) {
+    case IR_CONSTRUCT:
+        print_construct(p, node);
+        return;
+    case IR_SWIZZLE:
+        print_swizzle(p, node);
+        return;
+    case IR_MEMBER:
+        print_member(p, node);
+        return;
+    default:
+        break;
+    }
+    const struct lang_form *form = lang_syntax_form(p->syntax, node->op);
+    bool parenthesised = form->precedence < least;
+    if (parenthesised)
+        text_char(p->out, '(');
+    struct operands operands = {.printer = p};
+    ast_list(p->layer, node->a, operands.refs, 4);
+    print_form(p, form, node->type, &operands);
+    if (parenthesised)
+        text_char(p->out, ')');
+}
+
+static void print_constant(struct printer *p, const struct lang_node *node, enum lang_precedence least)
+{
+    struct ir_value value = ast_value(node->type, ast_words(p->layer, node));
+    bool parenthesised = lang_value_precedence(&value) < least;
+    if (parenthesised)
+        text_char(p->out, '(');
+    lang_print_value(p->syntax, p->unit->strings, &value, p->out);
+    if (parenthesised)
+        text_char(p->out, ')');
+}
+
+static void print_expression(struct printer *p, lang_ref ref, enum lang_precedence least)
+{
+    const struct lang_node *node = ast_node(p->layer, ref);
+    switch (node->kind) {
+    case LANG_CONST:
+        print_constant(p, node, least);
+        break;
+    case LANG_VAR:
+        print_local(p, node->a);
+        break;
+    case LANG_GLOBAL:
+        text_str(p->out, print_global_name(p->names, p->unit, node->a));
+        break;
+    case LANG_INPUT:
+        text_str(p->out, "{{");
+        text_str(p->out, str_text(p->unit->strings, ast_slot(p->layer, p->fn, node->a)->name));
+        text_str(p->out, "}}");
+        break;
+    case LANG_CALL:
+        text_str(p->out, print_function_name(p->names, p->unit, node->a));
+        text_char(p->out, '(');
+        print_list(p, node->b);
+        text_char(p->out, ')');
+        break;
+    default:
+        print_op(p, node, least);
+    }
+}
+
+/* Statements */
+
+static void print_indent(struct printer *p)
+{
+    static const char spaces[] = "                                ";
+    size_t left = p->indent * 4u;
+    for (; left > sizeof spaces - 1; left -= sizeof spaces - 1)
+        text_mem(p->out, spaces, sizeof spaces - 1);
+    text_mem(p->out, spaces, left);
+}
+
+static void print_declaration(struct printer *p, const struct lang_node *node)
+{
+    bring_into_scope(p, node->a);
+    print_variable(p, node->a);
+    if (node->b) {
+        text_mem(p->out, " = ", 3);
+        print_expression(p, node->b, LANG_PREC_ASSIGN);
+    }
+}
+
+static bool is_int_one(const struct printer *p, lang_ref ref)
+{
+    const struct lang_node *node = ast_node(p->layer, ref);
+    return node->kind == LANG_CONST && node->type == IR_TYPE_INT && ast_words(p->layer, node)->i == 1;
+}
+
+static void print_assignment(struct printer *p, const struct lang_node *node)
+{
+    if ((node->op == IR_ADD || node->op == IR_SUB) && is_int_one(p, node->b)) {
+        text_str(p->out, node->op == IR_ADD ? "++" : "--");
+        print_expression(p, node->a, LANG_PREC_UNARY);
+        return;
+    }
+    print_expression(p, node->a, LANG_PREC_UNARY);
+    const struct lang_form *form = node->op == IR_NUM_OPS ? NULL : lang_syntax_form(p->syntax, node->op);
+    text_char(p->out, ' ');
+    if (form && form->infix) /* the operator is what stands between "$0 " and " $1" */
+        text_mem(p->out, form->text + 3, strlen(form->text) - 6);
+    text_mem(p->out, "= ", 2);
+    if (form && !form->infix) { /* no such operator there: x = f(x, y) */
+        print_form(p, form, ast_node(p->layer, node->a)->type, &(struct operands){p, {node->a, node->b}});
+        return;
+    }
+    print_expression(p, node->b, LANG_PREC_ASSIGN);
+}
+
+/* A statement without indentation, ';' and newline: also the head of a `for`. */
+static void print_simple(struct printer *p, const struct lang_node *node)
+{
+    switch (node->kind) {
+    case LANG_DECLARE:
+        print_declaration(p, node);
+        break;
+    case LANG_ASSIGN:
+        print_assignment(p, node);
+        break;
+    case LANG_EXPR:
+        print_expression(p, node->a, LANG_PREC_ASSIGN);
+        break;
+    case LANG_RETURN:
+        text_str(p->out, node->a ? "return " : "return");
+        if (node->a)
+            print_expression(p, node->a, LANG_PREC_ASSIGN);
+        break;
+    case LANG_BREAK:
+        text_str(p->out, "break");
+        break;
+    default:
+        assert(node->kind == LANG_CONTINUE);
+        text_str(p->out, "continue");
+    }
+}
+
+static void print_statements(struct printer *p, lang_ref first)
+{
+    for (lang_ref ref = first; ref; ref = ast_node(p->layer, ref)->next)
+        print_statement(p, ref);
+}
+
+/* What stands between braces, in a scope of its own. `body` is a block or a single statement; 0 is empty. */
+static void print_body(struct printer *p, lang_ref body)
+{
+    uint32_t mark = p->num_visible;
+    p->indent++;
+    if (body && ast_node(p->layer, body)->kind == LANG_BLOCK)
+        print_statements(p, ast_node(p->layer, body)->a);
+    else if (body)
+        print_statement(p, body);
+    p->indent--;
+    p->num_visible = mark;
+}
+
+/* The only statement of a body, or 0. */
+static lang_ref only_statement(const struct printer *p, lang_ref body)
+{
+    const struct lang_node *node = body ? ast_node(p->layer, body) : NULL;
+    if (!node || node->kind != LANG_BLOCK)
+        return body;
+    return node->a && !ast_node(p->layer, node->a)->next ? node->a : 0;
+}
+
+/* One line needs no braces; what is compound keeps them, which also settles where an `else` belongs. */
+static bool needs_braces(const struct printer *p, lang_ref body)
+{
+    lang_ref only = only_statement(p, body);
+    unsigned kind = only ? ast_node(p->layer, only)->kind : LANG_BLOCK;
+    return kind == LANG_BLOCK || kind == LANG_IF || kind == LANG_FOR || kind == LANG_WHILE || kind == LANG_DO
+           || kind == LANG_DECLARE;
+}
+
+/* The end of a head like "if (x)" and what it governs. Leaves the line open behind the closing brace. */
+static void print_governed(struct printer *p, lang_ref body, bool braces)
+{
+    text_str(p->out, braces ? " {\n" : "\n");
+    print_body(p, body);
+    if (braces) {
+        print_indent(p);
+        text_char(p->out, '}');
+    }
+}
+
+static lang_ref else_if(const struct printer *p, const struct lang_node *node)
+{
+    lang_ref only = node->c ? only_statement(p, node->c) : 0;
+    return only && ast_node(p->layer, only)->kind == LANG_IF ? only : 0;
+}
+
+/* All branches of a chain have braces where one needs them. */
+static bool chain_needs_braces(const struct printer *p, const struct lang_node *node)
+{
+    for (;;) {
+        lang_ref next = else_if(p, node);
+        if (needs_braces(p, node->b) || (node->c && !next && needs_braces(p, node->c)))
+            return true;
+        if (!next)
+            return false;
+        node = ast_node(p->layer, next);
+    }
+}
+
+static void print_if(struct printer *p, const struct lang_node *node)
+{
+    bool braces = chain_needs_braces(p, node);
+    for (;;) {
+        text_str(p->out, "if (");
+        print_expression(p, node->a, LANG_PREC_COMMA);
+        text_char(p->out, ')');
+        print_governed(p, node->b, braces);
+        if (!node->c)
+            break;
+        if (braces)
+            text_char(p->out, ' ');
+        else
+            print_indent(p);
+        text_str(p->out, "else");
+        lang_ref next = else_if(p, node);
+        if (!next) {
+            print_governed(p, node->c, braces);
+            break;
+        }
+        text_char(p->out, ' ');
+        node = ast_node(p->layer, next);
+    }
+    if (braces)
+        text_char(p->out, '\n');
+}
+
+static void print_for(struct printer *p, const struct lang_node *node)
+{
+    uint32_t mark = p->num_visible;
+    text_str(p->out, "for (");
+    if (node->a)
+        print_simple(p, ast_node(p->layer, node->a));
+    text_char(p->out, ';');
+    if (node->b) {
+        text_char(p->out, ' ');
+        print_expression(p, node->b, LANG_PREC_COMMA);
+    }
+    text_char(p->out, ';');
+    if (node->c) {
+        text_char(p->out, ' ');
+        print_simple(p, ast_node(p->layer, node->c));
+    }
+    text_char(p->out, ')');
+    bool braces = needs_braces(p, node->d);
+    print_governed(p, node->d, braces);
+    if (braces)
+        text_char(p->out, '\n');
+    p->num_visible = mark;
+}
+
+static void print_while(struct printer *p, const struct lang_node *node)
+{
+    text_str(p->out, "while (");
+    print_expression(p, node->b, LANG_PREC_COMMA);
+    text_char(p->out, ')');
+    bool braces = needs_braces(p, node->d);
+    print_governed(p, node->d, braces);
+    if (braces)
+        text_char(p->out, '\n');
+}
+
+static void print_do(struct printer *p, const struct lang_node *node)
+{
+    text_str(p->out, "do");
+    print_governed(p, node->d, true);
+    text_str(p->out, " while (");
+    print_expression(p, node->b, LANG_PREC_COMMA);
+    text_str(p->out, ");\n");
+}
+
+static void print_statement(struct printer *p, lang_ref ref)
+{
+    const struct lang_node *node = ast_node(p->layer, ref);
+    print_indent(p);
+    switch (node->kind) {
+    case LANG_IF:
+        print_if(p, node);
+        break;
+    case LANG_FOR:
+        print_for(p, node);
+        break;
+    case LANG_WHILE:
+        print_while(p, node);
+        break;
+    case LANG_DO:
+        print_do(p, node);
+        break;
+    case LANG_BLOCK:
+        text_str(p->out, "{\n");
+        print_body(p, ref);
+        print_indent(p);
+        text_str(p->out, "}\n");
+        break;
+    default:
+        print_simple(p, node);
+        text_str(p->out, ";\n");
+    }
+}
+
+/* Functions */
+
+static struct printer start(const struct lang_syntax *syntax, const struct lang_names *names, const struct lang_unit *unit,
+                            uint32_t id, struct text *out)
+{
+    struct printer p = {.syntax = syntax, .names = names, .unit = unit, .out = out};
+    p.fn = lang_function(unit, id, &p.layer);
+    p.locals = arena_alloc(out->arena, p.fn->num_slots * sizeof *p.locals);
+    p.visible = arena_alloc(out->arena, p.fn->num_slots * sizeof *p.visible);
+    for (uint32_t i = 0; i < p.fn->num_params; i++)
+        bring_into_scope(&p, i);
+    return p;
+}
+
+static const char *param_prefix(const struct lang_syntax *syntax, const struct lang_slot *slot)
+{
+    if (slot->mode != LANG_IN)
+        return slot->mode == LANG_OUT ? syntax->param_out : syntax->param_inout;
+    if (slot->type == IR_TYPE_SAMPLER)
+        return "";
+    return slot->assigned ? syntax->param_in_assigned : syntax->param_in;
+}
+
+static void print_head(struct printer *p, uint32_t id)
+{
+    lang_print_type(p->syntax, p->names, p->unit, p->fn->return_type, p->out);
+    text_char(p->out, ' ');
+    text_str(p->out, print_function_name(p->names, p->unit, id));
+    text_char(p->out, '(');
+    for (uint32_t i = 0; i < p->fn->num_params; i++) {
+        if (i)
+            text_mem(p->out, ", ", 2);
+        text_str(p->out, param_prefix(p->syntax, ast_slot(p->layer, p->fn, i)));
+        print_variable(p, i);
+    }
+    text_char(p->out, ')');
+}
+
+void lang_print_prototype(const struct lang_syntax *syntax, const struct lang_names *names, const struct lang_unit *unit,
+                          uint32_t id, struct text *out)
+{
+    struct printer p = start(syntax, names, unit, id, out);
+    print_head(&p, id);
+    text_mem(out, ";\n", 2);
+}
+
+void lang_print_function(const struct lang_syntax *syntax, const struct lang_names *names, const struct lang_unit *unit,
+                         uint32_t id, struct text *out)
+{
+    struct printer p = start(syntax, names, unit, id, out);
+    print_head(&p, id);
+    text_str(out, "\n{\n");
+    print_body(&p, p.fn->body);
+    text_str(out, "}\n");
+}

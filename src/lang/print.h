@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+/* Shared by print.c and print_value.c. */
+#ifndef MXG_LANG_PRINT_H
+#define MXG_LANG_PRINT_H
+
+#include "lang/ast.h"
+
+const char *print_function_name(const struct lang_names *names, const struct lang_unit *unit, uint32_t id);
+const char *print_global_name(const struct lang_names *names, const struct lang_unit *unit, uint32_t id);
+
+/* A type in two parts, which stand around a variable's name: without the lengths of arrays, and these. */
+void print_base_type(const struct lang_syntax *syntax, const struct lang_names *names, const struct lang_unit *unit,
+                     ir_type_id type, struct text *out);
+void print_lengths(const struct lang_unit *unit, ir_type_id type, struct text *out);
+
+/* The beginning of an array constructor: "float[3](" or "{". */
+void print_open_array(const struct lang_syntax *syntax, const struct lang_names *names, const struct lang_unit *unit,
+                      ir_type_id type, struct text *out);
+
+#endif

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * The library image: the arrays of a layer, one behind another, as they stand in memory.
+ *
+ *     header | section 0 | section 1 | …     each section aligned to 16 bytes
+ *
+ * Records refer to each other by index only, so mapping is setting one pointer per section. The layout belongs to one
+ * build on one kind of machine; the header's fingerprint says which, and another is refused, not converted.
+ */
+#include "library/library.h"
+
+#include "base/hash.h"
+
+enum { ALIGNMENT = 16 };
+
+struct any_vec { /* what every VEC looks like */
+    void *items;
+    uint32_t len, cap;
+};
+
+struct section_info {
+    size_t offset; /* of the VEC in struct library */
+    size_t item_size;
+};
+
+#define SECTION(field) {offsetof(struct library, field), sizeof *((struct library *)NULL)->field.items}
+static const struct section_info section_infos[] = {
+    SECTION(doc.elements),   SECTION(doc.attrs),     SECTION(doc.files),      SECTION(unit.nodes),
+    SECTION(unit.slots),     SECTION(unit.functions), SECTION(unit.globals),  SECTION(unit.files),
+    SECTION(unit.words),     SECTION(unit.refs),     SECTION(unit.user_types), SECTION(unit.members),
+    SECTION(nodedefs),       SECTION(ports),         SECTION(impls),          SECTION(families),
+    SECTION(verbatims),      SECTION(graph_nodes),   SECTION(bindings),       SECTION(geomprops),
+    SECTION(types),          SECTION(refs),          SECTION(node_table),     SECTION(element_info),
+};
+enum {
+    NUM_VECS = sizeof section_infos / sizeof *section_infos,
+    SECTION_NAME_TABLE = NUM_VECS, /* the document's name table */
+    SECTION_STR_OFFSETS,
+    SECTION_STR_BYTES,
+    SECTION_STR_TABLE,
+    NUM_SECTIONS
+};
+
+struct header {
+    char magic[8];
+    uint64_t fingerprint; /* of the layout: sizes of the records, number of words, version */
+    uint64_t checksum;    /* of everything behind the header */
+    uint64_t size;        /* of the whole image */
+    uint32_t first_element, first_attr, first_file, root, name_mask;
+    uint32_t num_strings, string_mask;
+    uint32_t unused;
+    struct {
+        uint32_t offset, len;
+    } sections[NUM_SECTIONS];
+};
+
+static const char magic[8] = "MXLIB\r\n";
+
+static uint64_t fingerprint(void)
+{
+    uint64_t h = HASH_STABLE_SEED;
+    uint32_t facts[NUM_VECS + 4] = {1 /* bumped when meanings change but sizes do not */, STR_NUM_WORDS, IR_NUM_OPS, NUM_ELEMENT_KINDS};
+    for (unsigned i = 0; i < NUM_VECS; i++)
+        facts[i + 4] = (uint32_t)section_infos[i].item_size;
+    return hash_stable(h, facts, sizeof facts);
+}
+
+static uint32_t begin_section(struct text *out)
+{
+    while (out->len % ALIGNMENT)
+        text_char(out, '\0');
+    return (uint32_t)out->len;
+}
+
+static void put_section(struct text *out, struct header *header, unsigned section, const void *items, uint32_t len,
+                        size_t item_size)
+{
+    header->sections[section].offset = begin_section(out);
+    header->sections[section].len = len;
+    text_mem(out, items, len * item_size);
+}
+
+static void put_strings(const struct strpool *pool, struct text *out, struct header *header)
+{
+    struct text bytes;
+    text_init(&bytes, out->arena);
+    uint32_t *offsets = ARENA_ARRAY(out->arena, uint32_t, pool->num + 1);
+    for (uint32_t i = 0; i < pool->num; i++) {
+        offsets[i] = (uint32_t)bytes.len;
+        text_mem(&bytes, str_text(pool, i), str_len(pool, i) + 1);
+    }
+    offsets[pool->num] = (uint32_t)bytes.len;
+    put_section(out, header, SECTION_STR_OFFSETS, offsets, pool->num + 1, sizeof *offsets);
+    put_section(out, header, SECTION_STR_BYTES, bytes.data, (uint32_t)bytes.len, 1);
+    put_section(out, header, SECTION_STR_TABLE, pool->table, pool->table_mask + 1, sizeof *pool->table);
+}
+
+void library_write_image(const struct library *lib, struct text *out)
+{
+    struct header header = {
+        .fingerprint = fingerprint(),
+        .first_element = lib->doc.first_element,
+        .first_attr = lib->doc.first_attr,
+        .first_file = lib->doc.first_file,
+        .root = lib->doc.root,
+        .name_mask = lib->doc.name_mask,
+        .num_strings = lib->strings.num,
+        .string_mask = lib->strings.table_mask,
+    };
+    memcpy(header.magic, magic, sizeof magic);
+    size_t start = out->len;
+    text_mem(out, (const char *)&header, sizeof header);
+    for (unsigned i = 0; i < NUM_VECS; i++) {
+        const struct any_vec *vec = (const void *)((const char *)lib + section_infos[i].offset);
+        put_section(out, &header, i, vec->items, vec->len, section_infos[i].item_size);
+    }
+    put_section(out, &header, SECTION_NAME_TABLE, lib->doc.name_table, lib->doc.name_table ? lib->doc.name_mask + 1 : 0,
+                sizeof *lib->doc.name_table);
+    put_strings(&lib->strings, out, &header);
+    begin_section(out);
+    header.size = out->len - start;
+    header.checksum = hash_stable(HASH_STABLE_SEED, out->data + start + sizeof header, out->len - start - sizeof header);
+    memcpy(out->data + start, &header, sizeof header);
+}
+
+static const char *check_header(const struct header *header, const void *data, size_t size, bool check_bytes)
+{
+    if (size < sizeof *header || memcmp(header->magic, magic, sizeof magic) != 0)
+        return "it does not begin like one";
+    if (header->fingerprint != fingerprint())
+        return "it was packed by another version of mxgen; pack it again";
+    if (header->size != size)
+        return "it is truncated";
+    if (check_bytes
+        && header->checksum
+               != hash_stable(HASH_STABLE_SEED, (const char *)data + sizeof *header, size - sizeof *header))
+        return "it is damaged (the checksum differs)";
+    return NULL;
+}
+
+const char *library_map_image(struct library *lib, const void *data, size_t size, bool check_bytes)
+{
+    const struct header *header = data;
+    const char *fault = (uintptr_t)data % ALIGNMENT ? "it is not aligned" : check_header(header, data, size, check_bytes);
+    if (fault)
+        return fault;
+    /* The records are never written through these pointers: a mapped layer does not change. */
+    char *base = (char *)(uintptr_t)data;
+    memset(lib, 0, sizeof *lib);
+    for (unsigned i = 0; i < NUM_VECS; i++) {
+        struct any_vec *vec = (void *)((char *)lib + section_infos[i].offset);
+        vec->items = base + header->sections[i].offset;
+        vec->len = header->sections[i].len;
+    }
+    lib->strings = (struct strpool){
+        .num = header->num_strings,
+        .table_mask = header->string_mask,
+        .table = (const void *)(base + header->sections[SECTION_STR_TABLE].offset),
+        .offsets = (const void *)(base + header->sections[SECTION_STR_OFFSETS].offset),
+        .bytes = base + header->sections[SECTION_STR_BYTES].offset,
+    };
+    lib->doc.strings = &lib->strings;
+    lib->doc.first_element = header->first_element;
+    lib->doc.first_attr = header->first_attr;
+    lib->doc.first_file = header->first_file;
+    lib->doc.root = header->root;
+    lib->doc.name_mask = header->name_mask;
+    lib->doc.name_table = header->sections[SECTION_NAME_TABLE].len
+                              ? (void *)(base + header->sections[SECTION_NAME_TABLE].offset) : NULL;
+    lib->unit.strings = &lib->strings;
+    return NULL;
+}

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "library/library.h"
+
+#include "base/hash.h"
+
+#include <assert.h>
+
+void library_init(struct library *lib, struct arena *arena, struct library *base)
+{
+    memset(lib, 0, sizeof *lib);
+    lib->base = base;
+    strpool_init(&lib->strings, arena, base ? &base->strings : NULL);
+    doc_init(&lib->doc, arena, &lib->strings, base ? &base->doc : NULL);
+    lang_unit_init(&lib->unit, arena, &lib->strings, base ? &base->unit : NULL);
+    if (!base)
+        return;
+    lib->base_nodedefs = base->base_nodedefs + base->nodedefs.len;
+    lib->base_impls = base->base_impls + base->impls.len;
+    lib->base_families = base->base_families + base->families.len;
+    lib->base_verbatims = base->base_verbatims + base->verbatims.len;
+    lib->base_ports = base->base_ports + base->ports.len;
+    lib->base_types = base->base_types + base->types.len;
+    lib->base_geomprops = base->base_geomprops + base->geomprops.len;
+}
+
+const struct nodedef *library_nodedef(const struct library *lib, uint32_t id)
+{
+    while (id < lib->base_nodedefs)
+        lib = lib->base;
+    return &lib->nodedefs.items[id - lib->base_nodedefs];
+}
+
+const struct implementation *library_impl(const struct library *lib, uint32_t id, const struct library **out_layer)
+{
+    while (id < lib->base_impls)
+        lib = lib->base;
+    if (out_layer)
+        *out_layer = lib;
+    return &lib->impls.items[id - lib->base_impls];
+}
+
+const struct family *library_family(const struct library *lib, uint32_t id)
+{
+    while (id < lib->base_families)
+        lib = lib->base;
+    return &lib->families.items[id - lib->base_families];
+}
+
+const struct verbatim *library_verbatim(const struct library *lib, uint32_t id)
+{
+    while (id < lib->base_verbatims)
+        lib = lib->base;
+    return &lib->verbatims.items[id - lib->base_verbatims];
+}
+
+const struct geomprop *library_geomprop(const struct library *lib, str_id name)
+{
+    for (; lib; lib = lib->base)
+        for (uint32_t i = 0; i < lib->geomprops.len; i++)
+            if (lib->geomprops.items[i].name == name)
+                return &lib->geomprops.items[i];
+    return NULL;
+}
+
+uint32_t library_num_nodedefs(const struct library *lib)
+{
+    return lib->base_nodedefs + lib->nodedefs.len;
+}
+
+const struct port *library_ports(const struct library *lib, uint32_t nodedef, const struct library **out_layer)
+{
+    while (nodedef < lib->base_nodedefs)
+        lib = lib->base;
+    if (out_layer)
+        *out_layer = lib;
+    return lib->ports.items + lib->nodedefs.items[nodedef - lib->base_nodedefs].first_port;
+}
+
+static int find_port(const struct port *ports, int first, int end, str_id name)
+{
+    for (int i = first; i < end; i++)
+        if (ports[i].name == name)
+            return i - first;
+    return -1;
+}
+
+int library_find_input(const struct library *lib, uint32_t nodedef, str_id name)
+{
+    return find_port(library_ports(lib, nodedef, NULL), 0, library_nodedef(lib, nodedef)->num_inputs, name);
+}
+
+int library_find_output(const struct library *lib, uint32_t nodedef, str_id name)
+{
+    const struct nodedef *def = library_nodedef(lib, nodedef);
+    return find_port(library_ports(lib, nodedef, NULL), def->num_inputs, def->num_inputs + def->num_outputs, name);
+}
+
+const struct library *library_of_element(const struct library *lib, elem_id element)
+{
+    while (element < lib->doc.first_element)
+        lib = lib->base;
+    return lib;
+}
+
+uint32_t library_element_info(const struct library *lib, elem_id element, const struct library **out_layer)
+{
+    lib = library_of_element(lib, element);
+    if (out_layer)
+        *out_layer = lib;
+    uint32_t own = element - lib->doc.first_element;
+    return own < lib->element_info.len ? lib->element_info.items[own] - 1 : LIBRARY_NONE;
+}
+
+uint32_t library_nodedef_by_name(const struct library *lib, str_id name)
+{
+    for (; lib; lib = lib->base) {
+        elem_id element = doc_child(&lib->doc, lib->doc.root, name);
+        if (!element || doc_element(&lib->doc, element)->kind != KIND_NODEDEF)
+            continue;
+        uint32_t own = library_element_info(lib, element, NULL);
+        if (own != LIBRARY_NONE)
+            return library_of_element(lib, element)->base_nodedefs + own;
+    }
+    return LIBRARY_NONE;
+}
+
+static const struct user_type *user_type(const struct library *lib, doc_type type)
+{
+    uint32_t id = (uint32_t)type - DOC_TYPE_FIRST_USER;
+    while (id < lib->base_types)
+        lib = lib->base;
+    assert(id - lib->base_types < lib->types.len);
+    return &lib->types.items[id - lib->base_types];
+}
+
+doc_type library_type(const struct library *lib, str_id name)
+{
+    doc_type standard = doc_type_of(name);
+    if (standard)
+        return standard;
+    for (; lib; lib = lib->base)
+        for (uint32_t i = 0; i < lib->types.len; i++)
+            if (lib->types.items[i].name == name)
+                return (doc_type)(DOC_TYPE_FIRST_USER + lib->base_types + i);
+    return DOC_TYPE_NONE;
+}
+
+str_id library_type_name(const struct library *lib, doc_type type)
+{
+    return type >= DOC_TYPE_FIRST_USER ? user_type(lib, type)->name : doc_type_name(type);
+}
+
+ir_type_id library_type_ir(const struct library *lib, doc_type type)
+{
+    return type >= DOC_TYPE_FIRST_USER ? user_type(lib, type)->ir : doc_type_ir(type);
+}

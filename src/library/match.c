@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: Apache-2.0
+/* From a node element to its definition. */
+#include "library/library.h"
+
+#include "base/hash.h"
+
+static const char *text_of(const struct library *lib, str_id id)
+{
+    return str_text(&lib->strings, id);
+}
+
+/* The first definition of a node in one layer; LIBRARY_NONE. */
+static uint32_t first_of_node(const struct library *layer, str_id node)
+{
+    if (!layer->node_table.len)
+        return LIBRARY_NONE;
+    uint32_t mask = layer->node_table.len - 1;
+    for (uint32_t slot = hash_pair(node, 0) & mask; layer->node_table.items[slot]; slot = (slot + 1) & mask) {
+        uint32_t own = layer->node_table.items[slot] - 1;
+        if (layer->nodedefs.items[own].node == node)
+            return own;
+    }
+    return LIBRARY_NONE;
+}
+
+enum fit { FIT_EXACT, FIT_EXTRA_INPUTS, FIT_NOT };
+
+struct candidate {
+    enum fit fit;
+    const char *reason; /* of FIT_NOT, a format of up to two strings */
+    str_id a, b, c;
+};
+
+static struct candidate misfit(const char *reason, str_id a, str_id b, str_id c)
+{
+    return (struct candidate){FIT_NOT, reason, a, b, c};
+}
+
+static struct candidate fit_version(const struct library *lib, const struct nodedef *def, elem_id node)
+{
+    str_id version = doc_attr_value(&lib->doc, node, STR_version);
+    if (version && version != def->version)
+        return misfit("its version is '%s', the node asks for '%s'", def->version, version, 0);
+    if (!version && def->version && !def->is_default_version)
+        return misfit("version '%s' is not the default one; ask for it with version=\"%s\"", def->version, def->version, 0);
+    return (struct candidate){FIT_EXACT, NULL, 0, 0, 0};
+}
+
+static struct candidate fit_outputs(const struct library *lib, const struct nodedef *def, const struct port *ports,
+                                    elem_id node)
+{
+    str_id type = doc_attr_value(&lib->doc, node, STR_type);
+    if (!type)
+        return (struct candidate){FIT_EXACT, NULL, 0, 0, 0};
+    if (def->num_outputs > 1 && type == STR_multioutput)
+        return (struct candidate){FIT_EXACT, NULL, 0, 0, 0};
+    const struct port *out = &ports[def->num_inputs];
+    if (def->num_outputs == 1 && library_type(lib, type) == out->type)
+        return (struct candidate){FIT_EXACT, NULL, 0, 0, 0};
+    str_id has = def->num_outputs == 1 ? library_type_name(lib, out->type) : STR_multioutput;
+    return misfit("its output is %s, the node says %s", has, type, 0);
+}
+
+static struct candidate fit_inputs(const struct library *lib, const struct nodedef *def, const struct port *ports,
+                                   elem_id node)
+{
+    struct candidate result = {FIT_EXACT, NULL, 0, 0, 0};
+    for (elem_id child = doc_element(&lib->doc, node)->first_child; child; child = doc_element(&lib->doc, child)->next) {
+        const struct element *input = doc_element(&lib->doc, child);
+        if (input->kind != KIND_INPUT)
+            continue;
+        const struct port *port = NULL;
+        for (unsigned i = 0; i < def->num_inputs && !port; i++)
+            if (ports[i].name == input->name)
+                port = &ports[i];
+        str_id type = doc_attr_value(&lib->doc, child, STR_type);
+        if (!port)
+            result = (struct candidate){FIT_EXTRA_INPUTS, "it has no input '%s'", input->name, 0, 0};
+        else if (type && library_type(lib, type) != port->type)
+            return misfit("its input '%s' is %s, the node's is %s", input->name, library_type_name(lib, port->type), type);
+    }
+    return result;
+}
+
+static struct candidate fit(const struct library *lib, uint32_t id, elem_id node, bool any_version)
+{
+    const struct nodedef *def = library_nodedef(lib, id);
+    const struct port *ports = library_ports(lib, id, NULL);
+    struct candidate c = fit_outputs(lib, def, ports, node);
+    if (c.fit == FIT_NOT)
+        return c;
+    struct candidate inputs = fit_inputs(lib, def, ports, node);
+    if (inputs.fit == FIT_NOT || any_version)
+        return inputs;
+    c = fit_version(lib, def, node);
+    return c.fit == FIT_NOT ? c : inputs;
+}
+
+static void report_unknown_inputs(const struct library *lib, uint32_t id, elem_id node, struct diag_list *diags)
+{
+    const struct nodedef *def = library_nodedef(lib, id);
+    const struct port *ports = library_ports(lib, id, NULL);
+    const char *names[64];
+    size_t n = 0;
+    for (unsigned i = 0; i < def->num_inputs && n < 64; i++)
+        names[n++] = text_of(lib, ports[i].name);
+    for (elem_id child = doc_element(&lib->doc, node)->first_child; child; child = doc_element(&lib->doc, child)->next) {
+        const struct element *input = doc_element(&lib->doc, child);
+        if (input->kind != KIND_INPUT || library_find_input(lib, id, input->name) >= 0)
+            continue;
+        const char *name = text_of(lib, input->name);
+        diag_add(diags, DIAG_ID_unknown_input, doc_place(&lib->doc, child), text_of(lib, def->node), name,
+                 diag_suggest(diags->arena, name, names, n));
+    }
+}
+
+static void report_candidates(const struct library *lib, elem_id node, struct diag_list *diags)
+{
+    str_id category = doc_element(&lib->doc, node)->category;
+    diag_add(diags, DIAG_ID_no_matching_nodedef, doc_place(&lib->doc, node), text_of(lib, category));
+    unsigned shown = 0;
+    for (const struct library *layer = lib; layer; layer = layer->base)
+        for (uint32_t own = first_of_node(layer, category); own != LIBRARY_NONE && shown < 40;
+             own = layer->nodedefs.items[own].next_same_node, shown++) {
+            struct candidate c = fit(lib, layer->base_nodedefs + own, node, false);
+            struct text reason;
+            text_init(&reason, diags->arena);
+            if (c.reason) {
+                const char *args[3] = {text_of(lib, c.a), text_of(lib, c.b), text_of(lib, c.c)};
+                unsigned arg = 0;
+                for (const char *p = c.reason; *p; p++) {
+                    if (p[0] == '%' && p[1] == 's') {
+                        text_str(&reason, args[arg++]);
+                        p++;
+                    } else {
+                        text_char(&reason, *p);
+                    }
+                }
+            }
+            const struct nodedef *def = &layer->nodedefs.items[own];
+            diag_add(diags, DIAG_ID_nodedef_candidate, doc_place(&lib->doc, def->element), text_of(lib, def->name),
+                     text_cstr(&reason));
+        }
+}
+
+static void report_unknown_node(const struct library *lib, elem_id node, struct diag_list *diags)
+{
+    const char *name = text_of(lib, doc_element(&lib->doc, node)->category);
+    VEC(const char *) names = {0};
+    for (const struct library *layer = lib; layer; layer = layer->base)
+        for (uint32_t i = 0; i < layer->node_table.len; i++)
+            if (layer->node_table.items[i])
+                vec_push(diags->arena, &names,
+                         text_of(lib, layer->nodedefs.items[layer->node_table.items[i] - 1].node));
+    diag_add(diags, DIAG_ID_unknown_node, doc_place(&lib->doc, node), name,
+             diag_suggest(diags->arena, name, names.items, names.len));
+}
+
+static uint32_t match_explicit(const struct library *lib, elem_id node, str_id name, struct diag_list *diags)
+{
+    uint32_t id = library_nodedef_by_name(lib, name);
+    if (id == LIBRARY_NONE) {
+        diag_add(diags, DIAG_ID_unknown_nodedef, doc_attr_place(&lib->doc, node, STR_nodedef), text_of(lib, name), "");
+        return LIBRARY_NONE;
+    }
+    const struct nodedef *def = library_nodedef(lib, id);
+    str_id category = doc_element(&lib->doc, node)->category;
+    if (def->node != category) {
+        diag_add(diags, DIAG_ID_nodedef_of_other_node, doc_attr_place(&lib->doc, node, STR_nodedef), text_of(lib, name),
+                 text_of(lib, def->node), text_of(lib, category));
+        return LIBRARY_NONE;
+    }
+    struct candidate c = fit(lib, id, node, true);
+    if (c.fit == FIT_NOT) {
+        report_candidates(lib, node, diags);
+        return LIBRARY_NONE;
+    }
+    if (c.fit == FIT_EXTRA_INPUTS)
+        report_unknown_inputs(lib, id, node, diags);
+    return id;
+}
+
+uint32_t library_match(const struct library *lib, elem_id node, struct diag_list *diags)
+{
+    str_id explicit_name = doc_attr_value(&lib->doc, node, STR_nodedef);
+    if (explicit_name)
+        return match_explicit(lib, node, explicit_name, diags);
+    str_id category = doc_element(&lib->doc, node)->category;
+    uint32_t with_extra = LIBRARY_NONE;
+    bool known = false;
+    for (const struct library *layer = lib; layer; layer = layer->base)
+        for (uint32_t own = first_of_node(layer, category); own != LIBRARY_NONE;
+             own = layer->nodedefs.items[own].next_same_node) {
+            known = true;
+            struct candidate c = fit(lib, layer->base_nodedefs + own, node, false);
+            if (c.fit == FIT_EXACT)
+                return layer->base_nodedefs + own;
+            if (c.fit == FIT_EXTRA_INPUTS && with_extra == LIBRARY_NONE)
+                with_extra = layer->base_nodedefs + own;
+        }
+    if (with_extra != LIBRARY_NONE)
+        report_unknown_inputs(lib, with_extra, node, diags);
+    else if (known)
+        report_candidates(lib, node, diags);
+    else
+        report_unknown_node(lib, node, diags);
+    return with_extra;
+}

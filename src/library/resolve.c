@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: Apache-2.0
+/* From names to elements: what a node's inputs are connected to. */
+#include "library/library.h"
+
+static const char *text_of(const struct library *lib, str_id id)
+{
+    return str_text(&lib->strings, id);
+}
+
+/* A child by name as `from` means it: names inside of a namespace are tried with it first (specification, "Namespaces"). */
+static elem_id find_named(const struct library *lib, elem_id scope, str_id name, elem_id from)
+{
+    str_id space = doc_inherited_attr(&lib->doc, from, STR_namespace);
+    if (space) {
+        char qualified[512];
+        size_t space_len = str_len(&lib->strings, space), name_len = str_len(&lib->strings, name);
+        if (space_len + name_len + 1 <= sizeof qualified) {
+            memcpy(qualified, text_of(lib, space), space_len);
+            qualified[space_len] = ':';
+            memcpy(qualified + space_len + 1, text_of(lib, name), name_len);
+            str_id id = str_find(&lib->strings, qualified, space_len + 1 + name_len);
+            elem_id found = id ? doc_child(&lib->doc, scope, id) : 0;
+            if (found)
+                return found;
+        }
+    }
+    return doc_child(&lib->doc, scope, name);
+}
+
+static elem_id root_of(const struct library *lib, elem_id element)
+{
+    return library_of_element(lib, element)->doc.root;
+}
+
+/* "(did you mean …)" among the named children of a scope. */
+static const char *suggest_child(const struct library *lib, elem_id scope, int kind, str_id name, struct diag_list *diags)
+{
+    VEC(const char *) names = {0};
+    for (elem_id e = doc_element(&lib->doc, scope)->first_child; e; e = doc_element(&lib->doc, e)->next) {
+        const struct element *child = doc_element(&lib->doc, e);
+        if (child->name && (kind < 0 || child->kind == kind) && names.len < 4096)
+            vec_push(diags->arena, &names, text_of(lib, child->name));
+    }
+    return diag_suggest(diags->arena, text_of(lib, name), names.items, names.len);
+}
+
+static const struct binding bind_error = {.kind = BIND_ERROR};
+
+int library_resolve_output(const struct library *lib, elem_id port, elem_id node, str_id output, struct diag_list *diags)
+{
+    str_id type = doc_attr_value(&lib->doc, node, STR_type);
+    if (!output && type != STR_multioutput)
+        return 0;
+    uint32_t id = library_match(lib, node, diags);
+    if (id == LIBRARY_NONE)
+        return -1;
+    const struct nodedef *def = library_nodedef(lib, id);
+    const struct port *outputs = library_ports(lib, id, NULL) + def->num_inputs;
+    const char *name = text_of(lib, doc_element(&lib->doc, node)->name);
+    if (!output && def->num_outputs > 1) {
+        diag_add(diags, DIAG_ID_output_needed, doc_place(&lib->doc, port), name, text_of(lib, outputs[0].name));
+        return -1;
+    }
+    int index = output ? library_find_output(lib, id, output) : 0;
+    if (index < 0) {
+        VEC(const char *) names = {0};
+        for (unsigned i = 0; i < def->num_outputs; i++)
+            vec_push(diags->arena, &names, text_of(lib, outputs[i].name));
+        diag_add(diags, DIAG_ID_dangling_output, doc_attr_place(&lib->doc, port, STR_output), name, text_of(lib, output),
+                 diag_suggest(diags->arena, text_of(lib, output), names.items, names.len));
+    }
+    return index;
+}
+
+static str_id output_type(const struct library *lib, elem_id node, int output, struct diag_list *diags)
+{
+    str_id type = doc_attr_value(&lib->doc, node, STR_type);
+    if (type && type != STR_multioutput)
+        return type;
+    uint32_t id = library_match(lib, node, diags);
+    if (id == LIBRARY_NONE)
+        return 0;
+    const struct nodedef *def = library_nodedef(lib, id);
+    return library_type_name(lib, library_ports(lib, id, NULL)[def->num_inputs + (uint32_t)output].type);
+}
+
+static void report_type(const struct library *lib, elem_id port, doc_type want, str_id have, elem_id at,
+                        struct diag_list *diags)
+{
+    diag_add(diags, DIAG_ID_type_mismatch, doc_place(&lib->doc, port), text_of(lib, doc_element(&lib->doc, port)->name),
+             text_of(lib, library_type_name(lib, want)), text_of(lib, have));
+    diag_add(diags, DIAG_ID_connected_here, doc_place(&lib->doc, at), text_of(lib, doc_element(&lib->doc, at)->name));
+}
+
+static struct binding bind_node(const struct library *lib, elem_id asker, elem_id port, elem_id node, doc_type type,
+                                struct diag_list *diags)
+{
+    int output = library_resolve_output(lib, port, node, doc_attr_value(&lib->doc, port, STR_output), diags);
+    str_id have = output >= 0 ? output_type(lib, node, output, diags) : 0;
+    if (!have)
+        return bind_error;
+    if (type != DOC_TYPE_NONE && library_type(lib, have) != type) {
+        report_type(lib, asker, type, have, node, diags);
+        return bind_error;
+    }
+    return (struct binding){.kind = BIND_NODE, .output = (uint8_t)output, .ref = node, .element = port};
+}
+
+/* The <output> of a graph that `port` means by its `output` attribute, or the only one. */
+static elem_id graph_output(const struct library *lib, elem_id port, elem_id graph, struct diag_list *diags)
+{
+    str_id name = doc_attr_value(&lib->doc, port, STR_output);
+    if (name) {
+        elem_id output = doc_child_of_kind(&lib->doc, graph, KIND_OUTPUT, name);
+        if (!output)
+            diag_add(diags, DIAG_ID_dangling_output, doc_attr_place(&lib->doc, port, STR_output),
+                     text_of(lib, doc_element(&lib->doc, graph)->name), text_of(lib, name),
+                     suggest_child(lib, graph, KIND_OUTPUT, name, diags));
+        return output;
+    }
+    elem_id only = 0;
+    for (elem_id e = doc_element(&lib->doc, graph)->first_child; e; e = doc_element(&lib->doc, e)->next) {
+        if (doc_element(&lib->doc, e)->kind != KIND_OUTPUT)
+            continue;
+        if (only) {
+            diag_add(diags, DIAG_ID_output_needed, doc_place(&lib->doc, port),
+                     text_of(lib, doc_element(&lib->doc, graph)->name), text_of(lib, doc_element(&lib->doc, only)->name));
+            return 0;
+        }
+        only = e;
+    }
+    if (!only)
+        diag_add(diags, DIAG_ID_dangling_output, doc_place(&lib->doc, port),
+                 text_of(lib, doc_element(&lib->doc, graph)->name), "out", "");
+    return only;
+}
+
+/* The next port to look at, or 0 with *out telling the end of the chain. */
+static elem_id follow(const struct library *lib, elem_id asker, elem_id port, doc_type type, struct binding *out,
+                      struct diag_list *diags)
+{
+    const struct document *doc = &lib->doc;
+    const struct element *element = doc_element(doc, port);
+    const struct element *owner = doc_element(doc, element->parent);
+    /* The scope of an input of a node is the node's graph; of an interface input, what is around the graph; an output's scope is its graph. */
+    elem_id scope = element->kind == KIND_OUTPUT ? element->parent : owner->parent;
+    *out = bind_error;
+    str_id name = doc_attr_value(doc, port, STR_nodename);
+    str_id graph_name = doc_attr_value(doc, port, STR_nodegraph);
+    if (name || graph_name) {
+        elem_id target = 0;
+        if (name)
+            target = find_named(lib, scope, name, port);
+        if (!target && graph_name && !(target = find_named(lib, scope, graph_name, port)))
+            target = find_named(lib, root_of(lib, port), graph_name, port);
+        if (target && doc_element(doc, target)->kind == KIND_NODE) {
+            *out = bind_node(lib, asker, port, target, type, diags);
+            return 0;
+        }
+        if (target && doc_element(doc, target)->kind == KIND_NODEGRAPH)
+            return graph_output(lib, port, target, diags);
+        str_id missing = name ? name : graph_name;
+        diag_add(diags, name ? DIAG_ID_dangling_nodename : DIAG_ID_dangling_nodegraph,
+                 doc_attr_place(doc, port, name ? STR_nodename : STR_nodegraph), text_of(lib, missing),
+                 suggest_child(lib, scope, name ? -1 : KIND_NODEGRAPH, missing, diags));
+        return 0;
+    }
+    str_id interface = doc_attr_value(doc, port, STR_interfacename);
+    if (interface) {
+        const struct element *graph = doc_element(doc, scope);
+        elem_id input = doc_child_of_kind(doc, scope, KIND_INPUT, interface);
+        if (input && !(graph->kind == KIND_NODEGRAPH && doc_attr(doc, scope, STR_nodedef)))
+            return input;
+        *out = (struct binding){.kind = BIND_INTERFACE, .ref = interface, .element = port};
+        return 0;
+    }
+    str_id output = element->kind == KIND_INPUT ? doc_attr_value(doc, port, STR_output) : 0;
+    if (output) {
+        elem_id target = doc_child_of_kind(doc, root_of(lib, port), KIND_OUTPUT, output);
+        if (!target)
+            diag_add(diags, DIAG_ID_dangling_output, doc_attr_place(doc, port, STR_output), "the document",
+                     text_of(lib, output), suggest_child(lib, root_of(lib, port), KIND_OUTPUT, output, diags));
+        return target;
+    }
+    *out = (struct binding){.kind = doc_attr(doc, port, STR_value) ? BIND_VALUE : BIND_DEFAULT, .element = port};
+    return 0;
+}
+
+struct binding library_resolve_connection(const struct library *lib, elem_id port, doc_type type, struct diag_list *diags)
+{
+    struct binding result = bind_error;
+    elem_id asker = port;
+    /* Outputs and interface inputs may chain; a chain longer than this is a cycle. */
+    for (uint32_t steps = 0; port && steps < 10000; steps++) {
+        elem_id next = follow(lib, asker, port, type, &result, diags);
+        if (next && type != DOC_TYPE_NONE) {
+            str_id have = doc_attr_value(&lib->doc, next, STR_type);
+            if (have && library_type(lib, have) != type) {
+                report_type(lib, asker, type, have, next, diags);
+                return bind_error;
+            }
+        }
+        port = next;
+    }
+    if (port)
+        diag_add(diags, DIAG_ID_cycle, doc_place(&lib->doc, asker), text_of(lib, doc_element(&lib->doc, port)->name));
+    return result;
+}
+
+struct graph_node library_resolve_node(const struct library *lib, elem_id node, struct resolve_out *out,
+                                       struct diag_list *diags)
+{
+    struct graph_node result = {.element = node, .nodedef = library_match(lib, node, diags), .first_binding = out->bindings.len};
+    if (result.nodedef == LIBRARY_NONE)
+        return result;
+    const struct nodedef *def = library_nodedef(lib, result.nodedef);
+    const struct port *ports = library_ports(lib, result.nodedef, NULL);
+    struct binding *bindings = vec_extend(out->arena, &out->bindings, def->num_inputs);
+    memset(bindings, 0, def->num_inputs * sizeof *bindings);
+    for (elem_id e = doc_element(&lib->doc, node)->first_child; e; e = doc_element(&lib->doc, e)->next) {
+        const struct element *input = doc_element(&lib->doc, e);
+        if (input->kind != KIND_INPUT)
+            continue;
+        for (unsigned i = 0; i < def->num_inputs; i++)
+            if (ports[i].name == input->name) {
+                struct binding b = library_resolve_connection(lib, e, ports[i].type, diags);
+                out->bindings.items[result.first_binding + i] = b;
+                break;
+            }
+    }
+    return result;
+}

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * finish: from what builders asked for to what can be spelled. The pixel stage comes first, since it decides what the vertex stage
+ * must hand on.
+ */
+#include "shader/shader.h"
+
+static str_id word(struct shader *shader, const char *text)
+{
+    return str_intern_z(shader->strings, text);
+}
+
+static void mark_read(struct shader *shader, uint32_t variable, enum shader_stage_id stage)
+{
+    shader->variables.items[variable].stages |= (uint8_t)(1u << stage);
+}
+
+/* Lights are read at the surface where nobody says otherwise. */
+static void complete_lights(struct shader *shader, enum shader_stage_id id)
+{
+    struct shader_stage *stage = &shader->stages[id];
+    for (uint32_t i = 0; i < stage->effects.len; i++) {
+        struct effect *effect = &stage->effects.items[i];
+        if (effect->kind != EFFECT_LIGHTS)
+            continue;
+        stage->has_lights = true;
+        if (!effect->value)
+            effect->value = shader_stream(shader, word(shader, "positionWorld"), IR_TYPE_VOID);
+    }
+    if (!stage->has_lights)
+        return;
+    mark_read(shader, shader_private_uniform(shader, word(shader, "u_numActiveLightSources"), IR_TYPE_INT, 0), id);
+    mark_read(shader, shader_light_member(shader, word(shader, "type"), IR_TYPE_INT), id);
+    for (uint32_t i = 0; i < shader->light_members.len; i++)
+        mark_read(shader, shader->light_members.items[i], id);
+    for (uint32_t i = 0; i < shader->lights.len; i++)
+        lang_reach_add(&stage->reach, shader->unit, shader->lights.items[i].function);
+}
+
+/* What portable functions, which are called and not seen through, read from the host. */
+static void add_globals(struct shader *shader, enum shader_stage_id id)
+{
+    const struct lang_reach *reach = &shader->stages[id].reach;
+    for (uint32_t i = 0; i < reach->globals.len; i++) {
+        const struct lang_global *global = lang_global(shader->unit, reach->globals.items[i], NULL);
+        if (global->kind == LANG_GLOBAL_UNIFORM)
+            mark_read(shader, shader_private_uniform(shader, global->name, global->type, (uint16_t)global->array_length), id);
+        else if (global->kind == LANG_GLOBAL_STREAM && shader_stream(shader, global->name, global->type))
+            mark_read(shader, shader_global_variable(shader, reach->globals.items[i]), id);
+    }
+}
+
+static void mark_outputs(struct shader *shader, enum shader_stage_id id)
+{
+    const struct effect_list *effects = &shader->stages[id].effects;
+    for (uint32_t i = 0; i < effects->len; i++)
+        if (effects->items[i].kind == EFFECT_OUTPUT)
+            mark_read(shader, effects->items[i].index, id);
+}
+
+/* Drops the vertex data that the pixel stage does not read, and adds the position. */
+static void complete_vertex_stage(struct shader *shader)
+{
+    struct effect_list *effects = &shader->stages[STAGE_VERTEX].effects;
+    bool has_position = false;
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < effects->len; i++) {
+        const struct effect *effect = &effects->items[i];
+        has_position |= effect->kind == EFFECT_POSITION;
+        if (effect->kind != EFFECT_OUTPUT || shader->variables.items[effect->index].stages)
+            effects->items[kept++] = *effect;
+    }
+    effects->len = kept;
+    if (has_position)
+        return;
+    struct ir_graph *graph = shader->graph;
+    ir_ref world = shader_vertex_stream(shader, word(shader, "positionWorld"), IR_TYPE_VOID);
+    ir_ref homogeneous = ir_arg(graph, world, 0); /* the stream is this, cut to xyz */
+    ir_ref matrix = shader_read(shader, shader_private_uniform(shader, word(shader, "u_viewProjectionMatrix"), IR_TYPE_MAT4, 0));
+    ir_ref position = ir_build(graph, IR_MUL, IR_TYPE_VEC4, 0, (ir_ref[]){matrix, homogeneous}, 2);
+    shader_effect(shader, STAGE_VERTEX, (struct effect){.kind = EFFECT_POSITION, .value = position});
+}
+
+static void name_neutrally(struct shader *shader)
+{
+    uint32_t uniforms = 0, textures = 0;
+    for (uint32_t i = 0; i < shader->interface.len; i++) {
+        struct shader_variable *variable = &shader->variables.items[shader->interface.items[i]];
+        bool texture = variable->block == BLOCK_TEXTURES && !variable->semantic;
+        if (variable->block != BLOCK_PUBLIC_UNIFORMS && !texture)
+            continue;
+        struct text name;
+        text_init(&name, shader->arena);
+        text_str(&name, texture ? "t_" : "u_");
+        text_u32(&name, texture ? textures++ : uniforms++);
+        variable->name = str_intern(shader->strings, text_cstr(&name), name.len);
+    }
+}
+
+void shader_finish(struct shader *shader, const struct shader_layout_rules *rules)
+{
+    complete_lights(shader, STAGE_PIXEL);
+    mark_outputs(shader, STAGE_PIXEL);
+    shader_schedule(shader, STAGE_PIXEL);
+    add_globals(shader, STAGE_PIXEL);
+    complete_vertex_stage(shader);
+    mark_outputs(shader, STAGE_VERTEX);
+    shader_schedule(shader, STAGE_VERTEX);
+    add_globals(shader, STAGE_VERTEX);
+    shader_layout(shader, rules);
+    if (rules->neutral_names)
+        name_neutrally(shader);
+    shader->topology = shader_topology(shader);
+}

@@ -1,0 +1,411 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * The variables through which a shader meets its host, and the streams from the vertex stage to the pixel stage.
+ *
+ * Names at file scope are unique. The table shader->names finds a variable by its name, block apart: two blocks cannot have
+ * members of one name, since members are spelled without their block; only vertex data has a scope of its own.
+ */
+#include "shader/shader.h"
+
+#include "base/hash.h"
+
+#include <assert.h>
+
+const char *shader_block_name(enum shader_block block)
+{
+    static const char *const names[NUM_BLOCKS] = {
+        [BLOCK_PUBLIC_UNIFORMS] = "PublicUniforms", [BLOCK_PRIVATE_UNIFORMS] = "PrivateUniforms",
+        [BLOCK_LIGHT_DATA] = "LightData",           [BLOCK_TEXTURES] = "Textures",
+        [BLOCK_APP_DATA] = "AppData",               [BLOCK_VERTEX_DATA] = "VertexData",
+        [BLOCK_OUTPUTS] = "Outputs",
+    };
+    return names[block];
+}
+
+void shader_init(struct shader *shader, struct arena *arena, struct strpool *strings, struct ir_graph *graph,
+                 struct lang_unit *unit)
+{
+    *shader = (struct shader){.arena = arena, .strings = strings, .graph = graph, .unit = unit, .max_lights = 3};
+    for (int stage = 0; stage < NUM_STAGES; stage++)
+        shader->stages[stage].reach.arena = arena;
+}
+
+/* ---- Names ---- */
+
+/* Members of structs and of blocks with an instance name have scopes of their own. */
+static uint32_t name_scope(enum shader_block block)
+{
+    return block == BLOCK_LIGHT_DATA || block == BLOCK_VERTEX_DATA ? (uint32_t)block : NUM_BLOCKS;
+}
+
+/* The slot that holds a variable of this name and scope, or the free one where it belongs. */
+static uint32_t *find_slot(const struct shader *shader, uint32_t scope, str_id name)
+{
+    uint32_t i = hash_pair(name, scope) & shader->names_mask;
+    for (; shader->names[i]; i = (i + 1) & shader->names_mask) {
+        const struct shader_variable *found = &shader->variables.items[shader->names[i] - 1];
+        if (found->name == name && name_scope(found->block) == scope)
+            break;
+    }
+    return &shader->names[i];
+}
+
+static void grow_names(struct shader *shader)
+{
+    uint32_t slots = shader->names_mask ? (shader->names_mask + 1) * 2 : 64;
+    shader->names = ARENA_ARRAY(shader->arena, uint32_t, slots);
+    shader->names_mask = slots - 1;
+    for (uint32_t i = 0; i < shader->variables.len; i++) {
+        const struct shader_variable *variable = &shader->variables.items[i];
+        *find_slot(shader, name_scope(variable->block), variable->name) = i + 1;
+    }
+}
+
+/* Names that the speller needs at file scope. */
+static bool is_taken_word(const struct shader *shader, const char *name)
+{
+    static const char *const words[] = {"main", "vd", "u_lightData", "LightData", "LightData_block", "PublicUniforms",
+                                        "PrivateUniforms", "VertexData", "mx_light"};
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        if (strcmp(name, words[i]) == 0)
+            return true;
+    return shader->syntax && lang_syntax_is_reserved(shader->syntax, name);
+}
+
+static str_id unique_name(struct shader *shader, uint32_t scope, str_id wanted)
+{
+    struct text name;
+    text_init(&name, shader->arena);
+    size_t wanted_len = str_len(shader->strings, wanted);
+    text_reserve(&name, wanted_len + 16);
+    name.len = identifier_from(str_text(shader->strings, wanted), wanted_len, name.data);
+    size_t base_len = name.len;
+    for (uint32_t number = 2;; number++) {
+        const char *text = text_cstr(&name);
+        str_id id = str_intern(shader->strings, text, name.len);
+        if (!*find_slot(shader, scope, id) && !is_taken_word(shader, text))
+            return id;
+        name.len = base_len;
+        if (name.data[base_len - 1] != '_')
+            text_char(&name, '_');
+        text_u32(&name, number);
+    }
+}
+
+uint32_t shader_add_variable(struct shader *shader, const struct shader_variable *variable)
+{
+    if (shader->variables.len * 2 >= shader->names_mask)
+        grow_names(shader);
+    uint32_t scope = name_scope(variable->block);
+    str_id name = unique_name(shader, scope, variable->name);
+    uint32_t index = shader->variables.len;
+    *find_slot(shader, scope, name) = index + 1;
+    vec_push(shader->arena, &shader->variables, *variable);
+    vec_last(&shader->variables).name = name;
+    return index;
+}
+
+uint32_t shader_find_variable(const struct shader *shader, enum shader_block block, str_id name)
+{
+    if (!shader->names)
+        return UINT32_MAX;
+    uint32_t slot = *find_slot(shader, name_scope(block), name);
+    return slot && shader->variables.items[slot - 1].block == block ? slot - 1 : UINT32_MAX;
+}
+
+/* The variable with the type that a stage reads, which is the element's for arrays of built-in types. */
+ir_ref shader_read(struct shader *shader, uint32_t variable)
+{
+    const struct shader_variable *v = &shader->variables.items[variable];
+    enum ir_op op = v->block == BLOCK_TEXTURES                                       ? IR_TEXTURE
+                    : v->block == BLOCK_APP_DATA || v->block == BLOCK_VERTEX_DATA ? IR_STREAM
+                                                                                     : IR_UNIFORM;
+    ir_type_id type = v->array_length ? (ir_type_id)ir_add_array(shader->graph, v->type, v->array_length) : v->type;
+    return ir_build(shader->graph, op, type, variable, NULL, 0);
+}
+
+/* ---- What is asked for by name ---- */
+
+static uint32_t find_binding(const struct shader *shader, enum shader_block block, str_id asked, ir_type_id scalar)
+{
+    for (uint32_t i = 0; i < shader->bindings.len; i++) {
+        const struct shader_binding *binding = &shader->bindings.items[i];
+        if (binding->asked == asked && binding->block == block && binding->scalar == scalar)
+            return binding->variable;
+    }
+    return UINT32_MAX;
+}
+
+static ir_type_id scalar_of(ir_type_id type)
+{
+    return type < IR_NUM_TYPES ? ir_type_info(type)->scalar : type;
+}
+
+static uint32_t bind(struct shader *shader, const struct shader_variable *variable)
+{
+    uint32_t index = shader_add_variable(shader, variable);
+    vec_push(shader->arena, &shader->bindings,
+             (struct shader_binding){variable->name, variable->block, scalar_of(variable->type), index});
+    return index;
+}
+
+/* Textures are bound apart from other uniforms. */
+static enum shader_block uniform_block(ir_type_id type)
+{
+    return type == IR_TYPE_SAMPLER ? BLOCK_TEXTURES : BLOCK_PRIVATE_UNIFORMS;
+}
+
+uint32_t shader_global_variable(const struct shader *shader, uint32_t global_id)
+{
+    const struct lang_global *global = lang_global(shader->unit, global_id, NULL);
+    if (global->kind == LANG_GLOBAL_UNIFORM)
+        return find_binding(shader, uniform_block(global->type), global->name, scalar_of(global->type));
+    if (global->kind == LANG_GLOBAL_STREAM)
+        return find_binding(shader, BLOCK_VERTEX_DATA, global->name, scalar_of(global->type));
+    return UINT32_MAX;
+}
+
+/* ---- Uniforms ---- */
+
+struct uniform_row {
+    const char *name;
+    ir_type_id type;
+    float value;
+};
+
+static const struct uniform_row uniform_rows[] = {
+#define HALF_TURN 2 /* about y: environment maps begin behind the viewer */
+#define UNIFORM(name, TYPE, value) {name, IR_TYPE_##TYPE, value},
+#include "shader/streams.def"
+};
+
+static struct ir_value default_value(ir_type_id type, float number)
+{
+    struct ir_value value = {.type = type};
+    const struct ir_type_info *info = ir_type_info(type);
+    if (type == IR_TYPE_INT || type == IR_TYPE_UINT || type == IR_TYPE_BOOL) {
+        value.w[0].i = (int32_t)number;
+        return value;
+    }
+    uint32_t step = info->columns > 1 ? info->columns + 1u : 1;
+    for (uint32_t i = 0; i < info->components; i += step)
+        value.w[i].f = number;
+    if (number == HALF_TURN) {
+        static const float diagonal[] = {-1, 1, -1, 1};
+        for (uint32_t i = 0; i < 4; i++)
+            value.w[i * step].f = diagonal[i];
+    }
+    return value;
+}
+
+uint32_t shader_private_uniform(struct shader *shader, str_id name, ir_type_id type, uint16_t array_length)
+{
+    const char *text = str_text(shader->strings, name);
+    struct shader_variable variable = {.name = name, .type = type, .array_length = array_length};
+    const struct uniform_row *row = NULL;
+    for (size_t i = 0; i < sizeof uniform_rows / sizeof *uniform_rows && !row; i++)
+        if (strcmp(text, uniform_rows[i].name) == 0)
+            row = &uniform_rows[i];
+    if (row) {
+        variable.type = row->type;
+        variable.rank = (uint16_t)(row - uniform_rows + 1);
+    }
+    variable.block = (uint8_t)uniform_block(variable.type);
+    uint32_t found = find_binding(shader, variable.block, name, scalar_of(variable.type));
+    if (found != UINT32_MAX)
+        return found;
+    if (variable.block == BLOCK_PRIVATE_UNIFORMS && variable.type < IR_NUM_TYPES && !array_length) {
+        variable.has_default = true;
+        variable.value = default_value(variable.type, row ? row->value : 0);
+    }
+    variable.semantic = str_intern_z(shader->strings, strncmp(text, "u_", 2) == 0 ? text + 2 : text);
+    return bind(shader, &variable);
+}
+
+uint32_t shader_light_member(struct shader *shader, str_id name, ir_type_id type)
+{
+    str_id type_name = str_intern_z(shader->strings, "type");
+    if (shader_find_variable(shader, BLOCK_LIGHT_DATA, type_name) == UINT32_MAX)
+        shader_add_variable(shader, &(struct shader_variable){.name = type_name, .block = BLOCK_LIGHT_DATA, .type = IR_TYPE_INT});
+    uint32_t found = shader_find_variable(shader, BLOCK_LIGHT_DATA, name);
+    if (found != UINT32_MAX && shader->variables.items[found].type == type)
+        return found;
+    return shader_add_variable(shader, &(struct shader_variable){.name = name, .block = BLOCK_LIGHT_DATA, .type = type});
+}
+
+/* ---- Streams ---- */
+
+enum stream_space { SPACE_OBJECT, SPACE_POINT, SPACE_VECTOR, SPACE_NORMAL, SPACE_BITANGENT };
+
+struct stream_row {
+    const char *name;
+    ir_type_id type;
+    const char *attribute;
+    uint8_t space; /* enum stream_space */
+};
+
+static const struct stream_row stream_rows[] = {
+#define STREAM(name, TYPE, attribute, SPACE) {name, IR_TYPE_##TYPE, attribute, SPACE_##SPACE},
+#include "shader/streams.def"
+};
+
+/* *out_suffix: what follows a family's name. */
+static const struct stream_row *find_stream(const char *name, const char **out_suffix)
+{
+    for (size_t i = 0; i < sizeof stream_rows / sizeof *stream_rows; i++) {
+        size_t len = strlen(stream_rows[i].name);
+        bool family = stream_rows[i].name[len - 1] == '_';
+        if (strncmp(name, stream_rows[i].name, len) == 0 && (family ? name[len] != 0 : name[len] == 0)) {
+            *out_suffix = name + len;
+            return &stream_rows[i];
+        }
+    }
+    return NULL;
+}
+
+/* What the stream is in transit: attributes and vertex data cannot be booleans. */
+static ir_type_id carried_type(const struct stream_row *row, ir_type_id wanted)
+{
+    if (row->type != IR_TYPE_VOID)
+        return row->type;
+    return wanted == IR_TYPE_BOOL ? IR_TYPE_INT : wanted;
+}
+
+static str_id concat(struct shader *shader, const char *a, const char *b, const char *c)
+{
+    struct text text;
+    text_init(&text, shader->arena);
+    text_str(&text, a);
+    text_str(&text, b);
+    text_str(&text, c);
+    return str_intern(shader->strings, text_cstr(&text), text.len);
+}
+
+/* "position:object", "normal:world", "texcoord:0", "geomprop:st". */
+static str_id stream_semantic(struct shader *shader, const struct stream_row *row, const char *suffix)
+{
+    if (*suffix) {
+        struct text family;
+        text_init(&family, shader->arena);
+        text_mem(&family, row->name, strlen(row->name) - 1);
+        return concat(shader, text_cstr(&family), ":", suffix);
+    }
+    bool world = strstr(row->name, "World") != NULL;
+    struct text what;
+    text_init(&what, shader->arena);
+    text_mem(&what, row->name, strlen(row->name) - (world ? 5 : 6));
+    return concat(shader, text_cstr(&what), ":", world ? "world" : "object");
+}
+
+static bool is_flat(ir_type_id type)
+{
+    return scalar_of(type) == IR_TYPE_INT;
+}
+
+static ir_ref attribute(struct shader *shader, const struct stream_row *row, const char *suffix, ir_type_id type)
+{
+    str_id name = concat(shader, "i_", row->attribute, suffix);
+    uint32_t index = find_binding(shader, BLOCK_APP_DATA, name, scalar_of(type));
+    if (index == UINT32_MAX) {
+        struct shader_variable variable = {.name = name, .block = BLOCK_APP_DATA, .type = type};
+        variable.rank = (uint16_t)(row - stream_rows);
+        variable.semantic = *suffix ? stream_semantic(shader, row, suffix) : concat(shader, row->attribute, ":", "object");
+        index = bind(shader, &variable);
+    }
+    return shader_read(shader, index);
+}
+
+static ir_ref transform(struct shader *shader, const char *matrix, ir_ref vector, float w)
+{
+    struct ir_graph *graph = shader->graph;
+    str_id name = str_intern_z(shader->strings, matrix);
+    ir_ref m = shader_read(shader, shader_private_uniform(shader, name, IR_TYPE_MAT4, 0));
+    ir_ref parts[] = {vector, ir_const_float(graph, w)};
+    ir_ref v = ir_construct(graph, IR_TYPE_VEC4, parts, 2);
+    return ir_build(graph, IR_MUL, IR_TYPE_VEC4, 0, (ir_ref[]){m, v}, 2);
+}
+
+static ir_ref xyz(struct ir_graph *graph, ir_ref v)
+{
+    return ir_swizzle(graph, v, (uint8_t[]){0, 1, 2}, 3);
+}
+
+/* Streams that others are made of have the same suffix: "normalWorld" for "bitangentWorld". */
+static ir_ref vertex_expression(struct shader *shader, const struct stream_row *row, const char *suffix, ir_type_id type)
+{
+    struct ir_graph *graph = shader->graph;
+    if (row->space == SPACE_BITANGENT) {
+        ir_ref normal = shader_vertex_stream(shader, concat(shader, "normal", row->attribute, ""), IR_TYPE_VOID);
+        ir_ref tangent = shader_vertex_stream(shader, concat(shader, "tangent", row->attribute, ""), IR_TYPE_VOID);
+        return ir_op2(graph, IR_CROSS, normal, tangent);
+    }
+    ir_ref a = attribute(shader, row, suffix, type);
+    switch ((enum stream_space)row->space) {
+    case SPACE_POINT:
+        return xyz(graph, transform(shader, "u_worldMatrix", a, 1));
+    case SPACE_VECTOR:
+        return ir_op1(graph, IR_NORMALIZE, xyz(graph, transform(shader, "u_worldMatrix", a, 0)));
+    case SPACE_NORMAL:
+        return ir_op1(graph, IR_NORMALIZE, xyz(graph, transform(shader, "u_worldInverseTransposeMatrix", a, 0)));
+    default:
+        return a;
+    }
+}
+
+/* The carried value as the type that was asked for. */
+static ir_ref as_wanted(struct ir_graph *graph, ir_ref value, ir_type_id wanted)
+{
+    ir_type_id type = ir_type_of(graph, value);
+    if (wanted == IR_TYPE_VOID || wanted == type)
+        return value;
+    unsigned have = ir_type_info(type)->components, want = ir_type_info(wanted)->components;
+    if (want == have)
+        return ir_convert(graph, wanted, value);
+    if (want > have) {
+        ir_ref parts[4] = {value};
+        for (unsigned i = have; i < want; i++)
+            parts[i - have + 1] = ir_const_float(graph, 0);
+        return ir_construct(graph, wanted, parts, want - have + 1);
+    }
+    return ir_swizzle(graph, value, (uint8_t[]){0, 1, 2, 3}, want);
+}
+
+ir_ref shader_vertex_stream(struct shader *shader, str_id name, ir_type_id type)
+{
+    const char *suffix;
+    const struct stream_row *row = find_stream(str_text(shader->strings, name), &suffix);
+    if (!row || (row->type == IR_TYPE_VOID && type == IR_TYPE_VOID))
+        return 0;
+    return as_wanted(shader->graph, vertex_expression(shader, row, suffix, carried_type(row, type)), type);
+}
+
+ir_ref shader_stream(struct shader *shader, str_id name, ir_type_id type)
+{
+    const char *suffix;
+    const struct stream_row *row = find_stream(str_text(shader->strings, name), &suffix);
+    if (!row || (row->type == IR_TYPE_VOID && type == IR_TYPE_VOID))
+        return 0;
+    ir_type_id carried = carried_type(row, type);
+    uint32_t index = find_binding(shader, BLOCK_VERTEX_DATA, name, scalar_of(carried));
+    if (index == UINT32_MAX) {
+        struct shader_variable variable = {.name = name, .block = BLOCK_VERTEX_DATA, .type = carried};
+        variable.rank = (uint16_t)(row - stream_rows);
+        variable.flat = is_flat(carried);
+        variable.semantic = stream_semantic(shader, row, suffix);
+        index = bind(shader, &variable);
+        ir_ref value = vertex_expression(shader, row, suffix, carried);
+        shader_effect(shader, STAGE_VERTEX, (struct effect){.kind = EFFECT_OUTPUT, .index = index, .value = value});
+    }
+    return as_wanted(shader->graph, shader_read(shader, index), type);
+}
+
+void shader_effect(struct shader *shader, enum shader_stage_id stage, struct effect effect)
+{
+    vec_push(shader->arena, &shader->stages[stage].effects, effect);
+}
+
+uint32_t shader_add_local(struct shader *shader, str_id name, ir_type_id type)
+{
+    vec_push(shader->arena, &shader->locals, (struct shader_local){name, type});
+    return shader->locals.len - 1;
+}

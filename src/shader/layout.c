@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * layout: the order of the interface, byte offsets by the rules of std140 (OpenGL 4.5 core specification, section 7.6.2.2),
+ * bindings and locations.
+ */
+#include "shader/shader.h"
+
+#include <assert.h>
+
+/* Bindings of blocks are the same in every shader, so that hosts can share set layouts; textures follow. */
+enum { BINDING_PRIVATE, BINDING_PUBLIC, BINDING_LIGHTS, BINDING_FIRST_TEXTURE };
+
+enum { STD140_ROUND = 16 }; /* arrays, matrix columns and structs are aligned to vec4 */
+
+static uint32_t round_up(uint32_t n, uint32_t to)
+{
+    return (n + to - 1) / to * to;
+}
+
+/* Rules 1 to 3: scalars by their size, vectors of 2 and 4 by theirs, vectors of 3 like 4. Matrices are arrays of columns. */
+uint32_t std140_align(ir_type_id type, bool array)
+{
+    const struct ir_type_info *info = ir_type_info(type);
+    assert(info->components > 0);
+    if (array || info->columns > 1)
+        return STD140_ROUND;
+    return info->components == 3 ? 16 : 4u * info->components;
+}
+
+uint32_t std140_size(ir_type_id type, uint16_t array_length)
+{
+    const struct ir_type_info *info = ir_type_info(type);
+    uint32_t size = info->columns > 1 ? (uint32_t)info->columns * STD140_ROUND : 4u * info->components;
+    return array_length ? array_length * round_up(size, STD140_ROUND) : size;
+}
+
+static bool comes_before(const struct shader *shader, uint32_t a, uint32_t b)
+{
+    const struct shader_variable *x = &shader->variables.items[a], *y = &shader->variables.items[b];
+    if (x->block != y->block)
+        return x->block < y->block;
+    return x->rank != y->rank ? x->rank < y->rank : a < b;
+}
+
+/* Blocks are gathered first, so that the sort by rank within them moves only the few private variables. */
+static void order_interface(struct shader *shader)
+{
+    shader->interface.len = 0;
+    for (int block = 0; block < NUM_BLOCKS; block++)
+        for (uint32_t i = 0; i < shader->variables.len; i++) {
+            const struct shader_variable *variable = &shader->variables.items[i];
+            if (variable->block != block || !variable->stages)
+                continue;
+            uint32_t at = shader->interface.len;
+            vec_push(shader->arena, &shader->interface, i);
+            for (; at > 0 && comes_before(shader, i, shader->interface.items[at - 1]); at--)
+                shader->interface.items[at] = shader->interface.items[at - 1];
+            shader->interface.items[at] = i;
+        }
+}
+
+static void place_in_buffer(struct shader_buffer *buffer, struct shader_variable *variable)
+{
+    bool array = variable->array_length > 0, matrix = ir_type_is_matrix(variable->type);
+    variable->offset = round_up(buffer->size, std140_align(variable->type, array));
+    variable->size = std140_size(variable->type, variable->array_length);
+    variable->array_stride = array ? variable->size / variable->array_length : 0;
+    variable->matrix_stride = matrix ? STD140_ROUND : 0;
+    variable->set = buffer->set;
+    variable->binding = buffer->binding;
+    buffer->size = variable->offset + variable->size;
+}
+
+/* How many locations a vertex attribute or a member of vertex data takes. */
+static uint32_t num_locations(ir_type_id type)
+{
+    return ir_type_info(type)->columns;
+}
+
+static void finish_buffers(struct shader *shader)
+{
+    for (int block = 0; block < NUM_BLOCKS; block++)
+        shader->buffers[block].size = round_up(shader->buffers[block].size, STD140_ROUND);
+    struct shader_buffer *lights = &shader->buffers[BLOCK_LIGHT_DATA];
+    lights->stride = lights->size; /* rule 9: a struct's size is a multiple of vec4's */
+    lights->size *= shader->max_lights;
+}
+
+void shader_layout(struct shader *shader, const struct shader_layout_rules *rules)
+{
+    order_interface(shader);
+    memset(shader->buffers, 0, sizeof shader->buffers);
+    if (rules->bindings)
+        for (int block = 0; block < NUM_BLOCKS; block++)
+            shader->buffers[block].set = rules->set;
+    if (rules->bindings) {
+        shader->buffers[BLOCK_PRIVATE_UNIFORMS].binding = BINDING_PRIVATE;
+        shader->buffers[BLOCK_PUBLIC_UNIFORMS].binding = BINDING_PUBLIC;
+        shader->buffers[BLOCK_LIGHT_DATA].binding = BINDING_LIGHTS;
+    }
+    uint32_t texture = BINDING_FIRST_TEXTURE, location[NUM_BLOCKS] = {0};
+    for (uint32_t i = 0; i < shader->interface.len; i++) {
+        struct shader_variable *variable = &shader->variables.items[shader->interface.items[i]];
+        switch ((enum shader_block)variable->block) {
+        case BLOCK_PUBLIC_UNIFORMS:
+        case BLOCK_PRIVATE_UNIFORMS:
+        case BLOCK_LIGHT_DATA:
+            if (rules->blocks)
+                place_in_buffer(&shader->buffers[variable->block], variable);
+            break;
+        case BLOCK_TEXTURES:
+            if (rules->bindings) {
+                variable->set = rules->set;
+                variable->binding = texture++;
+            }
+            break;
+        default:
+            if (rules->bindings) {
+                variable->location = location[variable->block];
+                location[variable->block] += num_locations(variable->type);
+            }
+            break;
+        }
+    }
+    finish_buffers(shader);
+}

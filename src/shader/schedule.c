@@ -1,0 +1,535 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * schedule: from effects to statements.
+ *
+ *     effects (in order)            accumulate += w · f(p, L)   inside of LIGHTS inside of IF
+ *     graph                         w, p shared or invariant, f(…) used once
+ *     statements                    IF { let w, let p; LIGHTS { accumulate += w * f(p, L) } }
+ *
+ * Four walks over the nodes that a list of effects reaches: collect them (operands first), say what each depends on, find each one's
+ * region and first use (users first), and choose the locals (operands first). All are iterative and linear.
+ *
+ * needs: a graph without closures      keeps: order of effects      collects: reach, functions, the variables' stages
+ */
+#include "shader/shader.h"
+
+#include <assert.h>
+
+enum { NO_EFFECT = UINT32_MAX, MANY_EFFECTS = UINT32_MAX - 1 };
+
+enum plan_flags {
+    PLAN_LOCAL = 1,      /* reads a LOCAL: may be shared within one effect only */
+    PLAN_LIGHT = 2,      /* reads the light context: may not leave its loop */
+    PLAN_IN_ARM = 4,     /* some use stands in an expression that is not always evaluated */
+    PLAN_MOVED = 8,      /* its region lies outside of that of a use */
+    PLAN_STATEMENT = 16, /* a call that cannot stand in an expression */
+    PLAN_LET = 32,
+};
+
+struct plan { /* what is known of a reached node */
+    ir_ref ref;
+    uint32_t uses;
+    uint32_t region;
+    uint32_t first;  /* the first effect that needs it */
+    uint32_t effect; /* the only effect that needs it, or MANY_EFFECTS */
+    uint16_t cost;   /* instructions to compute it from locals and interface variables */
+    uint16_t chars;  /* its length as an expression, about */
+    uint8_t flags;   /* enum plan_flags */
+};
+
+struct region {
+    uint32_t parent, header, depth; /* header: the effect that opens it */
+    uint32_t outside; /* the innermost region around it that is in no LIGHTS: itself where it is in none */
+};
+
+struct scheduler {
+    struct shader *shader;
+    const struct ir_graph *graph;
+    struct arena *arena;
+    struct shader_stage *stage;
+    uint8_t stage_bit;
+    uint32_t *index;   /* node to its plan + 1; 0: not reached */
+    VEC(struct plan) plans; /* operands before users */
+    VEC(struct region) regions;
+    VEC(uint32_t) region_of; /* the region that each effect stands in */
+    VEC(uint32_t) called;  /* IR functions called from the effects at hand */
+    uint32_t first_discard;
+};
+
+unsigned shader_call_outs(const struct shader *shader, ir_ref call)
+{
+    const struct ir_node *node = ir_get(shader->graph, call);
+    if (node->op == IR_GRAPH_CALL)
+        return shader->graph->functions.items[node->attr].num_results - 1;
+    if (node->op == IR_VERBATIM)
+        return shader->verbatim.items[shader_callee(shader, call)].num_results;
+    const struct lang_unit *layer;
+    const struct lang_function *fn = lang_function(shader->unit, shader_callee(shader, call), &layer);
+    unsigned outs = 0;
+    for (uint32_t i = 0; i < fn->num_params; i++)
+        outs += layer->slots.items[fn->first_slot + i].mode != LANG_IN;
+    return outs;
+}
+
+static struct plan *plan_of(struct scheduler *s, ir_ref ref)
+{
+    return &s->plans.items[s->index[ref] - 1];
+}
+
+static bool is_call(const struct ir_node *node)
+{
+    return node->op == IR_CALL || node->op == IR_VERBATIM || node->op == IR_GRAPH_CALL;
+}
+
+/* Must it be evaluated by all pixels together? An IR function counts as soon as derivatives are in it or in its arguments. */
+static bool needs_neighbours(const struct ir_graph *graph, const struct ir_node *node)
+{
+    if (node->op == IR_GRAPH_CALL)
+        return node->flags & IR_NODE_DERIVATIVE;
+    if (is_call(node))
+        return graph->callees.items[node->attr].derivative;
+    return ir_op_info(node->op)->flags & OP_DERIVATIVE;
+}
+
+/* ---- Collect ---- */
+
+static void note_needs(struct scheduler *s, ir_ref ref)
+{
+    const struct ir_node *node = ir_get(s->graph, ref);
+    switch (node->op) {
+    case IR_UNIFORM:
+    case IR_STREAM:
+    case IR_TEXTURE:
+        s->shader->variables.items[node->attr].stages |= s->stage_bit;
+        break;
+    case IR_CALL:
+        lang_reach_add(&s->stage->reach, s->shader->unit, shader_callee(s->shader, ref));
+        break;
+    case IR_VERBATIM: {
+        uint32_t callee = shader_callee(s->shader, ref);
+        for (uint32_t i = 0; i < s->stage->verbatim.len; i++)
+            if (s->stage->verbatim.items[i] == callee)
+                return;
+        vec_push(s->arena, &s->stage->verbatim, callee);
+        break;
+    }
+    case IR_GRAPH_CALL:
+        vec_push(s->arena, &s->called, node->attr);
+        break;
+    default:
+        break;
+    }
+}
+
+static void collect(struct scheduler *s, ir_ref root)
+{
+    struct visit {
+        ir_ref ref;
+        uint32_t next;
+    };
+    VEC(struct visit) stack = {0};
+    vec_push(s->arena, &stack, (struct visit){root, 0});
+    while (stack.len) {
+        struct visit *top = &vec_last(&stack);
+        if (!s->index[top->ref] && top->next < ir_get(s->graph, top->ref)->num_args) {
+            ir_ref operand = ir_arg(s->graph, top->ref, top->next++);
+            if (operand && !s->index[operand])
+                vec_push(s->arena, &stack, (struct visit){operand, 0});
+            continue;
+        }
+        ir_ref ref = vec_pop(&stack).ref;
+        if (s->index[ref])
+            continue;
+        vec_push(s->arena, &s->plans, (struct plan){.ref = ref, .first = NO_EFFECT, .effect = NO_EFFECT});
+        s->index[ref] = s->plans.len;
+        note_needs(s, ref);
+    }
+}
+
+/* Operands first: what each node depends on. */
+static void find_dependences(struct scheduler *s)
+{
+    for (uint32_t i = 0; i < s->plans.len; i++) {
+        struct plan *plan = &s->plans.items[i];
+        const struct ir_node *node = ir_get(s->graph, plan->ref);
+        if (node->op == IR_LOCAL)
+            plan->flags |= PLAN_LOCAL;
+        else if (node->op == IR_CONTEXT && (node->attr == IR_CONTEXT_L || node->attr == IR_CONTEXT_LIGHT_INTENSITY))
+            plan->flags |= PLAN_LIGHT;
+        else if (is_call(node) && (node->type == IR_TYPE_VOID || shader_call_outs(s->shader, plan->ref)))
+            plan->flags |= PLAN_STATEMENT;
+        for (uint32_t a = 0; a < node->num_args; a++)
+            if (ir_arg(s->graph, plan->ref, a))
+                plan->flags |= plan_of(s, ir_arg(s->graph, plan->ref, a))->flags & (PLAN_LOCAL | PLAN_LIGHT);
+    }
+}
+
+/* ---- Regions ---- */
+
+static void find_regions(struct scheduler *s, const struct effect_list *effects)
+{
+    s->regions.len = s->region_of.len = 0;
+    s->first_discard = NO_EFFECT;
+    vec_push(s->arena, &s->regions, (struct region){0});
+    uint32_t current = 0;
+    for (uint32_t i = 0; i < effects->len; i++) {
+        uint8_t kind = effects->items[i].kind;
+        if (kind == EFFECT_END)
+            current = s->regions.items[current].parent;
+        vec_push(s->arena, &s->region_of, current);
+        if (kind == EFFECT_DISCARD && s->first_discard == NO_EFFECT)
+            s->first_discard = i;
+        if (kind != EFFECT_IF && kind != EFFECT_LIGHTS)
+            continue;
+        struct region inner = {current, i, s->regions.items[current].depth + 1, s->regions.len};
+        bool in_loop = s->regions.items[current].outside != current;
+        if (kind == EFFECT_LIGHTS || in_loop)
+            inner.outside = s->regions.items[current].outside;
+        current = s->regions.len;
+        vec_push(s->arena, &s->regions, inner);
+    }
+    assert(current == 0);
+}
+
+static uint32_t common_region(const struct scheduler *s, uint32_t a, uint32_t b)
+{
+    while (a != b) {
+        if (s->regions.items[a].depth >= s->regions.items[b].depth)
+            a = s->regions.items[a].parent;
+        else
+            b = s->regions.items[b].parent;
+    }
+    return a;
+}
+
+/* The effect that stands directly in `region` and is, or holds, `effect`. */
+static uint32_t lift(const struct scheduler *s, uint32_t effect, uint32_t region)
+{
+    for (uint32_t r = s->region_of.items[effect]; r != region; r = s->regions.items[r].parent)
+        effect = s->regions.items[r].header;
+    return effect;
+}
+
+static void use(struct scheduler *s, ir_ref ref, uint32_t uses, uint32_t region, uint32_t first, uint32_t effect, bool in_arm)
+{
+    struct plan *plan = plan_of(s, ref);
+    if (plan->uses == 0) {
+        plan->region = region;
+        plan->first = first;
+        plan->effect = effect;
+    } else {
+        plan->region = common_region(s, plan->region, region);
+        plan->first = first < plan->first ? first : plan->first;
+        plan->effect = effect == plan->effect ? effect : MANY_EFFECTS;
+    }
+    plan->uses += uses;
+    if (in_arm)
+        plan->flags |= PLAN_IN_ARM;
+}
+
+/* Out of loops and branches, as far as the node may and should go. */
+static void move_out(struct scheduler *s, struct plan *plan)
+{
+    if (plan->flags & (PLAN_LOCAL | PLAN_LIGHT))
+        return;
+    uint32_t region = s->regions.items[plan->region].outside;
+    bool neighbours = needs_neighbours(s->graph, ir_get(s->graph, plan->ref));
+    if (neighbours)
+        region = 0;
+    if (region != plan->region) {
+        plan->region = region;
+        plan->flags |= PLAN_MOVED;
+    }
+    if (neighbours && plan->first > s->first_discard) {
+        plan->first = s->first_discard;
+        plan->flags |= PLAN_MOVED;
+    }
+}
+
+/* Is this operand evaluated only sometimes? */
+static bool is_arm(const struct ir_node *node, uint32_t operand)
+{
+    return operand > 0 && (node->op == IR_SELECT || node->op == IR_LAND || node->op == IR_LOR);
+}
+
+/* Users first: where each node belongs. */
+static void find_places(struct scheduler *s, const struct effect_list *effects)
+{
+    for (uint32_t i = 0; i < effects->len; i++) {
+        const struct effect *effect = &effects->items[i];
+        if (!effect->value)
+            continue;
+        use(s, effect->value, 1, s->region_of.items[i], i, i, false);
+        if (effect->kind == EFFECT_LIGHTS) /* the point is read for each light */
+            plan_of(s, effect->value)->flags |= PLAN_MOVED;
+    }
+    for (uint32_t i = s->plans.len; i-- > 0;) {
+        struct plan *plan = &s->plans.items[i];
+        const struct ir_node *node = ir_get(s->graph, plan->ref);
+        move_out(s, plan);
+        uint32_t uses = node->op == IR_RESULT ? plan->uses : 1; /* a result is another name of its call */
+        for (uint32_t a = 0; a < node->num_args; a++)
+            if (ir_arg(s->graph, plan->ref, a))
+                use(s, ir_arg(s->graph, plan->ref, a), uses, plan->region, plan->first, plan->effect,
+                    is_arm(node, a) || plan->flags & PLAN_IN_ARM);
+    }
+}
+
+/* ---- Locals ---- */
+
+/*
+ * Expressions are kept to about a line. Costs are those of SPIR-V before any optimiser: reading a block's member takes an access chain
+ * and a load, a local a variable, a store and a load per use.
+ */
+enum { MAX_CHARS = 110, MIN_SPLIT_CHARS = 36, MAX_REPEATED_CHARS = 24 };
+enum { COST_OPERATOR = 1, COST_BUILTIN = 4, COST_CALL = 16, COST_LOCAL = 2, MAX_COST_IN_LOOP = 3 };
+
+static bool is_splat(const struct ir_value *value)
+{
+    for (uint32_t i = 1; i < ir_type_info(value->type)->components; i++)
+        if (value->w[i].u != value->w[0].u)
+            return false;
+    return true;
+}
+
+static uint16_t clamp16(uint32_t n)
+{
+    return n < UINT16_MAX ? (uint16_t)n : UINT16_MAX;
+}
+
+/* Nodes that never become locals for their own sake: names, and small constants. Fills cost and chars. */
+static bool is_source(const struct scheduler *s, struct plan *plan)
+{
+    const struct ir_node *node = ir_get(s->graph, plan->ref);
+    switch (node->op) {
+    case IR_CONST: {
+        struct ir_value value;
+        bool known = ir_get_const(s->graph, plan->ref, &value);
+        uint32_t components = known && !is_splat(&value) ? ir_type_info(value.type)->components : 1;
+        plan->chars = clamp16(components == 1 ? 8 : 4 + 7 * components);
+        return components == 1 || plan->uses < (components > 4 ? 2u : 3u);
+    }
+    case IR_UNIFORM:
+    case IR_STREAM:
+    case IR_TEXTURE:
+        plan->cost = 2;
+        plan->chars = clamp16((uint32_t)str_len(s->shader->strings, s->shader->variables.items[node->attr].name) + 3);
+        return true;
+    case IR_PARAM:
+    case IR_LOCAL:
+    case IR_CONTEXT:
+    case IR_POISON:
+        plan->cost = 1;
+        plan->chars = 8;
+        return true;
+    default:
+        return false;
+    }
+}
+
+/* What an operation adds to its operands. */
+static void own_measure(const struct ir_node *node, uint32_t *out_cost, uint32_t *out_chars)
+{
+    const struct ir_op_info *info = ir_op_info(node->op);
+    if (is_call(node)) {
+        *out_cost = COST_CALL;
+        *out_chars = 16 + 2 * node->num_args;
+    } else if (info->flags & OP_BUILTIN) {
+        *out_cost = COST_BUILTIN;
+        *out_chars = (uint32_t)strlen(info->text) + 2 * node->num_args;
+    } else {
+        *out_cost = COST_OPERATOR;
+        *out_chars = 3 * node->num_args + (node->op == IR_CONSTRUCT ? 4 : 0);
+    }
+}
+
+static bool may_let(const struct scheduler *s, const struct plan *plan)
+{
+    ir_type_id type = ir_type_of(s->graph, plan->ref);
+    if (plan->flags & PLAN_LOCAL && plan->effect == MANY_EFFECTS)
+        return false;
+    if (plan->flags & PLAN_LIGHT && s->regions.items[plan->region].outside == plan->region)
+        return false;
+    return plan->flags & PLAN_STATEMENT || (type != IR_TYPE_VOID && type != IR_TYPE_SAMPLER && type != IR_TYPE_STRING);
+}
+
+static void let(struct plan *plan)
+{
+    plan->flags |= PLAN_LET;
+    plan->cost = 1;
+    plan->chars = 12;
+}
+
+/* Sums the operands up; the longest of them become locals until the whole is no longer than a line. */
+static void measure(struct scheduler *s, struct plan *plan)
+{
+    const struct ir_node *node = ir_get(s->graph, plan->ref);
+    for (;;) {
+        uint32_t cost, chars;
+        own_measure(node, &cost, &chars);
+        struct plan *longest = NULL;
+        for (uint32_t a = 0; a < node->num_args; a++) {
+            struct plan *operand = plan_of(s, ir_arg(s->graph, plan->ref, a));
+            cost += operand->cost;
+            chars += operand->chars;
+            bool splits = operand->chars >= MIN_SPLIT_CHARS && !(operand->flags & PLAN_LET) && may_let(s, operand)
+                          && ir_get(s->graph, operand->ref)->num_args > 0;
+            if (splits && (!longest || operand->chars > longest->chars))
+                longest = operand;
+        }
+        if (chars <= MAX_CHARS || !longest) {
+            plan->cost = clamp16(cost);
+            plan->chars = clamp16(chars);
+            return;
+        }
+        let(longest);
+    }
+}
+
+/* Operators on what is at hand are cheaper repeated than stored. */
+static bool is_cheap(const struct scheduler *s, const struct plan *plan)
+{
+    const struct ir_node *node = ir_get(s->graph, plan->ref);
+    if (!(ir_op_info(node->op)->flags & OP_OPERATOR) || node->op == IR_SELECT || plan->chars > MAX_REPEATED_CHARS)
+        return false;
+    if (plan->flags & PLAN_MOVED)
+        return plan->cost <= MAX_COST_IN_LOOP;
+    return (uint32_t)plan->cost * plan->uses <= (uint32_t)plan->cost + COST_LOCAL + plan->uses;
+}
+
+/* A part of something that has a name. */
+static bool is_part(struct scheduler *s, const struct plan *plan)
+{
+    const struct ir_node *node = ir_get(s->graph, plan->ref);
+    if (node->op == IR_RESULT)
+        return true;
+    if (node->op != IR_SWIZZLE && node->op != IR_MEMBER)
+        return false;
+    const struct plan *whole = plan_of(s, ir_arg(s->graph, plan->ref, 0));
+    uint8_t op = ir_get(s->graph, whole->ref)->op;
+    return whole->flags & PLAN_LET || op == IR_RESULT || ir_get(s->graph, whole->ref)->num_args == 0;
+}
+
+/* Operands first: which nodes become locals. */
+static void choose_locals(struct scheduler *s)
+{
+    for (uint32_t i = 0; i < s->plans.len; i++) {
+        struct plan *plan = &s->plans.items[i];
+        if (is_source(s, plan))
+            continue;
+        measure(s, plan);
+        if (!may_let(s, plan) || is_part(s, plan))
+            continue;
+        bool neighbours = needs_neighbours(s->graph, ir_get(s->graph, plan->ref));
+        bool wanted = plan->flags & PLAN_STATEMENT || (neighbours && plan->flags & (PLAN_IN_ARM | PLAN_MOVED));
+        if (!wanted && (plan->uses > 1 || plan->flags & PLAN_MOVED))
+            wanted = !is_cheap(s, plan);
+        if (wanted)
+            let(plan);
+    }
+}
+
+/* The effects with the LETs in front of those that need them first. */
+static void write_statements(struct scheduler *s, const struct effect_list *effects, struct effect_list *out)
+{
+    uint32_t *first = ARENA_ARRAY(s->arena, uint32_t, effects->len + 1); /* per effect: where its LETs begin */
+    uint32_t lets = 0;
+    for (uint32_t i = 0; i < s->plans.len; i++) {
+        struct plan *plan = &s->plans.items[i];
+        if (!(plan->flags & PLAN_LET))
+            continue;
+        plan->first = lift(s, plan->first, plan->region);
+        first[plan->first + 1]++;
+        lets++;
+    }
+    for (uint32_t i = 1; i <= effects->len; i++)
+        first[i] += first[i - 1];
+    out->len = 0;
+    struct effect *statements = vec_extend(s->arena, out, lets + effects->len);
+    for (uint32_t i = 0; i < s->plans.len; i++) {
+        const struct plan *plan = &s->plans.items[i];
+        if (plan->flags & PLAN_LET)
+            statements[first[plan->first]++ + plan->first] = (struct effect){.kind = EFFECT_LET, .value = plan->ref};
+    }
+    for (uint32_t i = 0; i < effects->len; i++)
+        statements[first[i] + i] = effects->items[i];
+}
+
+static void schedule_effects(struct scheduler *s, const struct effect_list *effects, struct effect_list *out)
+{
+    s->plans.len = s->called.len = 0;
+    for (uint32_t i = 0; i < effects->len; i++)
+        if (effects->items[i].value)
+            collect(s, effects->items[i].value);
+    find_dependences(s);
+    find_regions(s, effects);
+    find_places(s, effects);
+    choose_locals(s);
+    write_statements(s, effects, out);
+    for (uint32_t i = 0; i < s->plans.len; i++)
+        s->index[s->plans.items[i].ref] = 0;
+}
+
+/* ---- IR functions ---- */
+
+static void schedule_function(struct scheduler *s, uint32_t function, struct effect_list *out)
+{
+    const struct ir_function *fn = &s->graph->functions.items[function];
+    struct effect_list effects = {0};
+    for (uint32_t i = fn->num_results; i-- > 0;) {
+        ir_ref result = s->graph->function_results.items[fn->first_result + i];
+        vec_push(s->arena, &effects, (struct effect){.kind = EFFECT_RESULT, .index = i, .value = result});
+    }
+    schedule_effects(s, &effects, out);
+}
+
+/* Schedules functions and what they call, callees first. */
+static void schedule_functions(struct scheduler *s)
+{
+    struct visit {
+        struct shader_function function;
+        VEC(uint32_t) called;
+    };
+    VEC(struct visit) stack = {0};
+    uint8_t *seen = ARENA_ARRAY(s->arena, uint8_t, s->graph->functions.len + 1);
+    vec_push(s->arena, &stack, (struct visit){.function = {.function = UINT32_MAX}}); /* main */
+    for (;;) {
+        struct visit *top = &vec_last(&stack);
+        if (s->called.len) { /* just scheduled */
+            memcpy(vec_extend(s->arena, &top->called, s->called.len), s->called.items, s->called.len * sizeof *s->called.items);
+            s->called.len = 0;
+        }
+        uint32_t next = UINT32_MAX;
+        while (top->called.len && next == UINT32_MAX) {
+            uint32_t callee = vec_pop(&top->called);
+            if (!seen[callee])
+                next = callee;
+        }
+        if (next != UINT32_MAX) {
+            seen[next] = 1;
+            struct visit visit = {.function = {.function = next}};
+            schedule_function(s, next, &visit.function.statements);
+            vec_push(s->arena, &stack, visit);
+            continue;
+        }
+        if (stack.len == 1)
+            return;
+        vec_push(s->arena, &s->stage->functions, top->function);
+        stack.len--;
+    }
+}
+
+void shader_schedule(struct shader *shader, enum shader_stage_id stage)
+{
+    struct scheduler s = {
+        .shader = shader,
+        .graph = shader->graph,
+        .arena = shader->arena,
+        .stage = &shader->stages[stage],
+        .stage_bit = (uint8_t)(1u << stage),
+        .index = ARENA_ARRAY(shader->arena, uint32_t, shader->graph->nodes.len),
+    };
+    s.stage->functions.len = s.stage->verbatim.len = 0;
+    schedule_effects(&s, &s.stage->effects, &s.stage->statements);
+    schedule_functions(&s);
+}

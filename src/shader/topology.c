@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * topology: one number for what a shader does, apart from the names of its variables and the values of its uniforms. Shaders of equal
+ * topology can share a program.
+ *
+ * Nodes, functions and variables are numbered in the order in which the statements meet them, so that nothing depends on how the graph
+ * came about. Portable functions of a library stand for themselves by name and size; specialisations are hashed node by node.
+ */
+#include "base/hash.h"
+#include "shader/shader.h"
+
+struct hasher {
+    const struct shader *shader;
+    struct arena *arena;
+    uint64_t hash;
+    uint32_t *node_numbers;     /* node to its number, from 1; 0: not met */
+    uint32_t num_nodes;
+    uint32_t *variable_numbers; /* variable to its place in the interface */
+    uint32_t *function_numbers; /* portable function to its place in the stage's reach; IR functions alike */
+    uint32_t *graph_function_numbers;
+};
+
+static void add(struct hasher *h, uint64_t word)
+{
+    h->hash = hash_mix(h->hash, word);
+}
+
+static void add_text(struct hasher *h, str_id id)
+{
+    const char *text = str_text(h->shader->strings, id);
+    add(h, hash_stable(HASH_STABLE_SEED, text, str_len(h->shader->strings, id)));
+}
+
+static void add_variables(struct hasher *h)
+{
+    for (uint32_t i = 0; i < h->shader->interface.len; i++) {
+        uint32_t index = h->shader->interface.items[i];
+        const struct shader_variable *variable = &h->shader->variables.items[index];
+        h->variable_numbers[index] = i + 1;
+        add(h, (uint64_t)variable->block << 40 | (uint64_t)variable->stages << 32 | (uint64_t)variable->array_length << 16
+                   | variable->type);
+        add_text(h, variable->semantic);
+    }
+}
+
+/* ---- Portable functions ---- */
+
+static uint64_t tree_word(const struct hasher *h, const struct lang_unit *layer, const struct lang_node *node)
+{
+    switch (node->kind) {
+    case LANG_CONST:
+    case LANG_DECLARE:
+    case LANG_VAR:
+        return node->kind == LANG_CONST ? layer->words.items[node->a].u : node->a;
+    case LANG_GLOBAL:
+        return lang_global(h->shader->unit, node->a, NULL)->name; /* replaced by add_tree */
+    case LANG_CALL:
+        return h->function_numbers[node->a];
+    case LANG_OP:
+        return node->b;
+    default:
+        return 0;
+    }
+}
+
+static void push(struct hasher *h, uint32_t **items, uint32_t *len, uint32_t *cap, lang_ref ref)
+{
+    if (!ref)
+        return;
+    if (*len == *cap)
+        *items = vec_more(h->arena, *items, cap, sizeof **items, 1);
+    (*items)[(*len)++] = ref;
+}
+
+/* Children hang in different fields by kind. */
+static void add_tree(struct hasher *h, const struct lang_unit *layer, lang_ref root)
+{
+    VEC(uint32_t) stack = {0};
+#define PUSH(ref) push(h, &stack.items, &stack.len, &stack.cap, (ref))
+    PUSH(root);
+    while (stack.len) {
+        const struct lang_node *node = &layer->nodes.items[vec_pop(&stack)];
+        add(h, (uint64_t)node->kind << 56 | (uint64_t)node->op << 48 | (uint64_t)node->type << 32);
+        if (node->kind == LANG_GLOBAL)
+            add_text(h, lang_global(h->shader->unit, node->a, NULL)->name);
+        else
+            add(h, tree_word(h, layer, node));
+        if (node->kind == LANG_CONST)
+            for (uint32_t i = 1; node->type < IR_NUM_TYPES && i < ir_type_info(node->type)->components; i++)
+                add(h, layer->words.items[node->a + i].u);
+        PUSH(node->next);
+        bool a = node->kind == LANG_OP || node->kind == LANG_ASSIGN || node->kind == LANG_EXPR || node->kind == LANG_IF
+                 || node->kind == LANG_FOR || node->kind == LANG_BLOCK || node->kind == LANG_RETURN;
+        bool b = node->kind == LANG_CALL || node->kind == LANG_DECLARE || node->kind == LANG_ASSIGN || node->kind == LANG_IF
+                 || node->kind == LANG_FOR || node->kind == LANG_WHILE || node->kind == LANG_DO;
+        PUSH(a ? node->a : 0);
+        PUSH(b ? node->b : 0);
+        PUSH(node->kind == LANG_IF || node->kind == LANG_FOR ? node->c : 0);
+        PUSH(node->kind == LANG_FOR || node->kind == LANG_WHILE || node->kind == LANG_DO ? node->d : 0);
+    }
+#undef PUSH
+}
+
+static void add_portable_functions(struct hasher *h, const struct lang_reach *reach)
+{
+    for (uint32_t i = 0; i < reach->functions.len; i++) {
+        const struct lang_unit *layer;
+        const struct lang_function *fn = lang_function(h->shader->unit, reach->functions.items[i], &layer);
+        h->function_numbers[reach->functions.items[i]] = i + 1;
+        add(h, (uint64_t)fn->return_type << 32 | (uint64_t)fn->num_params << 16 | fn->num_slots);
+        if (layer == h->shader->unit && layer->base)
+            add_tree(h, layer, fn->body);
+        add_text(h, fn->name);
+        add(h, fn->num_nodes);
+    }
+}
+
+/* ---- The graph ---- */
+
+static uint64_t attribute(const struct hasher *h, ir_ref ref)
+{
+    const struct ir_node *node = ir_get(h->shader->graph, ref);
+    switch (node->op) {
+    case IR_CONST:
+        return 0;
+    case IR_UNIFORM:
+    case IR_STREAM:
+    case IR_TEXTURE:
+        return h->variable_numbers[node->attr];
+    case IR_PARAM:
+        return node->attr & 0xffff;
+    case IR_CALL:
+        return h->function_numbers[shader_callee(h->shader, ref)];
+    case IR_GRAPH_CALL:
+        return h->graph_function_numbers[node->attr];
+    case IR_VERBATIM:
+        return shader_callee(h->shader, ref);
+    default:
+        return node->attr;
+    }
+}
+
+static void add_node(struct hasher *h, ir_ref ref)
+{
+    const struct ir_graph *graph = h->shader->graph;
+    const struct ir_node *node = ir_get(graph, ref);
+    h->node_numbers[ref] = ++h->num_nodes;
+    add(h, (uint64_t)node->op << 48 | (uint64_t)node->type << 32 | node->num_args);
+    add(h, attribute(h, ref));
+    struct ir_value value;
+    if (node->op == IR_CONST && ir_get_const(graph, ref, &value))
+        for (uint32_t i = 0; i < ir_type_info(value.type)->components; i++)
+            add(h, value.w[i].u);
+    for (uint32_t i = 0; i < node->num_args; i++)
+        add(h, h->node_numbers[ir_arg(graph, ref, i)]);
+}
+
+static void add_expression(struct hasher *h, ir_ref root)
+{
+    struct visit {
+        ir_ref ref;
+        uint32_t next;
+    };
+    VEC(struct visit) stack = {0};
+    if (!h->node_numbers[root])
+        vec_push(h->arena, &stack, (struct visit){root, 0});
+    while (stack.len) {
+        struct visit *top = &vec_last(&stack);
+        if (top->next < ir_get(h->shader->graph, top->ref)->num_args) {
+            ir_ref operand = ir_arg(h->shader->graph, top->ref, top->next++);
+            if (!h->node_numbers[operand])
+                vec_push(h->arena, &stack, (struct visit){operand, 0});
+            continue;
+        }
+        ir_ref ref = vec_pop(&stack).ref;
+        if (!h->node_numbers[ref])
+            add_node(h, ref);
+    }
+    add(h, h->node_numbers[root]);
+}
+
+static void add_effects(struct hasher *h, const struct effect_list *statements)
+{
+    for (uint32_t i = 0; i < statements->len; i++) {
+        const struct effect *effect = &statements->items[i];
+        if (effect->kind == EFFECT_COMMENT)
+            continue;
+        bool variable = effect->kind == EFFECT_OUTPUT;
+        add(h, (uint64_t)effect->kind << 32 | (variable ? h->variable_numbers[effect->index] : effect->index));
+        if (effect->value)
+            add_expression(h, effect->value);
+    }
+}
+
+static void add_stage(struct hasher *h, const struct shader_stage *stage)
+{
+    add_portable_functions(h, &stage->reach);
+    for (uint32_t i = 0; i < stage->verbatim.len; i++) {
+        const struct shader_verbatim *verbatim = &h->shader->verbatim.items[stage->verbatim.items[i]];
+        add_text(h, verbatim->source);
+        add_text(h, verbatim->function);
+        add_text(h, verbatim->expression);
+    }
+    for (uint32_t i = 0; i < stage->functions.len; i++) {
+        h->graph_function_numbers[stage->functions.items[i].function] = i + 1;
+        add_effects(h, &stage->functions.items[i].statements);
+    }
+    add_effects(h, &stage->statements);
+}
+
+uint64_t shader_topology(const struct shader *shader)
+{
+    struct hasher h = {.shader = shader, .arena = shader->arena, .hash = HASH_STABLE_SEED};
+    uint32_t num_functions = shader->unit ? shader->unit->base_functions + shader->unit->functions.len : 0;
+    h.node_numbers = ARENA_ARRAY(h.arena, uint32_t, shader->graph->nodes.len);
+    h.variable_numbers = ARENA_ARRAY(h.arena, uint32_t, shader->variables.len + 1);
+    h.function_numbers = ARENA_ARRAY(h.arena, uint32_t, num_functions + 1);
+    h.graph_function_numbers = ARENA_ARRAY(h.arena, uint32_t, shader->graph->functions.len + 1);
+    add_variables(&h);
+    for (uint32_t i = 0; i < shader->lights.len; i++)
+        add(&h, (uint64_t)(uint32_t)shader->lights.items[i].type << 32 | h.function_numbers[shader->lights.items[i].function]);
+    for (int stage = 0; stage < NUM_STAGES; stage++)
+        add_stage(&h, &shader->stages[stage]);
+    return h.hash;
+}

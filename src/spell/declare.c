@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: Apache-2.0
+/* What stands above the functions: structs, uniforms, textures, and what comes into the stage and goes out. */
+#include "spell/spell.h"
+
+static const char *concat(struct spell *spell, const char *a, const char *b)
+{
+    struct text text;
+    text_init(&text, spell->scratch);
+    text_str(&text, a);
+    text_str(&text, b);
+    return text_cstr(&text);
+}
+
+static const struct shader_variable *interface_variable(const struct spell *spell, uint32_t i)
+{
+    return &spell->shader->variables.items[spell->shader->interface.items[i]];
+}
+
+static const char *variable_name(const struct spell *spell, const struct shader_variable *variable)
+{
+    return str_text(spell->shader->strings, variable->name);
+}
+
+/* ---- Names ---- */
+
+void spell_name_interface(struct spell *spell)
+{
+    static const char *const own[] = {"main", "vd", "mx_light", "u_lightData", "LightData", "LightData_block",
+                                      "PublicUniforms", "PrivateUniforms", "VertexData"};
+    for (size_t i = 0; i < sizeof own / sizeof *own; i++)
+        names_take(&spell->names, own[i]);
+    bool io_block = spell_can(spell, CAP_BLOCK_STAGE_IO);
+    for (uint32_t i = 0; i < spell->shader->interface.len; i++) {
+        const struct shader_variable *variable = interface_variable(spell, i);
+        const char *name = variable_name(spell, variable);
+        if (variable->block == BLOCK_VERTEX_DATA)
+            name = concat(spell, io_block ? "vd." : "vd_", name);
+        spell->variables[spell->shader->interface.items[i]] = name;
+        if (variable->block != BLOCK_LIGHT_DATA && !(variable->block == BLOCK_VERTEX_DATA && io_block))
+            names_take(&spell->names, name);
+    }
+}
+
+/* ---- Declarations ---- */
+
+static void declare(struct spell *spell, const struct shader_variable *variable, const char *name)
+{
+    spell_variable(spell, variable->type, name);
+    if (variable->array_length) {
+        text_char(spell->out, '[');
+        text_u32(spell->out, variable->array_length);
+        text_char(spell->out, ']');
+    }
+}
+
+static bool stage_reads(const struct spell *spell, const struct shader_variable *variable)
+{
+    return variable->stages >> spell->stage_id & 1;
+}
+
+/* Does this stage use a variable of the block? */
+static bool needs_block(const struct spell *spell, enum shader_block block)
+{
+    for (uint32_t i = 0; i < spell->shader->interface.len; i++)
+        if (interface_variable(spell, i)->block == block && stage_reads(spell, interface_variable(spell, i)))
+            return true;
+    return false;
+}
+
+/* "layout(set = 0, binding = 1, std140) "; nothing where neither is asked for. */
+static void write_layout(struct spell *spell, uint32_t set, uint32_t binding, bool std140)
+{
+    bool bindings = spell_can(spell, CAP_BINDINGS);
+    if (bindings)
+        text_fmt(spell->out, "layout(set = %u, binding = %u%s) ", set, binding, std140 ? ", std140" : "");
+    else if (std140)
+        spell_text(spell, "layout(std140) ");
+}
+
+static void write_location(struct spell *spell, uint32_t location)
+{
+    if (spell_can(spell, CAP_BINDINGS))
+        text_fmt(spell->out, "layout(location = %u) ", location);
+}
+
+static void write_members(struct spell *spell, enum shader_block block)
+{
+    for (uint32_t i = 0; i < spell->shader->interface.len; i++) {
+        const struct shader_variable *variable = interface_variable(spell, i);
+        if (variable->block != block)
+            continue;
+        spell_indent(spell, 1);
+        if (variable->flat)
+            spell_text(spell, "flat ");
+        declare(spell, variable, variable_name(spell, variable));
+        spell_text(spell, ";\n");
+    }
+}
+
+/* Blocks are declared whole in every stage that reads a member: their layout is shared. */
+static void write_uniform_block(struct spell *spell, enum shader_block block)
+{
+    const struct shader_buffer *buffer = &spell->shader->buffers[block];
+    write_layout(spell, buffer->set, buffer->binding, true);
+    text_fmt(spell->out, "uniform %s {\n", shader_block_name(block));
+    write_members(spell, block);
+    spell_text(spell, "};\n");
+}
+
+static void write_uniform(struct spell *spell, const struct shader_variable *variable)
+{
+    spell_text(spell, "uniform ");
+    declare(spell, variable, variable_name(spell, variable));
+    bool fixed = variable->block == BLOCK_PRIVATE_UNIFORMS || !spell->options->neutral_names;
+    if (variable->has_default && fixed && spell_can(spell, CAP_UNIFORM_DEFAULTS)) {
+        spell_text(spell, " = ");
+        lang_print_value(spell->target->syntax, spell->shader->strings, &variable->value, spell->out);
+    }
+    spell_text(spell, ";\n");
+}
+
+static void write_uniforms(struct spell *spell, enum shader_block block)
+{
+    if (!needs_block(spell, block))
+        return;
+    if (spell->blocks) {
+        write_uniform_block(spell, block);
+        return;
+    }
+    for (uint32_t i = 0; i < spell->shader->interface.len; i++) {
+        const struct shader_variable *variable = interface_variable(spell, i);
+        if (variable->block == block && stage_reads(spell, variable))
+            write_uniform(spell, variable);
+    }
+}
+
+static void write_light_data(struct spell *spell)
+{
+    if (!spell->stage->has_lights)
+        return;
+    const struct shader_buffer *buffer = &spell->shader->buffers[BLOCK_LIGHT_DATA];
+    spell_text(spell, "struct LightData {\n");
+    write_members(spell, BLOCK_LIGHT_DATA);
+    spell_text(spell, "};\n");
+    if (spell->blocks)
+        write_layout(spell, buffer->set, buffer->binding, true);
+    text_fmt(spell->out, spell->blocks ? "uniform LightData_block { LightData u_lightData[%u]; };\n"
+                                       : "uniform LightData u_lightData[%u];\n", spell->shader->max_lights);
+}
+
+static void write_textures(struct spell *spell)
+{
+    for (uint32_t i = 0; i < spell->shader->interface.len; i++) {
+        const struct shader_variable *variable = interface_variable(spell, i);
+        if (variable->block != BLOCK_TEXTURES || !stage_reads(spell, variable))
+            continue;
+        write_layout(spell, variable->set, variable->binding, false);
+        write_uniform(spell, variable);
+    }
+}
+
+static void write_attributes(struct spell *spell, enum shader_block block, const char *qualifier)
+{
+    for (uint32_t i = 0; i < spell->shader->interface.len; i++) {
+        const struct shader_variable *variable = interface_variable(spell, i);
+        if (variable->block != block || !stage_reads(spell, variable))
+            continue;
+        write_location(spell, variable->location);
+        if (variable->flat)
+            spell_text(spell, "flat ");
+        spell_text(spell, qualifier);
+        declare(spell, variable, spell->variables[spell->shader->interface.items[i]]);
+        spell_text(spell, ";\n");
+    }
+}
+
+static void write_vertex_data(struct spell *spell)
+{
+    const char *qualifier = spell->stage_id == STAGE_VERTEX ? "out " : "in ";
+    if (!needs_block(spell, BLOCK_VERTEX_DATA))
+        return;
+    if (!spell_can(spell, CAP_BLOCK_STAGE_IO)) {
+        write_attributes(spell, BLOCK_VERTEX_DATA, qualifier);
+        return;
+    }
+    write_location(spell, 0);
+    text_fmt(spell->out, "%sVertexData {\n", qualifier);
+    write_members(spell, BLOCK_VERTEX_DATA);
+    spell_text(spell, "} vd;\n");
+}
+
+static void write_structs(struct spell *spell)
+{
+    const struct lang_reach *reach = &spell->stage->reach;
+    for (uint32_t i = 0; i < reach->user_types.len; i++)
+        lang_print_struct(spell->target->syntax, &spell->lang_names, spell->shader->unit, reach->user_types.items[i], spell->out);
+}
+
+void spell_interface(struct spell *spell)
+{
+    write_structs(spell);
+    write_uniforms(spell, BLOCK_PUBLIC_UNIFORMS);
+    write_uniforms(spell, BLOCK_PRIVATE_UNIFORMS);
+    write_light_data(spell);
+    write_textures(spell);
+    if (spell->stage_id == STAGE_VERTEX)
+        write_attributes(spell, BLOCK_APP_DATA, "in ");
+    write_vertex_data(spell);
+    if (spell->stage_id == STAGE_PIXEL)
+        write_attributes(spell, BLOCK_OUTPUTS, "out ");
+}

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: Apache-2.0
+/* Nodes as expressions. The scheduler bounds their depth (schedule.c), so the recursion here is shallow. */
+#include "spell/spell.h"
+
+#include <assert.h>
+
+void spell_type(struct spell *spell, ir_type_id type)
+{
+    lang_print_type(spell->target->syntax, &spell->lang_names, spell->shader->unit, type, spell->out);
+}
+
+void spell_variable(struct spell *spell, ir_type_id type, const char *name)
+{
+    lang_print_variable(spell->target->syntax, &spell->lang_names, spell->shader->unit, type, name, spell->out);
+}
+
+static void write_value(struct spell *spell, const struct ir_value *value, enum lang_precedence least)
+{
+    bool parentheses = lang_value_precedence(value) < least;
+    if (parentheses)
+        text_char(spell->out, '(');
+    lang_print_value(spell->target->syntax, spell->shader->strings, value, spell->out);
+    if (parentheses)
+        text_char(spell->out, ')');
+}
+
+static void write_swizzle(struct spell *spell, ir_ref ref, uint32_t attr)
+{
+    ir_ref operand = ir_arg(spell->shader->graph, ref, 0);
+    spell_expression(spell, operand, LANG_PREC_POSTFIX);
+    text_char(spell->out, '.');
+    for (uint32_t i = 0; i < attr >> 8; i++)
+        text_char(spell->out, "xyzw"[attr >> 2 * i & 3]);
+}
+
+static void write_member(struct spell *spell, ir_ref ref, uint32_t attr)
+{
+    ir_ref operand = ir_arg(spell->shader->graph, ref, 0);
+    spell_expression(spell, operand, LANG_PREC_POSTFIX);
+    const struct lang_unit *layer;
+    const struct ir_user_type *type = lang_user_type(spell->shader->unit, ir_type_of(spell->shader->graph, operand), &layer);
+    text_char(spell->out, '.');
+    spell_text(spell, str_text(spell->shader->strings, layer->members.items[type->first_member + attr].name));
+}
+
+static void write_list(struct spell *spell, ir_ref ref)
+{
+    const struct ir_node *node = ir_get(spell->shader->graph, ref);
+    for (uint32_t i = 0; i < node->num_args; i++) {
+        if (i)
+            text_mem(spell->out, ", ", 2);
+        spell_expression(spell, ir_arg(spell->shader->graph, ref, i), LANG_PREC_ASSIGN);
+    }
+}
+
+static void write_construct(struct spell *spell, ir_ref ref, ir_type_id type)
+{
+    bool array = type >= IR_TYPE_FIRST_USER && lang_user_type(spell->shader->unit, type, NULL)->array_length;
+    bool braces = array && spell->target->syntax->array_braces;
+    if (!braces)
+        spell_type(spell, type);
+    text_char(spell->out, braces ? '{' : '(');
+    write_list(spell, ref);
+    text_char(spell->out, braces ? '}' : ')');
+}
+
+/* The expression with its operands, in parentheses, where {{i}} stands. */
+static void write_verbatim(struct spell *spell, ir_ref ref, str_id expression)
+{
+    const char *p = str_text(spell->shader->strings, expression);
+    text_char(spell->out, '(');
+    while (*p) {
+        if (p[0] != '{' || p[1] != '{') {
+            text_char(spell->out, *p++);
+            continue;
+        }
+        uint32_t index = 0;
+        for (p += 2; *p >= '0' && *p <= '9'; p++)
+            index = index * 10 + (uint32_t)(*p - '0');
+        p += strncmp(p, "}}", 2) == 0 ? 2 : 0;
+        spell_expression(spell, ir_arg(spell->shader->graph, ref, index), LANG_PREC_POSTFIX);
+    }
+    text_char(spell->out, ')');
+}
+
+static const char *callee_name(const struct spell *spell, ir_ref call)
+{
+    const struct ir_node *node = ir_get(spell->shader->graph, call);
+    if (node->op == IR_GRAPH_CALL)
+        return spell->graph_functions[node->attr];
+    uint32_t callee = shader_callee(spell->shader, call);
+    if (node->op == IR_VERBATIM)
+        return str_text(spell->shader->strings, spell->shader->verbatim.items[callee].function);
+    return spell->functions[callee];
+}
+
+unsigned spell_call_open(struct spell *spell, ir_ref call)
+{
+    spell_text(spell, callee_name(spell, call));
+    text_char(spell->out, '(');
+    write_list(spell, call);
+    return ir_get(spell->shader->graph, call)->num_args;
+}
+
+static void write_call(struct spell *spell, ir_ref ref)
+{
+    if (ir_get(spell->shader->graph, ref)->op == IR_VERBATIM) {
+        const struct shader_verbatim *verbatim = &spell->shader->verbatim.items[shader_callee(spell->shader, ref)];
+        if (!verbatim->function) {
+            write_verbatim(spell, ref, verbatim->expression);
+            return;
+        }
+    }
+    spell_call_open(spell, ref);
+    text_char(spell->out, ')');
+}
+
+struct form_operands {
+    struct spell *spell;
+    ir_ref ref;
+};
+
+static void write_operand(void *user_data, unsigned index, enum lang_precedence least, struct text *out)
+{
+    const struct form_operands *operands = user_data;
+    (void)out; /* the speller's own */
+    spell_expression(operands->spell, ir_arg(operands->spell->shader->graph, operands->ref, index), least);
+}
+
+static void write_form(struct spell *spell, ir_ref ref, const struct ir_node *node, enum lang_precedence least)
+{
+    const struct lang_form *form = lang_syntax_form(spell->target->syntax, node->op);
+    assert(form && form->text);
+    bool parentheses = (enum lang_precedence)form->precedence < least;
+    if (parentheses)
+        text_char(spell->out, '(');
+    const char *type = node->type < IR_NUM_TYPES ? lang_syntax_type(spell->target->syntax, node->type) : "";
+    lang_write_form(form, type, write_operand, &(struct form_operands){spell, ref}, spell->out);
+    if (parentheses)
+        text_char(spell->out, ')');
+}
+
+/* Operations with neither operands nor a form: names. */
+static void write_source(struct spell *spell, const struct ir_node *node)
+{
+    switch (node->op) {
+    case IR_UNIFORM:
+    case IR_STREAM:
+    case IR_TEXTURE:
+        spell_text(spell, spell->variables[node->attr]);
+        break;
+    case IR_PARAM:
+        text_char(spell->out, 'p');
+        text_u32(spell->out, node->attr & 0xffff);
+        break;
+    case IR_LOCAL:
+        spell_text(spell, spell->locals[node->attr]);
+        break;
+    case IR_CONTEXT:
+        spell_text(spell, node->attr == IR_CONTEXT_L ? spell->light_direction : spell->light_intensity);
+        break;
+    default: /* POISON: an error was reported; the text is not used */
+        write_value(spell, &(struct ir_value){.type = node->type < IR_NUM_TYPES ? node->type : IR_TYPE_FLOAT}, LANG_PREC_COMMA);
+    }
+}
+
+void spell_expression(struct spell *spell, ir_ref ref, enum lang_precedence least)
+{
+    const struct ir_graph *graph = spell->shader->graph;
+    const struct ir_node *node = ir_get(graph, ref);
+    if (spell->local_of[ref]) {
+        spell_text(spell, spell->let_names.items[spell->local_of[ref] - 1]);
+        return;
+    }
+    struct ir_value value;
+    switch (node->op) {
+    case IR_CONST:
+        ir_get_const(graph, ref, &value);
+        write_value(spell, &value, least);
+        break;
+    case IR_SWIZZLE:
+        write_swizzle(spell, ref, node->attr);
+        break;
+    case IR_MEMBER:
+        write_member(spell, ref, node->attr);
+        break;
+    case IR_CONSTRUCT:
+        write_construct(spell, ref, node->type);
+        break;
+    case IR_CALL:
+    case IR_VERBATIM:
+    case IR_GRAPH_CALL:
+        write_call(spell, ref);
+        break;
+    case IR_RESULT: {
+        uint32_t first = spell->local_of[ir_arg(graph, ref, 0)];
+        if (first)
+            spell_text(spell, spell->let_names.items[first - 1 + node->attr]);
+        else
+            spell_expression(spell, ir_arg(graph, ref, 0), least);
+        break;
+    }
+    default:
+        if (node->num_args == 0)
+            write_source(spell, node);
+        else
+            write_form(spell, ref, node, least);
+    }
+}

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * names: unique identifiers without a global counter: the second "roughness" of a function is "roughness_2" whatever else there is, so
+ * that a small edit of the input gives a small difference in the output.
+ */
+#include "base/hash.h"
+#include "spell/spell.h"
+
+void names_init(struct name_set *names, struct arena *arena, const struct lang_syntax *syntax)
+{
+    *names = (struct name_set){.arena = arena, .syntax = syntax, .mask = 255};
+    names->table = ARENA_ARRAY(arena, uint32_t, names->mask + 1);
+}
+
+void names_open_scope(struct name_set *names)
+{
+    names->scope++;
+}
+
+static uint32_t *find_slot(const struct name_set *names, const char *text, uint32_t len, uint32_t hash)
+{
+    uint32_t i = hash & names->mask;
+    for (; names->table[i]; i = (i + 1) & names->mask) {
+        const struct name_entry *entry = &names->entries.items[names->table[i] - 1];
+        if (entry->hash == hash && entry->len == len && memcmp(entry->text, text, len) == 0)
+            break;
+    }
+    return &names->table[i];
+}
+
+static void grow(struct name_set *names)
+{
+    names->mask = names->mask * 2 + 1;
+    names->table = ARENA_ARRAY(names->arena, uint32_t, names->mask + 1);
+    for (uint32_t i = 0; i < names->entries.len; i++) {
+        uint32_t at = names->entries.items[i].hash & names->mask;
+        while (names->table[at])
+            at = (at + 1) & names->mask;
+        names->table[at] = i + 1;
+    }
+}
+
+/* The entry of a name in the current scope; *out_new tells whether it was free. The text is copied where it is new. */
+static struct name_entry *take(struct name_set *names, const char *text, uint32_t len, bool *out_new)
+{
+    uint32_t hash = hash_bytes(text, len);
+    uint32_t *slot = find_slot(names, text, len, hash);
+    if (*slot) {
+        struct name_entry *entry = &names->entries.items[*slot - 1];
+        *out_new = entry->scope != 0 && entry->scope != names->scope;
+        if (*out_new) {
+            entry->scope = names->scope;
+            entry->next = 2;
+        }
+        return entry;
+    }
+    *out_new = true;
+    struct name_entry entry = {arena_strndup(names->arena, text, len), len, hash, names->scope, 2};
+    vec_push(names->arena, &names->entries, entry);
+    *slot = names->entries.len;
+    uint32_t index = names->entries.len - 1;
+    if (names->entries.len * 2 > names->mask)
+        grow(names);
+    return &names->entries.items[index];
+}
+
+void names_take(struct name_set *names, const char *text)
+{
+    bool is_new;
+    take(names, text, (uint32_t)strlen(text), &is_new);
+}
+
+const char *names_unique(struct name_set *names, const char *text, size_t len)
+{
+    char small[64];
+    char *name = len + 16 <= sizeof small ? small : arena_alloc(names->arena, len + 16);
+    size_t n = identifier_from(text, len, name);
+    name[n] = '\0';
+    bool is_new;
+    struct name_entry *entry = take(names, name, (uint32_t)n, &is_new);
+    if (is_new && !lang_syntax_is_reserved(names->syntax, entry->text))
+        return entry->text;
+    if (name[n - 1] != '_')
+        name[n++] = '_';
+    uint32_t first = (uint32_t)(entry - names->entries.items);
+    for (;;) {
+        uint32_t number = names->entries.items[first].next++;
+        char digits[10];
+        size_t count = 0, end = n;
+        do
+            digits[count++] = (char)('0' + number % 10);
+        while ((number /= 10) > 0);
+        while (count)
+            name[end++] = digits[--count];
+        entry = take(names, name, (uint32_t)end, &is_new);
+        if (is_new)
+            return entry->text;
+    }
+}

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+/* Inside the speller: the state of one stage's output, and what its files offer each other and the targets' hooks. */
+#ifndef MXG_SPELL_SPELL_H
+#define MXG_SPELL_SPELL_H
+
+#include "spell/target.h"
+
+/* ---- names.c: names that are taken, at file scope and in the function at hand ---- */
+
+struct name_entry {
+    const char *text;
+    uint32_t len, hash;
+    uint32_t scope; /* 0: file scope; else the function that uses it, which has passed where it is not the current one */
+    uint32_t next;  /* the number to try for the next of this name */
+};
+
+struct name_set {
+    struct arena *arena;
+    const struct lang_syntax *syntax;
+    VEC(struct name_entry) entries;
+    uint32_t *table; /* open addressing: entry + 1 */
+    uint32_t mask;
+    uint32_t scope;  /* of the function at hand; 0 outside */
+};
+
+void names_init(struct name_set *names, struct arena *arena, const struct lang_syntax *syntax);
+void names_open_scope(struct name_set *names); /* a new function: the names of the one before are free again */
+/* `text` made an identifier, with a number behind it where that is reserved or taken. Valid as long as the arena. */
+const char *names_unique(struct name_set *names, const char *text, size_t len);
+/* Takes a name as it is. */
+void names_take(struct name_set *names, const char *text);
+
+/* ---- The state ---- */
+
+struct spell {
+    const struct target *target;
+    const struct spell_options *options;
+    const struct shader *shader;
+    const struct shader_stage *stage;
+    enum shader_stage_id stage_id;
+    struct arena *scratch;
+    struct text *out;
+    VEC(struct spell_line) lines; /* ascending */
+    uint32_t line;                /* of the end of out */
+    size_t counted;               /* bytes of out whose lines are counted */
+    bool blocks;                  /* uniforms stand in blocks */
+    struct name_set names;
+    struct lang_names lang_names; /* for the portable printer */
+    const char **variables;       /* how each interface variable is read in this stage */
+    const char **functions;       /* names of portable functions by id; NULL: not reached */
+    const char **graph_functions; /* names of IR functions by index */
+    const char **user_types;      /* names of structs by index, of the unit */
+    const char **locals;          /* names of the stage's mutable variables */
+    uint32_t *local_of;           /* node of a LET to its first name in let_names, + 1; 0: it is an expression */
+    VEC(const char *) let_names;
+    const char *light_direction, *light_intensity; /* in a LIGHTS */
+    const char *last_path;        /* shown by the last comment */
+};
+
+/* ---- expression.c ---- */
+
+/* Writes a node so that it binds at least as tightly as `least`. */
+void spell_expression(struct spell *spell, ir_ref ref, enum lang_precedence least);
+/* "f(a, b": the name and operands of a call, unfinished. Returns how many arguments were written. */
+unsigned spell_call_open(struct spell *spell, ir_ref call);
+void spell_type(struct spell *spell, ir_type_id type);
+void spell_variable(struct spell *spell, ir_type_id type, const char *name); /* "float x[3]" */
+
+/* ---- statement.c ---- */
+
+/* Statements with the given indentation, which name their locals in a new scope. */
+void spell_statements(struct spell *spell, const struct effect_list *statements, unsigned indent);
+void spell_graph_function(struct spell *spell, const struct shader_function *function);
+
+/* ---- declare.c: what stands above the functions ---- */
+
+void spell_name_interface(struct spell *spell);
+void spell_interface(struct spell *spell);
+
+/* ---- stage.c ---- */
+
+/* The stage of C-like targets: declarations, functions, main. */
+void spell_stage(struct spell *spell, enum shader_stage_id stage);
+
+static inline void spell_text(struct spell *spell, const char *text) { text_str(spell->out, text); }
+static inline void spell_indent(struct spell *spell, unsigned indent)
+{
+    while (indent--)
+        text_mem(spell->out, "    ", 4);
+}
+/* Notes that the line at hand comes from an origin. */
+void spell_mark_line(struct spell *spell, uint32_t origin);
+static inline bool spell_can(const struct spell *spell, uint32_t cap) { return (spell->target->caps & cap) != 0; }
+
+#endif

@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: Apache-2.0
+/* A stage of a C-like target, section by section: version, interface, functions, main. */
+#include "spell/spell.h"
+
+void spell_mark_line(struct spell *spell, uint32_t origin)
+{
+    const char *data = spell->out->data;
+    for (const char *p; (p = memchr(data + spell->counted, '\n', spell->out->len - spell->counted)) != NULL;) {
+        spell->line++;
+        spell->counted = (size_t)(p + 1 - data);
+    }
+    if (origin)
+        vec_push(spell->scratch, &spell->lines, (struct spell_line){spell->line, origin});
+}
+
+/* ---- Names of functions and types ---- */
+
+static bool equal_parameters(const struct spell *spell, uint32_t a, uint32_t b)
+{
+    const struct lang_unit *la, *lb;
+    const struct lang_function *fa = lang_function(spell->shader->unit, a, &la), *fb = lang_function(spell->shader->unit, b, &lb);
+    if (fa->num_params != fb->num_params)
+        return false;
+    for (uint32_t i = 0; i < fa->num_params; i++)
+        if (la->slots.items[fa->first_slot + i].type != lb->slots.items[fb->first_slot + i].type)
+            return false;
+    return true;
+}
+
+/* The name that an earlier function of the same source name has and that this one may share as an overload; NULL: none. */
+static const char *overload_of(const struct spell *spell, uint32_t index)
+{
+    const uint32_t *ids = spell->stage->reach.functions.items;
+    str_id name = lang_function(spell->shader->unit, ids[index], NULL)->name;
+    const char *shared = NULL;
+    for (uint32_t i = 0; i < index; i++) {
+        if (lang_function(spell->shader->unit, ids[i], NULL)->name != name)
+            continue;
+        if (equal_parameters(spell, ids[i], ids[index]))
+            return NULL;
+        if (!shared)
+            shared = spell->functions[ids[i]];
+    }
+    return shared;
+}
+
+static void name_functions(struct spell *spell)
+{
+    const struct shader *shader = spell->shader;
+    for (uint32_t i = 0; i < spell->stage->reach.functions.len; i++) {
+        uint32_t id = spell->stage->reach.functions.items[i];
+        const char *name = spell_can(spell, CAP_OVERLOADS) ? overload_of(spell, i) : NULL;
+        if (!name) {
+            str_id source = lang_function(shader->unit, id, NULL)->name;
+            name = names_unique(&spell->names, str_text(shader->strings, source), str_len(shader->strings, source));
+        }
+        spell->functions[id] = name;
+    }
+    for (uint32_t i = 0; i < spell->stage->functions.len; i++) {
+        uint32_t index = spell->stage->functions.items[i].function;
+        str_id source = shader->graph->functions.items[index].name;
+        spell->graph_functions[index] = names_unique(&spell->names, str_text(shader->strings, source),
+                                                     str_len(shader->strings, source));
+    }
+}
+
+static void name_types(struct spell *spell)
+{
+    const struct lang_reach *reach = &spell->stage->reach;
+    for (uint32_t i = 0; i < reach->user_types.len; i++) {
+        str_id name = lang_user_type(spell->shader->unit, reach->user_types.items[i], NULL)->name;
+        spell->user_types[reach->user_types.items[i] - IR_TYPE_FIRST_USER] =
+            names_unique(&spell->names, str_text(spell->shader->strings, name), str_len(spell->shader->strings, name));
+    }
+}
+
+static const char *function_name(void *user_data, uint32_t id)
+{
+    const struct spell *spell = user_data;
+    return spell->functions[id];
+}
+
+static const char *global_name(void *user_data, uint32_t id)
+{
+    const struct spell *spell = user_data;
+    uint32_t variable = shader_global_variable(spell->shader, id);
+    return variable == UINT32_MAX ? NULL : spell->variables[variable];
+}
+
+static const char *user_type_name(void *user_data, ir_type_id type)
+{
+    const struct spell *spell = user_data;
+    return spell->user_types[type - IR_TYPE_FIRST_USER];
+}
+
+/* ---- Sections ---- */
+
+static void write_plural(struct text *out, uint32_t n, const char *what)
+{
+    text_u32(out, n);
+    text_char(out, ' ');
+    text_str(out, what);
+    if (n != 1)
+        text_char(out, 's');
+}
+
+/* "// Gold · surfacematerial · mxgen 0.1 · vulkan · reduced · 1 closure · 0 textures" */
+static void write_title(struct spell *spell)
+{
+    const struct shader *shader = spell->shader;
+    const char *parts[] = {str_text(shader->strings, shader->name), str_text(shader->strings, shader->element_type),
+                           spell->options->generator, spell->target->name, spell->options->interface};
+    uint32_t textures = 0;
+    for (uint32_t i = 0; i < shader->interface.len; i++) {
+        const struct shader_variable *variable = &shader->variables.items[shader->interface.items[i]];
+        textures += variable->block == BLOCK_TEXTURES && !variable->semantic;
+    }
+    spell_text(spell, "// ");
+    for (size_t i = spell->options->neutral_names ? 2 : 0; i < sizeof parts / sizeof *parts; i++) {
+        if (!parts[i] || !*parts[i])
+            continue;
+        spell_text(spell, parts[i]);
+        spell_text(spell, " · ");
+    }
+    write_plural(spell->out, shader->num_closures, "closure");
+    spell_text(spell, " · ");
+    write_plural(spell->out, textures, "texture");
+    spell_text(spell, "\n");
+}
+
+static void write_header(struct spell *spell)
+{
+    const char *version = spell->options->version ? spell->options->version : spell->target->versions[0];
+    text_fmt(spell->out, "#version %s\n", version);
+    write_title(spell);
+    if (spell_can(spell, CAP_PRECISION) && spell->stage_id == STAGE_PIXEL)
+        spell_text(spell, "precision highp float;\nprecision highp int;\nprecision highp sampler2D;\n");
+    spell_text(spell, "\n");
+}
+
+static void write_verbatim_sources(struct spell *spell)
+{
+    const struct shader *shader = spell->shader;
+    for (uint32_t i = 0; i < spell->stage->verbatim.len; i++) {
+        str_id source = shader->verbatim.items[spell->stage->verbatim.items[i]].source;
+        bool written = source == 0;
+        for (uint32_t j = 0; j < i && !written; j++)
+            written = shader->verbatim.items[spell->stage->verbatim.items[j]].source == source;
+        if (written)
+            continue;
+        spell_text(spell, str_text(shader->strings, source));
+        spell_text(spell, "\n");
+    }
+}
+
+static void write_functions(struct spell *spell)
+{
+    const struct lang_reach *reach = &spell->stage->reach;
+    const struct lang_syntax *syntax = spell->target->syntax;
+    size_t before = spell->out->len;
+    for (uint32_t i = 0; i < reach->globals.len; i++)
+        if (shader_global_variable(spell->shader, reach->globals.items[i]) == UINT32_MAX)
+            lang_print_constant(syntax, &spell->lang_names, spell->shader->unit, reach->globals.items[i], spell->out);
+    if (spell->out->len > before)
+        spell_text(spell, "\n");
+    write_verbatim_sources(spell);
+    for (uint32_t i = 0; i < reach->functions.len; i++) {
+        lang_print_function(syntax, &spell->lang_names, spell->shader->unit, reach->functions.items[i], spell->out);
+        spell_text(spell, "\n");
+    }
+    for (uint32_t i = 0; i < spell->stage->functions.len; i++)
+        spell_graph_function(spell, &spell->stage->functions.items[i]);
+}
+
+/* The inputs of a light shader are members of the light's data; point, direction and intensity follow them. */
+static void write_light_call(struct spell *spell, const struct shader_light *light)
+{
+    const struct shader *shader = spell->shader;
+    text_fmt(spell->out, "%s(", spell->functions[light->function]);
+    for (uint32_t i = 0; i < light->num_members; i++) {
+        const struct shader_variable *member = &shader->variables.items[shader->light_members.items[light->first_member + i]];
+        text_fmt(spell->out, "u_lightData[i].%s, ", str_text(shader->strings, member->name));
+    }
+    spell_text(spell, "P, L, intensity);\n");
+}
+
+/* Direction to a light and the light that comes from there; none from lights of unknown type. */
+static void write_light_function(struct spell *spell)
+{
+    const struct lang_syntax *syntax = spell->target->syntax;
+    const char *vec3 = lang_syntax_type(syntax, IR_TYPE_VEC3), *in = syntax->param_in, *out = syntax->param_out;
+    text_fmt(spell->out, "void mx_light(%sint i, %s%s P, %s%s L, %s%s intensity)\n{\n", in, in, vec3, out, vec3, out, vec3);
+    text_fmt(spell->out, "    L = %s(0.0);\n    intensity = %s(0.0);\n", vec3, vec3);
+    for (uint32_t i = 0; i < spell->shader->lights.len; i++) {
+        const struct shader_light *light = &spell->shader->lights.items[i];
+        text_fmt(spell->out, "    %sif (u_lightData[i].type == %d)\n        ", i ? "else " : "", (int)light->type);
+        write_light_call(spell, light);
+    }
+    spell_text(spell, "}\n\n");
+}
+
+void spell_stage(struct spell *spell, enum shader_stage_id stage)
+{
+    (void)stage;
+    write_header(spell);
+    spell_interface(spell);
+    spell_text(spell, "\n");
+    write_functions(spell);
+    if (spell->stage->has_lights)
+        write_light_function(spell);
+    spell_text(spell, "void main()\n{\n");
+    names_open_scope(&spell->names);
+    spell_statements(spell, &spell->stage->statements, 1);
+    spell_text(spell, "}\n");
+}
+
+/* ---- Entry ---- */
+
+static void init(struct spell *spell)
+{
+    const struct shader *shader = spell->shader;
+    struct arena *arena = spell->scratch;
+    const struct lang_unit *unit = shader->unit;
+    spell->blocks = spell_can(spell, CAP_UNIFORM_BLOCKS) || (spell_can(spell, CAP_BLOCK_OPTION) && spell->options->uniform_blocks);
+    spell->variables = ARENA_ARRAY(arena, const char *, shader->variables.len + 1);
+    spell->functions = ARENA_ARRAY(arena, const char *, unit->base_functions + unit->functions.len + 1);
+    spell->graph_functions = ARENA_ARRAY(arena, const char *, shader->graph->functions.len + 1);
+    spell->user_types = ARENA_ARRAY(arena, const char *, unit->base_user_types + unit->user_types.len + 1);
+    spell->locals = ARENA_ARRAY(arena, const char *, shader->locals.len + 1);
+    spell->local_of = ARENA_ARRAY(arena, uint32_t, shader->graph->nodes.len);
+    spell->lang_names = (struct lang_names){spell, function_name, global_name, user_type_name};
+    names_init(&spell->names, arena, spell->target->syntax);
+    spell_name_interface(spell);
+    name_types(spell);
+    name_functions(spell);
+}
+
+void spell_shader_stage(const struct target *target, const struct spell_options *options, const struct shader *shader,
+                        enum shader_stage_id stage, struct arena *scratch, struct text *out, struct spell_line **out_lines,
+                        uint32_t *out_num_lines)
+{
+    struct spell spell = {
+        .target = target, .options = options, .shader = shader, .stage = &shader->stages[stage], .stage_id = stage,
+        .scratch = scratch, .out = out, .line = 1, .counted = out->len,
+    };
+    init(&spell);
+    const struct target *writer = target;
+    while (!writer->stage && writer->base)
+        writer = writer->base;
+    (writer->stage ? writer->stage : spell_stage)(&spell, stage);
+    *out_lines = spell.lines.items;
+    *out_num_lines = spell.lines.len;
+}

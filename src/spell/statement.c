@@ -1,0 +1,382 @@
+// SPDX-License-Identifier: Apache-2.0
+/* Scheduled effects as statements. */
+#include "spell/spell.h"
+
+#include <stdio.h>
+
+static void open_line(struct spell *spell, unsigned indent, uint32_t origin)
+{
+    spell_mark_line(spell, origin);
+    spell_indent(spell, indent);
+}
+
+static void write_assignment(struct spell *spell, unsigned indent, const char *name, const char *operator, ir_ref value)
+{
+    open_line(spell, indent, ir_get(spell->shader->graph, value)->origin);
+    spell_text(spell, name);
+    spell_text(spell, operator);
+    spell_expression(spell, value, LANG_PREC_ASSIGN);
+    text_mem(spell->out, ";\n", 2);
+}
+
+/* ---- Locals ---- */
+
+/* "metal_ior" of the origin, "noise" of the function mx_noise, else a letter. */
+static const char *local_base(const struct spell *spell, ir_ref ref)
+{
+    const struct ir_graph *graph = spell->shader->graph;
+    const struct ir_node *node = ir_get(graph, ref);
+    str_id name = graph->origins.items[node->origin].name;
+    if (name)
+        return str_text(spell->shader->strings, name);
+    if (node->op == IR_CALL) {
+        const char *function = str_text(spell->shader->strings, lang_function(spell->shader->unit,
+                                                                              shader_callee(spell->shader, ref), NULL)->name);
+        return strncmp(function, "mx_", 3) == 0 ? function + 3 : function;
+    }
+    return node->type == IR_TYPE_BOOL ? "b" : node->type == IR_TYPE_INT ? "k" : "t";
+}
+
+static const char *add_local(struct spell *spell, const char *base, const char *part)
+{
+    struct text text;
+    if (spell->options->neutral_names) {
+        base = "v";
+        part = NULL;
+    }
+    if (part) {
+        text_init(&text, spell->scratch);
+        text_str(&text, base);
+        text_char(&text, '_');
+        text_str(&text, part);
+        base = text_cstr(&text);
+    }
+    const char *name = names_unique(&spell->names, base, strlen(base));
+    vec_push(spell->scratch, &spell->let_names, name);
+    return name;
+}
+
+/* A comment says where in the document the statements that follow come from. */
+static void write_path(struct spell *spell, unsigned indent, uint32_t origin)
+{
+    const struct spell_options *options = spell->options;
+    if (!options->comments || options->neutral_names || !options->path || !origin)
+        return;
+    const char *path = options->path(options->user_data, origin);
+    if (!path || (spell->last_path && strcmp(path, spell->last_path) == 0))
+        return;
+    spell->last_path = path;
+    spell_indent(spell, indent);
+    text_mem(spell->out, "// ", 3);
+    spell_text(spell, path);
+    text_char(spell->out, '\n');
+}
+
+/* ---- Calls with several results ---- */
+
+struct call_out {
+    ir_type_id type;
+    const char *part; /* name of the out parameter */
+    bool inout;
+};
+
+static struct call_out portable_out(const struct spell *spell, ir_ref call, unsigned index)
+{
+    const struct lang_unit *layer;
+    const struct lang_function *fn = lang_function(spell->shader->unit, shader_callee(spell->shader, call), &layer);
+    for (uint32_t i = 0;; i++) {
+        const struct lang_slot *slot = &layer->slots.items[fn->first_slot + i];
+        if (slot->mode != LANG_IN && index-- == 0)
+            return (struct call_out){slot->type, str_text(spell->shader->strings, slot->name), slot->mode == LANG_INOUT};
+    }
+}
+
+static struct call_out describe_out(const struct spell *spell, ir_ref call, unsigned index)
+{
+    const struct shader *shader = spell->shader;
+    const struct ir_node *node = ir_get(shader->graph, call);
+    if (node->op == IR_CALL)
+        return portable_out(spell, call, index);
+    if (node->op == IR_GRAPH_CALL) {
+        const struct ir_function *fn = &shader->graph->functions.items[node->attr];
+        return (struct call_out){ir_type_of(shader->graph, shader->graph->function_results.items[fn->first_result + index + 1]),
+                                 "result", false};
+    }
+    const struct shader_verbatim *verbatim = &shader->verbatim.items[shader_callee(shader, call)];
+    return (struct call_out){shader->result_types.items[verbatim->first_result + index], "result", false};
+}
+
+/*
+ * Portable functions mix `in`, `inout` and `out` parameters in any order; the call's operands are those of the first two kinds.
+ * An `inout` argument is a local that begins with the operand's value.
+ */
+static void write_portable_arguments(struct spell *spell, ir_ref call, uint32_t first_name)
+{
+    const struct lang_unit *layer;
+    const struct lang_function *fn = lang_function(spell->shader->unit, shader_callee(spell->shader, call), &layer);
+    uint32_t operand = 0, out = 0;
+    for (uint32_t i = 0; i < fn->num_params; i++) {
+        uint8_t mode = layer->slots.items[fn->first_slot + i].mode;
+        if (i)
+            text_mem(spell->out, ", ", 2);
+        if (mode == LANG_IN)
+            spell_expression(spell, ir_arg(spell->shader->graph, call, operand), LANG_PREC_ASSIGN);
+        else
+            spell_text(spell, spell->let_names.items[first_name + 1 + out++]);
+        operand += mode != LANG_OUT;
+    }
+}
+
+static void write_call_arguments(struct spell *spell, ir_ref call, uint32_t first_name, unsigned outs)
+{
+    if (ir_get(spell->shader->graph, call)->op == IR_CALL) {
+        spell_text(spell, spell->functions[shader_callee(spell->shader, call)]);
+        text_char(spell->out, '(');
+        write_portable_arguments(spell, call, first_name);
+        return;
+    }
+    unsigned written = spell_call_open(spell, call);
+    for (unsigned i = 0; i < outs; i++) {
+        if (written++)
+            text_mem(spell->out, ", ", 2);
+        spell_text(spell, spell->let_names.items[first_name + 1 + i]);
+    }
+}
+
+/* The operand that belongs to the out parameter `index` of a portable function, which is an inout one. */
+static ir_ref inout_operand(const struct spell *spell, ir_ref call, unsigned index)
+{
+    const struct lang_unit *layer;
+    const struct lang_function *fn = lang_function(spell->shader->unit, shader_callee(spell->shader, call), &layer);
+    uint32_t operand = 0;
+    for (uint32_t i = 0;; i++) {
+        uint8_t mode = layer->slots.items[fn->first_slot + i].mode;
+        if (mode != LANG_IN && index-- == 0)
+            return ir_arg(spell->shader->graph, call, operand);
+        operand += mode != LANG_OUT;
+    }
+}
+
+static void write_call_let(struct spell *spell, unsigned indent, ir_ref call, unsigned outs)
+{
+    const struct ir_node *node = ir_get(spell->shader->graph, call);
+    const char *base = local_base(spell, call);
+    uint32_t first = spell->let_names.len;
+    if (node->type == IR_TYPE_VOID)
+        vec_push(spell->scratch, &spell->let_names, NULL);
+    else
+        add_local(spell, base, NULL);
+    for (unsigned i = 0; i < outs; i++) {
+        struct call_out out = describe_out(spell, call, i);
+        const char *name = add_local(spell, base, node->type == IR_TYPE_VOID && outs == 1 ? NULL : out.part);
+        open_line(spell, indent, node->origin);
+        spell_variable(spell, out.type, name);
+        if (out.inout) {
+            text_mem(spell->out, " = ", 3);
+            spell_expression(spell, inout_operand(spell, call, i), LANG_PREC_ASSIGN);
+        }
+        text_mem(spell->out, ";\n", 2);
+    }
+    open_line(spell, indent, node->origin);
+    if (node->type != IR_TYPE_VOID) {
+        spell_variable(spell, node->type, spell->let_names.items[first]);
+        text_mem(spell->out, " = ", 3);
+    }
+    write_call_arguments(spell, call, first, outs);
+    text_mem(spell->out, ");\n", 3);
+    spell->local_of[call] = first + 1;
+}
+
+static void write_let(struct spell *spell, unsigned indent, ir_ref ref)
+{
+    const struct ir_node *node = ir_get(spell->shader->graph, ref);
+    write_path(spell, indent, node->origin);
+    if (node->op == IR_CALL || node->op == IR_VERBATIM || node->op == IR_GRAPH_CALL) {
+        unsigned outs = shader_call_outs(spell->shader, ref);
+        if (outs) {
+            write_call_let(spell, indent, ref, outs);
+            return;
+        }
+    }
+    const char *name = add_local(spell, local_base(spell, ref), NULL);
+    open_line(spell, indent, node->origin);
+    if (node->op == IR_CONST)
+        spell_text(spell, "const ");
+    spell_variable(spell, node->type, name);
+    text_mem(spell->out, " = ", 3);
+    spell_expression(spell, ref, LANG_PREC_ASSIGN);
+    text_mem(spell->out, ";\n", 2);
+    spell->local_of[ref] = spell->let_names.len;
+}
+
+/* ---- Other effects ---- */
+
+static void write_lights(struct spell *spell, unsigned indent, ir_ref point)
+{
+    const char *i = names_unique(&spell->names, "i", 1);
+    spell->light_direction = names_unique(&spell->names, "L", 1);
+    spell->light_intensity = names_unique(&spell->names, "intensity", 9);
+    open_line(spell, indent, 0);
+    text_fmt(spell->out, "for (int %s = 0; %s < min(u_numActiveLightSources, %u); ++%s) {\n", i, i, spell->shader->max_lights, i);
+    open_line(spell, indent + 1, 0);
+    spell_type(spell, IR_TYPE_VEC3);
+    text_fmt(spell->out, " %s, %s;\n", spell->light_direction, spell->light_intensity);
+    open_line(spell, indent + 1, 0);
+    text_fmt(spell->out, "mx_light(%s, ", i);
+    spell_expression(spell, point, LANG_PREC_ASSIGN);
+    text_fmt(spell->out, ", %s, %s);\n", spell->light_direction, spell->light_intensity);
+}
+
+static void write_if(struct spell *spell, unsigned indent, ir_ref condition, bool braces)
+{
+    open_line(spell, indent, ir_get(spell->shader->graph, condition)->origin);
+    text_mem(spell->out, "if (", 4);
+    spell_expression(spell, condition, LANG_PREC_ASSIGN);
+    text_str(spell->out, braces ? ") {\n" : ")\n");
+}
+
+static void write_discard(struct spell *spell, unsigned indent, ir_ref condition)
+{
+    if (condition)
+        write_if(spell, indent++, condition, false);
+    open_line(spell, indent, 0);
+    spell_text(spell, "discard;\n");
+}
+
+static void write_variable(struct spell *spell, unsigned indent, const struct effect *effect)
+{
+    const struct shader_local *local = &spell->shader->locals.items[effect->index];
+    const char *name = str_text(spell->shader->strings, local->name);
+    spell->locals[effect->index] = names_unique(&spell->names, name, strlen(name));
+    open_line(spell, indent, 0);
+    spell_variable(spell, local->type, spell->locals[effect->index]);
+    if (effect->value) {
+        text_mem(spell->out, " = ", 3);
+        spell_expression(spell, effect->value, LANG_PREC_ASSIGN);
+    }
+    text_mem(spell->out, ";\n", 2);
+}
+
+static void write_result(struct spell *spell, unsigned indent, const struct effect *effect)
+{
+    char name[16] = "return";
+    if (effect->index)
+        (void)snprintf(name, sizeof name, "r%u", (unsigned)effect->index);
+    write_assignment(spell, indent, name, effect->index ? " = " : " ", effect->value);
+}
+
+static void write_comment(struct spell *spell, unsigned indent, str_id text)
+{
+    if (!spell->options->comments || spell->options->neutral_names)
+        return;
+    open_line(spell, indent, 0);
+    text_mem(spell->out, "// ", 3);
+    spell_text(spell, str_text(spell->shader->strings, text));
+    text_char(spell->out, '\n');
+}
+
+static void write_effect(struct spell *spell, unsigned indent, const struct effect *effect)
+{
+    switch ((enum effect_kind)effect->kind) {
+    case EFFECT_LET:
+        write_let(spell, indent, effect->value);
+        break;
+    case EFFECT_VAR:
+        write_variable(spell, indent, effect);
+        break;
+    case EFFECT_ACCUMULATE:
+        write_assignment(spell, indent, spell->locals[effect->index], " += ", effect->value);
+        break;
+    case EFFECT_ASSIGN:
+        write_assignment(spell, indent, spell->locals[effect->index], " = ", effect->value);
+        break;
+    case EFFECT_OUTPUT:
+        write_assignment(spell, indent, spell->variables[effect->index], " = ", effect->value);
+        break;
+    case EFFECT_POSITION:
+        write_assignment(spell, indent, "gl_Position", " = ", effect->value);
+        break;
+    case EFFECT_LIGHTS:
+        write_lights(spell, indent, effect->value);
+        break;
+    case EFFECT_COMMENT:
+        write_comment(spell, indent, effect->text);
+        break;
+    case EFFECT_DISCARD:
+        write_discard(spell, indent, effect->value);
+        break;
+    case EFFECT_RESULT:
+        write_result(spell, indent, effect);
+        break;
+    case EFFECT_IF:
+    case EFFECT_END: /* spell_statements */
+        break;
+    }
+}
+
+/* One plain statement in an `if` needs no braces. */
+static bool holds_one_statement(const struct effect_list *list, uint32_t opening)
+{
+    if (opening + 2 >= list->len || list->items[opening + 2].kind != EFFECT_END)
+        return false;
+    uint8_t kind = list->items[opening + 1].kind;
+    return kind == EFFECT_ACCUMULATE || kind == EFFECT_ASSIGN;
+}
+
+void spell_statements(struct spell *spell, const struct effect_list *statements, unsigned indent)
+{
+    spell->let_names.len = 0;
+    spell->last_path = NULL;
+    for (uint32_t i = 0; i < statements->len; i++) {
+        const struct effect *effect = &statements->items[i];
+        if (effect->kind == EFFECT_END) {
+            open_line(spell, --indent, 0);
+            text_mem(spell->out, "}\n", 2);
+            continue;
+        }
+        if (effect->kind != EFFECT_IF) {
+            write_effect(spell, indent, effect);
+            indent += effect->kind == EFFECT_LIGHTS;
+            continue;
+        }
+        bool braces = !holds_one_statement(statements, i);
+        write_if(spell, indent, effect->value, braces);
+        if (braces) {
+            indent++;
+        } else {
+            write_effect(spell, indent + 1, &statements->items[i + 1]);
+            i += 2;
+        }
+    }
+    for (uint32_t i = 0; i < statements->len; i++)
+        if (statements->items[i].kind == EFFECT_LET)
+            spell->local_of[statements->items[i].value] = 0;
+}
+
+void spell_graph_function(struct spell *spell, const struct shader_function *function)
+{
+    const struct ir_graph *graph = spell->shader->graph;
+    const struct ir_function *fn = &graph->functions.items[function->function];
+    const struct lang_syntax *syntax = spell->target->syntax;
+    names_open_scope(&spell->names);
+    spell_type(spell, ir_type_of(graph, graph->function_results.items[fn->first_result]));
+    text_char(spell->out, ' ');
+    spell_text(spell, spell->graph_functions[function->function]);
+    text_char(spell->out, '(');
+    char name[16];
+    for (uint32_t i = 0; i + 1 < fn->num_params + fn->num_results; i++) {
+        bool in = i < fn->num_params;
+        uint32_t index = in ? i : i - fn->num_params + 1;
+        (void)snprintf(name, sizeof name, "%c%u", in ? 'p' : 'r', (unsigned)index);
+        names_take(&spell->names, name);
+        if (i)
+            text_mem(spell->out, ", ", 2);
+        ir_type_id type = in ? graph->param_types.items[fn->first_param_type + index]
+                             : ir_type_of(graph, graph->function_results.items[fn->first_result + index]);
+        spell_text(spell, !in ? syntax->param_out : type == IR_TYPE_SAMPLER ? "" : syntax->param_in);
+        spell_variable(spell, type, name);
+    }
+    text_mem(spell->out, ")\n{\n", 4);
+    spell_statements(spell, &function->statements, 1);
+    text_mem(spell->out, "}\n\n", 3);
+}

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * A target: a table with inheritance and few hooks. Passes lower by capability bits; a back end only spells.
+ */
+#ifndef MXG_SPELL_TARGET_H
+#define MXG_SPELL_TARGET_H
+
+#include "shader/shader.h"
+
+enum target_caps {
+    CAP_STAGES = 1,              /* vertex and pixel stages; else one shader */
+    CAP_UNIFORM_BLOCKS = 2,      /* uniforms must stand in blocks */
+    CAP_BLOCK_OPTION = 4,        /* uniforms may stand in blocks: --uniform-blocks */
+    CAP_UNIFORM_DEFAULTS = 8,    /* uniforms may have initial values */
+    CAP_BINDINGS = 16,           /* layout(set, binding) and locations */
+    CAP_CLOSURES = 32,           /* the language has closures: keep the tree */
+    CAP_STRINGS = 64,            /* the language has strings */
+    CAP_OVERLOADS = 128,         /* functions may be overloaded */
+    CAP_BITWISE = 256,           /* unsigned integers and bit operators */
+    CAP_IMPLICIT_LOD = 512,      /* texture() in pixel stages */
+    CAP_CONST_PARAMS = 1024,     /* `const in` parameters */
+    CAP_PRECISION = 2048,        /* needs default precision statements */
+    CAP_BLOCK_STAGE_IO = 4096,   /* stage inputs and outputs may stand in an interface block */
+    CAP_CONST_EXPRESSIONS = 8192, /* `const` locals may have initialisers that are not constant */
+};
+
+struct spell; /* spell/spell.h */
+
+struct target {
+    const char *name;             /* "glsl": --target */
+    const char *materialx_name;   /* "genglsl": target of implementations */
+    const struct target *base;    /* hooks and rows absent here come from there */
+    const char *brief;            /* one line for --help and introspection */
+    uint32_t caps;
+    const char *const *versions;  /* values of the option `version`, first is the default; "#version" is written with it */
+    const struct lang_syntax *syntax;
+    const char *stage_suffix[NUM_STAGES]; /* "vert", "frag"; file endings */
+    /* Writes one stage. NULL: from base; the C-like targets share spell_stage. */
+    void (*stage)(struct spell *spell, enum shader_stage_id stage);
+};
+
+/* generators/generators.c: every target, NULL-terminated. */
+extern const struct target *const targets[];
+const struct target *target_find(const char *name); /* by name or MaterialX name; NULL */
+/* True where `target` is `name` or inherits it by MaterialX name ("essl" inherits "genglsl"). */
+bool target_is_a(const struct target *target, const char *materialx_name);
+
+/* Can the target write an op? */
+enum spell_support {
+    SPELL_NO,      /* documents that need it cannot be generated */
+    SPELL_LOWERED, /* gone before spelling: closures become sums, strings are compared at compile time */
+    SPELL_YES,
+};
+enum spell_support spell_support(const struct target *target, enum ir_op op);
+extern const char *const spell_support_text[]; /* "no", "lowered", "yes" */
+
+struct spell_options {
+    const char *version;   /* of the target; NULL = default */
+    const char *generator; /* for the first comment: "mxgen 0.1" */
+    const char *interface; /* "complete", "authored", "reduced" */
+    bool uniform_blocks;
+    bool neutral_names;
+    bool comments;         /* paths as comments */
+    void *user_data;
+    /* The element path that a comment shows for an origin; NULL: none. The function may be NULL. */
+    const char *(*path)(void *user_data, uint32_t origin);
+};
+
+/* One line of output and the node it came from: output line → origin, for mapping compiler messages back. */
+struct spell_line {
+    uint32_t line, origin;
+};
+
+/* Writes one stage's source to `out`; the line map goes to `*out_lines`. */
+void spell_shader_stage(const struct target *target, const struct spell_options *options, const struct shader *shader,
+                        enum shader_stage_id stage, struct arena *scratch, struct text *out,
+                        struct spell_line **out_lines, uint32_t *out_num_lines);
+
+#endif

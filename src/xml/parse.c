@@ -1,0 +1,390 @@
+// SPDX-License-Identifier: Apache-2.0
+/* Text to elements by libxml2's SAX2 interface. No jump crosses a frame of libxml2: each callback runs under xml_try. */
+#include "xml/internal.h"
+
+#include <libxml/parser.h>
+#include <libxml/parserInternals.h>
+#include <limits.h>
+
+#define XINCLUDE_NAMESPACE "http://www.w3.org/2001/XInclude"
+
+void xml_startup(void)
+{
+    xmlInitParser();
+}
+
+/* Stops libxml2; what it reports from now on is a consequence of stopping. */
+static void stop(struct xml_reader *reader)
+{
+    reader->stopped = true;
+    xmlStopParser(reader->parser);
+}
+
+/* Bytes of the source that libxml2 has passed. */
+static size_t parser_offset(const struct xml_reader *reader)
+{
+    const xmlParserInput *input = reader->parser->input;
+    if (!input)
+        return reader->source->size;
+    size_t offset = reader->source->start + input->consumed + (size_t)(input->cur - input->base);
+    return offset < reader->source->size ? offset : reader->source->size;
+}
+
+struct start_tag {
+    struct xml_reader *reader;
+    const char *name, *prefix, *uri;
+    int num_namespaces, num_attrs;
+    const xmlChar **namespaces; /* pairs: prefix, URI */
+    const xmlChar **attrs;      /* name, prefix, URI, value, end of the value */
+};
+
+/* "prefix:name" or "name", interned. */
+static str_id qualified_name(struct xml_reader *reader, const char *prefix, const char *name)
+{
+    struct strpool *strings = reader->doc->strings;
+    if (!prefix)
+        return str_intern_z(strings, name);
+    char small[128];
+    size_t prefix_len = strlen(prefix), name_len = strlen(name), len = prefix_len + 1 + name_len;
+    char *text = len <= sizeof small ? small : arena_alloc(&reader->scratch, len);
+    memcpy(text, prefix, prefix_len);
+    text[prefix_len] = ':';
+    memcpy(text + prefix_len + 1, name, name_len);
+    return str_intern(strings, text, len);
+}
+
+static str_id attr_value(struct xml_reader *reader, const xmlChar *value, const xmlChar *end)
+{
+    const char *text = (const char *)value;
+    size_t len = (size_t)(end - value);
+    if (!reader->source->raw_less.len || !memchr(text, XML_RAW_LESS, len))
+        return str_intern(reader->doc->strings, text, len);
+    char *copy = arena_strndup(&reader->scratch, text, len);
+    for (char *p = copy; (p = memchr(p, XML_RAW_LESS, (size_t)(copy + len - p))) != NULL;)
+        *p = '<';
+    return str_intern(reader->doc->strings, copy, len);
+}
+
+static bool is_name_end(char c)
+{
+    return c == '=' || c == ' ' || c == '\t' || c == '\r' || c == '\n';
+}
+
+/* Offset of the value of the next attribute in a start tag (well formed: libxml2 has read it), `at` moved behind it. */
+static size_t next_value(const struct xml_source *source, size_t *at, bool *out_is_namespace)
+{
+    const char *text = source->text;
+    size_t p = *at;
+    while (text[p] == ' ' || text[p] == '\t' || text[p] == '\r' || text[p] == '\n')
+        p++;
+    size_t name = p;
+    while (!is_name_end(text[p]))
+        p++;
+    *out_is_namespace = p - name >= 5 && memcmp(text + name, "xmlns", 5) == 0 && (p - name == 5 || text[name + 5] == ':');
+    while (text[p] != '"' && text[p] != '\'')
+        p++;
+    const char *end = memchr(text + p + 1, text[p], source->size - p - 1);
+    *at = end ? (size_t)(end - text) + 1 : source->size;
+    return p + 1;
+}
+
+static void add_attr(struct xml_reader *reader, elem_id element, str_id name, str_id value, struct diag_place element_place,
+                     size_t offset)
+{
+    struct diag_place place = xml_place(reader, offset);
+    uint32_t lines = place.line - element_place.line;
+    doc_add_attr(reader->doc, element, (struct attribute){.name = name, .value = value,
+                 .line_delta = (uint16_t)(lines < UINT16_MAX ? lines : UINT16_MAX),
+                 .column = (uint16_t)(place.column < UINT16_MAX ? place.column : UINT16_MAX)});
+}
+
+/* Attributes in the order of the text. The name is kept apart; namespace declarations other than XInclude's are attributes. */
+static void add_attrs(const struct start_tag *tag, elem_id element, struct diag_place place, size_t at)
+{
+    struct xml_reader *reader = tag->reader;
+    int ns = 0, attr = 0;
+    while (ns < tag->num_namespaces || attr < tag->num_attrs) {
+        bool is_namespace;
+        size_t value = next_value(reader->source, &at, &is_namespace);
+        if (is_namespace && ns < tag->num_namespaces) {
+            const char *prefix = (const char *)tag->namespaces[ns * 2], *uri = (const char *)tag->namespaces[ns * 2 + 1];
+            ns++;
+            if (uri && strcmp(uri, XINCLUDE_NAMESPACE) != 0)
+                add_attr(reader, element, qualified_name(reader, prefix ? "xmlns" : NULL, prefix ? prefix : "xmlns"),
+                         str_intern_z(reader->doc->strings, uri), place, value);
+        } else if (attr < tag->num_attrs) {
+            const xmlChar **a = tag->attrs + (size_t)attr++ * 5;
+            str_id name = qualified_name(reader, (const char *)a[1], (const char *)a[0]);
+            if (name == STR_name)
+                doc_set_name(reader->doc, element, attr_value(reader, a[3], a[4]));
+            else
+                add_attr(reader, element, name, attr_value(reader, a[3], a[4]), place, value);
+        } else {
+            break;
+        }
+    }
+}
+
+static bool is_xinclude(const struct start_tag *tag)
+{
+    return (tag->uri && strcmp(tag->uri, XINCLUDE_NAMESPACE) == 0) || (tag->prefix && strcmp(tag->prefix, "xi") == 0);
+}
+
+/* The root is there already; every other element is new. 0: a limit was reached. */
+static elem_id add_element(const struct start_tag *tag, struct diag_place place)
+{
+    struct xml_reader *reader = tag->reader;
+    struct xml_source *source = reader->source;
+    uint16_t column = (uint16_t)(place.column < UINT16_MAX ? place.column : UINT16_MAX);
+    str_id category = qualified_name(reader, is_xinclude(tag) ? "xi" : tag->prefix, tag->name);
+    if (source->depth > 0 && !doc_is_full(reader->doc))
+        return doc_add_element(reader->doc, source->current, category, STR_EMPTY, source->file, place.line, column);
+    if (source->depth > 0) {
+        diag_add(reader->diags, DIAG_ID_too_many_elements, place, (unsigned)reader->limits.max_elements);
+        stop(reader);
+        return 0;
+    }
+    if (category != STR_materialx) {
+        diag_add(reader->diags, DIAG_ID_xml_root, place, str_text(reader->doc->strings, category));
+        stop(reader);
+        return 0;
+    }
+    doc_set_place(reader->doc, source->root, source->file, place.line, column);
+    return source->root;
+}
+
+static void start_element(void *arg)
+{
+    const struct start_tag *tag = arg;
+    struct xml_reader *reader = tag->reader;
+    struct xml_source *source = reader->source;
+    size_t at = parser_offset(reader); /* behind the attributes: the tag's start is the last '<', which cannot stand inside one */
+    while (at > source->start && source->text[at] != '<')
+        at--;
+    struct diag_place place = xml_place(reader, at);
+    if (source->depth >= reader->limits.max_depth) {
+        diag_add(reader->diags, DIAG_ID_xml_depth, place, (unsigned)reader->limits.max_depth);
+        stop(reader);
+        return;
+    }
+    elem_id element = add_element(tag, place);
+    if (!element)
+        return;
+    while (!is_name_end(source->text[at]) && source->text[at] != '>' && source->text[at] != '/')
+        at++;
+    add_attrs(tag, element, place, at);
+    source->current = element;
+    source->depth++;
+    if (!is_xinclude(tag))
+        return;
+    if (!tag->uri && !source->warned_prefix) {
+        source->warned_prefix = true;
+        diag_add(reader->diags, DIAG_ID_xml_undeclared_prefix, place, tag->prefix);
+    }
+    if (strcmp(tag->name, "include") == 0)
+        vec_push(&reader->scratch, &reader->includes, element);
+}
+
+static void guarded(struct xml_reader *reader, void (*work)(void *), void *arg)
+{
+    if (!reader->stopped && !xml_try(reader->mem, work, arg)) {
+        reader->out_of_memory = true;
+        stop(reader);
+    }
+}
+
+static void on_start_element(void *user, const xmlChar *name, const xmlChar *prefix, const xmlChar *uri, int num_namespaces,
+                             const xmlChar **namespaces, int num_attrs, int num_defaulted, const xmlChar **attrs)
+{
+    (void)num_defaulted; /* only a DOCTYPE could have defaults */
+    struct start_tag tag = {user, (const char *)name, (const char *)prefix, (const char *)uri,
+                            num_namespaces, num_attrs, namespaces, attrs};
+    guarded(user, start_element, &tag);
+}
+
+static void on_end_element(void *user, const xmlChar *name, const xmlChar *prefix, const xmlChar *uri)
+{
+    (void)name, (void)prefix, (void)uri;
+    struct xml_reader *reader = user;
+    if (reader->stopped)
+        return;
+    reader->source->depth--;
+    reader->source->current = doc_element(reader->doc, reader->source->current)->parent;
+}
+
+static void stray_text(void *arg)
+{
+    struct xml_reader *reader = arg;
+    diag_add(reader->diags, DIAG_ID_xml_stray_text, doc_place(reader->doc, reader->source->current));
+    reader->source->warned_text = true;
+}
+
+static void on_text(void *user, const xmlChar *text, int len)
+{
+    struct xml_reader *reader = user;
+    if (reader->stopped || reader->source->warned_text)
+        return;
+    for (int i = 0; i < len; i++) {
+        if (text[i] > ' ') {
+            guarded(reader, stray_text, reader);
+            return;
+        }
+    }
+}
+
+static void refuse_doctype(void *arg)
+{
+    struct xml_reader *reader = arg;
+    diag_add(reader->diags, DIAG_ID_xml_doctype, xml_place(reader, parser_offset(reader)));
+    stop(reader);
+}
+
+static void on_doctype(void *user, const xmlChar *name, const xmlChar *external_id, const xmlChar *system_id)
+{
+    (void)name, (void)external_id, (void)system_id;
+    guarded(user, refuse_doctype, user);
+}
+
+struct parser_error {
+    struct xml_reader *reader;
+    const xmlError *error;
+};
+
+/* The message of libxml2 as one line. */
+static const char *message_of(struct xml_reader *reader, const xmlError *error)
+{
+    const char *message = error->message ? error->message : "not well formed";
+    size_t len = strcspn(message, "\r\n");
+    while (len && message[len - 1] == ' ')
+        len--;
+    return arena_strndup(&reader->scratch, message, len);
+}
+
+/* Text behind </materialx> in which no element begins: the tree is complete. */
+static bool is_trailing_text(const struct xml_reader *reader, const xmlError *error, size_t offset)
+{
+    const struct xml_source *source = reader->source;
+    return error->code == XML_ERR_DOCUMENT_END && source->depth == 0
+           && !memchr(source->text + offset, '<', source->size - offset);
+}
+
+static void report_error(void *arg)
+{
+    const struct parser_error *e = arg;
+    struct xml_reader *reader = e->reader;
+    struct xml_source *source = reader->source;
+    size_t offset = parser_offset(reader);
+    struct diag_place place = xml_place(reader, offset);
+    const char *message = message_of(reader, e->error);
+    if (e->error->code == XML_ERR_LT_IN_ATTRIBUTE && !source->raw_less.len) {
+        reader->raw_less = true;
+        reader->raw_less_place = place;
+    } else if (source->raw_less.len) {
+        reader->repair_failed = true; /* what the repaired text says is not what the author wrote */
+    } else if (is_trailing_text(reader, e->error, offset)) {
+        diag_add(reader->diags, DIAG_ID_xml_text_after, place);
+        return;
+    } else if (strncmp(message, "Input is not proper UTF-8", 25) == 0) {
+        diag_add(reader->diags, DIAG_ID_xml_encoding, place, "UTF-8");
+    } else if (e->error->code == XML_ERR_DOCUMENT_EMPTY) {
+        diag_add(reader->diags, DIAG_ID_xml_not_xml, place);
+    } else if (offset == source->size && source->depth > 0) {
+        str_id innermost = doc_element(reader->doc, source->current)->category;
+        diag_add(reader->diags, DIAG_ID_xml_truncated, place, str_text(reader->doc->strings, innermost));
+    } else {
+        diag_add(reader->diags, DIAG_ID_xml_syntax, place, message);
+    }
+    stop(reader);
+}
+
+static void on_error(void *user, const xmlError *error)
+{
+    struct xml_reader *reader = user;
+    if (error->code == XML_ERR_NO_MEMORY) {
+        reader->out_of_memory = true;
+        reader->mem->over_limit = false;
+        stop(reader);
+    }
+    /* MaterialX qualifies node names by its own namespaces, which no xmlns declares. */
+    bool is_undeclared_prefix = error->domain == XML_FROM_NAMESPACE && error->code == XML_NS_ERR_UNDEFINED_NAMESPACE;
+    if (error->level >= XML_ERR_ERROR && !is_undeclared_prefix)
+        guarded(reader, report_error, &(struct parser_error){reader, error});
+}
+
+static void on_structured_error(void *user, xmlErrorPtr error)
+{
+    on_error(user, error);
+}
+
+static bool prepare_parser(struct xml_reader *reader)
+{
+    if (!reader->parser)
+        reader->parser = xmlNewParserCtxt();
+    if (!reader->parser)
+        return false;
+    *reader->parser->sax = (xmlSAXHandler){
+        .initialized = XML_SAX2_MAGIC,
+        .startElementNs = on_start_element,
+        .endElementNs = on_end_element,
+        .characters = on_text,
+        .ignorableWhitespace = on_text,
+        .cdataBlock = on_text,
+        .internalSubset = on_doctype,
+        .serror = on_structured_error,
+    };
+    reader->parser->userData = reader;
+    return true;
+}
+
+static void parse_once(struct xml_reader *reader)
+{
+    struct xml_source *source = reader->source;
+    reader->stopped = reader->raw_less = false;
+    source->position = (struct xml_position){.line = 1, .column = 1};
+    source->current = 0;
+    source->depth = 0;
+    /*
+     * NOENT for the right text of character references; no entity can be declared, because a DOCTYPE is refused. IGNORE_ENC because
+     * the text is UTF-8 whatever its declaration says.
+     */
+    if (prepare_parser(reader))
+        xmlCtxtReadMemory(reader->parser, source->text + source->start, (int)(source->size - source->start), NULL, NULL,
+                          XML_PARSE_NOENT | XML_PARSE_NONET | XML_PARSE_BIG_LINES | XML_PARSE_IGNORE_ENC);
+    else
+        reader->out_of_memory = true;
+    if (reader->out_of_memory)
+        mem_fail(reader->mem);
+}
+
+static void report_raw_less(struct xml_reader *reader)
+{
+    if (reader->repair_failed) {
+        diag_add(reader->diags, DIAG_ID_xml_syntax, reader->raw_less_place,
+                 "'<' in an attribute value must be written '&lt;', or a closing quote is missing before it");
+        return;
+    }
+    const struct xml_source *source = reader->source;
+    for (uint32_t i = 0; i < source->raw_less.len; i++)
+        diag_add(reader->diags, DIAG_ID_xml_raw_less, xml_place(reader, source->raw_less.items[i]));
+}
+
+bool xml_parse_source(struct xml_reader *reader)
+{
+    struct xml_source *source = reader->source;
+    if (source->size > INT_MAX) {
+        diag_add(reader->diags, DIAG_ID_file_too_large, xml_place(reader, 0), source->name, (unsigned)INT_MAX >> 20);
+        return false;
+    }
+    struct doc_mark mark = doc_mark(reader->doc, source->root);
+    uint32_t num_includes = reader->includes.len;
+    parse_once(reader);
+    if (!reader->raw_less)
+        return !reader->stopped;
+    doc_rollback(reader->doc, source->root, &mark);
+    reader->includes.len = num_includes;
+    reader->repair_failed = !xml_repair_text(reader);
+    if (!reader->repair_failed)
+        parse_once(reader);
+    report_raw_less(reader);
+    return !reader->stopped && !reader->repair_failed;
+}

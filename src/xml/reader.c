@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "xml/internal.h"
+
+#include <libxml/parser.h>
+
+/* Memory */
+
+bool xml_try(struct mem *mem, void (*work)(void *arg), void *arg)
+{
+    jmp_buf here, *outer = mem->trap;
+    mem->trap = &here;
+    if (setjmp(here) == 0) {
+        work(arg);
+        mem->trap = outer;
+        return true;
+    }
+    mem->trap = outer;
+    return false;
+}
+
+/* Places */
+
+struct diag_place xml_place(struct xml_reader *reader, size_t offset)
+{
+    struct xml_source *source = reader->source;
+    struct xml_position p = source->position;
+    if (offset < p.offset || p.line == 0)
+        p = (struct xml_position){.line = 1, .column = 1};
+    for (; p.offset < offset; p.offset++) {
+        unsigned char byte = (unsigned char)source->text[p.offset];
+        p.column += (byte & 0xc0) != 0x80; /* continuation bytes of UTF-8 are no code points */
+        if (byte == '\n') {
+            p.line++;
+            p.column = 1;
+        }
+    }
+    source->position = p;
+    return (struct diag_place){.file = doc_file_name(reader->doc, source->file), .line = p.line, .column = p.column};
+}
+
+/* Files */
+
+bool xml_open_file(struct xml_reader *reader, const char *from, const char *ref, const char **out_name, const char **out_data,
+                   size_t *out_size, const char **out_reason)
+{
+    const struct xml_files *files = reader->files;
+    const char *name = ref, *reason = NULL;
+    reader->handle_open = files && files->open(files->user_data, from, ref, &name, out_data, out_size, &reader->handle, &reason);
+    *out_reason = reason ? reason : "files cannot be read here";
+    *out_name = arena_strndup(&reader->scratch, name, strlen(name));
+    return reader->handle_open;
+}
+
+void xml_close_file(struct xml_reader *reader)
+{
+    if (reader->handle_open)
+        reader->files->release(reader->files->user_data, reader->handle);
+    reader->handle_open = false;
+}
+
+static const str_id scope_attrs[] = {STR_colorspace, STR_fileprefix, STR_geomprefix, STR_namespace};
+
+/* What a root says about its scope, said by a child. No namespace means the global one, even inside a document that has one. */
+static void carry_scope(struct document *doc, elem_id root, elem_id child, bool into_namespace)
+{
+    for (size_t i = 0; i < sizeof scope_attrs / sizeof *scope_attrs; i++) {
+        str_id name = scope_attrs[i];
+        const struct attribute *scope = doc_attr(doc, root, name);
+        if ((scope || (name == STR_namespace && into_namespace)) && !doc_attr(doc, child, name))
+            doc_add_attr(doc, child, (struct attribute){.name = name, .value = scope ? scope->value : STR_EMPTY});
+    }
+}
+
+void xml_merge_root(struct document *doc, elem_id root, elem_id parent, elem_id sibling)
+{
+    bool into_namespace = doc_inherited_attr(doc, sibling ? sibling : parent, STR_namespace) != STR_EMPTY;
+    for (elem_id child = doc_element(doc, root)->first_child; child; child = doc_element(doc, root)->first_child) {
+        carry_scope(doc, root, child, into_namespace);
+        if (sibling)
+            doc_move_before(doc, child, sibling);
+        else
+            doc_move_element(doc, child, parent);
+    }
+}
+
+elem_id xml_read_text(struct xml_reader *reader, const char *name, uint16_t file, elem_id root, const char *data, size_t size)
+{
+    struct document *doc = reader->doc;
+    struct xml_source source = {.name = name, .file = file, .root = root}, *outer = reader->source;
+    if (size >> 20 >= reader->limits.max_file_mib) {
+        struct diag_place place = {.file = name};
+        diag_add(reader->diags, DIAG_ID_file_too_large, place, name, (unsigned)reader->limits.max_file_mib);
+        return 0;
+    }
+    if (!root)
+        source.root = doc_add_element(doc, 0, STR_materialx, STR_EMPTY, file, 1, 1);
+    uint32_t first_include = reader->includes.len;
+    reader->source = &source;
+    bool parsed = xml_prepare_text(reader, data, size) && xml_parse_source(reader);
+    reader->source = outer;
+    xml_close_file(reader); /* its text is not needed any more: one file is open at a time */
+    elem_id end = doc->first_element + doc->elements.len;
+    if (parsed) {
+        xml_process_includes(reader, &source, first_include);
+        doc_upgrade(doc, source.root, end, reader->diags);
+    }
+    reader->includes.len = first_include;
+    return parsed ? source.root : 0;
+}
+
+/* Reading as a whole */
+
+struct reading {
+    struct xml_reader reader;
+    const char *name, *data; /* data NULL: the file `name` */
+    size_t size;
+};
+
+static void set_defaults(struct xml_limits *limits, const struct xml_limits *given)
+{
+    *limits = given ? *given : (struct xml_limits){0};
+    if (limits->max_depth == 0 || limits->max_depth > 200)
+        limits->max_depth = limits->max_depth ? 200 : 128; /* libxml2 itself stops at 256 */
+    if (limits->max_include_depth == 0 || limits->max_include_depth > 200)
+        limits->max_include_depth = limits->max_include_depth ? 200 : 16;
+    if (limits->max_elements == 0)
+        limits->max_elements = 16000000;
+    if (limits->max_file_mib == 0)
+        limits->max_file_mib = 256;
+}
+
+/* The first file of a document gives it its root; a further one joins its children, as an included one does. */
+static void read_data(struct reading *reading, const char *name, uint16_t file)
+{
+    struct xml_reader *reader = &reading->reader;
+    struct document *doc = reader->doc;
+    const struct element *root = doc_element(doc, doc->root);
+    bool is_first = !root->first_child && !root->num_attrs && !root->file;
+    vec_push(&reader->scratch, &reader->opened, (struct xml_file){str_intern_z(doc->strings, name), true});
+    elem_id added = xml_read_text(reader, name, file, is_first ? doc->root : 0, reading->data, reading->size);
+    if (added && !is_first)
+        xml_merge_root(doc, added, doc->root, 0);
+}
+
+static void read_file(struct reading *reading)
+{
+    struct xml_reader *reader = &reading->reader;
+    const char *canonical, *reason;
+    if (!xml_open_file(reader, "", reading->name, &canonical, &reading->data, &reading->size, &reason)) {
+        diag_add(reader->diags, DIAG_ID_file_missing, (struct diag_place){.file = reading->name}, reading->name, reason);
+        return;
+    }
+    read_data(reading, canonical, doc_add_file(reader->doc, str_intern_z(reader->doc->strings, reading->name)));
+}
+
+static void read_all(void *arg)
+{
+    struct reading *reading = arg;
+    struct xml_reader *reader = &reading->reader;
+    struct document *doc = reader->doc;
+    doc->max_elements = reader->limits.max_elements;
+    if (reading->data)
+        read_data(reading, reading->name, doc_add_file(doc, str_intern_z(doc->strings, reading->name)));
+    else
+        read_file(reading);
+    doc_expand_templates(doc, reader->diags);
+    doc_qualify_names(doc);
+    doc_index_names(doc, reader->diags);
+}
+
+static bool read_guarded(struct reading *reading, const struct xml_limits *limits)
+{
+    struct xml_reader *reader = &reading->reader;
+    reader->mem = reader->doc->arena->mem;
+    set_defaults(&reader->limits, limits);
+    arena_init(&reader->scratch, reader->mem);
+    uint32_t num_errors = reader->diags->num_errors;
+    bool done = xml_try(reader->mem, read_all, reading);
+    xml_close_file(reader);
+    xmlFreeParserCtxt(reader->parser);
+    arena_finish(&reader->scratch);
+    if (!done)
+        mem_fail(reader->mem);
+    return reader->diags->num_errors == num_errors;
+}
+
+bool xml_read_file(struct document *doc, const struct xml_files *files, const struct xml_limits *limits, const char *name,
+                   struct diag_list *diags)
+{
+    struct reading reading = {.reader = {.doc = doc, .files = files, .diags = diags}, .name = name};
+    return read_guarded(&reading, limits);
+}
+
+bool xml_read_memory(struct document *doc, const struct xml_files *files, const struct xml_limits *limits,
+                     const char *name, const char *data, size_t size, struct diag_list *diags)
+{
+    struct reading reading = {.reader = {.doc = doc, .files = files, .diags = diags},
+                              .name = name, .data = data ? data : "", .size = size};
+    return read_guarded(&reading, limits);
+}

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+/* The bytes of a file as UTF-8 text: encodings, byte-order marks, what stands before the XML, raw '<' in attribute values. */
+#include "xml/internal.h"
+
+static bool has_prefix(const char *text, size_t len, const char *prefix, size_t prefix_len)
+{
+    return len >= prefix_len && memcmp(text, prefix, prefix_len) == 0;
+}
+
+static size_t find_text(const char *text, size_t len, size_t from, const char *wanted)
+{
+    size_t n = strlen(wanted);
+    for (const char *p = text + from; (p = memchr(p, wanted[0], (size_t)(text + len - p))) != NULL; p++)
+        if (has_prefix(p, (size_t)(text + len - p), wanted, n))
+            return (size_t)(p - text);
+    return len;
+}
+
+static bool is_blank(char c)
+{
+    return c == ' ' || c == '\t' || c == '\r' || c == '\n';
+}
+
+static char *put_utf8(char *out, uint32_t code)
+{
+    if (code < 0x80) {
+        *out++ = (char)code;
+    } else if (code < 0x800) {
+        *out++ = (char)(0xc0 | code >> 6);
+        *out++ = (char)(0x80 | (code & 0x3f));
+    } else if (code < 0x10000) {
+        *out++ = (char)(0xe0 | code >> 12);
+        *out++ = (char)(0x80 | (code >> 6 & 0x3f));
+        *out++ = (char)(0x80 | (code & 0x3f));
+    } else {
+        *out++ = (char)(0xf0 | code >> 18);
+        *out++ = (char)(0x80 | (code >> 12 & 0x3f));
+        *out++ = (char)(0x80 | (code >> 6 & 0x3f));
+        *out++ = (char)(0x80 | (code & 0x3f));
+    }
+    return out;
+}
+
+/* UTF-16 (RFC 2781); false where a surrogate stands alone or half a unit is left over. */
+static bool decode_utf16(struct xml_reader *reader, const unsigned char *bytes, size_t size, bool big_endian)
+{
+    char *text = arena_alloc(&reader->scratch, size / 2 * 3), *out = text;
+    size_t high = big_endian ? 0 : 1, low = 1 - high;
+    for (size_t i = 0; i + 1 < size; i += 2) {
+        uint32_t code = (uint32_t)bytes[i + high] << 8 | bytes[i + low];
+        if (code >= 0xd800 && code < 0xe000) {
+            uint32_t next = i + 3 < size ? (uint32_t)bytes[i + 2 + high] << 8 | bytes[i + 2 + low] : 0;
+            if (code >= 0xdc00 || next < 0xdc00 || next >= 0xe000)
+                return false;
+            code = 0x10000 + ((code - 0xd800) << 10) + (next - 0xdc00);
+            i += 2;
+        }
+        out = put_utf8(out, code);
+    }
+    reader->source->text = text;
+    reader->source->size = (size_t)(out - text);
+    return size % 2 == 0;
+}
+
+static void decode_latin1(struct xml_reader *reader)
+{
+    struct xml_source *source = reader->source;
+    char *text = arena_alloc(&reader->scratch, mem_array_size(reader->mem, source->size, 2)), *out = text;
+    for (size_t i = 0; i < source->size; i++)
+        out = put_utf8(out, (unsigned char)source->text[i]);
+    source->text = text;
+    source->size = (size_t)(out - text);
+}
+
+/* The encoding that the XML declaration names, in lower case. */
+static void declared_encoding(const struct xml_source *source, char *out, size_t out_size)
+{
+    const char *text = source->text + source->start;
+    size_t len = source->size - source->start, n = 0;
+    size_t end = has_prefix(text, len, "<?xml", 5) ? find_text(text, len < 1024 ? len : 1024, 0, "?>") : 0;
+    size_t at = find_text(text, end, 0, "encoding");
+    while (at < end && text[at] != '"' && text[at] != '\'')
+        at++;
+    for (at++; at < end && text[at] != '"' && text[at] != '\'' && n + 1 < out_size; at++)
+        out[n++] = (char)(text[at] >= 'A' && text[at] <= 'Z' ? text[at] + 32 : text[at]);
+    out[n] = '\0';
+}
+
+static bool apply_declared_encoding(struct xml_reader *reader)
+{
+    char name[32];
+    declared_encoding(reader->source, name, sizeof name);
+    if (!*name || strcmp(name, "utf-8") == 0 || strcmp(name, "utf8") == 0 || strcmp(name, "us-ascii") == 0
+        || strcmp(name, "ascii") == 0)
+        return true;
+    if (strcmp(name, "iso-8859-1") == 0 || strcmp(name, "latin1") == 0) {
+        decode_latin1(reader);
+        return true;
+    }
+    diag_add(reader->diags, DIAG_ID_xml_unknown_encoding, xml_place(reader, reader->source->start), name);
+    return false;
+}
+
+/* Finds where the XML begins: at '<?xml', or at '<materialx' behind text that is not XML. */
+static bool find_start(struct xml_reader *reader)
+{
+    struct xml_source *source = reader->source;
+    const char *text = source->text;
+    size_t size = source->size, first = 0;
+    while (first < size && is_blank(text[first]))
+        first++;
+    if (first == size) {
+        diag_add(reader->diags, DIAG_ID_file_empty, xml_place(reader, 0), source->name);
+        return false;
+    }
+    if (first == 0 && has_prefix(text, size, "<?xml", 5))
+        return true;
+    size_t root = find_text(text, size, 0, "<materialx");
+    size_t declaration = find_text(text, root, 0, "<?xml ");
+    if (text[first] != '<' && root == size && declaration == size) {
+        diag_add(reader->diags, DIAG_ID_xml_not_xml, xml_place(reader, first));
+        return false;
+    }
+    if (declaration < root)
+        source->start = declaration;
+    else if (text[first] != '<')
+        source->start = root;
+    if (source->start)
+        diag_add(reader->diags, DIAG_ID_xml_text_before, xml_place(reader, 0));
+    return true;
+}
+
+bool xml_prepare_text(struct xml_reader *reader, const char *data, size_t size)
+{
+    struct xml_source *source = reader->source;
+    source->text = data;
+    source->size = size;
+    bool utf16_le = has_prefix(data, size, "\xff\xfe", 2) || has_prefix(data, size, "<\0", 2);
+    bool utf16_be = has_prefix(data, size, "\xfe\xff", 2) || has_prefix(data, size, "\0<", 2);
+    if (utf16_le || utf16_be) {
+        size_t mark = data[0] == '<' || data[1] == '<' ? 0 : 2;
+        if (!decode_utf16(reader, (const unsigned char *)data + mark, size - mark, utf16_be)) {
+            diag_add(reader->diags, DIAG_ID_xml_encoding, xml_place(reader, 0), "UTF-16");
+            return false;
+        }
+        return find_start(reader);
+    }
+    if (has_prefix(data, size, "\xef\xbb\xbf", 3)) {
+        source->text += 3;
+        source->size -= 3;
+        diag_add(reader->diags, DIAG_ID_xml_bom, xml_place(reader, 0));
+        return find_start(reader);
+    }
+    return find_start(reader) && apply_declared_encoding(reader);
+}
+
+/* Replaces every '<' of one quoted value that begins at `at`; returns where the value ends. */
+static size_t repair_value(struct xml_reader *reader, char *text, size_t len, size_t at, char quote)
+{
+    for (; at < len && text[at] != quote; at++) {
+        if (text[at] == '<') {
+            text[at] = XML_RAW_LESS;
+            vec_push(&reader->scratch, &reader->source->raw_less, at);
+        }
+    }
+    return at;
+}
+
+static size_t skip_past(const char *text, size_t len, size_t at, const char *end)
+{
+    size_t found = find_text(text, len, at, end);
+    return found == len ? len : found + strlen(end);
+}
+
+bool xml_repair_text(struct xml_reader *reader)
+{
+    struct xml_source *source = reader->source;
+    size_t len = source->size;
+    if (memchr(source->text, XML_RAW_LESS, len))
+        return false;
+    char *text = arena_strndup(&reader->scratch, source->text, len);
+    for (size_t at = source->start; at < len;) {
+        if (text[at] != '<') {
+            at++;
+        } else if (has_prefix(text + at, len - at, "<!--", 4)) {
+            at = skip_past(text, len, at, "-->");
+        } else if (has_prefix(text + at, len - at, "<![CDATA[", 9)) {
+            at = skip_past(text, len, at, "]]>");
+        } else if (has_prefix(text + at, len - at, "<?", 2)) {
+            at = skip_past(text, len, at, "?>");
+        } else {
+            for (at++; at < len && text[at] != '>'; at++)
+                if (text[at] == '"' || text[at] == '\'')
+                    at = repair_value(reader, text, len, at + 1, text[at]);
+        }
+    }
+    source->text = text;
+    return source->raw_less.len > 0;
+}
