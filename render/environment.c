@@ -69,11 +69,3 @@ bool environment_make_test_texture(struct image *out)
     }
     return out->pixels != NULL;
 }
-
-uint32_t image_num_mips(const struct image *image)
-{
-    uint32_t size = image->width > image->height ? image->width : image->height, mips = 1;
-    while (size >>= 1)
-        ++mips;
-    return mips;
-}

@@ -272,13 +272,10 @@ bool gpu_upload_texture(struct gpu *gpu, const struct image *image, bool bottom_
         uint32_t from = bottom_first ? image->height - 1 - y : y;
         memcpy((char *)staging.mapped + row * y, (const char *)image->pixels + row * from, row);
     }
-    uint32_t mips = 1;
-    for (uint32_t size = image->width > image->height ? image->width : image->height; size > 1; size /= 2)
-        ++mips;
     VkFormat format = image->is_float ? VK_FORMAT_R32G32B32A32_SFLOAT : VK_FORMAT_R8G8B8A8_UNORM;
     *out = (struct gpu_image){0};
     good = good &&
-           gpu_create_image(gpu, format, image->width, image->height, mips,
+           gpu_create_image(gpu, format, image->width, image->height, image_num_mips(image),
                             VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
                             VK_IMAGE_ASPECT_COLOR_BIT, out) &&
            fill_texture(gpu, &staging, out);

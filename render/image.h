@@ -26,6 +26,15 @@ bool image_write(const char *path, uint32_t width, uint32_t height, const uint8_
 
 void image_finish(struct image *image);
 
+/* Levels down to a single texel. */
+static inline uint32_t image_num_mips(const struct image *image)
+{
+    uint32_t mips = 1;
+    for (uint32_t size = image->width > image->height ? image->width : image->height; size > 1; size /= 2)
+        ++mips;
+    return mips;
+}
+
 #ifdef __cplusplus
 }
 #endif

@@ -45,9 +45,8 @@ unsigned scene_light(uint32_t index, const char *member, float out[3]);
 /* Texture "u_envRadiance"…; NULL where the scene has none. */
 const struct image *scene_image(const struct scene *scene, const char *name);
 
-/* environment.c: maps of a clear sky, and their number of mip levels. False: out of memory. */
+/* environment.c: maps of a clear sky. False: out of memory. */
 bool environment_make(struct image *radiance, struct image *irradiance);
-uint32_t image_num_mips(const struct image *image);
 /* The radiance from direction d (unit). */
 void environment_radiance(const double d[3], float out[3]);
 /* A smooth texture without symmetry, so that a wrong orientation shows. */

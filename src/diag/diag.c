@@ -63,20 +63,14 @@ static const char *keep_file(const struct diag_list *list, const char *file)
     return arena_strndup(list->arena, file, strlen(file));
 }
 
-static void append(struct diag_list *list, enum diag_id id, struct diag_place place, va_list args)
+static void append(struct diag_list *list, enum diag_id id, struct diag_place place, const char *message)
 {
     enum diag_severity severity = catalogue[id].severity;
     if (severity != DIAG_NOTE || list->items.len == 0)
         list->last = list->items.len;
     place.file = keep_file(list, place.file);
     vec_push(list->arena, &list->items,
-             (struct diag){
-                 .id = id,
-                 .severity = severity,
-                 .message = format_message(list->arena, catalogue[id].format, args),
-                 .place = place,
-                 .parent = list->last,
-             });
+             (struct diag){.id = id, .severity = severity, .message = message, .place = place, .parent = list->last});
 }
 
 /* Counts the message; false where it is dropped. */
@@ -95,11 +89,17 @@ void diag_add(struct diag_list *list, enum diag_id id, struct diag_place place, 
     if (is_kept(list, catalogue[id].severity)) {
         va_list args;
         va_start(args, place);
-        append(list, id, place, args);
+        append(list, id, place, format_message(list->arena, catalogue[id].format, args));
         va_end(args);
     } else if (catalogue[id].severity == DIAG_ERROR && list->num_errors == list->max_errors + 1) {
         list->muted_notes = false;
         diag_add(list, DIAG_ID_too_many_errors, (struct diag_place){0}, list->max_errors);
         list->muted_notes = true;
     }
+}
+
+void diag_repeat(struct diag_list *list, const struct diag *diag)
+{
+    if (is_kept(list, diag->severity))
+        append(list, diag->id, diag->place, arena_strndup(list->arena, diag->message, strlen(diag->message)));
 }

@@ -351,17 +351,33 @@ void doc_index_names(struct document *doc, struct diag_list *diags)
         slots *= 2;
     doc->name_table = ARENA_ARRAY(doc->arena, uint32_t, slots);
     doc->name_mask = slots - 1;
+    doc->num_names = 0;
     for (uint32_t i = 0; i < doc->elements.len; i++) {
         elem_id element = doc->first_element + i;
         if (!is_named_child(doc, element))
             continue;
         const struct element *e = &doc->elements.items[i];
         uint32_t slot = find_slot(doc, e->parent, e->name);
+        if (doc->name_table[slot] && diags)
+            report_duplicate(doc, doc->name_table[slot], element, diags);
+        doc->num_names += !doc->name_table[slot];
         if (!doc->name_table[slot])
             doc->name_table[slot] = element;
-        else if (diags)
-            report_duplicate(doc, doc->name_table[slot], element, diags);
     }
+}
+
+void doc_index_element(struct document *doc, elem_id element)
+{
+    if (!is_named_child(doc, element))
+        return;
+    if (doc->num_names >= doc->name_mask / 4 * 3) {
+        doc_index_names(doc, NULL); /* leaves room for as many again as elements stand now, at least */
+        return;
+    }
+    const struct element *e = doc_element(doc, element);
+    uint32_t slot = find_slot(doc, e->parent, e->name);
+    doc->num_names += !doc->name_table[slot];
+    doc->name_table[slot] = element;
 }
 
 elem_id doc_child(const struct document *doc, elem_id parent, str_id name)

@@ -90,6 +90,7 @@ struct document {
     VEC(struct doc_link) links;  /* beside `elements`; empty in an image layer */
     uint32_t *name_table;        /* (parent, name) → element: open addressing; doc_index_names */
     uint32_t name_mask;
+    uint32_t num_names;          /* slots taken */
 };
 
 /* An empty document with its root element <materialx>. */
@@ -137,6 +138,8 @@ elem_id doc_next_in_tree(const struct document *doc, elem_id root, elem_id eleme
  * removes elements that repeat an equal one, where `diags` is given.
  */
 void doc_index_names(struct document *doc, struct diag_list *diags);
+/* The same for one element that was added, renamed or moved since. */
+void doc_index_element(struct document *doc, elem_id element);
 
 const struct element *doc_element(const struct document *doc, elem_id element);
 /* Pointer to the element's num_attrs attributes. */

@@ -49,36 +49,6 @@ static void sort_operands(const struct ir_graph *graph, enum ir_op op, ir_ref *a
     args[1] = first;
 }
 
-static bool any_poison(const struct ir_graph *graph, const ir_ref *args, unsigned num_args)
-{
-    for (unsigned i = 0; i < num_args; i++)
-        if (ir_get(graph, args[i])->op == IR_POISON)
-            return true;
-    return false;
-}
-
-static bool all_const(const struct ir_graph *graph, const ir_ref *args, unsigned num_args)
-{
-    for (unsigned i = 0; i < num_args; i++)
-        if (ir_get(graph, args[i])->op != IR_CONST)
-            return false;
-    return true;
-}
-
-static ir_ref simpler(struct ir_graph *graph, enum ir_op op, ir_type_id type, uint32_t attr, const ir_ref *args,
-                      unsigned num_args)
-{
-    bool pure = ir_op_info(op)->flags & OP_PURE;
-    if (pure && op != IR_SELECT && any_poison(graph, args, num_args))
-        return ir_poison(graph, type);
-    ir_ref result = 0;
-    if (pure && all_const(graph, args, num_args))
-        result = fold(graph, op, type, attr, args, num_args);
-    if (!result)
-        result = ir_apply_rules(graph, op, type, args, num_args);
-    return result ? result : ir_simplify(graph, op, type, attr, args, num_args);
-}
-
 ir_ref ir_build(struct ir_graph *graph, enum ir_op op, ir_type_id type, uint32_t attr, const ir_ref *args,
                 unsigned num_args)
 {
@@ -86,9 +56,25 @@ ir_ref ir_build(struct ir_graph *graph, enum ir_op op, ir_type_id type, uint32_t
     if (graph->no_fold || num_args == 0 || num_args > MAX_FOLD_ARGS)
         return ir_intern(graph, op, type, attr, args, num_args);
     ir_ref own[MAX_FOLD_ARGS]; /* simplifying adds nodes, and `args` may lie in the graph */
-    memcpy(own, args, num_args * sizeof *args);
-    sort_operands(graph, op, own);
-    ir_ref result = simpler(graph, op, type, attr, own, num_args);
+    unsigned num_consts = 0, num_poisons = 0;
+    for (unsigned i = 0; i < num_args; i++) {
+        own[i] = args[i];
+        unsigned from = ir_get(graph, args[i])->op;
+        num_consts += from == IR_CONST;
+        num_poisons += from == IR_POISON;
+    }
+    bool pure = ir_op_info(op)->flags & OP_PURE;
+    if (num_poisons && pure && op != IR_SELECT)
+        return ir_poison(graph, type);
+    ir_ref result = 0;
+    if (num_consts == num_args && pure)
+        result = fold(graph, op, type, attr, own, num_args);
+    if (!result) {
+        sort_operands(graph, op, own);
+        result = ir_apply_rules(graph, op, type, own, num_args);
+    }
+    if (!result && op >= IR_CONSTRUCT && op <= IR_INDEX)
+        result = ir_simplify(graph, op, type, attr, own, num_args);
     return result ? result : ir_intern(graph, op, type, attr, own, num_args);
 }
 

@@ -12,6 +12,7 @@ void ir_graph_init(struct ir_graph *graph, struct arena *arena, struct strpool *
 {
     *graph = (struct ir_graph){.arena = arena, .strings = strings};
     vec_push(arena, &graph->nodes, (struct ir_node){.op = IR_POISON}); /* 0 is no node; it must not look like a constant */
+    vec_push(arena, &graph->hashes, 0);
     vec_push(arena, &graph->origins, (struct ir_origin){0});
 }
 
@@ -56,10 +57,10 @@ static uint32_t hash_content(const struct content *c)
     return (uint32_t)(h ^ (h >> 32));
 }
 
-static bool has_content(const struct ir_graph *graph, ir_ref ref, const struct content *c)
+static bool has_content(const struct ir_graph *graph, ir_ref ref, const struct content *c, uint32_t hash)
 {
     const struct ir_node *node = ir_get(graph, ref);
-    if (node->op != c->op || node->type != c->type)
+    if (graph->hashes.items[ref] != hash || node->op != c->op || node->type != c->type)
         return false;
     if (c->op == IR_CONST)
         return memcmp(graph->words.items + node->attr, c->words, c->num_words * sizeof *c->words) == 0;
@@ -73,10 +74,10 @@ static bool has_content(const struct ir_graph *graph, ir_ref ref, const struct c
 }
 
 /* The slot where a node of this content is, or the empty one where it belongs. */
-static uint32_t find_slot(const struct ir_graph *graph, const struct content *c)
+static uint32_t find_slot(const struct ir_graph *graph, const struct content *c, uint32_t hash)
 {
-    uint32_t slot = hash_content(c) & graph->table_mask;
-    while (graph->table[slot] && !has_content(graph, graph->table[slot], c))
+    uint32_t slot = hash & graph->table_mask;
+    while (graph->table[slot] && !has_content(graph, graph->table[slot], c, hash))
         slot = (slot + 1) & graph->table_mask;
     return slot;
 }
@@ -92,8 +93,7 @@ static void grow_table(struct ir_graph *graph)
     graph->table_mask = slots - 1;
     memset(graph->table, 0, slots * sizeof *graph->table);
     for (ir_ref ref = 1; ref < graph->nodes.len; ref++) {
-        struct content c = content_of(graph, ref);
-        uint32_t slot = hash_content(&c) & graph->table_mask;
+        uint32_t slot = graph->hashes.items[ref] & graph->table_mask;
         while (graph->table[slot])
             slot = (slot + 1) & graph->table_mask;
         graph->table[slot] = ref;
@@ -103,7 +103,7 @@ static void grow_table(struct ir_graph *graph)
 ir_ref ir_find_equal(const struct ir_graph *graph, ir_ref ref)
 {
     struct content c = content_of(graph, ref);
-    return graph->table[find_slot(graph, &c)];
+    return graph->table[find_slot(graph, &c, hash_content(&c))];
 }
 
 static bool function_has_derivative(const struct ir_graph *graph, const struct ir_function *function)
@@ -147,7 +147,7 @@ static ir_ref intern(struct ir_graph *graph, const struct content *c)
 {
     if (graph->nodes.len >= graph->table_mask / 4 * 3)
         grow_table(graph);
-    uint32_t slot = find_slot(graph, c);
+    uint32_t hash = hash_content(c), slot = find_slot(graph, c, hash);
     if (graph->table[slot])
         return graph->table[slot];
     if (graph->max_nodes && graph->nodes.len > graph->max_nodes && c->op != IR_POISON) {
@@ -169,6 +169,7 @@ static ir_ref intern(struct ir_graph *graph, const struct content *c)
     }
     ir_ref ref = graph->nodes.len;
     vec_push(graph->arena, &graph->nodes, node);
+    vec_push(graph->arena, &graph->hashes, hash);
     graph->table[slot] = ref;
     return ref;
 }

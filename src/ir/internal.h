@@ -37,6 +37,7 @@ enum { RULE_LENGTH = 8 };
 
 struct rule {
     const char *name;
+    uint64_t needs; /* what must be present among a node's operands for the rule to be worth trying, see rules.c */
     bool exact; /* holds for every input; otherwise where all values are finite, and up to rounding and the sign of 0 */
     uint8_t pattern[RULE_LENGTH], replacement[RULE_LENGTH]; /* ended by RULE_END */
 };

@@ -12,6 +12,8 @@
 #include "base/strpool.h"
 #include "base/text.h"
 
+#include <assert.h>
+
 /* types.c */
 
 enum ir_type {
@@ -28,7 +30,12 @@ struct ir_type_info {
     const char *text;
     uint8_t scalar, components, columns;
 };
-const struct ir_type_info *ir_type_info(ir_type_id type); /* of a built-in type */
+extern const struct ir_type_info ir_types[IR_NUM_TYPES];
+static inline const struct ir_type_info *ir_type_info(ir_type_id type) /* of a built-in type */
+{
+    assert(type < IR_NUM_TYPES);
+    return &ir_types[type];
+}
 const char *ir_type_text(ir_type_id type);
 bool ir_type_is_closure(ir_type_id type); /* BSDF, EDF, VDF */
 bool ir_type_is_shader(ir_type_id type);  /* surface, volume, displacement, light shaders and material */
@@ -99,7 +106,12 @@ struct ir_op_info {
     uint8_t flags;
     const char *doc;
 };
-const struct ir_op_info *ir_op_info(enum ir_op op);
+extern const struct ir_op_info ir_ops[IR_NUM_OPS];
+static inline const struct ir_op_info *ir_op_info(enum ir_op op)
+{
+    assert(op < IR_NUM_OPS);
+    return &ir_ops[op];
+}
 
 /*
  * The result type of an op over built-in operand types by its rule; VOID where they do not fit or where the rule is NONE
@@ -175,6 +187,7 @@ struct ir_graph {
     VEC(ir_ref) function_results;
     VEC(struct ir_user_type) user_types;
     VEC(struct ir_member) members;
+    VEC(uint32_t) hashes;      /* per node */
     uint32_t *table; /* hash-consing: open addressing over node indices */
     uint32_t table_mask;
     uint32_t *callee_table; /* the same over callee indices + 1 */

@@ -17,8 +17,19 @@ enum {
 
 enum { FINITE, EXACT };
 
+/*
+ * A filter, since almost every node is left as it is: a rule needs each op and constant of its pattern among the operands, or
+ * two equal operands where it has none. Sets of ops are sets of bits, with a few ops to a bit.
+ */
+#define OP_BIT(op) ((uint64_t)1 << ((op) & 63))
+#define EQUAL_BIT ((uint64_t)1 << 63)
+#define HEAD(token) ((token) < A ? OP_BIT(token) : (token) >= K ? OP_BIT(CONST) : 0)
+#define HEADS(root, a, b, c, d, e, f, ...) (HEAD(a) | HEAD(b) | HEAD(c) | HEAD(d) | HEAD(e) | HEAD(f))
+#define NEEDS(...) (HEADS(__VA_ARGS__, A, A, A, A, A, A) ? HEADS(__VA_ARGS__, A, A, A, A, A, A) : EQUAL_BIT)
+
 #define TOKENS(...) __VA_ARGS__, RULE_END
-#define RULE(name, exactness, pattern, replacement) {#name, exactness, {TOKENS pattern}, {TOKENS replacement}},
+#define RULE(name, exactness, pattern, replacement) \
+    {#name, NEEDS pattern, exactness, {TOKENS pattern}, {TOKENS replacement}},
 
 #define RULES(op, ...) static const struct rule rules_of_##op[] = {__VA_ARGS__};
 #include "ir/rules.def"
@@ -47,9 +58,9 @@ static float token_value(unsigned token)
 
 struct match {
     const struct ir_graph *graph;
-    bool exact;           /* the rule's mark */
-    bool linear;          /* the root is a product of linear algebra */
-    ir_ref bound[4];      /* to A B C D; 0 = not yet */
+    bool exact;      /* the rule's mark */
+    bool linear;     /* the root is a product of linear algebra */
+    ir_ref bound[4]; /* to A B C D; 0 = not yet */
 };
 
 static bool has_word(const struct match *m, unsigned token, ir_type_id scalar, union ir_word w)
@@ -69,8 +80,6 @@ static bool has_word(const struct match *m, unsigned token, ir_type_id scalar, u
 
 static bool match_constant(const struct match *m, unsigned token, const struct ir_node *node)
 {
-    if (node->op != IR_CONST)
-        return false;
     const union ir_word *words = m->graph->words.items + node->attr;
     if (node->type == IR_TYPE_BOOL || token >= RULE_TRUE)
         return node->type == IR_TYPE_BOOL && token >= RULE_TRUE && words[0].u == (token == RULE_TRUE);
@@ -95,13 +104,14 @@ static bool match_leaf(struct match *m, unsigned token, ir_ref ref)
         return *bound == ref;
     }
     const struct ir_node *node = ir_get(m->graph, ref);
-    return token == RULE_K ? node->op == IR_CONST : match_constant(m, token, node);
+    return node->op == IR_CONST && (token == RULE_K || match_constant(m, token, node));
 }
 
 /* Patterns are two ops deep at most, so that no stack is needed. */
 static bool match(struct match *m, const struct rule *rule, const ir_ref *args, unsigned num_args)
 {
     const uint8_t *token = rule->pattern + 1;
+    memset(m->bound, 0, sizeof m->bound);
     for (unsigned i = 0; i < num_args; i++) {
         unsigned t = *token++;
         if (t >= RULE_A) {
@@ -166,21 +176,33 @@ static ir_ref replace(struct ir_graph *graph, const struct rule *rule, ir_type_i
     return widen(graph, type, stack[top]);
 }
 
+static uint64_t present(const struct ir_graph *graph, const ir_ref *args, unsigned num_args)
+{
+    uint64_t bits = 0;
+    for (unsigned i = 0; i < num_args; i++) {
+        bits |= OP_BIT(ir_get(graph, args[i])->op);
+        for (unsigned k = 0; k < i; k++)
+            bits |= args[k] == args[i] ? EQUAL_BIT : 0;
+    }
+    return bits;
+}
+
 ir_ref ir_apply_rules(struct ir_graph *graph, enum ir_op op, ir_type_id type, const ir_ref *args, unsigned num_args)
 {
-    if (table[op].num == 0)
+    const struct rule *rules = table[op].rules, *end = rules + table[op].num;
+    if (rules == end)
         return 0;
-    bool linear = op == IR_MUL && ir_is_linear_mul(ir_type_of(graph, args[0]), ir_type_of(graph, args[1]));
-    for (unsigned i = 0; i < table[op].num; i++) {
-        const struct rule *rule = &table[op].rules[i];
-        if (graph->exact && !rule->exact)
+    struct match m = {.graph = graph};
+    uint64_t bits = present(graph, args, num_args);
+    if (op == IR_MUL)
+        m.linear = ir_is_linear_mul(ir_type_of(graph, args[0]), ir_type_of(graph, args[1]));
+    for (const struct rule *rule = rules; rule < end; rule++) {
+        m.exact = rule->exact;
+        if ((rule->needs & ~bits) || (graph->exact && !rule->exact) || !match(&m, rule, args, num_args))
             continue;
-        struct match m = {.graph = graph, .exact = rule->exact, .linear = linear};
-        if (match(&m, rule, args, num_args)) {
-            ir_ref result = replace(graph, rule, type, m.bound);
-            if (result)
-                return result;
-        }
+        ir_ref result = replace(graph, rule, type, m.bound);
+        if (result)
+            return result;
     }
     return 0;
 }

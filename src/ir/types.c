@@ -2,35 +2,21 @@
 /* types: the tables of types and ops, and how an op's operand types give its result type. */
 #include "ir/internal.h"
 
-#include <assert.h>
-
-static const struct ir_type_info types[IR_NUM_TYPES] = {
+const struct ir_type_info ir_types[IR_NUM_TYPES] = {
 #define IR_TYPE(ID, text, scalar, components, columns) {text, IR_TYPE_##scalar, components, columns},
 #include "ir/types.def"
 #undef IR_TYPE
 };
 
-static const struct ir_op_info ops[IR_NUM_OPS] = {
+const struct ir_op_info ir_ops[IR_NUM_OPS] = {
 #define OP(ID, text, arity, rule, flags, doc) {text, arity, IR_RULE_##rule, flags, doc},
 #include "ir/ops.def"
 #undef OP
 };
 
-const struct ir_type_info *ir_type_info(ir_type_id type)
-{
-    assert(type < IR_NUM_TYPES);
-    return &types[type];
-}
-
 const char *ir_type_text(ir_type_id type)
 {
-    return type < IR_NUM_TYPES ? types[type].text : "struct or array";
-}
-
-const struct ir_op_info *ir_op_info(enum ir_op op)
-{
-    assert(op < IR_NUM_OPS);
-    return &ops[op];
+    return type < IR_NUM_TYPES ? ir_types[type].text : "struct or array";
 }
 
 bool ir_type_is_closure(ir_type_id type)
@@ -45,7 +31,7 @@ bool ir_type_is_shader(ir_type_id type)
 
 ir_type_id ir_type_vector(ir_type_id scalar, unsigned components)
 {
-    if (components == 1 && scalar < IR_NUM_TYPES && types[scalar].scalar == scalar && types[scalar].components == 1)
+    if (components == 1 && scalar < IR_NUM_TYPES && ir_types[scalar].scalar == scalar && ir_types[scalar].components == 1)
         return scalar;
     if (scalar == IR_TYPE_FLOAT && components >= 2 && components <= 4)
         return (ir_type_id)(IR_TYPE_VEC2 + components - 2);
@@ -54,7 +40,7 @@ ir_type_id ir_type_vector(ir_type_id scalar, unsigned components)
 
 static bool is_scalar(ir_type_id type)
 {
-    return type < IR_NUM_TYPES && types[type].components == 1;
+    return type < IR_NUM_TYPES && ir_types[type].components == 1;
 }
 
 static bool is_numeric(ir_type_id type)
@@ -75,14 +61,14 @@ bool ir_is_linear_mul(ir_type_id a, ir_type_id b)
 /* Whether SAME, SPLAT and REDUCE ops compute over `type`. */
 static bool in_domain(enum ir_op op, ir_type_id type)
 {
-    unsigned flags = ops[op].flags;
+    unsigned flags = ir_ops[op].flags;
     if (flags & OP_MATRIX)
         return ir_type_is_matrix(type);
     if (op == IR_CROSS)
         return type == IR_TYPE_VEC3;
-    if (type >= IR_NUM_TYPES || types[type].columns > 1)
+    if (type >= IR_NUM_TYPES || ir_types[type].columns > 1)
         return false;
-    ir_type_id scalar = types[type].scalar;
+    ir_type_id scalar = ir_types[type].scalar;
     return scalar == IR_TYPE_FLOAT || (scalar == IR_TYPE_INT && (flags & OP_SIGNED))
         || (scalar == IR_TYPE_UINT && (flags & OP_UNSIGNED));
 }
@@ -98,7 +84,7 @@ static bool all_equal(const ir_type_id *args, unsigned num_args)
 static ir_type_id result_arith(enum ir_op op, const ir_type_id *args, unsigned num_args)
 {
     ir_type_id a = args[0], b = args[num_args - 1];
-    if (!is_numeric(a) || !is_numeric(b) || types[a].scalar != types[b].scalar)
+    if (!is_numeric(a) || !is_numeric(b) || ir_types[a].scalar != ir_types[b].scalar)
         return IR_TYPE_VOID;
     if (a == b || is_scalar(b))
         return a;
@@ -107,8 +93,8 @@ static ir_type_id result_arith(enum ir_op op, const ir_type_id *args, unsigned n
     if (op != IR_MUL || !ir_is_linear_mul(a, b))
         return IR_TYPE_VOID;
     if (ir_type_is_matrix(a))
-        return types[a].columns == types[b].components ? b : IR_TYPE_VOID;
-    return types[b].columns == types[a].components ? a : IR_TYPE_VOID;
+        return ir_types[a].columns == ir_types[b].components ? b : IR_TYPE_VOID;
+    return ir_types[b].columns == ir_types[a].components ? a : IR_TYPE_VOID;
 }
 
 static ir_type_id result_splat(enum ir_op op, const ir_type_id *args, unsigned num_args)
@@ -116,7 +102,7 @@ static ir_type_id result_splat(enum ir_op op, const ir_type_id *args, unsigned n
     ir_type_id type = args[0], last = args[num_args - 1];
     if (!in_domain(op, type) || (op == IR_REFRACT && last != IR_TYPE_FLOAT))
         return IR_TYPE_VOID;
-    if (last != type && last != types[type].scalar)
+    if (last != type && last != ir_types[type].scalar)
         return IR_TYPE_VOID;
     ir_type_id middle = op == IR_MIX || op == IR_REFRACT ? type : last;
     return num_args < 3 || args[1] == middle ? type : IR_TYPE_VOID;
@@ -125,7 +111,7 @@ static ir_type_id result_splat(enum ir_op op, const ir_type_id *args, unsigned n
 static ir_type_id result_compare(enum ir_op op, const ir_type_id *args, unsigned num_args)
 {
     ir_type_id type = args[0];
-    if (!all_equal(args, num_args) || type >= IR_NUM_TYPES || types[type].components == 0)
+    if (!all_equal(args, num_args) || type >= IR_NUM_TYPES || ir_types[type].components == 0)
         return IR_TYPE_VOID;
     if (op == IR_EQ || op == IR_NE)
         return IR_TYPE_BOOL;
@@ -175,7 +161,7 @@ static ir_type_id result_builtin(enum ir_op op, const ir_type_id *args, unsigned
 
 ir_type_id ir_op_result(enum ir_op op, const ir_type_id *args, unsigned num_args)
 {
-    const struct ir_op_info *info = &ops[op];
+    const struct ir_op_info *info = &ir_ops[op];
     if (num_args == 0 || (info->arity >= 0 && num_args != (unsigned)info->arity))
         return IR_TYPE_VOID;
     switch ((enum ir_rule)info->rule) {
@@ -184,7 +170,7 @@ ir_type_id ir_op_result(enum ir_op op, const ir_type_id *args, unsigned num_args
     case IR_RULE_SAME:
         return all_equal(args, num_args) && in_domain(op, args[0]) ? args[0] : IR_TYPE_VOID;
     case IR_RULE_REDUCE:
-        return all_equal(args, num_args) && in_domain(op, args[0]) ? types[args[0]].scalar : IR_TYPE_VOID;
+        return all_equal(args, num_args) && in_domain(op, args[0]) ? ir_types[args[0]].scalar : IR_TYPE_VOID;
     case IR_RULE_ARITH:
         return result_arith(op, args, num_args);
     case IR_RULE_SPLAT:

@@ -295,8 +295,10 @@ bool check_assignable(struct parser *p, lang_ref target, const char *doing)
         node = tree_node(p, node->a);
     }
     if (node->kind == LANG_GLOBAL) {
-        static const char *const whys[] = {"it is a constant", "it is a uniform", "it is an input of the stage", "it is an option"};
-        return refuse_assignment(p, target, doing, whys[lang_global(p->unit, node->a, NULL)->kind]);
+        static const char *const reasons[] = {
+            [LANG_GLOBAL_CONST] = "it is a constant", [LANG_GLOBAL_UNIFORM] = "it is a uniform",
+            [LANG_GLOBAL_STREAM] = "it is an input of the stage", [LANG_GLOBAL_OPTION] = "it is an option"};
+        return refuse_assignment(p, target, doing, reasons[lang_global(p->unit, node->a, NULL)->kind]);
     }
     if (node->kind != LANG_VAR)
         return refuse_assignment(p, target, doing, node->kind == LANG_CONST ? "it is a constant" :

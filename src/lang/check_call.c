@@ -76,10 +76,14 @@ static void note_candidate(struct parser *p, uint32_t id)
 
 static void note_candidates(struct parser *p, str_id name)
 {
+    enum { MAX_SHOWN = 8 };
     struct lookup_cursor cursor = {0};
-    uint32_t id;
-    for (unsigned n = 0; n < 8 && (id = lookup_next_function(p->unit, p->visible.items, p->visible.len, name, &cursor)) != LANG_NONE; n++)
+    for (unsigned n = 0; n < MAX_SHOWN; n++) {
+        uint32_t id = lookup_next_function(p->unit, p->visible.items, p->visible.len, name, &cursor);
+        if (id == LANG_NONE)
+            break;
         note_candidate(p, id);
+    }
 }
 
 static lang_ref no_function(struct parser *p, const struct token *name, str_id id, const lang_ref *args, unsigned num_args)

@@ -146,16 +146,21 @@ static void read_integer(struct token *token)
     token->value.u = (uint32_t)value;
 }
 
+/* Letters, digits, points, and signs of exponents: what does not read as a number as a whole is none. */
+static bool is_of_number(const char *start, const char *at, bool hex)
+{
+    if (is_word(*at) || *at == '.')
+        return true;
+    return !hex && at > start && (*at == '+' || *at == '-') && (at[-1] == 'e' || at[-1] == 'E');
+}
+
 static void lex_number(struct lexer *lexer, struct token *token)
 {
     const char *at = lexer->at;
     bool hex = lexer->end - at > 1 && at[0] == '0' && (at[1] == 'x' || at[1] == 'X');
     bool is_float = false;
-    /* A run of letters, digits, points and signs of exponents: what does not read as a number as a whole is none. */
-    while (at < lexer->end && (is_word(*at) || *at == '.' || (!hex && (*at == '+' || *at == '-') && (at[-1] == 'e' || at[-1] == 'E')))) {
-        is_float |= !hex && (*at == '.' || *at == 'e' || *at == 'E' || *at == 'f' || *at == 'F');
-        at++;
-    }
+    for (; at < lexer->end && is_of_number(lexer->at, at, hex); at++)
+        is_float |= !hex && strchr(".eEfF", *at) != NULL;
     token->len = (size_t)(at - lexer->at);
     if (is_float)
         read_float(token);

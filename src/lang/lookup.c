@@ -117,7 +117,6 @@ uint32_t lookup_exact(const struct lang_unit *unit, const uint32_t *files, uint3
     return id;
 }
 
-/* A file and what it includes, as one list: the includes of a file are stored complete, so two parts suffice. */
 static uint32_t find_in(const struct lang_unit *unit, const uint32_t *files, uint32_t num_files, str_id name,
                         const ir_type_id *params, unsigned num_params, bool exact)
 {
@@ -133,6 +132,8 @@ static uint32_t find_in(const struct lang_unit *unit, const uint32_t *files, uin
 uint32_t lang_find_function(const struct lang_unit *unit, uint32_t file, str_id name, const ir_type_id *params,
                             unsigned num_params)
 {
+    if (file == LANG_NONE)
+        return LANG_NONE;
     const struct lang_unit *layer;
     const struct lang_file *f = lang_file(unit, file, &layer);
     const uint32_t *includes = f->num_includes ? &layer->refs.items[f->first_include] : NULL;

@@ -14,8 +14,6 @@ unsigned lang_num_results(const struct lang_unit *unit, uint32_t id)
     return count;
 }
 
-static void poison_results(struct lower *lo, uint32_t id, ir_ref *out);
-
 /* Structs and arrays between rows of leaves and single nodes */
 
 static ir_type_id graph_type(struct lower *lo, ir_type_id type)
@@ -240,6 +238,22 @@ static bool join_arguments(struct lower *lo, uint32_t id, const ir_ref *in, ir_r
     return true;
 }
 
+static ir_ref *poison(struct lower *lo, ir_type_id type, ir_ref *out)
+{
+    return split(lo, type, ir_poison(lo->graph, graph_type(lo, type)), out);
+}
+
+static void poison_results(struct lower *lo, uint32_t id, ir_ref *out)
+{
+    const struct lang_unit *layer;
+    const struct lang_function *fn = lang_function(lo->unit, id, &layer);
+    if (fn->return_type != IR_TYPE_VOID)
+        out = poison(lo, fn->return_type, out);
+    for (uint32_t i = 0; i < fn->num_params; i++)
+        if (ast_slot(layer, fn, i)->mode != LANG_IN)
+            out = poison(lo, ast_slot(layer, fn, i)->type, out);
+}
+
 static void build_call(struct lower *lo, uint32_t id, const ir_ref *in, ir_ref *out)
 {
     ir_ref args[LOWER_MAX_LEAVES];
@@ -267,22 +281,6 @@ static void build_call(struct lower *lo, uint32_t id, const ir_ref *in, ir_ref *
         ir_ref value = ir_build(lo->graph, IR_RESULT, graph_type(lo, slot->type), ++number, &call, 1);
         out = split(lo, slot->type, value, out);
     }
-}
-
-static ir_ref *poison(struct lower *lo, ir_type_id type, ir_ref *out)
-{
-    return split(lo, type, ir_poison(lo->graph, graph_type(lo, type)), out);
-}
-
-static void poison_results(struct lower *lo, uint32_t id, ir_ref *out)
-{
-    const struct lang_unit *layer;
-    const struct lang_function *fn = lang_function(lo->unit, id, &layer);
-    if (fn->return_type != IR_TYPE_VOID)
-        out = poison(lo, fn->return_type, out);
-    for (uint32_t i = 0; i < fn->num_params; i++)
-        if (ast_slot(layer, fn, i)->mode != LANG_IN)
-            out = poison(lo, ast_slot(layer, fn, i)->type, out);
 }
 
 void lower_call(struct lower *lo, uint32_t id, const ir_ref *in, ir_ref *out)
@@ -324,6 +322,14 @@ static bool fits(const struct lower *lo)
     return leaves <= LOWER_MAX_LEAVES;
 }
 
+static const ir_ref *join_result(struct lower *lo, ir_type_id type, const ir_ref *leaves, ir_ref *out)
+{
+    leaves = join(lo, type, leaves, out);
+    if (!*out)
+        *out = ir_poison(lo->graph, graph_type(lo, type));
+    return leaves;
+}
+
 static void lower_function(struct lower *lo, uint32_t id, const ir_ref *args, ir_ref *results)
 {
     const struct lang_unit *layer = lo->frame.layer;
@@ -336,10 +342,20 @@ static void lower_function(struct lower *lo, uint32_t id, const ir_ref *args, ir
     const ir_ref *from = out;
     unsigned count = 0;
     if (fn.return_type != IR_TYPE_VOID)
-        from = join(lo, fn.return_type, from, &results[count++]);
+        from = join_result(lo, fn.return_type, from, &results[count++]);
     for (uint32_t i = 0; i < fn.num_params; i++)
         if (ast_slot(layer, &fn, i)->mode != LANG_IN)
-            from = join(lo, ast_slot(layer, &fn, i)->type, from, &results[count++]);
+            from = join_result(lo, ast_slot(layer, &fn, i)->type, from, &results[count++]);
+}
+
+static void poison_whole_results(struct lower *lo, ir_ref *results)
+{
+    const struct lang_function *fn = &lo->frame.fn;
+    if (fn->return_type != IR_TYPE_VOID)
+        *results++ = ir_poison(lo->graph, graph_type(lo, fn->return_type));
+    for (uint32_t i = 0; i < fn->num_params; i++)
+        if (ast_slot(lo->frame.layer, fn, i)->mode != LANG_IN)
+            *results++ = ir_poison(lo->graph, graph_type(lo, ast_slot(lo->frame.layer, fn, i)->type));
 }
 
 void lang_lower_call(struct lang_unit *generated, struct ir_graph *graph, const struct lang_host *host, uint32_t id,
@@ -347,15 +363,10 @@ void lang_lower_call(struct lang_unit *generated, struct ir_graph *graph, const 
 {
     struct lower lo = {.unit = generated, .graph = graph, .host = host};
     lo.frame.fn = *lang_function(generated, id, &lo.frame.layer);
-    unsigned num_results = lang_num_results(generated, id);
-    memset(results, 0, num_results * sizeof *results);
     if (lo.frame.fn.flags & LANG_FN_EXPRESSION)
         lower_inline_expression(&lo, args, results);
     else if (fits(&lo))
         lower_function(&lo, id, args, results);
     else
-        poison_results(&lo, id, results);
-    const struct lang_function *fn = lang_function(generated, id, NULL);
-    if (num_results && !results[0])
-        results[0] = ir_poison(graph, graph_type(&lo, fn->return_type));
+        poison_whole_results(&lo, results);
 }

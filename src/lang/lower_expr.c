@@ -144,14 +144,14 @@ static uint32_t part_offset(struct lower *lo, const struct lang_node *node)
 
 static void lower_part(struct lower *lo, const struct lang_node *node, ir_ref *out)
 {
-    const struct lang_node *whole = node_at(lo, node->a);
+    const struct lang_node whole = *node_at(lo, node->a);
     ir_ref leaves[LOWER_MAX_LEAVES];
     const ir_ref *from = leaves;
     uint32_t offset = part_offset(lo, node);
     if (lo->failed)
         return;
-    if (whole->kind == LANG_VAR)
-        from = lo->frame.leaves + lo->frame.offsets[whole->a];
+    if (whole.kind == LANG_VAR)
+        from = lo->frame.leaves + lo->frame.offsets[whole.a];
     else
         lower_expression(lo, node->a, leaves);
     copy_leaves(from + offset, lower_leaves(lo, node->type), out);
@@ -258,15 +258,15 @@ static void assign_part(struct lower *lo, const struct lang_node *node, const ir
 
 void lower_assign(struct lower *lo, lang_ref target, const ir_ref *leaves)
 {
-    const struct lang_node *node = node_at(lo, target);
+    const struct lang_node node = *node_at(lo, target);
     if (lo->failed)
         return;
-    if (node->kind == LANG_VAR)
-        copy_leaves(leaves, lower_leaves(lo, node->type), lo->frame.leaves + lo->frame.offsets[node->a]);
-    else if (ast_is_user_type(node_at(lo, node->a)->type))
-        assign_part(lo, node, leaves);
+    if (node.kind == LANG_VAR)
+        copy_leaves(leaves, lower_leaves(lo, node.type), lo->frame.leaves + lo->frame.offsets[node.a]);
+    else if (ast_is_user_type(node_at(lo, node.a)->type))
+        assign_part(lo, &node, leaves);
     else
-        assign_element(lo, node, value_of(lo, leaves[0], node->type));
+        assign_element(lo, &node, value_of(lo, leaves[0], node.type));
 }
 
 /* Calls */

@@ -33,7 +33,7 @@ struct diag_place parse_where_function(const struct parser *p, const struct lang
 bool parse_may_report(struct parser *p)
 {
     p->reported = !p->panic && !p->stopped;
-    p->num_errors++;
+    p->num_errors += p->reported;
     if (p->num_errors >= PARSE_MAX_ERRORS) {
         p->stopped = true;
         p->lexer.at = p->lexer.end;

@@ -89,7 +89,8 @@ ir_type_id parse_array_suffix(struct parser *p, ir_type_id element, bool *out_un
     else if (!unsized)
         type = sized_array(p, element, place);
     bool nested = p->token.kind == TOKEN_CLOSE_INDEX && parse_peek(p).kind == TOKEN_OPEN_INDEX;
-    if (nested || check_is_array(p, element, &inner, &length) || element == IR_TYPE_STRING || element == IR_TYPE_SAMPLER) {
+    bool opaque = element == IR_TYPE_STRING || element == IR_TYPE_SAMPLER;
+    if (nested || opaque || check_is_array(p, element, &inner, &length)) {
         PARSE_TYPE_ERROR(p, place, "there are no arrays of %s", nested ? "arrays" : parse_type_text(p, element));
         p->panic |= nested;
         type = IR_TYPE_VOID;
@@ -184,7 +185,8 @@ static void parse_struct(struct parser *p)
 /* Globals */
 
 /* The words of `a` are in its layer, those of `b` in this unit. */
-static bool same_value(struct parser *p, const struct lang_global *a, const struct lang_unit *layer, const struct lang_global *b)
+static bool same_value(struct parser *p, const struct lang_global *a, const struct lang_unit *layer,
+                       const struct lang_global *b)
 {
     for (uint32_t i = 0; i < a->num_words && a->num_words == b->num_words; i++)
         if (layer->words.items[a->words + i].u != p->unit->words.items[b->words + i].u)
@@ -199,7 +201,8 @@ static void declare_global(struct parser *p, const struct token *at, struct lang
     if (known != LANG_NONE) {
         const struct lang_unit *layer;
         const struct lang_global *other = lang_global(p->unit, known, &layer);
-        if (!may_repeat || other->kind != global.kind || other->type != global.type || !same_value(p, other, layer, &global))
+        bool same = other->kind == global.kind && other->type == global.type && same_value(p, other, layer, &global);
+        if (!may_repeat || !same)
             PARSE_ERROR(p, parse_where_token(p, at), duplicate_name, parse_text(p, global.name));
         return;
     }
@@ -223,7 +226,8 @@ static void parse_constant(struct parser *p, const struct token *at, str_id name
         uint32_t place = tree_node(p, value)->place;
         bool scalar = global.type == check_scalar(global.type);
         if (!check_words(p, value, &global.words, &global.num_words))
-            PARSE_ERROR(p, parse_where(p, place, 0), lang_not_constant, parse_say(p, "the value of '%s'", parse_text(p, name)));
+            PARSE_ERROR(p, parse_where(p, place, 0), lang_not_constant,
+                        parse_say(p, "the value of '%s'", parse_text(p, name)));
         else if (global.kind == LANG_GLOBAL_OPTION && !scalar)
             PARSE_TYPE_ERROR(p, parse_place(at), "an option is a bool, int or float");
     } else { /* stands in for the value, so that uses of the name are not errors too */
@@ -256,7 +260,8 @@ void parse_define(struct parser *p)
         return;
     global.type = tree_type(p, value);
     if (!check_words(p, value, &global.words, &global.num_words)) {
-        PARSE_ERROR(p, parse_where_token(p, &at), lang_not_constant, parse_say(p, "the value of '%s'", parse_text(p, name)));
+        PARSE_ERROR(p, parse_where_token(p, &at), lang_not_constant,
+                    parse_say(p, "the value of '%s'", parse_text(p, name)));
         return;
     }
     drop_tree(p, &mark, global.num_words);
@@ -264,13 +269,15 @@ void parse_define(struct parser *p)
     declare_global(p, &at, global, true);
 }
 
-static void parse_host_variable(struct parser *p, const struct token *at, str_id name, enum lang_global_kind kind, ir_type_id type)
+static void parse_host_variable(struct parser *p, const struct token *at, str_id name, enum lang_global_kind kind,
+                                ir_type_id type)
 {
     uint32_t length = 0;
     if (type == IR_TYPE_STRING || (kind == LANG_GLOBAL_STREAM && (type == IR_TYPE_SAMPLER || type >= IR_TYPE_FIRST_USER)))
         PARSE_TYPE_ERROR(p, parse_place(at), "'%s' cannot have type %s", parse_text(p, name), parse_type_text(p, type));
     check_is_array(p, type, &type, &length); /* then `type` is that of its elements */
-    declare_global(p, at, (struct lang_global){.name = name, .kind = (uint8_t)kind, .type = type, .array_length = length}, true);
+    struct lang_global global = {.name = name, .kind = (uint8_t)kind, .type = type, .array_length = length};
+    declare_global(p, at, global, true);
 }
 
 /* const, uniform or in: the current token says which. */
@@ -371,11 +378,13 @@ static bool check_repeats(struct parser *p, const struct token *at, uint32_t id,
 }
 
 /* The own function with this signature: known from a prototype, or new. LANG_NONE where it may not be defined. */
-static uint32_t declare_function(struct parser *p, const struct token *at, str_id name, ir_type_id return_type, bool is_definition)
+static uint32_t declare_function(struct parser *p, const struct token *at, str_id name, ir_type_id return_type,
+                                 bool is_definition)
 {
     unsigned num_params = p->unit->slots.len - p->first_slot;
     if (num_params > MAX_PARAMS) {
-        PARSE_ERROR(p, parse_where_token(p, at), lang_limit, parse_say(p, "a function has at most %d parameters", MAX_PARAMS));
+        PARSE_ERROR(p, parse_where_token(p, at), lang_limit,
+                    parse_say(p, "a function has at most %d parameters", MAX_PARAMS));
         return LANG_NONE;
     }
     if (check_is_builtin(at->text, at->len) || lookup_type(p->unit, at->text, at->len) != IR_TYPE_VOID)
@@ -432,7 +441,8 @@ static void parse_function_or_global(struct parser *p)
         return;
     }
     if (unsized || type == IR_TYPE_STRING || type == IR_TYPE_SAMPLER)
-        PARSE_TYPE_ERROR(p, parse_place(&at), "a function cannot return %s", unsized ? "an array without length" : parse_type_text(p, type));
+        PARSE_TYPE_ERROR(p, parse_place(&at), "a function cannot return %s",
+                         unsized ? "an array without length" : parse_type_text(p, type));
     parse_function(p, &at, name, type);
 }
 

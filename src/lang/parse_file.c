@@ -54,6 +54,14 @@ static void see_file(struct parser *p, uint32_t file)
     vec_push(p->unit->arena, &p->visible, file);
 }
 
+static bool last_error_is_in(const struct diag_list *diags, const char *file_name)
+{
+    if (diags->last >= diags->items.len)
+        return false;
+    const char *file = diags->items.items[diags->last].place.file;
+    return file && strcmp(file, file_name) == 0;
+}
+
 static void parse_include(struct parser *p, const struct token *directive, struct lexer lexer)
 {
     struct token path;
@@ -64,15 +72,11 @@ static void parse_include(struct parser *p, const struct token *directive, struc
     }
     const char *ref = arena_strndup(p->unit->arena, path.text, path.len);
     struct diag_place where = parse_where_token(p, &path);
-    where.column = path.column;
     uint32_t num_errors = p->diags->num_errors;
     uint32_t file = parse_file(p->unit, p->reader, p->file_name, ref, where, p->diags, p);
     if (file == LANG_NONE) {
         p->num_errors++;
-        bool elsewhere = p->diags->items.len && p->diags->num_errors > num_errors &&
-                         p->diags->items.items[p->diags->last].place.line != 0 &&
-                         strcmp(p->diags->items.items[p->diags->last].place.file, p->file_name) != 0;
-        if (elsewhere)
+        if (p->diags->num_errors > num_errors && !last_error_is_in(p->diags, p->file_name))
             diag_add(p->diags, DIAG_ID_include_from, where);
         return;
     }
@@ -128,6 +132,17 @@ static bool check_nesting(const struct parser *includer, const char *name, struc
     return depth <= PARSE_MAX_INCLUDES;
 }
 
+/* A file that many include is parsed once, and its errors are reported once. */
+static bool failed_before(const struct diag_list *diags, const char *name)
+{
+    for (uint32_t i = 0; i < diags->items.len; i++) {
+        const struct diag *diag = &diags->items.items[i];
+        if (diag->severity == DIAG_ERROR && diag->place.file && strcmp(diag->place.file, name) == 0)
+            return true;
+    }
+    return false;
+}
+
 static void begin_file(struct parser *p, str_id name)
 {
     struct lang_unit *unit = p->unit;
@@ -151,6 +166,8 @@ static uint32_t parse_text_of_file(struct parser *p, str_id name, const char *te
         len -= 3;
     }
     parse_includes(p, text, len);
+    if (p->num_errors) /* names from there would be unknown here */
+        return LANG_NONE;
     struct parse_mark mark = parse_mark(p->unit);
     begin_file(p, name);
     uint32_t first_function = p->unit->base_functions + p->unit->functions.len;
@@ -177,6 +194,8 @@ static uint32_t parse_file(struct lang_unit *unit, const struct lang_reader *rea
     uint32_t known = find_file(unit, name);
     if (known != LANG_NONE)
         return known;
+    if (failed_before(diags, read_name))
+        return LANG_NONE;
     if (!check_nesting(includer, read_name, where, diags))
         return LANG_NONE;
     struct parser p;

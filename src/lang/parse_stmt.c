@@ -108,7 +108,10 @@ static struct local *declare(struct parser *p, const struct token *name_token, s
     return &vec_last(&p->locals);
 }
 
-/* NAME [n] = value; the name is in scope behind its initialiser. `unsized`: an array of `type` whose length the initialiser gives. */
+/*
+ * NAME [n] = value; the name is in scope behind its initialiser. `unsized`: an array of `type` whose length the
+ * initialiser gives.
+ */
 static lang_ref parse_declarator(struct parser *p, ir_type_id type, bool unsized, bool is_const)
 {
     struct token name_token = p->token;
@@ -332,7 +335,8 @@ static lang_ref parse_jump(struct parser *p, const struct token *at)
 
 static struct tree_chain parse_plain(struct parser *p)
 {
-    struct tree_chain chain = parse_at_type(p) || p->token.kind == TOKEN_CONST ? parse_declaration(p) : chain_of(parse_simple(p));
+    bool declares = p->token.kind == TOKEN_CONST || parse_at_type(p);
+    struct tree_chain chain = declares ? parse_declaration(p) : chain_of(parse_simple(p));
     if (!p->panic)
         parse_expect(p, TOKEN_SEMICOLON);
     return chain;

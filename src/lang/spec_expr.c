@@ -2,8 +2,6 @@
 /* The forward step over expressions. */
 #include "lang/specialise.h"
 
-enum { MAX_EVAL_STEPS = 20000 };
-
 lang_ref spec_add(struct spec *s, struct lang_node node)
 {
     node.next = 0;
@@ -230,79 +228,6 @@ lang_ref spec_target(struct spec *s, lang_ref ref)
         node.a = chain.first;
     }
     return spec_add(s, node);
-}
-
-/* Calls */
-
-static lang_ref evaluate(struct spec *s, const struct lang_node *call, const lang_ref *args, unsigned num_args)
-{
-    const struct lang_function *callee = lang_function(s->unit, call->a, NULL);
-    if (!(callee->flags & LANG_FN_PURE) || ast_is_user_type(call->type) || call->type == IR_TYPE_VOID
-        || callee->num_params != num_args)
-        return 0;
-    for (unsigned i = 0; i < num_args; i++)
-        if (spec_node(s, args[i])->kind != LANG_CONST)
-            return 0;
-    struct ir_value *values = arena_alloc(s->unit->arena, num_args * sizeof *values), result;
-    for (unsigned i = 0; i < num_args; i++)
-        spec_get(s, args[i], &values[i]);
-    if (!lang_eval_call(s->unit, call->a, values, &result, MAX_EVAL_STEPS, s->unit->arena))
-        return 0;
-    return spec_constant(s, &result, call->place);
-}
-
-/* Arguments that the version of the callee still takes. */
-static lang_ref chain_arguments(struct spec *s, uint32_t version, uint32_t given, const lang_ref *args, unsigned num_args)
-{
-    struct chain chain = {0};
-    for (unsigned i = 0; i < num_args; i++)
-        if (!lang_param_dropped(s->unit, version, given, i)) {
-            spec_node(s, args[i])->next = 0;
-            spec_append(s, &chain, args[i]);
-        }
-    return chain.first;
-}
-
-static lang_ref spec_call_with(struct spec *s, struct lang_node node, lang_ref *args, unsigned num_args, bool has_outputs)
-{
-    lang_ref constant = has_outputs ? 0 : evaluate(s, &node, args, num_args);
-    if (constant) {
-        s->changed = true;
-        return constant;
-    }
-    lang_ref bound[SPEC_MAX_PARAMS] = {0};
-    bool keeps_unused = false, may_bind = s->unit->versions->depth < SPEC_MAX_DEPTH;
-    for (unsigned i = 0; i < num_args; i++) {
-        struct ir_value value;
-        if (may_bind && i < SPEC_MAX_PARAMS && spec_get(s, args[i], &value) && spec_is_worth_binding(s->unit, node.a, &value))
-            bound[i] = args[i];
-        else
-            keeps_unused |= spec_has_effects(s, args[i]);
-    }
-    uint32_t given = node.a;
-    node.a = spec_function(s->unit, s->options, given, bound, keeps_unused);
-    s->changed |= node.a != given;
-    node.b = chain_arguments(s, node.a, given, args, num_args);
-    return spec_add(s, node);
-}
-
-static lang_ref spec_call(struct spec *s, struct lang_node node)
-{
-    uint32_t num_args = lang_function(s->unit, node.a, NULL)->num_params;
-    lang_ref few[SPEC_MAX_PARAMS];
-    lang_ref *args = num_args <= SPEC_MAX_PARAMS ? few : ARENA_ARRAY(s->unit->arena, lang_ref, num_args);
-    bool has_outputs = false;
-    uint32_t i = 0;
-    for (lang_ref ref = node.b; ref; ref = ast_node(s->layer, ref)->next, i++) {
-        bool is_input = ast_param_mode(s->unit, node.a, i) == LANG_IN;
-        args[i] = is_input ? spec_expression(s, ref) : spec_target(s, ref);
-        has_outputs |= !is_input;
-    }
-    i = 0;
-    for (lang_ref ref = node.b; ref && has_outputs; ref = ast_node(s->layer, ref)->next, i++)
-        if (ast_param_mode(s->unit, node.a, i) != LANG_IN)
-            s->known[ast_target_slot(s->layer, ref)] = 0;
-    return spec_call_with(s, node, args, num_args, has_outputs);
 }
 
 lang_ref spec_expression(struct spec *s, lang_ref ref)

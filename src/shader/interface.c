@@ -393,7 +393,10 @@ ir_ref shader_stream(struct shader *shader, str_id name, ir_type_id type)
         variable.flat = is_flat(carried);
         variable.semantic = stream_semantic(shader, row, suffix);
         index = bind(shader, &variable);
+        uint32_t origin = shader->graph->origin;
+        shader->graph->origin = ir_add_origin(shader->graph, name, 0, 0); /* names the vertex stage's locals */
         ir_ref value = vertex_expression(shader, row, suffix, carried);
+        shader->graph->origin = origin;
         shader_effect(shader, STAGE_VERTEX, (struct effect){.kind = EFFECT_OUTPUT, .index = index, .value = value});
     }
     return as_wanted(shader->graph, shader_read(shader, index), type);

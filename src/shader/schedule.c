@@ -306,7 +306,7 @@ static bool is_source(const struct scheduler *s, struct plan *plan)
         struct ir_value value;
         bool known = ir_get_const(s->graph, plan->ref, &value);
         uint32_t components = known && !is_splat(&value) ? ir_type_info(value.type)->components : 1;
-        plan->chars = clamp16(components == 1 ? 8 : 4 + 7 * components);
+        plan->chars = clamp16(components == 1 ? 5 : 4 + 6 * components);
         return components == 1 || plan->uses < (components > 4 ? 2u : 3u);
     }
     case IR_UNIFORM:
@@ -320,7 +320,7 @@ static bool is_source(const struct scheduler *s, struct plan *plan)
     case IR_CONTEXT:
     case IR_POISON:
         plan->cost = 1;
-        plan->chars = 8;
+        plan->chars = 4;
         return true;
     default:
         return false;
@@ -328,12 +328,14 @@ static bool is_source(const struct scheduler *s, struct plan *plan)
 }
 
 /* What an operation adds to its operands. */
-static void own_measure(const struct ir_node *node, uint32_t *out_cost, uint32_t *out_chars)
+static void own_measure(const struct scheduler *s, const struct ir_node *node, uint32_t *out_cost, uint32_t *out_chars)
 {
     const struct ir_op_info *info = ir_op_info(node->op);
     if (is_call(node)) {
+        str_id name = node->op == IR_GRAPH_CALL ? s->graph->functions.items[node->attr].name
+                                                : s->graph->callees.items[node->attr].name;
         *out_cost = COST_CALL;
-        *out_chars = 16 + 2 * node->num_args;
+        *out_chars = (uint32_t)str_len(s->shader->strings, name) + 2 * node->num_args;
     } else if (info->flags & OP_BUILTIN) {
         *out_cost = COST_BUILTIN;
         *out_chars = (uint32_t)strlen(info->text) + 2 * node->num_args;
@@ -353,11 +355,13 @@ static bool may_let(const struct scheduler *s, const struct plan *plan)
     return plan->flags & PLAN_STATEMENT || (type != IR_TYPE_VOID && type != IR_TYPE_SAMPLER && type != IR_TYPE_STRING);
 }
 
-static void let(struct plan *plan)
+/* From here on it is read by its name, which its origin gives. */
+static void let(const struct scheduler *s, struct plan *plan)
 {
+    str_id name = s->graph->origins.items[ir_get(s->graph, plan->ref)->origin].name;
     plan->flags |= PLAN_LET;
     plan->cost = 1;
-    plan->chars = 12;
+    plan->chars = clamp16((uint32_t)str_len(s->shader->strings, name) + 2);
 }
 
 /* Sums the operands up; the longest of them become locals until the whole is no longer than a line. */
@@ -366,7 +370,7 @@ static void measure(struct scheduler *s, struct plan *plan)
     const struct ir_node *node = ir_get(s->graph, plan->ref);
     for (;;) {
         uint32_t cost, chars;
-        own_measure(node, &cost, &chars);
+        own_measure(s, node, &cost, &chars);
         struct plan *longest = NULL;
         for (uint32_t a = 0; a < node->num_args; a++) {
             struct plan *operand = plan_of(s, ir_arg(s->graph, plan->ref, a));
@@ -382,7 +386,7 @@ static void measure(struct scheduler *s, struct plan *plan)
             plan->chars = clamp16(chars);
             return;
         }
-        let(longest);
+        let(s, longest);
     }
 }
 
@@ -425,7 +429,7 @@ static void choose_locals(struct scheduler *s)
         if (!wanted && (plan->uses > 1 || plan->flags & PLAN_MOVED))
             wanted = !is_cheap(s, plan);
         if (wanted)
-            let(plan);
+            let(s, plan);
     }
 }
 

@@ -45,21 +45,29 @@ static void add_variables(struct hasher *h)
 
 /* ---- Portable functions ---- */
 
-static uint64_t tree_word(const struct hasher *h, const struct lang_unit *layer, const struct lang_node *node)
+/* What a node says beside its children. Globals are told apart by name: their ids depend on what else was parsed. */
+static void add_tree_word(struct hasher *h, const struct lang_unit *layer, const struct lang_node *node)
 {
     switch (node->kind) {
     case LANG_CONST:
-    case LANG_DECLARE:
-    case LANG_VAR:
-        return node->kind == LANG_CONST ? layer->words.items[node->a].u : node->a;
+        for (uint32_t i = 0; node->type < IR_NUM_TYPES && i < ir_type_info(node->type)->components; i++)
+            add(h, layer->words.items[node->a + i].u);
+        break;
     case LANG_GLOBAL:
-        return lang_global(h->shader->unit, node->a, NULL)->name; /* replaced by add_tree */
+        add_text(h, lang_global(h->shader->unit, node->a, NULL)->name);
+        break;
+    case LANG_VAR:
+    case LANG_DECLARE:
+        add(h, node->a);
+        break;
     case LANG_CALL:
-        return h->function_numbers[node->a];
+        add(h, h->function_numbers[node->a]);
+        break;
     case LANG_OP:
-        return node->b;
+        add(h, node->b);
+        break;
     default:
-        return 0;
+        break;
     }
 }
 
@@ -81,13 +89,7 @@ static void add_tree(struct hasher *h, const struct lang_unit *layer, lang_ref r
     while (stack.len) {
         const struct lang_node *node = &layer->nodes.items[vec_pop(&stack)];
         add(h, (uint64_t)node->kind << 56 | (uint64_t)node->op << 48 | (uint64_t)node->type << 32);
-        if (node->kind == LANG_GLOBAL)
-            add_text(h, lang_global(h->shader->unit, node->a, NULL)->name);
-        else
-            add(h, tree_word(h, layer, node));
-        if (node->kind == LANG_CONST)
-            for (uint32_t i = 1; node->type < IR_NUM_TYPES && i < ir_type_info(node->type)->components; i++)
-                add(h, layer->words.items[node->a + i].u);
+        add_tree_word(h, layer, node);
         PUSH(node->next);
         bool a = node->kind == LANG_OP || node->kind == LANG_ASSIGN || node->kind == LANG_EXPR || node->kind == LANG_IF
                  || node->kind == LANG_FOR || node->kind == LANG_BLOCK || node->kind == LANG_RETURN;

@@ -4,14 +4,50 @@
 
 #include <assert.h>
 
+/* Structs and arrays of the graph have their own ids; a struct is that of the portable functions with its name. */
+static const struct ir_user_type *user_type(const struct spell *spell, ir_type_id type)
+{
+    return type < IR_TYPE_FIRST_USER ? NULL : &spell->shader->graph->user_types.items[type - IR_TYPE_FIRST_USER];
+}
+
+static const char *struct_name(const struct spell *spell, str_id name)
+{
+    const struct lang_reach *reach = &spell->stage->reach;
+    for (uint32_t i = 0; i < reach->user_types.len; i++)
+        if (lang_user_type(spell->shader->unit, reach->user_types.items[i], NULL)->name == name)
+            return spell->user_types[reach->user_types.items[i] - IR_TYPE_FIRST_USER];
+    return str_text(spell->shader->strings, name);
+}
+
+static void write_lengths(struct spell *spell, ir_type_id type)
+{
+    for (const struct ir_user_type *user; (user = user_type(spell, type)) && user->array_length; type = user->element) {
+        text_char(spell->out, '[');
+        text_u32(spell->out, user->array_length);
+        text_char(spell->out, ']');
+    }
+}
+
+static void write_base_type(struct spell *spell, ir_type_id type)
+{
+    const struct ir_user_type *user;
+    while ((user = user_type(spell, type)) && user->array_length)
+        type = user->element;
+    spell_text(spell, user ? struct_name(spell, user->name) : lang_syntax_type(spell->target->syntax, type));
+}
+
 void spell_type(struct spell *spell, ir_type_id type)
 {
-    lang_print_type(spell->target->syntax, &spell->lang_names, spell->shader->unit, type, spell->out);
+    write_base_type(spell, type);
+    write_lengths(spell, type);
 }
 
 void spell_variable(struct spell *spell, ir_type_id type, const char *name)
 {
-    lang_print_variable(spell->target->syntax, &spell->lang_names, spell->shader->unit, type, name, spell->out);
+    write_base_type(spell, type);
+    text_char(spell->out, ' ');
+    spell_text(spell, name);
+    write_lengths(spell, type);
 }
 
 static void write_value(struct spell *spell, const struct ir_value *value, enum lang_precedence least)
@@ -37,10 +73,9 @@ static void write_member(struct spell *spell, ir_ref ref, uint32_t attr)
 {
     ir_ref operand = ir_arg(spell->shader->graph, ref, 0);
     spell_expression(spell, operand, LANG_PREC_POSTFIX);
-    const struct lang_unit *layer;
-    const struct ir_user_type *type = lang_user_type(spell->shader->unit, ir_type_of(spell->shader->graph, operand), &layer);
+    const struct ir_user_type *type = user_type(spell, ir_type_of(spell->shader->graph, operand));
     text_char(spell->out, '.');
-    spell_text(spell, str_text(spell->shader->strings, layer->members.items[type->first_member + attr].name));
+    spell_text(spell, str_text(spell->shader->strings, spell->shader->graph->members.items[type->first_member + attr].name));
 }
 
 static void write_list(struct spell *spell, ir_ref ref)
@@ -55,8 +90,8 @@ static void write_list(struct spell *spell, ir_ref ref)
 
 static void write_construct(struct spell *spell, ir_ref ref, ir_type_id type)
 {
-    bool array = type >= IR_TYPE_FIRST_USER && lang_user_type(spell->shader->unit, type, NULL)->array_length;
-    bool braces = array && spell->target->syntax->array_braces;
+    const struct ir_user_type *user = user_type(spell, type);
+    bool braces = user && user->array_length && spell->target->syntax->array_braces;
     if (!braces)
         spell_type(spell, type);
     text_char(spell->out, braces ? '{' : '(');

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// GGX microfacet lobe, the one kernel of all dielectric, conductor and Schlick closures.
-// `alpha` holds the squared roughness along X and Y; masking uses their geometric mean.
+// GGX microfacet lobe, the one kernel of all dielectric, conductor and Schlick closures. Roughness is that along X and
+// Y, already squared; masking uses their geometric mean. See fresnel.glsl for the parameters of interfaces.
 
 #include "environment.glsl"
 #include "fresnel.glsl"
@@ -25,87 +25,102 @@ float mx_ggx_visibility(float cos_v, float cos_l, vec2 alpha)
     return 0.5 * cos_l / (cos_v * mx_ggx_masking(cos_l, alpha) + cos_l * mx_ggx_masking(cos_v, alpha));
 }
 
-// Rational fit to the directional albedo: x scales F0, y scales F90.
-vec2 mx_ggx_albedo(float cos_v, vec2 alpha)
+// Directional albedo of the lobe towards V, fitted by rational functions: x scales F0, y scales F90.
+vec2 mx_ggx_albedo(vec2 roughness, vec3 N, vec3 V)
 {
-    float a = sqrt(alpha.x * alpha.y);
+    float c = max(abs(dot(N, V)), MX_EPSILON);
+    float a = sqrt(clamp(roughness.x * roughness.y, MX_EPSILON * MX_EPSILON, 1.0));
     vec4 r = vec4(0.1003, 0.9345, 1.0, 1.0)
            + a * (vec4(9.748, 2.229, 8.263, 15.94) + a * vec4(-8.245, -0.7684, -7.507, 41.26))
-           + cos_v * (vec4(-0.6303, -2.323, -1.765, 0.2281)
-                    + a * (vec4(-2.038, -3.748, 11.53, -55.83) + a * vec4(19.99, 0.2913, 15.86, 300.2))
-                    + cos_v * (vec4(29.34, 1.424, 28.96, 13.08)
-                             + a * (vec4(-26.44, 1.436, -36.11, 54.9) + a * vec4(-5.448, 0.6286, 33.37, -285.1))));
+           + c * (vec4(-0.6303, -2.323, -1.765, 0.2281)
+                + a * (vec4(-2.038, -3.748, 11.53, -55.83) + a * vec4(19.99, 0.2913, 15.86, 300.2))
+                + c * (vec4(29.34, 1.424, 28.96, 13.08)
+                     + a * (vec4(-26.44, 1.436, -36.11, 54.9) + a * vec4(-5.448, 0.6286, 33.37, -285.1))));
     return clamp(r.xy / r.zw, 0.0, 1.0);
 }
 
 // Factor that restores the energy of multiple scattering (Turquin 2019, equations 14 and 16).
-vec3 mx_ggx_compensation(vec2 albedo, int model, vec3 n, vec3 k, vec3 f90, float exponent, float film, float film_ior)
+vec3 mx_ggx_compensation(vec2 albedo, int model, vec3 n, vec3 k, vec3 f90, float film, float film_ior)
 {
     // 1/21: the hemispherical mean of Schlick's curve with exponent 5
-    vec3 average = mix(mx_fresnel(1.0, model, n, k, f90, exponent, film, film_ior), f90, 1.0 / 21.0);
+    vec3 average = mix(mx_fresnel_facing(model, n, k, film, film_ior), f90, 1.0 / 21.0);
     return 1.0 + average * (1.0 / (albedo.x + albedo.y) - 1.0);
 }
 
 // Part of the light that the lobe reflects towards V; a film changes the compensation only.
-vec3 mx_ggx_reflectance(vec2 roughness, vec3 N, vec3 V, int model, vec3 n, vec3 k, vec3 f90, float exponent,
-                        float film, float film_ior)
+vec3 mx_ggx_reflectance(vec2 roughness, vec3 N, vec3 V, int model, vec3 n, vec3 k, vec3 f90, float film, float film_ior)
 {
-    vec2 albedo = mx_ggx_albedo(max(abs(dot(N, V)), MX_EPSILON), clamp(roughness, MX_EPSILON, 1.0));
-    return (mx_fresnel_interface(1.0, model, n, k, f90, exponent) * albedo.x + f90 * albedo.y)
-         * mx_ggx_compensation(albedo, model, n, k, f90, exponent, film, film_ior);
+    vec2 albedo = mx_ggx_albedo(roughness, N, V);
+    return (mx_fresnel_f0(model, n, k) * albedo.x + f90 * albedo.y)
+         * mx_ggx_compensation(albedo, model, n, k, f90, film, film_ior);
 }
 
-// Response to a light in direction L.
-vec3 mx_ggx_eval(vec2 roughness, vec3 N, vec3 X, vec3 V, vec3 L, int model, vec3 n, vec3 k, vec3 f90, float exponent,
-                 float film, float film_ior)
+// ---- lights ---------------------------------------------------------------------------------------------------------
+
+// The lobe towards L without its reflectance: x the value, y the cosine at which facets reflect.
+vec2 mx_ggx_lobe(vec2 roughness, vec3 N, vec3 X, vec3 V, vec3 L)
 {
     mat3 frame = mx_frame(N, X, V);
     vec2 alpha = clamp(roughness, MX_EPSILON, 1.0);
     vec3 v = V * frame;
     vec3 l = L * frame;
     vec3 h = normalize(v + l);
-    float cos_v = max(v.z, MX_EPSILON);
-    return mx_fresnel(clamp(dot(v, h), MX_EPSILON, 1.0), model, n, k, f90, exponent, film, film_ior)
-         * mx_ggx_compensation(mx_ggx_albedo(cos_v, alpha), model, n, k, f90, exponent, film, film_ior)
-         * (mx_ggx_distribution(h, alpha) * mx_ggx_visibility(cos_v, max(l.z, MX_EPSILON), alpha));
+    return vec2(mx_ggx_distribution(h, alpha) * mx_ggx_visibility(max(v.z, MX_EPSILON), max(l.z, MX_EPSILON), alpha),
+                clamp(dot(v, h), MX_EPSILON, 1.0));
 }
 
-// Visible normal for the random pair u (Dupuy and Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps").
-vec3 mx_ggx_sample(vec2 u, vec3 v, vec2 alpha)
+vec3 mx_ggx_eval(vec2 roughness, vec3 N, vec3 X, vec3 V, vec3 L, int model, vec3 n, vec3 k, vec3 f90, float exponent,
+                 float film, float film_ior)
 {
-    vec3 w = normalize(vec3(v.xy * alpha, v.z));
-    float phi = 2.0 * MX_PI * u.x;
-    float z = (1.0 - u.y) * (1.0 + w.z) - w.z;
-    vec3 h = w + vec3(sqrt(max(1.0 - z * z, 0.0)) * vec2(cos(phi), sin(phi)), z);
-    return normalize(vec3(h.xy * alpha, max(h.z, 0.0)));
+    vec2 lobe = mx_ggx_lobe(roughness, N, X, V, L);
+    return lobe.x * mx_fresnel(lobe.y, model, n, k, f90, exponent, film, film_ior)
+         * mx_ggx_compensation(mx_ggx_albedo(roughness, N, V), model, n, k, f90, film, film_ior);
 }
 
-// Direction of the ray -v that enters a solid sphere at normal h and leaves it again.
+// ---- environment ----------------------------------------------------------------------------------------------------
+// Below, refract_ior > 0 looks through a solid sphere of that index instead of reflecting.
+
+// Direction of the ray -v after it has entered the sphere at normal h and left it again.
 vec3 mx_refract_sphere(vec3 v, vec3 h, float ior)
 {
     vec3 r = refract(-v, h, 1.0 / ior);
     return refract(r, normalize(r * dot(r, h) - 0.5 * h), ior);
 }
 
-// Environment seen in the lobe from a prefiltered map; V and refract_ior as in mx_ggx_environment.
 vec3 mx_ggx_prefiltered(vec2 alpha, vec3 N, vec3 V, float refract_ior, int model, vec3 n, vec3 k, vec3 f90,
                         float exponent, float film, float film_ior)
 {
     float a = sqrt(alpha.x * alpha.y);
     float lod = (a < 0.25 ? sqrt(a) : 0.5 * a + 0.375) * float(u_envRadianceMips - 1);
     vec3 h = mx_facing(N, V);
-    float cos_v = max(dot(h, V), MX_EPSILON);
-    vec2 albedo = mx_ggx_albedo(cos_v, alpha);
-    vec3 f = mx_fresnel(1.0, model, n, k, f90, exponent, film, film_ior) * albedo.x + f90 * albedo.y;
+    vec2 albedo = mx_ggx_albedo(alpha, N, V);
+    vec3 f = mx_fresnel_facing(model, n, k, film, film_ior) * albedo.x + f90 * albedo.y;
     if (film > 0.0) // keep the change of colour with the angle where the lobe is sharp
-        f = mix(mx_fresnel(cos_v, model, n, k, f90, exponent, film, film_ior), f, sqrt(a));
+        f = mix(mx_fresnel(max(dot(h, V), MX_EPSILON), model, n, k, f90, exponent, film, film_ior), f, sqrt(a));
     if (refract_ior > 0.0)
         return (1.0 - f) * mx_environment_lookup(u_envRadiance, mx_refract_sphere(V, h, refract_ior), lod);
     return f * mx_environment_lookup(u_envRadiance, reflect(-V, h), lod);
 }
 
-// Environment seen in the lobe by filtered importance sampling (Krivanek and Colbert 2008) at spherical Fibonacci
-// points (Marques et al. 2013); the mip level covers the solid angle of a sample (GPU Gems 3, 20.4, equation 13).
+// Normal number i of those visible from v (Dupuy and Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps"),
+// at spherical Fibonacci points (Marques et al. 2013).
+vec3 mx_ggx_sample(int i, vec3 v, vec2 alpha)
+{
+    vec3 w = normalize(vec3(v.xy * alpha, v.z));
+    float phi = 2.0 * MX_PI * (float(i) + 0.5) / float(u_envRadianceSamples);
+    float z = 1.0 - fract((float(i) + 1.0) * 1.61803399) * (1.0 + w.z);
+    vec3 h = w + vec3(sqrt(max(1.0 - z * z, 0.0)) * vec2(cos(phi), sin(phi)), z);
+    return normalize(vec3(h.xy * alpha, max(h.z, 0.0)));
+}
+
+// Light from the direction L of sample h, filtered over its solid angle (Krivanek and Colbert 2008; the mip level is
+// equation 13 of GPU Gems 3, section 20.4). The probability of a reflection is distribution / (2 masking).
+vec3 mx_ggx_sample_light(vec3 L, vec3 h, vec2 alpha, float masking)
+{
+    float solid = float(u_envRadianceSamples) * mx_ggx_distribution(h, alpha) / (2.0 * masking) * sqrt(1.0 - L.y * L.y);
+    return mx_environment_lookup(u_envRadiance, L, max(float(u_envRadianceMips) - 2.5 - 0.5 * log2(solid), 0.0));
+}
+
 vec3 mx_ggx_sampled(vec2 alpha, vec3 N, vec3 X, vec3 V, float refract_ior, int model, vec3 n, vec3 k, vec3 f90,
                     float exponent, float film, float film_ior)
 {
@@ -113,24 +128,25 @@ vec3 mx_ggx_sampled(vec2 alpha, vec3 N, vec3 X, vec3 V, float refract_ior, int m
     vec3 v = V * frame;
     float cos_v = max(v.z, MX_EPSILON);
     float masking = cos_v + mx_ggx_masking(cos_v, alpha);
-    float count = float(u_envRadianceSamples);
     vec3 sum = vec3(0.0);
     for (int i = 0; i < u_envRadianceSamples; ++i)
     {
-        vec3 h = mx_ggx_sample(vec2((float(i) + 0.5) / count, fract((float(i) + 1.0) * 1.61803399)), v, alpha);
-        vec3 l = refract_ior > 0.0 ? mx_refract_sphere(v, h, refract_ior) : reflect(-v, h);
-        vec3 L = frame * l;
-        float density = count * mx_ggx_distribution(h, alpha) / (2.0 * masking) * sqrt(1.0 - L.y * L.y);
-        float lod = max(float(u_envRadianceMips) - 2.5 - 0.5 * log2(density), 0.0);
+        vec3 h = mx_ggx_sample(i, v, alpha);
         vec3 f = mx_fresnel(clamp(dot(v, h), MX_EPSILON, 1.0), model, n, k, f90, exponent, film, film_ior);
-        sum += (refract_ior > 0.0 ? 1.0 - f : f * (4.0 * cos_v * mx_ggx_visibility(cos_v, max(l.z, MX_EPSILON), alpha)))
-             * mx_environment_lookup(u_envRadiance, L, lod);
+        vec3 l = reflect(-v, h);
+        if (refract_ior > 0.0)
+        {
+            l = mx_refract_sphere(v, h, refract_ior);
+            f = 1.0 - f;
+        }
+        else
+            f *= 4.0 * cos_v * mx_ggx_visibility(cos_v, max(l.z, MX_EPSILON), alpha);
+        sum += f * mx_ggx_sample_light(frame * l, h, alpha, masking);
     }
     // Dividing by Smith's G1 completes the weight G2 / G1 of a visible normal.
-    return sum * (masking / max(2.0 * cos_v * count, MX_EPSILON));
+    return sum * (masking / max(2.0 * cos_v * float(u_envRadianceSamples), MX_EPSILON));
 }
 
-// Environment seen in the lobe; refract_ior > 0 looks through a sphere of that index instead of reflecting.
 vec3 mx_ggx_environment(vec2 roughness, vec3 N, vec3 X, vec3 V, float refract_ior, int model, vec3 n, vec3 k, vec3 f90,
                         float exponent, float film, float film_ior)
 {
@@ -145,6 +161,5 @@ vec3 mx_ggx_environment(vec2 roughness, vec3 N, vec3 X, vec3 V, float refract_io
         light = mx_ggx_sampled(alpha, N, X, V, refract_ior, model, n, k, f90, exponent, film, film_ior);
     if (refract_ior > 0.0)
         return light;
-    vec2 albedo = mx_ggx_albedo(max(abs(dot(N, V)), MX_EPSILON), alpha);
-    return light * mx_ggx_compensation(albedo, model, n, k, f90, exponent, film, film_ior);
+    return light * mx_ggx_compensation(mx_ggx_albedo(roughness, N, V), model, n, k, f90, film, film_ior);
 }

@@ -47,8 +47,7 @@ vec3 mx_dielectric_bsdf_throughput(vec3 tint, float ior, vec2 roughness, bool re
 {
     if (scatter_mode == "T")
         return vec3(1.0);
-    return 1.0 - mx_ggx_reflectance(roughness, N, V, MX_FRESNEL_DIELECTRIC, vec3(ior), vec3(0.0), vec3(1.0), 0.0,
-                                    film, film_ior);
+    return 1.0 - mx_ggx_reflectance(roughness, N, V, MX_FRESNEL_DIELECTRIC, vec3(ior), vec3(0.0), vec3(1.0), film, film_ior);
 }
 
 // ---- conductor_bsdf -------------------------------------------------------------------------------------------------
@@ -108,6 +107,6 @@ vec3 mx_generalized_schlick_bsdf_throughput(vec3 color0, vec3 color82, vec3 colo
     if (scatter_mode == "T")
         return vec3(1.0);
     vec3 reflected = mx_ggx_reflectance(roughness, N, V, MX_FRESNEL_SCHLICK, max(color0, 0.0), max(color82, 0.0),
-                                        max(color90, 0.0), exponent, film, film_ior);
+                                        max(color90, 0.0), film, film_ior);
     return vec3(1.0 - dot(reflected, vec3(1.0 / 3.0)));
 }

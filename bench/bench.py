@@ -1,0 +1,131 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Measures mxgen and prints counts and ratios, never times: instructions by callgrind, peak memory, sizes of what is emitted,
+growth with the size of a graph. Arguments: the build folder and a document."""
+import os
+import re
+import subprocess
+import sys
+import tempfile
+
+BUILD, DOCUMENT = sys.argv[1], sys.argv[2]
+MXGEN = f"{BUILD}/mxgen"
+
+# MaterialX 1.39.6 on standard_surface_default.mtlx, and what mxgen wants to be.
+ROWS = {
+    "process": ("instructions of the whole process, glsl", 295e6, 6e6),
+    "generation": ("instructions of a generation, glsl", 29e6, 1e6),
+    "memory": ("peak memory of the process, MB", 19.7, 8),
+    "source complete": ("bytes of pixel source, complete", 79e3, 24e3),
+    "source reduced": ("bytes of pixel source, reduced", 76e3, 8e3),
+    "spirv complete": ("SPIR-V body instructions, complete", 6831, 3000),
+    "spirv reduced": ("SPIR-V body instructions, reduced", None, 600),
+}
+
+
+def run(*command):
+    return subprocess.run(command, check=True, capture_output=True, text=True)
+
+
+def instructions(*command):
+    """Instructions executed by a program, its start included."""
+    result = run("valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null", *command)
+    return int(re.search(r"Collected : (\d+)", result.stderr)[1])
+
+
+def peak(*command):
+    """Peak memory in KiB, processor time in milliseconds."""
+    return [int(word) for word in run(f"{BUILD}/bench/bench-peak", *command).stdout.split()]
+
+
+def generation(document, *options):
+    """Instructions of the first generation of a document that is loaded already."""
+    program = f"{BUILD}/bench/bench-generate"
+    return (instructions(program, document, "glsl", "1", *options) - instructions(program, document, "glsl", "0", *options))
+
+
+def sizes():
+    """Per target and interface mode: bytes of the pixel source and SPIR-V instructions."""
+    table = {}
+    for line in run(f"{BUILD}/validate/mxgen-compile", DOCUMENT).stdout.splitlines():
+        _, _, target, interface, size, _, pixel, _ = line.split("\t")
+        table[target, interface] = int(size), int(pixel)
+    return table
+
+
+def number(value):
+    return "-" if value is None else f"{value:,.1f}" if value < 100 and value != int(value) else f"{value:,.0f}"
+
+
+def print_row(key, measured):
+    what, reference, goal = ROWS[key]
+    ratio = f"{reference / measured:6.1f}x" if reference else "      -"
+    verdict = "reached" if measured < goal else "MISSED"
+    print(f"{what:45} {number(measured):>12} {'< ' + number(goal):>12} {verdict:>8} {number(reference):>14} {ratio}")
+
+
+def graph(shape, count):
+    """A document with a float graph of `count` nodes: each reads the one before, once (chain) or twice (diamond)."""
+    yield '<?xml version="1.0"?>\n<materialx version="1.39">\n<nodegraph name="g">\n'
+    yield '<position name="p" type="vector3"/>\n'
+    yield '<extract name="n0" type="float"><input name="in" type="vector3" nodename="p"/></extract>\n'
+    for i in range(1, count):
+        second = f'nodename="n{i - 1}"' if shape == "diamond" else f'value="{i % 97 + 0.5}"'
+        node = "multiply" if i % 2 else "subtract" if shape == "chain" else "add"
+        yield (f'<{node} name="n{i}" type="float"><input name="in1" type="float" nodename="n{i - 1}"/>'
+               f'<input name="in2" type="float" {second}/></{node}>\n')
+    yield f'<output name="out" type="float" nodename="n{count - 1}"/>\n</nodegraph>\n</materialx>\n'
+
+
+def growth(folder):
+    print(f"\n{'growth, per node':20} {'nodes':>10} {'instructions':>14} {'bytes of memory':>16} {'processor time, ratio':>22}")
+    for shape in "chain", "diamond":
+        first = None
+        for count in 1_000, 10_000, 100_000, 1_000_000:
+            path = f"{folder}/{shape}{count}.mtlx"
+            with open(path, "w", encoding="utf-8") as out:
+                out.writelines(graph(shape, count))
+            command = MXGEN, path, "--target", "glsl", "-o", folder
+            # callgrind is fifty times slower than the processor: the largest is judged by processor time alone
+            counted = instructions(*command) if count <= 100_000 else None
+            memory, time = peak(*command)
+            if count == 100_000:
+                first = time / count
+            ratio = f"{time / count / first:.2f}" if first else "-"
+            print(f"{shape:20} {count:10,} {number(counted and counted / count):>14} {memory * 1024 / count:16,.0f} {ratio:>22}")
+            os.remove(path)
+
+
+def same_bytes(folder):
+    """Two runs from different folders."""
+    texts = []
+    for name in "a", "b":
+        os.makedirs(f"{folder}/{name}")
+        subprocess.run([os.path.abspath(MXGEN), os.path.abspath(DOCUMENT), "--reflect", "-q"], cwd=f"{folder}/{name}", check=True)
+        texts.append({file: open(f"{folder}/{name}/{file}", "rb").read() for file in os.listdir(f"{folder}/{name}")})
+    return texts[0] == texts[1]
+
+
+def main():
+    with tempfile.TemporaryDirectory() as folder:
+        print(f"{os.path.basename(DOCUMENT):45} {'mxgen':>12} {'goal':>12} {'':8} {'MaterialX':>14}   ratio")
+        command = MXGEN, DOCUMENT, "--target", "glsl", "-o", folder
+        base = instructions(f"{BUILD}/bench/bench-parse", DOCUMENT)
+        process = instructions(*command)
+        print_row("process", process)
+        print_row("generation", generation(DOCUMENT))
+        print_row("memory", peak(*command)[0] * 1024 / 1e6)
+        if os.path.exists(f"{BUILD}/validate/mxgen-compile"):
+            table = sizes()
+            for interface in "complete", "reduced":
+                print_row(f"source {interface}", table["glsl", interface][0])
+            for interface in "complete", "reduced":
+                print_row(f"spirv {interface}", table["glsl", interface][1])
+        print(f"\nprocess / libxml2 alone (start and parse: {base:,} instructions): {process / base:.2f}")
+        print(f"libxml2 alone: {number(peak(f'{BUILD}/bench/bench-parse', DOCUMENT)[0] * 1024 / 1e6)} MB peak")
+        print(f"two runs in two folders give the same bytes: {'yes' if same_bytes(folder) else 'NO'}")
+        growth(folder)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+/* GLSL ES 3.00, as WebGL 2 reads it: no initial values of uniforms, no blocks between stages, explicit precision. */
+#include "generators/glsl/glsl.h"
+
+static const char *const versions[] = {"300 es", "310 es", "320 es", NULL};
+
+const struct target target_essl = {
+    .name = "essl",
+    .materialx_name = "essl",
+    .base = &target_glsl,
+    .brief = "GLSL ES 3.00 for OpenGL ES and WebGL 2",
+    .caps = GLSL_CAPS | CAP_BLOCK_OPTION | CAP_PRECISION,
+    .versions = versions,
+    .syntax = &glsl_syntax,
+    .stage_suffix = {"vert", "frag"},
+};

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+/* Desktop OpenGL: loose uniforms with initial values, as hosts of MaterialX bind them. The portable language is its subset. */
+#include "generators/glsl/glsl.h"
+
+#define RESERVED(word) #word,
+static const char *const reserved[] = {
+#include "generators/glsl/reserved.def"
+};
+
+const struct lang_syntax glsl_syntax = {
+    .name = "glsl",
+    .base = &lang_syntax_portable,
+    .reserved = reserved,
+    .num_reserved = sizeof reserved / sizeof *reserved,
+    .param_in = "const ", /* passed without a copy */
+    .param_in_assigned = "",
+    .param_out = "out ",
+    .param_inout = "inout ",
+};
+
+static const char *const versions[] = {"450", "330", "400", "410", "420", "430", "440", "460", NULL};
+
+const struct target target_glsl = {
+    .name = "glsl",
+    .materialx_name = "genglsl",
+    .brief = "GLSL for desktop OpenGL 3.3 and later",
+    .caps = GLSL_CAPS | CAP_UNIFORM_DEFAULTS | CAP_BLOCK_OPTION | CAP_BLOCK_STAGE_IO,
+    .versions = versions,
+    .syntax = &glsl_syntax,
+    .stage_suffix = {"vert", "frag"},
+};

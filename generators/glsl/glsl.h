@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+/* The GLSL family: one syntax for desktop OpenGL, Vulkan and OpenGL ES. */
+#ifndef MXG_GENERATORS_GLSL_H
+#define MXG_GENERATORS_GLSL_H
+
+#include "spell/target.h"
+
+extern const struct lang_syntax glsl_syntax;
+extern const struct target target_glsl, target_vulkan, target_essl;
+
+/* What every GLSL can do. */
+#define GLSL_CAPS (CAP_STAGES | CAP_OVERLOADS | CAP_BITWISE | CAP_IMPLICIT_LOD | CAP_CONST_PARAMS)
+
+#endif

@@ -1,0 +1,352 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/bind.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define MAX_COMPONENTS 16
+#define STD140_ROUND 16u
+#define INTEGER_ATTRIBUTE 3 /* what every integer attribute is */
+
+#if defined(__GNUC__)
+__attribute__((format(printf, 2, 3)))
+#endif
+static bool fail(struct bind *bind, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    vsnprintf(bind->reason, sizeof bind->reason, format, args);
+    va_end(args);
+    return false;
+}
+
+/* ---- Types by name ---- */
+
+struct shape {
+    const char *name;
+    unsigned columns, rows;
+    bool is_float;
+};
+
+static const struct shape shapes[] = {
+    {"float", 1, 1, true}, {"vec2", 1, 2, true},   {"vec3", 1, 3, true},   {"vec4", 1, 4, true},  {"mat2", 2, 2, true},
+    {"mat3", 3, 3, true},  {"mat4", 4, 4, true},   {"int", 1, 1, false},   {"ivec2", 1, 2, false}, {"ivec3", 1, 3, false},
+    {"ivec4", 1, 4, false}, {"uint", 1, 1, false}, {"bool", 1, 1, false},
+};
+
+static const struct shape *find_shape(const char *type)
+{
+    for (size_t i = 0; i < sizeof shapes / sizeof *shapes; ++i) {
+        if (strcmp(type, shapes[i].name) == 0)
+            return &shapes[i];
+    }
+    return NULL;
+}
+
+/* ---- Blocks ---- */
+
+static struct draw_block *find_block(struct draw *draw, uint32_t set, uint32_t binding)
+{
+    for (uint32_t i = 0; i < draw->num_blocks; ++i) {
+        if (draw->blocks[i].set == set && draw->blocks[i].binding == binding)
+            return &draw->blocks[i];
+    }
+    return NULL;
+}
+
+static uint32_t round_up(uint32_t value)
+{
+    return (value + STD140_ROUND - 1) / STD140_ROUND * STD140_ROUND;
+}
+
+/* Makes the block of a variable large enough for it. */
+static bool reserve(struct bind *bind, const mxg_variable *variable)
+{
+    struct draw *draw = &bind->draw;
+    if (variable->set >= DRAW_MAX_SETS)
+        return fail(bind, "'%s' is in descriptor set %u", variable->name, variable->set);
+    struct draw_block *block = find_block(draw, variable->set, variable->binding);
+    if (!block) {
+        if (draw->num_blocks == DRAW_MAX_BLOCKS)
+            return fail(bind, "the shader has more than %u uniform blocks", DRAW_MAX_BLOCKS);
+        block = &draw->blocks[draw->num_blocks++];
+        *block = (struct draw_block){variable->set, variable->binding, NULL, 0};
+    }
+    uint32_t end = round_up(variable->offset + variable->byte_size);
+    if (variable->block == MXG_BLOCK_LIGHT_DATA)
+        end *= SCENE_NUM_LIGHTS; /* an array of structures; the last member decides */
+    if (end > block->size)
+        block->size = end;
+    return true;
+}
+
+static void store(unsigned char *at, const mxg_variable *variable, const float *values)
+{
+    const struct shape *shape = find_shape(variable->type);
+    for (unsigned c = 0; shape && c < shape->columns; ++c) {
+        for (unsigned r = 0; r < shape->rows; ++r) {
+            float value = values[c * shape->rows + r];
+            int32_t integer = (int32_t)value;
+            const void *word = shape->is_float ? (const void *)&value : &integer;
+            memcpy(at + (size_t)c * (shape->columns > 1 ? variable->matrix_stride : 0) + r * sizeof(float), word, sizeof(float));
+        }
+    }
+}
+
+static unsigned char *address(struct bind *bind, const mxg_variable *variable)
+{
+    return find_block(&bind->draw, variable->set, variable->binding)->data + variable->offset;
+}
+
+/* Numbers of the document's form: separated by commas or spaces; "true" is 1. Returns how many; UINT_MAX-like on junk. */
+static unsigned parse_numbers(const char *text, float values[MAX_COMPONENTS])
+{
+    unsigned count = 0;
+    if (strcmp(text, "true") == 0 || strcmp(text, "false") == 0) {
+        values[0] = text[0] == 't' ? 1.0f : 0.0f;
+        return 1;
+    }
+    for (text += strspn(text, ", "); *text && count < MAX_COMPONENTS; text += strspn(text, ", ")) {
+        char *end;
+        values[count] = strtof(text, &end);
+        if (end == text)
+            return 0;
+        ++count;
+        text = end;
+    }
+    return *text ? 0 : count;
+}
+
+static const char *user_value(const struct bind *bind, const mxg_variable *variable)
+{
+    const char *text = NULL;
+    for (size_t i = 0; i < bind->num_values; ++i) {
+        if (strcmp(bind->values[i].path, variable->path) == 0)
+            text = bind->values[i].text;
+    }
+    return text;
+}
+
+static bool store_public(struct bind *bind, const mxg_variable *variable)
+{
+    float values[MAX_COMPONENTS];
+    memcpy(values, variable->values, sizeof values);
+    const char *text = user_value(bind, variable);
+    const struct shape *shape = find_shape(variable->type);
+    if (!shape)
+        return fail(bind, "'%s' has a type that cannot be bound: %s", variable->name, variable->type);
+    if (text && parse_numbers(text, values) != shape->columns * shape->rows)
+        return fail(bind, "'%s' is not a value of '%s', which is a %s", text, variable->path, variable->type);
+    store(address(bind, variable), variable, values);
+    return true;
+}
+
+static void store_private(struct bind *bind, const mxg_variable *variable, uint32_t max_lights)
+{
+    float values[MAX_COMPONENTS] = {0};
+    if (!scene_uniform(bind->scene, variable->name, values) && variable->num_values)
+        memcpy(values, variable->values, sizeof values);
+    if (strcmp(variable->name, "u_numActiveLightSources") == 0 && max_lights && values[0] > (float)max_lights)
+        values[0] = (float)max_lights;
+    store(address(bind, variable), variable, values);
+}
+
+/* `stride`: size of the structure of a light. */
+static void store_lights(struct bind *bind, const mxg_variable *variable, uint32_t stride)
+{
+    for (uint32_t i = 0; i < SCENE_NUM_LIGHTS; ++i) {
+        float values[3];
+        if (scene_light(i, variable->name, values))
+            store(address(bind, variable) + (size_t)i * stride, variable, values);
+    }
+}
+
+static bool is_uniform(const mxg_variable *variable)
+{
+    return variable->block == MXG_BLOCK_PUBLIC_UNIFORMS || variable->block == MXG_BLOCK_PRIVATE_UNIFORMS ||
+           variable->block == MXG_BLOCK_LIGHT_DATA;
+}
+
+static mxg_variable get_variable(const struct bind *bind, uint32_t index)
+{
+    mxg_variable variable = {sizeof variable};
+    mxg_result_variable(bind->result, index, &variable);
+    return variable;
+}
+
+static bool bind_blocks(struct bind *bind)
+{
+    uint32_t count = mxg_result_num_variables(bind->result);
+    for (uint32_t i = 0; i < count; ++i) {
+        mxg_variable variable = get_variable(bind, i);
+        if (is_uniform(&variable) && !reserve(bind, &variable))
+            return false;
+    }
+    for (uint32_t i = 0; i < bind->draw.num_blocks; ++i) {
+        bind->draw.blocks[i].data = calloc(1, bind->draw.blocks[i].size);
+        if (!bind->draw.blocks[i].data)
+            return fail(bind, "out of memory");
+    }
+    mxg_shader_info info = {sizeof info};
+    mxg_result_info(bind->result, &info);
+    for (uint32_t i = 0; i < count; ++i) {
+        mxg_variable variable = get_variable(bind, i);
+        if (variable.block == MXG_BLOCK_PUBLIC_UNIFORMS && !store_public(bind, &variable))
+            return false;
+        if (variable.block == MXG_BLOCK_PRIVATE_UNIFORMS)
+            store_private(bind, &variable, info.num_lights);
+        if (variable.block == MXG_BLOCK_LIGHT_DATA)
+            store_lights(bind, &variable, (uint32_t)find_block(&bind->draw, variable.set, variable.binding)->size / SCENE_NUM_LIGHTS);
+    }
+    return true;
+}
+
+/* ---- Textures ---- */
+
+static VkSamplerAddressMode address_mode(const char *name)
+{
+    static const struct {
+        const char *name;
+        VkSamplerAddressMode mode;
+    } modes[] = {{"clamp", VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE},
+                 {"mirror", VK_SAMPLER_ADDRESS_MODE_MIRRORED_REPEAT},
+                 {"constant", VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_BORDER}};
+    for (size_t i = 0; i < sizeof modes / sizeof *modes; ++i) {
+        if (strcmp(name, modes[i].name) == 0)
+            return modes[i].mode;
+    }
+    return VK_SAMPLER_ADDRESS_MODE_REPEAT;
+}
+
+/* Reads the file of a texture, which is relative to the document. */
+static const struct image *read_texture(struct bind *bind, const char *file)
+{
+    const char *slash = strrchr(bind->document, '/');
+    int folder = slash && file[0] != '/' ? (int)(slash - bind->document) + 1 : 0;
+    char path[4096], reason[256];
+    struct image *image = &bind->images[bind->num_images];
+    snprintf(path, sizeof path, "%.*s%s", folder, bind->document, file);
+    if (!image_read(path, image, reason, sizeof reason)) {
+        fail(bind, "cannot read the texture '%s': %s", path, reason);
+        return NULL;
+    }
+    ++bind->num_images;
+    return image;
+}
+
+/* The picture of a texture: the scene's by name, the file of the document or the user, else the scene's own or plain black. */
+static const struct image *choose_image(struct bind *bind, const mxg_variable *variable)
+{
+    static uint8_t black[4] = {0, 0, 0, 255};
+    static const struct image empty = {1, 1, false, black};
+    const struct image *image = scene_image(bind->scene, variable->name);
+    const char *file = user_value(bind, variable);
+    if (!file)
+        file = variable->file;
+    if (image)
+        return image;
+    if (bind->scene->texture.pixels)
+        return &bind->scene->texture;
+    return file && *file ? read_texture(bind, file) : &empty;
+}
+
+static bool bind_textures(struct bind *bind)
+{
+    for (uint32_t i = 0; i < mxg_result_num_variables(bind->result); ++i) {
+        mxg_variable variable = get_variable(bind, i);
+        if (variable.block != MXG_BLOCK_TEXTURES)
+            continue;
+        if (bind->draw.num_textures == DRAW_MAX_TEXTURES || variable.set >= DRAW_MAX_SETS)
+            return fail(bind, "the shader has more than %u textures", DRAW_MAX_TEXTURES);
+        bool is_environment = scene_image(bind->scene, variable.name) != NULL;
+        const struct image *image = choose_image(bind, &variable);
+        if (!image)
+            return false;
+        bind->draw.textures[bind->draw.num_textures++] = (struct draw_texture){
+            .set = variable.set,
+            .binding = variable.binding,
+            .image = image,
+            .bottom_first = !is_environment,
+            .u = address_mode(variable.uaddressmode),
+            .v = is_environment ? VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE : address_mode(variable.vaddressmode),
+            .filter = strcmp(variable.filtertype, "closest") == 0 ? VK_FILTER_NEAREST : VK_FILTER_LINEAR,
+        };
+    }
+    return true;
+}
+
+/* ---- Attributes ---- */
+
+static VkFormat attribute_format(const struct shape *shape)
+{
+    static const VkFormat floats[] = {VK_FORMAT_R32_SFLOAT, VK_FORMAT_R32G32_SFLOAT, VK_FORMAT_R32G32B32_SFLOAT,
+                                      VK_FORMAT_R32G32B32A32_SFLOAT};
+    static const VkFormat integers[] = {VK_FORMAT_R32_SINT, VK_FORMAT_R32G32_SINT, VK_FORMAT_R32G32B32_SINT,
+                                        VK_FORMAT_R32G32B32A32_SINT};
+    return (shape->is_float ? floats : integers)[shape->rows - 1];
+}
+
+static bool bind_attribute(struct bind *bind, const mxg_variable *variable)
+{
+    const struct shape *shape = find_shape(variable->type);
+    if (!shape || shape->columns != 1 || bind->draw.num_attributes == DRAW_MAX_ATTRIBUTES)
+        return fail(bind, "the attribute '%s' (%s) cannot be bound", variable->name, variable->type);
+    uint32_t count = bind->scene->num_vertices;
+    float(*data)[4] = calloc(count, sizeof *data);
+    if (!data)
+        return fail(bind, "out of memory");
+    struct draw_attribute *attribute = &bind->draw.attributes[bind->draw.num_attributes++];
+    *attribute = (struct draw_attribute){variable->location, attribute_format(shape), data};
+    for (uint32_t i = 0; i < count; ++i) {
+        if (shape->is_float)
+            scene_attribute(bind->scene, variable->name, i, data[i]);
+        else
+            memcpy(data[i], (const int32_t[4]){INTEGER_ATTRIBUTE, INTEGER_ATTRIBUTE, INTEGER_ATTRIBUTE, INTEGER_ATTRIBUTE}, 16);
+    }
+    return true;
+}
+
+static bool bind_attributes(struct bind *bind)
+{
+    for (uint32_t i = 0; i < mxg_result_num_variables(bind->result); ++i) {
+        mxg_variable variable = get_variable(bind, i);
+        if (variable.block == MXG_BLOCK_APP_DATA && !bind_attribute(bind, &variable))
+            return false;
+    }
+    return true;
+}
+
+/* A value for an input that the shader does not have would be silently lost. */
+static bool check_values(struct bind *bind)
+{
+    for (size_t i = 0; i < bind->num_values; ++i) {
+        uint32_t index;
+        if (!mxg_result_find_variable(bind->result, bind->values[i].path, &index))
+            return fail(bind, "the shader has no uniform for '%s': it is unused, compiled in, or misspelled", bind->values[i].path);
+    }
+    return true;
+}
+
+bool bind_shader(struct bind *bind)
+{
+    mxg_shader_info info = {sizeof info};
+    mxg_result_info(bind->result, &info);
+    bind->draw.num_vertices = bind->scene->num_vertices;
+    bind->draw.num_indices = bind->scene->num_indices;
+    bind->draw.indices = bind->scene->indices;
+    bind->draw.blend = info.transparent;
+    return check_values(bind) && bind_blocks(bind) && bind_textures(bind) && bind_attributes(bind);
+}
+
+void bind_finish(struct bind *bind)
+{
+    for (uint32_t i = 0; i < bind->draw.num_attributes; ++i)
+        free(bind->draw.attributes[i].data);
+    for (uint32_t i = 0; i < bind->draw.num_blocks; ++i)
+        free(bind->draw.blocks[i].data);
+    for (uint32_t i = 0; i < bind->num_images; ++i)
+        image_finish(&bind->images[i]);
+}

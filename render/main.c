@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: Apache-2.0
+/* mxgen-render: draws a material on a sphere in daylight, without a display. `mxgen render` starts it. */
+#define _POSIX_C_SOURCE 200809L
+#include "cli/cli.h"
+#include "cli/files.h"
+#include "render/render.h"
+#include "validate/compile.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define OVERSAMPLING 2 /* samples for each pixel and axis */
+#define MAX_SIZE 4096
+
+struct picture {
+    struct cli cli;
+    const char *output, *element, *size, *scene_name;
+    struct arg_list settings; /* "path=value" */
+    uint32_t width, height;
+};
+
+/* ---- Arguments ---- */
+
+/* "512" or "640x480" */
+static bool parse_size(struct picture *picture)
+{
+    char *end;
+    unsigned long width = strtoul(picture->size, &end, 10), height = width;
+    if (*end == 'x')
+        height = strtoul(end + 1, &end, 10);
+    if (*end || width < 1 || height < 1 || width > MAX_SIZE || height > MAX_SIZE) {
+        fprintf(stderr, "mxgen: '%s' is not a size; write W or WxH, up to %d\n", picture->size, MAX_SIZE);
+        return false;
+    }
+    picture->width = (uint32_t)width;
+    picture->height = (uint32_t)height;
+    return true;
+}
+
+/* Splits "path=value" in place; NULL after telling what is wrong. To be freed. */
+static struct bind_value *split_settings(const struct arg_list *settings)
+{
+    struct bind_value *values = calloc(settings->len + 1, sizeof *values);
+    for (size_t i = 0; values && i < settings->len; ++i) {
+        const char *equals = strchr(settings->items[i], '=');
+        if (!equals) {
+            fprintf(stderr, "mxgen: '--set %s' has no '='; write --set path=value\n", settings->items[i]);
+            free(values);
+            return NULL;
+        }
+        values[i].path = cli_format("%.*s", (int)(equals - settings->items[i]), settings->items[i]);
+        values[i].text = equals + 1;
+    }
+    return values;
+}
+
+static void free_values(struct bind_value *values, size_t count)
+{
+    for (size_t i = 0; values && i < count; ++i)
+        free((void *)(uintptr_t)values[i].path);
+    free(values);
+}
+
+/* ---- Pictures ---- */
+
+/* IEC 61966-2-1 */
+static uint8_t encode_srgb(double linear)
+{
+    double x = linear <= 0.0 ? 0.0 : linear >= 1.0 ? 1.0 : linear;
+    double encoded = x <= 0.0031308 ? 12.92 * x : 1.055 * pow(x, 1.0 / 2.4) - 0.055;
+    return (uint8_t)(encoded * 255.0 + 0.5);
+}
+
+/* Averages the samples of each pixel, over a grey backdrop that is lighter on top. */
+static void resolve(const struct picture *picture, const float *samples, uint8_t *out)
+{
+    size_t row = (size_t)picture->width * OVERSAMPLING;
+    for (uint32_t y = 0; y < picture->height; ++y) {
+        double backdrop = 0.18 - 0.12 * y / picture->height;
+        for (uint32_t x = 0; x < picture->width; ++x, out += 4) {
+            double sum[4] = {0};
+            for (size_t i = 0; i < OVERSAMPLING * OVERSAMPLING; ++i) {
+                const float *sample = samples + 4 * ((y * OVERSAMPLING + i / OVERSAMPLING) * row + x * OVERSAMPLING + i % OVERSAMPLING);
+                for (size_t c = 0; c < 4; ++c)
+                    sum[c] += (double)sample[c] / (OVERSAMPLING * OVERSAMPLING);
+            }
+            for (size_t c = 0; c < 3; ++c)
+                out[c] = encode_srgb(sum[c] + backdrop * (1.0 - fmin(sum[3], 1.0)));
+            out[3] = 255;
+        }
+    }
+}
+
+/* The values of the grid's pixels, row by row from the bottom, as the conformance tables list them. */
+static void print_values(const struct picture *picture, const float *pixels)
+{
+    for (uint32_t y = picture->height; y-- > 0;) {
+        for (uint32_t x = 0; x < picture->width; ++x) {
+            const float *pixel = pixels + 4 * ((size_t)y * picture->width + x);
+            printf("%.9g,%.9g,%.9g,%.9g\n", (double)pixel[0], (double)pixel[1], (double)pixel[2], (double)pixel[3]);
+        }
+    }
+}
+
+static void write_picture(struct picture *picture, const float *samples)
+{
+    char reason[256];
+    uint8_t *pixels = malloc((size_t)picture->width * picture->height * 4);
+    if (!pixels) {
+        report_status(&picture->cli.report, MXG_ERROR_MEMORY);
+        return;
+    }
+    resolve(picture, samples, pixels);
+    if (!image_write(picture->output, picture->width, picture->height, pixels, reason, sizeof reason))
+        report_error(&picture->cli.report, "output-failed", "cannot write '%s': %s", picture->output, reason);
+    free(pixels);
+}
+
+/* ---- Drawing ---- */
+
+static void draw(struct picture *picture, const mxg_result *result, const char *document, const struct bind_value *values)
+{
+    bool is_grid = strcmp(picture->scene_name, "grid") == 0;
+    uint32_t scale = is_grid ? 1 : OVERSAMPLING, width = picture->width * scale, height = picture->height * scale;
+    struct scene scene = {0};
+    struct gpu gpu;
+    struct bind bind = {.result = result, .scene = &scene, .document = document, .values = values,
+                        .num_values = picture->settings.len};
+    float *pixels = malloc((size_t)width * height * 4 * sizeof(float));
+    bool ready = pixels && (is_grid ? scene_init_grid(&scene) : scene_init_sphere(&scene, (double)width / height));
+    if (!ready)
+        report_status(&picture->cli.report, MXG_ERROR_MEMORY);
+    else if (!gpu_open(&gpu))
+        report_error(&picture->cli.report, "no-device", "cannot draw: %s", gpu.reason);
+    else if (!render_result(&gpu, &bind, width, height, pixels))
+        report_error(&picture->cli.report, "render-failed", "%s", bind.reason);
+    else if (is_grid)
+        print_values(picture, pixels);
+    else
+        write_picture(picture, pixels);
+    if (ready)
+        gpu_close(&gpu);
+    bind_finish(&bind);
+    scene_finish(&scene);
+    free(pixels);
+}
+
+static void render_document(struct picture *picture, const char *path, const struct bind_value *values)
+{
+    mxg_document *document = cli_load(&picture->cli, path);
+    if (!document)
+        return;
+    mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
+    desc.target = "vulkan";
+    desc.element = picture->element;
+    desc.options = picture->cli.options;
+    mxg_result *result = NULL;
+    mxg_status status = mxg_generate(picture->cli.context, document, &desc, &result);
+    if (result)
+        report_list(&picture->cli.report, mxg_result_diagnostics(result));
+    if (report_status(&picture->cli.report, status))
+        draw(picture, result, path, values);
+    mxg_result_destroy(result);
+    mxg_document_destroy(document);
+}
+
+static int run(struct picture *picture)
+{
+    bool is_grid = strcmp(picture->scene_name, "grid") == 0;
+    if (!is_grid && strcmp(picture->scene_name, "sphere") != 0) {
+        fprintf(stderr, "mxgen: '%s' is no scene; there are sphere and grid\n", picture->scene_name);
+        return EXIT_USAGE;
+    }
+    if (picture->cli.parser.inputs.len != 1 || (!picture->output && !is_grid)) {
+        fputs("usage: mxgen render FILE -o PICTURE.png\n", stderr);
+        return EXIT_USAGE;
+    }
+    if (is_grid)
+        picture->size = "4";
+    struct bind_value *values = parse_size(picture) ? split_settings(&picture->settings) : NULL;
+    if (!values)
+        return EXIT_USAGE;
+    compile_begin();
+    render_document(picture, picture->cli.parser.inputs.items[0], values);
+    compile_end();
+    free_values(values, picture->settings.len);
+    return picture->cli.report.errors ? EXIT_FAULT : EXIT_DONE;
+}
+
+int main(int argc, char **argv)
+{
+    static const struct command command = {"render", "render FILE -o PICTURE.png [--size WxH] [--set PATH=VALUE] [options]",
+                                           "Draws a material on a sphere in daylight, without a display.", NULL};
+    struct picture picture = {.size = "512", .scene_name = "sphere"};
+    const struct arg args[] = {
+        {"output", 'o', ARG_TEXT, "FILE", "the picture to write; the ending chooses the format", &picture.output},
+        {"size", 's', ARG_TEXT, "W[xH]", "its size in pixels (default: 512)", &picture.size},
+        {"element", 'e', ARG_TEXT, "PATH", "what to draw (default: the first that can be rendered)", &picture.element},
+        {"set", 0, ARG_LIST, "PATH=VALUE", "another value for an input, or file for a texture", &picture.settings},
+        {"scene", 0, ARG_TEXT, "NAME", "sphere, or grid: prints 4x4 values instead (default: sphere)", &picture.scene_name},
+    };
+    /* llvmpipe's optimiser takes minutes for large shaders; without it pictures are the same, and seconds are enough. */
+    setenv("GALLIVM_PERF", "nopt", 0);
+    int code;
+    if (cli_start(&picture.cli, &command, args, sizeof args / sizeof *args, CLI_GENERATES | CLI_NEEDS_INPUT, argc, argv, &code))
+        code = run(&picture);
+    cli_finish(&picture.cli);
+    free(picture.settings.items);
+    return code;
+}

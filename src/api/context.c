@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+/* Versions, status texts, contexts. */
+#include "api/api.h"
+
+#include <stdlib.h>
+
+#define TEXT_OF(number) #number
+#define VERSION_TEXT(major, minor, patch) TEXT_OF(major) "." TEXT_OF(minor) "." TEXT_OF(patch)
+
+uint32_t mxg_version(void)
+{
+    return MXG_VERSION_MAJOR * 1000000 + MXG_VERSION_MINOR * 1000 + MXG_VERSION_PATCH;
+}
+
+const char *mxg_version_string(void)
+{
+    return VERSION_TEXT(MXG_VERSION_MAJOR, MXG_VERSION_MINOR, MXG_VERSION_PATCH);
+}
+
+const char *mxg_status_string(mxg_status status)
+{
+    switch (status) {
+    case MXG_OK:
+        return "ok";
+    case MXG_ERROR_DOCUMENT:
+        return "the document has errors";
+    case MXG_ERROR_ARGUMENT:
+        return "bad argument";
+    case MXG_ERROR_MEMORY:
+        return "out of memory";
+    case MXG_ERROR_CANCELLED:
+        return "cancelled";
+    case MXG_ERROR_INTERNAL:
+        return "internal error";
+    default:
+        return "unknown status";
+    }
+}
+
+/* The embedded library image: library/builtin_image.S. */
+extern const char mxg_builtin_image[], mxg_builtin_image_end[];
+
+static void map_builtin(struct mxg_context *context)
+{
+    struct mxg_library *builtin = &context->builtin;
+    size_t size = (size_t)(mxg_builtin_image_end - mxg_builtin_image);
+    object_init(&builtin->object, context, 0);
+    /* Part of the program: as sound as its code. */
+    if (!size || library_map_image(&builtin->layer, mxg_builtin_image, size, false))
+        return;
+    builtin->image = mxg_builtin_image;
+    builtin->image_size = size;
+}
+
+static uint32_t or_default(uint32_t limit, uint32_t standard)
+{
+    return limit ? limit : standard;
+}
+
+mxg_status mxg_context_create(const mxg_context_desc *desc, mxg_context **out_context)
+{
+    mxg_context_desc d = MXG_CONTEXT_DESC_INIT;
+    if (out_context)
+        *out_context = NULL;
+    if (!out_context || (desc && !struct_read(&d, sizeof d, desc))
+        || (d.resolver && (!d.resolver->open || !d.resolver->release)))
+        return MXG_ERROR_ARGUMENT;
+    struct mem mem;
+    mem_init(&mem, d.realloc, d.realloc_user_data);
+    size_t size = sizeof(mxg_context);
+    mxg_context *context = d.max_memory && d.max_memory < size ? NULL : mem.realloc(mem.user_data, NULL, 0, size);
+    if (!context)
+        return MXG_ERROR_MEMORY;
+    memset(context, 0, size);
+    context->mem = mem;
+    atomic_init(&context->used, size);
+    context->max_memory = d.max_memory;
+    context->cancel = d.cancel;
+    context->cancel_user_data = d.cancel_user_data;
+    context->xml_limits = (struct xml_limits){.max_elements = d.max_elements, .max_file_mib = or_default(d.max_file_mib, 256)};
+    context->max_nodes = or_default(d.max_nodes, 64000000);
+    context->max_output_mib = or_default(d.max_output_mib, 256);
+    context->max_errors = or_default(d.max_errors, 100);
+    context->resolver = d.resolver ? *d.resolver : stdio_resolver(context);
+    map_builtin(context);
+    *out_context = context;
+    return MXG_OK;
+}
+
+void mxg_context_destroy(mxg_context *context)
+{
+    if (context)
+        context->mem.realloc(context->mem.user_data, context, sizeof *context, 0);
+}

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "api/api.h"
+
+uint32_t mxg_diagnostics_count(const mxg_diagnostics *list)
+{
+    return list ? list->list.items.len : 0;
+}
+
+uint32_t mxg_diagnostics_errors(const mxg_diagnostics *list)
+{
+    return list ? list->list.num_errors : 0;
+}
+
+uint32_t mxg_diagnostics_warnings(const mxg_diagnostics *list)
+{
+    return list ? list->list.num_warnings : 0;
+}
+
+mxg_status mxg_diagnostics_get(const mxg_diagnostics *list, uint32_t index, mxg_diagnostic *out)
+{
+    static const mxg_severity severities[] = {[DIAG_ERROR] = MXG_SEVERITY_ERROR, [DIAG_WARNING] = MXG_SEVERITY_WARNING,
+                                              [DIAG_NOTE] = MXG_SEVERITY_NOTE, [DIAG_REMARK] = MXG_SEVERITY_NOTE};
+    if (index >= mxg_diagnostics_count(list))
+        return MXG_ERROR_ARGUMENT;
+    const struct diag *diag = &list->list.items.items[index];
+    mxg_diagnostic full = {
+        .severity = severities[diag->severity],
+        .id = diag_id_text(diag->id),
+        .message = diag->message,
+        .file = diag->place.file,
+        .line = diag->place.line,
+        .column = diag->place.column,
+        .length = diag->place.length,
+        .parent = diag->parent,
+    };
+    return struct_write(out, &full, sizeof full);
+}
+
+struct format_job {
+    const struct diag *diag;
+    const char *source;
+    size_t source_size;
+    bool colour;
+    struct text text;
+};
+
+static void format(void *arg)
+{
+    struct format_job *job = arg;
+    diag_render_text(job->diag, job->source, job->source_size, job->colour, &job->text);
+}
+
+/* The text is made in memory of its own: other threads may read the same list. */
+size_t mxg_diagnostics_format(const mxg_diagnostics *list, uint32_t index, const char *source, size_t source_size,
+                              bool colour, char *buffer, size_t capacity)
+{
+    if (capacity)
+        *buffer = '\0';
+    if (index >= mxg_diagnostics_count(list))
+        return 0;
+    struct object scratch;
+    object_init(&scratch, list->owner->context, 0);
+    struct format_job job = {&list->list.items.items[index], source, source_size, colour, {0}};
+    text_init(&job.text, &scratch.arena);
+    size_t len = 0;
+    if (object_run(&scratch, format, &job) == MXG_OK) {
+        len = job.text.len;
+        size_t copied = len < capacity ? len : capacity - 1;
+        if (capacity) {
+            memcpy(buffer, job.text.data, copied);
+            buffer[copied] = '\0';
+        }
+    }
+    arena_finish(&scratch.arena);
+    atomic_fetch_sub(&scratch.context->used, scratch.counted);
+    return len;
+}
+
+const mxg_diagnostics *mxg_library_diagnostics(const mxg_library *library)
+{
+    return library ? &library->object.diagnostics : NULL;
+}
+
+const mxg_diagnostics *mxg_document_diagnostics(const mxg_document *document)
+{
+    return document ? &document->object.diagnostics : NULL;
+}

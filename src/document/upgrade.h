@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+/* What the files of the version upgrade share. One step per version, each from tables and a few functions. */
+#ifndef MXG_DOCUMENT_UPGRADE_H
+#define MXG_DOCUMENT_UPGRADE_H
+
+#include "document/document.h"
+
+struct upgrade {
+    struct document *doc;
+    struct diag_list *diags;
+    elem_id root, end;   /* the file's own elements … */
+    elem_id first_added; /* … and those that the upgrade added */
+    elem_id pass_end;
+    int minor; /* of the step that runs: 38 brings 1.37 to 1.38 */
+};
+
+/* The elements that the upgrade changes; those added on the way are not visited. for (e = upgrade_first(u); e; e = upgrade_next(u, e)) */
+elem_id upgrade_first(struct upgrade *u);
+elem_id upgrade_next(const struct upgrade *u, elem_id element);
+
+str_id upgrade_word(struct upgrade *u, const char *text);
+bool upgrade_is(const struct upgrade *u, str_id word, const char *text);
+bool upgrade_is_category(const struct upgrade *u, elem_id element, const char *category);
+bool upgrade_is_node(const struct upgrade *u, elem_id element);
+str_id upgrade_attr(const struct upgrade *u, elem_id element, const char *name);
+elem_id upgrade_child(const struct upgrade *u, elem_id parent, const char *name);
+
+/* Says what was changed at an element. */
+#if defined(__GNUC__)
+__attribute__((format(printf, 3, 4)))
+#endif
+void upgrade_note(struct upgrade *u, elem_id element, const char *format, ...);
+
+/* Changes that keep names findable. */
+void upgrade_set_name(struct upgrade *u, elem_id element, str_id name);
+void upgrade_move(struct upgrade *u, elem_id element, elem_id new_parent);
+/* A node called `name`, or that with a number behind it, before `before` in its scope. */
+elem_id upgrade_add_node(struct upgrade *u, elem_id before, const char *name, const char *category, str_id type);
+elem_id upgrade_add_input(struct upgrade *u, elem_id node, const char *name, str_id type, str_id value);
+/* Another meaning: the explicit definition goes with the old category. */
+void upgrade_set_category(struct upgrade *u, elem_id node, const char *category);
+void upgrade_remove_input(struct upgrade *u, elem_id node, const char *name);
+
+/* Ports: inputs and outputs. */
+elem_id upgrade_scope(const struct upgrade *u, elem_id port);    /* the graph whose nodes its nodename means */
+elem_id upgrade_upstream(const struct upgrade *u, elem_id port); /* the node of its nodename; 0: none */
+str_id upgrade_upstream_type(const struct upgrade *u, elem_id port); /* of whatever it is connected to; 0: unknown */
+bool upgrade_is_connected(const struct upgrade *u, elem_id port);
+void upgrade_connect(struct upgrade *u, elem_id port, elem_id node, const char *output);
+/* An input `name` of `node` with all that `source` says; NULL type: the source's. Nothing where source is 0. */
+void upgrade_copy_input(struct upgrade *u, elem_id source, elem_id node, const char *name, const char *type);
+
+/* upgrade_materials.c */
+void upgrade_opgraphs(struct upgrade *u);          /* 1.34 */
+void upgrade_material_overrides(struct upgrade *u); /* 1.36 */
+void upgrade_legacy_nodedefs(struct upgrade *u);   /* 1.37 */
+void upgrade_materials(struct upgrade *u);         /* 1.38 */
+
+/* upgrade_closures.c */
+void upgrade_closures(struct upgrade *u);  /* 1.38 */
+void upgrade_thin_films(struct upgrade *u); /* 1.39 */
+
+/* upgrade_channels.c */
+void upgrade_color2_channels(struct upgrade *u); /* 1.38 */
+void upgrade_channels(struct upgrade *u);        /* 1.39: attributes, then swizzle nodes */
+void upgrade_swizzles(struct upgrade *u);
+
+#endif
