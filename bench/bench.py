@@ -47,7 +47,7 @@ def generation(document, *options):
 def sizes():
     """Per target and interface mode: bytes of the pixel source and SPIR-V instructions."""
     table = {}
-    for line in run(f"{BUILD}/validate/mxgen-compile", DOCUMENT).stdout.splitlines():
+    for line in run(f"{BUILD}/mxgen-compile", DOCUMENT).stdout.splitlines():
         _, _, target, interface, size, _, pixel, _ = line.split("\t")
         table[target, interface] = int(size), int(pixel)
     return table
@@ -115,7 +115,7 @@ def main():
         print_row("process", process)
         print_row("generation", generation(DOCUMENT))
         print_row("memory", peak(*command)[0] * 1024 / 1e6)
-        if os.path.exists(f"{BUILD}/validate/mxgen-compile"):
+        if os.path.exists(f"{BUILD}/mxgen-compile"):
             table = sizes()
             for interface in "complete", "reduced":
                 print_row(f"source {interface}", table["glsl", interface][0])

@@ -17,12 +17,21 @@ bool gpu_check(struct gpu *gpu, VkResult result, const char *what)
 
 /* ---- Device ---- */
 
+static bool fail_no_device(struct gpu *gpu)
+{
+    snprintf(gpu->reason, sizeof gpu->reason, "there is no device with Vulkan 1.3; the package mesa-vulkan-drivers brings one that needs no hardware");
+    return false;
+}
+
 static bool create_instance(struct gpu *gpu)
 {
     const VkApplicationInfo application = {.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO, .pApplicationName = "mxgen-render",
                                            .apiVersion = API_VERSION};
     const VkInstanceCreateInfo info = {.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO, .pApplicationInfo = &application};
-    return gpu_check(gpu, vkCreateInstance(&info, NULL, &gpu->instance), "making a Vulkan instance");
+    VkResult result = vkCreateInstance(&info, NULL, &gpu->instance);
+    if (result == VK_ERROR_INCOMPATIBLE_DRIVER) /* the loader found no driver */
+        return fail_no_device(gpu);
+    return gpu_check(gpu, result, "making a Vulkan instance");
 }
 
 /* The first queue family that draws; UINT32_MAX: none. */
@@ -61,9 +70,7 @@ static bool choose_device(struct gpu *gpu)
             gpu->physical = devices[i];
         }
     }
-    if (!best)
-        snprintf(gpu->reason, sizeof gpu->reason, "there is no device with Vulkan 1.3; the package mesa-vulkan-drivers brings one that needs no hardware");
-    return best > 0;
+    return best > 0 || fail_no_device(gpu);
 }
 
 static bool create_device(struct gpu *gpu)

@@ -11,13 +11,19 @@
 #include <string.h>
 
 #define OVERSAMPLING 2 /* samples for each pixel and axis */
+#define EXPOSURE 0.6   /* what a white surface in the scene's daylight needs */
 #define MAX_SIZE 4096
 
 struct picture {
     struct cli cli;
     const char *output, *element, *size, *scene_name;
     struct arg_list settings; /* "path=value" */
+    size_t samples;           /* of the environment */
     uint32_t width, height;
+    bool is_grid;
+    struct bind_value *values;
+    struct scene scene;
+    struct gpu gpu;
 };
 
 /* ---- Arguments ---- */
@@ -86,21 +92,20 @@ static void resolve(const struct picture *picture, const float *samples, uint8_t
                     sum[c] += (double)sample[c] / (OVERSAMPLING * OVERSAMPLING);
             }
             for (size_t c = 0; c < 3; ++c)
-                out[c] = encode_srgb(sum[c] + backdrop * (1.0 - fmin(sum[3], 1.0)));
+                out[c] = encode_srgb(EXPOSURE * sum[c] + backdrop * (1.0 - fmin(sum[3], 1.0)));
             out[3] = 255;
         }
     }
 }
 
-/* The values of the grid's pixels, row by row from the bottom, as the conformance tables list them. */
-static void print_values(const struct picture *picture, const float *pixels)
+static void print_values(const struct picture *picture, const char *element, unsigned components, const float *pixels)
 {
-    for (uint32_t y = picture->height; y-- > 0;) {
-        for (uint32_t x = 0; x < picture->width; ++x) {
-            const float *pixel = pixels + 4 * ((size_t)y * picture->width + x);
-            printf("%.9g,%.9g,%.9g,%.9g\n", (double)pixel[0], (double)pixel[1], (double)pixel[2], (double)pixel[3]);
-        }
-    }
+    fputs(element, stdout);
+    for (uint32_t y = picture->height; y-- > 0;)
+        for (uint32_t x = 0; x < picture->width; ++x)
+            for (unsigned c = 0; c < components; ++c)
+                printf(",%.9g", (double)pixels[4 * ((size_t)y * picture->width + x) + c]);
+    putchar('\n');
 }
 
 static void write_picture(struct picture *picture, const float *samples)
@@ -119,72 +124,113 @@ static void write_picture(struct picture *picture, const float *samples)
 
 /* ---- Drawing ---- */
 
-static void draw(struct picture *picture, const mxg_result *result, const char *document, const struct bind_value *values)
+/* Generates, compiles, binds and draws one element (NULL: the first). NULL where that failed. */
+static float *draw_element(struct picture *picture, const mxg_document *document, const char *path, const char *element,
+                           uint32_t scale)
 {
-    bool is_grid = strcmp(picture->scene_name, "grid") == 0;
-    uint32_t scale = is_grid ? 1 : OVERSAMPLING, width = picture->width * scale, height = picture->height * scale;
-    struct scene scene = {0};
-    struct gpu gpu;
-    struct bind bind = {.result = result, .scene = &scene, .document = document, .values = values,
-                        .num_values = picture->settings.len};
-    float *pixels = malloc((size_t)width * height * 4 * sizeof(float));
-    bool ready = pixels && (is_grid ? scene_init_grid(&scene) : scene_init_sphere(&scene, (double)width / height));
-    if (!ready)
-        report_status(&picture->cli.report, MXG_ERROR_MEMORY);
-    else if (!gpu_open(&gpu))
-        report_error(&picture->cli.report, "no-device", "cannot draw: %s", gpu.reason);
-    else if (!render_result(&gpu, &bind, width, height, pixels))
-        report_error(&picture->cli.report, "render-failed", "%s", bind.reason);
-    else if (is_grid)
-        print_values(picture, pixels);
-    else
-        write_picture(picture, pixels);
-    if (ready)
-        gpu_close(&gpu);
-    bind_finish(&bind);
-    scene_finish(&scene);
-    free(pixels);
-}
-
-static void render_document(struct picture *picture, const char *path, const struct bind_value *values)
-{
-    mxg_document *document = cli_load(&picture->cli, path);
-    if (!document)
-        return;
     mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
     desc.target = "vulkan";
-    desc.element = picture->element;
+    desc.element = element;
     desc.options = picture->cli.options;
     mxg_result *result = NULL;
     mxg_status status = mxg_generate(picture->cli.context, document, &desc, &result);
     if (result)
         report_list(&picture->cli.report, mxg_result_diagnostics(result));
-    if (report_status(&picture->cli.report, status))
-        draw(picture, result, path, values);
+    float *pixels = NULL;
+    if (report_status(&picture->cli.report, status)) {
+        struct bind bind = {.result = result, .scene = &picture->scene, .document = path, .values = picture->values,
+                            .num_values = picture->settings.len};
+        uint32_t width = picture->width * scale, height = picture->height * scale;
+        pixels = malloc((size_t)width * height * 4 * sizeof(float));
+        if (!pixels || !render_result(&picture->gpu, &bind, width, height, pixels)) {
+            report_error(&picture->cli.report, "render-failed", "%s: %s", element ? element : path, pixels ? bind.reason : "out of memory");
+            free(pixels);
+            pixels = NULL;
+        }
+        bind_finish(&bind);
+    }
     mxg_result_destroy(result);
+    return pixels;
+}
+
+static void draw_sphere(struct picture *picture, const mxg_document *document, const char *path)
+{
+    float *samples = draw_element(picture, document, path, picture->element, OVERSAMPLING);
+    if (samples)
+        write_picture(picture, samples);
+    free(samples);
+}
+
+/* Components of a document type that a pixel shows; what is no vector is shown as a colour. */
+static unsigned num_components(const char *type)
+{
+    if (strcmp(type, "float") == 0)
+        return 1;
+    if (strcmp(type, "vector2") == 0)
+        return 2;
+    return strcmp(type, "color4") == 0 || strcmp(type, "vector4") == 0 ? 4 : 3;
+}
+
+/* A line for each element: its path, then the values of the 16 pixels row by row from the bottom. */
+static void draw_grid(struct picture *picture, const mxg_document *document, const char *path)
+{
+    for (uint32_t i = 0; i < mxg_document_num_renderables(document); ++i) {
+        mxg_renderable renderable = {sizeof renderable};
+        mxg_document_renderable(document, i, &renderable);
+        if (picture->element && strcmp(picture->element, renderable.path) != 0)
+            continue;
+        float *pixels = draw_element(picture, document, path, renderable.path, 1);
+        if (pixels)
+            print_values(picture, renderable.path, num_components(renderable.type), pixels);
+        free(pixels);
+    }
+}
+
+static bool open_scene(struct picture *picture)
+{
+    if (!(picture->is_grid ? scene_init_grid(&picture->scene)
+                           : scene_init_sphere(&picture->scene, (double)picture->width / picture->height)))
+        return report_status(&picture->cli.report, MXG_ERROR_MEMORY);
+    picture->scene.environment_samples = (uint32_t)picture->samples;
+    if (!gpu_open(&picture->gpu))
+        report_error(&picture->cli.report, "no-device", "cannot draw: %s", picture->gpu.reason);
+    return !picture->gpu.reason[0];
+}
+
+static void render_document(struct picture *picture, const char *path)
+{
+    mxg_document *document = cli_load(&picture->cli, path);
+    if (document && open_scene(picture)) {
+        compile_begin();
+        if (picture->is_grid)
+            draw_grid(picture, document, path);
+        else
+            draw_sphere(picture, document, path);
+        compile_end();
+    }
+    gpu_close(&picture->gpu);
+    scene_finish(&picture->scene);
     mxg_document_destroy(document);
 }
 
 static int run(struct picture *picture)
 {
-    bool is_grid = strcmp(picture->scene_name, "grid") == 0;
-    if (!is_grid && strcmp(picture->scene_name, "sphere") != 0) {
+    picture->is_grid = strcmp(picture->scene_name, "grid") == 0;
+    if (!picture->is_grid && strcmp(picture->scene_name, "sphere") != 0) {
         fprintf(stderr, "mxgen: '%s' is no scene; there are sphere and grid\n", picture->scene_name);
         return EXIT_USAGE;
     }
-    if (picture->cli.parser.inputs.len != 1 || (!picture->output && !is_grid)) {
+    if (picture->cli.parser.inputs.len != 1 || (!picture->output && !picture->is_grid)) {
         fputs("usage: mxgen render FILE -o PICTURE.png\n", stderr);
         return EXIT_USAGE;
     }
-    if (is_grid)
+    if (picture->is_grid)
         picture->size = "4";
-    struct bind_value *values = parse_size(picture) ? split_settings(&picture->settings) : NULL;
-    if (!values)
+    picture->values = parse_size(picture) ? split_settings(&picture->settings) : NULL;
+    if (!picture->values)
         return EXIT_USAGE;
-    compile_begin();
-    render_document(picture, picture->cli.parser.inputs.items[0], values);
-    compile_end();
-    free_values(values, picture->settings.len);
+    render_document(picture, picture->cli.parser.inputs.items[0]);
+    free_values(picture->values, picture->settings.len);
     return picture->cli.report.errors ? EXIT_FAULT : EXIT_DONE;
 }
 
@@ -192,13 +238,14 @@ int main(int argc, char **argv)
 {
     static const struct command command = {"render", "render FILE -o PICTURE.png [--size WxH] [--set PATH=VALUE] [options]",
                                            "Draws a material on a sphere in daylight, without a display.", NULL};
-    struct picture picture = {.size = "512", .scene_name = "sphere"};
+    struct picture picture = {.size = "512", .scene_name = "sphere", .samples = 16};
     const struct arg args[] = {
         {"output", 'o', ARG_TEXT, "FILE", "the picture to write; the ending chooses the format", &picture.output},
         {"size", 's', ARG_TEXT, "W[xH]", "its size in pixels (default: 512)", &picture.size},
         {"element", 'e', ARG_TEXT, "PATH", "what to draw (default: the first that can be rendered)", &picture.element},
         {"set", 0, ARG_LIST, "PATH=VALUE", "another value for an input, or file for a texture", &picture.settings},
-        {"scene", 0, ARG_TEXT, "NAME", "sphere, or grid: prints 4x4 values instead (default: sphere)", &picture.scene_name},
+        {"samples", 0, ARG_SIZE, "N", "samples of the environment for each lobe (default: 16)", &picture.samples},
+        {"scene", 0, ARG_TEXT, "NAME", "sphere, or grid: prints the values of 4x4 pixels for each element instead (default: sphere)", &picture.scene_name},
     };
     /* llvmpipe's optimiser takes minutes for large shaders; without it pictures are the same, and seconds are enough. */
     setenv("GALLIVM_PERF", "nopt", 0);

@@ -1,19 +1,19 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Sums the tests of a meson log. A test prints lines "name: N passed, N failed, N skipped"; one that prints none counts as one
+"""Sums the tests of a meson log. A test prints lines "name: N passed, N failed[, N skipped]"; one that prints none counts as one
 check. The output of tests that failed is shown, and why checks were skipped. The last line is the sum; exit 1 where one failed."""
 import json
 import re
 import sys
 
-COUNTS = re.compile(r"^\S+: (\d+) passed, (\d+) failed, (\d+) skipped$")
+COUNTS = re.compile(r"^\S+: (\d+) passed, (\d+) failed(?:, (\d+) skipped)?$")
 total = [0, 0, 0]
 with open(sys.argv[1], encoding="utf-8") as log:
     tests = [json.loads(line) for line in log]
 for test in sorted(tests, key=lambda test: test["name"]):
     output = test.get("stdout") or ""
     lines = [match for match in map(COUNTS.match, output.splitlines()) if match]
-    counts = [sum(int(match[i]) for match in lines) for i in (1, 2, 3)]
+    counts = [sum(int(match[i] or 0) for match in lines) for i in (1, 2, 3)]
     if test["result"] == "SKIP" and not lines:
         counts[2] = 1
     elif test["result"] not in ("OK", "SKIP") and counts[1] == 0:

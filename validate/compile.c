@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* How a target's shaders are read, and what their SPIR-V must be valid for. */
+/* How a target's shaders are read. */
 struct dialect {
     const char *target;
     glslang_client_t client;
@@ -16,14 +16,13 @@ struct dialect {
     glslang_profile_t profile;
     bool is_spirv_source;   /* written for SPIR-V: every location and binding stands in the source */
     int spirv_version;      /* #version under which SPIR-V is made; 0: the source's own */
-    spv_target_env environment;
 };
 
 static const struct dialect dialects[] = {
-    {"glsl", GLSLANG_CLIENT_OPENGL, GLSLANG_TARGET_OPENGL_450, GLSLANG_CORE_PROFILE, false, 0, SPV_ENV_OPENGL_4_5},
-    {"vulkan", GLSLANG_CLIENT_VULKAN, GLSLANG_TARGET_VULKAN_1_0, GLSLANG_CORE_PROFILE, true, 0, SPV_ENV_VULKAN_1_0},
+    {"glsl", GLSLANG_CLIENT_OPENGL, GLSLANG_TARGET_OPENGL_450, GLSLANG_CORE_PROFILE, false, 0},
+    {"vulkan", GLSLANG_CLIENT_VULKAN, GLSLANG_TARGET_VULKAN_1_0, GLSLANG_CORE_PROFILE, true, 0},
     /* There is no SPIR-V of ESSL 3.00; 3.10 contains it. */
-    {"essl", GLSLANG_CLIENT_OPENGL, GLSLANG_TARGET_OPENGL_450, GLSLANG_ES_PROFILE, false, 310, SPV_ENV_OPENGL_4_5},
+    {"essl", GLSLANG_CLIENT_OPENGL, GLSLANG_TARGET_OPENGL_450, GLSLANG_ES_PROFILE, false, 310},
 };
 
 static const glslang_stage_t glslang_stages[MXG_NUM_STAGES] = {GLSLANG_STAGE_VERTEX, GLSLANG_STAGE_FRAGMENT};
@@ -165,10 +164,11 @@ static uint32_t count_body_instructions(const uint32_t *words, size_t num_words)
     return count;
 }
 
-static void validate_spirv(const struct dialect *dialect, mxg_stage stage, struct compiled *out)
+/* Only of shaders that are written for SPIR-V: glslang has no valid form for a loose uniform that is a bool. */
+static void validate_spirv(mxg_stage stage, struct compiled *out)
 {
     const struct compiled_stage *code = &out->stages[stage];
-    spv_context context = spvContextCreate(dialect->environment);
+    spv_context context = spvContextCreate(SPV_ENV_VULKAN_1_0);
     spv_diagnostic diagnostic = NULL;
     if (spvValidateBinary(context, code->words, code->num_words, &diagnostic) != SPV_SUCCESS) {
         const char *text = diagnostic ? diagnostic->error : "invalid SPIR-V";
@@ -198,7 +198,8 @@ static void generate_spirv(const struct dialect *dialect, glslang_program_t *pro
     code->num_words = num_words;
     memcpy(code->words, words, num_words * sizeof *code->words);
     code->body_instructions = count_body_instructions(code->words, code->num_words);
-    validate_spirv(dialect, stage, out);
+    if (dialect->is_spirv_source)
+        validate_spirv(stage, out);
 }
 
 static bool link_stages(const struct dialect *dialect, glslang_program_t *program, bool to_spirv, struct compiled *out)

@@ -18,7 +18,6 @@ void mx_point_light(vec3 position, vec3 color, float intensity, float decay_rate
 void mx_spot_light(vec3 position, vec3 direction, vec3 color, float intensity, float decay_rate, float inner_angle,
                    float outer_angle, vec3 P, out vec3 to_light, out vec3 radiance)
 {
-    to_light = normalize(position - P);
-    float cone = smoothstep(min(inner_angle, outer_angle), inner_angle, -dot(to_light, direction));
-    radiance = color * (cone * intensity / pow(distance(position, P) + 1.0, decay_rate));
+    mx_point_light(position, color, intensity, decay_rate, P, to_light, radiance);
+    radiance *= smoothstep(min(inner_angle, outer_angle), inner_angle, -dot(to_light, direction));
 }

@@ -154,7 +154,7 @@ const struct option_value *options_values(const mxg_options *options);
 /* ---- Elements: renderable.c, element.c ---- */
 
 /* Finds what can be rendered. */
-void document_find_renderables(struct mxg_document *document);
+void document_find_renderables(struct mxg_document *document, struct arena *scratch);
 
 /*
  * The element that a path means to generation: itself, or the material of a look. NULL: the first that can be rendered. 0 after a

@@ -110,15 +110,18 @@ static void want_throughputs(struct flattener *f, uint32_t num_nodes)
 
 static void find_throughputs(struct flattener *f, uint32_t num_nodes)
 {
+    uint32_t before = f->graph->origin;
     for (ir_ref ref = 1; ref < num_nodes; ref++) {
         if (!f->wanted[ref])
             continue;
         uint8_t op = ir_get(f->graph, ref)->op;
+        f->graph->origin = ir_get(f->graph, ref)->origin;
         if (op == IR_LEAF)
             f->throughputs[ref] = leaf_throughput(f, ref);
         else if (is_operator(ir_get(f->graph, ref)))
             f->throughputs[ref] = operator_throughput(f, ref);
     }
+    f->graph->origin = before;
 }
 
 /* ---- weights, downwards ---- */
@@ -245,14 +248,17 @@ void closure_flatten(struct shader *shader, const struct closure_host *host, ir_
     find_throughputs(&f, num_nodes);
     memset(f.weights, 0, num_nodes * sizeof *f.weights);
     f.weights[root].scalar = ir_const_float(shader->graph, 1.0f);
+    uint32_t before = shader->graph->origin;
     for (ir_ref ref = num_nodes; ref-- > 1;) {
         if (!f.weights[ref].scalar)
             continue;
+        shader->graph->origin = ir_get(f.graph, ref)->origin; /* weights are named after the operator that makes them */
         if (is_operator(ir_get(f.graph, ref)))
             spread(&f, ref);
         else if (ir_get(f.graph, ref)->op == IR_LEAF)
             take_leaf(&f, ref, out);
     }
+    shader->graph->origin = before;
     /* Found from the root downwards; shown as written: bases first. */
     for (uint32_t i = 0, j = out->leaves.len; i + 1 < j; i++) {
         struct closure_leaf swap = out->leaves.items[i];

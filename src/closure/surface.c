@@ -37,17 +37,24 @@ static ir_ref vec3_of(struct emitter *e, ir_ref value)
     return ir_convert(e->graph, IR_TYPE_VEC3, value);
 }
 
-/* The weight as one factor, and whether it needs a guard: it is not constant, so it may be 0. */
+/* A weight that is not known may be 0: then the leaf need not be evaluated. */
 static bool is_guarded(const struct emitter *e, const struct closure_leaf *leaf)
 {
     return !ir_is_const(e->graph, leaf->scalar);
 }
 
+/* value · weight; 0 where nothing is left of it. */
 static ir_ref weighted(struct emitter *e, const struct closure_leaf *leaf, ir_ref value)
 {
-    if (leaf->color)
-        value = ir_op2(e->graph, IR_MUL, value, leaf->color);
-    return ir_const_is(e->graph, leaf->scalar, 1.0f) ? value : ir_op2(e->graph, IR_MUL, value, leaf->scalar);
+    struct ir_graph *g = e->graph;
+    if (!value || ir_const_is(g, value, 0.0f))
+        return 0;
+    uint32_t before = g->origin;
+    g->origin = ir_get(g, leaf->leaf)->origin;
+    ir_ref weight = ir_const_is(g, leaf->scalar, 1.0f) ? leaf->color : closure_mul(g, leaf->color, leaf->scalar);
+    value = closure_mul(g, value, weight);
+    g->origin = before;
+    return value;
 }
 
 static void declare_color(struct emitter *e)
@@ -97,10 +104,9 @@ static void emit_lights(struct emitter *e, const struct closure_list *list)
     ir_ref always = 0;
     for (uint32_t i = 0; i < list->leaves.len; i++) {
         const struct closure_leaf *leaf = &list->leaves.items[i];
-        ir_ref value = closure_call(e->shader, e->host, leaf->leaf, LEAF_EVAL, &light);
+        ir_ref value = weighted(e, leaf, closure_call(e->shader, e->host, leaf->leaf, LEAF_EVAL, &light));
         if (!value)
             continue;
-        value = weighted(e, leaf, value);
         if (is_guarded(e, leaf))
             accumulate(e, leaf, ir_op2(e->graph, IR_MUL, intensity, value));
         else
@@ -119,11 +125,11 @@ static void emit_environment(struct emitter *e, const struct closure_list *list)
     ir_ref always = 0;
     for (uint32_t i = 0; i < list->leaves.len; i++) {
         const struct closure_leaf *leaf = &list->leaves.items[i];
-        ir_ref value = add(e, closure_call(e->shader, e->host, leaf->leaf, LEAF_ENVIRONMENT, NULL),
-                           closure_call(e->shader, e->host, leaf->leaf, LEAF_TRANSMISSION, NULL));
+        ir_ref reflected = closure_call(e->shader, e->host, leaf->leaf, LEAF_ENVIRONMENT, NULL);
+        ir_ref refracted = closure_call(e->shader, e->host, leaf->leaf, LEAF_TRANSMISSION, NULL);
+        ir_ref value = weighted(e, leaf, add(e, reflected, refracted));
         if (!value)
             continue;
-        value = weighted(e, leaf, value);
         e->shader->lit = true;
         if (is_guarded(e, leaf)) {
             declare_color(e);
@@ -145,8 +151,7 @@ static ir_ref emission(struct emitter *e, ir_ref edf)
     ir_ref sum = 0;
     for (uint32_t i = 0; i < list.leaves.len; i++) {
         ir_ref value = closure_call(e->shader, e->host, list.leaves.items[i].leaf, LEAF_EMISSION, NULL);
-        if (value)
-            sum = add(e, sum, weighted(e, &list.leaves.items[i], value));
+        sum = add(e, sum, weighted(e, &list.leaves.items[i], value));
     }
     e->shader->num_closures += list.leaves.len;
     return sum;

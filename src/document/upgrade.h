@@ -12,6 +12,7 @@ struct upgrade {
     elem_id first_added; /* … and those that the upgrade added */
     elem_id pass_end;
     int minor; /* of the step that runs: 38 brings 1.37 to 1.38 */
+    bool outdated; /* the document says that it is of this version: changes are warnings */
 };
 
 /* The elements that the upgrade changes; those added on the way are not visited. for (e = upgrade_first(u); e; e = upgrade_next(u, e)) */
@@ -34,7 +35,9 @@ void upgrade_note(struct upgrade *u, elem_id element, const char *format, ...);
 /* Changes that keep names findable. */
 void upgrade_set_name(struct upgrade *u, elem_id element, str_id name);
 void upgrade_move(struct upgrade *u, elem_id element, elem_id new_parent);
-/* A node called `name`, or that with a number behind it, before `before` in its scope. */
+/* `name`, or where that is taken in the scope, `name` with a number behind it. */
+str_id upgrade_free_name(struct upgrade *u, elem_id scope, const char *name);
+/* A node with a free name before `before`, in its scope. */
 elem_id upgrade_add_node(struct upgrade *u, elem_id before, const char *name, const char *category, str_id type);
 elem_id upgrade_add_input(struct upgrade *u, elem_id node, const char *name, str_id type, str_id value);
 /* Another meaning: the explicit definition goes with the old category. */

@@ -5,6 +5,13 @@
 #include <stdarg.h>
 #include <stdio.h>
 
+static bool is_in_tree(const struct upgrade *u, elem_id element)
+{
+    while (element && element != u->root)
+        element = doc_element(u->doc, element)->parent;
+    return element != 0;
+}
+
 elem_id upgrade_first(struct upgrade *u)
 {
     u->pass_end = u->doc->first_element + u->doc->elements.len;
@@ -13,9 +20,11 @@ elem_id upgrade_first(struct upgrade *u)
 
 elem_id upgrade_next(const struct upgrade *u, elem_id element)
 {
-    element++;
-    if (element == u->end && element < u->first_added)
-        element = u->first_added;
+    do {
+        element++;
+        if (element == u->end && element < u->first_added)
+            element = u->first_added;
+    } while (element < u->pass_end && !is_in_tree(u, element));
     return element < u->pass_end ? element : 0;
 }
 
@@ -34,11 +43,14 @@ bool upgrade_is_category(const struct upgrade *u, elem_id element, const char *c
     return upgrade_is(u, doc_element(u->doc, element)->category, category);
 }
 
+/* Graphs were called <opgraph> before 1.34. */
 bool upgrade_is_node(const struct upgrade *u, elem_id element)
 {
     const struct element *e = doc_element(u->doc, element);
-    return e->kind == KIND_NODE && e->parent && e->name && doc_element(u->doc, e->parent)->kind <= KIND_NODEGRAPH
-           && doc_element(u->doc, e->parent)->kind != KIND_NODE;
+    if (e->kind != KIND_NODE || !e->parent)
+        return false;
+    enum element_kind scope = (enum element_kind)doc_element(u->doc, e->parent)->kind;
+    return scope == KIND_MATERIALX || scope == KIND_NODEGRAPH || upgrade_is_category(u, e->parent, "opgraph");
 }
 
 str_id upgrade_attr(const struct upgrade *u, elem_id element, const char *name)
@@ -61,7 +73,7 @@ void upgrade_note(struct upgrade *u, elem_id element, const char *format, ...)
     int len = snprintf(message, sizeof message, "1.%d: ", u->minor);
     vsnprintf(message + len, sizeof message - (size_t)len, format, args);
     va_end(args);
-    diag_add(u->diags, DIAG_ID_upgraded, place, message);
+    diag_add(u->diags, u->outdated ? DIAG_ID_outdated : DIAG_ID_upgraded, place, message);
 }
 
 void upgrade_set_name(struct upgrade *u, elem_id element, str_id name)
@@ -76,18 +88,17 @@ void upgrade_move(struct upgrade *u, elem_id element, elem_id new_parent)
     doc_index_element(u->doc, element);
 }
 
-/* `name`, or where that is taken below `parent`, `name` with the first free number behind it. */
-static str_id free_name(struct upgrade *u, elem_id parent, const char *name)
+str_id upgrade_free_name(struct upgrade *u, elem_id scope, const char *name)
 {
     struct text text;
     text_init(&text, u->doc->arena);
-    for (uint32_t number = 1;; number = number < 1u << 30 ? number * 2 : number + 1) {
+    for (uint32_t number = 1;; number++) { /* name, name2 … name9, and then numbers that nothing else has */
         text.len = 0;
         text_str(&text, name);
         if (number > 1)
-            text_u32(&text, number);
+            text_u32(&text, number < 10 ? number : number + u->doc->elements.len);
         str_id id = str_intern(u->doc->strings, text.data, text.len);
-        if (!doc_child(u->doc, parent, id))
+        if (!doc_child(u->doc, scope, id))
             return id;
     }
 }
@@ -96,7 +107,7 @@ elem_id upgrade_add_node(struct upgrade *u, elem_id before, const char *name, co
 {
     struct document *doc = u->doc;
     elem_id scope = doc_element(doc, before)->parent;
-    elem_id node = doc_add_like(doc, scope, upgrade_word(u, category), free_name(u, scope, name), before);
+    elem_id node = doc_add_like(doc, scope, upgrade_word(u, category), upgrade_free_name(u, scope, name), before);
     doc_move_before(doc, node, before);
     doc_add_attr(doc, node, (struct attribute){.name = STR_type, .value = type});
     doc_index_element(doc, node);

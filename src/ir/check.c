@@ -121,7 +121,8 @@ static bool is_call(const struct ir_graph *graph, ir_ref ref)
     return op == IR_CALL || op == IR_VERBATIM || op == IR_GRAPH_CALL;
 }
 
-static const char *graph_call_problem(const struct ir_graph *graph, uint32_t attr, const ir_ref *args, unsigned num_args)
+static const char *graph_call_problem(const struct ir_graph *graph, ir_type_id type, uint32_t attr,
+                                      const ir_ref *args, unsigned num_args)
 {
     if (attr >= graph->functions.len)
         return "there is no such function";
@@ -133,7 +134,8 @@ static const char *graph_call_problem(const struct ir_graph *graph, uint32_t att
     for (unsigned i = 0; i < num_args; i++)
         if (ir_type_of(graph, args[i]) != graph->param_types.items[function->first_param_type + i])
             return "an argument does not have the parameter's type";
-    return NULL;
+    ir_type_id first = ir_type_of(graph, graph->function_results.items[function->first_result]);
+    return type == IR_TYPE_VOID || type == first ? NULL : "the call has neither no type nor that of its first result";
 }
 
 static const char *result_problem(const struct ir_graph *graph, ir_type_id type, uint32_t attr, ir_ref call)
@@ -187,7 +189,7 @@ static const char *special_problem(const struct ir_graph *graph, enum ir_op op, 
     case IR_LEAF:
         return attr < graph->callees.len ? NULL : "there is no such callee";
     case IR_GRAPH_CALL:
-        return graph_call_problem(graph, attr, args, num_args);
+        return graph_call_problem(graph, type, attr, args, num_args);
     case IR_RESULT:
         return result_problem(graph, type, attr, args[0]);
     default:

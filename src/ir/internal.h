@@ -29,7 +29,7 @@ ir_ref ir_simplify(struct ir_graph *graph, enum ir_op op, ir_type_id type, uint3
 enum rule_token {
     RULE_A = 200, RULE_B, RULE_C, RULE_D, /* any node; the same one where the variable stands twice */
     RULE_K,                               /* any constant */
-    RULE_ZERO, RULE_ONE, RULE_TWO, RULE_HALF, RULE_MINUS_ONE, RULE_TRUE, RULE_FALSE,
+    RULE_ZERO, RULE_ONE, RULE_TWO, RULE_HALF, RULE_MINUS_ONE, RULE_IDENTITY, RULE_TRUE, RULE_FALSE,
     RULE_END
 };
 

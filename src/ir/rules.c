@@ -12,7 +12,7 @@ enum {
 #include "ir/ops.def"
 #undef OP
     A = RULE_A, B = RULE_B, C = RULE_C, D = RULE_D, K = RULE_K, ZERO = RULE_ZERO, ONE = RULE_ONE, TWO = RULE_TWO,
-    HALF = RULE_HALF, MINUS_ONE = RULE_MINUS_ONE, TRUE_ = RULE_TRUE, FALSE_ = RULE_FALSE
+    HALF = RULE_HALF, MINUS_ONE = RULE_MINUS_ONE, IDENTITY = RULE_IDENTITY, TRUE_ = RULE_TRUE, FALSE_ = RULE_FALSE
 };
 
 enum { FINITE, EXACT };
@@ -52,7 +52,7 @@ const struct rule *ir_rules_of(enum ir_op op, unsigned *out_num)
 
 static float token_value(unsigned token)
 {
-    static const float values[] = {0.0f, 1.0f, 2.0f, 0.5f, -1.0f, 1.0f, 0.0f};
+    static const float values[] = {0.0f, 1.0f, 2.0f, 0.5f, -1.0f, 1.0f, 1.0f, 0.0f}; /* in the order of the tokens */
     return values[token - RULE_ZERO];
 }
 
@@ -84,15 +84,15 @@ static bool match_constant(const struct match *m, unsigned token, const struct i
     if (node->type == IR_TYPE_BOOL || token >= RULE_TRUE)
         return node->type == IR_TYPE_BOOL && token >= RULE_TRUE && words[0].u == (token == RULE_TRUE);
     const struct ir_type_info *info = ir_type_info(node->type);
-    bool identity = m->linear && token == RULE_ONE;
-    if (identity && info->columns == 1)
+    bool identity = token == RULE_IDENTITY;
+    if (identity ? !m->linear || info->columns == 1 : m->linear && token != RULE_ZERO)
         return false;
     for (unsigned i = 0; i < info->components; i++) {
         bool off_diagonal = identity && i % (info->columns + 1u) != 0;
         if (!has_word(m, off_diagonal ? RULE_ZERO : token, info->scalar, words[i]))
             return false;
     }
-    return !m->linear || identity || token == RULE_ZERO;
+    return true;
 }
 
 static bool match_leaf(struct match *m, unsigned token, ir_ref ref)

@@ -111,10 +111,13 @@ static ir_type_id result_splat(enum ir_op op, const ir_type_id *args, unsigned n
 static ir_type_id result_compare(enum ir_op op, const ir_type_id *args, unsigned num_args)
 {
     ir_type_id type = args[0];
-    if (!all_equal(args, num_args) || type >= IR_NUM_TYPES || ir_types[type].components == 0)
+    bool is_user_type = type >= IR_NUM_TYPES;
+    if (!all_equal(args, num_args) || (!is_user_type && ir_types[type].components == 0))
         return IR_TYPE_VOID;
     if (op == IR_EQ || op == IR_NE)
         return IR_TYPE_BOOL;
+    if (is_user_type)
+        return IR_TYPE_VOID;
     bool fits = num_args == 1 ? type == IR_TYPE_FLOAT : is_scalar(type) && is_numeric(type);
     return fits ? IR_TYPE_BOOL : IR_TYPE_VOID;
 }

@@ -7,9 +7,9 @@ static enum ir_op find_builtin(const char *name, size_t len, unsigned num_args)
 {
     for (int op = 0; op < IR_NUM_OPS; op++) {
         const struct ir_op_info *info = ir_op_info((enum ir_op)op);
-        if (!(info->flags & OP_BUILTIN) || op == IR_ATAN2 || strlen(info->text) != len || memcmp(info->text, name, len) != 0)
-            continue;
-        return op == IR_ATAN && num_args == 2 ? IR_ATAN2 : (enum ir_op)op;
+        bool named = strlen(info->text) == len && memcmp(info->text, name, len) == 0;
+        if (named && (info->flags & OP_BUILTIN) && op != IR_ATAN2)
+            return op == IR_ATAN && num_args == 2 ? IR_ATAN2 : (enum ir_op)op;
     }
     return IR_NUM_OPS;
 }

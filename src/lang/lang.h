@@ -124,6 +124,7 @@ struct lang_unit {
     VEC(uint32_t) refs;
     VEC(struct ir_user_type) user_types;
     VEC(struct ir_member) members;
+    struct lang_plan *plan;         /* plan.c: which constants functions take for granted; NULL until the shader stands */
     struct lang_versions *versions; /* specialise.c: what has been specialised; made on demand */
 };
 
@@ -210,6 +211,14 @@ uint32_t lang_specialise(struct lang_unit *generated, uint32_t id, const struct 
 /* Is parameter `index` of the function that was given to lang_specialise gone from the version it returned? */
 bool lang_param_dropped(const struct lang_unit *generated, uint32_t version, uint32_t given, unsigned index);
 
+/*
+ * plan.c: one version per function for a whole shader. First lang_plan_call for every call in the IR (args[i]: the constant that is passed, or
+ * NULL), then lang_plan_finish, then lang_plan_version for each function called; lang_param_dropped tells which arguments are left.
+ */
+void lang_plan_call(struct lang_unit *generated, uint32_t id, const struct ir_value *const *args);
+void lang_plan_finish(struct lang_unit *generated);
+uint32_t lang_plan_version(struct lang_unit *generated, uint32_t id);
+
 /* eval.c */
 
 /*
@@ -241,8 +250,8 @@ enum lang_precedence { /* binds tighter as it grows; an operand is parenthesised
 
 /*
  * How a target spells one op: "$0 * $1" with $0…$3 the operands, $T the result type's name. `precedence` is the form's own. An
- * operand between parentheses, brackets or commas needs none; else `infix` ops associate to the left ($0 needs `precedence`, the
- * others one more), `?:` to the right, "$0[$1]" and the like take another of their kind on the left, and prefixes take none.
+ * operand between parentheses, brackets or commas needs none; else those of `infix` forms ("$0 op $1") associate to the left,
+ * `?:` to the right, and operands of anything else ("-$0", "$0[$1]", "$0 - $1 * floor($0 / $1)") must be postfix expressions.
  * CONSTRUCT ("$T(operands)"), SWIZZLE, MEMBER and calls have no form.
  */
 struct lang_form {

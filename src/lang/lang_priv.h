@@ -236,7 +236,10 @@ void parse_directive(struct parser *p);    /* parse_file.c: at a TOKEN_DIRECTIVE
 bool parse_at_type(struct parser *p);      /* does a type begin here? (a struct's name counts) */
 /* A type without array suffix; VOID, with *out_bad set, after an error. */
 ir_type_id parse_type(struct parser *p, bool may_be_void, bool *out_bad);
-/* `[n]` behind a type or name: the array type, VOID after an error. `[]`: VOID and *out_unsized set, NULL where that is wrong. */
+/*
+ * `[n]` behind a type or name: the array type, VOID after an error. `[]`: VOID with *out_unsized set; an error where
+ * out_unsized is NULL.
+ */
 ir_type_id parse_array_suffix(struct parser *p, ir_type_id element, bool *out_unsized);
 /* After '=': a value converted to the type, or (unsized) an array of it; 0 after errors. */
 lang_ref parse_initialiser(struct parser *p, ir_type_id type, bool unsized);
@@ -249,7 +252,10 @@ lang_ref parse_expression(struct parser *p); /* 0 after an error, which has been
 struct lang_node *tree_node(struct parser *p, lang_ref ref);
 lang_ref tree_new(struct parser *p, enum lang_kind kind, enum ir_op op, ir_type_id type, uint32_t place);
 lang_ref tree_const(struct parser *p, const struct ir_value *value, uint32_t place);
-/* An op over operands, which are chained; of literals, its finite value. 0 and a message where the tree would be too high. */
+/*
+ * An op over operands, which are chained; over literals, its value where that is finite. 0 and a message where the tree
+ * would be too high.
+ */
 lang_ref tree_op(struct parser *p, enum ir_op op, ir_type_id type, uint32_t attr, const lang_ref *args, unsigned num_args,
                  uint32_t place);
 lang_ref tree_call(struct parser *p, uint32_t function, ir_type_id type, const lang_ref *args, unsigned num_args,

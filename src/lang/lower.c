@@ -194,7 +194,7 @@ static uint32_t specialise(struct lower *lo, uint32_t id, const ir_ref *in)
         const struct lang_slot *slot = ast_slot(layer, fn, i);
         bool is_plain = slot->mode == LANG_IN && !ast_is_user_type(slot->type);
         if (is_plain && *in && ir_get_const(lo->graph, *in, &values[i])
-            && spec_is_worth_binding(lo->unit, id, &values[i]))
+            && spec_is_worth_binding(&values[i]))
             bound[i] = &values[i];
         in += slot->mode == LANG_OUT ? 0 : lower_leaves(lo, slot->type);
     }

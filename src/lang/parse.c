@@ -129,7 +129,7 @@ bool parse_expect(struct parser *p, enum token_kind kind)
         parse_unexpected(p, expected);
         return false;
     }
-    /* A forgotten ';' is shown where it belongs, not at whatever stands on the next line, which is read as if it were there. */
+    /* A forgotten ';' is shown where it belongs, and the next line is read as if it were there. */
     struct diag_place where = parse_where_token(p, &p->last);
     where.column += p->last.columns;
     where.length = 1;

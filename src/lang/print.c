@@ -4,7 +4,7 @@
 
 struct local { /* what a slot is called in the output */
     const char *name;
-    uint32_t variant; /* 0: as in the source; k: the k-th attempt at another name */
+    size_t len;
 };
 
 struct printer {
@@ -16,6 +16,7 @@ struct printer {
     struct local *locals; /* by slot */
     uint32_t *visible;    /* slots in scope, innermost last */
     uint32_t num_visible;
+    uint64_t initials;    /* of the names of the functions and globals in use, one bit each: few locals share one */
     unsigned indent;
 };
 
@@ -24,50 +25,68 @@ static void print_statement(struct printer *p, lang_ref ref);
 
 /* Names. Pruning moves declarations into outer scopes, so that names which were apart may meet: the later one changes. */
 
-static bool is_taken(const struct printer *p, const struct local *local)
+static bool is_same(const char *a, const char *b)
 {
-    for (uint32_t i = 0; i < p->num_visible; i++) {
-        const struct local *other = &p->locals[p->visible[i]];
-        if (other->variant == local->variant && strcmp(other->name, local->name) == 0)
+    return a[0] == b[0] && strcmp(a, b) == 0;
+}
+
+/* Names at file scope that the function uses: of callees, then of globals. */
+static uint32_t num_outer(const struct printer *p)
+{
+    return p->fn->num_callees + p->fn->num_globals;
+}
+
+static const char *outer_name(const struct printer *p, uint32_t index)
+{
+    const uint32_t *refs = p->layer->refs.items;
+    if (index < p->fn->num_callees)
+        return print_function_name(p->names, p->unit, refs[p->fn->first_callee + index]);
+    return print_global_name(p->names, p->unit, refs[p->fn->first_global + index - p->fn->num_callees]);
+}
+
+static uint64_t initial(const char *name)
+{
+    return 1ull << (name[0] & 63);
+}
+
+static bool is_taken(const struct printer *p, const char *name)
+{
+    for (uint32_t i = 0; i < p->num_visible; i++)
+        if (is_same(p->locals[p->visible[i]].name, name))
             return true;
-    }
-    if (local->variant)
-        return false;
-    if (lang_syntax_is_reserved(p->syntax, local->name))
-        return true;
-    const uint32_t *callees = p->layer->refs.items + p->fn->first_callee;
-    for (uint32_t i = 0; i < p->fn->num_callees; i++)
-        if (strcmp(print_function_name(p->names, p->unit, callees[i]), local->name) == 0)
+    for (uint32_t i = 0; i < num_outer(p) && p->initials & initial(name); i++)
+        if (is_same(outer_name(p, i), name))
             return true;
-    const uint32_t *globals = p->layer->refs.items + p->fn->first_global;
-    for (uint32_t i = 0; i < p->fn->num_globals; i++)
-        if (strcmp(print_global_name(p->names, p->unit, globals[i]), local->name) == 0)
-            return true;
-    return false;
+    return lang_syntax_is_reserved(p->syntax, name);
+}
+
+/* "x_", "x_2", "x_3"… for x; "x_2" at once for x_, since "__" is reserved in GLSL. */
+static const char *variant(struct printer *p, const char *name, uint32_t number)
+{
+    size_t len = strlen(name);
+    bool ends_low = len && name[len - 1] == '_';
+    struct text text;
+    text_init(&text, p->out->arena);
+    text_mem(&text, name, len);
+    if (!ends_low)
+        text_char(&text, '_');
+    if (ends_low || number > 1)
+        text_u32(&text, number + ends_low);
+    return text_cstr(&text);
 }
 
 static void bring_into_scope(struct printer *p, uint32_t slot)
 {
-    struct local *local = &p->locals[slot];
-    *local = (struct local){.name = str_text(p->unit->strings, ast_slot(p->layer, p->fn, slot)->name)};
-    while (is_taken(p, local))
-        local->variant++;
+    const char *own = str_text(p->unit->strings, ast_slot(p->layer, p->fn, slot)->name), *name = own;
+    for (uint32_t number = 1; is_taken(p, name); number++)
+        name = variant(p, own, number);
+    p->locals[slot] = (struct local){name, strlen(name)};
     p->visible[p->num_visible++] = slot;
 }
 
-/* "x", "x_", "x_2", "x_3"…; "x_" becomes "x_2" at once, since "__" is reserved in GLSL. */
 static void print_local(struct printer *p, uint32_t slot)
 {
-    const struct local *local = &p->locals[slot];
-    size_t len = strlen(local->name);
-    text_mem(p->out, local->name, len);
-    if (local->variant == 0)
-        return;
-    bool ends_low = len && local->name[len - 1] == '_';
-    if (!ends_low)
-        text_char(p->out, '_');
-    if (ends_low || local->variant > 1)
-        text_u32(p->out, local->variant + ends_low);
+    text_mem(p->out, p->locals[slot].name, p->locals[slot].len);
 }
 
 static void print_variable(struct printer *p, uint32_t slot)
@@ -454,6 +473,8 @@ static struct printer start(const struct lang_syntax *syntax, const struct lang_
     p.fn = lang_function(unit, id, &p.layer);
     p.locals = arena_alloc(out->arena, p.fn->num_slots * sizeof *p.locals);
     p.visible = arena_alloc(out->arena, p.fn->num_slots * sizeof *p.visible);
+    for (uint32_t i = 0; i < num_outer(&p); i++)
+        p.initials |= initial(outer_name(&p, i));
     for (uint32_t i = 0; i < p.fn->num_params; i++)
         bring_into_scope(&p, i);
     return p;

@@ -14,31 +14,39 @@ static enum lang_precedence operand_precedence(const struct lang_form *form, uns
     enum lang_precedence own = (enum lang_precedence)form->precedence;
     if (own == LANG_PREC_TERNARY)
         return index == 0 ? LANG_PREC_LOR : LANG_PREC_TERNARY;
-    if (form->infix)
-        return own + (index != 0);
-    return own >= LANG_PREC_POSTFIX ? LANG_PREC_POSTFIX : own + 1;
+    return LANG_PREC_POSTFIX;
+}
+
+/* The length of what stands before the next '$'. */
+static size_t literal_length(const char *text)
+{
+    size_t len = 0;
+    while (text[len] && text[len] != '$')
+        len++;
+    return len;
 }
 
 void lang_write_form(const struct lang_form *form, const char *type_name, lang_operand_fn *operand, void *user_data,
                      struct text *out)
 {
-    char before = '\0'; /* the last character that is not a space */
-    for (const char *p = form->text; *p;) {
-        if (*p != '$') {
-            const char *start = p;
-            do {
-                if (*p != ' ')
-                    before = *p;
-                p++;
-            } while (*p && *p != '$');
-            text_mem(out, start, (size_t)(p - start));
-            continue;
-        }
+    const char *p = form->text;
+    if (form->infix) { /* most of what there is: without looking around */
+        operand(user_data, 0, (enum lang_precedence)form->precedence, out);
+        text_mem(out, p + 2, literal_length(p + 2));
+        operand(user_data, 1, (enum lang_precedence)form->precedence + 1, out);
+        return;
+    }
+    for (;;) {
+        size_t len = literal_length(p);
+        text_mem(out, p, len);
+        p += len;
+        if (!*p)
+            break;
+        char before = p == form->text ? '\0' : p[-1] == ' ' ? p[-2] : p[-1];
         if (p[1] == 'T')
             text_str(out, type_name);
         else
             operand(user_data, (unsigned)(p[1] - '0'), operand_precedence(form, (unsigned)(p[1] - '0'), before, p[2]), out);
-        before = p[1];
         p += 2;
     }
 }

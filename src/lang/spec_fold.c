@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-static bool is_finite(const struct ir_value *value)
+bool spec_is_finite(const struct ir_value *value)
 {
     if (ir_type_info(value->type)->scalar != IR_TYPE_FLOAT)
         return true;
@@ -22,7 +22,7 @@ static lang_ref fold_constants(struct spec *s, const struct lang_node *op, const
     struct ir_value values[AST_MAX_OPERANDS], result;
     for (unsigned i = 0; i < num_args; i++)
         spec_get(s, args[i], &values[i]);
-    if (!ir_eval_op(op->op, op->type, op->b, values, num_args, &result) || !is_finite(&result))
+    if (!ir_eval_op(op->op, op->type, op->b, values, num_args, &result) || !spec_is_finite(&result))
         return 0;
     return spec_constant(s, &result, op->place);
 }
@@ -41,6 +41,15 @@ static bool is_number(const struct spec *s, lang_ref ref, int number)
         if (info->scalar == IR_TYPE_FLOAT ? words[i].f != (float)number : words[i].i != number)
             return false;
     return true;
+}
+
+static bool is_splat(const struct ir_value *value)
+{
+    const struct ir_type_info *info = ir_type_info(value->type);
+    for (unsigned i = 1; i < info->components; i++)
+        if (value->w[i].u != value->w[0].u)
+            return false;
+    return info->components > 1 && info->columns == 1;
 }
 
 static bool is_false_or_true(const struct spec *s, lang_ref ref, bool wanted)
@@ -132,13 +141,32 @@ static lang_ref simplify_swizzle(struct spec *s, const struct lang_node *op, lan
     return spreads ? as_result(s, op, inner->a) : 0;
 }
 
-lang_ref spec_fold(struct spec *s, const struct lang_node *op, const lang_ref *args, unsigned num_args)
+/* vec3(2.0) * v is 2.0 * v: the scalar is shorter, and the op spreads it. Writes the op where that is so. */
+static lang_ref shorten(struct spec *s, const struct lang_node *op, const lang_ref *args)
 {
-    if (!(ir_op_info(op->op)->flags & OP_PURE) || num_args > AST_MAX_OPERANDS || ast_is_user_type(op->type))
-        return 0;
-    lang_ref folded = fold_constants(s, op, args, num_args);
-    if (folded)
-        return folded;
+    for (unsigned i = 0; i < 2; i++) {
+        struct ir_value value;
+        if (spec_node(s, args[1 - i])->type != op->type || !spec_get(s, args[i], &value) || !is_splat(&value))
+            continue;
+        value.type = ir_type_info(value.type)->scalar;
+        lang_ref parts[2] = {args[0], args[1]};
+        parts[i] = spec_constant(s, &value, op->place);
+        spec_node(s, parts[0])->next = parts[1];
+        spec_node(s, parts[1])->next = 0;
+        struct lang_node shorter = *op;
+        shorter.a = parts[0];
+        return spec_add(s, shorter);
+    }
+    return 0;
+}
+
+static bool is_arithmetic(unsigned op)
+{
+    return op == IR_ADD || op == IR_SUB || op == IR_MUL || op == IR_DIV;
+}
+
+static lang_ref simplify(struct spec *s, const struct lang_node *op, const lang_ref *args)
+{
     switch (op->op) {
     case IR_MUL:
         return simplify_mul(s, op, args[0], args[1]);
@@ -163,4 +191,14 @@ lang_ref spec_fold(struct spec *s, const struct lang_node *op, const lang_ref *a
     default:
         return 0;
     }
+}
+
+lang_ref spec_fold(struct spec *s, const struct lang_node *op, const lang_ref *args, unsigned num_args)
+{
+    if (!(ir_op_info(op->op)->flags & OP_PURE) || num_args > AST_MAX_OPERANDS || ast_is_user_type(op->type))
+        return 0;
+    lang_ref folded = fold_constants(s, op, args, num_args);
+    if (!folded)
+        folded = simplify(s, op, args);
+    return folded || !is_arithmetic(op->op) ? folded : shorten(s, op, args);
 }

@@ -26,6 +26,7 @@ static void use_target(struct spec *s, lang_ref ref, unsigned use)
     s->num_nodes++;
     if (node->kind == LANG_VAR) {
         s->uses[node->a] |= (uint8_t)use;
+        s->mentions[node->a] = s->statement;
         vec_push(s->unit->arena, &s->vars, ref);
         return;
     }
@@ -77,6 +78,7 @@ static void use_expression(struct spec *s, lang_ref ref)
         break;
     case LANG_VAR:
         s->uses[node.a] |= SLOT_READ;
+        s->mentions[node.a] = s->statement;
         vec_push(s->unit->arena, &s->vars, ref);
         break;
     case LANG_GLOBAL:
@@ -215,7 +217,41 @@ static void name_literals(struct spec *s, uint32_t slot)
     s->uses[slot] |= SLOT_READ;
 }
 
-static bool sweep_declare(struct spec *s, lang_ref ref)
+static bool names_slot(const struct spec *s, lang_ref ref, uint32_t slot)
+{
+    const struct lang_node *node = ast_node(s->unit, ref);
+    if (node->kind == LANG_VAR)
+        return node->a == slot;
+    lang_ref child = node->kind == LANG_OP ? node->a : node->kind == LANG_CALL ? node->b : 0;
+    for (; child; child = ast_node(s->unit, child)->next)
+        if (names_slot(s, child, slot))
+            return true;
+    return false;
+}
+
+/* Is the next thing that happens to a variable that it gets a new value, by the statement this returns? */
+static lang_ref overwriting(const struct spec *s, uint32_t slot, uint32_t list)
+{
+    lang_ref ref = s->mentions[slot];
+    const struct lang_node *next = ast_node(s->unit, ref);
+    bool overwrites = next->kind == LANG_ASSIGN && next->op == IR_NUM_OPS && next->d == list
+                      && ast_node(s->unit, next->a)->kind == LANG_VAR && !names_slot(s, next->b, slot);
+    return overwrites ? ref : 0;
+}
+
+/* Then the variable declares itself there. */
+static bool moves_down(struct spec *s, uint32_t slot, uint32_t list)
+{
+    lang_ref next = overwriting(s, slot, list);
+    if (!next)
+        return false;
+    spec_node(s, next)->kind = LANG_DECLARE;
+    spec_node(s, next)->a = slot;
+    vec_push(s->unit->arena, &s->vars, next);
+    return true;
+}
+
+static bool sweep_declare(struct spec *s, lang_ref ref, uint32_t list)
 {
     struct lang_node *node = spec_node(s, ref);
     uint32_t slot = node->a;
@@ -223,15 +259,13 @@ static bool sweep_declare(struct spec *s, lang_ref ref)
         name_literals(s, slot);
     bool is_read = s->uses[slot] & SLOT_READ;
     bool is_written = s->uses[slot] & SLOT_WRITTEN;
-    if (!is_read && node->b) {
-        if (!has_live_effects(s, node->b))
-            spec_node(s, ref)->b = 0;
-        else if (!is_written && becomes_call(s, ref, node->b))
-            return true;
-    }
-    lang_ref value = spec_node(s, ref)->b;
-    if (!is_read && !is_written && !value)
+    lang_ref value = node->b && (is_read || has_live_effects(s, node->b)) ? node->b : 0;
+    if (!is_read && !is_written)
+        if (!value || becomes_call(s, ref, value))
+            return value != 0;
+    if ((!value || !has_live_effects(s, value)) && moves_down(s, slot, list))
         return false;
+    spec_node(s, ref)->b = value;
     if (value) {
         use_expression(s, value);
         s->uses[slot] |= is_read ? 0 : SLOT_WRITTEN; /* it has a place among the slots */
@@ -240,10 +274,14 @@ static bool sweep_declare(struct spec *s, lang_ref ref)
     return true;
 }
 
-static bool sweep_assign(struct spec *s, lang_ref ref)
+static bool sweep_assign(struct spec *s, lang_ref ref, unsigned loops, uint32_t list)
 {
     struct lang_node node = *spec_node(s, ref);
-    if (!is_live(s, node.a)) {
+    spec_node(s, ref)->d = list;
+    uint32_t slot = ast_target_slot(s->unit, node.a);
+    bool is_local = slot >= s->fn.num_params || ast_slot(s->layer, &s->fn, slot)->mode == LANG_IN;
+    bool is_lost = is_local && loops == 0 && spec_node(s, node.a)->kind == LANG_VAR && overwriting(s, slot, list);
+    if (is_lost || !is_live(s, node.a)) {
         if (!has_live_effects(s, node.b) && !has_live_effects(s, node.a))
             return false;
         if (!has_live_effects(s, node.a) && becomes_call(s, ref, node.b))
@@ -282,6 +320,7 @@ static bool sweep_if(struct spec *s, lang_ref ref, unsigned loops)
         return false;
     if (!has_then && has_else)
         invert_condition(s, ref);
+    s->statement = ref;
     use_expression(s, spec_node(s, ref)->a);
     return true;
 }
@@ -308,6 +347,7 @@ static bool sweep_loop(struct spec *s, lang_ref ref, unsigned loops)
     if (!has_body && is_idle(s, &node))
         return false;
     s->flags &= (uint16_t)~LANG_FN_STRAIGHT;
+    s->statement = ref;
     if (node.kind == LANG_FOR)
         spec_node(s, ref)->c = sweep_list(s, node.c, loops + 1);
     if (node.b)
@@ -317,14 +357,14 @@ static bool sweep_loop(struct spec *s, lang_ref ref, unsigned loops)
     return true;
 }
 
-static bool sweep_statement(struct spec *s, lang_ref ref, unsigned loops)
+static bool sweep_statement(struct spec *s, lang_ref ref, unsigned loops, uint32_t list)
 {
     struct lang_node node = *spec_node(s, ref);
     switch (node.kind) {
     case LANG_DECLARE:
-        return sweep_declare(s, ref);
+        return sweep_declare(s, ref, list);
     case LANG_ASSIGN:
-        return sweep_assign(s, ref);
+        return sweep_assign(s, ref, loops, list);
     case LANG_EXPR:
         if (!has_live_effects(s, node.a))
             return false;
@@ -348,13 +388,14 @@ static bool sweep_statement(struct spec *s, lang_ref ref, unsigned loops)
 static lang_ref sweep_list(struct spec *s, lang_ref first, unsigned loops)
 {
     struct lang_versions *versions = s->unit->versions;
-    uint32_t begin = versions->stack.len;
+    uint32_t begin = versions->stack.len, list = ++s->num_lists;
     for (lang_ref ref = first; ref; ref = spec_node(s, ref)->next)
         vec_push(s->unit->arena, &versions->stack, ref);
     lang_ref next = 0;
     for (uint32_t i = versions->stack.len; i > begin; i--) {
         lang_ref ref = versions->stack.items[i - 1];
-        if (!sweep_statement(s, ref, loops)) {
+        s->statement = ref;
+        if (!sweep_statement(s, ref, loops, list)) {
             s->changed = true;
             continue;
         }

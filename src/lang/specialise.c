@@ -4,13 +4,6 @@
 
 #include "base/hash.h"
 
-/*
- * What is bound makes a version of its own, which is text in the shader. Branches hang on flags and modes, and on weights
- * of 0 and 1, so these are always bound; for any other number the first versions get it folded, further calls
- * pass it as an argument.
- */
-enum { MAX_NUMBER_VERSIONS = 3, MAX_MODE_VERSIONS = 12 };
-
 static struct lang_versions *versions_of(struct lang_unit *unit)
 {
     if (!unit->versions)
@@ -18,44 +11,9 @@ static struct lang_versions *versions_of(struct lang_unit *unit)
     return unit->versions;
 }
 
-static bool is_zero_or_one(const struct ir_value *value)
+bool spec_is_worth_binding(const struct ir_value *value)
 {
-    const struct ir_type_info *info = ir_type_info(value->type);
-    float f = value->w[0].f;
-    for (unsigned i = 1; i < info->components; i++)
-        if (value->w[i].u != value->w[0].u)
-            return false;
-    return info->scalar == IR_TYPE_FLOAT && (f == 0.0f || f == 1.0f);
-}
-
-bool spec_is_worth_binding(const struct lang_unit *unit, uint32_t id, const struct ir_value *value)
-{
-    const struct lang_versions *versions = unit->versions;
-    unsigned count = versions && id < versions->num_counts ? versions->counts[id] : 0;
-    switch (value->type) {
-    case IR_TYPE_BOOL:
-    case IR_TYPE_STRING:
-        return true;
-    case IR_TYPE_INT:
-    case IR_TYPE_UINT:
-        return count < MAX_MODE_VERSIONS;
-    default:
-        return count < MAX_NUMBER_VERSIONS || (count < MAX_MODE_VERSIONS && is_zero_or_one(value));
-    }
-}
-
-static void count_version(struct lang_unit *unit, uint32_t id)
-{
-    struct lang_versions *versions = unit->versions;
-    if (id >= versions->num_counts) {
-        uint32_t old = versions->num_counts, want = id + 64;
-        versions->counts = arena_grow(unit->arena, versions->counts, old * sizeof *versions->counts,
-                                      want * sizeof *versions->counts);
-        memset(versions->counts + old, 0, (want - old) * sizeof *versions->counts);
-        versions->num_counts = want;
-    }
-    if (versions->counts[id] < UINT16_MAX)
-        versions->counts[id]++;
+    return value->type == IR_TYPE_BOOL || value->type == IR_TYPE_STRING;
 }
 
 /* The table of versions */
@@ -129,10 +87,12 @@ static uint32_t find_version(const struct lang_unit *unit, uint32_t hash, uint32
 static struct spec begin(struct lang_unit *unit, const struct lang_bindings *options, uint32_t id, bool keeps)
 {
     struct spec s = {.unit = unit, .options = options, .keeps_unused = keeps, .flags = LANG_FN_PURE | LANG_FN_STRAIGHT};
+    versions_of(unit); /* has the scratch stack */
     s.fn = *lang_function(unit, id, &s.layer);
     s.flags |= s.fn.flags & LANG_FN_EXPRESSION;
     s.known = ARENA_ARRAY(unit->arena, lang_ref, s.fn.num_slots);
     s.uses = arena_zalloc(unit->arena, s.fn.num_slots);
+    s.mentions = ARENA_ARRAY(unit->arena, lang_ref, s.fn.num_slots);
     s.literals = arena_zalloc(unit->arena, s.fn.num_slots);
     return s;
 }
@@ -243,6 +203,15 @@ static uint32_t make_version(struct lang_unit *unit, const struct lang_bindings 
     return id;
 }
 
+void spec_visit(struct lang_unit *unit, uint32_t id, const lang_ref *bound)
+{
+    uint32_t num_bound = lang_function(unit, id, NULL)->num_params;
+    struct spec s = begin(unit, NULL, id, false);
+    struct chain statements = {0};
+    bind(&s, bound, num_bound < SPEC_MAX_PARAMS ? num_bound : SPEC_MAX_PARAMS, &statements);
+    spec_statements(&s, ast_node(s.layer, s.fn.body)->a, &statements);
+}
+
 /* Constants that are part of a tree may become something else there. */
 static uint32_t copy_bound(struct lang_unit *unit, const lang_ref *bound, uint32_t num_bound)
 {
@@ -268,7 +237,7 @@ uint32_t spec_function(struct lang_unit *unit, const struct lang_bindings *optio
     for (uint32_t i = 0; i < num_bound; i++)
         is_free &= !bound[i];
     bool is_done = id >= unit->base_functions; /* a version needs no second look */
-    if (is_free && (is_done || versions->depth == SPEC_MAX_DEPTH))
+    if (is_free && ((is_done && !spec_is_planned(unit)) || versions->depth == SPEC_MAX_DEPTH))
         return id;
     if (!versions->table || (versions->items.len + 1) * 2 > versions->table_mask)
         grow_table(unit);
@@ -283,8 +252,6 @@ uint32_t spec_function(struct lang_unit *unit, const struct lang_bindings *optio
     versions->depth++;
     uint32_t to = make_version(unit, options, id, copies, num_bound, keeps_unused);
     versions->depth--;
-    if (!is_free)
-        count_version(unit, id);
     struct version version = {.from = id, .to = to, .hash = hash, .first_bound = first_bound, .keeps_unused = keeps_unused};
     if (find_version(unit, hash, id, bound, num_bound, keeps_unused, &slot) == LANG_NONE) { /* the table may have grown */
         vec_push(unit->arena, &versions->items, version);

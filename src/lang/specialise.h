@@ -31,8 +31,6 @@ struct lang_versions {
     VEC(lang_ref) bound; /* per version and parameter: a constant of the unit or 0 */
     uint32_t *table;     /* open addressing: index in items + 1 */
     uint32_t table_mask;
-    uint16_t *counts;    /* by function id: how many versions it has */
-    uint32_t num_counts;
     unsigned depth;      /* of functions being specialised */
     VEC(lang_ref) stack; /* scratch of functions being specialised */
 };
@@ -52,6 +50,9 @@ struct spec {
     bool changed;
     lang_ref *known;       /* by slot: an expression of constants which the slot equals here, or 0 */
     uint8_t *uses;         /* by slot: enum slot_use; filled backward */
+    lang_ref *mentions;    /* by slot: the first statement behind the current one that names it */
+    lang_ref statement;    /* being swept */
+    uint32_t num_lists;    /* swept so far */
     uint8_t *literals;     /* by slot: how often its value stands for it, where that is long to write (saturating) */
     VEC(lang_ref) vars;    /* nodes of the result that name a slot: VAR and DECLARE */
     VEC(lang_ref) longs;   /* CONST nodes of the result that stand for a slot and are long to write */
@@ -76,6 +77,13 @@ lang_ref spec_expression(struct spec *s, lang_ref ref);
 lang_ref spec_target(struct spec *s, lang_ref ref); /* of an assignment or an out argument: stays what it is */
 bool spec_has_effects(const struct spec *s, lang_ref ref); /* does it call anything that assigns to its arguments? */
 
+/* spec_call.c */
+lang_ref spec_call(struct spec *s, struct lang_node call);
+bool spec_is_finite(const struct ir_value *value); /* spec_fold.c */
+
+/* spec_inline.c: the expression that a call of a small function stands for; 0 where it stays a call. */
+lang_ref spec_inline(struct spec *s, const struct lang_node *call);
+
 /* spec_fold.c: an op over operands of the result: a constant, a simpler expression, or 0. */
 lang_ref spec_fold(struct spec *s, const struct lang_node *op, const lang_ref *args, unsigned num_args);
 
@@ -88,7 +96,15 @@ lang_ref spec_sweep(struct spec *s, lang_ref first);
 /* specialise.c: bound by CONST nodes of the unit, one per parameter, 0 for free ones. */
 uint32_t spec_function(struct lang_unit *unit, const struct lang_bindings *options, uint32_t id, const lang_ref *bound,
                        bool keeps_unused);
-/* Shall a constant argument be bound, or do the versions that exist suffice? */
-bool spec_is_worth_binding(const struct lang_unit *unit, uint32_t id, const struct ir_value *value);
+/* Does a constant argument make a version of its own? Strings and flags do; numbers are planned (plan.c). */
+bool spec_is_worth_binding(const struct ir_value *value);
+/* The forward step alone, for the calls that it meets. */
+void spec_visit(struct lang_unit *unit, uint32_t id, const lang_ref *bound);
+
+/* plan.c */
+bool spec_is_planned(const struct lang_unit *unit);    /* versions are those of the plan */
+bool spec_is_collecting(const struct lang_unit *unit); /* calls are only noted */
+/* Constants that all calls of a function pass, as CONST nodes of the unit, 0 for the others: one per parameter. */
+void spec_planned_params(struct lang_unit *unit, uint32_t id, lang_ref *bound);
 
 #endif

@@ -99,6 +99,7 @@ static void name_neutrally(struct shader *shader)
 
 void shader_finish(struct shader *shader, const struct shader_layout_rules *rules)
 {
+    shader_specialise_calls(shader);
     complete_lights(shader, STAGE_PIXEL);
     mark_outputs(shader, STAGE_PIXEL);
     shader_schedule(shader, STAGE_PIXEL);

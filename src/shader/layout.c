@@ -90,10 +90,10 @@ void shader_layout(struct shader *shader, const struct shader_layout_rules *rule
 {
     order_interface(shader);
     memset(shader->buffers, 0, sizeof shader->buffers);
-    if (rules->bindings)
+    shader->numbered = rules->bindings;
+    if (rules->bindings) {
         for (int block = 0; block < NUM_BLOCKS; block++)
             shader->buffers[block].set = rules->set;
-    if (rules->bindings) {
         shader->buffers[BLOCK_PRIVATE_UNIFORMS].binding = BINDING_PRIVATE;
         shader->buffers[BLOCK_PUBLIC_UNIFORMS].binding = BINDING_PUBLIC;
         shader->buffers[BLOCK_LIGHT_DATA].binding = BINDING_LIGHTS;

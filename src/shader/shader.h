@@ -165,6 +165,7 @@ struct shader {
     uint32_t num_closures;
     bool transparent;              /* found by analysis: the alpha written may be below 1 */
     bool lit;                      /* reads lights or environment */
+    bool numbered;                 /* sets, bindings and locations are given */
     uint64_t topology;             /* hash of everything but names and uniform values */
 };
 
@@ -215,6 +216,9 @@ struct shader_layout_rules { /* from the target's table and the options */
     uint32_t set;            /* descriptor set of everything */
 };
 void shader_finish(struct shader *shader, const struct shader_layout_rules *rules);
+
+/* calls.c: gives each portable function the one version that all its calls share. Part of shader_finish. */
+void shader_specialise_calls(struct shader *shader);
 
 /* The variable of a uniform or stream that a portable function reads; UINT32_MAX for constants, and before shader_finish. */
 uint32_t shader_global_variable(const struct shader *shader, uint32_t global_id);

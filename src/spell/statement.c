@@ -157,26 +157,43 @@ static ir_ref inout_operand(const struct spell *spell, ir_ref call, unsigned ind
     }
 }
 
-static void write_call_let(struct spell *spell, unsigned indent, ir_ref call, unsigned outs)
+/* "float x, y;", and a declaration of its own for each inout argument. */
+static void declare_outs(struct spell *spell, unsigned indent, ir_ref call, unsigned outs)
 {
     const struct ir_node *node = ir_get(spell->shader->graph, call);
     const char *base = local_base(spell, call);
-    uint32_t first = spell->let_names.len;
-    if (node->type == IR_TYPE_VOID)
-        vec_push(spell->scratch, &spell->let_names, NULL);
-    else
-        add_local(spell, base, NULL);
+    struct call_out last = {0};
     for (unsigned i = 0; i < outs; i++) {
         struct call_out out = describe_out(spell, call, i);
         const char *name = add_local(spell, base, node->type == IR_TYPE_VOID && outs == 1 ? NULL : out.part);
-        open_line(spell, indent, node->origin);
-        spell_variable(spell, out.type, name);
+        bool joins = i > 0 && !out.inout && !last.inout && out.type == last.type && out.type < IR_TYPE_FIRST_USER;
+        if (joins) {
+            text_mem(spell->out, ", ", 2);
+            spell_text(spell, name);
+        } else {
+            if (i > 0)
+                text_mem(spell->out, ";\n", 2);
+            open_line(spell, indent, node->origin);
+            spell_variable(spell, out.type, name);
+        }
         if (out.inout) {
             text_mem(spell->out, " = ", 3);
             spell_expression(spell, inout_operand(spell, call, i), LANG_PREC_ASSIGN);
         }
-        text_mem(spell->out, ";\n", 2);
+        last = out;
     }
+    text_mem(spell->out, ";\n", 2);
+}
+
+static void write_call_let(struct spell *spell, unsigned indent, ir_ref call, unsigned outs)
+{
+    const struct ir_node *node = ir_get(spell->shader->graph, call);
+    uint32_t first = spell->let_names.len;
+    if (node->type == IR_TYPE_VOID)
+        vec_push(spell->scratch, &spell->let_names, NULL);
+    else
+        add_local(spell, local_base(spell, call), NULL);
+    declare_outs(spell, indent, call, outs);
     open_line(spell, indent, node->origin);
     if (node->type != IR_TYPE_VOID) {
         spell_variable(spell, node->type, spell->let_names.items[first]);
@@ -246,7 +263,7 @@ static void write_discard(struct spell *spell, unsigned indent, ir_ref condition
 static void write_variable(struct spell *spell, unsigned indent, const struct effect *effect)
 {
     const struct shader_local *local = &spell->shader->locals.items[effect->index];
-    const char *name = str_text(spell->shader->strings, local->name);
+    const char *name = spell->options->neutral_names ? "v" : str_text(spell->shader->strings, local->name);
     spell->locals[effect->index] = names_unique(&spell->names, name, strlen(name));
     open_line(spell, indent, 0);
     spell_variable(spell, local->type, spell->locals[effect->index]);

@@ -288,7 +288,7 @@ static void report_error(void *arg)
         diag_add(reader->diags, DIAG_ID_xml_encoding, place, "UTF-8");
     } else if (e->error->code == XML_ERR_DOCUMENT_EMPTY) {
         diag_add(reader->diags, DIAG_ID_xml_not_xml, place);
-    } else if (offset == source->size && source->depth > 0) {
+    } else if (offset == source->size && source->depth > 0 && e->error->code != XML_ERR_TAG_NAME_MISMATCH) {
         str_id innermost = doc_element(reader->doc, source->current)->category;
         diag_add(reader->diags, DIAG_ID_xml_truncated, place, str_text(reader->doc->strings, innermost));
     } else {

@@ -4,6 +4,8 @@
 
 #include "test.h"
 
+#include <stdlib.h>
+
 struct fixture {
     struct mem mem;
     struct arena arena;
@@ -354,6 +356,7 @@ static const struct {
     {"function \"f\"\n%1 = graph_call void", "2: the function is called before its results are set"},
     {"function \"f\" float\nresults 0 = 1.0\n%1 = graph_call void", "3: the call does not have the function's number of arguments"},
     {"function \"f\" float\nresults 0 = 1.0\n%1 = graph_call void 1", "3: an argument does not have the parameter's type"},
+    {"function \"f\"\nresults 0 = 1.0\n%1 = graph_call int", "3: the call has neither no type nor that of its first result"},
     {"function \"f\"\nresults 0 = 1.0\nresults 0 = 1.0", "3: the function has its results already"},
     {"function \"f\"\nresults 0 = 1.0\n%1 = graph_call void\n%2 = result float @1 %1", "4: the function has fewer results"},
     {"function \"f\"\nresults 0 = 1.0\n%1 = graph_call void\n%2 = result int %1", "4: the result does not have the function's type"},
@@ -511,6 +514,114 @@ static void test_limits(void)
     teardown(&f);
 }
 
+static uint32_t random_below(uint32_t n)
+{
+    static uint64_t state = 1;
+    state = state * 6364136223846793005u + 1442695040888963407u;
+    return (uint32_t)(state >> 33) % n;
+}
+
+/* Replaces, removes or repeats some bytes; text has room for them. */
+static void mutate(char *text, size_t cap)
+{
+    static const char bytes[] = "%@=,. \n;_$\"0123456789uefx-abcfgv";
+    for (unsigned times = 1 + random_below(3); times > 0; times--) {
+        size_t len = strlen(text), at = random_below((uint32_t)len), run = 1 + random_below(12);
+        switch (random_below(3)) {
+        case 0:
+            text[at] = bytes[random_below(sizeof bytes - 1)];
+            break;
+        case 1:
+            if (at + run < len)
+                memmove(text + at, text + at + run, len - at - run + 1);
+            break;
+        default:
+            if (at + run < len && len + run < cap)
+                memmove(text + at + run, text + at, len - at + 1);
+        }
+    }
+}
+
+/* Whatever the text: it is refused, or gives a sound graph whose print is read back as the same. */
+static void test_mutation(const char *original)
+{
+    char text[2048];
+    struct fixture f, again;
+    setup(&f);
+    snprintf(text, sizeof text, "%s", original);
+    mutate(text, sizeof text);
+    ir_ref *roots, node;
+    uint32_t num_roots, line;
+    if (!ir_parse(&f.graph, text, strlen(text), &roots, &num_roots, &line)) {
+        if (!REQUIRE(!ir_check(&f.graph, &node)))
+            printf("    %s\n", text);
+        const char *printed = print(&f, roots, num_roots);
+        setup(&again);
+        REQUIRE_STR(reprint(&again, printed), printed);
+        teardown(&again);
+    }
+    teardown(&f);
+}
+
+static void test_mutations(void)
+{
+    char text[2048];
+    for (unsigned i = 0; i < 4000; i++) {
+        size_t num_trips = sizeof round_trips / sizeof *round_trips - 1; /* the last one is empty */
+        size_t num_cases = sizeof builder_cases / sizeof *builder_cases;
+        size_t k = random_below((uint32_t)(num_trips + num_cases));
+        if (k < num_trips)
+            snprintf(text, sizeof text, "%s", round_trips[k]);
+        else
+            snprintf(text, sizeof text, "%s%s\nreturn %%r\n", SOURCES, builder_cases[k - num_trips].in);
+        test_mutation(text);
+    }
+}
+
+/* The C library's allocator until `left` allocations are done. */
+static void *failing_realloc(void *user_data, void *block, size_t old_size, size_t new_size)
+{
+    size_t *left = user_data;
+    (void)old_size;
+    if (new_size == 0) {
+        free(block);
+        return NULL;
+    }
+    if (*left == 0)
+        return NULL;
+    --*left;
+    return realloc(block, new_size);
+}
+
+static bool try_work(struct fixture *f, size_t left)
+{
+    jmp_buf trap;
+    mem_init(&f->mem, failing_realloc, &left);
+    arena_init(&f->arena, &f->mem);
+    f->mem.trap = &trap;
+    if (setjmp(trap))
+        return false;
+    strpool_init(&f->strings, &f->arena, NULL);
+    ir_graph_init(&f->graph, &f->arena, &f->strings);
+    ir_ref x = ir_build(&f->graph, IR_UNIFORM, IR_TYPE_FLOAT, 0, NULL, 0);
+    for (unsigned i = 0; i < 3000; i++)
+        x = ir_op2(&f->graph, IR_MUL, x, ir_const_float(&f->graph, 2.0f + (float)i));
+    reprint(f, print(f, &x, 1));
+    return true;
+}
+
+static void test_memory(void)
+{
+    struct fixture f;
+    size_t k = 0;
+    for (bool done = false; !done && k < 1000; k++) {
+        done = try_work(&f, k);
+        arena_finish(&f.arena);
+        REQUIRE_EQ(f.mem.used, 0);
+    }
+    REQUIRE(k > 10 && k < 1000);
+}
+
 int main(void)
 {
     test_builder();
@@ -523,5 +634,7 @@ int main(void)
     test_eval();
     test_chain();
     test_limits();
+    test_mutations();
+    test_memory();
     return test_report("ir");
 }

@@ -411,6 +411,49 @@ static void test_expressions(void)
     teardown(&f);
 }
 
+/* What trees mean: the value of f() as the evaluator sees it. */
+static void test_values(void)
+{
+    static const struct {
+        const char *text;
+        float value;
+    } cases[] = {
+        {"float f() { return 1 + 2 * 3 - 8 / 4; }", 5.0f},
+        {"float f() { return 7 / 2; }", 3.0f},
+        {"float f() { return 7 / 2.0; }", 3.5f},
+        {"float f() { return float(7 % 3 + (1 << 4 >> 2 | 1 & ~0 ^ 2)); }", 8.0f},
+        {"float f() { return true || false && false ? 1.0 : 2.0; }", 1.0f},
+        {"float f() { return false ? 1 : true ? 2 : 3; }", 2.0f},
+        {"float f() { return 10 - 4 - 3; }", 3.0f},
+        {"float f() { vec4 v = vec4(1, vec2(2, 3), 4); v.wx = v.xy; return dot(v, vec4(1, 10, 100, 1000)); }", 1322.0f},
+        {"float f() { mat2 m = mat2(1, 2, 3, 4); m[1].x = 5; return (m * vec2(1, 10)).x; }", 51.0f},
+        {"float f() { mat3 m = mat3(2); return (m * vec3(1, 2, 3)).z + m[0][1]; }", 6.0f},
+        {"float f() { vec3 v = vec3(vec4(1, 2, 3, 4)); v.y++; --v.z; v *= 2; return v.x + v.y * v.z; }", 26.0f},
+        {"float f() { float s = 0; for (int i = 0, n = 4; i < n; i++) { if (i == 1) continue; s += i; } return s; }", 5.0f},
+        {"float f() { int i = 0; do i += 2; while (i < 5); while (true) { if (i > 8) break; i++; } return i; }", 9.0f},
+        {"void g(inout float x, out vec2 y) { x += 1; y = vec2(x); } float f() { float x = 1; vec3 y = vec3(5); g(x, y.zy); return x + y.y; }", 4.0f},
+        {"struct S { float a[2]; vec2 b; }; float f() { S s = S(float[](1, 2), vec2(3)); s.a[1] = 7; s.b.y = 1; return s.a[1] * s.b.x + s.b.y; }", 22.0f},
+        {"const float T[3] = { 1, 2, 4 }; float f() { float s = 0; for (int i = 0; i < T.length(); ++i) s += T[i]; return s; }", 7.0f},
+        {"float f() { float x = 1; { float x = 2; x += 1; } return x; }", 1.0f},
+        {"float g(int a) { return 1; } float g(float a) { return 2; } float f() { return g(1) * 100 + g(1.0) * 10 + g(1u); }", 122.0f},
+        {"float f() { return atan(1, 1) > 0.78 && min(2, 3u) == 2u && mix(1.0, 2.0, true) == 2.0 ? 1 : 0; }", 1.0f},
+        {"const int N = 3; const int M = N * 2 - 1; float f() { const int K = M + 1; float a[K]; return a.length(); }", 6.0f},
+        {"float f() { vec2 v = vec2(1, 2).yx; return v.x * 10 + v.yyx.z; }", 22.0f},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        struct fixture f;
+        setup(&f);
+        uint32_t file = parse_text(&f, cases[i].text);
+        REQUIRE_STR(messages(&f), "");
+        uint32_t id = file == LANG_NONE ? LANG_NONE : find(&f, file, "f");
+        struct ir_value value = {0};
+        bool good = id != LANG_NONE && lang_eval_call(&f.unit, id, NULL, &value, 10000, &f.arena);
+        if (!REQUIRE(good && value.type == IR_TYPE_FLOAT && value.w[0].f == cases[i].value))
+            printf("    %g, not %g: %s\n", (double)value.w[0].f, (double)cases[i].value, cases[i].text);
+        teardown(&f);
+    }
+}
+
 /* Nesting ends in a message, not on the stack. */
 static void test_depth(void)
 {
@@ -531,6 +574,7 @@ int main(int argc, char **argv)
     test_refused();
     test_error_limit();
     test_expressions();
+    test_values();
     test_depth();
     fuzz(everything, rounds);
     fuzz("mix({{a}}.xyz, vec3({{b}}, 1.0, -2.0), clamp({{b}} * 2.0, 0, 1)) + ({{a}} * mat3(1.0))[1]", rounds);

@@ -38,11 +38,11 @@ vec3 mx_fujii_multiple(vec3 color, float mean)
 
 vec3 mx_oren_nayar_diffuse_bsdf_eval(vec3 color, float roughness, vec3 N, bool energy_compensation, vec3 V, vec3 L)
 {
+    if (roughness <= 0.0)
+        return color * (mx_facing_cosine(N, V, L) / MX_PI);
+
     float cos_l = mx_facing_cosine(N, V, L);
     vec3 lambert = color * (cos_l / MX_PI);
-    if (roughness == 0.0)
-        return lambert;
-
     float cos_v = mx_facing_cosine(N, V, V);
     float s = max(dot(L, V), MX_EPSILON) - cos_l * cos_v;
     if (s > 0.0)
@@ -62,10 +62,10 @@ vec3 mx_oren_nayar_diffuse_bsdf_eval(vec3 color, float roughness, vec3 N, bool e
 
 vec3 mx_oren_nayar_diffuse_bsdf_environment(vec3 color, float roughness, vec3 N, bool energy_compensation, vec3 V)
 {
-    vec3 light = color * mx_environment_irradiance(mx_facing(N, V));
-    if (roughness == 0.0)
-        return light;
+    if (roughness <= 0.0)
+        return color * mx_environment_irradiance(mx_facing(N, V));
 
+    vec3 light = color * mx_environment_irradiance(mx_facing(N, V));
     float cos_v = mx_facing_cosine(N, V, V);
     if (energy_compensation)
         return light * mix(mx_fujii_multiple(color, mx_fujii_mean(roughness)), vec3(1.0),

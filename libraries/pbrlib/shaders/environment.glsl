@@ -12,11 +12,15 @@ uniform float u_envLightIntensity;
 uniform int u_envRadianceMips;
 uniform int u_envRadianceSamples;
 
-vec3 mx_environment_lookup(sampler2D map, vec3 direction, float lod)
+vec2 mx_latlong(vec3 direction)
 {
     vec3 d = normalize((u_envMatrix * vec4(direction, 0.0)).xyz);
-    vec2 uv = vec2(atan(d.x, -d.z), -2.0 * asin(d.y)) * (0.5 / MX_PI) + 0.5;
-    return textureLod(map, uv, lod).rgb * u_envLightIntensity;
+    return vec2(atan(d.x, -d.z), -2.0 * asin(d.y)) * (0.5 / MX_PI) + 0.5;
+}
+
+vec3 mx_environment_radiance(vec3 direction, float lod)
+{
+    return textureLod(u_envRadiance, mx_latlong(direction), lod).rgb * u_envLightIntensity;
 }
 
 // Cosine-weighted average of the light around N.
@@ -24,5 +28,5 @@ vec3 mx_environment_irradiance(vec3 N)
 {
     if (option_environment == 0)
         return vec3(0.0);
-    return mx_environment_lookup(u_envIrradiance, N, 0.0);
+    return textureLod(u_envIrradiance, mx_latlong(N), 0.0).rgb * u_envLightIntensity;
 }

@@ -7,13 +7,12 @@ const float MX_EPSILON = 1e-8;
 // N on the side of the surface that V sees.
 vec3 mx_facing(vec3 N, vec3 V)
 {
-    return dot(N, V) < 0.0 ? -N : N;
+    return faceforward(N, -V, N);
 }
 
-// Axes X, Y, Z of the tangent space seen from V: `w * frame` enters it, `frame * w` leaves it.
-mat3 mx_frame(vec3 N, vec3 X, vec3 V)
+// Axes of the tangent space around N with x along X: `w * frame` enters it, `frame * w` leaves it.
+mat3 mx_frame(vec3 N, vec3 X)
 {
-    vec3 z = mx_facing(N, V);
-    vec3 x = normalize(X - dot(X, z) * z);
-    return mat3(x, cross(z, x), z);
+    vec3 x = normalize(X - dot(X, N) * N);
+    return mat3(x, cross(N, x), N);
 }

@@ -20,9 +20,9 @@ const int MX_FRESNEL_SCHLICK = 2;
 float mx_fresnel_dielectric(float cosine, float ior)
 {
     float g = sqrt(max(ior * ior + cosine * cosine - 1.0, 0.0));
-    float s = (g - cosine) / (g + cosine);
-    float t = ((g + cosine) * cosine - 1.0) / ((g - cosine) * cosine + 1.0);
-    return 0.5 * s * s * (1.0 + t * t);
+    vec2 a = cosine * vec2(1.0, ior * ior);
+    vec2 r = (a - g) / (a + g);
+    return 0.5 * dot(r, r);
 }
 
 // |(x - z) / (x + z)|^2 for a complex z with real part `re` and squared modulus `norm`.
@@ -120,13 +120,15 @@ vec3 mx_fresnel_film(float cosine, int model, vec3 n, vec3 k, vec3 f90, float ex
     {
         vec3 r = 0.5 * mx_fresnel_schlick(inside, n, k, f90, exponent);
         vec3 phase = mx_film_schlick_phase(n, ior);
-        return mx_film_rgb(0.5 * (mx_film_series(p12.x, r, phase + turn, d) + mx_film_series(s12.x, r, phase + MX_PI, d)));
+        return mx_film_rgb(0.5 * mx_film_series(p12.x, r, phase + turn, d)
+                         + 0.5 * mx_film_series(s12.x, r, phase + MX_PI, d));
     }
     vec3 p23;
     vec3 s23 = mx_fresnel_polarized(inside, n / ior, k / ior, p23);
     vec3 phase_p;
     vec3 phase_s = mx_film_phase(inside, n / ior, k / ior, phase_p);
-    return mx_film_rgb(0.5 * (mx_film_series(p12.x, p23, phase_p + turn, d) + mx_film_series(s12.x, s23, phase_s + MX_PI, d)));
+    return mx_film_rgb(0.5 * mx_film_series(p12.x, p23, phase_p + turn, d)
+                     + 0.5 * mx_film_series(s12.x, s23, phase_s + MX_PI, d));
 }
 
 // ---- all of them ----------------------------------------------------------------------------------------------------

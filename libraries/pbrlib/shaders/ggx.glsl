@@ -43,8 +43,8 @@ vec2 mx_ggx_albedo(vec2 roughness, vec3 N, vec3 V)
 vec3 mx_ggx_compensation(vec2 albedo, int model, vec3 n, vec3 k, vec3 f90, float film, float film_ior)
 {
     // 1/21: the hemispherical mean of Schlick's curve with exponent 5
-    vec3 average = mix(mx_fresnel_facing(model, n, k, film, film_ior), f90, 1.0 / 21.0);
-    return 1.0 + average * (1.0 / (albedo.x + albedo.y) - 1.0);
+    return 1.0 + mix(mx_fresnel_facing(model, n, k, film, film_ior), f90, 1.0 / 21.0)
+               * (1.0 / (albedo.x + albedo.y) - 1.0);
 }
 
 // Part of the light that the lobe reflects towards V; a film changes the compensation only.
@@ -57,22 +57,19 @@ vec3 mx_ggx_reflectance(vec2 roughness, vec3 N, vec3 V, int model, vec3 n, vec3 
 
 // ---- lights ---------------------------------------------------------------------------------------------------------
 
-// The lobe towards L without its reflectance: x the value, y the cosine at which facets reflect.
-vec2 mx_ggx_lobe(vec2 roughness, vec3 N, vec3 X, vec3 V, vec3 L)
+// The lobe around Z towards L without its reflectance: x the value, y the cosine at which facets reflect.
+vec2 mx_ggx_lobe(vec2 alpha, vec3 Z, vec3 X, vec3 V, vec3 L)
 {
-    mat3 frame = mx_frame(N, X, V);
-    vec2 alpha = clamp(roughness, MX_EPSILON, 1.0);
-    vec3 v = V * frame;
-    vec3 l = L * frame;
-    vec3 h = normalize(v + l);
-    return vec2(mx_ggx_distribution(h, alpha) * mx_ggx_visibility(max(v.z, MX_EPSILON), max(l.z, MX_EPSILON), alpha),
-                clamp(dot(v, h), MX_EPSILON, 1.0));
+    vec3 H = normalize(V + L);
+    return vec2(mx_ggx_distribution(H * mx_frame(Z, X), alpha)
+                    * mx_ggx_visibility(max(dot(Z, V), MX_EPSILON), max(dot(Z, L), MX_EPSILON), alpha),
+                clamp(dot(V, H), MX_EPSILON, 1.0));
 }
 
 vec3 mx_ggx_eval(vec2 roughness, vec3 N, vec3 X, vec3 V, vec3 L, int model, vec3 n, vec3 k, vec3 f90, float exponent,
                  float film, float film_ior)
 {
-    vec2 lobe = mx_ggx_lobe(roughness, N, X, V, L);
+    vec2 lobe = mx_ggx_lobe(clamp(roughness, MX_EPSILON, 1.0), mx_facing(N, V), X, V, L);
     return lobe.x * mx_fresnel(lobe.y, model, n, k, f90, exponent, film, film_ior)
          * mx_ggx_compensation(mx_ggx_albedo(roughness, N, V), model, n, k, f90, film, film_ior);
 }
@@ -83,68 +80,53 @@ vec3 mx_ggx_eval(vec2 roughness, vec3 N, vec3 X, vec3 V, vec3 L, int model, vec3
 // Direction of the ray -v after it has entered the sphere at normal h and left it again.
 vec3 mx_refract_sphere(vec3 v, vec3 h, float ior)
 {
-    vec3 r = refract(-v, h, 1.0 / ior);
-    return refract(r, normalize(r * dot(r, h) - 0.5 * h), ior);
+    vec3 inside = refract(-v, h, 1.0 / ior);
+    return refract(inside, normalize(inside * dot(inside, h) - 0.5 * h), ior);
 }
 
-vec3 mx_ggx_prefiltered(vec2 alpha, vec3 N, vec3 V, float refract_ior, int model, vec3 n, vec3 k, vec3 f90,
+// A map whose mip levels are filtered for rising roughness.
+vec3 mx_ggx_prefiltered(vec2 roughness, vec3 N, vec3 V, float refract_ior, int model, vec3 n, vec3 k, vec3 f90,
                         float exponent, float film, float film_ior)
 {
-    float a = sqrt(alpha.x * alpha.y);
-    float lod = (a < 0.25 ? sqrt(a) : 0.5 * a + 0.375) * float(u_envRadianceMips - 1);
     vec3 h = mx_facing(N, V);
-    vec2 albedo = mx_ggx_albedo(alpha, N, V);
+    vec2 albedo = mx_ggx_albedo(roughness, N, V);
     vec3 f = mx_fresnel_facing(model, n, k, film, film_ior) * albedo.x + f90 * albedo.y;
+    float a = sqrt(roughness.x * roughness.y);
     if (film > 0.0) // keep the change of colour with the angle where the lobe is sharp
         f = mix(mx_fresnel(max(dot(h, V), MX_EPSILON), model, n, k, f90, exponent, film, film_ior), f, sqrt(a));
+    float lod = (a < 0.25 ? sqrt(a) : 0.5 * a + 0.375) * float(u_envRadianceMips - 1);
     if (refract_ior > 0.0)
-        return (1.0 - f) * mx_environment_lookup(u_envRadiance, mx_refract_sphere(V, h, refract_ior), lod);
-    return f * mx_environment_lookup(u_envRadiance, reflect(-V, h), lod);
+        return (1.0 - f) * mx_environment_radiance(mx_refract_sphere(V, h, refract_ior), lod);
+    return f * mx_environment_radiance(reflect(-V, h), lod);
 }
 
-// Normal number i of those visible from v (Dupuy and Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps"),
-// at spherical Fibonacci points (Marques et al. 2013).
-vec3 mx_ggx_sample(int i, vec3 v, vec2 alpha)
+// Normal number i of those visible from v, which is stretched by the roughness (Dupuy and Benyoub 2023, "Sampling
+// Visible GGX Normals with Spherical Caps"), at spherical Fibonacci points (Marques et al. 2013).
+vec3 mx_ggx_normal(int i, vec3 v, vec2 alpha)
 {
-    vec3 w = normalize(vec3(v.xy * alpha, v.z));
     float phi = 2.0 * MX_PI * (float(i) + 0.5) / float(u_envRadianceSamples);
-    float z = 1.0 - fract((float(i) + 1.0) * 1.61803399) * (1.0 + w.z);
-    vec3 h = w + vec3(sqrt(max(1.0 - z * z, 0.0)) * vec2(cos(phi), sin(phi)), z);
-    return normalize(vec3(h.xy * alpha, max(h.z, 0.0)));
+    float top = (1.0 - fract((float(i) + 1.0) * 1.61803399)) * (1.0 + v.z);
+    float z = top - v.z;
+    vec2 around = sqrt(max(1.0 - z * z, 0.0)) * cos(phi - vec2(0.0, 0.5 * MX_PI));
+    return normalize(vec3((v.xy + around) * alpha, top));
 }
 
-// Light from the direction L of sample h, filtered over its solid angle (Krivanek and Colbert 2008; the mip level is
-// equation 13 of GPU Gems 3, section 20.4). The probability of a reflection is distribution / (2 masking).
-vec3 mx_ggx_sample_light(vec3 L, vec3 h, vec2 alpha, float masking)
+// Sample number i: its light, and in the fourth component the cosine at its facet. The light is filtered over the
+// solid angle of the sample (Krivanek and Colbert 2008; the mip level is equation 13 of GPU Gems 3, section 20.4).
+vec4 mx_ggx_sample(int i, mat3 frame, vec3 v, vec2 alpha, float refract_ior)
 {
-    float solid = float(u_envRadianceSamples) * mx_ggx_distribution(h, alpha) / (2.0 * masking) * sqrt(1.0 - L.y * L.y);
-    return mx_environment_lookup(u_envRadiance, L, max(float(u_envRadianceMips) - 2.5 - 0.5 * log2(solid), 0.0));
-}
-
-vec3 mx_ggx_sampled(vec2 alpha, vec3 N, vec3 X, vec3 V, float refract_ior, int model, vec3 n, vec3 k, vec3 f90,
-                    float exponent, float film, float film_ior)
-{
-    mat3 frame = mx_frame(N, X, V);
-    vec3 v = V * frame;
+    vec3 h = mx_ggx_normal(i, normalize(vec3(v.xy * alpha, v.z)), alpha);
+    vec3 l = refract_ior > 0.0 ? mx_refract_sphere(v, h, refract_ior) : reflect(-v, h);
+    vec3 L = frame * l;
     float cos_v = max(v.z, MX_EPSILON);
-    float masking = cos_v + mx_ggx_masking(cos_v, alpha);
-    vec3 sum = vec3(0.0);
-    for (int i = 0; i < u_envRadianceSamples; ++i)
-    {
-        vec3 h = mx_ggx_sample(i, v, alpha);
-        vec3 f = mx_fresnel(clamp(dot(v, h), MX_EPSILON, 1.0), model, n, k, f90, exponent, film, film_ior);
-        vec3 l = reflect(-v, h);
-        if (refract_ior > 0.0)
-        {
-            l = mx_refract_sphere(v, h, refract_ior);
-            f = 1.0 - f;
-        }
-        else
-            f *= 4.0 * cos_v * mx_ggx_visibility(cos_v, max(l.z, MX_EPSILON), alpha);
-        sum += f * mx_ggx_sample_light(frame * l, h, alpha, masking);
-    }
-    // Dividing by Smith's G1 completes the weight G2 / G1 of a visible normal.
-    return sum * (masking / max(2.0 * cos_v * float(u_envRadianceSamples), MX_EPSILON));
+    float masking = 2.0 * (cos_v + mx_ggx_masking(cos_v, alpha));
+    float count = float(u_envRadianceSamples);
+    float solid = length(L.xz) * count * mx_ggx_distribution(h, alpha) / masking;
+    // A visible normal weighs G2 / G1 where it reflects, and 1 / G1 where it refracts.
+    float weight = refract_ior > 0.0 ? 0.25 / cos_v : mx_ggx_visibility(cos_v, max(l.z, MX_EPSILON), alpha);
+    return vec4(weight * masking / count
+                    * mx_environment_radiance(L, max(float(u_envRadianceMips) - 2.5 - 0.5 * log2(solid), 0.0)),
+                clamp(dot(v, h), MX_EPSILON, 1.0));
 }
 
 vec3 mx_ggx_environment(vec2 roughness, vec3 N, vec3 X, vec3 V, float refract_ior, int model, vec3 n, vec3 k, vec3 f90,
@@ -154,11 +136,19 @@ vec3 mx_ggx_environment(vec2 roughness, vec3 N, vec3 X, vec3 V, float refract_io
         return vec3(0.0);
 
     vec2 alpha = clamp(roughness, MX_EPSILON, 1.0);
-    vec3 light;
+    vec3 light = vec3(0.0);
     if (option_environment == 1)
         light = mx_ggx_prefiltered(alpha, N, V, refract_ior, model, n, k, f90, exponent, film, film_ior);
     else
-        light = mx_ggx_sampled(alpha, N, X, V, refract_ior, model, n, k, f90, exponent, film, film_ior);
+    {
+        mat3 frame = mx_frame(mx_facing(N, V), X);
+        for (int i = 0; i < u_envRadianceSamples; ++i)
+        {
+            vec4 s = mx_ggx_sample(i, frame, V * frame, alpha, refract_ior);
+            vec3 f = mx_fresnel(s.w, model, n, k, f90, exponent, film, film_ior);
+            light += s.xyz * (refract_ior > 0.0 ? 1.0 - f : f);
+        }
+    }
     if (refract_ior > 0.0)
         return light;
     return light * mx_ggx_compensation(mx_ggx_albedo(roughness, N, V), model, n, k, f90, film, film_ior);

@@ -82,7 +82,7 @@ vec3 mx_chiang_hair_bsdf_eval(vec3 tint_R, vec3 tint_TT, vec3 tint_TRT, float io
                               vec2 roughness_TT, vec2 roughness_TRT, float cuticle_angle, vec3 absorption, vec3 N,
                               vec3 curve_direction, vec3 V, vec3 L)
 {
-    mat3 frame = mx_frame(N, curve_direction, V);
+    mat3 frame = mx_frame(mx_facing(N, V), curve_direction);
     vec3 v = V * frame;
     vec3 l = L * frame;
     vec2 o = vec2(v.x, mx_hair_cosine(v.x));

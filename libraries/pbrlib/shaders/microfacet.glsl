@@ -47,7 +47,8 @@ vec3 mx_dielectric_bsdf_throughput(vec3 tint, float ior, vec2 roughness, bool re
 {
     if (scatter_mode == "T")
         return vec3(1.0);
-    return 1.0 - mx_ggx_reflectance(roughness, N, V, MX_FRESNEL_DIELECTRIC, vec3(ior), vec3(0.0), vec3(1.0), film, film_ior);
+    return 1.0 - mx_ggx_reflectance(roughness, N, V, MX_FRESNEL_DIELECTRIC, vec3(ior), vec3(0.0), vec3(1.0),
+                                    film, film_ior);
 }
 
 // ---- conductor_bsdf -------------------------------------------------------------------------------------------------

@@ -28,7 +28,7 @@ float mx_sheen_zeltner(vec3 N, vec3 V, vec3 L, float c, float r)
     float a = (2.58126 * c + 0.813703 * r) * r / (1.0 + 0.310327 * c * c + 2.60994 * c * r);
     float b = sqrt(1.0 - c) * (r - 1.0) * r * r * r
             / (0.0000254053 + 1.71228 * c - 1.71506 * c * r + 1.34174 * r * r);
-    vec3 l = L * mx_frame(N, V + 1e-5 * N.yzx, V);
+    vec3 l = L * mx_frame(N, V + 1e-5 * N.yzx);
     vec3 w = vec3(a * l.x + b * l.z, a * l.y, l.z);
     float scale = a / dot(w, w);
     return max(w.z, 0.0) / MX_PI * scale * scale;

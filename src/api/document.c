@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+/* Documents: a layer on the library's, and what in it can be rendered. */
+#include "api/api.h"
+
+struct load {
+    mxg_document *document;
+    struct library *base;
+    const char *name, *data; /* data NULL: the file `name` */
+    size_t size;
+    struct file_source files;
+};
+
+static void read_layer(void *arg)
+{
+    struct load *load = arg;
+    mxg_document *document = load->document;
+    struct library *layer = &document->layer;
+    struct diag_list *diags = &document->object.diagnostics.list;
+    const struct xml_limits *limits = &document->object.context->xml_limits;
+    struct xml_files files = file_source_for_xml(&load->files);
+    struct lang_reader reader = file_source_for_lang(&load->files);
+    library_init(layer, &document->object.arena, load->base);
+    if (load->data) {
+        vec_push(&document->object.arena, &load->files.names,
+                 arena_strndup(&document->object.arena, load->name, strlen(load->name)));
+        xml_read_memory(&layer->doc, &files, limits, load->name, load->data, load->size, diags);
+    } else {
+        xml_read_file(&layer->doc, &files, limits, load->name, diags);
+    }
+    library_index(layer, &reader, diags);
+    document_find_renderables(document, &load->files.scratch);
+    document->files.items = load->files.names.items;
+    document->files.len = load->files.names.len;
+}
+
+static mxg_status load_document(mxg_context *context, mxg_library *library, struct load *load, mxg_document **out_document)
+{
+    if (out_document)
+        *out_document = NULL;
+    if (!context || !library || !load->name || !out_document || object_status(&library->object) != MXG_OK)
+        return MXG_ERROR_ARGUMENT;
+    load->document = object_new(context, sizeof *load->document, &library->object);
+    if (!load->document)
+        return MXG_ERROR_MEMORY;
+    load->base = &library->layer;
+    struct object *object = &load->document->object;
+    file_source_init(&load->files, object);
+    mxg_status status = object_run(object, read_layer, load);
+    file_source_finish(&load->files);
+    if (status != MXG_OK) {
+        object_unref(object);
+        return status;
+    }
+    *out_document = load->document;
+    return object_status(object);
+}
+
+mxg_status mxg_document_load(mxg_context *context, mxg_library *library, const char *path, mxg_document **out_document)
+{
+    return load_document(context, library, &(struct load){.name = path}, out_document);
+}
+
+mxg_status mxg_document_parse(mxg_context *context, mxg_library *library, const char *name, const char *data,
+                              size_t size, mxg_document **out_document)
+{
+    if (!data && size)
+        name = NULL; /* refused */
+    return load_document(context, library, &(struct load){.name = name, .data = data ? data : "", .size = size}, out_document);
+}
+
+void mxg_document_destroy(mxg_document *document)
+{
+    object_unref(document ? &document->object : NULL);
+}
+
+uint32_t mxg_document_num_files(const mxg_document *document)
+{
+    return document ? document->files.len : 0;
+}
+
+const char *mxg_document_file(const mxg_document *document, uint32_t index)
+{
+    return index < mxg_document_num_files(document) ? document->files.items[index] : NULL;
+}
+
+uint32_t mxg_document_num_renderables(const mxg_document *document)
+{
+    return document ? document->renderables.len : 0;
+}
+
+mxg_status mxg_document_renderable(const mxg_document *document, uint32_t index, mxg_renderable *out)
+{
+    if (index >= mxg_document_num_renderables(document))
+        return MXG_ERROR_ARGUMENT;
+    const struct document *doc = &document->layer.doc;
+    elem_id element = document->renderables.items[index];
+    mxg_renderable full = {
+        .path = document->renderable_paths[index],
+        .type = str_text(doc->strings, doc_attr_value(doc, element, STR_type)),
+        .category = str_text(doc->strings, doc_element(doc, element)->category),
+    };
+    return struct_write(out, &full, sizeof full);
+}

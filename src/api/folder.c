@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+/* Folders of a library. */
+#define _POSIX_C_SOURCE 200809L
+#include "api/api.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <stdlib.h>
+#include <sys/stat.h>
+
+bool folder_exists(const char *path)
+{
+    struct stat info;
+    return stat(path, &info) == 0 && S_ISDIR(info.st_mode);
+}
+
+static bool ends_with(const char *text, const char *end)
+{
+    size_t len = strlen(text), end_len = strlen(end);
+    return len >= end_len && strcmp(text + len - end_len, end) == 0;
+}
+
+static const char *join(struct arena *arena, const char *folder, const char *name)
+{
+    struct text path;
+    text_init(&path, arena);
+    text_str(&path, folder);
+    if (!ends_with(folder, "/"))
+        text_char(&path, '/');
+    text_str(&path, name);
+    return text_cstr(&path);
+}
+
+static int compare(const void *a, const void *b)
+{
+    return strcmp(*(const char *const *)a, *(const char *const *)b);
+}
+
+/* The names in a folder as paths: a jump out of memory must not cross the open folder, so they are counted first. */
+static const char *list_one(struct arena *arena, const char *folder, struct path_list *out)
+{
+    size_t size = 0;
+    char *names = NULL;
+    for (size_t capacity = 0;; capacity = size) {
+        DIR *dir = opendir(folder);
+        if (!dir)
+            return strerror(errno);
+        size = 0;
+        for (const struct dirent *entry; (entry = readdir(dir)) != NULL;) {
+            size_t len = strlen(entry->d_name) + 1;
+            if (size + len <= capacity)
+                memcpy(names + size, entry->d_name, len);
+            size += len;
+        }
+        closedir(dir);
+        if (size <= capacity)
+            break;
+        names = arena_alloc(arena, size);
+    }
+    for (size_t at = 0; at < size; at += strlen(names + at) + 1)
+        if (names[at] != '.') /* hidden files, and the folder and its parent */
+            vec_push(arena, out, join(arena, folder, names + at));
+    return NULL;
+}
+
+const char *folder_list(struct arena *arena, const char *path, const char *suffix, struct path_list *out)
+{
+    VEC(const char *) folders = {0};
+    vec_push(arena, &folders, path);
+    uint32_t first = out->len;
+    for (uint32_t i = 0; i < folders.len; i++) {
+        struct path_list found = {0};
+        const char *reason = list_one(arena, folders.items[i], &found);
+        if (reason)
+            return reason;
+        for (uint32_t j = 0; j < found.len; j++) {
+            if (folder_exists(found.items[j]))
+                vec_push(arena, &folders, found.items[j]);
+            else if (ends_with(found.items[j], suffix))
+                vec_push(arena, out, found.items[j]);
+        }
+    }
+    if (out->len > first)
+        qsort(out->items + first, out->len - first, sizeof *out->items, compare);
+    return NULL;
+}

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+/* From an element to the source of its shader. */
+#include "api/generation.h"
+
+static void drop_source(mxg_result *result)
+{
+    for (int stage = 0; stage < NUM_STAGES; stage++)
+        result->stages[stage] = (struct stage_source){0};
+}
+
+static void generate(struct generation *g)
+{
+    g->result->has_shader = generation_start(g) && generation_build(g) && generation_emit(g) && generation_spell(g);
+    if (!g->result->has_shader)
+        drop_source(g->result);
+}
+
+mxg_status mxg_generate(mxg_context *context, const mxg_document *document, const mxg_generate_desc *desc,
+                        mxg_result **out_result)
+{
+    if (out_result)
+        *out_result = NULL;
+    if (!desc || !desc->target)
+        return MXG_ERROR_ARGUMENT;
+    return generation_run(context, document, desc, generate, NULL, out_result);
+}
+
+void mxg_result_destroy(mxg_result *result)
+{
+    object_unref(result ? &result->object : NULL);
+}
+
+const mxg_diagnostics *mxg_result_diagnostics(const mxg_result *result)
+{
+    return result ? &result->object.diagnostics : NULL;
+}
+
+const char *mxg_result_source(const mxg_result *result, mxg_stage stage, size_t *out_size)
+{
+    bool known = result && (unsigned)stage < NUM_STAGES;
+    if (out_size)
+        *out_size = known ? result->stages[stage].size : 0;
+    return known ? result->stages[stage].text : NULL;
+}
+
+/* The origin that a line was marked with; 0: none. */
+static uint32_t origin_of_line(const struct stage_source *source, uint32_t line)
+{
+    uint32_t low = 0, high = source->num_lines;
+    while (low < high) {
+        uint32_t middle = low + (high - low) / 2;
+        if (source->lines[middle].line < line)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low < source->num_lines && source->lines[low].line == line ? source->lines[low].origin : 0;
+}
+
+/* The innermost element of the document itself that the origin belongs to; 0: none. */
+static elem_id document_element(const mxg_result *result, uint32_t origin)
+{
+    const struct ir_origin *origins = result->graph.origins.items;
+    while (origin && origins[origin].element < result->document->layer.doc.first_element)
+        origin = origins[origin].parent;
+    return origin ? origins[origin].element : 0;
+}
+
+bool mxg_result_source_place(const mxg_result *result, mxg_stage stage, uint32_t line, const char **out_file,
+                             uint32_t *out_line, uint32_t *out_column, const char **out_path)
+{
+    uint32_t origin = result && (unsigned)stage < NUM_STAGES ? origin_of_line(&result->stages[stage], line) : 0;
+    elem_id element = origin ? document_element(result, origin) : 0;
+    if (!element)
+        return false;
+    struct diag_place place = doc_place(&result->document->layer.doc, element);
+    if (out_file)
+        *out_file = place.file;
+    if (out_line)
+        *out_line = place.line;
+    if (out_column)
+        *out_column = place.column;
+    if (out_path)
+        *out_path = result->origin_paths[origin] ? result->origin_paths[origin] : "";
+    return true;
+}
+
+uint32_t mxg_num_targets(void)
+{
+    uint32_t count = 0;
+    while (targets[count])
+        count++;
+    return count;
+}
+
+mxg_status mxg_get_target(uint32_t index, mxg_target *out)
+{
+    if (index >= mxg_num_targets())
+        return MXG_ERROR_ARGUMENT;
+    const struct target *target = targets[index];
+    mxg_target full = {.name = target->name, .materialx_name = target->materialx_name, .brief = target->brief,
+                       .stage_suffix = {target->stage_suffix[STAGE_VERTEX], target->stage_suffix[STAGE_PIXEL]}};
+    return struct_write(out, &full, sizeof full);
+}

@@ -1,0 +1,378 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "api/generation.h"
+
+#include "base/num.h"
+
+static struct diag_list *diags_of(struct generation *g)
+{
+    return &g->result->object.diagnostics.list;
+}
+
+/* Options and targets stand in no file. */
+static const struct diag_place nowhere = {0};
+
+/* ---- Start: what is asked for ---- */
+
+static bool find_target(struct generation *g)
+{
+    g->result->target = target_find(g->desc.target);
+    if (g->result->target)
+        return true;
+    struct text known;
+    text_init(&known, &g->scratch);
+    for (const struct target *const *target = targets; *target; target++)
+        text_fmt(&known, "%s%s", target == targets ? "" : ", ", (*target)->name);
+    diag_add(diags_of(g), DIAG_ID_unknown_target, nowhere, g->desc.target, text_cstr(&known));
+    return false;
+}
+
+/* NULL for the target's usual version. */
+static const char *version_of(const struct generation *g)
+{
+    const char *version = g->options[OPTION_version].text;
+    return *version ? version : NULL;
+}
+
+static bool check_version(struct generation *g)
+{
+    const char *version = version_of(g);
+    const char *const *known = g->result->target->versions;
+    struct text list;
+    text_init(&list, &g->scratch);
+    for (; version && known && *known; known++) {
+        if (strcmp(*known, version) == 0)
+            return true;
+        text_fmt(&list, "%s%s", list.len ? ", " : "", *known);
+    }
+    if (version)
+        diag_add(diags_of(g), DIAG_ID_bad_option, nowhere, version, "version", list.len ? text_cstr(&list) : "no version");
+    return !version;
+}
+
+/* MaterialX names of the target and those it inherits, nearest first. */
+static const str_id *target_names(struct generation *g, unsigned *out_count)
+{
+    unsigned count = 0;
+    for (const struct target *target = g->result->target; target; target = target->base)
+        count++;
+    str_id *names = ARENA_ARRAY(&g->result->object.arena, str_id, count);
+    unsigned i = 0;
+    for (const struct target *target = g->result->target; target; target = target->base)
+        names[i++] = str_intern_z(&g->result->strings, target->materialx_name);
+    *out_count = count;
+    return names;
+}
+
+static str_id option_name(struct generation *g, enum option_id option)
+{
+    return str_intern_z(&g->result->strings, g->options[option].text);
+}
+
+static void set_build_options(struct generation *g)
+{
+    const struct option_value *o = g->options;
+    const mxg_context *context = g->result->object.context;
+    g->build_options = (struct build_options){
+        .interface = (enum build_interface)o[OPTION_interface].number,
+        .uniform_globs = o[OPTION_uniform].list.items,
+        .num_uniform_globs = o[OPTION_uniform].list.len,
+        .constant_globs = o[OPTION_constant].list.items,
+        .num_constant_globs = o[OPTION_constant].list.len,
+        .colorspace = option_name(g, OPTION_colorspace),
+        .distance_unit = option_name(g, OPTION_distance_unit),
+        .angle_unit = str_intern_z(&g->result->strings, "degree"),
+        .strings = g->result->target->caps & CAP_STRINGS,
+        .neutral_names = o[OPTION_names].number != 0,
+        .environment = o[OPTION_environment].number,
+        .cancel = context->cancel,
+        .cancel_user_data = context->cancel_user_data,
+    };
+    g->build_options.targets = target_names(g, &g->build_options.num_targets);
+}
+
+/* The result's own layers: the document is only read. */
+static void init_layers(struct generation *g)
+{
+    mxg_result *result = g->result;
+    struct arena *arena = &result->object.arena;
+    const struct library *layer = &g->document->layer;
+    strpool_init(&result->strings, arena, &layer->strings);
+    lang_unit_init(&result->unit, arena, &result->strings, &layer->unit);
+    ir_graph_init(&result->graph, arena, &result->strings);
+    result->graph.max_nodes = result->object.context->max_nodes;
+    shader_init(&result->shader, arena, &result->strings, &result->graph, &result->unit);
+}
+
+static void name_shader(struct generation *g)
+{
+    const struct document *doc = &g->document->layer.doc;
+    const struct element *element = doc_element(doc, g->element);
+    struct shader *shader = &g->result->shader;
+    struct text path;
+    text_init(&path, &g->scratch);
+    doc_path(doc, g->element, '/', &path);
+    shader->name = element->name;
+    shader->element_type = element->category;
+    shader->path = str_intern(shader->strings, path.data, path.len);
+    shader->syntax = g->result->target->syntax;
+    shader->max_lights = (uint32_t)g->options[OPTION_max_lights].number;
+}
+
+bool generation_start(struct generation *g)
+{
+    g->options = g->desc.options ? options_values(g->desc.options) : options_default(&g->result->object.arena);
+    bool good = find_target(g) && check_version(g);
+    g->element = document_find_element(g->document, g->desc.element, diags_of(g));
+    if (!good || !g->element)
+        return false;
+    init_layers(g);
+    name_shader(g);
+    set_build_options(g);
+    return true;
+}
+
+/* ---- Build ---- */
+
+static bool is_cancelled(struct generation *g)
+{
+    const mxg_context *context = g->result->object.context;
+    g->cancelled = g->cancelled || (g->builder && build_cancelled(g->builder))
+                   || (context->cancel && context->cancel(context->cancel_user_data));
+    return g->cancelled;
+}
+
+static void report_not_renderable(struct generation *g)
+{
+    const struct document *doc = &g->document->layer.doc;
+    const struct element *element = doc_element(doc, g->element);
+    diag_add(diags_of(g), DIAG_ID_not_renderable, doc_place(doc, g->element), str_text(doc->strings, element->name),
+             str_text(doc->strings, element->category));
+}
+
+/* Whether work may go on: not cancelled, within limits, nothing reported. */
+static bool is_good(struct generation *g)
+{
+    if (is_cancelled(g))
+        return false;
+    if (g->result->graph.overflow)
+        diag_add(diags_of(g), DIAG_ID_node_limit, doc_place(&g->document->layer.doc, g->element),
+                 (unsigned)g->result->graph.max_nodes);
+    return diags_of(g)->num_errors == 0;
+}
+
+bool generation_build(struct generation *g)
+{
+    g->builder = build_start(&g->document->layer, &g->build_options, &g->result->shader, diags_of(g));
+    g->root = build_element(g->builder, g->element);
+    if (!is_good(g))
+        return false;
+    if (!g->root)
+        report_not_renderable(g);
+    return g->root != 0;
+}
+
+/* ---- Lights ---- */
+
+/* The definition of a light shader by the name of its node. */
+static uint32_t find_light(const struct generation *g, const char *node, size_t len)
+{
+    const struct library *lib = &g->document->layer;
+    str_id name = str_find(&g->result->strings, node, len);
+    for (const struct library *layer = name ? lib : NULL; layer; layer = layer->base)
+        for (uint32_t i = 0; i < layer->nodedefs.len; i++) {
+            const struct nodedef *def = &layer->nodedefs.items[i];
+            if (def->node == name && def->num_outputs == 1
+                && layer->ports.items[def->first_port - layer->base_ports + def->num_inputs].type == DOC_TYPE_lightshader)
+                return layer->base_nodedefs + i;
+        }
+    return LIBRARY_NONE;
+}
+
+/* Its inputs become members of LightData. */
+static void add_light(struct generation *g, uint32_t nodedef, uint32_t function, int32_t type)
+{
+    struct shader *shader = &g->result->shader;
+    const struct library *lib = &g->document->layer;
+    const struct nodedef *def = library_nodedef(lib, nodedef);
+    const struct port *ports = library_ports(lib, nodedef, NULL);
+    struct shader_light light = {.type = type, .function = function, .first_member = shader->light_members.len,
+                                 .num_members = def->num_inputs};
+    for (uint32_t i = 0; i < def->num_inputs; i++) {
+        uint32_t member = shader_light_member(shader, ports[i].name, library_type_ir(lib, ports[i].type));
+        vec_push(shader->arena, &shader->light_members, member);
+    }
+    vec_push(shader->arena, &shader->lights, light);
+}
+
+/* "directional_light=1"; without a number, the next one. Lights of the default that the library lacks are not bound. */
+static void bind_light(struct generation *g, const char *item, int32_t next_type)
+{
+    size_t len = strcspn(item, "="), number_len = item[len] ? strlen(item + len + 1) : 0;
+    int64_t type = next_type;
+    if (item[len] && (number_len == 0 || num_parse_int(item + len + 1, number_len, &type) != number_len
+                      || type < INT32_MIN || type > INT32_MAX)) {
+        diag_add(diags_of(g), DIAG_ID_bad_option, nowhere, item, "lights", "'node=number'");
+        return;
+    }
+    uint32_t nodedef = find_light(g, item, len);
+    uint32_t function = nodedef != LIBRARY_NONE ? build_light_function(g->builder, nodedef) : LIBRARY_NONE;
+    if (function != LIBRARY_NONE)
+        add_light(g, nodedef, function, (int32_t)type);
+    else if (g->options[OPTION_lights].is_set)
+        diag_add(diags_of(g), DIAG_ID_unknown_light, nowhere, arena_strndup(&g->scratch, item, len), "");
+}
+
+static void bind_lights(struct generation *g)
+{
+    const struct option_value *lights = &g->options[OPTION_lights];
+    for (uint32_t i = 0; i < lights->list.len; i++)
+        if (strcmp(lights->list.items[i], "none") != 0)
+            bind_light(g, lights->list.items[i], (int32_t)i + 1);
+}
+
+/* ---- Emit ---- */
+
+static const uint32_t *leaf_functions(void *user_data, uint32_t callee)
+{
+    _Static_assert((int)LEAF_EVAL == FAMILY_EVAL && (int)LEAF_FACTOR == FAMILY_FACTOR && (int)NUM_LEAF_FUNCTIONS == FAMILY_FACTOR + 1,
+                   "leaf functions are the first members of a family");
+    return build_leaf_family(user_data, callee)->functions;
+}
+
+void generation_start_closures(struct generation *g)
+{
+    bind_lights(g);
+    g->closure_host = (struct closure_host){.user_data = g->builder, .leaf_functions = leaf_functions,
+                                            .lang = build_lang_host(g->builder)};
+    g->lighting = (struct closure_lighting){
+        .lights = g->result->shader.lights.len > 0 && g->result->shader.max_lights > 0,
+        .environment = g->options[OPTION_environment].number != 0,
+    };
+}
+
+static struct shader_layout_rules layout_rules(const struct generation *g)
+{
+    uint32_t caps = g->result->target->caps;
+    return (struct shader_layout_rules){
+        .blocks = (caps & CAP_UNIFORM_BLOCKS) || ((caps & CAP_BLOCK_OPTION) && g->options[OPTION_uniform_blocks].number),
+        .bindings = caps & CAP_BINDINGS,
+        .neutral_names = g->options[OPTION_names].number != 0,
+    };
+}
+
+bool generation_emit(struct generation *g)
+{
+    generation_start_closures(g);
+    if (!closure_emit(&g->result->shader, &g->closure_host, &g->lighting, g->root))
+        report_not_renderable(g);
+    if (!is_good(g))
+        return false;
+    struct shader_layout_rules rules = layout_rules(g);
+    shader_finish(&g->result->shader, &rules);
+    return is_good(g);
+}
+
+/* ---- Spell ---- */
+
+/* Nodes of the document by their path; those inside of definitions by the path of the node that uses these. NULL: of no element. */
+static const char *origin_path(void *user_data, uint32_t origin)
+{
+    mxg_result *result = user_data;
+    const struct document *doc = &result->document->layer.doc;
+    if (result->origin_paths[origin])
+        return result->origin_paths[origin];
+    const struct ir_origin *o = &result->graph.origins.items[origin];
+    const char *outer = o->parent ? origin_path(result, o->parent) : NULL;
+    if (!o->element)
+        return outer;
+    struct text path;
+    text_init(&path, &result->object.arena);
+    if (outer)
+        text_fmt(&path, "%s/%s", outer, str_text(doc->strings, doc_element(doc, o->element)->name));
+    else
+        doc_path(doc, o->element, '/', &path);
+    return result->origin_paths[origin] = text_cstr(&path);
+}
+
+static bool spell_one(struct generation *g, const struct spell_options *options, enum shader_stage_id stage)
+{
+    mxg_result *result = g->result;
+    struct text source;
+    struct spell_line *lines;
+    struct stage_source *out = &result->stages[stage];
+    text_init(&source, &result->object.arena);
+    spell_shader_stage(result->target, options, &result->shader, stage, &g->scratch, &source, &lines, &out->num_lines);
+    uint32_t limit = result->object.context->max_output_mib;
+    if (source.len >> 20 >= limit) {
+        diag_add(diags_of(g), DIAG_ID_output_limit, doc_place(&g->document->layer.doc, g->element), (unsigned)limit);
+        return false;
+    }
+    struct spell_line *kept = ARENA_ARRAY(&result->object.arena, struct spell_line, out->num_lines);
+    if (out->num_lines)
+        memcpy(kept, lines, out->num_lines * sizeof *kept);
+    out->lines = kept;
+    out->text = text_cstr(&source);
+    out->size = source.len;
+    return !is_cancelled(g);
+}
+
+bool generation_spell(struct generation *g)
+{
+    mxg_result *result = g->result;
+    struct spell_options options = {
+        .version = version_of(g),
+        .generator = GENERATOR_NAME,
+        .interface = g->options[OPTION_interface].text,
+        .uniform_blocks = g->options[OPTION_uniform_blocks].number,
+        .neutral_names = g->options[OPTION_names].number,
+        .comments = g->options[OPTION_comments].number,
+        .user_data = result,
+        .path = origin_path,
+    };
+    result->origin_paths = ARENA_ARRAY(&result->object.arena, const char *, result->graph.origins.len);
+    for (int stage = 0; stage < NUM_STAGES; stage++)
+        if (result->target->stage_suffix[stage] && !spell_one(g, &options, (enum shader_stage_id)stage))
+            return false;
+    return is_good(g);
+}
+
+/* ---- The whole ---- */
+
+struct run {
+    struct generation generation;
+    void (*steps)(struct generation *);
+};
+
+static void run_steps(void *arg)
+{
+    struct run *run = arg;
+    run->steps(&run->generation);
+}
+
+mxg_status generation_run(mxg_context *context, const mxg_document *document, const mxg_generate_desc *desc,
+                          void (*steps)(struct generation *), void *user_data, mxg_result **out_result)
+{
+    struct run run = {.steps = steps};
+    struct generation *g = &run.generation;
+    if (out_result)
+        *out_result = NULL;
+    if (!context || !document || !out_result || (desc && !struct_read(&g->desc, sizeof g->desc, desc)))
+        return MXG_ERROR_ARGUMENT;
+    struct object *below = (struct object *)(uintptr_t)&document->object; /* only its references are counted */
+    mxg_result *result = object_new(context, sizeof *result, below);
+    if (!result)
+        return MXG_ERROR_MEMORY;
+    result->document = document;
+    g->result = result;
+    g->document = document;
+    g->user_data = user_data;
+    arena_init(&g->scratch, &result->object.mem);
+    mxg_status status = object_run(&result->object, run_steps, &run);
+    arena_finish(&g->scratch);
+    if (status != MXG_OK) {
+        object_unref(&result->object);
+        return status;
+    }
+    *out_result = result;
+    return g->cancelled ? MXG_ERROR_CANCELLED : object_status(&result->object);
+}

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+/* A generation step by step, for generate.c, which takes all of them, and inspect.c, which stops on the way. */
+#ifndef MXG_API_GENERATION_H
+#define MXG_API_GENERATION_H
+
+#include "api/api.h"
+#include "closure/closure.h"
+
+#define GENERATOR_NAME "mxgen 0.1" /* in comments and reflection: without the patch number, which changes no output */
+
+struct stage_source {
+    const char *text; /* NULL: the target has no such stage */
+    size_t size;
+    const struct spell_line *lines;
+    uint32_t num_lines;
+};
+
+struct mxg_result {
+    struct object object; /* stands on the document */
+    const mxg_document *document;
+    const struct target *target;
+    struct strpool strings;  /* these stand on the document's */
+    struct lang_unit unit;
+    struct ir_graph graph;
+    struct shader shader;
+    struct stage_source stages[NUM_STAGES];
+    const char **origin_paths; /* of origins of graph, made when asked for during generation */
+    bool has_shader;         /* generation ended well */
+    const char *text;        /* of an inspection; NULL */
+    size_t text_size;
+};
+
+struct generation {
+    mxg_result *result;
+    const mxg_document *document;
+    mxg_generate_desc desc;
+    const struct option_value *options;
+    elem_id element;
+    struct builder *builder;
+    struct build_options build_options;
+    struct closure_host closure_host;
+    struct closure_lighting lighting;
+    ir_ref root;
+    struct arena scratch;
+    bool cancelled;
+    void *user_data;         /* of the caller's steps */
+};
+
+/*
+ * Makes a result by `steps`, which runs with the result's trap. `desc` may be NULL where nothing is generated; MXG_ERROR_ARGUMENT where
+ * it is needed or bad.
+ */
+mxg_status generation_run(mxg_context *context, const mxg_document *document, const mxg_generate_desc *desc,
+                          void (*steps)(struct generation *), void *user_data, mxg_result **out_result);
+
+/* The steps in order; each is false after a diagnostic. */
+bool generation_start(struct generation *g); /* target, element, options */
+bool generation_build(struct generation *g); /* g->root */
+void generation_start_closures(struct generation *g); /* what the closure room asks for; generation_emit does it itself */
+bool generation_emit(struct generation *g);  /* the stages' effects, and the finished shader */
+bool generation_spell(struct generation *g); /* source */
+
+/* graph_view.c: nodes and connections, of the whole document or of what an element needs. */
+void graph_view_text(struct generation *g, struct text *out);
+void graph_view_dot(struct generation *g, struct text *out);
+
+#endif

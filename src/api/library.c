@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: Apache-2.0
+/* Libraries: the one that is built in, and those of files, folders and images. */
+#include "api/api.h"
+
+mxg_library *mxg_library_ref(mxg_library *library)
+{
+    if (library)
+        object_ref(&library->object);
+    return library;
+}
+
+void mxg_library_unref(mxg_library *library)
+{
+    object_unref(library ? &library->object : NULL);
+}
+
+mxg_library *mxg_library_builtin(mxg_context *context)
+{
+    return context && context->builtin.image ? mxg_library_ref(&context->builtin) : NULL;
+}
+
+/* ---- Loading ---- */
+
+struct load {
+    mxg_library *library, *base;
+    const char *const *paths;
+    size_t num_paths;
+    struct file_source files;
+};
+
+static bool is_image(const char *path)
+{
+    size_t len = strlen(path);
+    return len > 6 && strcmp(path + len - 6, ".mxlib") == 0;
+}
+
+static void refuse_image(struct load *load, const char *path, const char *reason)
+{
+    diag_add(&load->library->object.diagnostics.list, DIAG_ID_image_bad, (struct diag_place){.file = path}, path, reason);
+}
+
+static void map_image(void *arg)
+{
+    struct load *load = arg;
+    mxg_library *library = load->library;
+    const char *data;
+    size_t size;
+    if (!file_source_read(&load->files, load->paths[0], &data, &size, &library->object.diagnostics.list))
+        return;
+    const char *fault = library_map_image(&library->layer, data, size, true);
+    if (fault) {
+        refuse_image(load, load->paths[0], fault);
+        return;
+    }
+    library->image = data;
+    library->image_size = size;
+}
+
+static void read_file(struct load *load, const char *path)
+{
+    struct xml_files files = file_source_for_xml(&load->files);
+    mxg_library *library = load->library;
+    xml_read_file(&library->layer.doc, &files, &library->object.context->xml_limits, path, &library->object.diagnostics.list);
+}
+
+static void read_path(struct load *load, const char *path)
+{
+    struct diag_list *diags = &load->library->object.diagnostics.list;
+    if (is_image(path)) {
+        refuse_image(load, path, "an image can only be what a library begins with");
+        return;
+    }
+    if (!folder_exists(path)) {
+        read_file(load, path);
+        return;
+    }
+    struct path_list found = {0};
+    const char *reason = folder_list(&load->files.scratch, path, ".mtlx", &found);
+    if (reason)
+        diag_add(diags, DIAG_ID_file_unreadable, (struct diag_place){.file = path}, path, reason);
+    for (uint32_t i = 0; i < found.len; i++)
+        read_file(load, found.items[i]);
+}
+
+/* Who loads a library wants to know of every fault at once; in a document they are told when the implementation is needed. */
+static void tell_deferred(mxg_library *library)
+{
+    const struct diag_list *deferred = library->layer.deferred;
+    for (uint32_t i = 0; i < deferred->items.len; i++)
+        diag_repeat(&library->object.diagnostics.list, &deferred->items.items[i]);
+}
+
+static void read_paths(void *arg)
+{
+    struct load *load = arg;
+    mxg_library *library = load->library;
+    struct lang_reader reader = file_source_for_lang(&load->files);
+    library_init(&library->layer, &library->object.arena, load->base ? &load->base->layer : NULL);
+    for (size_t i = 0; i < load->num_paths; i++)
+        read_path(load, load->paths[i]);
+    library_index(&library->layer, &reader, &library->object.diagnostics.list);
+    tell_deferred(library);
+    library_resolve_graphs(&library->layer, &library->object.diagnostics.list);
+}
+
+/* One layer: what `work` makes of the paths. */
+static mxg_status load_layer(mxg_context *context, mxg_library *base, const char *const *paths, size_t num_paths,
+                             void (*work)(void *), mxg_library **out)
+{
+    struct load load = {.library = object_new(context, sizeof *load.library, base ? &base->object : NULL),
+                        .base = base, .paths = paths, .num_paths = num_paths};
+    if (!load.library)
+        return MXG_ERROR_MEMORY;
+    struct object *object = &load.library->object;
+    file_source_init(&load.files, object);
+    mxg_status status = object_run(object, work, &load);
+    file_source_finish(&load.files);
+    if (status != MXG_OK) {
+        object_unref(object);
+        return status;
+    }
+    *out = load.library;
+    return object_status(object);
+}
+
+static bool are_valid(const char *const *paths, size_t num_paths)
+{
+    for (size_t i = 0; i < num_paths; i++)
+        if (!paths || !paths[i])
+            return false;
+    return true;
+}
+
+mxg_status mxg_library_load(mxg_context *context, mxg_library *base, const char *const *paths, size_t num_paths,
+                            mxg_library **out_library)
+{
+    if (out_library)
+        *out_library = NULL;
+    if (!context || !out_library || !are_valid(paths, num_paths) || (base && object_status(&base->object) != MXG_OK))
+        return MXG_ERROR_ARGUMENT;
+    if (base || num_paths == 0 || !is_image(paths[0]))
+        return load_layer(context, base, paths, num_paths, read_paths, out_library);
+    /* An image stands at the bottom; further paths are a layer on it. */
+    mxg_status status = load_layer(context, NULL, paths, 1, map_image, out_library);
+    if (status != MXG_OK || num_paths == 1)
+        return status;
+    mxg_library *image = *out_library;
+    *out_library = NULL;
+    status = load_layer(context, image, paths + 1, num_paths - 1, read_paths, out_library);
+    mxg_library_unref(image);
+    return status;
+}
+
+/* ---- As image and as text ---- */
+
+enum { TEXT_IMAGE, TEXT_EXPANDED };
+
+static void write_image(const struct object *object, struct text *out)
+{
+    library_write_image(&((const mxg_library *)object)->layer, out);
+}
+
+static void write_expanded(const struct object *object, struct text *out)
+{
+    const struct document *doc = &((const mxg_library *)object)->layer.doc;
+    doc_write(doc, doc->root, out);
+}
+
+mxg_status mxg_library_image(mxg_library *library, const void **out_data, size_t *out_size)
+{
+    if (!library || !out_data || !out_size || library->object.below)
+        return MXG_ERROR_ARGUMENT;
+    if (object_status(&library->object) != MXG_OK)
+        return MXG_ERROR_DOCUMENT;
+    *out_data = library->image;
+    *out_size = library->image_size;
+    if (library->image)
+        return MXG_OK;
+    const struct made_text *made = object_text(&library->object, TEXT_IMAGE, write_image);
+    if (!made)
+        return MXG_ERROR_MEMORY;
+    *out_data = made->data;
+    *out_size = made->size;
+    return MXG_OK;
+}
+
+mxg_status mxg_library_expand(mxg_library *library, const char **out_text, size_t *out_size)
+{
+    if (!library || !out_text || !out_size)
+        return MXG_ERROR_ARGUMENT;
+    const struct made_text *made = object_text(&library->object, TEXT_EXPANDED, write_expanded);
+    if (!made)
+        return MXG_ERROR_MEMORY;
+    *out_text = made->data;
+    *out_size = made->size;
+    return MXG_OK;
+}
+
+/* ---- Definitions ---- */
+
+static const char *text_of(const struct library *lib, str_id id)
+{
+    return str_text(&lib->strings, id);
+}
+
+static const char *attr_text(const struct library *lib, elem_id element, str_id name)
+{
+    return text_of(lib, doc_attr_value(&lib->doc, element, name));
+}
+
+uint32_t mxg_library_num_nodedefs(const mxg_library *library)
+{
+    return library ? library_num_nodedefs(&library->layer) : 0;
+}
+
+static bool has_implementation(const struct library *lib, uint32_t id)
+{
+    for (const struct library *layer = lib; id < layer->base_nodedefs; layer = layer->base)
+        for (uint32_t i = 0; i < layer->overrides.len; i++)
+            if (layer->impls.items[layer->overrides.items[i]].nodedef == id)
+                return true;
+    return library_nodedef(lib, id)->first_impl != LIBRARY_NONE;
+}
+
+mxg_status mxg_library_nodedef(const mxg_library *library, uint32_t index, mxg_nodedef *out)
+{
+    if (index >= mxg_library_num_nodedefs(library))
+        return MXG_ERROR_ARGUMENT;
+    const struct library *lib = &library->layer;
+    const struct nodedef *def = library_nodedef(lib, index);
+    const char *file = doc_place(&lib->doc, def->element).file;
+    mxg_nodedef full = {
+        .name = text_of(lib, def->name),
+        .node = text_of(lib, def->node),
+        .version = text_of(lib, def->version),
+        .group = attr_text(lib, def->element, STR_nodegroup),
+        .doc = attr_text(lib, def->element, STR_doc),
+        .file = file ? file : "",
+        .num_inputs = def->num_inputs,
+        .num_outputs = def->num_outputs,
+        .has_implementation = has_implementation(lib, index),
+    };
+    return struct_write(out, &full, sizeof full);
+}
+
+mxg_status mxg_library_port(const mxg_library *library, uint32_t nodedef, uint32_t index, mxg_port *out)
+{
+    if (nodedef >= mxg_library_num_nodedefs(library))
+        return MXG_ERROR_ARGUMENT;
+    const struct library *lib = &library->layer;
+    const struct nodedef *def = library_nodedef(lib, nodedef);
+    if (index >= (uint32_t)def->num_inputs + def->num_outputs)
+        return MXG_ERROR_ARGUMENT;
+    const struct port *port = library_ports(lib, nodedef, NULL) + index;
+    mxg_port full = {
+        .name = text_of(lib, port->name),
+        .type = text_of(lib, library_type_name(lib, port->type)),
+        .value = text_of(lib, port->value),
+        .defaultgeomprop = index < def->num_inputs ? text_of(lib, port->geomprop) : "",
+        .enum_names = attr_text(lib, port->element, STR_enum),
+        .unit = attr_text(lib, port->element, STR_unit),
+        .doc = attr_text(lib, port->element, STR_doc),
+        .uniform = port->flags & PORT_UNIFORM,
+    };
+    return struct_write(out, &full, sizeof full);
+}

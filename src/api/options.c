@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: Apache-2.0
+/* Options of generation: the table, and values by key. */
+#include "api/api.h"
+
+#include "base/num.h"
+
+struct mxg_options {
+    struct object object;
+    struct option_value values[NUM_OPTIONS];
+    const char *error;
+};
+
+static const mxg_option table[NUM_OPTIONS] = {
+#define OPTION(id, key, type, values, initial, doc) {sizeof(mxg_option), key, MXG_OPTION_##type, values, initial, doc},
+#include "api/options.def"
+#undef OPTION
+};
+
+uint32_t mxg_num_options(void)
+{
+    return NUM_OPTIONS;
+}
+
+mxg_status mxg_get_option(uint32_t index, mxg_option *out)
+{
+    return index < NUM_OPTIONS ? struct_write(out, &table[index], sizeof table[index]) : MXG_ERROR_ARGUMENT;
+}
+
+/* ---- Values from text ---- */
+
+static bool parse_bool(const char *text, struct option_value *out)
+{
+    out->number = strcmp(text, "true") == 0;
+    return out->number || strcmp(text, "false") == 0;
+}
+
+/* "0..1024" */
+static bool parse_int(const mxg_option *option, const char *text, struct option_value *out)
+{
+    int64_t low = 0, high = 0, value = 0;
+    size_t len = strlen(text), low_len = num_parse_int(option->values, strlen(option->values), &low);
+    const char *rest = option->values + low_len + 2;
+    num_parse_int(rest, strlen(rest), &high);
+    if (len == 0 || num_parse_int(text, len, &value) != len || value < low || value > high)
+        return false;
+    out->number = (int32_t)value;
+    return true;
+}
+
+static bool parse_enum(struct arena *arena, const mxg_option *option, const char *text, struct option_value *out)
+{
+    size_t len = strlen(text);
+    const char *word = option->values;
+    for (int32_t number = 0; *word; number++) {
+        size_t word_len = strcspn(word, "|");
+        if (word_len == len && memcmp(word, text, len) == 0) {
+            out->number = number;
+            out->text = arena_strndup(arena, text, len);
+            return true;
+        }
+        word += word_len + (word[word_len] == '|');
+    }
+    return false;
+}
+
+static void parse_list(struct arena *arena, const char *text, struct option_value *out)
+{
+    if (!out->is_set)
+        out->list.len = 0; /* the first setting takes the default's place */
+    while (*text) {
+        size_t len = strcspn(text, ",");
+        if (len)
+            vec_push(arena, &out->list, arena_strndup(arena, text, len));
+        text += len + (text[len] == ',');
+    }
+}
+
+static bool parse(struct arena *arena, const mxg_option *option, const char *text, struct option_value *out)
+{
+    switch (option->type) {
+    case MXG_OPTION_BOOL:
+        return parse_bool(text, out);
+    case MXG_OPTION_INT:
+        return parse_int(option, text, out);
+    case MXG_OPTION_ENUM:
+        return parse_enum(arena, option, text, out);
+    case MXG_OPTION_LIST:
+        parse_list(arena, text, out);
+        return true;
+    default:
+        out->text = arena_strndup(arena, text, strlen(text));
+        return true;
+    }
+}
+
+static void set_defaults(struct arena *arena, struct option_value *values)
+{
+    for (unsigned i = 0; i < NUM_OPTIONS; i++)
+        parse(arena, &table[i], table[i].initial, &values[i]);
+}
+
+const struct option_value *options_default(struct arena *arena)
+{
+    struct option_value *values = ARENA_ARRAY(arena, struct option_value, NUM_OPTIONS);
+    set_defaults(arena, values);
+    return values;
+}
+
+const struct option_value *options_values(const mxg_options *options)
+{
+    return options->values;
+}
+
+/* ---- The caller's options ---- */
+
+static void init_options(void *arg)
+{
+    mxg_options *options = arg;
+    set_defaults(&options->object.arena, options->values);
+}
+
+mxg_status mxg_options_create(mxg_context *context, mxg_options **out_options)
+{
+    if (out_options)
+        *out_options = NULL;
+    if (!context || !out_options)
+        return MXG_ERROR_ARGUMENT;
+    mxg_options *options = object_new(context, sizeof *options, NULL);
+    if (!options)
+        return MXG_ERROR_MEMORY;
+    mxg_status status = object_run(&options->object, init_options, options);
+    if (status == MXG_OK)
+        *out_options = options;
+    else
+        object_unref(&options->object);
+    return status;
+}
+
+void mxg_options_destroy(mxg_options *options)
+{
+    object_unref(options ? &options->object : NULL);
+}
+
+struct setting {
+    mxg_options *options;
+    const char *key, *value;
+    bool good;
+};
+
+static const char *expected(struct arena *arena, const mxg_option *option)
+{
+    struct text text;
+    text_init(&text, arena);
+    if (option->type == MXG_OPTION_BOOL)
+        return "true or false";
+    if (option->type == MXG_OPTION_INT)
+        text_str(&text, "an integer of ");
+    for (const char *c = option->values; *c; c++) {
+        if (*c == '|')
+            text_str(&text, ", ");
+        else
+            text_char(&text, *c);
+    }
+    return text_cstr(&text);
+}
+
+static const char *unknown_key(struct arena *arena, const char *key)
+{
+    const char *keys[NUM_OPTIONS];
+    for (unsigned i = 0; i < NUM_OPTIONS; i++)
+        keys[i] = table[i].key;
+    struct text text;
+    text_init(&text, arena);
+    text_fmt(&text, "unknown option '%s'%s", key, diag_suggest(arena, key, keys, NUM_OPTIONS));
+    return text_cstr(&text);
+}
+
+static void set(void *arg)
+{
+    struct setting *setting = arg;
+    mxg_options *options = setting->options;
+    struct arena *arena = &options->object.arena;
+    unsigned i = 0;
+    while (i < NUM_OPTIONS && strcmp(table[i].key, setting->key) != 0)
+        i++;
+    if (i == NUM_OPTIONS) {
+        options->error = unknown_key(arena, setting->key);
+        return;
+    }
+    struct option_value value = options->values[i];
+    setting->good = parse(arena, &table[i], setting->value, &value);
+    if (setting->good) {
+        value.is_set = true;
+        options->values[i] = value;
+        return;
+    }
+    struct text text;
+    text_init(&text, arena);
+    text_fmt(&text, "'%s' is not a value of option '%s'; expected %s", setting->value, setting->key, expected(arena, &table[i]));
+    options->error = text_cstr(&text);
+}
+
+mxg_status mxg_options_set(mxg_options *options, const char *key, const char *value)
+{
+    if (!options || !key || !value)
+        return MXG_ERROR_ARGUMENT;
+    struct setting setting = {options, key, value, false};
+    options->error = NULL;
+    mxg_status status = object_run(&options->object, set, &setting);
+    return status == MXG_OK && !setting.good ? MXG_ERROR_ARGUMENT : status;
+}
+
+const char *mxg_options_error(const mxg_options *options)
+{
+    return options ? options->error : NULL;
+}

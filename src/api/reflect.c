@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+/* What a host needs to know of a shader: variables, compiled inputs, facts; and the same as JSON. */
+#include "api/generation.h"
+
+static const char *text_of(const mxg_result *result, str_id id)
+{
+    return str_text(&result->strings, id);
+}
+
+/* ---- Variables ---- */
+
+uint32_t mxg_result_num_variables(const mxg_result *result)
+{
+    return result && result->has_shader ? result->shader.interface.len : 0;
+}
+
+static const struct shader_variable *variable_at(const mxg_result *result, uint32_t index)
+{
+    return &result->shader.variables.items[result->shader.interface.items[index]];
+}
+
+/* An attribute of the document's own element, else of the definition's. */
+static const char *ui_text(const mxg_result *result, const struct shader_variable *variable, str_id attr)
+{
+    const struct document *doc = &result->document->layer.doc;
+    str_id value = variable->element ? doc_attr_value(doc, variable->element, attr) : 0;
+    if (!value && variable->definition)
+        value = doc_attr_value(doc, variable->definition, attr);
+    return text_of(result, value);
+}
+
+static void set_user_interface(const mxg_result *result, const struct shader_variable *variable, mxg_variable *out)
+{
+    out->uiname = ui_text(result, variable, STR_uiname);
+    out->uifolder = ui_text(result, variable, STR_uifolder);
+    out->uimin = ui_text(result, variable, STR_uimin);
+    out->uimax = ui_text(result, variable, STR_uimax);
+    out->uisoftmin = ui_text(result, variable, STR_uisoftmin);
+    out->uisoftmax = ui_text(result, variable, STR_uisoftmax);
+    out->doc = ui_text(result, variable, STR_doc);
+}
+
+static void set_default(const struct shader_variable *variable, mxg_variable *out)
+{
+    if (!variable->has_default || variable->value.type >= IR_NUM_TYPES)
+        return;
+    const struct ir_type_info *info = ir_type_info(variable->value.type);
+    out->num_values = info->components;
+    for (uint32_t i = 0; i < out->num_values && i < 16; i++) {
+        union ir_word word = variable->value.w[i];
+        out->values[i] = info->scalar == IR_TYPE_FLOAT ? word.f : info->scalar == IR_TYPE_INT ? (float)word.i : (float)word.u;
+    }
+}
+
+mxg_status mxg_result_variable(const mxg_result *result, uint32_t index, mxg_variable *out)
+{
+    _Static_assert((int)MXG_BLOCK_OUTPUTS == BLOCK_OUTPUTS && (int)MXG_NUM_BLOCKS == NUM_BLOCKS, "blocks have the same numbers");
+    if (index >= mxg_result_num_variables(result))
+        return MXG_ERROR_ARGUMENT;
+    const struct shader_variable *v = variable_at(result, index);
+    mxg_variable full = {
+        .name = text_of(result, v->name),
+        .block = (mxg_block)v->block,
+        .stages = v->stages,
+        .type = lang_syntax_type(result->target->syntax, v->type),
+        .document_type = text_of(result, v->doc_type),
+        .path = text_of(result, v->path),
+        .semantic = text_of(result, v->semantic),
+        .colorspace = text_of(result, v->colorspace),
+        .unit = text_of(result, v->unit),
+        .array_length = v->array_length,
+        .set = v->set,
+        .binding = v->binding,
+        .location = v->location,
+        .offset = v->offset,
+        .byte_size = v->size,
+        .array_stride = v->array_stride,
+        .matrix_stride = v->matrix_stride,
+        .file = text_of(result, v->file),
+        .uaddressmode = text_of(result, v->uaddressmode),
+        .vaddressmode = text_of(result, v->vaddressmode),
+        .filtertype = text_of(result, v->filtertype),
+    };
+    set_default(v, &full);
+    set_user_interface(result, v, &full);
+    return struct_write(out, &full, sizeof full);
+}
+
+bool mxg_result_find_variable(const mxg_result *result, const char *path, uint32_t *out_index)
+{
+    uint32_t count = mxg_result_num_variables(result);
+    str_id id = count && path ? str_find(&result->strings, path, strlen(path)) : 0;
+    for (uint32_t i = 0; id && i < count; i++) {
+        if (variable_at(result, i)->path != id)
+            continue;
+        if (out_index)
+            *out_index = i;
+        return true;
+    }
+    return false;
+}
+
+/* ---- Compiled inputs ---- */
+
+uint32_t mxg_result_num_compiled_inputs(const mxg_result *result)
+{
+    return result && result->has_shader ? result->shader.compiled.len : 0;
+}
+
+mxg_status mxg_result_compiled_input(const mxg_result *result, uint32_t index, mxg_compiled_input *out)
+{
+    if (index >= mxg_result_num_compiled_inputs(result))
+        return MXG_ERROR_ARGUMENT;
+    const struct shader_compiled_input *input = &result->shader.compiled.items[index];
+    mxg_compiled_input full = {.path = text_of(result, input->path), .type = text_of(result, input->doc_type),
+                               .value = text_of(result, input->value)};
+    return struct_write(out, &full, sizeof full);
+}
+
+/* ---- The shader as a whole ---- */
+
+static uint32_t count_textures(const mxg_result *result)
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < result->shader.interface.len; i++)
+        count += variable_at(result, i)->block == BLOCK_TEXTURES;
+    return count;
+}
+
+mxg_status mxg_result_info(const mxg_result *result, mxg_shader_info *out)
+{
+    if (!result || !result->has_shader)
+        return MXG_ERROR_ARGUMENT;
+    const struct shader *shader = &result->shader;
+    mxg_shader_info full = {
+        .name = text_of(result, shader->name),
+        .path = text_of(result, shader->path),
+        .target = result->target->name,
+        .topology = shader->topology,
+        .num_closures = shader->num_closures,
+        .num_textures = count_textures(result),
+        .num_lights = shader->stages[STAGE_PIXEL].has_lights ? shader->max_lights : 0,
+        .transparent = shader->transparent,
+        .lit = shader->lit,
+    };
+    return struct_write(out, &full, sizeof full);
+}
+
+/* ---- JSON ---- */
+
+enum { TEXT_REFLECTION };
+
+static void fill_ui(void *user_data, const struct shader_variable *variable, struct shader_ui *out)
+{
+    const mxg_result *result = user_data;
+    *out = (struct shader_ui){
+        .name = ui_text(result, variable, STR_uiname),
+        .folder = ui_text(result, variable, STR_uifolder),
+        .min = ui_text(result, variable, STR_uimin),
+        .max = ui_text(result, variable, STR_uimax),
+        .soft_min = ui_text(result, variable, STR_uisoftmin),
+        .soft_max = ui_text(result, variable, STR_uisoftmax),
+        .step = ui_text(result, variable, STR_uistep),
+        .doc = ui_text(result, variable, STR_doc),
+        .enum_names = ui_text(result, variable, STR_enum),
+        .enum_values = ui_text(result, variable, STR_enumvalues),
+        .advanced = strcmp(ui_text(result, variable, STR_uiadvanced), "true") == 0,
+    };
+}
+
+static void write_json(const struct object *object, struct text *out)
+{
+    const mxg_result *result = (const mxg_result *)object;
+    struct shader_reflect_options options = {
+        .target = result->target->name,
+        .generator = GENERATOR_NAME,
+        .user_data = (void *)(uintptr_t)result,
+        .ui = fill_ui,
+    };
+    shader_reflect_json(&result->shader, &options, out);
+}
+
+const char *mxg_result_reflection_json(const mxg_result *result, size_t *out_size)
+{
+    const struct made_text *made = result && result->has_shader ? object_text(&result->object, TEXT_REFLECTION, write_json) : NULL;
+    if (out_size)
+        *out_size = made ? made->size : 0;
+    return made ? made->data : NULL;
+}

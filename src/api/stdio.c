@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+/* The resolver of contexts that were given none: files relative to the referring file, then to the working directory. */
+#include "api/api.h"
+
+#include <errno.h>
+#include <stdio.h>
+
+enum { FIRST_READ = 32 << 10 };
+
+/* A block from the context's allocator that knows its size. It holds one file: text, then its name. */
+struct block {
+    size_t size;
+    size_t len; /* bytes of text */
+    char bytes[];
+};
+
+/* NULL without memory; the old block stays then. */
+static struct block *resize(struct mxg_context *context, struct block *block, size_t capacity)
+{
+    size_t size = sizeof *block + capacity;
+    struct block *resized = context->mem.realloc(context->mem.user_data, block, block ? block->size : 0, size);
+    if (resized) {
+        resized->len = block ? resized->len : 0;
+        resized->size = size;
+    }
+    return resized;
+}
+
+static void release(struct mxg_context *context, struct block *block)
+{
+    if (block)
+        context->mem.realloc(context->mem.user_data, block, block->size, 0);
+}
+
+static bool is_absolute(const char *path)
+{
+    return path[0] == '/' || path[0] == '\\' || (path[0] && path[1] == ':');
+}
+
+/* `ref` beside the file `from`, with leading "./" and "../" of it applied. */
+static struct block *join(struct mxg_context *context, const char *from, const char *ref)
+{
+    const char *slash = strrchr(from, '/');
+    size_t folder = slash && !is_absolute(ref) ? (size_t)(slash - from) + 1 : 0;
+    struct block *name = resize(context, NULL, folder + strlen(ref) + 1);
+    if (!name)
+        return NULL;
+    memcpy(name->bytes, from, folder);
+    while (strncmp(ref, "./", 2) == 0)
+        ref += 2;
+    for (; folder > 1 && strncmp(ref, "../", 3) == 0; ref += 3) {
+        size_t parent = folder - 1;
+        while (parent > 0 && name->bytes[parent - 1] != '/')
+            parent--;
+        if (memcmp(name->bytes + parent, "../", 3) == 0)
+            break; /* already above where it began */
+        folder = parent;
+    }
+    memcpy(name->bytes + folder, ref, strlen(ref) + 1);
+    return name;
+}
+
+/* Stops behind the size limit: the reader of the file refuses it then. */
+static struct block *read_all(struct mxg_context *context, FILE *file, size_t room, const char **out_reason)
+{
+    size_t limit = ((size_t)context->xml_limits.max_file_mib + 1) << 20;
+    struct block *text = resize(context, NULL, FIRST_READ + room);
+    while (text) {
+        size_t free_bytes = text->size - sizeof *text - text->len - room;
+        text->len += fread(text->bytes + text->len, 1, free_bytes, file);
+        if (ferror(file)) {
+            *out_reason = strerror(errno);
+            release(context, text);
+            return NULL;
+        }
+        if (text->len > limit || text->len + room < text->size - sizeof *text)
+            return text;
+        struct block *more = resize(context, text, 2 * (text->size - sizeof *text));
+        if (!more)
+            release(context, text);
+        text = more;
+    }
+    *out_reason = "out of memory";
+    return NULL;
+}
+
+static bool open_at(struct mxg_context *context, struct block *name, mxg_blob *out_blob, const char **out_reason)
+{
+    FILE *file = fopen(name->bytes, "rb");
+    if (!file) {
+        *out_reason = strerror(errno);
+        return false;
+    }
+    size_t name_size = strlen(name->bytes) + 1;
+    struct block *text = read_all(context, file, name_size, out_reason);
+    fclose(file);
+    if (!text)
+        return false;
+    char *kept = memcpy(text->bytes + text->len, name->bytes, name_size);
+    *out_blob = (mxg_blob){.name = kept, .data = text->bytes, .size = text->len, .handle = text};
+    return true;
+}
+
+static bool open_file(void *user_data, const char *from, const char *ref, mxg_blob *out_blob, const char **out_reason)
+{
+    struct mxg_context *context = user_data;
+    const char *const places[] = {from, ""};
+    *out_reason = "out of memory";
+    for (int i = 0; i < 2; i++) {
+        struct block *name = join(context, places[i], ref);
+        const char *reason = *out_reason;
+        bool opened = name && open_at(context, name, out_blob, &reason);
+        release(context, name);
+        if (opened)
+            return true;
+        if (i == 0)
+            *out_reason = reason; /* what is wrong beside the referring file is what matters */
+        if (!strchr(from, '/') || is_absolute(ref))
+            break; /* that was the working directory */
+    }
+    return false;
+}
+
+static void release_file(void *user_data, mxg_blob *blob)
+{
+    release(user_data, blob->handle);
+}
+
+mxg_resolver stdio_resolver(struct mxg_context *context)
+{
+    return (mxg_resolver){.user_data = context, .open = open_file, .release = release_file};
+}

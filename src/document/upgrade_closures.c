@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: Apache-2.0
+/* Nodes of the physically based library: what 1.38 and 1.39 changed in how closures are layered. */
+#include "document/upgrade.h"
+
+/* Before 1.38 a BSDF had its base as an input; now <layer> puts one on the other. It gets the name that others refer to. */
+static void split_layer(struct upgrade *u, elem_id top)
+{
+    struct document *doc = u->doc;
+    elem_id base = upgrade_child(u, top, "base");
+    if (!base)
+        return;
+    if (!upgrade_is_connected(u, base)) {
+        doc_remove_element(doc, base);
+        return;
+    }
+    str_id name = doc_element(doc, top)->name;
+    struct text top_name;
+    text_init(&top_name, doc->arena);
+    text_str(&top_name, str_text(doc->strings, name));
+    text_str(&top_name, "_top");
+    elem_id layer = upgrade_add_node(u, top, text_cstr(&top_name), "layer", STR_BSDF);
+    str_id free = doc_element(doc, layer)->name;
+    upgrade_set_name(u, top, free);
+    upgrade_set_name(u, layer, name);
+    doc_move_before(doc, top, layer);
+    elem_id input = upgrade_add_input(u, layer, "top", STR_BSDF, STR_EMPTY);
+    upgrade_connect(u, input, top, NULL);
+    upgrade_move(u, base, layer);
+    upgrade_note(u, top, "the input 'base' of <%s> is now a <layer>", str_text(doc->strings, doc_element(doc, top)->category));
+}
+
+static void set_transmission(struct upgrade *u, elem_id node)
+{
+    upgrade_remove_input(u, node, "interior");
+    if (!upgrade_child(u, node, "scatter_mode"))
+        upgrade_add_input(u, node, "scatter_mode", STR_string, upgrade_word(u, "T"));
+}
+
+/* Conductors have physical parameters now; <artistic_ior> converts the artistic ones. */
+static void add_artistic_ior(struct upgrade *u, elem_id conductor)
+{
+    static const char *const artistic[] = {"reflectivity", "edge_color"}, *const physical[] = {"ior", "extinction"};
+    struct document *doc = u->doc;
+    if (!upgrade_child(u, conductor, artistic[0]) && !upgrade_child(u, conductor, artistic[1]))
+        return;
+    elem_id converter = upgrade_add_node(u, conductor, "artistic_ior", "artistic_ior", STR_multioutput);
+    for (int i = 0; i < 2; i++) {
+        upgrade_copy_input(u, upgrade_child(u, conductor, artistic[i]), converter, artistic[i], NULL);
+        upgrade_remove_input(u, conductor, artistic[i]);
+    }
+    for (int i = 0; i < 2; i++) {
+        elem_id output = doc_add_like(doc, converter, STR_output, upgrade_word(u, physical[i]), converter);
+        doc_add_attr(doc, output, (struct attribute){.name = STR_type, .value = STR_color3});
+        doc_index_element(doc, output);
+        upgrade_connect(u, upgrade_add_input(u, conductor, physical[i], STR_color3, STR_EMPTY), converter, physical[i]);
+    }
+    upgrade_note(u, conductor, "'reflectivity' and 'edge_color' are now inputs of <artistic_ior>");
+}
+
+static const struct {
+    const char *old, *new;
+    void (*change)(struct upgrade *u, elem_id node);
+} closures_138[] = {
+    {"dielectric_brdf", "dielectric_bsdf", split_layer},
+    {"dielectric_btdf", "dielectric_bsdf", set_transmission},
+    {"generalized_schlick_brdf", "generalized_schlick_bsdf", split_layer},
+    {"sheen_brdf", "sheen_bsdf", split_layer},
+    {"thin_film_brdf", "thin_film_bsdf", split_layer},
+    {"conductor_brdf", "conductor_bsdf", add_artistic_ior},
+};
+
+static void upgrade_closure(struct upgrade *u, elem_id node)
+{
+    for (size_t i = 0; i < sizeof closures_138 / sizeof *closures_138; i++) {
+        if (!upgrade_is_category(u, node, closures_138[i].old))
+            continue;
+        upgrade_set_category(u, node, closures_138[i].new);
+        upgrade_note(u, node, "<%s> is now <%s>", closures_138[i].old, closures_138[i].new);
+        closures_138[i].change(u, node);
+        return;
+    }
+}
+
+/* The outputs of <artistic_ior> are colours; they were vectors. */
+static void convert_artistic_ior(struct upgrade *u, elem_id input)
+{
+    struct document *doc = u->doc;
+    elem_id source = upgrade_upstream(u, input), node = doc_element(doc, input)->parent;
+    if (!source || doc_element(doc, input)->kind != KIND_INPUT || doc_attr_value(doc, input, STR_type) != STR_vector3
+        || !upgrade_is_category(u, source, "artistic_ior"))
+        return;
+    elem_id convert = upgrade_add_node(u, node, "convert", "convert", STR_vector3);
+    upgrade_copy_input(u, input, convert, "in", "color3");
+    upgrade_connect(u, input, convert, NULL);
+    upgrade_note(u, input, "the outputs of <artistic_ior> are now color3");
+}
+
+static void set_artistic_output_types(struct upgrade *u, elem_id node)
+{
+    for (elem_id e = doc_element(u->doc, node)->first_child; e; e = doc_element(u->doc, e)->next)
+        if (doc_element(u->doc, e)->kind == KIND_OUTPUT)
+            doc_set_attr(u->doc, e, STR_type, STR_color3);
+}
+
+void upgrade_closures(struct upgrade *u)
+{
+    for (elem_id e = upgrade_first(u); e; e = upgrade_next(u, e)) {
+        if (!upgrade_is_node(u, e))
+            continue;
+        if (upgrade_is_category(u, e, "artistic_ior"))
+            set_artistic_output_types(u, e);
+        upgrade_closure(u, e);
+    }
+    for (elem_id e = upgrade_first(u); e; e = upgrade_next(u, e))
+        convert_artistic_ior(u, e);
+}
+
+/*
+ * 1.39: a thin film is two inputs of the BSDF that it lies on, no longer a layer over it: layers with a film on top go, and the
+ * BSDFs below them get the film's inputs.
+ */
+struct films {
+    struct upgrade *u;
+    elem_id *bypass;  /* by element: what stands for a layer that is gone */
+    bool *visited;    /* a BSDF has one film: the outermost */
+    bool *needed;     /* films that something else refers to */
+    VEC(elem_id) stack;
+};
+
+static size_t own_index(const struct films *f, elem_id element)
+{
+    return element - f->u->doc->first_element;
+}
+
+static bool takes_film(const struct upgrade *u, elem_id node)
+{
+    elem_id mode = upgrade_child(u, node, "scatter_mode");
+    bool can = upgrade_is_category(u, node, "dielectric_bsdf") || upgrade_is_category(u, node, "conductor_bsdf")
+               || upgrade_is_category(u, node, "generalized_schlick_bsdf");
+    return can && !(mode && upgrade_is(u, doc_attr_value(u->doc, mode, STR_value), "T"));
+}
+
+static void push_upstream(struct films *f, elem_id node)
+{
+    struct document *doc = f->u->doc;
+    for (elem_id e = doc_element(doc, node)->first_child; e; e = doc_element(doc, e)->next) {
+        elem_id upstream = upgrade_upstream(f->u, e);
+        if (upstream && !f->visited[own_index(f, upstream)])
+            vec_push(doc->arena, &f->stack, upstream);
+    }
+}
+
+static void apply_film(struct films *f, elem_id film, elem_id base)
+{
+    struct upgrade *u = f->u;
+    f->stack.len = 0;
+    vec_push(u->doc->arena, &f->stack, base);
+    while (f->stack.len) {
+        elem_id node = vec_pop(&f->stack);
+        if (f->visited[own_index(f, node)])
+            continue;
+        f->visited[own_index(f, node)] = true;
+        push_upstream(f, node);
+        if (!takes_film(u, node))
+            continue;
+        upgrade_copy_input(u, upgrade_child(u, film, "thickness"), node, "thinfilm_thickness", NULL);
+        upgrade_copy_input(u, upgrade_child(u, film, "ior"), node, "thinfilm_ior", NULL);
+        upgrade_note(u, node, "<thin_film_bsdf> is now the inputs 'thinfilm_thickness' and 'thinfilm_ior'");
+    }
+}
+
+static elem_id connected(const struct upgrade *u, elem_id node, const char *input)
+{
+    elem_id port = upgrade_child(u, node, input);
+    return port ? upgrade_upstream(u, port) : 0;
+}
+
+/* What a layer's base is after all layers that are gone. */
+static elem_id bypassed(const struct films *f, elem_id node)
+{
+    for (size_t hops = 0; f->bypass[own_index(f, node)] && hops < f->u->doc->elements.len; hops++)
+        node = f->bypass[own_index(f, node)];
+    return node;
+}
+
+static void redirect(struct films *f, elem_id port)
+{
+    struct upgrade *u = f->u;
+    elem_id upstream = upgrade_upstream(u, port), node = doc_element(u->doc, port)->parent;
+    if (!upstream)
+        return;
+    if (f->bypass[own_index(f, upstream)])
+        doc_set_attr(u->doc, port, STR_nodename, doc_element(u->doc, bypassed(f, upstream))->name);
+    if (!f->bypass[own_index(f, node)])
+        f->needed[own_index(f, upstream)] = true;
+}
+
+void upgrade_thin_films(struct upgrade *u)
+{
+    struct document *doc = u->doc;
+    if (!str_find(doc->strings, "thin_film_bsdf", 14))
+        return;
+    uint32_t capacity = doc->elements.len * 3; /* each BSDF gets two inputs at most */
+    struct films f = {.u = u,
+                      .bypass = ARENA_ARRAY(doc->arena, elem_id, capacity),
+                      .visited = ARENA_ARRAY(doc->arena, bool, capacity),
+                      .needed = ARENA_ARRAY(doc->arena, bool, capacity)};
+    for (elem_id e = upgrade_first(u); e; e = upgrade_next(u, e)) {
+        if (!upgrade_is_node(u, e) || !upgrade_is_category(u, e, "layer"))
+            continue;
+        elem_id top = connected(u, e, "top"), base = connected(u, e, "base");
+        if (!top || !base || !upgrade_is_category(u, top, "thin_film_bsdf"))
+            continue;
+        apply_film(&f, top, base);
+        f.bypass[own_index(&f, e)] = base;
+    }
+    for (elem_id e = upgrade_first(u); e; e = upgrade_next(u, e))
+        if (doc_element(doc, e)->kind == KIND_INPUT || doc_element(doc, e)->kind == KIND_OUTPUT)
+            redirect(&f, e);
+    for (elem_id e = upgrade_first(u); e; e = upgrade_next(u, e)) {
+        bool unused_film = upgrade_is_category(u, e, "thin_film_bsdf") && !f.needed[own_index(&f, e)];
+        if (f.bypass[own_index(&f, e)] || unused_film)
+            doc_remove_element(doc, e);
+    }
+}

@@ -1,0 +1,314 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * Materials before 1.38 were elements: <material> held <shaderref>s, which bound values and graphs to the inputs of a shader, at
+ * first through the shader's definition. Now both are nodes.
+ */
+#include "document/upgrade.h"
+
+static bool is_shader_ref(const struct upgrade *u, elem_id element)
+{
+    return doc_element(u->doc, element)->parent && upgrade_is_category(u, element, "shaderref");
+}
+
+static elem_id find_top_level(const struct upgrade *u, str_id name)
+{
+    elem_id found = name ? doc_child(u->doc, u->root, name) : 0;
+    for (const struct document *layer = u->doc; layer && name && !found; layer = layer->base)
+        found = doc_child(layer, layer->root, name);
+    return found;
+}
+
+static str_id nodedef_type(const struct document *doc, elem_id nodedef)
+{
+    str_id type = doc_attr_value(doc, nodedef, STR_type);
+    for (elem_id e = doc_element(doc, nodedef)->first_child; e && !type; e = doc_element(doc, e)->next)
+        if (doc_element(doc, e)->kind == KIND_OUTPUT)
+            type = doc_attr_value(doc, e, STR_type);
+    return type;
+}
+
+/* The first definition of a node below a root, of the type where one is given. */
+static elem_id find_definition(const struct document *doc, elem_id root, str_id node, str_id type)
+{
+    for (elem_id e = doc_element(doc, root)->first_child; e; e = doc_element(doc, e)->next)
+        if (doc_element(doc, e)->kind == KIND_NODEDEF && doc_attr_value(doc, e, STR_node) == node
+            && (!type || nodedef_type(doc, e) == type))
+            return e;
+    return 0;
+}
+
+/* The definition of the shader that a shaderref means, in the document or in its library; 0: unknown. */
+static elem_id shader_definition(const struct upgrade *u, elem_id shader_ref)
+{
+    const struct document *doc = u->doc;
+    str_id name = doc_attr_value(doc, shader_ref, STR_nodedef), node = doc_attr_value(doc, shader_ref, STR_node);
+    str_id type = doc_attr_value(doc, shader_ref, STR_type);
+    if (name)
+        return find_top_level(u, name);
+    elem_id found = node ? find_definition(doc, u->root, node, type) : 0;
+    for (const struct document *layer = doc; layer && node && !found; layer = layer->base)
+        found = find_definition(layer, layer->root, node, type);
+    return found;
+}
+
+/* 1.34 */
+
+/* Nodes were connected by parameters of type opgraphnode. */
+static void connect_opgraph_node(struct upgrade *u, elem_id parameter)
+{
+    struct document *doc = u->doc;
+    elem_id parent = doc_element(doc, parameter)->parent;
+    str_id node = doc_attr_value(doc, parameter, STR_value);
+    if (doc_element(doc, parent)->kind == KIND_OUTPUT) {
+        if (doc_element(doc, parameter)->name == STR_in)
+            doc_set_attr(doc, parent, STR_nodename, node);
+        doc_remove_element(doc, parameter);
+    } else if (upgrade_is_node(u, parent)) {
+        doc_set_category(doc, parameter, STR_input);
+        doc_remove_attr(doc, parameter, STR_value);
+        doc_set_attr(doc, parameter, STR_nodename, node);
+        str_id type = upgrade_upstream_type(u, parameter);
+        doc_set_attr(doc, parameter, STR_type, type ? type : STR_color3);
+    }
+    upgrade_note(u, parameter, "a <parameter> of type opgraphnode is now the attribute 'nodename'");
+}
+
+static void set_shader_type(struct upgrade *u, elem_id element)
+{
+    struct document *doc = u->doc;
+    if (!upgrade_attr(u, element, "shadertype"))
+        return;
+    doc_set_attr(doc, element, STR_type, STR_surfaceshader);
+    if (is_shader_ref(u, element))
+        doc_remove_attr(doc, element, upgrade_word(u, "shadertype"));
+}
+
+/* A shaderref without a reference was called like its definition. */
+static void name_definition(struct upgrade *u, elem_id shader_ref)
+{
+    struct document *doc = u->doc;
+    if (shader_definition(u, shader_ref))
+        return;
+    str_id name = doc_element(doc, shader_ref)->name;
+    elem_id nodedef = find_top_level(u, name);
+    if (!nodedef || doc_element(doc, nodedef)->kind != KIND_NODEDEF)
+        return;
+    doc_set_attr(doc, shader_ref, STR_nodedef, name);
+    doc_set_attr(doc, shader_ref, STR_node, doc_attr_value(doc, nodedef, STR_node));
+    upgrade_note(u, shader_ref, "<shaderref> names its definition with 'nodedef'");
+}
+
+static elem_id add_binding(struct upgrade *u, elem_id shader_ref, elem_id input)
+{
+    struct document *doc = u->doc;
+    elem_id binding = doc_add_like(doc, shader_ref, upgrade_word(u, "bindinput"), doc_element(doc, input)->name, input);
+    doc_add_attr(doc, binding, (struct attribute){.name = STR_type, .value = doc_attr_value(doc, input, STR_type)});
+    doc_index_element(doc, binding);
+    return binding;
+}
+
+/* Graphs were connected to the inputs of a definition. */
+static void bind_graphs(struct upgrade *u, elem_id shader_ref)
+{
+    struct document *doc = u->doc;
+    elem_id nodedef = shader_definition(u, shader_ref);
+    for (elem_id e = nodedef ? doc_element(doc, nodedef)->first_child : 0; e; e = doc_element(doc, e)->next) {
+        str_id graph = upgrade_attr(u, e, "opgraph"), output = upgrade_attr(u, e, "graphoutput");
+        if (!graph || !output || doc_child(doc, shader_ref, doc_element(doc, e)->name))
+            continue;
+        elem_id binding = add_binding(u, shader_ref, e);
+        doc_set_attr(doc, binding, STR_nodegraph, graph);
+        doc_set_attr(doc, binding, STR_output, output);
+        upgrade_note(u, e, "a graph is connected where the shader is used, not where it is defined");
+    }
+}
+
+/* The tiles of all geometry together (spec 1.34: the geometry property "udimset"). */
+static void collect_udims(struct upgrade *u)
+{
+    struct document *doc = u->doc;
+    struct text list;
+    text_init(&list, doc->arena);
+    elem_id first = 0;
+    for (elem_id e = upgrade_first(u); e; e = upgrade_next(u, e)) {
+        const struct element *element = doc_element(doc, e);
+        if (element->kind != KIND_GEOMPROP || !upgrade_is(u, element->name, "udim"))
+            continue;
+        const char *udim = str_text(doc->strings, doc_attr_value(doc, e, STR_value));
+        bool known = list.len && strstr(text_cstr(&list), udim);
+        if (!known) {
+            text_str(&list, list.len ? ", " : "");
+            text_str(&list, udim);
+        }
+        first = first ? first : e;
+    }
+    if (!first)
+        return;
+    elem_id info = doc_add_like(doc, u->root, STR_geominfo, upgrade_word(u, "udimset_info"), first);
+    elem_id set = doc_add_like(doc, info, STR_geomprop, upgrade_word(u, "udimset"), first);
+    doc_add_attr(doc, set, (struct attribute){.name = STR_type, .value = STR_stringarray});
+    doc_add_attr(doc, set, (struct attribute){.name = STR_value, .value = str_intern(doc->strings, list.data, list.len)});
+    upgrade_note(u, first, "the values of 'udim' are listed by 'udimset'");
+}
+
+void upgrade_opgraphs(struct upgrade *u)
+{
+    struct document *doc = u->doc;
+    for (elem_id e = upgrade_first(u); e; e = upgrade_next(u, e)) {
+        set_shader_type(u, e);
+        if (upgrade_is(u, doc_attr_value(doc, e, STR_type), "opgraphnode") && doc_element(doc, e)->parent)
+            connect_opgraph_node(u, e);
+    }
+    for (elem_id e = upgrade_first(u); e; e = upgrade_next(u, e)) {
+        if (is_shader_ref(u, e)) {
+            name_definition(u, e);
+            bind_graphs(u, e);
+        }
+    }
+    collect_udims(u);
+}
+
+/* 1.36 */
+
+static void apply_override(struct upgrade *u, elem_id shader_ref, elem_id override)
+{
+    struct document *doc = u->doc;
+    elem_id nodedef = shader_definition(u, shader_ref);
+    for (elem_id e = nodedef ? doc_element(doc, nodedef)->first_child : 0; e; e = doc_element(doc, e)->next) {
+        if (upgrade_attr(u, e, "publicname") != doc_element(doc, override)->name
+            || doc_child(doc, shader_ref, doc_element(doc, e)->name))
+            continue;
+        doc_set_attr(doc, add_binding(u, shader_ref, e), STR_value, doc_attr_value(doc, override, STR_value));
+    }
+}
+
+void upgrade_material_overrides(struct upgrade *u)
+{
+    struct document *doc = u->doc;
+    for (elem_id e = upgrade_first(u); e; e = upgrade_next(u, e)) {
+        elem_id material = doc_element(doc, e)->parent;
+        if (!material || !upgrade_is_category(u, e, "override") || doc_element(doc, material)->category != STR_material)
+            continue;
+        for (elem_id ref = doc_element(doc, material)->first_child; ref; ref = doc_element(doc, ref)->next)
+            if (is_shader_ref(u, ref))
+                apply_override(u, ref, e);
+        doc_remove_element(doc, e);
+        upgrade_note(u, e, "<override> is now a binding of the shader's input");
+    }
+}
+
+/* 1.37: definitions of shaders that came from <shader> say nothing that the shader's own definition does not say. */
+void upgrade_legacy_nodedefs(struct upgrade *u)
+{
+    struct document *doc = u->doc;
+    for (elem_id e = upgrade_first(u); e; e = upgrade_next(u, e)) {
+        elem_id nodedef = is_shader_ref(u, e) ? find_top_level(u, doc_attr_value(doc, e, STR_nodedef)) : 0;
+        if (!nodedef || !upgrade_attr(u, nodedef, "shadertype"))
+            continue;
+        if (!doc_attr_value(doc, e, STR_node))
+            doc_set_attr(doc, e, STR_node, doc_attr_value(doc, nodedef, STR_node));
+        doc_remove_attr(doc, e, STR_nodedef);
+    }
+    for (elem_id e = upgrade_first(u); e; e = upgrade_next(u, e)) {
+        if (doc_element(doc, e)->kind != KIND_NODEDEF || !upgrade_attr(u, e, "shadertype"))
+            continue;
+        doc_remove_element(doc, e);
+        upgrade_note(u, e, "<shader> is gone; the library defines <%s>", str_text(doc->strings, doc_attr_value(doc, e, STR_node)));
+    }
+}
+
+/* 1.38 */
+
+static void convert_bindings(struct upgrade *u, elem_id shader)
+{
+    struct document *doc = u->doc;
+    for (elem_id e = doc_element(doc, shader)->first_child, next; e; e = next) {
+        next = doc_element(doc, e)->next;
+        if (upgrade_is_category(u, e, "bindinput") || upgrade_is_category(u, e, "bindparam"))
+            doc_set_category(doc, e, STR_input);
+        else if (upgrade_is_category(u, e, "bindtoken"))
+            doc_set_category(doc, e, STR_token);
+        else
+            doc_remove_element(doc, e);
+    }
+}
+
+/* The category of the node that a shaderref was. */
+static str_id shader_category(struct upgrade *u, elem_id shader_ref, elem_id nodedef)
+{
+    str_id node = doc_attr_value(u->doc, shader_ref, STR_node);
+    if (node || nodedef)
+        return nodedef ? doc_attr_value(u->doc, nodedef, STR_node) : node;
+    /* By the usage of names, ND_standard_surface_surfaceshader defines standard_surface. */
+    const char *name = str_text(u->doc->strings, doc_attr_value(u->doc, shader_ref, STR_nodedef));
+    const char *start = strncmp(name, "ND_", 3) == 0 ? name + 3 : name, *end = strrchr(start, '_');
+    return str_intern(u->doc->strings, start, end ? (size_t)(end - start) : strlen(start));
+}
+
+/* The shaderref becomes a node before the material. Its type, or 0 where it names no shader. */
+static str_id convert_shader_ref(struct upgrade *u, elem_id shader_ref, elem_id material)
+{
+    struct document *doc = u->doc;
+    elem_id nodedef = shader_definition(u, shader_ref);
+    str_id category = shader_category(u, shader_ref, nodedef), type = nodedef ? nodedef_type(doc, nodedef) : STR_EMPTY;
+    if (!category)
+        return 0;
+    str_id name = upgrade_free_name(u, u->root, str_text(doc->strings, doc_element(doc, shader_ref)->name));
+    doc_move_before(doc, shader_ref, material);
+    upgrade_set_name(u, shader_ref, name);
+    doc_set_category(doc, shader_ref, category);
+    doc_remove_attr(doc, shader_ref, STR_node);
+    doc_set_attr(doc, shader_ref, STR_type, type ? type : STR_surfaceshader);
+    convert_bindings(u, shader_ref);
+    upgrade_note(u, shader_ref, "<shaderref> is now the node <%s>", str_text(doc->strings, category));
+    return doc_attr_value(doc, shader_ref, STR_type);
+}
+
+static void convert_material(struct upgrade *u, elem_id material)
+{
+    struct document *doc = u->doc;
+    bool volume = false;
+    elem_id next = doc_element(doc, material)->first_child;
+    for (elem_id e; (e = next) != 0 && doc_element(doc, e)->kind != KIND_INPUT;) { /* up to the inputs that it gets here */
+        next = doc_element(doc, e)->next;
+        str_id type = is_shader_ref(u, e) ? convert_shader_ref(u, e, material) : STR_EMPTY;
+        if (!type) {
+            doc_remove_element(doc, e);
+        } else if (!doc_child(doc, material, type)) {
+            elem_id input = upgrade_add_input(u, material, str_text(doc->strings, type), type, STR_EMPTY);
+            doc_set_attr(doc, input, STR_nodename, doc_element(doc, e)->name);
+            volume |= type == STR_volumeshader;
+        }
+    }
+    doc_set_category(doc, material, volume ? STR_volumematerial : STR_surfacematerial);
+    doc_set_attr(doc, material, STR_type, STR_material);
+    upgrade_note(u, material, "<material> is now the node <%s>", volume ? "volumematerial" : "surfacematerial");
+}
+
+/* A material has the shaders of those it inherits from, beside its own. */
+static void inherit_shaders(struct upgrade *u, elem_id material)
+{
+    enum { MAX_INHERITANCE = 64 }; /* more is a circle */
+    struct document *doc = u->doc;
+    str_id name = doc_attr_value(doc, material, STR_inherit);
+    for (int depth = 0; name && depth < MAX_INHERITANCE; depth++) {
+        elem_id from = doc_child(doc, u->root, name);
+        for (elem_id e = from ? doc_element(doc, from)->first_child : 0; e; e = doc_element(doc, e)->next)
+            if (!doc_child(doc, material, doc_element(doc, e)->name))
+                upgrade_copy_input(u, e, material, str_text(doc->strings, doc_element(doc, e)->name), NULL);
+        name = from ? doc_attr_value(doc, from, STR_inherit) : STR_EMPTY;
+    }
+    doc_remove_attr(doc, material, STR_inherit);
+    upgrade_note(u, material, "the shaders of an inherited material are now inputs");
+}
+
+void upgrade_materials(struct upgrade *u)
+{
+    struct document *doc = u->doc;
+    for (elem_id e = upgrade_first(u); e; e = upgrade_next(u, e))
+        if (doc_element(doc, e)->category == STR_material && doc_element(doc, e)->parent == u->root)
+            convert_material(u, e);
+    for (elem_id e = upgrade_first(u); e; e = upgrade_next(u, e))
+        if (doc_element(doc, e)->category == STR_surfacematerial && doc_attr_value(doc, e, STR_inherit))
+            inherit_shaders(u, e);
+}

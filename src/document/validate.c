@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: Apache-2.0
+/* Checks of one element at a time: place, name, attributes, type, value. References are checked in validate_links.c. */
+#include "document/validate.h"
+
+#define IN(KIND) ((uint64_t)1 << KIND_##KIND)
+#define IN_INTERFACE (IN(NODEDEF) | IN(NODEGRAPH) | IN(NODE))
+
+/* What MaterialX 1.39 says of each kind of element: where it may stand, whether it needs a name, which attributes it needs. */
+static const struct {
+    uint64_t parents;
+    bool named;
+    str_id required[3];
+} rules[NUM_ELEMENT_KINDS] = {
+    [KIND_NODE] = {IN(MATERIALX) | IN(NODEGRAPH), true, {STR_type}},
+    [KIND_MATERIALX] = {0, false, {STR_version}},
+    [KIND_NODEDEF] = {IN(MATERIALX), true, {STR_node}},
+    [KIND_NODEGRAPH] = {IN(MATERIALX) | IN(NODEGRAPH), true, {0}},
+    [KIND_INPUT] = {IN_INTERFACE | IN(IMPLEMENTATION) | IN(VARIANT), true, {STR_type}},
+    [KIND_OUTPUT] = {IN(MATERIALX) | IN_INTERFACE | IN(IMPLEMENTATION), true, {0}},
+    [KIND_TOKEN] = {IN(MATERIALX) | IN_INTERFACE | IN(VARIANT) | IN(GEOMINFO), true, {STR_type}},
+    [KIND_TOKENDEFAULT] = {IN(MATERIALX) | IN(GEOMINFO), true, {STR_type}},
+    [KIND_IMPLEMENTATION] = {IN(MATERIALX), true, {0}},
+    [KIND_TYPEDEF] = {IN(MATERIALX), true, {0}},
+    [KIND_MEMBER] = {IN(TYPEDEF), true, {STR_type}},
+    [KIND_GEOMPROPDEF] = {IN(MATERIALX), true, {STR_type}},
+    [KIND_GEOMINFO] = {IN(MATERIALX), true, {0}},
+    [KIND_GEOMPROP] = {IN(GEOMINFO), true, {STR_type}},
+    [KIND_GEOMATTR] = {IN(GEOMINFO), true, {STR_type}},
+    [KIND_COLLECTION] = {IN(MATERIALX), true, {0}},
+    [KIND_LOOK] = {IN(MATERIALX), true, {0}},
+    [KIND_LOOKGROUP] = {IN(MATERIALX), true, {STR_looks}},
+    [KIND_MATERIALASSIGN] = {IN(LOOK), false, {STR_material}},
+    [KIND_PROPERTY] = {IN(PROPERTYSET), true, {STR_type}},
+    [KIND_PROPERTYSET] = {IN(MATERIALX), true, {0}},
+    [KIND_PROPERTYASSIGN] = {IN(LOOK), false, {STR_property, STR_type}},
+    [KIND_PROPERTYSETASSIGN] = {IN(LOOK), false, {STR_propertyset}},
+    [KIND_VISIBILITY] = {IN(LOOK), false, {0}},
+    [KIND_VARIANT] = {IN(VARIANTSET), true, {0}},
+    [KIND_VARIANTSET] = {IN(MATERIALX), true, {0}},
+    [KIND_VARIANTASSIGN] = {IN(LOOK) | IN(MATERIALASSIGN), false, {STR_variantset, STR_variant}},
+    [KIND_UNITTYPEDEF] = {IN(MATERIALX), true, {0}},
+    [KIND_UNITDEF] = {IN(MATERIALX), true, {STR_unittype}},
+    [KIND_UNIT] = {IN(UNITDEF), true, {STR_scale}},
+    [KIND_TARGETDEF] = {IN(MATERIALX), true, {0}},
+    [KIND_ATTRIBUTEDEF] = {IN(MATERIALX), true, {STR_attrname, STR_type}},
+    [KIND_BACKDROP] = {IN(MATERIALX) | IN(NODEGRAPH), true, {0}},
+};
+
+static const char *text_of(const struct validation *v, str_id id)
+{
+    return str_text(v->doc->strings, id);
+}
+
+static bool is_letter(char c)
+{
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+}
+
+/* Letters, digits and '_', no digit first ("MaterialX Names"); a namespace may stand before. */
+static bool is_name(const char *text)
+{
+    for (; *text; text++) {
+        if (!is_letter(*text))
+            return false;
+        while (is_letter(*text) || (*text >= '0' && *text <= '9'))
+            text++;
+        if (!*text)
+            return true;
+        if (*text != ':')
+            return false;
+    }
+    return false;
+}
+
+static void check_place(struct validation *v, elem_id element)
+{
+    const struct element *e = doc_element(v->doc, element);
+    const struct element *parent = doc_element(v->doc, e->parent);
+    if (!(rules[e->kind].parents >> parent->kind & 1))
+        diag_add(v->diags, DIAG_ID_misplaced_element, doc_place(v->doc, element), text_of(v, e->category),
+                 text_of(v, parent->category));
+}
+
+static void check_name(struct validation *v, elem_id element)
+{
+    const struct element *e = doc_element(v->doc, element);
+    if (!e->name && rules[e->kind].named)
+        diag_add(v->diags, DIAG_ID_name_missing, doc_place(v->doc, element), text_of(v, e->category));
+    if (e->name && !is_name(text_of(v, e->name)))
+        diag_add(v->diags, DIAG_ID_bad_name, doc_place(v->doc, element), text_of(v, e->name));
+}
+
+static void check_required(struct validation *v, elem_id element)
+{
+    const struct element *e = doc_element(v->doc, element);
+    for (size_t i = 0; i < 3 && rules[e->kind].required[i]; i++)
+        if (!doc_attr(v->doc, element, rules[e->kind].required[i]))
+            diag_add(v->diags, DIAG_ID_missing_attribute, doc_place(v->doc, element), text_of(v, e->category),
+                     text_of(v, rules[e->kind].required[i]));
+    bool has_link = doc_attr(v->doc, element, STR_nodedef) || doc_attr(v->doc, element, STR_nodegraph);
+    if (e->kind == KIND_IMPLEMENTATION && !has_link)
+        diag_add(v->diags, DIAG_ID_missing_attribute, doc_place(v->doc, element), text_of(v, e->category), "nodedef");
+    /* The outputs of an implementation have the types of the definition's. */
+    if (e->kind == KIND_OUTPUT && !doc_attr(v->doc, element, STR_type)
+        && doc_element(v->doc, e->parent)->kind != KIND_IMPLEMENTATION)
+        diag_add(v->diags, DIAG_ID_missing_attribute, doc_place(v->doc, element), text_of(v, e->category), "type");
+}
+
+/* The <typedef> of a type in any layer; 0: none. */
+static elem_id find_typedef(const struct document *doc, str_id type)
+{
+    elem_id found = 0;
+    for (; doc && !found; doc = doc->base)
+        found = doc_child_of_kind(doc, doc->root, KIND_TYPEDEF, type);
+    return found;
+}
+
+static const char *suggest_type(struct validation *v, str_id type)
+{
+    VEC(const char *) names = {0};
+    for (doc_type t = DOC_TYPE_NONE + 1; t < DOC_NUM_TYPES; t++)
+        vec_push(v->arena, &names, text_of(v, doc_type_name(t)));
+    for (const struct document *layer = v->doc; layer; layer = layer->base)
+        for (elem_id e = doc_element(layer, layer->root)->first_child; e; e = doc_element(layer, e)->next)
+            if (doc_element(layer, e)->kind == KIND_TYPEDEF)
+                vec_push(v->arena, &names, text_of(v, doc_element(layer, e)->name));
+    return diag_suggest(v->arena, text_of(v, type), names.items, names.len);
+}
+
+static void check_value(struct validation *v, elem_id element, doc_type type, str_id attr)
+{
+    str_id value = doc_attr_value(v->doc, element, attr);
+    if (value && !doc_value_is_valid(type, text_of(v, value), str_len(v->doc->strings, value)))
+        diag_add(v->diags, DIAG_ID_bad_value, doc_attr_place(v->doc, element, attr), text_of(v, value),
+                 text_of(v, doc_type_name(type)));
+}
+
+static void check_type_and_values(struct validation *v, elem_id element)
+{
+    static const str_id typed[] = {STR_value, STR_default, STR_uimin, STR_uimax, STR_uisoftmin, STR_uisoftmax, STR_uistep};
+    const struct element *e = doc_element(v->doc, element);
+    str_id name = doc_attr_value(v->doc, element, STR_type);
+    doc_type type = doc_type_of(name);
+    if (name && !type && !find_typedef(v->doc, name))
+        diag_add(v->diags, DIAG_ID_unknown_type, doc_attr_place(v->doc, element, STR_type), text_of(v, name), suggest_type(v, name));
+    if (!type || e->kind == KIND_NODE)
+        return;
+    for (size_t i = 0; i < sizeof typed / sizeof *typed; i++)
+        check_value(v, element, type, typed[i]);
+}
+
+static void check_bindings(struct validation *v, elem_id element)
+{
+    const struct element *e = doc_element(v->doc, element);
+    int connections = 0;
+    connections += doc_attr_value(v->doc, element, STR_nodename) != 0;
+    connections += doc_attr_value(v->doc, element, STR_nodegraph) != 0;
+    connections += doc_attr_value(v->doc, element, STR_interfacename) != 0;
+    if (connections > 1)
+        diag_add(v->diags, DIAG_ID_several_connections, doc_place(v->doc, element), text_of(v, e->name));
+    else if (connections && doc_attr_value(v->doc, element, STR_value))
+        diag_add(v->diags, DIAG_ID_value_and_connection, doc_attr_place(v->doc, element, STR_value), text_of(v, e->name));
+}
+
+static void check_has_output(struct validation *v, elem_id element)
+{
+    const struct element *e = doc_element(v->doc, element);
+    for (elem_id child = e->first_child; child; child = doc_element(v->doc, child)->next)
+        if (doc_element(v->doc, child)->kind == KIND_OUTPUT)
+            return;
+    bool inherits = doc_attr_value(v->doc, element, STR_inherit) != 0; /* outputs too */
+    if (!inherits)
+        diag_add(v->diags, DIAG_ID_no_output, doc_place(v->doc, element), text_of(v, e->category), text_of(v, e->name));
+}
+
+static void check_element(struct validation *v, elem_id element)
+{
+    enum element_kind kind = (enum element_kind)doc_element(v->doc, element)->kind;
+    if (element != v->doc->root) {
+        check_place(v, element);
+        check_required(v, element); /* the reader speaks of the version */
+    }
+    check_name(v, element);
+    check_type_and_values(v, element);
+    if (kind == KIND_INPUT || kind == KIND_OUTPUT)
+        check_bindings(v, element);
+    if (kind == KIND_NODEDEF)
+        check_has_output(v, element);
+}
+
+void doc_validate(const struct document *doc, struct diag_list *diags)
+{
+    struct validation v = {.doc = doc, .diags = diags, .arena = diags->arena};
+    for (elem_id e = doc->root; e; e = doc_next_in_tree(doc, doc->root, e))
+        check_element(&v, e);
+    validate_links(&v);
+}

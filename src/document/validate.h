@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef MXG_DOCUMENT_VALIDATE_H
+#define MXG_DOCUMENT_VALIDATE_H
+
+#include "document/document.h"
+
+struct validation {
+    const struct document *doc;
+    struct diag_list *diags;
+    struct arena *arena;
+};
+
+/* validate_links.c: what names refer to is there and has the right type; graphs have no cycles. */
+void validate_links(struct validation *v);
+
+#endif

@@ -1,0 +1,366 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * Documents with faults, and the messages they must give: no more, no fewer. A document says them beside the fault,
+ *
+ *     <!-- expect-error@+1: type-mismatch 14 -->      severity, line (here: the next), id, column (optional)
+ *
+ * in itself or in a file it reads (there perhaps behind //). The place is @+N or @-N lines from the comment, @N line N, @0 no line, @* any
+ * place in any file, any number of times, and without @ the comment's own line. A first line "<!-- mxgen: --key value ... -->" has
+ * options: --target, --element, --library, limits (--max-errors …), and those of generation. Every document is loaded, validated, and
+ * everything in it that can be rendered is generated.
+ *
+ *     test_diag FOLDER              and every id of the catalogue must be expected in a document or listed in FOLDER/elsewhere.txt
+ *     test_diag --must-fail FOLDER  every document must break one of these rules: the test of this program
+ */
+#define _POSIX_C_SOURCE 200809L
+#include <mxgen/mxgen.h>
+
+#include <dirent.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static const char *const ids[] = {
+#define DIAG(id, severity, stable, format) stable,
+#include "diag/catalogue.def"
+#undef DIAG
+};
+enum { NUM_IDS = sizeof ids / sizeof *ids, MAX_MESSAGES = 256, MAX_FILES = 32, ANYWHERE = -1 };
+static bool covered[NUM_IDS];
+static const char *const severities[] = {"error", "warning", "note"};
+
+struct message {
+    char file[128]; /* base name */
+    char id[64];
+    char text[200]; /* of given messages */
+    int severity;
+    long line, column; /* column 0: any */
+    bool matched;
+};
+
+struct case_ {
+    const char *name;
+    struct message expected[MAX_MESSAGES], given[MAX_MESSAGES];
+    unsigned num_expected, num_given, num_faults;
+    char *files[MAX_FILES]; /* read for expectations */
+    unsigned num_files;
+    bool silent;
+
+    mxg_context *context;
+    mxg_library *library;
+    mxg_document *document;
+    mxg_options *options;
+    const char *target, *element;
+};
+
+static void fault(struct case_ *c, const char *what, const struct message *m)
+{
+    ++c->num_faults;
+    if (c->silent)
+        return;
+    if (m)
+        printf("%s:%ld:%ld: %s: %s %s: %s\n", m->file, m->line, m->column, what, severities[m->severity], m->id, m->text);
+    else
+        printf("%s: %s\n", c->name, what);
+}
+
+static const char *base_name(const char *path)
+{
+    const char *slash = path ? strrchr(path, '/') : NULL;
+    return slash ? slash + 1 : path ? path : "";
+}
+
+static char *read_file(const char *path)
+{
+    FILE *file = fopen(path, "rb");
+    char *text = calloc(1, 1 << 20);
+    if (file && text)
+        text[fread(text, 1, (1 << 20) - 1, file)] = '\0';
+    if (file)
+        fclose(file);
+    return text;
+}
+
+/* ---- What is expected ---- */
+
+static bool parse_expectation(const char *text, long here, struct message *out)
+{
+    char severity[16], place[16] = "";
+    int end = 0;
+    if (sscanf(text, "expect-%15[a-z]%n", severity, &end) != 1 || end == 0)
+        return false;
+    text += end;
+    if (*text == '@' && sscanf(text, "@%15[-+*0-9]%n", place, &end) == 1)
+        text += end;
+    if (sscanf(text, ": %63[a-z0-9-] %ld", out->id, &out->column) < 1)
+        return false;
+    out->severity = -1;
+    for (int i = 0; i < 3; ++i)
+        out->severity = strcmp(severity, severities[i]) == 0 ? i : out->severity;
+    long number = strtol(place, NULL, 10);
+    out->line = place[0] == '*' ? ANYWHERE : !place[0] ? here : place[0] == '+' || place[0] == '-' ? here + number : number;
+    return out->severity >= 0;
+}
+
+/* Lines are counted up to each expectation; NUL bytes end a text, so files of other encodings say theirs on top. */
+static void read_expectations(struct case_ *c, const char *path)
+{
+    for (unsigned i = 0; i < c->num_files; ++i)
+        if (strcmp(c->files[i], base_name(path)) == 0)
+            return;
+    if (c->num_files < MAX_FILES)
+        c->files[c->num_files++] = strdup(base_name(path));
+    char *text = read_file(path);
+    long line = 1;
+    for (const char *p = text, *next; text && (next = strstr(p, "expect-")) != NULL; p = next + 1) {
+        for (; p < next; ++p)
+            line += *p == '\n';
+        struct message *m = &c->expected[c->num_expected];
+        *m = (struct message){.column = 0};
+        snprintf(m->file, sizeof m->file, "%s", base_name(path));
+        if (c->num_expected + 1 < MAX_MESSAGES && parse_expectation(next, line, m))
+            ++c->num_expected;
+        else
+            fault(c, "an expectation cannot be read", NULL);
+    }
+    free(text);
+}
+
+/* ---- What is given ---- */
+
+static bool is_same(const struct message *a, const struct message *b)
+{
+    return a->severity == b->severity && a->line == b->line && a->column == b->column && strcmp(a->id, b->id) == 0
+           && strcmp(a->file, b->file) == 0 && strcmp(a->text, b->text) == 0;
+}
+
+/* Loading, validating and generating may say the same; once is enough. */
+static void collect(struct case_ *c, const mxg_diagnostics *list)
+{
+    for (uint32_t i = 0; i < mxg_diagnostics_count(list); ++i) {
+        mxg_diagnostic d = {sizeof d};
+        mxg_diagnostics_get(list, i, &d);
+        struct message m = {.severity = (int)d.severity, .line = d.line, .column = d.column};
+        snprintf(m.file, sizeof m.file, "%s", d.file ? base_name(d.file) : c->name);
+        snprintf(m.id, sizeof m.id, "%s", d.id);
+        snprintf(m.text, sizeof m.text, "%s", d.message);
+        bool again = false;
+        for (unsigned k = 0; k < c->num_given; ++k)
+            again = again || is_same(&c->given[k], &m);
+        if (!again && c->num_given < MAX_MESSAGES)
+            c->given[c->num_given++] = m;
+    }
+}
+
+/* Any status but these two would be the caller's fault, ours. */
+static bool status_is_good(struct case_ *c, mxg_status status)
+{
+    if (status != MXG_OK && status != MXG_ERROR_DOCUMENT)
+        fault(c, mxg_status_string(status), NULL);
+    return status == MXG_OK;
+}
+
+static void generate(struct case_ *c, const char *element)
+{
+    mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
+    desc.target = c->target;
+    desc.element = element;
+    desc.options = c->options;
+    mxg_result *result = NULL;
+    bool good = status_is_good(c, mxg_generate(c->context, c->document, &desc, &result));
+    collect(c, mxg_result_diagnostics(result));
+    if (good != (mxg_result_source(result, MXG_STAGE_PIXEL, NULL) != NULL))
+        fault(c, good ? "no source without an error" : "an error and yet a source", NULL);
+    mxg_result_destroy(result);
+}
+
+static void check_document(struct case_ *c)
+{
+    if (!status_is_good(c, mxg_document_load(c->context, c->library, c->name, &c->document))) {
+        collect(c, mxg_document_diagnostics(c->document));
+        return;
+    }
+    collect(c, mxg_document_diagnostics(c->document));
+    mxg_result *result = NULL;
+    status_is_good(c, mxg_document_validate(c->context, c->document, &result));
+    collect(c, mxg_result_diagnostics(result));
+    mxg_result_destroy(result);
+    uint32_t count = mxg_document_num_renderables(c->document);
+    for (uint32_t i = 0; i < count && !c->element; ++i) {
+        mxg_renderable renderable = {sizeof renderable};
+        mxg_document_renderable(c->document, i, &renderable);
+        generate(c, renderable.path);
+    }
+    if (c->element || count == 0)
+        generate(c, c->element);
+}
+
+/* ---- Options on the first line ---- */
+
+static bool set_limit(mxg_context_desc *desc, const char *key, const char *value)
+{
+    const struct {
+        const char *key;
+        uint32_t *out;
+    } limits[] = {{"max-file-size", &desc->max_file_mib}, {"max-elements", &desc->max_elements}, {"max-nodes", &desc->max_nodes},
+                  {"max-output-size", &desc->max_output_mib}, {"max-errors", &desc->max_errors}};
+    for (size_t i = 0; i < sizeof limits / sizeof *limits; ++i) {
+        if (strcmp(key, limits[i].key) != 0)
+            continue;
+        *limits[i].out = (uint32_t)strtoul(value, NULL, 10);
+        return true;
+    }
+    return false;
+}
+
+/* Two rounds: limits are the context's and make it; the rest needs it. */
+static void apply_options(struct case_ *c, const char *line, mxg_context_desc *limits)
+{
+    char key[64], value[128];
+    int end = 0;
+    for (; sscanf(line, " --%63s %127s%n", key, value, &end) == 2; line += end) {
+        mxg_context_desc ignored = MXG_CONTEXT_DESC_INIT;
+        if (set_limit(limits ? limits : &ignored, key, value) || limits)
+            continue;
+        if (strcmp(key, "target") == 0) {
+            c->target = strdup(value);
+        } else if (strcmp(key, "element") == 0) {
+            c->element = strdup(value);
+        } else if (strcmp(key, "library") == 0) {
+            const char *path = value;
+            mxg_library *base = c->library;
+            status_is_good(c, mxg_library_load(c->context, base, &path, 1, &c->library));
+            collect(c, mxg_library_diagnostics(c->library));
+            mxg_library_unref(base);
+            read_expectations(c, value);
+        } else if (mxg_options_set(c->options, key, value) != MXG_OK) {
+            fault(c, mxg_options_error(c->options), NULL);
+        }
+    }
+}
+
+static void start(struct case_ *c)
+{
+    char *text = read_file(c->name);
+    const char *line = text && strncmp(text, "<!-- mxgen:", 11) == 0 ? text + 11 : "";
+    mxg_context_desc desc = MXG_CONTEXT_DESC_INIT;
+    apply_options(c, line, &desc);
+    mxg_context_create(&desc, &c->context);
+    mxg_options_create(c->context, &c->options);
+    c->library = mxg_library_builtin(c->context);
+    c->target = "glsl";
+    apply_options(c, line, NULL);
+    free(text);
+}
+
+/* ---- The comparison ---- */
+
+static void mark_covered(const char *id)
+{
+    for (int i = 0; i < NUM_IDS; ++i)
+        covered[i] = covered[i] || strcmp(ids[i], id) == 0;
+}
+
+static void compare(struct case_ *c)
+{
+    for (unsigned g = 0; g < c->num_given; ++g) {
+        struct message *given = &c->given[g];
+        for (unsigned e = 0; e < c->num_expected; ++e) {
+            struct message *m = &c->expected[e];
+            bool here = m->line == ANYWHERE || (m->line == given->line && strcmp(m->file, given->file) == 0);
+            if (!here || m->severity != given->severity || strcmp(m->id, given->id) != 0 || (m->matched && m->line != ANYWHERE)
+                || (m->column && m->column != given->column))
+                continue;
+            m->matched = given->matched = true;
+            mark_covered(m->id);
+            break;
+        }
+        if (!given->matched)
+            fault(c, "unexpected", given);
+    }
+    for (unsigned e = 0; e < c->num_expected; ++e)
+        if (!c->expected[e].matched)
+            fault(c, "missing", &c->expected[e]);
+}
+
+/* Whether the document gives what it says. */
+static bool run_case(const char *name, bool silent)
+{
+    static struct case_ c; /* large */
+    c = (struct case_){.name = name, .silent = silent};
+    start(&c);
+    check_document(&c);
+    read_expectations(&c, name);
+    for (uint32_t i = 0; i < mxg_document_num_files(c.document); ++i)
+        read_expectations(&c, mxg_document_file(c.document, i));
+    compare(&c);
+    mxg_document_destroy(c.document);
+    mxg_options_destroy(c.options);
+    mxg_library_unref(c.library);
+    mxg_context_destroy(c.context);
+    for (unsigned i = 0; i < c.num_files; ++i)
+        free(c.files[i]);
+    return c.num_faults == 0;
+}
+
+/* ---- Coverage ---- */
+
+/* elsewhere.txt: "id file" per line: a test that mentions the id; or "id - reason". */
+static unsigned check_coverage(void)
+{
+    unsigned faults = 0;
+    bool listed[NUM_IDS] = {false};
+    char id[64], where[128], line[512];
+    FILE *list = fopen("elsewhere.txt", "r");
+    while (list && fgets(line, sizeof line, list)) {
+        if (line[0] == '#' || sscanf(line, "%63s %127s", id, where) != 2)
+            continue;
+        for (int i = 0; i < NUM_IDS; ++i)
+            listed[i] = listed[i] || strcmp(ids[i], id) == 0;
+        char *text = read_file(where);
+        if (where[0] != '-' && !strstr(text, id) && ++faults)
+            printf("elsewhere.txt: '%s' does not mention %s\n", where, id);
+        free(text);
+    }
+    if (list)
+        fclose(list);
+    for (int i = 0; i < NUM_IDS; ++i)
+        if (covered[i] == listed[i] && ++faults)
+            printf("%s: %s\n", ids[i], covered[i] ? "has a document, but is listed in elsewhere.txt" : "no document expects it");
+    return faults;
+}
+
+static int compare_names(const void *a, const void *b)
+{
+    return strcmp(*(char *const *)a, *(char *const *)b);
+}
+
+int main(int argc, char **argv)
+{
+    bool must_fail = argc > 2 && strcmp(argv[1], "--must-fail") == 0;
+    const char *folder = argv[argc - 1];
+    DIR *dir = argc > 1 && chdir(folder) == 0 ? opendir(".") : NULL;
+    char *names[512];
+    size_t count = 0;
+    unsigned passed = 0, failed = 0;
+    for (struct dirent *entry; dir && count < 512 && (entry = readdir(dir)) != NULL;) {
+        const char *dot = strrchr(entry->d_name, '.');
+        if (dot && strcmp(dot, ".mtlx") == 0)
+            names[count++] = strdup(entry->d_name);
+    }
+    if (dir)
+        closedir(dir);
+    qsort(names, count, sizeof *names, compare_names);
+    for (size_t i = 0; i < count; ++i) {
+        bool good = run_case(names[i], must_fail) != must_fail;
+        if (!good && must_fail)
+            printf("%s: was accepted\n", names[i]);
+        *(good ? &passed : &failed) += 1;
+        free(names[i]);
+    }
+    failed += must_fail ? 0 : check_coverage();
+    failed += count == 0;
+    printf("diag%s: %u passed, %u failed, 0 skipped\n", must_fail ? "-runner" : "", passed, failed);
+    return failed ? 1 : 0;
+}

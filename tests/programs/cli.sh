@@ -1,0 +1,106 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# The command line: exit codes, file names, messages, what is left behind. Argument: the program.
+mxgen=$(realpath "$1")
+here=$(cd "$(dirname "$0")" && pwd)
+. "$here/common.sh"
+
+cat >two.mtlx <<'X'
+<?xml version="1.0"?>
+<materialx version="1.39">
+  <standard_surface name="SR_a" type="surfaceshader"/>
+  <surfacematerial name="A" type="material">
+    <input name="surfaceshader" type="surfaceshader" nodename="SR_a"/>
+  </surfacematerial>
+  <nodegraph name="NG">
+    <constant name="c" type="color3"><input name="value" type="color3" value="1, 0.5, 0"/></constant>
+    <output name="out" type="color3" nodename="c"/>
+  </nodegraph>
+</materialx>
+X
+sed 's/value="1, 0.5, 0"/value="abc"/' two.mtlx >bad.mtlx
+cp two.mtlx 'with space.mtlx'
+mkdir -p other && cp two.mtlx other/two.mtlx
+
+files() { [ "$(cd "$1" && find . -type f | sort | tr '\n' ' ')" = "$2" ] || { find "$1"; return 1; }; }
+none_in() { [ -z "$(find "$1" -type f 2>/dev/null)" ]; }
+
+# What is written, and where
+check 'every renderable element' exits 0 "$mxgen" two.mtlx --target glsl -o all
+check 'names are paths with dots' files all './A.frag ./A.vert ./NG.out.frag ./NG.out.vert '
+check '--element picks' exits 0 "$mxgen" two.mtlx --element NG/out -o one --reflect
+check 'one element and its reflection' files one './NG.out.frag ./NG.out.json ./NG.out.vert '
+check 'several inputs' exits 0 "$mxgen" two.mtlx 'with space.mtlx' -e A -o several
+check 'several inputs get a folder each' files several './two/A.frag ./two/A.vert ./with space/A.frag ./with space/A.vert '
+check 'two inputs of one name' exits 1 "$mxgen" two.mtlx other/two.mtlx -e A -o clash
+check 'are refused' grep -q output-failed err
+check '--stdout' exits 0 "$mxgen" two.mtlx -e NG/out --stdout -o nowhere
+check '--stdout prints both stages' test "$(grep -c '^#version' out)" -eq 2
+check '--stdout writes no file' none_in nowhere
+check '--depfile' exits 0 "$mxgen" 'with space.mtlx' -e A -o dep --depfile dep.d
+check 'depfile escapes spaces' grep -qF 'dep/A.vert dep/A.frag: with\ space.mtlx' dep.d
+check 'without -o files go to the current folder' eval '(mkdir -p cwd && cd cwd && "$mxgen" ../two.mtlx -e A && test -f A.frag)'
+check 'two runs give the same bytes' eval '"$mxgen" two.mtlx -o again && diff -r all again'
+
+# Bad input: exit code 1, and nothing half-written
+check 'a bad value' exits 1 "$mxgen" bad.mtlx -o bad
+check 'has id, line and column' grep -Eq '^bad\.mtlx:8:[0-9]+: error: .*\[bad-value\]' err
+check 'shows the line' grep -q 'value="abc"' err
+check 'shows a caret' grep -Eq '^ *\^' err
+check 'writes nothing' none_in bad
+check 'missing file' exits 1 "$mxgen" none.mtlx
+check 'has its id' grep -q '\[file-missing\]' err
+check 'unknown target' exits 1 "$mxgen" two.mtlx --target glslx
+check 'lists the targets' grep -Eq 'glsl.*vulkan.*essl.*\[unknown-target\]' err
+check 'unknown element' exits 1 "$mxgen" two.mtlx --element B
+check 'has its id too' grep -q '\[unknown-element\]' err
+check '-q keeps errors' exits 1 "$mxgen" bad.mtlx -q -o bad
+check 'and prints them' grep -q bad-value err
+check 'no colour in a pipe' eval '! grep -q "$(printf "\033")" err'
+
+# Output that cannot be written
+touch file
+check 'a folder that cannot be' exits 1 "$mxgen" two.mtlx -o file/sub
+check 'is output-failed' grep -q '\[output-failed\]' err
+# A limit on file sizes is a full disk that needs no privileges.
+check 'a full disk' exits 1 bash -c "trap '' XFSZ; ulimit -f 1; exec '$mxgen' two.mtlx -e A -o full"
+check 'is output-failed too' grep -q '\[output-failed\]' err
+check 'no half-written file stays' eval '! grep -L "^}" full/* | grep -q . && ! ls full | grep -q tmp'
+check 'a full standard output' bash -c "'$mxgen' two.mtlx --stdout >/dev/full 2>err; test \$? -eq 1"
+check 'a full disk for a library' exits 1 "$mxgen" library expand -o /dev/full
+
+# Bad usage: exit code 2
+check 'no arguments' exits 2 "$mxgen"
+check 'no input' exits 2 "$mxgen" --target glsl
+check 'unknown option' exits 2 "$mxgen" two.mtlx --interfase reduced
+check 'suggests' grep -q "did you mean '--interface'" err
+check 'unknown command' exits 2 "$mxgen" inspec
+check 'suggests a command' grep -q "did you mean 'inspect'" err
+check 'bad value of an option' exits 2 "$mxgen" two.mtlx --interface some
+check 'lists the values' grep -q complete err
+check 'missing value' exits 2 "$mxgen" two.mtlx --target
+check 'unknown action' exits 2 "$mxgen" library lst
+
+# Texts
+check '--version' exits 0 "$mxgen" --version
+check 'says it' grep -Eq '^mxgen [0-9]+\.[0-9]+\.[0-9]+$' out
+check '--help' exits 0 "$mxgen" --help
+for command in generate inspect validate library; do
+    check "$command --help" exits 0 "$mxgen" "$command" --help
+done
+check 'help has the options of generation' eval '"$mxgen" generate --help | grep -q -- --interface'
+
+# Other commands
+check 'validate' exits 0 "$mxgen" validate two.mtlx
+check 'validate finds' exits 1 "$mxgen" validate bad.mtlx
+for view in elements graph dot ir closures statistics; do
+    check "inspect --$view" exits 0 "$mxgen" inspect two.mtlx "--$view" --element A
+    check "inspect --$view prints" test -s out
+done
+check 'library list' exits 0 "$mxgen" library list
+check 'a line for each definition, its name first' eval 'grep -q "^ND_mix_float  mix(" out'
+check 'library expand' exits 0 "$mxgen" library expand -o expanded.mtlx
+check 'expands templates' eval 'grep -q "ND_add_color3\"" expanded.mtlx && ! grep -q "<template" expanded.mtlx'
+check 'library pack' eval '"$mxgen" library pack expanded.mtlx -o image.mxlib && test -s image.mxlib'
+
+finish cli

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+/* The judge of shaders must itself be right: it accepts what is valid, and tells stage and line of what is not. */
+#include "validate/compile.h"
+
+#include "unit/test.h"
+
+#define VERTEX(version) "#version " version "\nlayout(location = 0) in vec3 p;\nvoid main()\n{\n    gl_Position = vec4(p, 1.0);\n}\n"
+
+static const char *const desktop_vertex = VERTEX("450"), *const es_vertex = VERTEX("300 es");
+static const char *const desktop_pixel = "#version 450\nuniform vec3 u_color;\nlayout(location = 0) out vec4 o;\n"
+                                         "void main()\n{\n    o = vec4(u_color * 2.0, 1.0);\n}\n";
+static const char *const vulkan_pixel = "#version 450\nlayout(set = 0, binding = 0, std140) uniform B { vec3 u_color; };\n"
+                                        "layout(location = 0) out vec4 o;\nvoid main()\n{\n    o = vec4(u_color * 2.0, 1.0);\n}\n";
+static const char *const es_pixel = "#version 300 es\nprecision highp float;\nuniform vec3 u_color;\nlayout(location = 0) out vec4 o;\n"
+                                    "void main()\n{\n    o = vec4(u_color * 2.0, 1.0);\n}\n";
+static const char *const broken_pixel = "#version 450\nlayout(location = 0) out vec4 o;\nvoid main()\n{\n    o = vec4(missing, 1.0);\n}\n";
+static struct compiled compile(const char *target, const char *vertex, const char *pixel)
+{
+    struct compiled compiled;
+    const char *sources[MXG_NUM_STAGES] = {vertex, pixel};
+    compile_program(target, sources, &compiled);
+    return compiled;
+}
+
+static void accepts(const char *target, const char *vertex, const char *pixel, uint32_t instructions)
+{
+    struct compiled compiled = compile(target, vertex, pixel);
+    REQUIRE_EQ(compiled.errors, 0);
+    for (size_t i = 0; i < compiled.num_messages; ++i)
+        printf("    %s: %s\n", target, compiled.messages[i].text);
+    REQUIRE_EQ(compiled.stages[MXG_STAGE_PIXEL].body_instructions, instructions);
+    REQUIRE(compiled.stages[MXG_STAGE_VERTEX].body_instructions > 0);
+    compiled_finish(&compiled);
+}
+
+static void refuses(const char *target, const char *vertex, const char *pixel, uint32_t line, const char *word)
+{
+    struct compiled compiled = compile(target, vertex, pixel);
+    REQUIRE(compiled.errors > 0);
+    if (REQUIRE(compiled.num_messages > 0)) {
+        REQUIRE_EQ(compiled.messages[0].stage, MXG_STAGE_PIXEL);
+        REQUIRE_EQ(compiled.messages[0].line, line);
+        if (!REQUIRE(strstr(compiled.messages[0].text, word) != NULL))
+            printf("    %s\n", compiled.messages[0].text);
+    }
+    compiled_finish(&compiled);
+}
+
+int main(void)
+{
+    compile_begin();
+    /* label, load, multiply, 3 extracts, construct, store, return; a member of a block needs an access chain too */
+    accepts("glsl", desktop_vertex, desktop_pixel, 9);
+    accepts("vulkan", desktop_vertex, vulkan_pixel, 10);
+    accepts("essl", es_vertex, es_pixel, 9);
+    refuses("glsl", desktop_vertex, broken_pixel, 5, "missing");
+    refuses("vulkan", desktop_vertex, broken_pixel, 5, "missing");
+    refuses("vulkan", desktop_vertex, desktop_pixel, 2, "outside a block"); /* loose uniforms are not Vulkan's */
+    REQUIRE(compile_knows_target("essl"));
+    REQUIRE(!compile_knows_target("osl"));
+    compile_end();
+    return test_report("compile");
+}

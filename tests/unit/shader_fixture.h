@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+/* A shader made by hand: what test_shader.c and test_spell.c build on. */
+#ifndef MXG_TESTS_SHADER_FIXTURE_H
+#define MXG_TESTS_SHADER_FIXTURE_H
+
+#include "spell/target.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+struct fixture {
+    struct mem mem;
+    jmp_buf trap;
+    struct arena arena;
+    struct strpool strings;
+    struct ir_graph graph;
+    struct lang_unit unit;
+    struct shader shader;
+    uint32_t file; /* of the portable functions */
+    uint32_t color; /* a vec3 local */
+};
+
+static inline bool fixture_read(void *user_data, const char *from, const char *ref, const char **out_name,
+                                const char **out_text, size_t *out_len, const char **out_reason)
+{
+    (void)from;
+    (void)out_reason;
+    *out_name = ref;
+    *out_text = user_data;
+    *out_len = strlen(*out_text);
+    return true;
+}
+
+static inline str_id word(struct fixture *f, const char *text)
+{
+    return str_intern_z(&f->strings, text);
+}
+
+/* `source`: portable functions, or NULL. */
+static inline void fixture_open(struct fixture *f, const char *source)
+{
+    memset(f, 0, sizeof *f);
+    mem_init(&f->mem, NULL, NULL);
+    f->mem.trap = &f->trap;
+    arena_init(&f->arena, &f->mem);
+    strpool_init(&f->strings, &f->arena, NULL);
+    ir_graph_init(&f->graph, &f->arena, &f->strings);
+    lang_unit_init(&f->unit, &f->arena, &f->strings, NULL);
+    shader_init(&f->shader, &f->arena, &f->strings, &f->graph, &f->unit);
+    f->shader.name = word(f, "Gold");
+    f->shader.element_type = word(f, "surfacematerial");
+    f->color = shader_add_local(&f->shader, word(f, "color"), IR_TYPE_VEC3);
+    if (!source)
+        return;
+    struct diag_list diags;
+    diag_list_init(&diags, &f->arena);
+    char *text = arena_strndup(&f->arena, source, strlen(source));
+    f->file = lang_parse_file(&f->unit, &(struct lang_reader){text, fixture_read}, "", "test.glsl", (struct diag_place){0}, &diags);
+    for (uint32_t i = 0; i < diags.items.len; i++)
+        printf("test.glsl:%u: %s\n", diags.items.items[i].place.line, diags.items.items[i].message);
+}
+
+static inline void fixture_close(struct fixture *f)
+{
+    arena_finish(&f->arena);
+}
+
+/* Names the nodes built from here on. */
+static inline void name(struct fixture *f, const char *text)
+{
+    f->graph.origin = ir_add_origin(&f->graph, word(f, text), 1, 0);
+}
+
+static inline ir_ref uniform(struct fixture *f, const char *text, ir_type_id type)
+{
+    struct shader_variable v = {.name = word(f, text), .type = type, .path = word(f, text)};
+    v.block = type == IR_TYPE_SAMPLER ? BLOCK_TEXTURES : BLOCK_PUBLIC_UNIFORMS;
+    v.has_default = type != IR_TYPE_SAMPLER;
+    v.value.type = type;
+    return shader_read(&f->shader, shader_add_variable(&f->shader, &v));
+}
+
+static inline ir_ref number(struct fixture *f, float value) { return ir_const_float(&f->graph, value); }
+static inline ir_ref op1(struct fixture *f, enum ir_op op, ir_ref a) { return ir_op1(&f->graph, op, a); }
+static inline ir_ref op2(struct fixture *f, enum ir_op op, ir_ref a, ir_ref b) { return ir_op2(&f->graph, op, a, b); }
+static inline ir_ref vec3_of(struct fixture *f, ir_ref a) { return ir_construct(&f->graph, IR_TYPE_VEC3, &a, 1); }
+static inline ir_ref light_direction(struct fixture *f)
+{
+    return ir_build(&f->graph, IR_CONTEXT, IR_TYPE_VEC3, IR_CONTEXT_L, NULL, 0);
+}
+static inline ir_ref read_color(struct fixture *f)
+{
+    return ir_build(&f->graph, IR_LOCAL, IR_TYPE_VEC3, f->color, NULL, 0);
+}
+
+static inline uint32_t function(struct fixture *f, const char *text)
+{
+    return lang_find_function(&f->unit, f->file, word(f, text), NULL, 0);
+}
+
+static inline ir_ref call(struct fixture *f, const char *text, const ir_ref *args, unsigned num_args)
+{
+    ir_type_id types[8];
+    for (unsigned i = 0; i < num_args; i++)
+        types[i] = ir_type_of(&f->graph, args[i]);
+    uint32_t id = function(f, text);
+    if (id == LANG_NONE) /* one of several */
+        id = lang_find_function(&f->unit, f->file, word(f, text), types, num_args);
+    const struct lang_function *fn = lang_function(&f->unit, id, NULL);
+    struct ir_callee callee = {.id = id, .name = fn->name, .derivative = (fn->flags & LANG_FN_DERIVATIVE) != 0};
+    return ir_build(&f->graph, IR_CALL, fn->return_type, ir_add_callee(&f->graph, callee), args, num_args);
+}
+
+static inline ir_ref result(struct fixture *f, ir_ref of, uint32_t index, ir_type_id type)
+{
+    return ir_build(&f->graph, IR_RESULT, type, index, &of, 1);
+}
+
+static inline void effect(struct fixture *f, enum effect_kind kind, uint32_t index, ir_ref value)
+{
+    shader_effect(&f->shader, STAGE_PIXEL, (struct effect){.kind = (uint8_t)kind, .index = index, .value = value});
+}
+
+static inline void accumulate(struct fixture *f, ir_ref value)
+{
+    effect(f, EFFECT_ACCUMULATE, f->color, value);
+}
+
+static inline uint32_t add_output(struct fixture *f)
+{
+    struct shader_variable out = {.name = word(f, "out1"), .block = BLOCK_OUTPUTS, .type = IR_TYPE_VEC4};
+    return shader_add_variable(&f->shader, &out);
+}
+
+/* color and an alpha of 1 to a new output */
+static inline void write_color(struct fixture *f)
+{
+    ir_ref parts[] = {read_color(f), number(f, 1)};
+    effect(f, EFFECT_OUTPUT, add_output(f), ir_construct(&f->graph, IR_TYPE_VEC4, parts, 2));
+}
+
+#endif

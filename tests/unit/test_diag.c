@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: Apache-2.0
+/* Diagnostics: the catalogue, the list and its limit, rendering, suggestions. */
+#include "diag/diag.h"
+
+#include "test.h"
+
+static struct mem mem;
+static struct arena arena;
+
+static struct diag_place at(uint32_t line, uint32_t column, uint32_t length)
+{
+    return (struct diag_place){"wood.mtlx", line, column, length};
+}
+
+static const char *render(const struct diag *diag, const char *source, bool colour)
+{
+    struct text text;
+    text_init(&text, &arena);
+    diag_render_text(diag, source, source ? strlen(source) : 0, colour, &text);
+    return text_cstr(&text);
+}
+
+/* Ids are distinct, lower-case words with hyphens; formats use what diag.h allows and say something. */
+static void test_catalogue(void)
+{
+    static const char *const formats[] = {
+#define DIAG(id, severity, stable, format) format,
+#include "diag/catalogue.def"
+#undef DIAG
+    };
+    for (unsigned i = 0; i < DIAG_NUM_IDS; i++) {
+        const char *id = diag_id_text((enum diag_id)i);
+        if (!REQUIRE(strspn(id, "abcdefghijklmnopqrstuvwxyz-") == strlen(id)))
+            printf("    %s\n", id);
+        for (unsigned k = 0; k < i; k++)
+            REQUIRE(strcmp(id, diag_id_text((enum diag_id)k)) != 0);
+        REQUIRE(formats[i][0] != '\0' && !strchr(formats[i], '\n'));
+        for (const char *p = strchr(formats[i], '%'); p; p = strchr(p + 1, '%'))
+            if (!REQUIRE(strchr("sud", p[1]) && p[1]))
+                printf("    %s\n", formats[i]);
+    }
+}
+
+static void test_list(void)
+{
+    struct diag_list list;
+    diag_list_init(&list, &arena);
+    char name[] = "wood.mtlx";
+    diag_add(&list, DIAG_ID_unknown_node, (struct diag_place){name, 3, 5, 0}, "mux", " (did you mean 'mix'?)");
+    diag_add(&list, DIAG_ID_defined_here, at(1, 1, 0), "mix");
+    diag_add(&list, DIAG_ID_connected_here, at(2, 1, 0), "mix");
+    diag_add(&list, DIAG_ID_version_missing, at(1, 1, 0));
+    diag_add(&list, DIAG_ID_upgraded, at(1, 1, 0), "a node was renamed");
+    name[0] = 'g'; /* the list has its own copy */
+    REQUIRE_EQ(list.items.len, 5);
+    REQUIRE_EQ(list.num_errors, 1);
+    REQUIRE_EQ(list.num_warnings, 1);
+    const struct diag *items = list.items.items;
+    REQUIRE_STR(items[0].message, "unknown node <mux> (did you mean 'mix'?)");
+    REQUIRE_STR(items[0].place.file, "wood.mtlx");
+    REQUIRE_EQ(items[0].severity, DIAG_ERROR);
+    REQUIRE_EQ(items[1].severity, DIAG_NOTE);
+    REQUIRE_EQ(items[1].parent, 0);
+    REQUIRE_EQ(items[2].parent, 0);
+    REQUIRE_EQ(items[3].parent, 3);
+    REQUIRE_EQ(items[3].severity, DIAG_WARNING);
+    REQUIRE_EQ(items[4].severity, DIAG_REMARK);
+    REQUIRE_EQ(items[4].parent, 4);
+}
+
+/* Errors beyond the limit are counted; they go with their notes, and one note says so. Warnings still come. */
+static void test_limit(void)
+{
+    struct diag_list list;
+    diag_list_init(&list, &arena);
+    list.max_errors = 2;
+    for (unsigned i = 0; i < 5; i++) {
+        diag_add(&list, DIAG_ID_cycle, at(i + 1, 1, 0), "a, b, a");
+        diag_add(&list, DIAG_ID_connected_here, at(9, 1, 0), "a");
+    }
+    diag_add(&list, DIAG_ID_version_missing, at(1, 1, 0));
+    REQUIRE_EQ(list.num_errors, 5);
+    REQUIRE_EQ(list.items.len, 6); /* two errors, each with a note; the note about the rest; the warning */
+    REQUIRE_STR(list.items.items[4].message, "more errors than 2; the rest is not shown");
+    REQUIRE_EQ(list.items.items[4].parent, 2);
+    REQUIRE_EQ(list.items.items[5].id, DIAG_ID_version_missing);
+}
+
+static void test_text(void)
+{
+    struct diag diag = {.id = DIAG_ID_unknown_node, .message = "unknown node <mux>", .place = at(2, 3, 4)};
+    static const char source[] = "<materialx>\n  <mux name='a'/>\r\n</materialx>";
+    REQUIRE_STR(render(&diag, source, false), "wood.mtlx:2:3: error: unknown node <mux> [unknown-node]\n"
+                                              "      <mux name='a'/>\n"
+                                              "      ^~~~\n");
+    REQUIRE_STR(render(&diag, NULL, false), "wood.mtlx:2:3: error: unknown node <mux> [unknown-node]\n");
+    diag.place = at(1, 1, 0);
+    REQUIRE_STR(render(&diag, source, false), "wood.mtlx:1:1: error: unknown node <mux> [unknown-node]\n"
+                                              "    <materialx>\n"
+                                              "    ^\n");
+    REQUIRE_STR(render(&diag, source, true),
+                "\x1b[1mwood.mtlx:1:1: \x1b[1;31merror: \x1b[0munknown node <mux> [unknown-node]\n"
+                "    <materialx>\n"
+                "    \x1b[1;32m^\x1b[0m\n");
+    diag.place = at(0, 0, 0);
+    REQUIRE_STR(render(&diag, source, false), "wood.mtlx: error: unknown node <mux> [unknown-node]\n");
+    diag.place = (struct diag_place){0};
+    REQUIRE_STR(render(&diag, source, false), "error: unknown node <mux> [unknown-node]\n");
+    diag.place = at(9, 1, 1); /* the source is another one */
+    REQUIRE_STR(render(&diag, source, false), "wood.mtlx:9:1: error: unknown node <mux> [unknown-node]\n");
+    diag.place = at(1, 80, 1);
+    REQUIRE_STR(render(&diag, source, false), "wood.mtlx:1:80: error: unknown node <mux> [unknown-node]\n");
+    diag.severity = DIAG_NOTE;
+    diag.place = at(3, 12, 9); /* the underline ends with the line */
+    REQUIRE_STR(render(&diag, source, false), "wood.mtlx:3:12: note: unknown node <mux>\n"
+                                              "    </materialx>\n"
+                                              "               ^\n");
+}
+
+/* Columns are code points; tabs stay tabs under tabs; escapes of the document do not reach the terminal. */
+static void test_columns(void)
+{
+    struct diag diag = {.id = DIAG_ID_unknown_node, .message = "evil \x1b[2J", .place = at(1, 7, 2)};
+    REQUIRE_STR(render(&diag, "\t\xc3\xa4\xe2\x82\xac\t<\x1bxy", false),
+                "wood.mtlx:1:7: error: evil ?[2J [unknown-node]\n"
+                "    \t\xc3\xa4\xe2\x82\xac\t<?xy\n"
+                "    \t  \t  ^~\n");
+    char line[400];
+    memset(line, '-', sizeof line - 1);
+    line[sizeof line - 1] = '\0';
+    line[299] = 'X';
+    diag.place = at(1, 300, 3);
+    const char *shown = render(&diag, line, false);
+    const char *second = strchr(shown, '\n') + 1, *third = strchr(second, '\n') + 1;
+    REQUIRE(strncmp(second, "    ...---", 10) == 0);
+    REQUIRE(third - second <= 180);
+    REQUIRE_EQ(strchr(second, 'X') - second, strchr(third, '^') - third);
+    diag.place = at(1, 1, 1);
+    shown = render(&diag, line, false);
+    REQUIRE(strstr(shown, "---...\n    ^\n") != NULL);
+}
+
+static void test_json(void)
+{
+    struct diag_list list;
+    struct text text;
+    diag_list_init(&list, &arena);
+    text_init(&text, &arena);
+    diag_render_json(&list, &text);
+    REQUIRE_STR(text_cstr(&text), "[]\n");
+    diag_add(&list, DIAG_ID_unknown_node, at(3, 5, 4), "a\"b", "");
+    diag_add(&list, DIAG_ID_defined_here, at(1, 1, 0), "x");
+    diag_add(&list, DIAG_ID_connected_here, (struct diag_place){0}, "y");
+    diag_add(&list, DIAG_ID_version_missing, at(0, 0, 0));
+    text_init(&text, &arena);
+    diag_render_json(&list, &text);
+    REQUIRE_STR(text_cstr(&text),
+                "[\n"
+                "  {\"severity\": \"error\", \"id\": \"unknown-node\", \"message\": \"unknown node <a\\\"b>\", "
+                "\"file\": \"wood.mtlx\", \"line\": 3, \"column\": 5, \"length\": 4, \"notes\": [\n"
+                "    {\"severity\": \"note\", \"id\": \"defined-here\", \"message\": \"'x' is defined here\", "
+                "\"file\": \"wood.mtlx\", \"line\": 1, \"column\": 1, \"length\": 1},\n"
+                "    {\"severity\": \"note\", \"id\": \"connected-here\", \"message\": \"'y' is here\"}]},\n"
+                "  {\"severity\": \"warning\", \"id\": \"version-missing\", "
+                "\"message\": \"<materialx> has no version; it is read as 1.39\", \"file\": \"wood.mtlx\"}\n"
+                "]\n");
+}
+
+static void test_suggest(void)
+{
+    static const char *const nodes[] = {"multiply", "mix", "image", "standard_surface", "noise2d", "noise3d", "Mix"};
+    static const struct {
+        const char *word, *suggestion;
+    } cases[] = {
+        {"mulitply", " (did you mean 'multiply'?)"}, /* a swap is one mistake */
+        {"imge", " (did you mean 'image'?)"},
+        {"standardsurface", " (did you mean 'standard_surface'?)"},
+        {"STANDARD_SURFACE", " (did you mean 'standard_surface'?)"},
+        {"noise4d", " (did you mean 'noise2d'?)"},
+        {"max", " (did you mean 'mix'?)"},
+        {"mix", " (did you mean 'Mix'?)"}, /* the word itself is no help */
+        {"glossiness", ""},
+        {"x", ""},
+        {"", ""},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
+        REQUIRE_STR(diag_suggest(&arena, cases[i].word, nodes, sizeof nodes / sizeof *nodes), cases[i].suggestion);
+    char longest[300];
+    memset(longest, 'a', sizeof longest - 1);
+    longest[sizeof longest - 1] = '\0';
+    const char *candidates[] = {longest};
+    REQUIRE_STR(diag_suggest(&arena, longest + 1, candidates, 1), "");
+    REQUIRE_STR(diag_suggest(&arena, "aaaa", candidates, 1), "");
+    REQUIRE_STR(diag_suggest(&arena, "aaaa", NULL, 0), "");
+}
+
+int main(void)
+{
+    mem_init(&mem, NULL, NULL);
+    arena_init(&arena, &mem);
+    test_catalogue();
+    test_list();
+    test_limit();
+    test_text();
+    test_columns();
+    test_json();
+    test_suggest();
+    arena_finish(&arena);
+    REQUIRE_EQ(mem.used, 0);
+    return test_report("diag");
+}

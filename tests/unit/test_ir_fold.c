@@ -1,0 +1,358 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * Constant arithmetic against values worked out by hand or with other tools from the definitions in GLSL 4.50 section 8 and 5.
+ * Every foldable op must stand in the table.
+ */
+#include "ir/ir.h"
+
+#include "test.h"
+
+static const struct {
+    const char *node;  /* as in the text form: op, type, operands */
+    const char *value; /* "undefined" where GLSL leaves it so */
+} cases[] = {
+    /* operators on floats, vectors and matrices */
+    {"neg float 1.5", "-1.5"},
+    {"neg float 0.0", "-0.0"},
+    {"neg mat2 mat2(1.0, 2.0, 3.0, 4.0)", "mat2(-1.0, -2.0, -3.0, -4.0)"},
+    {"add float 0.1, 0.2", "0.3"}, /* 0.1f + 0.2f rounds to 0.3f */
+    {"add float 16777216.0, 1.0", "16777216.0"},
+    {"add vec3 vec3(1.0, 2.0, 3.0), 1.0", "vec3(2.0, 3.0, 4.0)"},
+    {"add mat2 1.0, mat2(1.0, 2.0, 3.0, 4.0)", "mat2(2.0, 3.0, 4.0, 5.0)"},
+    {"sub vec2 1.0, vec2(0.25, 2.0)", "vec2(0.75, -1.0)"},
+    {"mul vec2 vec2(2.0, 3.0), vec2(4.0, 5.0)", "vec2(8.0, 15.0)"},
+    {"mul mat2 mat2(1.0, 2.0, 3.0, 4.0), 2.0", "mat2(2.0, 4.0, 6.0, 8.0)"},
+    {"mul vec2 mat2(1.0, 2.0, 3.0, 4.0), vec2(5.0, 6.0)", "vec2(23.0, 34.0)"}, /* columns (1 2) and (3 4) */
+    {"mul vec2 vec2(5.0, 6.0), mat2(1.0, 2.0, 3.0, 4.0)", "vec2(17.0, 39.0)"},
+    {"mul mat2 mat2(1.0, 2.0, 3.0, 4.0), mat2(5.0, 6.0, 7.0, 8.0)", "mat2(23.0, 34.0, 31.0, 46.0)"},
+    {"mul vec3 mat3(0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0), vec3(7.0, 8.0, 9.0)", "vec3(9.0, 7.0, 8.0)"},
+    {"div vec2 1.0, vec2(2.0, 4.0)", "vec2(0.5, 0.25)"},
+    {"div float 1.0, 0.0", "inf"},
+    {"div float -1.0, 0.0", "-inf"},
+    {"div mat2 mat2(2.0, 4.0, 6.0, 8.0), mat2(1.0, 2.0, 3.0, 4.0)", "mat2(2.0, 2.0, 2.0, 2.0)"},
+    /* integers wrap */
+    {"neg int -2147483648", "-2147483648"},
+    {"neg uint 1u", "4294967295u"},
+    {"add int 2147483647, 1", "-2147483648"},
+    {"add ivec2 ivec2(1, 2), 3", "ivec2(4, 5)"},
+    {"sub uint 1u, 2u", "4294967295u"},
+    {"mul int 65536, 65536", "0"},
+    {"mul uint 65537u, 65537u", "131073u"},
+    {"div int -7, 2", "-3"},
+    {"div int -2147483648, -1", "-2147483648"},
+    {"div int 1, 0", "undefined"},
+    {"div uint 4294967295u, 2u", "2147483647u"},
+    {"div uint 1u, 0u", "undefined"},
+    {"rem int 7, 3", "1"},
+    {"rem int -7, 3", "undefined"},
+    {"rem int 7, 0", "undefined"},
+    {"rem uint 4294967295u, 10u", "5u"},
+    {"bitnot int 0", "-1"},
+    {"bitnot uint 1u", "4294967294u"},
+    {"shl int 1, 31", "-2147483648"},
+    {"shl int 1, 32", "undefined"},
+    {"shl int 1, -1", "undefined"},
+    {"shl int 3, 2u", "12"},
+    {"shl uint 4294967295u, 4u", "4294967280u"},
+    {"shr int -8, 1", "-4"},
+    {"shr int -1, 31", "-1"},
+    {"shr uint 4294967288u, 1u", "2147483644u"},
+    {"and int 12, 10", "8"},
+    {"or int 12, 10", "14"},
+    {"xor uint 12u, 10u", "6u"},
+    {"xor ivec2 ivec2(1, 2), ivec2(3, 3)", "ivec2(2, 1)"},
+    /* comparisons and logic */
+    {"lt bool 1.0, 2.0", "true"},
+    {"lt bool nan#2143289344, 1.0", "false"},
+    {"lt bool -1, 1", "true"},
+    {"lt bool 4294967295u, 1u", "false"},
+    {"le bool 2.0, 2.0", "true"},
+    {"gt bool 2, 1", "true"},
+    {"ge bool 1.0, 2.0", "false"},
+    {"eq bool 0.0, -0.0", "true"},
+    {"eq bool nan#2143289344, nan#2143289344", "false"},
+    {"eq bool vec3(1.0, 2.0, 3.0), vec3(1.0, 2.0, 3.0)", "true"},
+    {"eq bool vec3(1.0, 2.0, 3.0), vec3(1.0, 2.0, 4.0)", "false"},
+    {"eq bool true, false", "false"},
+    {"eq bool \"a\", \"a\"", "true"},
+    {"ne bool nan#2143289344, 1.0", "true"},
+    {"ne bool ivec2(1, 2), ivec2(1, 2)", "false"},
+    {"ne bool \"a\", \"b\"", "true"},
+    {"not bool true", "false"},
+    {"land bool true, false", "false"},
+    {"lor bool true, false", "true"},
+    {"lxor bool true, true", "false"},
+    {"lxor bool false, true", "true"},
+    {"select float true, 1.0, 2.0", "1.0"},
+    {"select vec2 false, vec2(1.0, 1.0), vec2(2.0, 3.0)", "vec2(2.0, 3.0)"},
+    {"select string false, \"a\", \"b\"", "\"b\""},
+    /* building and taking apart */
+    {"construct vec3 1.5", "vec3(1.5, 1.5, 1.5)"},
+    {"construct vec4 vec2(1.0, 2.0), 3.0, 4.0", "vec4(1.0, 2.0, 3.0, 4.0)"},
+    {"construct ivec2 1, 2", "ivec2(1, 2)"},
+    {"construct mat2 2.0", "mat2(2.0, 0.0, 0.0, 2.0)"},
+    {"construct mat3 vec3(1.0, 2.0, 3.0), vec3(4.0, 5.0, 6.0), vec3(7.0, 8.0, 9.0)",
+     "mat3(1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0)"},
+    {"construct mat2 1.0, vec2(2.0, 3.0), 4.0", "mat2(1.0, 2.0, 3.0, 4.0)"},
+    {"convert float -3", "-3.0"},
+    {"convert float 4294967295u", "4.2949673e9"},
+    {"convert float true", "1.0"},
+    {"convert int -2.75", "-2"},
+    {"convert int 2147483648.0", "undefined"},
+    {"convert int nan#2143289344", "undefined"},
+    {"convert uint 3.75", "3u"},
+    {"convert uint -1.0", "undefined"},
+    {"convert uint -1", "4294967295u"},
+    {"convert int 4294967295u", "-1"},
+    {"convert int true", "1"},
+    {"convert bool 0.5", "true"},
+    {"convert bool -0.0", "false"},
+    {"convert bool 2", "true"},
+    {"convert vec2 ivec2(1, -2)", "vec2(1.0, -2.0)"},
+    {"convert ivec2 vec2(1.9, -2.9)", "ivec2(1, -2)"},
+    {"convert vec2 vec4(1.0, 2.0, 3.0, 4.0)", "vec2(1.0, 2.0)"},
+    {"convert mat2 mat3(1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0)", "mat2(1.0, 2.0, 4.0, 5.0)"},
+    {"convert mat3 mat2(1.0, 2.0, 3.0, 4.0)", "mat3(1.0, 2.0, 0.0, 3.0, 4.0, 0.0, 0.0, 0.0, 1.0)"},
+    {"swizzle vec2 .zx vec3(1.0, 2.0, 3.0)", "vec2(3.0, 1.0)"},
+    {"swizzle float .w vec4(1.0, 2.0, 3.0, 4.0)", "4.0"},
+    {"swizzle vec4 .xxxx 2.0", "vec4(2.0, 2.0, 2.0, 2.0)"},
+    {"index float vec3(1.0, 2.0, 3.0), 2", "3.0"},
+    {"index float vec3(1.0, 2.0, 3.0), 3", "undefined"},
+    {"index float vec3(1.0, 2.0, 3.0), -1", "undefined"},
+    {"index vec2 mat2(1.0, 2.0, 3.0, 4.0), 1u", "vec2(3.0, 4.0)"},
+    {"index vec2 mat2(1.0, 2.0, 3.0, 4.0), 2", "undefined"},
+    /* trigonometry */
+    {"radians float 180.0", "3.1415927"},
+    {"radians vec2 vec2(0.0, 45.0)", "vec2(0.0, 0.7853982)"},
+    {"degrees float 1.0", "57.29578"},
+    {"sin float 0.5", "0.47942555"},
+    {"cos float 0.5", "0.87758255"},
+    {"tan float 1.0", "1.5574077"},
+    {"asin float 0.5", "0.5235988"},
+    {"asin float 1.5", "undefined"},
+    {"acos float 0.5", "1.0471976"},
+    {"acos float -1.5", "undefined"},
+    {"atan float 2.0", "1.1071488"},
+    {"atan2 float 1.0, -1.0", "2.3561945"},
+    {"atan2 float 0.0, -1.0", "3.1415927"},
+    {"atan2 float 0.0, 0.0", "undefined"},
+    {"sinh float 1.0", "1.1752012"},
+    {"cosh float 1.0", "1.5430807"},
+    {"tanh float 1.0", "0.7615942"},
+    /* exponentials */
+    {"pow float 2.0, 0.5", "1.4142135"},
+    {"pow vec2 vec2(0.5, 3.0), vec2(3.0, 2.0)", "vec2(0.125, 9.0)"},
+    {"pow float 0.0, 2.0", "0.0"},
+    {"pow float 0.0, 0.0", "undefined"},
+    {"pow float -2.0, 2.0", "undefined"},
+    {"exp float 1.0", "2.7182817"},
+    {"exp float 100.0", "inf"},
+    {"log float 10.0", "2.3025851"},
+    {"log float 0.0", "undefined"},
+    {"exp2 float 0.5", "1.4142135"},
+    {"log2 float 10.0", "3.321928"},
+    {"log2 float -1.0", "undefined"},
+    {"sqrt float 2.0", "1.4142135"},
+    {"sqrt float -1.0", "undefined"},
+    {"inversesqrt float 2.0", "0.70710677"},
+    {"inversesqrt float 0.0", "undefined"},
+    /* common functions */
+    {"abs float -1.5", "1.5"},
+    {"abs int -3", "3"},
+    {"sign vec3 vec3(-2.0, 0.0, 3.0)", "vec3(-1.0, 0.0, 1.0)"},
+    {"sign int -7", "-1"},
+    {"floor vec2 vec2(-1.5, 1.5)", "vec2(-2.0, 1.0)"},
+    {"trunc vec2 vec2(-1.5, 1.5)", "vec2(-1.0, 1.0)"},
+    {"round vec4 vec4(0.5, 1.5, -0.5, 2.4)", "vec4(1.0, 2.0, -1.0, 2.0)"},
+    {"ceil vec2 vec2(-1.5, 1.5)", "vec2(-1.0, 2.0)"},
+    {"fract vec2 vec2(-1.25, 1.25)", "vec2(0.75, 0.25)"},
+    {"mod float 5.5, 2.0", "1.5"},
+    {"mod float -1.0, 3.0", "2.0"},
+    {"mod vec2 vec2(5.5, 5.5), vec2(-2.0, 4.0)", "vec2(-0.5, 1.5)"},
+    {"min vec2 vec2(1.0, 3.0), 2.0", "vec2(1.0, 2.0)"},
+    {"min int -1, 1", "-1"},
+    {"min uint 4294967295u, 1u", "1u"},
+    {"max float -1.0, 1.0", "1.0"},
+    {"max int -1, 1", "1"},
+    {"max uint 4294967295u, 1u", "4294967295u"},
+    {"clamp vec3 vec3(-1.0, 0.5, 2.0), 0.0, 1.0", "vec3(0.0, 0.5, 1.0)"},
+    {"clamp vec2 vec2(-1.0, 5.0), vec2(0.0, 1.0), vec2(1.0, 4.0)", "vec2(0.0, 4.0)"},
+    {"clamp float 0.5, 1.0, 0.0", "0.0"}, /* min(max(x, low), high) */
+    {"clamp int 7, -1, 5", "5"},
+    {"clamp uint 0u, 2u, 4294967295u", "2u"},
+    {"mix float 2.0, 4.0, 0.25", "2.5"},
+    {"mix vec2 vec2(0.0, 1.0), vec2(2.0, 3.0), 0.5", "vec2(1.0, 2.0)"},
+    {"mix vec2 vec2(0.0, 0.0), vec2(1.0, 1.0), vec2(-1.0, 2.0)", "vec2(-1.0, 2.0)"},
+    {"step float 0.5, 0.5", "1.0"},
+    {"step vec2 0.5, vec2(0.4, 0.6)", "vec2(0.0, 1.0)"},
+    {"step vec2 vec2(0.0, 1.0), vec2(0.5, 0.5)", "vec2(1.0, 0.0)"},
+    {"smoothstep float 0.0, 2.0, 0.5", "0.15625"},
+    {"smoothstep vec2 0.0, 1.0, vec2(-1.0, 2.0)", "vec2(0.0, 1.0)"},
+    {"smoothstep float 1.0, 0.0, 0.25", "0.84375"}, /* edges the wrong way round: as the formula says */
+    {"smoothstep float 1.0, 1.0, 1.0", "undefined"},
+    {"isnan bool nan#2143289344", "true"},
+    {"isnan bool inf", "false"},
+    {"isinf bool -inf", "true"},
+    {"isinf bool 1.0", "false"},
+    {"floatBitsToInt int -1.0", "-1082130432"}, /* 0xbf800000 */
+    {"floatBitsToInt ivec2 vec2(1.0, 0.0)", "ivec2(1065353216, 0)"},
+    {"floatBitsToUint uint -1.0", "3212836864u"},
+    {"intBitsToFloat float 1065353216", "1.0"},
+    {"intBitsToFloat vec2 ivec2(0, 1073741824)", "vec2(0.0, 2.0)"},
+    {"uintBitsToFloat float 3212836864u", "-1.0"},
+    /* geometry */
+    {"length float -2.0", "2.0"},
+    {"length float vec3(1.0, 2.0, 3.0)", "3.7416575"},
+    {"distance float vec2(1.0, 2.0), vec2(4.0, 6.0)", "5.0"},
+    {"dot float vec3(1.0, 2.0, 3.0), vec3(4.0, -5.0, 6.0)", "12.0"},
+    {"cross vec3 vec3(1.0, 2.0, 3.0), vec3(4.0, 5.0, 6.0)", "vec3(-3.0, 6.0, -3.0)"},
+    {"normalize vec3 vec3(1.0, 2.0, -2.0)", "vec3(0.33333334, 0.6666667, -0.6666667)"},
+    {"normalize vec3 vec3(0.0, 0.0, 0.0)", "undefined"},
+    {"faceforward vec2 vec2(1.0, 2.0), vec2(0.0, -1.0), vec2(0.0, 1.0)", "vec2(1.0, 2.0)"},
+    {"faceforward vec2 vec2(1.0, 2.0), vec2(0.0, 1.0), vec2(0.0, 1.0)", "vec2(-1.0, -2.0)"},
+    {"reflect vec2 vec2(0.5, -1.0), vec2(0.0, 1.0)", "vec2(0.5, 1.0)"},
+    {"refract vec2 vec2(0.6, -0.8), vec2(0.0, 1.0), 0.5", "vec2(0.3, -0.9539392)"},
+    {"refract vec2 vec2(0.8, -0.6), vec2(0.0, 1.0), 1.5", "vec2(0.0, 0.0)"}, /* total reflection */
+    /* matrices */
+    {"matrixCompMult mat2 mat2(1.0, 2.0, 3.0, 4.0), mat2(5.0, 6.0, 7.0, 8.0)", "mat2(5.0, 12.0, 21.0, 32.0)"},
+    {"transpose mat2 mat2(1.0, 2.0, 3.0, 4.0)", "mat2(1.0, 3.0, 2.0, 4.0)"},
+    {"transpose mat3 mat3(1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0)", "mat3(1.0, 4.0, 7.0, 2.0, 5.0, 8.0, 3.0, 6.0, 9.0)"},
+    {"determinant float mat2(1.0, 2.0, 3.0, 4.0)", "-2.0"},
+    {"determinant float mat3(2.0, 0.0, 0.0, 0.0, 3.0, 0.0, 0.0, 0.0, 4.0)", "24.0"},
+    {"determinant float mat3(0.0, 1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0)", "-1.0"},
+    {"determinant float mat2(1.0, 2.0, 2.0, 4.0)", "0.0"},
+    {"inverse mat2 mat2(1.0, 2.0, 3.0, 4.0)", "mat2(-2.0, 1.0, 1.5, -0.5)"},
+    {"inverse mat2 mat2(1.0, 2.0, 2.0, 4.0)", "undefined"},
+    {"inverse mat3 mat3(0.0, 1.0, 0.0, 0.0, 0.0, 2.0, 4.0, 0.0, 0.0)", "mat3(0.0, 0.0, 0.25, 1.0, 0.0, 0.0, 0.0, 0.5, 0.0)"},
+    {"inverse mat4 mat4(1.0, 0.0, 0.0, 0.0, 0.0, 2.0, 0.0, 0.0, 0.0, 0.0, 4.0, 0.0, 3.0, 6.0, 8.0, 1.0)",
+     "mat4(1.0, 0.0, 0.0, 0.0, 0.0, 0.5, 0.0, 0.0, 0.0, 0.0, 0.25, 0.0, -3.0, -3.0, -2.0, 1.0)"},
+};
+
+static bool seen[IR_NUM_OPS];
+
+/* The value of the node as the text form writes constants. */
+static const char *evaluate(struct ir_graph *graph, const char *node)
+{
+    struct text text;
+    ir_ref *roots;
+    uint32_t num_roots, line;
+    text_init(&text, graph->arena);
+    text_fmt(&text, "%%r = %s\nreturn %%r\n", node);
+    const char *problem = ir_parse(graph, text.data, text.len, &roots, &num_roots, &line);
+    if (problem)
+        return problem;
+    seen[ir_get(graph, roots[0])->op] = true;
+    struct ir_value value;
+    if (!ir_eval(graph, roots[0], NULL, graph->arena, &value))
+        return "undefined";
+    ir_ref constant = ir_const(graph, &value);
+    text_init(&text, graph->arena);
+    ir_print(graph, &constant, 1, &text);
+    text.len--; /* the line break */
+    return text_cstr(&text) + strlen("return ");
+}
+
+static void test_values(void)
+{
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        struct mem mem;
+        struct arena arena;
+        struct strpool strings;
+        struct ir_graph graph;
+        mem_init(&mem, NULL, NULL);
+        arena_init(&arena, &mem);
+        strpool_init(&strings, &arena, NULL);
+        ir_graph_init(&graph, &arena, &strings);
+        graph.no_fold = true;
+        if (!REQUIRE_STR(evaluate(&graph, cases[i].node), cases[i].value))
+            printf("    in %s\n", cases[i].node);
+        arena_finish(&arena);
+    }
+}
+
+static void test_coverage(void)
+{
+    for (unsigned op = 0; op < IR_NUM_OPS; op++) {
+        bool foldable = (ir_op_info((enum ir_op)op)->flags & OP_PURE) && op != IR_CONST && op != IR_MEMBER;
+        if (!REQUIRE_EQ(seen[op], foldable))
+            printf("    op %s\n", ir_op_info((enum ir_op)op)->text);
+    }
+}
+
+/* What types.c says of operand types that do not fit, or fit in more than one way. */
+static const struct {
+    uint8_t op;
+    ir_type_id result, args[3];
+} typings[] = {
+    {IR_ADD, IR_TYPE_VOID, {IR_TYPE_FLOAT, IR_TYPE_INT}},
+    {IR_ADD, IR_TYPE_VOID, {IR_TYPE_VEC2, IR_TYPE_VEC3}},
+    {IR_ADD, IR_TYPE_VOID, {IR_TYPE_BOOL, IR_TYPE_BOOL}},
+    {IR_ADD, IR_TYPE_MAT3, {IR_TYPE_FLOAT, IR_TYPE_MAT3}},
+    {IR_ADD, IR_TYPE_VOID, {IR_TYPE_MAT3, IR_TYPE_VEC3}},
+    {IR_MUL, IR_TYPE_VEC3, {IR_TYPE_MAT3, IR_TYPE_VEC3}},
+    {IR_MUL, IR_TYPE_VEC3, {IR_TYPE_VEC3, IR_TYPE_MAT3}},
+    {IR_MUL, IR_TYPE_VOID, {IR_TYPE_MAT3, IR_TYPE_VEC4}},
+    {IR_MUL, IR_TYPE_VOID, {IR_TYPE_MAT3, IR_TYPE_MAT4}},
+    {IR_DIV, IR_TYPE_VOID, {IR_TYPE_VEC3, IR_TYPE_MAT3}},
+    {IR_NEG, IR_TYPE_VOID, {IR_TYPE_BOOL}},
+    {IR_SIN, IR_TYPE_VOID, {IR_TYPE_INT}},
+    {IR_SIN, IR_TYPE_VOID, {IR_TYPE_MAT2}},
+    {IR_ABS, IR_TYPE_VOID, {IR_TYPE_UINT}},
+    {IR_ABS, IR_TYPE_IVEC2, {IR_TYPE_IVEC2}},
+    {IR_MIN, IR_TYPE_VOID, {IR_TYPE_FLOAT, IR_TYPE_VEC2}},
+    {IR_MIN, IR_TYPE_UINT, {IR_TYPE_UINT, IR_TYPE_UINT}},
+    {IR_CLAMP, IR_TYPE_VOID, {IR_TYPE_VEC2, IR_TYPE_VEC2, IR_TYPE_FLOAT}},
+    {IR_MIX, IR_TYPE_VEC2, {IR_TYPE_VEC2, IR_TYPE_VEC2, IR_TYPE_FLOAT}},
+    {IR_MIX, IR_TYPE_VOID, {IR_TYPE_VEC2, IR_TYPE_FLOAT, IR_TYPE_FLOAT}},
+    {IR_STEP, IR_TYPE_VEC3, {IR_TYPE_FLOAT, IR_TYPE_VEC3}},
+    {IR_STEP, IR_TYPE_VOID, {IR_TYPE_VEC3, IR_TYPE_FLOAT}},
+    {IR_SMOOTHSTEP, IR_TYPE_VOID, {IR_TYPE_FLOAT, IR_TYPE_VEC3, IR_TYPE_VEC3}},
+    {IR_SMOOTHSTEP, IR_TYPE_VEC3, {IR_TYPE_FLOAT, IR_TYPE_FLOAT, IR_TYPE_VEC3}},
+    {IR_REFRACT, IR_TYPE_VOID, {IR_TYPE_VEC3, IR_TYPE_VEC3, IR_TYPE_VEC3}},
+    {IR_REFRACT, IR_TYPE_VEC3, {IR_TYPE_VEC3, IR_TYPE_VEC3, IR_TYPE_FLOAT}},
+    {IR_DOT, IR_TYPE_FLOAT, {IR_TYPE_VEC4, IR_TYPE_VEC4}},
+    {IR_DOT, IR_TYPE_VOID, {IR_TYPE_VEC4, IR_TYPE_VEC3}},
+    {IR_CROSS, IR_TYPE_VOID, {IR_TYPE_VEC2, IR_TYPE_VEC2}},
+    {IR_LT, IR_TYPE_VOID, {IR_TYPE_VEC2, IR_TYPE_VEC2}},
+    {IR_EQ, IR_TYPE_BOOL, {IR_TYPE_MAT4, IR_TYPE_MAT4}},
+    {IR_EQ, IR_TYPE_VOID, {IR_TYPE_SAMPLER, IR_TYPE_SAMPLER}},
+    {IR_LAND, IR_TYPE_VOID, {IR_TYPE_BOOL, IR_TYPE_INT}},
+    {IR_SHL, IR_TYPE_INT, {IR_TYPE_INT, IR_TYPE_UINT}},
+    {IR_SHL, IR_TYPE_IVEC2, {IR_TYPE_IVEC2, IR_TYPE_INT}},
+    {IR_AND, IR_TYPE_VOID, {IR_TYPE_INT, IR_TYPE_UINT}},
+    {IR_SELECT, IR_TYPE_BSDF, {IR_TYPE_BOOL, IR_TYPE_BSDF, IR_TYPE_BSDF}},
+    {IR_SELECT, IR_TYPE_VOID, {IR_TYPE_INT, IR_TYPE_FLOAT, IR_TYPE_FLOAT}},
+    {IR_DETERMINANT, IR_TYPE_FLOAT, {IR_TYPE_MAT4}},
+    {IR_INVERSE, IR_TYPE_VOID, {IR_TYPE_VEC4}},
+    {IR_ISNAN, IR_TYPE_VOID, {IR_TYPE_INT}},
+    {IR_TEX, IR_TYPE_VEC4, {IR_TYPE_SAMPLER, IR_TYPE_VEC2}},
+    {IR_TEX, IR_TYPE_VOID, {IR_TYPE_SAMPLER, IR_TYPE_VEC3}},
+    {IR_TEX_SIZE, IR_TYPE_IVEC2, {IR_TYPE_SAMPLER, IR_TYPE_INT}},
+    {IR_UNIFORM, IR_TYPE_VOID, {IR_TYPE_VOID}},
+    {IR_CONVERT, IR_TYPE_VOID, {IR_TYPE_FLOAT}},
+};
+
+static void test_typing(void)
+{
+    for (size_t i = 0; i < sizeof typings / sizeof *typings; i++) {
+        enum ir_op op = (enum ir_op)typings[i].op;
+        int8_t arity = ir_op_info(op)->arity;
+        if (!REQUIRE_EQ(ir_op_result(op, typings[i].args, (unsigned)arity), typings[i].result))
+            printf("    typing %zu, op %s\n", i, ir_op_info(op)->text);
+    }
+    REQUIRE_EQ(ir_op_result(IR_ADD, (ir_type_id[]){IR_TYPE_FLOAT}, 1), IR_TYPE_VOID);
+    REQUIRE_EQ(ir_type_vector(IR_TYPE_FLOAT, 1), IR_TYPE_FLOAT);
+    REQUIRE_EQ(ir_type_vector(IR_TYPE_FLOAT, 4), IR_TYPE_VEC4);
+    REQUIRE_EQ(ir_type_vector(IR_TYPE_FLOAT, 5), IR_TYPE_VOID);
+    REQUIRE_EQ(ir_type_vector(IR_TYPE_INT, 2), IR_TYPE_IVEC2);
+    REQUIRE_EQ(ir_type_vector(IR_TYPE_BOOL, 2), IR_TYPE_VOID);
+    REQUIRE_EQ(ir_type_vector(IR_TYPE_VEC2, 1), IR_TYPE_VOID);
+}
+
+int main(void)
+{
+    test_values();
+    test_coverage();
+    test_typing();
+    return test_report("ir_fold");
+}
