@@ -67,7 +67,8 @@ static const struct arg *find_arg(const struct arg_parser *parser, const struct 
 {
     for (size_t i = 0; i < parser->num_args; ++i) {
         const struct arg *arg = &parser->args[i];
-        if (option->is_letter ? arg->letter && option->len == 1 && arg->letter == option->name[0] : name_is(option, arg->name))
+        if (option->is_letter ? arg->letter && option->len == 1 && arg->letter == option->name[0]
+                              : name_is(option, arg->name))
             return arg;
     }
     return NULL;
@@ -243,7 +244,8 @@ bool args_parse(struct arg_parser *parser, int argc, char **argv)
 static void print_row(FILE *out, char letter, const char *name, const char *value, const char *help)
 {
     char left[128];
-    int len = letter ? snprintf(left, sizeof left, "  -%c, --%s", letter, name) : snprintf(left, sizeof left, "      --%s", name);
+    int len = letter ? snprintf(left, sizeof left, "  -%c, --%s", letter, name)
+                     : snprintf(left, sizeof left, "      --%s", name);
     if (value && *value && len > 0 && (size_t)len < sizeof left)
         snprintf(left + len, sizeof left - (size_t)len, " %s", value);
     if (strlen(left) < 34)

@@ -24,7 +24,7 @@ enum arg_kind {
 
 struct arg {
     const char *name;
-    char letter;       /* 0: none */
+    char letter; /* 0: none */
     enum arg_kind kind;
     const char *value; /* what stands behind it in the help: "DIR" */
     const char *help;

@@ -12,7 +12,8 @@ static size_t add_common_args(struct cli *cli, struct arg *table)
 {
     const struct arg common[] = {
         {"library", 0, ARG_LIST, "PATH", "adds a library: a folder, file or image", &cli->library_paths},
-        {"no-builtin-library", 0, ARG_FLAG, NULL, "starts without the library that is built in", &cli->no_builtin_library},
+        {"no-builtin-library", 0, ARG_FLAG, NULL, "starts without the library that is built in",
+         &cli->no_builtin_library},
         {"max-memory", 0, ARG_SIZE, "BYTES", "gives up beyond that", &cli->max_memory},
         {"max-file-size", 0, ARG_SIZE, "MIB", "largest file that is read", &cli->max_file_size},
         {"max-elements", 0, ARG_SIZE, "N", "largest document", &cli->max_elements},
@@ -68,7 +69,8 @@ static bool load_library(struct cli *cli)
         cli->library = base;
         return true;
     }
-    mxg_status status = mxg_library_load(cli->context, base, cli->library_paths.items, cli->library_paths.len, &cli->library);
+    mxg_status status = mxg_library_load(cli->context, base, cli->library_paths.items, cli->library_paths.len,
+                                         &cli->library);
     mxg_library_unref(base);
     if (cli->library)
         report_list(&cli->report, mxg_library_diagnostics(cli->library));

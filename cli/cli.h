@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * What the commands share: their common options, and the objects of the library made from them. Everything stands on mxgen.h.
+ * What the commands share: their common options, and the objects of the library made from them. Everything stands on
+ * mxgen.h.
  *
  * Exit codes: 0 everything asked for was done, 1 errors in the input or while writing, 2 bad usage.
  */
@@ -54,7 +55,8 @@ char *cli_file_name(const char *element_path);
 #if defined(__GNUC__)
 __attribute__((format(printf, 1, 2)))
 #endif
-char *cli_format(const char *format, ...);
+char *
+cli_format(const char *format, ...);
 
 /* generate.c, inspect.c, library.c, validate.c, render.c */
 int command_generate(const struct command *command, int argc, char **argv);

@@ -11,16 +11,16 @@ struct generate {
     const char *target, *folder, *depfile;
     struct arg_list elements; /* empty: every renderable */
     bool to_stdout, reflect;
-    bool several;             /* input files: each gets a folder of its own */
+    bool several; /* input files: each gets a folder of its own */
 
-    const mxg_target *target_info; /* NULL: unknown, which generation reports */
+    const mxg_target *target_info;    /* NULL: unknown, which generation reports */
     struct arg_list outputs, sources; /* for the depfile; items are allocated */
-    struct arg_list folders;  /* of several inputs */
+    struct arg_list folders;          /* of several inputs */
 };
 
 /* Writes one file of an element, "<folder>/<element>.<suffix>", or prints it below its name. */
-static void write_file(struct generate *gen, const char *folder, const char *element, const char *suffix, const char *text,
-                       size_t size)
+static void write_file(struct generate *gen, const char *folder, const char *element, const char *suffix,
+                       const char *text, size_t size)
 {
     char *name = cli_file_name(element);
     if (gen->to_stdout) {
@@ -54,7 +54,8 @@ static void write_result(struct generate *gen, const char *folder, const char *e
     }
 }
 
-static void generate_element(struct generate *gen, const mxg_document *document, const char *folder, const char *element)
+static void generate_element(struct generate *gen, const mxg_document *document, const char *folder,
+                             const char *element)
 {
     mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
     desc.target = gen->target;
@@ -97,7 +98,8 @@ static char *output_folder(struct generate *gen, const char *input)
     char *folder = gen->several ? cli_format("%s/%.*s", gen->folder, len, base) : cli_format("%s", gen->folder);
     for (size_t i = 0; i < gen->folders.len; ++i) {
         if (strcmp(gen->folders.items[i], folder) == 0) {
-            report_error(&gen->cli.report, "output-failed", "'%s': another input writes to '%s' already", input, folder);
+            report_error(&gen->cli.report, "output-failed", "'%s': another input writes to '%s' already", input,
+                         folder);
             free(folder);
             return NULL;
         }
@@ -176,7 +178,8 @@ static bool find_target(const char *name, mxg_target *out)
 {
     for (uint32_t i = 0; i < mxg_num_targets(); ++i) {
         out->size = sizeof *out;
-        if (mxg_get_target(i, out) == MXG_OK && (strcmp(name, out->name) == 0 || strcmp(name, out->materialx_name) == 0))
+        if (mxg_get_target(i, out) == MXG_OK &&
+            (strcmp(name, out->name) == 0 || strcmp(name, out->materialx_name) == 0))
             return true;
     }
     return false;
@@ -207,7 +210,8 @@ int command_generate(const struct command *command, int argc, char **argv)
         {"depfile", 0, ARG_TEXT, "FILE", "writes which files the output depends on, for make and ninja", &gen.depfile},
     };
     int code;
-    if (cli_start(&gen.cli, command, args, sizeof args / sizeof *args, CLI_GENERATES | CLI_NEEDS_INPUT, argc, argv, &code))
+    if (cli_start(&gen.cli, command, args, sizeof args / sizeof *args, CLI_GENERATES | CLI_NEEDS_INPUT, argc, argv,
+                  &code))
         code = generate_all(&gen);
     cli_finish(&gen.cli);
     free(gen.elements.items);

@@ -44,7 +44,8 @@ int command_inspect(const struct command *command, int argc, char **argv)
 {
     struct inspect inspect = {.target = "glsl"};
     const struct arg args[] = {
-        {"elements", 0, ARG_FLAG, NULL, "the element tree and what can be rendered (the default)", &inspect.views[MXG_VIEW_ELEMENTS]},
+        {"elements", 0, ARG_FLAG, NULL, "the element tree and what can be rendered (the default)",
+         &inspect.views[MXG_VIEW_ELEMENTS]},
         {"graph", 0, ARG_FLAG, NULL, "nodes and connections", &inspect.views[MXG_VIEW_GRAPH]},
         {"dot", 0, ARG_FLAG, NULL, "the same for Graphviz", &inspect.views[MXG_VIEW_DOT]},
         {"ir", 0, ARG_FLAG, NULL, "the optimised intermediate representation", &inspect.views[MXG_VIEW_IR]},
@@ -55,7 +56,8 @@ int command_inspect(const struct command *command, int argc, char **argv)
     };
     struct cli cli;
     int code;
-    if (cli_start(&cli, command, args, sizeof args / sizeof *args, CLI_NEEDS_INPUT | CLI_GENERATES, argc, argv, &code)) {
+    if (cli_start(&cli, command, args, sizeof args / sizeof *args, CLI_NEEDS_INPUT | CLI_GENERATES, argc, argv,
+                  &code)) {
         for (size_t i = 0; i < cli.parser.inputs.len; ++i) {
             mxg_document *document = cli_load(&cli, cli.parser.inputs.items[i]);
             if (document)

@@ -8,14 +8,15 @@
 #include <unistd.h>
 
 static const struct command commands[] = {
-    {"generate", "[generate] FILE... [--target T] [-o DIR] [options]", "Writes shaders for the renderable elements of documents.",
-     command_generate},
+    {"generate", "[generate] FILE... [--target T] [-o DIR] [options]",
+     "Writes shaders for the renderable elements of documents.", command_generate},
     {"inspect", "inspect FILE [--graph | --dot | --ir | --closures | --statistics] [options]",
      "Prints what mxgen sees: elements, graph, IR, closures with weights, statistics.", command_inspect},
     {"validate", "validate FILE...", "Checks documents against the library: every node, connection and value.",
      command_validate},
     {"render", "render FILE -o PICTURE.png [options]", "Draws a lit sphere, without a display.", command_render},
-    {"library", "library pack|list|expand [PATH...] [-o FILE]", "Packs, lists and expands node libraries.", command_library},
+    {"library", "library pack|list|expand [PATH...] [-o FILE]", "Packs, lists and expands node libraries.",
+     command_library},
 };
 #define NUM_COMMANDS (sizeof commands / sizeof *commands)
 

@@ -2,7 +2,8 @@
 /*
  * mxgen-pack: packs the node library while mxgen is being built. It is the compiler without a library of its own.
  *
- *     mxgen-pack IMAGE DEPFILE ROOT FOLDER...     folders relative to ROOT, so that the image does not depend on where that lies
+ *     mxgen-pack IMAGE DEPFILE ROOT FOLDER...     folders relative to ROOT, so that the image does not depend on where
+ * that lies
  */
 #define _POSIX_C_SOURCE 200809L
 #include "cli/files.h"

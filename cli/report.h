@@ -9,7 +9,7 @@ struct report {
     bool quiet;   /* errors only */
     bool verbose; /* also what was upgraded in older documents */
     bool colour;
-    uint32_t errors; /* printed so far */
+    uint32_t errors;            /* printed so far */
     char *source_name, *source; /* the file read last */
     size_t source_size;
 };

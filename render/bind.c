@@ -14,7 +14,8 @@
 #if defined(__GNUC__)
 __attribute__((format(printf, 2, 3)))
 #endif
-static bool fail(struct bind *bind, const char *format, ...)
+static bool
+fail(struct bind *bind, const char *format, ...)
 {
     va_list args;
     va_start(args, format);
@@ -32,9 +33,10 @@ struct shape {
 };
 
 static const struct shape shapes[] = {
-    {"float", 1, 1, true}, {"vec2", 1, 2, true},   {"vec3", 1, 3, true},   {"vec4", 1, 4, true},  {"mat2", 2, 2, true},
-    {"mat3", 3, 3, true},  {"mat4", 4, 4, true},   {"int", 1, 1, false},   {"ivec2", 1, 2, false}, {"ivec3", 1, 3, false},
-    {"ivec4", 1, 4, false}, {"uint", 1, 1, false}, {"bool", 1, 1, false},
+    {"float", 1, 1, true},  {"vec2", 1, 2, true},   {"vec3", 1, 3, true},   {"vec4", 1, 4, true},
+    {"mat2", 2, 2, true},   {"mat3", 3, 3, true},   {"mat4", 4, 4, true},   {"int", 1, 1, false},
+    {"ivec2", 1, 2, false}, {"ivec3", 1, 3, false}, {"ivec4", 1, 4, false}, {"uint", 1, 1, false},
+    {"bool", 1, 1, false},
 };
 
 static const struct shape *find_shape(const char *type)
@@ -91,7 +93,8 @@ static void store(unsigned char *at, const mxg_variable *variable, const float *
             float value = values[c * shape->rows + r];
             int32_t integer = (int32_t)value;
             const void *word = shape->is_float ? (const void *)&value : &integer;
-            memcpy(at + (size_t)c * (shape->columns > 1 ? variable->matrix_stride : 0) + r * sizeof(float), word, sizeof(float));
+            memcpy(at + (size_t)c * (shape->columns > 1 ? variable->matrix_stride : 0) + r * sizeof(float), word,
+                   sizeof(float));
         }
     }
 }
@@ -101,7 +104,8 @@ static unsigned char *address(struct bind *bind, const mxg_variable *variable)
     return find_block(&bind->draw, variable->set, variable->binding)->data + variable->offset;
 }
 
-/* Numbers of the document's form: separated by commas or spaces; "true" is 1. Returns how many; UINT_MAX-like on junk. */
+/* Numbers of the document's form: separated by commas or spaces; "true" is 1. Returns how many; UINT_MAX-like on junk.
+ */
 static unsigned parse_numbers(const char *text, float values[MAX_COMPONENTS])
 {
     unsigned count = 0;
@@ -199,7 +203,8 @@ static bool bind_blocks(struct bind *bind)
         if (variable.block == MXG_BLOCK_PRIVATE_UNIFORMS)
             store_private(bind, &variable, info.num_lights);
         if (variable.block == MXG_BLOCK_LIGHT_DATA)
-            store_lights(bind, &variable, (uint32_t)find_block(&bind->draw, variable.set, variable.binding)->size / SCENE_NUM_LIGHTS);
+            store_lights(bind, &variable,
+                         (uint32_t)find_block(&bind->draw, variable.set, variable.binding)->size / SCENE_NUM_LIGHTS);
     }
     return true;
 }
@@ -237,7 +242,8 @@ static const struct image *read_texture(struct bind *bind, const char *file)
     return image;
 }
 
-/* The picture of a texture: the scene's by name, the file of the document or the user, else the scene's own or plain black. */
+/* The picture of a texture: the scene's by name, the file of the document or the user, else the scene's own or plain
+ * black. */
 static const struct image *choose_image(struct bind *bind, const mxg_variable *variable)
 {
     static uint8_t black[4] = {0, 0, 0, 255};
@@ -304,7 +310,8 @@ static bool bind_attribute(struct bind *bind, const mxg_variable *variable)
         if (shape->is_float)
             scene_attribute(bind->scene, variable->name, i, data[i]);
         else
-            memcpy(data[i], (const int32_t[4]){INTEGER_ATTRIBUTE, INTEGER_ATTRIBUTE, INTEGER_ATTRIBUTE, INTEGER_ATTRIBUTE}, 16);
+            memcpy(data[i],
+                   (const int32_t[4]){INTEGER_ATTRIBUTE, INTEGER_ATTRIBUTE, INTEGER_ATTRIBUTE, INTEGER_ATTRIBUTE}, 16);
     }
     return true;
 }
@@ -325,7 +332,8 @@ static bool check_values(struct bind *bind)
     for (size_t i = 0; i < bind->num_values; ++i) {
         uint32_t index;
         if (!mxg_result_find_variable(bind->result, bind->values[i].path, &index))
-            return fail(bind, "the shader has no uniform for '%s': it is unused, compiled in, or misspelled", bind->values[i].path);
+            return fail(bind, "the shader has no uniform for '%s': it is unused, compiled in, or misspelled",
+                        bind->values[i].path);
     }
     return true;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Binding as a host does it, from reflection alone: attributes, blocks and textures of a generated shader are filled with the
- * values of a scene, the document's defaults, and what the user sets.
+ * Binding as a host does it, from reflection alone: attributes, blocks and textures of a generated shader are filled
+ * with the values of a scene, the document's defaults, and what the user sets.
  */
 #ifndef MXG_RENDER_BIND_H
 #define MXG_RENDER_BIND_H
@@ -19,14 +19,14 @@ struct bind_value {
 struct bind {
     const mxg_result *result;
     const struct scene *scene;
-    const char *document;  /* texture files are beside it */
+    const char *document; /* texture files are beside it */
     const struct bind_value *values;
     size_t num_values;
 
-    struct draw draw;      /* the outcome */
+    struct draw draw;                       /* the outcome */
     struct image images[DRAW_MAX_TEXTURES]; /* read for it */
     uint32_t num_images;
-    char reason[512];      /* why it failed */
+    char reason[512]; /* why it failed */
 };
 
 /* Fills bind->draw but for its code and size. False: see bind->reason. bind_finish must follow in any case. */

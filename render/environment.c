@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * A clear sky as formulas: smooth, with a bright and not too sharp sun, and different in every direction. Texel (u, v) of a map
- * is the direction of latitude pi(.5 - v) and longitude 2pi(u - .5), where longitude 0 looks along -z.
+ * A clear sky as formulas: smooth, with a bright and not too sharp sun, and different in every direction. Texel (u, v)
+ * of a map is the direction of latitude pi(.5 - v) and longitude 2pi(u - .5), where longitude 0 looks along -z.
  */
 #include "render/scene.h"
 
@@ -22,7 +22,8 @@ void environment_radiance(const double d[3], float out[3])
 {
     double c = dot(d, sun_direction), height = 1.0 / (1.0 + exp(-6.0 * d[1]));
     for (size_t i = 0; i < 3; ++i)
-        out[i] = (float)(below[i] + (above[i] - below[i]) * height + sun[i] * 12.0 * exp(24.0 * (c - 1.0)) + 0.05 * (1.0 + d[i]));
+        out[i] = (float)(below[i] + (above[i] - below[i]) * height + sun[i] * 12.0 * exp(24.0 * (c - 1.0)) +
+                         0.05 * (1.0 + d[i]));
 }
 
 /* A smooth stand-in for the cosine-weighted average, not the exact one. */
@@ -30,7 +31,8 @@ static void irradiance_of(const double d[3], float out[3])
 {
     double c = (1.0 + dot(d, sun_direction)) / 2.0;
     for (size_t i = 0; i < 3; ++i)
-        out[i] = (float)(below[i] + (above[i] - below[i]) * (0.5 + 0.35 * d[1]) + sun[i] * 0.9 * c * c + 0.025 * (1.0 + d[i]));
+        out[i] = (float)(below[i] + (above[i] - below[i]) * (0.5 + 0.35 * d[1]) + sun[i] * 0.9 * c * c +
+                         0.025 * (1.0 + d[i]));
 }
 
 static bool make_map(struct image *out, uint32_t width, uint32_t height, void (*value)(const double d[3], float out[3]))

@@ -19,15 +19,17 @@ bool gpu_check(struct gpu *gpu, VkResult result, const char *what)
 
 static bool fail_no_device(struct gpu *gpu)
 {
-    snprintf(gpu->reason, sizeof gpu->reason, "there is no device with Vulkan 1.3; the package mesa-vulkan-drivers brings one that needs no hardware");
+    snprintf(gpu->reason, sizeof gpu->reason,
+             "there is no device with Vulkan 1.3; the package mesa-vulkan-drivers brings one that needs no hardware");
     return false;
 }
 
 static bool create_instance(struct gpu *gpu)
 {
-    const VkApplicationInfo application = {.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO, .pApplicationName = "mxgen-render",
-                                           .apiVersion = API_VERSION};
-    const VkInstanceCreateInfo info = {.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO, .pApplicationInfo = &application};
+    const VkApplicationInfo application = {
+        .sType = VK_STRUCTURE_TYPE_APPLICATION_INFO, .pApplicationName = "mxgen-render", .apiVersion = API_VERSION};
+    const VkInstanceCreateInfo info = {.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO,
+                                       .pApplicationInfo = &application};
     VkResult result = vkCreateInstance(&info, NULL, &gpu->instance);
     if (result == VK_ERROR_INCOMPATIBLE_DRIVER) /* the loader found no driver */
         return fail_no_device(gpu);
@@ -77,17 +79,22 @@ static bool create_device(struct gpu *gpu)
 {
     uint32_t family = find_queue_family(gpu->physical);
     const float priority = 1.0f;
-    const VkDeviceQueueCreateInfo queue = {.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO, .queueFamilyIndex = family,
-                                           .queueCount = 1, .pQueuePriorities = &priority};
+    const VkDeviceQueueCreateInfo queue = {.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
+                                           .queueFamilyIndex = family,
+                                           .queueCount = 1,
+                                           .pQueuePriorities = &priority};
     VkPhysicalDeviceVulkan13Features wanted = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES,
                                                .dynamicRendering = VK_TRUE};
-    const VkDeviceCreateInfo info = {.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, .pNext = &wanted,
-                                     .queueCreateInfoCount = 1, .pQueueCreateInfos = &queue};
+    const VkDeviceCreateInfo info = {.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
+                                     .pNext = &wanted,
+                                     .queueCreateInfoCount = 1,
+                                     .pQueueCreateInfos = &queue};
     if (!gpu_check(gpu, vkCreateDevice(gpu->physical, &info, NULL, &gpu->device), "opening the device"))
         return false;
     vkGetDeviceQueue(gpu->device, family, 0, &gpu->queue);
     vkGetPhysicalDeviceMemoryProperties(gpu->physical, &gpu->memory);
-    const VkCommandPoolCreateInfo pool = {.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO, .queueFamilyIndex = family};
+    const VkCommandPoolCreateInfo pool = {.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
+                                          .queueFamilyIndex = family};
     return gpu_check(gpu, vkCreateCommandPool(gpu->device, &pool, NULL, &gpu->pool), "making a command pool");
 }
 
@@ -129,7 +136,8 @@ bool gpu_create_buffer(struct gpu *gpu, VkBufferUsageFlags usage, const void *da
         return false;
     VkMemoryRequirements needs;
     vkGetBufferMemoryRequirements(gpu->device, out->buffer, &needs);
-    if (!allocate(gpu, needs, VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT, &out->memory) ||
+    if (!allocate(gpu, needs, VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT,
+                  &out->memory) ||
         !gpu_check(gpu, vkBindBufferMemory(gpu->device, out->buffer, out->memory, 0), "binding memory") ||
         !gpu_check(gpu, vkMapMemory(gpu->device, out->memory, 0, VK_WHOLE_SIZE, 0, &out->mapped), "mapping memory"))
         return false;
@@ -186,8 +194,10 @@ void gpu_destroy_image(struct gpu *gpu, struct gpu_image *image)
 
 VkCommandBuffer gpu_begin(struct gpu *gpu)
 {
-    const VkCommandBufferAllocateInfo info = {.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO, .commandPool = gpu->pool,
-                                              .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY, .commandBufferCount = 1};
+    const VkCommandBufferAllocateInfo info = {.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
+                                              .commandPool = gpu->pool,
+                                              .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
+                                              .commandBufferCount = 1};
     VkCommandBuffer commands;
     if (!gpu_check(gpu, vkAllocateCommandBuffers(gpu->device, &info, &commands), "making commands"))
         return NULL;
@@ -198,7 +208,8 @@ VkCommandBuffer gpu_begin(struct gpu *gpu)
 
 bool gpu_end(struct gpu *gpu, VkCommandBuffer commands)
 {
-    const VkSubmitInfo submit = {.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO, .commandBufferCount = 1, .pCommandBuffers = &commands};
+    const VkSubmitInfo submit = {
+        .sType = VK_STRUCTURE_TYPE_SUBMIT_INFO, .commandBufferCount = 1, .pCommandBuffers = &commands};
     bool good = gpu_check(gpu, vkEndCommandBuffer(commands), "recording commands") &&
                 gpu_check(gpu, vkQueueSubmit(gpu->queue, 1, &submit, VK_NULL_HANDLE), "submitting commands") &&
                 gpu_check(gpu, vkQueueWaitIdle(gpu->queue), "running commands");
@@ -206,8 +217,8 @@ bool gpu_end(struct gpu *gpu, VkCommandBuffer commands)
     return good;
 }
 
-void gpu_image_barrier(VkCommandBuffer commands, VkImage image, VkImageAspectFlags aspect, uint32_t first_mip, uint32_t num_mips,
-                       VkImageLayout from, VkImageLayout to)
+void gpu_image_barrier(VkCommandBuffer commands, VkImage image, VkImageAspectFlags aspect, uint32_t first_mip,
+                       uint32_t num_mips, VkImageLayout from, VkImageLayout to)
 {
     const VkImageMemoryBarrier barrier = {
         .sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER,
@@ -220,8 +231,8 @@ void gpu_image_barrier(VkCommandBuffer commands, VkImage image, VkImageAspectFla
         .image = image,
         .subresourceRange = {aspect, first_mip, num_mips, 0, 1},
     };
-    vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, 0, 0, NULL, 0, NULL,
-                         1, &barrier);
+    vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, 0, 0, NULL,
+                         0, NULL, 1, &barrier);
 }
 
 /* ---- Textures ---- */
@@ -236,8 +247,8 @@ static void make_mips(VkCommandBuffer commands, const struct gpu_image *image)
 {
     uint32_t width = image->width, height = image->height;
     for (uint32_t mip = 1; mip < image->mips; ++mip) {
-        gpu_image_barrier(commands, image->image, VK_IMAGE_ASPECT_COLOR_BIT, mip - 1, 1, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
-                          VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
+        gpu_image_barrier(commands, image->image, VK_IMAGE_ASPECT_COLOR_BIT, mip - 1, 1,
+                          VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
         const VkImageBlit blit = {
             .srcSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, mip - 1, 0, 1},
             .srcOffsets = {{0, 0, 0}, {(int32_t)width, (int32_t)height, 1}},
@@ -252,8 +263,8 @@ static void make_mips(VkCommandBuffer commands, const struct gpu_image *image)
     if (image->mips > 1)
         gpu_image_barrier(commands, image->image, VK_IMAGE_ASPECT_COLOR_BIT, 0, image->mips - 1,
                           VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
-    gpu_image_barrier(commands, image->image, VK_IMAGE_ASPECT_COLOR_BIT, image->mips - 1, 1, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
-                      VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    gpu_image_barrier(commands, image->image, VK_IMAGE_ASPECT_COLOR_BIT, image->mips - 1, 1,
+                      VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
 }
 
 static bool fill_texture(struct gpu *gpu, const struct gpu_buffer *staging, const struct gpu_image *image)
@@ -283,7 +294,8 @@ bool gpu_upload_texture(struct gpu *gpu, const struct image *image, bool bottom_
     *out = (struct gpu_image){0};
     good = good &&
            gpu_create_image(gpu, format, image->width, image->height, image_num_mips(image),
-                            VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
+                            VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT |
+                                VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
                             VK_IMAGE_ASPECT_COLOR_BIT, out) &&
            fill_texture(gpu, &staging, out);
     gpu_destroy_buffer(gpu, &staging);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Vulkan 1.3 without a window: a device, its buffers and images, and commands that are waited for. The first failure is kept
- * in `reason`; functions return false from then on.
+ * Vulkan 1.3 without a window: a device, its buffers and images, and commands that are waited for. The first failure is
+ * kept in `reason`; functions return false from then on.
  */
 #ifndef MXG_RENDER_GPU_H
 #define MXG_RENDER_GPU_H
@@ -43,7 +43,8 @@ void gpu_close(struct gpu *gpu);
 bool gpu_check(struct gpu *gpu, VkResult result, const char *what);
 
 /* Memory that the processor can write and read, mapped. `data` may be NULL. */
-bool gpu_create_buffer(struct gpu *gpu, VkBufferUsageFlags usage, const void *data, size_t size, struct gpu_buffer *out);
+bool gpu_create_buffer(struct gpu *gpu, VkBufferUsageFlags usage, const void *data, size_t size,
+                       struct gpu_buffer *out);
 void gpu_destroy_buffer(struct gpu *gpu, struct gpu_buffer *buffer);
 
 bool gpu_create_image(struct gpu *gpu, VkFormat format, uint32_t width, uint32_t height, uint32_t mips,
@@ -57,7 +58,7 @@ bool gpu_upload_texture(struct gpu *gpu, const struct image *image, bool bottom_
 VkCommandBuffer gpu_begin(struct gpu *gpu);
 bool gpu_end(struct gpu *gpu, VkCommandBuffer commands);
 
-void gpu_image_barrier(VkCommandBuffer commands, VkImage image, VkImageAspectFlags aspect, uint32_t first_mip, uint32_t num_mips,
-                       VkImageLayout from, VkImageLayout to);
+void gpu_image_barrier(VkCommandBuffer commands, VkImage image, VkImageAspectFlags aspect, uint32_t first_mip,
+                       uint32_t num_mips, VkImageLayout from, VkImageLayout to);
 
 #endif

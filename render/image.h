@@ -14,8 +14,8 @@ extern "C" {
 /* Four channels, rows from the top. Grey is spread over red, green and blue; a missing alpha is 1. */
 struct image {
     uint32_t width, height;
-    bool is_float;  /* float, else uint8_t of a whole */
-    void *pixels;   /* malloc; NULL: no image */
+    bool is_float; /* float, else uint8_t of a whole */
+    void *pixels;  /* malloc; NULL: no image */
 };
 
 /* Reads a picture; on failure false, with why in `reason`. Values are those of the file: no colour space is changed. */

@@ -87,7 +87,8 @@ static void resolve(const struct picture *picture, const float *samples, uint8_t
         for (uint32_t x = 0; x < picture->width; ++x, out += 4) {
             double sum[4] = {0};
             for (size_t i = 0; i < OVERSAMPLING * OVERSAMPLING; ++i) {
-                const float *sample = samples + 4 * ((y * OVERSAMPLING + i / OVERSAMPLING) * row + x * OVERSAMPLING + i % OVERSAMPLING);
+                const float *sample = samples + 4 * ((y * OVERSAMPLING + i / OVERSAMPLING) * row + x * OVERSAMPLING +
+                                                     i % OVERSAMPLING);
                 for (size_t c = 0; c < 4; ++c)
                     sum[c] += (double)sample[c] / (OVERSAMPLING * OVERSAMPLING);
             }
@@ -138,12 +139,16 @@ static float *draw_element(struct picture *picture, const mxg_document *document
         report_list(&picture->cli.report, mxg_result_diagnostics(result));
     float *pixels = NULL;
     if (report_status(&picture->cli.report, status)) {
-        struct bind bind = {.result = result, .scene = &picture->scene, .document = path, .values = picture->values,
+        struct bind bind = {.result = result,
+                            .scene = &picture->scene,
+                            .document = path,
+                            .values = picture->values,
                             .num_values = picture->settings.len};
         uint32_t width = picture->width * scale, height = picture->height * scale;
         pixels = malloc((size_t)width * height * 4 * sizeof(float));
         if (!pixels || !render_result(&picture->gpu, &bind, width, height, pixels)) {
-            report_error(&picture->cli.report, "render-failed", "%s: %s", element ? element : path, pixels ? bind.reason : "out of memory");
+            report_error(&picture->cli.report, "render-failed", "%s: %s", element ? element : path,
+                         pixels ? bind.reason : "out of memory");
             free(pixels);
             pixels = NULL;
         }
@@ -236,7 +241,8 @@ static int run(struct picture *picture)
 
 int main(int argc, char **argv)
 {
-    static const struct command command = {"render", "render FILE -o PICTURE.png [--size WxH] [--set PATH=VALUE] [options]",
+    static const struct command command = {"render",
+                                           "render FILE -o PICTURE.png [--size WxH] [--set PATH=VALUE] [options]",
                                            "Draws a material on a sphere in daylight, without a display.", NULL};
     struct picture picture = {.size = "512", .scene_name = "sphere", .samples = 16};
     const struct arg args[] = {
@@ -245,12 +251,16 @@ int main(int argc, char **argv)
         {"element", 'e', ARG_TEXT, "PATH", "what to draw (default: the first that can be rendered)", &picture.element},
         {"set", 0, ARG_LIST, "PATH=VALUE", "another value for an input, or file for a texture", &picture.settings},
         {"samples", 0, ARG_SIZE, "N", "samples of the environment for each lobe (default: 16)", &picture.samples},
-        {"scene", 0, ARG_TEXT, "NAME", "sphere, or grid: prints the values of 4x4 pixels for each element instead (default: sphere)", &picture.scene_name},
+        {"scene", 0, ARG_TEXT, "NAME",
+         "sphere, or grid: prints the values of 4x4 pixels for each element instead (default: sphere)",
+         &picture.scene_name},
     };
-    /* llvmpipe's optimiser takes minutes for large shaders; without it pictures are the same, and seconds are enough. */
+    /* llvmpipe's optimiser takes minutes for large shaders; without it pictures are the same, and seconds are enough.
+     */
     setenv("GALLIVM_PERF", "nopt", 0);
     int code;
-    if (cli_start(&picture.cli, &command, args, sizeof args / sizeof *args, CLI_GENERATES | CLI_NEEDS_INPUT, argc, argv, &code))
+    if (cli_start(&picture.cli, &command, args, sizeof args / sizeof *args, CLI_GENERATES | CLI_NEEDS_INPUT, argc, argv,
+                  &code))
         code = run(&picture);
     cli_finish(&picture.cli);
     free(picture.settings.items);

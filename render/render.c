@@ -17,8 +17,8 @@ static bool compile(struct bind *bind, struct compiled *compiled)
         const struct compile_message *message = &compiled->messages[i];
         if (message->severity != MXG_SEVERITY_ERROR)
             continue;
-        snprintf(bind->reason, sizeof bind->reason, "the shader does not compile: %s, line %u of the %s stage", message->text,
-                 message->line, message->stage == MXG_STAGE_VERTEX ? "vertex" : "pixel");
+        snprintf(bind->reason, sizeof bind->reason, "the shader does not compile: %s, line %u of the %s stage",
+                 message->text, message->line, message->stage == MXG_STAGE_VERTEX ? "vertex" : "pixel");
         break;
     }
     return false;

@@ -6,8 +6,8 @@
 #include "render/bind.h"
 
 /*
- * Draws the result on the scene: RGBA, first row on top, cleared to 0. `bind` has the result, scene, document and values. False: see
- * bind->reason. `out_pixels` has room for width * height * 4.
+ * Draws the result on the scene: RGBA, first row on top, cleared to 0. `bind` has the result, scene, document and
+ * values. False: see bind->reason. `out_pixels` has room for width * height * 4.
  */
 bool render_result(struct gpu *gpu, struct bind *bind, uint32_t width, uint32_t height, float *out_pixels);
 

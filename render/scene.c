@@ -133,7 +133,8 @@ unsigned scene_uniform(const struct scene *scene, const char *name, float out[16
             return 1;
         }
     }
-    double direction[3] = {scene->target[0] - scene->eye[0], scene->target[1] - scene->eye[1], scene->target[2] - scene->eye[2]};
+    double direction[3] = {scene->target[0] - scene->eye[0], scene->target[1] - scene->eye[1],
+                           scene->target[2] - scene->eye[2]};
     vector_normalize(direction);
     if (strcmp(name, "u_viewPosition") == 0)
         return store_vector(scene->eye, out);
@@ -252,11 +253,14 @@ static bool make_sphere(struct scene *scene)
 
 bool scene_init_sphere(struct scene *scene, double aspect)
 {
-    *scene = (struct scene){.geometry = sphere_geometry, .texcoord = sphere_texcoord, .num_lights = SCENE_NUM_LIGHTS,
+    *scene = (struct scene){.geometry = sphere_geometry,
+                            .texcoord = sphere_texcoord,
+                            .num_lights = SCENE_NUM_LIGHTS,
                             .environment_samples = 64};
     set_camera(scene, (const double[3]){0.5, 0.7, 3.4}, (const double[3]){0.05, -0.03, 0.1});
     scene->projection = matrix_perspective(40.0, aspect, 0.1, 20.0);
-    scene->world = matrix_multiply(matrix_translation(0.05, -0.03, 0.1), matrix_rotation((const double[3]){0.3, 1, 0.2}, 25.0));
+    scene->world = matrix_multiply(matrix_translation(0.05, -0.03, 0.1),
+                                   matrix_rotation((const double[3]){0.3, 1, 0.2}, 25.0));
     return environment_make(&scene->radiance, &scene->irradiance) && make_sphere(scene);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * What is drawn, as a host of MaterialX sees it: a mesh with named attributes, a camera, lights, an environment. Values are
- * asked for by the names of the ShaderX convention, so a scene serves every shader that keeps them.
+ * What is drawn, as a host of MaterialX sees it: a mesh with named attributes, a camera, lights, an environment. Values
+ * are asked for by the names of the ShaderX convention, so a scene serves every shader that keeps them.
  */
 #ifndef MXG_RENDER_SCENE_H
 #define MXG_RENDER_SCENE_H
@@ -15,8 +15,8 @@ struct scene {
     struct matrix world, view, projection;
     double eye[3], target[3];
     uint32_t num_vertices, num_indices;
-    float (*parameters)[2];    /* (s, t) of each vertex */
-    uint32_t *indices;         /* triangles, counter-clockwise from outside */
+    float (*parameters)[2]; /* (s, t) of each vertex */
+    uint32_t *indices;      /* triangles, counter-clockwise from outside */
     void (*geometry)(float s, float t, float position[3], float normal[3], float tangent[3], float bitangent[3]);
     void (*texcoord)(float s, float t, float out[2]); /* texcoord_0 */
     uint32_t num_lights;
@@ -33,13 +33,15 @@ bool scene_init_grid(struct scene *scene);
 
 void scene_finish(struct scene *scene);
 
-/* Attribute "i_texcoord_0", "i_geomprop_st"… of a vertex; unset components stay. False: the scene has no such attribute. */
+/* Attribute "i_texcoord_0", "i_geomprop_st"… of a vertex; unset components stay. False: the scene has no such
+ * attribute. */
 bool scene_attribute(const struct scene *scene, const char *name, uint32_t vertex, float out[4]);
 
 /* Private uniform "u_worldMatrix"…; returns how many components it wrote, 0 where the scene has none. */
 unsigned scene_uniform(const struct scene *scene, const char *name, float out[16]);
 
-/* Member "direction"… of light `index` below num_lights; returns how many components it wrote, 0 where a light has none. */
+/* Member "direction"… of light `index` below num_lights; returns how many components it wrote, 0 where a light has
+ * none. */
 unsigned scene_light(uint32_t index, const char *member, float out[3]);
 
 /* Texture "u_envRadiance"…; NULL where the scene has none. */

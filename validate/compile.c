@@ -14,8 +14,8 @@ struct dialect {
     glslang_client_t client;
     glslang_target_client_version_t client_version;
     glslang_profile_t profile;
-    bool is_spirv_source;   /* written for SPIR-V: every location and binding stands in the source */
-    int spirv_version;      /* #version under which SPIR-V is made; 0: the source's own */
+    bool is_spirv_source; /* written for SPIR-V: every location and binding stands in the source */
+    int spirv_version;    /* #version under which SPIR-V is made; 0: the source's own */
 };
 
 static const struct dialect dialects[] = {
@@ -53,7 +53,8 @@ bool compile_knows_target(const char *target)
 
 /* ---- Messages ---- */
 
-static void add_message(struct compiled *out, mxg_stage stage, mxg_severity severity, uint32_t line, const char *text, size_t len)
+static void add_message(struct compiled *out, mxg_stage stage, mxg_severity severity, uint32_t line, const char *text,
+                        size_t len)
 {
     struct compile_message *more = realloc(out->messages, (out->num_messages + 1) * sizeof *more);
     char *copy = malloc(len + 1);
@@ -178,7 +179,8 @@ static void validate_spirv(mxg_stage stage, struct compiled *out)
     spvContextDestroy(context);
 }
 
-static void generate_spirv(const struct dialect *dialect, glslang_program_t *program, mxg_stage stage, struct compiled *out)
+static void generate_spirv(const struct dialect *dialect, glslang_program_t *program, mxg_stage stage,
+                           struct compiled *out)
 {
     struct compiled_stage *code = &out->stages[stage];
     glslang_spv_options_t options = {.disable_optimizer = true};

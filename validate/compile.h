@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Compiles shaders with glslang, to be sure that what mxgen writes is what it says: valid GLSL whose stages fit together, and
- * valid SPIR-V. Messages carry the line of the shader; mxg_result_source_place maps it to the document.
+ * Compiles shaders with glslang, to be sure that what mxgen writes is what it says: valid GLSL whose stages fit
+ * together, and valid SPIR-V. Messages carry the line of the shader; mxg_result_source_place maps it to the document.
  */
 #ifndef MXG_VALIDATE_COMPILE_H
 #define MXG_VALIDATE_COMPILE_H

@@ -2,20 +2,6 @@
 /* Memory and lifetime of objects. */
 #include "api/api.h"
 
-/* Runs work(arg) with a trap. false: memory ran out. */
-static bool run_trapped(struct mem *mem, void (*work)(void *arg), void *arg)
-{
-    jmp_buf trap;
-    mem->trap = &trap;
-    if (setjmp(trap) == 0) {
-        work(arg);
-        mem->trap = NULL;
-        return true;
-    }
-    mem->trap = NULL;
-    return false;
-}
-
 /* What an object may take: what the others have left of the context's limit. */
 static void init_mem(struct mem *mem, struct mxg_context *context)
 {
@@ -65,7 +51,7 @@ void *object_new(struct mxg_context *context, size_t size, struct object *below)
     struct mem mem;
     init_mem(&mem, context);
     struct allocation allocation = {&mem, size, NULL};
-    if (!run_trapped(&mem, allocate, &allocation))
+    if (!mem_try(&mem, allocate, &allocation))
         return NULL;
     struct object *object = memset(allocation.block, 0, size);
     object_init(object, context, size);
@@ -116,7 +102,7 @@ void object_unref(struct object *object)
 
 mxg_status object_run(struct object *object, void (*work)(void *arg), void *arg)
 {
-    bool done = run_trapped(&object->mem, work, arg);
+    bool done = mem_try(&object->mem, work, arg);
     settle(object);
     return done ? MXG_OK : MXG_ERROR_MEMORY;
 }
@@ -151,7 +137,7 @@ const struct made_text *object_text(const struct object *object, unsigned index,
     init_mem(&mem, object->context);
     struct text_job job = {.object = object, .write = write};
     arena_init(&job.arena, &mem);
-    if (!run_trapped(&mem, write_text, &job)) {
+    if (!mem_try(&mem, write_text, &job)) {
         arena_finish(&job.arena);
         return NULL;
     }

@@ -39,6 +39,19 @@ void mem_fail(struct mem *mem)
     longjmp(*mem->trap, 1);
 }
 
+bool mem_try(struct mem *mem, void (*work)(void *arg), void *arg)
+{
+    jmp_buf here, *outer = mem->trap;
+    mem->trap = &here;
+    if (setjmp(here)) {
+        mem->trap = outer;
+        return false;
+    }
+    work(arg);
+    mem->trap = outer;
+    return true;
+}
+
 void *mem_realloc(struct mem *mem, void *block, size_t old_size, size_t new_size)
 {
     if (mem->limit && new_size > old_size && new_size - old_size > mem->limit - mem->used) {

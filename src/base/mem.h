@@ -40,6 +40,9 @@ void *mem_realloc(struct mem *mem, void *block, size_t old_size, size_t new_size
 /* Jumps to the trap. */
 _Noreturn void mem_fail(struct mem *mem);
 
+/* Runs work(arg) with a trap of its own, so that no jump leaves it; the trap before is set again. false: memory ran out. */
+bool mem_try(struct mem *mem, void (*work)(void *arg), void *arg);
+
 struct arena_chunk;
 
 struct arena {

@@ -88,11 +88,6 @@ static bool any_has(const struct emitter *e, const struct closure_list *list, en
     return false;
 }
 
-static ir_ref context(struct emitter *e, enum ir_context which)
-{
-    return ir_build(e->graph, IR_CONTEXT, IR_TYPE_VEC3, which, NULL, 0);
-}
-
 /* Leaves that are always there share one line; the others have their own behind their guard. */
 static void emit_lights(struct emitter *e, const struct closure_list *list)
 {
@@ -100,7 +95,8 @@ static void emit_lights(struct emitter *e, const struct closure_list *list)
         return;
     declare_color(e);
     effect(e, EFFECT_LIGHTS, 0, 0);
-    ir_ref light = context(e, IR_CONTEXT_L), intensity = context(e, IR_CONTEXT_LIGHT_INTENSITY);
+    ir_ref light, intensity;
+    closure_sample_light(e->shader, e->host, &light, &intensity);
     ir_ref always = 0;
     for (uint32_t i = 0; i < list->leaves.len; i++) {
         const struct closure_leaf *leaf = &list->leaves.items[i];

@@ -175,12 +175,15 @@ static elem_id connected(const struct upgrade *u, elem_id node, const char *inpu
     return port ? upgrade_upstream(u, port) : 0;
 }
 
-/* What a layer's base is after all layers that are gone. */
-static elem_id bypassed(const struct films *f, elem_id node)
+/* What stands for a node after all layers that are gone; the layers on the way remember it. */
+static elem_id bypassed(struct films *f, elem_id node)
 {
-    for (size_t hops = 0; f->bypass[own_index(f, node)] && hops < f->u->doc->elements.len; hops++)
-        node = f->bypass[own_index(f, node)];
-    return node;
+    elem_id base = node, next;
+    while ((next = f->bypass[own_index(f, base)]) != 0)
+        base = next;
+    for (; (next = f->bypass[own_index(f, node)]) != 0; node = next)
+        f->bypass[own_index(f, node)] = base;
+    return base;
 }
 
 static void redirect(struct films *f, elem_id port)
@@ -212,7 +215,8 @@ void upgrade_thin_films(struct upgrade *u)
         if (!top || !base || !upgrade_is_category(u, top, "thin_film_bsdf"))
             continue;
         apply_film(&f, top, base);
-        f.bypass[own_index(&f, e)] = base;
+        if (bypassed(&f, base) != e) /* else the layers lie in a circle, which they keep */
+            f.bypass[own_index(&f, e)] = base;
     }
     for (elem_id e = upgrade_first(u); e; e = upgrade_next(u, e))
         if (doc_element(doc, e)->kind == KIND_INPUT || doc_element(doc, e)->kind == KIND_OUTPUT)

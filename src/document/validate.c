@@ -118,6 +118,8 @@ static elem_id find_typedef(const struct document *doc, str_id type)
 static const char *suggest_type(struct validation *v, str_id type)
 {
     VEC(const char *) names = {0};
+    if (v->diags->num_errors > MAX_SUGGESTIONS)
+        return "";
     for (doc_type t = DOC_TYPE_NONE + 1; t < DOC_NUM_TYPES; t++)
         vec_push(v->arena, &names, text_of(v, doc_type_name(t)));
     for (const struct document *layer = v->doc; layer; layer = layer->base)

@@ -4,6 +4,9 @@
 
 #include "document/document.h"
 
+/* Errors that get a suggestion: a document that is wrong throughout is reported in linear time. */
+enum { MAX_SUGGESTIONS = 64 };
+
 struct validation {
     const struct document *doc;
     struct diag_list *diags;

@@ -9,11 +9,13 @@ static const char *text_of(const struct validation *v, str_id id)
     return str_text(v->doc->strings, id);
 }
 
-/* " (did you mean 'x'?)" from the children of a kind; KIND_MATERIALX: of any kind. */
+/* " (did you mean 'x'?)" from the children of a kind. */
 static const char *suggest_child(struct validation *v, elem_id parent, enum element_kind kind, str_id wanted)
 {
     const char *names[MAX_CANDIDATES];
     size_t count = 0;
+    if (v->diags->num_errors > MAX_SUGGESTIONS)
+        return "";
     for (elem_id e = parent ? doc_element(v->doc, parent)->first_child : 0; e && count < MAX_CANDIDATES; e = doc_element(v->doc, e)->next)
         if (doc_element(v->doc, e)->kind == kind)
             names[count++] = text_of(v, doc_element(v->doc, e)->name);

@@ -135,7 +135,7 @@ static const char *graph_call_problem(const struct ir_graph *graph, ir_type_id t
         if (ir_type_of(graph, args[i]) != graph->param_types.items[function->first_param_type + i])
             return "an argument does not have the parameter's type";
     ir_type_id first = ir_type_of(graph, graph->function_results.items[function->first_result]);
-    return type == IR_TYPE_VOID || type == first ? NULL : "the call has neither no type nor that of its first result";
+    return type == IR_TYPE_VOID || type == first ? NULL : "the type is neither void nor that of the first result";
 }
 
 static const char *result_problem(const struct ir_graph *graph, ir_type_id type, uint32_t attr, ir_ref call)

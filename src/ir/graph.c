@@ -13,6 +13,8 @@ void ir_graph_init(struct ir_graph *graph, struct arena *arena, struct strpool *
     *graph = (struct ir_graph){.arena = arena, .strings = strings};
     vec_push(arena, &graph->nodes, (struct ir_node){.op = IR_POISON}); /* 0 is no node; it must not look like a constant */
     vec_push(arena, &graph->hashes, 0);
+    vec_push(arena, &graph->args, 0); /* so that there is something to point to */
+    vec_push(arena, &graph->words, (union ir_word){.u = 0});
     vec_push(arena, &graph->origins, (struct ir_origin){0});
 }
 

@@ -146,9 +146,6 @@ enum ir_node_flags {
     IR_NODE_CLOSURE = 2,    /* closure or shader type */
 };
 
-/* Values of the lighting context: what a leaf's functions may ask for beside the node's inputs. */
-enum ir_context { IR_CONTEXT_V, IR_CONTEXT_L, IR_CONTEXT_P, IR_CONTEXT_LIGHT_INTENSITY, IR_NUM_CONTEXTS };
-
 /* Where a node comes from: for names, comments and diagnostics. The IR carries it and does not look inside. */
 struct ir_origin {
     str_id name;      /* a readable name for a local variable: "metal_ior" */
@@ -178,9 +175,9 @@ struct ir_graph {
     struct arena *arena;
     struct strpool *strings; /* may be NULL where no strings are built */
     VEC(struct ir_node) nodes; /* [0] is unused */
-    VEC(ir_ref) args;
-    VEC(union ir_word) words;  /* constant pool: ir_type components each */
-    VEC(struct ir_origin) origins;
+    VEC(ir_ref) args;          /* [0] is unused */
+    VEC(union ir_word) words;  /* [0] is unused; constant pool: as many as the type has components */
+    VEC(struct ir_origin) origins; /* [0] is nothing */
     VEC(struct ir_callee) callees;
     VEC(struct ir_function) functions;
     VEC(ir_type_id) param_types;

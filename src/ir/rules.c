@@ -18,8 +18,8 @@ enum {
 enum { FINITE, EXACT };
 
 /*
- * A filter, since almost every node is left as it is: a rule needs each op and constant of its pattern among the operands, or
- * two equal operands where it has none. Sets of ops are sets of bits, with a few ops to a bit.
+ * A filter, since almost every node is left as it is: a rule needs each op and constant of its pattern among the
+ * operands, or two equal operands where it has none. Sets of ops are sets of bits, with a few ops to a bit.
  */
 #define OP_BIT(op) ((uint64_t)1 << ((op) & 63))
 #define EQUAL_BIT ((uint64_t)1 << 63)
@@ -189,9 +189,10 @@ static uint64_t present(const struct ir_graph *graph, const ir_ref *args, unsign
 
 ir_ref ir_apply_rules(struct ir_graph *graph, enum ir_op op, ir_type_id type, const ir_ref *args, unsigned num_args)
 {
-    const struct rule *rules = table[op].rules, *end = rules + table[op].num;
-    if (rules == end)
+    const struct rule *rules = table[op].rules;
+    if (!rules)
         return 0;
+    const struct rule *end = rules + table[op].num;
     struct match m = {.graph = graph};
     uint64_t bits = present(graph, args, num_args);
     if (op == IR_MUL)

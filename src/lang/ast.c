@@ -14,14 +14,14 @@ static uint32_t type_size(const struct lang_unit *unit, ir_type_id type,
     return size;
 }
 
-uint32_t ast_type_words(const struct lang_unit *unit, ir_type_id type)
+uint32_t ast_user_type_words(const struct lang_unit *unit, ir_type_id type)
 {
-    return ast_is_user_type(type) ? type_size(unit, type, ast_type_words) : ir_type_info(type)->components;
+    return type_size(unit, type, ast_type_words);
 }
 
-uint32_t ast_type_leaves(const struct lang_unit *unit, ir_type_id type)
+uint32_t ast_user_type_leaves(const struct lang_unit *unit, ir_type_id type)
 {
-    return ast_is_user_type(type) ? type_size(unit, type, ast_type_leaves) : type != IR_TYPE_VOID;
+    return type_size(unit, type, ast_type_leaves);
 }
 
 uint32_t ast_member_offset(const struct lang_unit *unit, ir_type_id type, uint32_t index,

@@ -71,8 +71,8 @@ static ir_ref *split(struct lower *lo, ir_type_id type, ir_ref node, ir_ref *lea
     for (uint32_t i = 0; i < count; i++) {
         ir_type_id part = part_type(lo, type, i, &count);
         ir_ref args[2] = {node, is_array ? ir_const_int(lo->graph, (int32_t)i) : 0};
-        ir_ref value = node ? ir_build(lo->graph, is_array ? IR_INDEX : IR_MEMBER, graph_type(lo, part), is_array ? 0 : i,
-                                       args, is_array ? 2 : 1) : 0;
+        enum ir_op op = is_array ? IR_INDEX : IR_MEMBER;
+        ir_ref value = node ? ir_build(lo->graph, op, graph_type(lo, part), is_array ? 0 : i, args, is_array ? 2 : 1) : 0;
         leaves = split(lo, part, value, leaves);
     }
     return leaves;
@@ -128,7 +128,7 @@ static void open_frame(struct lower *lo, uint32_t id, const ir_ref *in, struct f
     if (frame->num_leaves > FEW_LEAVES)
         frame->leaves = ARENA_ARRAY(lo->graph->arena, ir_ref, frame->num_leaves);
     else
-        frame->leaves = memset(few->leaves, 0, sizeof few->leaves);
+        frame->leaves = memset(few->leaves, 0, frame->num_leaves * sizeof *few->leaves);
     for (uint32_t i = 0; i < frame->fn.num_params; i++) {
         uint32_t count = frame->offsets[i + 1] - frame->offsets[i];
         if (ast_slot(frame->layer, &frame->fn, i)->mode == LANG_OUT)
@@ -302,14 +302,10 @@ void lower_call(struct lower *lo, uint32_t id, const ir_ref *in, ir_ref *out)
 
 static void lower_inline_expression(struct lower *lo, const ir_ref *args, ir_ref *results)
 {
-    struct few few = {{0}, {0}};
-    lo->inputs = args;
-    lo->frame.offsets = few.offsets;
-    lo->frame.leaves = few.leaves;
-    ir_type_id type = lo->frame.fn.return_type;
+    lo->inputs = args; /* what an expression names; it has no variables */
     results[0] = lower_single(lo, ast_returned(lo->frame.layer, &lo->frame.fn));
     if (lo->failed)
-        results[0] = ir_poison(lo->graph, type);
+        results[0] = ir_poison(lo->graph, lo->frame.fn.return_type);
 }
 
 /* Does everything that the call takes and gives fit into the arrays here? */

@@ -212,7 +212,8 @@ static ir_ref with_components(struct lower *lo, ir_ref vector, ir_type_id type, 
 }
 
 /* A matrix with one column, or a vector with one component, replaced. */
-static ir_ref with_element(struct lower *lo, ir_ref whole, ir_type_id type, uint32_t index, ir_ref value, ir_type_id value_type)
+static ir_ref with_element(struct lower *lo, ir_ref whole, ir_type_id type, uint32_t index, ir_ref value,
+                           ir_type_id value_type)
 {
     if (!ir_type_is_matrix(type))
         return with_components(lo, whole, type, 1u << 8 | index, value, value_type);
@@ -236,7 +237,8 @@ static void assign_element(struct lower *lo, const struct lang_node *node, ir_re
         whole = with_components(lo, whole, type, node->b, value, node->type);
     } else {
         const struct ir_type_info *info = ir_type_info(type);
-        uint32_t index = known_index(lo, node_at(lo, node->a)->next, info->columns > 1 ? info->columns : info->components);
+        uint32_t length = info->columns > 1 ? info->columns : info->components;
+        uint32_t index = known_index(lo, node_at(lo, node->a)->next, length);
         if (lo->failed)
             return;
         whole = with_element(lo, whole, type, index, value, node->type);

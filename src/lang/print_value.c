@@ -43,10 +43,11 @@ void lang_write_form(const struct lang_form *form, const char *type_name, lang_o
         if (!*p)
             break;
         char before = p == form->text ? '\0' : p[-1] == ' ' ? p[-2] : p[-1];
+        unsigned index = (unsigned)(p[1] - '0');
         if (p[1] == 'T')
             text_str(out, type_name);
         else
-            operand(user_data, (unsigned)(p[1] - '0'), operand_precedence(form, (unsigned)(p[1] - '0'), before, p[2]), out);
+            operand(user_data, index, operand_precedence(form, index, before, p[2]), out);
         p += 2;
     }
 }

@@ -50,7 +50,7 @@ static void add_own_needs(struct lang_reach *reach, const struct lang_unit *unit
         add_global(reach, unit, layer->refs.items[fn->first_global + i]);
 }
 
-/* Calls nest as deep as the author's functions call each other (no recursion in the language), but an explicit stack costs little. */
+/* Calls nest as deep as the author's functions call each other, which has no bound: hence a stack of our own. */
 void lang_reach_add(struct lang_reach *reach, const struct lang_unit *unit, uint32_t id)
 {
     struct visit {

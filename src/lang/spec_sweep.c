@@ -210,7 +210,9 @@ static void name_literals(struct spec *s, uint32_t slot)
             s->longs.items[kept++] = ref;
             continue;
         }
-        *node = (struct lang_node){.kind = LANG_VAR, .type = node->type, .next = node->next, .a = slot, .place = node->place};
+        node->kind = LANG_VAR;
+        node->a = slot;
+        node->c = 0;
         vec_push(s->unit->arena, &s->vars, ref);
     }
     s->longs.len = kept;

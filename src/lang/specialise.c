@@ -242,6 +242,8 @@ uint32_t spec_function(struct lang_unit *unit, const struct lang_bindings *optio
     if (!versions->table || (versions->items.len + 1) * 2 > versions->table_mask)
         grow_table(unit);
     uint32_t hash = hash_key(unit, id, bound, num_bound, keeps_unused), slot;
+    if (spec_is_planned(unit)) /* what was found before the plan does not count any more */
+        hash = ~hash;
     uint32_t index = find_version(unit, hash, id, bound, num_bound, keeps_unused, &slot);
     if (index != LANG_NONE)
         return versions->items.items[index].to;

@@ -15,26 +15,17 @@ static void mark_read(struct shader *shader, uint32_t variable, enum shader_stag
     shader->variables.items[variable].stages |= (uint8_t)(1u << stage);
 }
 
-/* Lights are read at the surface where nobody says otherwise. */
 static void complete_lights(struct shader *shader, enum shader_stage_id id)
 {
     struct shader_stage *stage = &shader->stages[id];
-    for (uint32_t i = 0; i < stage->effects.len; i++) {
-        struct effect *effect = &stage->effects.items[i];
-        if (effect->kind != EFFECT_LIGHTS)
-            continue;
-        stage->has_lights = true;
-        if (!effect->value)
-            effect->value = shader_stream(shader, word(shader, "positionWorld"), IR_TYPE_VOID);
-    }
+    for (uint32_t i = 0; i < stage->effects.len; i++)
+        stage->has_lights |= stage->effects.items[i].kind == EFFECT_LIGHTS;
     if (!stage->has_lights)
         return;
     mark_read(shader, shader_private_uniform(shader, word(shader, "u_numActiveLightSources"), IR_TYPE_INT, 0), id);
     mark_read(shader, shader_light_member(shader, word(shader, "type"), IR_TYPE_INT), id);
     for (uint32_t i = 0; i < shader->light_members.len; i++)
         mark_read(shader, shader->light_members.items[i], id);
-    for (uint32_t i = 0; i < shader->lights.len; i++)
-        lang_reach_add(&stage->reach, shader->unit, shader->lights.items[i].function);
 }
 
 /* What portable functions, which are called and not seen through, read from the host. */

@@ -65,7 +65,7 @@ static void grow_names(struct shader *shader)
 static bool is_taken_word(const struct shader *shader, const char *name)
 {
     static const char *const words[] = {"main", "vd", "u_lightData", "LightData", "LightData_block", "PublicUniforms",
-                                        "PrivateUniforms", "VertexData", "mx_light"};
+                                        "PrivateUniforms", "VertexData"};
     for (size_t i = 0; i < sizeof words / sizeof *words; i++)
         if (strcmp(name, words[i]) == 0)
             return true;

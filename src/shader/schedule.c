@@ -97,6 +97,7 @@ static void note_needs(struct scheduler *s, ir_ref ref)
 {
     const struct ir_node *node = ir_get(s->graph, ref);
     switch (node->op) {
+    case IR_CONTEXT:
     case IR_UNIFORM:
     case IR_STREAM:
     case IR_TEXTURE:
@@ -154,7 +155,7 @@ static void find_dependences(struct scheduler *s)
         const struct ir_node *node = ir_get(s->graph, plan->ref);
         if (node->op == IR_LOCAL)
             plan->flags |= PLAN_LOCAL;
-        else if (node->op == IR_CONTEXT && (node->attr == IR_CONTEXT_L || node->attr == IR_CONTEXT_LIGHT_INTENSITY))
+        else if (node->op == IR_CONTEXT)
             plan->flags |= PLAN_LIGHT;
         else if (is_call(node) && (node->type == IR_TYPE_VOID || shader_call_outs(s->shader, plan->ref)))
             plan->flags |= PLAN_STATEMENT;
@@ -260,8 +261,6 @@ static void find_places(struct scheduler *s, const struct effect_list *effects)
         if (!effect->value)
             continue;
         use(s, effect->value, 1, s->region_of.items[i], i, i, false);
-        if (effect->kind == EFFECT_LIGHTS) /* the point is read for each light */
-            plan_of(s, effect->value)->flags |= PLAN_MOVED;
     }
     for (uint32_t i = s->plans.len; i-- > 0;) {
         struct plan *plan = &s->plans.items[i];
@@ -281,7 +280,7 @@ static void find_places(struct scheduler *s, const struct effect_list *effects)
  * Expressions are kept to about a line. Costs are those of SPIR-V before any optimiser: reading a block's member takes an access chain
  * and a load, a local a variable, a store and a load per use.
  */
-enum { MAX_CHARS = 110, MIN_SPLIT_CHARS = 36, MAX_REPEATED_CHARS = 24 };
+enum { GOOD_CHARS = 110, MAX_CHARS = 220, MIN_SPLIT_CHARS = 40, MAX_REPEATED_CHARS = 32 };
 enum { COST_OPERATOR = 1, COST_BUILTIN = 4, COST_CALL = 16, COST_LOCAL = 2, MAX_COST_IN_LOOP = 3 };
 
 static bool is_splat(const struct ir_value *value)
@@ -309,6 +308,7 @@ static bool is_source(const struct scheduler *s, struct plan *plan)
         plan->chars = clamp16(components == 1 ? 5 : 4 + 6 * components);
         return components == 1 || plan->uses < (components > 4 ? 2u : 3u);
     }
+    case IR_CONTEXT:
     case IR_UNIFORM:
     case IR_STREAM:
     case IR_TEXTURE:
@@ -317,7 +317,6 @@ static bool is_source(const struct scheduler *s, struct plan *plan)
         return true;
     case IR_PARAM:
     case IR_LOCAL:
-    case IR_CONTEXT:
     case IR_POISON:
         plan->cost = 1;
         plan->chars = 4;
@@ -364,7 +363,10 @@ static void let(const struct scheduler *s, struct plan *plan)
     plan->chars = clamp16((uint32_t)str_len(s->shader->strings, name) + 2);
 }
 
-/* Sums the operands up; the longest of them become locals until the whole is no longer than a line. */
+/*
+ * Sums the operands up; the longest of them become locals until the whole is no longer than a line. Where hardly anything would
+ * remain without them, the line may be longer.
+ */
 static void measure(struct scheduler *s, struct plan *plan)
 {
     const struct ir_node *node = ir_get(s->graph, plan->ref);
@@ -381,7 +383,8 @@ static void measure(struct scheduler *s, struct plan *plan)
             if (splits && (!longest || operand->chars > longest->chars))
                 longest = operand;
         }
-        if (chars <= MAX_CHARS || !longest) {
+        bool long_rest = longest && chars - longest->chars >= MIN_SPLIT_CHARS;
+        if (chars <= GOOD_CHARS || !longest || (chars <= MAX_CHARS && !long_rest)) {
             plan->cost = clamp16(cost);
             plan->chars = clamp16(chars);
             return;

@@ -86,7 +86,7 @@ enum effect_kind {
     EFFECT_OUTPUT,     /* interface variable `index` (pixel output or vertex data) = value */
     EFFECT_POSITION,   /* the vertex's clip position = value */
     EFFECT_IF,         /* if (value) { */
-    EFFECT_LIGHTS,     /* for each active light {; declares the context's L and light intensity for the point `value` (0: positionWorld) */
+    EFFECT_LIGHTS,     /* for each active light {; CONTEXT nodes inside read its data */
     EFFECT_END,        /* } */
     EFFECT_COMMENT,    /* a line of comment: text */
     EFFECT_DISCARD,    /* alpha test: if (value) discard */

@@ -125,6 +125,7 @@ static uint64_t attribute(const struct hasher *h, ir_ref ref)
     switch (node->op) {
     case IR_CONST:
         return 0;
+    case IR_CONTEXT:
     case IR_UNIFORM:
     case IR_STREAM:
     case IR_TEXTURE:
@@ -220,7 +221,7 @@ uint64_t shader_topology(const struct shader *shader)
     h.graph_function_numbers = ARENA_ARRAY(h.arena, uint32_t, shader->graph->functions.len + 1);
     add_variables(&h);
     for (uint32_t i = 0; i < shader->lights.len; i++)
-        add(&h, (uint64_t)(uint32_t)shader->lights.items[i].type << 32 | h.function_numbers[shader->lights.items[i].function]);
+        add(&h, (uint64_t)(uint32_t)shader->lights.items[i].type);
     for (int stage = 0; stage < NUM_STAGES; stage++)
         add_stage(&h, &shader->stages[stage]);
     return h.hash;

@@ -25,7 +25,7 @@ static const char *variable_name(const struct spell *spell, const struct shader_
 
 void spell_name_interface(struct spell *spell)
 {
-    static const char *const own[] = {"main", "vd", "mx_light", "u_lightData", "LightData", "LightData_block",
+    static const char *const own[] = {"main", "vd", "u_lightData", "LightData", "LightData_block",
                                       "PublicUniforms", "PrivateUniforms", "VertexData"};
     for (size_t i = 0; i < sizeof own / sizeof *own; i++)
         names_take(&spell->names, own[i]);
@@ -70,17 +70,24 @@ static bool needs_block(const struct spell *spell, enum shader_block block)
 /* "layout(set = 0, binding = 1, std140) "; nothing where neither is asked for. */
 static void write_layout(struct spell *spell, uint32_t set, uint32_t binding, bool std140)
 {
-    bool bindings = spell_can(spell, CAP_BINDINGS);
-    if (bindings)
-        text_fmt(spell->out, "layout(set = %u, binding = %u%s) ", set, binding, std140 ? ", std140" : "");
-    else if (std140)
-        spell_text(spell, "layout(std140) ");
+    if (!spell_can(spell, CAP_BINDINGS)) {
+        spell_text(spell, std140 ? "layout(std140) " : "");
+        return;
+    }
+    spell_text(spell, "layout(set = ");
+    spell_number(spell, set);
+    spell_text(spell, ", binding = ");
+    spell_number(spell, binding);
+    spell_text(spell, std140 ? ", std140) " : ") ");
 }
 
 static void write_location(struct spell *spell, uint32_t location)
 {
-    if (spell_can(spell, CAP_BINDINGS))
-        text_fmt(spell->out, "layout(location = %u) ", location);
+    if (!spell_can(spell, CAP_BINDINGS))
+        return;
+    spell_text(spell, "layout(location = ");
+    spell_number(spell, location);
+    spell_text(spell, ") ");
 }
 
 static void write_members(struct spell *spell, enum shader_block block)
@@ -102,7 +109,7 @@ static void write_uniform_block(struct spell *spell, enum shader_block block)
 {
     const struct shader_buffer *buffer = &spell->shader->buffers[block];
     write_layout(spell, buffer->set, buffer->binding, true);
-    text_fmt(spell->out, "uniform %s {\n", shader_block_name(block));
+    SPELL(spell, "uniform ", shader_block_name(block), " {\n");
     write_members(spell, block);
     spell_text(spell, "};\n");
 }
@@ -144,8 +151,9 @@ static void write_light_data(struct spell *spell)
     spell_text(spell, "};\n");
     if (spell->blocks)
         write_layout(spell, buffer->set, buffer->binding, true);
-    text_fmt(spell->out, spell->blocks ? "uniform LightData_block { LightData u_lightData[%u]; };\n"
-                                       : "uniform LightData u_lightData[%u];\n", spell->shader->max_lights);
+    spell_text(spell, spell->blocks ? "uniform LightData_block { LightData u_lightData[" : "uniform LightData u_lightData[");
+    spell_number(spell, spell->shader->max_lights);
+    spell_text(spell, spell->blocks ? "]; };\n" : "];\n");
 }
 
 static void write_textures(struct spell *spell)
@@ -184,7 +192,7 @@ static void write_vertex_data(struct spell *spell)
         return;
     }
     write_location(spell, 0);
-    text_fmt(spell->out, "%sVertexData {\n", qualifier);
+    SPELL(spell, qualifier, "VertexData {\n");
     write_members(spell, BLOCK_VERTEX_DATA);
     spell_text(spell, "} vd;\n");
 }

@@ -192,7 +192,7 @@ static void write_source(struct spell *spell, const struct ir_node *node)
         spell_text(spell, spell->locals[node->attr]);
         break;
     case IR_CONTEXT:
-        spell_text(spell, node->attr == IR_CONTEXT_L ? spell->light_direction : spell->light_intensity);
+        SPELL(spell, "u_lightData[", spell->light_index, "].", spell->variables[node->attr]);
         break;
     default: /* POISON: an error was reported; the text is not used */
         write_value(spell, &(struct ir_value){.type = node->type < IR_NUM_TYPES ? node->type : IR_TYPE_FLOAT}, LANG_PREC_COMMA);

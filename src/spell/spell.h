@@ -27,8 +27,8 @@ void names_init(struct name_set *names, struct arena *arena, const struct lang_s
 void names_open_scope(struct name_set *names); /* a new function: the names of the one before are free again */
 /* `text` made an identifier, with a number behind it where that is reserved or taken. Valid as long as the arena. */
 const char *names_unique(struct name_set *names, const char *text, size_t len);
-/* Takes a name as it is. */
-void names_take(struct name_set *names, const char *text);
+/* Takes a name as it is; false where it is taken already. */
+bool names_take(struct name_set *names, const char *text);
 
 /* ---- The state ---- */
 
@@ -53,8 +53,8 @@ struct spell {
     const char **locals;          /* names of the stage's mutable variables */
     uint32_t *local_of;           /* node of a LET to its first name in let_names, + 1; 0: it is an expression */
     VEC(const char *) let_names;
-    const char *light_direction, *light_intensity; /* in a LIGHTS */
-    const char *last_path;        /* shown by the last comment */
+    const char *light_index; /* in a LIGHTS: the loop's variable */
+    struct name_set paths;        /* shown in comments so far */
 };
 
 /* ---- expression.c ---- */
@@ -83,6 +83,14 @@ void spell_interface(struct spell *spell);
 void spell_stage(struct spell *spell, enum shader_stage_id stage);
 
 static inline void spell_text(struct spell *spell, const char *text) { text_str(spell->out, text); }
+/* Several texts in a row: SPELL(spell, "in ", name, ";\n"). */
+#define SPELL(spell, ...) spell_texts((spell), (const char *const[]){__VA_ARGS__, NULL})
+static inline void spell_texts(struct spell *spell, const char *const *texts)
+{
+    while (*texts)
+        text_str(spell->out, *texts++);
+}
+static inline void spell_number(struct spell *spell, uint32_t number) { text_u32(spell->out, number); }
 static inline void spell_indent(struct spell *spell, unsigned indent)
 {
     while (indent--)

@@ -131,7 +131,7 @@ static void write_title(struct spell *spell)
 static void write_header(struct spell *spell)
 {
     const char *version = spell->options->version ? spell->options->version : spell->target->versions[0];
-    text_fmt(spell->out, "#version %s\n", version);
+    SPELL(spell, "#version ", version, "\n");
     write_title(spell);
     if (spell_can(spell, CAP_PRECISION) && spell->stage_id == STAGE_PIXEL)
         spell_text(spell, "precision highp float;\nprecision highp int;\nprecision highp sampler2D;\n");
@@ -172,33 +172,6 @@ static void write_functions(struct spell *spell)
         spell_graph_function(spell, &spell->stage->functions.items[i]);
 }
 
-/* The inputs of a light shader are members of the light's data; point, direction and intensity follow them. */
-static void write_light_call(struct spell *spell, const struct shader_light *light)
-{
-    const struct shader *shader = spell->shader;
-    text_fmt(spell->out, "%s(", spell->functions[light->function]);
-    for (uint32_t i = 0; i < light->num_members; i++) {
-        const struct shader_variable *member = &shader->variables.items[shader->light_members.items[light->first_member + i]];
-        text_fmt(spell->out, "u_lightData[i].%s, ", str_text(shader->strings, member->name));
-    }
-    spell_text(spell, "P, L, intensity);\n");
-}
-
-/* Direction to a light and the light that comes from there; none from lights of unknown type. */
-static void write_light_function(struct spell *spell)
-{
-    const struct lang_syntax *syntax = spell->target->syntax;
-    const char *vec3 = lang_syntax_type(syntax, IR_TYPE_VEC3), *in = syntax->param_in, *out = syntax->param_out;
-    text_fmt(spell->out, "void mx_light(%sint i, %s%s P, %s%s L, %s%s intensity)\n{\n", in, in, vec3, out, vec3, out, vec3);
-    text_fmt(spell->out, "    L = %s(0.0);\n    intensity = %s(0.0);\n", vec3, vec3);
-    for (uint32_t i = 0; i < spell->shader->lights.len; i++) {
-        const struct shader_light *light = &spell->shader->lights.items[i];
-        text_fmt(spell->out, "    %sif (u_lightData[i].type == %d)\n        ", i ? "else " : "", (int)light->type);
-        write_light_call(spell, light);
-    }
-    spell_text(spell, "}\n\n");
-}
-
 void spell_stage(struct spell *spell, enum shader_stage_id stage)
 {
     (void)stage;
@@ -206,8 +179,6 @@ void spell_stage(struct spell *spell, enum shader_stage_id stage)
     spell_interface(spell);
     spell_text(spell, "\n");
     write_functions(spell);
-    if (spell->stage->has_lights)
-        write_light_function(spell);
     spell_text(spell, "void main()\n{\n");
     names_open_scope(&spell->names);
     spell_statements(spell, &spell->stage->statements, 1);
@@ -230,6 +201,7 @@ static void init(struct spell *spell)
     spell->local_of = ARENA_ARRAY(arena, uint32_t, shader->graph->nodes.len);
     spell->lang_names = (struct lang_names){spell, function_name, global_name, user_type_name};
     names_init(&spell->names, arena, spell->target->syntax);
+    names_init(&spell->paths, arena, spell->target->syntax);
     spell_name_interface(spell);
     name_types(spell);
     name_functions(spell);

@@ -56,16 +56,15 @@ static const char *add_local(struct spell *spell, const char *base, const char *
     return name;
 }
 
-/* A comment says where in the document the statements that follow come from. */
+/* A comment says where a node of the document begins. */
 static void write_path(struct spell *spell, unsigned indent, uint32_t origin)
 {
     const struct spell_options *options = spell->options;
     if (!options->comments || options->neutral_names || !options->path || !origin)
         return;
     const char *path = options->path(options->user_data, origin);
-    if (!path || (spell->last_path && strcmp(path, spell->last_path) == 0))
+    if (!path || !names_take(&spell->paths, path))
         return;
-    spell->last_path = path;
     spell_indent(spell, indent);
     text_mem(spell->out, "// ", 3);
     spell_text(spell, path);
@@ -228,20 +227,14 @@ static void write_let(struct spell *spell, unsigned indent, ir_ref ref)
 
 /* ---- Other effects ---- */
 
-static void write_lights(struct spell *spell, unsigned indent, ir_ref point)
+static void write_lights(struct spell *spell, unsigned indent)
 {
     const char *i = names_unique(&spell->names, "i", 1);
-    spell->light_direction = names_unique(&spell->names, "L", 1);
-    spell->light_intensity = names_unique(&spell->names, "intensity", 9);
+    spell->light_index = i;
     open_line(spell, indent, 0);
-    text_fmt(spell->out, "for (int %s = 0; %s < min(u_numActiveLightSources, %u); ++%s) {\n", i, i, spell->shader->max_lights, i);
-    open_line(spell, indent + 1, 0);
-    spell_type(spell, IR_TYPE_VEC3);
-    text_fmt(spell->out, " %s, %s;\n", spell->light_direction, spell->light_intensity);
-    open_line(spell, indent + 1, 0);
-    text_fmt(spell->out, "mx_light(%s, ", i);
-    spell_expression(spell, point, LANG_PREC_ASSIGN);
-    text_fmt(spell->out, ", %s, %s);\n", spell->light_direction, spell->light_intensity);
+    SPELL(spell, "for (int ", i, " = 0; ", i, " < min(u_numActiveLightSources, ");
+    spell_number(spell, spell->shader->max_lights);
+    SPELL(spell, "); ++", i, ") {\n");
 }
 
 static void write_if(struct spell *spell, unsigned indent, ir_ref condition, bool braces)
@@ -314,7 +307,7 @@ static void write_effect(struct spell *spell, unsigned indent, const struct effe
         write_assignment(spell, indent, "gl_Position", " = ", effect->value);
         break;
     case EFFECT_LIGHTS:
-        write_lights(spell, indent, effect->value);
+        write_lights(spell, indent);
         break;
     case EFFECT_COMMENT:
         write_comment(spell, indent, effect->text);
@@ -343,7 +336,6 @@ static bool holds_one_statement(const struct effect_list *list, uint32_t opening
 void spell_statements(struct spell *spell, const struct effect_list *statements, unsigned indent)
 {
     spell->let_names.len = 0;
-    spell->last_path = NULL;
     for (uint32_t i = 0; i < statements->len; i++) {
         const struct effect *effect = &statements->items[i];
         if (effect->kind == EFFECT_END) {

@@ -61,9 +61,6 @@ struct xml_reader {
     bool out_of_memory; /* inside a callback or in libxml2 */
 };
 
-/* Runs work(arg) with a trap of its own, so that no jump leaves it. false: memory ran out. */
-bool xml_try(struct mem *mem, void (*work)(void *arg), void *arg);
-
 /* The place `offset` bytes into the current source; cheap where it lies behind the last one asked for. */
 struct diag_place xml_place(struct xml_reader *reader, size_t offset);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Text to elements by libxml2's SAX2 interface. No jump crosses a frame of libxml2: each callback runs under xml_try. */
+/* Text to elements by libxml2's SAX2 interface. No jump crosses a frame of libxml2: each callback runs under mem_try. */
 #include "xml/internal.h"
 
 #include <libxml/parser.h>
@@ -65,27 +65,42 @@ static str_id attr_value(struct xml_reader *reader, const xmlChar *value, const 
     return str_intern(reader->doc->strings, copy, len);
 }
 
-static bool is_name_end(char c)
+static bool is_blank(char c)
 {
-    return c == '=' || c == ' ' || c == '\t' || c == '\r' || c == '\n';
+    return c == ' ' || c == '\t' || c == '\r' || c == '\n';
 }
 
-/* Offset of the value of the next attribute in a start tag (well formed: libxml2 has read it), `at` moved behind it. */
+/* Where a run of characters ends that is_in holds for; at the end of the text at the latest. */
+static size_t skip_while(const struct xml_source *source, size_t at, bool (*is_in)(char))
+{
+    while (at < source->size && is_in(source->text[at]))
+        at++;
+    return at;
+}
+
+static bool is_in_name(char c)
+{
+    return !is_blank(c) && c != '=' && c != '>' && c != '/';
+}
+
+static bool is_no_quote(char c)
+{
+    return c != '"' && c != '\'';
+}
+
+/*
+ * Offset of the value of the next attribute in a start tag, `at` moved behind it. libxml2 has read the tag as far as its last good
+ * attribute; what follows may be anything.
+ */
 static size_t next_value(const struct xml_source *source, size_t *at, bool *out_is_namespace)
 {
-    const char *text = source->text;
-    size_t p = *at;
-    while (text[p] == ' ' || text[p] == '\t' || text[p] == '\r' || text[p] == '\n')
-        p++;
-    size_t name = p;
-    while (!is_name_end(text[p]))
-        p++;
-    *out_is_namespace = p - name >= 5 && memcmp(text + name, "xmlns", 5) == 0 && (p - name == 5 || text[name + 5] == ':');
-    while (text[p] != '"' && text[p] != '\'')
-        p++;
-    const char *end = memchr(text + p + 1, text[p], source->size - p - 1);
-    *at = end ? (size_t)(end - text) + 1 : source->size;
-    return p + 1;
+    size_t name = skip_while(source, *at, is_blank), end = skip_while(source, name, is_in_name);
+    const char *text = source->text + name;
+    *out_is_namespace = end - name >= 5 && memcmp(text, "xmlns", 5) == 0 && (end - name == 5 || text[5] == ':');
+    size_t quote = skip_while(source, end, is_no_quote);
+    const char *close = quote < source->size ? memchr(source->text + quote + 1, source->text[quote], source->size - quote - 1) : NULL;
+    *at = close ? (size_t)(close - source->text) + 1 : source->size;
+    return quote < source->size ? quote + 1 : source->size;
 }
 
 static void add_attr(struct xml_reader *reader, elem_id element, str_id name, str_id value, struct diag_place element_place,
@@ -159,7 +174,7 @@ static void start_element(void *arg)
     struct xml_reader *reader = tag->reader;
     struct xml_source *source = reader->source;
     size_t at = parser_offset(reader); /* behind the attributes: the tag's start is the last '<', which cannot stand inside one */
-    while (at > source->start && source->text[at] != '<')
+    while (at > source->start && (at == source->size || source->text[at] != '<'))
         at--;
     struct diag_place place = xml_place(reader, at);
     if (source->depth >= reader->limits.max_depth) {
@@ -170,9 +185,7 @@ static void start_element(void *arg)
     elem_id element = add_element(tag, place);
     if (!element)
         return;
-    while (!is_name_end(source->text[at]) && source->text[at] != '>' && source->text[at] != '/')
-        at++;
-    add_attrs(tag, element, place, at);
+    add_attrs(tag, element, place, skip_while(source, at, is_in_name));
     source->current = element;
     source->depth++;
     if (!is_xinclude(tag))
@@ -187,7 +200,7 @@ static void start_element(void *arg)
 
 static void guarded(struct xml_reader *reader, void (*work)(void *), void *arg)
 {
-    if (!reader->stopped && !xml_try(reader->mem, work, arg)) {
+    if (!reader->stopped && !mem_try(reader->mem, work, arg)) {
         reader->out_of_memory = true;
         stop(reader);
     }

@@ -3,21 +3,6 @@
 
 #include <libxml/parser.h>
 
-/* Memory */
-
-bool xml_try(struct mem *mem, void (*work)(void *arg), void *arg)
-{
-    jmp_buf here, *outer = mem->trap;
-    mem->trap = &here;
-    if (setjmp(here) == 0) {
-        work(arg);
-        mem->trap = outer;
-        return true;
-    }
-    mem->trap = outer;
-    return false;
-}
-
 /* Places */
 
 struct diag_place xml_place(struct xml_reader *reader, size_t offset)
@@ -175,7 +160,7 @@ static bool read_guarded(struct reading *reading, const struct xml_limits *limit
     set_defaults(&reader->limits, limits);
     arena_init(&reader->scratch, reader->mem);
     uint32_t num_errors = reader->diags->num_errors;
-    bool done = xml_try(reader->mem, read_all, reading);
+    bool done = mem_try(reader->mem, read_all, reading);
     xml_close_file(reader);
     xmlFreeParserCtxt(reader->parser);
     arena_finish(&reader->scratch);

@@ -5,8 +5,8 @@
  *     <!-- expect-error@+1: type-mismatch 14 -->      severity, line (here: the next), id, column (optional)
  *
  * in itself or in a file it reads (there perhaps behind //). The place is @+N or @-N lines from the comment, @N line N, @0 no line, @* any
- * place in any file, any number of times, and without @ the comment's own line. A first line "<!-- mxgen: --key value ... -->" has
- * options: --target, --element, --library, limits (--max-errors …), and those of generation. Every document is loaded, validated, and
+ * place in any file, any number of times, and without @ the comment's own line. A first line "<!-- mxgen: key=value ... -->" has
+ * options: target, element, library, limits (max-errors …), and those of generation. Every document is loaded, validated, and
  * everything in it that can be rendered is generated.
  *
  *     test_diag FOLDER              and every id of the catalogue must be expected in a document or listed in FOLDER/elsewhere.txt
@@ -45,7 +45,7 @@ struct case_ {
     unsigned num_expected, num_given, num_faults;
     char *files[MAX_FILES]; /* read for expectations */
     unsigned num_files;
-    bool silent;
+    bool silent, no_library;
 
     mxg_context *context;
     mxg_library *library;
@@ -219,7 +219,7 @@ static void apply_options(struct case_ *c, const char *line, mxg_context_desc *l
 {
     char key[64], value[128];
     int end = 0;
-    for (; sscanf(line, " --%63s %127s%n", key, value, &end) == 2; line += end) {
+    for (; sscanf(line, " %63[a-z-]=%127s%n", key, value, &end) == 2; line += end) {
         mxg_context_desc ignored = MXG_CONTEXT_DESC_INIT;
         if (set_limit(limits ? limits : &ignored, key, value) || limits)
             continue;
@@ -230,7 +230,7 @@ static void apply_options(struct case_ *c, const char *line, mxg_context_desc *l
         } else if (strcmp(key, "library") == 0) {
             const char *path = value;
             mxg_library *base = c->library;
-            status_is_good(c, mxg_library_load(c->context, base, &path, 1, &c->library));
+            c->no_library = !status_is_good(c, mxg_library_load(c->context, base, &path, 1, &c->library));
             collect(c, mxg_library_diagnostics(c->library));
             mxg_library_unref(base);
             read_expectations(c, value);
@@ -290,7 +290,8 @@ static bool run_case(const char *name, bool silent)
     static struct case_ c; /* large */
     c = (struct case_){.name = name, .silent = silent};
     start(&c);
-    check_document(&c);
+    if (!c.no_library)
+        check_document(&c);
     read_expectations(&c, name);
     for (uint32_t i = 0; i < mxg_document_num_files(c.document); ++i)
         read_expectations(&c, mxg_document_file(c.document, i));

@@ -47,7 +47,7 @@ check 'a bad value' exits 1 "$mxgen" bad.mtlx -o bad
 check 'has id, line and column' grep -Eq '^bad\.mtlx:8:[0-9]+: error: .*\[bad-value\]' err
 check 'shows the line' grep -q 'value="abc"' err
 check 'shows a caret' grep -Eq '^ *\^' err
-check 'writes nothing' none_in bad
+check 'what does not need it is written' files bad './A.frag ./A.vert '
 check 'missing file' exits 1 "$mxgen" none.mtlx
 check 'has its id' grep -q '\[file-missing\]' err
 check 'unknown target' exits 1 "$mxgen" two.mtlx --target glslx
@@ -101,6 +101,36 @@ check 'library list' exits 0 "$mxgen" library list
 check 'a line for each definition, its name first' eval 'grep -q "^ND_mix_float  mix(" out'
 check 'library expand' exits 0 "$mxgen" library expand -o expanded.mtlx
 check 'expands templates' eval 'grep -q "ND_add_color3\"" expanded.mtlx && ! grep -q "<template" expanded.mtlx'
-check 'library pack' eval '"$mxgen" library pack expanded.mtlx -o image.mxlib && test -s image.mxlib'
+cat >extra.mtlx <<'X'
+<?xml version="1.0"?>
+<materialx version="1.39">
+  <template vars="type" rows="float; color3">
+    <nodedef name="ND_thrice_@type@" node="thrice">
+      <input name="in" type="@type@" value="@type.one@"/>
+      <output name="out" type="@type@"/>
+    </nodedef>
+    <implementation name="IM_thrice_@type@" nodedef="ND_thrice_@type@" sourcecode="{{in}} * 3.0"/>
+  </template>
+</materialx>
+X
+cat >thrice.mtlx <<'X'
+<?xml version="1.0"?>
+<materialx version="1.39">
+  <nodegraph name="NG">
+    <thrice name="t" type="color3"/>
+    <output name="out" type="color3" nodename="t"/>
+  </nodegraph>
+</materialx>
+X
+check 'library pack' exits 0 "$mxgen" library pack extra.mtlx -o image.mxlib
+check 'the image lists' eval '"$mxgen" library list image.mxlib | grep -q "^ND_thrice_color3  thrice("'
+check 'without the library its node is unknown' exits 1 "$mxgen" thrice.mtlx
+check 'and says so' grep -q '\[unknown-node\]' err
+check 'an image is a library of its own' exits 0 "$mxgen" thrice.mtlx --no-builtin-library --library image.mxlib -o image
+check '--library with a document' exits 0 "$mxgen" thrice.mtlx --library extra.mtlx -o document
+check 'gives the same' diff -r image document
+head -c 100 image.mxlib >broken.mxlib
+check 'a broken image' exits 1 "$mxgen" thrice.mtlx --library broken.mxlib
+check 'is refused' grep -q '\[image-bad\]' err
 
 finish cli

@@ -4,16 +4,20 @@
 
 #include "unit/test.h"
 
-#define VERTEX(version) "#version " version "\nlayout(location = 0) in vec3 p;\nvoid main()\n{\n    gl_Position = vec4(p, 1.0);\n}\n"
+#define VERTEX(version)                                                                                                \
+    "#version " version "\nlayout(location = 0) in vec3 p;\nvoid main()\n{\n    gl_Position = vec4(p, 1.0);\n}\n"
 
 static const char *const desktop_vertex = VERTEX("450"), *const es_vertex = VERTEX("300 es");
 static const char *const desktop_pixel = "#version 450\nuniform vec3 u_color;\nlayout(location = 0) out vec4 o;\n"
                                          "void main()\n{\n    o = vec4(u_color * 2.0, 1.0);\n}\n";
-static const char *const vulkan_pixel = "#version 450\nlayout(set = 0, binding = 0, std140) uniform B { vec3 u_color; };\n"
-                                        "layout(location = 0) out vec4 o;\nvoid main()\n{\n    o = vec4(u_color * 2.0, 1.0);\n}\n";
-static const char *const es_pixel = "#version 300 es\nprecision highp float;\nuniform vec3 u_color;\nlayout(location = 0) out vec4 o;\n"
-                                    "void main()\n{\n    o = vec4(u_color * 2.0, 1.0);\n}\n";
-static const char *const broken_pixel = "#version 450\nlayout(location = 0) out vec4 o;\nvoid main()\n{\n    o = vec4(missing, 1.0);\n}\n";
+static const char *const vulkan_pixel =
+    "#version 450\nlayout(set = 0, binding = 0, std140) uniform B { vec3 u_color; };\n"
+    "layout(location = 0) out vec4 o;\nvoid main()\n{\n    o = vec4(u_color * 2.0, 1.0);\n}\n";
+static const char *const es_pixel =
+    "#version 300 es\nprecision highp float;\nuniform vec3 u_color;\nlayout(location = 0) out vec4 o;\n"
+    "void main()\n{\n    o = vec4(u_color * 2.0, 1.0);\n}\n";
+static const char *const broken_pixel =
+    "#version 450\nlayout(location = 0) out vec4 o;\nvoid main()\n{\n    o = vec4(missing, 1.0);\n}\n";
 static struct compiled compile(const char *target, const char *vertex, const char *pixel)
 {
     struct compiled compiled;

@@ -84,10 +84,13 @@ static inline ir_ref number(struct fixture *f, float value) { return ir_const_fl
 static inline ir_ref op1(struct fixture *f, enum ir_op op, ir_ref a) { return ir_op1(&f->graph, op, a); }
 static inline ir_ref op2(struct fixture *f, enum ir_op op, ir_ref a, ir_ref b) { return ir_op2(&f->graph, op, a, b); }
 static inline ir_ref vec3_of(struct fixture *f, ir_ref a) { return ir_construct(&f->graph, IR_TYPE_VEC3, &a, 1); }
-static inline ir_ref light_direction(struct fixture *f)
+/* A member of the light at hand, for effects inside of EFFECT_LIGHTS. */
+static inline ir_ref light_member(struct fixture *f, const char *text)
 {
-    return ir_build(&f->graph, IR_CONTEXT, IR_TYPE_VEC3, IR_CONTEXT_L, NULL, 0);
+    uint32_t member = shader_light_member(&f->shader, word(f, text), IR_TYPE_VEC3);
+    return ir_build(&f->graph, IR_CONTEXT, IR_TYPE_VEC3, member, NULL, 0);
 }
+static inline ir_ref light_direction(struct fixture *f) { return light_member(f, "direction"); }
 static inline ir_ref read_color(struct fixture *f)
 {
     return ir_build(&f->graph, IR_LOCAL, IR_TYPE_VEC3, f->color, NULL, 0);

@@ -356,7 +356,7 @@ static const struct {
     {"function \"f\"\n%1 = graph_call void", "2: the function is called before its results are set"},
     {"function \"f\" float\nresults 0 = 1.0\n%1 = graph_call void", "3: the call does not have the function's number of arguments"},
     {"function \"f\" float\nresults 0 = 1.0\n%1 = graph_call void 1", "3: an argument does not have the parameter's type"},
-    {"function \"f\"\nresults 0 = 1.0\n%1 = graph_call int", "3: the call has neither no type nor that of its first result"},
+    {"function \"f\"\nresults 0 = 1.0\n%1 = graph_call int", "3: the type is neither void nor that of the first result"},
     {"function \"f\"\nresults 0 = 1.0\nresults 0 = 1.0", "3: the function has its results already"},
     {"function \"f\"\nresults 0 = 1.0\n%1 = graph_call void\n%2 = result float @1 %1", "4: the function has fewer results"},
     {"function \"f\"\nresults 0 = 1.0\n%1 = graph_call void\n%2 = result int %1", "4: the result does not have the function's type"},

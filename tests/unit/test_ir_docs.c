@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
  * The tables of docs/ir.md are those of ops.def, types.def and rules.def, and its examples are IR. Argument: the path of
- * the document; with --update behind it, the tables are written anew. Tables stand between <!-- name --> and <!-- end -->.
+ * the document (its own by default); with --update behind it, the tables are written anew. Tables stand between
+ * <!-- name --> and <!-- end -->.
  */
 #include "ir/internal.h"
 
@@ -182,6 +183,17 @@ static void test_examples(struct text *document)
     REQUIRE(num_examples > 0);
 }
 
+/* Beside this source file, which the build names relative to where it runs its tests. */
+static const char *default_path(void)
+{
+    struct text path;
+    const char *file = __FILE__, *slash = strrchr(file, '/');
+    text_init(&path, &arena);
+    text_mem(&path, file, slash ? (size_t)(slash - file) + 1 : 0);
+    text_str(&path, "../../docs/ir.md");
+    return text_cstr(&path);
+}
+
 int main(int argc, char **argv)
 {
     struct text before, after;
@@ -189,7 +201,7 @@ int main(int argc, char **argv)
     arena_init(&arena, &mem);
     text_init(&before, &arena);
     text_init(&after, &arena);
-    const char *path = argc > 1 ? argv[1] : "docs/ir.md";
+    const char *path = argc > 1 ? argv[1] : default_path();
     if (!REQUIRE(read_file(path, &before)))
         return test_report("ir_docs");
     test_examples(&before);

@@ -392,7 +392,7 @@ static void plans(const char *source, const char *name, const char *bindings, co
     struct fixture f;
     struct bound bound;
     setup(&f, source);
-    uint32_t id = find(&f, name);
+    uint32_t id = specialise(&f, find(&f, name), "");
     read_bindings(&f, id, bindings, &bound);
     lang_plan_call(&f.generated, id, bound.pointers);
     lang_plan_finish(&f.generated);
@@ -457,10 +457,11 @@ static void test_specialise_loops(void)
 
 static void test_specialise_calls(void)
 {
-    plans("float film(float c, float d) { return cos(c * d); } float plain(float c) { return c * c; }\n"
-                "float fresnel(float c, float d) { if (d > 0.0) return film(c, d); return plain(c); }\n"
-                "float f(float c, float d) { return fresnel(c, d) + fresnel(1.0, d) * fresnel(c, 0.0); }", "f", "d=0",
-                "float plain(float c)\n{\n    return c * c;\n}\nfloat f1(float c)\n{\n    return plain(c) + plain(c);\n}\n");
+    plans("float film(float c, float d) { return cos(c * d); } float plain(float c) { float s = c * c; return s + s; }\n"
+          "float fresnel(float c, float d) { if (d > 0.0) return film(c, d); return plain(c); }\n"
+          "float f(float c, float d) { return fresnel(c, d) + fresnel(1.0, d) * fresnel(c, 0.0); }", "f", "d=0",
+          "float plain(float c)\n{\n    float s = c * c;\n    return s + s;\n}\n"
+          "float f1(float c)\n{\n    return plain(c) + 2.0 * plain(c);\n}\n");
     specialises("float g(float x, out float y) { y = x * 2.0; return x + 1.0; }\n"
                 "float f(float x, float w) { float a; float b = g(x, a); float c; float d = g(b, c); return a * w + d; }", "f", "w=0",
                 "float g(float x, out float y)\n{\n    y = x * 2.0;\n    return x + 1.0;\n}\n"
@@ -478,13 +479,17 @@ static void test_specialise_calls(void)
 /* A parameter is bound where all calls agree, through callers as well; a flag makes a version of its own. */
 static void test_plan(void)
 {
-    plans("float g(float x, float k, float c) { return sin(x * k) + c; }\n"
-          "float h(float x, float c) { return g(x, 4.0, c); }\n"
+    plans("float g(float x, float k, float c) { float s = sin(x * k); return s * s + c; }\n"
+          "float h(float x, float c) { float t = g(x, 4.0, c); return t * t; }\n"
           "float f(float x, float c) { return g(x, 2.0, 0.0) + g(x + 1.0, 3.0, c) + h(x, c); }", "f", "c=0",
-          "?");
-    plans("float g(float x, bool twice) { if (twice) return x * 2.0; return x * x; }\n"
+          "float g0(float x, float k)\n{\n    float s = sin(x * k);\n    return s * s;\n}\n"
+          "float h1(float x)\n{\n    float t = g0(x, 4.0);\n    return t * t;\n}\n"
+          "float f2(float x)\n{\n    return g0(x, 2.0) + g0(x + 1.0, 3.0) + h1(x);\n}\n");
+    plans("float g(float x, bool twice) { float s = x * x; if (twice) s *= 2.0; return s + sin(s); }\n"
           "float f(float x) { return g(x, true) + g(x, false) + g(x + 1.0, true); }", "f", "",
-          "?");
+          "float g0(float x)\n{\n    float s = x * x;\n    s *= 2.0;\n    return s + sin(s);\n}\n"
+          "float g1(float x)\n{\n    float s = x * x;\n    return s + sin(s);\n}\n"
+          "float f2(float x)\n{\n    return g0(x) + g1(x) + g0(x + 1.0);\n}\n");
 }
 
 static void test_dropped_params(void)
@@ -652,9 +657,9 @@ static void test_lower_calls(void)
            "return %4\n");
     lowers("float sum(float x, int n) { float s = 0.0; for (int i = 0; i < n; ++i) s += x; return s; }\n"
            "float f(float x) { return sum(x, 3) + sum(2.0, 3); }", "f", 24, ARGS("x"),
-           "callee \"sum\" 0x0000000000000002 pure\n"
+           "callee \"sum\" 0x0000000000000000 pure\n"
            "%1 = uniform float\n"
-           "%2 = call float %1\n"
+           "%2 = call float %1, 3\n"
            "%3 = add float %2, 6.0\n"
            "return %3\n");
     lowers("vec2 big(vec2 x, float k, out float y, bool b) { y = k; for (int i = 0; i < 3; ++i) x += k; return b ? x.yx : x; }", "big", 0,
@@ -667,9 +672,9 @@ static void test_lower_calls(void)
            "%5 = result float @1 %3\n"
            "return %4, %5\n");
     lowers("float f(float x, float y) { return sin(x) * cos(y) + sin(y) * cos(x) + sqrt(x); }", "f", 4, ARGS("x", "2"),
-           "callee \"f\" 0x0000000000000001 pure\n"
+           "callee \"f\" 0x0000000000000000 pure\n"
            "%1 = uniform float\n"
-           "%2 = call float %1\n"
+           "%2 = call float %1, 2.0\n"
            "return %2\n");
 }
 

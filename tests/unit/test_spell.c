@@ -51,9 +51,7 @@ static const char functions[] =
     "float step_on(float a, inout float b) { for (int i = 0; i < 2; ++i) b *= a; return b + 1.0; }\n"
     "Pair make_pair(float x) { Pair p; p.a = x; p.b = vec3(x, 1.0, 2.0) + normalWorld; for (int i = 0; i < 3; ++i) p.a *= 3.0; return p; }\n"
     "float twin(float x) { float y = 0.0; for (int i = 0; i < 3; ++i) y += x; return y; }\n"
-    "float twin(vec2 x) { float y = 0.0; for (int i = 0; i < 3; ++i) y += x.x; return y; }\n"
-    "void sun(vec3 direction, vec3 color, float intensity, vec3 P, out vec3 to_light, out vec3 radiance)\n"
-    "{ to_light = -direction; radiance = color * intensity; }\n";
+    "float twin(vec2 x) { float y = 0.0; for (int i = 0; i < 3; ++i) y += x.x; return y; }\n";
 
 /* ---- Expressions ---- */
 
@@ -202,8 +200,7 @@ static void test_statements(void)
     STATEMENTS("    vec3 v = u_0;\n    vec3 v_2 = sin(u_0);\n    v += v_2;\n    v += v_2 + 1.0;\n",
                (&(struct spell_options){.comments = true, .path = path_of, .user_data = f, .neutral_names = true}),
                effect(f, EFFECT_VAR, f->color, v); use_twice(f, sine(f, "n", v)););
-    STATEMENTS("    vec3 color = v;\n    for (int i = 0; i < min(u_numActiveLightSources, 3); ++i) {\n        vec3 L, intensity;\n"
-               "        mx_light(i, vd.positionWorld, L, intensity);\n        color += L;\n    }\n", &plain,
+    STATEMENTS("    vec3 color = v;\n    for (int i = 0; i < min(u_numActiveLightSources, 3); ++i) {\n        color += u_lightData[i].direction;\n    }\n", &plain,
                effect(f, EFFECT_VAR, f->color, v); effect(f, EFFECT_LIGHTS, 0, 0); accumulate(f, light_direction(f));
                effect(f, EFFECT_END, 0, 0););
 }
@@ -287,13 +284,7 @@ static void write_file(const char *target, const char *what, const char *suffix,
 
 static void build_lit(struct fixture *f)
 {
-    static const struct {
-        const char *name;
-        ir_type_id type;
-    } inputs[] = {{"direction", IR_TYPE_VEC3}, {"color", IR_TYPE_VEC3}, {"intensity", IR_TYPE_FLOAT}};
-    for (size_t i = 0; i < sizeof inputs / sizeof *inputs; i++)
-        vec_push(&f->arena, &f->shader.light_members, shader_light_member(&f->shader, word(f, inputs[i].name), inputs[i].type));
-    vec_push(&f->arena, &f->shader.lights, (struct shader_light){1, function(f, "sun"), 0, 3});
+    ir_ref light = light_member(f, "color");
     ir_ref uv = shader_stream(&f->shader, word(f, "texcoord_0"), IR_TYPE_VOID);
     ir_ref flag = shader_stream(&f->shader, word(f, "geomprop_flag"), IR_TYPE_BOOL);
     name(f, "N");
@@ -306,7 +297,6 @@ static void build_lit(struct fixture *f)
     f->graph.origin = 0;
     effect(f, EFFECT_VAR, f->color, op2(f, IR_MUL, base, call(f, "noise", &uv, 1)));
     effect(f, EFFECT_LIGHTS, 0, 0);
-    ir_ref light = ir_build(&f->graph, IR_CONTEXT, IR_TYPE_VEC3, IR_CONTEXT_LIGHT_INTENSITY, NULL, 0);
     accumulate(f, op2(f, IR_MUL, light, op2(f, IR_MUL, base, op2(f, IR_DOT, n, light_direction(f)))));
     effect(f, EFFECT_END, 0, 0);
     effect(f, EFFECT_IF, 0, flag);
@@ -319,13 +309,10 @@ static void build_lit(struct fixture *f)
 static const char *const lit_main =
     "float noise(const vec2 p)\n{\n    float s = 0.0;\n    for (int i = 0; i < 3; ++i)\n        s += weights[i] * sin(p.x * u_time);\n"
     "    return s;\n}\n\n"
-    "void mx_light(const int i, const vec3 P, out vec3 L, out vec3 intensity)\n{\n    L = vec3(0.0);\n    intensity = vec3(0.0);\n"
-    "    if (u_lightData[i].type == 1)\n        sun(u_lightData[i].direction, u_lightData[i].color, u_lightData[i].intensity, P, L, intensity);\n"
-    "}\n\n"
     "void main()\n{\n    vec3 base = texture(image_file, @texcoord_0).xyz * base_color;\n    vec3 color = base * noise(@texcoord_0);\n"
     "    vec3 N = normalize(@normalWorld);\n"
-    "    for (int i = 0; i < min(u_numActiveLightSources, 3); ++i) {\n        vec3 L, intensity;\n"
-    "        mx_light(i, @positionWorld, L, intensity);\n        color += intensity * (base * dot(N, L));\n    }\n"
+    "    for (int i = 0; i < min(u_numActiveLightSources, 3); ++i) {\n"
+    "        color += u_lightData[i].color * (base * dot(N, u_lightData[i].direction));\n    }\n"
     "    if (bool(@geomprop_flag))\n        color += N;\n    out1 = vec4(color, 1.0);\n}\n";
 
 static const struct stage_case {
@@ -336,28 +323,28 @@ static const struct stage_case {
     {"glsl", "vd.", false,
      "#version 450\n// Gold · surfacematerial · mxgen 0.1 · glsl · complete · 1 closure · 1 texture\n\n"
      "uniform vec3 base_color = vec3(0.0);\nuniform float u_time = 0.0;\nuniform int u_numActiveLightSources = 0;\n"
-     "struct LightData {\n    int type;\n    vec3 direction;\n    vec3 color;\n    float intensity;\n};\n"
+     "struct LightData {\n    int type;\n    vec3 color;\n    vec3 direction;\n};\n"
      "uniform LightData u_lightData[3];\nuniform sampler2D image_file;\n"
-     "in VertexData {\n    vec3 positionWorld;\n    vec3 normalWorld;\n    vec2 texcoord_0;\n    flat int geomprop_flag;\n} vd;\n"
+     "in VertexData {\n    vec3 normalWorld;\n    vec2 texcoord_0;\n    flat int geomprop_flag;\n} vd;\n"
      "out vec4 out1;\n\nconst float weights[3] = float[3](1.0, 2.0, 3.5);\n\n",
      "#version 450\n// Gold · surfacematerial · mxgen 0.1 · glsl · complete · 1 closure · 1 texture\n\n"
      "uniform mat4 u_worldMatrix = mat4(1.0);\nuniform mat4 u_worldInverseTransposeMatrix = mat4(1.0);\n"
      "uniform mat4 u_viewProjectionMatrix = mat4(1.0);\n"
      "in vec3 i_position;\nin vec3 i_normal;\nin vec2 i_texcoord_0;\nin int i_geomprop_flag;\n"
-     "out VertexData {\n    vec3 positionWorld;\n    vec3 normalWorld;\n    vec2 texcoord_0;\n    flat int geomprop_flag;\n} vd;\n\n"
+     "out VertexData {\n    vec3 normalWorld;\n    vec2 texcoord_0;\n    flat int geomprop_flag;\n} vd;\n\n"
      "void main()\n{\n    vd.texcoord_0 = i_texcoord_0;\n    vd.geomprop_flag = i_geomprop_flag;\n"
      "    vd.normalWorld = normalize((u_worldInverseTransposeMatrix * vec4(i_normal, 0.0)).xyz);\n"
-     "    vec4 positionWorld = u_worldMatrix * vec4(i_position, 1.0);\n    vd.positionWorld = positionWorld.xyz;\n"
-     "    gl_Position = u_viewProjectionMatrix * positionWorld;\n}\n"},
+     ""
+     "    gl_Position = u_viewProjectionMatrix * (u_worldMatrix * vec4(i_position, 1.0));\n}\n"},
     {"vulkan", "vd.", false,
      "#version 450\n// Gold · surfacematerial · mxgen 0.1 · vulkan · complete · 1 closure · 1 texture\n\n"
      "layout(set = 0, binding = 1, std140) uniform PublicUniforms {\n    vec3 base_color;\n};\n"
      "layout(set = 0, binding = 0, std140) uniform PrivateUniforms {\n    mat4 u_worldMatrix;\n    mat4 u_worldInverseTransposeMatrix;\n"
      "    mat4 u_viewProjectionMatrix;\n    float u_time;\n    int u_numActiveLightSources;\n};\n"
-     "struct LightData {\n    int type;\n    vec3 direction;\n    vec3 color;\n    float intensity;\n};\n"
+     "struct LightData {\n    int type;\n    vec3 color;\n    vec3 direction;\n};\n"
      "layout(set = 0, binding = 2, std140) uniform LightData_block { LightData u_lightData[3]; };\n"
      "layout(set = 0, binding = 3) uniform sampler2D image_file;\n"
-     "layout(location = 0) in VertexData {\n    vec3 positionWorld;\n    vec3 normalWorld;\n    vec2 texcoord_0;\n"
+     "layout(location = 0) in VertexData {\n    vec3 normalWorld;\n    vec2 texcoord_0;\n"
      "    flat int geomprop_flag;\n} vd;\n"
      "layout(location = 0) out vec4 out1;\n\nconst float weights[3] = float[3](1.0, 2.0, 3.5);\n\n", NULL},
     {"essl", "vd_", true,
@@ -366,10 +353,10 @@ static const struct stage_case {
      "layout(std140) uniform PublicUniforms {\n    vec3 base_color;\n};\n"
      "layout(std140) uniform PrivateUniforms {\n    mat4 u_worldMatrix;\n    mat4 u_worldInverseTransposeMatrix;\n"
      "    mat4 u_viewProjectionMatrix;\n    float u_time;\n    int u_numActiveLightSources;\n};\n"
-     "struct LightData {\n    int type;\n    vec3 direction;\n    vec3 color;\n    float intensity;\n};\n"
+     "struct LightData {\n    int type;\n    vec3 color;\n    vec3 direction;\n};\n"
      "layout(std140) uniform LightData_block { LightData u_lightData[3]; };\n"
      "uniform sampler2D image_file;\n"
-     "in vec3 vd_positionWorld;\nin vec3 vd_normalWorld;\nin vec2 vd_texcoord_0;\nflat in int vd_geomprop_flag;\n"
+     "in vec3 vd_normalWorld;\nin vec2 vd_texcoord_0;\nflat in int vd_geomprop_flag;\n"
      "out vec4 out1;\n\nconst float weights[3] = float[3](1.0, 2.0, 3.5);\n\n", NULL},
 };
 
@@ -413,8 +400,8 @@ static void test_stages(void)
         struct spell_line *lines;
         uint32_t num_lines;
         const char *pixel = spell(&f, c->target, STAGE_PIXEL, &options, &lines, &num_lines);
-        const char *sun = strstr(pixel, "void sun("), *rest = strstr(pixel, "float noise(");
-        REQUIRE_STR(arena_strndup(&f.arena, pixel, (size_t)(sun - pixel)), c->pixel);
+        const char *rest = strstr(pixel, "float noise(");
+        REQUIRE_STR(arena_strndup(&f.arena, pixel, (size_t)(rest - pixel)), c->pixel);
         REQUIRE_STR(rest, fill_in(&f, lit_main, c->vertex_data));
         REQUIRE(maps_line(&f, pixel, lines, num_lines, "    vec3 N = ", "N"));
         REQUIRE(num_lines >= 2);

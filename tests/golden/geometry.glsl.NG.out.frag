@@ -1,0 +1,25 @@
+#version 450
+// out · output · mxgen 0.1 · glsl · complete · 0 closures · 0 textures
+
+uniform vec3 u_viewPosition = vec3(0.0);
+uniform float u_time = 0.0;
+in VertexData {
+    vec3 positionWorld;
+    vec3 normalObject;
+    vec3 tangentObject;
+    vec4 color_0;
+    float geomprop_wear;
+    flat int geomprop_part;
+} vd;
+out vec4 out1;
+
+void main()
+{
+    // NG/v
+    vec3 v = normalize(vd.positionWorld - u_viewPosition);
+    // NG/along
+    float along = dot(v, normalize(vd.tangentObject));
+    // NG/colored
+    vec4 colored = vec4(dot(normalize(vd.normalObject), v), along, vd.geomprop_wear, float(vd.geomprop_part)) * vd.color_0;
+    out1 = colored * u_time;
+}

@@ -1,0 +1,58 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Documents beside what they generate. A document begins with a line per run:
+#
+#     <!-- mxgen: NAME key=value ... -->     options of mxgen; files=frag,json says which are kept (default: frag)
+#
+# which gives DOCUMENT.NAME.frag and so on. Arguments: mxgen, mxgen-compile ('' to compile nothing), and perhaps --update, which rewrites
+# what differs and prints the difference for review.
+mxgen=$(realpath "$1") compile=${2:+$(realpath "$2")} update=${3:-}
+golden=$(cd "$(dirname "$0")" && pwd)
+. "$golden/../programs/common.sh"
+
+# same KEPT NEW: whether they are equal; with --update they are then.
+same() {
+    diff -u --label "${1##*/}" --label "${1##*/} (now)" "$([ -e "$1" ] && echo "$1" || echo /dev/null)" "$2" && return
+    [ -n "$update" ] && cp "$2" "$1"
+}
+
+run_line() {
+    local document=$1 name=$2 files=frag option options=() plain=()
+    shift 2
+    for option in "$@"; do
+        case $option in
+            files=*) files=${option#files=} ;;
+            target=*) plain+=("--targets" "${option#*=}"); options+=("--$option") ;;
+            interface=*) plain+=("--interfaces" "${option#*=}"); options+=("--$option") ;;
+            *) plain+=("--$option"); options+=("--$option") ;;
+        esac
+    done
+    local title=${document%.mtlx}.$name
+    check "$title" exits 0 "$mxgen" "$document" --reflect -o "$title" "${options[@]}" || return
+    for ending in ${files//,/ }; do
+        local made=("$title"/*."$ending")
+        for file in "${made[@]}"; do
+            local element=${file##*/}
+            [ ${#made[@]} -eq 1 ] && element= || element=.${element%."$ending"}
+            kept[$title$element.$ending]=1
+            check "$title$element.$ending" same "$golden/$title$element.$ending" "$file"
+            [ -z "$update" ] || cat check.log
+        done
+    done
+    [ -z "$compile" ] || check "$title compiles" "$compile" "$document" "${plain[@]}"
+}
+
+declare -A kept
+cp -R "$golden"/*.mtlx "$golden/parts" .
+for document in *.mtlx; do
+    while read -r line; do
+        read -ra words <<<"$line"
+        run_line "$document" "${words[@]}"
+    done < <(sed -n 's/^<!-- mxgen: \(.*\) -->$/\1/p' "$document")
+done
+for file in "$golden"/*.vert "$golden"/*.frag "$golden"/*.json; do # what no run makes any more
+    [ -n "${kept[${file##*/}]:-}" ] && continue
+    [ -n "$update" ] && rm -v "$file" || check "${file##*/} is made by a run" false
+done
+[ -n "$compile" ] || skip 'golden: nothing is compiled without glslang'
+finish golden

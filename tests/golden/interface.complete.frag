@@ -1,0 +1,19 @@
+#version 450
+// out · output · mxgen 0.1 · glsl · complete · 0 closures · 0 textures
+
+uniform float NG_unset = 0.0;
+uniform float NG_scale = 4.0;
+uniform vec3 NG_tint = vec3(0.8, 0.4, 0.1);
+in VertexData {
+    vec2 texcoord_0;
+} vd;
+out vec4 out1;
+
+void main()
+{
+    // NG/shade/unit
+    float unit = (vd.texcoord_0.y - -1.0) / 2.0;
+    // NG/tinted
+    vec3 tinted = (NG_unset + sign(unit) * abs(unit) * (NG_scale - NG_unset)) * NG_tint;
+    out1 = vec4(tinted, 1.0);
+}

@@ -1,0 +1,15 @@
+#version 450
+// out · output · mxgen 0.1 · glsl · reduced · 0 closures · 0 textures
+
+uniform float shade_inlow = -1.0;
+in VertexData {
+    vec2 texcoord_0;
+} vd;
+out vec4 out1;
+
+void main()
+{
+    // NG/shade/unit
+    float unit = (vd.texcoord_0.y - shade_inlow) / (1.0 - shade_inlow);
+    out1 = vec4(sign(unit) * abs(unit) * 4.0 * vec3(0.8, 0.4, 0.1), 1.0);
+}

@@ -1,0 +1,20 @@
+#version 450
+// Unlit · surfacematerial · mxgen 0.1 · glsl · complete · 0 closures · 0 textures
+
+uniform float SR_unlit_emission = 1.0;
+uniform float SR_unlit_transmission = 0.25;
+uniform vec3 SR_unlit_transmission_color = vec3(1.0);
+uniform float SR_unlit_opacity = 0.5;
+uniform float u_alphaThreshold = 0.001;
+in VertexData {
+    vec2 texcoord_0;
+} vd;
+out vec4 out1;
+
+void main()
+{
+    float t = SR_unlit_opacity * (1.0 - dot(SR_unlit_transmission * SR_unlit_transmission_color, vec3(0.33333334)));
+    if (t < u_alphaThreshold)
+        discard;
+    out1 = vec4(SR_unlit_opacity * (vec3(vd.texcoord_0, 0.0) * SR_unlit_emission), t);
+}
