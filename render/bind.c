@@ -79,7 +79,7 @@ static bool reserve(struct bind *bind, const mxg_variable *variable)
     }
     uint32_t end = round_up(variable->offset + variable->byte_size);
     if (variable->block == MXG_BLOCK_LIGHT_DATA)
-        end *= SCENE_NUM_LIGHTS; /* an array of structures; the last member decides */
+        end *= bind->max_lights; /* an array of structures; the last member decides */
     if (end > block->size)
         block->size = end;
     return true;
@@ -148,23 +148,23 @@ static bool store_public(struct bind *bind, const mxg_variable *variable)
     return true;
 }
 
-static void store_private(struct bind *bind, const mxg_variable *variable, uint32_t max_lights)
+static void store_private(struct bind *bind, const mxg_variable *variable)
 {
     float values[MAX_COMPONENTS] = {0};
     if (!scene_uniform(bind->scene, variable->name, values) && variable->num_values)
         memcpy(values, variable->values, sizeof values);
-    if (strcmp(variable->name, "u_numActiveLightSources") == 0 && max_lights && values[0] > (float)max_lights)
-        values[0] = (float)max_lights;
+    if (strcmp(variable->name, "u_numActiveLightSources") == 0 && values[0] > (float)bind->max_lights)
+        values[0] = (float)bind->max_lights;
     store(address(bind, variable), variable, values);
 }
 
-/* `stride`: size of the structure of a light. */
-static void store_lights(struct bind *bind, const mxg_variable *variable, uint32_t stride)
+static void store_lights(struct bind *bind, const mxg_variable *variable)
 {
-    for (uint32_t i = 0; i < SCENE_NUM_LIGHTS; ++i) {
+    size_t stride = find_block(&bind->draw, variable->set, variable->binding)->size / bind->max_lights;
+    for (uint32_t i = 0; i < SCENE_NUM_LIGHTS && i < bind->max_lights; ++i) {
         float values[3];
         if (scene_light(i, variable->name, values))
-            store(address(bind, variable) + (size_t)i * stride, variable, values);
+            store(address(bind, variable) + i * stride, variable, values);
     }
 }
 
@@ -194,17 +194,14 @@ static bool bind_blocks(struct bind *bind)
         if (!bind->draw.blocks[i].data)
             return fail(bind, "out of memory");
     }
-    mxg_shader_info info = {sizeof info};
-    mxg_result_info(bind->result, &info);
     for (uint32_t i = 0; i < count; ++i) {
         mxg_variable variable = get_variable(bind, i);
         if (variable.block == MXG_BLOCK_PUBLIC_UNIFORMS && !store_public(bind, &variable))
             return false;
         if (variable.block == MXG_BLOCK_PRIVATE_UNIFORMS)
-            store_private(bind, &variable, info.num_lights);
+            store_private(bind, &variable);
         if (variable.block == MXG_BLOCK_LIGHT_DATA)
-            store_lights(bind, &variable,
-                         (uint32_t)find_block(&bind->draw, variable.set, variable.binding)->size / SCENE_NUM_LIGHTS);
+            store_lights(bind, &variable);
     }
     return true;
 }
@@ -242,44 +239,64 @@ static const struct image *read_texture(struct bind *bind, const char *file)
     return image;
 }
 
-/* The picture of a texture: the scene's by name, the file of the document or the user, else the scene's own or plain
- * black. */
-static const struct image *choose_image(struct bind *bind, const mxg_variable *variable)
+/* An environment map: around in u, and at its end at the poles. */
+static struct draw_texture environment_texture(const struct image *image)
+{
+    return (struct draw_texture){.image = image,
+                                 .u = VK_SAMPLER_ADDRESS_MODE_REPEAT,
+                                 .v = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
+                                 .filter = VK_FILTER_LINEAR,
+                                 .has_mips = true};
+}
+
+/* The scene's texture, which is there to be sampled exactly. */
+static struct draw_texture test_texture(const struct image *image)
+{
+    return (struct draw_texture){.image = image,
+                                 .bottom_first = true,
+                                 .u = VK_SAMPLER_ADDRESS_MODE_REPEAT,
+                                 .v = VK_SAMPLER_ADDRESS_MODE_REPEAT,
+                                 .filter = VK_FILTER_LINEAR};
+}
+
+/* A texture of the document: its file, or the user's, or plain black where there is none. */
+static struct draw_texture document_texture(struct bind *bind, const mxg_variable *variable)
 {
     static uint8_t black[4] = {0, 0, 0, 255};
     static const struct image empty = {1, 1, false, black};
-    const struct image *image = scene_image(bind->scene, variable->name);
     const char *file = user_value(bind, variable);
     if (!file)
         file = variable->file;
-    if (image)
-        return image;
-    if (bind->scene->texture.pixels)
-        return &bind->scene->texture;
-    return file && *file ? read_texture(bind, file) : &empty;
+    bool is_closest = strcmp(variable->filtertype, "closest") == 0;
+    return (struct draw_texture){.image = file && *file ? read_texture(bind, file) : &empty,
+                                 .bottom_first = true,
+                                 .u = address_mode(variable->uaddressmode),
+                                 .v = address_mode(variable->vaddressmode),
+                                 .filter = is_closest ? VK_FILTER_NEAREST : VK_FILTER_LINEAR,
+                                 .has_mips = true};
+}
+
+static bool bind_texture(struct bind *bind, const mxg_variable *variable)
+{
+    if (bind->draw.num_textures == DRAW_MAX_TEXTURES || variable->set >= DRAW_MAX_SETS)
+        return fail(bind, "the shader has more than %u textures", DRAW_MAX_TEXTURES);
+    const struct scene *scene = bind->scene;
+    const struct image *environment = scene_image(scene, variable->name);
+    struct draw_texture texture = environment             ? environment_texture(environment)
+                                  : scene->texture.pixels ? test_texture(&scene->texture)
+                                                          : document_texture(bind, variable);
+    texture.set = variable->set;
+    texture.binding = variable->binding;
+    bind->draw.textures[bind->draw.num_textures++] = texture;
+    return texture.image != NULL;
 }
 
 static bool bind_textures(struct bind *bind)
 {
     for (uint32_t i = 0; i < mxg_result_num_variables(bind->result); ++i) {
         mxg_variable variable = get_variable(bind, i);
-        if (variable.block != MXG_BLOCK_TEXTURES)
-            continue;
-        if (bind->draw.num_textures == DRAW_MAX_TEXTURES || variable.set >= DRAW_MAX_SETS)
-            return fail(bind, "the shader has more than %u textures", DRAW_MAX_TEXTURES);
-        bool is_environment = scene_image(bind->scene, variable.name) != NULL;
-        const struct image *image = choose_image(bind, &variable);
-        if (!image)
+        if (variable.block == MXG_BLOCK_TEXTURES && !bind_texture(bind, &variable))
             return false;
-        bind->draw.textures[bind->draw.num_textures++] = (struct draw_texture){
-            .set = variable.set,
-            .binding = variable.binding,
-            .image = image,
-            .bottom_first = !is_environment,
-            .u = address_mode(variable.uaddressmode),
-            .v = is_environment ? VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE : address_mode(variable.vaddressmode),
-            .filter = strcmp(variable.filtertype, "closest") == 0 ? VK_FILTER_NEAREST : VK_FILTER_LINEAR,
-        };
     }
     return true;
 }
@@ -346,6 +363,7 @@ bool bind_shader(struct bind *bind)
     bind->draw.num_indices = bind->scene->num_indices;
     bind->draw.indices = bind->scene->indices;
     bind->draw.blend = info.transparent;
+    bind->max_lights = info.num_lights;
     return check_values(bind) && bind_blocks(bind) && bind_textures(bind) && bind_attributes(bind);
 }
 

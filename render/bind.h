@@ -26,6 +26,7 @@ struct bind {
     struct draw draw;                       /* the outcome */
     struct image images[DRAW_MAX_TEXTURES]; /* read for it */
     uint32_t num_images;
+    uint32_t max_lights;   /* that the shader has room for */
     char reason[512]; /* why it failed */
 };
 

@@ -69,7 +69,7 @@ static bool create_textures(struct frame *frame)
             .addressModeU = texture->u,
             .addressModeV = texture->v,
             .addressModeW = VK_SAMPLER_ADDRESS_MODE_REPEAT,
-            .maxLod = VK_LOD_CLAMP_NONE,
+            .maxLod = texture->has_mips ? VK_LOD_CLAMP_NONE : 0.0f,
             .borderColor = VK_BORDER_COLOR_FLOAT_TRANSPARENT_BLACK,
         };
         good = gpu_upload_texture(frame->gpu, texture->image, texture->bottom_first, &frame->textures[i]) &&

@@ -28,6 +28,7 @@ struct draw_texture {
     bool bottom_first;
     VkSamplerAddressMode u, v;
     VkFilter filter;
+    bool has_mips;
 };
 
 struct draw {

@@ -7,9 +7,15 @@ static const char *const reserved[] = {
 #include "generators/glsl/reserved.def"
 };
 
+/* GLSL's own round() leaves halves to the implementation. */
+static const struct lang_form forms[IR_NUM_OPS] = {
+    [IR_ROUND] = {"roundEven($0)", LANG_PREC_POSTFIX, false},
+};
+
 const struct lang_syntax glsl_syntax = {
     .name = "glsl",
     .base = &lang_syntax_portable,
+    .forms = forms,
     .reserved = reserved,
     .num_reserved = sizeof reserved / sizeof *reserved,
     .param_in = "",

@@ -96,8 +96,10 @@ typedef struct mxg_blob {
 } mxg_blob;
 
 /*
- * How files are found. `from` is the canonical name of the referring file, "" for a file named by the caller. On failure open returns
- * false and may point *out_reason at a text that lives until the next call. release is called once for each successful open.
+ * How files are found. `from` is the canonical name of the referring file, "" for a file named by the caller. *out_blob is zeroed before;
+ * without a name the file keeps `ref`. On failure open returns false, may point *out_reason at a text that lives until the next call, and
+ * sets out_blob->name where the file is there but cannot be read: "file-unreadable" instead of "file-missing". release is called once
+ * for each successful open, before the call of mxgen returns.
  */
 typedef struct mxg_resolver {
     void *user_data;

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Textures. The sampler repeats and filters linearly; other address modes and filters are arithmetic on coordinates, and
-// disappear where the modes, which are known at compile time, do not ask for them.
+// Textures. Address modes and filters are the sampler's work: reflection tells them to the host. For hosts that can only
+// repeat and filter linearly they are arithmetic on coordinates, of which no more is left than the modes ask for: those
+// are known at compile time.
+
+const int option_texture_modes = 0; // who applies the modes: 0 the host's sampler, 1 the functions below
 
 // Cubic B-spline filtering by four linear lookups: Christian Sigg and Markus Hadwiger, "Fast Third-Order Texture
 // Filtering", GPU Gems 2, 2005, chapter 20. Each lookup stands for two texels of a row and two of a column, between
@@ -27,6 +30,8 @@ vec4 mx_sample_cubic(sampler2D file, vec2 uv)
 
 vec4 mx_sample(sampler2D file, vec2 uv, string filtertype)
 {
+    if (option_texture_modes == 0)
+        return texture(file, uv);
     if (filtertype == "closest") {
         vec2 size = vec2(textureSize(file, 0));
         return textureLod(file, (floor(uv * size) + 0.5) / size, 0.0);
@@ -49,11 +54,13 @@ float mx_address(float x, int size, string mode)
 
 bool mx_outside(float x, string mode)
 {
-    return mode == "constant" && (x < 0.0 || x > 1.0);
+    return (mode == "constant" || mode == "black") && (x < 0.0 || x > 1.0);
 }
 
 vec4 mx_image(sampler2D file, vec4 fallback, vec2 texcoord, string uaddressmode, string vaddressmode, string filtertype)
 {
+    if (option_texture_modes == 0)
+        return texture(file, texcoord);
     ivec2 size = textureSize(file, 0);
     vec2 uv = vec2(mx_address(texcoord.x, size.x, uaddressmode), mx_address(texcoord.y, size.y, vaddressmode));
     vec4 texel = mx_sample(file, uv, filtertype);
@@ -66,6 +73,12 @@ vec2 mx_latlong(vec3 direction, float rotation)
     float longitude = 0.5 - atan(direction.x, direction.z) / 6.2831853 + rotation / 360.0;
     float latitude = 0.5 + asin(direction.y) / 3.1415927;
     return vec2(longitude, latitude);
+}
+
+vec4 mx_latlong_image(sampler2D file, vec3 direction, float rotation)
+{
+    vec2 uv = mx_latlong(direction, rotation);
+    return texture(file, vec2(uv.x, mx_address(uv.y, textureSize(file, 0).y, "clamp"))); // poles do not meet
 }
 
 vec4 mx_triplanar(sampler2D filex, sampler2D filey, sampler2D filez, vec3 position, vec3 normal, int upaxis,

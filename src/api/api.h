@@ -51,6 +51,9 @@ void object_init(struct object *object, struct mxg_context *context, size_t size
 void object_ref(struct object *object);
 void object_unref(struct object *object); /* NULL is allowed */
 
+/* Tells the context what the object holds now, and the object what of the context's limit is left to it. */
+void object_settle(struct object *object);
+
 /* Runs work(arg) with the object's trap set: MXG_OK, or MXG_ERROR_MEMORY when it ran out. */
 mxg_status object_run(struct object *object, void (*work)(void *arg), void *arg);
 
@@ -104,8 +107,8 @@ struct mxg_document {
 
 /* The context's resolver as the readers of other rooms see it. */
 struct file_source {
+    struct object *object; /* for which files are read; holds their names */
     const mxg_resolver *resolver;
-    struct arena *arena;   /* holds the names */
     struct arena scratch;  /* holds texts of sources */
     VEC(const char *) names; /* canonical, of what was read, each once */
     mxg_blob blob;
@@ -119,8 +122,9 @@ struct lang_reader file_source_for_lang(struct file_source *source);
 /* The bytes of a file, which live until the object does; false after a diagnostic. */
 bool file_source_read(struct file_source *source, const char *path, const char **out_data, size_t *out_size, struct diag_list *diags);
 
-/* Files through stdio: what a context without resolver has. */
+/* Files through stdio: what a context without resolver has. Its reason is stdio_no_memory itself where that was the reason. */
 mxg_resolver stdio_resolver(struct mxg_context *context);
+extern const char stdio_no_memory[];
 
 /* folder.c: is the path a folder? And every file below it whose name ends with `suffix`, sorted. */
 bool folder_exists(const char *path);
@@ -156,10 +160,14 @@ const struct option_value *options_values(const mxg_options *options);
 /* Finds what can be rendered. */
 void document_find_renderables(struct mxg_document *document, struct arena *scratch);
 
+/* Whether a nodegraph is the implementation of a node instead of a part of the document's own graph. */
+bool graph_defines_node(const struct document *doc, elem_id graph);
+
 /*
- * The element that a path means to generation: itself, or the material of a look. NULL: the first that can be rendered. 0 after a
- * diagnostic.
+ * The node or <output> that a path means to generation: itself, the only output of a graph, the material of a look. NULL: the first that
+ * can be rendered. 0 after a diagnostic. Which output of a node it means: its name, empty where the path says none, and its index.
  */
-elem_id document_find_element(const struct mxg_document *document, const char *path, struct diag_list *diags);
+elem_id document_find_element(const struct mxg_document *document, const char *path, struct diag_list *diags, str_id *out_output,
+                              unsigned *out_index);
 
 #endif

@@ -81,6 +81,7 @@ mxg_status mxg_context_create(const mxg_context_desc *desc, mxg_context **out_co
     context->max_nodes = or_default(d.max_nodes, 64000000);
     context->max_output_mib = or_default(d.max_output_mib, 256);
     context->max_errors = or_default(d.max_errors, 100);
+    xml_startup();
     context->resolver = d.resolver ? *d.resolver : stdio_resolver(context);
     map_builtin(context);
     *out_context = context;

@@ -25,23 +25,32 @@ static void report_unknown(const struct search *s, const char *path)
              path, diag_suggest(s->diags->arena, path, names.items, names.len));
 }
 
-static void report_not_renderable(const struct search *s, elem_id element)
+static void report_not_renderable(const struct search *s, elem_id element, const char *reason)
 {
-    const struct element *e = doc_element(s->doc, element);
-    diag_add(s->diags, DIAG_ID_not_renderable, doc_place(s->doc, element), text_of(s, e->name), text_of(s, e->category));
+    diag_add(s->diags, DIAG_ID_not_renderable, doc_place(s->doc, element), text_of(s, doc_element(s->doc, element)->name), reason);
 }
 
-/* "a, b, c": reports that the element stands for several. */
-static void report_ambiguous(const struct search *s, elem_id element, const elem_id *choices, uint32_t num_choices)
+static void report_kind(const struct search *s, elem_id element)
 {
-    struct text list;
-    text_init(&list, s->diags->arena);
-    for (uint32_t i = 0; i < num_choices; i++) {
-        text_str(&list, i ? ", " : "");
-        doc_path(s->doc, choices[i], '/', &list);
-    }
+    struct text reason;
+    text_init(&reason, s->diags->arena);
+    text_fmt(&reason, "it is a <%s>; give an output, a node, a material or a look", text_of(s, doc_element(s->doc, element)->category));
+    report_not_renderable(s, element, text_cstr(&reason));
+}
+
+/* Adds a path to "a, b, c"; `output` is an output of a node, or 0. */
+static void list_choice(const struct search *s, struct text *list, elem_id element, str_id output)
+{
+    text_str(list, list->len ? ", " : "");
+    doc_path(s->doc, element, '/', list);
+    if (output)
+        text_fmt(list, "/%s", text_of(s, output));
+}
+
+static void report_ambiguous(const struct search *s, elem_id element, struct text *list)
+{
     diag_add(s->diags, DIAG_ID_ambiguous_output, doc_place(s->doc, element), text_of(s, doc_element(s->doc, element)->name),
-             text_cstr(&list));
+             text_cstr(list));
 }
 
 struct choices {
@@ -61,10 +70,14 @@ static elem_id only_choice(const struct search *s, elem_id element, const struct
 {
     if (choices->len == 1)
         return choices->items[0];
+    struct text list;
+    text_init(&list, s->diags->arena);
+    for (uint32_t i = 0; i < choices->len; i++)
+        list_choice(s, &list, choices->items[i], 0);
     if (choices->len)
-        report_ambiguous(s, element, choices->items, choices->len);
+        report_ambiguous(s, element, &list);
     else
-        report_not_renderable(s, element);
+        report_not_renderable(s, element, "it has no output and no material");
     return 0;
 }
 
@@ -100,6 +113,31 @@ static elem_id find_in_graph(const struct search *s, elem_id graph)
     return only_choice(s, graph, &outputs);
 }
 
+/* `output` of a node (0: its only one); false after a diagnostic. */
+static bool find_output(const struct search *s, elem_id node, str_id output, unsigned *out_index)
+{
+    const struct library *lib = &s->document->layer;
+    bool is_one_of_several = doc_attr_value(s->doc, node, STR_type) == STR_multioutput;
+    if (output || !is_one_of_several) {
+        int index = library_resolve_output(lib, node, node, output, s->diags);
+        *out_index = index < 0 ? 0 : (unsigned)index;
+        return index >= 0;
+    }
+    uint32_t nodedef = library_match(lib, node, s->diags);
+    if (nodedef == LIBRARY_NONE)
+        return false;
+    const struct nodedef *def = library_nodedef(lib, nodedef);
+    const struct port *outputs = library_ports(lib, nodedef, NULL) + def->num_inputs;
+    struct text list;
+    text_init(&list, s->diags->arena);
+    for (uint32_t i = 0; i < def->num_outputs; i++)
+        list_choice(s, &list, node, outputs[i].name);
+    if (def->num_outputs > 1)
+        report_ambiguous(s, node, &list);
+    *out_index = 0;
+    return def->num_outputs == 1;
+}
+
 static elem_id find_meant(const struct search *s, elem_id element)
 {
     switch (doc_element(s->doc, element)->kind) {
@@ -119,22 +157,65 @@ static elem_id find_meant(const struct search *s, elem_id element)
     default:
         break;
     }
-    report_not_renderable(s, element);
+    report_kind(s, element);
     return 0;
 }
 
-elem_id document_find_element(const struct mxg_document *document, const char *path, struct diag_list *diags)
+/* The element of a path, of the document itself and not of its library; 0. */
+static elem_id find_own(const struct search *s, const char *path, size_t len)
+{
+    elem_id element = doc_find(s->doc, path, len);
+    return element > s->doc->root ? element : 0;
+}
+
+/* "node/out": *out_output is the name of a node's output, whether the document declares it or not. */
+static elem_id find_path(const struct search *s, const char *path, str_id *out_output)
+{
+    elem_id element = find_own(s, path, strlen(path)), parent = element ? doc_element(s->doc, element)->parent : 0;
+    if (parent && doc_element(s->doc, element)->kind == KIND_OUTPUT && doc_element(s->doc, parent)->kind == KIND_NODE) {
+        *out_output = doc_element(s->doc, element)->name;
+        return parent;
+    }
+    const char *slash = element ? NULL : strrchr(path, '/');
+    elem_id node = slash ? find_own(s, path, (size_t)(slash - path)) : 0;
+    if (!node || doc_element(s->doc, node)->kind != KIND_NODE)
+        return element;
+    *out_output = str_find(s->doc->strings, slash + 1, strlen(slash + 1));
+    return *out_output ? node : 0;
+}
+
+/* Inside of a definition inputs have no values. */
+static bool is_in_definition(const struct search *s, elem_id element)
+{
+    elem_id graph = doc_element(s->doc, element)->parent;
+    return graph && doc_element(s->doc, graph)->kind == KIND_NODEGRAPH && graph_defines_node(s->doc, graph);
+}
+
+static elem_id find_asked(const struct search *s, const char *path, str_id *out_output)
+{
+    elem_id found = find_path(s, path, out_output), element = found ? find_meant(s, found) : 0;
+    if (!found)
+        report_unknown(s, path);
+    if (!element || !is_in_definition(s, element))
+        return element;
+    report_not_renderable(s, element, "it belongs to the definition of a node; give a node that uses it");
+    return 0;
+}
+
+elem_id document_find_element(const struct mxg_document *document, const char *path, struct diag_list *diags, str_id *out_output,
+                              unsigned *out_index)
 {
     struct search s = {document, &document->layer.doc, diags};
-    if (!path && document->renderables.len)
-        return document->renderables.items[0];
-    if (!path) {
+    *out_output = STR_EMPTY;
+    *out_index = 0;
+    elem_id element = 0;
+    if (path)
+        element = find_asked(&s, path, out_output);
+    else if (document->renderables.len)
+        element = document->renderables.items[0];
+    else
         diag_add(diags, DIAG_ID_nothing_to_render, doc_place(s.doc, s.doc->root));
+    if (element && doc_element(s.doc, element)->kind == KIND_NODE && !find_output(&s, element, *out_output, out_index))
         return 0;
-    }
-    elem_id element = doc_find(s.doc, path, strlen(path));
-    if (element > s.doc->root) /* of the document itself, not of its library */
-        return find_meant(&s, element);
-    report_unknown(&s, path);
-    return 0;
+    return element;
 }

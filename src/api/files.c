@@ -4,15 +4,17 @@
 
 void file_source_init(struct file_source *source, struct object *object)
 {
-    *source = (struct file_source){.resolver = &object->context->resolver, .arena = &object->arena};
+    *source = (struct file_source){.object = object, .resolver = &object->context->resolver};
     arena_init(&source->scratch, &object->mem);
 }
 
 static void close_file(struct file_source *source)
 {
-    if (source->is_open)
-        source->resolver->release(source->resolver->user_data, &source->blob);
+    if (!source->is_open)
+        return;
+    source->resolver->release(source->resolver->user_data, &source->blob);
     source->is_open = false;
+    object_settle(source->object);
 }
 
 void file_source_finish(struct file_source *source)
@@ -26,17 +28,25 @@ static const char *remember(struct file_source *source, const char *name)
     for (uint32_t i = 0; i < source->names.len; i++)
         if (strcmp(source->names.items[i], name) == 0)
             return source->names.items[i];
-    vec_push(source->arena, &source->names, arena_strndup(source->arena, name, strlen(name)));
+    struct arena *arena = &source->object->arena;
+    vec_push(arena, &source->names, arena_strndup(arena, name, strlen(name)));
     return vec_last(&source->names);
 }
 
+/* The file counts in the context's memory while it is open, where the resolver is ours. */
 static bool open_file(struct file_source *source, const char *from, const char *ref, const char **out_reason)
 {
     const char *reason = NULL;
-    source->blob = (mxg_blob){.name = ref};
+    source->blob = (mxg_blob){0};
+    object_settle(source->object);
     source->is_open = source->resolver->open(source->resolver->user_data, from, ref, &source->blob, &reason);
+    object_settle(source->object);
+    if (!source->is_open && reason == stdio_no_memory)
+        mem_fail(&source->object->mem);
+    if (source->is_open && !source->blob.name)
+        source->blob.name = ref;
     if (!source->is_open)
-        *out_reason = reason ? reason : "it was not found";
+        *out_reason = reason ? reason : source->blob.name ? "it cannot be read" : "it was not found";
     return source->is_open;
 }
 
@@ -44,8 +54,10 @@ static bool open_for_xml(void *user_data, const char *from, const char *ref, con
                          size_t *out_size, void **out_handle, const char **out_reason)
 {
     struct file_source *source = user_data;
-    if (!open_file(source, from, ref, out_reason))
+    if (!open_file(source, from, ref, out_reason)) {
+        *out_name = source->blob.name;
         return false;
+    }
     *out_name = remember(source, source->blob.name);
     *out_data = source->blob.data;
     *out_size = source->blob.size;
@@ -88,11 +100,12 @@ bool file_source_read(struct file_source *source, const char *path, const char *
 {
     const char *reason;
     if (!open_file(source, "", path, &reason)) {
-        diag_add(diags, DIAG_ID_file_missing, (struct diag_place){.file = path}, path, reason);
+        enum diag_id id = source->blob.name ? DIAG_ID_file_unreadable : DIAG_ID_file_missing;
+        diag_add(diags, id, (struct diag_place){.file = path}, path, reason);
         return false;
     }
     remember(source, source->blob.name);
-    *out_data = arena_strndup(source->arena, source->blob.data, source->blob.size);
+    *out_data = arena_strndup(&source->object->arena, source->blob.data, source->blob.size);
     *out_size = source->blob.size;
     close_file(source);
     return true;

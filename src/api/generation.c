@@ -84,6 +84,7 @@ static void set_build_options(struct generation *g)
         .strings = g->result->target->caps & CAP_STRINGS,
         .neutral_names = o[OPTION_names].number != 0,
         .environment = o[OPTION_environment].number,
+        .texture_modes = o[OPTION_texture_modes].number,
         .cancel = context->cancel,
         .cancel_user_data = context->cancel_user_data,
     };
@@ -111,6 +112,8 @@ static void name_shader(struct generation *g)
     struct text path;
     text_init(&path, &g->scratch);
     doc_path(doc, g->element, '/', &path);
+    if (g->output_name)
+        text_fmt(&path, "/%s", str_text(doc->strings, g->output_name));
     shader->name = element->name;
     shader->element_type = element->category;
     shader->path = str_intern(shader->strings, path.data, path.len);
@@ -122,9 +125,10 @@ bool generation_start(struct generation *g)
 {
     g->options = g->desc.options ? options_values(g->desc.options) : options_default(&g->result->object.arena);
     bool good = find_target(g) && check_version(g);
-    g->element = document_find_element(g->document, g->desc.element, diags_of(g));
+    g->element = document_find_element(g->document, g->desc.element, diags_of(g), &g->output_name, &g->output);
     if (!good || !g->element)
         return false;
+    generation_check_globs(g);
     init_layers(g);
     name_shader(g);
     set_build_options(g);
@@ -144,9 +148,8 @@ static bool is_cancelled(struct generation *g)
 static void report_not_renderable(struct generation *g)
 {
     const struct document *doc = &g->document->layer.doc;
-    const struct element *element = doc_element(doc, g->element);
-    diag_add(diags_of(g), DIAG_ID_not_renderable, doc_place(doc, g->element), str_text(doc->strings, element->name),
-             str_text(doc->strings, element->category));
+    diag_add(diags_of(g), DIAG_ID_not_renderable, doc_place(doc, g->element),
+             str_text(doc->strings, doc_element(doc, g->element)->name), "it gives no surface, volume, light or colour");
 }
 
 /* Whether work may go on: not cancelled, within limits, nothing reported. */
@@ -163,7 +166,7 @@ static bool is_good(struct generation *g)
 bool generation_build(struct generation *g)
 {
     g->builder = build_start(&g->document->layer, &g->build_options, &g->result->shader, diags_of(g));
-    g->root = build_element(g->builder, g->element);
+    g->root = build_element(g->builder, g->element, g->output);
     if (!is_good(g))
         return false;
     if (!g->root)

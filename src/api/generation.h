@@ -36,6 +36,8 @@ struct generation {
     mxg_generate_desc desc;
     const struct option_value *options;
     elem_id element;
+    str_id output_name;      /* of a node, where the path says one; and its index */
+    unsigned output;
     struct builder *builder;
     struct build_options build_options;
     struct closure_host closure_host;
@@ -59,6 +61,9 @@ bool generation_build(struct generation *g); /* g->root */
 void generation_start_closures(struct generation *g); /* what the closure room asks for; generation_emit does it itself */
 bool generation_emit(struct generation *g);  /* the stages' effects, and the finished shader */
 bool generation_spell(struct generation *g); /* source */
+
+/* globs.c: warns of globs in the options that match nothing. */
+void generation_check_globs(struct generation *g);
 
 /* graph_view.c: nodes and connections, of the whole document or of what an element needs. */
 void graph_view_text(struct generation *g, struct text *out);

@@ -167,7 +167,8 @@ static bool start_view(struct graph_view *view, struct generation *g, struct tex
                                 .resolved = {.arena = &g->scratch}};
     if (!g->desc.element)
         return true;
-    elem_id element = document_find_element(g->document, g->desc.element, &g->result->object.diagnostics.list);
+    struct diag_list *diags = &g->result->object.diagnostics.list;
+    elem_id element = document_find_element(g->document, g->desc.element, diags, &g->output_name, &g->output);
     if (element)
         mark_upstream(view, element);
     return element != 0;

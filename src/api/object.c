@@ -38,12 +38,16 @@ static void allocate(void *arg)
     allocation->block = mem_realloc(allocation->mem, NULL, 0, allocation->size);
 }
 
-/* Tells the context how much the object holds now. */
-static void settle(struct object *object)
+void object_settle(struct object *object)
 {
-    size_t now = object->mem.used + object->size;
-    atomic_fetch_add(&object->context->used, now - object->counted); /* wraps where it is less */
+    struct mxg_context *context = object->context;
+    size_t now = object->mem.used + object->size, more = now - object->counted; /* wraps where it is less */
+    size_t others = atomic_fetch_add(&context->used, more) + more - object->mem.used;
     object->counted = now;
+    if (!context->max_memory)
+        return;
+    size_t left = others < context->max_memory ? context->max_memory - others : 1;
+    object->mem.limit = left > object->mem.used ? left : object->mem.used + 1; /* 0 would be no limit */
 }
 
 void *object_new(struct mxg_context *context, size_t size, struct object *below)
@@ -58,7 +62,7 @@ void *object_new(struct mxg_context *context, size_t size, struct object *below)
     object->below = below;
     if (below)
         object_ref(below);
-    settle(object);
+    object_settle(object);
     return object;
 }
 
@@ -102,8 +106,9 @@ void object_unref(struct object *object)
 
 mxg_status object_run(struct object *object, void (*work)(void *arg), void *arg)
 {
+    object_settle(object);
     bool done = mem_try(&object->mem, work, arg);
-    settle(object);
+    object_settle(object);
     return done ? MXG_OK : MXG_ERROR_MEMORY;
 }
 

@@ -51,6 +51,12 @@ static void mark_used(struct scan *scan)
     const struct document *doc = scan->doc;
     for (uint32_t i = 0; i < doc->elements.len; i++) {
         const struct element *e = &doc->elements.items[i];
+        if (e->kind == KIND_IMPLEMENTATION) {
+            str_id name = doc_attr_value(doc, doc->first_element + i, STR_nodegraph);
+            elem_id graph = name ? doc_child_of_kind(doc, doc->root, KIND_NODEGRAPH, name) : 0;
+            if (graph)
+                mark_outputs(scan, graph, 0);
+        }
         if (e->parent && (e->kind == KIND_OUTPUT || (e->kind == KIND_INPUT && doc_element(doc, e->parent)->parent)))
             mark_connection(scan, doc->first_element + i);
     }
@@ -91,6 +97,17 @@ static bool is_renderable_output(const struct scan *scan, elem_id output)
     return connected && !is_used(scan, output)
            && ((doc_type_components(known) && doc_type_components(known) <= 4) || known == DOC_TYPE_boolean || known == DOC_TYPE_surfaceshader
                || known == DOC_TYPE_volumeshader);
+}
+
+bool graph_defines_node(const struct document *doc, elem_id graph)
+{
+    if (doc_attr(doc, graph, STR_nodedef))
+        return true;
+    str_id name = doc_element(doc, graph)->name;
+    for (elem_id e = doc_element(doc, doc->root)->first_child; e; e = doc_element(doc, e)->next)
+        if (doc_element(doc, e)->kind == KIND_IMPLEMENTATION && doc_attr_value(doc, e, STR_nodegraph) == name)
+            return true;
+    return false;
 }
 
 static void add_outputs(mxg_document *document, const struct scan *scan, elem_id graph)

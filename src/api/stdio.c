@@ -7,6 +7,8 @@
 
 enum { FIRST_READ = 32 << 10 };
 
+const char stdio_no_memory[] = "out of memory";
+
 /* A block from the context's allocator that knows its size. It holds one file: text, then its name. */
 struct block {
     size_t size;
@@ -17,19 +19,24 @@ struct block {
 /* NULL without memory; the old block stays then. */
 static struct block *resize(struct mxg_context *context, struct block *block, size_t capacity)
 {
-    size_t size = sizeof *block + capacity;
-    struct block *resized = context->mem.realloc(context->mem.user_data, block, block ? block->size : 0, size);
+    size_t size = sizeof *block + capacity, old_size = block ? block->size : 0, used = atomic_load(&context->used);
+    if (context->max_memory && (used > context->max_memory || size - old_size > context->max_memory - used))
+        return NULL;
+    struct block *resized = context->mem.realloc(context->mem.user_data, block, old_size, size);
     if (resized) {
         resized->len = block ? resized->len : 0;
         resized->size = size;
+        atomic_fetch_add(&context->used, size - old_size);
     }
     return resized;
 }
 
 static void release(struct mxg_context *context, struct block *block)
 {
-    if (block)
-        context->mem.realloc(context->mem.user_data, block, block->size, 0);
+    if (!block)
+        return;
+    atomic_fetch_sub(&context->used, block->size);
+    context->mem.realloc(context->mem.user_data, block, block->size, 0);
 }
 
 static bool is_absolute(const char *path)
@@ -80,45 +87,45 @@ static struct block *read_all(struct mxg_context *context, FILE *file, size_t ro
             release(context, text);
         text = more;
     }
-    *out_reason = "out of memory";
+    *out_reason = stdio_no_memory;
     return NULL;
 }
 
-static bool open_at(struct mxg_context *context, struct block *name, mxg_blob *out_blob, const char **out_reason)
+enum outcome { OPENED, MISSING, UNREADABLE };
+
+static enum outcome open_at(struct mxg_context *context, const char *name, mxg_blob *out_blob, const char **out_reason)
 {
-    FILE *file = fopen(name->bytes, "rb");
+    FILE *file = fopen(name, "rb");
     if (!file) {
-        *out_reason = strerror(errno);
-        return false;
+        int fault = errno;
+        *out_reason = strerror(fault);
+        return fault == ENOENT || fault == ENOTDIR ? MISSING : UNREADABLE;
     }
-    size_t name_size = strlen(name->bytes) + 1;
+    size_t name_size = strlen(name) + 1;
     struct block *text = read_all(context, file, name_size, out_reason);
     fclose(file);
     if (!text)
-        return false;
-    char *kept = memcpy(text->bytes + text->len, name->bytes, name_size);
+        return UNREADABLE;
+    char *kept = memcpy(text->bytes + text->len, name, name_size);
     *out_blob = (mxg_blob){.name = kept, .data = text->bytes, .size = text->len, .handle = text};
-    return true;
+    return OPENED;
 }
 
+/* A file that is there but cannot be read is not looked for elsewhere: it is the one that was meant. */
 static bool open_file(void *user_data, const char *from, const char *ref, mxg_blob *out_blob, const char **out_reason)
 {
     struct mxg_context *context = user_data;
-    const char *const places[] = {from, ""};
-    *out_reason = "out of memory";
-    for (int i = 0; i < 2; i++) {
-        struct block *name = join(context, places[i], ref);
-        const char *reason = *out_reason;
-        bool opened = name && open_at(context, name, out_blob, &reason);
+    bool one_place = !strchr(from, '/') || is_absolute(ref); /* beside the referring file is the working directory */
+    enum outcome outcome = MISSING;
+    for (int i = one_place; i < 2 && outcome == MISSING; i++) {
+        struct block *name = join(context, i == 0 ? from : "", ref);
+        *out_reason = stdio_no_memory;
+        outcome = name ? open_at(context, name->bytes, out_blob, out_reason) : UNREADABLE;
         release(context, name);
-        if (opened)
-            return true;
-        if (i == 0)
-            *out_reason = reason; /* what is wrong beside the referring file is what matters */
-        if (!strchr(from, '/') || is_absolute(ref))
-            break; /* that was the working directory */
     }
-    return false;
+    if (outcome == UNREADABLE)
+        out_blob->name = ref;
+    return outcome == OPENED;
 }
 
 static void release_file(void *user_data, mxg_blob *blob)

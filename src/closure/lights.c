@@ -26,6 +26,13 @@ static void sample(struct shader *shader, const struct lang_host *host, const st
     lang_lower_call(shader->unit, shader->graph, host, light->function, args, results);
 }
 
+/* "point_light" of mx_point_light. */
+static const char *light_name(const struct shader *shader, const struct shader_light *light)
+{
+    const char *name = str_text(shader->strings, lang_function(shader->unit, light->function, NULL)->name);
+    return strncmp(name, "mx_", 3) == 0 ? name + 3 : name;
+}
+
 static uint32_t named(struct shader *shader, const char *name)
 {
     return ir_add_origin(shader->graph, str_intern_z(shader->strings, name), 0, 0);
@@ -37,19 +44,23 @@ void closure_sample_light(struct shader *shader, const struct closure_host *host
     struct lang_host see_through = *host->lang;
     see_through.max_inline_nodes = MAX_LIGHT_NODES;
     uint32_t before = g->origin, direction_origin = named(shader, "L"), intensity_origin = named(shader, "light");
+    ir_ref one = ir_const_float(g, 1.0f), zero = ir_const_float(g, 0.0f);
     ir_ref point = shader_stream(shader, str_intern_z(shader->strings, "positionWorld"), IR_TYPE_VEC3);
     ir_ref type = member(shader, shader_light_member(shader, str_intern_z(shader->strings, "type"), IR_TYPE_INT));
-    *direction = 0;
-    *intensity = ir_const_splat(g, IR_TYPE_VEC3, 0.0f);
+    *direction = *intensity = 0;
     for (uint32_t i = shader->lights.len; i-- > 0;) {
         const struct shader_light *light = &shader->lights.items[i];
         ir_ref results[2];
-        g->origin = direction_origin;
+        g->origin = named(shader, light_name(shader, light));
         sample(shader, &see_through, light, point, results);
         ir_ref is_this = ir_op2(g, IR_EQ, type, ir_const_int(g, light->type));
+        g->origin = direction_origin;
         *direction = *direction && *direction != results[0] ? ir_op3(g, IR_SELECT, is_this, results[0], *direction) : results[0];
         g->origin = intensity_origin;
-        *intensity = ir_op3(g, IR_SELECT, is_this, results[1], *intensity);
+        if (*intensity)
+            *intensity = ir_op3(g, IR_SELECT, is_this, results[1], *intensity);
+        else /* a factor, so that what it has in common with the others can be taken out */
+            *intensity = ir_op2(g, IR_MUL, results[1], ir_op3(g, IR_SELECT, is_this, one, zero));
     }
     g->origin = before;
 }

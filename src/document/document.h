@@ -34,8 +34,9 @@ ir_type_id doc_type_ir(doc_type type); /* of a standard type; IR_TYPE_VOID for a
 unsigned doc_type_components(doc_type type); /* numbers in a value: 3 for color3; 0: not a number */
 
 /*
- * Parses a value as MaterialX writes it ("0.5", "1, 0, 0", "true") of a type with an ir type that holds components. Strings give their str_id
- * interned in `strings` when that is not NULL. Surrounding spaces are allowed, trailing text is not. false: not a value of the type.
+ * Parses a value as MaterialX writes it ("0.5", "1, 0, 0", "true") of a type with an ir type that holds components. Strings
+ * give their str_id, interned in `strings` when that is not NULL. Surrounding spaces are allowed, trailing text is not.
+ * false: not a value of the type.
  */
 bool doc_parse_value(doc_type type, const char *text, size_t len, struct strpool *strings, struct ir_value *out);
 
@@ -97,8 +98,8 @@ struct document {
 void doc_init(struct document *doc, struct arena *arena, struct strpool *strings, const struct document *base);
 
 /*
- * Building: children are appended in order; parent 0 gives an element outside of the tree. `name` is kept apart from the attributes.
- * Every function takes elements of this layer only and costs constant time, beside the element's own attributes.
+ * Building: children are appended in order; parent 0 gives an element outside of the tree. `name` is kept apart from the
+ * attributes. Every function takes elements of this layer only and costs constant time, beside the element's own attributes.
  */
 elem_id doc_add_element(struct document *doc, elem_id parent, str_id category, str_id name, uint16_t file, uint32_t line,
                         uint16_t column);
@@ -180,8 +181,8 @@ void doc_expand_templates(struct document *doc, struct diag_list *diags);
 void doc_upgrade(struct document *doc, elem_id root, elem_id end, struct diag_list *diags);
 
 /*
- * namespace.c: qualifies the names of top-level elements that have a `namespace` as "ns:name" and the references to them from inside
- * the namespace ("MaterialX Namespaces"): afterwards every reference is the name of what it refers to.
+ * namespace.c: qualifies the names of top-level elements that have a `namespace` as "ns:name" and the references to them from
+ * inside the namespace ("MaterialX Namespaces"): afterwards every reference is the name of what it refers to.
  */
 void doc_qualify_names(struct document *doc);
 

@@ -71,6 +71,8 @@ static bool print_type_constant(struct text *out, doc_type type, const char *pro
     struct slice name = {property, len};
     bool integer = type == DOC_TYPE_integer, boolean = type == DOC_TYPE_boolean;
     unsigned components = doc_type_components(type);
+    if (type == DOC_TYPE_NONE)
+        return false;
     if (slice_is(name, "glsl", 4) && doc_type_ir(type) != IR_TYPE_VOID)
         text_str(out, ir_type_text(doc_type_ir(type)));
     else if (slice_is(name, "size", 4) && (components || boolean))

@@ -105,7 +105,8 @@ static void rename_type(struct upgrade *u, elem_id element)
 static void rename_attrs(struct upgrade *u, elem_id element)
 {
     for (size_t i = 0; i < LENGTH(attr_renames); i++) {
-        if (attr_renames[i].minor != u->minor || (attr_renames[i].category && !upgrade_is_category(u, element, attr_renames[i].category)))
+        const char *category = attr_renames[i].category;
+        if (attr_renames[i].minor != u->minor || (category && !upgrade_is_category(u, element, category)))
             continue;
         str_id value = upgrade_attr(u, element, attr_renames[i].old), new = upgrade_word(u, attr_renames[i].new);
         if (!value || (attr_renames[i].only_if_absent && doc_attr(u->doc, element, new)))

@@ -15,7 +15,7 @@ struct upgrade {
     bool outdated; /* the document says that it is of this version: changes are warnings */
 };
 
-/* The elements that the upgrade changes; those added on the way are not visited. for (e = upgrade_first(u); e; e = upgrade_next(u, e)) */
+/* The elements that the upgrade changes, in the tree; those added on the way are not visited. 0: no more. */
 elem_id upgrade_first(struct upgrade *u);
 elem_id upgrade_next(const struct upgrade *u, elem_id element);
 

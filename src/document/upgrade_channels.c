@@ -154,16 +154,16 @@ static void build_selection(struct upgrade *u, elem_id node, const struct select
 /* What a port with channels is connected to, where the graph does not say: by the letters. */
 static str_id guess_type(const struct upgrade *u, str_id channels, str_id to)
 {
-    static const char *const floats[] = {"xx", "xxx", "xxxx"}, *const vectors[] = {"xyz", "x", "y", "z"}, *const colors[] = {"rgba", "a"};
-    for (size_t i = 0; i < 3; i++)
-        if (upgrade_is(u, channels, floats[i]))
-            return STR_float;
-    for (size_t i = 0; i < 4; i++)
-        if (upgrade_is(u, channels, vectors[i]))
-            return STR_vector3;
-    for (size_t i = 0; i < 2; i++)
-        if (upgrade_is(u, channels, colors[i]))
-            return STR_color4;
+    static const struct {
+        const char *channels;
+        str_id type;
+    } telling[] = {
+        {"xx", STR_float}, {"xxx", STR_float}, {"xxxx", STR_float}, {"xyz", STR_vector3}, {"x", STR_vector3},
+        {"y", STR_vector3}, {"z", STR_vector3}, {"rgba", STR_color4}, {"a", STR_color4},
+    };
+    for (size_t i = 0; i < sizeof telling / sizeof *telling; i++)
+        if (upgrade_is(u, channels, telling[i].channels))
+            return telling[i].type;
     return to == STR_color3 ? STR_color4 : STR_color3;
 }
 

@@ -144,7 +144,8 @@ static void check_type_and_values(struct validation *v, elem_id element)
     str_id name = doc_attr_value(v->doc, element, STR_type);
     doc_type type = doc_type_of(name);
     if (name && !type && !find_typedef(v->doc, name))
-        diag_add(v->diags, DIAG_ID_unknown_type, doc_attr_place(v->doc, element, STR_type), text_of(v, name), suggest_type(v, name));
+        diag_add(v->diags, DIAG_ID_unknown_type, doc_attr_place(v->doc, element, STR_type), text_of(v, name),
+                 suggest_type(v, name));
     if (!type || e->kind == KIND_NODE)
         return;
     for (size_t i = 0; i < sizeof typed / sizeof *typed; i++)

@@ -16,7 +16,8 @@ static const char *suggest_child(struct validation *v, elem_id parent, enum elem
     size_t count = 0;
     if (v->diags->num_errors > MAX_SUGGESTIONS)
         return "";
-    for (elem_id e = parent ? doc_element(v->doc, parent)->first_child : 0; e && count < MAX_CANDIDATES; e = doc_element(v->doc, e)->next)
+    elem_id e = parent ? doc_element(v->doc, parent)->first_child : 0;
+    for (; e && count < MAX_CANDIDATES; e = doc_element(v->doc, e)->next)
         if (doc_element(v->doc, e)->kind == kind)
             names[count++] = text_of(v, doc_element(v->doc, e)->name);
     return diag_suggest(v->arena, text_of(v, wanted), names, count);

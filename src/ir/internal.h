@@ -33,7 +33,7 @@ enum rule_token {
     RULE_END
 };
 
-enum { RULE_LENGTH = 8 };
+enum { RULE_LENGTH = 10 };
 
 struct rule {
     const char *name;

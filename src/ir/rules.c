@@ -170,7 +170,8 @@ static ir_ref replace(struct ir_graph *graph, const struct rule *rule, ir_type_i
             ref = token < RULE_K ? bound[token - RULE_A]
                                  : ir_const_splat(graph, ir_type_info(type)->scalar, token_value(token));
         }
-        assert(ref);
+        if (!ref) /* the types do not fit: (A vector, B scalar) and the like */
+            return 0;
         stack[--top] = ref;
     }
     return widen(graph, type, stack[top]);

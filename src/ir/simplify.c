@@ -185,10 +185,76 @@ static ir_ref simplify_index(struct ir_graph *graph, ir_ref a, ir_ref index)
     return i < ir_type_info(type)->components ? ir_component(graph, a, i) : 0;
 }
 
+/* ---- Arithmetic of vectors and scalars ---- */
+
+static bool is_scalar_float(const struct ir_graph *graph, ir_ref ref)
+{
+    return ir_type_of(graph, ref) == IR_TYPE_FLOAT;
+}
+
+/* The scalar that fills a vector; 0 where it is none such. */
+static ir_ref splat_of(struct ir_graph *graph, ir_ref ref)
+{
+    const struct ir_node *node = ir_get(graph, ref);
+    if (!is_vector(node->type) || ir_type_info(node->type)->scalar != IR_TYPE_FLOAT)
+        return 0;
+    if (node->op == IR_CONSTRUCT && node->num_args == 1)
+        return ir_arg(graph, ref, 0);
+    if (node->op != IR_CONST)
+        return 0;
+    const union ir_word *words = graph->words.items + node->attr;
+    for (unsigned i = 1; i < ir_type_info(node->type)->components; i++)
+        if (words[i].u != words[0].u)
+            return 0;
+    return ir_const_float(graph, words[0].f);
+}
+
+/* (v · s) · t = v · (s t): one product of scalars for one of vectors. */
+static ir_ref gather_scalars(struct ir_graph *graph, ir_ref a, ir_ref b)
+{
+    if (is_scalar_float(graph, a)) {
+        ir_ref swap = a;
+        a = b;
+        b = swap;
+    }
+    const struct ir_node *node = ir_get(graph, a);
+    if (graph->exact || node->op != IR_MUL || !is_vector(node->type) || !is_scalar_float(graph, b))
+        return 0;
+    ir_ref v = ir_arg(graph, a, 0), s = ir_arg(graph, a, 1);
+    if (is_scalar_float(graph, v))
+        return ir_op2(graph, IR_MUL, s, ir_op2(graph, IR_MUL, v, b));
+    return is_scalar_float(graph, s) ? ir_op2(graph, IR_MUL, v, ir_op2(graph, IR_MUL, s, b)) : 0;
+}
+
+/*
+ * vec3(a) op vec3(b) = vec3(a op b), and vec3(a) op v = a op v. A constant stays a vector where that is what the target
+ * computes with anyway; in a product it does not.
+ */
+static ir_ref simplify_arithmetic(struct ir_graph *graph, enum ir_op op, ir_type_id type, ir_ref a, ir_ref b)
+{
+    if (!is_vector(type) || ir_type_info(type)->scalar != IR_TYPE_FLOAT)
+        return 0;
+    ir_ref sa = is_scalar_float(graph, a) ? a : splat_of(graph, a), sb = is_scalar_float(graph, b) ? b : splat_of(graph, b);
+    if (sa && sb) {
+        ir_ref scalar = ir_op2(graph, op, sa, sb);
+        return ir_build(graph, IR_CONSTRUCT, type, 0, &scalar, 1);
+    }
+    bool narrow_a = sa && sa != a && (op == IR_MUL || ir_get(graph, a)->op != IR_CONST) && ir_type_of(graph, b) == type;
+    bool narrow_b = sb && sb != b && (op == IR_MUL || ir_get(graph, b)->op != IR_CONST) && ir_type_of(graph, a) == type;
+    if (narrow_a || narrow_b)
+        return ir_op2(graph, op, narrow_a ? sa : a, narrow_b ? sb : b);
+    return op == IR_MUL ? gather_scalars(graph, a, b) : 0;
+}
+
 ir_ref ir_simplify(struct ir_graph *graph, enum ir_op op, ir_type_id type, uint32_t attr, const ir_ref *args,
                    unsigned num_args)
 {
     switch (op) {
+    case IR_ADD:
+    case IR_SUB:
+    case IR_MUL:
+    case IR_DIV:
+        return simplify_arithmetic(graph, op, type, args[0], args[1]);
     case IR_SWIZZLE:
         return simplify_swizzle(graph, type, attr, args[0]);
     case IR_CONSTRUCT:

@@ -281,7 +281,7 @@ static void find_places(struct scheduler *s, const struct effect_list *effects)
  * and a load, a local a variable, a store and a load per use.
  */
 enum { GOOD_CHARS = 110, MAX_CHARS = 220, MIN_SPLIT_CHARS = 40, MAX_REPEATED_CHARS = 32 };
-enum { COST_OPERATOR = 1, COST_BUILTIN = 4, COST_CALL = 16, COST_LOCAL = 2, MAX_COST_IN_LOOP = 3 };
+enum { COST_OPERATOR = 1, COST_BUILTIN = 4, COST_CALL = 16, COST_LOCAL = 2, MAX_COST_IN_LOOP = 3, MAX_COST_OF_ARM = 12 };
 
 static bool is_splat(const struct ir_value *value)
 {
@@ -308,7 +308,10 @@ static bool is_source(const struct scheduler *s, struct plan *plan)
         plan->chars = clamp16(components == 1 ? 5 : 4 + 6 * components);
         return components == 1 || plan->uses < (components > 4 ? 2u : 3u);
     }
-    case IR_CONTEXT:
+    case IR_CONTEXT: /* u_lightData[i].member */
+        plan->cost = 3;
+        plan->chars = clamp16((uint32_t)str_len(s->shader->strings, s->shader->variables.items[node->attr].name) + 15);
+        return plan->uses < 3;
     case IR_UNIFORM:
     case IR_STREAM:
     case IR_TEXTURE:
@@ -417,6 +420,32 @@ static bool is_part(struct scheduler *s, const struct plan *plan)
     return whole->flags & PLAN_LET || op == IR_RESULT || ir_get(s->graph, whole->ref)->num_args == 0;
 }
 
+/* May an arm become a local for the sake of let_arms? What has a name already is not copied. */
+static bool is_little_work(struct scheduler *s, const struct plan *arm)
+{
+    return ir_get(s->graph, arm->ref)->num_args > 0 && !is_part(s, arm) && arm->cost <= MAX_COST_OF_ARM && may_let(s, arm)
+           && !(arm->flags & PLAN_LOCAL);
+}
+
+/*
+ * A choice between locals and constants is one operation; between expressions it is a branch. What is little work is rather done
+ * in vain.
+ */
+static void let_arms(struct scheduler *s, const struct ir_node *node)
+{
+    if (node->op != IR_SELECT)
+        return;
+    bool all = true;
+    struct plan *arms[2];
+    for (unsigned i = 0; i < 2; i++) {
+        arms[i] = plan_of(s, s->graph->args.items[node->first_arg + i + 1]);
+        all &= arms[i]->flags & PLAN_LET || ir_is_const(s->graph, arms[i]->ref) || is_little_work(s, arms[i]);
+    }
+    for (unsigned i = 0; all && i < 2; i++)
+        if (!(arms[i]->flags & PLAN_LET) && !ir_is_const(s->graph, arms[i]->ref))
+            let(s, arms[i]);
+}
+
 /* Operands first: which nodes become locals. */
 static void choose_locals(struct scheduler *s)
 {
@@ -424,6 +453,7 @@ static void choose_locals(struct scheduler *s)
         struct plan *plan = &s->plans.items[i];
         if (is_source(s, plan))
             continue;
+        let_arms(s, ir_get(s->graph, plan->ref));
         measure(s, plan);
         if (!may_let(s, plan) || is_part(s, plan))
             continue;

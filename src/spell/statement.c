@@ -21,11 +21,13 @@ static void write_assignment(struct spell *spell, unsigned indent, const char *n
 
 /* ---- Locals ---- */
 
-/* "metal_ior" of the origin, "noise" of the function mx_noise, else a letter. */
+/* "metal_ior" of the origin, "direction" of a light, "noise" of the function mx_noise, else a letter. */
 static const char *local_base(const struct spell *spell, ir_ref ref)
 {
     const struct ir_graph *graph = spell->shader->graph;
     const struct ir_node *node = ir_get(graph, ref);
+    if (node->op == IR_CONTEXT)
+        return str_text(spell->shader->strings, spell->shader->variables.items[node->attr].name);
     str_id name = graph->origins.items[node->origin].name;
     if (name)
         return str_text(spell->shader->strings, name);
@@ -56,14 +58,18 @@ static const char *add_local(struct spell *spell, const char *base, const char *
     return name;
 }
 
-/* A comment says where a node of the document begins. */
+/* A comment says whose inner nodes follow: a node of the document or a graph. The nodes' own names are those of the locals. */
 static void write_path(struct spell *spell, unsigned indent, uint32_t origin)
 {
     const struct spell_options *options = spell->options;
     if (!options->comments || options->neutral_names || !options->path || !origin)
         return;
     const char *path = options->path(options->user_data, origin);
-    if (!path || !names_take(&spell->paths, path))
+    const char *end = path ? strrchr(path, '/') : NULL;
+    if (!end)
+        return;
+    path = arena_strndup(spell->scratch, path, (size_t)(end - path));
+    if (!names_take(&spell->paths, path))
         return;
     spell_indent(spell, indent);
     text_mem(spell->out, "// ", 3);

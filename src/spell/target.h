@@ -8,20 +8,18 @@
 #include "shader/shader.h"
 
 enum target_caps {
-    CAP_STAGES = 1,              /* vertex and pixel stages; else one shader */
-    CAP_UNIFORM_BLOCKS = 2,      /* uniforms must stand in blocks */
-    CAP_BLOCK_OPTION = 4,        /* uniforms may stand in blocks: --uniform-blocks */
-    CAP_UNIFORM_DEFAULTS = 8,    /* uniforms may have initial values */
-    CAP_BINDINGS = 16,           /* layout(set, binding) and locations */
-    CAP_CLOSURES = 32,           /* the language has closures: keep the tree */
-    CAP_STRINGS = 64,            /* the language has strings */
-    CAP_OVERLOADS = 128,         /* functions may be overloaded */
-    CAP_BITWISE = 256,           /* unsigned integers and bit operators */
-    CAP_IMPLICIT_LOD = 512,      /* texture() in pixel stages */
-    CAP_CONST_PARAMS = 1024,     /* `const in` parameters */
-    CAP_PRECISION = 2048,        /* needs default precision statements */
-    CAP_BLOCK_STAGE_IO = 4096,   /* stage inputs and outputs may stand in an interface block */
-    CAP_CONST_EXPRESSIONS = 8192, /* `const` locals may have initialisers that are not constant */
+    CAP_STAGES = 1,           /* vertex and pixel stages; else one shader */
+    CAP_UNIFORM_BLOCKS = 2,   /* uniforms must stand in blocks */
+    CAP_BLOCK_OPTION = 4,     /* uniforms may stand in blocks: --uniform-blocks */
+    CAP_UNIFORM_DEFAULTS = 8, /* uniforms may have initial values */
+    CAP_BINDINGS = 16,        /* layout(set, binding) and locations */
+    CAP_BLOCK_STAGE_IO = 32,  /* stage inputs and outputs may stand in an interface block */
+    CAP_PRECISION = 64,       /* needs default precision statements */
+    CAP_OVERLOADS = 128,      /* functions may be overloaded */
+    CAP_BITWISE = 256,        /* unsigned integers and bit operators */
+    CAP_IMPLICIT_LOD = 512,   /* texture() in pixel stages */
+    CAP_CLOSURES = 1024,      /* the language has closures: keep the tree */
+    CAP_STRINGS = 2048,       /* the language has strings */
 };
 
 struct spell; /* spell/spell.h */

@@ -83,7 +83,7 @@ void xml_process_includes(struct xml_reader *reader, const struct xml_source *so
 elem_id xml_read_text(struct xml_reader *reader, const char *name, uint16_t file, elem_id root, const char *data, size_t size);
 /* Moves a root's children before `sibling`, or to the end of `parent` where that is 0; what it says about its scope goes with them. */
 void xml_merge_root(struct document *doc, elem_id root, elem_id parent, elem_id sibling);
-/* Opens the file that `ref` means in the file `from`; xml_close_file releases it. One is open at a time. */
+/* Opens the file that `ref` means in the file `from`; xml_close_file releases it. One is open at a time. *out_name after a failure: xml_files. */
 bool xml_open_file(struct xml_reader *reader, const char *from, const char *ref, const char **out_name, const char **out_data,
                    size_t *out_size, const char **out_reason);
 void xml_close_file(struct xml_reader *reader);

@@ -97,10 +97,10 @@ static size_t next_value(const struct xml_source *source, size_t *at, bool *out_
     size_t name = skip_while(source, *at, is_blank), end = skip_while(source, name, is_in_name);
     const char *text = source->text + name;
     *out_is_namespace = end - name >= 5 && memcmp(text, "xmlns", 5) == 0 && (end - name == 5 || text[5] == ':');
-    size_t quote = skip_while(source, end, is_no_quote);
-    const char *close = quote < source->size ? memchr(source->text + quote + 1, source->text[quote], source->size - quote - 1) : NULL;
+    size_t value = skip_while(source, end, is_no_quote) + 1;
+    const char *close = value < source->size ? memchr(source->text + value, source->text[value - 1], source->size - value) : NULL;
     *at = close ? (size_t)(close - source->text) + 1 : source->size;
-    return quote < source->size ? quote + 1 : source->size;
+    return value < source->size ? value : source->size;
 }
 
 static void add_attr(struct xml_reader *reader, elem_id element, str_id name, str_id value, struct diag_place element_place,

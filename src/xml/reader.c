@@ -29,10 +29,10 @@ bool xml_open_file(struct xml_reader *reader, const char *from, const char *ref,
                    size_t *out_size, const char **out_reason)
 {
     const struct xml_files *files = reader->files;
-    const char *name = ref, *reason = NULL;
+    const char *name = NULL, *reason = NULL;
     reader->handle_open = files && files->open(files->user_data, from, ref, &name, out_data, out_size, &reader->handle, &reason);
     *out_reason = reason ? reason : "files cannot be read here";
-    *out_name = arena_strndup(&reader->scratch, name, strlen(name));
+    *out_name = name ? arena_strndup(&reader->scratch, name, strlen(name)) : NULL;
     return reader->handle_open;
 }
 
@@ -132,7 +132,8 @@ static void read_file(struct reading *reading)
     struct xml_reader *reader = &reading->reader;
     const char *canonical, *reason;
     if (!xml_open_file(reader, "", reading->name, &canonical, &reading->data, &reading->size, &reason)) {
-        diag_add(reader->diags, DIAG_ID_file_missing, (struct diag_place){.file = reading->name}, reading->name, reason);
+        enum diag_id id = canonical ? DIAG_ID_file_unreadable : DIAG_ID_file_missing;
+        diag_add(reader->diags, id, (struct diag_place){.file = reading->name}, reading->name, reason);
         return;
     }
     read_data(reading, canonical, doc_add_file(reader->doc, str_intern_z(reader->doc->strings, reading->name)));

@@ -17,7 +17,8 @@ struct xml_files {
     void *user_data;
     /*
      * Opens `ref` as it stands in `from` ("" for a file named by the user). On success the bytes are valid until `release`, and *out_name
-     * is the canonical name, valid as long as the document's arena (copy it there). false: *out_reason says why.
+     * is the canonical name, valid as long as the document's arena (copy it there). false: *out_reason says why, and *out_name is NULL
+     * unless the file is there but cannot be read.
      */
     bool (*open)(void *user_data, const char *from, const char *ref, const char **out_name, const char **out_data,
                  size_t *out_size, void **out_handle, const char **out_reason);

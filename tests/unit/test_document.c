@@ -217,32 +217,32 @@ static void test_validation(void)
     require_valid("<add name=\"a\"/>", "2:1 missing-attribute");
     require_valid("<add name=\"a\" type=\"flaot\"/>", "2:21 unknown-type");
     require_valid("<typedef name=\"t\"><member name=\"m\" type=\"float\" value=\"x\"/></typedef><add name=\"a\" type=\"t\"/>", "2:56 bad-value");
-    require_valid("<add name=\"a\" type=\"float\"><input name=\"in1\" type=\"float\" value=\"abc\"/></add>", "2:65 bad-value");
+    require_valid("<add name=\"a\" type=\"float\"><input name=\"in1\" type=\"float\" value=\"abc\"/></add>", "2:66 bad-value");
     require_valid("<nodedef name=\"N\" node=\"n\"><input name=\"i\" type=\"color3\" uimax=\"1\"/><output name=\"o\" type=\"float\"/></nodedef>",
-                  "2:64 bad-value");
+                  "2:65 bad-value");
     require_valid("<nodedef name=\"N\" node=\"n\"/>", "2:1 no-output");
     require_valid("<input name=\"i\" type=\"float\"/>", "2:1 misplaced-element");
     require_valid("<nodedef name=\"N\" node=\"n\"><add name=\"a\" type=\"float\"/><output name=\"o\" type=\"float\"/></nodedef>", "2:28 misplaced-element");
-    require_valid("<add name=\"a\" type=\"float\"><input name=\"in1\" type=\"float\" nodename=\"b\"/></add>", "2:68 dangling-nodename");
-    require_valid("<add name=\"a\" type=\"float\"><input name=\"in1\" type=\"float\" nodegraph=\"b\"/></add>", "2:69 dangling-nodegraph");
-    require_valid("<add name=\"a\" type=\"float\"><input name=\"in1\" type=\"float\" interfacename=\"b\"/></add>", "2:73 dangling-interfacename");
+    require_valid("<add name=\"a\" type=\"float\"><input name=\"in1\" type=\"float\" nodename=\"b\"/></add>", "2:69 dangling-nodename");
+    require_valid("<add name=\"a\" type=\"float\"><input name=\"in1\" type=\"float\" nodegraph=\"b\"/></add>", "2:70 dangling-nodegraph");
+    require_valid("<add name=\"a\" type=\"float\"><input name=\"in1\" type=\"float\" interfacename=\"b\"/></add>", "2:74 dangling-interfacename");
     require_valid("<nodegraph name=\"g\"><output name=\"o\" type=\"float\"/></nodegraph>"
-                  "<add name=\"a\" type=\"float\"><input name=\"in1\" type=\"float\" nodegraph=\"g\" output=\"p\"/></add>", "2:143 dangling-output");
+                  "<add name=\"a\" type=\"float\"><input name=\"in1\" type=\"float\" nodegraph=\"g\" output=\"p\"/></add>", "2:144 dangling-output");
     require_valid("<nodegraph name=\"g\"><output name=\"o\" type=\"float\"/><output name=\"p\" type=\"float\"/></nodegraph>"
-                  "<add name=\"a\" type=\"float\"><input name=\"in1\" type=\"float\" nodegraph=\"g\"/></add>", "2:162 output-needed");
+                  "<add name=\"a\" type=\"float\"><input name=\"in1\" type=\"float\" nodegraph=\"g\"/></add>", "2:164 output-needed");
     require_valid("<add name=\"b\" type=\"color3\"/><add name=\"a\" type=\"float\"><input name=\"in1\" type=\"float\" nodename=\"b\"/></add>",
-                  "2:97 type-mismatch");
+                  "2:98 type-mismatch");
     require_valid("<add name=\"b\" type=\"float\"/><add name=\"a\" type=\"float\"><input name=\"in1\" type=\"float\" nodename=\"b\" value=\"1\"/></add>",
-                  "2:106 value-and-connection");
+                  "2:107 value-and-connection");
     require_valid("<add name=\"b\" type=\"float\"/><nodegraph name=\"c\"><output name=\"o\" type=\"float\"/></nodegraph>"
-                  "<add name=\"a\" type=\"float\"><input name=\"in1\" type=\"float\" nodename=\"b\" nodegraph=\"c\"/></add>", "2:116 several-connections");
+                  "<add name=\"a\" type=\"float\"><input name=\"in1\" type=\"float\" nodename=\"b\" nodegraph=\"c\"/></add>", "2:119 several-connections");
     require_valid("<add name=\"a\" type=\"float\"><input name=\"in1\" type=\"float\" nodename=\"b\"/></add>"
                   "<add name=\"b\" type=\"float\"><input name=\"in1\" type=\"float\" nodename=\"a\"/></add>", "2:1 cycle");
     require_valid("<add name=\"a\" type=\"float\"><input name=\"in1\" type=\"float\" nodename=\"a\"/></add>", "2:1 cycle");
-    require_valid("<nodedef name=\"N\" node=\"n\" inherit=\"M\"/>", "2:36 inherit-missing");
-    require_valid("<nodedef name=\"N\" node=\"n\" inherit=\"M\"/><nodedef name=\"M\" node=\"n\" inherit=\"N\"/>", "2:36 inherit-cycle");
+    require_valid("<nodedef name=\"N\" node=\"n\" inherit=\"M\"/>", "2:37 inherit-missing");
+    require_valid("<nodedef name=\"N\" node=\"n\" inherit=\"M\"/><nodedef name=\"M\" node=\"n\" inherit=\"N\"/>", "2:37 inherit-cycle");
     require_valid("<look name=\"l\"><materialassign name=\"m\" material=\"x\" collection=\"c\"/></look>",
-                  "2:65 dangling-reference, 2:51 dangling-reference");
+                  "2:66 dangling-reference, 2:51 dangling-reference");
     require_valid("<implementation name=\"i\"/>", "2:1 missing-attribute");
 }
 

@@ -193,7 +193,7 @@ static void test_statements(void)
                effect(f, EFFECT_VAR, f->color, v); name(f, "s"); ir_ref args[] = {a, number(f, 2)}; ir_ref s = call(f, "step_on", args, 2);
                f->graph.origin = 0;
                accumulate(f, vec3_of(f, op2(f, IR_ADD, result(f, s, 0, IR_TYPE_FLOAT), result(f, s, 1, IR_TYPE_FLOAT)))););
-    STATEMENTS("    vec3 color = v;\n    // NG/n\n    vec3 n = sin(v);\n    color += n;\n    color += n + 1.0;\n    // NG/m\n"
+    STATEMENTS("    vec3 color = v;\n    // NG\n    vec3 n = sin(v);\n    color += n;\n    color += n + 1.0;\n"
                "    vec3 m = sin(n);\n    color += m;\n    color += m + 1.0;\n",
                (&(struct spell_options){.comments = true, .path = path_of, .user_data = f}), effect(f, EFFECT_VAR, f->color, v);
                ir_ref n = sine(f, "n", v); use_twice(f, n); use_twice(f, sine(f, "m", n)););
@@ -236,9 +236,9 @@ static void test_graph_functions(void)
     effect(&f, EFFECT_VAR, f.color, ir_build(&f.graph, IR_GRAPH_CALL, IR_TYPE_VEC3, outer, given, 2));
     write_color(&f);
     REQUIRE_STR(stage_from(&f, "vec3 inner"),
-                "vec3 inner(const vec3 p0, out float r1)\n{\n    float t = length(p0);\n    r1 = t;\n    vec3 n = normalize(p0);\n"
+                "vec3 inner(vec3 p0, out float r1)\n{\n    float t = length(p0);\n    r1 = t;\n    vec3 n = normalize(p0);\n"
                 "    return cross(n, t * n);\n}\n\n"
-                "vec3 outer(const vec3 p0, const float p1)\n{\n    float deep_result;\n    vec3 deep = inner(p0, deep_result);\n"
+                "vec3 outer(vec3 p0, float p1)\n{\n    float deep_result;\n    vec3 deep = inner(p0, deep_result);\n"
                 "    return p1 * deep_result + deep;\n}\n\n"
                 "void main()\n{\n    vec3 color = outer(v, a);\n    out1 = vec4(color, 1.0);\n}\n");
     fixture_close(&f);
@@ -307,7 +307,7 @@ static void build_lit(struct fixture *f)
 }
 
 static const char *const lit_main =
-    "float noise(const vec2 p)\n{\n    float s = 0.0;\n    for (int i = 0; i < 3; ++i)\n        s += weights[i] * sin(p.x * u_time);\n"
+    "float noise(~vec2 p)\n{\n    float s = 0.0;\n    for (int i = 0; i < 3; ++i)\n        s += weights[i] * sin(p.x * u_time);\n"
     "    return s;\n}\n\n"
     "void main()\n{\n    vec3 base = texture(image_file, @texcoord_0).xyz * base_color;\n    vec3 color = base * noise(@texcoord_0);\n"
     "    vec3 N = normalize(@normalWorld);\n"
@@ -360,14 +360,14 @@ static const struct stage_case {
      "out vec4 out1;\n\nconst float weights[3] = float[3](1.0, 2.0, 3.5);\n\n", NULL},
 };
 
-/* `text` with `with` for each '@'. */
-static const char *fill_in(struct fixture *f, const char *text, const char *with)
+/* The text with a target's words: '@' the prefix of vertex data, '~' that of parameters. */
+static const char *fill_in(struct fixture *f, const char *text, const char *vertex_data, const char *param)
 {
     struct text out;
     text_init(&out, &f->arena);
     for (; *text; text++) {
-        if (*text == '@')
-            text_str(&out, with);
+        if (*text == '@' || *text == '~')
+            text_str(&out, *text == '@' ? vertex_data : param);
         else
             text_char(&out, *text);
     }
@@ -402,7 +402,7 @@ static void test_stages(void)
         const char *pixel = spell(&f, c->target, STAGE_PIXEL, &options, &lines, &num_lines);
         const char *rest = strstr(pixel, "float noise(");
         REQUIRE_STR(arena_strndup(&f.arena, pixel, (size_t)(rest - pixel)), c->pixel);
-        REQUIRE_STR(rest, fill_in(&f, lit_main, c->vertex_data));
+        REQUIRE_STR(rest, fill_in(&f, lit_main, c->vertex_data, target_find(c->target)->syntax->param_in));
         REQUIRE(maps_line(&f, pixel, lines, num_lines, "    vec3 N = ", "N"));
         REQUIRE(num_lines >= 2);
         write_file(c->target, "lit", "frag", pixel);

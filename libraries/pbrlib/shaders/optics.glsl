@@ -7,10 +7,12 @@
 void mx_artistic_ior(vec3 reflectivity, vec3 edge_color, out vec3 ior, out vec3 extinction)
 {
     vec3 r = clamp(reflectivity, 0.0, 0.99);
-    vec3 s = 1.0 + sqrt(r);
-    vec3 n = mix(s * s / (1.0 - r), (1.0 - r) / (1.0 + r), edge_color);
+    vec3 s = sqrt(r);
+    vec3 n = mix((1.0 + s) * (1.0 + s) / (1.0 - r), (1.0 - r) / (1.0 + r), edge_color);
+    vec3 a = s * (n + 1.0);
+    vec3 b = n - 1.0;
     ior = n;
-    extinction = sqrt(max(((n + 1.0) * (n + 1.0) * r - (n - 1.0) * (n - 1.0)) / (1.0 - r), 0.0));
+    extinction = sqrt(max((a - b) * (a + b) / (1.0 - r), 0.0)); // a^2 - b^2 would cancel
 }
 
 // Burley 2012, section 5.4: the aspect ratio stretches one axis and shrinks the other.

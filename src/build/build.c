@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "build/build_priv.h"
+
+static const struct document *doc_of(const struct builder *b)
+{
+    return &b->lib->doc;
+}
+
+/* How functions of the library see the host: uniforms and streams become interface variables, options constants. */
+static ir_ref global_node(void *user_data, struct ir_graph *graph, const struct lang_unit *unit, uint32_t global_id)
+{
+    struct builder *b = user_data;
+    const struct lang_unit *layer;
+    const struct lang_global *global = lang_global(unit, global_id, &layer);
+    switch ((enum lang_global_kind)global->kind) {
+    case LANG_GLOBAL_STREAM:
+        return shader_stream(b->shader, global->name, global->type);
+    case LANG_GLOBAL_UNIFORM: {
+        uint32_t variable = shader_private_uniform(b->shader, global->name, global->type, (uint16_t)global->array_length);
+        enum ir_op op = global->type == IR_TYPE_SAMPLER ? IR_TEXTURE : IR_UNIFORM;
+        return ir_build(graph, op, global->type, variable, NULL, 0);
+    }
+    case LANG_GLOBAL_OPTION:
+        if (strcmp(str_text(unit->strings, global->name), "option_environment") == 0)
+            return ir_const_int(graph, b->options->environment);
+        if (strcmp(str_text(unit->strings, global->name), "option_texture_modes") == 0)
+            return ir_const_int(graph, b->options->texture_modes);
+        break;
+    case LANG_GLOBAL_CONST:
+        break;
+    }
+    struct ir_value value = {.type = global->type};
+    memcpy(value.w, layer->words.items + global->words, global->num_words * sizeof *value.w);
+    return ir_const(graph, &value);
+}
+
+/* Functions of at most this many tree nodes are lowered into the shader's graph instead of being called. */
+enum { INLINE_NODES = 24 };
+
+struct builder *build_start(const struct library *lib, const struct build_options *options, struct shader *shader,
+                            struct diag_list *diags)
+{
+    struct builder *b = ARENA_NEW(shader->arena, struct builder);
+    b->lib = lib;
+    b->options = options;
+    b->shader = shader;
+    b->graph = shader->graph;
+    b->arena = shader->arena;
+    b->diags = diags;
+    b->resolved.arena = b->arena;
+    b->host = (struct lang_host){.user_data = b, .global = global_node, .max_inline_nodes = INLINE_NODES};
+    b->document = ARENA_NEW(b->arena, struct instance);
+    b->document->nodedef = LIBRARY_NONE;
+    b->document->first = lib->doc.first_element;
+    b->document->node = lib->doc.root;
+    b->document->num_slots = lib->doc.elements.len;
+    b->document->slots = ARENA_ARRAY(b->arena, uint32_t, lib->doc.elements.len);
+    return b;
+}
+
+const struct lang_host *build_lang_host(struct builder *b)
+{
+    return &b->host;
+}
+
+/* A material's interface is that of the shaders connected to it. */
+static void publish_nodes(struct builder *b, elem_id node)
+{
+    vec_push(b->arena, &b->public_nodes, node);
+    struct diag_list ignored; /* told when the node itself is resolved */
+    diag_list_init(&ignored, b->arena);
+    for (elem_id e = doc_element(doc_of(b), node)->first_child; e; e = doc_element(doc_of(b), e)->next) {
+        doc_type type = library_type(b->lib, doc_attr_value(doc_of(b), e, STR_type));
+        if (doc_element(doc_of(b), e)->kind != KIND_INPUT || !type || !ir_type_is_shader(library_type_ir(b->lib, type)))
+            continue;
+        struct binding binding = library_resolve_connection(b->lib, e, type, &ignored);
+        if (binding.kind == BIND_NODE)
+            vec_push(b->arena, &b->public_nodes, binding.ref);
+    }
+}
+
+static ir_ref build_node_element(struct builder *b, elem_id node, unsigned output)
+{
+    publish_nodes(b, node);
+    build_demand(b, b->document, node);
+    if (b->document->slots[node - b->document->first] < SLOT_RESULTS)
+        return 0;
+    return build_result(b, b->document, node, output, DOC_TYPE_NONE);
+}
+
+static ir_ref build_output_element(struct builder *b, elem_id output)
+{
+    doc_type type = library_type(b->lib, doc_attr_value(doc_of(b), output, STR_type));
+    struct binding binding = library_resolve_connection(b->lib, output, type, b->diags);
+    if (binding.kind == BIND_NODE) {
+        if (ir_type_is_shader(library_type_ir(b->lib, type)))
+            return build_node_element(b, binding.ref, binding.output);
+        /* An output of the document itself shows its node's inputs; one of a graph, the graph's. */
+        if (doc_element(doc_of(b), output)->parent == doc_of(b)->root)
+            vec_push(b->arena, &b->public_nodes, binding.ref);
+        build_demand(b, b->document, binding.ref);
+        if (b->document->slots[binding.ref - b->document->first] < SLOT_RESULTS)
+            return 0;
+    }
+    struct port port = {.name = STR_out, .type = type, .element = output};
+    return binding.kind == BIND_ERROR ? 0 : build_input(b, b->document, doc_element(doc_of(b), output)->parent, &port, &binding);
+}
+
+ir_ref build_element(struct builder *b, elem_id element, unsigned output)
+{
+    bool is_node = doc_element(doc_of(b), element)->kind == KIND_NODE;
+    return is_node ? build_node_element(b, element, output) : build_output_element(b, element);
+}

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * From an element of a document to IR: asks for the value of the element and, by need, for everything upstream.
+ *
+ *     node ─resolve→ definition + bindings ─implementation for the target→ IR of its outputs
+ *
+ * Nothing recurses on the C stack: requests are frames of an explicit one, so graphs may be as deep as memory allows.
+ */
+#ifndef MXG_BUILD_BUILD_H
+#define MXG_BUILD_BUILD_H
+
+#include "library/library.h"
+#include "shader/shader.h"
+
+/* Which inputs stay variable (design section 6). */
+enum build_interface { INTERFACE_COMPLETE, INTERFACE_AUTHORED, INTERFACE_REDUCED };
+
+struct build_options {
+    const str_id *targets; /* MaterialX names of the target and those it inherits: "essl", "genglsl" */
+    unsigned num_targets;
+    enum build_interface interface;
+    const char *const *uniform_globs, *const *constant_globs; /* element paths that stay variable, or do not */
+    unsigned num_uniform_globs, num_constant_globs;
+    str_id colorspace;     /* working space: "lin_rec709" */
+    str_id distance_unit, angle_unit;
+    bool strings;          /* the target has strings at run time */
+    bool neutral_names;    /* uniforms are named by number */
+    int environment;       /* values of option_environment… */
+    int texture_modes;
+    bool (*cancel)(void *user_data);
+    void *cancel_user_data;
+};
+
+struct builder;
+
+/* Everything that `build` makes lives in the shader's arena. `lib` is the document's layer. */
+struct builder *build_start(const struct library *lib, const struct build_options *options, struct shader *shader,
+                            struct diag_list *diags);
+
+/*
+ * The value of an element: output `output` of a material, shader or other node, or an <output>. The type tells what it is. 0 after an
+ * error. Inputs of the element itself (for materials: of its shaders) are the shader's interface.
+ */
+ir_ref build_element(struct builder *builder, elem_id element, unsigned output);
+
+/* True where the work stopped because of builder->options->cancel. */
+bool build_cancelled(const struct builder *builder);
+
+/* How functions' globals become IR: for lang_lower_call by the closure room. */
+const struct lang_host *build_lang_host(struct builder *builder);
+
+/* The family behind a LEAF node's callee. */
+const struct family *build_leaf_family(struct builder *builder, uint32_t callee);
+
+/* Whether a path matches: '*' is any run without '/', '**' any run, '?' one character but '/'. */
+bool build_glob_matches(const char *glob, const char *path);
+
+/* A light shader's implementation function for the target; LIBRARY_NONE. */
+uint32_t build_light_function(struct builder *builder, uint32_t nodedef);
+
+#endif

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+/* Shared by the files of this room. */
+#ifndef MXG_BUILD_BUILD_PRIV_H
+#define MXG_BUILD_BUILD_PRIV_H
+
+#include "build/build.h"
+
+/* A scope whose nodes are being built: the document, or one use of a functional graph. */
+struct instance {
+    struct instance *parent;
+    elem_id graph;         /* the nodegraph; 0: the document itself */
+    elem_id first;         /* elements [first, first + num_slots) belong to it */
+    uint32_t num_slots;
+    uint32_t *slots;       /* per element: enum slot_state or SLOT_RESULTS + index of its first result */
+    uint32_t nodedef;      /* what the graph implements */
+    const ir_ref *args;    /* one per input of the definition; 0: an absent closure */
+    uint32_t origin;
+    elem_id node;          /* the node that uses it */
+    uint32_t depth;
+};
+
+enum slot_state { SLOT_EMPTY, SLOT_BUSY, SLOT_ERROR, SLOT_RESULTS };
+
+struct frame {
+    struct instance *scope;
+    struct instance *inner;  /* of a node that is a graph */
+    struct graph_node node;
+    const struct binding *bindings;
+    const struct implementation *impl;
+    uint32_t next;           /* next input or output to ask for */
+    uint8_t phase;           /* enum frame_phase */
+    ir_ref *args;
+    uint32_t memo_key;
+};
+
+/* Results of functional graphs by definition and arguments: equal uses are built once. */
+struct memo {
+    uint32_t hash, impl;
+    const ir_ref *args;
+    uint32_t num_args;
+    uint32_t first_result;
+};
+
+struct builder {
+    const struct library *lib;
+    const struct build_options *options;
+    struct shader *shader;
+    struct ir_graph *graph;
+    struct arena *arena;
+    struct diag_list *diags;
+    struct lang_host host;
+    struct instance *document;
+    VEC(struct frame) frames;
+    VEC(ir_ref) results;
+    struct resolve_out resolved;
+    VEC(elem_id) public_nodes;  /* nodes whose own inputs are the shader's interface */
+    VEC(struct memo) memos;
+    uint32_t *memo_table;
+    uint32_t memo_mask;
+    VEC(ir_ref) geomprops;      /* value per geomprop name, in pairs (name, ref) */
+    bool cancelled;
+};
+
+static inline const char *build_text(const struct builder *b, str_id id)
+{
+    return str_text(b->shader->strings, id);
+}
+
+enum { BUILD_MAX_OUTPUTS = 64 };
+
+/* demand.c: asks for a node's results; afterwards its slot is SLOT_ERROR or holds results. */
+void build_demand(struct builder *b, struct instance *scope, elem_id node);
+/* Output `output` of a node that was asked for; POISON of `type` after an error. */
+ir_ref build_result(struct builder *b, struct instance *scope, elem_id node, unsigned output, doc_type type);
+
+/*
+ * Applies a definition to arguments, outside of any document graph: geometric properties, colour transforms. `where` is the element that
+ * needs it, for messages. Writes one ref per output; poison after an error.
+ */
+void build_apply(struct builder *b, uint32_t nodedef, elem_id where, const ir_ref *args, ir_ref *results);
+
+/* input.c */
+
+/* The value of a binding whose node, if it has one, was asked for. `node` owns the input. */
+ir_ref build_input(struct builder *b, struct instance *scope, elem_id node, const struct port *port,
+                   const struct binding *binding);
+/* What an input is when nothing is said: default value, geometric property, or nothing (0 for closures). */
+ir_ref build_default(struct builder *b, const struct port *port, struct diag_place place);
+/* A constant from text; poison and a diagnostic where it does not parse. */
+ir_ref build_constant(struct builder *b, doc_type type, str_id text, const struct port *port, struct diag_place place);
+/* The value of a geometric property by name: defaultgeomprop. */
+ir_ref build_geomprop(struct builder *b, str_id name, doc_type type, struct diag_place place);
+/* The path of an input: "SR_gold/base_color". */
+str_id build_input_path(struct builder *b, elem_id node, str_id input, elem_id element);
+
+/* color.c: from `space` to the working space, by the library's transform nodes; value of a color3 or color4. */
+ir_ref build_color_transform(struct builder *b, ir_ref value, doc_type type, str_id space, struct diag_place place);
+/* The colour space that is said for an element, itself or around; 0: none, or the working one. */
+str_id build_colorspace(struct builder *b, elem_id element);
+
+/* unit.c: a value given in `unit`, in the target's unit; nothing changes without a unit. */
+ir_ref build_unit_conversion(struct builder *b, ir_ref value, elem_id element, const struct port *port);
+
+/* node.c: results of a node from its arguments, except graphs. Writes one ref per output. */
+void build_node(struct builder *b, const struct frame *frame, ir_ref *results);
+/* The implementation of a definition for the target; NULL after a diagnostic. */
+const struct implementation *build_choose(struct builder *b, uint32_t nodedef, elem_id node);
+/* Calls an expression or function implementation. */
+void build_call(struct builder *b, const struct implementation *impl, const ir_ref *args, ir_ref *results);
+
+/* dynamic.c: nodes that C code builds; false: there is none for the definition. */
+bool build_dynamic(struct builder *b, const struct frame *frame, ir_ref *results);
+
+#endif

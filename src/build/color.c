@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * Colour spaces and units of literals. A transform is a node of the library (cmlib), `<space>_to_<working space>`; the set of
+ * known spaces is thus the library's.
+ */
+#include "build/build_priv.h"
+
+str_id build_colorspace(struct builder *b, elem_id element)
+{
+    str_id space = doc_inherited_attr(&b->lib->doc, element, STR_colorspace);
+    return space == STR_none || space == b->options->colorspace ? 0 : space;
+}
+
+/* "lin_rec709, srgb_texture, …": what the library can convert to the working space. */
+static const char *known_spaces(struct builder *b)
+{
+    const char *work = build_text(b, b->options->colorspace);
+    struct text out;
+    text_init(&out, b->arena);
+    text_str(&out, work);
+    size_t work_len = strlen(work);
+    for (const struct library *lib = b->lib; lib; lib = lib->base)
+        for (uint32_t i = 0; i < lib->nodedefs.len; i++) {
+            const char *name = build_text(b, lib->nodedefs.items[i].node);
+            const char *to = strstr(name, "_to_");
+            bool again = i > 0 && lib->nodedefs.items[i - 1].node == lib->nodedefs.items[i].node;
+            if (!to || again || strlen(to + 4) != work_len || strcmp(to + 4, work) != 0)
+                continue;
+            text_fmt(&out, ", %.*s", (int)(to - name), name);
+        }
+    return text_cstr(&out);
+}
+
+ir_ref build_color_transform(struct builder *b, ir_ref value, doc_type type, str_id space, struct diag_place place)
+{
+    struct text name;
+    text_init(&name, b->arena);
+    text_fmt(&name, "ND_%s_to_%s_%s", build_text(b, space), build_text(b, b->options->colorspace),
+             build_text(b, library_type_name(b->lib, type)));
+    str_id id = str_find(b->shader->strings, name.data, name.len);
+    uint32_t nodedef = id ? library_nodedef_by_name(b->lib, id) : LIBRARY_NONE;
+    if (nodedef == LIBRARY_NONE) {
+        diag_add(b->diags, DIAG_ID_unknown_colorspace, place, build_text(b, space), known_spaces(b));
+        return ir_poison(b->graph, ir_type_of(b->graph, value));
+    }
+    ir_ref args[1] = {value};
+    ir_ref results[BUILD_MAX_OUTPUTS];
+    build_apply(b, nodedef, b->document->node, args, results);
+    return results[0];
+}
+
+/* ---- units ---- */
+
+/* The scale of a unit of a type, to the type's base unit, from <unitdef> elements; false: unknown. */
+static bool unit_scale(const struct builder *b, str_id type, str_id unit, float *out_scale)
+{
+    for (const struct library *lib = b->lib; lib; lib = lib->base) {
+        const struct document *doc = &lib->doc;
+        for (elem_id e = doc_element(doc, doc->root)->first_child; e; e = doc_element(doc, e)->next) {
+            if (doc_element(doc, e)->kind != KIND_UNITDEF || (type && doc_attr_value(doc, e, STR_unittype) != type))
+                continue;
+            elem_id found = doc_child_of_kind(doc, e, KIND_UNIT, unit);
+            str_id scale = found ? doc_attr_value(doc, found, STR_scale) : 0;
+            struct ir_value value;
+            if (!scale || !doc_parse_value(DOC_TYPE_float, build_text(b, scale), str_len(&b->lib->strings, scale), NULL, &value))
+                continue;
+            *out_scale = value.w[0].f;
+            return true;
+        }
+    }
+    return false;
+}
+
+ir_ref build_unit_conversion(struct builder *b, ir_ref value, elem_id element, const struct port *port)
+{
+    const struct document *doc = &b->lib->doc;
+    str_id unit = doc_attr_value(doc, element, STR_unit);
+    if (!unit || !ir_type_is_float(ir_type_of(b->graph, value)))
+        return value;
+    str_id type = doc_attr_value(doc, element, STR_unittype);
+    if (!type)
+        type = doc_attr_value(doc, port->element, STR_unittype);
+    /* What the definition works in, else the option's unit (specification, "Units"). */
+    str_id target = doc_attr_value(doc, port->element, STR_unit);
+    if (!target)
+        target = type == STR_angle ? b->options->angle_unit : b->options->distance_unit;
+    float from, to;
+    if (!unit_scale(b, type, unit, &from) || !unit_scale(b, type, target, &to)) {
+        diag_add(b->diags, DIAG_ID_unknown_unit, doc_attr_place(doc, element, STR_unit), build_text(b, unit), "");
+        return value;
+    }
+    return from == to ? value : ir_op2(b->graph, IR_MUL, value, ir_const_float(b->graph, from / to));
+}

@@ -1,0 +1,379 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * The machine that asks: each frame is a node whose inputs are being asked for. A node is built once per scope; a graph used twice
+ * with equal arguments is built once.
+ */
+#include "build/build_priv.h"
+
+#include "base/hash.h"
+
+enum { MAX_DEFINITION_DEPTH = 200 };
+
+enum frame_phase { PHASE_INPUTS, PHASE_OUTPUTS };
+
+static uint32_t *slot_of(struct instance *scope, elem_id node)
+{
+    return &scope->slots[node - scope->first];
+}
+
+ir_ref build_result(struct builder *b, struct instance *scope, elem_id node, unsigned output, doc_type type)
+{
+    uint32_t slot = *slot_of(scope, node);
+    if (slot < SLOT_RESULTS)
+        return ir_poison(b->graph, library_type_ir(b->lib, type));
+    return b->results.items[slot - SLOT_RESULTS + output];
+}
+
+static const struct document *doc_of(const struct builder *b)
+{
+    return &b->lib->doc;
+}
+
+static const char *name_of(const struct builder *b, elem_id element)
+{
+    return build_text(b, doc_element(doc_of(b), element)->name);
+}
+
+/* "a -> b -> a": from the frame that asked first for the node to the one that asks again. */
+static void report_cycle(struct builder *b, const struct instance *scope, elem_id node)
+{
+    struct text path;
+    text_init(&path, b->arena);
+    uint32_t first = b->frames.len;
+    while (first > 0 && !(b->frames.items[first - 1].scope == scope && b->frames.items[first - 1].node.element == node))
+        first--;
+    uint32_t shown = 0;
+    for (uint32_t i = first ? first - 1 : 0; i < b->frames.len && shown < 64; i++)
+        if (b->frames.items[i].scope == scope) {
+            text_fmt(&path, "%s -> ", name_of(b, b->frames.items[i].node.element));
+            shown++;
+        }
+    text_str(&path, shown == 64 ? "…" : name_of(b, node));
+    diag_add(b->diags, DIAG_ID_cycle, doc_place(doc_of(b), node), text_cstr(&path));
+}
+
+static bool is_recursive(const struct instance *scope, elem_id graph)
+{
+    for (; scope; scope = scope->parent)
+        if (scope->graph == graph)
+            return true;
+    return false;
+}
+
+static void report_recursion(struct builder *b, const struct instance *scope, elem_id graph, elem_id node)
+{
+    struct text path;
+    text_init(&path, b->arena);
+    text_str(&path, name_of(b, graph));
+    for (const struct instance *s = scope; s && s->graph; s = s->parent) {
+        text_fmt(&path, " <- %s", name_of(b, s->graph));
+        if (s->graph == graph)
+            break;
+    }
+    diag_add(b->diags, DIAG_ID_recursive_definition, doc_place(doc_of(b), node), name_of(b, graph), text_cstr(&path));
+}
+
+static uint32_t hash_args(uint32_t impl, const ir_ref *args, uint32_t n)
+{
+    uint64_t h = hash_mix(0, impl);
+    for (uint32_t i = 0; i < n; i++)
+        h = hash_mix(h, args[i]);
+    return (uint32_t)(h ^ (h >> 32));
+}
+
+static void grow_memos(struct builder *b)
+{
+    uint32_t slots = b->memo_table ? (b->memo_mask + 1) * 2 : 32;
+    b->memo_table = ARENA_ARRAY(b->arena, uint32_t, slots);
+    b->memo_mask = slots - 1;
+    for (uint32_t i = 0; i < b->memos.len; i++) {
+        uint32_t slot = b->memos.items[i].hash & b->memo_mask;
+        while (b->memo_table[slot])
+            slot = (slot + 1) & b->memo_mask;
+        b->memo_table[slot] = i + 1;
+    }
+}
+
+/* The memo of a graph used with these arguments, made when it is new: then its first_result is 0. */
+static struct memo *find_memo(struct builder *b, uint32_t impl, const ir_ref *args, uint32_t n)
+{
+    if (!b->memo_table || b->memos.len * 2 > b->memo_mask)
+        grow_memos(b);
+    uint32_t hash = hash_args(impl, args, n);
+    uint32_t slot = hash & b->memo_mask;
+    for (; b->memo_table[slot]; slot = (slot + 1) & b->memo_mask) {
+        struct memo *m = &b->memos.items[b->memo_table[slot] - 1];
+        if (m->hash == hash && m->impl == impl && (n == 0 || memcmp(m->args, args, n * sizeof *args) == 0))
+            return m;
+    }
+    vec_push(b->arena, &b->memos, (struct memo){.hash = hash, .impl = impl, .args = args, .num_args = n});
+    b->memo_table[slot] = b->memos.len;
+    return &vec_last(&b->memos);
+}
+
+static struct instance *new_instance(struct builder *b, struct instance *parent, elem_id graph)
+{
+    struct instance *inner = ARENA_NEW(b->arena, struct instance);
+    inner->parent = parent;
+    inner->graph = graph;
+    inner->depth = parent->depth + 1;
+    elem_id low = UINT32_MAX, high = 0;
+    for (elem_id e = doc_element(doc_of(b), graph)->first_child; e; e = doc_element(doc_of(b), e)->next) {
+        low = e < low ? e : low;
+        high = e > high ? e : high;
+    }
+    inner->first = low;
+    inner->num_slots = high >= low ? high - low + 1 : 0;
+    inner->slots = ARENA_ARRAY(b->arena, uint32_t, inner->num_slots);
+    return inner;
+}
+
+/* Finds definition and bindings, from the library's own tables or now. */
+static void resolve(struct builder *b, struct frame *frame, elem_id node)
+{
+    const struct library *layer;
+    uint32_t own = library_element_info(b->lib, node, &layer);
+    if (own != LIBRARY_NONE && own < layer->graph_nodes.len && layer->graph_nodes.items[own].element == node) {
+        frame->node = layer->graph_nodes.items[own];
+        frame->bindings = layer->bindings.items + frame->node.first_binding;
+        return;
+    }
+    /* Bindings move when the vector grows: each frame keeps its own copy. */
+    uint32_t before = b->resolved.bindings.len;
+    frame->node = library_resolve_node(b->lib, node, &b->resolved, b->diags);
+    uint32_t n = b->resolved.bindings.len - before;
+    struct binding *copy = ARENA_ARRAY(b->arena, struct binding, n);
+    if (n)
+        memcpy(copy, b->resolved.bindings.items + before, n * sizeof *copy);
+    b->resolved.bindings.len = before;
+    frame->bindings = copy;
+}
+
+static void push(struct builder *b, struct instance *scope, elem_id node)
+{
+    uint32_t *slot = slot_of(scope, node);
+    if (*slot == SLOT_BUSY) {
+        report_cycle(b, scope, node);
+        *slot = SLOT_ERROR;
+    }
+    if (*slot != SLOT_EMPTY)
+        return;
+    struct frame frame = {.scope = scope};
+    resolve(b, &frame, node);
+    if (frame.node.nodedef != LIBRARY_NONE)
+        frame.impl = build_choose(b, frame.node.nodedef, node);
+    if (!frame.impl) {
+        *slot = SLOT_ERROR;
+        return;
+    }
+    *slot = SLOT_BUSY;
+    vec_push(b->arena, &b->frames, frame);
+}
+
+static void finish(struct builder *b, uint32_t first_result)
+{
+    struct frame *frame = &vec_last(&b->frames);
+    uint32_t *slot = slot_of(frame->scope, frame->node.element);
+    if (*slot == SLOT_BUSY)
+        *slot = SLOT_RESULTS + first_result;
+    b->frames.len--;
+}
+
+static uint32_t add_results(struct builder *b, const ir_ref *results, uint32_t n)
+{
+    uint32_t first = b->results.len;
+    memcpy(vec_extend(b->arena, &b->results, n), results, n * sizeof *results);
+    return first;
+}
+
+static void build_args(struct builder *b, struct frame *frame)
+{
+    const struct nodedef *def = library_nodedef(b->lib, frame->node.nodedef);
+    const struct port *ports = library_ports(b->lib, frame->node.nodedef, NULL);
+    frame->args = ARENA_ARRAY(b->arena, ir_ref, def->num_inputs);
+    for (uint32_t i = 0; i < def->num_inputs; i++)
+        frame->args[i] = build_input(b, frame->scope, frame->node.element, &ports[i], &frame->bindings[i]);
+}
+
+/* Image nodes read a file that is given in a colour space: what they return is converted (specification, "Color Spaces"). */
+static void convert_colors(struct builder *b, const struct frame *frame, ir_ref *results)
+{
+    const struct nodedef *def = library_nodedef(b->lib, frame->node.nodedef);
+    const struct port *ports = library_ports(b->lib, frame->node.nodedef, NULL);
+    for (uint32_t i = 0; i < def->num_inputs; i++) {
+        if (ports[i].type != DOC_TYPE_filename || frame->bindings[i].kind != BIND_VALUE)
+            continue;
+        str_id space = build_colorspace(b, frame->bindings[i].element);
+        for (uint32_t o = 0; space && o < def->num_outputs; o++) {
+            doc_type type = ports[def->num_inputs + o].type;
+            if (type == DOC_TYPE_color3 || type == DOC_TYPE_color4)
+                results[o] = build_color_transform(b, results[o], type, space,
+                                                   doc_attr_place(doc_of(b), frame->bindings[i].element, STR_colorspace));
+        }
+        return;
+    }
+}
+
+static void enter_graph(struct builder *b, struct frame *frame)
+{
+    const struct nodedef *def = library_nodedef(b->lib, frame->node.nodedef);
+    elem_id graph = frame->impl->ref;
+    if (is_recursive(frame->scope, graph) || frame->scope->depth >= MAX_DEFINITION_DEPTH) {
+        if (frame->scope->depth >= MAX_DEFINITION_DEPTH)
+            diag_add(b->diags, DIAG_ID_graph_depth, doc_place(doc_of(b), frame->node.element), MAX_DEFINITION_DEPTH);
+        else
+            report_recursion(b, frame->scope, graph, frame->node.element);
+        *slot_of(frame->scope, frame->node.element) = SLOT_ERROR;
+        b->frames.len--;
+        return;
+    }
+    struct memo *memo = find_memo(b, frame->impl->ref, frame->args, def->num_inputs);
+    if (memo->first_result) {
+        finish(b, memo->first_result - 1);
+        return;
+    }
+    frame->memo_key = (uint32_t)(memo - b->memos.items);
+    frame->inner = new_instance(b, frame->scope, graph);
+    frame->inner->nodedef = frame->node.nodedef;
+    frame->inner->args = frame->args;
+    frame->inner->node = frame->node.element;
+    frame->inner->origin = b->graph->origin;
+    frame->phase = PHASE_OUTPUTS;
+    frame->next = 0;
+}
+
+static void set_origin(struct builder *b, const struct frame *frame)
+{
+    b->graph->origin = ir_add_origin(b->graph, doc_element(doc_of(b), frame->node.element)->name, frame->node.element,
+                                     frame->scope->origin);
+}
+
+static void step_inputs(struct builder *b)
+{
+    struct frame *frame = &vec_last(&b->frames);
+    const struct nodedef *def = library_nodedef(b->lib, frame->node.nodedef);
+    while (frame->next < def->num_inputs) {
+        const struct binding *binding = &frame->bindings[frame->next++];
+        if (binding->kind == BIND_NODE && *slot_of(frame->scope, binding->ref) <= SLOT_BUSY) {
+            uint32_t before = b->frames.len;
+            push(b, frame->scope, binding->ref);
+            if (b->frames.len > before)
+                return; /* this frame goes on when that one has answered */
+        }
+    }
+    uint32_t before = b->graph->origin;
+    set_origin(b, frame);
+    build_args(b, frame);
+    if (frame->impl->kind == IMPL_GRAPH) {
+        enter_graph(b, frame);
+    } else {
+        ir_ref results[BUILD_MAX_OUTPUTS];
+        build_node(b, frame, results);
+        convert_colors(b, frame, results);
+        finish(b, add_results(b, results, def->num_outputs));
+    }
+    b->graph->origin = before;
+}
+
+/* The <output> of the inner graph that gives output `i` of the definition. */
+static elem_id inner_output(const struct builder *b, const struct frame *frame, uint32_t i)
+{
+    const struct nodedef *def = library_nodedef(b->lib, frame->node.nodedef);
+    const struct port *port = library_ports(b->lib, frame->node.nodedef, NULL) + def->num_inputs + i;
+    return doc_child_of_kind(doc_of(b), frame->inner->graph, KIND_OUTPUT, port->name);
+}
+
+static void leave_graph(struct builder *b)
+{
+    struct frame *frame = &vec_last(&b->frames);
+    const struct nodedef *def = library_nodedef(b->lib, frame->node.nodedef);
+    const struct port *outputs = library_ports(b->lib, frame->node.nodedef, NULL) + def->num_inputs;
+    ir_ref results[BUILD_MAX_OUTPUTS];
+    for (uint32_t i = 0; i < def->num_outputs; i++) {
+        elem_id output = inner_output(b, frame, i);
+        struct binding binding = {.kind = BIND_ERROR};
+        if (output)
+            binding = library_resolve_connection(b->lib, output, outputs[i].type, b->diags);
+        else
+            diag_add(b->diags, DIAG_ID_dangling_output, doc_place(doc_of(b), frame->inner->graph),
+                     name_of(b, frame->inner->graph), build_text(b, outputs[i].name), "");
+        results[i] = build_input(b, frame->inner, frame->inner->graph, &outputs[i], &binding);
+    }
+    convert_colors(b, frame, results);
+    uint32_t first = add_results(b, results, def->num_outputs);
+    b->memos.items[frame->memo_key].first_result = first + 1;
+    finish(b, first);
+}
+
+static void step_outputs(struct builder *b)
+{
+    struct frame *frame = &vec_last(&b->frames);
+    const struct nodedef *def = library_nodedef(b->lib, frame->node.nodedef);
+    struct diag_list ignored; /* faults of the connection are told when the graph is left */
+    diag_list_init(&ignored, b->arena);
+    while (frame->next < def->num_outputs) {
+        elem_id output = inner_output(b, frame, frame->next++);
+        if (!output)
+            continue;
+        struct binding binding = library_resolve_connection(b->lib, output, DOC_TYPE_NONE, &ignored);
+        if (binding.kind == BIND_NODE && *slot_of(frame->inner, binding.ref) == SLOT_EMPTY) {
+            uint32_t before = b->frames.len;
+            push(b, frame->inner, binding.ref);
+            if (b->frames.len > before)
+                return;
+        }
+    }
+    leave_graph(b);
+}
+
+void build_demand(struct builder *b, struct instance *scope, elem_id node)
+{
+    uint32_t bottom = b->frames.len;
+    push(b, scope, node);
+    for (uint32_t steps = 0; b->frames.len > bottom; steps++) {
+        if ((steps & 1023) == 1023 && b->options->cancel && b->options->cancel(b->options->cancel_user_data))
+            b->cancelled = true;
+        if (b->cancelled || b->graph->overflow) {
+            b->frames.len = bottom;
+            return;
+        }
+        if (vec_last(&b->frames).phase == PHASE_INPUTS)
+            step_inputs(b);
+        else
+            step_outputs(b);
+    }
+}
+
+void build_apply(struct builder *b, uint32_t nodedef, elem_id where, const ir_ref *args, ir_ref *results)
+{
+    const struct nodedef *def = library_nodedef(b->lib, nodedef);
+    const struct port *outputs = library_ports(b->lib, nodedef, NULL) + def->num_inputs;
+    struct frame frame = {.node = {.nodedef = nodedef, .element = where}, .args = (ir_ref *)(uintptr_t)args};
+    frame.impl = build_choose(b, nodedef, where);
+    if (frame.impl && frame.impl->kind != IMPL_GRAPH) {
+        build_node(b, &frame, results);
+        return;
+    }
+    for (uint32_t i = 0; i < def->num_outputs; i++)
+        results[i] = ir_poison(b->graph, library_type_ir(b->lib, outputs[i].type));
+    if (!frame.impl)
+        return;
+    struct instance *inner = new_instance(b, b->document, frame.impl->ref);
+    inner->nodedef = nodedef;
+    inner->args = args;
+    inner->origin = b->graph->origin;
+    for (uint32_t i = 0; i < def->num_outputs; i++) {
+        elem_id output = doc_child_of_kind(doc_of(b), inner->graph, KIND_OUTPUT, outputs[i].name);
+        struct binding binding = {.kind = BIND_ERROR};
+        if (output)
+            binding = library_resolve_connection(b->lib, output, outputs[i].type, b->diags);
+        if (binding.kind == BIND_NODE)
+            build_demand(b, inner, binding.ref);
+        results[i] = build_input(b, inner, inner->graph, &outputs[i], &binding);
+    }
+}
+
+bool build_cancelled(const struct builder *b)
+{
+    return b->cancelled;
+}

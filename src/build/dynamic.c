@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * Nodes that C code builds: named streams, and the closure and shader constructors, whose meaning is an operation of the IR.
+ */
+#include "build/build_priv.h"
+
+struct call {
+    struct builder *b;
+    const struct frame *frame;
+    const struct nodedef *def;
+    const struct port *ports;
+    ir_type_id type; /* of the first output */
+};
+
+static ir_ref arg(const struct call *c, str_id name)
+{
+    for (unsigned i = 0; i < c->def->num_inputs; i++)
+        if (c->ports[i].name == name)
+            return c->frame->args[i];
+    return 0;
+}
+
+static ir_ref build_op(const struct call *c, enum ir_op op, const ir_ref *args, unsigned n)
+{
+    return ir_build(c->b->graph, op, c->type, 0, args, n);
+}
+
+/* ---- streams ---- */
+
+static ir_ref not_constant(const struct call *c, str_id input)
+{
+    diag_add(c->b->diags, DIAG_ID_input_must_be_constant, doc_place(&c->b->lib->doc, c->frame->node.element),
+             build_text(c->b, input), build_text(c->b, c->def->node));
+    return ir_poison(c->b->graph, c->type);
+}
+
+static ir_ref named_stream(const struct call *c, const char *prefix, str_id name, uint32_t number, ir_type_id type)
+{
+    struct text full;
+    text_init(&full, c->b->arena);
+    text_str(&full, prefix);
+    if (name)
+        text_str(&full, build_text(c->b, name));
+    else
+        text_u32(&full, number);
+    return shader_stream(c->b->shader, str_intern(c->b->shader->strings, full.data, full.len), type);
+}
+
+/* A stream of more or fewer components than the node's output: cut, or filled with 0. */
+static ir_ref fit_components(const struct call *c, ir_ref value)
+{
+    static const uint8_t first[] = {0, 1, 2, 3};
+    struct ir_graph *g = c->b->graph;
+    unsigned have = ir_type_info(ir_type_of(g, value))->components, want = ir_type_info(c->type)->components;
+    if (want < have)
+        return ir_swizzle(g, value, first, want);
+    if (want == have)
+        return value;
+    ir_ref parts[4] = {value};
+    unsigned n = 1;
+    for (unsigned i = have; i < want; i++)
+        parts[n++] = ir_const_float(g, 0.0f);
+    return ir_construct(g, c->type, parts, n);
+}
+
+static ir_ref indexed_stream(const struct call *c, const char *prefix, ir_type_id type)
+{
+    struct ir_value index;
+    ir_ref value = arg(c, STR_index);
+    if (!ir_get_const(c->b->graph, value, &index) || index.w[0].i < 0)
+        return not_constant(c, STR_index);
+    return fit_components(c, named_stream(c, prefix, 0, (uint32_t)index.w[0].i, type));
+}
+
+static ir_ref build_texcoord(const struct call *c)
+{
+    return indexed_stream(c, "texcoord_", IR_TYPE_VEC2);
+}
+
+static ir_ref build_geomcolor(const struct call *c)
+{
+    return indexed_stream(c, "color_", IR_TYPE_VEC4);
+}
+
+static ir_ref geomprop_uniform(const struct call *c, str_id name)
+{
+    struct text full;
+    text_init(&full, c->b->arena);
+    text_fmt(&full, "u_geomprop_%s", build_text(c->b, name));
+    str_id id = str_intern(c->b->shader->strings, full.data, full.len);
+    uint32_t variable = shader_private_uniform(c->b->shader, id, c->type, 0);
+    return ir_build(c->b->graph, c->type == IR_TYPE_SAMPLER ? IR_TEXTURE : IR_UNIFORM, c->type, variable, NULL, 0);
+}
+
+/* Booleans cannot be interpolated and strings not be streamed: hosts give them per object (as MaterialX 1.39 does). */
+static ir_ref build_geompropvalue(const struct call *c)
+{
+    struct ir_value name;
+    if (!ir_get_const(c->b->graph, arg(c, STR_geomprop), &name))
+        return not_constant(c, STR_geomprop);
+    if (!name.w[0].u)
+        return arg(c, STR_default); /* no property is named */
+    if (c->type == IR_TYPE_STRING)
+        return arg(c, STR_default);
+    if (c->type == IR_TYPE_BOOL || c->type == IR_TYPE_SAMPLER)
+        return geomprop_uniform(c, name.w[0].u);
+    return named_stream(c, "geomprop_", name.w[0].u, 0, c->type);
+}
+
+/* ---- closures; ref 0 is "no closure" and the neutral element of these ---- */
+
+static ir_ref build_layer(const struct call *c)
+{
+    ir_ref args[2] = {arg(c, STR_top), arg(c, STR_base)};
+    if (!args[0] || !args[1])
+        return args[0] ? args[0] : args[1];
+    return build_op(c, IR_LAYER, args, 2);
+}
+
+static ir_ref build_mix(const struct call *c)
+{
+    ir_ref args[3] = {arg(c, STR_bg), arg(c, STR_fg), arg(c, STR_mix)};
+    if (ir_const_is(c->b->graph, args[2], 0.0f) || args[0] == args[1])
+        return args[0];
+    if (ir_const_is(c->b->graph, args[2], 1.0f))
+        return args[1];
+    return build_op(c, ir_type_is_closure(c->type) ? IR_CLOSURE_MIX : IR_SHADER_MIX, args, 3);
+}
+
+static ir_ref build_add(const struct call *c)
+{
+    ir_ref args[2] = {arg(c, STR_in1), arg(c, STR_in2)};
+    if (!args[0] || !args[1])
+        return args[0] ? args[0] : args[1];
+    return build_op(c, IR_CLOSURE_ADD, args, 2);
+}
+
+static ir_ref build_multiply(const struct call *c)
+{
+    ir_ref args[2] = {arg(c, STR_in1), arg(c, STR_in2)};
+    if (!args[0] || ir_const_is(c->b->graph, args[1], 1.0f))
+        return args[0];
+    return build_op(c, IR_CLOSURE_SCALE, args, 2);
+}
+
+/* ---- shaders ---- */
+
+static ir_ref build_surface(const struct call *c)
+{
+    ir_ref args[4] = {arg(c, STR_bsdf), arg(c, STR_edf), arg(c, STR_opacity), arg(c, STR_thin_walled)};
+    return build_op(c, IR_SURFACE_SHADER, args, 4);
+}
+
+static ir_ref build_surface_unlit(const struct call *c)
+{
+    struct ir_graph *g = c->b->graph;
+    ir_ref args[3] = {ir_op2(g, IR_MUL, arg(c, STR_emission_color), arg(c, STR_emission)),
+                      ir_op2(g, IR_MUL, arg(c, STR_transmission_color), arg(c, STR_transmission)), arg(c, STR_opacity)};
+    return build_op(c, IR_SURFACE_UNLIT, args, 3);
+}
+
+static ir_ref build_volume(const struct call *c)
+{
+    ir_ref args[2] = {arg(c, STR_vdf), arg(c, STR_edf)};
+    return build_op(c, IR_VOLUME_SHADER, args, 2);
+}
+
+static ir_ref build_light(const struct call *c)
+{
+    ir_ref args[3] = {arg(c, STR_edf), arg(c, STR_intensity), arg(c, STR_exposure)};
+    return build_op(c, IR_LIGHT_SHADER, args, 3);
+}
+
+static ir_ref build_displacement(const struct call *c)
+{
+    ir_ref args[2] = {arg(c, STR_displacement), arg(c, STR_scale)};
+    return build_op(c, IR_DISPLACEMENT_SHADER, args, 2);
+}
+
+static ir_ref build_surfacematerial(const struct call *c)
+{
+    ir_ref args[4] = {arg(c, STR_surfaceshader), arg(c, STR_backsurfaceshader), arg(c, STR_displacementshader), 0};
+    return build_op(c, IR_MATERIAL, args, 4);
+}
+
+static ir_ref build_volumematerial(const struct call *c)
+{
+    ir_ref args[4] = {0, 0, 0, arg(c, STR_volumeshader)};
+    return build_op(c, IR_MATERIAL, args, 4);
+}
+
+static const struct {
+    str_id node;
+    ir_ref (*build)(const struct call *call);
+} dynamic_nodes[] = {
+    {STR_texcoord, build_texcoord},
+    {STR_geomcolor, build_geomcolor},
+    {STR_geompropvalue, build_geompropvalue},
+    {STR_geompropvalueuniform, build_geompropvalue},
+    {STR_layer, build_layer},
+    {STR_mix, build_mix},
+    {STR_add, build_add},
+    {STR_multiply, build_multiply},
+    {STR_surface, build_surface},
+    {STR_surface_unlit, build_surface_unlit},
+    {STR_volume, build_volume},
+    {STR_light, build_light},
+    {STR_displacement, build_displacement},
+    {STR_surfacematerial, build_surfacematerial},
+    {STR_volumematerial, build_volumematerial},
+};
+
+bool build_dynamic(struct builder *b, const struct frame *frame, ir_ref *results)
+{
+    struct call call = {b, frame, library_nodedef(b->lib, frame->node.nodedef),
+                        library_ports(b->lib, frame->node.nodedef, NULL), IR_TYPE_VOID};
+    call.type = library_type_ir(b->lib, call.ports[call.def->num_inputs].type);
+    for (size_t i = 0; i < sizeof dynamic_nodes / sizeof *dynamic_nodes; i++)
+        if (dynamic_nodes[i].node == call.def->node) {
+            results[0] = dynamic_nodes[i].build(&call);
+            return true;
+        }
+    return false;
+}

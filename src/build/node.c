@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: Apache-2.0
+/* From a node's arguments to its results, by the implementation for the target. */
+#include "build/build_priv.h"
+
+/* ---- choosing ---- */
+
+/* 0: not for this target; more is nearer: own target before inherited ones before portable. */
+static unsigned fitness(const struct builder *b, const struct implementation *impl)
+{
+    if (!impl->target)
+        return 1;
+    for (unsigned i = 0; i < b->options->num_targets; i++)
+        if (b->options->targets[i] == impl->target)
+            return 2 + b->options->num_targets - i;
+    return 0;
+}
+
+static void consider(const struct builder *b, const struct implementation *impl, const struct implementation **best,
+                     unsigned *best_fitness)
+{
+    unsigned f = fitness(b, impl);
+    if (f > *best_fitness) {
+        *best = impl;
+        *best_fitness = f;
+    }
+}
+
+static const struct implementation *best_of(const struct builder *b, uint32_t nodedef)
+{
+    const struct implementation *best = NULL;
+    unsigned best_fitness = 0;
+    /* Higher layers first: a document's implementation wins over the library's of equal fitness. */
+    for (const struct library *layer = b->lib; layer; layer = layer->base) {
+        for (uint32_t i = 0; nodedef < layer->base_nodedefs && i < layer->overrides.len; i++) {
+            const struct implementation *impl = &layer->impls.items[layer->overrides.items[i]];
+            if (impl->nodedef == nodedef)
+                consider(b, impl, &best, &best_fitness);
+        }
+    }
+    for (uint32_t i = library_nodedef(b->lib, nodedef)->first_impl; i != LIBRARY_NONE;) {
+        const struct implementation *impl = library_impl(b->lib, i, NULL);
+        consider(b, impl, &best, &best_fitness);
+        i = impl->next;
+    }
+    return best;
+}
+
+static void tell_deferred(struct builder *b, const struct implementation *impl)
+{
+    const struct library *layer = library_of_element(b->lib, impl->element);
+    for (uint32_t i = 0; i < impl->count; i++) {
+        const struct diag *d = &layer->deferred->items.items[impl->ref + i];
+        diag_repeat(b->diags, d);
+    }
+}
+
+const struct implementation *build_choose(struct builder *b, uint32_t nodedef, elem_id node)
+{
+    const struct implementation *impl = best_of(b, nodedef);
+    if (impl && impl->kind == IMPL_BROKEN) {
+        tell_deferred(b, impl);
+        return NULL;
+    }
+    if (!impl) {
+        const struct nodedef *def = library_nodedef(b->lib, nodedef);
+        diag_add(b->diags, DIAG_ID_missing_implementation, doc_place(&b->lib->doc, node), build_text(b, def->name),
+                 b->options->num_targets ? build_text(b, b->options->targets[0]) : "", "");
+        diag_add(b->diags, DIAG_ID_defined_here, doc_place(&b->lib->doc, def->element), build_text(b, def->name));
+    }
+    return impl;
+}
+
+/* ---- building ---- */
+
+static void call_expressions(struct builder *b, const struct implementation *impl, const ir_ref *args, ir_ref *results)
+{
+    const struct library *layer = library_of_element(b->lib, impl->element);
+    for (uint32_t i = 0; i < impl->count; i++)
+        lang_lower_call(b->shader->unit, b->graph, &b->host, layer->refs.items[impl->ref + i], args, &results[i]);
+}
+
+/*
+ * Weight first where the definition has one (else 1), then the inputs in order without closures, then the base of a modifier. So equal
+ * lobes under different weights differ in the first operand only.
+ */
+static void build_leaf(struct builder *b, const struct implementation *impl, const ir_ref *args, ir_ref *results)
+{
+    const struct family *family = library_family(b->lib, impl->ref);
+    const struct nodedef *def = library_nodedef(b->lib, impl->nodedef);
+    const struct port *ports = library_ports(b->lib, impl->nodedef, NULL);
+    ir_ref operands[256], base = 0;
+    unsigned n = 1;
+    operands[0] = ir_const_float(b->graph, 1.0f);
+    for (unsigned i = 0; i < def->num_inputs; i++) {
+        if (ir_type_is_closure(library_type_ir(b->lib, ports[i].type)))
+            base = args[i];
+        else if (ports[i].name == STR_weight)
+            operands[0] = args[i];
+        else
+            operands[n++] = args[i];
+    }
+    if (family->functions[FAMILY_FACTOR] != LANG_NONE) {
+        if (!base) {
+            results[0] = 0;
+            return;
+        }
+        operands[n++] = base;
+    }
+    uint32_t callee = ir_add_callee(b->graph, (struct ir_callee){.id = (uint64_t)1 << 32 | impl->ref, .name = family->name});
+    ir_type_id type = library_type_ir(b->lib, ports[def->num_inputs].type);
+    results[0] = ir_const_is(b->graph, operands[0], 0.0f) ? 0 : ir_build(b->graph, IR_LEAF, type, callee, operands, n);
+}
+
+const struct family *build_leaf_family(struct builder *b, uint32_t callee)
+{
+    return library_family(b->lib, (uint32_t)b->graph->callees.items[callee].id);
+}
+
+/* "{{in1}}" becomes "{{0}}": the shader's verbatim expressions know operands by number. */
+static str_id number_inputs(struct builder *b, const struct nodedef *def, const struct port *ports, str_id source)
+{
+    struct text out;
+    text_init(&out, b->arena);
+    for (const char *p = build_text(b, source); *p;) {
+        const char *end = p[0] == '{' && p[1] == '{' ? strstr(p, "}}") : NULL;
+        str_id name = end ? str_find(b->shader->strings, p + 2, (size_t)(end - p - 2)) : 0;
+        int index = -1;
+        for (int i = 0; name && i < def->num_inputs; i++)
+            index = ports[i].name == name ? i : index;
+        if (index < 0) {
+            text_char(&out, *p++);
+            continue;
+        }
+        text_fmt(&out, "{{%d}}", index);
+        p = end + 2;
+    }
+    return str_intern(b->shader->strings, out.data, out.len);
+}
+
+static uint32_t verbatim_of(struct builder *b, const struct implementation *impl, const struct port *outputs, unsigned num_outputs)
+{
+    const struct verbatim *source = library_verbatim(b->lib, impl->ref);
+    struct shader_verbatim v = {.first_result = b->shader->result_types.len};
+    if (source->function) {
+        v.source = source->source;
+        v.function = source->function;
+        v.num_results = num_outputs;
+        for (unsigned i = 0; i < num_outputs; i++)
+            vec_push(b->arena, &b->shader->result_types, library_type_ir(b->lib, outputs[i].type));
+    } else {
+        const struct port *ports = library_ports(b->lib, impl->nodedef, NULL);
+        v.expression = number_inputs(b, library_nodedef(b->lib, impl->nodedef), ports, source->source);
+    }
+    for (uint32_t i = 0; i < b->shader->verbatim.len; i++) {
+        const struct shader_verbatim *have = &b->shader->verbatim.items[i];
+        if (have->source == v.source && have->function == v.function && have->expression == v.expression)
+            return i;
+    }
+    vec_push(b->arena, &b->shader->verbatim, v);
+    return b->shader->verbatim.len - 1;
+}
+
+static void call_verbatim(struct builder *b, const struct implementation *impl, const ir_ref *args, ir_ref *results)
+{
+    const struct nodedef *def = library_nodedef(b->lib, impl->nodedef);
+    const struct port *outputs = library_ports(b->lib, impl->nodedef, NULL) + def->num_inputs;
+    uint32_t index = verbatim_of(b, impl, outputs, def->num_outputs);
+    bool function = b->shader->verbatim.items[index].function != 0;
+    uint32_t callee = ir_add_callee(b->graph, (struct ir_callee){.id = SHADER_VERBATIM_ID(index), .name = def->name});
+    ir_type_id type = function ? IR_TYPE_VOID : library_type_ir(b->lib, outputs[0].type);
+    ir_ref call = ir_build(b->graph, IR_VERBATIM, type, callee, args, def->num_inputs);
+    for (uint32_t i = 0; i < def->num_outputs; i++)
+        results[i] = function ? ir_build(b->graph, IR_RESULT, library_type_ir(b->lib, outputs[i].type), i + 1, &call, 1) : call;
+}
+
+static str_id string_arg(const struct builder *b, ir_ref arg)
+{
+    struct ir_value value;
+    return arg && ir_get_const(b->graph, arg, &value) && value.type == IR_TYPE_STRING ? value.w[0].u : 0;
+}
+
+/* Hosts make samplers: they are told the address and filter modes of the node that reads the texture. */
+static void note_sampler_modes(struct builder *b, const struct nodedef *def, const struct port *ports, const ir_ref *args)
+{
+    struct shader_variable *texture = NULL;
+    for (uint32_t i = 0; i < def->num_inputs && !texture; i++)
+        if (ports[i].type == DOC_TYPE_filename && args[i] && ir_get(b->graph, args[i])->op == IR_TEXTURE)
+            texture = &b->shader->variables.items[ir_get(b->graph, args[i])->attr];
+    for (uint32_t i = 0; texture && i < def->num_inputs; i++) {
+        str_id value = ports[i].type == DOC_TYPE_string ? string_arg(b, args[i]) : 0;
+        if (!value)
+            continue;
+        const char *name = build_text(b, ports[i].name);
+        str_id *mode = strcmp(name, "uaddressmode") == 0   ? &texture->uaddressmode
+                       : strcmp(name, "vaddressmode") == 0 ? &texture->vaddressmode
+                       : strcmp(name, "filtertype") == 0   ? &texture->filtertype
+                                                           : NULL;
+        if (mode)
+            *mode = value;
+    }
+}
+
+void build_node(struct builder *b, const struct frame *frame, ir_ref *results)
+{
+    const struct implementation *impl = frame->impl;
+    const struct nodedef *def = library_nodedef(b->lib, frame->node.nodedef);
+    const struct port *ports = library_ports(b->lib, frame->node.nodedef, NULL);
+    switch ((enum impl_kind)impl->kind) {
+    case IMPL_EXPRESSION:
+        note_sampler_modes(b, def, ports, frame->args);
+        call_expressions(b, impl, frame->args, results);
+        return;
+    case IMPL_FUNCTION:
+        note_sampler_modes(b, def, ports, frame->args);
+        lang_lower_call(b->shader->unit, b->graph, &b->host, impl->ref, frame->args, results);
+        return;
+    case IMPL_FAMILY:
+        build_leaf(b, impl, frame->args, results);
+        return;
+    case IMPL_VERBATIM:
+        call_verbatim(b, impl, frame->args, results);
+        return;
+    case IMPL_DYNAMIC:
+        if (build_dynamic(b, frame, results))
+            return;
+        diag_add(b->diags, DIAG_ID_missing_dynamic, doc_place(&b->lib->doc, impl->element), build_text(b, impl->name),
+                 build_text(b, def->node));
+        break;
+    case IMPL_GRAPH:
+    case IMPL_BROKEN:
+        break;
+    }
+    for (uint32_t i = 0; i < def->num_outputs; i++)
+        results[i] = ir_poison(b->graph, library_type_ir(b->lib, ports[def->num_inputs + i].type));
+}
+
+uint32_t build_light_function(struct builder *b, uint32_t nodedef)
+{
+    const struct implementation *impl = best_of(b, nodedef);
+    return impl && impl->kind == IMPL_FUNCTION ? impl->ref : LIBRARY_NONE;
+}

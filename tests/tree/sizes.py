@@ -1,0 +1,105 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""How large things are, and what stands in files: lengths of files and functions, the budget of the node library, licence lines,
+machine paths, headers that stand alone. Arguments: the root of the project, a C compiler."""
+import pathlib
+import re
+import subprocess
+import sys
+
+ROOT = pathlib.Path(sys.argv[1])
+COMPILER = sys.argv[2:]
+CODE = "src generators cli validate render bench tests examples include".split()
+passed = 0
+failures = []
+
+
+def check(good, what):
+    global passed
+    if good:
+        passed += 1
+    else:
+        failures.append(what)
+
+
+def files(folder, *endings):
+    found = (path for path in sorted((ROOT / folder).rglob("*")) if path.suffix in endings)
+    return [path for path in found if path.is_file()]
+
+
+def lines(path):
+    return path.read_text(encoding="utf-8", errors="replace").splitlines()
+
+
+def percentile(numbers, part):
+    return sorted(numbers)[min(len(numbers) - 1, int(len(numbers) * part))]
+
+
+def check_lengths():
+    """Style: functions median 15, 90 % within 45, 99 % within 110 lines; files within 700, none above 1,200."""
+    functions, lengths = {}, {}
+    for folder in CODE:
+        for path in files(folder, ".c", ".h", ".cpp"):
+            text = lines(path)
+            lengths[path] = len(text)
+            start = None
+            for number, line in enumerate(text):
+                if line == "{":
+                    start = number
+                elif line == "}" and start is not None:
+                    functions[f"{path.relative_to(ROOT)}:{start}"] = number - start - 1
+                    start = None
+    for part, limit in (0.5, 15), (0.9, 45), (0.99, 110):
+        length = percentile(functions.values(), part)
+        check(length <= limit, f"{part:.0%} of functions have up to {length} lines; {limit} is the limit")
+    for path, length in lengths.items():
+        check(length <= 1200, f"{path.relative_to(ROOT)} has {length} lines")
+    long_files = [length for length in lengths.values() if length > 700]
+    check(len(long_files) * 10 <= len(lengths), f"{len(long_files)} of {len(lengths)} files have more than 700 lines")
+    print(f"functions: {len(functions)}, lines at 50/90/99/100 %:", *(percentile(functions.values(), p) for p in (0.5, 0.9, 0.99, 1)))
+    print(f"files: {len(lengths)}, lines at 50/90/100 %:", *(percentile(lengths.values(), p) for p in (0.5, 0.9, 1)))
+    for where, length in sorted(functions.items(), key=lambda item: -item[1])[:5]:
+        print(f"  {where}: {length} lines")
+
+
+def check_library():
+    """A third of MaterialX's own, written for no target."""
+    for endings, limit in ((".mtlx",), 6866), ((".glsl", ".inline"), 2633):
+        size = sum(len(lines(path)) for path in files("libraries", *endings))
+        check(size <= limit, f"libraries: {size} lines of {endings[0]}; {limit} is the budget")
+        print(f"libraries: {size} lines of {endings[0]}")
+    for path in files("libraries", ".mtlx"):
+        bound = [str(number) for number, line in enumerate(lines(path), 1) if "target=" in line and "<!-- only there:" not in line]
+        check(not bound, f"{path.relative_to(ROOT)}: for one target without a reason, line {', '.join(bound)}")
+
+
+def check_texts():
+    # Letters apart, so that this file does not match.
+    unwanted = re.compile("/" + r"work/|/" + r"tmp/|/" + r"root/|/" + r"home/\w")
+    for folder in CODE + ["docs", "libraries", "script"]:
+        for path in files(folder, ".c", ".h", ".cpp", ".def", ".S", ".py", ".sh", ".md", ".mtlx", ".glsl", ".build", ""):
+            text = path.read_text(encoding="utf-8", errors="replace")
+            found = unwanted.search(text)
+            check(not found, f"{path.relative_to(ROOT)}: path of a machine: {found and found.group()}")
+            if path.suffix in (".c", ".h", ".cpp", ".def", ".S", ".py", ".sh"):
+                check("SPDX-License-Identifier: Apache-2.0" in text[:200], f"{path.relative_to(ROOT)} has no licence line")
+
+
+def check_headers():
+    """A header includes what it uses."""
+    command = [*COMPILER, *"-std=c17 -Wall -Wextra -Wno-unused-function -Werror -fsyntax-only -Iinclude -Isrc -I. -x c -".split()]
+    for folder in "include", "src", "generators", "cli":
+        for path in files(folder, ".h"):
+            source = f'#include "{path.relative_to(ROOT)}"\n'
+            result = subprocess.run(command, input=source, cwd=ROOT, capture_output=True, text=True, check=False)
+            check(result.returncode == 0, f"{path.relative_to(ROOT)} does not compile alone:\n{result.stderr}")
+
+
+check_lengths()
+check_library()
+check_texts()
+if COMPILER:
+    check_headers()
+print("\n".join(failures))
+print(f"sizes: {passed} passed, {len(failures)} failed, 0 skipped")
+sys.exit(bool(failures))
