@@ -20,10 +20,9 @@ install_missing_packages() {
 
 # Configures once, then builds; prints only when it fails.
 build() {
-    local log=build/build.log
+    local output
     if [ ! -f build/build.ninja ]; then
-        meson setup build >build-setup.log 2>&1 || { cat build-setup.log >&2; rm -f build-setup.log; return 1; }
-        rm -f build-setup.log
+        output=$(meson setup build 2>&1) || { echo "$output" >&2; return 1; }
     fi
-    ninja -C build "$@" >"$log" 2>&1 || { cat "$log" >&2; return 1; }
+    output=$(ninja -C build "$@" 2>&1) || { echo "$output" >&2; return 1; }
 }

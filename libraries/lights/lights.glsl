@@ -10,8 +10,9 @@ void mx_directional_light(vec3 direction, vec3 color, float intensity, vec3 P, o
 void mx_point_light(vec3 position, vec3 color, float intensity, float decay_rate, vec3 P, out vec3 to_light,
                     out vec3 radiance)
 {
-    to_light = normalize(position - P);
-    radiance = color * (intensity / pow(distance(position, P) + 1.0, decay_rate));
+    vec3 d = position - P;
+    to_light = normalize(d);
+    radiance = color * (intensity / pow(length(d) + 1.0, decay_rate));
 }
 
 // inner_angle and outer_angle are cosines.

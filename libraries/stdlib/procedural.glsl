@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Ramps and flat patterns.
 
+#include "adjustment.glsl"
+
 // A step as wide as a pixel.
 float mx_smooth_edge(float edge, float x)
 {
     float width = length(vec2(dFdx(x), dFdy(x))) * 0.70710678;
-    return smoothstep(edge - width, edge + width, x);
+    return mx_smoothstep(x, edge - width, edge + width);
 }
 
 vec4 mx_ramp_gradient(float x, float interval1, float interval2, vec4 color1, vec4 color2, int interpolation,

@@ -160,9 +160,6 @@ const struct option_value *options_values(const mxg_options *options);
 /* Finds what can be rendered. */
 void document_find_renderables(struct mxg_document *document, struct arena *scratch);
 
-/* Whether a nodegraph is the implementation of a node instead of a part of the document's own graph. */
-bool graph_defines_node(const struct document *doc, elem_id graph);
-
 /*
  * The node or <output> that a path means to generation: itself, the only output of a graph, the material of a look. NULL: the first that
  * can be rendered. 0 after a diagnostic. Which output of a node it means: its name, empty where the path says none, and its index.

@@ -184,22 +184,12 @@ static elem_id find_path(const struct search *s, const char *path, str_id *out_o
     return *out_output ? node : 0;
 }
 
-/* Inside of a definition inputs have no values. */
-static bool is_in_definition(const struct search *s, elem_id element)
-{
-    elem_id graph = doc_element(s->doc, element)->parent;
-    return graph && doc_element(s->doc, graph)->kind == KIND_NODEGRAPH && graph_defines_node(s->doc, graph);
-}
-
 static elem_id find_asked(const struct search *s, const char *path, str_id *out_output)
 {
-    elem_id found = find_path(s, path, out_output), element = found ? find_meant(s, found) : 0;
+    elem_id found = find_path(s, path, out_output);
     if (!found)
         report_unknown(s, path);
-    if (!element || !is_in_definition(s, element))
-        return element;
-    report_not_renderable(s, element, "it belongs to the definition of a node; give a node that uses it");
-    return 0;
+    return found ? find_meant(s, found) : 0;
 }
 
 elem_id document_find_element(const struct mxg_document *document, const char *path, struct diag_list *diags, str_id *out_output,

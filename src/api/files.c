@@ -21,6 +21,7 @@ void file_source_finish(struct file_source *source)
 {
     close_file(source);
     arena_finish(&source->scratch);
+    object_settle(source->object);
 }
 
 static const char *remember(struct file_source *source, const char *name)

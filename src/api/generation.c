@@ -270,6 +270,7 @@ bool generation_emit(struct generation *g)
         report_not_renderable(g);
     if (!is_good(g))
         return false;
+    g->result->graph.max_nodes = 0; /* finishing adds a few nodes that it must have */
     struct shader_layout_rules rules = layout_rules(g);
     shader_finish(&g->result->shader, &rules);
     return is_good(g);
@@ -306,7 +307,7 @@ static bool spell_one(struct generation *g, const struct spell_options *options,
     text_init(&source, &result->object.arena);
     spell_shader_stage(result->target, options, &result->shader, stage, &g->scratch, &source, &lines, &out->num_lines);
     uint32_t limit = result->object.context->max_output_mib;
-    if (source.len >> 20 >= limit) {
+    if (source.len > (uint64_t)limit << 20) {
         diag_add(diags_of(g), DIAG_ID_output_limit, doc_place(&g->document->layer.doc, g->element), (unsigned)limit);
         return false;
     }
@@ -372,6 +373,7 @@ mxg_status generation_run(mxg_context *context, const mxg_document *document, co
     arena_init(&g->scratch, &result->object.mem);
     mxg_status status = object_run(&result->object, run_steps, &run);
     arena_finish(&g->scratch);
+    object_settle(&result->object);
     if (status != MXG_OK) {
         object_unref(&result->object);
         return status;

@@ -99,17 +99,6 @@ static bool is_renderable_output(const struct scan *scan, elem_id output)
                || known == DOC_TYPE_volumeshader);
 }
 
-bool graph_defines_node(const struct document *doc, elem_id graph)
-{
-    if (doc_attr(doc, graph, STR_nodedef))
-        return true;
-    str_id name = doc_element(doc, graph)->name;
-    for (elem_id e = doc_element(doc, doc->root)->first_child; e; e = doc_element(doc, e)->next)
-        if (doc_element(doc, e)->kind == KIND_IMPLEMENTATION && doc_attr_value(doc, e, STR_nodegraph) == name)
-            return true;
-    return false;
-}
-
 static void add_outputs(mxg_document *document, const struct scan *scan, elem_id graph)
 {
     const struct document *doc = scan->doc;

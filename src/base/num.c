@@ -17,16 +17,19 @@ static double scale_pow10(double value, int exponent)
     return exponent >= 0 ? value * exact_pow10[exponent] : value / exact_pow10[-exponent];
 }
 
-/* Fewest digits (as an integer) and the exponent of their last one, so that digits * 10^exponent == value > 0. */
+/*
+ * Fewest digits (as an integer) and the exponent of their last one, so that digits * 10^exponent == value > 0. Nine digits tell
+ * all floats apart. The integers below 2^24 are all floats, so that no number beneath is short of its last digit before the
+ * point: the search begins there, and elsewhere with one digit.
+ */
 static uint64_t shortest_digits(float value, int *out_exponent)
 {
-    int magnitude = (int)floor(log10((double)value));
-    for (int digits = 1;; digits++) {
-        int exponent = magnitude - digits + 1;
-        double scaled = floor(scale_pow10((double)value, -exponent) + 0.5);
-        if ((float)scale_pow10(scaled, exponent) == value || digits == 9) {
+    bool moderate = value >= 1e-5f && value < 0x1p24f;
+    for (int exponent = moderate ? 0 : (int)floor(log10((double)value));; exponent--) {
+        uint64_t digits = (uint64_t)(scale_pow10((double)value, -exponent) + 0.5);
+        if ((float)scale_pow10((double)digits, exponent) == value || digits >= 100000000) {
             *out_exponent = exponent;
-            return (uint64_t)scaled;
+            return digits;
         }
     }
 }
@@ -92,19 +95,14 @@ size_t num_print_float(char *out, float value)
         return n + put(out + n, "0.0");
     int exponent;
     uint64_t integer = shortest_digits(value, &exponent);
-    while (integer % 10 == 0) {
-        integer /= 10;
-        exponent++;
-    }
-    char digits[20];
-    size_t num_digits = 0;
-    for (uint64_t rest = integer; rest; rest /= 10)
-        num_digits++;
-    for (size_t i = num_digits; i-- > 0; integer /= 10)
-        digits[i] = (char)('0' + integer % 10);
-    int magnitude = exponent + (int)num_digits - 1;
+    char buffer[20], *end = buffer + sizeof buffer, *digits = end;
+    for (; integer; integer /= 10)
+        *--digits = (char)('0' + integer % 10);
+    int magnitude = exponent + (int)(end - digits) - 1;
+    while (end[-1] == '0')
+        end--;
     bool fixed = magnitude >= -5 && magnitude < 9;
-    return n + (fixed ? print_fixed : print_scientific)(out + n, digits, num_digits, magnitude);
+    return n + (fixed ? print_fixed : print_scientific)(out + n, digits, (size_t)(end - digits), magnitude);
 }
 
 static bool is_digit(char c)

@@ -49,8 +49,8 @@ void text_hex64(struct text *text, uint64_t value)
 
 void text_float(struct text *text, float value)
 {
-    char digits[NUM_FLOAT_MAX];
-    text_mem(text, digits, num_print_float(digits, value));
+    text_reserve(text, NUM_FLOAT_MAX);
+    text->len += num_print_float(text->data + text->len, value);
 }
 
 void text_fmt(struct text *text, const char *format, ...)
@@ -58,14 +58,15 @@ void text_fmt(struct text *text, const char *format, ...)
     va_list args, again;
     va_start(args, format);
     va_copy(again, args);
-    int len = vsnprintf(NULL, 0, format, args);
-    va_end(args);
-    if (len > 0) {
+    size_t room = text->cap - text->len;
+    int len = vsnprintf(room ? text->data + text->len : NULL, room, format, args);
+    if (len > 0 && (size_t)len >= room) {
         text_reserve(text, (size_t)len + 1);
         vsnprintf(text->data + text->len, (size_t)len + 1, format, again);
-        text->len += (size_t)len;
     }
+    text->len += len > 0 ? (size_t)len : 0;
     va_end(again);
+    va_end(args);
 }
 
 /* Length of the UTF-8 sequence at p (1 to 4), or 0 where it is not well formed (RFC 3629). */

@@ -5,9 +5,39 @@
  */
 #include "build/build_priv.h"
 
+/*
+ * Other names of colour spaces: an alias of the specification ("Color Spaces and Color Management Systems"), those of old
+ * documents, and those that the ASWF's Color Interop Forum recommends.
+ */
+static const char *const aliases[][2] = {
+    {"lin_ap1", "acescg"},
+    {"lin_srgb", "lin_rec709"},
+    {"gamma18", "g18_rec709"},
+    {"gamma22", "g22_rec709"},
+    {"gamma24", "rec709_display"},
+    {"lin_ap1_scene", "acescg"},
+    {"lin_rec709_scene", "lin_rec709"},
+    {"lin_p3d65_scene", "lin_displayp3"},
+    {"lin_adobergb_scene", "lin_adobergb"},
+    {"srgb_rec709_scene", "srgb_texture"},
+    {"srgb_p3d65_scene", "srgb_displayp3"},
+    {"g18_rec709_scene", "g18_rec709"},
+    {"g22_rec709_scene", "g22_rec709"},
+    {"g22_ap1_scene", "g22_ap1"},
+    {"g22_adobergb_scene", "adobergb"},
+};
+
+static str_id canonical_space(struct builder *b, str_id space)
+{
+    for (size_t i = 0; space && i < sizeof aliases / sizeof *aliases; i++)
+        if (strcmp(build_text(b, space), aliases[i][0]) == 0)
+            return str_intern_z(b->shader->strings, aliases[i][1]);
+    return space;
+}
+
 str_id build_colorspace(struct builder *b, elem_id element)
 {
-    str_id space = doc_inherited_attr(&b->lib->doc, element, STR_colorspace);
+    str_id space = canonical_space(b, doc_inherited_attr(&b->lib->doc, element, STR_colorspace));
     return space == STR_none || space == b->options->colorspace ? 0 : space;
 }
 

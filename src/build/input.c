@@ -241,7 +241,7 @@ static ir_ref geomprop_arg(struct builder *b, const struct geomprop *prop, const
         return ir_const_string(b->graph, prop->space);
     if (port->name == STR_index)
         return ir_const_int(b->graph, prop->index);
-    return build_default(b, port, doc_place(doc_of(b), prop->element));
+    return build_default(b, port);
 }
 
 /* A property that a node gives is that node with the property's space and index; any other is a stream of its name. */
@@ -295,36 +295,18 @@ static ir_ref zero(struct builder *b, doc_type type)
     return 0;
 }
 
-ir_ref build_default(struct builder *b, const struct port *port, struct diag_place place)
+ir_ref build_default(struct builder *b, const struct port *port)
 {
     if (port->geomprop)
-        return build_geomprop(b, port->geomprop, port->type, place);
+        return build_geomprop(b, port->geomprop, port->type, doc_attr_place(doc_of(b), port->element, STR_defaultgeomprop));
     if (library_type_ir(b->lib, port->type) == IR_TYPE_STRING)
         return ir_const_string(b->graph, port->value);
     if ((port->flags & PORT_HAS_VALUE) && port->value && zero(b, port->type))
-        return build_constant(b, port->type, port->value, port, place);
+        return build_constant(b, port->type, port->value, port, doc_attr_place(doc_of(b), port->element, STR_value));
     return zero(b, port->type);
 }
 
 /* ---- bindings ---- */
-
-static ir_ref interface_arg(struct builder *b, struct instance *scope, const struct port *port, const struct binding *binding)
-{
-    str_id name = binding->ref;
-    int index = scope->nodedef != LIBRARY_NONE && scope->graph ? library_find_input(b->lib, scope->nodedef, name) : -1;
-    if (index < 0) {
-        diag_add(b->diags, DIAG_ID_dangling_interfacename, doc_attr_place(doc_of(b), binding->element, STR_interfacename),
-                 build_text(b, name), "");
-        return ir_poison(b->graph, library_type_ir(b->lib, port->type));
-    }
-    const struct port *have = library_ports(b->lib, scope->nodedef, NULL) + index;
-    if (have->type != port->type) {
-        diag_add(b->diags, DIAG_ID_type_mismatch, doc_place(doc_of(b), binding->element), build_text(b, port->name),
-                 build_text(b, library_type_name(b->lib, port->type)), build_text(b, library_type_name(b->lib, have->type)));
-        return ir_poison(b->graph, library_type_ir(b->lib, port->type));
-    }
-    return scope->args[index];
-}
 
 /* The value that an element of the document or a graph says, with its colour space and unit. */
 static ir_ref literal(struct builder *b, elem_id owner, const struct port *port, elem_id element, bool outermost)
@@ -351,10 +333,52 @@ static ir_ref unset(struct builder *b, elem_id owner, const struct port *port, e
 {
     if (library_type_ir(b->lib, port->type) == IR_TYPE_SAMPLER)
         return texture(b, owner, port, element, port->name);
-    ir_ref value = build_default(b, port, doc_place(doc_of(b), element ? element : owner));
+    ir_ref value = build_default(b, port);
     if (!outermost || port->geomprop || !value)
         return value;
     return publish(b, owner, port, element, element ? doc_element(doc_of(b), element)->name : port->name, value, false);
+}
+
+static elem_id graph_around(const struct builder *b, elem_id element)
+{
+    while (element && doc_element(doc_of(b), element)->kind != KIND_NODEGRAPH)
+        element = doc_element(doc_of(b), element)->parent;
+    return element;
+}
+
+/* " (did you mean 'x'?)" among the interface inputs of a graph, which its definition says where it has one. */
+static const char *suggest_interface(struct builder *b, elem_id graph, uint32_t nodedef, str_id name)
+{
+    VEC(const char *) names = {0};
+    for (int i = 0; nodedef != LIBRARY_NONE && i < library_nodedef(b->lib, nodedef)->num_inputs; i++)
+        vec_push(b->arena, &names, build_text(b, library_ports(b->lib, nodedef, NULL)[i].name));
+    for (elem_id e = graph ? doc_element(doc_of(b), graph)->first_child : 0; e; e = doc_element(doc_of(b), e)->next)
+        if (doc_element(doc_of(b), e)->kind == KIND_INPUT)
+            vec_push(b->arena, &names, build_text(b, doc_element(doc_of(b), e)->name));
+    return diag_suggest(b->arena, build_text(b, name), names.items, names.len);
+}
+
+/* A functional graph that is not used as a node, but is itself generated, has the defaults of its definition. */
+static ir_ref interface_arg(struct builder *b, struct instance *scope, const struct port *port, const struct binding *binding)
+{
+    str_id name = binding->ref;
+    elem_id alone = scope->graph ? 0 : graph_around(b, binding->element);
+    str_id implements = element_attr(b, alone, STR_nodedef);
+    uint32_t nodedef = implements ? library_nodedef_by_name(b->lib, implements) : scope->nodedef;
+    int index = nodedef != LIBRARY_NONE ? library_find_input(b->lib, nodedef, name) : -1;
+    if (index < 0) {
+        diag_add(b->diags, DIAG_ID_dangling_interfacename, doc_attr_place(doc_of(b), binding->element, STR_interfacename),
+                 build_text(b, name), suggest_interface(b, graph_around(b, binding->element), nodedef, name));
+        return ir_poison(b->graph, library_type_ir(b->lib, port->type));
+    }
+    const struct port *have = library_ports(b->lib, nodedef, NULL) + index;
+    if (have->type != port->type) {
+        diag_add(b->diags, DIAG_ID_type_mismatch, doc_attr_place(doc_of(b), binding->element, STR_interfacename),
+                 build_text(b, port->name), build_text(b, library_type_name(b->lib, port->type)),
+                 build_text(b, library_type_name(b->lib, have->type)));
+        return ir_poison(b->graph, library_type_ir(b->lib, port->type));
+    }
+    return alone ? unset(b, alone, have, 0, true) : scope->args[index];
 }
 
 /*
@@ -371,7 +395,7 @@ static ir_ref end_of_chain(struct builder *b, struct instance *scope, elem_id no
     if (slot && *slot >= SLOT_RESULTS)
         return b->results.items[*slot - SLOT_RESULTS];
     bool says_value = binding->kind == BIND_VALUE;
-    if (says_value && port->geomprop) { /* MaterialX's generators all do so, and materials depend on it */
+    if (says_value && port->geomprop && owner == node) { /* MaterialX's generators all do so, and materials depend on it */
         diag_add(b->diags, DIAG_ID_geomprop_literal, doc_attr_place(doc_of(b), element, STR_value), build_text(b, port->name),
                  build_text(b, port->geomprop));
         says_value = false;

@@ -31,6 +31,12 @@ static ir_ref context_value(struct shader *shader, const char *name, const ir_re
     return value ? value : ir_poison(g, IR_TYPE_VEC3);
 }
 
+/*
+ * A leaf's function is composed of calls: what depends on the view only is computed once when the function is seen through, and shared with
+ * the leaf's other functions.
+ */
+enum { MAX_LEAF_NODES = 50 };
+
 ir_ref closure_call(struct shader *shader, const struct closure_host *host, ir_ref leaf, enum leaf_function which,
                     const ir_ref *light)
 {
@@ -53,7 +59,9 @@ ir_ref closure_call(struct shader *shader, const struct closure_host *host, ir_r
     ir_ref *results = ARENA_ARRAY(shader->arena, ir_ref, lang_num_results(shader->unit, id));
     uint32_t before = g->origin;
     g->origin = node.origin;
-    lang_lower_call(shader->unit, g, host->lang, id, args, results);
+    struct lang_host see_through = *host->lang;
+    see_through.max_outer_nodes = MAX_LEAF_NODES;
+    lang_lower_call(shader->unit, g, &see_through, id, args, results);
     g->origin = before;
     return results[0];
 }

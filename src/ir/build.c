@@ -73,7 +73,7 @@ ir_ref ir_build(struct ir_graph *graph, enum ir_op op, ir_type_id type, uint32_t
         sort_operands(graph, op, own);
         result = ir_apply_rules(graph, op, type, own, num_args);
     }
-    if (!result && ((op >= IR_CONSTRUCT && op <= IR_INDEX) || (op >= IR_ADD && op <= IR_DIV)))
+    if (!result && ((op >= IR_SELECT && op <= IR_INDEX) || (op >= IR_ADD && op <= IR_DIV)))
         result = ir_simplify(graph, op, type, attr, own, num_args);
     return result ? result : ir_intern(graph, op, type, attr, own, num_args);
 }

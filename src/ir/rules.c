@@ -156,7 +156,7 @@ static ir_ref replace(struct ir_graph *graph, const struct rule *rule, ir_type_i
     const uint8_t *tokens = rule->replacement;
     if (tokens[0] >= RULE_ZERO)
         return ir_const_splat(graph, type, token_value(tokens[0]));
-    ir_ref stack[RULE_LENGTH + 1];
+    ir_ref stack[RULE_LENGTH + 1] = {0};
     unsigned top = RULE_LENGTH, length = 0;
     while (tokens[length] != RULE_END)
         length++;

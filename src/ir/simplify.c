@@ -239,11 +239,39 @@ static ir_ref simplify_arithmetic(struct ir_graph *graph, enum ir_op op, ir_type
         ir_ref scalar = ir_op2(graph, op, sa, sb);
         return ir_build(graph, IR_CONSTRUCT, type, 0, &scalar, 1);
     }
+    if (op != IR_MUL && sa == a && ir_is_const(graph, a))
+        return ir_op2(graph, op, ir_convert(graph, type, a), b);
+    if (op != IR_MUL && sb == b && ir_is_const(graph, b))
+        return ir_op2(graph, op, a, ir_convert(graph, type, b));
     bool narrow_a = sa && sa != a && (op == IR_MUL || ir_get(graph, a)->op != IR_CONST) && ir_type_of(graph, b) == type;
     bool narrow_b = sb && sb != b && (op == IR_MUL || ir_get(graph, b)->op != IR_CONST) && ir_type_of(graph, a) == type;
     if (narrow_a || narrow_b)
         return ir_op2(graph, op, narrow_a ? sa : a, narrow_b ? sb : b);
     return op == IR_MUL ? gather_scalars(graph, a, b) : 0;
+}
+
+/* The scalar s of a product v s; 0 where `ref` is no such product. */
+static ir_ref scalar_factor(const struct ir_graph *graph, ir_ref ref, ir_ref v)
+{
+    if (ir_get(graph, ref)->op != IR_MUL)
+        return 0;
+    ir_ref a = ir_arg(graph, ref, 0), b = ir_arg(graph, ref, 1);
+    if (a == v && is_scalar_float(graph, b))
+        return b;
+    return b == v && is_scalar_float(graph, a) ? a : 0;
+}
+
+/* c ? v : v s = v (c ? 1 : s): what is chosen is a scalar. */
+static ir_ref simplify_select(struct ir_graph *graph, ir_type_id type, ir_ref condition, ir_ref a, ir_ref b)
+{
+    if (graph->exact || !is_vector(type) || ir_type_info(type)->scalar != IR_TYPE_FLOAT)
+        return 0;
+    ir_ref in_b = scalar_factor(graph, b, a), in_a = in_b ? 0 : scalar_factor(graph, a, b);
+    if (!in_a && !in_b)
+        return 0;
+    ir_ref one = ir_const_float(graph, 1.0f);
+    ir_ref scalar = ir_op3(graph, IR_SELECT, condition, in_b ? one : in_a, in_b ? in_b : one);
+    return ir_op2(graph, IR_MUL, in_b ? a : b, scalar);
 }
 
 ir_ref ir_simplify(struct ir_graph *graph, enum ir_op op, ir_type_id type, uint32_t attr, const ir_ref *args,
@@ -255,6 +283,8 @@ ir_ref ir_simplify(struct ir_graph *graph, enum ir_op op, ir_type_id type, uint3
     case IR_MUL:
     case IR_DIV:
         return simplify_arithmetic(graph, op, type, args[0], args[1]);
+    case IR_SELECT:
+        return simplify_select(graph, type, args[0], args[1], args[2]);
     case IR_SWIZZLE:
         return simplify_swizzle(graph, type, attr, args[0]);
     case IR_CONSTRUCT:

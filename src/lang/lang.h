@@ -178,6 +178,7 @@ struct lang_host {
     void *user_data;
     /* The IR node for a uniform or stream (by its name and type); option constants give a constant. */
     ir_ref (*global)(void *user_data, struct ir_graph *graph, const struct lang_unit *unit, uint32_t global_id);
+    uint32_t max_outer_nodes;  /* the same limit for the called function itself and what it calls directly; 0: max_inline_nodes */
     uint32_t max_inline_nodes; /* functions larger than this are called, not lowered, unless their result folds to constants */
 };
 

@@ -153,13 +153,36 @@ static void collect_results(const struct lower *lo, ir_ref *out)
     }
 }
 
+static bool has_constant(const struct lower *lo, uint32_t id, const ir_ref *in)
+{
+    const struct lang_unit *layer;
+    const struct lang_function *fn = lang_function(lo->unit, id, &layer);
+    for (uint32_t i = 0; i < fn->num_params; i++) {
+        const struct lang_slot *slot = ast_slot(layer, fn, i);
+        uint32_t count = slot->mode == LANG_OUT ? 0 : lower_leaves(lo, slot->type);
+        for (uint32_t k = 0; k < count; k++)
+            if (in[k] && ir_is_const(lo->graph, in[k]))
+                return true;
+        in += count;
+    }
+    return false;
+}
+
 /* False where the body cannot become nodes; those that it has made by then are not used by anybody. */
 static bool lower_inline(struct lower *lo, uint32_t id, const ir_ref *in, ir_ref *out)
 {
     const struct lang_function *fn = lang_function(lo->unit, id, NULL);
-    uint32_t limit = lo->host->max_inline_nodes > LOWER_TINY ? lo->host->max_inline_nodes : LOWER_TINY;
-    if (fn->num_nodes > limit || lo->depth == LOWER_MAX_DEPTH)
+    uint32_t limit = lo->depth < LOWER_OUTER_DEPTH && lo->host->max_outer_nodes ? lo->host->max_outer_nodes
+                                                                                : lo->host->max_inline_nodes;
+    if (limit < LOWER_TINY)
+        limit = LOWER_TINY;
+    bool is_tried = fn->num_nodes > limit;
+    if (lo->depth == LOWER_MAX_DEPTH
+        || (is_tried && (fn->num_nodes > LOWER_MAX_TRIED || lo->depth >= LOWER_OUTER_DEPTH || !has_constant(lo, id, in))))
         return false;
+    uint32_t max_graph_nodes = lo->max_graph_nodes;
+    if (is_tried && !max_graph_nodes)
+        lo->max_graph_nodes = lo->graph->nodes.len + LOWER_TRIED_NODES;
     struct lower_frame caller = lo->frame;
     struct few few;
     open_frame(lo, id, in, &few);
@@ -171,6 +194,7 @@ static bool lower_inline(struct lower *lo, uint32_t id, const ir_ref *in, ir_ref
     lo->frame = caller;
     bool done = !lo->failed;
     lo->failed = false;
+    lo->max_graph_nodes = max_graph_nodes;
     return done;
 }
 

@@ -14,6 +14,9 @@ enum {
     LOWER_MAX_LEAVES = 128,       /* of an expression, or of all arguments of a call */
     LOWER_MAX_DEPTH = 40,         /* of calls lowered inside of calls */
     LOWER_MAX_BRANCH_NODES = 12,  /* that a branch may add where both are computed and one is selected */
+    LOWER_OUTER_DEPTH = 2,        /* the called function, and those that it calls */
+    LOWER_MAX_TRIED = 200,        /* larger functions may be small with the constants at hand; these are tried … */
+    LOWER_TRIED_NODES = 10,       /* … and given up when they add more than this */
     LOWER_TINY = 8,               /* functions of so few nodes are never worth a call */
 };
 
@@ -33,6 +36,7 @@ struct lower {
     const ir_ref *inputs;   /* of an inline expression */
     struct lower_frame frame;
     unsigned depth;
+    uint32_t max_graph_nodes; /* a body that makes the graph larger than this is not worth it; 0: any size */
     bool failed; /* the function cannot become nodes: the result is of no use */
 };
 

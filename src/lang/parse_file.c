@@ -187,7 +187,7 @@ static uint32_t parse_file(struct lang_unit *unit, const struct lang_reader *rea
     const char *read_name = ref, *text = NULL, *reason = "it was not found";
     size_t len = 0;
     if (!reader->read(reader->user_data, from, ref, &read_name, &text, &len, &reason)) {
-        diag_add(diags, DIAG_ID_file_missing, where, ref, reason);
+        diag_add(diags, DIAG_ID_missing_source_file, where, ref, from, reason);
         return LANG_NONE;
     }
     str_id name = str_intern_z(unit->strings, read_name);

@@ -194,6 +194,8 @@ static uint32_t make_version(struct lang_unit *unit, const struct lang_bindings 
     bind(&s, bound, num_bound, &statements);
     spec_statements(&s, ast_node(s.layer, s.fn.body)->a, &statements);
     lang_ref body = spec_sweep(&s, statements.first);
+    if (spec_is_planned(unit))
+        body = spec_forward(&s, body);
     if (s.changed || drops_anything(&s))
         return finish(&s, id, bound, num_bound, body);
     if (unit->functions.len == functions) { /* nothing refers to what was built */

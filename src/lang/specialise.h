@@ -90,6 +90,9 @@ lang_ref spec_fold(struct spec *s, const struct lang_node *op, const lang_ref *a
 /* spec_stmt.c. False where control does not reach what follows. */
 bool spec_statements(struct spec *s, lang_ref first, struct chain *out);
 
+/* spec_forward.c: variables that are read once become their values. */
+lang_ref spec_forward(struct spec *s, lang_ref first);
+
 /* spec_sweep.c: what remains of a body. */
 lang_ref spec_sweep(struct spec *s, lang_ref first);
 

@@ -84,10 +84,20 @@ static str_id output_type(const struct library *lib, elem_id node, int output, s
     return library_type_name(lib, library_ports(lib, id, NULL)[def->num_inputs + (uint32_t)output].type);
 }
 
+/* Where a port says what it is connected to. */
+static struct diag_place connection_place(const struct document *doc, elem_id port)
+{
+    static const str_id attrs[] = {STR_nodename, STR_nodegraph, STR_interfacename};
+    for (size_t i = 0; i < sizeof attrs / sizeof *attrs; i++)
+        if (doc_attr(doc, port, attrs[i]))
+            return doc_attr_place(doc, port, attrs[i]);
+    return doc_attr_place(doc, port, STR_output);
+}
+
 static void report_type(const struct library *lib, elem_id port, doc_type want, str_id have, elem_id at,
                         struct diag_list *diags)
 {
-    diag_add(diags, DIAG_ID_type_mismatch, doc_place(&lib->doc, port), text_of(lib, doc_element(&lib->doc, port)->name),
+    diag_add(diags, DIAG_ID_type_mismatch, connection_place(&lib->doc, port), text_of(lib, doc_element(&lib->doc, port)->name),
              text_of(lib, library_type_name(lib, want)), text_of(lib, have));
     diag_add(diags, DIAG_ID_connected_here, doc_place(&lib->doc, at), text_of(lib, doc_element(&lib->doc, at)->name));
 }

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shader/shader.h"
 
-static bool is_letter(char c)
-{
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
-}
-
 static bool is_digit(char c)
 {
-    return c >= '0' && c <= '9';
+    return (unsigned char)(c - '0') < 10;
+}
+
+static bool is_letter(char c)
+{
+    return (unsigned char)((c | 0x20) - 'a') < 26;
 }
 
 /* GLSL 4.50, section 3.7: names with "__" or "gl_" in front are the implementation's. */

@@ -324,7 +324,7 @@ void shader_reflect_json(const struct shader *shader, const struct shader_reflec
     key(&json, "blocks");
     open(&json, '[');
     for (int block = 0; block < NUM_BLOCKS; block++)
-        put_block(&json, block);
+        put_block(&json, (enum shader_block)block);
     close(&json, ']');
     put_lights(&json);
     put_functions(&json);

@@ -15,7 +15,8 @@
 
 #include <assert.h>
 
-enum { NO_EFFECT = UINT32_MAX, MANY_EFFECTS = UINT32_MAX - 1 };
+#define NO_EFFECT UINT32_MAX
+#define MANY_EFFECTS (UINT32_MAX - 1)
 
 enum plan_flags {
     PLAN_LOCAL = 1,      /* reads a LOCAL: may be shared within one effect only */
@@ -122,6 +123,13 @@ static void note_needs(struct scheduler *s, ir_ref ref)
     }
 }
 
+static void reach_node(struct scheduler *s, ir_ref ref)
+{
+    vec_push(s->arena, &s->plans, (struct plan){.ref = ref, .first = NO_EFFECT, .effect = NO_EFFECT});
+    s->index[ref] = s->plans.len;
+    note_needs(s, ref);
+}
+
 static void collect(struct scheduler *s, ir_ref root)
 {
     struct visit {
@@ -129,21 +137,23 @@ static void collect(struct scheduler *s, ir_ref root)
         uint32_t next;
     };
     VEC(struct visit) stack = {0};
-    vec_push(s->arena, &stack, (struct visit){root, 0});
+    if (!s->index[root])
+        vec_push(s->arena, &stack, (struct visit){root, 0});
     while (stack.len) {
         struct visit *top = &vec_last(&stack);
-        if (!s->index[top->ref] && top->next < ir_get(s->graph, top->ref)->num_args) {
-            ir_ref operand = ir_arg(s->graph, top->ref, top->next++);
-            if (operand && !s->index[operand])
-                vec_push(s->arena, &stack, (struct visit){operand, 0});
+        const struct ir_node *node = ir_get(s->graph, top->ref);
+        if (top->next == node->num_args) {
+            reach_node(s, top->ref);
+            stack.len--;
             continue;
         }
-        ir_ref ref = vec_pop(&stack).ref;
-        if (s->index[ref])
+        ir_ref operand = ir_arg(s->graph, top->ref, top->next++);
+        if (!operand || s->index[operand])
             continue;
-        vec_push(s->arena, &s->plans, (struct plan){.ref = ref, .first = NO_EFFECT, .effect = NO_EFFECT});
-        s->index[ref] = s->plans.len;
-        note_needs(s, ref);
+        if (ir_get(s->graph, operand)->num_args == 0)
+            reach_node(s, operand);
+        else
+            vec_push(s->arena, &stack, (struct visit){operand, 0});
     }
 }
 
@@ -281,7 +291,7 @@ static void find_places(struct scheduler *s, const struct effect_list *effects)
  * and a load, a local a variable, a store and a load per use.
  */
 enum { GOOD_CHARS = 110, MAX_CHARS = 220, MIN_SPLIT_CHARS = 40, MAX_REPEATED_CHARS = 32 };
-enum { COST_OPERATOR = 1, COST_BUILTIN = 4, COST_CALL = 16, COST_LOCAL = 2, MAX_COST_IN_LOOP = 3, MAX_COST_OF_ARM = 12 };
+enum { COST_OPERATOR = 1, COST_BUILTIN = 4, COST_CALL = 16, COST_LOCAL = 2, MAX_COST_IN_LOOP = 3, MAX_COST_OF_ARM = 24 };
 
 static bool is_splat(const struct ir_value *value)
 {

@@ -45,62 +45,60 @@ static void add_variables(struct hasher *h)
 
 /* ---- Portable functions ---- */
 
+/* Which fields of a node of each kind are children; `next` is one always. */
+enum { CHILD_A = 1, CHILD_B = 2, CHILD_C = 4, CHILD_D = 8 };
+static const uint8_t child_fields[] = {
+    [LANG_OP] = CHILD_A,
+    [LANG_CALL] = CHILD_B,
+    [LANG_DECLARE] = CHILD_B,
+    [LANG_ASSIGN] = CHILD_A | CHILD_B,
+    [LANG_EXPR] = CHILD_A,
+    [LANG_IF] = CHILD_A | CHILD_B | CHILD_C,
+    [LANG_FOR] = CHILD_A | CHILD_B | CHILD_C | CHILD_D,
+    [LANG_WHILE] = CHILD_B | CHILD_D,
+    [LANG_DO] = CHILD_B | CHILD_D,
+    [LANG_BLOCK] = CHILD_A,
+    [LANG_RETURN] = CHILD_A,
+    [LANG_CONTINUE] = 0,
+};
+
 /* What a node says beside its children. Globals are told apart by name: their ids depend on what else was parsed. */
-static void add_tree_word(struct hasher *h, const struct lang_unit *layer, const struct lang_node *node)
+static void add_tree_node(struct hasher *h, const struct lang_unit *layer, const struct lang_node *node)
 {
-    switch (node->kind) {
-    case LANG_CONST:
-        for (uint32_t i = 0; node->type < IR_NUM_TYPES && i < ir_type_info(node->type)->components; i++)
-            add(h, layer->words.items[node->a + i].u);
-        break;
-    case LANG_GLOBAL:
+    uint64_t own = (uint64_t)node->kind << 56 | (uint64_t)node->op << 48 | (uint64_t)node->type << 32;
+    if (node->kind == LANG_VAR || node->kind == LANG_DECLARE)
+        own |= node->a;
+    else if (node->kind == LANG_CALL)
+        own |= h->function_numbers[node->a];
+    else if (node->kind == LANG_OP)
+        own |= node->b;
+    add(h, own);
+    if (node->kind == LANG_GLOBAL)
         add_text(h, lang_global(h->shader->unit, node->a, NULL)->name);
-        break;
-    case LANG_VAR:
-    case LANG_DECLARE:
-        add(h, node->a);
-        break;
-    case LANG_CALL:
-        add(h, h->function_numbers[node->a]);
-        break;
-    case LANG_OP:
-        add(h, node->b);
-        break;
-    default:
-        break;
-    }
+    if (node->kind == LANG_CONST && node->type < IR_NUM_TYPES)
+        for (uint32_t i = 0; i < ir_type_info(node->type)->components; i++)
+            add(h, layer->words.items[node->a + i].u);
 }
 
-static void push(struct hasher *h, uint32_t **items, uint32_t *len, uint32_t *cap, lang_ref ref)
-{
-    if (!ref)
-        return;
-    if (*len == *cap)
-        *items = vec_more(h->arena, *items, cap, sizeof **items, 1);
-    (*items)[(*len)++] = ref;
-}
-
-/* Children hang in different fields by kind. */
 static void add_tree(struct hasher *h, const struct lang_unit *layer, lang_ref root)
 {
-    VEC(uint32_t) stack = {0};
-#define PUSH(ref) push(h, &stack.items, &stack.len, &stack.cap, (ref))
-    PUSH(root);
+    VEC(lang_ref) stack = {0};
+    vec_push(h->arena, &stack, root);
     while (stack.len) {
         const struct lang_node *node = &layer->nodes.items[vec_pop(&stack)];
-        add(h, (uint64_t)node->kind << 56 | (uint64_t)node->op << 48 | (uint64_t)node->type << 32);
-        add_tree_word(h, layer, node);
-        PUSH(node->next);
-        bool a = node->kind == LANG_OP || node->kind == LANG_ASSIGN || node->kind == LANG_EXPR || node->kind == LANG_IF
-                 || node->kind == LANG_FOR || node->kind == LANG_BLOCK || node->kind == LANG_RETURN;
-        bool b = node->kind == LANG_CALL || node->kind == LANG_DECLARE || node->kind == LANG_ASSIGN || node->kind == LANG_IF
-                 || node->kind == LANG_FOR || node->kind == LANG_WHILE || node->kind == LANG_DO;
-        PUSH(a ? node->a : 0);
-        PUSH(b ? node->b : 0);
-        PUSH(node->kind == LANG_IF || node->kind == LANG_FOR ? node->c : 0);
-        PUSH(node->kind == LANG_FOR || node->kind == LANG_WHILE || node->kind == LANG_DO ? node->d : 0);
+        add_tree_node(h, layer, node);
+        uint8_t fields = child_fields[node->kind];
+        if (node->next)
+            vec_push(h->arena, &stack, node->next);
+        if (fields & CHILD_A && node->a)
+            vec_push(h->arena, &stack, node->a);
+        if (fields & CHILD_B && node->b)
+            vec_push(h->arena, &stack, node->b);
+        if (fields & CHILD_C && node->c)
+            vec_push(h->arena, &stack, node->c);
+        if (fields & CHILD_D && node->d)
+            vec_push(h->arena, &stack, node->d);
     }
-#undef PUSH
 }
 
 static void add_portable_functions(struct hasher *h, const struct lang_reach *reach)

@@ -28,7 +28,7 @@ void spell_name_interface(struct spell *spell)
     static const char *const own[] = {"main", "vd", "u_lightData", "LightData", "LightData_block",
                                       "PublicUniforms", "PrivateUniforms", "VertexData"};
     for (size_t i = 0; i < sizeof own / sizeof *own; i++)
-        names_take(&spell->names, own[i]);
+        names_take(&spell->names, own[i], strlen(own[i]));
     bool io_block = spell_can(spell, CAP_BLOCK_STAGE_IO);
     for (uint32_t i = 0; i < spell->shader->interface.len; i++) {
         const struct shader_variable *variable = interface_variable(spell, i);
@@ -37,7 +37,7 @@ void spell_name_interface(struct spell *spell)
             name = concat(spell, io_block ? "vd." : "vd_", name);
         spell->variables[spell->shader->interface.items[i]] = name;
         if (variable->block != BLOCK_LIGHT_DATA && !(variable->block == BLOCK_VERTEX_DATA && io_block))
-            names_take(&spell->names, name);
+            names_take(&spell->names, name, strlen(name));
     }
 }
 

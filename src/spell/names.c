@@ -64,10 +64,10 @@ static struct name_entry *take(struct name_set *names, const char *text, uint32_
     return &names->entries.items[index];
 }
 
-bool names_take(struct name_set *names, const char *text)
+bool names_take(struct name_set *names, const char *text, size_t len)
 {
     bool is_new;
-    take(names, text, (uint32_t)strlen(text), &is_new);
+    take(names, text, (uint32_t)len, &is_new);
     return is_new;
 }
 

@@ -28,7 +28,7 @@ void names_open_scope(struct name_set *names); /* a new function: the names of t
 /* `text` made an identifier, with a number behind it where that is reserved or taken. Valid as long as the arena. */
 const char *names_unique(struct name_set *names, const char *text, size_t len);
 /* Takes a name as it is; false where it is taken already. */
-bool names_take(struct name_set *names, const char *text);
+bool names_take(struct name_set *names, const char *text, size_t len);
 
 /* ---- The state ---- */
 
@@ -55,6 +55,7 @@ struct spell {
     VEC(const char *) let_names;
     const char *light_index; /* in a LIGHTS: the loop's variable */
     struct name_set paths;        /* shown in comments so far */
+    uint8_t *origins_seen;        /* origins whose path was asked for; NULL: no comments */
 };
 
 /* ---- expression.c ---- */

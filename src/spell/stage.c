@@ -201,7 +201,10 @@ static void init(struct spell *spell)
     spell->local_of = ARENA_ARRAY(arena, uint32_t, shader->graph->nodes.len);
     spell->lang_names = (struct lang_names){spell, function_name, global_name, user_type_name};
     names_init(&spell->names, arena, spell->target->syntax);
-    names_init(&spell->paths, arena, spell->target->syntax);
+    if (spell->options->comments && spell->options->path && !spell->options->neutral_names) {
+        names_init(&spell->paths, arena, spell->target->syntax);
+        spell->origins_seen = ARENA_ARRAY(arena, uint8_t, shader->graph->origins.len);
+    }
     spell_name_interface(spell);
     name_types(spell);
     name_functions(spell);

@@ -58,22 +58,25 @@ static const char *add_local(struct spell *spell, const char *base, const char *
     return name;
 }
 
-/* A comment says whose inner nodes follow: a node of the document or a graph. The nodes' own names are those of the locals. */
+/*
+ * A comment says whose inner nodes follow: a node of the document or a graph. The nodes' own names are those of the locals. Nodes of one
+ * parent stand in one graph, so that a path is asked for once for all of them.
+ */
 static void write_path(struct spell *spell, unsigned indent, uint32_t origin)
 {
     const struct spell_options *options = spell->options;
-    if (!options->comments || options->neutral_names || !options->path || !origin)
+    if (!spell->origins_seen || !origin)
         return;
-    const char *path = options->path(options->user_data, origin);
-    const char *end = path ? strrchr(path, '/') : NULL;
-    if (!end)
+    uint32_t parent = spell->shader->graph->origins.items[origin].parent, key = parent ? parent : origin;
+    if (spell->origins_seen[key])
         return;
-    path = arena_strndup(spell->scratch, path, (size_t)(end - path));
-    if (!names_take(&spell->paths, path))
+    spell->origins_seen[key] = 1;
+    const char *path = options->path(options->user_data, origin), *end = path ? strrchr(path, '/') : NULL;
+    if (!end || !names_take(&spell->paths, path, (size_t)(end - path)))
         return;
     spell_indent(spell, indent);
     text_mem(spell->out, "// ", 3);
-    spell_text(spell, path);
+    text_mem(spell->out, path, (size_t)(end - path));
     text_char(spell->out, '\n');
 }
 
@@ -383,7 +386,7 @@ void spell_graph_function(struct spell *spell, const struct shader_function *fun
         bool in = i < fn->num_params;
         uint32_t index = in ? i : i - fn->num_params + 1;
         (void)snprintf(name, sizeof name, "%c%u", in ? 'p' : 'r', (unsigned)index);
-        names_take(&spell->names, name);
+        names_take(&spell->names, name, strlen(name));
         if (i)
             text_mem(spell->out, ", ", 2);
         ir_type_id type = in ? graph->param_types.items[fn->first_param_type + index]

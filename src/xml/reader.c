@@ -72,7 +72,7 @@ elem_id xml_read_text(struct xml_reader *reader, const char *name, uint16_t file
 {
     struct document *doc = reader->doc;
     struct xml_source source = {.name = name, .file = file, .root = root}, *outer = reader->source;
-    if (size >> 20 >= reader->limits.max_file_mib) {
+    if (size > (uint64_t)reader->limits.max_file_mib << 20) {
         struct diag_place place = {.file = name};
         diag_add(reader->diags, DIAG_ID_file_too_large, place, name, (unsigned)reader->limits.max_file_mib);
         return 0;

@@ -175,7 +175,7 @@ static void check_nesting(void)
 
 static void check_limits(void)
 {
-    struct text text = graph(CHAIN, 100000);
+    struct text text = graph(DIAMOND, 100000);
     mxg_context_desc desc = MXG_CONTEXT_DESC_INIT;
     desc.max_file_mib = 1;
     generate(&text, &desc, "file-too-large");

@@ -103,6 +103,7 @@ static void test_expressions(void)
     EXPRESSION("vec4(v, 1.0)", (f->graph.no_fold = false, ir_construct(&f->graph, IR_TYPE_VEC4, (ir_ref[]){v, number(f, 1)}, 2)));
     EXPRESSION("float(i)", ir_convert(&f->graph, IR_TYPE_FLOAT, i));
     EXPRESSION("v[i]", ir_build(&f->graph, IR_INDEX, IR_TYPE_FLOAT, 0, (ir_ref[]){v, i}, 2));
+    EXPRESSION("roundEven(a)", op1(f, IR_ROUND, a));
     EXPRESSION("atan(a, b)", op2(f, IR_ATAN2, a, b));
     EXPRESSION("twin(a)", call(f, "twin", &a, 1));
     EXPRESSION("fract(1e-9)", op1(f, IR_FRACT, number(f, 1e-9f)));

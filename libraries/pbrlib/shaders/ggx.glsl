@@ -48,30 +48,30 @@ vec3 mx_ggx_compensation(vec2 albedo, int model, vec3 n, vec3 k, vec3 f90, float
 }
 
 // Part of the light that the lobe reflects towards V; a film changes the compensation only.
-vec3 mx_ggx_reflectance(vec2 roughness, vec3 N, vec3 V, int model, vec3 n, vec3 k, vec3 f90, float film, float film_ior)
+vec3 mx_ggx_reflectance(vec2 albedo, int model, vec3 n, vec3 k, vec3 f90, float film, float film_ior)
 {
-    vec2 albedo = mx_ggx_albedo(roughness, N, V);
     return (mx_fresnel_f0(model, n, k) * albedo.x + f90 * albedo.y)
          * mx_ggx_compensation(albedo, model, n, k, f90, film, film_ior);
 }
 
 // ---- lights ---------------------------------------------------------------------------------------------------------
 
-// The lobe around Z towards L without its reflectance: x the value, y the cosine at which facets reflect.
-vec2 mx_ggx_lobe(vec2 alpha, vec3 Z, vec3 X, vec3 V, vec3 L)
+// The lobe in a frame towards L, with single scattering.
+vec3 mx_ggx_lobe(vec2 alpha, mat3 frame, vec3 V, vec3 L, int model, vec3 n, vec3 k, vec3 f90, float exponent,
+                 float film, float film_ior)
 {
     vec3 H = normalize(V + L);
-    return vec2(mx_ggx_distribution(H * mx_frame(Z, X), alpha)
-                    * mx_ggx_visibility(max(dot(Z, V), MX_EPSILON), max(dot(Z, L), MX_EPSILON), alpha),
-                clamp(dot(V, H), MX_EPSILON, 1.0));
+    return mx_ggx_distribution(H * frame, alpha)
+         * mx_ggx_visibility(max(dot(frame[2], V), MX_EPSILON), max(dot(frame[2], L), MX_EPSILON), alpha)
+         * mx_fresnel(clamp(dot(V, H), MX_EPSILON, 1.0), model, n, k, f90, exponent, film, film_ior);
 }
 
 vec3 mx_ggx_eval(vec2 roughness, vec3 N, vec3 X, vec3 V, vec3 L, int model, vec3 n, vec3 k, vec3 f90, float exponent,
                  float film, float film_ior)
 {
-    vec2 lobe = mx_ggx_lobe(clamp(roughness, MX_EPSILON, 1.0), mx_facing(N, V), X, V, L);
-    return lobe.x * mx_fresnel(lobe.y, model, n, k, f90, exponent, film, film_ior)
-         * mx_ggx_compensation(mx_ggx_albedo(roughness, N, V), model, n, k, f90, film, film_ior);
+    return mx_ggx_compensation(mx_ggx_albedo(roughness, N, V), model, n, k, f90, film, film_ior)
+         * mx_ggx_lobe(clamp(roughness, MX_EPSILON, 1.0), mx_frame(mx_facing(N, V), X), V, L,
+                       model, n, k, f90, exponent, film, film_ior);
 }
 
 // ---- environment ----------------------------------------------------------------------------------------------------
@@ -129,27 +129,39 @@ vec4 mx_ggx_sample(int i, mat3 frame, vec3 v, vec2 alpha, float refract_ior)
                 clamp(dot(v, h), MX_EPSILON, 1.0));
 }
 
-vec3 mx_ggx_environment(vec2 roughness, vec3 N, vec3 X, vec3 V, float refract_ior, int model, vec3 n, vec3 k, vec3 f90,
-                        float exponent, float film, float film_ior)
+// The lobe in a frame over all directions, with single scattering.
+vec3 mx_ggx_sampled(vec2 alpha, mat3 frame, vec3 V, float refract_ior, int model, vec3 n, vec3 k, vec3 f90, float exponent,
+                    float film, float film_ior)
+{
+    vec3 light = vec3(0.0);
+    for (int i = 0; i < u_envRadianceSamples; ++i)
+    {
+        vec4 s = mx_ggx_sample(i, frame, V * frame, alpha, refract_ior);
+        vec3 f = mx_fresnel(s.w, model, n, k, f90, exponent, film, film_ior);
+        light += s.xyz * (refract_ior > 0.0 ? 1.0 - f : f);
+    }
+    return light;
+}
+
+vec3 mx_ggx_light(vec2 alpha, vec3 N, vec3 X, vec3 V, float refract_ior, int model, vec3 n, vec3 k, vec3 f90, float exponent,
+                  float film, float film_ior)
 {
     if (option_environment == 0)
         return vec3(0.0);
-
-    vec2 alpha = clamp(roughness, MX_EPSILON, 1.0);
-    vec3 light = vec3(0.0);
     if (option_environment == 1)
-        light = mx_ggx_prefiltered(alpha, N, V, refract_ior, model, n, k, f90, exponent, film, film_ior);
-    else
-    {
-        mat3 frame = mx_frame(mx_facing(N, V), X);
-        for (int i = 0; i < u_envRadianceSamples; ++i)
-        {
-            vec4 s = mx_ggx_sample(i, frame, V * frame, alpha, refract_ior);
-            vec3 f = mx_fresnel(s.w, model, n, k, f90, exponent, film, film_ior);
-            light += s.xyz * (refract_ior > 0.0 ? 1.0 - f : f);
-        }
-    }
-    if (refract_ior > 0.0)
-        return light;
-    return light * mx_ggx_compensation(mx_ggx_albedo(roughness, N, V), model, n, k, f90, film, film_ior);
+        return mx_ggx_prefiltered(alpha, N, V, refract_ior, model, n, k, f90, exponent, film, film_ior);
+    return mx_ggx_sampled(alpha, mx_frame(mx_facing(N, V), X), V, refract_ior, model, n, k, f90, exponent, film, film_ior);
+}
+
+vec3 mx_ggx_environment(vec2 roughness, vec3 N, vec3 X, vec3 V, int model, vec3 n, vec3 k, vec3 f90, float exponent,
+                        float film, float film_ior)
+{
+    return mx_ggx_compensation(mx_ggx_albedo(roughness, N, V), model, n, k, f90, film, film_ior)
+         * mx_ggx_light(clamp(roughness, MX_EPSILON, 1.0), N, X, V, 0.0, model, n, k, f90, exponent, film, film_ior);
+}
+
+vec3 mx_ggx_refraction(vec2 roughness, vec3 N, vec3 X, vec3 V, float ior, int model, vec3 n, vec3 k, vec3 f90,
+                       float exponent, float film, float film_ior)
+{
+    return mx_ggx_light(clamp(roughness, MX_EPSILON, 1.0), N, X, V, ior, model, n, k, f90, exponent, film, film_ior);
 }

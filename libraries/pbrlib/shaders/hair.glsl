@@ -131,6 +131,6 @@ vec3 mx_chiang_hair_bsdf_environment(vec3 tint_R, vec3 tint_TT, vec3 tint_TRT, f
                                      vec3 N, vec3 curve_direction, vec3 V)
 {
     return (tint_R + tint_TT + tint_TRT) / 3.0
-         * mx_ggx_environment((roughness_R + roughness_TT + roughness_TRT) / 3.0, N, curve_direction, V, 0.0,
+         * mx_ggx_environment((roughness_R + roughness_TT + roughness_TRT) / 3.0, N, curve_direction, V,
                               MX_FRESNEL_DIELECTRIC, vec3(ior), vec3(0.0), vec3(1.0), 0.0, 0.0, 1.0);
 }

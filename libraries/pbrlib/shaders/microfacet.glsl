@@ -27,7 +27,7 @@ vec3 mx_dielectric_bsdf_environment(vec3 tint, float ior, vec2 roughness, bool r
 {
     if (scatter_mode == "T")
         return vec3(0.0);
-    return max(tint, 0.0) * mx_ggx_environment(roughness, N, X, retroreflective ? reflect(-V, N) : V, 0.0,
+    return max(tint, 0.0) * mx_ggx_environment(roughness, N, X, retroreflective ? reflect(-V, N) : V,
                                                MX_FRESNEL_DIELECTRIC, vec3(ior), vec3(0.0), vec3(1.0), 0.0,
                                                film, film_ior);
 }
@@ -37,9 +37,8 @@ vec3 mx_dielectric_bsdf_transmission(vec3 tint, float ior, vec2 roughness, bool 
 {
     if (scatter_mode == "R")
         return vec3(0.0);
-    return mx_refraction_tint(max(tint, 0.0)) * mx_ggx_environment(roughness, N, X, V, ior,
-                                                                   MX_FRESNEL_DIELECTRIC, vec3(ior), vec3(0.0),
-                                                                   vec3(1.0), 0.0, film, film_ior);
+    return mx_refraction_tint(max(tint, 0.0)) * mx_ggx_refraction(roughness, N, X, V, ior, MX_FRESNEL_DIELECTRIC,
+                                                                  vec3(ior), vec3(0.0), vec3(1.0), 0.0, film, film_ior);
 }
 
 vec3 mx_dielectric_bsdf_throughput(vec3 tint, float ior, vec2 roughness, bool retroreflective, float film,
@@ -47,7 +46,7 @@ vec3 mx_dielectric_bsdf_throughput(vec3 tint, float ior, vec2 roughness, bool re
 {
     if (scatter_mode == "T")
         return vec3(1.0);
-    return 1.0 - mx_ggx_reflectance(roughness, N, V, MX_FRESNEL_DIELECTRIC, vec3(ior), vec3(0.0), vec3(1.0),
+    return 1.0 - mx_ggx_reflectance(mx_ggx_albedo(roughness, N, V), MX_FRESNEL_DIELECTRIC, vec3(ior), vec3(0.0), vec3(1.0),
                                     film, film_ior);
 }
 
@@ -63,7 +62,7 @@ vec3 mx_conductor_bsdf_eval(vec3 ior, vec3 extinction, vec2 roughness, bool retr
 vec3 mx_conductor_bsdf_environment(vec3 ior, vec3 extinction, vec2 roughness, bool retroreflective, float film,
                                    float film_ior, vec3 N, vec3 X, string distribution, vec3 V)
 {
-    return mx_ggx_environment(roughness, N, X, retroreflective ? reflect(-V, N) : V, 0.0,
+    return mx_ggx_environment(roughness, N, X, retroreflective ? reflect(-V, N) : V,
                               MX_FRESNEL_CONDUCTOR, ior, extinction, vec3(1.0), 0.0, film, film_ior);
 }
 
@@ -85,7 +84,7 @@ vec3 mx_generalized_schlick_bsdf_environment(vec3 color0, vec3 color82, vec3 col
 {
     if (scatter_mode == "T")
         return vec3(0.0);
-    return mx_ggx_environment(roughness, N, X, retroreflective ? reflect(-V, N) : V, 0.0, MX_FRESNEL_SCHLICK,
+    return mx_ggx_environment(roughness, N, X, retroreflective ? reflect(-V, N) : V, MX_FRESNEL_SCHLICK,
                               max(color0, 0.0), max(color82, 0.0), max(color90, 0.0), exponent, film, film_ior);
 }
 
@@ -97,7 +96,7 @@ vec3 mx_generalized_schlick_bsdf_transmission(vec3 color0, vec3 color82, vec3 co
     if (scatter_mode == "R")
         return vec3(0.0);
     float r = sqrt(clamp(dot(color0, vec3(1.0 / 3.0)), 0.01, 0.99));
-    return mx_ggx_environment(roughness, N, X, V, (1.0 + r) / (1.0 - r), MX_FRESNEL_SCHLICK,
+    return mx_ggx_refraction(roughness, N, X, V, (1.0 + r) / (1.0 - r), MX_FRESNEL_SCHLICK,
                               max(color0, 0.0), max(color82, 0.0), max(color90, 0.0), exponent, film, film_ior);
 }
 
@@ -107,7 +106,7 @@ vec3 mx_generalized_schlick_bsdf_throughput(vec3 color0, vec3 color82, vec3 colo
 {
     if (scatter_mode == "T")
         return vec3(1.0);
-    vec3 reflected = mx_ggx_reflectance(roughness, N, V, MX_FRESNEL_SCHLICK, max(color0, 0.0), max(color82, 0.0),
+    vec3 reflected = mx_ggx_reflectance(mx_ggx_albedo(roughness, N, V), MX_FRESNEL_SCHLICK, max(color0, 0.0), max(color82, 0.0),
                                         max(color90, 0.0), film, film_ior);
     return vec3(1.0 - dot(reflected, vec3(1.0 / 3.0)));
 }

@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: Apache-2.0
+/* What a generation gives: source with places, reflection, views; and what a path of an element means. */
+#include "tests/api/fixture.h"
+
+struct bench {
+    struct memory_files files;
+    mxg_context *context;
+    mxg_library *library;
+    mxg_document *document;
+    mxg_options *options;
+};
+
+static void bench_open(struct bench *b, const char *text)
+{
+    *b = (struct bench){.files = {.files = fixture_files}};
+    mxg_resolver resolver = memory_resolver(&b->files);
+    mxg_context_desc desc = MXG_CONTEXT_DESC_INIT;
+    desc.resolver = &resolver;
+    REQUIRE_EQ(mxg_context_create(&desc, &b->context), MXG_OK);
+    b->library = mxg_library_builtin(b->context);
+    REQUIRE_EQ(text ? mxg_document_parse(b->context, b->library, "test.mtlx", text, strlen(text), &b->document)
+                    : mxg_document_load(b->context, b->library, "main.mtlx", &b->document), MXG_OK);
+    REQUIRE_EQ(mxg_options_create(b->context, &b->options), MXG_OK);
+}
+
+static void bench_close(struct bench *b)
+{
+    mxg_options_destroy(b->options);
+    mxg_document_destroy(b->document);
+    mxg_library_unref(b->library);
+    mxg_context_destroy(b->context);
+}
+
+static mxg_result *generate(const struct bench *b, const char *target, const char *element, mxg_status expected)
+{
+    mxg_generate_desc desc = {sizeof desc, target, element, b->options};
+    mxg_result *result = NULL;
+    REQUIRE_EQ(mxg_generate(b->context, b->document, &desc, &result), expected);
+    return result;
+}
+
+/* ---- Source ---- */
+
+static void test_targets(const struct bench *b)
+{
+    REQUIRE(mxg_num_targets() >= 3);
+    for (uint32_t i = 0; i < mxg_num_targets(); i++) {
+        mxg_target target = {sizeof target};
+        REQUIRE_EQ(mxg_get_target(i, &target), MXG_OK);
+        const char *const names[] = {target.name, target.materialx_name};
+        for (int n = 0; n < 2; n++) {
+            mxg_result *result = generate(b, names[n], NULL, MXG_OK);
+            for (int stage = 0; stage < MXG_NUM_STAGES; stage++) {
+                size_t size = 0;
+                const char *source = mxg_result_source(result, (mxg_stage)stage, &size);
+                REQUIRE((source != NULL) == (target.stage_suffix[stage] != NULL));
+                REQUIRE(!source || strlen(source) == size);
+            }
+            mxg_result_destroy(result);
+        }
+    }
+    mxg_result *result = generate(b, "cobol", NULL, MXG_ERROR_DOCUMENT);
+    REQUIRE(has_diagnostic(mxg_result_diagnostics(result), "unknown-target"));
+    mxg_result_destroy(result);
+}
+
+/* The line that calls `tint` comes from node "t" of the graph, in line 8 of the document. */
+static void test_places(const struct bench *b)
+{
+    mxg_result *result = generate(b, "glsl", NULL, MXG_OK);
+    const char *source = mxg_result_source(result, MXG_STAGE_PIXEL, NULL);
+    bool found = false;
+    uint32_t line = 1;
+    for (const char *c = source; *c; line += *c++ == '\n') {
+        const char *file = NULL, *path = NULL;
+        uint32_t at_line = 0, at_column = 0;
+        if ((c != source && c[-1] != '\n') || !mxg_result_source_place(result, MXG_STAGE_PIXEL, line, &file, &at_line, &at_column, &path))
+            continue;
+        REQUIRE(file && path && at_line && at_column);
+        found = found || (strcmp(path, "G/t") == 0 && at_line == 8 && at_column == 5 && strcmp(file, "main.mtlx") == 0);
+    }
+    REQUIRE(found);
+    REQUIRE(!mxg_result_source_place(result, MXG_STAGE_PIXEL, 1, NULL, NULL, NULL, NULL)); /* "#version" */
+    mxg_result_destroy(result);
+}
+
+/* ---- Reflection ---- */
+
+static void test_variables(const struct bench *b)
+{
+    mxg_result *result = generate(b, "vulkan", NULL, MXG_OK);
+    uint32_t index = 0;
+    REQUIRE(mxg_result_find_variable(result, "S/coat", &index));
+    mxg_variable coat = {sizeof coat};
+    REQUIRE_EQ(mxg_result_variable(result, index, &coat), MXG_OK);
+    REQUIRE_STR(coat.path, "S/coat");
+    REQUIRE_STR(coat.type, "float");
+    REQUIRE_STR(coat.document_type, "float");
+    REQUIRE_STR(coat.uifolder, "Coat");
+    REQUIRE(coat.block == MXG_BLOCK_PUBLIC_UNIFORMS && coat.num_values == 1 && coat.values[0] == 0.5f && coat.byte_size == 4);
+    REQUIRE_EQ(coat.stages, 1u << MXG_STAGE_PIXEL);
+    REQUIRE(mxg_result_find_variable(result, "G/scale", &index));
+    mxg_variable scale = {sizeof scale};
+    REQUIRE_EQ(mxg_result_variable(result, index, &scale), MXG_OK);
+    REQUIRE_STR(scale.uiname, "Scale");
+    REQUIRE(mxg_result_find_variable(result, "G/i/file", &index));
+    mxg_variable texture = {sizeof texture};
+    REQUIRE_EQ(mxg_result_variable(result, index, &texture), MXG_OK);
+    REQUIRE_STR(texture.file, "wood.png");
+    REQUIRE_STR(texture.type, "sampler2D");
+    REQUIRE_EQ(texture.block, MXG_BLOCK_TEXTURES);
+    REQUIRE(!mxg_result_find_variable(result, "S/base_color", &index)); /* connected */
+    REQUIRE(!mxg_result_find_variable(result, "S/none", NULL) && !mxg_result_find_variable(result, NULL, NULL));
+    size_t size = 0;
+    const char *json = mxg_result_reflection_json(result, &size);
+    REQUIRE(json && strlen(json) == size && strstr(json, "\"S/coat\""));
+    REQUIRE(mxg_result_reflection_json(result, NULL) == json);
+    mxg_shader_info info = {sizeof info};
+    REQUIRE_EQ(mxg_result_info(result, &info), MXG_OK);
+    REQUIRE_STR(info.path, "M");
+    REQUIRE_STR(info.target, "vulkan");
+    REQUIRE(info.topology && info.num_closures && info.num_textures >= 1 && info.lit);
+    mxg_result_destroy(result);
+}
+
+static void test_interfaces(struct bench *b)
+{
+    mxg_options_set(b->options, "interface", "reduced");
+    mxg_result *result = generate(b, "glsl", NULL, MXG_OK);
+    REQUIRE(!mxg_result_find_variable(result, "S/coat", NULL));
+    bool found = false;
+    for (uint32_t i = 0; i < mxg_result_num_compiled_inputs(result); i++) {
+        mxg_compiled_input input = {sizeof input};
+        REQUIRE_EQ(mxg_result_compiled_input(result, i, &input), MXG_OK);
+        found = found || (strcmp(input.path, "S/coat") == 0 && strcmp(input.value, "0.5") == 0 && strcmp(input.type, "float") == 0);
+    }
+    REQUIRE(found);
+    mxg_result_destroy(result);
+    mxg_options_set(b->options, "uniform", "S/c*t");
+    result = generate(b, "glsl", NULL, MXG_OK);
+    REQUIRE(mxg_result_find_variable(result, "S/coat", NULL) && !mxg_result_find_variable(result, "S/base", NULL));
+    REQUIRE_EQ(mxg_diagnostics_warnings(mxg_result_diagnostics(result)), 0);
+    mxg_result_destroy(result);
+}
+
+static void test_globs(struct bench *b)
+{
+    static const struct {
+        const char *glob;
+        bool matches;
+    } globs[] = {{"**", true},         {"S/coat", true},   {"G/*", true},         {"*/sp*roughness", true}, {"**/i/f*e", true},
+                 {"?/coat", true},     {"G/i/*", true},    {"coat", false},       {"S/*/coat", false},      {"*coat", false},
+                 {"S?coat", false},    {"s/coat", false},  {"**/i/*/file", false}, {"S/coat*x", false},     {"S/", false}};
+    for (size_t i = 0; i < sizeof globs / sizeof *globs; i++) {
+        mxg_options *options = NULL;
+        mxg_options_create(b->context, &options);
+        mxg_options_set(options, "constant", globs[i].glob);
+        mxg_generate_desc desc = {sizeof desc, "glsl", NULL, options};
+        mxg_result *result = NULL;
+        REQUIRE_EQ(mxg_generate(b->context, b->document, &desc, &result), MXG_OK);
+        if (!REQUIRE_EQ(has_diagnostic(mxg_result_diagnostics(result), "glob-no-match"), !globs[i].matches))
+            puts(globs[i].glob);
+        mxg_result_destroy(result);
+        mxg_options_destroy(options);
+    }
+}
+
+/* ---- Views ---- */
+
+static void test_views(const struct bench *b)
+{
+    static const char *const words[] = {
+        [MXG_VIEW_ELEMENTS] = "[renderable]", [MXG_VIEW_GRAPH] = "G/t", [MXG_VIEW_DOT] = "digraph",
+        [MXG_VIEW_IR] = "%", [MXG_VIEW_CLOSURES] = "mx_", [MXG_VIEW_STATISTICS] = "closures"};
+    mxg_generate_desc desc = {sizeof desc, "glsl", NULL, NULL};
+    for (int view = 0; view <= MXG_VIEW_STATISTICS; view++) {
+        mxg_result *result = NULL;
+        size_t size = 0;
+        REQUIRE_EQ(mxg_inspect(b->context, b->document, (mxg_view)view, &desc, &result), MXG_OK);
+        const char *text = mxg_result_text(result, &size);
+        REQUIRE(text && strlen(text) == size && strstr(text, words[view]));
+        REQUIRE(!mxg_result_source(result, MXG_STAGE_PIXEL, NULL) || view == MXG_VIEW_STATISTICS);
+        mxg_result_destroy(result);
+    }
+}
+
+/* ---- Elements ---- */
+
+static const char elements[] =
+    "<materialx version=\"1.39\">\n"
+    "  <nodedef name=\"ND_a\" node=\"a\"><input name=\"x\" type=\"float\" value=\"1\"/><output name=\"out\" type=\"float\"/></nodedef>\n"
+    "  <nodegraph name=\"NG_a\" nodedef=\"ND_a\">\n"
+    "    <add name=\"sum\" type=\"float\"><input name=\"in1\" type=\"float\" interfacename=\"x\"/></add>\n"
+    "    <output name=\"out\" type=\"float\" nodename=\"sum\"/></nodegraph>\n"
+    "  <nodedef name=\"ND_b\" node=\"b\"><output name=\"out\" type=\"float\"/></nodedef>\n"
+    "  <nodegraph name=\"NG_b\"><constant name=\"c\" type=\"float\"/><output name=\"out\" type=\"float\" nodename=\"c\"/></nodegraph>\n"
+    "  <implementation name=\"IM_b\" nodedef=\"ND_b\" nodegraph=\"NG_b\"/>\n"
+    "  <nodegraph name=\"one\"><a name=\"use\" type=\"float\"/><output name=\"out\" type=\"float\" nodename=\"use\"/></nodegraph>\n"
+    "  <nodegraph name=\"two\">\n"
+    "    <separate3 name=\"parts\" type=\"multioutput\"><input name=\"in\" type=\"color3\" value=\"0.1, 0.2, 0.3\"/></separate3>\n"
+    "    <output name=\"x\" type=\"float\" nodename=\"parts\" output=\"outr\"/>\n"
+    "    <output name=\"y\" type=\"float\" nodename=\"parts\" output=\"outb\"/></nodegraph>\n"
+    "  <separate3 name=\"said\" type=\"multioutput\"><output name=\"outg\" type=\"float\"/></separate3>\n"
+    "  <surface_unlit name=\"S\" type=\"surfaceshader\"/>\n"
+    "  <surfacematerial name=\"M\" type=\"material\"><input name=\"surfaceshader\" type=\"surfaceshader\" nodename=\"S\"/></surfacematerial>\n"
+    "  <look name=\"L\"><materialassign name=\"MA\" material=\"M\" geom=\"/\"/></look>\n"
+    "</materialx>\n";
+
+static void test_elements(void)
+{
+    static const struct {
+        const char *path, *fault; /* an id, or NULL */
+        const char *meant;        /* the path of what was generated */
+    } cases[] = {
+        {NULL, NULL, "one/out"},
+        {"M", NULL, "M"},
+        {"L", NULL, "M"},
+        {"S", NULL, "S"},
+        {"S/out", NULL, "S/out"},
+        {"one", NULL, "one/out"},
+        {"one/use", NULL, "one/use"},
+        {"two/y", NULL, "two/y"},
+        {"two/parts/outg", NULL, "two/parts/outg"},
+        {"said/outg", NULL, "said/outg"},
+        {"said/outb", NULL, "said/outb"},
+        {"NG_a", NULL, "NG_a/out"}, /* a definition's own graph: with its defaults */
+        {"NG_a/sum", NULL, "NG_a/sum"},
+        {"NG_b/out", NULL, "NG_b/out"},
+        {"two", "ambiguous-output", NULL},
+        {"two/parts", "ambiguous-output", NULL},
+        {"said", "ambiguous-output", NULL},
+        {"two/parts/out", "dangling-output", NULL},
+        {"two/parts/nowhere", "unknown-element", NULL},
+        {"ND_a", "not-renderable", NULL},
+        {"two/parts/in", "not-renderable", NULL},
+        {"nothing", "unknown-element", NULL},
+        {"", "unknown-element", NULL},
+        {"/", "unknown-element", NULL},
+    };
+    struct bench b;
+    bench_open(&b, elements);
+    REQUIRE_EQ(mxg_document_num_renderables(b.document), 4); /* one/out, two/x, two/y, M */
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        mxg_result *result = generate(&b, "glsl", cases[i].path, cases[i].fault ? MXG_ERROR_DOCUMENT : MXG_OK);
+        mxg_shader_info info = {sizeof info};
+        bool good = cases[i].fault ? has_diagnostic(mxg_result_diagnostics(result), cases[i].fault)
+                                   : mxg_result_info(result, &info) == MXG_OK && strcmp(info.path, cases[i].meant) == 0;
+        if (!REQUIRE(good))
+            printf("    %s\n", cases[i].path ? cases[i].path : "(null)");
+        mxg_result_destroy(result);
+    }
+    bench_close(&b);
+    bench_open(&b, "<materialx version=\"1.39\"/>");
+    mxg_result *result = generate(&b, "glsl", NULL, MXG_ERROR_DOCUMENT);
+    REQUIRE(has_diagnostic(mxg_result_diagnostics(result), "nothing-to-render"));
+    mxg_result_destroy(result);
+    bench_close(&b);
+}
+
+/* A result outlives the caller's other references, but for the context. */
+static void test_lifetimes(void)
+{
+    struct bench b;
+    bench_open(&b, NULL);
+    mxg_result *result = generate(&b, "glsl", NULL, MXG_OK);
+    mxg_options_destroy(b.options);
+    mxg_document_destroy(b.document);
+    mxg_library_unref(b.library);
+    REQUIRE(strstr(mxg_result_source(result, MXG_STAGE_PIXEL, NULL), "tint"));
+    REQUIRE(strstr(mxg_result_reflection_json(result, NULL), "wood.png"));
+    mxg_result_destroy(result);
+    mxg_context_destroy(b.context);
+}
+
+int main(void)
+{
+    struct bench b;
+    bench_open(&b, NULL);
+    test_targets(&b);
+    test_places(&b);
+    test_variables(&b);
+    test_views(&b);
+    test_globs(&b);
+    test_interfaces(&b);
+    bench_close(&b);
+    test_elements();
+    test_lifetimes();
+    return test_report("api-generation");
+}

@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: Apache-2.0
+#define _POSIX_C_SOURCE 200809L
+#include "rows.h"
+
+#include <dirent.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MAX_DEVIATIONS_PERCENT = 1, MAX_FAILURES_SHOWN = 50 };
+
+/* ---- Files ---- */
+
+static void *grow(void *items, size_t len, size_t size)
+{
+    bool is_full = (len & (len - 1)) == 0; /* room is the next power of two */
+    void *grown = is_full ? realloc(items, (len ? 2 * len : 1) * size) : items;
+    if (!grown) {
+        fputs("out of memory\n", stderr);
+        exit(1);
+    }
+    return grown;
+}
+
+static char *path_of(const char *folder, const char *inner, const char *name, const char *end)
+{
+    size_t size = strlen(folder) + strlen(inner) + strlen(name) + strlen(end) + 3;
+    char *path = malloc(size);
+    if (path)
+        snprintf(path, size, "%s/%s/%s%s", folder, inner, name, end);
+    return path;
+}
+
+static FILE *open_file(const char *path)
+{
+    FILE *file = fopen(path, "r");
+    if (!file)
+        printf("cannot open '%s'\n", path);
+    return file;
+}
+
+/* The next line, without its end, in *line; which getline owns. */
+static bool next_line(FILE *file, char **line, size_t *room)
+{
+    ssize_t len = getline(line, room, file);
+    if (len > 0 && (*line)[len - 1] == '\n')
+        (*line)[len - 1] = '\0';
+    return len >= 0;
+}
+
+/* Cuts the field in front off *rest. */
+static char *next_field(char **rest, char separator)
+{
+    char *field = *rest, *end = strchr(field, separator);
+    *rest = end ? end + 1 : field + strlen(field);
+    if (end)
+        *end = '\0';
+    return field;
+}
+
+static int compare_names(const void *a, const void *b)
+{
+    return strcmp(*(char *const *)a, *(char *const *)b);
+}
+
+static bool list_documents(struct suite *suite)
+{
+    char *folder = path_of(suite->folder, "expected", "", "");
+    DIR *dir = folder ? opendir(folder) : NULL;
+    for (struct dirent *entry; dir && (entry = readdir(dir)) != NULL;) {
+        const char *end = strrchr(entry->d_name, '.');
+        if (!end || strcmp(end, ".csv") != 0)
+            continue;
+        suite->documents = grow(suite->documents, suite->num_documents, sizeof *suite->documents);
+        suite->documents[suite->num_documents++] = strndup(entry->d_name, (size_t)(end - entry->d_name));
+    }
+    if (dir)
+        closedir(dir);
+    free(folder);
+    qsort(suite->documents, suite->num_documents, sizeof *suite->documents, compare_names);
+    return suite->num_documents > 0;
+}
+
+static bool read_deviations(struct suite *suite)
+{
+    char *path = path_of(suite->folder, ".", "deviations", ".tsv"), *line = NULL;
+    size_t room = 0;
+    FILE *file = open_file(path);
+    while (file && next_line(file, &line, &room)) {
+        char *rest = line;
+        if (!*line || *line == '#')
+            continue;
+        suite->deviations = grow(suite->deviations, suite->num_deviations, sizeof *suite->deviations);
+        struct deviation *d = &suite->deviations[suite->num_deviations++];
+        *d = (struct deviation){0};
+        d->document = strdup(next_field(&rest, '\t'));
+        d->row = strdup(next_field(&rest, '\t'));
+    }
+    if (file)
+        fclose(file);
+    free(line);
+    free(path);
+    return file != NULL;
+}
+
+bool suite_open(struct suite *suite, const char *folder)
+{
+    *suite = (struct suite){.folder = folder};
+    if (list_documents(suite))
+        return read_deviations(suite);
+    printf("there are no expected values in '%s'\n", folder);
+    return false;
+}
+
+void suite_close(struct suite *suite)
+{
+    for (size_t i = 0; i < suite->num_documents; ++i)
+        free(suite->documents[i]);
+    for (size_t i = 0; i < suite->num_deviations; ++i) {
+        free(suite->deviations[i].document);
+        free(suite->deviations[i].row);
+    }
+    free(suite->documents);
+    free(suite->deviations);
+}
+
+char *suite_case_file(const struct suite *suite, size_t index)
+{
+    return path_of(suite->folder, "cases", suite->documents[index], ".mtlx");
+}
+
+/* ---- Rows ---- */
+
+static unsigned components_of(const char *type)
+{
+    static const struct {
+        const char *type;
+        unsigned components;
+    } types[] = {{"float", 1}, {"vector2", 2}, {"vector3", 3}, {"color3", 3}, {"vector4", 4}, {"color4", 4}};
+    for (size_t i = 0; i < sizeof types / sizeof *types; ++i)
+        if (strcmp(type, types[i].type) == 0)
+            return types[i].components;
+    return 0;
+}
+
+/* "case,type,pixels,status,tolerance,values": of 16 pixels, or of one where all are the same. */
+static bool parse_row(char *line, struct row *row)
+{
+    char *rest = line;
+    *row = (struct row){.name = strdup(next_field(&rest, ','))};
+    row->components = components_of(next_field(&rest, ','));
+    size_t pixels = strtoul(next_field(&rest, ','), NULL, 10);
+    const char *status = next_field(&rest, ',');
+    row->is_defined = strcmp(status, "ok") == 0 || strcmp(status, "derived") == 0;
+    row->tolerance = strtod(next_field(&rest, ','), NULL);
+    if (!row->components || (pixels != 1 && pixels != ROW_PIXELS))
+        return false;
+    size_t count = pixels * row->components;
+    for (size_t i = 0; i < ROW_PIXELS * row->components; ++i) {
+        if (i < count && !*rest)
+            return false;
+        row->values[i] = i < count ? strtod(next_field(&rest, ','), NULL) : row->values[i % row->components];
+    }
+    return !*rest;
+}
+
+bool suite_read(const struct suite *suite, size_t index, struct row_list *out)
+{
+    *out = (struct row_list){.document = suite->documents[index]};
+    char *path = path_of(suite->folder, "expected", out->document, ".csv"), *line = NULL;
+    size_t room = 0;
+    FILE *file = open_file(path);
+    bool good = file && next_line(file, &line, &room); /* the header */
+    while (good && next_line(file, &line, &room)) {
+        out->items = grow(out->items, out->len, sizeof *out->items);
+        good = parse_row(line, &out->items[out->len++]);
+        if (!good)
+            printf("%s: row %zu cannot be read\n", path, out->len);
+    }
+    if (file)
+        fclose(file);
+    free(line);
+    free(path);
+    return good;
+}
+
+void row_list_free(struct row_list *list)
+{
+    for (size_t i = 0; i < list->len; ++i)
+        free(list->items[i].name);
+    free(list->items);
+}
+
+/* ---- Judgement ---- */
+
+static double difference(double a, double b)
+{
+    if (isfinite(a) && isfinite(b))
+        return fabs(a - b);
+    return a == b || (isnan(a) && isnan(b)) ? 0.0 : INFINITY;
+}
+
+/* True where all values agree; else *out_at is the one that differs most. */
+static bool agrees(const struct row *row, const float *values, size_t *out_at)
+{
+    double worst = 0.0;
+    *out_at = 0;
+    for (size_t i = 0; i < ROW_PIXELS * row->components; ++i) {
+        double d = difference((double)values[i], row->values[i]);
+        if (d > worst) {
+            worst = d;
+            *out_at = i;
+        }
+    }
+    return worst <= row->tolerance;
+}
+
+static struct deviation *find_deviation(struct suite *suite, const struct row_list *list, const struct row *row)
+{
+    for (size_t i = 0; i < suite->num_deviations; ++i) {
+        struct deviation *d = &suite->deviations[i];
+        if (strcmp(d->document, list->document) == 0 && strcmp(d->row, row->name) == 0)
+            return d;
+    }
+    return NULL;
+}
+
+static bool fail(struct suite *suite, const struct row_list *list, const struct row *row)
+{
+    bool is_shown = ++suite->failed <= MAX_FAILURES_SHOWN;
+    if (is_shown)
+        printf("%s: %s: ", list->document, row->name);
+    return is_shown;
+}
+
+void suite_judge(struct suite *suite, const struct row_list *list, const struct row *row, const float *values, const char *problem)
+{
+    struct deviation *deviation = find_deviation(suite, list, row);
+    size_t at = 0;
+    bool good = values && agrees(row, values, &at);
+    if (deviation)
+        deviation->is_found = true;
+    if (values && !row->is_defined) {
+        ++suite->undefined;
+    } else if (good && deviation) {
+        if (fail(suite, list, row))
+            puts("agrees, though deviations.tsv has it");
+    } else if (good) {
+        ++suite->agree;
+    } else if (values && deviation) {
+        ++suite->deviate;
+    } else if (fail(suite, list, row)) {
+        if (values)
+            printf("pixel %zu, component %zu is %.9g, not %.9g (tolerance %g)\n", at / row->components, at % row->components,
+                   (double)values[at], row->values[at], row->tolerance);
+        else
+            puts(problem);
+    }
+}
+
+void suite_skip(struct suite *suite, const struct row_list *list, const struct row *row)
+{
+    struct deviation *deviation = find_deviation(suite, list, row);
+    if (deviation)
+        deviation->is_found = true;
+    ++suite->skipped;
+}
+
+static void check_deviations(struct suite *suite, size_t num_rows)
+{
+    for (size_t i = 0; i < suite->num_deviations; ++i) {
+        const struct deviation *d = &suite->deviations[i];
+        if (!d->is_found)
+            printf("deviations.tsv: there is no row '%s' of '%s'\n", d->row, d->document);
+        suite->failed += !d->is_found;
+    }
+    if (suite->num_deviations * 100 > num_rows * MAX_DEVIATIONS_PERCENT) {
+        printf("deviations.tsv has more than %d %% of the rows\n", MAX_DEVIATIONS_PERCENT);
+        ++suite->failed;
+    }
+}
+
+int suite_report(struct suite *suite, const char *name, bool is_whole)
+{
+    size_t total = suite->agree + suite->deviate + suite->undefined + suite->skipped + suite->failed;
+    if (is_whole)
+        check_deviations(suite, total);
+    printf("%s: %zu rows: %zu agree, %zu deviate as listed, %zu undefined in the reference, %zu not computed, %zu failed\n",
+           name, total, suite->agree, suite->deviate, suite->undefined, suite->skipped, suite->failed);
+    return suite->failed ? 1 : 0;
+}

@@ -1,0 +1,26 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Documents and programs of examples/ do what they say. Arguments: mxgen, mxgen-compile ('' to compile nothing), the programs.
+mxgen=$(realpath "$1") compile=${2:+$(realpath "$2")}
+here=$(cd "$(dirname "$0")" && pwd)
+examples=$here/../../examples
+declare -A program
+for path in "${@:3}"; do
+    program[${path##*/}]=$(realpath "$path")
+done
+. "$here/common.sh"
+
+for document in "$examples"/*.mtlx; do
+    check "${document##*/}" exits 0 "$mxgen" "$document" --target vulkan -o out.d
+    check "${document##*/} without a warning" test ! -s err
+    [ -z "$compile" ] || check "${document##*/} compiles" exits 0 "$compile" "$document"
+    check "${document##*/} is in the list" grep -qF "\`${document##*/}\`" "$examples/README.md"
+done
+check 'reflection' exits 0 "${program[reflection]}" "$examples/marble.mtlx"
+check 'tells the user interface' grep -q "float NG_marble_scale = 5 .*shown as 'Scale' from 0.1 to 50" out
+check 'tells textures' eval '"${program[reflection]}" "$examples/textured.mtlx" | grep -q "sampler2D NG_wood.* file .textures/wood_color.png"'
+check 'host_resolver' exits 0 "${program[host_resolver]}"
+check 'reads three assets' grep -q 'fract' out
+[ -z "${program[c_minimal]:-}" ] || check 'c_minimal' exits 0 "${program[c_minimal]}" "$examples/gold.mtlx"
+
+finish examples

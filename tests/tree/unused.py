@@ -1,0 +1,69 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Every node of the library, alone in a graph with its defaults: the shader has no function, uniform, stream, struct or variable that
+is not used. Arguments: mxgen, a target."""
+import re
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+MXGEN, TARGET = sys.argv[1:]
+LINE = re.compile(r"^(\S+)  (\w+)\((.*)\) -> (.*)$")
+PATTERNS = {"boolean", "integer", "float", "color3", "color4", "vector2", "vector3", "vector4"}
+WORD = re.compile(r"[A-Za-z_]\w*")
+# What a declaration introduces: functions, uniforms and streams, structs, local variables (also in lists).
+TYPE = r"(?:float|int|uint|bool|[iu]?vec[234]|mat[234]|sampler2D|[A-Z]\w*|mx_\w+)"
+FUNCTION = re.compile(rf"^(?:void|{TYPE}) (\w+)\(", re.M)
+GLOBAL = re.compile(rf"^(?:layout\([^)]*\) )?(?:flat )?(?:uniform|in) {TYPE} (\w+)", re.M)
+MEMBER = re.compile(rf"^    (?:flat )?{TYPE} (\w+)(?:\[\d+\])?;$", re.M)
+STRUCT = re.compile(r"^struct (\w+)", re.M)
+LOCAL = re.compile(rf"^ +(?:const )?{TYPE} (\w+(?:, \w+)*)(?: =|;)", re.M)
+HOST = {"main", "LightData"}  # whose members are the host's
+
+
+def document(lines):
+    """A graph per definition and output. Closures and shaders need lights; they are tested elsewhere."""
+    text = ['<materialx version="1.39">']
+    for name, node, _, outputs in lines:
+        ports = [output.split(":") for output in outputs.split(", ")]
+        for port, kind in ports:
+            if kind not in PATTERNS:
+                continue
+            several = len(ports) > 1
+            choice = f' output="{port}"' if several else ""
+            text.append(f'<nodegraph name="{name}_{port}"><{node} name="n" nodedef="{name}" type="{"multioutput" if several else kind}"/>'
+                        f'<output name="o" type="{kind}" nodename="n"{choice}/></nodegraph>')
+    return "\n".join(text + ["</materialx>"])
+
+
+def unused(source):
+    code = re.sub(r"//.*", "", source)
+    counts = {}
+    for word in WORD.findall(code):
+        counts[word] = counts.get(word, 0) + 1
+    names = FUNCTION.findall(code) + GLOBAL.findall(code) + MEMBER.findall(code) + STRUCT.findall(code)
+    for names_of_one in LOCAL.findall(code):
+        names += names_of_one.split(", ")
+    return sorted({name for name in names if counts[name] < 2 and name not in HOST})
+
+
+listed = subprocess.run([MXGEN, "library", "list"], capture_output=True, text=True, check=True).stdout
+definitions = [match.groups() for match in map(LINE.match, listed.splitlines()) if match]
+passed, failures = 0, []
+with tempfile.TemporaryDirectory() as folder:
+    path = Path(folder, "all.mtlx")
+    path.write_text(document(definitions), encoding="utf-8")
+    made = subprocess.run([MXGEN, path, "--target", TARGET, "--stdout"], capture_output=True, text=True, check=False)
+    if made.returncode:
+        failures.append(made.stderr)
+    for section in re.split(r"^// (?=\S+\.(?:vert|frag)$)", made.stdout, flags=re.M)[1:]:
+        name, source = section.split("\n", 1)
+        found = unused(source)
+        if found:
+            failures.append(f"{name}: not used: {', '.join(found)}")
+        else:
+            passed += 1
+print("\n".join(failures))
+print(f"unused: {passed} passed, {len(failures)} failed, 0 skipped")
+sys.exit(bool(failures))
