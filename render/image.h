@@ -6,6 +6,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdlib.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -24,7 +25,11 @@ bool image_read(const char *path, struct image *out, char *reason, size_t capaci
 /* Writes 8-bit RGBA; the format follows from the name's ending. The file appears whole or not at all. */
 bool image_write(const char *path, uint32_t width, uint32_t height, const uint8_t *rgba, char *reason, size_t capacity);
 
-void image_finish(struct image *image);
+static inline void image_finish(struct image *image)
+{
+    free(image->pixels);
+    image->pixels = NULL;
+}
 
 /* Levels down to a single texel. */
 static inline uint32_t image_num_mips(const struct image *image)

@@ -84,8 +84,3 @@ bool image_write(const char *path, uint32_t width, uint32_t height, const uint8_
     return good;
 }
 
-void image_finish(struct image *image)
-{
-    std::free(image->pixels);
-    *image = {};
-}

@@ -18,7 +18,8 @@
  *     library    node definitions; immutable, reference-counted    until the last mxg_library_unref
  *     document   a loaded document; immutable; holds its library   until mxg_document_destroy
  *     options    values by key; belongs to the caller              until mxg_options_destroy
- *     result     source, reflection and diagnostics of one call; immutable; until mxg_result_destroy
+ *     result     source, reflection and diagnostics of one call;   until mxg_result_destroy
+ *                immutable; holds its document
  * Whatever an accessor returns lives as long as the object asked. Nothing is returned for the caller to free but objects.
  * A context must outlive what was made with it. Destroying NULL is allowed.
  *
@@ -26,7 +27,8 @@
  * found in the document or result, which exist even then.
  *
  * Threads: different contexts are independent. One context, and objects while they are made with it, belong to one thread at a time; a
- * library, document or result may be read by any number of threads, each generating with a context of its own.
+ * library, document or result may be read by any number of threads, each generating with a context of its own. Options belong to one
+ * thread while they are set.
  *
  * Strings are UTF-8 and NUL-terminated; lengths are given where a text may be large. The library prints nothing, reads no environment
  * variable, changes no locale and opens no file but through the resolver.
@@ -83,7 +85,8 @@ typedef struct mxg_result mxg_result;
 
 /*
  * As realloc, told both sizes; new_size 0 frees. NULL for a size above 0 is a failure, which the current call reports as
- * MXG_ERROR_MEMORY. Called on the thread that uses the context; it must not call mxgen.
+ * MXG_ERROR_MEMORY. Called on every thread that uses the context or an object made with it, perhaps on several at once: some texts are
+ * made when they are asked for first, and whoever gives up the last reference frees. It must not call mxgen.
  */
 typedef void *(*mxg_realloc_fn)(void *user_data, void *block, size_t old_size, size_t new_size);
 
@@ -112,9 +115,9 @@ typedef struct mxg_context_desc {
     mxg_realloc_fn realloc; /* NULL: the C library's */
     void *realloc_user_data;
     const mxg_resolver *resolver; /* copied; NULL: files relative to the referring file, then to the working directory */
-    bool (*cancel)(void *user_data); /* asked now and then; true stops the call. NULL: never */
+    bool (*cancel)(void *user_data); /* asked now and then by mxg_generate and mxg_inspect; true stops them. NULL: never */
     void *cancel_user_data;
-    size_t max_memory;        /* bytes; 0 = unlimited */
+    size_t max_memory;        /* bytes of the context, its objects and the files it reads without a resolver; 0 = unlimited */
     uint32_t max_file_mib;    /* 0 = 256 */
     uint32_t max_elements;    /* 0 = 16,000,000 */
     uint32_t max_nodes;       /* IR operations of a generation; 0 = 64,000,000 */
@@ -149,7 +152,7 @@ MXG_API uint32_t mxg_diagnostics_warnings(const mxg_diagnostics *list);
 MXG_API mxg_status mxg_diagnostics_get(const mxg_diagnostics *list, uint32_t index, mxg_diagnostic *out);
 /*
  * Renders one as compilers do, with the source line and a caret where `source` (may be NULL) holds the file's text.
- * Writes at most `capacity` bytes with a NUL; returns the length it needs without the NUL.
+ * Writes at most `capacity` bytes with a NUL; returns the length it needs without the NUL, 0 where there is none or no memory.
  */
 MXG_API size_t mxg_diagnostics_format(const mxg_diagnostics *list, uint32_t index, const char *source, size_t source_size,
                                       bool colour, char *buffer, size_t capacity);
@@ -160,12 +163,13 @@ MXG_API const mxg_diagnostics *mxg_result_diagnostics(const mxg_result *result);
 
 /* ---- Library ---- */
 
-/* The library that is built in; never NULL for a context of this build. Own one reference. */
+/* The library that is built in, with a reference for the caller. */
 MXG_API mxg_library *mxg_library_builtin(mxg_context *context);
 
 /*
  * A library of `base` (may be NULL: an empty one) and the given files, folders (every .mtlx below) or library images (.mxlib). Where a
- * definition stands in both, the new one wins. *out_library is set even with MXG_ERROR_DOCUMENT, for its diagnostics.
+ * definition stands in both, the new one wins. *out_library is set even with MXG_ERROR_DOCUMENT, for its diagnostics. Folders are those
+ * of the file system; what lies in them is read through the resolver.
  */
 MXG_API mxg_status mxg_library_load(mxg_context *context, mxg_library *base, const char *const *paths, size_t num_paths,
                                     mxg_library **out_library);
@@ -208,9 +212,7 @@ MXG_API void mxg_document_destroy(mxg_document *document);
 MXG_API uint32_t mxg_document_num_files(const mxg_document *document);
 MXG_API const char *mxg_document_file(const mxg_document *document, uint32_t index);
 
-/*
- * Elements that can be generated: materials, shaders that no material uses, and outputs of node graphs that no shader uses; in document order.
- */
+/* Elements that can be generated: materials, shaders that no material uses, outputs of graphs that no shader uses; in document order. */
 typedef struct mxg_renderable {
     size_t size; /* in */
     const char *path; /* "Gold", "NG_marble1/out" */
@@ -233,7 +235,9 @@ typedef struct mxg_target {
 MXG_API uint32_t mxg_num_targets(void);
 MXG_API mxg_status mxg_get_target(uint32_t index, mxg_target *out);
 
-typedef enum mxg_option_type { MXG_OPTION_BOOL, MXG_OPTION_INT, MXG_OPTION_STRING, MXG_OPTION_ENUM, MXG_OPTION_LIST, MXG_OPTION_MAX_ENUM = 0x7fffffff } mxg_option_type;
+typedef enum mxg_option_type {
+    MXG_OPTION_BOOL, MXG_OPTION_INT, MXG_OPTION_STRING, MXG_OPTION_ENUM, MXG_OPTION_LIST, MXG_OPTION_MAX_ENUM = 0x7fffffff
+} mxg_option_type;
 typedef struct mxg_option {
     size_t size; /* in */
     const char *key;      /* "interface" */
@@ -262,7 +266,11 @@ typedef enum mxg_stage { MXG_STAGE_VERTEX, MXG_STAGE_PIXEL, MXG_NUM_STAGES, MXG_
 typedef struct mxg_generate_desc {
     size_t size;
     const char *target;         /* name of a target: "glsl" */
-    const char *element;        /* path of what to generate; NULL: the document's only renderable, or its first */
+    /*
+     * Path of what to generate: a material, shader, node or output, "Gold" or "NG_marble1/out"; an output of a node, "split/outr"; a graph
+     * with one output, or a look with one material. NULL: the document's first renderable.
+     */
+    const char *element;
     const mxg_options *options; /* NULL: defaults */
 } mxg_generate_desc;
 #define MXG_GENERATE_DESC_INIT {sizeof(mxg_generate_desc)}
@@ -327,7 +335,7 @@ typedef struct mxg_shader_info {
 } mxg_shader_info;
 MXG_API mxg_status mxg_result_info(const mxg_result *result, mxg_shader_info *out);
 
-/* All of the above as JSON (docs/reflection.md). */
+/* All of the above as JSON (docs/reflection.md). NULL without a shader or without memory. */
 MXG_API const char *mxg_result_reflection_json(const mxg_result *result, size_t *out_size);
 
 /* ---- Looking inside ---- */

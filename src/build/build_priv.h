@@ -31,14 +31,18 @@ struct frame {
     uint8_t phase;           /* enum frame_phase */
     ir_ref *args;
     uint32_t memo_key;
+    uint32_t outline;        /* memo of the function that `inner` becomes; LIBRARY_NONE: it is built into the graph */
+    uint32_t function;       /* of the graph; only with `outline` */
 };
 
-/* Results of functional graphs by definition and arguments: equal uses are built once. */
+/* Results of functional graphs by definition and arguments: equal uses are built once. And functions made of them (outline.c). */
 struct memo {
     uint32_t hash, impl;
     const ir_ref *args;
     uint32_t num_args;
-    uint32_t first_result;
+    uint32_t first_result; /* + 1 */
+    uint32_t uses;         /* of a function: times it was asked for */
+    uint32_t function;     /* + 1, once it stands */
 };
 
 struct builder {
@@ -78,6 +82,16 @@ ir_ref build_result(struct builder *b, struct instance *scope, elem_id node, uns
  * needs it, for messages. Writes one ref per output; poison after an error.
  */
 void build_apply(struct builder *b, uint32_t nodedef, elem_id where, const ir_ref *args, ir_ref *results);
+
+/* The memo of a graph used with these arguments, made when it is new. It moves when another is made. */
+struct memo *build_memo(struct builder *b, uint32_t impl, const ir_ref *args, uint32_t n);
+
+/* outline.c: the memo of the function that a graph is by now, or LIBRARY_NONE where it is built in place. */
+uint32_t build_outlined(struct builder *b, const struct frame *frame);
+/* Gives frame->inner parameters for arguments. */
+void build_begin_function(struct builder *b, struct frame *frame);
+/* One ref per output of the definition. */
+void build_call_function(struct builder *b, const struct frame *frame, uint32_t function, ir_ref *results);
 
 /* input.c */
 

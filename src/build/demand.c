@@ -94,8 +94,7 @@ static void grow_memos(struct builder *b)
     }
 }
 
-/* The memo of a graph used with these arguments, made when it is new: then its first_result is 0. */
-static struct memo *find_memo(struct builder *b, uint32_t impl, const ir_ref *args, uint32_t n)
+struct memo *build_memo(struct builder *b, uint32_t impl, const ir_ref *args, uint32_t n)
 {
     if (!b->memo_table || b->memos.len * 2 > b->memo_mask)
         grow_memos(b);
@@ -214,6 +213,22 @@ static void convert_colors(struct builder *b, const struct frame *frame, ir_ref 
     }
 }
 
+/* The results of a graph for these arguments are known: they are kept for equal uses. */
+static void finish_graph(struct builder *b, struct frame *frame, ir_ref *results)
+{
+    convert_colors(b, frame, results);
+    uint32_t first = add_results(b, results, library_nodedef(b->lib, frame->node.nodedef)->num_outputs);
+    b->memos.items[frame->memo_key].first_result = first + 1;
+    finish(b, first);
+}
+
+static void finish_call(struct builder *b, struct frame *frame, uint32_t function)
+{
+    ir_ref results[BUILD_MAX_OUTPUTS];
+    build_call_function(b, frame, function, results);
+    finish_graph(b, frame, results);
+}
+
 static void enter_graph(struct builder *b, struct frame *frame)
 {
     const struct nodedef *def = library_nodedef(b->lib, frame->node.nodedef);
@@ -227,17 +242,25 @@ static void enter_graph(struct builder *b, struct frame *frame)
         b->frames.len--;
         return;
     }
-    struct memo *memo = find_memo(b, frame->impl->ref, frame->args, def->num_inputs);
+    struct memo *memo = build_memo(b, frame->impl->ref, frame->args, def->num_inputs);
     if (memo->first_result) {
         finish(b, memo->first_result - 1);
         return;
     }
     frame->memo_key = (uint32_t)(memo - b->memos.items);
+    frame->outline = build_outlined(b, frame);
+    uint32_t function = frame->outline == LIBRARY_NONE ? 0 : b->memos.items[frame->outline].function;
+    if (function) {
+        finish_call(b, frame, function - 1);
+        return;
+    }
     frame->inner = new_instance(b, frame->scope, graph);
     frame->inner->nodedef = frame->node.nodedef;
     frame->inner->args = frame->args;
     frame->inner->node = frame->node.element;
     frame->inner->origin = b->graph->origin;
+    if (frame->outline != LIBRARY_NONE)
+        build_begin_function(b, frame);
     frame->phase = PHASE_OUTPUTS;
     frame->next = 0;
 }
@@ -299,10 +322,13 @@ static void leave_graph(struct builder *b)
                      name_of(b, frame->inner->graph), build_text(b, outputs[i].name), "");
         results[i] = build_input(b, frame->inner, frame->inner->graph, &outputs[i], &binding);
     }
-    convert_colors(b, frame, results);
-    uint32_t first = add_results(b, results, def->num_outputs);
-    b->memos.items[frame->memo_key].first_result = first + 1;
-    finish(b, first);
+    if (frame->outline == LIBRARY_NONE) {
+        finish_graph(b, frame, results);
+        return;
+    }
+    ir_set_results(b->graph, frame->function, results, def->num_outputs);
+    b->memos.items[frame->outline].function = frame->function + 1;
+    finish_call(b, frame, frame->function);
 }
 
 static void step_outputs(struct builder *b)

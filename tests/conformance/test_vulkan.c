@@ -37,7 +37,7 @@ static void note_error(struct run *run, const mxg_diagnostics *list)
 }
 
 /* From RGBA with the first row on top to the components of a row. */
-static void arrange(const float (*pixels)[4], unsigned components, float *out)
+static void arrange(float (*pixels)[4], unsigned components, float *out)
 {
     for (size_t y = HEIGHT; y-- > 0;)
         for (size_t x = 0; x < WIDTH; ++x)
