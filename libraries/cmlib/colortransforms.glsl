@@ -22,14 +22,10 @@ vec3 mx_decode_gamma(vec3 color, float gamma)
 }
 
 // IEC 61966-2-1
-float mx_decode_srgb(float x)
-{
-    return x > 0.04045 ? pow((x + 0.055) / 1.055, 2.4) : x / 12.92;
-}
-
 vec3 mx_srgb_texture_to_lin_rec709(vec3 color)
 {
-    return vec3(mx_decode_srgb(color.r), mx_decode_srgb(color.g), mx_decode_srgb(color.b));
+    vec3 curve = pow(max((color + 0.055) / 1.055, 0.0), vec3(2.4));
+    return mix(color / 12.92, curve, step(0.04045, color));
 }
 
 vec3 mx_g18_rec709_to_lin_rec709(vec3 color) { return mx_decode_gamma(color, 1.8); }

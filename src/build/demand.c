@@ -213,6 +213,12 @@ static void convert_colors(struct builder *b, const struct frame *frame, ir_ref 
     }
 }
 
+static void set_origin(struct builder *b, const struct frame *frame)
+{
+    b->graph->origin = ir_add_origin(b->graph, doc_element(doc_of(b), frame->node.element)->name, frame->node.element,
+                                     frame->scope->origin);
+}
+
 /* The results of a graph for these arguments are known: they are kept for equal uses. */
 static void finish_graph(struct builder *b, struct frame *frame, ir_ref *results)
 {
@@ -225,8 +231,11 @@ static void finish_graph(struct builder *b, struct frame *frame, ir_ref *results
 static void finish_call(struct builder *b, struct frame *frame, uint32_t function)
 {
     ir_ref results[BUILD_MAX_OUTPUTS];
+    uint32_t before = b->graph->origin;
+    set_origin(b, frame);
     build_call_function(b, frame, function, results);
     finish_graph(b, frame, results);
+    b->graph->origin = before;
 }
 
 static void enter_graph(struct builder *b, struct frame *frame)
@@ -263,12 +272,6 @@ static void enter_graph(struct builder *b, struct frame *frame)
         build_begin_function(b, frame);
     frame->phase = PHASE_OUTPUTS;
     frame->next = 0;
-}
-
-static void set_origin(struct builder *b, const struct frame *frame)
-{
-    b->graph->origin = ir_add_origin(b->graph, doc_element(doc_of(b), frame->node.element)->name, frame->node.element,
-                                     frame->scope->origin);
 }
 
 static void step_inputs(struct builder *b)

@@ -433,13 +433,13 @@ static bool is_part(struct scheduler *s, const struct plan *plan)
 /* May an arm become a local for the sake of let_arms? What has a name already is not copied. */
 static bool is_little_work(struct scheduler *s, const struct plan *arm)
 {
-    return ir_get(s->graph, arm->ref)->num_args > 0 && !is_part(s, arm) && arm->cost <= MAX_COST_OF_ARM && may_let(s, arm)
-           && !(arm->flags & PLAN_LOCAL);
+    return arm->flags & PLAN_LIGHT && ir_get(s->graph, arm->ref)->num_args > 0 && !is_part(s, arm)
+           && arm->cost <= MAX_COST_OF_ARM && may_let(s, arm) && !(arm->flags & PLAN_LOCAL);
 }
 
 /*
- * A choice between locals and constants is one operation; between expressions it is a branch. What is little work is rather done
- * in vain.
+ * A choice between locals and constants is one operation; between expressions it is a branch. In the loop over lights, what is little
+ * work is rather done in vain; elsewhere one line reads better.
  */
 static void let_arms(struct scheduler *s, const struct ir_node *node)
 {

@@ -17,18 +17,18 @@ same() {
 }
 
 run_line() {
-    local document=$1 name=$2 files=frag option options=() plain=()
+    local document=$1 name=$2 files=frag target=glsl interface=complete option options=()
     shift 2
     for option in "$@"; do
         case $option in
-            files=*) files=${option#files=} ;;
-            target=*) plain+=("--targets" "${option#*=}"); options+=("--$option") ;;
-            interface=*) plain+=("--interfaces" "${option#*=}"); options+=("--$option") ;;
-            *) plain+=("--$option"); options+=("--$option") ;;
+            files=*) files=${option#*=} ;;
+            target=*) target=${option#*=} ;;
+            interface=*) interface=${option#*=} ;;
+            *) options+=("--$option") ;;
         esac
     done
     local title=${document%.mtlx}.$name
-    check "$title" exits 0 "$mxgen" "$document" --reflect -o "$title" "${options[@]}" || return
+    check "$title" exits 0 "$mxgen" "$document" --target "$target" --interface "$interface" --reflect -o "$title" "${options[@]}" || return
     for ending in ${files//,/ }; do
         local made=("$title"/*."$ending")
         for file in "${made[@]}"; do
@@ -39,7 +39,7 @@ run_line() {
             [ -z "$update" ] || cat check.log
         done
     done
-    [ -z "$compile" ] || check "$title compiles" "$compile" "$document" "${plain[@]}"
+    [ -z "$compile" ] || check "$title compiles" "$compile" "$document" --targets "$target" --interfaces "$interface" "${options[@]}"
 }
 
 declare -A kept

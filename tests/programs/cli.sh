@@ -41,6 +41,7 @@ check '--depfile' exits 0 "$mxgen" 'with space.mtlx' -e A -o dep --depfile dep.d
 check 'depfile escapes spaces' grep -qF 'dep/A.vert dep/A.frag: with\ space.mtlx' dep.d
 check 'without -o files go to the current folder' eval '(mkdir -p cwd && cd cwd && "$mxgen" ../two.mtlx -e A && test -f A.frag)'
 check 'two runs give the same bytes' eval '"$mxgen" two.mtlx -o again && diff -r all again'
+check 'and so does another working directory' eval '(cd other && "$mxgen" ../two.mtlx -o ../elsewhere) && diff -r all elsewhere'
 
 # Bad input: exit code 1, and nothing half-written
 check 'a bad value' exits 1 "$mxgen" bad.mtlx -o bad
@@ -50,6 +51,16 @@ check 'shows a caret' grep -Eq '^ *\^' err
 check 'what does not need it is written' files bad './A.frag ./A.vert '
 check 'missing file' exits 1 "$mxgen" none.mtlx
 check 'has its id' grep -q '\[file-missing\]' err
+check 'a folder as a file' exits 1 "$mxgen" other
+: >empty.mtlx
+check 'an empty file' exits 1 "$mxgen" empty.mtlx
+check 'has its id too' grep -q '\[file-empty\]' err
+cp two.mtlx locked.mtlx && chmod 0 locked.mtlx
+if [ -r locked.mtlx ]; then
+    skip 'root reads every file'
+else
+    check 'an unreadable file' exits 1 "$mxgen" locked.mtlx
+fi
 check 'unknown target' exits 1 "$mxgen" two.mtlx --target glslx
 check 'lists the targets' grep -Eq 'glsl.*vulkan.*essl.*\[unknown-target\]' err
 check 'unknown element' exits 1 "$mxgen" two.mtlx --element B
@@ -99,6 +110,7 @@ for view in elements graph dot ir closures statistics; do
 done
 check 'library list' exits 0 "$mxgen" library list
 check 'a line for each definition, its name first' eval 'grep -q "^ND_mix_float  mix(" out'
+check 'and for each of the 816' test "$(wc -l <out)" -eq 816
 check 'library expand' exits 0 "$mxgen" library expand -o expanded.mtlx
 check 'expands templates' eval 'grep -q "ND_add_color3\"" expanded.mtlx && ! grep -q "<template" expanded.mtlx'
 cat >extra.mtlx <<'X'

@@ -18,7 +18,7 @@ for document in "$examples"/*.mtlx; do
 done
 check 'reflection' exits 0 "${program[reflection]}" "$examples/marble.mtlx"
 check 'tells the user interface' grep -q "float NG_marble_scale = 5 .*shown as 'Scale' from 0.1 to 50" out
-check 'tells textures' eval '"${program[reflection]}" "$examples/textured.mtlx" | grep -q "sampler2D NG_wood.* file .textures/wood_color.png"'
+check 'tells textures' eval '"${program[reflection]}" "$examples/textured.mtlx" | grep -q "sampler2D image_color_file .*textures/wood_color.png"'
 check 'host_resolver' exits 0 "${program[host_resolver]}"
 check 'reads three assets' grep -q 'fract' out
 [ -z "${program[c_minimal]:-}" ] || check 'c_minimal' exits 0 "${program[c_minimal]}" "$examples/gold.mtlx"

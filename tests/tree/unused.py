@@ -19,6 +19,8 @@ GLOBAL = re.compile(rf"^(?:layout\([^)]*\) )?(?:flat )?(?:uniform|in) {TYPE} (\w
 MEMBER = re.compile(rf"^    (?:flat )?{TYPE} (\w+)(?:\[\d+\])?;$", re.M)
 STRUCT = re.compile(r"^struct (\w+)", re.M)
 LOCAL = re.compile(rf"^ +(?:const )?{TYPE} (\w+(?:, \w+)*)(?: =|;)", re.M)
+# The value of a call with `out` arguments (declared without a value) may not matter; the call does.
+OUT_CALL = re.compile(rf"^ +{TYPE} (\w+) = \w+\(.*\b(\w+)\);$", re.M)
 HOST = {"main", "LightData"}  # whose members are the host's
 
 
@@ -45,7 +47,9 @@ def unused(source):
     names = FUNCTION.findall(code) + GLOBAL.findall(code) + MEMBER.findall(code) + STRUCT.findall(code)
     for names_of_one in LOCAL.findall(code):
         names += names_of_one.split(", ")
-    return sorted({name for name in names if counts[name] < 2 and name not in HOST})
+    outs = set(re.findall(rf"^ +{TYPE} (\w+);$", code, re.M))
+    called = {name for name, last in OUT_CALL.findall(code) if last in outs}
+    return sorted({name for name in names if counts[name] < 2 and name not in HOST | called})
 
 
 listed = subprocess.run([MXGEN, "library", "list"], capture_output=True, text=True, check=True).stdout

@@ -271,7 +271,7 @@ static void test_include_errors(void)
     REQUIRE_EQ(f.unit.files.len, 0);
     diag_list_init(&f.diags, &f.arena);
     REQUIRE_EQ(parse_text(&f, "#include \"none.glsl\"\n#include x\nfloat f() { return 1.0; }\n"), LANG_NONE);
-    REQUIRE_STR(messages(&f), "1:10: cannot open 'none.glsl': no such file\n2:1: #include needs the name of a file in quotes");
+    REQUIRE_STR(messages(&f), "1:10: cannot read the source file 'none.glsl' of 'a.glsl': no such file\n2:1: #include needs the name of a file in quotes");
     teardown(&f);
 }
 

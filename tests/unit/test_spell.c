@@ -183,7 +183,7 @@ static void test_statements(void)
     STATEMENTS("    vec3 color = vec3(0.0);\n    if (a > 0.0)\n        color += v;\n    out1 = vec4(color, 1.0);\n", &plain,
                effect(f, EFFECT_VAR, f->color, ir_const_splat(&f->graph, IR_TYPE_VEC3, 0));
                effect(f, EFFECT_IF, 0, op2(f, IR_GT, a, number(f, 0))); accumulate(f, v); effect(f, EFFECT_END, 0, 0); write_color(f););
-    STATEMENTS("    vec3 color;\n    if (a > 0.0) {\n        vec3 n = sin(v);\n        color += n;\n        color += n + 1.0;\n    }\n", &plain,
+    STATEMENTS("    vec3 color;\n    if (a > 0.0) {\n        vec3 n = sin(v);\n        color += n;\n        color += n + vec3(1.0);\n    }\n", &plain,
                effect(f, EFFECT_VAR, f->color, 0); effect(f, EFFECT_IF, 0, op2(f, IR_GT, a, number(f, 0)));
                use_twice(f, sine(f, "n", v)); effect(f, EFFECT_END, 0, 0););
     STATEMENTS("    if (a < 0.5)\n        discard;\n", &plain, effect(f, EFFECT_DISCARD, 0, op2(f, IR_LT, a, number(f, 0.5f))););
@@ -194,11 +194,11 @@ static void test_statements(void)
                effect(f, EFFECT_VAR, f->color, v); name(f, "s"); ir_ref args[] = {a, number(f, 2)}; ir_ref s = call(f, "step_on", args, 2);
                f->graph.origin = 0;
                accumulate(f, vec3_of(f, op2(f, IR_ADD, result(f, s, 0, IR_TYPE_FLOAT), result(f, s, 1, IR_TYPE_FLOAT)))););
-    STATEMENTS("    vec3 color = v;\n    // NG\n    vec3 n = sin(v);\n    color += n;\n    color += n + 1.0;\n"
-               "    vec3 m = sin(n);\n    color += m;\n    color += m + 1.0;\n",
+    STATEMENTS("    vec3 color = v;\n    // NG\n    vec3 n = sin(v);\n    color += n;\n    color += n + vec3(1.0);\n"
+               "    vec3 m = sin(n);\n    color += m;\n    color += m + vec3(1.0);\n",
                (&(struct spell_options){.comments = true, .path = path_of, .user_data = f}), effect(f, EFFECT_VAR, f->color, v);
                ir_ref n = sine(f, "n", v); use_twice(f, n); use_twice(f, sine(f, "m", n)););
-    STATEMENTS("    vec3 v = u_0;\n    vec3 v_2 = sin(u_0);\n    v += v_2;\n    v += v_2 + 1.0;\n",
+    STATEMENTS("    vec3 v = u_0;\n    vec3 v_2 = sin(u_0);\n    v += v_2;\n    v += v_2 + vec3(1.0);\n",
                (&(struct spell_options){.comments = true, .path = path_of, .user_data = f, .neutral_names = true}),
                effect(f, EFFECT_VAR, f->color, v); use_twice(f, sine(f, "n", v)););
     STATEMENTS("    vec3 color = v;\n    for (int i = 0; i < min(u_numActiveLightSources, 3); ++i) {\n        color += u_lightData[i].direction;\n    }\n", &plain,
@@ -237,9 +237,9 @@ static void test_graph_functions(void)
     effect(&f, EFFECT_VAR, f.color, ir_build(&f.graph, IR_GRAPH_CALL, IR_TYPE_VEC3, outer, given, 2));
     write_color(&f);
     REQUIRE_STR(stage_from(&f, "vec3 inner"),
-                "vec3 inner(vec3 p0, out float r1)\n{\n    float t = length(p0);\n    r1 = t;\n    vec3 n = normalize(p0);\n"
+                "vec3 inner(const vec3 p0, out float r1)\n{\n    float t = length(p0);\n    r1 = t;\n    vec3 n = normalize(p0);\n"
                 "    return cross(n, t * n);\n}\n\n"
-                "vec3 outer(vec3 p0, float p1)\n{\n    float deep_result;\n    vec3 deep = inner(p0, deep_result);\n"
+                "vec3 outer(const vec3 p0, const float p1)\n{\n    float deep_result;\n    vec3 deep = inner(p0, deep_result);\n"
                 "    return p1 * deep_result + deep;\n}\n\n"
                 "void main()\n{\n    vec3 color = outer(v, a);\n    out1 = vec4(color, 1.0);\n}\n");
     fixture_close(&f);
@@ -263,7 +263,7 @@ static void test_verbatim(void)
     effect(&f, EFFECT_VAR, f.color, result(&f, copy, 1, IR_TYPE_VEC3));
     write_color(&f);
     REQUIRE_STR(stage_from(&f, "void theirs"),
-                "void theirs(vec3 a, out vec3 b) { b = a; }\n\nvoid main()\n{\n    vec3 copy;\n    theirs(((v + 1.0) * v), copy);\n"
+                "void theirs(vec3 a, out vec3 b) { b = a; }\n\nvoid main()\n{\n    vec3 copy;\n    theirs(((v + vec3(1.0)) * v), copy);\n"
                 "    vec3 color = copy;\n    out1 = vec4(color, 1.0);\n}\n");
     fixture_close(&f);
 }
