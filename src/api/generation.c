@@ -45,7 +45,7 @@ static bool check_version(struct generation *g)
         text_fmt(&list, "%s%s", list.len ? ", " : "", *known);
     }
     if (version)
-        diag_add(diags_of(g), DIAG_ID_bad_option, nowhere, version, "version", list.len ? text_cstr(&list) : "no version");
+        diag_add(diags_of(g), DIAG_ID_bad_option, nowhere, version, "target-version", list.len ? text_cstr(&list) : "no version");
     return !version;
 }
 

@@ -115,6 +115,11 @@ str_id build_colorspace(struct builder *b, elem_id element);
 /* unit.c: a value given in `unit`, in the target's unit; nothing changes without a unit. */
 ir_ref build_unit_conversion(struct builder *b, ir_ref value, elem_id element, const struct port *port);
 
+/* filename.c: the value of a filename's element with its prefix and tokens. */
+str_id build_file_name(struct builder *b, const struct instance *scope, elem_id element);
+/* Whether a node sets tokens: then what is built for it is for no other. */
+bool build_has_tokens(const struct builder *b, elem_id node);
+
 /* node.c: results of a node from its arguments, except graphs. Writes one ref per output. */
 void build_node(struct builder *b, const struct frame *frame, ir_ref *results);
 /* The implementation of a definition for the target; NULL after a diagnostic. */

@@ -212,24 +212,12 @@ static ir_ref publish(struct builder *b, elem_id node, const struct port *port, 
 
 /* ---- textures ---- */
 
-static str_id resolve_file(struct builder *b, elem_id element, str_id file)
-{
-    str_id prefix = doc_inherited_attr(doc_of(b), element, STR_fileprefix);
-    if (!prefix || !file)
-        return file;
-    struct text name;
-    text_init(&name, b->arena);
-    text_str(&name, build_text(b, prefix));
-    text_str(&name, build_text(b, file));
-    return str_intern(b->shader->strings, name.data, name.len);
-}
-
-static ir_ref texture(struct builder *b, elem_id node, const struct port *port, elem_id element, str_id input)
+static ir_ref texture(struct builder *b, const struct instance *scope, elem_id node, const struct port *port, elem_id element, str_id input)
 {
     struct shader_variable v = describe(b, node, port, element, input, build_input_path(b, node, input, element));
     v.block = BLOCK_TEXTURES;
     v.update = UPDATE_UNIFORM;
-    v.file = element ? resolve_file(b, element, element_attr(b, element, STR_value)) : port->value;
+    v.file = element ? build_file_name(b, scope, element) : port->value;
     return ir_build(b->graph, IR_TEXTURE, IR_TYPE_SAMPLER, shader_add_variable(b->shader, &v), NULL, 0);
 }
 
@@ -309,12 +297,12 @@ ir_ref build_default(struct builder *b, const struct port *port)
 /* ---- bindings ---- */
 
 /* The value that an element of the document or a graph says, with its colour space and unit. */
-static ir_ref literal(struct builder *b, elem_id owner, const struct port *port, elem_id element, bool outermost)
+static ir_ref literal(struct builder *b, const struct instance *scope, elem_id owner, const struct port *port, elem_id element, bool outermost)
 {
     str_id name = doc_element(doc_of(b), element)->name;
     ir_type_id type = library_type_ir(b->lib, port->type);
     if (type == IR_TYPE_SAMPLER)
-        return texture(b, owner, port, element, name);
+        return texture(b, scope, owner, port, element, name);
     if (ir_type_is_closure(type) || ir_type_is_shader(type))
         return 0; /* value="" is how documents write "nothing" */
     ir_ref value = build_constant(b, port->type, doc_attr_value(doc_of(b), element, STR_value), port,
@@ -329,10 +317,10 @@ static ir_ref literal(struct builder *b, elem_id owner, const struct port *port,
     return build_unit_conversion(b, value, element, port);
 }
 
-static ir_ref unset(struct builder *b, elem_id owner, const struct port *port, elem_id element, bool outermost)
+static ir_ref unset(struct builder *b, const struct instance *scope, elem_id owner, const struct port *port, elem_id element, bool outermost)
 {
     if (library_type_ir(b->lib, port->type) == IR_TYPE_SAMPLER)
-        return texture(b, owner, port, element, port->name);
+        return texture(b, scope, owner, port, element, port->name);
     ir_ref value = build_default(b, port);
     if (!outermost || port->geomprop || !value)
         return value;
@@ -378,7 +366,7 @@ static ir_ref interface_arg(struct builder *b, struct instance *scope, const str
                  build_text(b, library_type_name(b->lib, have->type)));
         return ir_poison(b->graph, library_type_ir(b->lib, port->type));
     }
-    return alone ? unset(b, alone, have, 0, true) : scope->args[index];
+    return alone ? unset(b, scope, alone, have, 0, true) : scope->args[index];
 }
 
 /*
@@ -400,7 +388,7 @@ static ir_ref end_of_chain(struct builder *b, struct instance *scope, elem_id no
                  build_text(b, port->geomprop));
         says_value = false;
     }
-    ir_ref value = says_value ? literal(b, owner, port, element, outermost) : unset(b, owner, port, element, outermost);
+    ir_ref value = says_value ? literal(b, scope, owner, port, element, outermost) : unset(b, scope, owner, port, element, outermost);
     if (slot) {
         *slot = SLOT_RESULTS + b->results.len;
         vec_push(b->arena, &b->results, value);

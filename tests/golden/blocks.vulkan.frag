@@ -15,7 +15,5 @@ layout(location = 0) out vec4 out1;
 
 void main()
 {
-    // NG/m
-    vec3 m = NG_m3 * NG_c3 * (NG_g - (NG_f - (float(NG_i) + float(NG_b) + NG_v2.x)));
-    out1 = vec4(m, 1.0) + NG_v4;
+    out1 = vec4(NG_m3 * NG_c3 * (NG_g - (NG_f - (float(NG_i) + float(NG_b) + NG_v2.x))), 1.0) + NG_v4;
 }

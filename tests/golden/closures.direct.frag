@@ -17,24 +17,11 @@ in VertexData {
 } vd;
 out vec4 out1;
 
-float mx_fresnel_dielectric(const float cosine)
-{
-    float g = sqrt(max(2.1025002 + cosine * cosine - 1.0, 0.0));
-    vec2 a = cosine * vec2(1.0, 2.1025002);
-    vec2 r = (a - g) / (a + g);
-    return 0.5 * dot(r, r);
-}
-
-vec3 mx_ggx_compensation(const vec2 albedo)
-{
-    return 1.0 + vec3(0.079748526) * (1.0 / (albedo.x + albedo.y) - 1.0);
-}
-
 vec2 mx_ggx_albedo(const vec3 N, const vec3 V)
 {
     float c = max(abs(dot(N, V)), 1e-8);
     vec4 r = vec4(0.477028, 1.0224305, 1.3185087, 1.7036159) + c * (vec4(-0.679836, -2.4724538, -1.278424, -1.52478) + c * vec4(28.273684, 1.4824458, 27.56899, 14.8198395));
-    return clamp(r.xy / r.zw, 0.0, 1.0);
+    return clamp(r.xy / r.zw, vec2(0.0), vec2(1.0));
 }
 
 float mx_ggx_distribution(const vec3 h)
@@ -44,58 +31,51 @@ float mx_ggx_distribution(const vec3 h)
     return 1.0 / (0.005026548 * d * d);
 }
 
-mat3 mx_frame(const vec3 N, const vec3 X)
-{
-    vec3 x = normalize(X - dot(X, N) * N);
-    return mat3(x, cross(N, x), N);
-}
-
 float mx_ggx_visibility(const float cos_v, const float cos_l)
 {
     return 0.5 * cos_l / (cos_v * sqrt(mix(cos_l * cos_l, 1.0, 0.0016)) + cos_l * sqrt(mix(cos_v * cos_v, 1.0, 0.0016)));
 }
 
-vec2 mx_ggx_lobe(const vec3 Z, const vec3 X, const vec3 V, const vec3 L)
+float mx_fresnel_dielectric(const float cosine)
 {
-    vec3 H = normalize(V + L);
-    return vec2(mx_ggx_distribution(H * mx_frame(Z, X)) * mx_ggx_visibility(max(dot(Z, V), 1e-8), max(dot(Z, L), 1e-8)), clamp(dot(V, H), 1e-8, 1.0));
+    float g = sqrt(max(2.1025002 + cosine * cosine - 1.0, 0.0));
+    vec2 a = cosine * vec2(1.0, 2.1025002);
+    vec2 r = (a - g) / (a + g);
+    return 0.5 * dot(r, r);
 }
 
-vec3 mx_ggx_eval(const vec3 N, const vec3 X, const vec3 V, const vec3 L)
+vec3 mx_ggx_lobe(const mat3 frame, const vec3 V, const vec3 L)
 {
-    vec2 lobe = mx_ggx_lobe(faceforward(N, -V, N), X, V, L);
-    return lobe.x * vec3(mx_fresnel_dielectric(lobe.y)) * mx_ggx_compensation(mx_ggx_albedo(N, V));
+    vec3 H = normalize(V + L);
+    return mx_ggx_distribution(H * frame) * mx_ggx_visibility(max(dot(frame[2], V), 1e-8), max(dot(frame[2], L), 1e-8)) * vec3(mx_fresnel_dielectric(clamp(dot(V, H), 1e-8, 1.0)));
 }
 
 vec3 mx_oren_nayar_diffuse_bsdf_eval(const vec3 N, const vec3 V, const vec3 L)
 {
     float cos_l = max(dot(faceforward(N, -V, N), L), 1e-8);
-    vec3 lambert = vec3(0.6, 0.1, 0.05) * (cos_l / 3.1415927);
     float cos_v = max(dot(faceforward(N, -V, N), V), 1e-8);
     float s = max(dot(L, V), 1e-8) - cos_l * cos_v;
     if (s > 0.0)
         s /= max(cos_l, cos_v);
-    return lambert * (0.89285713 + 0.225 * max(s, 0.0));
-}
-
-vec3 mx_ggx_reflectance(const vec3 N, const vec3 V)
-{
-    vec2 albedo = mx_ggx_albedo(N, V);
-    return (vec3(0.033735957) * albedo.x + vec3(albedo.y)) * (1.0 + vec3(0.079748526) * (1.0 / (albedo.x + albedo.y) - 1.0));
+    return vec3(0.6, 0.1, 0.05) * (cos_l / 3.1415927) * (0.89285713 + 0.225 * max(s, 0.0));
 }
 
 void main()
 {
     vec3 color = vec3(0.0);
     vec3 normal = normalize(vd.normalWorld);
-    vec3 tangent = normalize(vd.tangentWorld);
     vec3 V = normalize(u_viewPosition - vd.positionWorld);
-    // paint
-    vec3 paint = (1.0 - mx_ggx_reflectance(normal, V)) * 0.75;
+    vec2 coat = mx_ggx_albedo(normal, V);
+    float coat_2 = (1.0 / (coat.x + coat.y) - 1.0) * 0.079748526 + 1.0;
+    vec3 tangent = normalize(vd.tangentWorld);
+    vec3 coat_3 = faceforward(normal, -V, normal);
+    vec3 coat_4 = normalize(tangent - coat_3 * dot(tangent, coat_3));
+    mat3 coat_5 = mat3(coat_4, cross(coat_3, coat_4), coat_3);
+    vec3 paint = (vec3(1.0) - (coat.x * 0.033735957 + coat.yyy) * coat_2) * 0.75;
     for (int i = 0; i < min(u_numActiveLightSources, 1); ++i) {
+        vec3 light = u_lightData[i].color * (u_lightData[i].intensity * (u_lightData[i].type == 1 ? 1.0 : 0.0));
         vec3 paint_2 = mx_oren_nayar_diffuse_bsdf_eval(normal, V, -u_lightData[i].direction) * paint;
-        vec3 t = mx_ggx_eval(normal, tangent, V, -u_lightData[i].direction) + paint_2;
-        color += (u_lightData[i].type == 1 ? u_lightData[i].color * u_lightData[i].intensity : vec3(0.0)) * t;
+        color += light * (coat_2 * mx_ggx_lobe(coat_5, V, -u_lightData[i].direction) + paint_2);
     }
     out1 = vec4(color, 1.0);
 }

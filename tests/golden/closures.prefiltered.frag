@@ -26,24 +26,11 @@ in VertexData {
 } vd;
 out vec4 out1;
 
-float mx_fresnel_dielectric(const float cosine)
-{
-    float g = sqrt(max(2.1025002 + cosine * cosine - 1.0, 0.0));
-    vec2 a = cosine * vec2(1.0, 2.1025002);
-    vec2 r = (a - g) / (a + g);
-    return 0.5 * dot(r, r);
-}
-
-vec3 mx_ggx_compensation(const vec2 albedo)
-{
-    return 1.0 + vec3(0.079748526) * (1.0 / (albedo.x + albedo.y) - 1.0);
-}
-
 vec2 mx_ggx_albedo(const vec3 N, const vec3 V)
 {
     float c = max(abs(dot(N, V)), 1e-8);
     vec4 r = vec4(0.477028, 1.0224305, 1.3185087, 1.7036159) + c * (vec4(-0.679836, -2.4724538, -1.278424, -1.52478) + c * vec4(28.273684, 1.4824458, 27.56899, 14.8198395));
-    return clamp(r.xy / r.zw, 0.0, 1.0);
+    return clamp(r.xy / r.zw, vec2(0.0), vec2(1.0));
 }
 
 float mx_ggx_distribution(const vec3 h)
@@ -53,44 +40,33 @@ float mx_ggx_distribution(const vec3 h)
     return 1.0 / (0.005026548 * d * d);
 }
 
-mat3 mx_frame(const vec3 N, const vec3 X)
-{
-    vec3 x = normalize(X - dot(X, N) * N);
-    return mat3(x, cross(N, x), N);
-}
-
 float mx_ggx_visibility(const float cos_v, const float cos_l)
 {
     return 0.5 * cos_l / (cos_v * sqrt(mix(cos_l * cos_l, 1.0, 0.0016)) + cos_l * sqrt(mix(cos_v * cos_v, 1.0, 0.0016)));
 }
 
-vec2 mx_ggx_lobe(const vec3 Z, const vec3 X, const vec3 V, const vec3 L)
+float mx_fresnel_dielectric(const float cosine)
 {
-    vec3 H = normalize(V + L);
-    return vec2(mx_ggx_distribution(H * mx_frame(Z, X)) * mx_ggx_visibility(max(dot(Z, V), 1e-8), max(dot(Z, L), 1e-8)), clamp(dot(V, H), 1e-8, 1.0));
+    float g = sqrt(max(2.1025002 + cosine * cosine - 1.0, 0.0));
+    vec2 a = cosine * vec2(1.0, 2.1025002);
+    vec2 r = (a - g) / (a + g);
+    return 0.5 * dot(r, r);
 }
 
-vec3 mx_ggx_eval(const vec3 N, const vec3 X, const vec3 V, const vec3 L)
+vec3 mx_ggx_lobe(const mat3 frame, const vec3 V, const vec3 L)
 {
-    vec2 lobe = mx_ggx_lobe(faceforward(N, -V, N), X, V, L);
-    return lobe.x * vec3(mx_fresnel_dielectric(lobe.y)) * mx_ggx_compensation(mx_ggx_albedo(N, V));
+    vec3 H = normalize(V + L);
+    return mx_ggx_distribution(H * frame) * mx_ggx_visibility(max(dot(frame[2], V), 1e-8), max(dot(frame[2], L), 1e-8)) * vec3(mx_fresnel_dielectric(clamp(dot(V, H), 1e-8, 1.0)));
 }
 
 vec3 mx_oren_nayar_diffuse_bsdf_eval(const vec3 N, const vec3 V, const vec3 L)
 {
     float cos_l = max(dot(faceforward(N, -V, N), L), 1e-8);
-    vec3 lambert = vec3(0.6, 0.1, 0.05) * (cos_l / 3.1415927);
     float cos_v = max(dot(faceforward(N, -V, N), V), 1e-8);
     float s = max(dot(L, V), 1e-8) - cos_l * cos_v;
     if (s > 0.0)
         s /= max(cos_l, cos_v);
-    return lambert * (0.89285713 + 0.225 * max(s, 0.0));
-}
-
-vec3 mx_ggx_reflectance(const vec3 N, const vec3 V)
-{
-    vec2 albedo = mx_ggx_albedo(N, V);
-    return (vec3(0.033735957) * albedo.x + vec3(albedo.y)) * (1.0 + vec3(0.079748526) * (1.0 / (albedo.x + albedo.y) - 1.0));
+    return vec3(0.6, 0.1, 0.05) * (cos_l / 3.1415927) * (0.89285713 + 0.225 * max(s, 0.0));
 }
 
 vec2 mx_latlong(const vec3 direction)
@@ -101,45 +77,38 @@ vec2 mx_latlong(const vec3 direction)
 
 vec3 mx_ggx_prefiltered(const vec3 N, const vec3 V)
 {
-    vec3 h = faceforward(N, -V, N);
     vec2 albedo = mx_ggx_albedo(N, V);
-    vec3 f = vec3(0.033735957) * albedo.x + vec3(albedo.y);
-    float lod = 0.2 * float(u_envRadianceMips - 1);
-    return f * (textureLod(u_envRadiance, mx_latlong(reflect(-V, h)), lod).xyz * u_envLightIntensity);
-}
-
-vec3 mx_ggx_environment(const vec3 N, const vec3 V)
-{
-    vec3 light = mx_ggx_prefiltered(N, V);
-    return light * mx_ggx_compensation(mx_ggx_albedo(N, V));
-}
-
-vec3 mx_oren_nayar_diffuse_bsdf_environment(const vec3 N, const vec3 V)
-{
-    vec3 light = vec3(0.6, 0.1, 0.05) * (textureLod(u_envIrradiance, mx_latlong(faceforward(N, -V, N)), 0.0).xyz * u_envLightIntensity);
-    float cos_v = max(dot(faceforward(N, -V, N), V), 1e-8);
-    vec2 fit = 1.0 + 0.3 * (vec2(-0.4297, -0.6076) + vec2(-0.7632, -0.4993) * cos_v + vec2(0.43155003, 0.60945004));
-    return light * clamp(fit.x / fit.y, 0.0, 1.0);
+    return (vec3(0.033735957) * albedo.x + vec3(albedo.y)) * (textureLod(u_envRadiance, mx_latlong(reflect(-V, faceforward(N, -V, N))), 0.2 * float(u_envRadianceMips - 1)).xyz * u_envLightIntensity);
 }
 
 void main()
 {
     vec3 color = vec3(0.0);
     vec3 normal = normalize(vd.normalWorld);
-    vec3 tangent = normalize(vd.tangentWorld);
     vec3 V = normalize(u_viewPosition - vd.positionWorld);
-    // paint
-    vec3 paint = (1.0 - mx_ggx_reflectance(normal, V)) * 0.75;
+    vec2 coat = mx_ggx_albedo(normal, V);
+    float coat_2 = (1.0 / (coat.x + coat.y) - 1.0) * 0.079748526 + 1.0;
+    vec3 tangent = normalize(vd.tangentWorld);
+    vec3 coat_3 = faceforward(normal, -V, normal);
+    vec3 coat_4 = normalize(tangent - coat_3 * dot(tangent, coat_3));
+    mat3 coat_5 = mat3(coat_4, cross(coat_3, coat_4), coat_3);
+    vec3 paint = (vec3(1.0) - (coat.x * 0.033735957 + coat.yyy) * coat_2) * 0.75;
     for (int i = 0; i < min(u_numActiveLightSources, 3); ++i) {
-        vec3 L = u_lightData[i].color * (u_lightData[i].intensity / pow(distance(vd.positionWorld, u_lightData[i].position) + 1.0, u_lightData[i].decay_rate));
-        vec3 L_2 = normalize(u_lightData[i].position - vd.positionWorld);
-        vec3 L_3 = L * smoothstep(min(u_lightData[i].inner_angle, u_lightData[i].outer_angle), u_lightData[i].inner_angle, -dot(u_lightData[i].direction, L_2));
-        vec3 light = u_lightData[i].type == 2 ? L : u_lightData[i].type == 3 ? L_3 : vec3(0.0);
-        vec3 light_2 = u_lightData[i].type == 1 ? u_lightData[i].color * u_lightData[i].intensity : light;
-        vec3 L_4 = u_lightData[i].type == 1 ? -u_lightData[i].direction : L_2;
-        vec3 paint_2 = mx_oren_nayar_diffuse_bsdf_eval(normal, V, L_4) * paint;
-        color += light_2 * (mx_ggx_eval(normal, tangent, V, L_4) + paint_2);
+        int type = u_lightData[i].type;
+        vec3 spot_light = u_lightData[i].position - vd.positionWorld;
+        float spot_light_2 = u_lightData[i].intensity / pow(length(spot_light) + 1.0, u_lightData[i].decay_rate);
+        float spot_light_3 = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle);
+        vec3 spot_light_4 = normalize(spot_light);
+        float light = spot_light_2 * smoothstep(spot_light_3, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, spot_light_4)) * (type == 3 ? 1.0 : 0.0);
+        vec3 light_2 = u_lightData[i].color * (type == 1 ? u_lightData[i].intensity : type == 2 ? spot_light_2 : light);
+        vec3 directional_light = -u_lightData[i].direction;
+        vec3 L = type == 1 ? directional_light : spot_light_4;
+        vec3 paint_2 = mx_oren_nayar_diffuse_bsdf_eval(normal, V, L) * paint;
+        color += light_2 * (coat_2 * mx_ggx_lobe(coat_5, V, L) + paint_2);
     }
-    color += mx_ggx_environment(normal, V) + paint * mx_oren_nayar_diffuse_bsdf_environment(normal, V);
+    vec3 paint_3 = textureLod(u_envIrradiance, mx_latlong(coat_3), 0.0).xyz * u_envLightIntensity * vec3(0.6, 0.1, 0.05);
+    vec2 paint_4 = (max(dot(V, coat_3), 1e-8) * vec2(-0.7632, -0.4993) + vec2(-0.4297, -0.6076) + vec2(0.43155003, 0.60945004)) * 0.3 + vec2(1.0);
+    vec3 paint_5 = paint * (paint_3 * clamp(paint_4.x / paint_4.y, 0.0, 1.0));
+    color += coat_2 * mx_ggx_prefiltered(normal, V) + paint_5;
     out1 = vec4(color, 1.0);
 }

@@ -7,9 +7,7 @@ out vec4 out1;
 
 void main()
 {
-    // NG/scaled
-    float scaled = NG_paint.x > 0.04045 ? pow((NG_paint.x + 0.055) / 1.055, 2.4) : NG_paint.x / 12.92;
-    float scaled_2 = NG_paint.y > 0.04045 ? pow((NG_paint.y + 0.055) / 1.055, 2.4) : NG_paint.y / 12.92;
-    float scaled_3 = NG_paint.z > 0.04045 ? pow((NG_paint.z + 0.055) / 1.055, 2.4) : NG_paint.z / 12.92;
-    out1 = vec4(vec3(scaled, scaled_2, scaled_3) * (NG_size * 0.0254) + vec3(0.5), 1.0);
+    // NG
+    vec3 scaled = pow(max((NG_paint + vec3(0.055)) / vec3(1.055), 0.0), vec3(2.4));
+    out1 = vec4(mix(NG_paint / vec3(12.92), scaled, step(0.04045, NG_paint)) * (NG_size * 0.0254) + vec3(0.5), 1.0);
 }

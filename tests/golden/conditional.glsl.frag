@@ -46,11 +46,7 @@ uint mx_hash_final(const uint x, const uint y, const uint z)
 
 vec3 mx_noise_face_vec3(const int x, const int y, const int z, const vec3 f, const vec3 w)
 {
-    vec3 v00 = mx_gradient_vec3(mx_hash_final(3735928584u + uint(x), 3735928584u + uint(y), 3735928584u + uint(z)), f);
-    vec3 v10 = mx_gradient_vec3(mx_hash_final(3735928584u + uint(x + 1), 3735928584u + uint(y), 3735928584u + uint(z)), f - vec3(1.0, 0.0, 0.0));
-    vec3 v01 = mx_gradient_vec3(mx_hash_final(3735928584u + uint(x), 3735928584u + uint(y + 1), 3735928584u + uint(z)), f - vec3(0.0, 1.0, 0.0));
-    vec3 v11 = mx_gradient_vec3(mx_hash_final(3735928584u + uint(x + 1), 3735928584u + uint(y + 1), 3735928584u + uint(z)), f - vec3(1.0, 1.0, 0.0));
-    return mix(mix(v00, v10, w.x), mix(v01, v11, w.x), w.y);
+    return mix(mix(mx_gradient_vec3(mx_hash_final(3735928584u + uint(x), 3735928584u + uint(y), 3735928584u + uint(z)), f), mx_gradient_vec3(mx_hash_final(3735928584u + uint(x + 1), 3735928584u + uint(y), 3735928584u + uint(z)), f - vec3(1.0, 0.0, 0.0)), w.x), mix(mx_gradient_vec3(mx_hash_final(3735928584u + uint(x), 3735928584u + uint(y + 1), 3735928584u + uint(z)), f - vec3(0.0, 1.0, 0.0)), mx_gradient_vec3(mx_hash_final(3735928584u + uint(x + 1), 3735928584u + uint(y + 1), 3735928584u + uint(z)), f - vec3(1.0, 1.0, 0.0)), w.x), w.y);
 }
 
 vec3 mx_fade(const vec3 t)
@@ -71,11 +67,8 @@ vec3 mx_noise_vec3(const vec3 p)
 
 void main()
 {
-    // NG/board
-    vec2 board = floor(vd.texcoord_0 * vec2(8.0));
-    // NG/side
-    vec3 side = vd.texcoord_0.x > NG_limit ? vec3(mod(board.x + board.y, 2.0)) : vec3(1.0, 0.0, 0.0);
-    // NG/chosen
-    vec3 chosen = 1 > NG_mode ? mx_noise_vec3(vd.positionObject) : 2 > NG_mode ? side : vec3(0.0);
-    out1 = vec4(chosen, 1.0);
+    // NG
+    vec2 board = floor(vd.texcoord_0 * 8.0);
+    vec3 chosen = 2 > NG_mode ? vd.texcoord_0.x > NG_limit ? vec3(mod(board.x + board.y, 2.0)) : vec3(1.0, 0.0, 0.0) : vec3(0.0);
+    out1 = vec4(1 > NG_mode ? mx_noise_vec3(vd.positionObject) : chosen, 1.0);
 }

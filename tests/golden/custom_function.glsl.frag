@@ -24,7 +24,7 @@ void waves(const vec2 uv, const int count, out float height, out float slope)
 
 void main()
 {
-    // NG/w
+    // NG
     float w_height, w_slope;
     waves(vd.texcoord_0, NG_count, w_height, w_slope);
     out1 = vec4(w_height, w_slope, 0.0, 1.0);

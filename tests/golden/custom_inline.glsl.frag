@@ -8,7 +8,7 @@ out vec4 out1;
 
 void main()
 {
-    // NG/c
+    // NG
     vec3 c = vec3(atan(vd.texcoord_0.y, vd.texcoord_0.x), length(vd.texcoord_0), 0.0);
     out1 = vec4(mix(c, c * vec3(1.0, 0.9, 0.7), 0.25), 1.0);
 }

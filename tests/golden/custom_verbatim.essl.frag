@@ -9,7 +9,7 @@ out vec4 out1;
 
 void main()
 {
-    // NG/b
+    // NG
     float b = intBitsToFloat(floatBitsToInt((uintBitsToFloat(packHalf2x16(vd_texcoord_0 * 1.0)))) >> 1);
     out1 = vec4(b, b, b, 1.0);
 }

@@ -14,7 +14,7 @@ void bits(float x, out float result)
 
 void main()
 {
-    // NG/b
+    // NG
     float b;
     bits((uintBitsToFloat(packHalf2x16(vd.texcoord_0))), b);
     out1 = vec4(b, b, b, 1.0);

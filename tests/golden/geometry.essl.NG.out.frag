@@ -16,11 +16,7 @@ out vec4 out1;
 
 void main()
 {
-    // NG/v
+    // NG
     vec3 v = normalize(vd_positionWorld - u_viewPosition);
-    // NG/along
-    float along = dot(v, normalize(vd_tangentObject));
-    // NG/colored
-    vec4 colored = vec4(dot(normalize(vd_normalObject), v), along, vd_geomprop_wear, float(vd_geomprop_part)) * vd_color_0;
-    out1 = colored * u_time;
+    out1 = vec4(dot(normalize(vd_normalObject), v), dot(v, normalize(vd_tangentObject)), vd_geomprop_wear, float(vd_geomprop_part)) * vd_color_0 * u_time;
 }

@@ -15,11 +15,7 @@ out vec4 out1;
 
 void main()
 {
-    // NG/v
+    // NG
     vec3 v = normalize(vd.positionWorld - u_viewPosition);
-    // NG/along
-    float along = dot(v, normalize(vd.tangentObject));
-    // NG/colored
-    vec4 colored = vec4(dot(normalize(vd.normalObject), v), along, vd.geomprop_wear, float(vd.geomprop_part)) * vd.color_0;
-    out1 = colored * u_time;
+    out1 = vec4(dot(normalize(vd.normalObject), v), dot(v, normalize(vd.tangentObject)), vd.geomprop_wear, float(vd.geomprop_part)) * vd.color_0 * u_time;
 }

@@ -10,7 +10,7 @@ out vec4 out1;
 
 void main()
 {
-    // NG/shade/unit
+    // NG/shade
     float unit = (vd.texcoord_0.y - -1.0) / 2.0;
     out1 = vec4(NG_scale * (sign(unit) * abs(unit)) * NG_tint, 1.0);
 }

@@ -11,9 +11,7 @@ out vec4 out1;
 
 void main()
 {
-    // NG/shade/unit
+    // NG/shade
     float unit = (vd.texcoord_0.y - -1.0) / 2.0;
-    // NG/tinted
-    vec3 tinted = (NG_unset + sign(unit) * abs(unit) * (NG_scale - NG_unset)) * NG_tint;
-    out1 = vec4(tinted, 1.0);
+    out1 = vec4((NG_unset + sign(unit) * abs(unit) * (NG_scale - NG_unset)) * NG_tint, 1.0);
 }

@@ -9,7 +9,7 @@ out vec4 out1;
 
 void main()
 {
-    // NG/shade/unit
+    // NG/shade
     float unit = (vd.texcoord_0.y - shade_inlow) / (1.0 - shade_inlow);
     out1 = vec4(sign(unit) * abs(unit) * 4.0 * vec3(0.8, 0.4, 0.1), 1.0);
 }

@@ -54,7 +54,7 @@ vec2 mx_worley(const vec2 p, out vec3 distances)
     for (int x = -1; x <= 1; ++x) {
         for (int y = -1; y <= 1; ++y) {
             vec2 neighbor = vec2(float(x), float(y));
-            vec2 offset = neighbor + (mx_cellnoise_vec3(cell + neighbor).xy - 0.5) + 0.5 - f;
+            vec2 offset = neighbor + (mx_cellnoise_vec3(cell + neighbor).xy - vec2(0.5)) + vec2(0.5) - f;
             float d = dot(offset, offset);
             if (d < distances.x)
                 nearest = offset;
@@ -66,7 +66,7 @@ vec2 mx_worley(const vec2 p, out vec3 distances)
 
 void main()
 {
-    // NG/cells
+    // NG
     vec3 cells_distances;
     vec2 cells = mx_worley(vd.texcoord_0, cells_distances);
     out1 = vec4(sqrt(cells_distances).xy, 0.0, 1.0);

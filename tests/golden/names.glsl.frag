@@ -8,9 +8,8 @@ out vec4 out1;
 
 void main()
 {
-    // texture/vd
+    // texture
     float vd_2 = cos(sin(texture_in)) + texture_gl_x;
-    // texture/normal
     float normal = (vd_2 + texture_a_b) / vd_2;
     out1 = vec4(normal, normal, normal, 1.0);
 }

@@ -26,24 +26,11 @@ in VertexData {
 } vd;
 out vec4 out1;
 
-float mx_fresnel_dielectric(const float cosine)
-{
-    float g = sqrt(max(2.3104 + cosine * cosine - 1.0, 0.0));
-    vec2 a = cosine * vec2(1.0, 2.3104);
-    vec2 r = (a - g) / (a + g);
-    return 0.5 * dot(r, r);
-}
-
-vec3 mx_ggx_compensation(const vec2 albedo)
-{
-    return 1.0 + vec3(0.08817143) * (1.0 / (albedo.x + albedo.y) - 1.0);
-}
-
 vec2 mx_ggx_albedo(const vec3 N, const vec3 V)
 {
     float c = max(abs(dot(N, V)), 1e-8);
     vec4 r = vec4(0.101274714, 0.9347229, 1.0008262, 1.0015944) + c * (vec4(-0.6305036, -2.3233747, -1.7638469, 0.22252001) + c * vec4(29.337357, 1.4241437, 28.956388, 13.085487));
-    return clamp(r.xy / r.zw, 0.0, 1.0);
+    return clamp(r.xy / r.zw, vec2(0.0), vec2(1.0));
 }
 
 float mx_ggx_distribution(const vec3 h)
@@ -53,27 +40,23 @@ float mx_ggx_distribution(const vec3 h)
     return 1.0 / (3.1415926e-8 * d * d);
 }
 
-mat3 mx_frame(const vec3 N, const vec3 X)
-{
-    vec3 x = normalize(X - dot(X, N) * N);
-    return mat3(x, cross(N, x), N);
-}
-
 float mx_ggx_visibility(const float cos_v, const float cos_l)
 {
     return 0.5 * cos_l / (cos_v * sqrt(mix(cos_l * cos_l, 1.0, 9.999999e-9)) + cos_l * sqrt(mix(cos_v * cos_v, 1.0, 9.999999e-9)));
 }
 
-vec2 mx_ggx_lobe(const vec3 Z, const vec3 X, const vec3 V, const vec3 L)
+float mx_fresnel_dielectric(const float cosine)
 {
-    vec3 H = normalize(V + L);
-    return vec2(mx_ggx_distribution(H * mx_frame(Z, X)) * mx_ggx_visibility(max(dot(Z, V), 1e-8), max(dot(Z, L), 1e-8)), clamp(dot(V, H), 1e-8, 1.0));
+    float g = sqrt(max(2.3104 + cosine * cosine - 1.0, 0.0));
+    vec2 a = cosine * vec2(1.0, 2.3104);
+    vec2 r = (a - g) / (a + g);
+    return 0.5 * dot(r, r);
 }
 
-vec3 mx_ggx_eval(const vec3 N, const vec3 X, const vec3 V, const vec3 L)
+vec3 mx_ggx_lobe(const mat3 frame, const vec3 V, const vec3 L)
 {
-    vec2 lobe = mx_ggx_lobe(faceforward(N, -V, N), X, V, L);
-    return lobe.x * vec3(mx_fresnel_dielectric(lobe.y)) * mx_ggx_compensation(mx_ggx_albedo(N, V));
+    vec3 H = normalize(V + L);
+    return mx_ggx_distribution(H * frame) * mx_ggx_visibility(max(dot(frame[2], V), 1e-8), max(dot(frame[2], L), 1e-8)) * vec3(mx_fresnel_dielectric(clamp(dot(V, H), 1e-8, 1.0)));
 }
 
 vec2 mx_latlong(const vec3 direction)
@@ -90,11 +73,9 @@ vec3 mx_refract_sphere(const vec3 v, const vec3 h, const float ior)
 
 vec3 mx_ggx_normal(const int i, const vec3 v)
 {
-    float phi = 6.2831855 * (float(i) + 0.5) / float(u_envRadianceSamples);
     float top = (1.0 - fract((float(i) + 1.0) * 1.618034)) * (1.0 + v.z);
     float z = top - v.z;
-    vec2 around = sqrt(max(1.0 - z * z, 0.0)) * cos(phi - vec2(0.0, 1.5707964));
-    return normalize(vec3((v.xy + around) * 0.0001, top));
+    return normalize(vec3((v.xy + sqrt(max(1.0 - z * z, 0.0)) * cos(6.2831855 * (float(i) + 0.5) / float(u_envRadianceSamples) - vec2(0.0, 1.5707964))) * 0.0001, top));
 }
 
 vec4 mx_ggx_sample(const int i, const mat3 frame, const vec3 v, const float refract_ior)
@@ -105,48 +86,45 @@ vec4 mx_ggx_sample(const int i, const mat3 frame, const vec3 v, const float refr
     float cos_v = max(v.z, 1e-8);
     float masking = 2.0 * (cos_v + sqrt(mix(cos_v * cos_v, 1.0, 9.999999e-9)));
     float count = float(u_envRadianceSamples);
-    float solid = length(L.xz) * count * mx_ggx_distribution(h) / masking;
-    float weight = refract_ior > 0.0 ? 0.25 / cos_v : mx_ggx_visibility(cos_v, max(l.z, 1e-8));
-    return vec4(weight * masking / count * (textureLod(u_envRadiance, mx_latlong(L), max(float(u_envRadianceMips) - 2.5 - 0.5 * log2(solid), 0.0)).xyz * u_envLightIntensity), clamp(dot(v, h), 1e-8, 1.0));
+    return vec4((refract_ior > 0.0 ? 0.25 / cos_v : mx_ggx_visibility(cos_v, max(l.z, 1e-8))) * masking / count * (textureLod(u_envRadiance, mx_latlong(L), max(float(u_envRadianceMips) - 2.5 - 0.5 * log2(length(L.xz) * count * mx_ggx_distribution(h) / masking), 0.0)).xyz * u_envLightIntensity), clamp(dot(v, h), 1e-8, 1.0));
 }
 
-vec3 mx_ggx_environment(const vec3 N, const vec3 X, const vec3 V, const float refract_ior)
+vec3 mx_ggx_sampled(const mat3 frame, const vec3 V, const float refract_ior)
 {
     vec3 light = vec3(0.0);
-    mat3 frame = mx_frame(faceforward(N, -V, N), X);
     for (int i = 0; i < u_envRadianceSamples; ++i) {
         vec4 s = mx_ggx_sample(i, frame, V * frame, refract_ior);
         vec3 f = vec3(mx_fresnel_dielectric(s.w));
-        light += s.xyz * (refract_ior > 0.0 ? 1.0 - f : f);
+        light += s.xyz * (refract_ior > 0.0 ? vec3(1.0) - f : f);
     }
-    if (refract_ior > 0.0)
-        return light;
-    return light * mx_ggx_compensation(mx_ggx_albedo(N, V));
-}
-
-vec3 mx_ggx_reflectance(const vec3 N, const vec3 V)
-{
-    vec2 albedo = mx_ggx_albedo(N, V);
-    return (vec3(0.04258) * albedo.x + vec3(albedo.y)) * (1.0 + vec3(0.08817143) * (1.0 / (albedo.x + albedo.y) - 1.0));
+    return light;
 }
 
 void main()
 {
     vec3 color = vec3(0.0);
     vec3 normal = normalize(vd.normalWorld);
-    vec3 tangent = normalize(vd.tangentWorld);
     vec3 V = normalize(u_viewPosition - vd.positionWorld);
+    // SR_glass
+    vec2 reflection = mx_ggx_albedo(normal, V);
+    float reflection_2 = (1.0 / (reflection.x + reflection.y) - 1.0) * 0.08817143 + 1.0;
+    vec3 tangent = normalize(vd.tangentWorld);
+    vec3 reflection_3 = faceforward(normal, -V, normal);
+    vec3 reflection_4 = normalize(tangent - reflection_3 * dot(tangent, reflection_3));
+    mat3 reflection_5 = mat3(reflection_4, cross(reflection_3, reflection_4), reflection_3);
     for (int i = 0; i < min(u_numActiveLightSources, 3); ++i) {
-        vec3 L = u_lightData[i].color * (u_lightData[i].intensity / pow(distance(vd.positionWorld, u_lightData[i].position) + 1.0, u_lightData[i].decay_rate));
-        vec3 L_2 = normalize(u_lightData[i].position - vd.positionWorld);
-        vec3 L_3 = L * smoothstep(min(u_lightData[i].inner_angle, u_lightData[i].outer_angle), u_lightData[i].inner_angle, -dot(u_lightData[i].direction, L_2));
-        vec3 light = u_lightData[i].type == 2 ? L : u_lightData[i].type == 3 ? L_3 : vec3(0.0);
-        // SR_glass/reflection
-        vec3 reflection = mx_ggx_eval(normal, tangent, V, u_lightData[i].type == 1 ? -u_lightData[i].direction : L_2);
-        color += (u_lightData[i].type == 1 ? u_lightData[i].color * u_lightData[i].intensity : light) * reflection;
+        int type = u_lightData[i].type;
+        vec3 spot_light = u_lightData[i].position - vd.positionWorld;
+        float spot_light_2 = u_lightData[i].intensity / pow(length(spot_light) + 1.0, u_lightData[i].decay_rate);
+        float spot_light_3 = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle);
+        vec3 spot_light_4 = normalize(spot_light);
+        float light = spot_light_2 * smoothstep(spot_light_3, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, spot_light_4)) * (type == 3 ? 1.0 : 0.0);
+        vec3 light_2 = u_lightData[i].color * (type == 1 ? u_lightData[i].intensity : type == 2 ? spot_light_2 : light);
+        vec3 directional_light = -u_lightData[i].direction;
+        color += light_2 * (reflection_2 * mx_ggx_lobe(reflection_5, V, type == 1 ? directional_light : spot_light_4));
     }
-    // SR_glass/refraction
-    vec3 refraction = (1.0 - mx_ggx_reflectance(normal, V)) * mx_ggx_environment(normal, tangent, V, 1.52);
-    color += mx_ggx_environment(normal, tangent, V, 0.0) + refraction;
+    vec3 reflection_6 = reflection_2 * mx_ggx_sampled(reflection_5, V, 0.0);
+    vec3 reflection_7 = vec3(1.0) - (reflection.x * 0.04258 + reflection.yyy) * reflection_2;
+    color += reflection_6 + reflection_7 * mx_ggx_sampled(reflection_5, V, 1.52);
     out1 = vec4(color, 1.0);
 }

@@ -16,5 +16,5 @@ void main()
     float t = SR_unlit_opacity * (1.0 - dot(SR_unlit_transmission * SR_unlit_transmission_color, vec3(0.33333334)));
     if (t < u_alphaThreshold)
         discard;
-    out1 = vec4(SR_unlit_opacity * (vec3(vd.texcoord_0, 0.0) * SR_unlit_emission), t);
+    out1 = vec4(vec3(vd.texcoord_0, 0.0) * (SR_unlit_emission * SR_unlit_opacity), t);
 }
