@@ -141,7 +141,9 @@ mxg_document *cli_load(struct cli *cli, const char *path)
     mxg_status status = mxg_document_load(cli->context, cli->library, path, &document);
     if (document)
         report_list(&cli->report, mxg_document_diagnostics(document));
-    if (report_status(&cli->report, status))
+    bool good = report_status(&cli->report, status);
+    /* Errors of one part, a missing include among them, leave the others. */
+    if (good || mxg_document_num_renderables(document))
         return document;
     mxg_document_destroy(document);
     return NULL;

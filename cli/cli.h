@@ -45,7 +45,7 @@ bool cli_start(struct cli *cli, const struct command *command, const struct arg 
                int argc, char **argv, int *out_exit);
 void cli_finish(struct cli *cli);
 
-/* Loads a document and prints its diagnostics; NULL where it has errors. */
+/* Loads a document and prints its diagnostics; NULL where errors leave nothing of it that can be rendered. */
 mxg_document *cli_load(struct cli *cli, const char *path);
 
 /* What a file of an element is called: its path with dots. To be freed. */

@@ -201,7 +201,10 @@ MXG_API mxg_status mxg_library_port(const mxg_library *library, uint32_t nodedef
 
 /* ---- Document ---- */
 
-/* Loads and resolves a file. *out_document is set whenever memory allows, also with MXG_ERROR_DOCUMENT. */
+/*
+ * Loads and resolves a file. *out_document is set whenever memory allows, also with MXG_ERROR_DOCUMENT: errors of one part, such as
+ * an include that is not there, leave the renderables of the others; what is no XML has none.
+ */
 MXG_API mxg_status mxg_document_load(mxg_context *context, mxg_library *library, const char *path, mxg_document **out_document);
 /* The same from memory; `name` is for messages and as the base of includes. */
 MXG_API mxg_status mxg_document_parse(mxg_context *context, mxg_library *library, const char *name, const char *data,
@@ -212,7 +215,7 @@ MXG_API void mxg_document_destroy(mxg_document *document);
 MXG_API uint32_t mxg_document_num_files(const mxg_document *document);
 MXG_API const char *mxg_document_file(const mxg_document *document, uint32_t index);
 
-/* Elements that can be generated: materials, shaders that no material uses, outputs of graphs that no shader uses; in document order. */
+/* Elements that can be generated: materials; without any, outputs of graphs and shaders that nothing uses. In document order. */
 typedef struct mxg_renderable {
     size_t size; /* in */
     const char *path; /* "Gold", "NG_marble1/out" */

@@ -127,28 +127,37 @@ static uint32_t count_textures(const mxg_result *result)
     return count;
 }
 
+enum { TEXT_REFLECTION, TEXT_TOPOLOGY };
+
+static void write_topology(const struct object *object, struct text *out)
+{
+    uint64_t topology = shader_topology(&((const mxg_result *)object)->shader, out->arena);
+    text_mem(out, (const char *)&topology, sizeof topology);
+}
+
 mxg_status mxg_result_info(const mxg_result *result, mxg_shader_info *out)
 {
     if (!result || !result->has_shader)
         return MXG_ERROR_ARGUMENT;
+    const struct made_text *topology = object_text(&result->object, TEXT_TOPOLOGY, write_topology);
+    if (!topology)
+        return MXG_ERROR_MEMORY;
     const struct shader *shader = &result->shader;
     mxg_shader_info full = {
         .name = text_of(result, shader->name),
         .path = text_of(result, shader->path),
         .target = result->target->name,
-        .topology = shader->topology,
         .num_closures = shader->num_closures,
         .num_textures = count_textures(result),
         .num_lights = shader->stages[STAGE_PIXEL].has_lights ? shader->max_lights : 0,
         .transparent = shader->transparent,
         .lit = shader->lit,
     };
+    memcpy(&full.topology, topology->data, sizeof full.topology);
     return struct_write(out, &full, sizeof full);
 }
 
 /* ---- JSON ---- */
-
-enum { TEXT_REFLECTION };
 
 static void fill_ui(void *user_data, const struct shader_variable *variable, struct shader_ui *out)
 {

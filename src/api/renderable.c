@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * What of a document can be rendered: materials, shaders that nothing uses, and outputs that nothing uses. An element is used where an
- * input or output is connected to it.
+ * What of a document can be rendered, as MaterialX chooses it: its materials; in a document without any, the outputs of its graphs
+ * and its own, and beyond MaterialX the shaders that nothing uses. An element is used where an input or output is connected to it.
  */
 #include "api/api.h"
 
@@ -16,34 +16,15 @@ static void mark(struct scan *scan, elem_id target)
         scan->used[target - scan->doc->first_element] = 1;
 }
 
-/* Marks the output of a graph that a port names; all of them where it names none. */
-static void mark_outputs(struct scan *scan, elem_id graph, str_id name)
-{
-    const struct document *doc = scan->doc;
-    for (elem_id e = doc_element(doc, graph)->first_child; e; e = doc_element(doc, e)->next)
-        if (doc_element(doc, e)->kind == KIND_OUTPUT && (!name || doc_element(doc, e)->name == name))
-            mark(scan, e);
-}
-
 static void mark_connection(struct scan *scan, elem_id port)
 {
     const struct document *doc = scan->doc;
     const struct element *e = doc_element(doc, port);
+    str_id node = doc_attr_value(doc, port, STR_nodename);
     /* An input's connection is a name beside its node, an output's one beside itself. */
-    elem_id scope = e->kind == KIND_OUTPUT ? e->parent : doc_element(doc, e->parent)->parent;
-    str_id node = doc_attr_value(doc, port, STR_nodename), graph = doc_attr_value(doc, port, STR_nodegraph);
-    str_id output = doc_attr_value(doc, port, STR_output);
-    elem_id target = 0;
-    if (node)
-        target = doc_child(doc, scope, node);
-    if (!target && graph && !(target = doc_child(doc, scope, graph)))
-        target = doc_child(doc, doc->root, graph);
-    if (target && doc_element(doc, target)->kind == KIND_NODEGRAPH)
-        mark_outputs(scan, target, output);
-    else if (target)
-        mark(scan, target);
-    else if (output && !node && !graph && e->kind == KIND_INPUT)
-        mark_outputs(scan, doc->root, output);
+    elem_id target = node ? doc_child(doc, e->kind == KIND_OUTPUT ? e->parent : doc_element(doc, e->parent)->parent, node) : 0;
+    if (target >= doc->first_element)
+        scan->used[target - doc->first_element] = 1;
 }
 
 static void mark_used(struct scan *scan)
@@ -51,12 +32,6 @@ static void mark_used(struct scan *scan)
     const struct document *doc = scan->doc;
     for (uint32_t i = 0; i < doc->elements.len; i++) {
         const struct element *e = &doc->elements.items[i];
-        if (e->kind == KIND_IMPLEMENTATION) {
-            str_id name = doc_attr_value(doc, doc->first_element + i, STR_nodegraph);
-            elem_id graph = name ? doc_child_of_kind(doc, doc->root, KIND_NODEGRAPH, name) : 0;
-            if (graph)
-                mark_outputs(scan, graph, 0);
-        }
         if (e->parent && (e->kind == KIND_OUTPUT || (e->kind == KIND_INPUT && doc_element(doc, e->parent)->parent)))
             mark_connection(scan, doc->first_element + i);
     }
@@ -79,45 +54,58 @@ static bool has_shader(const struct document *doc, elem_id material)
     return false;
 }
 
-static bool is_renderable_node(const struct scan *scan, elem_id node)
+static bool is_material(const struct document *doc, elem_id node)
 {
-    str_id type = doc_attr_value(scan->doc, node, STR_type);
-    if (type == STR_material)
-        return has_shader(scan->doc, node);
-    return (type == STR_surfaceshader || type == STR_volumeshader) && !is_used(scan, node);
+    return doc_element(doc, node)->kind == KIND_NODE && doc_attr_value(doc, node, STR_type) == STR_material && has_shader(doc, node);
 }
 
-/* Closures and lights mean nothing by themselves, text cannot be seen, and a material is listed itself. */
-static bool is_renderable_output(const struct scan *scan, elem_id output)
+static bool is_loose_shader(const struct scan *scan, elem_id node)
 {
-    const struct document *doc = scan->doc;
+    str_id type = doc_attr_value(scan->doc, node, STR_type);
+    return doc_element(scan->doc, node)->kind == KIND_NODE && (type == STR_surfaceshader || type == STR_volumeshader)
+           && !is_used(scan, node);
+}
+
+/* Closures and lights mean nothing by themselves, and text cannot be seen. */
+static bool is_renderable_output(const struct document *doc, elem_id output)
+{
     str_id type = doc_attr_value(doc, output, STR_type);
     bool connected = doc_attr_value(doc, output, STR_nodename) || doc_attr_value(doc, output, STR_nodegraph);
     doc_type known = doc_type_of(type);
-    return connected && !is_used(scan, output)
-           && ((doc_type_components(known) && doc_type_components(known) <= 4) || known == DOC_TYPE_boolean || known == DOC_TYPE_surfaceshader
-               || known == DOC_TYPE_volumeshader);
+    bool is_value = (doc_type_components(known) && doc_type_components(known) <= 4) || known == DOC_TYPE_boolean;
+    return doc_element(doc, output)->kind == KIND_OUTPUT && connected
+           && (is_value || type == STR_material || type == STR_surfaceshader || type == STR_volumeshader);
 }
 
-static void add_outputs(mxg_document *document, const struct scan *scan, elem_id graph)
+static void add(mxg_document *document, elem_id element)
 {
-    const struct document *doc = scan->doc;
-    if (doc_attr(doc, graph, STR_nodedef))
-        return; /* it defines a node */
-    for (elem_id e = doc_element(doc, graph)->first_child; e; e = doc_element(doc, e)->next)
-        if (doc_element(doc, e)->kind == KIND_OUTPUT && is_renderable_output(scan, e))
-            vec_push(&document->object.arena, &document->renderables, e);
+    vec_push(&document->object.arena, &document->renderables, element);
 }
 
-static void add_renderables(mxg_document *document, const struct scan *scan)
+static void add_materials(mxg_document *document)
+{
+    const struct document *doc = &document->layer.doc;
+    for (elem_id e = doc_element(doc, doc->root)->first_child; e; e = doc_element(doc, e)->next)
+        if (is_material(doc, e))
+            add(document, e);
+}
+
+static void add_outputs(mxg_document *document, elem_id graph)
+{
+    const struct document *doc = &document->layer.doc;
+    for (elem_id e = doc_element(doc, graph)->first_child; e; e = doc_element(doc, e)->next)
+        if (is_renderable_output(doc, e))
+            add(document, e);
+}
+
+static void add_shaders_and_outputs(mxg_document *document, const struct scan *scan)
 {
     const struct document *doc = scan->doc;
     for (elem_id e = doc_element(doc, doc->root)->first_child; e; e = doc_element(doc, e)->next) {
-        enum element_kind kind = (enum element_kind)doc_element(doc, e)->kind;
-        if (kind == KIND_NODEGRAPH)
-            add_outputs(document, scan, e);
-        else if (kind == KIND_OUTPUT ? is_renderable_output(scan, e) : kind == KIND_NODE && is_renderable_node(scan, e))
-            vec_push(&document->object.arena, &document->renderables, e);
+        if (doc_element(doc, e)->kind == KIND_NODEGRAPH)
+            add_outputs(document, e);
+        else if (is_renderable_output(doc, e) || is_loose_shader(scan, e))
+            add(document, e);
     }
 }
 
@@ -125,9 +113,12 @@ void document_find_renderables(struct mxg_document *document, struct arena *scra
 {
     const struct document *doc = &document->layer.doc;
     struct arena *arena = &document->object.arena;
-    struct scan scan = {.doc = doc, .used = ARENA_ARRAY(scratch, uint8_t, doc->elements.len)};
-    mark_used(&scan);
-    add_renderables(document, &scan);
+    add_materials(document);
+    if (!document->renderables.len) {
+        struct scan scan = {.doc = doc, .used = ARENA_ARRAY(scratch, uint8_t, doc->elements.len)};
+        mark_used(&scan);
+        add_shaders_and_outputs(document, &scan);
+    }
     document->renderable_paths = ARENA_ARRAY(arena, const char *, document->renderables.len);
     for (uint32_t i = 0; i < document->renderables.len; i++) {
         struct text path;

@@ -30,6 +30,7 @@ struct frame {
     uint32_t next;           /* next input or output to ask for */
     uint8_t phase;           /* enum frame_phase */
     ir_ref *args;
+    bool has_tokens;         /* it is no equal of another use, whatever its arguments */
     uint32_t memo_key;
     uint32_t outline;        /* memo of the function that `inner` becomes; LIBRARY_NONE: it is built into the graph */
     uint32_t function;       /* of the graph; only with `outline` */

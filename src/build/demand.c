@@ -224,7 +224,8 @@ static void finish_graph(struct builder *b, struct frame *frame, ir_ref *results
 {
     convert_colors(b, frame, results);
     uint32_t first = add_results(b, results, library_nodedef(b->lib, frame->node.nodedef)->num_outputs);
-    b->memos.items[frame->memo_key].first_result = first + 1;
+    if (!frame->has_tokens)
+        b->memos.items[frame->memo_key].first_result = first + 1;
     finish(b, first);
 }
 
@@ -252,12 +253,13 @@ static void enter_graph(struct builder *b, struct frame *frame)
         return;
     }
     struct memo *memo = build_memo(b, frame->impl->ref, frame->args, def->num_inputs);
-    if (memo->first_result) {
+    frame->has_tokens = build_has_tokens(b, frame->node.element);
+    if (memo->first_result && !frame->has_tokens) {
         finish(b, memo->first_result - 1);
         return;
     }
     frame->memo_key = (uint32_t)(memo - b->memos.items);
-    frame->outline = build_outlined(b, frame);
+    frame->outline = frame->has_tokens ? LIBRARY_NONE : build_outlined(b, frame);
     uint32_t function = frame->outline == LIBRARY_NONE ? 0 : b->memos.items[frame->outline].function;
     if (function) {
         finish_call(b, frame, function - 1);

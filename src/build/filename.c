@@ -52,8 +52,10 @@ static elem_id find_token(const struct builder *b, const struct instance *scope,
             continue;
         token = scope->graph == at ? token_of(b, scope->node, name) : 0;
         interface = token ? doc_attr_value(doc_of(b), token, STR_interfacename) : 0;
+        if (!interface && (token || (token = token_of(b, definition, name)) != 0))
+            return token;
         if (!interface)
-            return token ? token : token_of(b, definition, name);
+            continue;
         name = interface;
         at = scope->node;
         scope = scope->parent;

@@ -212,7 +212,8 @@ static ir_ref publish(struct builder *b, elem_id node, const struct port *port, 
 
 /* ---- textures ---- */
 
-static ir_ref texture(struct builder *b, const struct instance *scope, elem_id node, const struct port *port, elem_id element, str_id input)
+static ir_ref texture(struct builder *b, const struct instance *scope, elem_id node, const struct port *port, elem_id element,
+                      str_id input)
 {
     struct shader_variable v = describe(b, node, port, element, input, build_input_path(b, node, input, element));
     v.block = BLOCK_TEXTURES;
@@ -297,7 +298,8 @@ ir_ref build_default(struct builder *b, const struct port *port)
 /* ---- bindings ---- */
 
 /* The value that an element of the document or a graph says, with its colour space and unit. */
-static ir_ref literal(struct builder *b, const struct instance *scope, elem_id owner, const struct port *port, elem_id element, bool outermost)
+static ir_ref literal(struct builder *b, const struct instance *scope, elem_id owner, const struct port *port, elem_id element,
+                      bool outermost)
 {
     str_id name = doc_element(doc_of(b), element)->name;
     ir_type_id type = library_type_ir(b->lib, port->type);
@@ -317,7 +319,8 @@ static ir_ref literal(struct builder *b, const struct instance *scope, elem_id o
     return build_unit_conversion(b, value, element, port);
 }
 
-static ir_ref unset(struct builder *b, const struct instance *scope, elem_id owner, const struct port *port, elem_id element, bool outermost)
+static ir_ref unset(struct builder *b, const struct instance *scope, elem_id owner, const struct port *port, elem_id element,
+                    bool outermost)
 {
     if (library_type_ir(b->lib, port->type) == IR_TYPE_SAMPLER)
         return texture(b, scope, owner, port, element, port->name);

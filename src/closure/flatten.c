@@ -50,6 +50,8 @@ ir_ref closure_one_minus(struct ir_graph *g, ir_ref a)
 static ir_ref leaf_throughput(struct flattener *f, ir_ref ref)
 {
     struct ir_graph *g = f->graph;
+    if (ir_type_of(g, ref) == IR_TYPE_VDF) /* it fills what is above it, and is no surface */
+        return ir_const_splat(g, IR_TYPE_VEC3, 1.0f);
     ir_ref through = closure_call(f->shader, f->host, ref, LEAF_THROUGHPUT, NULL);
     ir_ref weight = ir_arg(g, ref, 0);
     if (!through) /* opaque */

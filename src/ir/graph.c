@@ -6,26 +6,15 @@
 
 #include <assert.h>
 
-enum { FIRST_SLOTS = 256 };
-
-void ir_graph_init(struct ir_graph *graph, struct arena *arena, struct strpool *strings)
-{
-    *graph = (struct ir_graph){.arena = arena, .strings = strings};
-    vec_push(arena, &graph->nodes, (struct ir_node){.op = IR_POISON}); /* 0 is no node; it must not look like a constant */
-    vec_push(arena, &graph->hashes, 0);
-    vec_push(arena, &graph->args, 0); /* so that there is something to point to */
-    vec_push(arena, &graph->words, (union ir_word){.u = 0});
-    vec_push(arena, &graph->origins, (struct ir_origin){0});
-}
+enum { FIRST_SLOTS = 1024 };
 
 /* What makes a node the node it is: all of struct ir_node but its flags and origin. */
 struct content {
     enum ir_op op;
     ir_type_id type;
-    uint32_t attr, num_args;
-    const ir_ref *args;
-    const union ir_word *words; /* of a constant, whose attr does not count */
-    uint32_t num_words;
+    uint32_t attr;        /* 0 for a constant, whose attr is a place */
+    uint32_t count;
+    const uint32_t *data; /* the operands, or the words of a constant */
 };
 
 static struct content content_of(const struct ir_graph *graph, ir_ref ref)
@@ -33,55 +22,45 @@ static struct content content_of(const struct ir_graph *graph, ir_ref ref)
     const struct ir_node *node = ir_get(graph, ref);
     struct content c = {.op = (enum ir_op)node->op, .type = node->type};
     if (node->op == IR_CONST) {
-        c.words = graph->words.items + node->attr;
-        c.num_words = ir_type_info(node->type)->components;
+        c.count = ir_type_info(node->type)->components;
+        c.data = &graph->words.items[node->attr].u;
     } else {
         c.attr = node->attr;
-        c.num_args = node->num_args;
-        c.args = graph->args.items + node->first_arg;
+        c.count = node->num_args;
+        c.data = graph->args.items + node->first_arg;
     }
     return c;
 }
 
-static uint64_t hash_words(uint64_t h, const void *words, uint32_t count)
+static inline uint32_t hash_content(struct content c)
 {
-    const uint32_t *w = words;
-    for (; count >= 2; count -= 2, w += 2)
-        h = hash_mix(h, (uint64_t)w[0] << 32 | w[1]);
-    return count ? hash_mix(h, w[0]) : h;
-}
-
-static uint32_t hash_content(const struct content *c)
-{
-    uint64_t h = hash_mix((uint64_t)c->attr << 32 | c->num_args, (uint64_t)c->op << 16 | c->type);
-    h = hash_words(h, c->args, c->num_args);
-    h = hash_words(h, c->words, c->num_words);
+    uint64_t h = hash_mix(0, (uint64_t)c.attr << 32 | (uint64_t)c.op << 16 | c.type);
+    uint32_t i = 0;
+    for (; i + 2 <= c.count; i += 2)
+        h = hash_mix(h, (uint64_t)c.data[i] << 32 | c.data[i + 1]);
+    if (i < c.count)
+        h = hash_mix(h, c.data[i]);
     return (uint32_t)(h ^ (h >> 32));
 }
 
-static bool has_content(const struct ir_graph *graph, ir_ref ref, const struct content *c, uint32_t hash)
+static inline bool equal(struct content a, struct content b)
 {
-    const struct ir_node *node = ir_get(graph, ref);
-    if (graph->hashes.items[ref] != hash || node->op != c->op || node->type != c->type)
+    if (a.op != b.op || a.type != b.type || a.attr != b.attr || a.count != b.count)
         return false;
-    if (c->op == IR_CONST)
-        return memcmp(graph->words.items + node->attr, c->words, c->num_words * sizeof *c->words) == 0;
-    if (node->attr != c->attr || node->num_args != c->num_args)
-        return false;
-    const ir_ref *args = graph->args.items + node->first_arg;
-    for (uint32_t i = 0; i < c->num_args; i++)
-        if (args[i] != c->args[i])
+    for (uint32_t i = 0; i < a.count; i++)
+        if (a.data[i] != b.data[i])
             return false;
     return true;
 }
 
 /* The slot where a node of this content is, or the empty one where it belongs. */
-static uint32_t find_slot(const struct ir_graph *graph, const struct content *c, uint32_t hash)
+static inline uint32_t find_slot(const struct ir_graph *graph, struct content c, uint32_t hash)
 {
-    uint32_t slot = hash & graph->table_mask;
-    while (graph->table[slot] && !has_content(graph, graph->table[slot], c, hash))
-        slot = (slot + 1) & graph->table_mask;
-    return slot;
+    for (uint32_t slot = hash & graph->table_mask;; slot = (slot + 1) & graph->table_mask) {
+        ir_ref ref = graph->table[slot];
+        if (!ref || (graph->hashes.items[ref] == hash && equal(content_of(graph, ref), c)))
+            return slot;
+    }
 }
 
 static void grow_table(struct ir_graph *graph)
@@ -102,10 +81,21 @@ static void grow_table(struct ir_graph *graph)
     }
 }
 
+void ir_graph_init(struct ir_graph *graph, struct arena *arena, struct strpool *strings)
+{
+    *graph = (struct ir_graph){.arena = arena, .strings = strings};
+    vec_push(arena, &graph->nodes, (struct ir_node){.op = IR_POISON}); /* 0 is no node; it must not look like a constant */
+    vec_push(arena, &graph->hashes, 0);
+    vec_push(arena, &graph->args, 0); /* so that there is something to point to */
+    vec_push(arena, &graph->words, (union ir_word){.u = 0});
+    vec_push(arena, &graph->origins, (struct ir_origin){0});
+    grow_table(graph);
+}
+
 ir_ref ir_find_equal(const struct ir_graph *graph, ir_ref ref)
 {
     struct content c = content_of(graph, ref);
-    return graph->table[find_slot(graph, &c, hash_content(&c))];
+    return graph->table[find_slot(graph, c, hash_content(c))];
 }
 
 static bool function_has_derivative(const struct ir_graph *graph, const struct ir_function *function)
@@ -116,17 +106,19 @@ static bool function_has_derivative(const struct ir_graph *graph, const struct i
     return false;
 }
 
-static uint8_t node_flags(const struct ir_graph *graph, const struct content *c)
+static uint8_t node_flags(const struct ir_graph *graph, struct content c)
 {
-    bool derivative = ir_op_info(c->op)->flags & OP_DERIVATIVE;
-    if (c->op == IR_CALL || c->op == IR_VERBATIM || c->op == IR_LEAF)
-        derivative = graph->callees.items[c->attr].derivative;
-    else if (c->op == IR_GRAPH_CALL)
-        derivative = function_has_derivative(graph, &graph->functions.items[c->attr]);
+    if (c.op == IR_CONST)
+        return 0;
+    bool derivative = ir_op_info(c.op)->flags & OP_DERIVATIVE;
+    if (c.op == IR_CALL || c.op == IR_VERBATIM || c.op == IR_LEAF)
+        derivative = graph->callees.items[c.attr].derivative;
+    else if (c.op == IR_GRAPH_CALL)
+        derivative = function_has_derivative(graph, &graph->functions.items[c.attr]);
     unsigned flags = derivative ? IR_NODE_DERIVATIVE : 0;
-    for (uint32_t i = 0; i < c->num_args; i++)
-        flags |= ir_get(graph, c->args[i])->flags & IR_NODE_DERIVATIVE;
-    if (ir_type_is_closure(c->type) || ir_type_is_shader(c->type))
+    for (uint32_t i = 0; i < c.count; i++)
+        flags |= ir_get(graph, c.data[i])->flags & IR_NODE_DERIVATIVE;
+    if (ir_type_is_closure(c.type) || ir_type_is_shader(c.type))
         flags |= IR_NODE_CLOSURE;
     return (uint8_t)flags;
 }
@@ -138,56 +130,63 @@ static uint32_t push_args(struct ir_graph *graph, const ir_ref *args, uint32_t n
     if (num_args == 0)
         return first;
     uintptr_t offset = (uintptr_t)args - (uintptr_t)graph->args.items;
-    bool inside = graph->args.len && offset < graph->args.len * sizeof *args;
+    bool inside = offset < first * sizeof *args;
     ir_ref *place = vec_extend(graph->arena, &graph->args, num_args);
     memcpy(place, inside ? graph->args.items + offset / sizeof *args : args, num_args * sizeof *args);
     return first;
 }
 
-/* The node of this content, made where it is new. */
-static ir_ref intern(struct ir_graph *graph, const struct content *c)
+static uint32_t push_words(struct ir_graph *graph, const uint32_t *words, uint32_t num_words)
 {
-    if (graph->nodes.len >= graph->table_mask / 4 * 3)
-        grow_table(graph);
-    uint32_t hash = hash_content(c), slot = find_slot(graph, c, hash);
-    if (graph->table[slot])
-        return graph->table[slot];
-    if (graph->max_nodes && graph->nodes.len > graph->max_nodes && c->op != IR_POISON) {
+    uint32_t first = graph->words.len;
+    memcpy(vec_extend(graph->arena, &graph->words, num_words), words, num_words * sizeof *words);
+    return first;
+}
+
+static ir_ref add(struct ir_graph *graph, struct content c, uint32_t hash, uint32_t slot)
+{
+    if (graph->max_nodes && graph->nodes.len > graph->max_nodes && c.op != IR_POISON) {
         graph->overflow = true;
-        return ir_poison(graph, c->type);
+        return ir_poison(graph, c.type);
     }
     struct ir_node node = {
-        .op = (uint8_t)c->op,
-        .type = c->type,
+        .op = (uint8_t)c.op,
+        .type = c.type,
         .flags = node_flags(graph, c),
-        .num_args = c->num_args,
-        .attr = c->attr,
+        .attr = c.attr,
         .origin = graph->origin,
     };
-    node.first_arg = push_args(graph, c->args, c->num_args);
-    if (c->op == IR_CONST) {
-        node.attr = graph->words.len;
-        memcpy(vec_extend(graph->arena, &graph->words, c->num_words), c->words, c->num_words * sizeof *c->words);
+    if (c.op == IR_CONST) {
+        node.attr = push_words(graph, c.data, c.count);
+    } else {
+        node.num_args = c.count;
+        node.first_arg = push_args(graph, c.data, c.count);
     }
     ir_ref ref = graph->nodes.len;
     vec_push(graph->arena, &graph->nodes, node);
     vec_push(graph->arena, &graph->hashes, hash);
     graph->table[slot] = ref;
+    if (ref >= graph->table_mask / 4 * 3)
+        grow_table(graph);
     return ref;
+}
+
+static inline ir_ref find_or_add(struct ir_graph *graph, struct content c)
+{
+    uint32_t hash = hash_content(c), slot = find_slot(graph, c, hash);
+    ir_ref found = graph->table[slot];
+    return found ? found : add(graph, c, hash, slot);
 }
 
 ir_ref ir_intern(struct ir_graph *graph, enum ir_op op, ir_type_id type, uint32_t attr, const ir_ref *args,
                  unsigned num_args)
 {
-    struct content c = {.op = op, .type = type, .attr = attr, .num_args = num_args, .args = args};
-    return intern(graph, &c);
+    return find_or_add(graph, (struct content){op, type, attr, num_args, args});
 }
 
 ir_ref ir_intern_const(struct ir_graph *graph, ir_type_id type, const union ir_word *words)
 {
-    struct content c = {.op = IR_CONST, .type = type, .words = words};
-    c.num_words = ir_type_info(type)->components;
-    return intern(graph, &c);
+    return find_or_add(graph, (struct content){IR_CONST, type, 0, ir_type_info(type)->components, &words->u});
 }
 
 uint32_t ir_add_origin(struct ir_graph *graph, str_id name, uint32_t element, uint32_t parent)

@@ -37,8 +37,11 @@ static inline const struct ir_type_info *ir_type_info(ir_type_id type) /* of a b
     return &ir_types[type];
 }
 const char *ir_type_text(ir_type_id type);
-bool ir_type_is_closure(ir_type_id type); /* BSDF, EDF, VDF */
-bool ir_type_is_shader(ir_type_id type);  /* surface, volume, displacement, light shaders and material */
+static inline bool ir_type_is_closure(ir_type_id type) { return type >= IR_TYPE_BSDF && type <= IR_TYPE_VDF; }
+static inline bool ir_type_is_shader(ir_type_id type) /* surface, volume, displacement, light shaders and material */
+{
+    return type >= IR_TYPE_SURFACE && type <= IR_TYPE_MATERIAL;
+}
 static inline bool ir_type_is_matrix(ir_type_id type) { return type >= IR_TYPE_MAT2 && type <= IR_TYPE_MAT4; }
 static inline bool ir_type_is_float(ir_type_id type) /* float, vector or matrix of float */
 {

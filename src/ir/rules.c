@@ -19,11 +19,15 @@ enum { FINITE, EXACT };
 
 /*
  * A filter, since almost every node is left as it is: a rule needs each op and constant of its pattern among the
- * operands, or two equal operands where it has none. Sets of ops are sets of bits, with a few ops to a bit.
+ * operands, or two equal operands where it has none. Sets are sets of bits: a few ops share one, each kind of constant has its own.
  */
-#define OP_BIT(op) ((uint64_t)1 << ((op) & 63))
-#define EQUAL_BIT ((uint64_t)1 << 63)
-#define HEAD(token) ((token) < A ? OP_BIT(token) : (token) >= K ? OP_BIT(CONST) : 0)
+enum { NUM_OP_BITS = 48 };
+#define BIT(n) ((uint64_t)1 << (n))
+#define OP_BIT(op) BIT((op) % NUM_OP_BITS)
+#define CONSTANT_BIT(token) BIT(NUM_OP_BITS + (token) - K)
+#define EQUAL_BIT BIT(63)
+#define HEAD(token) ((token) < A ? OP_BIT(token) : (token) >= K ? CONSTANT_BIT(token) : 0)
+static_assert(NUM_OP_BITS + RULE_FALSE - RULE_K < 63, "the bits do not suffice");
 #define HEADS(root, a, b, c, d, e, f, ...) (HEAD(a) | HEAD(b) | HEAD(c) | HEAD(d) | HEAD(e) | HEAD(f))
 #define NEEDS(...) (HEADS(__VA_ARGS__, A, A, A, A, A, A) ? HEADS(__VA_ARGS__, A, A, A, A, A, A) : EQUAL_BIT)
 
@@ -35,11 +39,15 @@ enum { FINITE, EXACT };
 #include "ir/rules.def"
 #undef RULES
 
+#undef RULE
+#define RULE(name, exactness, pattern, replacement) | (NEEDS pattern)
+
 static const struct {
     const struct rule *rules;
     unsigned num;
+    uint64_t any; /* what any of them needs */
 } table[IR_NUM_OPS] = {
-#define RULES(op, ...) [IR_##op] = {rules_of_##op, sizeof rules_of_##op / sizeof *rules_of_##op},
+#define RULES(op, ...) [IR_##op] = {rules_of_##op, sizeof rules_of_##op / sizeof *rules_of_##op, 0 __VA_ARGS__},
 #include "ir/rules.def"
 #undef RULES
 };
@@ -177,11 +185,32 @@ static ir_ref replace(struct ir_graph *graph, const struct rule *rule, ir_type_i
     return widen(graph, type, stack[top]);
 }
 
+/* The tokens that a constant may match, by its first component. */
+static uint64_t constant_bits(const struct ir_graph *graph, const struct ir_node *node)
+{
+    union ir_word w = graph->words.items[node->attr];
+    ir_type_id scalar = ir_type_info(node->type)->scalar;
+    float value = scalar == IR_TYPE_FLOAT ? w.f : scalar == IR_TYPE_INT ? (float)w.i : (float)w.u;
+    uint64_t bits = CONSTANT_BIT(K);
+    if (value == 0.0f)
+        bits |= CONSTANT_BIT(ZERO) | CONSTANT_BIT(FALSE_);
+    else if (value == 1.0f)
+        bits |= CONSTANT_BIT(ONE) | CONSTANT_BIT(IDENTITY) | CONSTANT_BIT(TRUE_);
+    else if (value == 2.0f)
+        bits |= CONSTANT_BIT(TWO);
+    else if (value == 0.5f)
+        bits |= CONSTANT_BIT(HALF);
+    else if (value == -1.0f)
+        bits |= CONSTANT_BIT(MINUS_ONE);
+    return bits;
+}
+
 static uint64_t present(const struct ir_graph *graph, const ir_ref *args, unsigned num_args)
 {
     uint64_t bits = 0;
     for (unsigned i = 0; i < num_args; i++) {
-        bits |= OP_BIT(ir_get(graph, args[i])->op);
+        const struct ir_node *node = ir_get(graph, args[i]);
+        bits |= node->op == IR_CONST ? constant_bits(graph, node) : OP_BIT(node->op);
         for (unsigned k = 0; k < i; k++)
             bits |= args[k] == args[i] ? EQUAL_BIT : 0;
     }
@@ -190,12 +219,13 @@ static uint64_t present(const struct ir_graph *graph, const ir_ref *args, unsign
 
 ir_ref ir_apply_rules(struct ir_graph *graph, enum ir_op op, ir_type_id type, const ir_ref *args, unsigned num_args)
 {
-    const struct rule *rules = table[op].rules;
-    if (!rules)
+    if (!table[op].any)
         return 0;
-    const struct rule *end = rules + table[op].num;
-    struct match m = {.graph = graph};
     uint64_t bits = present(graph, args, num_args);
+    if (!(bits & table[op].any))
+        return 0;
+    const struct rule *rules = table[op].rules, *end = rules + table[op].num;
+    struct match m = {.graph = graph};
     if (op == IR_MUL)
         m.linear = ir_is_linear_mul(ir_type_of(graph, args[0]), ir_type_of(graph, args[1]));
     for (const struct rule *rule = rules; rule < end; rule++) {

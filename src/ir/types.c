@@ -19,16 +19,6 @@ const char *ir_type_text(ir_type_id type)
     return type < IR_NUM_TYPES ? ir_types[type].text : "struct or array";
 }
 
-bool ir_type_is_closure(ir_type_id type)
-{
-    return type >= IR_TYPE_BSDF && type <= IR_TYPE_VDF;
-}
-
-bool ir_type_is_shader(ir_type_id type)
-{
-    return type >= IR_TYPE_SURFACE && type <= IR_TYPE_MATERIAL;
-}
-
 ir_type_id ir_type_vector(ir_type_id scalar, unsigned components)
 {
     if (components == 1 && scalar < IR_NUM_TYPES && ir_types[scalar].scalar == scalar && ir_types[scalar].components == 1)

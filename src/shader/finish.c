@@ -102,5 +102,4 @@ void shader_finish(struct shader *shader, const struct shader_layout_rules *rule
     shader_layout(shader, rules);
     if (rules->neutral_names)
         name_neutrally(shader);
-    shader->topology = shader_topology(shader);
 }

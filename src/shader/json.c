@@ -316,7 +316,7 @@ void shader_reflect_json(const struct shader *shader, const struct shader_reflec
     put_string(&json, "generator", options->generator);
     key(&json, "topology");
     text_char(out, '"');
-    text_hex64(out, shader->topology);
+    text_hex64(out, shader_topology(shader, out->arena));
     text_char(out, '"');
     put_number(&json, "closures", shader->num_closures);
     put_bool(&json, "transparent", shader->transparent);

@@ -6,8 +6,8 @@
  *     graph                         w, p shared or invariant, f(…) used once
  *     statements                    IF { let w, let p; LIGHTS { accumulate += w * f(p, L) } }
  *
- * Four walks over the nodes that a list of effects reaches: collect them (operands first), say what each depends on, find each one's
- * region and first use (users first), and choose the locals (operands first). All are iterative and linear.
+ * Three walks over the nodes that a list of effects reaches: collect them (operands first), find each one's region and first use
+ * (users first), and choose the locals (operands first). All are iterative and linear.
  *
  * needs: a graph without closures      keeps: order of effects      collects: reach, functions, the variables' stages
  */
@@ -49,8 +49,9 @@ struct scheduler {
     struct arena *arena;
     struct shader_stage *stage;
     uint8_t stage_bit;
-    uint32_t *index;   /* node to its plan + 1; 0: not reached */
-    VEC(struct plan) plans; /* operands before users */
+    bool *is_reached;    /* by node */
+    struct plan *plans;  /* by node; of reached nodes only, and of the absent one */
+    VEC(ir_ref) reached; /* operands before users */
     VEC(struct region) regions;
     VEC(uint32_t) region_of; /* the region that each effect stands in */
     VEC(uint32_t) called;  /* IR functions called from the effects at hand */
@@ -74,7 +75,7 @@ unsigned shader_call_outs(const struct shader *shader, ir_ref call)
 
 static struct plan *plan_of(struct scheduler *s, ir_ref ref)
 {
-    return &s->plans.items[s->index[ref] - 1];
+    return &s->plans[ref];
 }
 
 static bool is_call(const struct ir_node *node)
@@ -123,10 +124,23 @@ static void note_needs(struct scheduler *s, ir_ref ref)
     }
 }
 
+/* What the node depends on follows from its operands, which are reached before. */
 static void reach_node(struct scheduler *s, ir_ref ref)
 {
-    vec_push(s->arena, &s->plans, (struct plan){.ref = ref, .first = NO_EFFECT, .effect = NO_EFFECT});
-    s->index[ref] = s->plans.len;
+    const struct ir_node *node = ir_get(s->graph, ref);
+    unsigned flags = 0;
+    if (node->op == IR_LOCAL)
+        flags = PLAN_LOCAL;
+    else if (node->op == IR_CONTEXT)
+        flags = PLAN_LIGHT;
+    else if (is_call(node) && (node->type == IR_TYPE_VOID || shader_call_outs(s->shader, ref)))
+        flags = PLAN_STATEMENT;
+    const ir_ref *args = ir_args(s->graph, ref);
+    for (uint32_t a = 0; a < node->num_args; a++)
+        flags |= plan_of(s, args[a])->flags & (PLAN_LOCAL | PLAN_LIGHT);
+    *plan_of(s, ref) = (struct plan){.ref = ref, .flags = (uint8_t)flags};
+    s->is_reached[ref] = true;
+    vec_push(s->arena, &s->reached, ref);
     note_needs(s, ref);
 }
 
@@ -137,7 +151,7 @@ static void collect(struct scheduler *s, ir_ref root)
         uint32_t next;
     };
     VEC(struct visit) stack = {0};
-    if (!s->index[root])
+    if (!s->is_reached[root])
         vec_push(s->arena, &stack, (struct visit){root, 0});
     while (stack.len) {
         struct visit *top = &vec_last(&stack);
@@ -148,30 +162,12 @@ static void collect(struct scheduler *s, ir_ref root)
             continue;
         }
         ir_ref operand = ir_arg(s->graph, top->ref, top->next++);
-        if (!operand || s->index[operand])
+        if (!operand || s->is_reached[operand])
             continue;
         if (ir_get(s->graph, operand)->num_args == 0)
             reach_node(s, operand);
         else
             vec_push(s->arena, &stack, (struct visit){operand, 0});
-    }
-}
-
-/* Operands first: what each node depends on. */
-static void find_dependences(struct scheduler *s)
-{
-    for (uint32_t i = 0; i < s->plans.len; i++) {
-        struct plan *plan = &s->plans.items[i];
-        const struct ir_node *node = ir_get(s->graph, plan->ref);
-        if (node->op == IR_LOCAL)
-            plan->flags |= PLAN_LOCAL;
-        else if (node->op == IR_CONTEXT)
-            plan->flags |= PLAN_LIGHT;
-        else if (is_call(node) && (node->type == IR_TYPE_VOID || shader_call_outs(s->shader, plan->ref)))
-            plan->flags |= PLAN_STATEMENT;
-        for (uint32_t a = 0; a < node->num_args; a++)
-            if (ir_arg(s->graph, plan->ref, a))
-                plan->flags |= plan_of(s, ir_arg(s->graph, plan->ref, a))->flags & (PLAN_LOCAL | PLAN_LIGHT);
     }
 }
 
@@ -257,10 +253,10 @@ static void move_out(struct scheduler *s, struct plan *plan)
     }
 }
 
-/* Is this operand evaluated only sometimes? */
-static bool is_arm(const struct ir_node *node, uint32_t operand)
+/* Are all operands but the first evaluated only sometimes? */
+static bool has_arms(const struct ir_node *node)
 {
-    return operand > 0 && (node->op == IR_SELECT || node->op == IR_LAND || node->op == IR_LOR);
+    return node->op == IR_SELECT || node->op == IR_LAND || node->op == IR_LOR;
 }
 
 /* Users first: where each node belongs. */
@@ -272,15 +268,16 @@ static void find_places(struct scheduler *s, const struct effect_list *effects)
             continue;
         use(s, effect->value, 1, s->region_of.items[i], i, i, false);
     }
-    for (uint32_t i = s->plans.len; i-- > 0;) {
-        struct plan *plan = &s->plans.items[i];
+    for (uint32_t i = s->reached.len; i-- > 0;) {
+        struct plan *plan = plan_of(s, s->reached.items[i]);
         const struct ir_node *node = ir_get(s->graph, plan->ref);
         move_out(s, plan);
         uint32_t uses = node->op == IR_RESULT ? plan->uses : 1; /* a result is another name of its call */
+        const ir_ref *args = ir_args(s->graph, plan->ref);
+        bool in_arm = plan->flags & PLAN_IN_ARM, arms = in_arm || has_arms(node);
         for (uint32_t a = 0; a < node->num_args; a++)
-            if (ir_arg(s->graph, plan->ref, a))
-                use(s, ir_arg(s->graph, plan->ref, a), uses, plan->region, plan->first, plan->effect,
-                    is_arm(node, a) || plan->flags & PLAN_IN_ARM);
+            if (args[a])
+                use(s, args[a], uses, plan->region, plan->first, plan->effect, a ? arms : in_arm);
     }
 }
 
@@ -459,8 +456,8 @@ static void let_arms(struct scheduler *s, const struct ir_node *node)
 /* Operands first: which nodes become locals. */
 static void choose_locals(struct scheduler *s)
 {
-    for (uint32_t i = 0; i < s->plans.len; i++) {
-        struct plan *plan = &s->plans.items[i];
+    for (uint32_t i = 0; i < s->reached.len; i++) {
+        struct plan *plan = plan_of(s, s->reached.items[i]);
         if (is_source(s, plan))
             continue;
         let_arms(s, ir_get(s->graph, plan->ref));
@@ -481,8 +478,8 @@ static void write_statements(struct scheduler *s, const struct effect_list *effe
 {
     uint32_t *first = ARENA_ARRAY(s->arena, uint32_t, effects->len + 1); /* per effect: where its LETs begin */
     uint32_t lets = 0;
-    for (uint32_t i = 0; i < s->plans.len; i++) {
-        struct plan *plan = &s->plans.items[i];
+    for (uint32_t i = 0; i < s->reached.len; i++) {
+        struct plan *plan = plan_of(s, s->reached.items[i]);
         if (!(plan->flags & PLAN_LET))
             continue;
         plan->first = lift(s, plan->first, plan->region);
@@ -493,8 +490,8 @@ static void write_statements(struct scheduler *s, const struct effect_list *effe
         first[i] += first[i - 1];
     out->len = 0;
     struct effect *statements = vec_extend(s->arena, out, lets + effects->len);
-    for (uint32_t i = 0; i < s->plans.len; i++) {
-        const struct plan *plan = &s->plans.items[i];
+    for (uint32_t i = 0; i < s->reached.len; i++) {
+        const struct plan *plan = plan_of(s, s->reached.items[i]);
         if (plan->flags & PLAN_LET)
             statements[first[plan->first]++ + plan->first] = (struct effect){.kind = EFFECT_LET, .value = plan->ref};
     }
@@ -504,17 +501,16 @@ static void write_statements(struct scheduler *s, const struct effect_list *effe
 
 static void schedule_effects(struct scheduler *s, const struct effect_list *effects, struct effect_list *out)
 {
-    s->plans.len = s->called.len = 0;
+    s->reached.len = s->called.len = 0;
     for (uint32_t i = 0; i < effects->len; i++)
         if (effects->items[i].value)
             collect(s, effects->items[i].value);
-    find_dependences(s);
     find_regions(s, effects);
     find_places(s, effects);
     choose_locals(s);
     write_statements(s, effects, out);
-    for (uint32_t i = 0; i < s->plans.len; i++)
-        s->index[s->plans.items[i].ref] = 0;
+    for (uint32_t i = 0; i < s->reached.len; i++)
+        s->is_reached[s->reached.items[i]] = false;
 }
 
 /* ---- IR functions ---- */
@@ -574,8 +570,10 @@ void shader_schedule(struct shader *shader, enum shader_stage_id stage)
         .arena = shader->arena,
         .stage = &shader->stages[stage],
         .stage_bit = (uint8_t)(1u << stage),
-        .index = ARENA_ARRAY(shader->arena, uint32_t, shader->graph->nodes.len),
+        .is_reached = ARENA_ARRAY(shader->arena, bool, shader->graph->nodes.len),
+        .plans = arena_alloc(shader->arena, mem_array_size(shader->arena->mem, shader->graph->nodes.len, sizeof(struct plan))),
     };
+    s.plans[0] = (struct plan){0};
     s.stage->functions.len = s.stage->verbatim.len = 0;
     schedule_effects(&s, &s.stage->effects, &s.stage->statements);
     schedule_functions(&s);

@@ -166,7 +166,6 @@ struct shader {
     bool transparent;              /* found by analysis: the alpha written may be below 1 */
     bool lit;                      /* reads lights or environment */
     bool numbered;                 /* sets, bindings and locations are given */
-    uint64_t topology;             /* hash of everything but names and uniform values */
 };
 
 void shader_init(struct shader *shader, struct arena *arena, struct strpool *strings, struct ir_graph *graph,
@@ -207,7 +206,7 @@ size_t identifier_from(const char *text, size_t len, char *out); /* at most len 
 
 /*
  * finish.c: the last step before spelling. Adds what the stages' statements need from the host, drops vertex data that the pixel stage
- * does not read, schedules both stages and lays the interface out; then computes the topology hash. Nothing may be added after it.
+ * does not read, schedules both stages and lays the interface out. Nothing may be added after it.
  */
 struct shader_layout_rules { /* from the target's table and the options */
     bool blocks;             /* uniforms stand in std140 blocks */
@@ -223,8 +222,8 @@ void shader_specialise_calls(struct shader *shader);
 /* The variable of a uniform or stream that a portable function reads; UINT32_MAX for constants, and before shader_finish. */
 uint32_t shader_global_variable(const struct shader *shader, uint32_t global_id);
 
-/* topology.c */
-uint64_t shader_topology(const struct shader *shader);
+/* topology.c: a hash of everything but names and uniform values, of a finished shader; computed when asked for. */
+uint64_t shader_topology(const struct shader *shader, struct arena *scratch);
 
 /* layout.c: sizes and alignments of std140 (OpenGL 4.5 core, section 7.6.2.2). */
 uint32_t std140_align(ir_type_id type, bool array);

@@ -209,9 +209,9 @@ static void add_stage(struct hasher *h, const struct shader_stage *stage)
     add_effects(h, &stage->statements);
 }
 
-uint64_t shader_topology(const struct shader *shader)
+uint64_t shader_topology(const struct shader *shader, struct arena *scratch)
 {
-    struct hasher h = {.shader = shader, .arena = shader->arena, .hash = HASH_STABLE_SEED};
+    struct hasher h = {.shader = shader, .arena = scratch, .hash = HASH_STABLE_SEED};
     uint32_t num_functions = shader->unit ? shader->unit->base_functions + shader->unit->functions.len : 0;
     h.node_numbers = ARENA_ARRAY(h.arena, uint32_t, shader->graph->nodes.len);
     h.variable_numbers = ARENA_ARRAY(h.arena, uint32_t, shader->variables.len + 1);

@@ -391,13 +391,16 @@ bool xml_parse_source(struct xml_reader *reader)
     struct doc_mark mark = doc_mark(reader->doc, source->root);
     uint32_t num_includes = reader->includes.len;
     parse_once(reader);
-    if (!reader->raw_less)
-        return !reader->stopped;
-    doc_rollback(reader->doc, source->root, &mark);
-    reader->includes.len = num_includes;
-    reader->repair_failed = !xml_repair_text(reader);
-    if (!reader->repair_failed)
-        parse_once(reader);
-    report_raw_less(reader);
-    return !reader->stopped && !reader->repair_failed;
+    if (reader->raw_less) {
+        doc_rollback(reader->doc, source->root, &mark);
+        reader->includes.len = num_includes;
+        reader->repair_failed = !xml_repair_text(reader);
+        if (!reader->repair_failed)
+            parse_once(reader);
+        report_raw_less(reader);
+    }
+    bool parsed = !reader->stopped && !reader->repair_failed;
+    if (!parsed) /* half a document is none */
+        doc_rollback(reader->doc, source->root, &mark);
+    return parsed;
 }

@@ -202,7 +202,8 @@ static const char elements[] =
     "    <output name=\"y\" type=\"float\" nodename=\"parts\" output=\"outb\"/></nodegraph>\n"
     "  <separate3 name=\"said\" type=\"multioutput\"><output name=\"outg\" type=\"float\"/></separate3>\n"
     "  <surface_unlit name=\"S\" type=\"surfaceshader\"/>\n"
-    "  <surfacematerial name=\"M\" type=\"material\"><input name=\"surfaceshader\" type=\"surfaceshader\" nodename=\"S\"/></surfacematerial>\n"
+    "  <surfacematerial name=\"M\" type=\"material\">"
+    "<input name=\"surfaceshader\" type=\"surfaceshader\" nodename=\"S\"/></surfacematerial>\n"
     "  <look name=\"L\"><materialassign name=\"MA\" material=\"M\" geom=\"/\"/></look>\n"
     "</materialx>\n";
 
@@ -257,6 +258,63 @@ static void test_elements(void)
     bench_close(&b);
 }
 
+/* ---- Tokens in names of files ---- */
+
+static const char tokens[] =
+    "<materialx version=\"1.39\" fileprefix=\"[folder]/\">\n"
+    "  <token name=\"folder\" type=\"string\" value=\"maps\"/>\n"
+    "  <nodedef name=\"ND_outer\" node=\"outer\"><input name=\"x\" type=\"float\" value=\"1\"/><output name=\"out\" type=\"color3\"/>"
+    "<token name=\"part\" type=\"string\" value=\"default\"/><token name=\"n\" type=\"integer\" value=\"7\"/></nodedef>\n"
+    "  <nodegraph name=\"NG_outer\" nodedef=\"ND_outer\">\n"
+    "    <inner name=\"a\" type=\"color3\"><token name=\"p\" type=\"string\" interfacename=\"part\"/></inner>\n"
+    "    <image name=\"b\" type=\"color3\"><input name=\"file\" type=\"filename\" value=\"[part]_[n]_&lt;UDIM&gt;.png\"/></image>\n"
+    "    <add name=\"c\" type=\"color3\"><input name=\"in1\" type=\"color3\" nodename=\"a\"/>"
+    "<input name=\"in2\" type=\"color3\" nodename=\"b\"/></add>\n"
+    "    <output name=\"out\" type=\"color3\" nodename=\"c\"/></nodegraph>\n"
+    "  <nodedef name=\"ND_inner\" node=\"inner\"><token name=\"p\" type=\"string\" value=\"unset\"/>"
+    "<output name=\"out\" type=\"color3\"/></nodedef>\n"
+    "  <nodegraph name=\"NG_inner\" nodedef=\"ND_inner\">"
+    "<image name=\"i\" type=\"color3\"><input name=\"file\" type=\"filename\" value=\"inner_[p].png\"/></image>"
+    "<output name=\"out\" type=\"color3\" nodename=\"i\"/></nodegraph>\n"
+    "  <nodegraph name=\"G\"><token name=\"wood\" type=\"string\" value=\"oak\"/>\n"
+    "    <outer name=\"u1\" type=\"color3\"/>\n"
+    "    <outer name=\"u2\" type=\"color3\"><token name=\"part\" type=\"string\" value=\"set\"/></outer>\n"
+    "    <outer name=\"u3\" type=\"color3\"><token name=\"part\" type=\"string\" interfacename=\"wood\"/></outer>\n"
+    "    <add name=\"s\" type=\"color3\"><input name=\"in1\" type=\"color3\" nodename=\"u1\"/>"
+    "<input name=\"in2\" type=\"color3\" nodename=\"u2\"/></add>\n"
+    "    <add name=\"t\" type=\"color3\"><input name=\"in1\" type=\"color3\" nodename=\"s\"/>"
+    "<input name=\"in2\" type=\"color3\" nodename=\"u3\"/></add>\n"
+    "    <output name=\"out\" type=\"color3\" nodename=\"t\"/></nodegraph>\n"
+    "</materialx>\n";
+
+static bool has_file(const mxg_result *result, const char *name)
+{
+    for (uint32_t i = 0; i < mxg_result_num_variables(result); i++) {
+        mxg_variable variable = {sizeof variable};
+        if (mxg_result_variable(result, i, &variable) == MXG_OK && strcmp(variable.file, name) == 0)
+            return true;
+    }
+    return false;
+}
+
+/* Uses of one definition with different tokens are not the same, though their arguments are. */
+static void test_tokens(void)
+{
+    static const char *const names[] = {"maps/inner_default.png", "maps/default_7_<UDIM>.png", "maps/inner_set.png",
+                                        "maps/set_7_<UDIM>.png",  "maps/inner_oak.png",        "maps/oak_7_<UDIM>.png"};
+    struct bench b;
+    bench_open(&b, tokens);
+    mxg_result *result = generate(&b, "glsl", "G", MXG_OK);
+    REQUIRE_EQ(mxg_diagnostics_count(mxg_result_diagnostics(result)), 0);
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        REQUIRE(has_file(result, names[i]));
+    mxg_result_destroy(result);
+    result = generate(&b, "glsl", "NG_outer", MXG_OK);
+    REQUIRE(has_file(result, names[0]) && has_file(result, names[1]));
+    mxg_result_destroy(result);
+    bench_close(&b);
+}
+
 /* A result outlives the caller's other references, but for the context. */
 static void test_lifetimes(void)
 {
@@ -284,6 +342,7 @@ int main(void)
     test_interfaces(&b);
     bench_close(&b);
     test_elements();
+    test_tokens();
     test_lifetimes();
     return test_report("api-generation");
 }

@@ -404,7 +404,7 @@ static uint64_t topology(const char *uniform_name, const char *garbage, float co
     accumulate(&f, vec3_of(&f, op2(&f, op, call(&f, "g", &u, 1), number(&f, constant))));
     write_color(&f);
     scheduled(&f);
-    uint64_t hash = f.shader.topology;
+    uint64_t hash = shader_topology(&f.shader, &f.arena);
     fixture_close(&f);
     return hash;
 }
