@@ -19,6 +19,7 @@ void report_finish(struct report *report)
 {
     free(report->source_name);
     free(report->source);
+    free(report->printed);
     *report = (struct report){0};
 }
 
@@ -68,14 +69,39 @@ static bool is_shown(const struct report *report, const mxg_diagnostic *diagnost
     return diagnostic->severity == MXG_SEVERITY_ERROR || !report->quiet;
 }
 
+static uint64_t hash_text(uint64_t hash, const char *text)
+{
+    for (; text && *text; ++text)
+        hash = (hash ^ (unsigned char)*text) * 0x100000001b3u;
+    return (hash ^ 0xff) * 0x100000001b3u;
+}
+
+/* Many materials of a document may meet the same fault: it is told once. */
+static bool is_new(struct report *report, const mxg_diagnostic *diagnostic)
+{
+    uint64_t hash = 0xcbf29ce484222325u ^ ((uint64_t)diagnostic->line << 32 | diagnostic->column);
+    hash = hash_text(hash_text(hash_text(hash, diagnostic->id), diagnostic->file), diagnostic->message);
+    for (size_t i = 0; i < report->num_printed; ++i)
+        if (report->printed[i] == hash)
+            return false;
+    uint64_t *more = realloc(report->printed, (report->num_printed + 1) * sizeof *more);
+    if (more) {
+        report->printed = more;
+        report->printed[report->num_printed++] = hash;
+    }
+    return true;
+}
+
 void report_list(struct report *report, const mxg_diagnostics *list)
 {
     uint32_t count = mxg_diagnostics_count(list);
+    bool shown = false; /* the message that notes belong to */
     for (uint32_t i = 0; i < count; ++i) {
-        mxg_diagnostic diagnostic = {sizeof diagnostic}, message = {sizeof message};
+        mxg_diagnostic diagnostic = {sizeof diagnostic};
         mxg_diagnostics_get(list, i, &diagnostic);
-        mxg_diagnostics_get(list, diagnostic.parent, &message);
-        if (is_shown(report, &diagnostic) && (diagnostic.parent == i || is_shown(report, &message)))
+        if (diagnostic.parent == i)
+            shown = is_shown(report, &diagnostic) && is_new(report, &diagnostic);
+        if (shown && is_shown(report, &diagnostic))
             print_one(report, list, i, diagnostic.file);
     }
     report->errors += mxg_diagnostics_errors(list);

@@ -9,7 +9,9 @@ struct report {
     bool quiet;   /* errors only */
     bool verbose; /* also what was upgraded in older documents */
     bool colour;
-    uint32_t errors;            /* printed so far */
+    uint32_t errors;            /* told so far, repeated ones too */
+    uint64_t *printed;          /* hashes of the messages printed */
+    size_t num_printed;
     char *source_name, *source; /* the file read last */
     size_t source_size;
 };

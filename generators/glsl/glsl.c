@@ -2,8 +2,8 @@
 /* Desktop OpenGL: loose uniforms with initial values, as hosts of MaterialX bind them. The portable language is its subset. */
 #include "generators/glsl/glsl.h"
 
-#define RESERVED(word) #word,
-static const char *const reserved[] = {
+static const struct lang_words reserved[] = {
+#define RESERVED(length, words) LANG_WORDS(length, words),
 #include "generators/glsl/reserved.def"
 };
 
@@ -17,7 +17,7 @@ const struct lang_syntax glsl_syntax = {
     .base = &lang_syntax_portable,
     .forms = forms,
     .reserved = reserved,
-    .num_reserved = sizeof reserved / sizeof *reserved,
+    .max_reserved = sizeof reserved / sizeof *reserved - 1,
     .param_in = "const ", /* becomes a SPIR-V value; other parameters are variables, copied at every call */
     .param_in_assigned = "",
     .param_out = "out ",

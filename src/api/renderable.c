@@ -10,12 +10,6 @@ struct scan {
     uint8_t *used; /* per own element */
 };
 
-static void mark(struct scan *scan, elem_id target)
-{
-    if (target >= scan->doc->first_element)
-        scan->used[target - scan->doc->first_element] = 1;
-}
-
 static void mark_connection(struct scan *scan, elem_id port)
 {
     const struct document *doc = scan->doc;

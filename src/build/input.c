@@ -349,13 +349,26 @@ static const char *suggest_interface(struct builder *b, elem_id graph, uint32_t 
     return diag_suggest(b->arena, build_text(b, name), names.items, names.len);
 }
 
+/* The definition that a graph of the document implements, by its own word or that of an <implementation>. */
+static uint32_t implemented_nodedef(const struct builder *b, elem_id graph)
+{
+    str_id name = element_attr(b, graph, STR_nodedef);
+    if (name)
+        return library_nodedef_by_name(b->lib, name);
+    for (uint32_t i = 0; graph && i < b->lib->impls.len; i++)
+        if (b->lib->impls.items[i].kind == IMPL_GRAPH && b->lib->impls.items[i].ref == graph)
+            return b->lib->impls.items[i].nodedef;
+    return LIBRARY_NONE;
+}
+
 /* A functional graph that is not used as a node, but is itself generated, has the defaults of its definition. */
 static ir_ref interface_arg(struct builder *b, struct instance *scope, const struct port *port, const struct binding *binding)
 {
     str_id name = binding->ref;
     elem_id alone = scope->graph ? 0 : graph_around(b, binding->element);
-    str_id implements = element_attr(b, alone, STR_nodedef);
-    uint32_t nodedef = implements ? library_nodedef_by_name(b->lib, implements) : scope->nodedef;
+    uint32_t nodedef = alone ? implemented_nodedef(b, alone) : scope->nodedef;
+    if (nodedef == LIBRARY_NONE && element_attr(b, alone, STR_nodedef)) /* reported when the document was read */
+        return unset(b, scope, doc_element(doc_of(b), binding->element)->parent, port, binding->element, true);
     int index = nodedef != LIBRARY_NONE ? library_find_input(b->lib, nodedef, name) : -1;
     if (index < 0) {
         diag_add(b->diags, DIAG_ID_dangling_interfacename, doc_attr_place(doc_of(b), binding->element, STR_interfacename),

@@ -44,10 +44,10 @@ void closure_sample_light(struct shader *shader, const struct closure_host *host
     struct lang_host see_through = *host->lang;
     see_through.max_inline_nodes = MAX_LIGHT_NODES;
     uint32_t before = g->origin, direction_origin = named(shader, "L"), intensity_origin = named(shader, "light");
-    ir_ref one = ir_const_float(g, 1.0f), zero = ir_const_float(g, 0.0f);
     ir_ref point = shader_stream(shader, str_intern_z(shader->strings, "positionWorld"), IR_TYPE_VEC3);
     ir_ref type = member(shader, shader_light_member(shader, str_intern_z(shader->strings, "type"), IR_TYPE_INT));
-    *direction = *intensity = 0;
+    *direction = 0;
+    *intensity = ir_const_splat(g, IR_TYPE_VEC3, 0.0f);
     for (uint32_t i = shader->lights.len; i-- > 0;) {
         const struct shader_light *light = &shader->lights.items[i];
         ir_ref results[2];
@@ -57,10 +57,7 @@ void closure_sample_light(struct shader *shader, const struct closure_host *host
         g->origin = direction_origin;
         *direction = *direction && *direction != results[0] ? ir_op3(g, IR_SELECT, is_this, results[0], *direction) : results[0];
         g->origin = intensity_origin;
-        if (*intensity)
-            *intensity = ir_op3(g, IR_SELECT, is_this, results[1], *intensity);
-        else /* a factor, so that what it has in common with the others can be taken out */
-            *intensity = ir_op2(g, IR_MUL, results[1], ir_op3(g, IR_SELECT, is_this, one, zero));
+        *intensity = ir_op3(g, IR_SELECT, is_this, results[1], *intensity);
     }
     g->origin = before;
 }

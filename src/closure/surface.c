@@ -89,7 +89,7 @@ static bool any_has(const struct emitter *e, const struct closure_list *list, en
 }
 
 /* Leaves that are always there share one line; the others have their own behind their guard. */
-static void emit_lights(struct emitter *e, const struct closure_list *list)
+static void emit_lights(struct emitter *e, const struct closure_list *list, bool *emitted)
 {
     if (!e->lighting->lights || !any_has(e, list, LEAF_EVAL))
         return;
@@ -103,6 +103,7 @@ static void emit_lights(struct emitter *e, const struct closure_list *list)
         ir_ref value = weighted(e, leaf, closure_call(e->shader, e->host, leaf->leaf, LEAF_EVAL, &light));
         if (!value)
             continue;
+        emitted[i] = true;
         if (is_guarded(e, leaf))
             accumulate(e, leaf, ir_op2(e->graph, IR_MUL, intensity, value));
         else
@@ -114,7 +115,7 @@ static void emit_lights(struct emitter *e, const struct closure_list *list)
     e->shader->lit = true;
 }
 
-static void emit_environment(struct emitter *e, const struct closure_list *list)
+static void emit_environment(struct emitter *e, const struct closure_list *list, bool *emitted)
 {
     if (!e->lighting->environment)
         return;
@@ -126,6 +127,7 @@ static void emit_environment(struct emitter *e, const struct closure_list *list)
         ir_ref value = weighted(e, leaf, add(e, reflected, refracted));
         if (!value)
             continue;
+        emitted[i] = true;
         e->shader->lit = true;
         if (is_guarded(e, leaf)) {
             declare_color(e);
@@ -147,9 +149,10 @@ static ir_ref emission(struct emitter *e, ir_ref edf)
     ir_ref sum = 0;
     for (uint32_t i = 0; i < list.leaves.len; i++) {
         ir_ref value = closure_call(e->shader, e->host, list.leaves.items[i].leaf, LEAF_EMISSION, NULL);
-        sum = add(e, sum, weighted(e, &list.leaves.items[i], value));
+        value = weighted(e, &list.leaves.items[i], value);
+        e->shader->num_closures += value != 0;
+        sum = add(e, sum, value);
     }
-    e->shader->num_closures += list.leaves.len;
     return sum;
 }
 
@@ -282,10 +285,12 @@ static void emit_surface(struct emitter *e, ir_ref root)
     struct surface s = root ? surface_of(e, root) : (struct surface){0};
     struct closure_list list;
     closure_flatten(e->shader, e->host, s.bsdf, &list);
-    e->shader->num_closures += list.leaves.len;
     e->base = add(e, s.unlit ? vec3_of(e, s.unlit) : 0, emission(e, s.edf));
-    emit_lights(e, &list);
-    emit_environment(e, &list);
+    bool *emitted = ARENA_ARRAY(e->shader->arena, bool, list.leaves.len);
+    emit_lights(e, &list, emitted);
+    emit_environment(e, &list, emitted);
+    for (uint32_t i = 0; i < list.leaves.len; i++)
+        e->shader->num_closures += emitted[i];
     finish_surface(e, &s);
 }
 

@@ -176,18 +176,28 @@ static void check_has_output(struct validation *v, elem_id element)
         diag_add(v->diags, DIAG_ID_no_output, doc_place(v->doc, element), text_of(v, e->category), text_of(v, e->name));
 }
 
+static void check_standing(struct validation *v, elem_id element)
+{
+    const struct element *e = doc_element(v->doc, element);
+    check_place(v, element);
+    check_required(v, element);
+    if (e->kind == KIND_INPUT || e->kind == KIND_OUTPUT)
+        check_bindings(v, element);
+}
+
+void doc_check_element(const struct document *doc, elem_id element, struct diag_list *diags)
+{
+    struct validation v = {.doc = doc, .diags = diags, .arena = diags->arena};
+    check_standing(&v, element);
+}
+
 static void check_element(struct validation *v, elem_id element)
 {
-    enum element_kind kind = (enum element_kind)doc_element(v->doc, element)->kind;
-    if (element != v->doc->root) {
-        check_place(v, element);
-        check_required(v, element); /* the reader speaks of the version */
-    }
+    if (element != v->doc->root) /* the reader speaks of the version */
+        check_standing(v, element);
     check_name(v, element);
     check_type_and_values(v, element);
-    if (kind == KIND_INPUT || kind == KIND_OUTPUT)
-        check_bindings(v, element);
-    if (kind == KIND_NODEDEF)
+    if (doc_element(v->doc, element)->kind == KIND_NODEDEF)
         check_has_output(v, element);
 }
 

@@ -261,11 +261,29 @@ static ir_ref scalar_factor(const struct ir_graph *graph, ir_ref ref, ir_ref v)
     return b == v && is_scalar_float(graph, a) ? a : 0;
 }
 
+/* c ? v s : 0 = v (c ? s : 0). */
+static ir_ref simplify_select_or_zero(struct ir_graph *graph, ir_ref condition, ir_ref product)
+{
+    if (ir_get(graph, product)->op != IR_MUL)
+        return 0;
+    ir_ref v = ir_arg(graph, product, 0), s = ir_arg(graph, product, 1);
+    if (is_scalar_float(graph, v)) {
+        ir_ref swap = v;
+        v = s;
+        s = swap;
+    }
+    if (!is_scalar_float(graph, s))
+        return 0;
+    return ir_op2(graph, IR_MUL, v, ir_op3(graph, IR_SELECT, condition, s, ir_const_float(graph, 0.0f)));
+}
+
 /* c ? v : v s = v (c ? 1 : s): what is chosen is a scalar. */
 static ir_ref simplify_select(struct ir_graph *graph, ir_type_id type, ir_ref condition, ir_ref a, ir_ref b)
 {
     if (graph->exact || !is_vector(type) || ir_type_info(type)->scalar != IR_TYPE_FLOAT)
         return 0;
+    if (ir_const_is(graph, b, 0.0f))
+        return simplify_select_or_zero(graph, condition, a);
     ir_ref in_b = scalar_factor(graph, b, a), in_a = in_b ? 0 : scalar_factor(graph, a, b);
     if (!in_a && !in_b)
         return 0;

@@ -4,7 +4,7 @@
  *
  * A unit is the set of functions of one library layer. Source files are parsed and type-checked once, when a library is
  * packed; the result is flat arrays without pointers, so it is part of the library image. Trees are immutable: specialising
- * a function makes a new function in a unit of the generation.
+ * a function makes a new one in a unit of the generation.
  *
  *     text ─lex→ tokens ─parse+check→ typed tree ─┬ lower:      a call becomes IR nodes (straight-line code, known branches)
  *                                                ├ specialise: constant arguments bound, dead code dropped
@@ -81,7 +81,7 @@ struct lang_function {
     uint32_t file;                  /* index in unit->files */
     uint32_t place;
     uint32_t num_nodes;             /* size of the body: for inlining decisions */
-    uint32_t origin;                /* 1 + id of the function this is a version of (lang_specialise); 0 = written by hand */
+    uint32_t origin;                /* 1 + id of the function this is a version of (plan.c); 0 = written by hand */
     uint32_t dropped[2];            /* of a version: bit i is set where parameter i of the origin is gone */
     uint32_t first_callee, num_callees;   /* in unit->refs: function ids called directly, each once */
     uint32_t first_global, num_globals;   /* in unit->refs: globals read directly, each once */
@@ -106,6 +106,16 @@ struct lang_file {
     uint32_t first_global, num_globals;
 };
 
+struct lang_unit;
+
+struct lang_host { /* how globals become IR nodes */
+    void *user_data;
+    /* The IR node for a uniform or stream (by its name and type); option constants give a constant. */
+    ir_ref (*global)(void *user_data, struct ir_graph *graph, const struct lang_unit *unit, uint32_t global_id);
+    uint32_t max_outer_nodes;  /* the same limit for the called function itself and what it calls directly; 0: max_inline_nodes */
+    uint32_t max_inline_nodes; /* functions larger than this are called, not lowered, unless their result folds to constants */
+};
+
 /*
  * A layer of functions. Function, file, global and type ids count through the layers (base first); node, slot, word and ref
  * indices are the layer's own. User type ids also count through the layers.
@@ -124,8 +134,10 @@ struct lang_unit {
     VEC(uint32_t) refs;
     VEC(struct ir_user_type) user_types;
     VEC(struct ir_member) members;
-    struct lang_plan *plan;         /* plan.c: which constants functions take for granted; NULL until the shader stands */
-    struct lang_versions *versions; /* specialise.c: what has been specialised; made on demand */
+    /* Of a generation's layer: */
+    struct lang_host host;   /* who knows the options, and the graph that their values are nodes of; from lang_lower_call */
+    struct ir_graph *graph;
+    struct lang_plan *plan;  /* plan.c: which constants functions take for granted; NULL until the shader stands */
 };
 
 void lang_unit_init(struct lang_unit *unit, struct arena *arena, struct strpool *strings, const struct lang_unit *base);
@@ -173,52 +185,33 @@ uint32_t lang_find_function(const struct lang_unit *unit, uint32_t file, str_id 
 
 /* lower.c: calls into IR */
 
-struct lang_host; /* how globals become IR nodes */
-struct lang_host {
-    void *user_data;
-    /* The IR node for a uniform or stream (by its name and type); option constants give a constant. */
-    ir_ref (*global)(void *user_data, struct ir_graph *graph, const struct lang_unit *unit, uint32_t global_id);
-    uint32_t max_outer_nodes;  /* the same limit for the called function itself and what it calls directly; 0: max_inline_nodes */
-    uint32_t max_inline_nodes; /* functions larger than this are called, not lowered, unless their result folds to constants */
-};
-
 /*
  * Builds a call of function `id`: args are one IR node per `in`/`inout` parameter in order (for expressions: per input; a ref of 0
  * means the input is absent and must not be read). results receives the returned value, if any, then each `out`/`inout` parameter.
  * Straight-line code and branches that are known or can be merged by SELECT become nodes; all-constant calls are evaluated; anything else
- * becomes a CALL of a specialisation. Writes num_results (lang_num_results) refs. Never fails: POISON after an error.
- * `generated` is the unit of the generation: specialisations go there; its base is the library's unit.
+ * becomes a CALL with all its arguments, which lang_plan_call is told when the shader stands. Writes num_results (lang_num_results) refs. Never fails: POISON after an error.
+ * `generated` is the unit of the generation: versions of functions go there; its base is the library's unit.
  */
 void lang_lower_call(struct lang_unit *generated, struct ir_graph *graph, const struct lang_host *host, uint32_t id,
                      const ir_ref *args, ir_ref *results);
 unsigned lang_num_results(const struct lang_unit *unit, uint32_t id);
 
-/* specialise.c */
-
 /*
- * A version of function `id` with some parameters bound to constants and option globals to their values: code is folded, and
- * branches that are never taken, locals and assignments nobody needs are dropped. Bound parameters are gone, and `in`
- * parameters that turn out to be unused: whoever calls a version passes what lang_param_dropped leaves.
- * bound[i] is NULL or parameter i's value (built-in types, strings included). Returns `id` itself where nothing changes;
- * the same arguments give the same id. option(user_data, global id, out) gives an option's value; it must not vary within a unit.
+ * plan.c (specialise.c): one version per function for a whole shader. First lang_plan_call for every call in the IR, then
+ * lang_plan_finish, then lang_plan_version of what each lang_plan_call returned.
+ *
+ * A version has some parameters bound to constants: those that all calls agree on, and strings and flags, which choose what a
+ * function is, so that calls with others get versions of their own. Options have their values. Code is folded, branches that are never
+ * taken, locals and assignments nobody needs are dropped, small functions put in place of their calls. Bound parameters are
+ * gone, and `in` parameters that turn out to be unused: whoever calls a version passes what lang_param_dropped leaves.
+ * The version is the function itself where nothing changes.
  */
-struct lang_bindings {
-    const struct ir_value *const *bound; /* one per parameter, NULL entries for free ones; NULL: all are free */
-    void *user_data;
-    bool (*option)(void *user_data, const struct lang_unit *unit, uint32_t global_id, struct ir_value *out);
-};
-uint32_t lang_specialise(struct lang_unit *generated, uint32_t id, const struct lang_bindings *bindings);
-
-/* Is parameter `index` of the function that was given to lang_specialise gone from the version it returned? */
-bool lang_param_dropped(const struct lang_unit *generated, uint32_t version, uint32_t given, unsigned index);
-
-/*
- * plan.c: one version per function for a whole shader. First lang_plan_call for every call in the IR (args[i]: the constant that is passed, or
- * NULL), then lang_plan_finish, then lang_plan_version for each function called; lang_param_dropped tells which arguments are left.
- */
-void lang_plan_call(struct lang_unit *generated, uint32_t id, const struct ir_value *const *args);
+uint32_t lang_plan_call(struct lang_unit *generated, uint32_t id, const union ir_word *const *args); /* a constant's words, or NULL */
 void lang_plan_finish(struct lang_unit *generated);
-uint32_t lang_plan_version(struct lang_unit *generated, uint32_t id);
+uint32_t lang_plan_version(const struct lang_unit *generated, uint32_t call);
+
+/* Is parameter `index` of the function that was given to lang_plan_call gone from its version? */
+bool lang_param_dropped(const struct lang_unit *generated, uint32_t version, uint32_t given, unsigned index);
 
 /* eval.c */
 

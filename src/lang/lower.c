@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /* Calls into IR. A call is, in this order of preference: a constant, the nodes of the callee's body, a CALL. */
 #include "lang/lower.h"
-#include "lang/specialise.h"
 
 enum { MAX_EVAL_STEPS = 20000, FEW_SLOTS = 32, FEW_LEAVES = 64 };
 
@@ -153,39 +152,65 @@ static void collect_results(const struct lower *lo, ir_ref *out)
     }
 }
 
-static bool has_constant(const struct lower *lo, uint32_t id, const ir_ref *in)
+enum known { NOTHING_KNOWN, A_NUMBER_KNOWN, A_CHOICE_KNOWN };
+
+/* What a function is called with: strings, flags and options choose what it is. */
+static enum known known_of(const struct lower *lo, const struct lang_unit *layer, const struct lang_function *fn,
+                           const ir_ref *in)
 {
-    const struct lang_unit *layer;
-    const struct lang_function *fn = lang_function(lo->unit, id, &layer);
+    enum known known = NOTHING_KNOWN;
+    for (uint32_t i = 0; i < fn->num_globals; i++)
+        if (lang_global(lo->unit, layer->refs.items[fn->first_global + i], NULL)->kind == LANG_GLOBAL_OPTION)
+            return A_CHOICE_KNOWN;
     for (uint32_t i = 0; i < fn->num_params; i++) {
         const struct lang_slot *slot = ast_slot(layer, fn, i);
         uint32_t count = slot->mode == LANG_OUT ? 0 : lower_leaves(lo, slot->type);
-        for (uint32_t k = 0; k < count; k++)
-            if (in[k] && ir_is_const(lo->graph, in[k]))
-                return true;
+        for (uint32_t k = 0; k < count; k++) {
+            if (!in[k] || !ir_is_const(lo->graph, in[k]))
+                continue;
+            if (slot->type == IR_TYPE_BOOL || slot->type == IR_TYPE_STRING)
+                return A_CHOICE_KNOWN;
+            known = A_NUMBER_KNOWN;
+        }
         in += count;
     }
-    return false;
+    return known;
+}
+
+/*
+ * Is a function's body worth more than a call? A larger one may be small with what is known, and is tried: where a choice is known,
+ * until it has executed as many nodes as a small function has, where a number is, until it has added many to the graph.
+ */
+static bool is_worth_trying(struct lower *lo, const struct lang_unit *layer, const struct lang_function *fn, const ir_ref *in,
+                            uint32_t *out_budget)
+{
+    bool is_outer = lo->depth < LOWER_OUTER_DEPTH;
+    uint32_t limit = is_outer && lo->host->max_outer_nodes ? lo->host->max_outer_nodes : lo->host->max_inline_nodes;
+    if (limit < LOWER_TINY)
+        limit = LOWER_TINY;
+    *out_budget = UINT32_MAX;
+    if (fn->num_nodes <= limit)
+        return true;
+    enum known known = known_of(lo, layer, fn, in);
+    if (known == A_CHOICE_KNOWN)
+        *out_budget = limit;
+    else if (known == A_NUMBER_KNOWN && is_outer && fn->num_nodes <= LOWER_MAX_TRIED && !lo->max_graph_nodes)
+        lo->max_graph_nodes = lo->graph->nodes.len + LOWER_TRIED_NODES;
+    return known == A_CHOICE_KNOWN || (known == A_NUMBER_KNOWN && is_outer && fn->num_nodes <= LOWER_MAX_TRIED);
 }
 
 /* False where the body cannot become nodes; those that it has made by then are not used by anybody. */
 static bool lower_inline(struct lower *lo, uint32_t id, const ir_ref *in, ir_ref *out)
 {
-    const struct lang_function *fn = lang_function(lo->unit, id, NULL);
-    uint32_t limit = lo->depth < LOWER_OUTER_DEPTH && lo->host->max_outer_nodes ? lo->host->max_outer_nodes
-                                                                                : lo->host->max_inline_nodes;
-    if (limit < LOWER_TINY)
-        limit = LOWER_TINY;
-    bool is_tried = fn->num_nodes > limit;
-    if (lo->depth == LOWER_MAX_DEPTH
-        || (is_tried && (fn->num_nodes > LOWER_MAX_TRIED || lo->depth >= LOWER_OUTER_DEPTH || !has_constant(lo, id, in))))
+    const struct lang_unit *layer;
+    const struct lang_function *fn = lang_function(lo->unit, id, &layer);
+    uint32_t max_graph_nodes = lo->max_graph_nodes, budget;
+    if (lo->depth == LOWER_MAX_DEPTH || !is_worth_trying(lo, layer, fn, in, &budget))
         return false;
-    uint32_t max_graph_nodes = lo->max_graph_nodes;
-    if (is_tried && !max_graph_nodes)
-        lo->max_graph_nodes = lo->graph->nodes.len + LOWER_TRIED_NODES;
     struct lower_frame caller = lo->frame;
     struct few few;
     open_frame(lo, id, in, &few);
+    lo->frame.budget = budget;
     lo->depth++;
     lower_statements(lo, ast_node(lo->frame.layer, lo->frame.fn.body)->a);
     lo->depth--;
@@ -199,51 +224,6 @@ static bool lower_inline(struct lower *lo, uint32_t id, const ir_ref *in, ir_ref
 }
 
 /* A CALL */
-
-static bool option_value(void *user_data, const struct lang_unit *unit, uint32_t global_id, struct ir_value *out)
-{
-    struct lower *lo = user_data;
-    ir_ref ref = lo->host->global(lo->host->user_data, lo->graph, unit, global_id);
-    return ref && ir_get_const(lo->graph, ref, out);
-}
-
-static uint32_t specialise(struct lower *lo, uint32_t id, const ir_ref *in)
-{
-    const struct lang_unit *layer;
-    const struct lang_function *fn = lang_function(lo->unit, id, &layer);
-    struct ir_value values[SPEC_MAX_PARAMS];
-    const struct ir_value *bound[SPEC_MAX_PARAMS] = {0};
-    uint32_t num_params = fn->num_params < SPEC_MAX_PARAMS ? fn->num_params : SPEC_MAX_PARAMS;
-    for (uint32_t i = 0; i < num_params; i++) {
-        const struct lang_slot *slot = ast_slot(layer, fn, i);
-        bool is_plain = slot->mode == LANG_IN && !ast_is_user_type(slot->type);
-        if (is_plain && *in && ir_get_const(lo->graph, *in, &values[i])
-            && spec_is_worth_binding(&values[i]))
-            bound[i] = &values[i];
-        in += slot->mode == LANG_OUT ? 0 : lower_leaves(lo, slot->type);
-    }
-    struct lang_bindings bindings = {.bound = fn->num_params <= SPEC_MAX_PARAMS ? bound : NULL, .user_data = lo,
-                                     .option = option_value};
-    return lang_specialise(lo->unit, id, &bindings);
-}
-
-/* Leaves of the arguments that the version still takes; returns how many. */
-static uint32_t remaining_arguments(struct lower *lo, uint32_t version, uint32_t given, const ir_ref *in, ir_ref *out)
-{
-    const struct lang_unit *layer;
-    const struct lang_function *fn = lang_function(lo->unit, given, &layer);
-    uint32_t total = 0;
-    for (uint32_t i = 0; i < fn->num_params; i++) {
-        const struct lang_slot *slot = ast_slot(layer, fn, i);
-        uint32_t count = slot->mode == LANG_OUT ? 0 : lower_leaves(lo, slot->type);
-        if (!lang_param_dropped(lo->unit, version, given, i)) {
-            memcpy(out + total, in, count * sizeof *in);
-            total += count;
-        }
-        in += count;
-    }
-    return total;
-}
 
 /* Operands of a CALL: one node per in and inout parameter; false where one has no value. */
 static bool join_arguments(struct lower *lo, uint32_t id, const ir_ref *in, ir_ref *args, uint32_t *out_count)
@@ -311,15 +291,7 @@ void lower_call(struct lower *lo, uint32_t id, const ir_ref *in, ir_ref *out)
 {
     if (evaluate(lo, id, in, out) || lower_inline(lo, id, in, out))
         return;
-    ir_ref left[LOWER_MAX_LEAVES];
-    uint32_t version = specialise(lo, id, in);
-    if (version != id) {
-        remaining_arguments(lo, version, id, in, left);
-        if (lower_inline(lo, version, left, out))
-            return;
-        in = left;
-    }
-    build_call(lo, version, in, out);
+    build_call(lo, id, in, out);
 }
 
 /* The entry */
@@ -381,7 +353,9 @@ static void poison_whole_results(struct lower *lo, ir_ref *results)
 void lang_lower_call(struct lang_unit *generated, struct ir_graph *graph, const struct lang_host *host, uint32_t id,
                      const ir_ref *args, ir_ref *results)
 {
-    struct lower lo = {.unit = generated, .graph = graph, .host = host};
+    struct lower lo = {.unit = generated, .graph = graph, .host = host, .frame.budget = UINT32_MAX};
+    generated->host = *host;
+    generated->graph = graph;
     lo.frame.fn = *lang_function(generated, id, &lo.frame.layer);
     if (lo.frame.fn.flags & LANG_FN_EXPRESSION)
         lower_inline_expression(&lo, args, results);

@@ -27,6 +27,7 @@ struct lower_frame { /* the function being lowered */
     ir_ref *leaves;      /* of all slots, and behind them of the returned value */
     uint32_t num_leaves; /* of all of these */
     unsigned nesting;    /* of bodies in bodies */
+    uint32_t budget;     /* of tree nodes that may still be executed */
 };
 
 struct lower {

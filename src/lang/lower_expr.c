@@ -312,7 +312,8 @@ void lower_expression(struct lower *lo, lang_ref ref, ir_ref *out)
 {
     const struct lang_node node = *node_at(lo, ref); /* a copy: the generation's unit grows */
     uint32_t count = lower_leaves(lo, node.type);
-    lo->failed |= count > LOWER_MAX_LEAVES || (lo->max_graph_nodes && lo->graph->nodes.len > lo->max_graph_nodes);
+    lo->failed |= count > LOWER_MAX_LEAVES || lo->frame.budget-- == 0
+                  || (lo->max_graph_nodes && lo->graph->nodes.len > lo->max_graph_nodes);
     if (lo->failed)
         return;
     struct ir_value value;

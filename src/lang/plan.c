@@ -4,116 +4,128 @@
  *
  * A version for each set of constant arguments would be text for each. So calls are made with all their arguments first, and when
  * the shader stands, each function gets one version: a parameter is bound where every call that is left passes the
- * same constant (interprocedural constant propagation). Callees have smaller ids than callers, so one pass from the
- * highest id down sees every call of a function before the function. Only strings and flags, which choose what a function *is*, make
- * versions of their own at once (spec_is_worth_binding).
+ * same constant (interprocedural constant propagation). Only strings and flags, which choose what a function *is*, make
+ * variants of it. Callees have smaller ids than callers: one pass from the highest id down sees every call of a function before
+ * the function, and one from the lowest up has every callee's version before its calls.
  */
 #include "lang/specialise.h"
-
-enum { UNSEEN, CONSTANT, VARIES };
-
-struct fact { /* what is known of a parameter */
-    uint8_t state;
-    struct ir_value value;
-};
-
-struct lang_plan {
-    uint32_t *first_fact; /* by function id: 1 + index of its first fact; 0 = not called */
-    uint32_t num_ids;
-    VEC(struct fact) facts;
-    bool collecting;
-};
 
 static struct lang_plan *plan_of(struct lang_unit *unit)
 {
     if (!unit->plan) {
         unit->plan = ARENA_NEW(unit->arena, struct lang_plan);
         unit->plan->num_ids = unit->base_functions + unit->functions.len;
-        unit->plan->first_fact = ARENA_ARRAY(unit->arena, uint32_t, unit->plan->num_ids);
-        unit->plan->collecting = true;
+        unit->plan->first_variant = ARENA_ARRAY(unit->arena, uint32_t, unit->plan->num_ids);
+        unit->plan->spec = ARENA_NEW(unit->arena, struct spec);
+        unit->plan->spec->unit = unit;
     }
     return unit->plan;
 }
 
-static struct fact *facts_of(struct lang_unit *unit, uint32_t id)
+static bool is_bindable(const struct lang_slot *param)
+{
+    return param->mode == LANG_IN && !ast_is_user_type(param->type);
+}
+
+static bool is_key(const struct lang_slot *param)
+{
+    return param->mode == LANG_IN && (param->type == IR_TYPE_BOOL || param->type == IR_TYPE_STRING);
+}
+
+static bool is_same(const struct lang_unit *unit, ir_type_id type, fact a, fact b)
+{
+    if (a == b || a == FACT_VARIES || b == FACT_VARIES)
+        return a == b;
+    const union ir_word *words = unit->words.items - 1;
+    return memcmp(words + a, words + b, ir_type_info(type)->components * sizeof *words) == 0;
+}
+
+static bool has_keys(const struct lang_unit *unit, const struct variant *variant, const struct lang_slot *params,
+                     uint32_t num_params, const fact *args)
+{
+    const fact *facts = unit->plan->facts.items + variant->first_fact;
+    for (uint32_t i = 0; i < num_params; i++)
+        if (is_key(&params[i]) && !is_same(unit, params[i].type, facts[i], args[i]))
+            return false;
+    return true;
+}
+
+static uint32_t add_variant(struct lang_unit *unit, uint32_t function, uint32_t num_params)
 {
     struct lang_plan *plan = unit->plan;
-    if (!plan->first_fact[id]) {
-        uint32_t count = lang_function(unit, id, NULL)->num_params;
-        struct fact *facts = vec_extend(unit->arena, &plan->facts, count);
-        memset(facts, 0, count * sizeof *facts);
-        plan->first_fact[id] = plan->facts.len - count + 1;
-    }
-    return plan->facts.items + plan->first_fact[id] - 1;
+    struct variant variant = {.function = function, .first_fact = plan->facts.len};
+    fact *facts = vec_extend(unit->arena, &plan->facts, num_params);
+    for (uint32_t i = 0; i < num_params; i++)
+        facts[i] = FACT_UNSEEN;
+    vec_push(unit->arena, &plan->variants, variant);
+    return plan->variants.len;
 }
 
-static void meet(struct fact *fact, const struct ir_value *value)
+uint32_t plan_note_call(struct lang_unit *unit, uint32_t function, const fact *args, bool args_have_effects)
 {
-    if (!value) {
-        fact->state = VARIES;
-    } else if (fact->state == UNSEEN) {
-        fact->state = CONSTANT;
-        fact->value = *value;
-    } else if (fact->state == CONSTANT && !ir_value_equal(&fact->value, value)) {
-        fact->state = VARIES;
+    struct lang_plan *plan = unit->plan;
+    const struct lang_unit *layer;
+    const struct lang_function *fn = lang_function(unit, function, &layer);
+    const struct lang_slot *params = ast_slot(layer, fn, 0);
+    uint32_t num_params = fn->num_params, link = plan->first_variant[function], last = 0;
+    while (link && !has_keys(unit, &plan->variants.items[link - 1], params, num_params, args)) {
+        last = link;
+        link = plan->variants.items[link - 1].next;
     }
+    if (!link) {
+        link = add_variant(unit, function, num_params);
+        *(last ? &plan->variants.items[last - 1].next : &plan->first_variant[function]) = link;
+    }
+    uint32_t index = link - 1;
+    struct variant *variant = &plan->variants.items[index];
+    fact *facts = plan->facts.items + variant->first_fact;
+    for (uint32_t i = 0; i < num_params; i++)
+        if (!is_bindable(&params[i]))
+            facts[i] = FACT_VARIES;
+        else if (facts[i] == FACT_UNSEEN)
+            facts[i] = args[i];
+        else if (!is_same(unit, params[i].type, facts[i], args[i]))
+            facts[i] = FACT_VARIES;
+    variant->keeps_unused |= args_have_effects;
+    return index;
 }
 
-void lang_plan_call(struct lang_unit *unit, uint32_t id, const struct ir_value *const *args)
+uint32_t lang_plan_call(struct lang_unit *unit, uint32_t id, const union ir_word *const *args)
 {
     plan_of(unit);
-    struct fact *facts = facts_of(unit, id);
-    uint32_t count = lang_function(unit, id, NULL)->num_params;
-    for (uint32_t i = 0; i < count; i++)
-        meet(&facts[i], args[i]);
-}
-
-bool spec_is_planned(const struct lang_unit *unit)
-{
-    return unit->plan != NULL;
-}
-
-bool spec_is_collecting(const struct lang_unit *unit)
-{
-    return unit->plan && unit->plan->collecting;
-}
-
-void spec_planned_params(struct lang_unit *unit, uint32_t id, lang_ref *bound)
-{
     const struct lang_unit *layer;
-    const struct lang_function fn = *lang_function(unit, id, &layer);
-    struct fact *facts = id < unit->plan->num_ids && unit->plan->first_fact[id] ? facts_of(unit, id) : NULL;
-    struct spec s = {.unit = unit};
-    for (uint32_t i = 0; i < fn.num_params && i < SPEC_MAX_PARAMS; i++) {
-        const struct lang_slot *slot = ast_slot(layer, &fn, i);
-        bool known = facts && facts[i].state == CONSTANT && slot->mode == LANG_IN && slot->type != IR_TYPE_SAMPLER;
-        bound[i] = known ? spec_constant(&s, &facts[i].value, 0) : 0;
+    const struct lang_function *fn = lang_function(unit, id, &layer);
+    fact few[SPEC_MAX_PARAMS];
+    fact *facts = fn->num_params <= SPEC_MAX_PARAMS ? few : ARENA_ARRAY(unit->arena, fact, fn->num_params);
+    for (uint32_t i = 0; i < fn->num_params; i++) {
+        bool is_known = args[i] && i < SPEC_MAX_PARAMS;
+        uint32_t count = is_known ? ast_type_words(unit, ast_slot(layer, fn, i)->type) : 0;
+        facts[i] = is_known ? unit->words.len + 1 : FACT_VARIES;
+        if (count)
+            memcpy(vec_extend(unit->arena, &unit->words, count), args[i], count * sizeof **args);
     }
-}
-
-static void collect_from(struct lang_unit *unit, uint32_t id)
-{
-    lang_ref bound[SPEC_MAX_PARAMS] = {0};
-    uint32_t nodes = unit->nodes.len, words = unit->words.len;
-    spec_planned_params(unit, id, bound);
-    spec_visit(unit, id, bound);
-    unit->nodes.len = nodes; /* only what it says of its callees was wanted */
-    unit->words.len = words;
+    return plan_note_call(unit, id, facts, false);
 }
 
 void lang_plan_finish(struct lang_unit *unit)
 {
     struct lang_plan *plan = plan_of(unit);
     for (uint32_t id = plan->num_ids; id-- > 0;)
-        if (plan->first_fact[id])
-            collect_from(unit, id);
-    plan->collecting = false;
+        for (uint32_t link = plan->first_variant[id]; link; link = plan->variants.items[link - 1].next)
+            spec_begin(unit, link - 1);
+    for (uint32_t id = 0; id < plan->num_ids; id++)
+        for (uint32_t link = plan->first_variant[id]; link; link = plan->variants.items[link - 1].next)
+            spec_finish(unit, link - 1);
 }
 
-uint32_t lang_plan_version(struct lang_unit *unit, uint32_t id)
+uint32_t lang_plan_version(const struct lang_unit *unit, uint32_t call)
 {
-    static const struct lang_bindings no_options = {0};
-    lang_ref bound[SPEC_MAX_PARAMS] = {0};
-    spec_planned_params(unit, id, bound);
-    return spec_function(unit, &no_options, id, bound, false);
+    return unit->plan->variants.items[call].version;
+}
+
+bool lang_param_dropped(const struct lang_unit *unit, uint32_t version, uint32_t given, unsigned index)
+{
+    if (version == given || index >= SPEC_MAX_PARAMS)
+        return false;
+    return lang_function(unit, version, NULL)->dropped[index / 32] >> index % 32 & 1;
 }

@@ -96,6 +96,13 @@ static lang_ref spec_variable(struct spec *s, struct lang_node node)
     return spec_add(s, constant);
 }
 
+static bool option_value(const struct lang_unit *unit, uint32_t global_id, struct ir_value *out)
+{
+    const struct lang_host *host = &unit->host;
+    ir_ref ref = host->global ? host->global(host->user_data, unit->graph, unit, global_id) : 0;
+    return ref && ir_get_const(unit->graph, ref, out);
+}
+
 static lang_ref spec_global(struct spec *s, struct lang_node node)
 {
     const struct lang_unit *layer;
@@ -105,8 +112,7 @@ static lang_ref spec_global(struct spec *s, struct lang_node node)
         s->changed = true;
         return add_constant(s, node.type, layer->words.items + global->words, node.place);
     }
-    if (global->kind == LANG_GLOBAL_OPTION && s->options && s->options->option
-        && s->options->option(s->options->user_data, s->unit, node.a, &value)) {
+    if (global->kind == LANG_GLOBAL_OPTION && option_value(s->unit, node.a, &value)) {
         s->changed = true;
         return spec_constant(s, &value, node.place);
     }
@@ -238,7 +244,7 @@ static lang_ref spec_op(struct spec *s, struct lang_node node)
     if (!folded)
         folded = spec_fold(s, &node, args, count);
     s->changed |= folded != 0;
-    if (!folded && spec_is_planned(s->unit))
+    if (!folded)
         widen_constants(s, &node, args, count);
     return folded ? folded : spec_add(s, node);
 }

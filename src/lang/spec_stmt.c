@@ -122,11 +122,10 @@ static void spec_assign(struct spec *s, struct lang_node node, struct chain *out
 /* Scratch that lives as long as the statement which takes it. */
 static uint32_t save_known(struct spec *s)
 {
-    struct lang_versions *versions = s->unit->versions;
-    uint32_t mark = versions->stack.len;
+    uint32_t mark = s->stack.len;
     if (s->fn.num_slots == 0)
         return mark;
-    lang_ref *copy = vec_extend(s->unit->arena, &versions->stack, s->fn.num_slots);
+    lang_ref *copy = vec_extend(s->unit->arena, &s->stack, s->fn.num_slots);
     memcpy(copy, s->known, s->fn.num_slots * sizeof *copy);
     return mark;
 }
@@ -161,22 +160,21 @@ static bool spec_if(struct spec *s, struct lang_node node, struct chain *out)
         s->changed = true;
         return spec_body(s, value.w[0].u ? node.b : node.c, out);
     }
-    struct lang_versions *versions = s->unit->versions;
     uint32_t before = save_known(s);
     struct chain yes = {0}, no = {0};
     bool yes_falls = spec_body(s, node.b, &yes);
     uint32_t after = save_known(s);
     if (s->fn.num_slots)
-        memcpy(s->known, versions->stack.items + before, s->fn.num_slots * sizeof *s->known);
+        memcpy(s->known, s->stack.items + before, s->fn.num_slots * sizeof *s->known);
     bool no_falls = spec_body(s, node.c, &no);
     for (uint32_t i = 0; i < s->fn.num_slots && yes_falls; i++) {
-        lang_ref after_yes = versions->stack.items[after + i];
+        lang_ref after_yes = s->stack.items[after + i];
         if (!no_falls)
             s->known[i] = after_yes;
         else if (!is_same(s, s->known[i], after_yes))
             s->known[i] = 0;
     }
-    versions->stack.len = before;
+    s->stack.len = before;
     node.a = condition;
     node.b = add_block(s, yes.first);
     node.c = no.first ? add_block(s, no.first) : 0;

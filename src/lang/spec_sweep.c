@@ -6,7 +6,6 @@
  */
 #include "lang/specialise.h"
 
-
 static bool holds(const uint32_t *items, uint32_t len, uint32_t id)
 {
     for (uint32_t i = 0; i < len; i++)
@@ -25,8 +24,8 @@ static void use_target(struct spec *s, lang_ref ref, unsigned use)
     struct lang_node *node = spec_node(s, ref);
     s->num_nodes++;
     if (node->kind == LANG_VAR) {
-        s->uses[node->a] |= (uint8_t)use;
-        s->mentions[node->a] = s->statement;
+        s->slots[node->a].uses |= (uint8_t)use;
+        s->slots[node->a].mention = s->statement;
         vec_push(s->unit->arena, &s->vars, ref);
         return;
     }
@@ -73,12 +72,13 @@ static void use_expression(struct spec *s, lang_ref ref)
     case LANG_CONST:
         if (node.c) {
             vec_push(s->unit->arena, &s->longs, ref);
-            s->literals[node.c - 1] = (uint8_t)(s->literals[node.c - 1] + (s->literals[node.c - 1] < 2));
+            struct spec_slot *slot = &s->slots[node.c - 1];
+            slot->literals = (uint8_t)(slot->literals + (slot->literals < 2));
         }
         break;
     case LANG_VAR:
-        s->uses[node.a] |= SLOT_READ;
-        s->mentions[node.a] = s->statement;
+        s->slots[node.a].uses |= SLOT_READ;
+        s->slots[node.a].mention = s->statement;
         vec_push(s->unit->arena, &s->vars, ref);
         break;
     case LANG_GLOBAL:
@@ -102,7 +102,7 @@ static void use_expression(struct spec *s, lang_ref ref)
 
 static bool is_live(const struct spec *s, lang_ref target)
 {
-    return s->uses[ast_target_slot(s->unit, target)] & SLOT_READ;
+    return s->slots[ast_target_slot(s->unit, target)].uses & SLOT_READ;
 }
 
 static bool has_live_effects(const struct spec *s, lang_ref ref)
@@ -127,7 +127,7 @@ static void read_expression(struct spec *s, lang_ref ref)
 {
     const struct lang_node *node = spec_node(s, ref);
     if (node->kind == LANG_VAR) {
-        s->uses[node->a] |= SLOT_READ;
+        s->slots[node->a].uses |= SLOT_READ;
     } else if (node->kind == LANG_OP) {
         for (lang_ref arg = node->a; arg; arg = spec_node(s, arg)->next)
             read_expression(s, arg);
@@ -216,7 +216,7 @@ static void name_literals(struct spec *s, uint32_t slot)
         vec_push(s->unit->arena, &s->vars, ref);
     }
     s->longs.len = kept;
-    s->uses[slot] |= SLOT_READ;
+    s->slots[slot].uses |= SLOT_READ;
 }
 
 static bool names_slot(const struct spec *s, lang_ref ref, uint32_t slot)
@@ -234,7 +234,7 @@ static bool names_slot(const struct spec *s, lang_ref ref, uint32_t slot)
 /* Is the next thing that happens to a variable that it gets a new value, by the statement this returns? */
 static lang_ref overwriting(const struct spec *s, uint32_t slot, uint32_t list)
 {
-    lang_ref ref = s->mentions[slot];
+    lang_ref ref = s->slots[slot].mention;
     const struct lang_node *next = ast_node(s->unit, ref);
     bool overwrites = next->kind == LANG_ASSIGN && next->op == IR_NUM_OPS && next->d == list
                       && ast_node(s->unit, next->a)->kind == LANG_VAR && !names_slot(s, next->b, slot);
@@ -257,10 +257,10 @@ static bool sweep_declare(struct spec *s, lang_ref ref, uint32_t list)
 {
     struct lang_node *node = spec_node(s, ref);
     uint32_t slot = node->a;
-    if (s->literals[slot] > 1)
+    if (s->slots[slot].literals > 1)
         name_literals(s, slot);
-    bool is_read = s->uses[slot] & SLOT_READ;
-    bool is_written = s->uses[slot] & SLOT_WRITTEN;
+    bool is_read = s->slots[slot].uses & SLOT_READ;
+    bool is_written = s->slots[slot].uses & SLOT_WRITTEN;
     lang_ref value = node->b && (is_read || has_live_effects(s, node->b)) ? node->b : 0;
     if (!is_read && !is_written)
         if (!value || becomes_call(s, ref, value))
@@ -270,7 +270,7 @@ static bool sweep_declare(struct spec *s, lang_ref ref, uint32_t list)
     spec_node(s, ref)->b = value;
     if (value) {
         use_expression(s, value);
-        s->uses[slot] |= is_read ? 0 : SLOT_WRITTEN; /* it has a place among the slots */
+        s->slots[slot].uses |= is_read ? 0 : SLOT_WRITTEN; /* it has a place among the slots */
     }
     vec_push(s->unit->arena, &s->vars, ref);
     return true;
@@ -389,13 +389,12 @@ static bool sweep_statement(struct spec *s, lang_ref ref, unsigned loops, uint32
 
 static lang_ref sweep_list(struct spec *s, lang_ref first, unsigned loops)
 {
-    struct lang_versions *versions = s->unit->versions;
-    uint32_t begin = versions->stack.len, list = ++s->num_lists;
+    uint32_t begin = s->stack.len, list = ++s->num_lists;
     for (lang_ref ref = first; ref; ref = spec_node(s, ref)->next)
-        vec_push(s->unit->arena, &versions->stack, ref);
+        vec_push(s->unit->arena, &s->stack, ref);
     lang_ref next = 0;
-    for (uint32_t i = versions->stack.len; i > begin; i--) {
-        lang_ref ref = versions->stack.items[i - 1];
+    for (uint32_t i = s->stack.len; i > begin; i--) {
+        lang_ref ref = s->stack.items[i - 1];
         s->statement = ref;
         if (!sweep_statement(s, ref, loops, list)) {
             s->changed = true;
@@ -405,7 +404,7 @@ static lang_ref sweep_list(struct spec *s, lang_ref first, unsigned loops)
         spec_node(s, ref)->next = next;
         next = ref;
     }
-    versions->stack.len = begin;
+    s->stack.len = begin;
     return next;
 }
 

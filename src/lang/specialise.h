@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * The partial evaluator, in three steps over one function:
+ * The partial evaluator. What a function is called with is gathered first, callers before callees, and each variant of a
+ * function is then made once (plan.c):
  *
  *   forward  (spec_stmt.c, spec_expr.c)  the source tree is rebuilt in the generated unit with known values in place of
  *                                        variables; what they decide is folded and never-taken branches are not built
+ *   resolve  (spec_resolve.c)            calls become calls of the callees' versions, or what is simpler
  *   backward (spec_sweep.c)              statements without a use are unlinked, uses of slots counted
+ *   single   (spec_single.c)             variables that are read once become their values
  *   finish   (specialise.c)              slots get their new numbers and the function its description
  *
  * Until the last step, the new tree speaks of the source's slots.
@@ -16,23 +19,34 @@
 
 enum {
     SPEC_MAX_PARAMS = 64, /* further ones are never bound, nor dropped */
-    SPEC_MAX_DEPTH = 100, /* of calls inside of calls; deeper ones stay as they are */
 };
 
-struct version {
-    uint32_t from, to; /* function ids */
-    uint32_t hash;
-    uint32_t first_bound; /* in versions->bound */
-    bool keeps_unused;
+/*
+ * What is known of a parameter: FACT_UNSEEN, FACT_VARIES, or 1 + index of its value in the generated unit's words. The same tells
+ * what is passed to it.
+ */
+typedef uint32_t fact;
+enum { FACT_UNSEEN = 0 };
+#define FACT_VARIES UINT32_MAX
+
+struct variant { /* a function with the strings and flags that choose what it is */
+    uint32_t function;             /* id */
+    uint32_t next;                 /* 1 + index of another variant of it; 0 = none */
+    uint32_t first_fact;           /* in plan->facts: one per parameter */
+    uint32_t first_call, num_calls; /* in plan->calls: its tree's, arguments before the call that they are for */
+    lang_ref body;                 /* its tree's first statement, once the forward step has been */
+    uint32_t version;              /* id of the function that it has become */
+    bool changed;                  /* its tree is not the source's */
+    bool keeps_unused;             /* parameters that nobody uses: some argument has effects */
 };
 
-struct lang_versions {
-    VEC(struct version) items;
-    VEC(lang_ref) bound; /* per version and parameter: a constant of the unit or 0 */
-    uint32_t *table;     /* open addressing: index in items + 1 */
-    uint32_t table_mask;
-    unsigned depth;      /* of functions being specialised */
-    VEC(lang_ref) stack; /* scratch of functions being specialised */
+struct lang_plan {
+    uint32_t *first_variant; /* by function id: 1 + index; 0 = not called */
+    uint32_t num_ids;
+    VEC(struct variant) variants;
+    VEC(fact) facts;
+    VEC(lang_ref) calls;
+    struct spec *spec; /* the one that makes all versions: its memory is used again */
 };
 
 struct chain { /* siblings */
@@ -41,19 +55,29 @@ struct chain { /* siblings */
 
 enum slot_use { SLOT_READ = 1, SLOT_WRITTEN = 2 };
 
+struct spec_slot { /* of the source */
+    lang_ref mention;  /* backward: the first statement behind the current one that names it */
+    uint8_t uses;      /* enum slot_use */
+    uint8_t literals;  /* how often its value stands for it, where that is long to write (saturating) */
+    uint8_t reads;     /* single: VAR nodes (saturating at 2) */
+    bool is_dropped;   /* a parameter that the version does without */
+    lang_ref declared; /* single: its DECLARE in the list at hand, when it may be forwarded */
+    uint32_t number;   /* finish: in the result */
+};
+
 struct spec {
     struct lang_unit *unit; /* the generation's: the result goes there */
-    const struct lang_bindings *options;
+    uint32_t variant;
     const struct lang_unit *layer; /* of the source */
     struct lang_function fn;       /* the source; a copy, since its own place may move */
-    bool keeps_unused;             /* keep parameters that nobody uses */
     bool changed;
-    lang_ref *known;       /* by slot: an expression of constants which the slot equals here, or 0 */
-    uint8_t *uses;         /* by slot: enum slot_use; filled backward */
-    lang_ref *mentions;    /* by slot: the first statement behind the current one that names it */
+    lang_ref *known;        /* by slot, forward: an expression of constants which the slot equals here, or 0 */
+    struct spec_slot *slots; /* by slot */
+    uint32_t cap_slots;
+    uint32_t num_effects;  /* calls so far that assign to their arguments */
     lang_ref statement;    /* being swept */
     uint32_t num_lists;    /* swept so far */
-    uint8_t *literals;     /* by slot: how often its value stands for it, where that is long to write (saturating) */
+    VEC(lang_ref) stack;   /* scratch of statements that hold others */
     VEC(lang_ref) vars;    /* nodes of the result that name a slot: VAR and DECLARE */
     VEC(lang_ref) longs;   /* CONST nodes of the result that stand for a slot and are long to write */
     VEC(uint32_t) callees, globals; /* of the result, each once */
@@ -77,9 +101,12 @@ lang_ref spec_expression(struct spec *s, lang_ref ref);
 lang_ref spec_target(struct spec *s, lang_ref ref); /* of an assignment or an out argument: stays what it is */
 bool spec_has_effects(const struct spec *s, lang_ref ref); /* does it call anything that assigns to its arguments? */
 
-/* spec_call.c */
+/* spec_call.c. Until it is resolved, a call has 1 + the callee's variant in c. */
 lang_ref spec_call(struct spec *s, struct lang_node call);
 bool spec_is_finite(const struct ir_value *value); /* spec_fold.c */
+
+/* spec_resolve.c: the calls of the variant. */
+void spec_resolve(struct spec *s);
 
 /* spec_inline.c: the expression that a call of a small function stands for; 0 where it stays a call. */
 lang_ref spec_inline(struct spec *s, const struct lang_node *call);
@@ -90,24 +117,17 @@ lang_ref spec_fold(struct spec *s, const struct lang_node *op, const lang_ref *a
 /* spec_stmt.c. False where control does not reach what follows. */
 bool spec_statements(struct spec *s, lang_ref first, struct chain *out);
 
-/* spec_forward.c: variables that are read once become their values. */
-lang_ref spec_forward(struct spec *s, lang_ref first);
-
 /* spec_sweep.c: what remains of a body. */
 lang_ref spec_sweep(struct spec *s, lang_ref first);
 
-/* specialise.c: bound by CONST nodes of the unit, one per parameter, 0 for free ones. */
-uint32_t spec_function(struct lang_unit *unit, const struct lang_bindings *options, uint32_t id, const lang_ref *bound,
-                       bool keeps_unused);
-/* Does a constant argument make a version of its own? Strings and flags do; numbers are planned (plan.c). */
-bool spec_is_worth_binding(const struct ir_value *value);
-/* The forward step alone, for the calls that it meets. */
-void spec_visit(struct lang_unit *unit, uint32_t id, const lang_ref *bound);
+/* spec_single.c: variables that are read once become their values. */
+lang_ref spec_single(struct spec *s, lang_ref first);
 
-/* plan.c */
-bool spec_is_planned(const struct lang_unit *unit);    /* versions are those of the plan */
-bool spec_is_collecting(const struct lang_unit *unit); /* calls are only noted */
-/* Constants that all calls of a function pass, as CONST nodes of the unit, 0 for the others: one per parameter. */
-void spec_planned_params(struct lang_unit *unit, uint32_t id, lang_ref *bound);
+/* specialise.c: the forward step of a variant, and the others. */
+void spec_begin(struct lang_unit *unit, uint32_t variant);
+void spec_finish(struct lang_unit *unit, uint32_t variant);
+
+/* plan.c: tells what a call passes. Returns the variant that is called, which may be moved by further ones. */
+uint32_t plan_note_call(struct lang_unit *unit, uint32_t function, const fact *args, bool args_have_effects);
 
 #endif

@@ -25,26 +25,29 @@ static bool has_operand(const struct lang_unit *layer, const struct lang_functio
     return layer->slots.items[fn->first_slot + param].mode != LANG_OUT;
 }
 
-static void tell_plan(struct shader *shader, ir_ref call)
+/* Returns what lang_plan_version is asked for. */
+static uint32_t tell_plan(struct shader *shader, ir_ref call)
 {
+    const struct ir_graph *graph = shader->graph;
     const struct lang_unit *layer;
     uint32_t id = shader_callee(shader, call);
     const struct lang_function *fn = lang_function(shader->unit, id, &layer);
-    struct ir_value *values = ARENA_ARRAY(shader->arena, struct ir_value, fn->num_params);
-    const struct ir_value **known = ARENA_ARRAY(shader->arena, const struct ir_value *, fn->num_params);
-    const ir_ref *args = ir_args(shader->graph, call);
-    for (uint32_t i = 0; i < fn->num_params; i++)
-        if (has_operand(layer, fn, i))
-            known[i] = ir_get_const(shader->graph, *args++, &values[i]) ? &values[i] : NULL;
-    lang_plan_call(shader->unit, id, known);
+    const union ir_word **known = ARENA_ARRAY(shader->arena, const union ir_word *, fn->num_params);
+    const ir_ref *args = ir_args(graph, call);
+    for (uint32_t i = 0; i < fn->num_params; i++) {
+        const struct ir_node *arg = has_operand(layer, fn, i) ? ir_get(graph, *args++) : NULL;
+        if (arg && arg->op == IR_CONST)
+            known[i] = graph->words.items + arg->attr;
+    }
+    return lang_plan_call(shader->unit, id, known);
 }
 
 /* In place: nothing is built after this, so sharing of equal nodes need not be kept up. */
-static void call_version(struct shader *shader, ir_ref call)
+static void call_version(struct shader *shader, ir_ref call, uint32_t version)
 {
     struct ir_graph *graph = shader->graph;
     const struct lang_unit *layer;
-    uint32_t given = shader_callee(shader, call), version = lang_plan_version(shader->unit, given);
+    uint32_t given = shader_callee(shader, call);
     if (version == given)
         return;
     const struct lang_function *fn = lang_function(shader->unit, given, &layer);
@@ -60,24 +63,28 @@ static void call_version(struct shader *shader, ir_ref call)
     }
     node->num_args = kept;
     struct ir_callee callee = graph->callees.items[node->attr];
+    uint16_t flags = lang_function(shader->unit, version, NULL)->flags;
     callee.id = version;
+    callee.derivative = (flags & LANG_FN_DERIVATIVE) != 0;
+    callee.pure = (flags & LANG_FN_PURE) != 0;
     node->attr = ir_add_callee(graph, callee);
 }
+
+struct call {
+    ir_ref node;
+    uint32_t planned;
+};
 
 void shader_specialise_calls(struct shader *shader)
 {
     const uint8_t *needed = mark_calls(shader);
-    uint32_t num_nodes = shader->graph->nodes.len;
-    bool any = false;
-    for (ir_ref ref = 1; ref < num_nodes; ref++)
-        if (needed[ref] && ir_get(shader->graph, ref)->op == IR_CALL) {
-            tell_plan(shader, ref);
-            any = true;
-        }
-    if (!any)
+    VEC(struct call) calls = {0};
+    for (ir_ref ref = 1; ref < shader->graph->nodes.len; ref++)
+        if (needed[ref] && ir_get(shader->graph, ref)->op == IR_CALL)
+            vec_push(shader->arena, &calls, (struct call){ref, tell_plan(shader, ref)});
+    if (!calls.len)
         return;
     lang_plan_finish(shader->unit);
-    for (ir_ref ref = 1; ref < num_nodes; ref++)
-        if (needed[ref] && ir_get(shader->graph, ref)->op == IR_CALL)
-            call_version(shader, ref);
+    for (uint32_t i = 0; i < calls.len; i++)
+        call_version(shader, calls.items[i].node, lang_plan_version(shader->unit, calls.items[i].planned));
 }

@@ -390,6 +390,7 @@ bool xml_parse_source(struct xml_reader *reader)
     }
     struct doc_mark mark = doc_mark(reader->doc, source->root);
     uint32_t num_includes = reader->includes.len;
+    reader->repair_failed = false;
     parse_once(reader);
     if (reader->raw_less) {
         doc_rollback(reader->doc, source->root, &mark);

@@ -114,12 +114,6 @@ static void try_version(struct agree *a, uint32_t version, const char *how)
         require_results(a, results, how);
 }
 
-static void bind(const struct agree *a, const struct ir_value **out_bound)
-{
-    for (uint32_t i = 0; i < a->fn->num_params; i++)
-        out_bound[i] = a->bound[i] ? &a->args[i] : NULL;
-}
-
 static ir_ref no_global(void *user_data, struct ir_graph *graph, const struct lang_unit *unit, uint32_t global_id)
 {
     (void)user_data, (void)unit, (void)global_id;
@@ -148,7 +142,7 @@ static void try_lowering(struct agree *a, uint32_t max_inline_nodes)
 {
     struct ir_graph graph;
     ir_graph_init(&graph, &a->scratch, &a->strings);
-    struct lang_host host = {NULL, no_global, max_inline_nodes};
+    struct lang_host host = {.global = no_global, .max_inline_nodes = max_inline_nodes};
     ir_ref args[MAX_ARGS], results[MAX_ARGS];
     unsigned num_args = 0;
     for (uint32_t i = 0; i < a->fn->num_params; i++)
@@ -167,11 +161,12 @@ static void try_lowering(struct agree *a, uint32_t max_inline_nodes)
 
 static void try_plan(struct agree *a)
 {
-    const struct ir_value *bound[MAX_ARGS] = {0};
-    bind(a, bound);
-    lang_plan_call(&a->generated, a->id, bound);
+    const union ir_word *bound[MAX_ARGS] = {0};
+    for (uint32_t i = 0; i < a->fn->num_params; i++)
+        bound[i] = a->bound[i] ? a->args[i].w : NULL;
+    uint32_t call = lang_plan_call(&a->generated, a->id, bound);
     lang_plan_finish(&a->generated);
-    try_version(a, lang_plan_version(&a->generated, a->id), "planned");
+    try_version(a, lang_plan_version(&a->generated, call), "specialised");
 }
 
 static void try_once(struct agree *a)
@@ -187,9 +182,6 @@ static void try_once(struct agree *a)
     arena_init(&a->scratch, &a->mem);
     lang_unit_init(&a->generated, &a->scratch, &a->strings, &a->library);
     REQUIRE(lang_eval_call(&a->generated, a->id, in, a->expected, MAX_STEPS, &a->scratch));
-    const struct ir_value *bound[MAX_ARGS] = {0};
-    bind(a, bound);
-    try_version(a, lang_specialise(&a->generated, a->id, &(struct lang_bindings){.bound = bound}), "specialised");
     try_lowering(a, 0);
     try_lowering(a, 1000);
     try_plan(a);

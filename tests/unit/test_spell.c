@@ -530,6 +530,19 @@ static void walk_ops(const struct target *target)
     fixture_close(&f);
 }
 
+static void check_reserved(const struct lang_syntax *syntax)
+{
+    for (uint32_t len = 1; syntax->reserved && len <= syntax->max_reserved; len++) {
+        const struct lang_words *words = &syntax->reserved[len];
+        if (words->text && strlen(words->text) != words->count * len)
+            REQUIRE(!"a reserved word stands with those of another length");
+        for (uint32_t i = 1; i < words->count; i++)
+            if (memcmp(words->text + (i - 1) * len, words->text + i * len, len) >= 0)
+                REQUIRE(!"reserved words are not sorted");
+    }
+    REQUIRE(!syntax->reserved || !syntax->reserved[0].count);
+}
+
 static void test_targets(void)
 {
     REQUIRE(target_find("glsl") == target_find("genglsl"));
@@ -538,11 +551,12 @@ static void test_targets(void)
     REQUIRE(!target_is_a(target_find("glsl"), "essl"));
     for (const struct target *const *target = targets; *target; target++) {
         walk_ops(*target);
-        const struct lang_syntax *syntax = (*target)->syntax;
-        for (uint32_t i = 1; i < syntax->num_reserved; i++)
-            if (strcmp(syntax->reserved[i - 1], syntax->reserved[i]) >= 0)
-                REQUIRE(!"reserved words are not sorted");
+        check_reserved((*target)->syntax);
     }
+    check_reserved(&lang_syntax_portable);
+    REQUIRE(lang_syntax_is_reserved(&lang_syntax_portable, "do") && lang_syntax_is_reserved(&lang_syntax_portable, "sampler2D"));
+    REQUIRE(!lang_syntax_is_reserved(&lang_syntax_portable, "sampler3D") && !lang_syntax_is_reserved(&lang_syntax_portable, ""));
+    REQUIRE(!lang_syntax_is_reserved(&lang_syntax_portable, "floa") && !lang_syntax_is_reserved(&lang_syntax_portable, "floats"));
 }
 
 int main(int argc, char **argv)

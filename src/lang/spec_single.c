@@ -27,7 +27,7 @@ static unsigned movable_size(const struct forwarder *f, lang_ref ref)
 {
     const struct lang_node *node = spec_node(f->s, ref);
     if (node->kind == LANG_VAR)
-        return f->s->uses[node->a] & SLOT_WRITTEN ? MAX_NODES + 1 : 1;
+        return f->s->slots[node->a].uses & SLOT_WRITTEN ? MAX_NODES + 1 : 1;
     unsigned size = 1;
     for (lang_ref child = children_of(node); child && size <= MAX_NODES; child = spec_node(f->s, child)->next)
         size += movable_size(f, child);
@@ -52,7 +52,7 @@ static void consider(struct forwarder *f, lang_ref statement)
 {
     const struct lang_node *node = spec_node(f->s, statement);
     uint32_t slot = node->a;
-    if (!node->b || f->reads[slot] != 1 || f->s->uses[slot] & SLOT_WRITTEN || ast_is_user_type(spec_node(f->s, node->b)->type))
+    if (!node->b || f->reads[slot] != 1 || f->s->slots[slot].uses & SLOT_WRITTEN || ast_is_user_type(spec_node(f->s, node->b)->type))
         return;
     if (!spec_has_effects(f->s, node->b) && movable_size(f, node->b) <= MAX_NODES && !has_derivative(f, node->b))
         f->declared[slot] = statement;
@@ -68,7 +68,7 @@ static void replace(struct forwarder *f, lang_ref ref)
             return;
         struct lang_node value = *spec_node(f->s, spec_node(f->s, declaration)->b);
         f->declared[node->a] = 0;
-        f->s->uses[node->a] = 0;
+        f->s->slots[node->a].uses = 0;
         spec_node(f->s, declaration)->b = 0; /* marks it as gone */
         value.next = node->next;
         *node = value;
@@ -134,7 +134,7 @@ static lang_ref forward_list(struct forwarder *f, lang_ref first)
     for (lang_ref ref = first, next; ref; ref = next) {
         const struct lang_node *node = spec_node(s, ref);
         next = node->next;
-        bool gone = node->kind == LANG_DECLARE && !node->b && !s->uses[node->a];
+        bool gone = node->kind == LANG_DECLARE && !node->b && !s->slots[node->a].uses;
         if (gone)
             continue;
         spec_node(s, ref)->next = 0;
@@ -144,7 +144,7 @@ static lang_ref forward_list(struct forwarder *f, lang_ref first)
     return kept.first;
 }
 
-lang_ref spec_forward(struct spec *s, lang_ref first)
+lang_ref spec_single(struct spec *s, lang_ref first)
 {
     struct forwarder f = {.s = s, .reads = ARENA_ARRAY(s->unit->arena, uint16_t, s->fn.num_slots)};
     for (uint32_t i = 0; i < s->vars.len; i++) {
