@@ -245,7 +245,7 @@ static const uint32_t *leaf_functions(void *user_data, uint32_t callee)
 void generation_start_closures(struct generation *g)
 {
     bind_lights(g);
-    g->closure_host = (struct closure_host){.user_data = g->builder, .leaf_functions = leaf_functions,
+    g->closure_host = (struct closure_host){.user_data = g->builder, .point = &g->point, .leaf_functions = leaf_functions,
                                             .lang = build_lang_host(g->builder)};
     g->lighting = (struct closure_lighting){
         .lights = g->result->shader.lights.len > 0 && g->result->shader.max_lights > 0,

@@ -41,6 +41,7 @@ struct generation {
     struct builder *builder;
     struct build_options build_options;
     struct closure_host closure_host;
+    struct closure_point point;
     struct closure_lighting lighting;
     ir_ref root;
     struct arena scratch;

@@ -86,7 +86,8 @@ str_id build_input_path(struct builder *b, elem_id node, str_id input, elem_id e
         doc_path(doc_of(b), element, '/', &path);
     } else {
         doc_path(doc_of(b), node, '/', &path);
-        text_fmt(&path, "/%s", build_text(b, input));
+        text_char(&path, '/');
+        text_str(&path, build_text(b, input));
     }
     return str_intern(b->shader->strings, path.data, path.len);
 }
@@ -158,7 +159,9 @@ static str_id variable_name(struct builder *b, elem_id node, str_id input)
 {
     struct text name;
     text_init(&name, b->arena);
-    text_fmt(&name, "%s_%s", build_text(b, doc_element(doc_of(b), node)->name), build_text(b, input));
+    text_str(&name, build_text(b, doc_element(doc_of(b), node)->name));
+    text_char(&name, '_');
+    text_str(&name, build_text(b, input));
     return str_intern(b->shader->strings, name.data, name.len);
 }
 

@@ -2,33 +2,50 @@
 /* Calls of a leaf's functions: the node's inputs in order, then what the function wants to know of the shaded point. */
 #include "closure/closure_priv.h"
 
-static ir_ref view_position(struct shader *shader)
+static ir_ref stream(struct shader *shader, str_id name)
 {
-    uint32_t variable = shader_private_uniform(shader, str_intern_z(shader->strings, "u_viewPosition"), IR_TYPE_VEC3, 0);
-    return shader_read(shader, variable);
+    return shader_stream(shader, name, IR_TYPE_VEC3);
 }
 
-static ir_ref stream(struct shader *shader, const char *name)
+static ir_ref normal(struct shader *shader)
 {
-    return shader_stream(shader, str_intern_z(shader->strings, name), IR_TYPE_VEC3);
+    return ir_op1(shader->graph, IR_NORMALIZE, stream(shader, STR_normalWorld));
 }
 
-static ir_ref context_value(struct shader *shader, const char *name, const ir_ref *light)
+static ir_ref view(struct shader *shader)
 {
-    struct ir_graph *g = shader->graph;
-    uint32_t before = g->origin;
-    ir_ref value = 0;
-    g->origin = ir_add_origin(g, str_intern_z(shader->strings, name), 0, 0);
-    if (strcmp(name, "V") == 0)
-        value = ir_op1(g, IR_NORMALIZE, ir_op2(g, IR_SUB, view_position(shader), stream(shader, "positionWorld")));
-    else if (strcmp(name, "N") == 0)
-        value = ir_op1(g, IR_NORMALIZE, stream(shader, "normalWorld"));
-    else if (strcmp(name, "P") == 0)
-        value = stream(shader, "positionWorld");
-    else if (strcmp(name, "L") == 0 && light)
-        value = *light;
-    g->origin = before;
-    return value ? value : ir_poison(g, IR_TYPE_VEC3);
+    ir_ref viewer = shader_read(shader, shader_private_uniform(shader, STR_u_viewPosition, IR_TYPE_VEC3, 0));
+    return ir_op1(shader->graph, IR_NORMALIZE, ir_op2(shader->graph, IR_SUB, viewer, stream(shader, STR_positionWorld)));
+}
+
+static ir_ref position(struct shader *shader)
+{
+    return stream(shader, STR_positionWorld);
+}
+
+static ir_ref known(struct shader *shader, ir_ref *place, str_id name, ir_ref make(struct shader *))
+{
+    if (!*place) {
+        uint32_t before = shader->graph->origin;
+        shader->graph->origin = ir_add_origin(shader->graph, name, 0, 0);
+        *place = make(shader);
+        shader->graph->origin = before;
+    }
+    return *place;
+}
+
+static ir_ref context_value(struct shader *shader, struct closure_point *point, str_id name, const ir_ref *light)
+{
+    switch (name) {
+    case STR_V:
+        return known(shader, &point->view, name, view);
+    case STR_N:
+        return known(shader, &point->normal, name, normal);
+    case STR_P:
+        return known(shader, &point->position, name, position);
+    default:
+        return name == STR_L && light ? *light : ir_poison(shader->graph, IR_TYPE_VEC3);
+    }
 }
 
 /*
@@ -53,8 +70,7 @@ ir_ref closure_call(struct shader *shader, const struct closure_host *host, ir_r
     ir_ref *args = ARENA_ARRAY(shader->arena, ir_ref, fn->num_params);
     for (unsigned i = 0; i < fn->num_params; i++) {
         const struct lang_slot *slot = &unit->slots.items[fn->first_slot + i];
-        args[i] = i < num_inputs ? ir_arg(g, leaf, i + 1)
-                                 : context_value(shader, str_text(unit->strings, slot->name), light);
+        args[i] = i < num_inputs ? ir_arg(g, leaf, i + 1) : context_value(shader, host->point, slot->name, light);
     }
     ir_ref *results = ARENA_ARRAY(shader->arena, ir_ref, lang_num_results(shader->unit, id));
     uint32_t before = g->origin;

@@ -11,8 +11,14 @@
 /* A leaf's functions (lang ids; LANG_NONE: absent), in the order of enum family_member of library/library.h. */
 enum leaf_function { LEAF_EVAL, LEAF_ENVIRONMENT, LEAF_TRANSMISSION, LEAF_THROUGHPUT, LEAF_EMISSION, LEAF_FACTOR, NUM_LEAF_FUNCTIONS };
 
+/* The shaded point in world space, each part made when it is first needed. */
+struct closure_point {
+    ir_ref position, normal, view; /* unit normal, unit direction to the viewer */
+};
+
 struct closure_host {
     void *user_data;
+    struct closure_point *point;
     /* The functions of the family behind a LEAF node's callee. */
     const uint32_t *(*leaf_functions)(void *user_data, uint32_t callee);
     const struct lang_host *lang;

@@ -33,9 +33,9 @@ static const char *light_name(const struct shader *shader, const struct shader_l
     return strncmp(name, "mx_", 3) == 0 ? name + 3 : name;
 }
 
-static uint32_t named(struct shader *shader, const char *name)
+static uint32_t named(struct shader *shader, str_id name)
 {
-    return ir_add_origin(shader->graph, str_intern_z(shader->strings, name), 0, 0);
+    return ir_add_origin(shader->graph, name, 0, 0);
 }
 
 void closure_sample_light(struct shader *shader, const struct closure_host *host, ir_ref *direction, ir_ref *intensity)
@@ -43,15 +43,15 @@ void closure_sample_light(struct shader *shader, const struct closure_host *host
     struct ir_graph *g = shader->graph;
     struct lang_host see_through = *host->lang;
     see_through.max_inline_nodes = MAX_LIGHT_NODES;
-    uint32_t before = g->origin, direction_origin = named(shader, "L"), intensity_origin = named(shader, "light");
-    ir_ref point = shader_stream(shader, str_intern_z(shader->strings, "positionWorld"), IR_TYPE_VEC3);
-    ir_ref type = member(shader, shader_light_member(shader, str_intern_z(shader->strings, "type"), IR_TYPE_INT));
+    uint32_t before = g->origin, direction_origin = named(shader, STR_L), intensity_origin = named(shader, STR_light);
+    ir_ref point = shader_stream(shader, STR_positionWorld, IR_TYPE_VEC3);
+    ir_ref type = member(shader, shader_light_member(shader, STR_type, IR_TYPE_INT));
     *direction = 0;
     *intensity = ir_const_splat(g, IR_TYPE_VEC3, 0.0f);
     for (uint32_t i = shader->lights.len; i-- > 0;) {
         const struct shader_light *light = &shader->lights.items[i];
         ir_ref results[2];
-        g->origin = named(shader, light_name(shader, light));
+        g->origin = named(shader, str_intern_z(shader->strings, light_name(shader, light)));
         sample(shader, &see_through, light, point, results);
         ir_ref is_this = ir_op2(g, IR_EQ, type, ir_const_int(g, light->type));
         g->origin = direction_origin;

@@ -61,7 +61,7 @@ static void declare_color(struct emitter *e)
 {
     if (e->color != UINT32_MAX)
         return;
-    e->color = shader_add_local(e->shader, str_intern_z(e->shader->strings, "color"), IR_TYPE_VEC3);
+    e->color = shader_add_local(e->shader, STR_color, IR_TYPE_VEC3);
     effect(e, EFFECT_VAR, e->color, e->base ? vec3_of(e, e->base) : ir_const_splat(e->graph, IR_TYPE_VEC3, 0.0f));
 }
 
@@ -161,9 +161,9 @@ static ir_ref emission(struct emitter *e, ir_ref edf)
 static void write_output(struct emitter *e, ir_ref color, ir_ref alpha)
 {
     struct ir_graph *g = e->graph;
-    uint32_t out = shader_find_variable(e->shader, BLOCK_OUTPUTS, str_intern_z(e->shader->strings, "out1"));
+    uint32_t out = shader_find_variable(e->shader, BLOCK_OUTPUTS, STR_out1);
     if (out == UINT32_MAX)
-        out = shader_add_variable(e->shader, &(struct shader_variable){.name = str_intern_z(e->shader->strings, "out1"),
+        out = shader_add_variable(e->shader, &(struct shader_variable){.name = STR_out1,
                                                                        .block = BLOCK_OUTPUTS, .type = IR_TYPE_VEC4});
     ir_ref parts[2] = {color, alpha};
     effect(e, EFFECT_OUTPUT, out, ir_construct(g, IR_TYPE_VEC4, parts, 2));
@@ -172,7 +172,7 @@ static void write_output(struct emitter *e, ir_ref color, ir_ref alpha)
 /* Pixels below the host's threshold are not drawn at all. */
 static void alpha_test(struct emitter *e, ir_ref alpha)
 {
-    uint32_t threshold = shader_private_uniform(e->shader, str_intern_z(e->shader->strings, "u_alphaThreshold"),
+    uint32_t threshold = shader_private_uniform(e->shader, STR_u_alphaThreshold,
                                                 IR_TYPE_FLOAT, 0);
     effect(e, EFFECT_DISCARD, 0, ir_op2(e->graph, IR_LT, alpha, shader_read(e->shader, threshold)));
     e->shader->transparent = true;
@@ -307,7 +307,7 @@ static bool emit_value(struct emitter *e, ir_ref root)
         type = IR_TYPE_FLOAT;
     }
     ir_ref parts[3] = {root, zero, one};
-    uint32_t out = shader_add_variable(e->shader, &(struct shader_variable){.name = str_intern_z(e->shader->strings, "out1"),
+    uint32_t out = shader_add_variable(e->shader, &(struct shader_variable){.name = STR_out1,
                                                                             .block = BLOCK_OUTPUTS, .type = IR_TYPE_VEC4});
     switch (type) {
     case IR_TYPE_FLOAT:

@@ -254,13 +254,19 @@ struct lang_form {
     bool infix;
 };
 
+struct lang_words { /* of one length, in a row and sorted by byte value */
+    const char *text;
+    uint32_t count;
+};
+#define LANG_WORDS(length, words) [length] = {words, (sizeof(words) - 1) / (length)}
+
 struct lang_syntax {
     const char *name;                   /* "glsl" */
     const struct lang_syntax *base;     /* rows absent here come from there; NULL for the portable form itself */
     const char *const *type_names;      /* [IR_NUM_TYPES], NULL entries: from base */
     const struct lang_form *forms;      /* [IR_NUM_OPS], text NULL: from base */
-    const char *const *reserved;        /* sorted; identifiers that must be renamed */
-    uint32_t num_reserved;
+    const struct lang_words *reserved;  /* by length; identifiers that must be renamed */
+    uint32_t max_reserved;              /* the greatest length */
     const char *param_in;               /* prefix of a parameter that is never assigned: "const " in GLSL, "" elsewhere */
     const char *param_in_assigned;      /* prefix of one that is: "" in GLSL */
     const char *param_out, *param_inout; /* "out ", "inout "; OSL: "output " */

@@ -5,11 +5,6 @@
  */
 #include "shader/shader.h"
 
-static str_id word(struct shader *shader, const char *text)
-{
-    return str_intern_z(shader->strings, text);
-}
-
 static void mark_read(struct shader *shader, uint32_t variable, enum shader_stage_id stage)
 {
     shader->variables.items[variable].stages |= (uint8_t)(1u << stage);
@@ -22,8 +17,8 @@ static void complete_lights(struct shader *shader, enum shader_stage_id id)
         stage->has_lights |= stage->effects.items[i].kind == EFFECT_LIGHTS;
     if (!stage->has_lights)
         return;
-    mark_read(shader, shader_private_uniform(shader, word(shader, "u_numActiveLightSources"), IR_TYPE_INT, 0), id);
-    mark_read(shader, shader_light_member(shader, word(shader, "type"), IR_TYPE_INT), id);
+    mark_read(shader, shader_private_uniform(shader, STR_u_numActiveLightSources, IR_TYPE_INT, 0), id);
+    mark_read(shader, shader_light_member(shader, STR_type, IR_TYPE_INT), id);
     for (uint32_t i = 0; i < shader->light_members.len; i++)
         mark_read(shader, shader->light_members.items[i], id);
 }
@@ -65,9 +60,9 @@ static void complete_vertex_stage(struct shader *shader)
     if (has_position)
         return;
     struct ir_graph *graph = shader->graph;
-    ir_ref world = shader_vertex_stream(shader, word(shader, "positionWorld"), IR_TYPE_VOID);
+    ir_ref world = shader_vertex_stream(shader, STR_positionWorld, IR_TYPE_VOID);
     ir_ref homogeneous = ir_arg(graph, world, 0); /* the stream is this, cut to xyz */
-    ir_ref matrix = shader_read(shader, shader_private_uniform(shader, word(shader, "u_viewProjectionMatrix"), IR_TYPE_MAT4, 0));
+    ir_ref matrix = shader_read(shader, shader_private_uniform(shader, STR_u_viewProjectionMatrix, IR_TYPE_MAT4, 0));
     ir_ref position = ir_build(graph, IR_MUL, IR_TYPE_VEC4, 0, (ir_ref[]){matrix, homogeneous}, 2);
     shader_effect(shader, STAGE_VERTEX, (struct effect){.kind = EFFECT_POSITION, .value = position});
 }

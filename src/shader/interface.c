@@ -62,34 +62,34 @@ static void grow_names(struct shader *shader)
 }
 
 /* Names that the speller needs at file scope. */
-static bool is_taken_word(const struct shader *shader, const char *name)
+static bool is_taken(const struct shader *shader, uint32_t scope, str_id name)
 {
-    static const char *const words[] = {"main", "vd", "u_lightData", "LightData", "LightData_block", "PublicUniforms",
-                                        "PrivateUniforms", "VertexData"};
+    static const str_id words[] = {STR_main, STR_vd, STR_u_lightData, STR_LightData, STR_LightData_block, STR_PublicUniforms,
+                                   STR_PrivateUniforms, STR_VertexData};
     for (size_t i = 0; i < sizeof words / sizeof *words; i++)
-        if (strcmp(name, words[i]) == 0)
+        if (name == words[i])
             return true;
-    return shader->syntax && lang_syntax_is_reserved(shader->syntax, name);
+    return *find_slot(shader, scope, name)
+        || (shader->syntax && lang_syntax_is_reserved(shader->syntax, str_text(shader->strings, name)));
 }
 
 static str_id unique_name(struct shader *shader, uint32_t scope, str_id wanted)
 {
-    struct text name;
-    text_init(&name, shader->arena);
-    size_t wanted_len = str_len(shader->strings, wanted);
-    text_reserve(&name, wanted_len + 16);
-    name.len = identifier_from(str_text(shader->strings, wanted), wanted_len, name.data);
-    size_t base_len = name.len;
-    for (uint32_t number = 2;; number++) {
-        const char *text = text_cstr(&name);
-        str_id id = str_intern(shader->strings, text, name.len);
-        if (!*find_slot(shader, scope, id) && !is_taken_word(shader, text))
-            return id;
-        name.len = base_len;
-        if (name.data[base_len - 1] != '_')
-            text_char(&name, '_');
-        text_u32(&name, number);
+    size_t len = str_len(shader->strings, wanted);
+    char *base = arena_alloc(shader->arena, len + 2);
+    size_t base_len = identifier_from(str_text(shader->strings, wanted), len, base);
+    bool is_identifier = base_len == len && memcmp(base, str_text(shader->strings, wanted), len) == 0;
+    str_id name = is_identifier ? wanted : str_intern(shader->strings, base, base_len);
+    for (uint32_t number = 2; is_taken(shader, scope, name); number++) {
+        struct text numbered;
+        text_init(&numbered, shader->arena);
+        text_mem(&numbered, base, base_len);
+        if (base[base_len - 1] != '_')
+            text_char(&numbered, '_');
+        text_u32(&numbered, number);
+        name = str_intern(shader->strings, numbered.data, numbered.len);
     }
+    return name;
 }
 
 uint32_t shader_add_variable(struct shader *shader, const struct shader_variable *variable)
@@ -168,14 +168,14 @@ uint32_t shader_global_variable(const struct shader *shader, uint32_t global_id)
 /* ---- Uniforms ---- */
 
 struct uniform_row {
-    const char *name;
+    str_id name;
     ir_type_id type;
     float value;
 };
 
 static const struct uniform_row uniform_rows[] = {
 #define HALF_TURN 2 /* about y: environment maps begin behind the viewer */
-#define UNIFORM(name, TYPE, value) {name, IR_TYPE_##TYPE, value},
+#define UNIFORM(name, TYPE, value) {STR_##name, IR_TYPE_##TYPE, value},
 #include "shader/streams.def"
 };
 
@@ -200,33 +200,30 @@ static struct ir_value default_value(ir_type_id type, float number)
 
 uint32_t shader_private_uniform(struct shader *shader, str_id name, ir_type_id type, uint16_t array_length)
 {
-    const char *text = str_text(shader->strings, name);
-    struct shader_variable variable = {.name = name, .type = type, .array_length = array_length};
     const struct uniform_row *row = NULL;
     for (size_t i = 0; i < sizeof uniform_rows / sizeof *uniform_rows && !row; i++)
-        if (strcmp(text, uniform_rows[i].name) == 0)
+        if (name == uniform_rows[i].name)
             row = &uniform_rows[i];
-    if (row) {
-        variable.type = row->type;
-        variable.rank = (uint16_t)(row - uniform_rows + 1);
-    }
-    variable.block = (uint8_t)uniform_block(variable.type);
-    uint32_t found = find_binding(shader, variable.block, name, scalar_of(variable.type));
+    type = row ? row->type : type;
+    enum shader_block block = uniform_block(type);
+    uint32_t found = find_binding(shader, block, name, scalar_of(type));
     if (found != UINT32_MAX)
         return found;
+    struct shader_variable variable = {.name = name, .block = (uint8_t)block, .type = type, .array_length = array_length};
+    variable.rank = row ? (uint16_t)(row - uniform_rows + 1) : 0;
     if (variable.block == BLOCK_PRIVATE_UNIFORMS && variable.type < IR_NUM_TYPES && !array_length) {
         variable.has_default = true;
         variable.value = default_value(variable.type, row ? row->value : 0);
     }
+    const char *text = str_text(shader->strings, name);
     variable.semantic = str_intern_z(shader->strings, strncmp(text, "u_", 2) == 0 ? text + 2 : text);
     return bind(shader, &variable);
 }
 
 uint32_t shader_light_member(struct shader *shader, str_id name, ir_type_id type)
 {
-    str_id type_name = str_intern_z(shader->strings, "type");
-    if (shader_find_variable(shader, BLOCK_LIGHT_DATA, type_name) == UINT32_MAX)
-        shader_add_variable(shader, &(struct shader_variable){.name = type_name, .block = BLOCK_LIGHT_DATA, .type = IR_TYPE_INT});
+    if (shader_find_variable(shader, BLOCK_LIGHT_DATA, STR_type) == UINT32_MAX)
+        shader_add_variable(shader, &(struct shader_variable){.name = STR_type, .block = BLOCK_LIGHT_DATA, .type = IR_TYPE_INT});
     uint32_t found = shader_find_variable(shader, BLOCK_LIGHT_DATA, name);
     if (found != UINT32_MAX && shader->variables.items[found].type == type)
         return found;
@@ -238,26 +235,33 @@ uint32_t shader_light_member(struct shader *shader, str_id name, ir_type_id type
 enum stream_space { SPACE_OBJECT, SPACE_POINT, SPACE_VECTOR, SPACE_NORMAL, SPACE_BITANGENT };
 
 struct stream_row {
-    const char *name;
+    str_id name;        /* 0: of a family, which shares `attribute` with its attributes */
     ir_type_id type;
     const char *attribute;
     uint8_t space; /* enum stream_space */
 };
 
 static const struct stream_row stream_rows[] = {
-#define STREAM(name, TYPE, attribute, SPACE) {name, IR_TYPE_##TYPE, attribute, SPACE_##SPACE},
+#define STREAM(name, TYPE, attribute, SPACE) {STR_##name, IR_TYPE_##TYPE, attribute, SPACE_##SPACE},
+#define FAMILY(name, TYPE) {0, IR_TYPE_##TYPE, name, SPACE_OBJECT},
 #include "shader/streams.def"
 };
 
 /* *out_suffix: what follows a family's name. */
-static const struct stream_row *find_stream(const char *name, const char **out_suffix)
+static const struct stream_row *find_stream(const struct shader *shader, str_id name, const char **out_suffix)
 {
+    *out_suffix = "";
     for (size_t i = 0; i < sizeof stream_rows / sizeof *stream_rows; i++) {
-        size_t len = strlen(stream_rows[i].name);
-        bool family = stream_rows[i].name[len - 1] == '_';
-        if (strncmp(name, stream_rows[i].name, len) == 0 && (family ? name[len] != 0 : name[len] == 0)) {
-            *out_suffix = name + len;
-            return &stream_rows[i];
+        const struct stream_row *row = &stream_rows[i];
+        if (row->name && row->name != name)
+            continue;
+        if (row->name)
+            return row;
+        const char *text = str_text(shader->strings, name);
+        size_t len = strlen(row->attribute);
+        if (strncmp(text, row->attribute, len) == 0 && text[len]) {
+            *out_suffix = text + len;
+            return row;
         }
     }
     return NULL;
@@ -287,13 +291,14 @@ static str_id stream_semantic(struct shader *shader, const struct stream_row *ro
     if (*suffix) {
         struct text family;
         text_init(&family, shader->arena);
-        text_mem(&family, row->name, strlen(row->name) - 1);
+        text_mem(&family, row->attribute, strlen(row->attribute) - 1);
         return concat(shader, text_cstr(&family), ":", suffix);
     }
-    bool world = strstr(row->name, "World") != NULL;
+    const char *name = str_text(shader->strings, row->name);
+    bool world = strstr(name, "World") != NULL;
     struct text what;
     text_init(&what, shader->arena);
-    text_mem(&what, row->name, strlen(row->name) - (world ? 5 : 6));
+    text_mem(&what, name, strlen(name) - (world ? 5 : 6));
     return concat(shader, text_cstr(&what), ":", world ? "world" : "object");
 }
 
@@ -315,11 +320,10 @@ static ir_ref attribute(struct shader *shader, const struct stream_row *row, con
     return shader_read(shader, index);
 }
 
-static ir_ref transform(struct shader *shader, const char *matrix, ir_ref vector, float w)
+static ir_ref transform(struct shader *shader, str_id matrix, ir_ref vector, float w)
 {
     struct ir_graph *graph = shader->graph;
-    str_id name = str_intern_z(shader->strings, matrix);
-    ir_ref m = shader_read(shader, shader_private_uniform(shader, name, IR_TYPE_MAT4, 0));
+    ir_ref m = shader_read(shader, shader_private_uniform(shader, matrix, IR_TYPE_MAT4, 0));
     ir_ref parts[] = {vector, ir_const_float(graph, w)};
     ir_ref v = ir_construct(graph, IR_TYPE_VEC4, parts, 2);
     return ir_build(graph, IR_MUL, IR_TYPE_VEC4, 0, (ir_ref[]){m, v}, 2);
@@ -342,11 +346,11 @@ static ir_ref vertex_expression(struct shader *shader, const struct stream_row *
     ir_ref a = attribute(shader, row, suffix, type);
     switch ((enum stream_space)row->space) {
     case SPACE_POINT:
-        return xyz(graph, transform(shader, "u_worldMatrix", a, 1));
+        return xyz(graph, transform(shader, STR_u_worldMatrix, a, 1));
     case SPACE_VECTOR:
-        return ir_op1(graph, IR_NORMALIZE, xyz(graph, transform(shader, "u_worldMatrix", a, 0)));
+        return ir_op1(graph, IR_NORMALIZE, xyz(graph, transform(shader, STR_u_worldMatrix, a, 0)));
     case SPACE_NORMAL:
-        return ir_op1(graph, IR_NORMALIZE, xyz(graph, transform(shader, "u_worldInverseTransposeMatrix", a, 0)));
+        return ir_op1(graph, IR_NORMALIZE, xyz(graph, transform(shader, STR_u_worldInverseTransposeMatrix, a, 0)));
     default:
         return a;
     }
@@ -373,7 +377,7 @@ static ir_ref as_wanted(struct ir_graph *graph, ir_ref value, ir_type_id wanted)
 ir_ref shader_vertex_stream(struct shader *shader, str_id name, ir_type_id type)
 {
     const char *suffix;
-    const struct stream_row *row = find_stream(str_text(shader->strings, name), &suffix);
+    const struct stream_row *row = find_stream(shader, name, &suffix);
     if (!row || (row->type == IR_TYPE_VOID && type == IR_TYPE_VOID))
         return 0;
     return as_wanted(shader->graph, vertex_expression(shader, row, suffix, carried_type(row, type)), type);
@@ -382,7 +386,7 @@ ir_ref shader_vertex_stream(struct shader *shader, str_id name, ir_type_id type)
 ir_ref shader_stream(struct shader *shader, str_id name, ir_type_id type)
 {
     const char *suffix;
-    const struct stream_row *row = find_stream(str_text(shader->strings, name), &suffix);
+    const struct stream_row *row = find_stream(shader, name, &suffix);
     if (!row || (row->type == IR_TYPE_VOID && type == IR_TYPE_VOID))
         return 0;
     ir_type_id carried = carried_type(row, type);
