@@ -186,18 +186,23 @@ typedef struct mxg_nodedef {
     const char *name, *node, *version, *group, *doc, *file; /* "" where absent */
     uint32_t num_inputs, num_outputs;
     bool has_implementation; /* for some target */
+    bool is_default_version; /* what a node without a version means */
 } mxg_nodedef;
 
 typedef struct mxg_port {
     size_t size; /* in */
     const char *name, *type, *value, *defaultgeomprop, *enum_names, *unit, *doc; /* "" where absent */
     bool uniform;
+    bool advanced; /* uiadvanced */
+    const char *enum_values, *unittype, *uiname, *uifolder, *uimin, *uimax, *uisoftmin, *uisoftmax; /* "" where absent */
 } mxg_port;
 
 MXG_API uint32_t mxg_library_num_nodedefs(const mxg_library *library); /* those of its base included */
 MXG_API mxg_status mxg_library_nodedef(const mxg_library *library, uint32_t index, mxg_nodedef *out);
 /* Port `index` of a definition: inputs first, then outputs. */
 MXG_API mxg_status mxg_library_port(const mxg_library *library, uint32_t nodedef, uint32_t index, mxg_port *out);
+/* Whether the definition has an implementation that the target (by name) can use. */
+MXG_API bool mxg_library_supports(const mxg_library *library, uint32_t nodedef, const char *target);
 
 /* ---- Document ---- */
 

@@ -15,10 +15,10 @@ void mx_point_light(vec3 position, vec3 color, float intensity, float decay_rate
     radiance = color * (intensity / pow(length(d) + 1.0, decay_rate));
 }
 
-// inner_angle and outer_angle are cosines.
+// inner_angle and outer_angle are cosines; the edge is never quite sharp, where smoothstep would be undefined.
 void mx_spot_light(vec3 position, vec3 direction, vec3 color, float intensity, float decay_rate, float inner_angle,
                    float outer_angle, vec3 P, out vec3 to_light, out vec3 radiance)
 {
     mx_point_light(position, color, intensity, decay_rate, P, to_light, radiance);
-    radiance *= smoothstep(min(inner_angle, outer_angle), inner_angle, -dot(to_light, direction));
+    radiance *= smoothstep(min(inner_angle, outer_angle) - 1e-5, inner_angle, -dot(to_light, direction));
 }

@@ -237,7 +237,7 @@ static void bind_lights(struct generation *g)
 
 static const uint32_t *leaf_functions(void *user_data, uint32_t callee)
 {
-    _Static_assert((int)LEAF_EVAL == FAMILY_EVAL && (int)LEAF_FACTOR == FAMILY_FACTOR && (int)NUM_LEAF_FUNCTIONS == FAMILY_FACTOR + 1,
+    _Static_assert((int)LEAF_EVAL == FAMILY_EVAL && (int)LEAF_FACTOR == FAMILY_FACTOR && (int)LEAF_ABSORPTION == FAMILY_ABSORPTION,
                    "leaf functions are the first members of a family");
     return build_leaf_family(user_data, callee)->functions;
 }

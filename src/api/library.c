@@ -213,13 +213,33 @@ uint32_t mxg_library_num_nodedefs(const mxg_library *library)
     return library ? library_num_nodedefs(&library->layer) : 0;
 }
 
-static bool has_implementation(const struct library *lib, uint32_t id)
+/* `target` NULL: any. */
+static bool serves(const struct library *lib, const struct implementation *impl, const struct target *target)
+{
+    return impl->kind != IMPL_BROKEN && (!target || !impl->target || target_is_a(target, text_of(lib, impl->target)));
+}
+
+static bool has_implementation(const struct library *lib, uint32_t id, const struct target *target)
 {
     for (const struct library *layer = lib; id < layer->base_nodedefs; layer = layer->base)
-        for (uint32_t i = 0; i < layer->overrides.len; i++)
-            if (layer->impls.items[layer->overrides.items[i]].nodedef == id)
+        for (uint32_t i = 0; i < layer->overrides.len; i++) {
+            const struct implementation *impl = &layer->impls.items[layer->overrides.items[i]];
+            if (impl->nodedef == id && serves(lib, impl, target))
                 return true;
-    return library_nodedef(lib, id)->first_impl != LIBRARY_NONE;
+        }
+    for (uint32_t i = library_nodedef(lib, id)->first_impl; i != LIBRARY_NONE;) {
+        const struct implementation *impl = library_impl(lib, i, NULL);
+        if (serves(lib, impl, target))
+            return true;
+        i = impl->next;
+    }
+    return false;
+}
+
+bool mxg_library_supports(const mxg_library *library, uint32_t nodedef, const char *target)
+{
+    const struct target *found = target ? target_find(target) : NULL;
+    return found && nodedef < mxg_library_num_nodedefs(library) && has_implementation(&library->layer, nodedef, found);
 }
 
 mxg_status mxg_library_nodedef(const mxg_library *library, uint32_t index, mxg_nodedef *out)
@@ -238,7 +258,8 @@ mxg_status mxg_library_nodedef(const mxg_library *library, uint32_t index, mxg_n
         .file = file ? file : "",
         .num_inputs = def->num_inputs,
         .num_outputs = def->num_outputs,
-        .has_implementation = has_implementation(lib, index),
+        .has_implementation = has_implementation(lib, index, NULL),
+        .is_default_version = !def->version || def->is_default_version,
     };
     return struct_write(out, &full, sizeof full);
 }
@@ -261,6 +282,15 @@ mxg_status mxg_library_port(const mxg_library *library, uint32_t nodedef, uint32
         .unit = attr_text(lib, port->element, STR_unit),
         .doc = attr_text(lib, port->element, STR_doc),
         .uniform = port->flags & PORT_UNIFORM,
+        .advanced = doc_attr_is_true(&lib->doc, port->element, STR_uiadvanced),
+        .enum_values = attr_text(lib, port->element, STR_enumvalues),
+        .unittype = attr_text(lib, port->element, STR_unittype),
+        .uiname = attr_text(lib, port->element, STR_uiname),
+        .uifolder = attr_text(lib, port->element, STR_uifolder),
+        .uimin = attr_text(lib, port->element, STR_uimin),
+        .uimax = attr_text(lib, port->element, STR_uimax),
+        .uisoftmin = attr_text(lib, port->element, STR_uisoftmin),
+        .uisoftmax = attr_text(lib, port->element, STR_uisoftmax),
     };
     return struct_write(out, &full, sizeof full);
 }

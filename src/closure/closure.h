@@ -9,7 +9,8 @@
 #include "shader/shader.h"
 
 /* A leaf's functions (lang ids; LANG_NONE: absent), in the order of enum family_member of library/library.h. */
-enum leaf_function { LEAF_EVAL, LEAF_ENVIRONMENT, LEAF_TRANSMISSION, LEAF_THROUGHPUT, LEAF_EMISSION, LEAF_FACTOR, NUM_LEAF_FUNCTIONS };
+enum leaf_function { LEAF_EVAL, LEAF_ENVIRONMENT, LEAF_TRANSMISSION, LEAF_THROUGHPUT, LEAF_EMISSION, LEAF_FACTOR,
+                     LEAF_ABSORPTION, NUM_LEAF_FUNCTIONS };
 
 /* The shaded point in world space, each part made when it is first needed. */
 struct closure_point {
@@ -29,6 +30,7 @@ struct closure_leaf {
     ir_ref leaf;   /* LEAF node with weight 1 */
     ir_ref scalar; /* float */
     ir_ref color;  /* vec3; 0 = white */
+    ir_ref medium; /* vec3: what a volume behind lets through of the light that the leaf refracts; 0 = all */
 };
 
 struct closure_list {

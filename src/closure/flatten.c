@@ -15,6 +15,7 @@
 
 struct weight {
     ir_ref scalar, color; /* scalar 0: not reached */
+    ir_ref medium;        /* what a volume behind lets through of refracted light; 0 = all */
 };
 
 struct flattener {
@@ -134,14 +135,15 @@ static ir_ref combined(struct ir_graph *g, struct weight w)
     return w.color ? closure_mul(g, w.color, w.scalar) : w.scalar;
 }
 
-static void add_weight(struct flattener *f, ir_ref ref, ir_ref scalar, ir_ref color)
+static void add_weight(struct flattener *f, ir_ref ref, struct weight add)
 {
     struct ir_graph *g = f->graph;
+    ir_ref scalar = add.scalar, color = add.color;
     if (!ref || ir_const_is(g, scalar, 0.0f) || (color && ir_const_is(g, color, 0.0f)))
         return;
     struct weight *w = &f->weights[ref];
     if (!w->scalar) {
-        *w = (struct weight){scalar, color};
+        *w = add;
         return;
     }
     if (w->color == color) {
@@ -149,20 +151,37 @@ static void add_weight(struct flattener *f, ir_ref ref, ir_ref scalar, ir_ref co
         return;
     }
     ir_ref sum = ir_op2(g, IR_ADD, ir_convert(g, IR_TYPE_VEC3, combined(g, *w)),
-                        ir_convert(g, IR_TYPE_VEC3, combined(g, (struct weight){scalar, color})));
-    *w = (struct weight){ir_const_float(g, 1.0f), sum};
+                        ir_convert(g, IR_TYPE_VEC3, combined(g, add)));
+    *w = (struct weight){ir_const_float(g, 1.0f), sum, w->medium};
 }
 
 /* A factor goes with the scalar part when it is a float, else with the colour. */
 static void add_scaled(struct flattener *f, ir_ref ref, struct weight w, ir_ref factor)
 {
     struct ir_graph *g = f->graph;
-    if (ir_const_is(g, factor, 1.0f))
-        add_weight(f, ref, w.scalar, w.color);
-    else if (ir_type_of(g, factor) == IR_TYPE_FLOAT)
-        add_weight(f, ref, closure_mul(g, w.scalar, factor), w.color);
-    else
-        add_weight(f, ref, w.scalar, closure_mul(g, w.color, factor));
+    if (ir_type_of(g, factor) == IR_TYPE_FLOAT)
+        w.scalar = closure_mul(g, w.scalar, factor);
+    else if (!ir_const_is(g, factor, 1.0f))
+        w.color = closure_mul(g, w.color, factor);
+    add_weight(f, ref, w);
+}
+
+/* What a volume lets through over a unit of length: exp(-absorption), by Beer's law. */
+static ir_ref medium_of(struct flattener *f, ir_ref volume)
+{
+    struct ir_graph *g = f->graph;
+    struct closure_list list;
+    closure_flatten(f->shader, f->host, volume, &list);
+    ir_ref sum = 0;
+    for (uint32_t i = 0; i < list.leaves.len; i++) {
+        const struct closure_leaf *leaf = &list.leaves.items[i];
+        ir_ref absorption = closure_call(f->shader, f->host, leaf->leaf, LEAF_ABSORPTION, NULL);
+        if (!absorption)
+            continue;
+        absorption = closure_mul(g, absorption, closure_mul(g, leaf->color, leaf->scalar));
+        sum = sum ? ir_op2(g, IR_ADD, sum, absorption) : absorption;
+    }
+    return sum ? ir_op1(g, IR_EXP, ir_op1(g, IR_NEG, sum)) : 0;
 }
 
 static void spread(struct flattener *f, ir_ref ref)
@@ -172,16 +191,18 @@ static void spread(struct flattener *f, ir_ref ref)
     uint8_t op = ir_get(g, ref)->op;
     ir_ref a = ir_arg(g, ref, 0), b = ir_arg(g, ref, 1);
     if (op == IR_LAYER) {
-        add_weight(f, a, w.scalar, w.color);
-        if (b && ir_type_of(g, b) != IR_TYPE_VDF) /* a volume below does not change the surface's response */
+        if (b && ir_type_of(g, b) == IR_TYPE_VDF) /* a volume behind changes what is refracted only */
+            w.medium = closure_mul(g, w.medium, medium_of(f, b));
+        else if (b)
             add_scaled(f, b, w, through_of(f, a));
+        add_weight(f, a, w);
     } else if (op == IR_CLOSURE_MIX) {
         ir_ref mix = ir_arg(g, ref, 2);
         add_scaled(f, a, w, closure_one_minus(g, mix));
         add_scaled(f, b, w, mix);
     } else if (op == IR_CLOSURE_ADD) {
-        add_weight(f, a, w.scalar, w.color);
-        add_weight(f, b, w.scalar, w.color);
+        add_weight(f, a, w);
+        add_weight(f, b, w);
     } else { /* scale: BSDFs must not gain energy by it */
         ir_ref zero = ir_const_float(g, 0.0f), one = ir_const_float(g, 1.0f);
         bool emits = ir_type_of(g, ref) == IR_TYPE_EDF;
@@ -208,15 +229,15 @@ static void merge_leaf(struct flattener *f, struct closure_list *out, ir_ref lea
     struct ir_graph *g = f->graph;
     for (uint32_t i = 0; i < out->leaves.len; i++) {
         struct closure_leaf *have = &out->leaves.items[i];
-        if (have->leaf != leaf)
+        if (have->leaf != leaf || have->medium != w.medium)
             continue;
-        ir_ref sum = ir_op2(g, IR_ADD, ir_convert(g, IR_TYPE_VEC3, combined(g, (struct weight){have->scalar, have->color})),
+        ir_ref sum = ir_op2(g, IR_ADD, ir_convert(g, IR_TYPE_VEC3, combined(g, (struct weight){.scalar = have->scalar, .color = have->color})),
                             ir_convert(g, IR_TYPE_VEC3, combined(g, w)));
         have->color = sum;
         have->scalar = ir_const_float(g, 1.0f);
         return;
     }
-    vec_push(f->shader->arena, &out->leaves, (struct closure_leaf){leaf, w.scalar, w.color});
+    vec_push(f->shader->arena, &out->leaves, (struct closure_leaf){leaf, w.scalar, w.color, w.medium});
 }
 
 static void take_leaf(struct flattener *f, ir_ref ref, struct closure_list *out)
@@ -230,7 +251,7 @@ static void take_leaf(struct flattener *f, ir_ref ref, struct closure_list *out)
     }
     ir_ref scalar = closure_mul(g, w.scalar, ir_arg(g, ref, 0));
     if (!ir_const_is(g, scalar, 0.0f))
-        merge_leaf(f, out, unit_leaf(g, ref, f->shader->arena), (struct weight){scalar, w.color});
+        merge_leaf(f, out, unit_leaf(g, ref, f->shader->arena), (struct weight){scalar, w.color, w.medium});
 }
 
 

@@ -124,6 +124,8 @@ static void emit_environment(struct emitter *e, const struct closure_list *list,
         const struct closure_leaf *leaf = &list->leaves.items[i];
         ir_ref reflected = closure_call(e->shader, e->host, leaf->leaf, LEAF_ENVIRONMENT, NULL);
         ir_ref refracted = closure_call(e->shader, e->host, leaf->leaf, LEAF_TRANSMISSION, NULL);
+        if (refracted)
+            refracted = closure_mul(e->graph, refracted, leaf->medium);
         ir_ref value = weighted(e, leaf, add(e, reflected, refracted));
         if (!value)
             continue;
