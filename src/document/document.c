@@ -347,7 +347,7 @@ static void report_duplicate(struct document *doc, elem_id first, elem_id second
 void doc_index_names(struct document *doc, struct diag_list *diags)
 {
     uint32_t slots = 16;
-    while (slots / 2 <= doc->elements.len)
+    while (slots / 4 * 3 <= doc->elements.len)
         slots *= 2;
     doc->name_table = ARENA_ARRAY(doc->arena, uint32_t, slots);
     doc->name_mask = slots - 1;
@@ -371,7 +371,7 @@ void doc_index_element(struct document *doc, elem_id element)
     if (!is_named_child(doc, element))
         return;
     if (doc->num_names >= doc->name_mask / 4 * 3) {
-        doc_index_names(doc, NULL); /* leaves half of the slots free: renaming all of them takes few rounds */
+        doc_index_names(doc, NULL); /* makes room for at least a third more */
         return;
     }
     const struct element *e = doc_element(doc, element);

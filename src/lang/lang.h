@@ -143,10 +143,46 @@ struct lang_unit {
 void lang_unit_init(struct lang_unit *unit, struct arena *arena, struct strpool *strings, const struct lang_unit *base);
 
 /* Access by id through the layers. *out_unit (may be NULL) receives the layer, which the function's own indices refer to. */
-const struct lang_function *lang_function(const struct lang_unit *unit, uint32_t id, const struct lang_unit **out_unit);
-const struct lang_global *lang_global(const struct lang_unit *unit, uint32_t id, const struct lang_unit **out_unit);
-const struct lang_file *lang_file(const struct lang_unit *unit, uint32_t id, const struct lang_unit **out_unit);
-const struct ir_user_type *lang_user_type(const struct lang_unit *unit, ir_type_id type, const struct lang_unit **out_unit);
+static inline const struct lang_function *lang_function(const struct lang_unit *unit, uint32_t id,
+                                                        const struct lang_unit **out_unit)
+{
+    while (id < unit->base_functions)
+        unit = unit->base;
+    if (out_unit)
+        *out_unit = unit;
+    return &unit->functions.items[id - unit->base_functions];
+}
+
+static inline const struct lang_global *lang_global(const struct lang_unit *unit, uint32_t id,
+                                                    const struct lang_unit **out_unit)
+{
+    while (id < unit->base_globals)
+        unit = unit->base;
+    if (out_unit)
+        *out_unit = unit;
+    return &unit->globals.items[id - unit->base_globals];
+}
+
+static inline const struct lang_file *lang_file(const struct lang_unit *unit, uint32_t id, const struct lang_unit **out_unit)
+{
+    while (id < unit->base_files)
+        unit = unit->base;
+    if (out_unit)
+        *out_unit = unit;
+    return &unit->files.items[id - unit->base_files];
+}
+
+static inline const struct ir_user_type *lang_user_type(const struct lang_unit *unit, ir_type_id type,
+                                                        const struct lang_unit **out_unit)
+{
+    uint32_t id = (uint32_t)type - IR_TYPE_FIRST_USER;
+    while (id < unit->base_user_types)
+        unit = unit->base;
+    if (out_unit)
+        *out_unit = unit;
+    return &unit->user_types.items[id - unit->base_user_types];
+}
+
 #define LANG_NONE UINT32_MAX /* no function, file… */
 
 /* parse.c (lex.c, check.c): text to trees */

@@ -144,14 +144,14 @@ static uint32_t part_offset(struct lower *lo, const struct lang_node *node)
 
 static void lower_part(struct lower *lo, const struct lang_node *node, ir_ref *out)
 {
-    const struct lang_node whole = *node_at(lo, node->a);
+    const struct lang_node *whole = node_at(lo, node->a);
     ir_ref leaves[LOWER_MAX_LEAVES];
     const ir_ref *from = leaves;
     uint32_t offset = part_offset(lo, node);
     if (lo->failed)
         return;
-    if (whole.kind == LANG_VAR)
-        from = lo->frame.leaves + lo->frame.offsets[whole.a];
+    if (whole->kind == LANG_VAR)
+        from = lo->frame.leaves + lo->frame.offsets[whole->a];
     else
         lower_expression(lo, node->a, leaves);
     copy_leaves(from + offset, lower_leaves(lo, node->type), out);
@@ -260,15 +260,15 @@ static void assign_part(struct lower *lo, const struct lang_node *node, const ir
 
 void lower_assign(struct lower *lo, lang_ref target, const ir_ref *leaves)
 {
-    const struct lang_node node = *node_at(lo, target);
+    const struct lang_node *node = node_at(lo, target);
     if (lo->failed)
         return;
-    if (node.kind == LANG_VAR)
-        copy_leaves(leaves, lower_leaves(lo, node.type), lo->frame.leaves + lo->frame.offsets[node.a]);
-    else if (ast_is_user_type(node_at(lo, node.a)->type))
-        assign_part(lo, &node, leaves);
+    if (node->kind == LANG_VAR)
+        copy_leaves(leaves, lower_leaves(lo, node->type), lo->frame.leaves + lo->frame.offsets[node->a]);
+    else if (ast_is_user_type(node_at(lo, node->a)->type))
+        assign_part(lo, node, leaves);
     else
-        assign_element(lo, &node, value_of(lo, leaves[0], node.type));
+        assign_element(lo, node, value_of(lo, leaves[0], node->type));
 }
 
 /* Calls */
@@ -287,9 +287,11 @@ static void assign_outputs(struct lower *lo, const struct lang_node *node, const
 static void lower_nested_call(struct lower *lo, const struct lang_node *node, ir_ref *out)
 {
     ir_ref in[LOWER_MAX_LEAVES], results[LOWER_MAX_LEAVES];
+    const struct lang_unit *layer;
+    const struct lang_function *fn = lang_function(lo->unit, node->a, &layer);
     uint32_t num_in = 0, num_results = lower_leaves(lo, node->type), num_returned = num_results, i = 0;
     for (lang_ref ref = node->b; ref && !lo->failed; ref = node_at(lo, ref)->next, i++) {
-        uint8_t mode = ast_param_mode(lo->unit, node->a, i);
+        uint8_t mode = ast_slot(layer, fn, i)->mode;
         uint32_t count = lower_leaves(lo, node_at(lo, ref)->type);
         num_results += mode == LANG_IN ? 0 : count;
         if (num_in + count > LOWER_MAX_LEAVES || num_results > LOWER_MAX_LEAVES) {
@@ -305,36 +307,37 @@ static void lower_nested_call(struct lower *lo, const struct lang_node *node, ir
         return;
     lower_call(lo, node->a, in, results);
     copy_leaves(results, num_returned, out);
-    assign_outputs(lo, node, results + num_returned);
+    if (num_results > num_returned)
+        assign_outputs(lo, node, results + num_returned);
 }
 
 void lower_expression(struct lower *lo, lang_ref ref, ir_ref *out)
 {
-    const struct lang_node node = *node_at(lo, ref); /* a copy: the generation's unit grows */
-    uint32_t count = lower_leaves(lo, node.type);
+    const struct lang_node *node = node_at(lo, ref);
+    uint32_t count = lower_leaves(lo, node->type);
     lo->failed |= count > LOWER_MAX_LEAVES || lo->frame.budget-- == 0
                   || (lo->max_graph_nodes && lo->graph->nodes.len > lo->max_graph_nodes);
     if (lo->failed)
         return;
     struct ir_value value;
-    switch (node.kind) {
+    switch (node->kind) {
     case LANG_CONST:
-        value = ast_value(node.type, ast_words(lo->frame.layer, &node));
+        value = ast_value(node->type, ast_words(lo->frame.layer, node));
         *out = ir_const(lo->graph, &value);
         break;
     case LANG_VAR:
-        copy_leaves(lo->frame.leaves + lo->frame.offsets[node.a], count, out);
+        copy_leaves(lo->frame.leaves + lo->frame.offsets[node->a], count, out);
         break;
     case LANG_INPUT:
-        *out = lo->inputs[node.a];
+        *out = lo->inputs[node->a];
         break;
     case LANG_GLOBAL:
-        lower_global(lo, &node, out);
+        lower_global(lo, node, out);
         break;
     case LANG_CALL:
-        lower_nested_call(lo, &node, out);
+        lower_nested_call(lo, node, out);
         break;
     default:
-        lower_op(lo, &node, out);
+        lower_op(lo, node, out);
     }
 }

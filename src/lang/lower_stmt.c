@@ -156,27 +156,27 @@ static bool lower_if(struct lower *lo, const struct lang_node *node)
 bool lower_statements(struct lower *lo, lang_ref first)
 {
     for (lang_ref ref = first; ref && !lo->failed; ref = node_at(lo, ref)->next) {
-        const struct lang_node node = *node_at(lo, ref); /* a copy: the generation's unit grows */
+        const struct lang_node *node = node_at(lo, ref);
         ir_ref unused[LOWER_MAX_LEAVES];
-        switch (node.kind) {
+        switch (node->kind) {
         case LANG_DECLARE:
-            lower_declare(lo, &node);
+            lower_declare(lo, node);
             break;
         case LANG_ASSIGN:
-            lower_assignment(lo, &node);
+            lower_assignment(lo, node);
             break;
         case LANG_EXPR:
-            lower_expression(lo, node.a, unused);
+            lower_expression(lo, node->a, unused);
             break;
         case LANG_BLOCK:
             if (lower_body(lo, ref))
                 return true;
             break;
         case LANG_IF:
-            return lower_if(lo, &node);
+            return lower_if(lo, node);
         case LANG_RETURN:
-            if (node.a)
-                lower_expression(lo, node.a, lo->frame.leaves + lo->frame.offsets[lo->frame.fn.num_slots]);
+            if (node->a)
+                lower_expression(lo, node->a, lo->frame.leaves + lo->frame.offsets[lo->frame.fn.num_slots]);
             return true;
         default: /* a loop */
             lo->failed = true;

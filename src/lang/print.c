@@ -4,7 +4,8 @@
 
 struct local { /* what a slot is called in the output */
     const char *name;
-    size_t len;
+    uint32_t len;
+    str_id id; /* of the name; 0 where it was changed */
 };
 
 struct printer {
@@ -16,6 +17,7 @@ struct printer {
     struct local *locals; /* by slot */
     uint32_t *visible;    /* slots in scope, innermost last */
     uint32_t num_visible;
+    bool any_changed;     /* some local's name is not the source's */
     uint64_t initials;    /* of the names of the functions and globals in use, one bit each: few locals share one */
     unsigned indent;
 };
@@ -49,11 +51,21 @@ static uint64_t initial(const char *name)
     return 1ull << (name[0] & 63);
 }
 
-static bool is_taken(const struct printer *p, const char *name)
+/* Equal names of the source have equal ids; the characters are compared where one was changed. */
+static bool is_visible(const struct printer *p, const char *name, str_id id)
 {
-    for (uint32_t i = 0; i < p->num_visible; i++)
-        if (is_same(p->locals[p->visible[i]].name, name))
+    for (uint32_t i = 0; i < p->num_visible; i++) {
+        const struct local *local = &p->locals[p->visible[i]];
+        if (p->any_changed || !id ? is_same(local->name, name) : local->id == id)
             return true;
+    }
+    return false;
+}
+
+static bool is_taken(const struct printer *p, const char *name, str_id id)
+{
+    if (is_visible(p, name, id))
+        return true;
     for (uint32_t i = 0; i < num_outer(p) && p->initials & initial(name); i++)
         if (is_same(outer_name(p, i), name))
             return true;
@@ -77,10 +89,12 @@ static const char *variant(struct printer *p, const char *name, uint32_t number)
 
 static void bring_into_scope(struct printer *p, uint32_t slot)
 {
-    const char *own = str_text(p->unit->strings, ast_slot(p->layer, p->fn, slot)->name), *name = own;
-    for (uint32_t number = 1; is_taken(p, name); number++)
+    str_id id = ast_slot(p->layer, p->fn, slot)->name;
+    const char *own = str_text(p->unit->strings, id), *name = own;
+    for (uint32_t number = 1; is_taken(p, name, name == own ? id : 0); number++)
         name = variant(p, own, number);
-    p->locals[slot] = (struct local){name, strlen(name)};
+    p->locals[slot] = (struct local){name, (uint32_t)strlen(name), name == own ? id : 0};
+    p->any_changed |= name != own;
     p->visible[p->num_visible++] = slot;
 }
 
@@ -176,9 +190,15 @@ static void print_op(struct printer *p, const struct lang_node *node, enum lang_
     bool parenthesised = form->precedence < least;
     if (parenthesised)
         text_char(p->out, '(');
-    struct operands operands = {.printer = p};
-    ast_list(p->layer, node->a, operands.refs, 4);
-    print_form(p, form, node->type, &operands);
+    if (form->infix) { /* most of what there is */
+        print_expression(p, node->a, (enum lang_precedence)form->precedence);
+        text_mem(p->out, form->text + 2, strlen(form->text + 2) - 2);
+        print_expression(p, ast_node(p->layer, node->a)->next, (enum lang_precedence)form->precedence + 1);
+    } else {
+        struct operands operands = {.printer = p};
+        ast_list(p->layer, node->a, operands.refs, 4);
+        print_form(p, form, node->type, &operands);
+    }
     if (parenthesised)
         text_char(p->out, ')');
 }

@@ -107,7 +107,8 @@ bool lang_syntax_is_reserved(const struct lang_syntax *syntax, const char *name)
     const struct lang_words *words = &syntax->reserved[len];
     for (uint32_t low = 0, high = words->count; low < high;) {
         uint32_t middle = (low + high) / 2;
-        int order = memcmp(name, words->text + middle * len, len);
+        const char *word = words->text + middle * len;
+        int order = name[0] != word[0] ? (unsigned char)name[0] - (unsigned char)word[0] : memcmp(name, word, len);
         if (order == 0)
             return true;
         if (order < 0)

@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * The reference as one page of HTML that needs nothing but itself and the pictures beside it. It is well-formed XML too,
+ * so that any XML tool can read it.
+ */
+#include "cli/doc/doc.h"
+
+#include <string.h>
+
+static void put(FILE *out, const char *text)
+{
+    for (; *text; ++text) {
+        if (*text == '<')
+            fputs("&lt;", out);
+        else if (*text == '>')
+            fputs("&gt;", out);
+        else if (*text == '&')
+            fputs("&amp;", out);
+        else if (*text == '"')
+            fputs("&quot;", out);
+        else
+            putc(*text, out);
+    }
+}
+
+static void put_element(FILE *out, const char *tag, const char *text)
+{
+    fprintf(out, "<%s>", tag);
+    put(out, text);
+    fprintf(out, "</%s>", tag);
+}
+
+static void put_lines(FILE *out, const char *const *lines)
+{
+    for (; *lines; ++lines)
+        fputs(*lines, out);
+}
+
+/* ---- Tables ---- */
+
+static void put_cell(FILE *out, const struct doc_texts *texts, const char *tag, const char *class)
+{
+    fprintf(out, "<td class=\"%s\">", class);
+    for (size_t i = 0; i < texts->len; ++i) {
+        putc(i ? ' ' : '\n', out);
+        put_element(out, tag, texts->items[i]);
+    }
+    fputs("</td>", out);
+}
+
+static void put_row(FILE *out, const struct doc_port *port)
+{
+    fprintf(out, "<tr%s><th scope=\"row\">", port->is_output ? " class=\"output\"" : "");
+    put_element(out, "code", port->name);
+    if (port->uniform)
+        fputs(" <small title=\"May not be connected to something that varies\">uniform</small>", out);
+    fputs("</th>", out);
+    put_cell(out, &port->cells[DOC_TYPE], "i", "type");
+    put_cell(out, &port->cells[DOC_DEFAULT], "code", "default");
+    put_cell(out, &port->cells[DOC_VALUES], "span", "values");
+    put_cell(out, &port->cells[DOC_MEANING], "span", "meaning");
+    fputs("</tr>\n", out);
+}
+
+static void put_table(FILE *out, const struct doc_edition *edition)
+{
+    if (edition->num_ports == 0)
+        return;
+    fputs("<table><thead><tr><th>Input</th><th>Type</th><th>Default</th><th>Values</th><th>Meaning</th></tr></thead>\n"
+          "<tbody>\n", out);
+    const char *folder = "";
+    for (size_t i = 0; i < edition->num_ports; ++i) {
+        const struct doc_port *port = &edition->ports[i];
+        if (!port->is_output && strcmp(port->folder, folder) != 0) {
+            folder = port->folder;
+            fputs("<tr class=\"folder\"><th colspan=\"5\" scope=\"rowgroup\">", out);
+            put(out, folder);
+            fputs("</th></tr>\n", out);
+        }
+        put_row(out, port);
+    }
+    fputs("</tbody></table>\n", out);
+}
+
+/* ---- Nodes ---- */
+
+static void put_signatures(FILE *out, const struct doc_edition *edition)
+{
+    if (edition->num_variants == 1) {
+        fputs("<p class=\"def\">", out);
+        put_element(out, "code", edition->variants[0].def.name);
+        fputs("</p>\n", out);
+        return;
+    }
+    fprintf(out, "<details><summary>%zu signatures</summary><ul>\n", edition->num_variants);
+    for (size_t i = 0; i < edition->num_variants; ++i) {
+        fputs("<li>", out);
+        put_element(out, "code", edition->variants[i].def.name);
+        putc(' ', out);
+        put_element(out, "span", edition->variants[i].signature);
+        fputs("</li>\n", out);
+    }
+    fputs("</ul></details>\n", out);
+}
+
+/* An older version: what it has otherwise. */
+static void put_older(FILE *out, const struct doc_edition *edition, const struct doc_edition *first)
+{
+    fputs("<details><summary>Version ", out);
+    put(out, edition->version);
+    fputs("</summary>\n<p>", out);
+    if (edition->num_ports == 0 && edition->missing.len == 0)
+        fputs("The same inputs as ", out);
+    else
+        fputs("Differs from ", out);
+    put(out, *first->version ? first->version : "the version above");
+    for (size_t i = 0; i < edition->missing.len; ++i) {
+        fputs(i ? ", " : "; it lacks ", out);
+        put_element(out, "code", edition->missing.items[i]);
+    }
+    fputs(".</p>\n", out);
+    put_table(out, edition);
+    put_signatures(out, edition);
+    fputs("</details>\n", out);
+}
+
+static void put_targets(const struct doc *doc, FILE *out, const struct doc_node *node)
+{
+    if (node->targets.len == doc->num_targets) {
+        fputs("all targets", out);
+        return;
+    }
+    for (size_t i = 0; i < node->targets.len; ++i) {
+        fputs(i ? ", " : "", out);
+        put(out, node->targets.items[i]);
+    }
+    if (node->targets.len == 0)
+        fputs("<strong>not implemented</strong>", out);
+}
+
+static void put_picture(FILE *out, const struct doc_node *node)
+{
+    if (!node->picture)
+        return;
+    fputs("<a class=\"picture\" title=\"The document of this picture\" href=\"pictures/", out);
+    put(out, node->name);
+    fputs(".mtlx\"><img loading=\"lazy\" width=\"144\" height=\"144\" src=\"", out);
+    put(out, node->picture);
+    fputs("\" alt=\"A ball with ", out);
+    put(out, node->name);
+    fputs("\"/></a>\n", out);
+}
+
+static void put_node(const struct doc *doc, FILE *out, const struct doc_node *node)
+{
+    const struct doc_edition *first = &node->editions[0];
+    fputs("<article id=\"", out);
+    put(out, node->name);
+    fputs("\">\n", out);
+    put_picture(out, node);
+    fputs("<h3><a href=\"#", out);
+    put(out, node->name);
+    fputs("\">", out);
+    put(out, node->name);
+    fputs("</a>", out);
+    if (*first->version) {
+        fputs(" <small>", out);
+        put(out, first->version);
+        fputs("</small>", out);
+    }
+    fputs("</h3>\n", out);
+    put_element(out, "p", node->text);
+    fputs("\n<p class=\"facts\">", out);
+    put(out, node->file);
+    fputs(" \xc2\xb7 ", out);
+    put_targets(doc, out, node);
+    fputs("</p>\n", out);
+    put_table(out, first);
+    put_signatures(out, first);
+    for (size_t i = 1; i < node->num_editions; ++i)
+        put_older(out, &node->editions[i], first);
+    fputs("</article>\n", out);
+}
+
+/* ---- The page ---- */
+
+static bool begins_group(const struct doc *doc, size_t i)
+{
+    return i == 0 || strcmp(doc->nodes[i - 1].group, doc->nodes[i].group) != 0;
+}
+
+static void put_navigation(const struct doc *doc, FILE *out)
+{
+    fputs("<nav>\n<h1><a href=\"#top\">Nodes</a></h1>\n"
+          "<input type=\"search\" placeholder=\"Search  /\" aria-label=\"Search\" hidden=\"hidden\"/>\n<div>\n", out);
+    for (size_t i = 0; i < doc->num_nodes; ++i) {
+        if (begins_group(doc, i)) {
+            fputs(i ? "</ul></section>\n<section>" : "<section>", out);
+            put_element(out, "h2", doc->nodes[i].group);
+            fputs("<ul>\n", out);
+        }
+        fputs("<li><a href=\"#", out);
+        put(out, doc->nodes[i].name);
+        fputs("\">", out);
+        put(out, doc->nodes[i].name);
+        fputs("</a></li>\n", out);
+    }
+    fputs(doc->num_nodes ? "</ul></section>\n</div></nav>\n" : "</div></nav>\n", out);
+}
+
+static void put_nodes(const struct doc *doc, FILE *out)
+{
+    for (size_t i = 0; i < doc->num_nodes; ++i) {
+        if (begins_group(doc, i)) {
+            fputs(i ? "</section>\n<section>" : "<section>", out);
+            put_element(out, "h2", doc->nodes[i].group);
+        }
+        put_node(doc, out, &doc->nodes[i]);
+    }
+    fputs(doc->num_nodes ? "</section>\n" : "", out);
+}
+
+void doc_write_html(const struct doc *doc, FILE *out)
+{
+    fputs("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
+          "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n"
+          "<meta name=\"color-scheme\" content=\"light dark\"/>\n<title>Node reference</title>\n<style>\n", out);
+    put_lines(out, doc_style);
+    fputs("</style>\n</head>\n<body id=\"top\">\n", out);
+    put_navigation(doc, out);
+    fprintf(out, "<main>\n<header>\n<p><strong>%zu</strong> nodes with <strong>%zu</strong> signatures, "
+                 "written by mxgen %s.</p>\n", doc->num_nodes, doc->num_variants, mxg_version_string());
+    fputs("<p>An input without a value of its own takes the default. A default that is a name, as <code>Nworld</code>, is a "
+          "property of the geometry. One number stands for equal components; where variants of a node differ, "
+          "all types and defaults are listed.</p>\n</header>\n", out);
+    put_nodes(doc, out);
+    fputs("<p id=\"none\" hidden=\"hidden\">Nothing has these words.</p>\n</main>\n<script>\n", out);
+    put_lines(out, doc_script);
+    fputs("</script>\n</body>\n</html>\n", out);
+}
