@@ -51,6 +51,9 @@ mxg_document *cli_load(struct cli *cli, const char *path);
 /* What a file of an element is called: its path with dots. To be freed. */
 char *cli_file_name(const char *element_path);
 
+/* The program mxgen-render: its path beside this one, else its name, for PATH. To be freed. */
+char *cli_renderer(void);
+
 /* Formats into new memory, to be freed; ends the program where there is none. */
 #if defined(__GNUC__)
 __attribute__((format(printf, 1, 2)))

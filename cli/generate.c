@@ -73,10 +73,21 @@ static void generate_element(struct generate *gen, const mxg_document *document,
     mxg_result_destroy(result);
 }
 
+/* A look is asked for its materials. */
+static void generate_asked(struct generate *gen, const mxg_document *document, const char *folder, const char *path)
+{
+    mxg_renderable material = {sizeof material};
+    uint32_t count = 0;
+    for (; mxg_document_look_material(document, path, count, &material) == MXG_OK; ++count)
+        generate_element(gen, document, folder, material.path);
+    if (count == 0)
+        generate_element(gen, document, folder, path);
+}
+
 static void generate_elements(struct generate *gen, const mxg_document *document, const char *folder)
 {
     for (size_t i = 0; i < gen->elements.len; ++i)
-        generate_element(gen, document, folder, gen->elements.items[i]);
+        generate_asked(gen, document, folder, gen->elements.items[i]);
     if (gen->elements.len)
         return;
     uint32_t count = mxg_document_num_renderables(document);

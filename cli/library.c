@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/* mxgen library: packs libraries into images, lists their definitions, expands their templates. */
-#include "cli/cli.h"
+/* mxgen library: packs libraries into images, lists and documents their definitions, expands their templates. */
 #include "cli/files.h"
+#include "cli/library_doc.h"
 
 #include <string.h>
 
@@ -17,20 +17,20 @@ static bool write_output(struct cli *cli, const char *path, const void *data, si
     return !reason;
 }
 
-static void pack(struct cli *cli, const char *output)
+static void pack(struct cli *cli, const struct library_args *args)
 {
     const void *data;
     size_t size;
     if (report_status(&cli->report, mxg_library_image(cli->library, &data, &size)))
-        write_output(cli, output, data, size);
+        write_output(cli, args->output, data, size);
 }
 
-static void expand(struct cli *cli, const char *output)
+static void expand(struct cli *cli, const struct library_args *args)
 {
     const char *text;
     size_t size;
     if (report_status(&cli->report, mxg_library_expand(cli->library, &text, &size)))
-        write_output(cli, output, text, size);
+        write_output(cli, args->output, text, size);
 }
 
 static void print_ports(const mxg_library *library, uint32_t nodedef, uint32_t first, uint32_t num)
@@ -43,9 +43,9 @@ static void print_ports(const mxg_library *library, uint32_t nodedef, uint32_t f
 }
 
 /* A line for each definition: "ND_mix_float  mix(fg:float, bg:float, mix:float) -> out:float". */
-static void list(struct cli *cli, const char *output)
+static void list(struct cli *cli, const struct library_args *args)
 {
-    (void)output;
+    (void)args;
     for (uint32_t i = 0; i < mxg_library_num_nodedefs(cli->library); ++i) {
         mxg_nodedef nodedef = {sizeof nodedef};
         if (mxg_library_nodedef(cli->library, i, &nodedef) != MXG_OK)
@@ -58,22 +58,35 @@ static void list(struct cli *cli, const char *output)
     }
 }
 
-static const struct {
+static const struct action {
     const char *name;
-    void (*run)(struct cli *cli, const char *output);
-    bool on_builtin; /* extends the library that is built in, where there are no paths or they extend it */
-} actions[] = {{"pack", pack, false}, {"list", list, true}, {"expand", expand, false}};
+    void (*run)(struct cli *cli, const struct library_args *args);
+    bool on_builtin; /* the paths extend the library that is built in */
+} actions[] = {{"pack", pack, false}, {"list", list, false}, {"expand", expand, false}, {"doc", library_doc, true}};
 #define NUM_ACTIONS (sizeof actions / sizeof *actions)
 
-/* The library of the paths alone, which is what can be packed; the built-in one where there are none. */
-static bool load(struct cli *cli)
+static const struct action *find_action(const char *name)
+{
+    for (size_t i = 0; i < NUM_ACTIONS; ++i) {
+        if (strcmp(name, actions[i].name) == 0)
+            return &actions[i];
+    }
+    fprintf(stderr, "mxgen: 'library %s' is none of pack, list, expand, doc\n", name);
+    return NULL;
+}
+
+/* The library of the paths; the built-in one where there are none. */
+static bool load(struct cli *cli, const struct action *action)
 {
     const struct arg_list *inputs = &cli->parser.inputs;
-    if (inputs->len == 1 && !cli->no_builtin_library) {
-        cli->library = mxg_library_builtin(cli->context);
+    mxg_library *builtin = cli->no_builtin_library ? NULL : mxg_library_builtin(cli->context);
+    if (inputs->len == 1 && builtin) {
+        cli->library = builtin;
         return true;
     }
-    mxg_status status = mxg_library_load(cli->context, NULL, inputs->items + 1, inputs->len - 1, &cli->library);
+    mxg_status status = mxg_library_load(cli->context, action->on_builtin ? builtin : NULL, inputs->items + 1, inputs->len - 1,
+                                         &cli->library);
+    mxg_library_unref(builtin);
     if (cli->library)
         report_list(&cli->report, mxg_library_diagnostics(cli->library));
     return report_status(&cli->report, status);
@@ -81,23 +94,21 @@ static bool load(struct cli *cli)
 
 int command_library(const struct command *command, int argc, char **argv)
 {
-    const char *output = NULL;
-    const struct arg args[] = {{"output", 'o', ARG_TEXT, "FILE", "where to write (default: standard output)", &output}};
+    struct library_args values = {0};
+    const struct arg args[] = {
+        {"output", 'o', ARG_TEXT, "PATH", "file to write (default: standard output); of doc the folder", &values.output},
+        {"html", 0, ARG_FLAG, NULL, "doc: writes index.html (default: both)", &values.html},
+        {"markdown", 0, ARG_FLAG, NULL, "doc: writes index.md", &values.markdown},
+        {"pictures", 0, ARG_FLAG, NULL, "doc: draws patterns, closures and shaders with mxgen-render", &values.pictures},
+    };
     struct cli cli;
     int code;
-    if (cli_start(&cli, command, args, 1, CLI_NEEDS_INPUT | CLI_LIBRARY_IS_INPUT, argc, argv, &code)) {
-        const char *word = cli.parser.inputs.items[0];
-        size_t i = 0;
-        while (i < NUM_ACTIONS && strcmp(word, actions[i].name) != 0)
-            ++i;
-        if (i == NUM_ACTIONS) {
-            fprintf(stderr, "mxgen: 'library %s' is none of pack, list, expand\n", word);
-            code = EXIT_USAGE;
-        } else {
-            if (load(&cli))
-                actions[i].run(&cli, output);
-            code = cli.report.errors ? EXIT_FAULT : EXIT_DONE;
-        }
+    if (cli_start(&cli, command, args, sizeof args / sizeof *args, CLI_NEEDS_INPUT | CLI_LIBRARY_IS_INPUT, argc, argv,
+                  &code)) {
+        const struct action *action = find_action(cli.parser.inputs.items[0]);
+        if (action && load(&cli, action))
+            action->run(&cli, &values);
+        code = !action ? EXIT_USAGE : cli.report.errors ? EXIT_FAULT : EXIT_DONE;
     }
     cli_finish(&cli);
     return code;

@@ -15,7 +15,7 @@ static const struct command commands[] = {
     {"validate", "validate FILE...", "Checks documents against the library: every node, connection and value.",
      command_validate},
     {"render", "render FILE -o PICTURE.png [options]", "Draws a lit sphere, without a display.", command_render},
-    {"library", "library pack|list|expand [PATH...] [-o FILE]", "Packs, lists and expands node libraries.",
+    {"library", "library pack|list|expand|doc [PATH...] [-o PATH]", "Packs, lists, expands and documents node libraries.",
      command_library},
 };
 #define NUM_COMMANDS (sizeof commands / sizeof *commands)

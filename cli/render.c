@@ -23,16 +23,22 @@ static const char *program_folder(char *buffer, size_t capacity)
     return buffer;
 }
 
+char *cli_renderer(void)
+{
+    char folder[4096];
+    char *path = cli_format("%s" RENDERER, program_folder(folder, sizeof folder));
+    if (access(path, X_OK) == 0)
+        return path;
+    free(path);
+    return cli_format(RENDERER);
+}
+
 int command_render(const struct command *command, int argc, char **argv)
 {
     (void)command;
     (void)argc;
-    char folder[4096];
-    char *path = cli_format("%s" RENDERER, program_folder(folder, sizeof folder));
-    if (access(path, X_OK) == 0)
-        execv(path, argv);
-    else
-        execvp(RENDERER, argv);
+    char *path = cli_renderer();
+    execvp(path, argv);
     fprintf(stderr,
             "error: cannot start '%s': it is built where glslang, Vulkan and OpenImageIO are installed [no-renderer]\n",
             path);

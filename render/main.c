@@ -11,8 +11,14 @@
 #include <string.h>
 
 #define OVERSAMPLING 2 /* samples for each pixel and axis */
-#define EXPOSURE 0.6   /* what a white surface in the scene's daylight needs */
 #define MAX_SIZE 4096
+
+enum scene_kind { SCENE_SPHERE, SCENE_PLANE, SCENE_GRID, NUM_SCENES };
+
+static const struct {
+    const char *name;
+    double exposure; /* what a white surface in the scene's daylight needs; values as they are: 1 */
+} scene_kinds[NUM_SCENES] = {[SCENE_SPHERE] = {"sphere", 0.6}, [SCENE_PLANE] = {"plane", 1.0}, [SCENE_GRID] = {"grid", 1.0}};
 
 struct picture {
     struct cli cli;
@@ -20,7 +26,7 @@ struct picture {
     struct arg_list settings; /* "path=value" */
     size_t samples;           /* of the environment */
     uint32_t width, height;
-    bool is_grid;
+    enum scene_kind scene_kind;
     struct bind_value *values;
     struct scene scene;
     struct gpu gpu;
@@ -93,7 +99,7 @@ static void resolve(const struct picture *picture, const float *samples, uint8_t
                     sum[c] += (double)sample[c] / (OVERSAMPLING * OVERSAMPLING);
             }
             for (size_t c = 0; c < 3; ++c)
-                out[c] = encode_srgb(EXPOSURE * sum[c] + backdrop * (1.0 - fmin(sum[3], 1.0)));
+                out[c] = encode_srgb(scene_kinds[picture->scene_kind].exposure * sum[c] + backdrop * (1.0 - fmin(sum[3], 1.0)));
             out[3] = 255;
         }
     }
@@ -158,7 +164,7 @@ static float *draw_element(struct picture *picture, const mxg_document *document
     return pixels;
 }
 
-static void draw_sphere(struct picture *picture, const mxg_document *document, const char *path)
+static void draw_picture(struct picture *picture, const mxg_document *document, const char *path)
 {
     float *samples = draw_element(picture, document, path, picture->element, OVERSAMPLING);
     if (samples)
@@ -191,10 +197,22 @@ static void draw_grid(struct picture *picture, const mxg_document *document, con
     }
 }
 
+static bool init_scene(struct picture *picture)
+{
+    switch (picture->scene_kind) {
+    case SCENE_GRID:
+        return scene_init_grid(&picture->scene);
+    case SCENE_PLANE:
+        return scene_init_plane(&picture->scene);
+    case SCENE_SPHERE:
+    default:
+        return scene_init_sphere(&picture->scene, (double)picture->width / picture->height);
+    }
+}
+
 static bool open_scene(struct picture *picture)
 {
-    if (!(picture->is_grid ? scene_init_grid(&picture->scene)
-                           : scene_init_sphere(&picture->scene, (double)picture->width / picture->height)))
+    if (!init_scene(picture))
         return report_status(&picture->cli.report, MXG_ERROR_MEMORY);
     picture->scene.environment_samples = (uint32_t)picture->samples;
     if (!gpu_open(&picture->gpu))
@@ -207,10 +225,10 @@ static void render_document(struct picture *picture, const char *path)
     mxg_document *document = cli_load(&picture->cli, path);
     if (document && open_scene(picture)) {
         compile_begin();
-        if (picture->is_grid)
+        if (picture->scene_kind == SCENE_GRID)
             draw_grid(picture, document, path);
         else
-            draw_sphere(picture, document, path);
+            draw_picture(picture, document, path);
         compile_end();
     }
     gpu_close(&picture->gpu);
@@ -218,18 +236,27 @@ static void render_document(struct picture *picture, const char *path)
     mxg_document_destroy(document);
 }
 
+static bool find_scene(struct picture *picture)
+{
+    for (unsigned i = 0; i < NUM_SCENES; ++i) {
+        picture->scene_kind = (enum scene_kind)i;
+        if (strcmp(picture->scene_name, scene_kinds[i].name) == 0)
+            return true;
+    }
+    fprintf(stderr, "mxgen: '%s' is no scene; there are sphere, plane and grid\n", picture->scene_name);
+    return false;
+}
+
 static int run(struct picture *picture)
 {
-    picture->is_grid = strcmp(picture->scene_name, "grid") == 0;
-    if (!picture->is_grid && strcmp(picture->scene_name, "sphere") != 0) {
-        fprintf(stderr, "mxgen: '%s' is no scene; there are sphere and grid\n", picture->scene_name);
+    if (!find_scene(picture))
         return EXIT_USAGE;
-    }
-    if (picture->cli.parser.inputs.len != 1 || (!picture->output && !picture->is_grid)) {
+    bool is_grid = picture->scene_kind == SCENE_GRID;
+    if (picture->cli.parser.inputs.len != 1 || (!picture->output && !is_grid)) {
         fputs("usage: mxgen render FILE -o PICTURE.png\n", stderr);
         return EXIT_USAGE;
     }
-    if (picture->is_grid)
+    if (is_grid)
         picture->size = "4";
     picture->values = parse_size(picture) ? split_settings(&picture->settings) : NULL;
     if (!picture->values)
@@ -252,7 +279,7 @@ int main(int argc, char **argv)
         {"set", 0, ARG_LIST, "PATH=VALUE", "another value for an input, or file for a texture", &picture.settings},
         {"samples", 0, ARG_SIZE, "N", "samples of the environment for each lobe (default: 16)", &picture.samples},
         {"scene", 0, ARG_TEXT, "NAME",
-         "sphere, or grid: prints the values of 4x4 pixels for each element instead (default: sphere)",
+         "sphere; plane, to see a pattern; grid: prints the values of 4x4 pixels for each element (default: sphere)",
          &picture.scene_name},
     };
     /* llvmpipe's optimiser takes minutes for large shaders; without it pictures are the same, and seconds are enough.

@@ -228,7 +228,7 @@ static void sphere_geometry(float s, float t, float position[3], float normal[3]
     }
 }
 
-static void sphere_texcoord(float s, float t, float out[2])
+static void plain_texcoord(float s, float t, float out[2])
 {
     out[0] = s;
     out[1] = t;
@@ -254,7 +254,7 @@ static bool make_sphere(struct scene *scene)
 bool scene_init_sphere(struct scene *scene, double aspect)
 {
     *scene = (struct scene){.geometry = sphere_geometry,
-                            .texcoord = sphere_texcoord,
+                            .texcoord = plain_texcoord,
                             .num_lights = SCENE_NUM_LIGHTS,
                             .environment_samples = 64};
     set_camera(scene, (const double[3]){0.5, 0.7, 3.4}, (const double[3]){0.05, -0.03, 0.1});
@@ -308,13 +308,13 @@ static bool make_grid(struct scene *scene)
 }
 
 /* The projection that puts the quad 0 <= s, t <= 1 over the whole picture, in front of the camera or not. */
-static struct matrix grid_projection(const struct scene *scene)
+static struct matrix quad_projection(const struct scene *scene, const double position[3][3])
 {
     double origin[3], ds[3], dt[3], normal[3];
     for (size_t i = 0; i < 3; ++i) {
-        origin[i] = grid_position[i][0];
-        ds[i] = grid_position[i][1];
-        dt[i] = grid_position[i][2];
+        origin[i] = position[i][0];
+        ds[i] = position[i][1];
+        dt[i] = position[i][2];
     }
     vector_cross(ds, dt, normal);
     struct matrix plane = matrix_identity();
@@ -336,7 +336,33 @@ bool scene_init_grid(struct scene *scene)
     scene->world = matrix_multiply(matrix_translation(target[0], target[1], target[2]),
                                    matrix_multiply(matrix_rotation(axis, 40.0), matrix_scale(1.3, 0.8, 1.6)));
     set_camera(scene, (const double[3]){1.1, 0.9, 4.3}, target);
-    scene->projection = grid_projection(scene);
+    scene->projection = quad_projection(scene, grid_position);
+    return environment_make(&scene->radiance, &scene->irradiance) && environment_make_test_texture(&scene->texture) &&
+           make_grid(scene);
+}
+
+/* The quad -1 <= x, y <= 1 without any distortion. */
+static const double plane_position[3][3] = {{-1, 2, 0}, {-1, 0, 2}, {0, 0, 0}};
+
+static void plane_geometry(float s, float t, float position[3], float normal[3], float tangent[3], float bitangent[3])
+{
+    for (size_t i = 0; i < 3; ++i) {
+        position[i] = (float)linear(plane_position[i], s, t);
+        tangent[i] = i == 0 ? 1.0f : 0.0f;
+        bitangent[i] = i == 1 ? 1.0f : 0.0f;
+        normal[i] = i == 2 ? 1.0f : 0.0f;
+    }
+}
+
+bool scene_init_plane(struct scene *scene)
+{
+    *scene = (struct scene){.geometry = plane_geometry,
+                            .texcoord = plain_texcoord,
+                            .num_lights = SCENE_NUM_LIGHTS,
+                            .environment_samples = 64,
+                            .world = matrix_identity()};
+    set_camera(scene, (const double[3]){0, 0, 3.4}, (const double[3]){0, 0, 0});
+    scene->projection = quad_projection(scene, plane_position);
     return environment_make(&scene->radiance, &scene->irradiance) && environment_make_test_texture(&scene->texture) &&
            make_grid(scene);
 }

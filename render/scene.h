@@ -22,7 +22,7 @@ struct scene {
     uint32_t num_lights;
     uint32_t environment_samples;
     struct image radiance, irradiance; /* latitude-longitude, first row towards +y */
-    struct image texture;              /* what a texture without a file shows; may have none */
+    struct image texture;              /* what every texture of the document shows; may have none */
 };
 
 /* A unit sphere in daylight with three lights, seen by a camera of the given aspect ratio. */
@@ -30,6 +30,9 @@ bool scene_init_sphere(struct scene *scene, double aspect);
 
 /* A quad over the whole picture, 4x4 cells, whose attributes are linear; what values of nodes are sampled on. */
 bool scene_init_grid(struct scene *scene);
+
+/* A quad over the whole picture, (s, t) from (0, 0) to (1, 1), with a texture instead of those of the document. */
+bool scene_init_plane(struct scene *scene);
 
 void scene_finish(struct scene *scene);
 

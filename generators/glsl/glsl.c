@@ -20,6 +20,7 @@ const struct lang_syntax glsl_syntax = {
     .max_reserved = sizeof reserved / sizeof *reserved - 1,
     .param_in = "const ", /* becomes a SPIR-V value; other parameters are variables, copied at every call */
     .param_in_assigned = "",
+    .wide_constants = true,
     .param_out = "out ",
     .param_inout = "inout ",
 };

@@ -87,19 +87,25 @@ static elem_id assigned_material(const struct search *s, elem_id assign)
     return doc_child_of_kind(s->doc, s->doc->root, KIND_NODE, doc_attr_value(s->doc, assign, STR_material));
 }
 
-/* A look stands for its material, where it has only one. Looks inherit from looks. */
+/* Looks inherit from looks. */
+static bool look_assigns(const struct search *s, elem_id look, elem_id material)
+{
+    for (unsigned depth = 0; look && depth < 100; depth++) {
+        for (elem_id e = doc_element(s->doc, look)->first_child; e; e = doc_element(s->doc, e)->next)
+            if (doc_element(s->doc, e)->kind == KIND_MATERIALASSIGN && assigned_material(s, e) == material)
+                return true;
+        look = doc_child_of_kind(s->doc, s->doc->root, KIND_LOOK, doc_attr_value(s->doc, look, STR_inherit));
+    }
+    return false;
+}
+
+/* A look stands for its material, where it has only one. */
 static elem_id find_in_look(const struct search *s, elem_id look)
 {
     struct choices materials = {0};
-    elem_id at = look;
-    for (unsigned depth = 0; at && depth < 100; depth++) {
-        for (elem_id e = doc_element(s->doc, at)->first_child; e; e = doc_element(s->doc, e)->next) {
-            elem_id material = doc_element(s->doc, e)->kind == KIND_MATERIALASSIGN ? assigned_material(s, e) : 0;
-            if (material)
-                add_choice(s, &materials, material);
-        }
-        at = doc_child_of_kind(s->doc, s->doc->root, KIND_LOOK, doc_attr_value(s->doc, at, STR_inherit));
-    }
+    for (uint32_t i = 0; i < s->document->renderables.len; i++)
+        if (look_assigns(s, look, s->document->renderables.items[i]))
+            add_choice(s, &materials, s->document->renderables.items[i]);
     return only_choice(s, look, &materials);
 }
 
@@ -119,7 +125,7 @@ static bool find_output(const struct search *s, elem_id node, str_id output, uns
     const struct library *lib = &s->document->layer;
     bool is_one_of_several = doc_attr_value(s->doc, node, STR_type) == STR_multioutput;
     if (output || !is_one_of_several) {
-        int index = library_resolve_output(lib, node, node, output, s->diags);
+        int index = library_resolve_output(lib, node, node, output, DOC_TYPE_NONE, s->diags);
         *out_index = index < 0 ? 0 : (unsigned)index;
         return index >= 0;
     }
@@ -208,4 +214,17 @@ elem_id document_find_element(const struct mxg_document *document, const char *p
     if (element && doc_element(s.doc, element)->kind == KIND_NODE && !find_output(&s, element, *out_output, out_index))
         return 0;
     return element;
+}
+
+mxg_status mxg_document_look_material(const mxg_document *document, const char *look, uint32_t index, mxg_renderable *out)
+{
+    if (!document || !look)
+        return MXG_ERROR_ARGUMENT;
+    struct search s = {document, &document->layer.doc, NULL};
+    elem_id element = find_own(&s, look, strlen(look));
+    bool is_look = element && doc_element(s.doc, element)->kind == KIND_LOOK;
+    for (uint32_t i = 0; is_look && i < document->renderables.len; i++)
+        if (look_assigns(&s, element, document->renderables.items[i]) && index-- == 0)
+            return mxg_document_renderable(document, i, out);
+    return MXG_ERROR_ARGUMENT;
 }

@@ -43,18 +43,32 @@ const char *mxg_result_source(const mxg_result *result, mxg_stage stage, size_t 
     return known ? result->stages[stage].text : NULL;
 }
 
-/* The origin that a line was marked with; 0: none. */
+/* Where a line (from 1) begins; the end of the source where it has fewer. */
+static size_t start_of_line(const struct stage_source *source, uint32_t line)
+{
+    const char *start = source->text, *end = start + source->size;
+    for (; line > 1 && start < end; line--) {
+        const char *newline = memchr(start, '\n', (size_t)(end - start));
+        start = newline ? newline + 1 : end;
+    }
+    return (size_t)(start - source->text);
+}
+
+/* The first origin that a line was marked with; 0: none. */
 static uint32_t origin_of_line(const struct stage_source *source, uint32_t line)
 {
-    uint32_t low = 0, high = source->num_lines;
+    if (line == 0 || !source->text)
+        return 0;
+    size_t start = start_of_line(source, line), end = start_of_line(source, line + 1);
+    uint32_t low = 0, high = source->num_marks;
     while (low < high) {
         uint32_t middle = low + (high - low) / 2;
-        if (source->lines[middle].line < line)
+        if (source->marks[middle].at < start)
             low = middle + 1;
         else
             high = middle;
     }
-    return low < source->num_lines && source->lines[low].line == line ? source->lines[low].origin : 0;
+    return low < source->num_marks && source->marks[low].at < end ? source->marks[low].origin : 0;
 }
 
 /* The innermost element of the document itself that the origin belongs to; 0: none. */

@@ -302,19 +302,19 @@ static bool spell_one(struct generation *g, const struct spell_options *options,
 {
     mxg_result *result = g->result;
     struct text source;
-    struct spell_line *lines;
+    struct spell_mark *marks;
     struct stage_source *out = &result->stages[stage];
     text_init(&source, &result->object.arena);
-    spell_shader_stage(result->target, options, &result->shader, stage, &g->scratch, &source, &lines, &out->num_lines);
+    spell_shader_stage(result->target, options, &result->shader, stage, &g->scratch, &source, &marks, &out->num_marks);
     uint32_t limit = result->object.context->max_output_mib;
     if (source.len > (uint64_t)limit << 20) {
         diag_add(diags_of(g), DIAG_ID_output_limit, doc_place(&g->document->layer.doc, g->element), (unsigned)limit);
         return false;
     }
-    struct spell_line *kept = ARENA_ARRAY(&result->object.arena, struct spell_line, out->num_lines);
-    if (out->num_lines)
-        memcpy(kept, lines, out->num_lines * sizeof *kept);
-    out->lines = kept;
+    struct spell_mark *kept = arena_alloc(&result->object.arena, out->num_marks * sizeof *kept);
+    if (out->num_marks)
+        memcpy(kept, marks, out->num_marks * sizeof *kept);
+    out->marks = kept;
     out->text = text_cstr(&source);
     out->size = source.len;
     return !is_cancelled(g);

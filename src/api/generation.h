@@ -11,8 +11,8 @@
 struct stage_source {
     const char *text; /* NULL: the target has no such stage */
     size_t size;
-    const struct spell_line *lines;
-    uint32_t num_lines;
+    const struct spell_mark *marks;
+    uint32_t num_marks;
 };
 
 struct mxg_result {

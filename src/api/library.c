@@ -101,6 +101,7 @@ static void read_paths(void *arg)
     library_index(&library->layer, &reader, &library->object.diagnostics.list);
     tell_deferred(library);
     library_resolve_graphs(&library->layer, &library->object.diagnostics.list);
+    lang_make_canonical(&library->layer.unit);
 }
 
 /* One layer: what `work` makes of the paths. */

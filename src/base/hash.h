@@ -13,19 +13,34 @@ static inline uint64_t hash_mix(uint64_t h, uint64_t word)
     return h ^ (h >> 29);
 }
 
+static inline uint64_t hash_load64(const unsigned char *p)
+{
+    uint64_t word;
+    memcpy(&word, p, sizeof word);
+    return word;
+}
+
+static inline uint64_t hash_load32(const unsigned char *p)
+{
+    uint32_t word;
+    memcpy(&word, p, sizeof word);
+    return word;
+}
+
+/* The last word overlaps the one before it, which spares a loop over what is left. */
 static inline uint32_t hash_bytes(const void *data, size_t size)
 {
-    const unsigned char *p = data;
-    uint64_t h = 0xcbf29ce484222325u ^ size;
-    for (; size >= 8; size -= 8, p += 8) {
-        uint64_t word;
-        memcpy(&word, p, 8);
-        h = hash_mix(h, word);
-    }
-    uint64_t tail = 0;
-    for (size_t i = 0; i < size; i++)
-        tail |= (uint64_t)p[i] << (8 * i);
-    h = hash_mix(h, tail);
+    const unsigned char *p = data, *end = p + size;
+    uint64_t h = 0xcbf29ce484222325u ^ size, last = 0;
+    for (; end - p > 8; p += 8)
+        h = hash_mix(h, hash_load64(p));
+    if (size >= 8)
+        last = hash_load64(end - 8);
+    else if (size >= 4)
+        last = hash_load32(p) << 32 | hash_load32(end - 4);
+    else if (size > 0)
+        last = (uint64_t)p[0] << 16 | (uint64_t)p[size / 2] << 8 | end[-1];
+    h = hash_mix(h, last);
     return (uint32_t)(h ^ (h >> 32));
 }
 

@@ -81,12 +81,15 @@ size_t mem_array_size(struct mem *mem, size_t n, size_t size);
                           : (void)0, \
      (v)->items[(v)->len++] = (__VA_ARGS__))
 
-/* Room for n more items; returns the address of the first, which are counted already but not initialised. */
-#define vec_extend(arena, v, n) \
+/* Room for n more items, so that the next n do not move the vector. */
+#define vec_reserve(arena, v, n) \
     ((v)->cap - (v)->len < (uint32_t)(n) ? (void)((v)->items = vec_more((arena), (v)->items, &(v)->cap, \
                                                                 sizeof *(v)->items, (v)->len + (uint32_t)(n) - (v)->cap)) \
-                                         : (void)0, \
-     (v)->len += (uint32_t)(n), (v)->items + ((v)->len - (uint32_t)(n)))
+                                         : (void)0)
+
+/* The same; returns the address of the first, and they are counted already but not initialised. */
+#define vec_extend(arena, v, n) \
+    (vec_reserve(arena, v, n), (v)->len += (uint32_t)(n), (v)->items + ((v)->len - (uint32_t)(n)))
 
 #define vec_last(v) ((v)->items[(v)->len - 1])
 #define vec_pop(v) ((v)->items[--(v)->len])

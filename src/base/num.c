@@ -8,27 +8,39 @@
 static const double exact_pow10[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
                                      1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
 
+enum { MAX_EXACT_POW10 = 22 };
+
 static double scale_pow10(double value, int exponent)
 {
-    for (; exponent > 22; exponent -= 22)
+    for (; exponent > MAX_EXACT_POW10; exponent -= MAX_EXACT_POW10)
         value *= 1e22;
-    for (; exponent < -22; exponent += 22)
+    for (; exponent < -MAX_EXACT_POW10; exponent += MAX_EXACT_POW10)
         value /= 1e22;
     return exponent >= 0 ? value * exact_pow10[exponent] : value / exact_pow10[-exponent];
 }
 
 /*
  * Fewest digits (as an integer) and the exponent of their last one, so that digits * 10^exponent == value > 0. Nine digits tell
- * all floats apart. The integers below 2^24 are all floats, so that no number beneath is short of its last digit before the
- * point: the search begins there, and elsewhere with one digit.
+ * all floats apart.
  */
-static uint64_t shortest_digits(float value, int *out_exponent)
+static uint32_t shortest_digits(float value, int exponent, int *out_exponent)
 {
-    bool moderate = value >= 1e-5f && value < 0x1p24f;
-    for (int exponent = moderate ? 0 : (int)floor(log10((double)value));; exponent--) {
-        uint64_t digits = (uint64_t)(scale_pow10((double)value, -exponent) + 0.5);
+    for (;; exponent--) {
+        uint32_t digits = (uint32_t)(scale_pow10((double)value, -exponent) + 0.5);
         if ((float)scale_pow10((double)digits, exponent) == value || digits >= 100000000) {
             *out_exponent = exponent;
+            return digits;
+        }
+    }
+}
+
+/* The same for numbers that need all their digits before the point, since every integer below 2^24 is a float. */
+static uint32_t shortest_fraction(float value, int *out_exponent)
+{
+    for (int places = 0;; places++) {
+        uint32_t digits = (uint32_t)((double)value * exact_pow10[places] + 0.5);
+        if ((float)((double)digits / exact_pow10[places]) == value || digits >= 100000000) {
+            *out_exponent = -places;
             return digits;
         }
     }
@@ -91,10 +103,14 @@ size_t num_print_float(char *out, float value)
     value = fabsf(value);
     if (isinf(value))
         return n + put(out + n, "inf");
-    if (value == 0.0f)
-        return n + put(out + n, "0.0");
+    if (value < 10.0f && value == (float)(int)value) { /* most numbers of a shader */
+        out[n] = (char)('0' + (int)value);
+        return n + 1 + put(out + n + 1, ".0");
+    }
+    bool moderate = value >= 1e-5f && value < 0x1p24f;
     int exponent;
-    uint64_t integer = shortest_digits(value, &exponent);
+    uint32_t integer = moderate ? shortest_fraction(value, &exponent)
+                                : shortest_digits(value, (int)floor(log10((double)value)), &exponent);
     char buffer[20], *end = buffer + sizeof buffer, *digits = end;
     for (; integer; integer /= 10)
         *--digits = (char)('0' + integer % 10);

@@ -101,8 +101,6 @@ ir_ref build_input(struct builder *b, struct instance *scope, elem_id node, cons
                    const struct binding *binding);
 /* What an input is when nothing is said: default value, geometric property, or nothing (0 for closures). */
 ir_ref build_default(struct builder *b, const struct port *port);
-/* A constant from text; poison and a diagnostic where it does not parse. */
-ir_ref build_constant(struct builder *b, doc_type type, str_id text, const struct port *port, struct diag_place place);
 /* The value of a geometric property by name: defaultgeomprop. */
 ir_ref build_geomprop(struct builder *b, str_id name, doc_type type, struct diag_place place);
 /* The path of an input: "SR_gold/base_color". */

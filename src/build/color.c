@@ -7,7 +7,7 @@
 
 /*
  * Other names of colour spaces: an alias of the specification ("Color Spaces and Color Management Systems"), those of old
- * documents, and those that the ASWF's Color Interop Forum recommends.
+ * documents, those that the ASWF's Color Interop Forum recommends, and those of OpenColorIO's configuration for ACES.
  */
 static const char *const aliases[][2] = {
     {"lin_ap1", "acescg"},
@@ -25,6 +25,28 @@ static const char *const aliases[][2] = {
     {"g22_rec709_scene", "g22_rec709"},
     {"g22_ap1_scene", "g22_ap1"},
     {"g22_adobergb_scene", "adobergb"},
+    {"lin_ap0_scene", "lin_ap0"},
+    {"lin_rec2020_scene", "lin_rec2020"},
+    {"lin_ciexyzd65_scene", "lin_ciexyzd65"},
+    {"Raw", "none"},
+    {"raw", "none"},
+    {"srgb_tx", "srgb_texture"},
+    {"sRGB - Texture", "srgb_texture"},
+    {"Utility - sRGB - Texture", "srgb_texture"},
+    {"sRGB Encoded Rec.709 (sRGB)", "srgb_texture"},
+    {"Linear Rec.709 (sRGB)", "lin_rec709"},
+    {"ACEScg", "acescg"},
+    {"ACES2065-1", "lin_ap0"},
+    {"Linear Rec.2020", "lin_rec2020"},
+    {"CIE XYZ-D65 - Scene-referred", "lin_ciexyzd65"},
+    {"Linear P3-D65", "lin_displayp3"},
+    {"sRGB Encoded P3-D65", "srgb_displayp3"},
+    {"Linear AdobeRGB", "lin_adobergb"},
+    {"Gamma 2.2 Encoded AdobeRGB", "adobergb"},
+    {"Gamma 2.2 Encoded AP1", "g22_ap1"},
+    {"Gamma 1.8 Encoded Rec.709", "g18_rec709"},
+    {"Gamma 2.2 Encoded Rec.709", "g22_rec709"},
+    {"Gamma 2.4 Encoded Rec.709", "rec709_display"},
 };
 
 static str_id canonical_space(struct builder *b, str_id space)
@@ -61,6 +83,16 @@ static const char *known_spaces(struct builder *b)
     return text_cstr(&out);
 }
 
+static const char *suggest_space(struct builder *b, str_id space)
+{
+    const char *names[sizeof aliases / sizeof *aliases * 2];
+    size_t count = 0;
+    for (size_t i = 0; i < sizeof aliases / sizeof *aliases; i++)
+        for (size_t k = 0; k < 2; k++)
+            names[count++] = aliases[i][k];
+    return diag_suggest(b->arena, build_text(b, space), names, count);
+}
+
 ir_ref build_color_transform(struct builder *b, ir_ref value, doc_type type, str_id space, struct diag_place place)
 {
     struct text name;
@@ -70,7 +102,7 @@ ir_ref build_color_transform(struct builder *b, ir_ref value, doc_type type, str
     str_id id = str_find(b->shader->strings, name.data, name.len);
     uint32_t nodedef = id ? library_nodedef_by_name(b->lib, id) : LIBRARY_NONE;
     if (nodedef == LIBRARY_NONE) {
-        diag_add(b->diags, DIAG_ID_unknown_colorspace, place, build_text(b, space), known_spaces(b));
+        diag_add(b->diags, DIAG_ID_unknown_colorspace, place, build_text(b, space), suggest_space(b, space), known_spaces(b));
         return ir_poison(b->graph, ir_type_of(b->graph, value));
     }
     ir_ref args[1] = {value};

@@ -60,19 +60,21 @@ static bool in_enum(struct builder *b, const struct port *port, str_id text)
     return false;
 }
 
-ir_ref build_constant(struct builder *b, doc_type type, str_id text, const struct port *port, struct diag_place place)
+/* The constant that attribute `value` of an element says; poison and a diagnostic where it does not parse. */
+static ir_ref constant(struct builder *b, const struct port *port, str_id text, elem_id element)
 {
-    ir_type_id ir = library_type_ir(b->lib, type);
+    ir_type_id ir = library_type_ir(b->lib, port->type);
     struct ir_value value;
     if (ir == IR_TYPE_STRING) {
-        if (port && (port->flags & PORT_ENUM) && text && !in_enum(b, port, text))
-            diag_add(b->diags, DIAG_ID_bad_enum_value, place, build_text(b, text),
+        if ((port->flags & PORT_ENUM) && text && !in_enum(b, port, text))
+            diag_add(b->diags, DIAG_ID_bad_enum_value, doc_attr_place(doc_of(b), element, STR_value), build_text(b, text),
                      build_text(b, doc_attr_value(doc_of(b), port->element, STR_enum)));
         return ir_const_string(b->graph, text);
     }
-    if (parse(b, type, text, port, &value))
+    if (parse(b, port->type, text, port, &value))
         return ir_const(b->graph, &value);
-    diag_add(b->diags, DIAG_ID_bad_value, place, build_text(b, text), build_text(b, library_type_name(b->lib, type)));
+    diag_add(b->diags, DIAG_ID_bad_value, doc_attr_place(doc_of(b), element, STR_value), build_text(b, text),
+             build_text(b, library_type_name(b->lib, port->type)));
     return ir_poison(b->graph, ir);
 }
 
@@ -294,7 +296,7 @@ ir_ref build_default(struct builder *b, const struct port *port)
     if (library_type_ir(b->lib, port->type) == IR_TYPE_STRING)
         return ir_const_string(b->graph, port->value);
     if ((port->flags & PORT_HAS_VALUE) && port->value && zero(b, port->type))
-        return build_constant(b, port->type, port->value, port, doc_attr_place(doc_of(b), port->element, STR_value));
+        return constant(b, port, port->value, port->element);
     return zero(b, port->type);
 }
 
@@ -310,8 +312,7 @@ static ir_ref literal(struct builder *b, const struct instance *scope, elem_id o
         return texture(b, scope, owner, port, element, name);
     if (ir_type_is_closure(type) || ir_type_is_shader(type))
         return 0; /* value="" is how documents write "nothing" */
-    ir_ref value = build_constant(b, port->type, doc_attr_value(doc_of(b), element, STR_value), port,
-                                  doc_attr_place(doc_of(b), element, STR_value));
+    ir_ref value = constant(b, port, doc_attr_value(doc_of(b), element, STR_value), element);
     if (outermost)
         value = publish(b, owner, port, element, name, value, true);
     if (port->type == DOC_TYPE_color3 || port->type == DOC_TYPE_color4) {
@@ -372,13 +373,16 @@ static ir_ref interface_arg(struct builder *b, struct instance *scope, const str
     uint32_t nodedef = alone ? implemented_nodedef(b, alone) : scope->nodedef;
     if (nodedef == LIBRARY_NONE && element_attr(b, alone, STR_nodedef)) /* reported when the document was read */
         return unset(b, scope, doc_element(doc_of(b), binding->element)->parent, port, binding->element, true);
-    int index = nodedef != LIBRARY_NONE ? library_find_input(b->lib, nodedef, name) : -1;
+    const struct port *ports = nodedef != LIBRARY_NONE ? library_ports(b->lib, nodedef, NULL) : NULL;
+    int index = ports && binding->input < library_nodedef(b->lib, nodedef)->num_inputs ? binding->input : -1;
+    if (ports && (index < 0 || ports[index].name != name))
+        index = library_find_input(b->lib, nodedef, name);
     if (index < 0) {
         diag_add(b->diags, DIAG_ID_dangling_interfacename, doc_attr_place(doc_of(b), binding->element, STR_interfacename),
                  build_text(b, name), suggest_interface(b, graph_around(b, binding->element), nodedef, name));
         return ir_poison(b->graph, library_type_ir(b->lib, port->type));
     }
-    const struct port *have = library_ports(b->lib, nodedef, NULL) + index;
+    const struct port *have = ports + index;
     if (have->type != port->type) {
         diag_add(b->diags, DIAG_ID_type_mismatch, doc_attr_place(doc_of(b), binding->element, STR_interfacename),
                  build_text(b, port->name), build_text(b, library_type_name(b->lib, port->type)),

@@ -64,7 +64,8 @@ const struct implementation *build_choose(struct builder *b, uint32_t nodedef, e
     if (!impl) {
         const struct nodedef *def = library_nodedef(b->lib, nodedef);
         diag_add(b->diags, DIAG_ID_missing_implementation, doc_place(&b->lib->doc, node), build_text(b, def->name),
-                 b->options->num_targets ? build_text(b, b->options->targets[0]) : "", "");
+                 b->options->num_targets ? build_text(b, b->options->targets[0]) : "",
+                 "; write it as a <nodegraph> or <implementation> with this 'nodedef'");
         diag_add(b->diags, DIAG_ID_defined_here, doc_place(&b->lib->doc, def->element), build_text(b, def->name));
     }
     return impl;

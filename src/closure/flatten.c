@@ -46,6 +46,15 @@ ir_ref closure_one_minus(struct ir_graph *g, ir_ref a)
     return ir_op2(g, IR_SUB, one, a);
 }
 
+/* The base of a leaf that modifies another closure; 0 where the leaf is none such. */
+static ir_ref modified_base(const struct flattener *f, ir_ref ref)
+{
+    const struct ir_node *node = ir_get(f->graph, ref);
+    if (node->op != IR_LEAF || f->host->leaf_functions(f->host->user_data, node->attr)[LEAF_FACTOR] == LANG_NONE)
+        return 0;
+    return ir_arg(f->graph, ref, node->num_args - 1);
+}
+
 /* ---- throughput, upwards ---- */
 
 static ir_ref leaf_throughput(struct flattener *f, ir_ref ref)
@@ -98,6 +107,11 @@ static void want_throughputs(struct flattener *f, uint32_t num_nodes)
         const struct ir_node *node = ir_get(f->graph, ref);
         if (!f->weights[ref].scalar && !f->wanted[ref])
             continue;
+        ir_ref base = modified_base(f, ref);
+        if (base) {
+            f->wanted[base] |= f->wanted[ref];
+            f->weights[base].scalar |= f->weights[ref].scalar;
+        }
         if (!is_operator(node))
             continue;
         const ir_ref *args = ir_args(f->graph, ref);
@@ -119,7 +133,9 @@ static void find_throughputs(struct flattener *f, uint32_t num_nodes)
             continue;
         uint8_t op = ir_get(f->graph, ref)->op;
         f->graph->origin = ir_get(f->graph, ref)->origin;
-        if (op == IR_LEAF)
+        if (modified_base(f, ref)) /* a modifier hides as much as what it modifies */
+            f->throughputs[ref] = f->throughputs[modified_base(f, ref)];
+        else if (op == IR_LEAF)
             f->throughputs[ref] = leaf_throughput(f, ref);
         else if (is_operator(ir_get(f->graph, ref)))
             f->throughputs[ref] = operator_throughput(f, ref);
@@ -205,8 +221,8 @@ static void spread(struct flattener *f, ir_ref ref)
         add_weight(f, b, w);
     } else { /* scale: BSDFs must not gain energy by it */
         ir_ref zero = ir_const_float(g, 0.0f), one = ir_const_float(g, 1.0f);
-        bool emits = ir_type_of(g, ref) == IR_TYPE_EDF;
-        add_scaled(f, a, w, emits ? b : ir_op3(g, IR_CLAMP, b, zero, one));
+        bool reflects = ir_type_of(g, ref) == IR_TYPE_BSDF;
+        add_scaled(f, a, w, reflects ? ir_op3(g, IR_CLAMP, b, zero, one) : b);
     }
 }
 
@@ -244,8 +260,8 @@ static void take_leaf(struct flattener *f, ir_ref ref, struct closure_list *out)
 {
     struct ir_graph *g = f->graph;
     struct weight w = f->weights[ref];
-    if (f->host->leaf_functions(f->host->user_data, ir_get(g, ref)->attr)[LEAF_FACTOR] != LANG_NONE) {
-        ir_ref base = ir_arg(g, ref, ir_get(g, ref)->num_args - 1);
+    ir_ref base = modified_base(f, ref);
+    if (base) {
         add_scaled(f, base, w, closure_call(f->shader, f->host, ref, LEAF_FACTOR, NULL));
         return;
     }

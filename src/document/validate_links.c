@@ -67,22 +67,30 @@ static elem_id find_output(struct validation *v, elem_id port, elem_id graph)
 {
     const struct document *doc = v->doc;
     str_id name = doc_attr_value(doc, port, STR_output);
-    elem_id first = 0, found = name ? doc_child_of_kind(doc, graph, KIND_OUTPUT, name) : 0;
+    const char *graph_name = text_of(v, doc_element(doc, graph)->name);
+    if (name) {
+        elem_id found = doc_child_of_kind(doc, graph, KIND_OUTPUT, name);
+        if (!found)
+            diag_add(v->diags, DIAG_ID_dangling_output, doc_attr_place(doc, port, STR_output), graph_name, text_of(v, name),
+                     suggest_child(v, graph, KIND_OUTPUT, name));
+        return found;
+    }
+    elem_id first = 0, fitting = 0;
     uint32_t count = 0;
-    for (elem_id e = doc_element(doc, graph)->first_child; e && !name; e = doc_element(doc, e)->next) {
+    for (elem_id e = doc_element(doc, graph)->first_child; e; e = doc_element(doc, e)->next) {
         if (doc_element(doc, e)->kind != KIND_OUTPUT)
             continue;
         count++;
         first = first ? first : e;
+        if (!fitting && doc_attr_value(doc, e, STR_type) == doc_attr_value(doc, port, STR_type))
+            fitting = e;
     }
-    str_id graph_name = doc_element(doc, graph)->name;
-    if (name && !found)
-        diag_add(v->diags, DIAG_ID_dangling_output, doc_attr_place(doc, port, STR_output), text_of(v, graph_name), text_of(v, name),
-                 suggest_child(v, graph, KIND_OUTPUT, name));
-    if (count > 1)
-        diag_add(v->diags, DIAG_ID_output_needed, doc_attr_place(doc, port, STR_nodegraph), text_of(v, graph_name),
-                 text_of(v, doc_element(doc, first)->name));
-    return name ? found : count == 1 ? first : 0;
+    elem_id assumed = fitting ? fitting : first;
+    if (count > 1) {
+        const char *output = text_of(v, doc_element(doc, assumed)->name);
+        diag_add(v->diags, DIAG_ID_output_needed, doc_attr_place(doc, port, STR_nodegraph), graph_name, output, output);
+    }
+    return assumed;
 }
 
 static void check_nodegraph(struct validation *v, elem_id port, str_id name)

@@ -37,8 +37,6 @@ static ir_ref fold(struct ir_graph *graph, enum ir_op op, ir_type_id type, uint3
  */
 static void sort_operands(const struct ir_graph *graph, enum ir_op op, ir_ref *args)
 {
-    if (op != IR_MUL && !(ir_op_info(op)->flags & OP_COMMUTES))
-        return;
     const struct ir_node *a = ir_get(graph, args[0]), *b = ir_get(graph, args[1]);
     bool a_is_const = a->op == IR_CONST, b_is_const = b->op == IR_CONST;
     bool sorted = a_is_const == b_is_const ? args[0] <= args[1] : b_is_const;
@@ -49,6 +47,11 @@ static void sort_operands(const struct ir_graph *graph, enum ir_op op, ir_ref *a
     args[1] = first;
 }
 
+static bool may_simplify(enum ir_op op)
+{
+    return (op >= IR_SELECT && op <= IR_INDEX) || (op >= IR_ADD && op <= IR_DIV);
+}
+
 ir_ref ir_build(struct ir_graph *graph, enum ir_op op, ir_type_id type, uint32_t attr, const ir_ref *args,
                 unsigned num_args)
 {
@@ -56,24 +59,28 @@ ir_ref ir_build(struct ir_graph *graph, enum ir_op op, ir_type_id type, uint32_t
     if (graph->no_fold || num_args == 0 || num_args > MAX_FOLD_ARGS)
         return ir_intern(graph, op, type, attr, args, num_args);
     ir_ref own[MAX_FOLD_ARGS]; /* simplifying adds nodes, and `args` may lie in the graph */
-    unsigned num_consts = 0, num_poisons = 0;
+    unsigned num_consts = 0, num_poisons = 0, flags = ir_op_info(op)->flags;
+    uint64_t present = 0, wanted = ir_rules[op].any;
     for (unsigned i = 0; i < num_args; i++) {
+        const struct ir_node *from = ir_get(graph, args[i]);
         own[i] = args[i];
-        unsigned from = ir_get(graph, args[i])->op;
-        num_consts += from == IR_CONST;
-        num_poisons += from == IR_POISON;
+        num_consts += from->op == IR_CONST;
+        num_poisons += from->op == IR_POISON;
+        if (wanted)
+            present |= from->op == IR_CONST ? ir_constant_bits(graph, from) : IR_OP_BIT(from->op);
+        for (unsigned k = 0; wanted && k < i; k++)
+            present |= own[k] == own[i] ? IR_EQUAL_BIT : 0;
     }
-    bool pure = ir_op_info(op)->flags & OP_PURE;
-    if (num_poisons && pure && op != IR_SELECT)
+    if (num_poisons && flags & OP_PURE && op != IR_SELECT)
         return ir_poison(graph, type);
     ir_ref result = 0;
-    if (num_consts == num_args && pure)
+    if (num_consts == num_args && flags & OP_PURE)
         result = fold(graph, op, type, attr, own, num_args);
-    if (!result) {
+    if (!result && (op == IR_MUL || flags & OP_COMMUTES))
         sort_operands(graph, op, own);
-        result = ir_apply_rules(graph, op, type, own, num_args);
-    }
-    if (!result && ((op >= IR_SELECT && op <= IR_INDEX) || (op >= IR_ADD && op <= IR_DIV)))
+    if (!result && present & wanted)
+        result = ir_apply_rules(graph, op, type, own, num_args, present);
+    if (!result && may_simplify(op))
         result = ir_simplify(graph, op, type, attr, own, num_args);
     return result ? result : ir_intern(graph, op, type, attr, own, num_args);
 }

@@ -6,7 +6,7 @@
 
 #include <assert.h>
 
-enum { FIRST_SLOTS = 1024 };
+enum { FIRST_SLOTS = 1024, FIRST_NODES = FIRST_SLOTS / 4 * 3 }; /* a shading model has some hundred nodes */
 
 /* What makes a node the node it is: all of struct ir_node but its flags and origin. */
 struct content {
@@ -43,24 +43,30 @@ static inline uint32_t hash_content(struct content c)
     return (uint32_t)(h ^ (h >> 32));
 }
 
-static inline bool equal(struct content a, struct content b)
+static inline bool has_content(const struct ir_graph *graph, ir_ref ref, struct content c)
 {
-    if (a.op != b.op || a.type != b.type || a.attr != b.attr || a.count != b.count)
+    const struct ir_node *node = ir_get(graph, ref);
+    if (node->op != c.op || node->type != c.type)
         return false;
-    for (uint32_t i = 0; i < a.count; i++)
-        if (a.data[i] != b.data[i])
+    const uint32_t *data = &graph->words.items[node->attr].u;
+    if (c.op != IR_CONST) {
+        if (node->attr != c.attr || node->num_args != c.count)
+            return false;
+        data = graph->args.items + node->first_arg;
+    }
+    for (uint32_t i = 0; i < c.count; i++)
+        if (data[i] != c.data[i])
             return false;
     return true;
 }
 
 /* The slot where a node of this content is, or the empty one where it belongs. */
-static inline uint32_t find_slot(const struct ir_graph *graph, struct content c, uint32_t hash)
+static inline uint32_t *find_slot(const struct ir_graph *graph, struct content c)
 {
-    for (uint32_t slot = hash & graph->table_mask;; slot = (slot + 1) & graph->table_mask) {
-        ir_ref ref = graph->table[slot];
-        if (!ref || (graph->hashes.items[ref] == hash && equal(content_of(graph, ref), c)))
-            return slot;
-    }
+    uint32_t i = hash_content(c) & graph->table_mask;
+    while (graph->table[i] && !has_content(graph, graph->table[i], c))
+        i = (i + 1) & graph->table_mask;
+    return &graph->table[i];
 }
 
 static void grow_table(struct ir_graph *graph)
@@ -74,28 +80,28 @@ static void grow_table(struct ir_graph *graph)
     graph->table_mask = slots - 1;
     memset(graph->table, 0, slots * sizeof *graph->table);
     for (ir_ref ref = 1; ref < graph->nodes.len; ref++) {
-        uint32_t slot = graph->hashes.items[ref] & graph->table_mask;
-        while (graph->table[slot])
-            slot = (slot + 1) & graph->table_mask;
-        graph->table[slot] = ref;
+        uint32_t i = hash_content(content_of(graph, ref)) & graph->table_mask;
+        while (graph->table[i])
+            i = (i + 1) & graph->table_mask;
+        graph->table[i] = ref;
     }
+}
+
+ir_ref ir_find_equal(const struct ir_graph *graph, ir_ref ref)
+{
+    return *find_slot(graph, content_of(graph, ref));
 }
 
 void ir_graph_init(struct ir_graph *graph, struct arena *arena, struct strpool *strings)
 {
     *graph = (struct ir_graph){.arena = arena, .strings = strings};
+    vec_reserve(arena, &graph->nodes, FIRST_NODES);
+    vec_reserve(arena, &graph->args, 2 * FIRST_NODES);
     vec_push(arena, &graph->nodes, (struct ir_node){.op = IR_POISON}); /* 0 is no node; it must not look like a constant */
-    vec_push(arena, &graph->hashes, 0);
     vec_push(arena, &graph->args, 0); /* so that there is something to point to */
     vec_push(arena, &graph->words, (union ir_word){.u = 0});
     vec_push(arena, &graph->origins, (struct ir_origin){0});
     grow_table(graph);
-}
-
-ir_ref ir_find_equal(const struct ir_graph *graph, ir_ref ref)
-{
-    struct content c = content_of(graph, ref);
-    return graph->table[find_slot(graph, c, hash_content(c))];
 }
 
 static bool function_has_derivative(const struct ir_graph *graph, const struct ir_function *function)
@@ -143,7 +149,7 @@ static uint32_t push_words(struct ir_graph *graph, const uint32_t *words, uint32
     return first;
 }
 
-static ir_ref add(struct ir_graph *graph, struct content c, uint32_t hash, uint32_t slot)
+static ir_ref add(struct ir_graph *graph, struct content c, uint32_t *slot)
 {
     if (graph->max_nodes && graph->nodes.len > graph->max_nodes && c.op != IR_POISON) {
         graph->overflow = true;
@@ -164,8 +170,7 @@ static ir_ref add(struct ir_graph *graph, struct content c, uint32_t hash, uint3
     }
     ir_ref ref = graph->nodes.len;
     vec_push(graph->arena, &graph->nodes, node);
-    vec_push(graph->arena, &graph->hashes, hash);
-    graph->table[slot] = ref;
+    *slot = ref;
     if (ref >= graph->table_mask / 4 * 3)
         grow_table(graph);
     return ref;
@@ -173,9 +178,8 @@ static ir_ref add(struct ir_graph *graph, struct content c, uint32_t hash, uint3
 
 static inline ir_ref find_or_add(struct ir_graph *graph, struct content c)
 {
-    uint32_t hash = hash_content(c), slot = find_slot(graph, c, hash);
-    ir_ref found = graph->table[slot];
-    return found ? found : add(graph, c, hash, slot);
+    uint32_t *slot = find_slot(graph, c);
+    return *slot ? *slot : add(graph, c, slot);
 }
 
 ir_ref ir_intern(struct ir_graph *graph, enum ir_op op, ir_type_id type, uint32_t attr, const ir_ref *args,

@@ -37,14 +37,30 @@ enum { RULE_LENGTH = 10 };
 
 struct rule {
     const char *name;
-    uint64_t needs; /* what must be present among a node's operands for the rule to be worth trying, see rules.c */
+    uint64_t needs; /* what must be present among a node's operands for the rule to be worth trying */
     bool exact; /* holds for every input; otherwise where all values are finite, and up to rounding and the sign of 0 */
     uint8_t pattern[RULE_LENGTH], replacement[RULE_LENGTH]; /* ended by RULE_END */
 };
-const struct rule *ir_rules_of(enum ir_op op, unsigned *out_num);
 
-/* What the first rule that fits makes of an op; 0 where none does. */
-ir_ref ir_apply_rules(struct ir_graph *graph, enum ir_op op, ir_type_id type, const ir_ref *args, unsigned num_args);
+struct rule_list {
+    const struct rule *rules;
+    unsigned num;
+    uint64_t any; /* what any of them needs */
+};
+extern const struct rule_list ir_rules[IR_NUM_OPS];
+
+/*
+ * A filter, since almost every node is left as it is: a rule needs each op and constant of its pattern among the operands, or two
+ * equal operands where it has none. Sets are sets of bits: a few ops share one, each kind of constant has its own.
+ */
+enum { IR_OP_BITS = 32 };
+#define IR_OP_BIT(op) ((uint64_t)1 << ((op) % IR_OP_BITS))
+#define IR_EQUAL_BIT ((uint64_t)1 << 63)
+uint64_t ir_constant_bits(const struct ir_graph *graph, const struct ir_node *node);
+
+/* What the first rule that fits makes of an op with these bits present among its operands; 0 where none does. */
+ir_ref ir_apply_rules(struct ir_graph *graph, enum ir_op op, ir_type_id type, const ir_ref *args, unsigned num_args,
+                      uint64_t present);
 
 /* check.c: NULL, or why no node may look like this. */
 const char *ir_node_problem(const struct ir_graph *graph, enum ir_op op, ir_type_id type, uint32_t attr,

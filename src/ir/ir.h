@@ -187,7 +187,6 @@ struct ir_graph {
     VEC(ir_ref) function_results;
     VEC(struct ir_user_type) user_types;
     VEC(struct ir_member) members;
-    VEC(uint32_t) hashes;      /* per node */
     uint32_t *table; /* hash-consing: open addressing over node indices */
     uint32_t table_mask;
     uint32_t *callee_table; /* the same over callee indices + 1 */

@@ -17,19 +17,11 @@ enum {
 
 enum { FINITE, EXACT };
 
-/*
- * A filter, since almost every node is left as it is: a rule needs each op and constant of its pattern among the
- * operands, or two equal operands where it has none. Sets are sets of bits: a few ops share one, each kind of constant has its own.
- */
-enum { NUM_OP_BITS = 48 };
-#define BIT(n) ((uint64_t)1 << (n))
-#define OP_BIT(op) BIT((op) % NUM_OP_BITS)
-#define CONSTANT_BIT(token) BIT(NUM_OP_BITS + (token) - K)
-#define EQUAL_BIT BIT(63)
-#define HEAD(token) ((token) < A ? OP_BIT(token) : (token) >= K ? CONSTANT_BIT(token) : 0)
-static_assert(NUM_OP_BITS + RULE_FALSE - RULE_K < 63, "the bits do not suffice");
+#define CONSTANT_BIT(token) ((uint64_t)1 << (IR_OP_BITS + (token) - K))
+#define HEAD(token) ((token) < A ? IR_OP_BIT(token) : (token) >= K ? CONSTANT_BIT(token) : 0)
+static_assert(IR_OP_BITS + RULE_FALSE - RULE_K < 63, "the bits do not suffice");
 #define HEADS(root, a, b, c, d, e, f, ...) (HEAD(a) | HEAD(b) | HEAD(c) | HEAD(d) | HEAD(e) | HEAD(f))
-#define NEEDS(...) (HEADS(__VA_ARGS__, A, A, A, A, A, A) ? HEADS(__VA_ARGS__, A, A, A, A, A, A) : EQUAL_BIT)
+#define NEEDS(...) (HEADS(__VA_ARGS__, A, A, A, A, A, A) ? HEADS(__VA_ARGS__, A, A, A, A, A, A) : IR_EQUAL_BIT)
 
 #define TOKENS(...) __VA_ARGS__, RULE_END
 #define RULE(name, exactness, pattern, replacement) \
@@ -42,21 +34,11 @@ static_assert(NUM_OP_BITS + RULE_FALSE - RULE_K < 63, "the bits do not suffice")
 #undef RULE
 #define RULE(name, exactness, pattern, replacement) | (NEEDS pattern)
 
-static const struct {
-    const struct rule *rules;
-    unsigned num;
-    uint64_t any; /* what any of them needs */
-} table[IR_NUM_OPS] = {
+const struct rule_list ir_rules[IR_NUM_OPS] = {
 #define RULES(op, ...) [IR_##op] = {rules_of_##op, sizeof rules_of_##op / sizeof *rules_of_##op, 0 __VA_ARGS__},
 #include "ir/rules.def"
 #undef RULES
 };
-
-const struct rule *ir_rules_of(enum ir_op op, unsigned *out_num)
-{
-    *out_num = table[op].num;
-    return table[op].rules;
-}
 
 static float token_value(unsigned token)
 {
@@ -186,7 +168,7 @@ static ir_ref replace(struct ir_graph *graph, const struct rule *rule, ir_type_i
 }
 
 /* The tokens that a constant may match, by its first component. */
-static uint64_t constant_bits(const struct ir_graph *graph, const struct ir_node *node)
+uint64_t ir_constant_bits(const struct ir_graph *graph, const struct ir_node *node)
 {
     union ir_word w = graph->words.items[node->attr];
     ir_type_id scalar = ir_type_info(node->type)->scalar;
@@ -205,32 +187,16 @@ static uint64_t constant_bits(const struct ir_graph *graph, const struct ir_node
     return bits;
 }
 
-static uint64_t present(const struct ir_graph *graph, const ir_ref *args, unsigned num_args)
+ir_ref ir_apply_rules(struct ir_graph *graph, enum ir_op op, ir_type_id type, const ir_ref *args, unsigned num_args,
+                      uint64_t present)
 {
-    uint64_t bits = 0;
-    for (unsigned i = 0; i < num_args; i++) {
-        const struct ir_node *node = ir_get(graph, args[i]);
-        bits |= node->op == IR_CONST ? constant_bits(graph, node) : OP_BIT(node->op);
-        for (unsigned k = 0; k < i; k++)
-            bits |= args[k] == args[i] ? EQUAL_BIT : 0;
-    }
-    return bits;
-}
-
-ir_ref ir_apply_rules(struct ir_graph *graph, enum ir_op op, ir_type_id type, const ir_ref *args, unsigned num_args)
-{
-    if (!table[op].any)
-        return 0;
-    uint64_t bits = present(graph, args, num_args);
-    if (!(bits & table[op].any))
-        return 0;
-    const struct rule *rules = table[op].rules, *end = rules + table[op].num;
+    const struct rule *rules = ir_rules[op].rules, *end = rules + ir_rules[op].num;
     struct match m = {.graph = graph};
     if (op == IR_MUL)
         m.linear = ir_is_linear_mul(ir_type_of(graph, args[0]), ir_type_of(graph, args[1]));
     for (const struct rule *rule = rules; rule < end; rule++) {
         m.exact = rule->exact;
-        if ((rule->needs & ~bits) || (graph->exact && !rule->exact) || !match(&m, rule, args, num_args))
+        if ((rule->needs & ~present) || (graph->exact && !rule->exact) || !match(&m, rule, args, num_args))
             continue;
         ir_ref result = replace(graph, rule, type, m.bound);
         if (result)

@@ -22,6 +22,11 @@ static bool is_vector(ir_type_id type)
     return type < IR_NUM_TYPES && ir_type_info(type)->components > 1 && ir_type_info(type)->columns == 1;
 }
 
+static bool is_float_vector(ir_type_id type)
+{
+    return type >= IR_TYPE_VEC2 && type <= IR_TYPE_VEC4;
+}
+
 static unsigned components_of(const struct ir_graph *graph, ir_ref ref)
 {
     return ir_type_info(ir_type_of(graph, ref))->components;
@@ -196,7 +201,7 @@ static bool is_scalar_float(const struct ir_graph *graph, ir_ref ref)
 static ir_ref splat_of(struct ir_graph *graph, ir_ref ref)
 {
     const struct ir_node *node = ir_get(graph, ref);
-    if (!is_vector(node->type) || ir_type_info(node->type)->scalar != IR_TYPE_FLOAT)
+    if (!is_float_vector(node->type))
         return 0;
     if (node->op == IR_CONSTRUCT && node->num_args == 1)
         return ir_arg(graph, ref, 0);
@@ -232,7 +237,7 @@ static ir_ref gather_scalars(struct ir_graph *graph, ir_ref a, ir_ref b)
  */
 static ir_ref simplify_arithmetic(struct ir_graph *graph, enum ir_op op, ir_type_id type, ir_ref a, ir_ref b)
 {
-    if (!is_vector(type) || ir_type_info(type)->scalar != IR_TYPE_FLOAT)
+    if (!is_float_vector(type))
         return 0;
     ir_ref sa = is_scalar_float(graph, a) ? a : splat_of(graph, a), sb = is_scalar_float(graph, b) ? b : splat_of(graph, b);
     if (sa && sb) {
@@ -280,7 +285,7 @@ static ir_ref simplify_select_or_zero(struct ir_graph *graph, ir_ref condition, 
 /* c ? v : v s = v (c ? 1 : s): what is chosen is a scalar. */
 static ir_ref simplify_select(struct ir_graph *graph, ir_type_id type, ir_ref condition, ir_ref a, ir_ref b)
 {
-    if (graph->exact || !is_vector(type) || ir_type_info(type)->scalar != IR_TYPE_FLOAT)
+    if (graph->exact || !is_float_vector(type))
         return 0;
     if (ir_const_is(graph, b, 0.0f))
         return simplify_select_or_zero(graph, condition, a);

@@ -91,7 +91,7 @@ static void find_uses(struct uses *uses, struct lang_function *function)
             uses->flags |= LANG_FN_STRINGS;
     for (uint32_t i = 0; i < uses->globals.len; i++) {
         uint8_t kind = lang_global(unit, uses->globals.items[i], NULL)->kind;
-        if (kind == LANG_GLOBAL_UNIFORM || kind == LANG_GLOBAL_STREAM)
+        if (kind != LANG_GLOBAL_CONST)
             uses->flags &= (uint16_t)~LANG_FN_PURE;
     }
     function->flags |= uses->flags;

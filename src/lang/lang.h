@@ -65,10 +65,11 @@ struct lang_slot { /* a parameter or local variable */
 
 enum lang_function_flags {
     LANG_FN_DERIVATIVE = 1, /* it or what it calls reads derivatives or textures with implicit level of detail */
-    LANG_FN_PURE = 2,       /* it and what it calls read no uniform, stream or sampler */
+    LANG_FN_PURE = 2,       /* it and what it calls read no uniform, stream, option or sampler */
     LANG_FN_STRAIGHT = 4,   /* no loops, nor in what it calls: may be lowered to IR whole */
     LANG_FN_STRINGS = 8,    /* it has string parameters: to be specialised before it is printed for hardware */
     LANG_FN_EXPRESSION = 16, /* an inline expression: no name, LANG_INPUT slots, body is RETURN expr */
+    LANG_FN_FINAL = 32,     /* nothing to specialise, unless arguments or callees are: canon.c */
 };
 
 struct lang_function {
@@ -85,6 +86,7 @@ struct lang_function {
     uint32_t dropped[2];            /* of a version: bit i is set where parameter i of the origin is gone */
     uint32_t first_callee, num_callees;   /* in unit->refs: function ids called directly, each once */
     uint32_t first_global, num_globals;   /* in unit->refs: globals read directly, each once */
+    uint32_t first_call, num_calls;       /* in unit->refs, where it is LANG_FN_FINAL: its CALL nodes, arguments first */
 };
 
 enum lang_global_kind { LANG_GLOBAL_CONST, LANG_GLOBAL_UNIFORM, LANG_GLOBAL_STREAM, LANG_GLOBAL_OPTION };
@@ -249,6 +251,12 @@ uint32_t lang_plan_version(const struct lang_unit *generated, uint32_t call);
 /* Is parameter `index` of the function that was given to lang_plan_call gone from its version? */
 bool lang_param_dropped(const struct lang_unit *generated, uint32_t version, uint32_t given, unsigned index);
 
+/*
+ * canon.c: replaces the trees of a layer's functions by what specialising makes of them where nothing is known of their arguments.
+ * For a library, once everything that is parsed for it has been; no generation may use it yet.
+ */
+void lang_make_canonical(struct lang_unit *unit);
+
 /* eval.c */
 
 /*
@@ -307,6 +315,7 @@ struct lang_syntax {
     const char *param_in_assigned;      /* prefix of one that is: "" in GLSL */
     const char *param_out, *param_inout; /* "out ", "inout "; OSL: "output " */
     bool float_literals_need_suffix;    /* 1.0f */
+    bool wide_constants;                /* max(v, vec3(0.0)), where a target has max(v, 0.0), too */
     bool array_braces;                  /* arrays are built as {a, b}, not float[2](a, b) */
 };
 

@@ -193,7 +193,7 @@ static bool is_worth_trying(struct lower *lo, const struct lang_unit *layer, con
         return true;
     enum known known = known_of(lo, layer, fn, in);
     if (known == A_CHOICE_KNOWN)
-        *out_budget = limit;
+        *out_budget = 2 * limit;
     else if (known == A_NUMBER_KNOWN && is_outer && fn->num_nodes <= LOWER_MAX_TRIED && !lo->max_graph_nodes)
         lo->max_graph_nodes = lo->graph->nodes.len + LOWER_TRIED_NODES;
     return known == A_CHOICE_KNOWN || (known == A_NUMBER_KNOWN && is_outer && fn->num_nodes <= LOWER_MAX_TRIED);

@@ -61,9 +61,26 @@ static uint32_t add_variant(struct lang_unit *unit, uint32_t function, uint32_t 
     return plan->variants.len;
 }
 
+/* In an open plan, the only variant of a function. */
+static uint32_t note_anything(struct lang_unit *unit, uint32_t function)
+{
+    struct lang_plan *plan = unit->plan;
+    uint32_t num_params = lang_function(unit, function, NULL)->num_params;
+    if (plan->first_variant[function])
+        return plan->first_variant[function] - 1;
+    plan->first_variant[function] = add_variant(unit, function, num_params);
+    struct variant *variant = &vec_last(&plan->variants);
+    variant->keeps_unused = true;
+    for (uint32_t i = 0; i < num_params; i++)
+        plan->facts.items[variant->first_fact + i] = FACT_VARIES;
+    return plan->variants.len - 1;
+}
+
 uint32_t plan_note_call(struct lang_unit *unit, uint32_t function, const fact *args, bool args_have_effects)
 {
     struct lang_plan *plan = unit->plan;
+    if (plan->is_open)
+        return note_anything(unit, function);
     const struct lang_unit *layer;
     const struct lang_function *fn = lang_function(unit, function, &layer);
     const struct lang_slot *params = ast_slot(layer, fn, 0);
@@ -105,6 +122,13 @@ uint32_t lang_plan_call(struct lang_unit *unit, uint32_t id, const union ir_word
             memcpy(vec_extend(unit->arena, &unit->words, count), args[i], count * sizeof **args);
     }
     return plan_note_call(unit, id, facts, false);
+}
+
+uint32_t plan_note_any(struct lang_unit *unit, uint32_t function)
+{
+    plan_of(unit);
+    unit->plan->is_open = true;
+    return plan_note_call(unit, function, NULL, true);
 }
 
 void lang_plan_finish(struct lang_unit *unit)

@@ -153,8 +153,34 @@ static void print_member(struct printer *p, const struct lang_node *node)
     text_str(p->out, str_text(p->unit->strings, layer->members.items[user->first_member + node->b].name));
 }
 
+/*
+ * A constant beside a vector is written as a vector: compilers of shading languages would fill one when the shader runs. Products have
+ * an operation of their own for a scalar.
+ */
+static bool spreads_constants(const struct lang_syntax *syntax, const struct lang_node *node)
+{
+    uint8_t rule = ir_op_info(node->op)->rule;
+    bool fits = rule == IR_RULE_SPLAT || (rule == IR_RULE_ARITH && node->op != IR_MUL);
+    return fits && syntax->wide_constants && !ast_is_user_type(node->type) && ir_type_info(node->type)->components > 1
+           && !ir_type_is_matrix(node->type) && node->op != IR_REFRACT;
+}
+
+static void print_operand_of(struct printer *p, lang_ref ref, ir_type_id wide, enum lang_precedence least)
+{
+    const struct lang_node *operand = ast_node(p->layer, ref);
+    if (!wide || operand->kind != LANG_CONST || operand->type != IR_TYPE_FLOAT) {
+        print_expression(p, ref, least);
+        return;
+    }
+    text_str(p->out, lang_syntax_type(p->syntax, wide));
+    text_char(p->out, '(');
+    print_expression(p, ref, LANG_PREC_ASSIGN);
+    text_char(p->out, ')');
+}
+
 struct operands {
     struct printer *printer;
+    ir_type_id wide; /* what constants are spread to; VOID: they are not */
     lang_ref refs[4];
 };
 
@@ -162,7 +188,7 @@ static void print_operand(void *user_data, unsigned index, enum lang_precedence 
 {
     struct operands *operands = user_data;
     (void)out; /* the printer's own */
-    print_expression(operands->printer, operands->refs[index], least);
+    print_operand_of(operands->printer, operands->refs[index], operands->wide, least);
 }
 
 static void print_form(struct printer *p, const struct lang_form *form, ir_type_id type, struct operands *operands)
@@ -190,12 +216,13 @@ static void print_op(struct printer *p, const struct lang_node *node, enum lang_
     bool parenthesised = form->precedence < least;
     if (parenthesised)
         text_char(p->out, '(');
+    ir_type_id wide = spreads_constants(p->syntax, node) ? node->type : IR_TYPE_VOID;
     if (form->infix) { /* most of what there is */
-        print_expression(p, node->a, (enum lang_precedence)form->precedence);
+        print_operand_of(p, node->a, wide, (enum lang_precedence)form->precedence);
         text_mem(p->out, form->text + 2, strlen(form->text + 2) - 2);
-        print_expression(p, ast_node(p->layer, node->a)->next, (enum lang_precedence)form->precedence + 1);
+        print_operand_of(p, ast_node(p->layer, node->a)->next, wide, (enum lang_precedence)form->precedence + 1);
     } else {
-        struct operands operands = {.printer = p};
+        struct operands operands = {.printer = p, .wide = wide};
         ast_list(p->layer, node->a, operands.refs, 4);
         print_form(p, form, node->type, &operands);
     }
@@ -284,7 +311,7 @@ static void print_assignment(struct printer *p, const struct lang_node *node)
         text_mem(p->out, form->text + 3, strlen(form->text) - 6);
     text_mem(p->out, "= ", 2);
     if (form && !form->infix) { /* no such operator there: x = f(x, y) */
-        print_form(p, form, ast_node(p->layer, node->a)->type, &(struct operands){p, {node->a, node->b}});
+        print_form(p, form, ast_node(p->layer, node->a)->type, &(struct operands){.printer = p, .refs = {node->a, node->b}});
         return;
     }
     print_expression(p, node->b, LANG_PREC_ASSIGN);

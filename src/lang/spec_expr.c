@@ -204,31 +204,6 @@ static lang_ref fold_part(struct spec *s, const struct lang_node *node, const la
     return whole.kind == LANG_GLOBAL ? element_of_global(s, node, whole.a, index.w[0].u) : 0;
 }
 
-/*
- * A constant beside a vector becomes a vector: compilers of shading languages would fill one when the shader runs. Products have an
- * operation of their own for a scalar.
- */
-static void widen_constants(struct spec *s, const struct lang_node *op, lang_ref *args, unsigned count)
-{
-    const struct ir_op_info *info = ir_op_info(op->op);
-    bool fits = info->rule == IR_RULE_SPLAT || (info->rule == IR_RULE_ARITH && op->op != IR_MUL);
-    if (!fits || ast_is_user_type(op->type) || ir_type_info(op->type)->components < 2 || ir_type_is_matrix(op->type)
-        || op->op == IR_REFRACT)
-        return;
-    for (unsigned i = 0; i < count; i++) {
-        struct lang_node *arg = spec_node(s, args[i]);
-        if (arg->kind != LANG_CONST || arg->type != IR_TYPE_FLOAT)
-            continue;
-        struct ir_value value = {.type = op->type};
-        for (unsigned k = 0; k < ir_type_info(op->type)->components; k++)
-            value.w[k] = *ast_words(s->unit, arg);
-        lang_ref next = arg->next, wide = spec_constant(s, &value, arg->place);
-        uint32_t words = spec_node(s, wide)->a;
-        arg = spec_node(s, args[i]);
-        *arg = (struct lang_node){.kind = LANG_CONST, .type = op->type, .a = words, .next = next, .place = arg->place};
-    }
-}
-
 static lang_ref spec_op(struct spec *s, struct lang_node node)
 {
     if (node.op == IR_SELECT)
@@ -244,8 +219,6 @@ static lang_ref spec_op(struct spec *s, struct lang_node node)
     if (!folded)
         folded = spec_fold(s, &node, args, count);
     s->changed |= folded != 0;
-    if (!folded)
-        widen_constants(s, &node, args, count);
     return folded ? folded : spec_add(s, node);
 }
 

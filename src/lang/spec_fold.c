@@ -160,11 +160,6 @@ static lang_ref shorten(struct spec *s, const struct lang_node *op, const lang_r
     return 0;
 }
 
-static bool is_arithmetic(unsigned op)
-{
-    return op == IR_ADD || op == IR_SUB || op == IR_MUL || op == IR_DIV;
-}
-
 static lang_ref simplify(struct spec *s, const struct lang_node *op, const lang_ref *args)
 {
     switch (op->op) {
@@ -200,5 +195,5 @@ lang_ref spec_fold(struct spec *s, const struct lang_node *op, const lang_ref *a
     lang_ref folded = fold_constants(s, op, args, num_args);
     if (!folded)
         folded = simplify(s, op, args);
-    return folded || !is_arithmetic(op->op) ? folded : shorten(s, op, args);
+    return folded || op->op != IR_MUL ? folded : shorten(s, op, args);
 }

@@ -58,7 +58,7 @@ static void use_callee(struct spec *s, uint32_t id)
 static void use_global(struct spec *s, const struct lang_node *node)
 {
     uint8_t kind = lang_global(s->unit, node->a, NULL)->kind;
-    if (kind == LANG_GLOBAL_UNIFORM || kind == LANG_GLOBAL_STREAM)
+    if (kind != LANG_GLOBAL_CONST)
         s->flags &= (uint16_t)~LANG_FN_PURE;
     if (!holds(s->globals.items, s->globals.len, node->a))
         vec_push(s->unit->arena, &s->globals, node->a);

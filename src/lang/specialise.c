@@ -45,10 +45,54 @@ static void bind(struct spec *s, struct chain *out)
     }
 }
 
-void spec_begin(struct lang_unit *unit, uint32_t variant)
+/* What a function passes whose tree is taken as it is. */
+static void note_call(struct spec *s, const struct lang_node *call)
 {
-    struct spec *s = open_variant(unit, variant);
-    uint32_t first_call = unit->plan->calls.len;
+    struct lang_unit *unit = s->unit;
+    fact args[SPEC_MAX_PARAMS];
+    uint32_t i = 0;
+    for (lang_ref ref = call->b; ref; ref = ast_node(s->layer, ref)->next, i++) {
+        const struct lang_node *arg = ast_node(s->layer, ref);
+        args[i] = arg->kind == LANG_CONST ? unit->words.len + 1 : FACT_VARIES;
+        if (arg->kind != LANG_CONST)
+            continue;
+        uint32_t count = ir_type_info(arg->type)->components;
+        memcpy(vec_extend(unit->arena, &unit->words, count), ast_words(s->layer, arg), count * sizeof(union ir_word));
+    }
+    uint32_t called = plan_note_call(unit, call->a, args, false);
+    vec_push(unit->arena, &unit->plan->calls, called);
+}
+
+static bool begin_final(struct spec *s)
+{
+    if (!(s->fn.flags & LANG_FN_FINAL))
+        return false;
+    for (uint32_t i = 0; i < s->fn.num_params; i++)
+        if (is_bound(s, i))
+            return false;
+    uint32_t first_call = s->unit->plan->calls.len;
+    for (uint32_t i = 0; i < s->fn.num_calls; i++)
+        note_call(s, ast_node(s->layer, s->layer->refs.items[s->fn.first_call + i]));
+    struct variant *v = variant_of(s);
+    v->is_final = true;
+    v->first_call = first_call;
+    return true;
+}
+
+/* Does it call what other functions are, too? */
+static bool stays_final(const struct spec *s)
+{
+    const struct lang_plan *plan = s->unit->plan;
+    const uint32_t *called = plan->calls.items + variant_of(s)->first_call;
+    for (uint32_t i = 0; i < s->fn.num_calls; i++)
+        if (plan->variants.items[called[i]].version != plan->variants.items[called[i]].function)
+            return false;
+    return true;
+}
+
+static void forward(struct spec *s)
+{
+    uint32_t first_call = s->unit->plan->calls.len;
     if (s->fn.num_slots)
         memset(s->known, 0, s->fn.num_slots * sizeof *s->known);
     s->changed = false;
@@ -59,7 +103,14 @@ void spec_begin(struct lang_unit *unit, uint32_t variant)
     v->body = statements.first;
     v->changed = s->changed;
     v->first_call = first_call;
-    v->num_calls = unit->plan->calls.len - first_call;
+    v->num_calls = s->unit->plan->calls.len - first_call;
+}
+
+void spec_begin(struct lang_unit *unit, uint32_t variant)
+{
+    struct spec *s = open_variant(unit, variant);
+    if (!begin_final(s))
+        forward(s);
 }
 
 /* Slots of the result: the parameters that are left, then what else is named. */
@@ -143,6 +194,12 @@ static void start_backward(struct spec *s)
 void spec_finish(struct lang_unit *unit, uint32_t variant)
 {
     struct spec *s = open_variant(unit, variant);
+    if (variant_of(s)->is_final) {
+        variant_of(s)->version = variant_of(s)->function;
+        if (stays_final(s))
+            return;
+        forward(s); /* its calls have been noted: nothing new is said of the callees */
+    }
     s->changed = variant_of(s)->changed;
     start_backward(s);
     spec_resolve(s);

@@ -37,6 +37,7 @@ struct variant { /* a function with the strings and flags that choose what it is
     lang_ref body;                 /* its tree's first statement, once the forward step has been */
     uint32_t version;              /* id of the function that it has become */
     bool changed;                  /* its tree is not the source's */
+    bool is_final;                 /* its source's tree is taken as it is, so far; first_call: the variants that it calls */
     bool keeps_unused;             /* parameters that nobody uses: some argument has effects */
 };
 
@@ -45,7 +46,8 @@ struct lang_plan {
     uint32_t num_ids;
     VEC(struct variant) variants;
     VEC(fact) facts;
-    VEC(lang_ref) calls;
+    VEC(uint32_t) calls;
+    bool is_open;      /* there are other calls than those seen: nothing is known of any argument */
     struct spec *spec; /* the one that makes all versions: its memory is used again */
 };
 
@@ -128,6 +130,7 @@ void spec_begin(struct lang_unit *unit, uint32_t variant);
 void spec_finish(struct lang_unit *unit, uint32_t variant);
 
 /* plan.c: tells what a call passes. Returns the variant that is called, which may be moved by further ones. */
+uint32_t plan_note_any(struct lang_unit *unit, uint32_t function); /* makes the plan an open one: no parameter is bound, or dropped */
 uint32_t plan_note_call(struct lang_unit *unit, uint32_t function, const fact *args, bool args_have_effects);
 
 #endif

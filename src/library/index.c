@@ -163,6 +163,8 @@ static void add_nodedef(struct indexer *ix, elem_id element)
         .first_impl = LIBRARY_NONE,
         .next_same_node = LIBRARY_NONE,
     };
+    if (!def.node && (def.node = attr(ix, element, STR_nodename)) != 0)
+        diag_add(ix->diags, DIAG_ID_nodedef_nodename, doc_attr_place(&lib->doc, element, STR_nodename));
     if (!def.node)
         return; /* definitions of options and the like */
     def.num_inputs = add_ports(ix, element, KIND_INPUT);
@@ -466,6 +468,8 @@ static void add_implementation(struct indexer *ix, elem_id element)
     const struct element *e = doc_element(&lib->doc, element);
     struct implementation impl = {.name = e->name, .target = attr(ix, element, STR_target), .element = element};
     str_id nodedef = attr(ix, element, STR_nodedef);
+    if (!nodedef)
+        return; /* of nothing, as validation tells */
     impl.nodedef = library_nodedef_by_name(lib, nodedef);
     if (impl.nodedef == LIBRARY_NONE) {
         diag_add(ix->diags, DIAG_ID_implementation_unknown_nodedef, doc_attr_place(&lib->doc, element, STR_nodedef),
@@ -502,7 +506,8 @@ static void add_functional_graph(struct indexer *ix, elem_id element)
                                   .element = element, .kind = IMPL_GRAPH, .ref = element};
     impl.nodedef = library_nodedef_by_name(lib, name);
     if (impl.nodedef == LIBRARY_NONE) {
-        diag_add(ix->diags, DIAG_ID_unknown_nodedef, doc_attr_place(&lib->doc, element, STR_nodedef), text_of(lib, name), "");
+        diag_add(ix->diags, DIAG_ID_unknown_nodedef, doc_attr_place(&lib->doc, element, STR_nodedef), text_of(lib, name),
+                 library_suggest_nodedef(lib, name, ix->diags->arena));
         return;
     }
     add_impl(ix, impl);
@@ -533,12 +538,24 @@ void library_index(struct library *lib, const struct lang_reader *reader, struct
     for_each(&ix, KIND_NODEGRAPH, add_functional_graph);
 }
 
-static void resolve_graph(struct library *lib, elem_id graph, struct resolve_out *out, struct diag_list *diags)
+/* What a graph's nodes read from its interface is found by number, unless another definition shares the graph. */
+static void number_interface(const struct library *lib, uint32_t nodedef, struct binding *bindings, uint32_t n)
 {
+    for (uint32_t i = 0; i < n; i++) {
+        int input = bindings[i].kind == BIND_INTERFACE ? library_find_input(lib, nodedef, bindings[i].ref) : -1;
+        bindings[i].input = input > 0 ? (uint16_t)input : 0;
+    }
+}
+
+static void resolve_graph(struct library *lib, const struct implementation *impl, struct resolve_out *out, struct diag_list *diags)
+{
+    elem_id graph = impl->ref;
     for (elem_id e = doc_element(&lib->doc, graph)->first_child; e; e = doc_element(&lib->doc, e)->next) {
         if (doc_element(&lib->doc, e)->kind != KIND_NODE || lib->element_info.items[e - lib->doc.first_element])
             continue;
+        uint32_t first = out->bindings.len;
         struct graph_node node = library_resolve_node(lib, e, out, diags);
+        number_interface(lib, impl->nodedef, out->bindings.items + first, out->bindings.len - first);
         vec_push(out->arena, &lib->graph_nodes, node);
         lib->element_info.items[e - lib->doc.first_element] = lib->graph_nodes.len;
     }
@@ -549,7 +566,7 @@ void library_resolve_graphs(struct library *lib, struct diag_list *diags)
     struct resolve_out out = {.arena = lib->doc.arena};
     for (uint32_t i = 0; i < lib->impls.len; i++)
         if (lib->impls.items[i].kind == IMPL_GRAPH && lib->impls.items[i].ref >= lib->doc.first_element)
-            resolve_graph(lib, lib->impls.items[i].ref, &out, diags);
+            resolve_graph(lib, &lib->impls.items[i], &out, diags);
     lib->bindings.items = out.bindings.items;
     lib->bindings.len = out.bindings.len;
 }

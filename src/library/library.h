@@ -87,7 +87,7 @@ enum binding_kind {
 struct binding {
     uint8_t kind;    /* enum binding_kind */
     uint8_t output;  /* BIND_NODE: which output */
-    uint16_t padding;
+    uint16_t input;  /* BIND_INTERFACE: where the definition has it, as far as that is known ahead */
     uint32_t ref;
     elem_id element; /* the <input>; 0 where the node has none */
 };
@@ -192,8 +192,15 @@ struct graph_node library_resolve_node(const struct library *lib, elem_id node, 
  */
 struct binding library_resolve_connection(const struct library *lib, elem_id port, doc_type type, struct diag_list *diags);
 
-/* The output that a node element's `output` attribute or, without one, its only output means; -1 after an error. `port` is who asks. */
-int library_resolve_output(const struct library *lib, elem_id port, elem_id node, str_id output, struct diag_list *diags);
+/* " (did you mean 'x'?)" for the name of a definition. */
+const char *library_suggest_nodedef(const struct library *lib, str_id name, struct arena *arena);
+
+/*
+ * The output of a node element that `output` names; without a name the only one or, with a warning, the first of the type. -1 after an
+ * error. `port` is who asks.
+ */
+int library_resolve_output(const struct library *lib, elem_id port, elem_id node, str_id output, doc_type type,
+                           struct diag_list *diags);
 
 /* image.c */
 

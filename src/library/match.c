@@ -114,33 +114,61 @@ static void report_unknown_inputs(const struct library *lib, uint32_t id, elem_i
     }
 }
 
+static void report_candidate(const struct library *lib, const struct nodedef *def, const struct candidate *c,
+                             struct diag_list *diags)
+{
+    const char *args[3] = {text_of(lib, c->a), text_of(lib, c->b), text_of(lib, c->c)};
+    struct text reason;
+    text_init(&reason, diags->arena);
+    unsigned arg = 0;
+    for (const char *p = c->reason; *p; p++) {
+        if (p[0] == '%' && p[1] == 's') {
+            text_str(&reason, args[arg++]);
+            p++;
+        } else {
+            text_char(&reason, *p);
+        }
+    }
+    diag_add(diags, DIAG_ID_nodedef_candidate, doc_place(&lib->doc, def->element), text_of(lib, def->name), text_cstr(&reason));
+}
+
+struct misfits {
+    uint32_t *items; /* ids of definitions */
+    uint32_t len, cap;
+};
+
+/* The definitions of the node's name that do not fit it, among those that give its type or the others. */
+static void collect_misfits(const struct library *lib, elem_id node, bool of_type, struct arena *arena, struct misfits *misfits)
+{
+    str_id category = doc_element(&lib->doc, node)->category;
+    for (const struct library *layer = lib; layer; layer = layer->base)
+        for (uint32_t own = first_of_node(layer, category); own != LIBRARY_NONE; own = layer->nodedefs.items[own].next_same_node) {
+            uint32_t id = layer->base_nodedefs + own;
+            bool gives = fit_outputs(lib, library_nodedef(lib, id), library_ports(lib, id, NULL), node).fit != FIT_NOT;
+            if (gives == of_type && fit(lib, id, node, false).fit == FIT_NOT)
+                vec_push(arena, misfits, id);
+        }
+}
+
+enum { MAX_CANDIDATES = 5 }; /* that are shown */
+
+/* Where there are some that give the node's type, only these: what keeps them from fitting is what the author wants to know. */
 static void report_candidates(const struct library *lib, elem_id node, struct diag_list *diags)
 {
     str_id category = doc_element(&lib->doc, node)->category;
     diag_add(diags, DIAG_ID_no_matching_nodedef, doc_place(&lib->doc, node), text_of(lib, category));
-    unsigned shown = 0;
-    for (const struct library *layer = lib; layer; layer = layer->base)
-        for (uint32_t own = first_of_node(layer, category); own != LIBRARY_NONE && shown < 40;
-             own = layer->nodedefs.items[own].next_same_node, shown++) {
-            struct candidate c = fit(lib, layer->base_nodedefs + own, node, false);
-            struct text reason;
-            text_init(&reason, diags->arena);
-            if (c.reason) {
-                const char *args[3] = {text_of(lib, c.a), text_of(lib, c.b), text_of(lib, c.c)};
-                unsigned arg = 0;
-                for (const char *p = c.reason; *p; p++) {
-                    if (p[0] == '%' && p[1] == 's') {
-                        text_str(&reason, args[arg++]);
-                        p++;
-                    } else {
-                        text_char(&reason, *p);
-                    }
-                }
-            }
-            const struct nodedef *def = &layer->nodedefs.items[own];
-            diag_add(diags, DIAG_ID_nodedef_candidate, doc_place(&lib->doc, def->element), text_of(lib, def->name),
-                     text_cstr(&reason));
-        }
+    struct misfits misfits = {0};
+    collect_misfits(lib, node, true, diags->arena, &misfits);
+    uint32_t of_type = misfits.len;
+    collect_misfits(lib, node, false, diags->arena, &misfits);
+    uint32_t shown = of_type ? of_type : misfits.len;
+    shown = shown < MAX_CANDIDATES ? shown : MAX_CANDIDATES;
+    for (uint32_t i = 0; i < shown; i++) {
+        struct candidate c = fit(lib, misfits.items[i], node, false);
+        report_candidate(lib, library_nodedef(lib, misfits.items[i]), &c, diags);
+    }
+    if (shown < misfits.len)
+        diag_add(diags, DIAG_ID_more_candidates, doc_place(&lib->doc, node), misfits.len - shown, text_of(lib, category));
 }
 
 static void report_unknown_node(const struct library *lib, elem_id node, struct diag_list *diags)
@@ -156,20 +184,28 @@ static void report_unknown_node(const struct library *lib, elem_id node, struct 
              diag_suggest(diags->arena, name, names.items, names.len));
 }
 
+const char *library_suggest_nodedef(const struct library *lib, str_id name, struct arena *arena)
+{
+    VEC(const char *) names = {0};
+    for (const struct library *layer = lib; layer; layer = layer->base)
+        for (uint32_t i = 0; i < layer->nodedefs.len; i++)
+            vec_push(arena, &names, text_of(lib, layer->nodedefs.items[i].name));
+    return diag_suggest(arena, text_of(lib, name), names.items, names.len);
+}
+
 static uint32_t match_explicit(const struct library *lib, elem_id node, str_id name, struct diag_list *diags)
 {
     uint32_t id = library_nodedef_by_name(lib, name);
     if (id == LIBRARY_NONE) {
-        diag_add(diags, DIAG_ID_unknown_nodedef, doc_attr_place(&lib->doc, node, STR_nodedef), text_of(lib, name), "");
+        diag_add(diags, DIAG_ID_unknown_nodedef, doc_attr_place(&lib->doc, node, STR_nodedef), text_of(lib, name),
+                 library_suggest_nodedef(lib, name, diags->arena));
         return LIBRARY_NONE;
     }
     const struct nodedef *def = library_nodedef(lib, id);
     str_id category = doc_element(&lib->doc, node)->category;
-    if (def->node != category) {
+    if (def->node != category)
         diag_add(diags, DIAG_ID_nodedef_of_other_node, doc_attr_place(&lib->doc, node, STR_nodedef), text_of(lib, name),
                  text_of(lib, def->node), text_of(lib, category));
-        return LIBRARY_NONE;
-    }
     struct candidate c = fit(lib, id, node, true);
     if (c.fit == FIT_NOT) {
         report_candidates(lib, node, diags);

@@ -38,18 +38,47 @@ static const char *suggest_child(const struct library *lib, elem_id scope, int k
     VEC(const char *) names = {0};
     for (elem_id e = doc_element(&lib->doc, scope)->first_child; e; e = doc_element(&lib->doc, e)->next) {
         const struct element *child = doc_element(&lib->doc, e);
-        if (child->name && (kind < 0 || child->kind == kind) && names.len < 4096)
+        if (child->name && child->kind == kind && names.len < 4096)
             vec_push(diags->arena, &names, text_of(lib, child->name));
     }
     return diag_suggest(diags->arena, text_of(lib, name), names.items, names.len);
 }
 
+/* Connections do not reach into graphs, but authors try. */
+static void report_elsewhere(const struct library *lib, elem_id root, elem_id scope, str_id name, struct diag_list *diags)
+{
+    const struct document *doc = &lib->doc;
+    for (elem_id e = doc_element(doc, root)->first_child; e; e = doc_element(doc, e)->next) {
+        bool is_other = e != scope && doc_element(doc, e)->kind == KIND_NODEGRAPH;
+        elem_id node = is_other ? doc_child_of_kind(doc, e, KIND_NODE, name) : 0;
+        if (!node)
+            continue;
+        diag_add(diags, DIAG_ID_in_other_graph, doc_place(doc, node), text_of(lib, doc_element(doc, e)->name));
+        return;
+    }
+}
+
 static const struct binding bind_error = {.kind = BIND_ERROR};
 
-int library_resolve_output(const struct library *lib, elem_id port, elem_id node, str_id output, struct diag_list *diags)
+static void report_assumed(const struct library *lib, elem_id port, const char *of, str_id output, struct diag_list *diags)
 {
-    str_id type = doc_attr_value(&lib->doc, node, STR_type);
-    if (!output && type != STR_multioutput)
+    const char *name = text_of(lib, output);
+    diag_add(diags, DIAG_ID_output_needed, doc_place(&lib->doc, port), of, name, name);
+}
+
+/* Which output of several is meant where the document does not say: the first of the type, else the first, as for MaterialX. */
+static int assume_output(const struct port *outputs, unsigned num_outputs, doc_type type)
+{
+    for (unsigned i = 0; i < num_outputs; i++)
+        if (outputs[i].type == type)
+            return (int)i;
+    return 0;
+}
+
+int library_resolve_output(const struct library *lib, elem_id port, elem_id node, str_id output, doc_type type,
+                           struct diag_list *diags)
+{
+    if (!output && doc_attr_value(&lib->doc, node, STR_type) != STR_multioutput)
         return 0;
     uint32_t id = library_match(lib, node, diags);
     if (id == LIBRARY_NONE)
@@ -57,11 +86,9 @@ int library_resolve_output(const struct library *lib, elem_id port, elem_id node
     const struct nodedef *def = library_nodedef(lib, id);
     const struct port *outputs = library_ports(lib, id, NULL) + def->num_inputs;
     const char *name = text_of(lib, doc_element(&lib->doc, node)->name);
-    if (!output && def->num_outputs > 1) {
-        diag_add(diags, DIAG_ID_output_needed, doc_place(&lib->doc, port), name, text_of(lib, outputs[0].name));
-        return -1;
-    }
-    int index = output ? library_find_output(lib, id, output) : 0;
+    int index = output ? library_find_output(lib, id, output) : assume_output(outputs, def->num_outputs, type);
+    if (!output && def->num_outputs > 1)
+        report_assumed(lib, port, name, outputs[index].name, diags);
     if (index < 0) {
         VEC(const char *) names = {0};
         for (unsigned i = 0; i < def->num_outputs; i++)
@@ -94,18 +121,30 @@ static struct diag_place connection_place(const struct document *doc, elem_id po
     return doc_attr_place(doc, port, STR_output);
 }
 
+static bool is_convertible(const struct library *lib, str_id from, str_id to, struct arena *arena)
+{
+    struct text name;
+    text_init(&name, arena);
+    text_fmt(&name, "ND_convert_%s_%s", text_of(lib, from), text_of(lib, to));
+    str_id id = str_find(&lib->strings, name.data, name.len);
+    return id && library_nodedef_by_name(lib, id) != LIBRARY_NONE;
+}
+
 static void report_type(const struct library *lib, elem_id port, doc_type want, str_id have, elem_id at,
                         struct diag_list *diags)
 {
+    str_id wanted = library_type_name(lib, want);
     diag_add(diags, DIAG_ID_type_mismatch, connection_place(&lib->doc, port), text_of(lib, doc_element(&lib->doc, port)->name),
-             text_of(lib, library_type_name(lib, want)), text_of(lib, have));
+             text_of(lib, wanted), text_of(lib, have));
     diag_add(diags, DIAG_ID_connected_here, doc_place(&lib->doc, at), text_of(lib, doc_element(&lib->doc, at)->name));
+    if (is_convertible(lib, have, wanted, diags->arena))
+        diag_add(diags, DIAG_ID_convert_between, doc_place(&lib->doc, port), text_of(lib, wanted), text_of(lib, have));
 }
 
 static struct binding bind_node(const struct library *lib, elem_id asker, elem_id port, elem_id node, doc_type type,
                                 struct diag_list *diags)
 {
-    int output = library_resolve_output(lib, port, node, doc_attr_value(&lib->doc, port, STR_output), diags);
+    int output = library_resolve_output(lib, port, node, doc_attr_value(&lib->doc, port, STR_output), type, diags);
     str_id have = output >= 0 ? output_type(lib, node, output, diags) : 0;
     if (!have)
         return bind_error;
@@ -116,8 +155,8 @@ static struct binding bind_node(const struct library *lib, elem_id asker, elem_i
     return (struct binding){.kind = BIND_NODE, .output = (uint8_t)output, .ref = node, .element = port};
 }
 
-/* The <output> of a graph that `port` means by its `output` attribute, or the only one. */
-static elem_id graph_output(const struct library *lib, elem_id port, elem_id graph, struct diag_list *diags)
+/* The <output> of a graph that `port` means by its `output` attribute, or by its type. */
+static elem_id graph_output(const struct library *lib, elem_id port, elem_id graph, doc_type type, struct diag_list *diags)
 {
     str_id name = doc_attr_value(&lib->doc, port, STR_output);
     if (name) {
@@ -128,21 +167,23 @@ static elem_id graph_output(const struct library *lib, elem_id port, elem_id gra
                      suggest_child(lib, graph, KIND_OUTPUT, name, diags));
         return output;
     }
-    elem_id only = 0;
+    const char *graph_name = text_of(lib, doc_element(&lib->doc, graph)->name);
+    elem_id first = 0, fitting = 0;
+    unsigned count = 0;
     for (elem_id e = doc_element(&lib->doc, graph)->first_child; e; e = doc_element(&lib->doc, e)->next) {
         if (doc_element(&lib->doc, e)->kind != KIND_OUTPUT)
             continue;
-        if (only) {
-            diag_add(diags, DIAG_ID_output_needed, doc_place(&lib->doc, port),
-                     text_of(lib, doc_element(&lib->doc, graph)->name), text_of(lib, doc_element(&lib->doc, only)->name));
-            return 0;
-        }
-        only = e;
+        count++;
+        first = first ? first : e;
+        if (!fitting && library_type(lib, doc_attr_value(&lib->doc, e, STR_type)) == type)
+            fitting = e;
     }
-    if (!only)
-        diag_add(diags, DIAG_ID_dangling_output, doc_place(&lib->doc, port),
-                 text_of(lib, doc_element(&lib->doc, graph)->name), "out", "");
-    return only;
+    elem_id assumed = fitting ? fitting : first;
+    if (count == 0)
+        diag_add(diags, DIAG_ID_dangling_output, doc_place(&lib->doc, port), graph_name, "out", "");
+    if (count > 1)
+        report_assumed(lib, port, graph_name, doc_element(&lib->doc, assumed)->name, diags);
+    return assumed;
 }
 
 /* The next port to look at, or 0 with *out telling the end of the chain. */
@@ -168,11 +209,13 @@ static elem_id follow(const struct library *lib, elem_id asker, elem_id port, do
             return 0;
         }
         if (target && doc_element(doc, target)->kind == KIND_NODEGRAPH)
-            return graph_output(lib, port, target, diags);
+            return graph_output(lib, port, target, type, diags);
         str_id missing = name ? name : graph_name;
         diag_add(diags, name ? DIAG_ID_dangling_nodename : DIAG_ID_dangling_nodegraph,
                  doc_attr_place(doc, port, name ? STR_nodename : STR_nodegraph), text_of(lib, missing),
-                 suggest_child(lib, scope, name ? -1 : KIND_NODEGRAPH, missing, diags));
+                 suggest_child(lib, scope, name ? KIND_NODE : KIND_NODEGRAPH, missing, diags));
+        if (name)
+            report_elsewhere(lib, root_of(lib, port), scope, name, diags);
         return 0;
     }
     str_id interface = doc_attr_value(doc, port, STR_interfacename);
@@ -227,16 +270,19 @@ struct graph_node library_resolve_node(const struct library *lib, elem_id node, 
     const struct port *ports = library_ports(lib, result.nodedef, NULL);
     struct binding *bindings = vec_extend(out->arena, &out->bindings, def->num_inputs);
     memset(bindings, 0, def->num_inputs * sizeof *bindings);
+    unsigned port = 0; /* most nodes have their inputs in the definition's order */
     for (elem_id e = doc_element(&lib->doc, node)->first_child; e; e = doc_element(&lib->doc, e)->next) {
         const struct element *input = doc_element(&lib->doc, e);
         if (input->kind != KIND_INPUT)
             continue;
-        for (unsigned i = 0; i < def->num_inputs; i++)
-            if (ports[i].name == input->name) {
-                struct binding b = library_resolve_connection(lib, e, ports[i].type, diags);
-                out->bindings.items[result.first_binding + i] = b;
-                break;
-            }
+        for (unsigned tried = 0; tried < def->num_inputs; tried++, port++) {
+            port = port < def->num_inputs ? port : 0;
+            if (ports[port].name != input->name)
+                continue;
+            struct binding b = library_resolve_connection(lib, e, ports[port].type, diags);
+            out->bindings.items[result.first_binding + port] = b;
+            break;
+        }
     }
     return result;
 }

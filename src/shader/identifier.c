@@ -12,15 +12,36 @@ static bool is_letter(char c)
 }
 
 /* GLSL 4.50, section 3.7: names with "__" or "gl_" in front are the implementation's. */
-size_t identifier_from(const char *text, size_t len, char *out)
+static bool is_reserved_prefix(const char *text, size_t len)
 {
+    return len >= 3 && memcmp(text, "gl_", 3) == 0;
+}
+
+static bool is_identifier(const char *text, size_t len)
+{
+    if (len == 0 || is_digit(text[0]) || is_reserved_prefix(text, len))
+        return false;
+    for (size_t i = 0; i < len; i++)
+        if (!is_letter(text[i]) && !is_digit(text[i]) && (text[i] != '_' || (i > 0 && text[i - 1] == '_')))
+            return false;
+    return true;
+}
+
+const char *identifier_from(const char *text, size_t len, struct arena *arena, size_t *out_len)
+{
+    *out_len = len;
+    if (is_identifier(text, len))
+        return text;
+    char *out = arena_alloc(arena, len + 2);
     size_t n = 0;
-    if (len == 0 || is_digit(text[0]) || (len >= 3 && memcmp(text, "gl_", 3) == 0))
+    if (len == 0 || is_digit(text[0]) || is_reserved_prefix(text, len))
         out[n++] = 'x';
     for (size_t i = 0; i < len; i++) {
         char c = is_letter(text[i]) || is_digit(text[i]) ? text[i] : '_';
         if (c != '_' || n == 0 || out[n - 1] != '_')
             out[n++] = c;
     }
-    return n;
+    out[n] = '\0';
+    *out_len = n;
+    return out;
 }

@@ -22,12 +22,15 @@ const char *shader_block_name(enum shader_block block)
     return names[block];
 }
 
+enum { FIRST_VARIABLES = 80 }; /* variables are large: a shading model's are not to be moved while they come */
+
 void shader_init(struct shader *shader, struct arena *arena, struct strpool *strings, struct ir_graph *graph,
                  struct lang_unit *unit)
 {
     *shader = (struct shader){.arena = arena, .strings = strings, .graph = graph, .unit = unit, .max_lights = 3};
     for (int stage = 0; stage < NUM_STAGES; stage++)
         shader->stages[stage].reach.arena = arena;
+    vec_reserve(arena, &shader->variables, FIRST_VARIABLES);
 }
 
 /* ---- Names ---- */
@@ -75,11 +78,10 @@ static bool is_taken(const struct shader *shader, uint32_t scope, str_id name)
 
 static str_id unique_name(struct shader *shader, uint32_t scope, str_id wanted)
 {
-    size_t len = str_len(shader->strings, wanted);
-    char *base = arena_alloc(shader->arena, len + 2);
-    size_t base_len = identifier_from(str_text(shader->strings, wanted), len, base);
-    bool is_identifier = base_len == len && memcmp(base, str_text(shader->strings, wanted), len) == 0;
-    str_id name = is_identifier ? wanted : str_intern(shader->strings, base, base_len);
+    const char *text = str_text(shader->strings, wanted);
+    size_t base_len;
+    const char *base = identifier_from(text, str_len(shader->strings, wanted), shader->arena, &base_len);
+    str_id name = base == text ? wanted : str_intern(shader->strings, base, base_len);
     for (uint32_t number = 2; is_taken(shader, scope, name); number++) {
         struct text numbered;
         text_init(&numbered, shader->arena);

@@ -201,8 +201,11 @@ ir_ref shader_vertex_stream(struct shader *shader, str_id name, ir_type_id type)
 void shader_effect(struct shader *shader, enum shader_stage_id stage, struct effect effect);
 uint32_t shader_add_local(struct shader *shader, str_id name, ir_type_id type);
 
-/* identifier.c: text as an identifier: other characters become '_', no leading digit, no "__", no "gl_" in front; "x" for nothing. */
-size_t identifier_from(const char *text, size_t len, char *out); /* at most len + 2 bytes; returns the length */
+/*
+ * identifier.c: text as an identifier: other characters become '_', no leading digit, no "__", no "gl_" in front; "x" for nothing.
+ * The text itself where it is one already.
+ */
+const char *identifier_from(const char *text, size_t len, struct arena *arena, size_t *out_len);
 
 /*
  * finish.c: the last step before spelling. Adds what the stages' statements need from the host, drops vertex data that the pixel stage

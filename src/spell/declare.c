@@ -21,6 +21,11 @@ static const char *variable_name(const struct spell *spell, const struct shader_
     return str_text(spell->shader->strings, variable->name);
 }
 
+static bool stage_reads(const struct spell *spell, const struct shader_variable *variable)
+{
+    return variable->stages >> spell->stage_id & 1;
+}
+
 /* ---- Names ---- */
 
 void spell_name_interface(struct spell *spell)
@@ -36,7 +41,8 @@ void spell_name_interface(struct spell *spell)
         if (variable->block == BLOCK_VERTEX_DATA)
             name = concat(spell, io_block ? "vd." : "vd_", name);
         spell->variables[spell->shader->interface.items[i]] = name;
-        if (variable->block != BLOCK_LIGHT_DATA && !(variable->block == BLOCK_VERTEX_DATA && io_block))
+        bool declared = spell->blocks || stage_reads(spell, variable);
+        if (declared && variable->block != BLOCK_LIGHT_DATA && !(variable->block == BLOCK_VERTEX_DATA && io_block))
             names_take(&spell->names, name, strlen(name));
     }
 }
@@ -51,11 +57,6 @@ static void declare(struct spell *spell, const struct shader_variable *variable,
         text_u32(spell->out, variable->array_length);
         text_char(spell->out, ']');
     }
-}
-
-static bool stage_reads(const struct spell *spell, const struct shader_variable *variable)
-{
-    return variable->stages >> spell->stage_id & 1;
 }
 
 /* Does this stage use a variable of the block? */

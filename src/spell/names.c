@@ -40,7 +40,7 @@ static void grow(struct name_set *names)
     }
 }
 
-/* The entry of a name in the current scope; *out_new tells whether it was free. The text is copied where it is new. */
+/* The entry of a name in the current scope; *out_new tells whether it was free. */
 static struct name_entry *take(struct name_set *names, const char *text, uint32_t len, bool *out_new)
 {
     uint32_t hash = hash_bytes(text, len);
@@ -55,8 +55,7 @@ static struct name_entry *take(struct name_set *names, const char *text, uint32_
         return entry;
     }
     *out_new = true;
-    struct name_entry entry = {arena_strndup(names->arena, text, len), len, hash, names->scope, 2};
-    vec_push(names->arena, &names->entries, entry);
+    vec_push(names->arena, &names->entries, (struct name_entry){text, len, hash, names->scope, 2});
     *slot = names->entries.len;
     uint32_t index = names->entries.len - 1;
     if (names->entries.len * 2 > names->mask)
@@ -73,28 +72,23 @@ bool names_take(struct name_set *names, const char *text, size_t len)
 
 const char *names_unique(struct name_set *names, const char *text, size_t len)
 {
-    char small[64];
-    char *name = len + 16 <= sizeof small ? small : arena_alloc(names->arena, len + 16);
-    size_t n = identifier_from(text, len, name);
-    name[n] = '\0';
+    size_t base_len;
+    const char *base = identifier_from(text, len, names->arena, &base_len);
     bool is_new;
-    struct name_entry *entry = take(names, name, (uint32_t)n, &is_new);
-    if (is_new && !lang_syntax_is_reserved(names->syntax, entry->text))
-        return entry->text;
-    if (name[n - 1] != '_')
-        name[n++] = '_';
+    struct name_entry *entry = take(names, base, (uint32_t)base_len, &is_new);
+    if (is_new && !lang_syntax_is_reserved(names->syntax, base))
+        return base;
     uint32_t first = (uint32_t)(entry - names->entries.items);
     for (;;) {
-        uint32_t number = names->entries.items[first].next++;
-        char digits[10];
-        size_t count = 0, end = n;
-        do
-            digits[count++] = (char)('0' + number % 10);
-        while ((number /= 10) > 0);
-        while (count)
-            name[end++] = digits[--count];
-        entry = take(names, name, (uint32_t)end, &is_new);
+        struct text name;
+        text_init(&name, names->arena);
+        text_mem(&name, base, base_len);
+        if (base[base_len - 1] != '_')
+            text_char(&name, '_');
+        text_u32(&name, names->entries.items[first].next++);
+        const char *numbered = text_cstr(&name);
+        take(names, numbered, (uint32_t)name.len, &is_new);
         if (is_new)
-            return entry->text;
+            return numbered;
     }
 }

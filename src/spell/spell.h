@@ -25,7 +25,8 @@ struct name_set {
 
 void names_init(struct name_set *names, struct arena *arena, const struct lang_syntax *syntax);
 void names_open_scope(struct name_set *names); /* a new function: the names of the one before are free again */
-/* `text` made an identifier, with a number behind it where that is reserved or taken. Valid as long as the arena. */
+/* Texts given to these two must live as long as the set. */
+/* `text` made an identifier, with a number behind it where that is reserved or taken. */
 const char *names_unique(struct name_set *names, const char *text, size_t len);
 /* Takes a name as it is; false where it is taken already. */
 bool names_take(struct name_set *names, const char *text, size_t len);
@@ -40,14 +41,12 @@ struct spell {
     enum shader_stage_id stage_id;
     struct arena *scratch;
     struct text *out;
-    VEC(struct spell_line) lines; /* ascending */
-    uint32_t line;                /* of the end of out */
-    size_t counted;               /* bytes of out whose lines are counted */
+    VEC(struct spell_mark) marks; /* ascending */
     bool blocks;                  /* uniforms stand in blocks */
     struct name_set names;
     struct lang_names lang_names; /* for the portable printer */
     const char **variables;       /* how each interface variable is read in this stage */
-    const char **functions;       /* names of portable functions by id; NULL: not reached */
+    const char **functions;       /* names of portable functions by id, of those that are reached */
     const char **graph_functions; /* names of IR functions by index */
     const char **user_types;      /* names of structs by index, of the unit */
     const char **locals;          /* names of the stage's mutable variables */
@@ -97,8 +96,12 @@ static inline void spell_indent(struct spell *spell, unsigned indent)
     while (indent--)
         text_mem(spell->out, "    ", 4);
 }
-/* Notes that the line at hand comes from an origin. */
-void spell_mark_line(struct spell *spell, uint32_t origin);
+/* Notes that what follows on the line at hand comes from an origin. */
+static inline void spell_mark(struct spell *spell, uint32_t origin)
+{
+    if (origin)
+        vec_push(spell->scratch, &spell->marks, (struct spell_mark){spell->out->len, origin});
+}
 static inline bool spell_can(const struct spell *spell, uint32_t cap) { return (spell->target->caps & cap) != 0; }
 
 #endif

@@ -2,17 +2,6 @@
 /* A stage of a C-like target, section by section: version, interface, functions, main. */
 #include "spell/spell.h"
 
-void spell_mark_line(struct spell *spell, uint32_t origin)
-{
-    const char *data = spell->out->data;
-    for (const char *p; (p = memchr(data + spell->counted, '\n', spell->out->len - spell->counted)) != NULL;) {
-        spell->line++;
-        spell->counted = (size_t)(p + 1 - data);
-    }
-    if (origin)
-        vec_push(spell->scratch, &spell->lines, (struct spell_line){spell->line, origin});
-}
-
 /* ---- Names of functions and types ---- */
 
 static bool equal_parameters(const struct spell *spell, uint32_t a, uint32_t b)
@@ -194,7 +183,8 @@ static void init(struct spell *spell)
     const struct lang_unit *unit = shader->unit;
     spell->blocks = spell_can(spell, CAP_UNIFORM_BLOCKS) || (spell_can(spell, CAP_BLOCK_OPTION) && spell->options->uniform_blocks);
     spell->variables = ARENA_ARRAY(arena, const char *, shader->variables.len + 1);
-    spell->functions = ARENA_ARRAY(arena, const char *, unit->base_functions + unit->functions.len + 1);
+    uint32_t num_functions = unit->base_functions + unit->functions.len;
+    spell->functions = arena_alloc(arena, mem_array_size(arena->mem, num_functions, sizeof *spell->functions));
     spell->graph_functions = ARENA_ARRAY(arena, const char *, shader->graph->functions.len + 1);
     spell->user_types = ARENA_ARRAY(arena, const char *, unit->base_user_types + unit->user_types.len + 1);
     spell->locals = ARENA_ARRAY(arena, const char *, shader->locals.len + 1);
@@ -211,18 +201,18 @@ static void init(struct spell *spell)
 }
 
 void spell_shader_stage(const struct target *target, const struct spell_options *options, const struct shader *shader,
-                        enum shader_stage_id stage, struct arena *scratch, struct text *out, struct spell_line **out_lines,
-                        uint32_t *out_num_lines)
+                        enum shader_stage_id stage, struct arena *scratch, struct text *out, struct spell_mark **out_marks,
+                        uint32_t *out_num_marks)
 {
     struct spell spell = {
         .target = target, .options = options, .shader = shader, .stage = &shader->stages[stage], .stage_id = stage,
-        .scratch = scratch, .out = out, .line = 1, .counted = out->len,
+        .scratch = scratch, .out = out,
     };
     init(&spell);
     const struct target *writer = target;
     while (!writer->stage && writer->base)
         writer = writer->base;
     (writer->stage ? writer->stage : spell_stage)(&spell, stage);
-    *out_lines = spell.lines.items;
-    *out_num_lines = spell.lines.len;
+    *out_marks = spell.marks.items;
+    *out_num_marks = spell.marks.len;
 }

@@ -6,7 +6,7 @@
 
 static void open_line(struct spell *spell, unsigned indent, uint32_t origin)
 {
-    spell_mark_line(spell, origin);
+    spell_mark(spell, origin);
     spell_indent(spell, indent);
 }
 
@@ -385,8 +385,8 @@ void spell_graph_function(struct spell *spell, const struct shader_function *fun
     for (uint32_t i = 0; i + 1 < fn->num_params + fn->num_results; i++) {
         bool in = i < fn->num_params;
         uint32_t index = in ? i : i - fn->num_params + 1;
-        (void)snprintf(name, sizeof name, "%c%u", in ? 'p' : 'r', (unsigned)index);
-        names_take(&spell->names, name, strlen(name));
+        size_t len = (size_t)snprintf(name, sizeof name, "%c%u", in ? 'p' : 'r', (unsigned)index);
+        names_take(&spell->names, arena_strndup(spell->scratch, name, len), len);
         if (i)
             text_mem(spell->out, ", ", 2);
         ir_type_id type = in ? graph->param_types.items[fn->first_param_type + index]

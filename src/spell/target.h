@@ -64,14 +64,15 @@ struct spell_options {
     const char *(*path)(void *user_data, uint32_t origin);
 };
 
-/* One line of output and the node it came from: output line → origin, for mapping compiler messages back. */
-struct spell_line {
-    uint32_t line, origin;
+/* Where in the source the text of an origin begins: for mapping compiler messages back. */
+struct spell_mark {
+    size_t at;
+    uint32_t origin;
 };
 
-/* Writes one stage's source to `out`; the line map goes to `*out_lines`. */
+/* Writes one stage's source to `out`; its marks, in order, go to `*out_marks`. */
 void spell_shader_stage(const struct target *target, const struct spell_options *options, const struct shader *shader,
                         enum shader_stage_id stage, struct arena *scratch, struct text *out,
-                        struct spell_line **out_lines, uint32_t *out_num_lines);
+                        struct spell_mark **out_marks, uint32_t *out_num_marks);
 
 #endif

@@ -213,7 +213,7 @@ static void test_elements(void)
         const char *path, *fault; /* an id, or NULL */
         const char *meant;        /* the path of what was generated */
     } cases[] = {
-        {NULL, NULL, "one/out"},
+        {NULL, NULL, "M"},
         {"M", NULL, "M"},
         {"L", NULL, "M"},
         {"S", NULL, "S"},
@@ -240,7 +240,11 @@ static void test_elements(void)
     };
     struct bench b;
     bench_open(&b, elements);
-    REQUIRE_EQ(mxg_document_num_renderables(b.document), 4); /* one/out, two/x, two/y, M */
+    REQUIRE_EQ(mxg_document_num_renderables(b.document), 1); /* M */
+    mxg_renderable material = {sizeof material};
+    REQUIRE(mxg_document_look_material(b.document, "L", 0, &material) == MXG_OK && strcmp(material.path, "M") == 0);
+    REQUIRE_EQ(mxg_document_look_material(b.document, "L", 1, &material), MXG_ERROR_ARGUMENT);
+    REQUIRE_EQ(mxg_document_look_material(b.document, "M", 0, &material), MXG_ERROR_ARGUMENT);
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         mxg_result *result = generate(&b, "glsl", cases[i].path, cases[i].fault ? MXG_ERROR_DOCUMENT : MXG_OK);
         mxg_shader_info info = {sizeof info};

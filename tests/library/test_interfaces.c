@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Every definition of the built-in library has the interface that MaterialX 1.39 gives it. interfaces.tsv says it, a row per definition:
+ * Every definition of the built-in library has the interface that MaterialX 1.39 (interfaces.tsv) or ShaderX 2018 (shaderx.tsv; its
+ * surface, volume, displacement and blackbody are MaterialX's, and what it leaves open is as in the node it stands on) gives it, or is
+ * listed as ours (colorspaces.tsv).
+ * A row per definition:
  *
  *     name  node  library  version  isdefault  group  inherit  inputs  outputs
  *
- * Ports are separated by " | ". An input is "name:type[@geomprop][=value][ [uniform]][ {enum}][ unit:type/unit]", an output
- * "name:type[=value][ default value][ ->input]", of which the interface tells the default.
+ * Ports are separated by " | ". An input is "name:type[@geomprop][=value][ [uniform]][ {enum}][ unit:type/unit][ range:min..max]", an
+ * output "name:type[=value][ default value][ ->input]", of which the interface tells the default. A range that is not given may be any.
  *
- *     test_interfaces INTERFACES.TSV
+ *     test_interfaces TABLE...
  */
 #include <mxgen/mxgen.h>
 
@@ -61,7 +64,7 @@ static const struct row *find_row(const char *name)
 /* ---- Ports ---- */
 
 struct port {
-    char name[64], type[64], geomprop[64], value[512], enums[512], unit[64];
+    char name[64], type[64], geomprop[64], value[512], enums[512], unit[64], min[32], max[32];
     bool uniform;
 };
 
@@ -91,10 +94,16 @@ static void parse_port(const char *text, size_t len, bool is_output, struct port
     out->uniform = strstr(rest, " [uniform]") != NULL;
     cut(rest, " [uniform", "]", uniform, sizeof uniform);
     cut(rest, " {", "}", out->enums, sizeof out->enums);
-    char unit[128], passed_input[64], output_default[128];
+    char unit[128], range[64], passed_input[64], output_default[128];
     cut(rest, " ->", "", passed_input, sizeof passed_input);
     cut(rest, " default ", "\n", output_default, sizeof output_default); /* to the end */
     cut(rest, " unit:", "", unit, sizeof unit);
+    cut(rest, " range:", "", range, sizeof range);
+    const char *dots = strstr(range, "..");
+    if (dots) {
+        set(out->min, sizeof out->min, range, (size_t)(dots - range));
+        set(out->max, sizeof out->max, dots + 2, strlen(dots + 2));
+    }
     const char *slash = strchr(unit, '/');
     set(out->unit, sizeof out->unit, slash ? slash + 1 : "", strlen(slash ? slash + 1 : ""));
     size_t end = strlen(rest);
@@ -183,6 +192,10 @@ static void compare_port(const char *nodedef, const mxg_port *is, const struct p
            should->uniform ? "true" : "false");
     expect(same_value(is->enum_names, should->enums), nodedef, should->name, "enum", is->enum_names, should->enums);
     expect(strcmp(is->unit, should->unit) == 0, nodedef, should->name, "unit", is->unit, should->unit);
+    if (*should->min) {
+        expect(same_value(is->uimin, should->min), nodedef, should->name, "uimin", is->uimin, should->min);
+        expect(same_value(is->uimax, should->max), nodedef, should->name, "uimax", is->uimax, should->max);
+    }
 }
 
 static void compare_nodedef(const mxg_library *library, uint32_t index, const mxg_nodedef *def, const struct row *row)
@@ -210,7 +223,12 @@ int main(int argc, char **argv)
 {
     unsigned passed = 0, failed = 0;
     mxg_context *context = NULL;
-    if (argc < 2 || !read_rows(argv[1]) || mxg_context_create(NULL, &context) != MXG_OK)
+    for (int i = 1; i < argc; ++i)
+        if (!read_rows(argv[i])) {
+            printf("cannot read '%s'\n", argv[i]);
+            return 1;
+        }
+    if (mxg_context_create(NULL, &context) != MXG_OK)
         return 1;
     mxg_library *library = mxg_library_builtin(context);
     for (uint32_t i = 0; i < mxg_library_num_nodedefs(library); ++i) {
@@ -221,12 +239,12 @@ int main(int argc, char **argv)
         if (row)
             compare_nodedef(library, i, &def, row);
         else
-            expect(false, def.name, "", "definition", "there", "unknown to MaterialX");
+            expect(false, def.name, "", "definition", "there", "in no table");
         ++*(faults ? &failed : &passed);
     }
     failed += passed + failed != num_rows;
     if (mxg_library_num_nodedefs(library) != num_rows)
-        printf("the library has %u definitions, MaterialX %u\n", mxg_library_num_nodedefs(library), num_rows);
+        printf("the library has %u definitions, the tables %u\n", mxg_library_num_nodedefs(library), num_rows);
     mxg_library_unref(library);
     mxg_context_destroy(context);
     for (unsigned i = 0; i < num_rows; ++i)

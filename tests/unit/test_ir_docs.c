@@ -84,9 +84,8 @@ static void write_rules(struct text *out)
 {
     text_str(out, "| rule | | from | to |\n| --- | --- | --- | --- |\n");
     for (unsigned op = 0; op < IR_NUM_OPS; op++) {
-        unsigned num;
-        const struct rule *rules = ir_rules_of((enum ir_op)op, &num);
-        for (unsigned i = 0; i < num; i++) {
+        const struct rule *rules = ir_rules[op].rules;
+        for (unsigned i = 0; i < ir_rules[op].num; i++) {
             const uint8_t *from = rules[i].pattern, *to = rules[i].replacement;
             text_fmt(out, "| %s | %s | `", rules[i].name, rules[i].exact ? "exact" : "finite");
             write_side(out, &from);

@@ -294,9 +294,8 @@ int main(void)
 {
     unsigned num_rules = 0;
     for (unsigned op = 0; op < IR_NUM_OPS; op++) {
-        unsigned num;
-        const struct rule *rules = ir_rules_of((enum ir_op)op, &num);
-        for (unsigned i = 0; i < num; i++, num_rules++) {
+        const struct rule *rules = ir_rules[op].rules;
+        for (unsigned i = 0; i < ir_rules[op].num; i++, num_rules++) {
             test_shape((enum ir_op)op, &rules[i]);
             test_depth(&rules[i]);
             if (!REQUIRE(test_typings(&rules[i]) > 0))

@@ -188,6 +188,15 @@ static void try_once(struct agree *a)
     arena_finish(&a->scratch);
 }
 
+static void try_all(struct agree *a)
+{
+    for (a->id = 0; a->id < a->library.functions.len; a->id++) {
+        a->fn = &a->library.functions.items[a->id];
+        for (unsigned trial = 0; trial < NUM_TRIALS; trial++)
+            try_once(a);
+    }
+}
+
 int main(void)
 {
     struct agree a = {.seed = 1};
@@ -200,11 +209,9 @@ int main(void)
     REQUIRE(lang_parse_file(&a.library, &reader, "", "agree.glsl", (struct diag_place){0}, &a.diags) != LANG_NONE);
     for (uint32_t i = 0; i < a.diags.items.len; i++)
         printf("%u: %s\n", a.diags.items.items[i].place.line, a.diags.items.items[i].message);
-    for (a.id = 0; a.id < a.library.functions.len; a.id++) {
-        a.fn = &a.library.functions.items[a.id];
-        for (unsigned trial = 0; trial < NUM_TRIALS; trial++)
-            try_once(&a);
-    }
+    try_all(&a);
+    lang_make_canonical(&a.library);
+    try_all(&a);
     arena_finish(&a.arena);
     REQUIRE_EQ(a.mem.used, 0);
     return test_report("lang_agree");

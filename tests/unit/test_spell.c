@@ -9,11 +9,11 @@
 static const char *folder;
 
 static const char *spell(struct fixture *f, const char *target_name, enum shader_stage_id stage, const struct spell_options *options,
-                         struct spell_line **out_lines, uint32_t *out_num_lines)
+                         struct spell_mark **out_marks, uint32_t *out_num_marks)
 {
     struct text out;
     text_init(&out, &f->arena);
-    spell_shader_stage(target_find(target_name), options, &f->shader, stage, &f->arena, &out, out_lines, out_num_lines);
+    spell_shader_stage(target_find(target_name), options, &f->shader, stage, &f->arena, &out, out_marks, out_num_marks);
     return text_cstr(&out);
 }
 
@@ -33,10 +33,10 @@ static void finish(struct fixture *f, const struct target *target, const struct 
 /* The statements of main in the pixel stage. */
 static const char *body(struct fixture *f, const struct spell_options *options)
 {
-    struct spell_line *lines;
-    uint32_t num_lines;
+    struct spell_mark *marks;
+    uint32_t num_marks;
     finish(f, target_find("glsl"), options);
-    const char *text = spell(f, "glsl", STAGE_PIXEL, options, &lines, &num_lines);
+    const char *text = spell(f, "glsl", STAGE_PIXEL, options, &marks, &num_marks);
     const char *start = strstr(text, "void main()\n{\n") + strlen("void main()\n{\n");
     return arena_strndup(&f->arena, start, strlen(start) - 2);
 }
@@ -209,10 +209,10 @@ static void test_statements(void)
 /* The whole pixel stage, from `from` on. */
 static const char *stage_from(struct fixture *f, const char *from)
 {
-    struct spell_line *lines;
-    uint32_t num_lines;
+    struct spell_mark *marks;
+    uint32_t num_marks;
     finish(f, target_find("glsl"), &plain);
-    const char *text = spell(f, "glsl", STAGE_PIXEL, &plain, &lines, &num_lines), *start = strstr(text, from);
+    const char *text = spell(f, "glsl", STAGE_PIXEL, &plain, &marks, &num_marks), *start = strstr(text, from);
     return start ? start : text;
 }
 
@@ -376,15 +376,15 @@ static const char *fill_in(struct fixture *f, const char *text, const char *vert
 }
 
 /* Does the line that begins with `start` come from the origin of this name? */
-static bool maps_line(struct fixture *f, const char *text, const struct spell_line *lines, uint32_t num_lines, const char *start,
+static bool maps_line(struct fixture *f, const char *text, const struct spell_mark *marks, uint32_t num_marks, const char *start,
                       const char *origin)
 {
-    uint32_t number = 1;
-    for (const char *line = text; strncmp(line, start, strlen(start)) != 0; line = strchr(line, '\n') + 1)
-        number++;
-    for (uint32_t i = 0; i < num_lines; i++)
-        if (lines[i].line == number)
-            return strcmp(str_text(&f->strings, f->graph.origins.items[lines[i].origin].name), origin) == 0;
+    const char *line = text;
+    while (strncmp(line, start, strlen(start)) != 0)
+        line = strchr(line, '\n') + 1;
+    for (uint32_t i = 0; i < num_marks; i++)
+        if (text + marks[i].at == line)
+            return strcmp(str_text(&f->strings, f->graph.origins.items[marks[i].origin].name), origin) == 0;
     return false;
 }
 
@@ -398,16 +398,16 @@ static void test_stages(void)
         options.uniform_blocks = c->uniform_blocks;
         build_lit(&f);
         finish(&f, target_find(c->target), &options);
-        struct spell_line *lines;
-        uint32_t num_lines;
-        const char *pixel = spell(&f, c->target, STAGE_PIXEL, &options, &lines, &num_lines);
+        struct spell_mark *marks;
+        uint32_t num_marks;
+        const char *pixel = spell(&f, c->target, STAGE_PIXEL, &options, &marks, &num_marks);
         const char *rest = strstr(pixel, "float noise(");
         REQUIRE_STR(arena_strndup(&f.arena, pixel, (size_t)(rest - pixel)), c->pixel);
         REQUIRE_STR(rest, fill_in(&f, lit_main, c->vertex_data, target_find(c->target)->syntax->param_in));
-        REQUIRE(maps_line(&f, pixel, lines, num_lines, "    vec3 N = ", "N"));
-        REQUIRE(num_lines >= 2);
+        REQUIRE(maps_line(&f, pixel, marks, num_marks, "    vec3 N = ", "N"));
+        REQUIRE(num_marks >= 2);
         write_file(c->target, "lit", "frag", pixel);
-        const char *vertex = spell(&f, c->target, STAGE_VERTEX, &options, &lines, &num_lines);
+        const char *vertex = spell(&f, c->target, STAGE_VERTEX, &options, &marks, &num_marks);
         if (c->vertex)
             REQUIRE_STR(vertex, c->vertex);
         write_file(c->target, "lit", "vert", vertex);
@@ -521,10 +521,10 @@ static void walk_ops(const struct target *target)
             accumulate(&f, as_vec3(&f, ir_build(&f.graph, (enum ir_op)op, types.result, 0, args, (unsigned)info->arity)));
     }
     write_color(&f);
-    struct spell_line *lines;
-    uint32_t num_lines;
+    struct spell_mark *marks;
+    uint32_t num_marks;
     finish(&f, target, &plain);
-    const char *text = spell(&f, target->name, STAGE_PIXEL, &plain, &lines, &num_lines);
+    const char *text = spell(&f, target->name, STAGE_PIXEL, &plain, &marks, &num_marks);
     write_file(target->name, "ops", target->stage_suffix[STAGE_PIXEL], text);
     REQUIRE(strchr(text, '$') == NULL);
     fixture_close(&f);

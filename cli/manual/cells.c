@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /* What is said of a port, in words: type, default, values, meaning. */
-#include "cli/doc/doc.h"
+#include "cli/manual/manual.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -43,7 +43,7 @@ static bool is_identity(const double *numbers, size_t count)
 }
 
 /* Numbers without needless digits, one for all components where they are equal: so the variants of a node agree. */
-static const char *shorten(struct doc *doc, const char *value)
+static const char *shorten(struct manual *manual, const char *value)
 {
     double numbers[MAX_COMPONENTS];
     size_t count = read_numbers(value, numbers);
@@ -59,7 +59,7 @@ static const char *shorten(struct doc *doc, const char *value)
         free(text);
         text = longer;
     }
-    return doc_keep(doc, text);
+    return manual_keep(manual, text);
 }
 
 static bool is_text(const mxg_port *port)
@@ -67,24 +67,24 @@ static bool is_text(const mxg_port *port)
     return strcmp(port->type, "string") == 0 || strcmp(port->type, "filename") == 0;
 }
 
-static const char *default_of(struct doc *doc, const mxg_port *port)
+static const char *default_of(struct manual *manual, const mxg_port *port)
 {
     if (*port->defaultgeomprop)
         return port->defaultgeomprop;
-    return is_text(port) ? port->value : shorten(doc, port->value);
+    return is_text(port) ? port->value : shorten(manual, port->value);
 }
 
-static const char *join(struct doc *doc, const char *a, const char *between, const char *b)
+static const char *join(struct manual *manual, const char *a, const char *between, const char *b)
 {
-    return *a && *b ? doc_keep(doc, cli_format("%s%s%s", a, between, b)) : *a ? a : b;
+    return *a && *b ? manual_keep(manual, cli_format("%s%s%s", a, between, b)) : *a ? a : b;
 }
 
 /* "0 to 1", "from 0", "up to 1", "" */
-static const char *range(struct doc *doc, const char *min, const char *max)
+static const char *range(struct manual *manual, const char *min, const char *max)
 {
     if (*min && *max)
-        return join(doc, shorten(doc, min), " to ", shorten(doc, max));
-    return *min ? join(doc, "from ", "", shorten(doc, min)) : *max ? join(doc, "up to ", "", shorten(doc, max)) : "";
+        return join(manual, shorten(manual, min), " to ", shorten(manual, max));
+    return *min ? join(manual, "from ", "", shorten(manual, min)) : *max ? join(manual, "up to ", "", shorten(manual, max)) : "";
 }
 
 static size_t count_items(const char *list)
@@ -96,50 +96,50 @@ static size_t count_items(const char *list)
 }
 
 /* The part of a list up to its next comma, without spaces around; *list moves behind the comma. */
-static const char *next_item(struct doc *doc, const char **list)
+static const char *next_item(struct manual *manual, const char **list)
 {
     const char *item = *list + strspn(*list, " ");
     size_t len = strcspn(item, ",");
     *list = item + len + (item[len] == ',');
     while (len > 0 && item[len - 1] == ' ')
         --len;
-    return doc_keep(doc, cli_format("%.*s", (int)len, item));
+    return manual_keep(manual, cli_format("%.*s", (int)len, item));
 }
 
 /* "ggx, beckmann"; "linear = 0, smooth = 1" where a name stands for another value */
-static const char *choices(struct doc *doc, const mxg_port *port)
+static const char *choices(struct manual *manual, const mxg_port *port)
 {
     const char *names = port->enum_names, *values = port->enum_values, *text = "";
     bool paired = *values && count_items(names) == count_items(values);
     while (*names) {
-        const char *name = next_item(doc, &names);
-        const char *value = paired ? next_item(doc, &values) : "";
-        text = join(doc, text, ", ", strcmp(name, value) == 0 ? name : join(doc, name, " = ", value));
+        const char *name = next_item(manual, &names);
+        const char *value = paired ? next_item(manual, &values) : "";
+        text = join(manual, text, ", ", strcmp(name, value) == 0 ? name : join(manual, name, " = ", value));
     }
     return text;
 }
 
-static const char *values_of(struct doc *doc, const mxg_port *port)
+static const char *values_of(struct manual *manual, const mxg_port *port)
 {
-    const char *soft = range(doc, port->uisoftmin, port->uisoftmax);
-    const char *text = range(doc, port->uimin, port->uimax);
+    const char *soft = range(manual, port->uisoftmin, port->uisoftmax);
+    const char *text = range(manual, port->uimin, port->uimax);
     if (*soft)
-        text = join(doc, text, ", ", join(doc, "usually ", "", soft));
-    text = join(doc, text, "; ", choices(doc, port));
-    const char *unit = *port->unit ? port->unit : *port->unittype ? join(doc, port->unittype, " ", "unit") : "";
-    return *unit ? join(doc, text, "; ", join(doc, "in ", "", unit)) : text;
+        text = join(manual, text, ", ", join(manual, "usually ", "", soft));
+    text = join(manual, text, "; ", choices(manual, port));
+    const char *unit = *port->unit ? port->unit : *port->unittype ? join(manual, port->unittype, " ", "unit") : "";
+    return *unit ? join(manual, text, "; ", join(manual, "in ", "", unit)) : text;
 }
 
-const char *doc_cell(struct doc *doc, const mxg_port *port, enum doc_column column)
+const char *manual_cell(struct manual *manual, const mxg_port *port, enum manual_column column)
 {
     switch (column) {
-    case DOC_TYPE:
+    case MANUAL_TYPE:
         return port->type;
-    case DOC_DEFAULT:
-        return default_of(doc, port);
-    case DOC_VALUES:
-        return values_of(doc, port);
-    case DOC_MEANING:
+    case MANUAL_DEFAULT:
+        return default_of(manual, port);
+    case MANUAL_VALUES:
+        return values_of(manual, port);
+    case MANUAL_MEANING:
     default:
         return port->doc;
     }

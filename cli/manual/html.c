@@ -3,7 +3,7 @@
  * The reference as one page of HTML that needs nothing but itself and the pictures beside it. It is well-formed XML too,
  * so that any XML tool can read it.
  */
-#include "cli/doc/doc.h"
+#include "cli/manual/manual.h"
 
 #include <string.h>
 
@@ -38,7 +38,7 @@ static void put_lines(FILE *out, const char *const *lines)
 
 /* ---- Tables ---- */
 
-static void put_cell(FILE *out, const struct doc_texts *texts, const char *tag, const char *class)
+static void put_cell(FILE *out, const struct manual_texts *texts, const char *tag, const char *class)
 {
     fprintf(out, "<td class=\"%s\">", class);
     for (size_t i = 0; i < texts->len; ++i) {
@@ -48,21 +48,21 @@ static void put_cell(FILE *out, const struct doc_texts *texts, const char *tag, 
     fputs("</td>", out);
 }
 
-static void put_row(FILE *out, const struct doc_port *port)
+static void put_row(FILE *out, const struct manual_port *port)
 {
     fprintf(out, "<tr%s><th scope=\"row\">", port->is_output ? " class=\"output\"" : "");
     put_element(out, "code", port->name);
     if (port->uniform)
         fputs(" <small title=\"May not be connected to something that varies\">uniform</small>", out);
     fputs("</th>", out);
-    put_cell(out, &port->cells[DOC_TYPE], "i", "type");
-    put_cell(out, &port->cells[DOC_DEFAULT], "code", "default");
-    put_cell(out, &port->cells[DOC_VALUES], "span", "values");
-    put_cell(out, &port->cells[DOC_MEANING], "span", "meaning");
+    put_cell(out, &port->cells[MANUAL_TYPE], "i", "type");
+    put_cell(out, &port->cells[MANUAL_DEFAULT], "code", "default");
+    put_cell(out, &port->cells[MANUAL_VALUES], "span", "values");
+    put_cell(out, &port->cells[MANUAL_MEANING], "span", "meaning");
     fputs("</tr>\n", out);
 }
 
-static void put_table(FILE *out, const struct doc_edition *edition)
+static void put_table(FILE *out, const struct manual_edition *edition)
 {
     if (edition->num_ports == 0)
         return;
@@ -70,7 +70,7 @@ static void put_table(FILE *out, const struct doc_edition *edition)
           "<tbody>\n", out);
     const char *folder = "";
     for (size_t i = 0; i < edition->num_ports; ++i) {
-        const struct doc_port *port = &edition->ports[i];
+        const struct manual_port *port = &edition->ports[i];
         if (!port->is_output && strcmp(port->folder, folder) != 0) {
             folder = port->folder;
             fputs("<tr class=\"folder\"><th colspan=\"5\" scope=\"rowgroup\">", out);
@@ -84,7 +84,7 @@ static void put_table(FILE *out, const struct doc_edition *edition)
 
 /* ---- Nodes ---- */
 
-static void put_signatures(FILE *out, const struct doc_edition *edition)
+static void put_signatures(FILE *out, const struct manual_edition *edition)
 {
     if (edition->num_variants == 1) {
         fputs("<p class=\"def\">", out);
@@ -104,7 +104,7 @@ static void put_signatures(FILE *out, const struct doc_edition *edition)
 }
 
 /* An older version: what it has otherwise. */
-static void put_older(FILE *out, const struct doc_edition *edition, const struct doc_edition *first)
+static void put_older(FILE *out, const struct manual_edition *edition, const struct manual_edition *first)
 {
     fputs("<details><summary>Version ", out);
     put(out, edition->version);
@@ -124,9 +124,9 @@ static void put_older(FILE *out, const struct doc_edition *edition, const struct
     fputs("</details>\n", out);
 }
 
-static void put_targets(const struct doc *doc, FILE *out, const struct doc_node *node)
+static void put_targets(const struct manual *manual, FILE *out, const struct manual_node *node)
 {
-    if (node->targets.len == doc->num_targets) {
+    if (node->targets.len == manual->num_targets) {
         fputs("all targets", out);
         return;
     }
@@ -138,28 +138,28 @@ static void put_targets(const struct doc *doc, FILE *out, const struct doc_node 
         fputs("<strong>not implemented</strong>", out);
 }
 
-static void put_picture(FILE *out, const struct doc_node *node)
+static void put_picture(FILE *out, const struct manual_node *node)
 {
     if (!node->picture)
         return;
     fputs("<a class=\"picture\" title=\"The document of this picture\" href=\"pictures/", out);
-    put(out, node->name);
+    put(out, node->id);
     fputs(".mtlx\"><img loading=\"lazy\" width=\"144\" height=\"144\" src=\"", out);
     put(out, node->picture);
-    fputs("\" alt=\"A ball with ", out);
+    fputs("\" alt=\"Picture of ", out);
     put(out, node->name);
     fputs("\"/></a>\n", out);
 }
 
-static void put_node(const struct doc *doc, FILE *out, const struct doc_node *node)
+static void put_node(const struct manual *manual, FILE *out, const struct manual_node *node)
 {
-    const struct doc_edition *first = &node->editions[0];
+    const struct manual_edition *first = &node->editions[0];
     fputs("<article id=\"", out);
-    put(out, node->name);
+    put(out, node->id);
     fputs("\">\n", out);
     put_picture(out, node);
     fputs("<h3><a href=\"#", out);
-    put(out, node->name);
+    put(out, node->id);
     fputs("\">", out);
     put(out, node->name);
     fputs("</a>", out);
@@ -173,7 +173,7 @@ static void put_node(const struct doc *doc, FILE *out, const struct doc_node *no
     fputs("\n<p class=\"facts\">", out);
     put(out, node->file);
     fputs(" \xc2\xb7 ", out);
-    put_targets(doc, out, node);
+    put_targets(manual, out, node);
     fputs("</p>\n", out);
     put_table(out, first);
     put_signatures(out, first);
@@ -184,57 +184,57 @@ static void put_node(const struct doc *doc, FILE *out, const struct doc_node *no
 
 /* ---- The page ---- */
 
-static bool begins_group(const struct doc *doc, size_t i)
+static bool begins_group(const struct manual *manual, size_t i)
 {
-    return i == 0 || strcmp(doc->nodes[i - 1].group, doc->nodes[i].group) != 0;
+    return i == 0 || strcmp(manual->nodes[i - 1].group, manual->nodes[i].group) != 0;
 }
 
-static void put_navigation(const struct doc *doc, FILE *out)
+static void put_navigation(const struct manual *manual, FILE *out)
 {
     fputs("<nav>\n<h1><a href=\"#top\">Nodes</a></h1>\n"
           "<input type=\"search\" placeholder=\"Search  /\" aria-label=\"Search\" hidden=\"hidden\"/>\n<div>\n", out);
-    for (size_t i = 0; i < doc->num_nodes; ++i) {
-        if (begins_group(doc, i)) {
+    for (size_t i = 0; i < manual->num_nodes; ++i) {
+        if (begins_group(manual, i)) {
             fputs(i ? "</ul></section>\n<section>" : "<section>", out);
-            put_element(out, "h2", doc->nodes[i].group);
+            put_element(out, "h2", manual->nodes[i].group);
             fputs("<ul>\n", out);
         }
         fputs("<li><a href=\"#", out);
-        put(out, doc->nodes[i].name);
+        put(out, manual->nodes[i].id);
         fputs("\">", out);
-        put(out, doc->nodes[i].name);
+        put(out, manual->nodes[i].name);
         fputs("</a></li>\n", out);
     }
-    fputs(doc->num_nodes ? "</ul></section>\n</div></nav>\n" : "</div></nav>\n", out);
+    fputs(manual->num_nodes ? "</ul></section>\n</div></nav>\n" : "</div></nav>\n", out);
 }
 
-static void put_nodes(const struct doc *doc, FILE *out)
+static void put_nodes(const struct manual *manual, FILE *out)
 {
-    for (size_t i = 0; i < doc->num_nodes; ++i) {
-        if (begins_group(doc, i)) {
+    for (size_t i = 0; i < manual->num_nodes; ++i) {
+        if (begins_group(manual, i)) {
             fputs(i ? "</section>\n<section>" : "<section>", out);
-            put_element(out, "h2", doc->nodes[i].group);
+            put_element(out, "h2", manual->nodes[i].group);
         }
-        put_node(doc, out, &doc->nodes[i]);
+        put_node(manual, out, &manual->nodes[i]);
     }
-    fputs(doc->num_nodes ? "</section>\n" : "", out);
+    fputs(manual->num_nodes ? "</section>\n" : "", out);
 }
 
-void doc_write_html(const struct doc *doc, FILE *out)
+void manual_write_html(const struct manual *manual, FILE *out)
 {
     fputs("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
           "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n"
           "<meta name=\"color-scheme\" content=\"light dark\"/>\n<title>Node reference</title>\n<style>\n", out);
-    put_lines(out, doc_style);
+    put_lines(out, manual_style);
     fputs("</style>\n</head>\n<body id=\"top\">\n", out);
-    put_navigation(doc, out);
+    put_navigation(manual, out);
     fprintf(out, "<main>\n<header>\n<p><strong>%zu</strong> nodes with <strong>%zu</strong> signatures, "
-                 "written by mxgen %s.</p>\n", doc->num_nodes, doc->num_variants, mxg_version_string());
+                 "written by mxgen %s.</p>\n", manual->num_nodes, manual->num_variants, mxg_version_string());
     fputs("<p>An input without a value of its own takes the default. A default that is a name, as <code>Nworld</code>, is a "
           "property of the geometry. One number stands for equal components; where variants of a node differ, "
           "all types and defaults are listed.</p>\n</header>\n", out);
-    put_nodes(doc, out);
+    put_nodes(manual, out);
     fputs("<p id=\"none\" hidden=\"hidden\">Nothing has these words.</p>\n</main>\n<script>\n", out);
-    put_lines(out, doc_script);
+    put_lines(out, manual_script);
     fputs("</script>\n</body>\n</html>\n", out);
 }

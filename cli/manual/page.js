@@ -6,6 +6,7 @@ const entries = Array.from(document.querySelectorAll("article"), article => ({
   article, name: article.id.toLowerCase(), text: article.textContent.toLowerCase(),
   link: document.querySelector(`nav a[href="#${CSS.escape(article.id)}"]`),
 }));
+const list = document.querySelector("nav div");
 const sections = Array.from(document.querySelectorAll("section"));
 
 // An entry stays when it has all words; Enter goes to the one whose name fits best.
@@ -18,7 +19,7 @@ function filter() {
     found = found || fits;
   }
   for (const section of sections)
-    section.hidden = !section.querySelector("article:not([hidden]), li:not([hidden])");
+    section.hidden = !section.querySelector("article:not([hidden]), nav li:not([hidden])");
   none.hidden = found;
 }
 
@@ -56,6 +57,8 @@ const observer = new IntersectionObserver(changes => {
   if (here) here.classList.remove("here");
   here = entry.link;
   here.classList.add("here");
-  here.scrollIntoView({block: "nearest"});
+  // Not scrollIntoView: where the list stands above the text, that would scroll the page.
+  const below = here.offsetTop - list.scrollTop;
+  if (0 > below || below > list.clientHeight - 40) list.scrollTop = here.offsetTop - list.clientHeight / 2;
 });
 for (const entry of entries) observer.observe(entry.article);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
  * The reference of a library: its definitions as mxgen.h tells them, put together for readers. All definitions of a node
- * become one entry, in which each input stands once with what its variants have in common.
+ * in a group become one entry, in which each input stands once with what its variants have in common.
  */
-#ifndef MXG_CLI_DOC_DOC_H
-#define MXG_CLI_DOC_DOC_H
+#ifndef MXG_CLI_MANUAL_MANUAL_H
+#define MXG_CLI_MANUAL_MANUAL_H
 
 #include "cli/cli.h"
 
@@ -13,75 +13,76 @@
 #include <stdio.h>
 
 /* What a port says, and the columns of its row. */
-enum doc_column { DOC_TYPE, DOC_DEFAULT, DOC_VALUES, DOC_MEANING, DOC_NUM_COLUMNS };
+enum manual_column { MANUAL_TYPE, MANUAL_DEFAULT, MANUAL_VALUES, MANUAL_MEANING, MANUAL_NUM_COLUMNS };
 
-struct doc_texts {
+struct manual_texts {
     const char **items;
     size_t len;
 };
 
 /* An input or output of an edition; a cell has the texts in which the variants differ, in their order. */
-struct doc_port {
+struct manual_port {
     const char *name, *folder; /* of the user interface; "" */
     bool is_output, uniform;
-    struct doc_texts cells[DOC_NUM_COLUMNS];
+    struct manual_texts cells[MANUAL_NUM_COLUMNS];
 };
 
-struct doc_variant {
+struct manual_variant {
     uint32_t index;        /* in the library */
     mxg_nodedef def;
     const char *signature; /* "(fg: color3, bg: color3, mix: float) → color3" */
 };
 
 /* The definitions of a node in one version, its variants of type. */
-struct doc_edition {
+struct manual_edition {
     const char *version; /* "" */
-    const struct doc_variant *variants;
+    const struct manual_variant *variants;
     size_t num_variants;
-    struct doc_port *ports; /* of an edition behind the first: those that differ from it, unless they are all */
+    struct manual_port *ports; /* of an edition behind the first: those that differ from it, unless they are all */
     size_t num_ports;
-    struct doc_texts missing; /* inputs of the first edition that this one lacks */
+    struct manual_texts missing; /* inputs of the first edition that this one lacks */
 };
 
-struct doc_node {
+struct manual_node {
+    const char *id; /* of the entry: unique */
     const char *name, *group, *text, *file;
-    struct doc_edition *editions; /* the default one first */
+    struct manual_edition *editions; /* the default one first */
     size_t num_editions, num_variants;
-    struct doc_texts targets;     /* that have an implementation of every variant */
+    struct manual_texts targets;     /* that have an implementation of every variant */
     const char *picture;          /* file beside the pages; NULL */
 };
 
-struct doc {
+struct manual {
     const mxg_library *library;
-    struct doc_node *nodes; /* by group, then by name */
+    struct manual_node *nodes; /* by group, then by name */
     size_t num_nodes, num_variants;
     uint32_t num_targets;
     void *blocks; /* all of the above */
 };
 
 /* model.c: the definitions from `first` on. */
-void doc_init(struct doc *doc, const mxg_library *library, uint32_t first);
-void doc_finish(struct doc *doc);
+void manual_init(struct manual *manual, const mxg_library *library, uint32_t first);
+void manual_finish(struct manual *manual);
 
 /* Zeroed memory that lives as long as the reference. */
-void *doc_alloc(struct doc *doc, size_t size);
+void *manual_alloc(struct manual *manual, size_t size);
 /* Takes over a text of cli_format. */
-const char *doc_keep(struct doc *doc, char *text);
+const char *manual_keep(struct manual *manual, char *text);
 
 /* cells.c: what a port says in a column; "" for nothing. */
-const char *doc_cell(struct doc *doc, const mxg_port *port, enum doc_column column);
+const char *manual_cell(struct manual *manual, const mxg_port *port, enum manual_column column);
 
 /* html.c, markdown.c */
-void doc_write_html(const struct doc *doc, FILE *out);
-void doc_write_markdown(const struct doc *doc, FILE *out);
+void manual_write_html(const struct manual *manual, FILE *out);
+void manual_write_markdown(const struct manual *manual, FILE *out);
 
 /* page.c: made of page.css and page.js when mxgen is built; ends with NULL. */
-extern const char *const doc_style[], *const doc_script[];
+extern const char *const manual_style[], *const manual_script[];
 
 /*
  * picture.c: draws what can be pictured into `folder`/pictures, each picture beside the document it shows. False after
  * telling that a picture could not be made.
  */
-bool doc_draw(struct doc *doc, struct cli *cli, const char *folder);
+bool manual_draw(struct manual *manual, struct cli *cli, const char *folder);
 
 #endif
