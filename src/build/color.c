@@ -51,7 +51,7 @@ static const char *const aliases[][2] = {
 
 static str_id canonical_space(struct builder *b, str_id space)
 {
-    for (size_t i = 0; space && i < sizeof aliases / sizeof *aliases; i++)
+    for (size_t i = 0; i < sizeof aliases / sizeof *aliases; i++)
         if (strcmp(build_text(b, space), aliases[i][0]) == 0)
             return str_intern_z(b->shader->strings, aliases[i][1]);
     return space;
@@ -59,8 +59,11 @@ static str_id canonical_space(struct builder *b, str_id space)
 
 str_id build_colorspace(struct builder *b, elem_id element)
 {
-    str_id space = canonical_space(b, doc_inherited_attr(&b->lib->doc, element, STR_colorspace));
-    return space == STR_none || space == b->options->colorspace ? 0 : space;
+    str_id space = doc_inherited_attr(&b->lib->doc, element, STR_colorspace);
+    if (!space || space == STR_none || space == b->options->colorspace)
+        return 0;
+    space = canonical_space(b, space);
+    return space == b->options->colorspace ? 0 : space;
 }
 
 /* "lin_rec709, srgb_texture, …": what the library can convert to the working space. */

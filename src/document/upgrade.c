@@ -518,10 +518,10 @@ static int read_version(struct document *doc, elem_id root, struct diag_list *di
     return (int)minor;
 }
 
-static bool has_channels(const struct document *doc, elem_id root, elem_id end)
+static bool is_outdated(const struct document *doc, elem_id root, elem_id end)
 {
     for (elem_id e = root; e < end; e++)
-        if (doc_attr(doc, e, STR_channels))
+        if (doc_attr(doc, e, STR_channels) || doc_element(doc, e)->category == STR_parameter)
             return true;
     return false;
 }
@@ -531,11 +531,15 @@ void doc_upgrade(struct document *doc, elem_id root, elem_id end, struct diag_li
     int minor = read_version(doc, root, diags);
     struct upgrade u = {.doc = doc, .diags = diags, .root = root, .end = end,
                         .first_added = doc->first_element + doc->elements.len};
-    /* What 1.39 took out is still written in documents that say 1.39; ignored, it would change what they show. */
+    /* What 1.38 and 1.39 took out is still written in documents that say so; ignored, it would change what they show. */
     u.outdated = minor >= CURRENT_MINOR;
-    if (u.outdated && !has_channels(doc, root, end))
+    if (u.outdated && !is_outdated(doc, root, end))
         return;
     doc_index_names(doc, NULL);
+    if (minor >= 38) {
+        u.minor = 38;
+        upgrade_parameters(&u);
+    }
     if (u.outdated) {
         u.minor = CURRENT_MINOR;
         upgrade_channels(&u);

@@ -76,9 +76,12 @@ static void check_place(struct validation *v, elem_id element)
 {
     const struct element *e = doc_element(v->doc, element);
     const struct element *parent = doc_element(v->doc, e->parent);
-    if (!(rules[e->kind].parents >> parent->kind & 1))
-        diag_add(v->diags, DIAG_ID_misplaced_element, doc_place(v->doc, element), text_of(v, e->category),
-                 text_of(v, parent->category));
+    if (rules[e->kind].parents >> parent->kind & 1)
+        return;
+    /* What is no element of MaterialX reads as a node. */
+    bool is_foreign = e->kind == KIND_NODE && parent->kind == KIND_NODE;
+    diag_add(v->diags, is_foreign ? DIAG_ID_foreign_element : DIAG_ID_misplaced_element, doc_place(v->doc, element),
+             text_of(v, e->category), text_of(v, parent->category));
 }
 
 static void check_name(struct validation *v, elem_id element)

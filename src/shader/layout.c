@@ -34,29 +34,27 @@ uint32_t std140_size(ir_type_id type, uint16_t array_length)
     return array_length ? array_length * round_up(size, STD140_ROUND) : size;
 }
 
-static bool comes_before(const struct shader *shader, uint32_t a, uint32_t b)
-{
-    const struct shader_variable *x = &shader->variables.items[a], *y = &shader->variables.items[b];
-    if (x->block != y->block)
-        return x->block < y->block;
-    return x->rank != y->rank ? x->rank < y->rank : a < b;
-}
-
 /* Blocks are gathered first, so that the sort by rank within them moves only the few private variables. */
 static void order_interface(struct shader *shader)
 {
+    uint32_t starts[NUM_BLOCKS + 1] = {0}, ends[NUM_BLOCKS];
+    for (uint32_t i = 0; i < shader->variables.len; i++)
+        starts[shader->variables.items[i].block + 1] += shader->variables.items[i].stages != 0;
+    for (int block = 0; block < NUM_BLOCKS; block++) {
+        ends[block] = starts[block];
+        starts[block + 1] += starts[block];
+    }
     shader->interface.len = 0;
-    for (int block = 0; block < NUM_BLOCKS; block++)
-        for (uint32_t i = 0; i < shader->variables.len; i++) {
-            const struct shader_variable *variable = &shader->variables.items[i];
-            if (variable->block != block || !variable->stages)
-                continue;
-            uint32_t at = shader->interface.len;
-            vec_push(shader->arena, &shader->interface, i);
-            for (; at > 0 && comes_before(shader, i, shader->interface.items[at - 1]); at--)
-                shader->interface.items[at] = shader->interface.items[at - 1];
-            shader->interface.items[at] = i;
-        }
+    uint32_t *order = vec_extend(shader->arena, &shader->interface, starts[NUM_BLOCKS]);
+    for (uint32_t i = 0; i < shader->variables.len; i++) {
+        const struct shader_variable *variable = &shader->variables.items[i];
+        if (!variable->stages)
+            continue;
+        uint32_t at = ends[variable->block]++;
+        for (; at > starts[variable->block] && shader->variables.items[order[at - 1]].rank > variable->rank; at--)
+            order[at] = order[at - 1];
+        order[at] = i;
+    }
 }
 
 static void place_in_buffer(struct shader_buffer *buffer, struct shader_variable *variable)

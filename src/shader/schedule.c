@@ -43,6 +43,11 @@ struct region {
     uint32_t outside; /* the innermost region around it that is in no LIGHTS: itself where it is in none */
 };
 
+struct visit { /* a node whose operands are being collected */
+    ir_ref ref;
+    uint32_t next;
+};
+
 struct scheduler {
     struct shader *shader;
     const struct ir_graph *graph;
@@ -52,6 +57,7 @@ struct scheduler {
     bool *is_reached;    /* by node */
     struct plan *plans;  /* by node; of reached nodes only, and of the absent one */
     VEC(ir_ref) reached; /* operands before users */
+    VEC(struct visit) visits;
     VEC(struct region) regions;
     VEC(uint32_t) region_of; /* the region that each effect stands in */
     VEC(uint32_t) called;  /* IR functions called from the effects at hand */
@@ -146,19 +152,14 @@ static void reach_node(struct scheduler *s, ir_ref ref)
 
 static void collect(struct scheduler *s, ir_ref root)
 {
-    struct visit {
-        ir_ref ref;
-        uint32_t next;
-    };
-    VEC(struct visit) stack = {0};
     if (!s->is_reached[root])
-        vec_push(s->arena, &stack, (struct visit){root, 0});
-    while (stack.len) {
-        struct visit *top = &vec_last(&stack);
+        vec_push(s->arena, &s->visits, (struct visit){root, 0});
+    while (s->visits.len) {
+        struct visit *top = &vec_last(&s->visits);
         const struct ir_node *node = ir_get(s->graph, top->ref);
         if (top->next == node->num_args) {
             reach_node(s, top->ref);
-            stack.len--;
+            s->visits.len--;
             continue;
         }
         ir_ref operand = ir_arg(s->graph, top->ref, top->next++);
@@ -167,7 +168,7 @@ static void collect(struct scheduler *s, ir_ref root)
         if (ir_get(s->graph, operand)->num_args == 0)
             reach_node(s, operand);
         else
-            vec_push(s->arena, &stack, (struct visit){operand, 0});
+            vec_push(s->arena, &s->visits, (struct visit){operand, 0});
     }
 }
 
@@ -529,15 +530,15 @@ static void schedule_function(struct scheduler *s, uint32_t function, struct eff
 /* Schedules functions and what they call, callees first. */
 static void schedule_functions(struct scheduler *s)
 {
-    struct visit {
+    struct caller {
         struct shader_function function;
         VEC(uint32_t) called;
     };
-    VEC(struct visit) stack = {0};
+    VEC(struct caller) stack = {0};
     uint8_t *seen = ARENA_ARRAY(s->arena, uint8_t, s->graph->functions.len + 1);
-    vec_push(s->arena, &stack, (struct visit){.function = {.function = UINT32_MAX}}); /* main */
+    vec_push(s->arena, &stack, (struct caller){.function = {.function = UINT32_MAX}}); /* main */
     for (;;) {
-        struct visit *top = &vec_last(&stack);
+        struct caller *top = &vec_last(&stack);
         if (s->called.len) { /* just scheduled */
             memcpy(vec_extend(s->arena, &top->called, s->called.len), s->called.items, s->called.len * sizeof *s->called.items);
             s->called.len = 0;
@@ -550,9 +551,9 @@ static void schedule_functions(struct scheduler *s)
         }
         if (next != UINT32_MAX) {
             seen[next] = 1;
-            struct visit visit = {.function = {.function = next}};
-            schedule_function(s, next, &visit.function.statements);
-            vec_push(s->arena, &stack, visit);
+            struct caller callee = {.function = {.function = next}};
+            schedule_function(s, next, &callee.function.statements);
+            vec_push(s->arena, &stack, callee);
             continue;
         }
         if (stack.len == 1)

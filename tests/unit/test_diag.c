@@ -56,7 +56,7 @@ static void test_list(void)
     REQUIRE_EQ(list.num_errors, 1);
     REQUIRE_EQ(list.num_warnings, 1);
     const struct diag *items = list.items.items;
-    REQUIRE_STR(items[0].message, "unknown node <mux> (did you mean 'mix'?)");
+    REQUIRE_STR(items[0].message, "unknown node <mux> (did you mean 'mix'?); no library that is loaded defines it: add the one that does with '--library'");
     REQUIRE_STR(items[0].place.file, "wood.mtlx");
     REQUIRE_EQ(items[0].severity, DIAG_ERROR);
     REQUIRE_EQ(items[1].severity, DIAG_NOTE);
@@ -156,7 +156,7 @@ static void test_json(void)
     diag_render_json(&list, &text);
     REQUIRE_STR(text_cstr(&text),
                 "[\n"
-                "  {\"severity\": \"error\", \"id\": \"unknown-node\", \"message\": \"unknown node <a\\\"b>\", "
+                "  {\"severity\": \"error\", \"id\": \"unknown-node\", \"message\": \"unknown node <a\\\"b>; no library that is loaded defines it: add the one that does with '--library'\", "
                 "\"file\": \"wood.mtlx\", \"line\": 3, \"column\": 5, \"length\": 4, \"notes\": [\n"
                 "    {\"severity\": \"note\", \"id\": \"defined-here\", \"message\": \"'x' is defined here\", "
                 "\"file\": \"wood.mtlx\", \"line\": 1, \"column\": 1, \"length\": 1},\n"
