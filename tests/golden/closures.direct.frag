@@ -1,5 +1,5 @@
 #version 450
-// Varnish · surfacematerial · mxgen 0.1 · glsl · reduced · 3 closures · 0 textures
+// Varnish · surfacematerial · mxgen 0.1 · glsl · reduced · 2 closures · 0 textures
 
 uniform vec3 u_viewPosition = vec3(0.0);
 uniform int u_numActiveLightSources = 0;
@@ -26,7 +26,7 @@ vec2 mx_ggx_albedo(const vec3 N, const vec3 V)
 
 float mx_ggx_distribution(const vec3 h)
 {
-    vec3 e = vec3(h.xy / 0.04, h.z);
+    vec3 e = vec3(h.xy / vec2(0.04), h.z);
     float d = dot(e, e);
     return 1.0 / (0.005026548 * d * d);
 }
@@ -50,16 +50,6 @@ vec3 mx_ggx_lobe(const mat3 frame, const vec3 V, const vec3 L)
     return mx_ggx_distribution(H * frame) * mx_ggx_visibility(max(dot(frame[2], V), 1e-8), max(dot(frame[2], L), 1e-8)) * vec3(mx_fresnel_dielectric(clamp(dot(V, H), 1e-8, 1.0)));
 }
 
-vec3 mx_oren_nayar_diffuse_bsdf_eval(const vec3 N, const vec3 V, const vec3 L)
-{
-    float cos_l = max(dot(faceforward(N, -V, N), L), 1e-8);
-    float cos_v = max(dot(faceforward(N, -V, N), V), 1e-8);
-    float s = max(dot(L, V), 1e-8) - cos_l * cos_v;
-    if (s > 0.0)
-        s /= max(cos_l, cos_v);
-    return vec3(0.6, 0.1, 0.05) * (cos_l / 3.1415927) * (0.89285713 + 0.225 * max(s, 0.0));
-}
-
 void main()
 {
     vec3 color = vec3(0.0);
@@ -71,11 +61,16 @@ void main()
     vec3 coat_3 = faceforward(normal, -V, normal);
     vec3 coat_4 = normalize(tangent - coat_3 * dot(tangent, coat_3));
     mat3 coat_5 = mat3(coat_4, cross(coat_3, coat_4), coat_3);
-    vec3 paint = (vec3(1.0) - (coat.x * 0.033735957 + coat.yyy) * coat_2) * 0.75;
+    float paint = max(dot(V, coat_3), 1e-8);
+    vec3 paint_2 = (vec3(1.0) - (coat.x * 0.033735957 + coat.yyy) * coat_2) * 0.75;
     for (int i = 0; i < min(u_numActiveLightSources, 1); ++i) {
-        vec3 light = u_lightData[i].color * (u_lightData[i].intensity * (u_lightData[i].type == 1 ? 1.0 : 0.0));
-        vec3 paint_2 = mx_oren_nayar_diffuse_bsdf_eval(normal, V, -u_lightData[i].direction) * paint;
-        color += light * (coat_2 * mx_ggx_lobe(coat_5, V, -u_lightData[i].direction) + paint_2);
+        vec3 light = u_lightData[i].color * (u_lightData[i].type == 1 ? u_lightData[i].intensity : 0.0);
+        vec3 directional_light = -u_lightData[i].direction;
+        float paint_3 = max(dot(directional_light, coat_3), 1e-8);
+        float paint_4 = max(dot(V, directional_light), 1e-8) - paint_3 * paint;
+        float paint_5 = paint_4 / max(paint_3, paint);
+        vec3 paint_6 = paint_3 / 3.1415927 * (max(paint_4 > 0.0 ? paint_5 : paint_4, 0.0) * 0.225 + 0.89285713) * vec3(0.6, 0.1, 0.05) * paint_2;
+        color += light * (coat_2 * mx_ggx_lobe(coat_5, V, directional_light) + paint_6);
     }
     out1 = vec4(color, 1.0);
 }

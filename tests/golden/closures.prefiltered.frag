@@ -1,5 +1,5 @@
 #version 450
-// Varnish · surfacematerial · mxgen 0.1 · glsl · authored · 3 closures · 0 textures
+// Varnish · surfacematerial · mxgen 0.1 · glsl · authored · 2 closures · 0 textures
 
 uniform vec3 u_viewPosition = vec3(0.0);
 uniform int u_numActiveLightSources = 0;
@@ -35,7 +35,7 @@ vec2 mx_ggx_albedo(const vec3 N, const vec3 V)
 
 float mx_ggx_distribution(const vec3 h)
 {
-    vec3 e = vec3(h.xy / 0.04, h.z);
+    vec3 e = vec3(h.xy / vec2(0.04), h.z);
     float d = dot(e, e);
     return 1.0 / (0.005026548 * d * d);
 }
@@ -59,20 +59,10 @@ vec3 mx_ggx_lobe(const mat3 frame, const vec3 V, const vec3 L)
     return mx_ggx_distribution(H * frame) * mx_ggx_visibility(max(dot(frame[2], V), 1e-8), max(dot(frame[2], L), 1e-8)) * vec3(mx_fresnel_dielectric(clamp(dot(V, H), 1e-8, 1.0)));
 }
 
-vec3 mx_oren_nayar_diffuse_bsdf_eval(const vec3 N, const vec3 V, const vec3 L)
-{
-    float cos_l = max(dot(faceforward(N, -V, N), L), 1e-8);
-    float cos_v = max(dot(faceforward(N, -V, N), V), 1e-8);
-    float s = max(dot(L, V), 1e-8) - cos_l * cos_v;
-    if (s > 0.0)
-        s /= max(cos_l, cos_v);
-    return vec3(0.6, 0.1, 0.05) * (cos_l / 3.1415927) * (0.89285713 + 0.225 * max(s, 0.0));
-}
-
 vec2 mx_latlong(const vec3 direction)
 {
     vec3 d = normalize((u_envMatrix * vec4(direction, 0.0)).xyz);
-    return vec2(atan(d.x, -d.z), -2.0 * asin(d.y)) * 0.15915494 + 0.5;
+    return vec2(atan(d.x, -d.z), -2.0 * asin(d.y)) * 0.15915494 + vec2(0.5);
 }
 
 vec3 mx_ggx_prefiltered(const vec3 N, const vec3 V)
@@ -92,23 +82,28 @@ void main()
     vec3 coat_3 = faceforward(normal, -V, normal);
     vec3 coat_4 = normalize(tangent - coat_3 * dot(tangent, coat_3));
     mat3 coat_5 = mat3(coat_4, cross(coat_3, coat_4), coat_3);
-    vec3 paint = (vec3(1.0) - (coat.x * 0.033735957 + coat.yyy) * coat_2) * 0.75;
+    float paint = max(dot(V, coat_3), 1e-8);
+    vec3 paint_2 = (vec3(1.0) - (coat.x * 0.033735957 + coat.yyy) * coat_2) * 0.75;
     for (int i = 0; i < min(u_numActiveLightSources, 3); ++i) {
         int type = u_lightData[i].type;
         vec3 spot_light = u_lightData[i].position - vd.positionWorld;
         float spot_light_2 = u_lightData[i].intensity / pow(length(spot_light) + 1.0, u_lightData[i].decay_rate);
-        float spot_light_3 = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle);
+        float spot_light_3 = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
         vec3 spot_light_4 = normalize(spot_light);
-        float light = spot_light_2 * smoothstep(spot_light_3, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, spot_light_4)) * (type == 3 ? 1.0 : 0.0);
+        float spot_light_5 = spot_light_2 * smoothstep(spot_light_3, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, spot_light_4));
+        float light = type == 3 ? spot_light_5 : 0.0;
         vec3 light_2 = u_lightData[i].color * (type == 1 ? u_lightData[i].intensity : type == 2 ? spot_light_2 : light);
         vec3 directional_light = -u_lightData[i].direction;
         vec3 L = type == 1 ? directional_light : spot_light_4;
-        vec3 paint_2 = mx_oren_nayar_diffuse_bsdf_eval(normal, V, L) * paint;
-        color += light_2 * (coat_2 * mx_ggx_lobe(coat_5, V, L) + paint_2);
+        float paint_3 = max(dot(L, coat_3), 1e-8);
+        float paint_4 = max(dot(V, L), 1e-8) - paint_3 * paint;
+        float paint_5 = paint_4 / max(paint_3, paint);
+        vec3 paint_6 = paint_3 / 3.1415927 * (max(paint_4 > 0.0 ? paint_5 : paint_4, 0.0) * 0.225 + 0.89285713) * vec3(0.6, 0.1, 0.05) * paint_2;
+        color += light_2 * (coat_2 * mx_ggx_lobe(coat_5, V, L) + paint_6);
     }
-    vec3 paint_3 = textureLod(u_envIrradiance, mx_latlong(coat_3), 0.0).xyz * u_envLightIntensity * vec3(0.6, 0.1, 0.05);
-    vec2 paint_4 = (max(dot(V, coat_3), 1e-8) * vec2(-0.7632, -0.4993) + vec2(-0.4297, -0.6076) + vec2(0.43155003, 0.60945004)) * 0.3 + vec2(1.0);
-    vec3 paint_5 = paint * (paint_3 * clamp(paint_4.x / paint_4.y, 0.0, 1.0));
-    color += coat_2 * mx_ggx_prefiltered(normal, V) + paint_5;
+    vec3 paint_7 = textureLod(u_envIrradiance, mx_latlong(coat_3), 0.0).xyz * u_envLightIntensity * vec3(0.6, 0.1, 0.05);
+    vec2 paint_8 = (paint * vec2(-0.7632, -0.4993) + vec2(-0.4297, -0.6076) + vec2(0.43155003, 0.60945004)) * 0.3 + vec2(1.0);
+    vec3 paint_9 = paint_2 * (paint_7 * clamp(paint_8.x / paint_8.y, 0.0, 1.0));
+    color += coat_2 * mx_ggx_prefiltered(normal, V) + paint_9;
     out1 = vec4(color, 1.0);
 }

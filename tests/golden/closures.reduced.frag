@@ -1,5 +1,5 @@
 #version 450
-// Varnish · surfacematerial · mxgen 0.1 · glsl · reduced · 3 closures · 0 textures
+// Varnish · surfacematerial · mxgen 0.1 · glsl · reduced · 0 closures · 0 textures
 
 out vec4 out1;
 

@@ -51,7 +51,7 @@ vec3 mx_noise_face_vec3(const int x, const int y, const int z, const vec3 f, con
 
 vec3 mx_fade(const vec3 t)
 {
-    return t * t * t * (t * (t * 6.0 - 15.0) + 10.0);
+    return t * t * t * (t * (t * 6.0 - vec3(15.0)) + vec3(10.0));
 }
 
 vec3 mx_noise_vec3(const vec3 p)

@@ -1,5 +1,5 @@
 #version 450
-// Leaf · surfacematerial · mxgen 0.1 · glsl · reduced · 3 closures · 1 texture
+// Leaf · surfacematerial · mxgen 0.1 · glsl · reduced · 1 closure · 1 texture
 
 uniform float u_alphaThreshold = 0.001;
 uniform sampler2D mask_file;

@@ -1,5 +1,5 @@
 #version 450
-// Glass · surfacematerial · mxgen 0.1 · glsl · reduced · 3 closures · 0 textures
+// Glass · surfacematerial · mxgen 0.1 · glsl · reduced · 2 closures · 0 textures
 
 uniform vec3 u_viewPosition = vec3(0.0);
 uniform int u_numActiveLightSources = 0;
@@ -35,7 +35,7 @@ vec2 mx_ggx_albedo(const vec3 N, const vec3 V)
 
 float mx_ggx_distribution(const vec3 h)
 {
-    vec3 e = vec3(h.xy / 0.0001, h.z);
+    vec3 e = vec3(h.xy / vec2(0.0001), h.z);
     float d = dot(e, e);
     return 1.0 / (3.1415926e-8 * d * d);
 }
@@ -62,7 +62,7 @@ vec3 mx_ggx_lobe(const mat3 frame, const vec3 V, const vec3 L)
 vec2 mx_latlong(const vec3 direction)
 {
     vec3 d = normalize((u_envMatrix * vec4(direction, 0.0)).xyz);
-    return vec2(atan(d.x, -d.z), -2.0 * asin(d.y)) * 0.15915494 + 0.5;
+    return vec2(atan(d.x, -d.z), -2.0 * asin(d.y)) * 0.15915494 + vec2(0.5);
 }
 
 vec3 mx_refract_sphere(const vec3 v, const vec3 h, const float ior)
@@ -116,9 +116,10 @@ void main()
         int type = u_lightData[i].type;
         vec3 spot_light = u_lightData[i].position - vd.positionWorld;
         float spot_light_2 = u_lightData[i].intensity / pow(length(spot_light) + 1.0, u_lightData[i].decay_rate);
-        float spot_light_3 = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle);
+        float spot_light_3 = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
         vec3 spot_light_4 = normalize(spot_light);
-        float light = spot_light_2 * smoothstep(spot_light_3, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, spot_light_4)) * (type == 3 ? 1.0 : 0.0);
+        float spot_light_5 = spot_light_2 * smoothstep(spot_light_3, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, spot_light_4));
+        float light = type == 3 ? spot_light_5 : 0.0;
         vec3 light_2 = u_lightData[i].color * (type == 1 ? u_lightData[i].intensity : type == 2 ? spot_light_2 : light);
         vec3 directional_light = -u_lightData[i].direction;
         color += light_2 * (reflection_2 * mx_ggx_lobe(reflection_5, V, type == 1 ? directional_light : spot_light_4));

@@ -1,5 +1,5 @@
 #version 450
-// Clay · surfacematerial · mxgen 0.1 · vulkan · reduced · 2 closures · 0 textures
+// Clay · surfacematerial · mxgen 0.1 · vulkan · reduced · 1 closure · 0 textures
 
 layout(set = 0, binding = 0, std140) uniform PrivateUniforms {
     mat4 u_worldMatrix;
@@ -28,20 +28,10 @@ layout(location = 0) in VertexData {
 } vd;
 layout(location = 0) out vec4 out1;
 
-vec3 mx_oren_nayar_diffuse_bsdf_eval(const vec3 N, const vec3 V, const vec3 L)
-{
-    float cos_l = max(dot(faceforward(N, -V, N), L), 1e-8);
-    float cos_v = max(dot(faceforward(N, -V, N), V), 1e-8);
-    float s = max(dot(L, V), 1e-8) - cos_l * cos_v;
-    if (s > 0.0)
-        s /= max(cos_l, cos_v);
-    return vec3(0.5, 0.25, 0.15) * (cos_l / 3.1415927) * (0.73913044 + 0.35999998 * max(s, 0.0));
-}
-
 vec2 mx_latlong(const vec3 direction)
 {
     vec3 d = normalize((u_envMatrix * vec4(direction, 0.0)).xyz);
-    return vec2(atan(d.x, -d.z), -2.0 * asin(d.y)) * 0.15915494 + 0.5;
+    return vec2(atan(d.x, -d.z), -2.0 * asin(d.y)) * 0.15915494 + vec2(0.5);
 }
 
 void main()
@@ -49,21 +39,27 @@ void main()
     vec3 color = vec3(0.0);
     vec3 normal = normalize(vd.normalWorld);
     vec3 V = normalize(u_viewPosition - vd.positionWorld);
+    // SR_clay
+    vec3 diffuse = faceforward(normal, -V, normal);
+    float diffuse_2 = max(dot(V, diffuse), 1e-8);
     for (int i = 0; i < min(u_numActiveLightSources, 3); ++i) {
         int type = u_lightData[i].type;
         vec3 spot_light = u_lightData[i].position - vd.positionWorld;
         float spot_light_2 = u_lightData[i].intensity / pow(length(spot_light) + 1.0, u_lightData[i].decay_rate);
-        float spot_light_3 = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle);
+        float spot_light_3 = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
         vec3 spot_light_4 = normalize(spot_light);
-        float light = spot_light_2 * smoothstep(spot_light_3, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, spot_light_4)) * (type == 3 ? 1.0 : 0.0);
-        vec3 light_2 = u_lightData[i].color * (type == 1 ? u_lightData[i].intensity : type == 2 ? spot_light_2 : light);
+        float spot_light_5 = spot_light_2 * smoothstep(spot_light_3, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, spot_light_4));
+        float light = type == 3 ? spot_light_5 : 0.0;
         vec3 directional_light = -u_lightData[i].direction;
-        color += light_2 * mx_oren_nayar_diffuse_bsdf_eval(normal, V, type == 1 ? directional_light : spot_light_4);
+        vec3 L = type == 1 ? directional_light : spot_light_4;
+        float diffuse_3 = max(dot(L, diffuse), 1e-8);
+        float diffuse_4 = max(dot(L, V), 1e-8) - diffuse_3 * diffuse_2;
+        float diffuse_5 = diffuse_4 / max(diffuse_3, diffuse_2);
+        vec3 diffuse_6 = diffuse_3 / 3.1415927 * (max(diffuse_4 > 0.0 ? diffuse_5 : diffuse_4, 0.0) * 0.35999998 + 0.73913044) * vec3(0.5, 0.25, 0.15);
+        color += u_lightData[i].color * (type == 1 ? u_lightData[i].intensity : type == 2 ? spot_light_2 : light) * diffuse_6;
     }
-    // SR_clay
-    vec3 diffuse = faceforward(normal, -V, normal);
-    vec3 diffuse_2 = textureLod(u_envIrradiance, mx_latlong(diffuse), 0.0).xyz * u_envLightIntensity * vec3(0.5, 0.25, 0.15);
-    vec2 diffuse_3 = (max(dot(V, diffuse), 1e-8) * vec2(-0.7632, -0.4993) + vec2(-0.4297, -0.6076) + vec2(0.86310005, 1.2189001)) * 0.6 + vec2(1.0);
-    color += diffuse_2 * clamp(diffuse_3.x / diffuse_3.y, 0.0, 1.0);
+    vec3 diffuse_7 = textureLod(u_envIrradiance, mx_latlong(diffuse), 0.0).xyz * u_envLightIntensity * vec3(0.5, 0.25, 0.15);
+    vec2 diffuse_8 = (diffuse_2 * vec2(-0.7632, -0.4993) + vec2(-0.4297, -0.6076) + vec2(0.86310005, 1.2189001)) * 0.6 + vec2(1.0);
+    color += diffuse_7 * clamp(diffuse_8.x / diffuse_8.y, 0.0, 1.0);
     out1 = vec4(color, 1.0);
 }

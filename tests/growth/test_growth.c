@@ -113,14 +113,15 @@ static void print_first(const mxg_diagnostics *list)
     printf("    %.1000s\n", line);
 }
 
-/* Bytes of source; 0: none. Errors are printed, except for `expected`, which must be among them. */
-static size_t generate(const struct text *text, const mxg_context_desc *desc, const char *expected)
+/* Bytes of source of an element; 0: none. Errors are printed, except for `expected`, which must be among them. */
+static size_t generate(const struct text *text, const char *element, const mxg_context_desc *desc, const char *expected)
 {
     mxg_context *context = NULL;
     mxg_document *document = NULL;
     mxg_result *result = NULL;
     mxg_generate_desc how = MXG_GENERATE_DESC_INIT;
     how.target = "glsl";
+    how.element = element;
     size_t size = 0;
     mxg_context_create(desc, &context);
     mxg_library *library = mxg_library_builtin(context);
@@ -147,7 +148,7 @@ static void check_shape(enum shape shape, unsigned max_nodes)
     double first = 0;
     for (unsigned nodes = 1000; nodes <= max_nodes; nodes *= 10) {
         struct text text = graph(shape, nodes);
-        size_t size = generate(&text, NULL, NULL);
+        size_t size = generate(&text, "NG/out", NULL, NULL);
         free(text.data);
         check(size > 0, shape_names[shape], nodes, size);
         /* Bytes per node: names get longer by a digit, no more. */
@@ -164,12 +165,12 @@ static void check_nesting(void)
     desc.max_nodes = 100000;
     for (unsigned i = 0; i < 2; ++i) {
         struct text text = nested(i ? 40 : 10);
-        sizes[i] = generate(&text, &desc, NULL);
+        sizes[i] = generate(&text, "out", &desc, NULL);
         free(text.data);
     }
     check(sizes[0] > 0 && sizes[1] > 0 && sizes[1] < 8 * sizes[0], "definitions in definitions", sizes[0], sizes[1]);
     struct text deep = nested(2000);
-    generate(&deep, NULL, "graph-depth");
+    generate(&deep, "out", NULL, "graph-depth");
     free(deep.data);
 }
 
@@ -178,16 +179,16 @@ static void check_limits(void)
     struct text text = graph(DIAMOND, 100000);
     mxg_context_desc desc = MXG_CONTEXT_DESC_INIT;
     desc.max_file_mib = 1;
-    generate(&text, &desc, "file-too-large");
+    generate(&text, "NG/out", &desc, "file-too-large");
     desc = (mxg_context_desc)MXG_CONTEXT_DESC_INIT;
     desc.max_output_mib = 1;
-    generate(&text, &desc, "output-limit");
+    generate(&text, "NG/out", &desc, "output-limit");
     desc = (mxg_context_desc)MXG_CONTEXT_DESC_INIT;
     desc.max_nodes = 1000;
-    generate(&text, &desc, "node-limit");
+    generate(&text, "NG/out", &desc, "node-limit");
     desc = (mxg_context_desc)MXG_CONTEXT_DESC_INIT;
     desc.max_elements = 1000;
-    generate(&text, &desc, "too-many-elements");
+    generate(&text, "NG/out", &desc, "too-many-elements");
     free(text.data);
 }
 
