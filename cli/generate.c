@@ -66,7 +66,7 @@ static void generate_element(struct generate *gen, const mxg_document *document,
     if (result)
         report_list(&gen->cli.report, mxg_result_diagnostics(result));
     if (report_status(&gen->cli.report, status)) {
-        mxg_shader_info info = {sizeof info};
+        mxg_shader_info info = {offsetof(mxg_shader_info, topology)}; /* the path; the hash would have to be made */
         mxg_result_info(result, &info);
         write_result(gen, folder, info.path, result);
     }

@@ -339,7 +339,7 @@ MXG_API mxg_status mxg_result_compiled_input(const mxg_result *result, uint32_t 
 typedef struct mxg_shader_info {
     size_t size; /* in */
     const char *name, *path, *target;
-    uint64_t topology; /* equal for shaders that differ in names and uniform values alone */
+    uint64_t topology; /* equal for shaders that differ in names and uniform values alone; made when `size` reaches this far */
     uint32_t num_closures, num_textures, num_lights;
     bool transparent, lit;
 } mxg_shader_info;

@@ -139,9 +139,6 @@ mxg_status mxg_result_info(const mxg_result *result, mxg_shader_info *out)
 {
     if (!result || !result->has_shader)
         return MXG_ERROR_ARGUMENT;
-    const struct made_text *topology = object_text(&result->object, TEXT_TOPOLOGY, write_topology);
-    if (!topology)
-        return MXG_ERROR_MEMORY;
     const struct shader *shader = &result->shader;
     mxg_shader_info full = {
         .name = text_of(result, shader->name),
@@ -153,7 +150,12 @@ mxg_status mxg_result_info(const mxg_result *result, mxg_shader_info *out)
         .transparent = shader->transparent,
         .lit = shader->lit,
     };
-    memcpy(&full.topology, topology->data, sizeof full.topology);
+    if (out && out->size > offsetof(mxg_shader_info, topology)) { /* the only part that costs something */
+        const struct made_text *topology = object_text(&result->object, TEXT_TOPOLOGY, write_topology);
+        if (!topology)
+            return MXG_ERROR_MEMORY;
+        memcpy(&full.topology, topology->data, sizeof full.topology);
+    }
     return struct_write(out, &full, sizeof full);
 }
 

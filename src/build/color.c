@@ -63,7 +63,7 @@ str_id build_colorspace(struct builder *b, elem_id element)
     if (!space || space == STR_none || space == b->options->colorspace)
         return 0;
     space = canonical_space(b, space);
-    return space == b->options->colorspace ? 0 : space;
+    return space == STR_none || space == b->options->colorspace ? 0 : space;
 }
 
 /* "lin_rec709, srgb_texture, …": what the library can convert to the working space. */
