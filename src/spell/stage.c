@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /* A stage of a C-like target, section by section: version, interface, functions, main. */
+#include "base/hash.h"
 #include "spell/spell.h"
 
 /* ---- Names of functions and types ---- */
@@ -16,33 +17,51 @@ static bool equal_parameters(const struct spell *spell, uint32_t a, uint32_t b)
     return true;
 }
 
+/* Functions of one source name, as chains of places in the stage's reach, counted from 1. */
+struct overloads {
+    uint32_t *last; /* by hash of the name */
+    uint32_t mask;
+    uint32_t *before; /* by place */
+};
+
+static struct overloads overloads_init(const struct spell *spell)
+{
+    uint32_t n = spell->stage->reach.functions.len, slots = 16;
+    while (slots < 2 * n)
+        slots *= 2;
+    return (struct overloads){.last = ARENA_ARRAY(spell->scratch, uint32_t, slots), .mask = slots - 1,
+                              .before = ARENA_ARRAY(spell->scratch, uint32_t, n + 1)};
+}
+
 /* The name that an earlier function of the same source name has and that this one may share as an overload; NULL: none. */
-static const char *overload_of(const struct spell *spell, uint32_t index)
+static const char *overload_of(const struct spell *spell, struct overloads *overloads, uint32_t index, str_id name)
 {
     const uint32_t *ids = spell->stage->reach.functions.items;
-    str_id name = lang_function(spell->shader->unit, ids[index], NULL)->name;
+    uint32_t *last = &overloads->last[hash_pair(name, 0) & overloads->mask];
     const char *shared = NULL;
-    for (uint32_t i = 0; i < index; i++) {
-        if (lang_function(spell->shader->unit, ids[i], NULL)->name != name)
+    bool clash = false;
+    for (uint32_t place = *last; place; place = overloads->before[place]) {
+        uint32_t id = ids[place - 1];
+        if (lang_function(spell->shader->unit, id, NULL)->name != name)
             continue;
-        if (equal_parameters(spell, ids[i], ids[index]))
-            return NULL;
-        if (!shared)
-            shared = spell->functions[ids[i]];
+        clash |= equal_parameters(spell, id, ids[index]);
+        shared = spell->functions[id]; /* in the end, the first one's */
     }
-    return shared;
+    overloads->before[index + 1] = *last;
+    *last = index + 1;
+    return clash ? NULL : shared;
 }
 
 static void name_functions(struct spell *spell)
 {
     const struct shader *shader = spell->shader;
+    struct overloads overloads = overloads_init(spell);
     for (uint32_t i = 0; i < spell->stage->reach.functions.len; i++) {
         uint32_t id = spell->stage->reach.functions.items[i];
-        const char *name = spell_can(spell, CAP_OVERLOADS) ? overload_of(spell, i) : NULL;
-        if (!name) {
-            str_id source = lang_function(shader->unit, id, NULL)->name;
+        str_id source = lang_function(shader->unit, id, NULL)->name;
+        const char *name = spell_can(spell, CAP_OVERLOADS) ? overload_of(spell, &overloads, i, source) : NULL;
+        if (!name)
             name = names_unique(&spell->names, str_text(shader->strings, source), str_len(shader->strings, source));
-        }
         spell->functions[id] = name;
     }
     for (uint32_t i = 0; i < spell->stage->functions.len; i++) {
