@@ -17,7 +17,8 @@ enum {
 
 enum { FINITE, EXACT };
 
-#define CONSTANT_BIT(token) ((uint64_t)1 << (IR_OP_BITS + (token) - K))
+/* Also evaluated, and not used, for ops: the shift must be in range. */
+#define CONSTANT_BIT(token) ((uint64_t)1 << ((token) < K ? 0 : IR_OP_BITS + (token) - K))
 #define HEAD(token) ((token) < A ? IR_OP_BIT(token) : (token) >= K ? CONSTANT_BIT(token) : 0)
 static_assert(IR_OP_BITS + RULE_FALSE - RULE_K < 63, "the bits do not suffice");
 #define HEADS(root, a, b, c, d, e, f, ...) (HEAD(a) | HEAD(b) | HEAD(c) | HEAD(d) | HEAD(e) | HEAD(f))
