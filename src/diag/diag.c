@@ -20,11 +20,6 @@ const char *diag_id_text(enum diag_id id)
     return catalogue[id].stable;
 }
 
-enum diag_severity diag_id_severity(enum diag_id id)
-{
-    return catalogue[id].severity;
-}
-
 const char *diag_severity_text(enum diag_severity severity)
 {
     static const char *const texts[] = {

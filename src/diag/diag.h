@@ -60,7 +60,6 @@ void diag_repeat(struct diag_list *list, const struct diag *diag);
 
 /* The stable id: "type-mismatch". */
 const char *diag_id_text(enum diag_id id);
-enum diag_severity diag_id_severity(enum diag_id id);
 const char *diag_severity_text(enum diag_severity severity); /* "error" … */
 
 /*

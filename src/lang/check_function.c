@@ -2,23 +2,6 @@
 /* What bodies use: callees, globals, flags. And an order in which callees come before callers, which refuses recursion. */
 #include "lang/lang_priv.h"
 
-/* Which of a node's fields are nodes. */
-enum { CHILD_A = 1, CHILD_B = 2, CHILD_C = 4, CHILD_D = 8 };
-static const uint8_t children[] = {
-    [LANG_OP] = CHILD_A,
-    [LANG_CALL] = CHILD_B,
-    [LANG_DECLARE] = CHILD_B,
-    [LANG_ASSIGN] = CHILD_A | CHILD_B,
-    [LANG_EXPR] = CHILD_A,
-    [LANG_IF] = CHILD_A | CHILD_B | CHILD_C,
-    [LANG_FOR] = CHILD_A | CHILD_B | CHILD_C | CHILD_D,
-    [LANG_WHILE] = CHILD_B | CHILD_D,
-    [LANG_DO] = CHILD_B | CHILD_D,
-    [LANG_BLOCK] = CHILD_A,
-    [LANG_RETURN] = CHILD_A,
-    [LANG_CONTINUE] = 0,
-};
-
 struct uses {
     struct parser *p;
     uint32_t num_nodes;
@@ -72,7 +55,7 @@ static void use_tree(struct uses *uses, lang_ref ref)
         const struct lang_node node = *tree_node(uses->p, ref);
         uses->num_nodes++;
         use_node(uses, &node);
-        unsigned fields = node.kind < sizeof children ? children[node.kind] : 0;
+        unsigned fields = lang_child_fields[node.kind];
         const uint32_t refs[4] = {node.a, node.b, node.c, node.d};
         for (unsigned i = 0; i < 4; i++)
             if (fields >> i & 1)

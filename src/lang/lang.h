@@ -43,7 +43,12 @@ enum lang_kind {
     LANG_RETURN,   /* a: value or 0 */
     LANG_BREAK,
     LANG_CONTINUE,
+    LANG_NUM_KINDS
 };
+
+/* Which of a node's fields are its children, by kind; `next`, where it is set, is a sibling. ast.c */
+enum lang_child_field { LANG_CHILD_A = 1, LANG_CHILD_B = 2, LANG_CHILD_C = 4, LANG_CHILD_D = 8 };
+extern const uint8_t lang_child_fields[LANG_NUM_KINDS];
 
 struct lang_node {
     uint8_t kind;
@@ -354,8 +359,6 @@ void lang_print_value(const struct lang_syntax *syntax, const struct strpool *st
                       struct text *out);
 /* How tightly such a literal binds: -1.0 less than 1.0 or vec3(1.0). */
 enum lang_precedence lang_value_precedence(const struct ir_value *value);
-void lang_print_prototype(const struct lang_syntax *syntax, const struct lang_names *names, const struct lang_unit *unit,
-                          uint32_t id, struct text *out);
 void lang_print_function(const struct lang_syntax *syntax, const struct lang_names *names, const struct lang_unit *unit,
                          uint32_t id, struct text *out);
 /* "const float PI = 3.14;", and "struct S {…};", each with its newline. */

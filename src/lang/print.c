@@ -551,14 +551,6 @@ static void print_head(struct printer *p, uint32_t id)
     text_char(p->out, ')');
 }
 
-void lang_print_prototype(const struct lang_syntax *syntax, const struct lang_names *names, const struct lang_unit *unit,
-                          uint32_t id, struct text *out)
-{
-    struct printer p = start(syntax, names, unit, id, out);
-    print_head(&p, id);
-    text_mem(out, ";\n", 2);
-}
-
 void lang_print_function(const struct lang_syntax *syntax, const struct lang_names *names, const struct lang_unit *unit,
                          uint32_t id, struct text *out)
 {

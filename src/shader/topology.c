@@ -45,23 +45,6 @@ static void add_variables(struct hasher *h)
 
 /* ---- Portable functions ---- */
 
-/* Which fields of a node of each kind are children; `next` is one always. */
-enum { CHILD_A = 1, CHILD_B = 2, CHILD_C = 4, CHILD_D = 8 };
-static const uint8_t child_fields[] = {
-    [LANG_OP] = CHILD_A,
-    [LANG_CALL] = CHILD_B,
-    [LANG_DECLARE] = CHILD_B,
-    [LANG_ASSIGN] = CHILD_A | CHILD_B,
-    [LANG_EXPR] = CHILD_A,
-    [LANG_IF] = CHILD_A | CHILD_B | CHILD_C,
-    [LANG_FOR] = CHILD_A | CHILD_B | CHILD_C | CHILD_D,
-    [LANG_WHILE] = CHILD_B | CHILD_D,
-    [LANG_DO] = CHILD_B | CHILD_D,
-    [LANG_BLOCK] = CHILD_A,
-    [LANG_RETURN] = CHILD_A,
-    [LANG_CONTINUE] = 0,
-};
-
 /* What a node says beside its children. Globals are told apart by name: their ids depend on what else was parsed. */
 static void add_tree_node(struct hasher *h, const struct lang_unit *layer, const struct lang_node *node)
 {
@@ -87,16 +70,16 @@ static void add_tree(struct hasher *h, const struct lang_unit *layer, lang_ref r
     while (stack.len) {
         const struct lang_node *node = &layer->nodes.items[vec_pop(&stack)];
         add_tree_node(h, layer, node);
-        uint8_t fields = child_fields[node->kind];
+        uint8_t fields = lang_child_fields[node->kind];
         if (node->next)
             vec_push(h->arena, &stack, node->next);
-        if (fields & CHILD_A && node->a)
+        if (fields & LANG_CHILD_A && node->a)
             vec_push(h->arena, &stack, node->a);
-        if (fields & CHILD_B && node->b)
+        if (fields & LANG_CHILD_B && node->b)
             vec_push(h->arena, &stack, node->b);
-        if (fields & CHILD_C && node->c)
+        if (fields & LANG_CHILD_C && node->c)
             vec_push(h->arena, &stack, node->c);
-        if (fields & CHILD_D && node->d)
+        if (fields & LANG_CHILD_D && node->d)
             vec_push(h->arena, &stack, node->d);
     }
 }
