@@ -362,7 +362,7 @@ bool bind_shader(struct bind *bind)
     bind->draw.num_vertices = bind->scene->num_vertices;
     bind->draw.num_indices = bind->scene->num_indices;
     bind->draw.indices = bind->scene->indices;
-    bind->draw.blend = info.transparent;
+    bind->draw.blend = info.transparent && !bind->is_opaque;
     bind->max_lights = info.num_lights;
     return check_values(bind) && bind_blocks(bind) && bind_textures(bind) && bind_attributes(bind);
 }

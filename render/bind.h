@@ -22,6 +22,7 @@ struct bind {
     const char *document; /* texture files are beside it */
     const struct bind_value *values;
     size_t num_values;
+    bool is_opaque; /* colours replace what is behind, also those of transparent materials */
 
     struct draw draw;                       /* the outcome */
     struct image images[DRAW_MAX_TEXTURES]; /* read for it */

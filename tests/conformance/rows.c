@@ -2,6 +2,8 @@
 #define _POSIX_C_SOURCE 200809L
 #include "rows.h"
 
+#include "lines.h"
+
 #include <dirent.h>
 #include <math.h>
 #include <stdio.h>
@@ -12,53 +14,6 @@ enum { MAX_DEVIATIONS_PERCENT = 1, MAX_FAILURES_SHOWN = 50 };
 
 /* ---- Files ---- */
 
-static void *grow(void *items, size_t len, size_t size)
-{
-    bool is_full = (len & (len - 1)) == 0; /* room is the next power of two */
-    void *grown = is_full ? realloc(items, (len ? 2 * len : 1) * size) : items;
-    if (!grown) {
-        fputs("out of memory\n", stderr);
-        exit(1);
-    }
-    return grown;
-}
-
-static char *path_of(const char *folder, const char *inner, const char *name, const char *end)
-{
-    size_t size = strlen(folder) + strlen(inner) + strlen(name) + strlen(end) + 3;
-    char *path = malloc(size);
-    if (path)
-        snprintf(path, size, "%s/%s/%s%s", folder, inner, name, end);
-    return path;
-}
-
-static FILE *open_file(const char *path)
-{
-    FILE *file = fopen(path, "r");
-    if (!file)
-        printf("cannot open '%s'\n", path);
-    return file;
-}
-
-/* The next line, without its end, in *line; which getline owns. */
-static bool next_line(FILE *file, char **line, size_t *room)
-{
-    ssize_t len = getline(line, room, file);
-    if (len > 0 && (*line)[len - 1] == '\n')
-        (*line)[len - 1] = '\0';
-    return len >= 0;
-}
-
-/* Cuts the field in front off *rest. */
-static char *next_field(char **rest, char separator)
-{
-    char *field = *rest, *end = strchr(field, separator);
-    *rest = end ? end + 1 : field + strlen(field);
-    if (end)
-        *end = '\0';
-    return field;
-}
-
 static int compare_names(const void *a, const void *b)
 {
     return strcmp(*(char *const *)a, *(char *const *)b);
@@ -66,13 +21,13 @@ static int compare_names(const void *a, const void *b)
 
 static bool list_documents(struct suite *suite)
 {
-    char *folder = path_of(suite->folder, "expected", "", "");
+    char *folder = lines_path(suite->folder, "expected", "", "");
     DIR *dir = folder ? opendir(folder) : NULL;
     for (struct dirent *entry; dir && (entry = readdir(dir)) != NULL;) {
         const char *end = strrchr(entry->d_name, '.');
         if (!end || strcmp(end, ".csv") != 0)
             continue;
-        suite->documents = grow(suite->documents, suite->num_documents, sizeof *suite->documents);
+        suite->documents = lines_grow(suite->documents, suite->num_documents, sizeof *suite->documents);
         suite->documents[suite->num_documents++] = strndup(entry->d_name, (size_t)(end - entry->d_name));
     }
     if (dir)
@@ -84,18 +39,18 @@ static bool list_documents(struct suite *suite)
 
 static bool read_deviations(struct suite *suite)
 {
-    char *path = path_of(suite->folder, ".", "deviations", ".tsv"), *line = NULL;
+    char *path = lines_path(suite->folder, ".", "deviations", ".tsv"), *line = NULL;
     size_t room = 0;
-    FILE *file = open_file(path);
-    while (file && next_line(file, &line, &room)) {
+    FILE *file = lines_open(path);
+    while (file && lines_next(file, &line, &room)) {
         char *rest = line;
         if (!*line || *line == '#')
             continue;
-        suite->deviations = grow(suite->deviations, suite->num_deviations, sizeof *suite->deviations);
+        suite->deviations = lines_grow(suite->deviations, suite->num_deviations, sizeof *suite->deviations);
         struct deviation *d = &suite->deviations[suite->num_deviations++];
         *d = (struct deviation){0};
-        d->document = strdup(next_field(&rest, '\t'));
-        d->row = strdup(next_field(&rest, '\t'));
+        d->document = strdup(lines_field(&rest, '\t'));
+        d->row = strdup(lines_field(&rest, '\t'));
     }
     if (file)
         fclose(file);
@@ -127,7 +82,7 @@ void suite_close(struct suite *suite)
 
 char *suite_case_file(const struct suite *suite, size_t index)
 {
-    return path_of(suite->folder, "cases", suite->documents[index], ".mtlx");
+    return lines_path(suite->folder, "cases", suite->documents[index], ".mtlx");
 }
 
 /* ---- Rows ---- */
@@ -148,19 +103,19 @@ static unsigned components_of(const char *type)
 static bool parse_row(char *line, struct row *row)
 {
     char *rest = line;
-    *row = (struct row){.name = strdup(next_field(&rest, ','))};
-    row->components = components_of(next_field(&rest, ','));
-    size_t pixels = strtoul(next_field(&rest, ','), NULL, 10);
-    const char *status = next_field(&rest, ',');
+    *row = (struct row){.name = strdup(lines_field(&rest, ','))};
+    row->components = components_of(lines_field(&rest, ','));
+    size_t pixels = strtoul(lines_field(&rest, ','), NULL, 10);
+    const char *status = lines_field(&rest, ',');
     row->is_defined = strcmp(status, "ok") == 0 || strcmp(status, "derived") == 0;
-    row->tolerance = strtod(next_field(&rest, ','), NULL);
+    row->tolerance = strtod(lines_field(&rest, ','), NULL);
     if (!row->components || (pixels != 1 && pixels != ROW_PIXELS))
         return false;
     size_t count = pixels * row->components;
     for (size_t i = 0; i < ROW_PIXELS * row->components; ++i) {
         if (i < count && !*rest)
             return false;
-        row->values[i] = i < count ? strtod(next_field(&rest, ','), NULL) : row->values[i % row->components];
+        row->values[i] = i < count ? strtod(lines_field(&rest, ','), NULL) : row->values[i % row->components];
     }
     return !*rest;
 }
@@ -168,12 +123,12 @@ static bool parse_row(char *line, struct row *row)
 bool suite_read(const struct suite *suite, size_t index, struct row_list *out)
 {
     *out = (struct row_list){.document = suite->documents[index]};
-    char *path = path_of(suite->folder, "expected", out->document, ".csv"), *line = NULL;
+    char *path = lines_path(suite->folder, "expected", out->document, ".csv"), *line = NULL;
     size_t room = 0;
-    FILE *file = open_file(path);
-    bool good = file && next_line(file, &line, &room); /* the header */
-    while (good && next_line(file, &line, &room)) {
-        out->items = grow(out->items, out->len, sizeof *out->items);
+    FILE *file = lines_open(path);
+    bool good = file && lines_next(file, &line, &room); /* the header */
+    while (good && lines_next(file, &line, &room)) {
+        out->items = lines_grow(out->items, out->len, sizeof *out->items);
         good = parse_row(line, &out->items[out->len++]);
         if (!good)
             printf("%s: row %zu cannot be read\n", path, out->len);
