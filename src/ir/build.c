@@ -47,40 +47,74 @@ static void sort_operands(const struct ir_graph *graph, enum ir_op op, ir_ref *a
     args[1] = first;
 }
 
-static bool may_simplify(enum ir_op op)
+/* Arithmetic and choices are simplified where they are of vectors; what builds and takes apart, wherever it is. */
+static bool may_simplify(enum ir_op op, ir_type_id type)
 {
-    return (op >= IR_SELECT && op <= IR_INDEX) || (op >= IR_ADD && op <= IR_DIV);
+    if (op > IR_SELECT)
+        return op <= IR_INDEX;
+    return (op == IR_SELECT || (op >= IR_ADD && op <= IR_DIV)) && type >= IR_TYPE_VEC2 && type <= IR_TYPE_VEC4;
 }
+
+static bool has_poison(const struct ir_graph *graph, const ir_ref *args, unsigned num_args)
+{
+    for (unsigned i = 0; i < num_args; i++)
+        if (ir_get(graph, args[i])->op == IR_POISON)
+            return true;
+    return false;
+}
+
+static uint64_t equal_bit(const ir_ref *args, unsigned num_args)
+{
+    for (unsigned i = 1; i < num_args; i++)
+        for (unsigned k = 0; k < i; k++)
+            if (args[k] == args[i])
+                return IR_EQUAL_BIT;
+    return 0;
+}
+
+/*
+ * Whether a node is well formed takes about as long to find out as making it does: builds without optimisation check everything at
+ * once, ir_check does so later.
+ */
+#ifndef __OPTIMIZE__
+#define IS_WELL_FORMED(...) (!ir_node_problem(__VA_ARGS__))
+#else
+#define IS_WELL_FORMED(graph, op, type, attr, args, num_args) \
+    (ir_op_info(op)->arity < 0 || (num_args) == (unsigned)ir_op_info(op)->arity)
+#endif
 
 ir_ref ir_build(struct ir_graph *graph, enum ir_op op, ir_type_id type, uint32_t attr, const ir_ref *args,
                 unsigned num_args)
 {
-    assert(!ir_node_problem(graph, op, type, attr, args, num_args));
+    assert(IS_WELL_FORMED(graph, op, type, attr, args, num_args));
     if (graph->no_fold || num_args == 0 || num_args > MAX_FOLD_ARGS)
         return ir_intern(graph, op, type, attr, args, num_args);
     ir_ref own[MAX_FOLD_ARGS]; /* simplifying adds nodes, and `args` may lie in the graph */
-    unsigned num_consts = 0, num_poisons = 0, flags = ir_op_info(op)->flags;
+    unsigned num_consts = 0, flags = ir_op_info(op)->flags;
     uint64_t present = 0, wanted = ir_rules[op].any;
     for (unsigned i = 0; i < num_args; i++) {
-        const struct ir_node *from = ir_get(graph, args[i]);
         own[i] = args[i];
-        num_consts += from->op == IR_CONST;
-        num_poisons += from->op == IR_POISON;
-        if (wanted)
-            present |= from->op == IR_CONST ? ir_constant_bits(graph, from) : IR_OP_BIT(from->op);
-        for (unsigned k = 0; wanted && k < i; k++)
-            present |= own[k] == own[i] ? IR_EQUAL_BIT : 0;
+        const struct ir_node *from = ir_get(graph, own[i]);
+        if (from->op != IR_CONST) {
+            present |= IR_OP_BIT(from->op);
+            continue;
+        }
+        num_consts++;
+        if (wanted >> IR_OP_BITS)
+            present |= ir_constant_bits(graph, from);
     }
-    if (num_poisons && flags & OP_PURE && op != IR_SELECT)
+    if (present & IR_OP_BIT(IR_POISON) && flags & OP_PURE && op != IR_SELECT && has_poison(graph, own, num_args))
         return ir_poison(graph, type);
     ir_ref result = 0;
     if (num_consts == num_args && flags & OP_PURE)
         result = fold(graph, op, type, attr, own, num_args);
     if (!result && (op == IR_MUL || flags & OP_COMMUTES))
         sort_operands(graph, op, own);
+    if (wanted & IR_EQUAL_BIT)
+        present |= equal_bit(own, num_args);
     if (!result && present & wanted)
         result = ir_apply_rules(graph, op, type, own, num_args, present);
-    if (!result && may_simplify(op))
+    if (!result && may_simplify(op, type))
         result = ir_simplify(graph, op, type, attr, own, num_args);
     return result ? result : ir_intern(graph, op, type, attr, own, num_args);
 }
@@ -114,6 +148,11 @@ ir_ref ir_op3(struct ir_graph *graph, enum ir_op op, ir_ref a, ir_ref b, ir_ref 
 ir_ref ir_const(struct ir_graph *graph, const struct ir_value *value)
 {
     return ir_intern_const(graph, value->type, value->w);
+}
+
+ir_ref ir_const_words(struct ir_graph *graph, ir_type_id type, const union ir_word *words)
+{
+    return ir_intern_const(graph, type, words);
 }
 
 ir_ref ir_const_float(struct ir_graph *graph, float f)

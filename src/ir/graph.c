@@ -35,11 +35,11 @@ static struct content content_of(const struct ir_graph *graph, ir_ref ref)
 static inline uint32_t hash_content(struct content c)
 {
     uint64_t h = hash_mix(0, (uint64_t)c.attr << 32 | (uint64_t)c.op << 16 | c.type);
-    uint32_t i = 0;
-    for (; i + 2 <= c.count; i += 2)
-        h = hash_mix(h, (uint64_t)c.data[i] << 32 | c.data[i + 1]);
-    if (i < c.count)
-        h = hash_mix(h, c.data[i]);
+    const uint32_t *data = c.data, *end = data + (c.count & ~1u);
+    for (; data < end; data += 2)
+        h = hash_mix(h, (uint64_t)data[0] << 32 | data[1]);
+    if (c.count & 1)
+        h = hash_mix(h, *data);
     return (uint32_t)(h ^ (h >> 32));
 }
 
@@ -112,41 +112,41 @@ static bool function_has_derivative(const struct ir_graph *graph, const struct i
     return false;
 }
 
-static uint8_t node_flags(const struct ir_graph *graph, struct content c)
+/* Of the node itself; those of its operands are added to them. */
+static unsigned own_flags(const struct ir_graph *graph, struct content c)
 {
-    if (c.op == IR_CONST)
-        return 0;
     bool derivative = ir_op_info(c.op)->flags & OP_DERIVATIVE;
     if (c.op == IR_CALL || c.op == IR_VERBATIM || c.op == IR_LEAF)
         derivative = graph->callees.items[c.attr].derivative;
     else if (c.op == IR_GRAPH_CALL)
         derivative = function_has_derivative(graph, &graph->functions.items[c.attr]);
-    unsigned flags = derivative ? IR_NODE_DERIVATIVE : 0;
-    for (uint32_t i = 0; i < c.count; i++)
-        flags |= ir_get(graph, c.data[i])->flags & IR_NODE_DERIVATIVE;
-    if (ir_type_is_closure(c.type) || ir_type_is_shader(c.type))
-        flags |= IR_NODE_CLOSURE;
-    return (uint8_t)flags;
+    bool closure = ir_type_is_closure(c.type) || ir_type_is_shader(c.type);
+    return (derivative ? IR_NODE_DERIVATIVE : 0u) | (closure ? IR_NODE_CLOSURE : 0u);
 }
 
-/* The operands' place in graph->args; they may lie there already, so that growing would move them. */
-static uint32_t push_args(struct ir_graph *graph, const ir_ref *args, uint32_t num_args)
+/* Copies the operands to graph->args and returns their flags; they may lie there already, so that growing would move them. */
+static unsigned push_args(struct ir_graph *graph, const ir_ref *args, uint32_t num_args)
 {
-    uint32_t first = graph->args.len;
-    if (num_args == 0)
-        return first;
+    uint32_t len = graph->args.len;
     uintptr_t offset = (uintptr_t)args - (uintptr_t)graph->args.items;
-    bool inside = offset < first * sizeof *args;
-    ir_ref *place = vec_extend(graph->arena, &graph->args, num_args);
-    memcpy(place, inside ? graph->args.items + offset / sizeof *args : args, num_args * sizeof *args);
-    return first;
+    vec_reserve(graph->arena, &graph->args, num_args);
+    const ir_ref *from = offset < len * sizeof *args ? graph->args.items + offset / sizeof *args : args;
+    ir_ref *to = graph->args.items + len;
+    const struct ir_node *nodes = graph->nodes.items;
+    unsigned flags = 0;
+    for (uint32_t i = 0; i < num_args; i++) {
+        to[i] = from[i];
+        flags |= nodes[from[i]].flags;
+    }
+    graph->args.len = len + num_args;
+    return flags & IR_NODE_DERIVATIVE;
 }
 
-static uint32_t push_words(struct ir_graph *graph, const uint32_t *words, uint32_t num_words)
+static void push_words(struct ir_graph *graph, const uint32_t *words, uint32_t num_words)
 {
-    uint32_t first = graph->words.len;
-    memcpy(vec_extend(graph->arena, &graph->words, num_words), words, num_words * sizeof *words);
-    return first;
+    union ir_word *to = vec_extend(graph->arena, &graph->words, num_words);
+    for (uint32_t i = 0; i < num_words; i++)
+        to[i].u = words[i];
 }
 
 static ir_ref add(struct ir_graph *graph, struct content c, uint32_t *slot)
@@ -155,18 +155,14 @@ static ir_ref add(struct ir_graph *graph, struct content c, uint32_t *slot)
         graph->overflow = true;
         return ir_poison(graph, c.type);
     }
-    struct ir_node node = {
-        .op = (uint8_t)c.op,
-        .type = c.type,
-        .flags = node_flags(graph, c),
-        .attr = c.attr,
-        .origin = graph->origin,
-    };
+    struct ir_node node = {.op = (uint8_t)c.op, .type = c.type, .attr = c.attr, .origin = graph->origin};
     if (c.op == IR_CONST) {
-        node.attr = push_words(graph, c.data, c.count);
+        node.attr = graph->words.len;
+        push_words(graph, c.data, c.count);
     } else {
         node.num_args = c.count;
-        node.first_arg = push_args(graph, c.data, c.count);
+        node.first_arg = graph->args.len;
+        node.flags = (uint8_t)(own_flags(graph, c) | push_args(graph, c.data, c.count));
     }
     ir_ref ref = graph->nodes.len;
     vec_push(graph->arena, &graph->nodes, node);

@@ -222,6 +222,7 @@ ir_ref ir_op2(struct ir_graph *graph, enum ir_op op, ir_ref a, ir_ref b);
 ir_ref ir_op3(struct ir_graph *graph, enum ir_op op, ir_ref a, ir_ref b, ir_ref c);
 
 ir_ref ir_const(struct ir_graph *graph, const struct ir_value *value);
+ir_ref ir_const_words(struct ir_graph *graph, ir_type_id type, const union ir_word *words); /* the same of a value's components */
 ir_ref ir_const_float(struct ir_graph *graph, float f);
 ir_ref ir_const_int(struct ir_graph *graph, int32_t i);
 ir_ref ir_const_bool(struct ir_graph *graph, bool b);
@@ -240,7 +241,13 @@ ir_ref ir_construct(struct ir_graph *graph, ir_type_id type, const ir_ref *args,
 ir_ref ir_convert(struct ir_graph *graph, ir_type_id type, ir_ref a);
 
 bool ir_is_const(const struct ir_graph *graph, ir_ref ref);
-/* The value of a constant of a built-in type; false for anything else. */
+/* The components of a constant of a built-in type, until the next node is built; NULL for anything else. */
+static inline const union ir_word *ir_constant_words(const struct ir_graph *graph, ir_ref ref)
+{
+    const struct ir_node *node = ir_get(graph, ref);
+    return node->op == IR_CONST ? graph->words.items + node->attr : NULL;
+}
+/* The value of such a constant; false for anything else. */
 bool ir_get_const(const struct ir_graph *graph, ir_ref ref, struct ir_value *out);
 bool ir_const_is(const struct ir_graph *graph, ir_ref ref, float f); /* all components equal f */
 

@@ -113,43 +113,34 @@ struct few { /* room for the frame of a usual function */
     ir_ref leaves[FEW_LEAVES];
 };
 
-static void open_frame(struct lower *lo, uint32_t id, const ir_ref *in, struct few *few)
+static void open_frame(struct lower *lo, struct lower_frame *frame, const ir_ref *in, struct few *few)
 {
-    struct lower_frame *frame = &lo->frame;
-    *frame = (struct lower_frame){0};
-    frame->fn = *lang_function(lo->unit, id, &frame->layer);
-    uint32_t num_slots = frame->fn.num_slots;
-    frame->offsets = num_slots <= FEW_SLOTS ? few->offsets : ARENA_ARRAY(lo->graph->arena, uint32_t, num_slots + 1);
-    frame->offsets[0] = 0;
-    for (uint32_t i = 0; i < num_slots; i++)
-        frame->offsets[i + 1] = frame->offsets[i] + lower_leaves(lo, ast_slot(frame->layer, &frame->fn, i)->type);
-    frame->num_leaves = frame->offsets[num_slots] + lower_leaves(lo, frame->fn.return_type);
-    if (frame->num_leaves > FEW_LEAVES)
-        frame->leaves = ARENA_ARRAY(lo->graph->arena, ir_ref, frame->num_leaves);
-    else
-        frame->leaves = memset(few->leaves, 0, frame->num_leaves * sizeof *few->leaves);
-    for (uint32_t i = 0; i < frame->fn.num_params; i++) {
-        uint32_t count = frame->offsets[i + 1] - frame->offsets[i];
-        if (ast_slot(frame->layer, &frame->fn, i)->mode == LANG_OUT)
-            continue;
-        memcpy(frame->leaves + frame->offsets[i], in, count * sizeof *in);
-        in += count;
+    uint32_t num_slots = frame->fn->num_slots, num_leaves = 0;
+    const struct lang_slot *slots = frame->layer->slots.items + frame->fn->first_slot;
+    uint32_t *offsets = num_slots <= FEW_SLOTS ? few->offsets : ARENA_ARRAY(lo->graph->arena, uint32_t, num_slots + 1);
+    for (uint32_t i = 0; i < num_slots; i++) {
+        offsets[i] = num_leaves;
+        num_leaves += lower_leaves(lo, slots[i].type);
     }
+    offsets[num_slots] = num_leaves;
+    frame->offsets = offsets;
+    frame->num_leaves = num_leaves + lower_leaves(lo, frame->fn->return_type);
+    frame->leaves = frame->num_leaves <= FEW_LEAVES ? few->leaves : ARENA_ARRAY(lo->graph->arena, ir_ref, frame->num_leaves);
+    for (uint32_t i = 0, k = 0; i < frame->fn->num_params; i++)
+        for (; k < offsets[i + 1]; k++)
+            frame->leaves[k] = slots[i].mode == LANG_OUT ? 0 : *in++;
+    for (uint32_t k = offsets[frame->fn->num_params]; k < frame->num_leaves; k++)
+        frame->leaves[k] = 0;
 }
 
-static void collect_results(const struct lower *lo, ir_ref *out)
+static void collect_results(const struct lower_frame *frame, ir_ref *out)
 {
-    const struct lower_frame *frame = &lo->frame;
-    uint32_t returned = frame->offsets[frame->fn.num_slots];
-    memcpy(out, frame->leaves + returned, (frame->num_leaves - returned) * sizeof *out);
-    out += frame->num_leaves - returned;
-    for (uint32_t i = 0; i < frame->fn.num_params; i++) {
-        uint32_t count = frame->offsets[i + 1] - frame->offsets[i];
-        if (ast_slot(frame->layer, &frame->fn, i)->mode == LANG_IN)
-            continue;
-        memcpy(out, frame->leaves + frame->offsets[i], count * sizeof *out);
-        out += count;
-    }
+    const struct lang_slot *slots = frame->layer->slots.items + frame->fn->first_slot;
+    for (uint32_t k = frame->offsets[frame->fn->num_slots]; k < frame->num_leaves; k++)
+        *out++ = frame->leaves[k];
+    for (uint32_t i = 0; i < frame->fn->num_params; i++)
+        for (uint32_t k = frame->offsets[i]; slots[i].mode != LANG_IN && k < frame->offsets[i + 1]; k++)
+            *out++ = frame->leaves[k];
 }
 
 enum known { NOTHING_KNOWN, A_NUMBER_KNOWN, A_CHOICE_KNOWN };
@@ -194,7 +185,7 @@ static bool is_worth_trying(struct lower *lo, const struct lang_unit *layer, con
     enum known known = known_of(lo, layer, fn, in);
     if (known == A_CHOICE_KNOWN)
         *out_budget = 2 * limit;
-    else if (known == A_NUMBER_KNOWN && is_outer && fn->num_nodes <= LOWER_MAX_TRIED && !lo->max_graph_nodes)
+    else if (known == A_NUMBER_KNOWN && is_outer && fn->num_nodes <= LOWER_MAX_TRIED && lo->max_graph_nodes == UINT32_MAX)
         lo->max_graph_nodes = lo->graph->nodes.len + LOWER_TRIED_NODES;
     return known == A_CHOICE_KNOWN || (known == A_NUMBER_KNOWN && is_outer && fn->num_nodes <= LOWER_MAX_TRIED);
 }
@@ -202,22 +193,21 @@ static bool is_worth_trying(struct lower *lo, const struct lang_unit *layer, con
 /* False where the body cannot become nodes; those that it has made by then are not used by anybody. */
 static bool lower_inline(struct lower *lo, uint32_t id, const ir_ref *in, ir_ref *out)
 {
-    const struct lang_unit *layer;
-    const struct lang_function *fn = lang_function(lo->unit, id, &layer);
-    uint32_t max_graph_nodes = lo->max_graph_nodes, budget;
-    if (lo->depth == LOWER_MAX_DEPTH || !is_worth_trying(lo, layer, fn, in, &budget))
+    struct lower_frame frame = {0}, *caller = lo->frame;
+    frame.fn = lang_function(lo->unit, id, &frame.layer);
+    uint32_t max_graph_nodes = lo->max_graph_nodes;
+    if (lo->depth == LOWER_MAX_DEPTH || !is_worth_trying(lo, frame.layer, frame.fn, in, &frame.budget))
         return false;
-    struct lower_frame caller = lo->frame;
     struct few few;
-    open_frame(lo, id, in, &few);
-    lo->frame.budget = budget;
+    open_frame(lo, &frame, in, &few);
+    lo->frame = &frame;
     lo->depth++;
-    lower_statements(lo, ast_node(lo->frame.layer, lo->frame.fn.body)->a);
+    lower_statements(lo, lower_node(lo, frame.fn->body)->a);
     lo->depth--;
-    if (!lo->failed)
-        collect_results(lo, out);
     lo->frame = caller;
     bool done = !lo->failed;
+    if (done)
+        collect_results(&frame, out);
     lo->failed = false;
     lo->max_graph_nodes = max_graph_nodes;
     return done;
@@ -299,18 +289,18 @@ void lower_call(struct lower *lo, uint32_t id, const ir_ref *in, ir_ref *out)
 static void lower_inline_expression(struct lower *lo, const ir_ref *args, ir_ref *results)
 {
     lo->inputs = args; /* what an expression names; it has no variables */
-    results[0] = lower_single(lo, ast_returned(lo->frame.layer, &lo->frame.fn));
+    results[0] = lower_single(lo, lower_node(lo, ast_returned(lo->frame->layer, lo->frame->fn)));
     if (lo->failed)
-        results[0] = ir_poison(lo->graph, lo->frame.fn.return_type);
+        results[0] = ir_poison(lo->graph, lo->frame->fn->return_type);
 }
 
 /* Does everything that the call takes and gives fit into the arrays here? */
 static bool fits(const struct lower *lo)
 {
-    const struct lang_function *fn = &lo->frame.fn;
+    const struct lang_function *fn = lo->frame->fn;
     uint32_t leaves = lower_leaves(lo, fn->return_type);
     for (uint32_t i = 0; i < fn->num_params; i++)
-        leaves += lower_leaves(lo, ast_slot(lo->frame.layer, fn, i)->type);
+        leaves += lower_leaves(lo, ast_slot(lo->frame->layer, fn, i)->type);
     return leaves <= LOWER_MAX_LEAVES;
 }
 
@@ -324,40 +314,41 @@ static const ir_ref *join_result(struct lower *lo, ir_type_id type, const ir_ref
 
 static void lower_function(struct lower *lo, uint32_t id, const ir_ref *args, ir_ref *results)
 {
-    const struct lang_unit *layer = lo->frame.layer;
-    const struct lang_function fn = lo->frame.fn;
+    const struct lang_unit *layer = lo->frame->layer;
+    const struct lang_function *fn = lo->frame->fn;
     ir_ref in[LOWER_MAX_LEAVES], out[LOWER_MAX_LEAVES], *end = in;
-    for (uint32_t i = 0; i < fn.num_params; i++)
-        if (ast_slot(layer, &fn, i)->mode != LANG_OUT)
-            end = split(lo, ast_slot(layer, &fn, i)->type, *args++, end);
+    for (uint32_t i = 0; i < fn->num_params; i++)
+        if (ast_slot(layer, fn, i)->mode != LANG_OUT)
+            end = split(lo, ast_slot(layer, fn, i)->type, *args++, end);
     lower_call(lo, id, in, out);
     const ir_ref *from = out;
     unsigned count = 0;
-    if (fn.return_type != IR_TYPE_VOID)
-        from = join_result(lo, fn.return_type, from, &results[count++]);
-    for (uint32_t i = 0; i < fn.num_params; i++)
-        if (ast_slot(layer, &fn, i)->mode != LANG_IN)
-            from = join_result(lo, ast_slot(layer, &fn, i)->type, from, &results[count++]);
+    if (fn->return_type != IR_TYPE_VOID)
+        from = join_result(lo, fn->return_type, from, &results[count++]);
+    for (uint32_t i = 0; i < fn->num_params; i++)
+        if (ast_slot(layer, fn, i)->mode != LANG_IN)
+            from = join_result(lo, ast_slot(layer, fn, i)->type, from, &results[count++]);
 }
 
 static void poison_whole_results(struct lower *lo, ir_ref *results)
 {
-    const struct lang_function *fn = &lo->frame.fn;
+    const struct lang_function *fn = lo->frame->fn;
     if (fn->return_type != IR_TYPE_VOID)
         *results++ = ir_poison(lo->graph, graph_type(lo, fn->return_type));
     for (uint32_t i = 0; i < fn->num_params; i++)
-        if (ast_slot(lo->frame.layer, fn, i)->mode != LANG_IN)
-            *results++ = ir_poison(lo->graph, graph_type(lo, ast_slot(lo->frame.layer, fn, i)->type));
+        if (ast_slot(lo->frame->layer, fn, i)->mode != LANG_IN)
+            *results++ = ir_poison(lo->graph, graph_type(lo, ast_slot(lo->frame->layer, fn, i)->type));
 }
 
 void lang_lower_call(struct lang_unit *generated, struct ir_graph *graph, const struct lang_host *host, uint32_t id,
                      const ir_ref *args, ir_ref *results)
 {
-    struct lower lo = {.unit = generated, .graph = graph, .host = host, .frame.budget = UINT32_MAX};
+    struct lower_frame frame = {.budget = UINT32_MAX};
+    struct lower lo = {.unit = generated, .graph = graph, .host = host, .frame = &frame, .max_graph_nodes = UINT32_MAX};
     generated->host = *host;
     generated->graph = graph;
-    lo.frame.fn = *lang_function(generated, id, &lo.frame.layer);
-    if (lo.frame.fn.flags & LANG_FN_EXPRESSION)
+    frame.fn = lang_function(generated, id, &frame.layer);
+    if (frame.fn->flags & LANG_FN_EXPRESSION)
         lower_inline_expression(&lo, args, results);
     else if (fits(&lo))
         lower_function(&lo, id, args, results);

@@ -22,8 +22,8 @@ enum {
 
 struct lower_frame { /* the function being lowered */
     const struct lang_unit *layer;
-    struct lang_function fn;
-    uint32_t *offsets;   /* by slot, in leaves; num_slots + 1 of them */
+    const struct lang_function *fn;
+    const uint32_t *offsets; /* by slot, in leaves; num_slots + 1 of them */
     ir_ref *leaves;      /* of all slots, and behind them of the returned value */
     uint32_t num_leaves; /* of all of these */
     unsigned nesting;    /* of bodies in bodies */
@@ -35,11 +35,16 @@ struct lower {
     struct ir_graph *graph;
     const struct lang_host *host;
     const ir_ref *inputs;   /* of an inline expression */
-    struct lower_frame frame;
+    struct lower_frame *frame;
     unsigned depth;
-    uint32_t max_graph_nodes; /* a body that makes the graph larger than this is not worth it; 0: any size */
+    uint32_t max_graph_nodes; /* a body that makes the graph larger than this is not worth it */
     bool failed; /* the function cannot become nodes: the result is of no use */
 };
+
+static inline const struct lang_node *lower_node(const struct lower *lo, lang_ref ref)
+{
+    return ast_node(lo->frame->layer, ref);
+}
 
 static inline uint32_t lower_leaves(const struct lower *lo, ir_type_id type)
 {
@@ -47,8 +52,8 @@ static inline uint32_t lower_leaves(const struct lower *lo, ir_type_id type)
 }
 
 /* lower_expr.c */
-void lower_expression(struct lower *lo, lang_ref ref, ir_ref *out);
-ir_ref lower_single(struct lower *lo, lang_ref ref); /* of a built-in type */
+void lower_expression(struct lower *lo, const struct lang_node *node, ir_ref *out);
+ir_ref lower_single(struct lower *lo, const struct lang_node *node); /* of a built-in type */
 void lower_assign(struct lower *lo, lang_ref target, const ir_ref *leaves);
 
 /* lower_stmt.c. True where the function has returned. */

@@ -1,26 +1,36 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lang/lower.h"
 
-static const struct lang_node *node_at(const struct lower *lo, lang_ref ref)
-{
-    return ast_node(lo->frame.layer, ref);
-}
-
 static ir_ref value_of(struct lower *lo, ir_ref leaf, ir_type_id type)
 {
     return leaf ? leaf : ir_poison(lo->graph, type);
 }
 
-static void copy_leaves(const ir_ref *from, uint32_t count, ir_ref *out)
+static inline void copy_leaves(const ir_ref *from, uint32_t count, ir_ref *out)
 {
-    memcpy(out, from, count * sizeof *out);
+    for (uint32_t i = 0; i < count; i++)
+        out[i] = from[i];
 }
 
-ir_ref lower_single(struct lower *lo, lang_ref ref)
+/* Is there room for one more node of the tree? */
+static inline bool may_go_on(struct lower *lo)
+{
+    lo->failed |= lo->frame->budget-- == 0 || lo->graph->nodes.len > lo->max_graph_nodes;
+    return !lo->failed;
+}
+
+static void lower_other(struct lower *lo, const struct lang_node *node, ir_ref *out);
+
+ir_ref lower_single(struct lower *lo, const struct lang_node *node)
 {
     ir_ref result = 0;
-    lower_expression(lo, ref, &result);
-    return value_of(lo, result, node_at(lo, ref)->type);
+    if (!may_go_on(lo))
+        return 0;
+    if (node->kind == LANG_VAR)
+        result = lo->frame->leaves[lo->frame->offsets[node->a]];
+    else
+        lower_other(lo, node, &result);
+    return lo->failed ? 0 : value_of(lo, result, node->type);
 }
 
 /* Globals */
@@ -33,9 +43,8 @@ static void constant_leaves(struct lower *lo, ir_type_id type, const union ir_wo
             constant_leaves(lo, user->element, words, out);
         return;
     }
-    struct ir_value value = ast_value(type, *words);
+    *(*out)++ = ir_const_words(lo->graph, type, *words);
     *words += ir_type_info(type)->components;
-    *(*out)++ = ir_const(lo->graph, &value);
 }
 
 static void lower_global(struct lower *lo, const struct lang_node *node, ir_ref *out)
@@ -58,11 +67,13 @@ static void lower_operands(struct lower *lo, const struct lang_node *node, ir_re
 {
     ir_ref args[AST_MAX_OPERANDS];
     unsigned count = 0;
-    for (lang_ref ref = node->a; ref && !lo->failed; ref = node_at(lo, ref)->next) {
-        if (count == AST_MAX_OPERANDS || ast_is_user_type(node_at(lo, ref)->type)) /* structs compared */
+    for (lang_ref ref = node->a; ref && !lo->failed;) {
+        const struct lang_node *operand = lower_node(lo, ref);
+        if (count == AST_MAX_OPERANDS || ast_is_user_type(operand->type)) /* structs compared */
             lo->failed = true;
         else
-            args[count++] = lower_single(lo, ref);
+            args[count++] = lower_single(lo, operand);
+        ref = operand->next;
     }
     if (!lo->failed)
         *out = ir_build(lo->graph, node->op, node->type, node->b, args, count);
@@ -70,17 +81,18 @@ static void lower_operands(struct lower *lo, const struct lang_node *node, ir_re
 
 static bool known_condition(const struct lower *lo, ir_ref condition, bool *out)
 {
-    struct ir_value value;
-    if (!ir_get_const(lo->graph, condition, &value))
-        return false;
-    *out = value.w[0].u != 0;
-    return true;
+    const union ir_word *words = ir_constant_words(lo->graph, condition);
+    if (words)
+        *out = words->u != 0;
+    return words != NULL;
 }
 
 static void lower_select(struct lower *lo, const struct lang_node *node, ir_ref *out)
 {
-    ir_ref condition = lower_single(lo, node->a);
-    lang_ref yes = node_at(lo, node->a)->next, no = node_at(lo, yes)->next;
+    const struct lang_node *first = lower_node(lo, node->a), *yes = lower_node(lo, first->next), *no = lower_node(lo, yes->next);
+    ir_ref condition = lower_single(lo, first);
+    if (lo->failed)
+        return;
     bool known;
     if (known_condition(lo, condition, &known)) {
         lower_expression(lo, known ? yes : no, out);
@@ -100,41 +112,41 @@ static void lower_select(struct lower *lo, const struct lang_node *node, ir_ref 
 
 static void lower_logic(struct lower *lo, const struct lang_node *node, ir_ref *out)
 {
-    ir_ref left = lower_single(lo, node->a);
+    const struct lang_node *first = lower_node(lo, node->a);
+    ir_ref left = lower_single(lo, first);
+    if (lo->failed)
+        return;
     bool known;
     if (known_condition(lo, left, &known) && known == (node->op == IR_LOR)) {
         *out = left;
         return;
     }
-    ir_ref right = lower_single(lo, node_at(lo, node->a)->next);
+    ir_ref right = lower_single(lo, lower_node(lo, first->next));
     if (!lo->failed)
         *out = ir_build(lo->graph, node->op, IR_TYPE_BOOL, 0, (ir_ref[]){left, right}, 2);
 }
 
 static void lower_aggregate(struct lower *lo, const struct lang_node *node, ir_ref *out)
 {
-    for (lang_ref ref = node->a; ref && !lo->failed; ref = node_at(lo, ref)->next) {
-        lower_expression(lo, ref, out);
-        out += lower_leaves(lo, node_at(lo, ref)->type);
+    for (lang_ref ref = node->a; ref && !lo->failed; ref = lower_node(lo, ref)->next) {
+        lower_expression(lo, lower_node(lo, ref), out);
+        out += lower_leaves(lo, lower_node(lo, ref)->type);
     }
 }
 
 /* An index that is known and in range; lo->failed otherwise. */
 static uint32_t known_index(struct lower *lo, lang_ref ref, uint32_t length)
 {
-    struct ir_value value;
-    ir_ref index = lower_single(lo, ref);
-    if (lo->failed || !ir_get_const(lo->graph, index, &value) || value.w[0].u >= length) {
-        lo->failed = true;
-        return 0;
-    }
-    return value.w[0].u;
+    ir_ref index = lower_single(lo, lower_node(lo, ref));
+    const union ir_word *words = lo->failed ? NULL : ir_constant_words(lo->graph, index);
+    lo->failed |= !words || words->u >= length;
+    return lo->failed ? 0 : words->u;
 }
 
 /* Where a member of a struct or an element of an array lies among its leaves. */
 static uint32_t part_offset(struct lower *lo, const struct lang_node *node)
 {
-    const struct lang_node *whole = node_at(lo, node->a);
+    const struct lang_node *whole = lower_node(lo, node->a);
     ir_type_id type;
     if (node->op == IR_MEMBER)
         return ast_member_offset(lo->unit, whole->type, node->b, ast_type_leaves, &type);
@@ -144,22 +156,21 @@ static uint32_t part_offset(struct lower *lo, const struct lang_node *node)
 
 static void lower_part(struct lower *lo, const struct lang_node *node, ir_ref *out)
 {
-    const struct lang_node *whole = node_at(lo, node->a);
+    const struct lang_node *whole = lower_node(lo, node->a);
     ir_ref leaves[LOWER_MAX_LEAVES];
     const ir_ref *from = leaves;
     uint32_t offset = part_offset(lo, node);
     if (lo->failed)
         return;
     if (whole->kind == LANG_VAR)
-        from = lo->frame.leaves + lo->frame.offsets[whole->a];
+        from = lo->frame->leaves + lo->frame->offsets[whole->a];
     else
-        lower_expression(lo, node->a, leaves);
+        lower_expression(lo, whole, leaves);
     copy_leaves(from + offset, lower_leaves(lo, node->type), out);
 }
 
 static void lower_op(struct lower *lo, const struct lang_node *node, ir_ref *out)
 {
-    bool is_of_user_type = ast_is_user_type(node_at(lo, node->a)->type);
     switch (node->op) {
     case IR_SELECT:
         lower_select(lo, node, out);
@@ -172,7 +183,7 @@ static void lower_op(struct lower *lo, const struct lang_node *node, ir_ref *out
         lower_part(lo, node, out);
         break;
     case IR_INDEX:
-        if (is_of_user_type)
+        if (ast_is_user_type(lower_node(lo, node->a)->type))
             lower_part(lo, node, out);
         else
             lower_operands(lo, node, out);
@@ -230,15 +241,15 @@ static ir_ref with_element(struct lower *lo, ir_ref whole, ir_type_id type, uint
 
 static void assign_element(struct lower *lo, const struct lang_node *node, ir_ref value)
 {
-    ir_type_id type = node_at(lo, node->a)->type;
+    ir_type_id type = lower_node(lo, node->a)->type;
     ir_ref whole = 0;
-    lower_expression(lo, node->a, &whole);
+    lower_expression(lo, lower_node(lo, node->a), &whole);
     if (node->op == IR_SWIZZLE) {
         whole = with_components(lo, whole, type, node->b, value, node->type);
     } else {
         const struct ir_type_info *info = ir_type_info(type);
         uint32_t length = info->columns > 1 ? info->columns : info->components;
-        uint32_t index = known_index(lo, node_at(lo, node->a)->next, length);
+        uint32_t index = known_index(lo, lower_node(lo, node->a)->next, length);
         if (lo->failed)
             return;
         whole = with_element(lo, whole, type, index, value, node->type);
@@ -253,19 +264,19 @@ static void assign_part(struct lower *lo, const struct lang_node *node, const ir
     uint32_t offset = part_offset(lo, node);
     if (lo->failed)
         return;
-    lower_expression(lo, node->a, whole);
+    lower_expression(lo, lower_node(lo, node->a), whole);
     copy_leaves(leaves, lower_leaves(lo, node->type), whole + offset);
     lower_assign(lo, node->a, whole);
 }
 
 void lower_assign(struct lower *lo, lang_ref target, const ir_ref *leaves)
 {
-    const struct lang_node *node = node_at(lo, target);
+    const struct lang_node *node = lower_node(lo, target);
     if (lo->failed)
         return;
     if (node->kind == LANG_VAR)
-        copy_leaves(leaves, lower_leaves(lo, node->type), lo->frame.leaves + lo->frame.offsets[node->a]);
-    else if (ast_is_user_type(node_at(lo, node->a)->type))
+        copy_leaves(leaves, lower_leaves(lo, node->type), lo->frame->leaves + lo->frame->offsets[node->a]);
+    else if (ast_is_user_type(lower_node(lo, node->a)->type))
         assign_part(lo, node, leaves);
     else
         assign_element(lo, node, value_of(lo, leaves[0], node->type));
@@ -276,11 +287,11 @@ void lower_assign(struct lower *lo, lang_ref target, const ir_ref *leaves)
 static void assign_outputs(struct lower *lo, const struct lang_node *node, const ir_ref *out)
 {
     uint32_t i = 0;
-    for (lang_ref ref = node->b; ref && !lo->failed; ref = node_at(lo, ref)->next, i++) {
+    for (lang_ref ref = node->b; ref && !lo->failed; ref = lower_node(lo, ref)->next, i++) {
         if (ast_param_mode(lo->unit, node->a, i) == LANG_IN)
             continue;
         lower_assign(lo, ref, out);
-        out += lower_leaves(lo, node_at(lo, ref)->type);
+        out += lower_leaves(lo, lower_node(lo, ref)->type);
     }
 }
 
@@ -289,10 +300,13 @@ static void lower_nested_call(struct lower *lo, const struct lang_node *node, ir
     ir_ref in[LOWER_MAX_LEAVES], results[LOWER_MAX_LEAVES];
     const struct lang_unit *layer;
     const struct lang_function *fn = lang_function(lo->unit, node->a, &layer);
-    uint32_t num_in = 0, num_results = lower_leaves(lo, node->type), num_returned = num_results, i = 0;
-    for (lang_ref ref = node->b; ref && !lo->failed; ref = node_at(lo, ref)->next, i++) {
-        uint8_t mode = ast_slot(layer, fn, i)->mode;
-        uint32_t count = lower_leaves(lo, node_at(lo, ref)->type);
+    uint32_t num_in = 0, num_results = lower_leaves(lo, node->type), num_returned = num_results;
+    const struct lang_slot *slots = layer->slots.items + fn->first_slot;
+    for (lang_ref ref = node->b, next; ref && !lo->failed; ref = next, slots++) {
+        const struct lang_node *argument = lower_node(lo, ref);
+        uint8_t mode = slots->mode;
+        uint32_t count = lower_leaves(lo, argument->type);
+        next = argument->next;
         num_results += mode == LANG_IN ? 0 : count;
         if (num_in + count > LOWER_MAX_LEAVES || num_results > LOWER_MAX_LEAVES) {
             lo->failed = true;
@@ -300,7 +314,7 @@ static void lower_nested_call(struct lower *lo, const struct lang_node *node, ir
         }
         if (mode == LANG_OUT)
             continue;
-        lower_expression(lo, ref, in + num_in);
+        lower_expression(lo, argument, in + num_in);
         num_in += count;
     }
     if (lo->failed)
@@ -311,22 +325,11 @@ static void lower_nested_call(struct lower *lo, const struct lang_node *node, ir
         assign_outputs(lo, node, results + num_returned);
 }
 
-void lower_expression(struct lower *lo, lang_ref ref, ir_ref *out)
+static void lower_other(struct lower *lo, const struct lang_node *node, ir_ref *out)
 {
-    const struct lang_node *node = node_at(lo, ref);
-    uint32_t count = lower_leaves(lo, node->type);
-    lo->failed |= count > LOWER_MAX_LEAVES || lo->frame.budget-- == 0
-                  || (lo->max_graph_nodes && lo->graph->nodes.len > lo->max_graph_nodes);
-    if (lo->failed)
-        return;
-    struct ir_value value;
     switch (node->kind) {
     case LANG_CONST:
-        value = ast_value(node->type, ast_words(lo->frame.layer, node));
-        *out = ir_const(lo->graph, &value);
-        break;
-    case LANG_VAR:
-        copy_leaves(lo->frame.leaves + lo->frame.offsets[node->a], count, out);
+        *out = ir_const_words(lo->graph, node->type, ast_words(lo->frame->layer, node));
         break;
     case LANG_INPUT:
         *out = lo->inputs[node->a];
@@ -340,4 +343,16 @@ void lower_expression(struct lower *lo, lang_ref ref, ir_ref *out)
     default:
         lower_op(lo, node, out);
     }
+}
+
+void lower_expression(struct lower *lo, const struct lang_node *node, ir_ref *out)
+{
+    uint32_t count = lower_leaves(lo, node->type);
+    lo->failed |= count > LOWER_MAX_LEAVES;
+    if (!may_go_on(lo))
+        return;
+    if (node->kind == LANG_VAR)
+        copy_leaves(lo->frame->leaves + lo->frame->offsets[node->a], count, out);
+    else
+        lower_other(lo, node, out);
 }

@@ -5,29 +5,26 @@
  */
 #include "lang/lower.h"
 
-static const struct lang_node *node_at(const struct lower *lo, lang_ref ref)
-{
-    return ast_node(lo->frame.layer, ref);
-}
-
 static void lower_declare(struct lower *lo, const struct lang_node *node)
 {
-    uint32_t *offsets = lo->frame.offsets;
-    ir_ref *leaves = lo->frame.leaves + offsets[node->a];
+    const uint32_t *offsets = lo->frame->offsets;
+    ir_ref *leaves = lo->frame->leaves + offsets[node->a];
     if (!node->b)
         memset(leaves, 0, (offsets[node->a + 1] - offsets[node->a]) * sizeof *leaves);
     else
-        lower_expression(lo, node->b, leaves);
+        lower_expression(lo, lower_node(lo, node->b), leaves);
 }
 
 static void lower_assignment(struct lower *lo, const struct lang_node *node)
 {
     ir_ref leaves[LOWER_MAX_LEAVES];
-    lower_expression(lo, node->b, leaves);
+    lower_expression(lo, lower_node(lo, node->b), leaves);
     if (node->op != IR_NUM_OPS && !lo->failed) {
-        ir_ref old = lower_single(lo, node->a);
-        ir_ref value = leaves[0] ? leaves[0] : ir_poison(lo->graph, node_at(lo, node->b)->type);
-        leaves[0] = ir_build(lo->graph, node->op, node_at(lo, node->a)->type, 0, (ir_ref[]){old, value}, 2);
+        ir_ref old = lower_single(lo, lower_node(lo, node->a));
+        if (lo->failed)
+            return;
+        ir_ref value = leaves[0] ? leaves[0] : ir_poison(lo->graph, lower_node(lo, node->b)->type);
+        leaves[0] = ir_build(lo->graph, node->op, lower_node(lo, node->a)->type, 0, (ir_ref[]){old, value}, 2);
     }
     lower_assign(lo, node->a, leaves);
 }
@@ -38,23 +35,23 @@ static bool lower_body(struct lower *lo, lang_ref body)
 {
     if (!body)
         return false;
-    lo->frame.nesting++;
-    bool returned = lower_statements(lo, node_at(lo, body)->kind == LANG_BLOCK ? node_at(lo, body)->a : body);
-    lo->frame.nesting--;
+    lo->frame->nesting++;
+    bool returned = lower_statements(lo, lower_node(lo, body)->kind == LANG_BLOCK ? lower_node(lo, body)->a : body);
+    lo->frame->nesting--;
     return returned;
 }
 
 static ir_ref *save_leaves(struct lower *lo)
 {
-    size_t size = lo->frame.num_leaves * sizeof *lo->frame.leaves;
+    size_t size = lo->frame->num_leaves * sizeof *lo->frame->leaves;
     ir_ref *copy = arena_alloc(lo->graph->arena, size);
-    return size ? memcpy(copy, lo->frame.leaves, size) : copy;
+    return size ? memcpy(copy, lo->frame->leaves, size) : copy;
 }
 
 static void restore_leaves(struct lower *lo, const ir_ref *saved)
 {
-    if (lo->frame.num_leaves)
-        memcpy(lo->frame.leaves, saved, lo->frame.num_leaves * sizeof *saved);
+    if (lo->frame->num_leaves)
+        memcpy(lo->frame->leaves, saved, lo->frame->num_leaves * sizeof *saved);
 }
 
 /* May the nodes since `begin` be computed although they may not be needed? */
@@ -79,8 +76,8 @@ static bool is_selectable(ir_type_id type)
 /* The variables now are those of the untrue branch. */
 static void merge(struct lower *lo, ir_ref condition, const ir_ref *yes)
 {
-    for (uint32_t i = 0; i < lo->frame.num_leaves && !lo->failed; i++) {
-        ir_ref *no = &lo->frame.leaves[i];
+    for (uint32_t i = 0; i < lo->frame->num_leaves && !lo->failed; i++) {
+        ir_ref *no = &lo->frame->leaves[i];
         if (yes[i] == *no || !yes[i])
             continue;
         if (!*no) { /* undefined there: any value does */
@@ -100,7 +97,7 @@ static void lower_rest(struct lower *lo, lang_ref rest)
 {
     uint32_t begin = lo->graph->nodes.len;
     bool returned = lower_statements(lo, rest);
-    bool ends = lo->frame.nesting == 0 && lo->frame.fn.return_type == IR_TYPE_VOID;
+    bool ends = lo->frame->nesting == 0 && lo->frame->fn->return_type == IR_TYPE_VOID;
     lo->failed |= (!returned && !ends) || !is_cheap(lo->graph, begin);
 }
 
@@ -144,19 +141,20 @@ static bool lower_branches(struct lower *lo, const struct lang_node *node, ir_re
 
 static bool lower_if(struct lower *lo, const struct lang_node *node)
 {
-    struct ir_value value;
-    ir_ref condition = lower_single(lo, node->a);
+    ir_ref condition = lower_single(lo, lower_node(lo, node->a));
     if (lo->failed)
         return true;
-    if (!ir_get_const(lo->graph, condition, &value))
+    const union ir_word *known = ir_constant_words(lo->graph, condition);
+    if (!known)
         return lower_branches(lo, node, condition);
-    return lower_body(lo, value.w[0].u ? node->b : node->c) || lower_statements(lo, node->next);
+    return lower_body(lo, known->u ? node->b : node->c) || lower_statements(lo, node->next);
 }
 
 bool lower_statements(struct lower *lo, lang_ref first)
 {
-    for (lang_ref ref = first; ref && !lo->failed; ref = node_at(lo, ref)->next) {
-        const struct lang_node *node = node_at(lo, ref);
+    const struct lang_node *node;
+    for (lang_ref ref = first; ref && !lo->failed; ref = node->next) {
+        node = lower_node(lo, ref);
         ir_ref unused[LOWER_MAX_LEAVES];
         switch (node->kind) {
         case LANG_DECLARE:
@@ -166,7 +164,7 @@ bool lower_statements(struct lower *lo, lang_ref first)
             lower_assignment(lo, node);
             break;
         case LANG_EXPR:
-            lower_expression(lo, node->a, unused);
+            lower_expression(lo, lower_node(lo, node->a), unused);
             break;
         case LANG_BLOCK:
             if (lower_body(lo, ref))
@@ -176,7 +174,7 @@ bool lower_statements(struct lower *lo, lang_ref first)
             return lower_if(lo, node);
         case LANG_RETURN:
             if (node->a)
-                lower_expression(lo, node->a, lo->frame.leaves + lo->frame.offsets[lo->frame.fn.num_slots]);
+                lower_expression(lo, lower_node(lo, node->a), lo->frame->leaves + lo->frame->offsets[lo->frame->fn->num_slots]);
             return true;
         default: /* a loop */
             lo->failed = true;
