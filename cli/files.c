@@ -133,6 +133,12 @@ bool files_is_regular(const char *path)
     return stat(path, &info) == 0 && S_ISREG(info.st_mode);
 }
 
+bool files_is_folder(const char *path)
+{
+    struct stat info;
+    return stat(path, &info) == 0 && S_ISDIR(info.st_mode);
+}
+
 const char *files_base_name(const char *path)
 {
     const char *slash = strrchr(path, '/');

@@ -20,6 +20,8 @@ const char *files_make_folder(const char *path);
 
 bool files_is_regular(const char *path);
 
+bool files_is_folder(const char *path);
+
 /* The part of a path behind its last '/'. */
 const char *files_base_name(const char *path);
 

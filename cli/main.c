@@ -14,7 +14,7 @@ static const struct command commands[] = {
      "Prints what mxgen sees: elements, graph, IR, closures with weights, statistics.", command_inspect},
     {"validate", "validate FILE...", "Checks documents against the library: every node, connection and value.",
      command_validate},
-    {"render", "render FILE -o PICTURE.png [options]", "Draws a lit sphere, without a display.", command_render},
+    {"render", "render FILE|FOLDER... -o PICTURE.png [options]", "Draws materials, without a display.", command_render},
     {"library", "library pack|list|expand|doc [PATH...] [-o PATH]", "Packs, lists, expands and documents node libraries.",
      command_library},
 };

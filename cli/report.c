@@ -107,15 +107,32 @@ void report_list(struct report *report, const mxg_diagnostics *list)
     report->errors += mxg_diagnostics_errors(list);
 }
 
+static void print_own(const struct report *report, const char *level, int colour, const char *id, const char *format, va_list args)
+{
+    if (report->colour)
+        fprintf(stderr, "\033[1;%dm%s:\033[0m ", colour, level);
+    else
+        fprintf(stderr, "%s: ", level);
+    vfprintf(stderr, format, args);
+    fprintf(stderr, " [%s]\n", id);
+}
+
 void report_error(struct report *report, const char *id, const char *format, ...)
 {
     va_list args;
     va_start(args, format);
-    fputs(report->colour ? "\033[1;31merror:\033[0m " : "error: ", stderr);
-    vfprintf(stderr, format, args);
-    fprintf(stderr, " [%s]\n", id);
+    print_own(report, "error", 31, id, format, args);
     va_end(args);
     ++report->errors;
+}
+
+void report_warning(struct report *report, const char *id, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    if (!report->quiet)
+        print_own(report, "warning", 35, id, format, args);
+    va_end(args);
 }
 
 bool report_status(struct report *report, mxg_status status)

@@ -28,6 +28,12 @@ __attribute__((format(printf, 3, 4)))
 #endif
 void report_error(struct report *report, const char *id, const char *format, ...);
 
+/* A warning of the program itself; a quiet report drops it. */
+#if defined(__GNUC__)
+__attribute__((format(printf, 3, 4)))
+#endif
+void report_warning(struct report *report, const char *id, const char *format, ...);
+
 /* What a status says beyond diagnostics: out of memory, cancelled, internal. Returns whether it is MXG_OK. */
 bool report_status(struct report *report, mxg_status status);
 

@@ -12,17 +12,20 @@
 #define INTEGER_ATTRIBUTE 3 /* what every integer attribute is */
 
 #if defined(__GNUC__)
-__attribute__((format(printf, 2, 3)))
+__attribute__((format(printf, 3, 4)))
 #endif
 static bool
-fail(struct bind *bind, const char *format, ...)
+fail_as(struct bind *bind, const char *id, const char *format, ...)
 {
     va_list args;
+    bind->id = id;
     va_start(args, format);
     vsnprintf(bind->reason, sizeof bind->reason, format, args);
     va_end(args);
     return false;
 }
+
+#define fail(bind, ...) fail_as(bind, "render-failed", __VA_ARGS__)
 
 /* ---- Types by name ---- */
 
@@ -143,7 +146,7 @@ static bool store_public(struct bind *bind, const mxg_variable *variable)
     if (!shape)
         return fail(bind, "'%s' has a type that cannot be bound: %s", variable->name, variable->type);
     if (text && parse_numbers(text, values) != shape->columns * shape->rows)
-        return fail(bind, "'%s' is not a value of '%s', which is a %s", text, variable->path, variable->type);
+        return fail_as(bind, "bad-value", "'%s' is not a value of '%s', which is a %s", text, variable->path, variable->type);
     store(address(bind, variable), variable, values);
     return true;
 }
@@ -181,7 +184,7 @@ static mxg_variable get_variable(const struct bind *bind, uint32_t index)
     return variable;
 }
 
-static bool bind_blocks(struct bind *bind)
+static bool make_blocks(struct bind *bind)
 {
     uint32_t count = mxg_result_num_variables(bind->result);
     for (uint32_t i = 0; i < count; ++i) {
@@ -194,7 +197,12 @@ static bool bind_blocks(struct bind *bind)
         if (!bind->draw.blocks[i].data)
             return fail(bind, "out of memory");
     }
-    for (uint32_t i = 0; i < count; ++i) {
+    return true;
+}
+
+static bool fill_blocks(struct bind *bind)
+{
+    for (uint32_t i = 0; i < mxg_result_num_variables(bind->result); ++i) {
         mxg_variable variable = get_variable(bind, i);
         if (variable.block == MXG_BLOCK_PUBLIC_UNIFORMS && !store_public(bind, &variable))
             return false;
@@ -223,6 +231,18 @@ static VkSamplerAddressMode address_mode(const char *name)
     return VK_SAMPLER_ADDRESS_MODE_REPEAT;
 }
 
+/* Magenta and black, so that it cannot be taken for a material. */
+enum { CHECKER_SIZE = 8 };
+#define M 255, 0, 255, 255
+#define B 0, 0, 0, 255
+static uint8_t checker_pixels[CHECKER_SIZE * CHECKER_SIZE * 4] = {
+    M, B, M, B, M, B, M, B, B, M, B, M, B, M, B, M, M, B, M, B, M, B, M, B, B, M, B, M, B, M, B, M,
+    M, B, M, B, M, B, M, B, B, M, B, M, B, M, B, M, M, B, M, B, M, B, M, B, B, M, B, M, B, M, B, M,
+};
+#undef M
+#undef B
+static const struct image checker = {CHECKER_SIZE, CHECKER_SIZE, false, checker_pixels};
+
 /* Reads the file of a texture, which is relative to the document. */
 static const struct image *read_texture(struct bind *bind, const char *file)
 {
@@ -232,8 +252,8 @@ static const struct image *read_texture(struct bind *bind, const char *file)
     struct image *image = &bind->images[bind->num_images];
     snprintf(path, sizeof path, "%.*s%s", folder, bind->document, file);
     if (!image_read(path, image, reason, sizeof reason)) {
-        fail(bind, "cannot read the texture '%s': %s", path, reason);
-        return NULL;
+        fail_as(bind, "missing-texture", "cannot read the texture '%s': %s", path, reason);
+        return bind->checker ? &checker : NULL;
     }
     ++bind->num_images;
     return image;
@@ -267,13 +287,14 @@ static struct draw_texture document_texture(struct bind *bind, const mxg_variabl
     const char *file = user_value(bind, variable);
     if (!file)
         file = variable->file;
-    bool is_closest = strcmp(variable->filtertype, "closest") == 0;
-    return (struct draw_texture){.image = file && *file ? read_texture(bind, file) : &empty,
+    const struct image *image = file && *file ? read_texture(bind, file) : &empty;
+    bool is_closest = strcmp(variable->filtertype, "closest") == 0 || image == &checker;
+    return (struct draw_texture){.image = image,
                                  .bottom_first = true,
                                  .u = address_mode(variable->uaddressmode),
                                  .v = address_mode(variable->vaddressmode),
                                  .filter = is_closest ? VK_FILTER_NEAREST : VK_FILTER_LINEAR,
-                                 .has_mips = true};
+                                 .has_mips = image != &checker};
 }
 
 static bool bind_texture(struct bind *bind, const mxg_variable *variable)
@@ -317,7 +338,7 @@ static bool bind_attribute(struct bind *bind, const mxg_variable *variable)
     const struct shape *shape = find_shape(variable->type);
     if (!shape || shape->columns != 1 || bind->draw.num_attributes == DRAW_MAX_ATTRIBUTES)
         return fail(bind, "the attribute '%s' (%s) cannot be bound", variable->name, variable->type);
-    uint32_t count = bind->scene->num_vertices;
+    uint32_t count = bind->scene->mesh.num_vertices;
     float(*data)[4] = calloc(count, sizeof *data);
     if (!data)
         return fail(bind, "out of memory");
@@ -349,8 +370,8 @@ static bool check_values(struct bind *bind)
     for (size_t i = 0; i < bind->num_values; ++i) {
         uint32_t index;
         if (!mxg_result_find_variable(bind->result, bind->values[i].path, &index))
-            return fail(bind, "the shader has no uniform for '%s': it is unused, compiled in, or misspelled",
-                        bind->values[i].path);
+            return fail_as(bind, "no-uniform", "the shader has no uniform for '%s': it is unused, compiled in, or misspelled",
+                           bind->values[i].path);
     }
     return true;
 }
@@ -359,12 +380,33 @@ bool bind_shader(struct bind *bind)
 {
     mxg_shader_info info = {sizeof info};
     mxg_result_info(bind->result, &info);
-    bind->draw.num_vertices = bind->scene->num_vertices;
-    bind->draw.num_indices = bind->scene->num_indices;
-    bind->draw.indices = bind->scene->indices;
+    bind->draw.num_vertices = bind->scene->mesh.num_vertices;
+    bind->draw.num_indices = bind->scene->mesh.num_indices;
     bind->draw.blend = info.transparent && !bind->is_opaque;
     bind->max_lights = info.num_lights;
-    return check_values(bind) && bind_blocks(bind) && bind_textures(bind) && bind_attributes(bind);
+    return check_values(bind) && make_blocks(bind) && bind_textures(bind) && bind_attributes(bind) && bind_scene(bind);
+}
+
+/* Triangles that can be seen through come from far to near. */
+static bool bind_order(struct bind *bind)
+{
+    const struct scene *scene = bind->scene;
+    bind->draw.indices = scene->mesh.indices;
+    if (!bind->draw.blend)
+        return true;
+    struct matrix to_mesh = matrix_inverse(scene->world);
+    double eye[3];
+    for (size_t r = 0; r < 3; ++r)
+        eye[r] = to_mesh.m[3][r] + to_mesh.m[0][r] * scene->eye[0] + to_mesh.m[1][r] * scene->eye[1] +
+                 to_mesh.m[2][r] * scene->eye[2];
+    free(bind->order);
+    bind->draw.indices = bind->order = mesh_sorted(&scene->mesh, eye);
+    return bind->order || fail(bind, "out of memory");
+}
+
+bool bind_scene(struct bind *bind)
+{
+    return fill_blocks(bind) && bind_order(bind);
 }
 
 void bind_finish(struct bind *bind)
@@ -375,4 +417,5 @@ void bind_finish(struct bind *bind)
         free(bind->draw.blocks[i].data);
     for (uint32_t i = 0; i < bind->num_images; ++i)
         image_finish(&bind->images[i]);
+    free(bind->order);
 }

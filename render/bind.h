@@ -23,16 +23,21 @@ struct bind {
     const struct bind_value *values;
     size_t num_values;
     bool is_opaque; /* colours replace what is behind, also those of transparent materials */
+    bool checker; /* what a texture that cannot be read is replaced by; otherwise it is an error */
 
     struct draw draw;                       /* the outcome */
     struct image images[DRAW_MAX_TEXTURES]; /* read for it */
     uint32_t num_images;
-    uint32_t max_lights;   /* that the shader has room for */
-    char reason[512]; /* why it failed */
+    uint32_t *order;     /* triangles from far to near, where the shader blends */
+    uint32_t max_lights; /* that the shader has room for */
+    const char *id;      /* of the failure: "missing-texture"… */
+    char reason[512];    /* why it failed */
 };
 
 /* Fills bind->draw but for its code and size. False: see bind->reason. bind_finish must follow in any case. */
 bool bind_shader(struct bind *bind);
+/* Again what depends on the camera and other uniforms of the scene. */
+bool bind_scene(struct bind *bind);
 void bind_finish(struct bind *bind);
 
 #endif

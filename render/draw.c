@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/draw.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 #define COLOR_FORMAT VK_FORMAT_R32G32B32A32_SFLOAT
 #define DEPTH_FORMAT VK_FORMAT_D32_SFLOAT
-#define MAX_PIPELINES 2
 
-/* What a draw owns on the device. */
-struct frame {
+/* What it owns on the device. */
+struct draw_program {
     struct gpu *gpu;
     const struct draw *draw;
     struct gpu_image color, depth;
@@ -22,44 +22,43 @@ struct frame {
     uint32_t num_sets;
     VkPipelineLayout layout;
     VkShaderModule modules[2];
-    VkPipeline pipelines[MAX_PIPELINES]; /* drawn in this order */
-    int num_pipelines;
+    VkPipeline pipeline;
 };
 
 /* ---- Resources ---- */
 
-static bool create_targets(struct frame *frame)
+static bool create_targets(struct draw_program *program)
 {
-    struct gpu *gpu = frame->gpu;
-    uint32_t width = frame->draw->width, height = frame->draw->height;
+    struct gpu *gpu = program->gpu;
+    uint32_t width = program->draw->width, height = program->draw->height;
     return gpu_create_image(gpu, COLOR_FORMAT, width, height, 1,
                             VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
-                            VK_IMAGE_ASPECT_COLOR_BIT, &frame->color) &&
+                            VK_IMAGE_ASPECT_COLOR_BIT, &program->color) &&
            gpu_create_image(gpu, DEPTH_FORMAT, width, height, 1, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT,
-                            VK_IMAGE_ASPECT_DEPTH_BIT, &frame->depth) &&
+                            VK_IMAGE_ASPECT_DEPTH_BIT, &program->depth) &&
            gpu_create_buffer(gpu, VK_BUFFER_USAGE_TRANSFER_DST_BIT, NULL, (size_t)width * height * 4 * sizeof(float),
-                             &frame->readback);
+                             &program->readback);
 }
 
-static bool create_buffers(struct frame *frame)
+static bool create_buffers(struct draw_program *program)
 {
-    const struct draw *draw = frame->draw;
-    bool good = gpu_create_buffer(frame->gpu, VK_BUFFER_USAGE_INDEX_BUFFER_BIT, draw->indices,
-                                  draw->num_indices * sizeof *draw->indices, &frame->indices);
+    const struct draw *draw = program->draw;
+    bool good = gpu_create_buffer(program->gpu, VK_BUFFER_USAGE_INDEX_BUFFER_BIT, draw->indices,
+                                  draw->num_indices * sizeof *draw->indices, &program->indices);
     for (uint32_t i = 0; good && i < draw->num_attributes; ++i)
-        good = gpu_create_buffer(frame->gpu, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, draw->attributes[i].data,
-                                 (size_t)draw->num_vertices * 16, &frame->attributes[i]);
+        good = gpu_create_buffer(program->gpu, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, draw->attributes[i].data,
+                                 (size_t)draw->num_vertices * 16, &program->attributes[i]);
     for (uint32_t i = 0; good && i < draw->num_blocks; ++i)
-        good = gpu_create_buffer(frame->gpu, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, draw->blocks[i].data,
-                                 draw->blocks[i].size, &frame->blocks[i]);
+        good = gpu_create_buffer(program->gpu, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, draw->blocks[i].data,
+                                 draw->blocks[i].size, &program->blocks[i]);
     return good;
 }
 
-static bool create_textures(struct frame *frame)
+static bool create_textures(struct draw_program *program)
 {
     bool good = true;
-    for (uint32_t i = 0; good && i < frame->draw->num_textures; ++i) {
-        const struct draw_texture *texture = &frame->draw->textures[i];
+    for (uint32_t i = 0; good && i < program->draw->num_textures; ++i) {
+        const struct draw_texture *texture = &program->draw->textures[i];
         const VkSamplerCreateInfo info = {
             .sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO,
             .magFilter = texture->filter,
@@ -72,8 +71,8 @@ static bool create_textures(struct frame *frame)
             .maxLod = texture->has_mips ? VK_LOD_CLAMP_NONE : 0.0f,
             .borderColor = VK_BORDER_COLOR_FLOAT_TRANSPARENT_BLACK,
         };
-        good = gpu_upload_texture(frame->gpu, texture->image, texture->bottom_first, &frame->textures[i]) &&
-               gpu_check(frame->gpu, vkCreateSampler(frame->gpu->device, &info, NULL, &frame->samplers[i]),
+        good = gpu_upload_texture(program->gpu, texture->image, texture->bottom_first, &program->textures[i]) &&
+               gpu_check(program->gpu, vkCreateSampler(program->gpu->device, &info, NULL, &program->samplers[i]),
                          "making a sampler");
     }
     return good;
@@ -81,9 +80,9 @@ static bool create_textures(struct frame *frame)
 
 /* ---- Descriptors ---- */
 
-static bool create_set_layout(struct frame *frame, uint32_t set)
+static bool create_set_layout(struct draw_program *program, uint32_t set)
 {
-    const struct draw *draw = frame->draw;
+    const struct draw *draw = program->draw;
     VkDescriptorSetLayoutBinding bindings[DRAW_MAX_BLOCKS + DRAW_MAX_TEXTURES];
     uint32_t count = 0;
     const VkShaderStageFlags stages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
@@ -99,11 +98,11 @@ static bool create_set_layout(struct frame *frame, uint32_t set)
     }
     const VkDescriptorSetLayoutCreateInfo info = {
         .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO, .bindingCount = count, .pBindings = bindings};
-    return gpu_check(frame->gpu, vkCreateDescriptorSetLayout(frame->gpu->device, &info, NULL, &frame->set_layouts[set]),
+    return gpu_check(program->gpu, vkCreateDescriptorSetLayout(program->gpu->device, &info, NULL, &program->set_layouts[set]),
                      "making a descriptor set layout");
 }
 
-static bool allocate_sets(struct frame *frame)
+static bool allocate_sets(struct draw_program *program)
 {
     const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, DRAW_MAX_BLOCKS},
                                           {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, DRAW_MAX_TEXTURES}};
@@ -111,78 +110,78 @@ static bool allocate_sets(struct frame *frame)
                                              .maxSets = DRAW_MAX_SETS,
                                              .poolSizeCount = 2,
                                              .pPoolSizes = sizes};
-    if (!gpu_check(frame->gpu, vkCreateDescriptorPool(frame->gpu->device, &pool, NULL, &frame->descriptor_pool),
+    if (!gpu_check(program->gpu, vkCreateDescriptorPool(program->gpu->device, &pool, NULL, &program->descriptor_pool),
                    "making a descriptor pool"))
         return false;
     const VkDescriptorSetAllocateInfo info = {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
-                                              .descriptorPool = frame->descriptor_pool,
-                                              .descriptorSetCount = frame->num_sets,
-                                              .pSetLayouts = frame->set_layouts};
-    return gpu_check(frame->gpu, vkAllocateDescriptorSets(frame->gpu->device, &info, frame->sets),
+                                              .descriptorPool = program->descriptor_pool,
+                                              .descriptorSetCount = program->num_sets,
+                                              .pSetLayouts = program->set_layouts};
+    return gpu_check(program->gpu, vkAllocateDescriptorSets(program->gpu->device, &info, program->sets),
                      "making descriptor sets");
 }
 
-static void write_sets(struct frame *frame)
+static void write_sets(struct draw_program *program)
 {
-    const struct draw *draw = frame->draw;
+    const struct draw *draw = program->draw;
     for (uint32_t i = 0; i < draw->num_blocks; ++i) {
-        const VkDescriptorBufferInfo buffer = {frame->blocks[i].buffer, 0, VK_WHOLE_SIZE};
+        const VkDescriptorBufferInfo buffer = {program->blocks[i].buffer, 0, VK_WHOLE_SIZE};
         const VkWriteDescriptorSet write = {.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
-                                            .dstSet = frame->sets[draw->blocks[i].set],
+                                            .dstSet = program->sets[draw->blocks[i].set],
                                             .dstBinding = draw->blocks[i].binding,
                                             .descriptorCount = 1,
                                             .descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,
                                             .pBufferInfo = &buffer};
-        vkUpdateDescriptorSets(frame->gpu->device, 1, &write, 0, NULL);
+        vkUpdateDescriptorSets(program->gpu->device, 1, &write, 0, NULL);
     }
     for (uint32_t i = 0; i < draw->num_textures; ++i) {
-        const VkDescriptorImageInfo image = {frame->samplers[i], frame->textures[i].view,
+        const VkDescriptorImageInfo image = {program->samplers[i], program->textures[i].view,
                                              VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
         const VkWriteDescriptorSet write = {.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
-                                            .dstSet = frame->sets[draw->textures[i].set],
+                                            .dstSet = program->sets[draw->textures[i].set],
                                             .dstBinding = draw->textures[i].binding,
                                             .descriptorCount = 1,
                                             .descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
                                             .pImageInfo = &image};
-        vkUpdateDescriptorSets(frame->gpu->device, 1, &write, 0, NULL);
+        vkUpdateDescriptorSets(program->gpu->device, 1, &write, 0, NULL);
     }
 }
 
-static bool create_descriptors(struct frame *frame)
+static bool create_descriptors(struct draw_program *program)
 {
-    const struct draw *draw = frame->draw;
+    const struct draw *draw = program->draw;
     for (uint32_t i = 0; i < draw->num_blocks; ++i)
-        frame->num_sets = draw->blocks[i].set >= frame->num_sets ? draw->blocks[i].set + 1 : frame->num_sets;
+        program->num_sets = draw->blocks[i].set >= program->num_sets ? draw->blocks[i].set + 1 : program->num_sets;
     for (uint32_t i = 0; i < draw->num_textures; ++i)
-        frame->num_sets = draw->textures[i].set >= frame->num_sets ? draw->textures[i].set + 1 : frame->num_sets;
-    for (uint32_t set = 0; set < frame->num_sets; ++set) {
-        if (!create_set_layout(frame, set))
+        program->num_sets = draw->textures[i].set >= program->num_sets ? draw->textures[i].set + 1 : program->num_sets;
+    for (uint32_t set = 0; set < program->num_sets; ++set) {
+        if (!create_set_layout(program, set))
             return false;
     }
     const VkPipelineLayoutCreateInfo info = {.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
-                                             .setLayoutCount = frame->num_sets,
-                                             .pSetLayouts = frame->set_layouts};
-    if (!gpu_check(frame->gpu, vkCreatePipelineLayout(frame->gpu->device, &info, NULL, &frame->layout),
+                                             .setLayoutCount = program->num_sets,
+                                             .pSetLayouts = program->set_layouts};
+    if (!gpu_check(program->gpu, vkCreatePipelineLayout(program->gpu->device, &info, NULL, &program->layout),
                    "making a pipeline layout"))
         return false;
-    if (frame->num_sets == 0)
+    if (program->num_sets == 0)
         return true;
-    if (!allocate_sets(frame))
+    if (!allocate_sets(program))
         return false;
-    write_sets(frame);
+    write_sets(program);
     return true;
 }
 
 /* ---- Pipeline ---- */
 
-static bool create_modules(struct frame *frame)
+static bool create_modules(struct draw_program *program)
 {
     bool good = true;
     for (int i = 0; good && i < 2; ++i) {
         const VkShaderModuleCreateInfo info = {.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
-                                               .codeSize = frame->draw->code_words[i] * sizeof(uint32_t),
-                                               .pCode = frame->draw->code[i]};
-        good = gpu_check(frame->gpu, vkCreateShaderModule(frame->gpu->device, &info, NULL, &frame->modules[i]),
+                                               .codeSize = program->draw->code_words[i] * sizeof(uint32_t),
+                                               .pCode = program->draw->code[i]};
+        good = gpu_check(program->gpu, vkCreateShaderModule(program->gpu->device, &info, NULL, &program->modules[i]),
                          "loading the shader");
     }
     return good;
@@ -241,12 +240,12 @@ static const VkPipelineRenderingCreateInfo rendering = {
     .depthAttachmentFormat = DEPTH_FORMAT,
 };
 
-static bool create_pipeline(struct frame *frame, VkCullModeFlags cull)
+static bool create_pipeline(struct draw_program *program)
 {
-    const struct draw *draw = frame->draw;
+    const struct draw *draw = program->draw;
     const VkPipelineShaderStageCreateInfo stages[2] = {
-        shader_stage(VK_SHADER_STAGE_VERTEX_BIT, frame->modules[0]),
-        shader_stage(VK_SHADER_STAGE_FRAGMENT_BIT, frame->modules[1]),
+        shader_stage(VK_SHADER_STAGE_VERTEX_BIT, program->modules[0]),
+        shader_stage(VK_SHADER_STAGE_FRAGMENT_BIT, program->modules[1]),
     };
     VkVertexInputBindingDescription bindings[DRAW_MAX_ATTRIBUTES];
     VkVertexInputAttributeDescription attributes[DRAW_MAX_ATTRIBUTES];
@@ -261,7 +260,7 @@ static bool create_pipeline(struct frame *frame, VkCullModeFlags cull)
                                                          .pScissors = &scissor};
     const VkPipelineRasterizationStateCreateInfo raster = {
         .sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO,
-        .cullMode = cull,
+        .cullMode = VK_CULL_MODE_NONE,
         .frontFace = VK_FRONT_FACE_COUNTER_CLOCKWISE,
         .lineWidth = 1.0f};
     const VkPipelineDepthStencilStateCreateInfo depth = {
@@ -285,41 +284,32 @@ static bool create_pipeline(struct frame *frame, VkCullModeFlags cull)
                                                .pMultisampleState = &samples,
                                                .pDepthStencilState = &depth,
                                                .pColorBlendState = &blending,
-                                               .layout = frame->layout};
-    VkPipeline *out = &frame->pipelines[frame->num_pipelines++];
-    return gpu_check(frame->gpu, vkCreateGraphicsPipelines(frame->gpu->device, VK_NULL_HANDLE, 1, &info, NULL, out),
-                     "compiling the shader");
-}
-
-/* What can be seen through has its far side drawn before its near side. */
-static bool create_pipelines(struct frame *frame)
-{
-    if (!frame->draw->blend)
-        return create_pipeline(frame, VK_CULL_MODE_NONE);
-    return create_pipeline(frame, VK_CULL_MODE_FRONT_BIT) && create_pipeline(frame, VK_CULL_MODE_BACK_BIT);
+                                               .layout = program->layout};
+    VkResult result = vkCreateGraphicsPipelines(program->gpu->device, VK_NULL_HANDLE, 1, &info, NULL, &program->pipeline);
+    return gpu_check(program->gpu, result, "compiling the shader");
 }
 
 /* ---- Drawing ---- */
 
-static void begin_rendering(const struct frame *frame, VkCommandBuffer commands)
+static void begin_rendering(const struct draw_program *program, VkCommandBuffer commands)
 {
-    gpu_image_barrier(commands, frame->color.image, VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, VK_IMAGE_LAYOUT_UNDEFINED,
+    gpu_image_barrier(commands, program->color.image, VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, VK_IMAGE_LAYOUT_UNDEFINED,
                       VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
-    gpu_image_barrier(commands, frame->depth.image, VK_IMAGE_ASPECT_DEPTH_BIT, 0, 1, VK_IMAGE_LAYOUT_UNDEFINED,
+    gpu_image_barrier(commands, program->depth.image, VK_IMAGE_ASPECT_DEPTH_BIT, 0, 1, VK_IMAGE_LAYOUT_UNDEFINED,
                       VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL);
     const VkRenderingAttachmentInfo color = {.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
-                                             .imageView = frame->color.view,
+                                             .imageView = program->color.view,
                                              .imageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
                                              .loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR,
                                              .storeOp = VK_ATTACHMENT_STORE_OP_STORE};
     const VkRenderingAttachmentInfo depth = {.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
-                                             .imageView = frame->depth.view,
+                                             .imageView = program->depth.view,
                                              .imageLayout = VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL,
                                              .loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR,
                                              .storeOp = VK_ATTACHMENT_STORE_OP_DONT_CARE,
                                              .clearValue = {.depthStencil = {.depth = 1.0f}}};
     const VkRenderingInfo info = {.sType = VK_STRUCTURE_TYPE_RENDERING_INFO,
-                                  .renderArea = {{0, 0}, {frame->draw->width, frame->draw->height}},
+                                  .renderArea = {{0, 0}, {program->draw->width, program->draw->height}},
                                   .layerCount = 1,
                                   .colorAttachmentCount = 1,
                                   .pColorAttachments = &color,
@@ -327,74 +317,83 @@ static void begin_rendering(const struct frame *frame, VkCommandBuffer commands)
     vkCmdBeginRendering(commands, &info);
 }
 
-static void record(const struct frame *frame, VkCommandBuffer commands)
+static void record(const struct draw_program *program, VkCommandBuffer commands)
 {
-    const struct draw *draw = frame->draw;
-    begin_rendering(frame, commands);
-    if (frame->num_sets)
-        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, frame->layout, 0, frame->num_sets,
-                                frame->sets, 0, NULL);
+    const struct draw *draw = program->draw;
+    begin_rendering(program, commands);
+    if (program->num_sets)
+        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, program->layout, 0, program->num_sets,
+                                program->sets, 0, NULL);
     const VkDeviceSize zero = 0;
     for (uint32_t i = 0; i < draw->num_attributes; ++i)
-        vkCmdBindVertexBuffers(commands, i, 1, &frame->attributes[i].buffer, &zero);
-    vkCmdBindIndexBuffer(commands, frame->indices.buffer, 0, VK_INDEX_TYPE_UINT32);
-    for (int i = 0; i < frame->num_pipelines; ++i) {
-        vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, frame->pipelines[i]);
-        vkCmdDrawIndexed(commands, draw->num_indices, 1, 0, 0, 0);
-    }
+        vkCmdBindVertexBuffers(commands, i, 1, &program->attributes[i].buffer, &zero);
+    vkCmdBindIndexBuffer(commands, program->indices.buffer, 0, VK_INDEX_TYPE_UINT32);
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, program->pipeline);
+    vkCmdDrawIndexed(commands, draw->num_indices, 1, 0, 0, 0);
     vkCmdEndRendering(commands);
-    gpu_image_barrier(commands, frame->color.image, VK_IMAGE_ASPECT_COLOR_BIT, 0, 1,
+    gpu_image_barrier(commands, program->color.image, VK_IMAGE_ASPECT_COLOR_BIT, 0, 1,
                       VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
     const VkBufferImageCopy copy = {.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
                                     .imageExtent = {draw->width, draw->height, 1}};
-    vkCmdCopyImageToBuffer(commands, frame->color.image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, frame->readback.buffer,
+    vkCmdCopyImageToBuffer(commands, program->color.image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, program->readback.buffer,
                            1, &copy);
 }
 
-static bool run(struct frame *frame, float *out_pixels)
+bool draw_frame(struct draw_program *program, float *out_pixels)
 {
-    if (!create_targets(frame) || !create_buffers(frame) || !create_textures(frame) || !create_descriptors(frame) ||
-        !create_modules(frame) || !create_pipelines(frame))
-        return false;
-    VkCommandBuffer commands = gpu_begin(frame->gpu);
+    const struct draw *draw = program->draw;
+    for (uint32_t i = 0; i < draw->num_blocks; ++i)
+        memcpy(program->blocks[i].mapped, draw->blocks[i].data, draw->blocks[i].size);
+    memcpy(program->indices.mapped, draw->indices, draw->num_indices * sizeof *draw->indices);
+    VkCommandBuffer commands = gpu_begin(program->gpu);
     if (!commands)
         return false;
-    record(frame, commands);
-    if (!gpu_end(frame->gpu, commands))
+    record(program, commands);
+    if (!gpu_end(program->gpu, commands))
         return false;
-    memcpy(out_pixels, frame->readback.mapped, frame->readback.size);
+    memcpy(out_pixels, program->readback.mapped, program->readback.size);
     return true;
 }
 
-static void destroy(struct frame *frame)
+struct draw_program *draw_open(struct gpu *gpu, const struct draw *draw)
 {
-    VkDevice device = frame->gpu->device;
-    for (int i = 0; i < frame->num_pipelines; ++i)
-        vkDestroyPipeline(device, frame->pipelines[i], NULL);
-    for (int i = 0; i < 2; ++i)
-        vkDestroyShaderModule(device, frame->modules[i], NULL);
-    vkDestroyPipelineLayout(device, frame->layout, NULL);
-    vkDestroyDescriptorPool(device, frame->descriptor_pool, NULL);
-    for (uint32_t i = 0; i < DRAW_MAX_SETS; ++i)
-        vkDestroyDescriptorSetLayout(device, frame->set_layouts[i], NULL);
-    for (uint32_t i = 0; i < frame->draw->num_textures; ++i) {
-        vkDestroySampler(device, frame->samplers[i], NULL);
-        gpu_destroy_image(frame->gpu, &frame->textures[i]);
+    struct draw_program *program = calloc(1, sizeof *program);
+    if (!program) {
+        gpu_check(gpu, VK_ERROR_OUT_OF_HOST_MEMORY, "preparing to draw");
+        return NULL;
     }
-    for (uint32_t i = 0; i < frame->draw->num_blocks; ++i)
-        gpu_destroy_buffer(frame->gpu, &frame->blocks[i]);
-    for (uint32_t i = 0; i < frame->draw->num_attributes; ++i)
-        gpu_destroy_buffer(frame->gpu, &frame->attributes[i]);
-    gpu_destroy_buffer(frame->gpu, &frame->indices);
-    gpu_destroy_buffer(frame->gpu, &frame->readback);
-    gpu_destroy_image(frame->gpu, &frame->depth);
-    gpu_destroy_image(frame->gpu, &frame->color);
+    program->gpu = gpu;
+    program->draw = draw;
+    if (create_targets(program) && create_buffers(program) && create_textures(program) && create_descriptors(program) &&
+        create_modules(program) && create_pipeline(program))
+        return program;
+    draw_close(program);
+    return NULL;
 }
 
-bool draw_run(struct gpu *gpu, const struct draw *draw, float *out_pixels)
+void draw_close(struct draw_program *program)
 {
-    struct frame frame = {.gpu = gpu, .draw = draw};
-    bool good = run(&frame, out_pixels);
-    destroy(&frame);
-    return good;
+    if (!program)
+        return;
+    VkDevice device = program->gpu->device;
+    vkDestroyPipeline(device, program->pipeline, NULL);
+    for (int i = 0; i < 2; ++i)
+        vkDestroyShaderModule(device, program->modules[i], NULL);
+    vkDestroyPipelineLayout(device, program->layout, NULL);
+    vkDestroyDescriptorPool(device, program->descriptor_pool, NULL);
+    for (uint32_t i = 0; i < DRAW_MAX_SETS; ++i)
+        vkDestroyDescriptorSetLayout(device, program->set_layouts[i], NULL);
+    for (uint32_t i = 0; i < program->draw->num_textures; ++i) {
+        vkDestroySampler(device, program->samplers[i], NULL);
+        gpu_destroy_image(program->gpu, &program->textures[i]);
+    }
+    for (uint32_t i = 0; i < program->draw->num_blocks; ++i)
+        gpu_destroy_buffer(program->gpu, &program->blocks[i]);
+    for (uint32_t i = 0; i < program->draw->num_attributes; ++i)
+        gpu_destroy_buffer(program->gpu, &program->attributes[i]);
+    gpu_destroy_buffer(program->gpu, &program->indices);
+    gpu_destroy_buffer(program->gpu, &program->readback);
+    gpu_destroy_image(program->gpu, &program->depth);
+    gpu_destroy_image(program->gpu, &program->color);
+    free(program);
 }

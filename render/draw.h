@@ -40,11 +40,20 @@ struct draw {
     struct draw_block blocks[DRAW_MAX_BLOCKS];
     struct draw_texture textures[DRAW_MAX_TEXTURES];
     uint32_t num_attributes, num_blocks, num_textures;
-    bool blend; /* colours are premultiplied; back faces are drawn first */
+    bool blend; /* colours are premultiplied, and triangles come from far to near */
     uint32_t width, height;
 };
 
-/* Draws to RGBA floats, first row on top, cleared to 0. False: see gpu->reason. */
-bool draw_run(struct gpu *gpu, const struct draw *draw, float *out_pixels);
+struct draw_program;
+
+/* Compiles the program and uploads its inputs; NULL: see gpu->reason. `draw` must outlive it. */
+struct draw_program *draw_open(struct gpu *gpu, const struct draw *draw);
+
+/*
+ * Draws with what blocks and indices hold now: to RGBA floats, first row on top, cleared to 0. False: see gpu->reason.
+ */
+bool draw_frame(struct draw_program *program, float *out_pixels);
+
+void draw_close(struct draw_program *program);
 
 #endif

@@ -7,6 +7,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #define PI 3.14159265358979323846
 
@@ -35,14 +36,23 @@ static void irradiance_of(const double d[3], float out[3])
                          0.025 * (1.0 + d[i]));
 }
 
+/* The direction of a texel's centre. */
+static void texel_direction(const struct image *map, uint32_t x, uint32_t y, double out[3])
+{
+    double latitude = PI * (0.5 - (y + 0.5) / map->height), longitude = 2.0 * PI * ((x + 0.5) / map->width - 0.5);
+    out[0] = cos(latitude) * sin(longitude);
+    out[1] = sin(latitude);
+    out[2] = -cos(latitude) * cos(longitude);
+}
+
 static bool make_map(struct image *out, uint32_t width, uint32_t height, void (*value)(const double d[3], float out[3]))
 {
     *out = (struct image){width, height, true, malloc((size_t)width * height * 4 * sizeof(float))};
     float *texel = out->pixels;
     for (uint32_t y = 0; texel && y < height; ++y) {
         for (uint32_t x = 0; x < width; ++x, texel += 4) {
-            double latitude = PI * (0.5 - (y + 0.5) / height), longitude = 2.0 * PI * ((x + 0.5) / width - 0.5);
-            const double d[3] = {cos(latitude) * sin(longitude), sin(latitude), -cos(latitude) * cos(longitude)};
+            double d[3];
+            texel_direction(out, x, y, d);
             value(d, texel);
             texel[3] = 1.0f;
         }
@@ -53,6 +63,104 @@ static bool make_map(struct image *out, uint32_t width, uint32_t height, void (*
 bool environment_make(struct image *radiance, struct image *irradiance)
 {
     return make_map(radiance, 256, 128, environment_radiance) && make_map(irradiance, 64, 32, irradiance_of);
+}
+
+/* ---- Maps ---- */
+
+static const float *texel_at(const struct image *map, int64_t x, int64_t y)
+{
+    y = y < 0 ? 0 : y >= map->height ? map->height - 1 : y;
+    x = (x % map->width + map->width) % map->width;
+    return (const float *)map->pixels + (y * map->width + x) * 4;
+}
+
+void environment_lookup(const struct image *map, const double d[3], double out[3])
+{
+    double u = (atan2(d[0], -d[2]) / (2 * PI) + 0.5) * map->width - 0.5;
+    double v = (0.5 - asin(fmax(-1, fmin(1, d[1]))) / PI) * map->height - 0.5;
+    int64_t x = (int64_t)floor(u), y = (int64_t)floor(v);
+    double s = u - floor(u), t = v - floor(v);
+    const float *a = texel_at(map, x, y), *b = texel_at(map, x + 1, y), *c = texel_at(map, x, y + 1), *e = texel_at(map, x + 1, y + 1);
+    for (size_t i = 0; i < 3; ++i)
+        out[i] = (1 - t) * ((1 - s) * a[i] + s * b[i]) + t * ((1 - s) * c[i] + s * e[i]);
+}
+
+/* Averages boxes of texels, so that an integral over the sphere takes few of them. */
+static bool shrink(const struct image *map, uint32_t width, uint32_t height, struct image *out)
+{
+    *out = (struct image){width, height, true, calloc((size_t)width * height * 4, sizeof(float))};
+    for (uint32_t y = 0; out->pixels && y < height; ++y) {
+        uint32_t y0 = y * map->height / height, y1 = (y + 1) * map->height / height;
+        for (uint32_t x = 0; x < width; ++x) {
+            uint32_t x0 = x * map->width / width, x1 = (x + 1) * map->width / width;
+            double sum[3] = {0};
+            for (uint32_t j = y0; j < y1; ++j)
+                for (uint32_t i = x0; i < x1; ++i)
+                    for (size_t c = 0; c < 3; ++c)
+                        sum[c] += ((const float *)map->pixels)[((size_t)j * map->width + i) * 4 + c];
+            for (size_t c = 0; c < 3; ++c)
+                ((float *)out->pixels)[((size_t)y * width + x) * 4 + c] = (float)(sum[c] / ((y1 - y0) * (double)(x1 - x0)));
+        }
+    }
+    return out->pixels != NULL;
+}
+
+static uint32_t least(uint32_t a, uint32_t b)
+{
+    return a < b ? a : b;
+}
+
+/* What a texel of a map is as light: radiance times solid angle over pi, and where it comes from. */
+struct texel_light {
+    float direction[3], light[3];
+};
+
+static struct texel_light *make_lights(const struct image *map)
+{
+    struct texel_light *lights = malloc((size_t)map->width * map->height * sizeof *lights);
+    for (uint32_t y = 0; lights && y < map->height; ++y) {
+        double top = PI * (0.5 - (double)y / map->height), bottom = PI * (0.5 - (y + 1.0) / map->height);
+        double solid = 2.0 * PI / map->width * (sin(top) - sin(bottom));
+        for (uint32_t x = 0; x < map->width; ++x) {
+            struct texel_light *light = &lights[(size_t)y * map->width + x];
+            double d[3];
+            texel_direction(map, x, y, d);
+            for (size_t c = 0; c < 3; ++c) {
+                light->direction[c] = (float)d[c];
+                light->light[c] = (float)(((const float *)map->pixels)[((size_t)y * map->width + x) * 4 + c] * solid / PI);
+            }
+        }
+    }
+    return lights;
+}
+
+bool environment_irradiance(const struct image *radiance, struct image *out)
+{
+    struct image small;
+    *out = (struct image){64, 32, true, malloc(64 * 32 * 4 * sizeof(float))};
+    bool good = shrink(radiance, least(radiance->width, 128), least(radiance->height, 64), &small);
+    struct texel_light *lights = good ? make_lights(&small) : NULL;
+    size_t count = (size_t)small.width * small.height;
+    float *texel = out->pixels;
+    for (uint32_t y = 0; lights && texel && y < out->height; ++y) {
+        for (uint32_t x = 0; x < out->width; ++x, texel += 4) {
+            double n[3];
+            texel_direction(out, x, y, n);
+            float sum[3] = {0};
+            for (size_t i = 0; i < count; ++i) {
+                const float *d = lights[i].direction;
+                float cosine = (float)n[0] * d[0] + (float)n[1] * d[1] + (float)n[2] * d[2];
+                for (size_t c = 0; cosine > 0 && c < 3; ++c)
+                    sum[c] += cosine * lights[i].light[c];
+            }
+            memcpy(texel, sum, sizeof sum);
+            texel[3] = 1.0f;
+        }
+    }
+    good = lights && out->pixels;
+    free(lights);
+    image_finish(&small);
+    return good;
 }
 
 bool environment_make_test_texture(struct image *out)

@@ -10,15 +10,33 @@
 
 bool gpu_check(struct gpu *gpu, VkResult result, const char *what)
 {
-    if (result != VK_SUCCESS && !gpu->reason[0])
-        snprintf(gpu->reason, sizeof gpu->reason, "%s failed (VkResult %d)", what, (int)result);
-    return result == VK_SUCCESS;
+    static const struct {
+        VkResult result;
+        const char *id, *text;
+    } known[] = {
+        {VK_ERROR_DEVICE_LOST, "device-lost", "the driver lost the device"},
+        {VK_ERROR_OUT_OF_DEVICE_MEMORY, "device-memory", "the device has no memory left"},
+        {VK_ERROR_OUT_OF_HOST_MEMORY, "device-memory", "out of memory"},
+        {VK_ERROR_INITIALIZATION_FAILED, "no-device", "the driver does not start"},
+    };
+    if (result == VK_SUCCESS || gpu->reason[0])
+        return result == VK_SUCCESS;
+    gpu->id = "render-failed";
+    snprintf(gpu->reason, sizeof gpu->reason, "%s failed (VkResult %d)", what, (int)result);
+    for (size_t i = 0; i < sizeof known / sizeof *known; ++i) {
+        if (result != known[i].result)
+            continue;
+        gpu->id = known[i].id;
+        snprintf(gpu->reason, sizeof gpu->reason, "%s: %s", what, known[i].text);
+    }
+    return false;
 }
 
 /* ---- Device ---- */
 
 static bool fail_no_device(struct gpu *gpu)
 {
+    gpu->id = "no-device";
     snprintf(gpu->reason, sizeof gpu->reason,
              "there is no device with Vulkan 1.3; the package mesa-vulkan-drivers brings one that needs no hardware");
     return false;
@@ -72,7 +90,12 @@ static bool choose_device(struct gpu *gpu)
             gpu->physical = devices[i];
         }
     }
-    return best > 0 || fail_no_device(gpu);
+    if (best == 0)
+        return fail_no_device(gpu);
+    VkPhysicalDeviceProperties properties;
+    vkGetPhysicalDeviceProperties(gpu->physical, &properties);
+    gpu->max_size = properties.limits.maxImageDimension2D;
+    return true;
 }
 
 static bool create_device(struct gpu *gpu)

@@ -17,7 +17,9 @@ struct gpu {
     VkQueue queue;
     VkCommandPool pool;
     VkPhysicalDeviceMemoryProperties memory;
-    char reason[256]; /* "" while all is well */
+    uint32_t max_size; /* of pictures and textures, in pixels */
+    const char *id;    /* "device-lost"…: of the first failure */
+    char reason[256];  /* "" while all is well */
 };
 
 struct gpu_buffer {

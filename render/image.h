@@ -22,8 +22,14 @@ struct image {
 /* Reads a picture; on failure false, with why in `reason`. Values are those of the file: no colour space is changed. */
 bool image_read(const char *path, struct image *out, char *reason, size_t capacity);
 
-/* Writes 8-bit RGBA; the format follows from the name's ending. The file appears whole or not at all. */
-bool image_write(const char *path, uint32_t width, uint32_t height, const uint8_t *rgba, char *reason, size_t capacity);
+/* Whether files of this name hold linear light as floats: EXR, HDR, PFM. */
+bool image_is_linear(const char *path);
+
+/*
+ * Writes a picture: floats of linear light, premultiplied, or 8-bit sRGB, not premultiplied. The format follows from the name's
+ * ending. The file appears whole or not at all.
+ */
+bool image_write(const char *path, const struct image *image, char *reason, size_t capacity);
 
 static inline void image_finish(struct image *image)
 {

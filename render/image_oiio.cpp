@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <string>
+#include <strings.h>
 
 namespace {
 
@@ -62,7 +63,42 @@ bool image_read(const char *path, struct image *out, char *reason, size_t capaci
     return true;
 }
 
-bool image_write(const char *path, uint32_t width, uint32_t height, const uint8_t *rgba, char *reason, size_t capacity)
+bool image_is_linear(const char *path)
+{
+    static const char *const endings[] = {".exr", ".hdr", ".pfm"};
+    size_t len = std::strlen(path);
+    for (const char *ending : endings)
+        if (len >= 4 && strcasecmp(path + len - 4, ending) == 0)
+            return true;
+    return false;
+}
+
+namespace {
+
+OIIO::ImageSpec describe(const struct image &image, const OIIO::ImageOutput &output)
+{
+    int channels = output.supports("alpha") ? 4 : 3;
+    OIIO::TypeDesc type = image.is_float ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT8;
+    OIIO::ImageSpec spec(static_cast<int>(image.width), static_cast<int>(image.height), channels, type);
+    spec.attribute("oiio:ColorSpace", image.is_float ? "Linear" : "sRGB");
+    if (!image.is_float)
+        spec.attribute("oiio:UnassociatedAlpha", 1);
+    spec.attribute("CompressionQuality", 95);
+    return spec;
+}
+
+bool write_pixels(OIIO::ImageOutput &output, const std::string &path, const struct image &image)
+{
+    OIIO::ImageSpec spec = describe(image, output);
+    size_t pixel = 4 * (image.is_float ? sizeof(float) : 1);
+    bool good = output.open(path, spec) &&
+                output.write_image(spec.format, image.pixels, static_cast<OIIO::stride_t>(pixel));
+    return output.close() && good;
+}
+
+} // namespace
+
+bool image_write(const char *path, const struct image *image, char *reason, size_t capacity)
 {
     /* The format is chosen by the ending, so the temporary name keeps it. */
     std::string name(path);
@@ -71,10 +107,7 @@ bool image_write(const char *path, uint32_t width, uint32_t height, const uint8_
     auto output = OIIO::ImageOutput::create(temporary);
     if (!output)
         return fail(reason, capacity, OIIO::geterror());
-    OIIO::ImageSpec spec(static_cast<int>(width), static_cast<int>(height), 4, OIIO::TypeDesc::UINT8);
-    spec.attribute("oiio:ColorSpace", "sRGB");
-    bool good = output->open(temporary, spec) && output->write_image(OIIO::TypeDesc::UINT8, rgba);
-    good = output->close() && good;
+    bool good = write_pixels(*output, temporary, *image);
     if (!good)
         fail(reason, capacity, output->geterror());
     if (good && std::rename(temporary.c_str(), path) != 0)
@@ -83,4 +116,3 @@ bool image_write(const char *path, uint32_t width, uint32_t height, const uint8_
         std::remove(temporary.c_str());
     return good;
 }
-

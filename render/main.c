@@ -1,52 +1,58 @@
 // SPDX-License-Identifier: Apache-2.0
-/* mxgen-render: draws a material on a sphere in daylight, without a display. `mxgen render` starts it. */
+/* mxgen-render: pictures of materials, without a display. `mxgen render` starts it. */
 #define _POSIX_C_SOURCE 200809L
 #include "cli/cli.h"
 #include "cli/files.h"
-#include "render/render.h"
-#include "validate/compile.h"
+#include "cli/folder.h"
+#include "render/picture.h"
+#include "render/sheet.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #define OVERSAMPLING 2 /* samples for each pixel and axis */
-#define MAX_SIZE 4096
+#define MAX_FRAMES 10000
 
-enum scene_kind { SCENE_SPHERE, SCENE_PLANE, SCENE_GRID, NUM_SCENES };
+/* The studio takes any mesh; the others are fixed, for tests and for patterns. */
+enum scene_kind { SCENE_STUDIO, SCENE_SPHERE, SCENE_PLANE, SCENE_GRID, NUM_SCENES };
 
 static const struct {
     const char *name;
     double exposure; /* what a white surface in the scene's daylight needs; values as they are: 1 */
-} scene_kinds[NUM_SCENES] = {[SCENE_SPHERE] = {"sphere", 0.6}, [SCENE_PLANE] = {"plane", 1.0}, [SCENE_GRID] = {"grid", 1.0}};
+} scene_kinds[NUM_SCENES] = {[SCENE_STUDIO] = {"studio", 0.6},
+                             [SCENE_SPHERE] = {"sphere", 0.6},
+                             [SCENE_PLANE] = {"plane", 1.0},
+                             [SCENE_GRID] = {"grid", 1.0}};
 
-struct picture {
+static const char *const background_names[] = {"backdrop", "environment", "none", NULL};
+
+struct job {
     struct cli cli;
-    const char *output, *element, *size, *scene_name;
-    struct arg_list settings; /* "path=value" */
-    size_t samples;           /* of the environment */
-    uint32_t width, height;
+    struct painter painter;
+    const char *output, *element, *look, *size, *camera, *scene, *background, *missing_texture;
+    struct arg_list settings, environments;
+    size_t samples, frames;
     enum scene_kind scene_kind;
     struct bind_value *values;
-    struct scene scene;
-    struct gpu gpu;
+    struct arg_list found; /* documents, of folders too; allocated */
 };
 
 /* ---- Arguments ---- */
 
 /* "512" or "640x480" */
-static bool parse_size(struct picture *picture)
+static bool parse_size(struct job *job)
 {
     char *end;
-    unsigned long width = strtoul(picture->size, &end, 10), height = width;
+    unsigned long width = strtoul(job->size, &end, 10), height = width;
     if (*end == 'x')
         height = strtoul(end + 1, &end, 10);
-    if (*end || width < 1 || height < 1 || width > MAX_SIZE || height > MAX_SIZE) {
-        fprintf(stderr, "mxgen: '%s' is not a size; write W or WxH, up to %d\n", picture->size, MAX_SIZE);
+    if (*end || width < 1 || height < 1 || width > UINT16_MAX || height > UINT16_MAX) {
+        fprintf(stderr, "mxgen: '%s' is not a size; write W or WxH\n", job->size);
         return false;
     }
-    picture->width = (uint32_t)width;
-    picture->height = (uint32_t)height;
+    job->painter.width = (uint32_t)width;
+    job->painter.height = (uint32_t)height;
     return true;
 }
 
@@ -74,103 +80,287 @@ static void free_values(struct bind_value *values, size_t count)
     free(values);
 }
 
-/* ---- Pictures ---- */
-
-/* IEC 61966-2-1 */
-static uint8_t encode_srgb(double linear)
+static bool is_set(const struct cli *cli, const char *key)
 {
-    double x = linear <= 0.0 ? 0.0 : linear >= 1.0 ? 1.0 : linear;
-    double encoded = x <= 0.0031308 ? 12.92 * x : 1.055 * pow(x, 1.0 / 2.4) - 0.055;
-    return (uint8_t)(encoded * 255.0 + 0.5);
-}
-
-/* Averages the samples of each pixel, over a grey backdrop that is lighter on top. */
-static void resolve(const struct picture *picture, const float *samples, uint8_t *out)
-{
-    size_t row = (size_t)picture->width * OVERSAMPLING;
-    for (uint32_t y = 0; y < picture->height; ++y) {
-        double backdrop = 0.18 - 0.12 * y / picture->height;
-        for (uint32_t x = 0; x < picture->width; ++x, out += 4) {
-            double sum[4] = {0};
-            for (size_t i = 0; i < OVERSAMPLING * OVERSAMPLING; ++i) {
-                const float *sample = samples + 4 * ((y * OVERSAMPLING + i / OVERSAMPLING) * row + x * OVERSAMPLING +
-                                                     i % OVERSAMPLING);
-                for (size_t c = 0; c < 4; ++c)
-                    sum[c] += (double)sample[c] / (OVERSAMPLING * OVERSAMPLING);
-            }
-            for (size_t c = 0; c < 3; ++c)
-                out[c] = encode_srgb(scene_kinds[picture->scene_kind].exposure * sum[c] + backdrop * (1.0 - fmin(sum[3], 1.0)));
-            out[3] = 255;
-        }
+    for (size_t i = 0; i < cli->parser.num_settings; ++i) {
+        if (strcmp(cli->parser.settings[i].key, key) == 0)
+            return true;
     }
+    return false;
 }
 
-static void print_values(const struct picture *picture, const char *element, unsigned components, const float *pixels)
+/* The place of a word in a list; the list's length after telling that it has no such word. */
+static size_t find_word(const char *option, const char *word, const char *const *words)
 {
-    fputs(element, stdout);
-    for (uint32_t y = picture->height; y-- > 0;)
-        for (uint32_t x = 0; x < picture->width; ++x)
-            for (unsigned c = 0; c < components; ++c)
-                printf(",%.9g", (double)pixels[4 * ((size_t)y * picture->width + x) + c]);
-    putchar('\n');
+    size_t i = 0;
+    while (words[i] && strcmp(words[i], word) != 0)
+        ++i;
+    if (words[i])
+        return i;
+    fprintf(stderr, "mxgen: '%s' is no value of --%s; there are", word, option);
+    for (size_t w = 0; words[w]; ++w)
+        fprintf(stderr, "%s %s", w == 0 ? "" : words[w + 1] ? "," : " and", words[w]);
+    fputc('\n', stderr);
+    return i;
 }
 
-static void write_picture(struct picture *picture, const float *samples)
+/* "--environment" is a mode of generation, or the file of a map; it may stand once for each. */
+static bool apply_environments(struct job *job)
 {
-    char reason[256];
-    uint8_t *pixels = malloc((size_t)picture->width * picture->height * 4);
-    if (!pixels) {
-        report_status(&picture->cli.report, MXG_ERROR_MEMORY);
+    mxg_option option = {0};
+    for (uint32_t i = 0; !option.key || strcmp(option.key, "environment") != 0; ++i) {
+        option.size = sizeof option;
+        if (mxg_get_option(i, &option) != MXG_OK)
+            return false;
+    }
+    for (size_t i = 0; i < job->environments.len; ++i) {
+        const char *word = job->environments.items[i];
+        if (mxg_options_set(job->cli.options, "environment", word) != MXG_OK)
+            job->painter.studio.environment = word;
+    }
+    return true;
+}
+
+/* Fewer uniforms, smaller shader: only what the user sets has to stay open. */
+static bool apply_interface(struct job *job)
+{
+    if (job->settings.len || is_set(&job->cli, "interface"))
+        return true;
+    return report_status(&job->cli.report, mxg_options_set(job->cli.options, "interface", "reduced"));
+}
+
+static bool parse(struct job *job)
+{
+    const char *scene_names[NUM_SCENES + 1] = {0};
+    for (size_t i = 0; i < NUM_SCENES; ++i)
+        scene_names[i] = scene_kinds[i].name;
+    size_t scene = find_word("scene", job->scene, scene_names);
+    size_t background = scene < NUM_SCENES ? find_word("background", job->background, background_names) : 0;
+    if (scene == NUM_SCENES || !background_names[background])
+        return false;
+    job->scene_kind = (enum scene_kind)scene;
+    job->painter.background = (enum background)background;
+    job->painter.exposure = scene_kinds[scene].exposure;
+    job->painter.is_studio = scene == SCENE_STUDIO;
+    job->painter.checker = strcmp(job->missing_texture, "checker") == 0;
+    if (!job->painter.checker && find_word("missing-texture", job->missing_texture, (const char *const[]){"error", "checker", NULL}) != 0)
+        return false;
+    if (job->camera && !studio_parse_camera(&job->painter.studio, job->camera)) {
+        fprintf(stderr, "mxgen: '%s' is no camera; write AZIMUTH,ELEVATION[,DISTANCE[,FOV]], with an elevation between -90 and 90\n",
+                job->camera);
+        return false;
+    }
+    if (job->frames > MAX_FRAMES) {
+        fprintf(stderr, "mxgen: a turntable has at most %d pictures\n", MAX_FRAMES);
+        return false;
+    }
+    job->painter.fixed_texture_modes = is_set(&job->cli, "texture-modes");
+    job->values = split_settings(&job->settings);
+    job->painter.values = job->values;
+    job->painter.num_values = job->settings.len;
+    return job->values && apply_environments(job) && apply_interface(job);
+}
+
+/* ---- Scene ---- */
+
+static bool tell_parts(struct job *job, unsigned made)
+{
+    static const struct {
+        enum mesh_part part;
+        const char *name;
+    } parts[] = {{MESH_NORMALS, "normals"}, {MESH_TEXCOORDS, "texture coordinates"}, {MESH_TANGENTS, "tangents"}};
+    for (size_t i = 0; i < sizeof parts / sizeof *parts; ++i) {
+        if ((made & parts[i].part) && !job->cli.quiet)
+            fprintf(stderr, "note: the mesh '%s' has no %s; they were made\n", job->painter.studio.mesh, parts[i].name);
+    }
+    return true;
+}
+
+static bool make_scene(struct job *job)
+{
+    struct painter *painter = &job->painter;
+    double aspect = (double)painter->width / painter->height;
+    if (job->scene_kind == SCENE_STUDIO) {
+        unsigned made = 0;
+        struct studio_fault fault;
+        if (studio_open(&painter->studio, aspect, &painter->scene, &made, &fault))
+            return tell_parts(job, made);
+        report_error(&job->cli.report, fault.id, "%s", fault.text);
+        return false;
+    }
+    bool good = job->scene_kind == SCENE_GRID    ? scene_init_grid(&painter->scene)
+                : job->scene_kind == SCENE_PLANE ? scene_init_plane(&painter->scene)
+                                                 : scene_init_sphere(&painter->scene, aspect);
+    return good || report_status(&job->cli.report, MXG_ERROR_MEMORY);
+}
+
+static bool open_gpu(struct job *job)
+{
+    struct painter *painter = &job->painter;
+    if (!gpu_open(&painter->gpu)) {
+        report_error(&job->cli.report, painter->gpu.id, "cannot draw: %s", painter->gpu.reason);
+        return false;
+    }
+    uint32_t most = painter->gpu.max_size / painter->oversampling;
+    if (painter->width > most || painter->height > most)
+        report_error(&job->cli.report, "size-limit", "a picture of %ux%u is too large: this device draws up to %ux%u",
+                     painter->width, painter->height, most, most);
+    return painter->width <= most && painter->height <= most;
+}
+
+static bool prepare(struct job *job)
+{
+    struct painter *painter = &job->painter;
+    painter->oversampling = job->scene_kind == SCENE_GRID ? 1 : OVERSAMPLING;
+    if (!make_scene(job))
+        return false;
+    painter->scene.environment_samples = (uint32_t)job->samples;
+    return open_gpu(job);
+}
+
+/* ---- Work ---- */
+
+/* "[3/40] Gold" on a terminal, over what stood there; nothing in a pipe. */
+static void tell_progress(const struct job *job, size_t done, size_t count, const char *name)
+{
+    if (job->cli.quiet || count < 2 || !isatty(STDERR_FILENO))
+        return;
+    if (done == count)
+        fputs("\r\033[K", stderr);
+    else
+        fprintf(stderr, "\r\033[K[%zu/%zu] %s", done + 1, count, name);
+    fflush(stderr);
+}
+
+static void draw_one(struct job *job, const struct subject *subject)
+{
+    struct image picture;
+    if (picture_draw(&job->painter, subject, &picture))
+        picture_write(&job->painter, job->output, &picture);
+    image_finish(&picture);
+}
+
+/* "turn.png" becomes "turn.0007.png". */
+static char *frame_name(const char *output, size_t frame)
+{
+    const char *base = files_base_name(output), *dot = strrchr(base, '.');
+    int stem = (int)(dot ? (size_t)(dot - output) : strlen(output));
+    return cli_format("%.*s.%04zu%s", stem, output, frame, output + stem);
+}
+
+static void draw_turntable(struct job *job, const struct subject *subject)
+{
+    struct painter *painter = &job->painter;
+    struct painting painting;
+    bool good = painting_open(painter, subject, &painting);
+    for (size_t i = 0; good && i < job->frames; ++i) {
+        struct image picture;
+        char *name = frame_name(job->output, i);
+        tell_progress(job, i, job->frames, name);
+        studio_aim(&painter->studio, (double)painter->width / painter->height, 360.0 * (double)i / (double)job->frames,
+                   &painter->scene);
+        painting_aim(&painting);
+        good = painting_draw(&painting, &picture) && picture_write(painter, name, &picture);
+        image_finish(&picture);
+        free(name);
+    }
+    tell_progress(job, job->frames, job->frames, "");
+    painting_close(&painting);
+}
+
+/* ---- Contact sheets ---- */
+
+struct item {
+    struct subject subject;
+    char *name;
+};
+
+struct items {
+    struct item *items;
+    mxg_document **documents;
+    size_t len, num_documents;
+};
+
+static void add_item(struct items *list, const mxg_document *document, const char *path, const char *element)
+{
+    struct item *more = realloc(list->items, (list->len + 1) * sizeof *more);
+    if (!more)
+        return;
+    list->items = more;
+    more[list->len++] = (struct item){{document, path, element}, cli_format("%s", element)};
+}
+
+/* The materials of the look that is asked for, or what can be rendered. */
+static void add_elements(struct job *job, struct items *list, const mxg_document *document, const char *path)
+{
+    mxg_renderable renderable = {sizeof renderable};
+    uint32_t i = 0;
+    if (job->look) {
+        for (; mxg_document_look_material(document, job->look, i, &renderable) == MXG_OK; ++i)
+            add_item(list, document, path, renderable.path);
+        if (i == 0)
+            report_error(&job->cli.report, "no-look", "'%s' has no look '%s' that assigns a material", path, job->look);
         return;
     }
-    resolve(picture, samples, pixels);
-    if (!image_write(picture->output, picture->width, picture->height, pixels, reason, sizeof reason))
-        report_error(&picture->cli.report, "output-failed", "cannot write '%s': %s", picture->output, reason);
-    free(pixels);
-}
-
-/* ---- Drawing ---- */
-
-/* Generates, compiles, binds and draws one element (NULL: the first). NULL where that failed. */
-static float *draw_element(struct picture *picture, const mxg_document *document, const char *path, const char *element,
-                           uint32_t scale)
-{
-    mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
-    desc.target = "vulkan";
-    desc.element = element;
-    desc.options = picture->cli.options;
-    mxg_result *result = NULL;
-    mxg_status status = mxg_generate(picture->cli.context, document, &desc, &result);
-    if (result)
-        report_list(&picture->cli.report, mxg_result_diagnostics(result));
-    float *pixels = NULL;
-    if (report_status(&picture->cli.report, status)) {
-        struct bind bind = {.result = result,
-                            .scene = &picture->scene,
-                            .document = path,
-                            .values = picture->values,
-                            .num_values = picture->settings.len};
-        uint32_t width = picture->width * scale, height = picture->height * scale;
-        pixels = malloc((size_t)width * height * 4 * sizeof(float));
-        if (!pixels || !render_result(&picture->gpu, &bind, width, height, pixels)) {
-            report_error(&picture->cli.report, "render-failed", "%s: %s", element ? element : path,
-                         pixels ? bind.reason : "out of memory");
-            free(pixels);
-            pixels = NULL;
-        }
-        bind_finish(&bind);
+    for (; i < mxg_document_num_renderables(document); ++i) {
+        mxg_document_renderable(document, i, &renderable);
+        if (!job->element || strcmp(job->element, renderable.path) == 0)
+            add_item(list, document, path, renderable.path);
     }
-    mxg_result_destroy(result);
-    return pixels;
+    if (i == 0 || (list->len == 0 && job->element)) /* generation says what is wrong */
+        add_item(list, document, path, job->element);
 }
 
-static void draw_picture(struct picture *picture, const mxg_document *document, const char *path)
+static void load_items(struct job *job, struct items *list)
 {
-    float *samples = draw_element(picture, document, path, picture->element, OVERSAMPLING);
-    if (samples)
-        write_picture(picture, samples);
-    free(samples);
+    list->documents = calloc(job->found.len + 1, sizeof *list->documents);
+    for (size_t i = 0; list->documents && i < job->found.len; ++i) {
+        mxg_document *document = cli_load(&job->cli, job->found.items[i]);
+        if (!document)
+            continue;
+        list->documents[list->num_documents++] = document;
+        add_elements(job, list, document, job->found.items[i]);
+    }
 }
+
+static void free_items(struct items *list)
+{
+    for (size_t i = 0; i < list->len; ++i)
+        free(list->items[i].name);
+    for (size_t i = 0; i < list->num_documents; ++i)
+        mxg_document_destroy(list->documents[i]);
+    free(list->items);
+    free(list->documents);
+}
+
+static void place(struct job *job, struct sheet *sheet, size_t index, const struct item *item)
+{
+    struct image linear, shown = {0};
+    bool good = picture_draw(&job->painter, &item->subject, &linear) && picture_develop(&job->painter, &linear, &shown);
+    sheet_place(sheet, (uint32_t)index, good ? &shown : NULL, item->name);
+    image_finish(&linear);
+    image_finish(&shown);
+}
+
+static void draw_sheet(struct job *job, const struct items *list)
+{
+    struct sheet sheet;
+    char reason[256];
+    if (!sheet_init(&sheet, (uint32_t)list->len, job->painter.width, job->painter.height)) {
+        report_status(&job->cli.report, MXG_ERROR_MEMORY);
+        return;
+    }
+    for (size_t i = 0; i < list->len; ++i) {
+        tell_progress(job, i, list->len, list->items[i].name);
+        place(job, &sheet, i, &list->items[i]);
+    }
+    tell_progress(job, list->len, list->len, "");
+    if (!image_write(job->output, &sheet.image, reason, sizeof reason))
+        report_error(&job->cli.report, "output-failed", "cannot write '%s': %s", job->output, reason);
+    sheet_finish(&sheet);
+}
+
+/* ---- Values ---- */
 
 /* Components of a document type that a pixel shows; what is no vector is shown as a colour. */
 static unsigned num_components(const char *type)
@@ -182,114 +372,150 @@ static unsigned num_components(const char *type)
     return strcmp(type, "color4") == 0 || strcmp(type, "vector4") == 0 ? 4 : 3;
 }
 
+static void print_values(const char *element, unsigned components, const struct image *image)
+{
+    fputs(element, stdout);
+    for (uint32_t y = image->height; y-- > 0;)
+        for (uint32_t x = 0; x < image->width; ++x)
+            for (unsigned c = 0; c < components; ++c)
+                printf(",%.9g", (double)((float *)image->pixels)[4 * ((size_t)y * image->width + x) + c]);
+    putchar('\n');
+}
+
 /* A line for each element: its path, then the values of the 16 pixels row by row from the bottom. */
-static void draw_grid(struct picture *picture, const mxg_document *document, const char *path)
+static void draw_grid(struct job *job, const mxg_document *document, const char *path)
 {
     for (uint32_t i = 0; i < mxg_document_num_renderables(document); ++i) {
         mxg_renderable renderable = {sizeof renderable};
         mxg_document_renderable(document, i, &renderable);
-        if (picture->element && strcmp(picture->element, renderable.path) != 0)
+        if (job->element && strcmp(job->element, renderable.path) != 0)
             continue;
-        float *pixels = draw_element(picture, document, path, renderable.path, 1);
-        if (pixels)
-            print_values(picture, renderable.path, num_components(renderable.type), pixels);
-        free(pixels);
+        const struct subject subject = {document, path, renderable.path};
+        struct image pixels;
+        if (picture_draw(&job->painter, &subject, &pixels))
+            print_values(renderable.path, num_components(renderable.type), &pixels);
+        image_finish(&pixels);
     }
 }
 
-static bool init_scene(struct picture *picture)
-{
-    switch (picture->scene_kind) {
-    case SCENE_GRID:
-        return scene_init_grid(&picture->scene);
-    case SCENE_PLANE:
-        return scene_init_plane(&picture->scene);
-    case SCENE_SPHERE:
-    default:
-        return scene_init_sphere(&picture->scene, (double)picture->width / picture->height);
-    }
-}
+/* ---- Commands ---- */
 
-static bool open_scene(struct picture *picture)
+/* One picture of the first element, or of the one that is asked for. */
+static void render_file(struct job *job, const char *path)
 {
-    if (!init_scene(picture))
-        return report_status(&picture->cli.report, MXG_ERROR_MEMORY);
-    picture->scene.environment_samples = (uint32_t)picture->samples;
-    if (!gpu_open(&picture->gpu))
-        report_error(&picture->cli.report, "no-device", "cannot draw: %s", picture->gpu.reason);
-    return !picture->gpu.reason[0];
-}
-
-static void render_document(struct picture *picture, const char *path)
-{
-    mxg_document *document = cli_load(&picture->cli, path);
-    if (document && open_scene(picture)) {
-        compile_begin();
-        if (picture->scene_kind == SCENE_GRID)
-            draw_grid(picture, document, path);
+    mxg_document *document = cli_load(&job->cli, path);
+    struct subject subject = {document, path, job->element};
+    if (document && prepare(job)) {
+        if (job->scene_kind == SCENE_GRID)
+            draw_grid(job, document, path);
+        else if (job->frames)
+            draw_turntable(job, &subject);
         else
-            draw_picture(picture, document, path);
-        compile_end();
+            draw_one(job, &subject);
     }
-    gpu_close(&picture->gpu);
-    scene_finish(&picture->scene);
     mxg_document_destroy(document);
 }
 
-static bool find_scene(struct picture *picture)
+static void render_all(struct job *job)
 {
-    for (unsigned i = 0; i < NUM_SCENES; ++i) {
-        picture->scene_kind = (enum scene_kind)i;
-        if (strcmp(picture->scene_name, scene_kinds[i].name) == 0)
-            return true;
+    struct items list = {0};
+    load_items(job, &list);
+    if (list.len && prepare(job)) {
+        if (list.len == 1)
+            draw_one(job, &list.items[0].subject);
+        else
+            draw_sheet(job, &list);
     }
-    fprintf(stderr, "mxgen: '%s' is no scene; there are sphere, plane and grid\n", picture->scene_name);
-    return false;
+    free_items(&list);
 }
 
-static int run(struct picture *picture)
+/* The documents: of folders, those in them. */
+static bool find_documents(struct job *job)
 {
-    if (!find_scene(picture))
-        return EXIT_USAGE;
-    bool is_grid = picture->scene_kind == SCENE_GRID;
-    if (picture->cli.parser.inputs.len != 1 || (!picture->output && !is_grid)) {
-        fputs("usage: mxgen render FILE -o PICTURE.png\n", stderr);
+    const struct arg_list *inputs = &job->cli.parser.inputs;
+    for (size_t i = 0; i < inputs->len; ++i) {
+        if (!files_is_folder(inputs->items[i])) {
+            args_append(&job->found, cli_format("%s", inputs->items[i]));
+            continue;
+        }
+        size_t before = job->found.len;
+        const char *reason = folder_find(inputs->items[i], ".mtlx", &job->found);
+        if (reason || job->found.len == before) {
+            report_error(&job->cli.report, "nothing-to-render", "'%s': %s", inputs->items[i],
+                         reason ? reason : "the folder has no document (.mtlx)");
+            return false;
+        }
+    }
+    return true;
+}
+
+static int run(struct job *job)
+{
+    const struct arg_list *inputs = &job->cli.parser.inputs;
+    bool is_grid = !strcmp(job->scene, "grid"), is_one = inputs->len == 1 && !files_is_folder(inputs->items[0]) && !job->look;
+    if ((!job->output && !is_grid) || ((is_grid || job->frames) && !is_one)) {
+        fputs(job->output ? "mxgen: a turntable and a grid are of one document\n"
+                          : "usage: mxgen render FILE -o PICTURE.png\n", stderr);
         return EXIT_USAGE;
     }
-    if (is_grid)
-        picture->size = "4";
-    picture->values = parse_size(picture) ? split_settings(&picture->settings) : NULL;
-    if (!picture->values)
+    if (!job->size)
+        job->size = is_grid ? "4" : is_one ? "512" : "160";
+    if (!parse_size(job) || !parse(job))
         return EXIT_USAGE;
-    render_document(picture, picture->cli.parser.inputs.items[0]);
-    free_values(picture->values, picture->settings.len);
-    return picture->cli.report.errors ? EXIT_FAULT : EXIT_DONE;
+    if (find_documents(job)) {
+        compile_begin();
+        if (is_one)
+            render_file(job, job->found.items[0]);
+        else
+            render_all(job);
+        compile_end();
+        gpu_close(&job->painter.gpu);
+        mesh_finish(&job->painter.fine);
+        scene_finish(&job->painter.scene);
+    }
+    return job->cli.report.errors ? EXIT_FAULT : EXIT_DONE;
 }
 
 int main(int argc, char **argv)
 {
-    static const struct command command = {"render",
-                                           "render FILE -o PICTURE.png [--size WxH] [--set PATH=VALUE] [options]",
-                                           "Draws a material on a sphere in daylight, without a display.", NULL};
-    struct picture picture = {.size = "512", .scene_name = "sphere", .samples = 16};
+    static const struct command command = {"render", "render FILE|FOLDER... -o PICTURE.png [options]",
+                                           "Draws materials, without a display: one, or a sheet of many.", NULL};
+    struct job job = {.scene = "studio", .background = "backdrop", .missing_texture = "error", .samples = 16,
+                      .painter.studio = STUDIO_DEFAULTS};
     const struct arg args[] = {
-        {"output", 'o', ARG_TEXT, "FILE", "the picture to write; the ending chooses the format", &picture.output},
-        {"size", 's', ARG_TEXT, "W[xH]", "its size in pixels (default: 512)", &picture.size},
-        {"element", 'e', ARG_TEXT, "PATH", "what to draw (default: the first that can be rendered)", &picture.element},
-        {"set", 0, ARG_LIST, "PATH=VALUE", "another value for an input, or file for a texture", &picture.settings},
-        {"samples", 0, ARG_SIZE, "N", "samples of the environment for each lobe (default: 16)", &picture.samples},
+        {"output", 'o', ARG_TEXT, "FILE", "the picture to write; the ending chooses the format", &job.output},
+        {"size", 's', ARG_TEXT, "W[xH]", "its size in pixels (default: 512; 160 for each on a sheet)", &job.size},
+        {"element", 'e', ARG_TEXT, "PATH", "what to draw (default: the first that can be rendered)", &job.element},
+        {"look", 0, ARG_TEXT, "NAME", "draws the materials that a look assigns", &job.look},
+        {"mesh", 'm', ARG_TEXT, "NAME|FILE", "ball, sphere, plane, cube, cloth, or a file: OBJ, glTF… (default: ball)",
+         &job.painter.studio.mesh},
+        {"camera", 0, ARG_TEXT, "AZ,EL[,DIST[,FOV]]", "degrees around and up, distance, field of view (default: 25,16)",
+         &job.camera},
+        {"environment", 0, ARG_LIST, "FILE|MODE",
+         "a latitude-longitude map (default: a sky with three lights); none, prefiltered or importance", &job.environments},
+        {"background", 0, ARG_TEXT, "NAME", "backdrop, environment, or none: transparent (default: backdrop)", &job.background},
+        {"samples", 0, ARG_SIZE, "N", "samples of the environment for each lobe (default: 16)", &job.samples},
+        {"set", 0, ARG_LIST, "PATH=VALUE", "another value for an input, or file for a texture", &job.settings},
+        {"missing-texture", 0, ARG_TEXT, "error|checker", "what to do without a texture: fail, or draw a checker in its place",
+         &job.missing_texture},
+        {"turntable", 0, ARG_SIZE, "N", "N pictures from around: FILE gets a number before its ending", &job.frames},
         {"scene", 0, ARG_TEXT, "NAME",
-         "sphere; plane, to see a pattern; grid: prints the values of 4x4 pixels for each element (default: sphere)",
-         &picture.scene_name},
+         "studio; sphere; plane, to see a pattern; grid: prints the values of 4x4 pixels for each element (default: studio)",
+         &job.scene},
     };
-    /* llvmpipe's optimiser takes minutes for large shaders; without it pictures are the same, and seconds are enough.
-     */
+    /* llvmpipe's optimiser takes minutes for large shaders; without it pictures are the same, and seconds are enough. */
     setenv("GALLIVM_PERF", "nopt", 0);
     int code;
-    if (cli_start(&picture.cli, &command, args, sizeof args / sizeof *args, CLI_GENERATES | CLI_NEEDS_INPUT, argc, argv,
-                  &code))
-        code = run(&picture);
-    cli_finish(&picture.cli);
-    free(picture.settings.items);
+    if (cli_start(&job.cli, &command, args, sizeof args / sizeof *args, CLI_GENERATES | CLI_NEEDS_INPUT, argc, argv, &code)) {
+        job.painter.cli = &job.cli;
+        code = run(&job);
+    }
+    cli_finish(&job.cli);
+    for (size_t i = 0; i < job.found.len; ++i)
+        free((void *)(uintptr_t)job.found.items[i]);
+    free(job.found.items);
+    free_values(job.values, job.settings.len);
+    free(job.settings.items);
+    free(job.environments.items);
     return code;
 }

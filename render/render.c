@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/render.h"
 
-#include "validate/compile.h"
-
 #include <stdio.h>
 
 /* The first error of the shader compiler: generated shaders should have none. */
@@ -17,6 +15,7 @@ static bool compile(struct bind *bind, struct compiled *compiled)
         const struct compile_message *message = &compiled->messages[i];
         if (message->severity != MXG_SEVERITY_ERROR)
             continue;
+        bind->id = "bad-shader";
         snprintf(bind->reason, sizeof bind->reason, "the shader does not compile: %s, line %u of the %s stage",
                  message->text, message->line, message->stage == MXG_STAGE_VERTEX ? "vertex" : "pixel");
         break;
@@ -24,21 +23,43 @@ static bool compile(struct bind *bind, struct compiled *compiled)
     return false;
 }
 
+static bool copy_reason(struct render *render)
+{
+    render->bind->id = render->gpu->id;
+    snprintf(render->bind->reason, sizeof render->bind->reason, "%s", render->gpu->reason);
+    return false;
+}
+
+bool render_open(struct render *render, struct gpu *gpu, struct bind *bind, uint32_t width, uint32_t height)
+{
+    *render = (struct render){.gpu = gpu, .bind = bind};
+    if (!compile(bind, &render->compiled) || !bind_shader(bind))
+        return false;
+    for (int stage = 0; stage < MXG_NUM_STAGES; ++stage) {
+        bind->draw.code[stage] = render->compiled.stages[stage].words;
+        bind->draw.code_words[stage] = render->compiled.stages[stage].num_words;
+    }
+    bind->draw.width = width;
+    bind->draw.height = height;
+    render->program = draw_open(gpu, &bind->draw);
+    return render->program || copy_reason(render);
+}
+
+bool render_frame(struct render *render, float *out_pixels)
+{
+    return bind_scene(render->bind) && (draw_frame(render->program, out_pixels) || copy_reason(render));
+}
+
+void render_close(struct render *render)
+{
+    draw_close(render->program);
+    compiled_finish(&render->compiled);
+}
+
 bool render_result(struct gpu *gpu, struct bind *bind, uint32_t width, uint32_t height, float *out_pixels)
 {
-    struct compiled compiled;
-    bool good = compile(bind, &compiled) && bind_shader(bind);
-    if (good) {
-        for (int stage = 0; stage < MXG_NUM_STAGES; ++stage) {
-            bind->draw.code[stage] = compiled.stages[stage].words;
-            bind->draw.code_words[stage] = compiled.stages[stage].num_words;
-        }
-        bind->draw.width = width;
-        bind->draw.height = height;
-        good = draw_run(gpu, &bind->draw, out_pixels);
-        if (!good)
-            snprintf(bind->reason, sizeof bind->reason, "%s", gpu->reason);
-    }
-    compiled_finish(&compiled);
+    struct render render;
+    bool good = render_open(&render, gpu, bind, width, height) && render_frame(&render, out_pixels);
+    render_close(&render);
     return good;
 }

@@ -28,20 +28,30 @@ static double linear(const double at[3], double s, double t)
     return at[0] + at[1] * s + at[2] * t;
 }
 
-bool scene_attribute(const struct scene *scene, const char *name, uint32_t vertex, float out[4])
+/* "i_position"…: three components of a vertex; NULL for other names. */
+static const float *frame_attribute(const struct vertex *vertex, const char *name)
 {
-    static const char *const frame_names[] = {"i_position", "i_normal", "i_tangent", "i_bitangent"};
-    float s = scene->parameters[vertex][0], t = scene->parameters[vertex][1];
-    float frame[4][3];
-    for (size_t i = 0; i < 4; ++i) {
-        if (strcmp(name, frame_names[i]) == 0) {
-            scene->geometry(s, t, frame[0], frame[1], frame[2], frame[3]);
-            memcpy(out, frame[i], sizeof frame[i]);
-            return true;
-        }
+    const struct {
+        const char *name;
+        const float *value;
+    } frame[] = {{"i_position", vertex->position}, {"i_normal", vertex->normal}, {"i_tangent", vertex->tangent}};
+    for (size_t i = 0; i < sizeof frame / sizeof *frame; ++i) {
+        if (strcmp(name, frame[i].name) == 0)
+            return frame[i].value;
+    }
+    return NULL;
+}
+
+bool scene_attribute(const struct scene *scene, const char *name, uint32_t index, float out[4])
+{
+    const struct vertex *vertex = &scene->mesh.vertices[index];
+    const float *frame = frame_attribute(vertex, name);
+    if (frame) {
+        memcpy(out, frame, 3 * sizeof *out);
+        return true;
     }
     if (strcmp(name, "i_texcoord_0") == 0) {
-        scene->texcoord(s, t, out);
+        memcpy(out, vertex->texcoord, sizeof vertex->texcoord);
         return true;
     }
     for (size_t i = 0; i < sizeof linear_attributes / sizeof *linear_attributes; ++i) {
@@ -49,7 +59,7 @@ bool scene_attribute(const struct scene *scene, const char *name, uint32_t verte
         if (a->is_family ? strncmp(name, a->name, strlen(a->name)) != 0 : strcmp(name, a->name) != 0)
             continue;
         for (size_t c = 0; c < 4; ++c)
-            out[c] = (float)linear(a->at[c], s, t);
+            out[c] = (float)linear(a->at[c], vertex->parameter[0], vertex->parameter[1]);
         return true;
     }
     return false;
@@ -141,7 +151,7 @@ unsigned scene_uniform(const struct scene *scene, const char *name, float out[16
     if (strcmp(name, "u_viewDirection") == 0)
         return store_vector(direction, out);
     if (strcmp(name, "u_envMatrix") == 0)
-        return store_matrix(matrix_scale(-1, 1, -1), out);
+        return store_matrix(scene->environment, out);
     if (strncmp(name, "u_geomprop_", 11) == 0) {
         for (size_t i = 0; i < 4; ++i)
             out[i] = 1.0f;
@@ -199,110 +209,78 @@ const struct image *scene_image(const struct scene *scene, const char *name)
 
 /* ---- Meshes ---- */
 
-static bool allocate_mesh(struct scene *scene, uint32_t num_vertices, uint32_t num_indices)
-{
-    scene->num_vertices = num_vertices;
-    scene->num_indices = num_indices;
-    scene->parameters = malloc(num_vertices * sizeof *scene->parameters);
-    scene->indices = malloc(num_indices * sizeof *scene->indices);
-    return scene->parameters && scene->indices;
-}
-
-static void set_camera(struct scene *scene, const double eye[3], const double target[3])
+void scene_set_camera(struct scene *scene, const double eye[3], const double target[3])
 {
     memcpy(scene->eye, eye, sizeof scene->eye);
     memcpy(scene->target, target, sizeof scene->target);
     scene->view = matrix_look_at(eye, target);
 }
 
-static void sphere_geometry(float s, float t, float position[3], float normal[3], float tangent[3], float bitangent[3])
+static void transform_direction(struct matrix m, const double d[3], double out[3])
 {
-    double theta = 2.0 * PI * s, phi = PI * t;
-    const double n[3] = {sin(phi) * sin(theta), -cos(phi), sin(phi) * cos(theta)}, x[3] = {cos(theta), 0, -sin(theta)};
-    double y[3];
-    vector_cross(n, x, y);
-    for (size_t i = 0; i < 3; ++i) {
-        position[i] = normal[i] = (float)n[i];
-        tangent[i] = (float)x[i];
-        bitangent[i] = (float)y[i];
-    }
+    for (size_t r = 0; r < 3; ++r)
+        out[r] = m.m[0][r] * d[0] + m.m[1][r] * d[1] + m.m[2][r] * d[2];
 }
 
-static void plain_texcoord(float s, float t, float out[2])
+void scene_backdrop(const struct scene *scene, double x, double y, double out[3])
 {
-    out[0] = s;
-    out[1] = t;
+    const double ray[3] = {x / scene->projection.m[0][0], y / scene->projection.m[1][1], -1};
+    double world[3], d[3];
+    transform_direction(matrix_transpose(scene->view), ray, world); /* a rotation's inverse */
+    transform_direction(scene->environment, world, d);
+    vector_normalize(d);
+    environment_lookup(&scene->radiance, d, out);
 }
 
-static bool make_sphere(struct scene *scene)
+/* Maps begin behind the viewer, as MaterialX has it. */
+static struct matrix half_turn(void)
 {
-    enum { AROUND = 128, UP = 64 };
-    if (!allocate_mesh(scene, (AROUND + 1) * (UP + 1), AROUND * UP * 6))
-        return false;
-    for (uint32_t i = 0; i < scene->num_vertices; ++i) {
-        scene->parameters[i][0] = (float)(i % (AROUND + 1)) / AROUND;
-        scene->parameters[i][1] = (float)(i / (AROUND + 1)) / UP;
-    }
-    for (uint32_t i = 0; i < AROUND * UP; ++i) {
-        uint32_t corner = i / AROUND * (AROUND + 1) + i % AROUND, above = corner + AROUND + 1;
-        const uint32_t quad[6] = {corner, corner + 1, above + 1, corner, above + 1, above};
-        memcpy(scene->indices + i * 6, quad, sizeof quad);
-    }
-    return true;
+    return matrix_scale(-1, 1, -1);
 }
 
 bool scene_init_sphere(struct scene *scene, double aspect)
 {
-    *scene = (struct scene){.geometry = sphere_geometry,
-                            .texcoord = plain_texcoord,
-                            .num_lights = SCENE_NUM_LIGHTS,
-                            .environment_samples = 64};
-    set_camera(scene, (const double[3]){0.5, 0.7, 3.4}, (const double[3]){0.05, -0.03, 0.1});
+    *scene = (struct scene){.num_lights = SCENE_NUM_LIGHTS, .environment_samples = 64, .environment = half_turn()};
+    scene_set_camera(scene, (const double[3]){0.5, 0.7, 3.4}, (const double[3]){0.05, -0.03, 0.1});
     scene->projection = matrix_perspective(40.0, aspect, 0.1, 20.0);
     scene->world = matrix_multiply(matrix_translation(0.05, -0.03, 0.1),
                                    matrix_rotation((const double[3]){0.3, 1, 0.2}, 25.0));
-    return environment_make(&scene->radiance, &scene->irradiance) && make_sphere(scene);
+    return environment_make(&scene->radiance, &scene->irradiance) && shape_make("sphere", 1, &scene->mesh);
 }
 
-static const double grid_position[3][3] = {{-0.83, 1.71, 0.09}, {-0.57, 0.12, 1.37}, {0.31, 0.43, -0.58}};
+/* A quad by (s, t), each part linear. The tangent is (n.z, 0, -n.x). */
+struct quad {
+    double position[3][3], normal[3][3], texcoord[2][3];
+};
 
-static void grid_geometry(float s, float t, float position[3], float normal[3], float tangent[3], float bitangent[3])
+static void make_vertex(const struct quad *quad, float s, float t, struct vertex *out)
 {
-    static const double normals[3][3] = {{-0.25, 0.61, 0.07}, {0.35, -0.11, -0.53}, {0.91, 0.08, -0.05}};
-    static const double bitangents[3][3] = {{0.06, -0.21, 0.17}, {0.94, 0.13, -0.04}, {-0.31, 0.09, 0.44}};
     for (size_t i = 0; i < 3; ++i) {
-        position[i] = (float)linear(grid_position[i], s, t);
-        normal[i] = (float)linear(normals[i], s, t);
-        bitangent[i] = (float)linear(bitangents[i], s, t);
+        out->position[i] = (float)linear(quad->position[i], s, t);
+        out->normal[i] = (float)linear(quad->normal[i], s, t);
     }
-    tangent[0] = normal[2];
-    tangent[1] = 0.0f;
-    tangent[2] = -normal[0];
-}
-
-static void grid_texcoord(float s, float t, float out[2])
-{
-    out[0] = (float)linear((const double[3]){0.0313, 0.9371, 0.0129}, s, t);
-    out[1] = (float)linear((const double[3]){0.0217, 0.0171, 0.9331}, s, t);
+    out->tangent[0] = out->normal[2];
+    out->tangent[2] = -out->normal[0];
+    for (size_t i = 0; i < 2; ++i)
+        out->texcoord[i] = (float)linear(quad->texcoord[i], s, t);
+    out->parameter[0] = s;
+    out->parameter[1] = t;
 }
 
 /* Each cell is four triangles that meet in its centre, so that the value there is the vertex's. */
-static bool make_grid(struct scene *scene)
+static bool make_quad(const struct quad *quad, struct mesh *mesh)
 {
     enum { CELLS = 4, CORNERS = (CELLS + 1) * (CELLS + 1) };
-    if (!allocate_mesh(scene, CORNERS + CELLS * CELLS, CELLS * CELLS * 12))
+    if (!mesh_allocate(mesh, CORNERS + CELLS * CELLS, CELLS * CELLS * 12))
         return false;
-    for (uint32_t i = 0; i < CORNERS; ++i) {
-        scene->parameters[i][0] = (float)(i % (CELLS + 1)) / CELLS;
-        scene->parameters[i][1] = (float)(i / (CELLS + 1)) / CELLS;
-    }
+    for (uint32_t i = 0; i < CORNERS; ++i)
+        make_vertex(quad, (float)(i % (CELLS + 1)) / CELLS, (float)(i / (CELLS + 1)) / CELLS, &mesh->vertices[i]);
     for (uint32_t i = 0; i < CELLS * CELLS; ++i) {
         uint32_t corner = i / CELLS * (CELLS + 1) + i % CELLS, centre = CORNERS + i, above = corner + CELLS + 1;
-        scene->parameters[centre][0] = ((float)(i % CELLS) + 0.5f) / CELLS;
-        scene->parameters[centre][1] = ((float)(i / CELLS) + 0.5f) / CELLS;
+        make_vertex(quad, ((float)(i % CELLS) + 0.5f) / CELLS, ((float)(i / CELLS) + 0.5f) / CELLS, &mesh->vertices[centre]);
         const uint32_t fan[12] = {corner,    corner + 1, centre, corner + 1, above + 1, centre,
                                   above + 1, above,      centre, above,      corner,    centre};
-        memcpy(scene->indices + i * 12, fan, sizeof fan);
+        memcpy(mesh->indices + i * 12, fan, sizeof fan);
     }
     return true;
 }
@@ -331,46 +309,39 @@ static struct matrix quad_projection(const struct scene *scene, const double pos
 
 bool scene_init_grid(struct scene *scene)
 {
-    *scene = (struct scene){.geometry = grid_geometry, .texcoord = grid_texcoord, .environment_samples = 64};
+    static const struct quad grid = {
+        .position = {{-0.83, 1.71, 0.09}, {-0.57, 0.12, 1.37}, {0.31, 0.43, -0.58}},
+        .normal = {{-0.25, 0.61, 0.07}, {0.35, -0.11, -0.53}, {0.91, 0.08, -0.05}},
+        .texcoord = {{0.0313, 0.9371, 0.0129}, {0.0217, 0.0171, 0.9331}},
+    };
+    *scene = (struct scene){.environment_samples = 64, .environment = half_turn()};
     const double axis[3] = {1, 2, 3}, target[3] = {0.4, -0.3, 0.7};
     scene->world = matrix_multiply(matrix_translation(target[0], target[1], target[2]),
                                    matrix_multiply(matrix_rotation(axis, 40.0), matrix_scale(1.3, 0.8, 1.6)));
-    set_camera(scene, (const double[3]){1.1, 0.9, 4.3}, target);
-    scene->projection = quad_projection(scene, grid_position);
+    scene_set_camera(scene, (const double[3]){1.1, 0.9, 4.3}, target);
+    scene->projection = quad_projection(scene, grid.position);
     return environment_make(&scene->radiance, &scene->irradiance) && environment_make_test_texture(&scene->texture) &&
-           make_grid(scene);
-}
-
-/* The quad -1 <= x, y <= 1 without any distortion. */
-static const double plane_position[3][3] = {{-1, 2, 0}, {-1, 0, 2}, {0, 0, 0}};
-
-static void plane_geometry(float s, float t, float position[3], float normal[3], float tangent[3], float bitangent[3])
-{
-    for (size_t i = 0; i < 3; ++i) {
-        position[i] = (float)linear(plane_position[i], s, t);
-        tangent[i] = i == 0 ? 1.0f : 0.0f;
-        bitangent[i] = i == 1 ? 1.0f : 0.0f;
-        normal[i] = i == 2 ? 1.0f : 0.0f;
-    }
+           make_quad(&grid, &scene->mesh);
 }
 
 bool scene_init_plane(struct scene *scene)
 {
-    *scene = (struct scene){.geometry = plane_geometry,
-                            .texcoord = plain_texcoord,
-                            .num_lights = SCENE_NUM_LIGHTS,
-                            .environment_samples = 64,
-                            .world = matrix_identity()};
-    set_camera(scene, (const double[3]){0, 0, 3.4}, (const double[3]){0, 0, 0});
-    scene->projection = quad_projection(scene, plane_position);
+    static const struct quad plane = { /* -1 <= x, y <= 1 without any distortion */
+        .position = {{-1, 2, 0}, {-1, 0, 2}, {0, 0, 0}},
+        .normal = {{0, 0, 0}, {0, 0, 0}, {1, 0, 0}},
+        .texcoord = {{0, 1, 0}, {0, 0, 1}},
+    };
+    *scene = (struct scene){.num_lights = SCENE_NUM_LIGHTS, .environment_samples = 64, .world = matrix_identity(),
+                            .environment = half_turn()};
+    scene_set_camera(scene, (const double[3]){0, 0, 3.4}, (const double[3]){0, 0, 0});
+    scene->projection = quad_projection(scene, plane.position);
     return environment_make(&scene->radiance, &scene->irradiance) && environment_make_test_texture(&scene->texture) &&
-           make_grid(scene);
+           make_quad(&plane, &scene->mesh);
 }
 
 void scene_finish(struct scene *scene)
 {
-    free(scene->parameters);
-    free(scene->indices);
+    mesh_finish(&scene->mesh);
     image_finish(&scene->radiance);
     image_finish(&scene->irradiance);
     image_finish(&scene->texture);

@@ -8,24 +8,22 @@
 
 #include "render/image.h"
 #include "render/matrix.h"
+#include "render/mesh.h"
 
 #define SCENE_NUM_LIGHTS 3
 
 struct scene {
     struct matrix world, view, projection;
     double eye[3], target[3];
-    uint32_t num_vertices, num_indices;
-    float (*parameters)[2]; /* (s, t) of each vertex */
-    uint32_t *indices;      /* triangles, counter-clockwise from outside */
-    void (*geometry)(float s, float t, float position[3], float normal[3], float tangent[3], float bitangent[3]);
-    void (*texcoord)(float s, float t, float out[2]); /* texcoord_0 */
+    struct mesh mesh;
     uint32_t num_lights;
     uint32_t environment_samples;
+    struct matrix environment; /* from directions in the world to those in the map */
     struct image radiance, irradiance; /* latitude-longitude, first row towards +y */
     struct image texture;              /* what every texture of the document shows; may have none */
 };
 
-/* A unit sphere in daylight with three lights, seen by a camera of the given aspect ratio. */
+/* A unit sphere in daylight with three lights, seen by a camera of the given aspect ratio: what shading is compared on. */
 bool scene_init_sphere(struct scene *scene, double aspect);
 
 /* A quad over the whole picture, 4x4 cells, whose attributes are linear; what values of nodes are sampled on. */
@@ -35,6 +33,9 @@ bool scene_init_grid(struct scene *scene);
 bool scene_init_plane(struct scene *scene);
 
 void scene_finish(struct scene *scene);
+
+/* Where the camera stands, and what it looks at. */
+void scene_set_camera(struct scene *scene, const double eye[3], const double target[3]);
 
 /* Attribute "i_texcoord_0", "i_geomprop_st"… of a vertex; unset components stay. False: the scene has no such
  * attribute. */
@@ -50,10 +51,19 @@ unsigned scene_light(uint32_t index, const char *member, float out[3]);
 /* Texture "u_envRadiance"…; NULL where the scene has none. */
 const struct image *scene_image(const struct scene *scene, const char *name);
 
+/* The environment's radiance seen at (x, y) of the picture, from -1 to 1, y upwards. */
+void scene_backdrop(const struct scene *scene, double x, double y, double out[3]);
+
 /* environment.c: maps of a clear sky. False: out of memory. */
 bool environment_make(struct image *radiance, struct image *irradiance);
 /* The radiance from direction d (unit). */
 void environment_radiance(const double d[3], float out[3]);
+/* The map's radiance from direction d (unit), between texels. */
+void environment_lookup(const struct image *map, const double d[3], double out[3]);
+/* Reads a latitude-longitude map of linear values; 8-bit pictures are taken as sRGB. On failure false, with why. */
+bool environment_read(const char *path, struct image *out, char *reason, size_t capacity);
+/* The cosine-weighted average of a map around each direction. */
+bool environment_irradiance(const struct image *radiance, struct image *out);
 /* A smooth texture without symmetry, so that a wrong orientation shows. */
 bool environment_make_test_texture(struct image *out);
 

@@ -126,7 +126,7 @@ static void compute(struct generation *generation)
     float *out = run->values;
     for (uint32_t pixel = 0; pixel < ROW_PIXELS; ++pixel) {
         struct ir_value value;
-        run->vertex = run->scene.num_vertices - ROW_PIXELS + pixel;
+        run->vertex = run->scene.mesh.num_vertices - ROW_PIXELS + pixel;
         if (!evaluate(run, generation->root, &value) || ir_type_info(value.type)->components != run->row->components)
             return;
         for (unsigned c = 0; c < run->row->components; ++c)

@@ -48,12 +48,112 @@ check 'a picture' exits 0 "$render" plain.mtlx -o ball.png --size 48x32
 check 'is a PNG of that size' test "$(od -An -tx1 -j16 -N8 ball.png | tr -d ' ')" = 0000003000000020
 check 'the same bytes again' eval '"$render" plain.mtlx -o again.png --size 48x32 && cmp ball.png again.png'
 check 'a missing texture' exits 1 "$render" textured.mtlx -o none.png
-check 'names the file' grep -q "none.png.*\[render-failed\]" err
+check 'names the file' grep -q "none.png.*\[missing-texture\]" err
 check 'leaves no picture' test ! -e none.png
 check 'a folder that is missing' exits 1 "$render" plain.mtlx -o missing/ball.png --size 8
 check 'is output-failed' grep -q '\[output-failed\]' err
 check 'a value that is none' exits 1 "$render" plain.mtlx -o x.png --set SR/base_color=abc
+check 'is bad-value' grep -q '\[bad-value\]' err
+check 'an input that is none' exits 1 "$render" plain.mtlx -o x.png --set SR/none=1
+check 'is no-uniform' grep -q '\[no-uniform\]' err
 check 'a size that is none' exits 2 "$render" plain.mtlx -o x.png --size 0
 check 'no driver' eval 'VK_DRIVER_FILES=/none VK_ICD_FILENAMES=/none exits 1 "$render" plain.mtlx -o x.png && grep -q mesa-vulkan-drivers err'
+check 'leaves nothing behind' test -z "$(ls -A | grep -E '^x.png|tmp')"
+
+# corner FILE: the last pixel of a PPM.
+corner() { od -An -tu1 -j"$(($(wc -c <"$1") - 3))" -N3 "$1" | tr -s ' '; }
+# pixels FILE: a line for each pixel of a PPM below 100x100.
+pixels() { tail -c "+$(($(head -n 3 "$1" | wc -c) + 1))" "$1" | od -An -tu1 -v -w3 | tr -s ' '; }
+
+check 'a checker for a missing texture' exits 0 "$render" textured.mtlx -m plane --missing-texture checker -o checker.ppm --size 24
+check 'is told' grep -q 'warning: .*none.png.*\[missing-texture\]' err
+check 'is magenta and black' test "$(pixels checker.ppm | awk '!$2 && $1 == $3 { if ($1 > 150) m++; if ($1 < 100) b++ } END { print (m > 9 && b > 9) }')" = 1
+echo 'no picture' >broken.png
+check 'a texture that is no picture' exits 1 "$render" textured.mtlx --set NG/image/file=broken.png -o x.png
+check 'is missing-texture, too' grep -q 'broken.png.*\[missing-texture\]' err
+check 'a picture beyond the device' exits 1 "$render" plain.mtlx -o x.png --size 16384
+check 'is size-limit' grep -q '\[size-limit\]' err
+check 'no progress in a pipe' eval 'exits 0 "$render" plain.mtlx plain.mtlx -o x.png --size 8 && test ! -s err'
+rm -f x.png
+
+# Meshes
+for mesh in ball sphere plane cube cloth; do
+    check "the $mesh" exits 0 "$render" plain.mtlx -m $mesh -o $mesh.ppm --size 24 --background none
+    check "the $mesh is in the middle" test "$(pixels $mesh.ppm | awk '$1 + $2 + $3 > 60 { n++ } END { print (n > 60) }')" = 1
+done
+check 'shapes differ' test "$(md5sum ball.ppm sphere.ppm plane.ppm cube.ppm cloth.ppm | cut -c -32 | sort -u | wc -l)" = 5
+printf 'v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n' >bare.obj
+check 'a mesh without normals and texture coordinates' exits 0 "$render" plain.mtlx -m bare.obj -o bare.ppm --size 16
+for part in normals 'texture coordinates' tangents; do
+    check "$part are made, with a note" grep -q "note: the mesh 'bare.obj' has no $part" err
+done
+printf 'v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n' >flat.obj
+check 'a mesh without area' exits 1 "$render" plain.mtlx -m flat.obj -o x.png
+check 'is empty-mesh' grep -q '\[empty-mesh\]' err
+check 'a mesh that is missing' exits 1 "$render" plain.mtlx -m none.obj -o x.png
+check 'is bad-mesh' grep -q "none.obj.*\[bad-mesh\]" err
+echo 'v x' >junk.gltf
+check 'a mesh that is none' exits 1 "$render" plain.mtlx -m junk.gltf -o x.png
+positions=AACAvwAAgL8AAAAAAACAPwAAgL8AAAAAAAAAAAAAgD8AAAAA
+cat >triangle.gltf <<X
+{ "asset": { "version": "2.0" }, "scene": 0, "scenes": [ { "nodes": [ 0 ] } ], "nodes": [ { "mesh": 0 } ],
+  "meshes": [ { "primitives": [ { "attributes": { "POSITION": 0 } } ] } ],
+  "buffers": [ { "byteLength": 36, "uri": "data:application/octet-stream;base64,$positions" } ],
+  "bufferViews": [ { "buffer": 0, "byteLength": 36 } ],
+  "accessors": [ { "bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [ -1, -1, 0 ], "max": [ 1, 1, 0 ] } ] }
+X
+check 'a mesh of glTF' exits 0 "$render" plain.mtlx -m triangle.gltf -o triangle.ppm --size 16 --background none
+check 'shows a triangle' test "$(pixels triangle.ppm | awk '$1 { n++ } END { print (n > 20 && n < 120) }')" = 1
+
+# Camera, environment, formats
+check 'a camera' exits 0 "$render" plain.mtlx -m cube --camera 0,0,4,40 -o front.ppm --size 24
+check 'elsewhere' exits 0 "$render" plain.mtlx -m cube --camera 40,30,4,40 -o side.ppm --size 24
+check 'sees another picture' eval '! cmp -s front.ppm side.ppm'
+check 'a camera that is none' exits 2 "$render" plain.mtlx --camera 1 -o x.png
+check 'a camera from the zenith' exits 2 "$render" plain.mtlx --camera 0,90 -o x.png
+printf 'PF\n2 1\n-1.0\n' >red.pfm
+for i in 1 2; do printf '\000\000\200\077\000\000\000\000\000\000\000\000' >>red.pfm; done
+check 'an environment from a file' exits 0 "$render" plain.mtlx --environment red.pfm -o red.ppm --size 8 -m sphere
+check 'lights the ball in red' test "$(pixels red.ppm | sed -n 37p | awk '{ print ($1 > 100 && $2 < 60 && $3 < 60) }')" = 1
+check 'an environment behind the ball' exits 0 "$render" plain.mtlx --environment red.pfm --background environment -o red.ppm --size 8 -m sphere
+check 'shows in the corners' test "$(corner red.ppm)" = ' 203 0 0'
+check 'a file and a mode' exits 0 "$render" plain.mtlx --environment red.pfm --environment none -o none.ppm --size 8 -m sphere
+check 'without light' test "$(pixels none.ppm | sed -n 37p)" = ' 0 0 0'
+check 'an environment that is missing' exits 1 "$render" plain.mtlx --environment none.exr -o x.png
+check 'is bad-environment' grep -q 'none.exr.*\[bad-environment\]' err
+check 'EXR' exits 0 "$render" plain.mtlx -o ball.exr --size 8
+check 'is EXR' test "$(od -An -tx1 -N4 ball.exr | tr -d ' ')" = 762f3101
+
+# Many pictures
+check 'a turntable' exits 0 "$render" plain.mtlx -m cube --turntable 4 -o turn.ppm --size 8
+check 'has pictures by number' test -s turn.0000.ppm -a -s turn.0001.ppm -a -s turn.0003.ppm -a ! -e turn.0004.ppm
+check 'a quarter turn shows another side' eval '! cmp -s turn.0000.ppm turn.0001.ppm'
+mkdir -p materials/deep
+cp plain.mtlx materials/a.mtlx
+sed 's/0.8, 0.8, 0.8/0.8, 0, 0/; s/"M"/"Red"/' plain.mtlx >materials/deep/b.mtlx
+check 'a sheet of a folder' exits 0 "$render" materials -o sheet.ppm --size 32
+check 'has room for two' test "$(sed -n 2p sheet.ppm)" = '76 51'
+sed 's/standard_surface/none/' plain.mtlx >materials/c.mtlx
+check 'a sheet with a faulty document' exits 1 "$render" materials -o sheet3.ppm --size 32
+check 'is drawn nevertheless' test -s sheet3.ppm
+check 'an empty folder' eval 'mkdir empty; exits 1 "$render" empty -o x.png && grep -q "\[nothing-to-render\]" err'
+cat >look.mtlx <<'X'
+<?xml version="1.0"?>
+<materialx version="1.39">
+  <standard_surface name="S1" type="surfaceshader"><input name="base_color" type="color3" value="1, 0, 0"/></standard_surface>
+  <standard_surface name="S2" type="surfaceshader"><input name="base_color" type="color3" value="0, 0, 1"/></standard_surface>
+  <surfacematerial name="M1" type="material"><input name="surfaceshader" type="surfaceshader" nodename="S1"/></surfacematerial>
+  <surfacematerial name="M2" type="material"><input name="surfaceshader" type="surfaceshader" nodename="S2"/></surfacematerial>
+  <look name="blue"><materialassign name="a" material="M2" geom="/"/></look>
+  <look name="both"><materialassign name="b" material="M1" geom="/a"/><materialassign name="c" material="M2" geom="/b"/></look>
+</materialx>
+X
+check 'a look' exits 0 "$render" look.mtlx --look blue -o look.ppm --size 16 -m sphere
+check 'is blue' test "$(pixels look.ppm | sed -n 136p | awk '{ print ($3 > 2 * $1) }')" = 1
+check 'a look of two' exits 0 "$render" look.mtlx --look both -o both.ppm --size 16
+check 'is a sheet' test "$(sed -n 2p both.ppm | cut -d ' ' -f 1)" = 44
+check 'a look that is none' exits 1 "$render" look.mtlx --look green -o x.png
+check 'is no-look' grep -q '\[no-look\]' err
+check 'nothing is left behind' test -z "$(ls -A | grep -E '^x\.|tmp-')"
 
 finish render

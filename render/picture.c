@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/picture.h"
+
+#include <math.h>
+#include <string.h>
+
+/* ---- Shaders ---- */
+
+static bool set_texture_modes(struct painter *painter, const char *mode)
+{
+    return report_status(&painter->cli->report, mxg_options_set(painter->cli->options, "texture-modes", mode));
+}
+
+static bool generate(struct painter *painter, const struct subject *subject, mxg_result **out)
+{
+    mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
+    desc.target = "vulkan";
+    desc.element = subject->element;
+    desc.options = painter->cli->options;
+    mxg_status status = mxg_generate(painter->cli->context, subject->document, &desc, out);
+    if (*out)
+        report_list(&painter->cli->report, mxg_result_diagnostics(*out));
+    return report_status(&painter->cli->report, status);
+}
+
+/* Samplers have neither borders of any colour nor cubic filters. */
+static bool is_beyond_samplers(const mxg_result *result)
+{
+    for (uint32_t i = 0; i < mxg_result_num_variables(result); ++i) {
+        mxg_variable variable = {sizeof variable};
+        mxg_result_variable(result, i, &variable);
+        if (variable.block == MXG_BLOCK_TEXTURES &&
+            (strcmp(variable.uaddressmode, "constant") == 0 || strcmp(variable.vaddressmode, "constant") == 0 ||
+             strcmp(variable.filtertype, "cubic") == 0))
+            return true;
+    }
+    return false;
+}
+
+/* The shader does what samplers cannot. */
+static bool generate_fitting(struct painter *painter, const struct subject *subject, mxg_result **out)
+{
+    if (!generate(painter, subject, out))
+        return false;
+    if (painter->fixed_texture_modes || !is_beyond_samplers(*out))
+        return true;
+    mxg_result_destroy(*out);
+    *out = NULL;
+    return set_texture_modes(painter, "shader") && generate(painter, subject, out) && set_texture_modes(painter, "sampler");
+}
+
+/* ---- Drawing ---- */
+
+static bool fail(struct painting *painting, const struct subject *subject)
+{
+    const struct bind *bind = painting->bind;
+    report_error(&painting->painter->cli->report, bind && bind->id ? bind->id : "render-failed", "%s: %s",
+                 subject->element ? subject->element : subject->path, bind ? bind->reason : "out of memory");
+    return false;
+}
+
+bool painting_open(struct painter *painter, const struct subject *subject, struct painting *painting)
+{
+    *painting = (struct painting){.painter = painter, .scene = painter->scene};
+    if (!generate_fitting(painter, subject, &painting->result))
+        return false;
+    uint32_t width = painter->width * painter->oversampling, height = painter->height * painter->oversampling;
+    painting->samples = malloc((size_t)width * height * 4 * sizeof(float));
+    painting->bind = calloc(1, sizeof *painting->bind);
+    if (!painting->bind || !painting->samples)
+        return fail(painting, subject);
+    *painting->bind = (struct bind){.result = painting->result, .scene = &painting->scene, .document = subject->path,
+                                    .values = painter->values, .num_values = painter->num_values, .checker = painter->checker};
+    if (!render_open(&painting->render, &painter->gpu, painting->bind, width, height))
+        return fail(painting, subject);
+    if (painting->bind->reason[0]) /* it goes on with a checker */
+        report_warning(&painter->cli->report, painting->bind->id, "%s", painting->bind->reason);
+    return true;
+}
+
+void painting_aim(struct painting *painting)
+{
+    struct mesh mesh = painting->scene.mesh;
+    painting->scene = painting->painter->scene;
+    painting->scene.mesh = mesh;
+}
+
+/* Averages the samples of each pixel. */
+static bool resolve(const struct painter *painter, const float *samples, struct image *out)
+{
+    unsigned n = painter->oversampling;
+    size_t row = (size_t)painter->width * n;
+    *out = (struct image){painter->width, painter->height, true,
+                          calloc((size_t)painter->width * painter->height * 4, sizeof(float))};
+    float *pixel = out->pixels;
+    for (uint32_t y = 0; pixel && y < painter->height; ++y) {
+        for (uint32_t x = 0; x < painter->width; ++x, pixel += 4) {
+            for (size_t i = 0; i < (size_t)n * n; ++i) {
+                const float *sample = samples + 4 * ((y * n + i / n) * row + x * n + i % n);
+                for (size_t c = 0; c < 4; ++c)
+                    pixel[c] += sample[c] / (float)(n * n);
+            }
+        }
+    }
+    return out->pixels != NULL;
+}
+
+bool painting_draw(struct painting *painting, struct image *out)
+{
+    struct painter *painter = painting->painter;
+    *out = (struct image){0};
+    if (!render_frame(&painting->render, painting->samples)) {
+        report_error(&painter->cli->report, painting->bind->id, "%s", painting->bind->reason);
+        return false;
+    }
+    return resolve(painter, painting->samples, out) || report_status(&painter->cli->report, MXG_ERROR_MEMORY);
+}
+
+void painting_close(struct painting *painting)
+{
+    render_close(&painting->render);
+    if (painting->bind)
+        bind_finish(painting->bind);
+    free(painting->bind);
+    free(painting->samples);
+    mxg_result_destroy(painting->result);
+}
+
+bool picture_draw(struct painter *painter, const struct subject *subject, struct image *out)
+{
+    struct painting painting;
+    *out = (struct image){0};
+    bool good = painting_open(painter, subject, &painting) && painting_draw(&painting, out);
+    painting_close(&painting);
+    return good;
+}
+
+/* ---- Background ---- */
+
+/* What is behind pixel (x, y). */
+static void background(const struct painter *painter, uint32_t x, uint32_t y, double out[4])
+{
+    memset(out, 0, 4 * sizeof *out);
+    if (painter->background == BACKGROUND_NONE)
+        return;
+    out[3] = 1;
+    if (painter->background == BACKGROUND_ENVIRONMENT) {
+        scene_backdrop(&painter->scene, 2 * (x + 0.5) / painter->width - 1, 1 - 2 * (y + 0.5) / painter->height, out);
+        for (size_t c = 0; c < 3; ++c)
+            out[c] *= painter->exposure;
+        return;
+    }
+    for (size_t c = 0; c < 3; ++c)
+        out[c] = 0.18 - 0.12 * y / painter->height; /* grey, lighter on top */
+}
+
+/* IEC 61966-2-1 */
+static uint8_t encode_srgb(double linear)
+{
+    double x = linear > 0.0 ? fmin(linear, 1.0) : 0.0;
+    double encoded = x <= 0.0031308 ? 12.92 * x : 1.055 * pow(x, 1.0 / 2.4) - 0.055;
+    return (uint8_t)(encoded * 255.0 + 0.5);
+}
+
+bool picture_develop(const struct painter *painter, const struct image *linear, struct image *out)
+{
+    *out = (struct image){linear->width, linear->height, false, malloc((size_t)linear->width * linear->height * 4)};
+    const float *in = linear->pixels;
+    uint8_t *pixel = out->pixels;
+    for (uint32_t y = 0; pixel && y < linear->height; ++y) {
+        for (uint32_t x = 0; x < linear->width; ++x, in += 4, pixel += 4) {
+            double behind[4], through = 1 - fmin(in[3], 1);
+            background(painter, x, y, behind);
+            double alpha = fmin(in[3], 1) + through * behind[3];
+            for (size_t c = 0; c < 3; ++c) /* files of 8 bits are not premultiplied */
+                pixel[c] = encode_srgb((painter->exposure * in[c] + through * behind[c]) / fmax(alpha, 1e-6));
+            pixel[3] = (uint8_t)(alpha * 255 + 0.5);
+        }
+    }
+    return out->pixels != NULL;
+}
+
+bool picture_write(struct painter *painter, const char *path, const struct image *linear)
+{
+    char reason[256] = "out of memory";
+    struct image shown = {0};
+    bool good = image_is_linear(path) ? image_write(path, linear, reason, sizeof reason)
+                                      : picture_develop(painter, linear, &shown) && image_write(path, &shown, reason, sizeof reason);
+    if (!good)
+        report_error(&painter->cli->report, "output-failed", "cannot write '%s': %s", path, reason);
+    image_finish(&shown);
+    return good;
+}

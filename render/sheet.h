@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+/* A contact sheet: many small pictures with names under them. */
+#ifndef MXG_RENDER_SHEET_H
+#define MXG_RENDER_SHEET_H
+
+#include "render/image.h"
+
+struct sheet {
+    struct image image; /* 8 bits */
+    uint32_t width, height; /* of a picture */
+    uint32_t columns, count;
+};
+
+/* Room for `count` pictures. False: out of memory. */
+bool sheet_init(struct sheet *sheet, uint32_t count, uint32_t width, uint32_t height);
+void sheet_finish(struct sheet *sheet);
+
+/* Places a picture of 8 bits; NULL: a cross, for one that could not be drawn. */
+void sheet_place(struct sheet *sheet, uint32_t index, const struct image *picture, const char *name);
+
+#endif

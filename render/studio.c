@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/studio.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define DEGREE (3.14159265358979323846 / 180.0)
+#define FINE_DETAIL 4            /* times the cells of a shape, each way */
+#define FINE_TRIANGLES (1u << 18) /* of a mesh from a file */
+
+bool studio_parse_camera(struct studio *studio, const char *text)
+{
+    double *const values[] = {&studio->azimuth, &studio->elevation, &studio->distance, &studio->fov};
+    const size_t capacity = sizeof values / sizeof *values;
+    size_t count = 0;
+    for (char *end; count < capacity; text = end + 1) {
+        *values[count] = strtod(text, &end);
+        if (end == text || (*end && *end != ','))
+            return false;
+        ++count;
+        if (!*end)
+            break;
+        if (count == capacity)
+            return false;
+    }
+    return count >= 2 && fabs(studio->azimuth) <= 1e6 && fabs(studio->elevation) < 90 && studio->distance >= 0 &&
+           studio->distance <= 1000 && studio->fov >= 1 && studio->fov <= 150;
+}
+
+static bool is_shape(const char *name)
+{
+    const char *const *names = shape_names();
+    while (*names && strcmp(*names, name) != 0)
+        ++names;
+    return *names != NULL;
+}
+
+static bool fail(struct studio_fault *fault, const char *id, const char *what, const char *name, const char *why)
+{
+    fault->id = id;
+    snprintf(fault->text, sizeof fault->text, "%s '%s': %s", what, name, why);
+    return false;
+}
+
+static bool open_mesh(const struct studio *studio, struct mesh *out, unsigned *out_made, struct studio_fault *fault)
+{
+    *out_made = 0;
+    if (is_shape(studio->mesh))
+        return shape_make(studio->mesh, 1, out) || fail(fault, "render-failed", "cannot make", studio->mesh, "out of memory");
+    struct mesh_fault mesh_fault;
+    return mesh_import(studio->mesh, out, out_made, &mesh_fault) ||
+           fail(fault, mesh_fault.id, "cannot use the mesh", studio->mesh, mesh_fault.text);
+}
+
+static bool open_environment(const struct studio *studio, struct scene *scene, struct studio_fault *fault)
+{
+    char reason[256];
+    if (!studio->environment) {
+        struct image stand_in;
+        bool good = environment_make(&scene->radiance, &stand_in) && environment_irradiance(&scene->radiance, &scene->irradiance);
+        image_finish(&stand_in);
+        return good || fail(fault, "render-failed", "cannot make", "sky", "out of memory");
+    }
+    return (environment_read(studio->environment, &scene->radiance, reason, sizeof reason) &&
+            environment_irradiance(&scene->radiance, &scene->irradiance)) ||
+           fail(fault, "bad-environment", "cannot use the environment", studio->environment,
+                scene->radiance.pixels ? "out of memory" : reason);
+}
+
+bool studio_open(const struct studio *studio, double aspect, struct scene *scene, unsigned *out_made, struct studio_fault *fault)
+{
+    *scene = (struct scene){.num_lights = studio->environment ? 0 : SCENE_NUM_LIGHTS, .world = matrix_identity(),
+                            .environment = matrix_identity()};
+    studio_aim(studio, aspect, 0, scene);
+    return open_mesh(studio, &scene->mesh, out_made, fault) && open_environment(studio, scene, fault);
+}
+
+void studio_aim(const struct studio *studio, double aspect, double turn, struct scene *scene)
+{
+    double azimuth = (studio->azimuth + turn) * DEGREE, elevation = studio->elevation * DEGREE;
+    double half = tan(studio->fov * DEGREE / 2); /* of the shorter side */
+    double distance = studio->distance > 0 ? studio->distance : 1.04 / sin(atan(half));
+    const double eye[3] = {distance * sin(azimuth) * cos(elevation), distance * sin(elevation),
+                           distance * cos(azimuth) * cos(elevation)};
+    scene_set_camera(scene, eye, (const double[3]){0, 0, 0});
+    double vertical = 2 * atan(aspect < 1 ? half / aspect : half) / DEGREE;
+    scene->projection = matrix_perspective(vertical, aspect, distance / 100, distance + 10);
+}
+
+bool studio_refine(const struct studio *studio, const struct mesh *mesh, struct mesh *out)
+{
+    if (is_shape(studio->mesh))
+        return shape_make(studio->mesh, FINE_DETAIL, out);
+    if (!mesh_allocate(out, mesh->num_vertices, mesh->num_indices))
+        return false;
+    memcpy(out->vertices, mesh->vertices, mesh->num_vertices * sizeof *mesh->vertices);
+    memcpy(out->indices, mesh->indices, mesh->num_indices * sizeof *mesh->indices);
+    return mesh_subdivide(out, FINE_TRIANGLES);
+}
