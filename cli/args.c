@@ -234,6 +234,10 @@ bool args_parse(struct arg_parser *parser, int argc, char **argv)
             const char *equals = is_letter ? NULL : strchr(name, '=');
             struct written option = {text, name, equals ? (size_t)(equals - name) : strlen(name),
                                      equals ? equals + 1 : NULL, is_letter};
+            if (is_letter && name[1]) { /* "-j4" */
+                option.len = 1;
+                option.value = name + 1;
+            }
             if (!parse_option(parser, option, argc, argv, &i))
                 return false;
         }

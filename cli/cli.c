@@ -125,6 +125,31 @@ bool cli_start(struct cli *cli, const struct command *command, const struct arg 
     return (wants & CLI_LIBRARY_IS_INPUT) || load_library(cli);
 }
 
+static void forward_size(struct arg_list *args, const char *name, size_t value)
+{
+    if (value)
+        args_append(args, cli_format("--%s=%zu", name, value));
+}
+
+void cli_forward(const struct cli *cli, struct arg_list *args)
+{
+    for (size_t i = 0; i < cli->library_paths.len; ++i)
+        args_append(args, cli_format("--library=%s", cli->library_paths.items[i]));
+    if (cli->no_builtin_library)
+        args_append(args, cli_format("--no-builtin-library"));
+    if (cli->verbose)
+        args_append(args, cli_format("--verbose"));
+    args_append(args, cli_format("--quiet"));
+    forward_size(args, "max-memory", cli->max_memory);
+    forward_size(args, "max-file-size", cli->max_file_size);
+    forward_size(args, "max-elements", cli->max_elements);
+    forward_size(args, "max-nodes", cli->max_nodes);
+    forward_size(args, "max-output-size", cli->max_output_size);
+    forward_size(args, "max-errors", cli->max_errors);
+    for (size_t i = 0; i < cli->parser.num_settings; ++i)
+        args_append(args, cli_format("--%s=%s", cli->parser.settings[i].key, cli->parser.settings[i].value));
+}
+
 void cli_finish(struct cli *cli)
 {
     mxg_options_destroy(cli->options);

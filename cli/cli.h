@@ -45,14 +45,18 @@ bool cli_start(struct cli *cli, const struct command *command, const struct arg 
                int argc, char **argv, int *out_exit);
 void cli_finish(struct cli *cli);
 
+/* Appends the arguments that give another of our programs the same library, limits and options of generation, and let it
+ * print errors only. The items are to be freed. */
+void cli_forward(const struct cli *cli, struct arg_list *args);
+
 /* Loads a document and prints its diagnostics; NULL where errors leave nothing of it that can be rendered. */
 mxg_document *cli_load(struct cli *cli, const char *path);
 
 /* What a file of an element is called: its path with dots. To be freed. */
 char *cli_file_name(const char *element_path);
 
-/* The program mxgen-render: its path beside this one, else its name, for PATH. To be freed. */
-char *cli_renderer(void);
+/* Another of our programs: its path beside this one, else its name, for PATH. To be freed. */
+char *cli_program(const char *name);
 
 /* Formats into new memory, to be freed; ends the program where there is none. */
 #if defined(__GNUC__)
@@ -61,8 +65,9 @@ __attribute__((format(printf, 1, 2)))
 char *
 cli_format(const char *format, ...);
 
-/* generate.c, inspect.c, library.c, validate.c, render.c */
+/* generate.c, check/check.c, inspect.c, library.c, validate.c, render.c */
 int command_generate(const struct command *command, int argc, char **argv);
+int command_check(const struct command *command, int argc, char **argv);
 int command_inspect(const struct command *command, int argc, char **argv);
 int command_library(const struct command *command, int argc, char **argv);
 int command_validate(const struct command *command, int argc, char **argv);

@@ -106,6 +106,61 @@ const char *files_write(const char *path, const void *data, size_t size)
     return reason ? strerror(reason) : NULL;
 }
 
+/* Opens what the stream writes to; 0 or errno. */
+static int open_stream(struct files_stream *stream, const char *path)
+{
+    struct stat info;
+    bool is_direct = stat(path, &info) == 0 && !S_ISREG(info.st_mode);
+    size_t room = strlen(path) + 32;
+    stream->path = malloc(room);
+    stream->temporary = is_direct ? NULL : malloc(room);
+    if (!stream->path || (!is_direct && !stream->temporary))
+        return ENOMEM;
+    snprintf(stream->path, room, "%s", path);
+    if (stream->temporary)
+        snprintf(stream->temporary, room, "%s.%ld.tmp", path, (long)getpid());
+    int flags = is_direct ? O_WRONLY | O_CLOEXEC : O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC;
+    int fd = open(is_direct ? path : stream->temporary, flags, 0666);
+    stream->out = fd < 0 ? NULL : fdopen(fd, "w");
+    return stream->out ? 0 : errno;
+}
+
+const char *files_begin(struct files_stream *stream, const char *path)
+{
+    *stream = (struct files_stream){0};
+    if (strcmp(path, "-") == 0) {
+        stream->out = stdout;
+        return NULL;
+    }
+    int reason = open_stream(stream, path);
+    if (!reason)
+        return NULL;
+    free(stream->path);
+    free(stream->temporary);
+    *stream = (struct files_stream){0};
+    return strerror(reason);
+}
+
+const char *files_end(struct files_stream *stream, bool keep)
+{
+    if (!stream->out)
+        return NULL;
+    int reason = ferror(stream->out) ? EIO : 0;
+    errno = 0;
+    if ((stream->out == stdout ? fflush(stream->out) : fclose(stream->out)) != 0)
+        reason = errno ? errno : EIO;
+    if (stream->temporary) {
+        if (keep && !reason && rename(stream->temporary, stream->path) != 0)
+            reason = errno;
+        if (!keep || reason)
+            unlink(stream->temporary);
+    }
+    free(stream->path);
+    free(stream->temporary);
+    *stream = (struct files_stream){0};
+    return keep && reason ? strerror(reason) : NULL;
+}
+
 const char *files_make_folder(const char *path)
 {
     size_t len = strlen(path);

@@ -5,6 +5,7 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdio.h>
 
 /* The bytes of a file with a NUL behind them, to be freed by the caller; NULL with errno set. */
 char *files_read(const char *path, size_t *out_size);
@@ -14,6 +15,17 @@ char *files_read(const char *path, size_t *out_size);
  * file (a pipe, /dev/stdout) is written directly. Returns NULL, or why it failed.
  */
 const char *files_write(const char *path, const void *data, size_t size);
+
+/* A file that is written piece by piece, and appears whole or not at all. */
+struct files_stream {
+    FILE *out;
+    char *path, *temporary; /* no temporary: written directly */
+};
+
+/* Opens `path`, "-" being standard output. Returns NULL, or why it failed; the stream is then empty. */
+const char *files_begin(struct files_stream *stream, const char *path);
+/* Gives the file its name, or with `keep` false takes it away. Returns NULL, or why it failed. */
+const char *files_end(struct files_stream *stream, bool keep);
 
 /* Makes a folder and the folders above it. Returns NULL, or why it failed. */
 const char *files_make_folder(const char *path);

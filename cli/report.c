@@ -40,12 +40,14 @@ static void load_source(struct report *report, const char *file)
         report->source = files_read(file, &report->source_size);
 }
 
-static void print_one(struct report *report, const mxg_diagnostics *list, uint32_t index, const char *file)
+void report_print(struct report *report, const mxg_diagnostics *list, uint32_t index, FILE *out)
 {
-    if (file)
-        load_source(report, file);
-    const char *source = file ? report->source : NULL;
-    size_t size = file ? report->source_size : 0;
+    mxg_diagnostic diagnostic = {sizeof diagnostic};
+    mxg_diagnostics_get(list, index, &diagnostic);
+    if (diagnostic.file)
+        load_source(report, diagnostic.file);
+    const char *source = diagnostic.file ? report->source : NULL;
+    size_t size = diagnostic.file ? report->source_size : 0;
     char small[1024], *text = small;
     size_t len = mxg_diagnostics_format(list, index, source, size, report->colour, small, sizeof small);
     if (len >= sizeof small) {
@@ -54,9 +56,9 @@ static void print_one(struct report *report, const mxg_diagnostics *list, uint32
             return;
         mxg_diagnostics_format(list, index, source, size, report->colour, text, len + 1);
     }
-    fputs(text, stderr);
+    fputs(text, out);
     if (len && text[len - 1] != '\n')
-        fputc('\n', stderr);
+        fputc('\n', out);
     if (text != small)
         free(text);
 }
@@ -102,7 +104,7 @@ void report_list(struct report *report, const mxg_diagnostics *list)
         if (diagnostic.parent == i)
             shown = is_shown(report, &diagnostic) && is_new(report, &diagnostic);
         if (shown && is_shown(report, &diagnostic))
-            print_one(report, list, i, diagnostic.file);
+            report_print(report, list, i, stderr);
     }
     report->errors += mxg_diagnostics_errors(list);
 }

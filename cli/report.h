@@ -5,6 +5,8 @@
 
 #include <mxgen/mxgen.h>
 
+#include <stdio.h>
+
 struct report {
     bool quiet;   /* errors only */
     bool verbose; /* also what was upgraded in older documents */
@@ -19,7 +21,10 @@ struct report {
 void report_init(struct report *report); /* colour where stderr is a terminal */
 void report_finish(struct report *report);
 
-/* Prints a list. */
+/* Prints one message as it is, with its source line. */
+void report_print(struct report *report, const mxg_diagnostics *list, uint32_t index, FILE *out);
+
+/* Prints a list to stderr. */
 void report_list(struct report *report, const mxg_diagnostics *list);
 
 /* An error of the program itself: "error: message [id]". */

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "validate/compile.h"
+#include "validate/spirv.h"
 
 #include <glslang/Include/glslang_c_interface.h>
 #include <glslang/Public/resource_limits_c.h>
@@ -147,23 +148,6 @@ static glslang_shader_t *parse_stage(const struct dialect *dialect, mxg_stage st
 /* ---- SPIR-V ---- */
 
 #define SPIRV_MAGIC 0x07230203u
-#define SPIRV_HEADER_WORDS 5
-enum spirv_op { SPIRV_OP_FUNCTION = 54, SPIRV_OP_FUNCTION_END = 56 }; /* SPIR-V 1.0, section 3.32.9 */
-
-static uint32_t count_body_instructions(const uint32_t *words, size_t num_words)
-{
-    uint32_t count = 0;
-    bool inside = false;
-    for (size_t i = SPIRV_HEADER_WORDS; i < num_words && words[i] >> 16; i += words[i] >> 16) {
-        uint32_t op = words[i] & 0xffff;
-        if (op == SPIRV_OP_FUNCTION_END)
-            inside = false;
-        count += inside;
-        if (op == SPIRV_OP_FUNCTION)
-            inside = true;
-    }
-    return count;
-}
 
 /* Only of shaders that are written for SPIR-V: glslang has no valid form for a loose uniform that is a bool. */
 static void validate_spirv(mxg_stage stage, struct compiled *out)
@@ -183,7 +167,7 @@ static void generate_spirv(const struct dialect *dialect, glslang_program_t *pro
                            struct compiled *out)
 {
     struct compiled_stage *code = &out->stages[stage];
-    glslang_spv_options_t options = {.disable_optimizer = true};
+    glslang_spv_options_t options = {.disable_optimizer = true, .generate_debug_info = true}; /* lines, for spirv_count */
     glslang_program_SPIRV_generate_with_options(program, glslang_stages[stage], &options);
     add_log(out, stage, glslang_program_SPIRV_get_messages(program));
     const unsigned *words = glslang_program_SPIRV_get_ptr(program);
@@ -199,7 +183,7 @@ static void generate_spirv(const struct dialect *dialect, glslang_program_t *pro
         return;
     code->num_words = num_words;
     memcpy(code->words, words, num_words * sizeof *code->words);
-    code->body_instructions = count_body_instructions(code->words, code->num_words);
+    code->body_instructions = spirv_count(code->words, code->num_words, NULL, NULL);
     if (dialect->is_spirv_source)
         validate_spirv(stage, out);
 }

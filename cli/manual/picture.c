@@ -282,7 +282,7 @@ static bool draw_node(struct manual *manual, struct cli *cli, struct manual_node
 bool manual_draw(struct manual *manual, struct cli *cli, const char *folder)
 {
     char *pictures = cli_format("%s/pictures", folder);
-    char *program = cli_renderer();
+    char *program = cli_program("mxgen-render");
     char **argv = renderer_arguments(cli, program);
     const char *reason = files_make_folder(pictures);
     if (reason)

@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * mxgen check: documents in, verdicts out. Workers (pool.h) make a record of each document; here they are put in order,
+ * judged and reported.
+ */
+#define _POSIX_C_SOURCE 200809L
+#include "cli/check/check.h"
+#include "cli/check/inputs.h"
+#include "cli/check/pool.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#define MAX_JOBS 1024
+#define MAX_TIME_LIMIT 86400 /* seconds */
+
+/* A document between being given out and being told of. */
+struct slot {
+    char *path;
+    char *record; /* NULL: not there yet */
+    size_t size;
+    bool is_done;
+    enum check_stage failed; /* without a record */
+    char *reason;
+};
+
+struct check {
+    struct cli cli;
+    struct arg_list target_args, files_from, targets, worker_args;
+    size_t jobs, time_limit;
+    bool no_compile, render, stats;
+    struct check_reports reports;
+    struct check_inputs inputs;
+    struct pool pool;
+
+    struct slot *slots; /* a ring: documents are given out at most this far ahead of the one told next */
+    size_t num_slots;
+    uint64_t first, last; /* documents in the ring: told next, and behind the one given out last */
+};
+
+static struct slot *slot_of(struct check *check, uint64_t number)
+{
+    return &check->slots[number % check->num_slots];
+}
+
+/* ---- Records ---- */
+
+/* In place of a record where the worker did not live to make one. */
+static struct check_document *make_failure(struct store *store, const struct slot *slot)
+{
+    struct check_document *document = store_alloc(store, sizeof *document);
+    const char *id = slot->failed == CHECK_TIMEOUT ? "check-timeout" : "check-crashed";
+    char *rendered = cli_format("%s: error: %s [%s]\n", slot->path, slot->reason, id);
+    document->file = slot->path;
+    document->failed = slot->failed;
+    check_add_message(store, document,
+                      &(struct check_message){.id = id, .text = slot->reason, .file = slot->path, .element = "",
+                                              .target = "", .rendered = store_text(store, rendered, strlen(rendered))});
+    free(rendered);
+    return document;
+}
+
+static void tell_document(struct check *check, struct slot *slot)
+{
+    struct store store = {0};
+    struct check_document *document = slot->record ? check_read_document(&store, slot->record, slot->size) : NULL;
+    if (!document) {
+        if (!slot->failed)
+            slot->failed = CHECK_CRASH;
+        if (!slot->reason)
+            slot->reason = cli_format("mxgen-check gave no readable record");
+        document = make_failure(&store, slot);
+    }
+    document->index = check->first;
+    reports_document(&check->reports, document);
+    store_finish(&store);
+    free(slot->path);
+    free(slot->record);
+    free(slot->reason);
+    *slot = (struct slot){0};
+}
+
+static void tell_done(struct check *check)
+{
+    for (; check->first < check->last && slot_of(check, check->first)->is_done; ++check->first)
+        tell_document(check, slot_of(check, check->first));
+}
+
+/* ---- Work ---- */
+
+/* Gives the next document out; false where there is no more, or no worker can be started. */
+static bool give_next(struct check *check)
+{
+    const char *path = inputs_next(&check->inputs);
+    if (!path)
+        return false;
+    struct slot *slot = slot_of(check, check->last++);
+    *slot = (struct slot){.path = cli_format("%s", path)};
+    return pool_give(&check->pool, path, (size_t)(check->last - 1));
+}
+
+static bool take_answer(struct check *check)
+{
+    struct pool_answer answer;
+    if (!pool_wait(&check->pool, &answer))
+        return false;
+    struct slot *slot = slot_of(check, answer.ticket);
+    slot->record = answer.record;
+    slot->size = answer.size;
+    slot->failed = answer.failed;
+    slot->reason = answer.reason;
+    slot->is_done = true;
+    return true;
+}
+
+static void check_all(struct check *check)
+{
+    bool more = true;
+    while (!check->pool.fault && (more || check->pool.num_busy)) {
+        while (more && pool_has_idle(&check->pool) && check->last - check->first < check->num_slots)
+            more = give_next(check);
+        if (check->pool.num_busy)
+            take_answer(check);
+        tell_done(check);
+    }
+    if (check->pool.fault)
+        report_error(&check->cli.report, "check-failed", "%s", check->pool.fault);
+}
+
+/* ---- What is asked for ---- */
+
+/* Splits "glsl,vulkan" and finds every name among the targets. */
+static bool find_targets(struct check *check)
+{
+    for (size_t i = 0; i < check->target_args.len; ++i) {
+        for (const char *at = check->target_args.items[i]; *at;) {
+            size_t len = strcspn(at, ",");
+            mxg_target target = {sizeof target};
+            uint32_t k = 0;
+            while (mxg_get_target(k, &target) == MXG_OK && (strlen(target.name) != len || memcmp(target.name, at, len) != 0))
+                ++k;
+            if (k == mxg_num_targets() || check->targets.len == MAX_TARGETS) {
+                fprintf(stderr, "mxgen: there is no target '%.*s'; see --help\n", (int)len, at);
+                return false;
+            }
+            args_append(&check->targets, target.name);
+            at += len + (at[len] == ',');
+        }
+    }
+    if (check->targets.len == 0)
+        args_append(&check->targets, "glsl");
+    return true;
+}
+
+static void add_worker_arg(struct check *check, const char *name, const char *value)
+{
+    args_append(&check->worker_args, value ? cli_format("--%s=%s", name, value) : cli_format("%s", name));
+}
+
+/* The worker's command line: the same library, limits and options as here. */
+static void make_worker_args(struct check *check)
+{
+    char *program = cli_program("mxgen-check");
+    args_append(&check->worker_args, program);
+    for (size_t i = 0; i < check->targets.len; ++i)
+        add_worker_arg(check, "target", check->targets.items[i]);
+    if (check->no_compile)
+        add_worker_arg(check, "--no-compile", NULL);
+    if (check->render)
+        add_worker_arg(check, "--render", NULL);
+    cli_forward(&check->cli, &check->worker_args);
+    args_append(&check->worker_args, NULL);
+}
+
+static bool prepare(struct check *check)
+{
+    const struct cli *cli = &check->cli;
+    long cores = sysconf(_SC_NPROCESSORS_ONLN);
+    if (check->jobs == 0)
+        check->jobs = cores > 0 ? (size_t)cores : 1;
+    if (check->jobs > MAX_JOBS)
+        check->jobs = MAX_JOBS;
+    if (check->time_limit > MAX_TIME_LIMIT)
+        check->time_limit = MAX_TIME_LIMIT;
+    check->reports.run = (struct check_run){.targets = check->targets.items,
+                                            .num_targets = check->targets.len,
+                                            .quiet = cli->quiet,
+                                            .verbose = cli->verbose,
+                                            .compiles = !check->no_compile,
+                                            .with_times = check->stats};
+    check->num_slots = 4 * check->jobs + 64;
+    check->slots = calloc(check->num_slots, sizeof *check->slots);
+    return check->slots && reports_begin(&check->reports, &check->cli.report);
+}
+
+/* Exit code 1 where anything failed, or nothing was there to check. */
+static int run(struct check *check)
+{
+    struct report *report = &check->cli.report;
+    const struct check_totals *totals = &check->reports.totals;
+    if (!prepare(check))
+        return EXIT_FAULT;
+    make_worker_args(check);
+    inputs_init(&check->inputs, &check->cli.parser.inputs, &check->files_from);
+    pool_init(&check->pool, (char *const *)(uintptr_t)check->worker_args.items, check->jobs, (double)check->time_limit);
+    check_all(check);
+    reports_end(&check->reports, report, !check->pool.fault);
+    if (totals->documents == 0 && !check->inputs.failed && !check->pool.fault)
+        report_error(report, "nothing-to-check", "no document was found");
+    bool good = !report->errors && !check->inputs.failed && totals->failed[CHECK_PASSED] == totals->documents;
+    return good ? EXIT_DONE : EXIT_FAULT;
+}
+
+static void finish(struct check *check)
+{
+    for (; check->slots && check->first < check->last; ++check->first) { /* after a fault */
+        free(slot_of(check, check->first)->path);
+        free(slot_of(check, check->first)->record);
+        free(slot_of(check, check->first)->reason);
+    }
+    free(check->slots);
+    pool_finish(&check->pool);
+    inputs_finish(&check->inputs);
+    for (size_t i = 0; i + 1 < check->worker_args.len; ++i)
+        free((void *)(uintptr_t)check->worker_args.items[i]);
+    free(check->worker_args.items);
+    free(check->target_args.items);
+    free(check->files_from.items);
+    free(check->targets.items);
+    cli_finish(&check->cli);
+}
+
+int command_check(const struct command *command, int argc, char **argv)
+{
+    struct check check = {.time_limit = 120};
+    struct arg args[16 + NUM_SINK_KINDS] = {
+        {"target", 't', ARG_LIST, "T,...", "targets to generate for (default: glsl)", &check.target_args},
+        {"jobs", 'j', ARG_SIZE, "N", "documents at a time (default: as many as there are cores)", &check.jobs},
+        {"files-from", 0, ARG_LIST, "FILE", "a list of paths, one on each line; '-': standard input", &check.files_from},
+        {"no-compile", 0, ARG_FLAG, NULL, "generates, and compiles nothing", &check.no_compile},
+        {"time-limit", 0, ARG_SIZE, "S", "seconds that a document may take (default: 120)", &check.time_limit},
+        {"stats", 0, ARG_FLAG, NULL, "tells times, the slowest documents and the largest shaders", &check.stats},
+    };
+    size_t num_args = 0;
+    while (args[num_args].name)
+        ++num_args;
+    for (size_t i = 0; i < NUM_SINK_KINDS; ++i)
+        args[num_args++] = (struct arg){sink_kinds[i]->option, 0, ARG_TEXT, "FILE", sink_kinds[i]->help, &check.reports.paths[i]};
+    int code;
+    if (cli_start(&check.cli, command, args, num_args, CLI_GENERATES, argc, argv, &code)) {
+        if (check.cli.parser.inputs.len == 0 && check.files_from.len == 0) {
+            fprintf(stderr, "usage: mxgen %s\n", command->usage);
+            code = EXIT_USAGE;
+        } else {
+            code = find_targets(&check) ? run(&check) : EXIT_USAGE;
+        }
+    }
+    finish(&check);
+    return code;
+}

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+/* mxgen check, in parts: what is asked for, and the reports of what came of it. */
+#ifndef MXG_CLI_CHECK_CHECK_H
+#define MXG_CLI_CHECK_CHECK_H
+
+#include "cli/check/sink.h"
+#include "cli/cli.h"
+
+/* The reports asked for, and the sums. */
+struct check_reports {
+    struct check_run run;
+    const char *paths[NUM_SINK_KINDS]; /* NULL: not asked for */
+    struct sink text, files[NUM_SINK_KINDS];
+    struct check_totals totals;
+};
+
+/* Opens the files. False after telling which cannot be written. */
+bool reports_begin(struct check_reports *reports, struct report *report);
+
+/* Tells all reports of a document. Documents come in order. */
+void reports_document(struct check_reports *reports, const struct check_document *document);
+
+/* Finishes the files, or takes them away. False after telling which could not be written. */
+bool reports_end(struct check_reports *reports, struct report *report, bool keep);
+
+#endif

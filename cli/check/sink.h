@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * Reports. Each kind is told of the documents one by one, in order, writes what it has to say at once and keeps nothing
+ * of them: memory does not grow with their number.
+ */
+#ifndef MXG_CLI_CHECK_SINK_H
+#define MXG_CLI_CHECK_SINK_H
+
+#include "cli/check/record.h"
+#include "cli/files.h"
+
+enum { MAX_TARGETS = 16 };
+
+/* Sums over all documents. */
+struct check_totals {
+    uint64_t documents, empty /* no elements */, elements, shaders, errors, warnings, cached;
+    uint64_t failed[NUM_CHECK_STAGES]; /* documents, by the stage; at CHECK_PASSED those that passed */
+    const char *uncompiled[MAX_TARGETS]; /* targets that there is no compiler for */
+    size_t num_uncompiled;
+    double load_ms, validate_ms, generate_ms, compile_ms, render_ms; /* of all workers */
+};
+
+/* What all reports are about. */
+struct check_run {
+    const char *const *targets;
+    size_t num_targets;
+    bool quiet, verbose, compiles;
+    bool with_times; /* reports tell times, which differ from run to run */
+};
+
+struct sink {
+    const struct sink_kind *kind;
+    const struct check_run *run;
+    struct files_stream stream;
+    FILE *out; /* of the stream */
+    uint64_t num_documents;
+    void *state; /* of the kind; freed by its end */
+};
+
+struct sink_kind {
+    const char *option, *help; /* "--json FILE" */
+    void (*begin)(struct sink *sink); /* NULL: nothing to do */
+    void (*document)(struct sink *sink, const struct check_document *document);
+    void (*end)(struct sink *sink, const struct check_totals *totals);
+};
+
+/* All kinds that write files; text is always written. */
+enum { NUM_SINK_KINDS = 1 };
+extern const struct sink_kind *const sink_kinds[NUM_SINK_KINDS];
+extern const struct sink_kind sink_text, sink_json;
+
+#endif

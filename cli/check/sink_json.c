@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+/* --json: everything, with a document on each line (docs/check.md, docs/check.schema.json). */
+#include "cli/check/sink.h"
+
+static void begin(struct sink *sink)
+{
+    struct json_writer json = {.out = sink->out};
+    json_begin(&json, '{');
+    json_put_string(&json, "format", "mxgen-check");
+    json_put_count(&json, "version", CHECK_FORMAT_VERSION);
+    json_put_string(&json, "mxgen", mxg_version_string());
+    json_key(&json, "targets");
+    json_begin(&json, '[');
+    for (size_t i = 0; i < sink->run->num_targets; ++i)
+        json_string(&json, sink->run->targets[i]);
+    json_end(&json, ']');
+    json_key(&json, "documents");
+    json_begin(&json, '[');
+}
+
+static void write_document(struct sink *sink, const struct check_document *document)
+{
+    fputs(sink->num_documents ? ",\n" : "\n", sink->out);
+    check_write_document(sink->out, document, sink->run->with_times);
+}
+
+static void put_stages(struct json_writer *json, const struct check_totals *totals)
+{
+    json_key(json, "stages");
+    json_begin(json, '{');
+    for (int stage = 0; stage < NUM_CHECK_STAGES; ++stage)
+        json_put_count(json, check_stage_name((enum check_stage)stage), totals->failed[stage]);
+    json_end(json, '}');
+}
+
+static void end(struct sink *sink, const struct check_totals *totals)
+{
+    struct json_writer json = {.out = sink->out};
+    fputc('\n', sink->out);
+    json_end(&json, ']');
+    json_key(&json, "summary");
+    json_begin(&json, '{');
+    json_key(&json, "documents");
+    json_count(&json, totals->documents);
+    json_key(&json, "failed");
+    json_count(&json, totals->documents - totals->failed[CHECK_PASSED]);
+    json_key(&json, "elements");
+    json_count(&json, totals->elements);
+    json_key(&json, "shaders");
+    json_count(&json, totals->shaders);
+    json_put_count(&json, "errors", totals->errors);
+    json_put_count(&json, "warnings", totals->warnings);
+    put_stages(&json, totals);
+    json_end(&json, '}');
+    json_end(&json, '}');
+    fputc('\n', sink->out);
+}
+
+const struct sink_kind sink_json = {"json", "writes all that was found as JSON", begin, write_document, end};

@@ -1,0 +1,110 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# mxgen check: which documents are found, what is told of them, exit codes, and that nothing stops the rest. Arguments: mxgen, a
+# worker that does what names say (fake_worker.c), whether shaders can be compiled (yes or no).
+mxgen=$(realpath "$1") fake=$(realpath "$2") compiles=$3
+here=$(cd "$(dirname "$0")" && pwd)
+. "$here/../programs/common.sh"
+. "$here/materials.sh"
+
+mkdir -p tree/sub/deep tree/.hidden
+material A >tree/a.mtlx
+material B >tree/b.mtlx
+material C >tree/sub/c.mtlx
+material D >tree/sub/deep/d.mtlx
+material H >tree/.hidden/h.mtlx
+echo text >tree/readme.txt
+ln -s .. tree/sub/back # a circle of links
+
+# Which documents
+quick=(--no-compile -j2)
+check 'a folder' exits 0 "$mxgen" check tree "${quick[@]}" --json tree.json
+check 'is all below, in order' says tree.json '[x["file"] for x in d]' "['tree/a.mtlx', 'tree/b.mtlx', 'tree/sub/c.mtlx', 'tree/sub/deep/d.mtlx']"
+check 'and numbered' says tree.json '[x["index"] for x in d]' '[0, 1, 2, 3]'
+check 'a pattern' exits 0 "$mxgen" check 'tree/*.mtlx' "${quick[@]}" --json pattern.json
+check 'is what matches' says pattern.json '[x["file"] for x in d]' "['tree/a.mtlx', 'tree/b.mtlx']"
+printf 'tree/b.mtlx\r\n\n./tree/a.mtlx\ntree/sub\n' >list
+check 'a list' exits 0 "$mxgen" check @list "${quick[@]}" --json list.json
+check 'is in its own order' says list.json '[x["file"] for x in d]' "['tree/b.mtlx', 'tree/a.mtlx', 'tree/sub/c.mtlx', 'tree/sub/deep/d.mtlx']"
+check 'a list from standard input' eval '"$mxgen" check --files-from - "${quick[@]}" --json stdin.json <list'
+check 'is the same' cmp list.json stdin.json
+check 'what is named twice' exits 0 "$mxgen" check tree/a.mtlx tree @list "${quick[@]}" --json twice.json
+check 'is checked once' says twice.json 'len(d), len({x["file"] for x in d})' '(4, 4)'
+check 'a list that is not there' exits 1 "$mxgen" check tree @none "${quick[@]}"
+check 'a document that is not there' exits 1 "$mxgen" check tree/none.mtlx tree/a.mtlx "${quick[@]}"
+check 'has its id' grep -q '\[file-missing\]' out
+check 'and the others are checked' grep -q '^1 passed, 1 failed (load 1)' out
+mkdir empty
+check 'nothing to check is a failure' exits 1 "$mxgen" check empty
+check 'with an id' grep -q '\[nothing-to-check\]' err
+check 'no argument' exits 2 "$mxgen" check
+check 'an unknown target' exits 2 "$mxgen" check tree -t gsls
+check 'an unknown option' exits 2 "$mxgen" check tree --jobbs 2
+check 'a bad option of generation' exits 2 "$mxgen" check tree --interface none
+
+# What is told
+sed 's/standard_surface/standard_surfase/' tree/a.mtlx >bad.mtlx
+sed 's/value="0.5"/value="abc"/' tree/a.mtlx >worse.mtlx
+head -n 5 tree/a.mtlx >half.mtlx
+check 'documents with errors' exits 1 "$mxgen" check bad.mtlx worse.mtlx half.mtlx tree "${quick[@]}" --json bad.json
+check 'do not stop the others' says bad.json '[x["status"] for x in d]' "['failed', 'failed', 'failed', 'passed', 'passed', 'passed', 'passed']"
+check 'the stage is told' says bad.json '[x["stage"] for x in d[:3]]' "['validate', 'validate', 'load']"
+check 'the place is told' says bad.json '(d[1]["messages"][0]["id"], d[1]["messages"][0]["line"])' "('bad-value', 4)"
+check 'the line is shown' grep -q 'value="abc"' out
+check 'a fault is told once' is "$(grep -c '^worse.mtlx:4:.*error' out)" 1
+check 'the summary is last' is "$(tail -n 1 out)" "$(grep 'passed, 3 failed' out)"
+check 'every element for every target' exits 0 "$mxgen" check tree/a.mtlx -t glsl,essl -t vulkan "${quick[@]}" --json targets.json
+check 'is in the report' says targets.json '[s["target"] for s in d[0]["elements"][0]["shaders"]]' "['glsl', 'essl', 'vulkan']"
+check 'options of generation are passed on' exits 0 "$mxgen" check tree/a.mtlx --interface reduced "${quick[@]}" --json reduced.json
+check 'and make smaller shaders' eval \
+    '[ "$(json reduced.json "$uniforms")" -lt "$(json targets.json "$uniforms")" ]' # in materials.sh
+check 'text goes to stderr' exits 0 "$mxgen" check tree --json - "${quick[@]}"
+check 'where a report takes standard output' python3 -m json.tool out
+check 'two runs give the same bytes' eval '"$mxgen" check tree -j1 --no-compile --json again.json && cmp tree.json again.json'
+check '--stats' exits 0 "$mxgen" check tree --stats "${quick[@]}"
+check 'tells the slowest' grep -q 'slowest documents' out
+check 'a folder that is not there' exits 1 "$mxgen" check tree "${quick[@]}" --json none/a.json
+check 'for a report is told' grep -q output-failed err
+check 'a full disk' exits 1 "$mxgen" check tree "${quick[@]}" --json /dev/full
+check 'is told' grep -q output-failed err
+compiled=
+if [ "$compiles" = yes ]; then
+    compiled=1
+    check 'shaders are compiled' exits 0 "$mxgen" check tree/a.mtlx -t glsl,vulkan,essl --json compiled.json
+    check 'for all three' says compiled.json '[s["compiled"] and s["instructions"] > 500 for s in d[0]["elements"][0]["shaders"]]' '[True, True, True]'
+    check 'and it is told where instructions go' says compiled.json 'all(s["parts"][0]["instructions"] > 50 for s in d[0]["elements"][0]["shaders"])' True
+else
+    skip 'glslang is not installed: nothing was compiled'
+fi
+
+# The schema of JSON reports
+schema=$here/../../docs/check.schema.json
+if python3 -c 'import jsonschema' 2>/dev/null; then
+    for report in tree bad targets ${compiled:+compiled}; do
+        check "$report.json is as its schema says" validates "$schema" $report.json
+    done
+    check 'with times too' exits 0 "$mxgen" check tree --stats "${quick[@]}" --json times.json
+    check 'it is as its schema says' validates "$schema" times.json
+    sed 's/"status":"passed"/"status":"perhaps"/' tree.json >broken.json
+    check 'and what is not is found' eval '! validates "$schema" broken.json'
+else
+    skip 'python3-jsonschema is not installed: reports are not compared with the schema'
+fi
+
+# Workers that die, hang and lie
+mkdir programs && cp "$mxgen" programs/mxgen && cp "$fake" programs/mxgen-check
+mkdir odd
+touch odd/{a,b_dies,c,d_hangs,e_slow,f,g_lies,h}.mtlx
+check 'a worker that dies, one that hangs and one that lies' exits 1 programs/mxgen check odd --time-limit 1 -j3 --json odd.json
+check 'fail their documents' says odd.json '[x.get("stage", "passed") for x in d]' \
+    "['passed', 'crash', 'passed', 'timeout', 'passed', 'passed', 'crash', 'passed']"
+check 'with an id' says odd.json '[m["id"] for x in d for m in x["messages"]]' "['check-crashed', 'check-timeout', 'check-crashed']"
+check 'and say when' grep -q 'signal 9 (Killed) at: validate' out
+rm programs/mxgen-check
+check 'no worker at all' exits 1 env PATH= programs/mxgen check tree
+check 'has an id' grep -q '\[check-failed\]' err
+printf '#!/bin/sh\nexit 3\n' >programs/mxgen-check && chmod +x programs/mxgen-check
+check 'a worker that cannot begin' exits 1 programs/mxgen check tree --json nothing.json
+check 'leaves no report' test ! -e nothing.json
+
+finish check

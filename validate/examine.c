@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: Apache-2.0
+#define _POSIX_C_SOURCE 200809L
+#include "validate/examine.h"
+
+#include "cli/check/protocol.h"
+#include "validate/compile.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+double examine_clock(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec * 1e3 + (double)now.tv_nsec * 1e-6;
+}
+
+void examine_mark(const struct examiner *examiner, enum check_stage stage, const char *element, const char *target)
+{
+    char *text = *element ? cli_format("%s of '%s' for %s", check_stage_name(stage), element, target)
+                          : cli_format("%s", check_stage_name(stage));
+    frame_write(examiner->marks, FRAME_MARK, text, strlen(text));
+    free(text);
+}
+
+/* ---- Messages ---- */
+
+static const char *copy(struct examiner *examiner, const char *text)
+{
+    return text ? store_text(&examiner->store, text, strlen(text)) : "";
+}
+
+void examine_add(struct examiner *examiner, struct check_shader *shader, struct check_message message)
+{
+    message.id = copy(examiner, message.id);
+    message.text = copy(examiner, message.text);
+    message.file = copy(examiner, message.file);
+    message.element = copy(examiner, message.element);
+    message.target = copy(examiner, message.target);
+    message.rendered = copy(examiner, message.rendered);
+    uint32_t index = check_add_message(&examiner->store, examiner->document, &message);
+    for (size_t i = 0; shader && i < shader->num_messages; ++i)
+        if (shader->messages[i] == index)
+            return;
+    if (!shader)
+        return;
+    shader->messages = store_grow(&examiner->store, shader->messages, shader->num_messages, sizeof index);
+    shader->messages[shader->num_messages++] = index;
+}
+
+/* The message and its notes, as they are printed. To be freed. */
+static char *render_message(struct examiner *examiner, const mxg_diagnostics *list, uint32_t index)
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&text, &size);
+    mxg_diagnostic note = {sizeof note};
+    for (uint32_t i = index; out && mxg_diagnostics_get(list, i, &note) == MXG_OK && note.parent == index; ++i)
+        report_print(&examiner->cli->report, list, i, out);
+    if (out)
+        fclose(out);
+    return text;
+}
+
+static bool is_told(const struct examiner *examiner, const mxg_diagnostic *diagnostic, uint32_t index)
+{
+    if (diagnostic->parent != index)
+        return false; /* part of the one before */
+    return diagnostic->severity != MXG_SEVERITY_NOTE || examiner->cli->verbose;
+}
+
+static void add_diagnostics(struct examiner *examiner, const mxg_diagnostics *list, struct check_shader *shader,
+                            const char *element)
+{
+    for (uint32_t i = 0; i < mxg_diagnostics_count(list); ++i) {
+        mxg_diagnostic diagnostic = {sizeof diagnostic};
+        mxg_diagnostics_get(list, i, &diagnostic);
+        if (!is_told(examiner, &diagnostic, i))
+            continue;
+        char *rendered = render_message(examiner, list, i);
+        examine_add(examiner, shader,
+                    (struct check_message){.severity = diagnostic.severity, .id = diagnostic.id, .text = diagnostic.message,
+                                           .file = diagnostic.file, .line = diagnostic.line, .column = diagnostic.column,
+                                           .length = diagnostic.length, .element = element,
+                                           .target = shader ? shader->target : NULL, .rendered = rendered});
+        free(rendered);
+    }
+}
+
+/* What a status says beyond diagnostics. */
+static void add_status(struct examiner *examiner, mxg_status status, struct check_shader *shader, const char *element)
+{
+    if (status == MXG_OK || status == MXG_ERROR_DOCUMENT)
+        return;
+    char *rendered = cli_format("%s: error: %s [failed]\n", examiner->document->file, mxg_status_string(status));
+    examine_add(examiner, shader,
+                (struct check_message){.id = "failed", .text = mxg_status_string(status), .file = examiner->document->file,
+                                       .element = element, .target = shader ? shader->target : NULL, .rendered = rendered});
+    free(rendered);
+}
+
+/* ---- Stages ---- */
+
+static mxg_document *load(struct examiner *examiner, const char *path)
+{
+    double begin = examine_clock();
+    mxg_document *document = NULL;
+    examine_mark(examiner, CHECK_LOAD, "", "");
+    mxg_status status = mxg_document_load(examiner->cli->context, examiner->cli->library, path, &document);
+    add_diagnostics(examiner, mxg_document_diagnostics(document), NULL, NULL);
+    add_status(examiner, status, NULL, NULL);
+    if (status != MXG_OK)
+        check_fail(&examiner->document->failed, CHECK_LOAD);
+    uint32_t count = mxg_document_num_files(document);
+    examiner->document->files = store_array(&examiner->store, count, sizeof *examiner->document->files);
+    for (uint32_t i = 0; i < count; ++i)
+        examiner->document->files[examiner->document->num_files++] = copy(examiner, mxg_document_file(document, i));
+    examiner->document->load_ms = examine_clock() - begin;
+    return document;
+}
+
+static void validate(struct examiner *examiner, const mxg_document *document)
+{
+    double begin = examine_clock();
+    mxg_result *result = NULL;
+    examine_mark(examiner, CHECK_VALIDATE, "", "");
+    mxg_status status = mxg_document_validate(examiner->cli->context, document, &result);
+    add_diagnostics(examiner, mxg_result_diagnostics(result), NULL, NULL);
+    add_status(examiner, status, NULL, NULL);
+    if (status != MXG_OK)
+        check_fail(&examiner->document->failed, CHECK_VALIDATE);
+    mxg_result_destroy(result);
+    examiner->document->validate_ms = examine_clock() - begin;
+}
+
+static void generate(struct examiner *examiner, const mxg_document *document, const char *element,
+                     struct check_shader *shader)
+{
+    double begin = examine_clock();
+    mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
+    desc.target = shader->target;
+    desc.element = element;
+    desc.options = examiner->cli->options;
+    mxg_result *result = NULL;
+    examine_mark(examiner, CHECK_GENERATE, element, shader->target);
+    mxg_status status = mxg_generate(examiner->cli->context, document, &desc, &result);
+    add_diagnostics(examiner, mxg_result_diagnostics(result), shader, element);
+    add_status(examiner, status, shader, element);
+    if (status != MXG_OK)
+        check_fail(&shader->failed, CHECK_GENERATE);
+    shader->generate_ms = examine_clock() - begin;
+    if (status == MXG_OK)
+        examine_shader(examiner, result, shader, element);
+    check_fail(&examiner->document->failed, shader->failed);
+    mxg_result_destroy(result);
+}
+
+static void examine_element(struct examiner *examiner, const mxg_document *document, struct check_element *element)
+{
+    element->picture = element->signature = "";
+    element->shaders = store_array(&examiner->store, examiner->targets.len, sizeof *element->shaders);
+    for (size_t i = 0; i < examiner->targets.len; ++i) {
+        struct check_shader *shader = &element->shaders[element->num_shaders++];
+        shader->target = examiner->targets.items[i];
+        shader->topology = "";
+        generate(examiner, document, element->path, shader);
+    }
+}
+
+const struct check_document *examine(struct examiner *examiner, const char *path)
+{
+    store_finish(&examiner->store);
+    struct check_document *record = examiner->document = store_alloc(&examiner->store, sizeof *record);
+    record->file = copy(examiner, path);
+    mxg_document *document = load(examiner, path);
+    if (document && record->num_files)
+        validate(examiner, document);
+    uint32_t count = mxg_document_num_renderables(document);
+    record->elements = store_array(&examiner->store, count, sizeof *record->elements);
+    for (uint32_t i = 0; i < count; ++i) {
+        mxg_renderable renderable = {sizeof renderable};
+        mxg_document_renderable(document, i, &renderable);
+        struct check_element *element = &record->elements[record->num_elements++];
+        element->path = copy(examiner, renderable.path);
+        element->type = copy(examiner, renderable.type);
+        examine_element(examiner, document, element);
+    }
+    mxg_document_destroy(document);
+    return record;
+}
+
+void examiner_finish(struct examiner *examiner)
+{
+    store_finish(&examiner->store);
+    if (examiner->is_compiler_ready)
+        compile_end();
+}

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+/* What a worker does with a document: everything that a record tells. */
+#ifndef MXG_VALIDATE_EXAMINE_H
+#define MXG_VALIDATE_EXAMINE_H
+
+#include "cli/check/record.h"
+#include "cli/cli.h"
+
+struct examiner {
+    struct cli *cli;
+    struct arg_list targets;
+    bool compile, render;
+    int marks; /* where marks go */
+
+    struct store store; /* of the document at hand */
+    struct check_document *document;
+    bool is_compiler_ready;
+};
+
+/* The record lives until the next call. */
+const struct check_document *examine(struct examiner *examiner, const char *path);
+void examiner_finish(struct examiner *examiner);
+
+/* examine_shader.c: what was generated is measured and compiled. */
+void examine_shader(struct examiner *examiner, const mxg_result *result, struct check_shader *shader, const char *element);
+
+/* Adds a message of the current document for a shader; its text is copied. */
+void examine_add(struct examiner *examiner, struct check_shader *shader, struct check_message message);
+
+/* Tells what begins, should it be the last. */
+void examine_mark(const struct examiner *examiner, enum check_stage stage, const char *element, const char *target);
+
+/* Milliseconds of a clock that only goes forward. */
+double examine_clock(void);
+
+#endif

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+/* A shader that was generated: measured, compiled, and what its instructions are for. */
+#define _POSIX_C_SOURCE 200809L
+#include "validate/compile.h"
+#include "validate/examine.h"
+#include "validate/spirv.h"
+
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define MAX_PARTS 8 /* that a record tells */
+
+/* ---- Measures ---- */
+
+enum { STD140_ROUND = 16 }; /* what blocks are aligned to */
+
+/* Bytes of a uniform that stands in no block, as its type's name tells: "vec3", "mat4", "int". */
+static uint64_t loose_size(const mxg_variable *variable)
+{
+    size_t len = strlen(variable->type);
+    char last = len ? variable->type[len - 1] : '\0';
+    unsigned n = last >= '2' && last <= '4' ? (unsigned)(last - '0') : 1;
+    unsigned components = strncmp(variable->type, "mat", 3) == 0 ? n * n : n;
+    return 4u * (uint64_t)components * (variable->array_length ? variable->array_length : 1);
+}
+
+/* Blocks end behind their last member, of the lights one is counted; what stands in no block is added up. */
+static void add_uniform(const mxg_variable *variable, uint64_t *size)
+{
+    uint64_t end = (uint64_t)variable->offset + variable->byte_size;
+    if (variable->byte_size == 0)
+        *size += loose_size(variable);
+    else if (end > *size)
+        *size = (end + STD140_ROUND - 1) / STD140_ROUND * STD140_ROUND;
+}
+
+static void measure(const mxg_result *result, struct check_shader *shader)
+{
+    uint64_t sizes[MXG_NUM_BLOCKS] = {0};
+    for (uint32_t i = 0; i < mxg_result_num_variables(result); ++i) {
+        mxg_variable variable = {sizeof variable};
+        mxg_result_variable(result, i, &variable);
+        bool is_texture = variable.block == MXG_BLOCK_TEXTURES;
+        shader->measures[MEASURE_SAMPLERS] += is_texture;
+        shader->measures[MEASURE_TEXTURES] += is_texture && *variable.path;
+        add_uniform(&variable, &sizes[variable.block]);
+    }
+    shader->measures[MEASURE_UNIFORM_BYTES] =
+        sizes[MXG_BLOCK_PUBLIC_UNIFORMS] + sizes[MXG_BLOCK_PRIVATE_UNIFORMS] + sizes[MXG_BLOCK_LIGHT_DATA];
+    for (int stage = 0; stage < MXG_NUM_STAGES; ++stage) {
+        size_t size = 0;
+        if (mxg_result_source(result, (mxg_stage)stage, &size))
+            shader->measures[MEASURE_SOURCE_BYTES] += size;
+    }
+}
+
+/* ---- Parts ---- */
+
+static void add_part(struct store *store, struct check_shader *shader, const char *name, size_t len, uint64_t instructions)
+{
+    for (size_t i = 0; i < shader->num_parts; ++i) {
+        struct check_part *part = &shader->parts[i];
+        if (strncmp(part->name, name, len) == 0 && part->name[len] == '\0') {
+            part->instructions += instructions;
+            return;
+        }
+    }
+    shader->parts = store_grow(store, shader->parts, shader->num_parts, sizeof *shader->parts);
+    shader->parts[shader->num_parts++] = (struct check_part){store_text(store, name, len), instructions};
+}
+
+/* A function by its name; a line of main by the node of the document that it was written for. */
+static void add_spirv_part(struct examiner *examiner, const mxg_result *result, mxg_stage stage,
+                           const struct spirv_part *part, struct check_shader *shader)
+{
+    const char *file = NULL, *path = NULL, *name = part->function;
+    uint32_t line = 0, column = 0;
+    if (part->line && mxg_result_source_place(result, stage, part->line, &file, &line, &column, &path) && path && *path)
+        name = path;
+    add_part(&examiner->store, shader, name, strcspn(name, "("), part->instructions);
+}
+
+static int compare_parts(const void *a, const void *b)
+{
+    const struct check_part *left = a, *right = b;
+    if (left->instructions != right->instructions)
+        return left->instructions < right->instructions ? 1 : -1;
+    return strcmp(left->name, right->name);
+}
+
+static void count_parts(struct examiner *examiner, const mxg_result *result, const struct compiled *compiled,
+                        struct check_shader *shader)
+{
+    for (int stage = 0; stage < MXG_NUM_STAGES; ++stage) {
+        const struct compiled_stage *code = &compiled->stages[stage];
+        struct spirv_part *parts = NULL;
+        size_t num_parts = 0;
+        if (code->words)
+            shader->measures[MEASURE_INSTRUCTIONS] += spirv_count(code->words, code->num_words, &parts, &num_parts);
+        for (size_t i = 0; i < num_parts; ++i)
+            add_spirv_part(examiner, result, (mxg_stage)stage, &parts[i], shader);
+        free(parts);
+    }
+    if (shader->num_parts)
+        qsort(shader->parts, shader->num_parts, sizeof *shader->parts, compare_parts);
+    if (shader->num_parts > MAX_PARTS)
+        shader->num_parts = MAX_PARTS;
+}
+
+/* ---- Compilation ---- */
+
+/* A line of the shader, below the message about it. */
+static void print_source_line(FILE *out, const char *source, uint32_t line)
+{
+    while (source && --line)
+        source = strchr(source, '\n') ? strchr(source, '\n') + 1 : NULL;
+    if (source)
+        fprintf(out, "    %.*s\n", (int)strcspn(source, "\n"), source);
+}
+
+/* A message of the compiler stands at the place in the document that its line comes from. */
+static void add_compile_message(struct examiner *examiner, const mxg_result *result, const struct compile_message *message,
+                                struct check_shader *shader, const char *element)
+{
+    static const char *const stages[MXG_NUM_STAGES] = {"vertex", "pixel"};
+    const char *file = NULL, *path = NULL;
+    uint32_t line = 0, column = 0;
+    bool placed = message->line &&
+                  mxg_result_source_place(result, message->stage, message->line, &file, &line, &column, &path) && file;
+    if (!placed)
+        file = examiner->document->file;
+    char *text = cli_format("'%s', %s, %s stage, line %u: %s", path ? path : element, shader->target, stages[message->stage],
+                            message->line, message->text);
+    char *place = placed ? cli_format("%s:%u:%u", file, line, column) : cli_format("%s", file), *rendered = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&rendered, &size);
+    bool is_error = message->severity == MXG_SEVERITY_ERROR;
+    if (out) {
+        fprintf(out, "%s: %s: %s [shader-invalid]\n", place, is_error ? "error" : "warning", text);
+        if (message->line)
+            print_source_line(out, mxg_result_source(result, message->stage, NULL), message->line);
+        fclose(out);
+    }
+    examine_add(examiner, shader,
+                (struct check_message){.severity = message->severity, .id = "shader-invalid", .text = text, .file = file,
+                                       .line = placed ? line : 0, .column = placed ? column : 0, .element = element,
+                                       .target = shader->target, .rendered = rendered});
+    free(rendered);
+    free(place);
+    free(text);
+}
+
+static void compile(struct examiner *examiner, const mxg_result *result, struct check_shader *shader, const char *element)
+{
+    double begin = examine_clock();
+    const char *sources[MXG_NUM_STAGES];
+    for (int stage = 0; stage < MXG_NUM_STAGES; ++stage)
+        sources[stage] = mxg_result_source(result, (mxg_stage)stage, NULL);
+    examine_mark(examiner, CHECK_COMPILE, element, shader->target);
+    if (!examiner->is_compiler_ready) {
+        compile_begin();
+        examiner->is_compiler_ready = true;
+    }
+    struct compiled compiled = {0};
+    shader->compiled = true;
+    if (!compile_program(shader->target, sources, &compiled))
+        check_fail(&shader->failed, CHECK_COMPILE);
+    shader->compile_ms = examine_clock() - begin;
+    for (size_t i = 0; i < compiled.num_messages; ++i)
+        add_compile_message(examiner, result, &compiled.messages[i], shader, element);
+    count_parts(examiner, result, &compiled, shader);
+    compiled_finish(&compiled);
+}
+
+void examine_shader(struct examiner *examiner, const mxg_result *result, struct check_shader *shader, const char *element)
+{
+    mxg_shader_info info = {sizeof info};
+    mxg_result_info(result, &info);
+    char topology[17];
+    snprintf(topology, sizeof topology, "%016" PRIx64, info.topology);
+    shader->topology = store_text(&examiner->store, topology, strlen(topology));
+    shader->measures[MEASURE_CLOSURES] = info.num_closures;
+    measure(result, shader);
+    if (examiner->compile && compile_knows_target(shader->target))
+        compile(examiner, result, shader, element);
+}
