@@ -68,6 +68,10 @@ static void visit(struct counter *counter, const uint32_t *instruction)
         counter->line = op == OP_LINE ? instruction[2] : 0;
         return;
     }
+    if (op == OP_FUNCTION_END)
+        counter->function = 0;
+    if (counter->function)
+        count_instruction(counter);
     if (op == OP_ENTRY_POINT)
         counter->entry_point = instruction[2];
     if (op == OP_FUNCTION) {
@@ -75,10 +79,6 @@ static void visit(struct counter *counter, const uint32_t *instruction)
         counter->line = 0;
         add_part(counter, 0);
     }
-    if (counter->function)
-        count_instruction(counter);
-    if (op == OP_FUNCTION_END)
-        counter->function = 0;
 }
 
 uint32_t spirv_count(const uint32_t *words, size_t num_words, struct spirv_part **out_parts, size_t *out_num_parts)
