@@ -68,7 +68,7 @@ static void release_file(void *user_data, mxg_blob *blob)
 /* Loads the folders and writes their image; false after telling why not. */
 static bool pack(struct recorder *recorder, const char *image, const char *const *folders, size_t num_folders)
 {
-    const mxg_resolver resolver = {recorder, open_file, release_file};
+    const mxg_resolver resolver = {recorder, open_file, release_file, NULL};
     mxg_context_desc desc = MXG_CONTEXT_DESC_INIT;
     desc.resolver = &resolver;
     struct report report;

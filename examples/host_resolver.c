@@ -57,7 +57,7 @@ static void release_asset(void *user_data, mxg_blob *blob)
 int main(void)
 {
     int num_open = 0;
-    const mxg_resolver resolver = {&num_open, open_asset, release_asset};
+    const mxg_resolver resolver = {&num_open, open_asset, release_asset, NULL};
     mxg_context_desc context_desc = MXG_CONTEXT_DESC_INIT;
     context_desc.resolver = &resolver;
     mxg_context *context = NULL;

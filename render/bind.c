@@ -231,34 +231,6 @@ static VkSamplerAddressMode address_mode(const char *name)
     return VK_SAMPLER_ADDRESS_MODE_REPEAT;
 }
 
-/* Magenta and black, so that it cannot be taken for a material. */
-enum { CHECKER_SIZE = 8 };
-#define M 255, 0, 255, 255
-#define B 0, 0, 0, 255
-static uint8_t checker_pixels[CHECKER_SIZE * CHECKER_SIZE * 4] = {
-    M, B, M, B, M, B, M, B, B, M, B, M, B, M, B, M, M, B, M, B, M, B, M, B, B, M, B, M, B, M, B, M,
-    M, B, M, B, M, B, M, B, B, M, B, M, B, M, B, M, M, B, M, B, M, B, M, B, B, M, B, M, B, M, B, M,
-};
-#undef M
-#undef B
-static const struct image checker = {CHECKER_SIZE, CHECKER_SIZE, false, checker_pixels};
-
-/* Reads the file of a texture, which is relative to the document. */
-static const struct image *read_texture(struct bind *bind, const char *file)
-{
-    const char *slash = strrchr(bind->document, '/');
-    int folder = slash && file[0] != '/' ? (int)(slash - bind->document) + 1 : 0;
-    char path[4096], reason[256];
-    struct image *image = &bind->images[bind->num_images];
-    snprintf(path, sizeof path, "%.*s%s", folder, bind->document, file);
-    if (!image_read(path, image, reason, sizeof reason)) {
-        fail_as(bind, "missing-texture", "cannot read the texture '%s': %s", path, reason);
-        return bind->checker ? &checker : NULL;
-    }
-    ++bind->num_images;
-    return image;
-}
-
 /* An environment map: around in u, and at its end at the poles. */
 static struct draw_texture environment_texture(const struct image *image)
 {
@@ -279,33 +251,31 @@ static struct draw_texture test_texture(const struct image *image)
                                  .filter = VK_FILTER_LINEAR};
 }
 
-/* A texture of the document: its file, or the user's, or plain black where there is none. */
-static struct draw_texture document_texture(struct bind *bind, const mxg_variable *variable)
+/* A texture of the document: its files, or the user's. Its image is NULL on failure. */
+static struct draw_texture document_texture(struct bind *bind, uint32_t index, const mxg_variable *variable)
 {
-    static uint8_t black[4] = {0, 0, 0, 255};
-    static const struct image empty = {1, 1, false, black};
-    const char *file = user_value(bind, variable);
-    if (!file)
-        file = variable->file;
-    const struct image *image = file && *file ? read_texture(bind, file) : &empty;
-    bool is_closest = strcmp(variable->filtertype, "closest") == 0 || image == &checker;
-    return (struct draw_texture){.image = image,
+    struct image *image = &bind->images[bind->num_images];
+    bool is_checker = false, good = bind_read_texture(bind, index, variable, user_value(bind, variable), image, &is_checker);
+    bool is_closest = strcmp(variable->filtertype, "closest") == 0 || is_checker;
+    bind->num_images += good;
+    return (struct draw_texture){.image = good ? image : NULL,
                                  .bottom_first = true,
                                  .u = address_mode(variable->uaddressmode),
                                  .v = address_mode(variable->vaddressmode),
                                  .filter = is_closest ? VK_FILTER_NEAREST : VK_FILTER_LINEAR,
-                                 .has_mips = image != &checker};
+                                 .has_mips = !is_checker};
 }
 
-static bool bind_texture(struct bind *bind, const mxg_variable *variable)
+static bool bind_texture(struct bind *bind, uint32_t index, const mxg_variable *variable)
 {
     if (bind->draw.num_textures == DRAW_MAX_TEXTURES || variable->set >= DRAW_MAX_SETS)
         return fail(bind, "the shader has more than %u textures", DRAW_MAX_TEXTURES);
     const struct scene *scene = bind->scene;
     const struct image *environment = scene_image(scene, variable->name);
-    struct draw_texture texture = environment             ? environment_texture(environment)
-                                  : scene->texture.pixels ? test_texture(&scene->texture)
-                                                          : document_texture(bind, variable);
+    bool is_test = scene->texture.pixels && !variable->num_tiles;
+    struct draw_texture texture = environment ? environment_texture(environment)
+                                  : is_test   ? test_texture(&scene->texture)
+                                              : document_texture(bind, index, variable);
     texture.set = variable->set;
     texture.binding = variable->binding;
     bind->draw.textures[bind->draw.num_textures++] = texture;
@@ -316,7 +286,7 @@ static bool bind_textures(struct bind *bind)
 {
     for (uint32_t i = 0; i < mxg_result_num_variables(bind->result); ++i) {
         mxg_variable variable = get_variable(bind, i);
-        if (variable.block == MXG_BLOCK_TEXTURES && !bind_texture(bind, &variable))
+        if (variable.block == MXG_BLOCK_TEXTURES && !bind_texture(bind, i, &variable))
             return false;
     }
     return true;

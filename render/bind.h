@@ -38,6 +38,12 @@ struct bind {
 bool bind_shader(struct bind *bind);
 /* Again what depends on the camera and other uniforms of the scene. */
 bool bind_scene(struct bind *bind);
+/*
+ * texture_files.c: the image of a texture, to be finished; `file` is the user's, NULL: the document's. *out_checker where a checker
+ * stands for a missing file. False: see bind->reason.
+ */
+bool bind_read_texture(struct bind *bind, uint32_t index, const mxg_variable *variable, const char *file, struct image *out,
+                       bool *out_checker);
 void bind_finish(struct bind *bind);
 
 #endif

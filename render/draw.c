@@ -31,10 +31,10 @@ static bool create_targets(struct draw_program *program)
 {
     struct gpu *gpu = program->gpu;
     uint32_t width = program->draw->width, height = program->draw->height;
-    return gpu_create_image(gpu, COLOR_FORMAT, width, height, 1,
+    return gpu_create_image(gpu, COLOR_FORMAT, width, height, 0, 1,
                             VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
                             VK_IMAGE_ASPECT_COLOR_BIT, &program->color) &&
-           gpu_create_image(gpu, DEPTH_FORMAT, width, height, 1, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT,
+           gpu_create_image(gpu, DEPTH_FORMAT, width, height, 0, 1, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT,
                             VK_IMAGE_ASPECT_DEPTH_BIT, &program->depth) &&
            gpu_create_buffer(gpu, VK_BUFFER_USAGE_TRANSFER_DST_BIT, NULL, (size_t)width * height * 4 * sizeof(float),
                              &program->readback);

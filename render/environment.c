@@ -47,7 +47,7 @@ static void texel_direction(const struct image *map, uint32_t x, uint32_t y, dou
 
 static bool make_map(struct image *out, uint32_t width, uint32_t height, void (*value)(const double d[3], float out[3]))
 {
-    *out = (struct image){width, height, true, malloc((size_t)width * height * 4 * sizeof(float))};
+    *out = (struct image){.width = width, .height = height, .is_float = true, .pixels = malloc((size_t)width * height * 4 * sizeof(float))};
     float *texel = out->pixels;
     for (uint32_t y = 0; texel && y < height; ++y) {
         for (uint32_t x = 0; x < width; ++x, texel += 4) {
@@ -166,7 +166,7 @@ bool environment_irradiance(const struct image *radiance, struct image *out)
 bool environment_make_test_texture(struct image *out)
 {
     enum { SIZE = 64 };
-    *out = (struct image){SIZE, SIZE, true, malloc(SIZE * SIZE * 4 * sizeof(float))};
+    *out = (struct image){.width = SIZE, .height = SIZE, .is_float = true, .pixels = malloc(SIZE * SIZE * 4 * sizeof(float))};
     float *texel = out->pixels;
     for (int y = 0; texel && y < SIZE; ++y) {
         for (int x = 0; x < SIZE; ++x, texel += 4) {

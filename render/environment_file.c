@@ -33,7 +33,7 @@ static void make_sane(struct image *image)
 
 bool environment_read(const char *path, struct image *out, char *reason, size_t capacity)
 {
-    if (!image_read(path, out, reason, capacity))
+    if (!image_read(path, "", out, reason, capacity))
         return false;
     if (!out->is_float && !make_linear(out)) {
         snprintf(reason, capacity, "out of memory");

@@ -175,17 +175,22 @@ void gpu_destroy_buffer(struct gpu *gpu, struct gpu_buffer *buffer)
     vkFreeMemory(gpu->device, buffer->memory, NULL);
 }
 
-bool gpu_create_image(struct gpu *gpu, VkFormat format, uint32_t width, uint32_t height, uint32_t mips,
+static uint32_t num_layers(const struct gpu_image *image)
+{
+    return image->layers ? image->layers : 1;
+}
+
+bool gpu_create_image(struct gpu *gpu, VkFormat format, uint32_t width, uint32_t height, uint32_t layers, uint32_t mips,
                       VkImageUsageFlags usage, VkImageAspectFlags aspect, struct gpu_image *out)
 {
-    *out = (struct gpu_image){.format = format, .width = width, .height = height, .mips = mips};
+    *out = (struct gpu_image){.format = format, .width = width, .height = height, .mips = mips, .layers = layers};
     const VkImageCreateInfo info = {
         .sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO,
         .imageType = VK_IMAGE_TYPE_2D,
         .format = format,
         .extent = {width, height, 1},
         .mipLevels = mips,
-        .arrayLayers = 1,
+        .arrayLayers = num_layers(out),
         .samples = VK_SAMPLE_COUNT_1_BIT,
         .usage = usage,
     };
@@ -199,9 +204,9 @@ bool gpu_create_image(struct gpu *gpu, VkFormat format, uint32_t width, uint32_t
     const VkImageViewCreateInfo view = {
         .sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO,
         .image = out->image,
-        .viewType = VK_IMAGE_VIEW_TYPE_2D,
+        .viewType = layers ? VK_IMAGE_VIEW_TYPE_2D_ARRAY : VK_IMAGE_VIEW_TYPE_2D,
         .format = format,
-        .subresourceRange = {aspect, 0, mips, 0, 1},
+        .subresourceRange = {aspect, 0, mips, 0, VK_REMAINING_ARRAY_LAYERS},
     };
     return gpu_check(gpu, vkCreateImageView(gpu->device, &view, NULL, &out->view), "making an image view");
 }
@@ -252,7 +257,7 @@ void gpu_image_barrier(VkCommandBuffer commands, VkImage image, VkImageAspectFla
         .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
         .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
         .image = image,
-        .subresourceRange = {aspect, first_mip, num_mips, 0, 1},
+        .subresourceRange = {aspect, first_mip, num_mips, 0, VK_REMAINING_ARRAY_LAYERS},
     };
     vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, 0, 0, NULL,
                          0, NULL, 1, &barrier);
@@ -273,9 +278,9 @@ static void make_mips(VkCommandBuffer commands, const struct gpu_image *image)
         gpu_image_barrier(commands, image->image, VK_IMAGE_ASPECT_COLOR_BIT, mip - 1, 1,
                           VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
         const VkImageBlit blit = {
-            .srcSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, mip - 1, 0, 1},
+            .srcSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, mip - 1, 0, num_layers(image)},
             .srcOffsets = {{0, 0, 0}, {(int32_t)width, (int32_t)height, 1}},
-            .dstSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, mip, 0, 1},
+            .dstSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, mip, 0, num_layers(image)},
             .dstOffsets = {{0, 0, 0}, {(int32_t)half(width), (int32_t)half(height), 1}},
         };
         vkCmdBlitImage(commands, image->image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, image->image,
@@ -297,7 +302,7 @@ static bool fill_texture(struct gpu *gpu, const struct gpu_buffer *staging, cons
         return false;
     gpu_image_barrier(commands, image->image, VK_IMAGE_ASPECT_COLOR_BIT, 0, image->mips, VK_IMAGE_LAYOUT_UNDEFINED,
                       VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
-    const VkBufferImageCopy copy = {.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
+    const VkBufferImageCopy copy = {.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, num_layers(image)},
                                     .imageExtent = {image->width, image->height, 1}};
     vkCmdCopyBufferToImage(commands, staging->buffer, image->image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &copy);
     make_mips(commands, image);
@@ -307,16 +312,17 @@ static bool fill_texture(struct gpu *gpu, const struct gpu_buffer *staging, cons
 bool gpu_upload_texture(struct gpu *gpu, const struct image *image, bool bottom_first, struct gpu_image *out)
 {
     size_t row = (size_t)image->width * 4 * (image->is_float ? sizeof(float) : 1);
+    size_t rows = (size_t)image->height * (image->layers ? image->layers : 1);
     struct gpu_buffer staging;
-    bool good = gpu_create_buffer(gpu, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, NULL, row * image->height, &staging);
-    for (uint32_t y = 0; good && y < image->height; ++y) {
-        uint32_t from = bottom_first ? image->height - 1 - y : y;
+    bool good = gpu_create_buffer(gpu, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, NULL, row * rows, &staging);
+    for (size_t y = 0; good && y < rows; ++y) {
+        size_t in_layer = y % image->height, from = bottom_first ? y - in_layer + image->height - 1 - in_layer : y;
         memcpy((char *)staging.mapped + row * y, (const char *)image->pixels + row * from, row);
     }
     VkFormat format = image->is_float ? VK_FORMAT_R32G32B32A32_SFLOAT : VK_FORMAT_R8G8B8A8_UNORM;
     *out = (struct gpu_image){0};
     good = good &&
-           gpu_create_image(gpu, format, image->width, image->height, image_num_mips(image),
+           gpu_create_image(gpu, format, image->width, image->height, image->layers, image_num_mips(image),
                             VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT |
                                 VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
                             VK_IMAGE_ASPECT_COLOR_BIT, out) &&

@@ -35,6 +35,7 @@ struct gpu_image {
     VkDeviceMemory memory;
     VkFormat format;
     uint32_t width, height, mips;
+    uint32_t layers; /* 0: it is no array */
 };
 
 /* Opens the first device that can draw, a real one before the processor. gpu_close must follow in any case. */
@@ -49,7 +50,8 @@ bool gpu_create_buffer(struct gpu *gpu, VkBufferUsageFlags usage, const void *da
                        struct gpu_buffer *out);
 void gpu_destroy_buffer(struct gpu *gpu, struct gpu_buffer *buffer);
 
-bool gpu_create_image(struct gpu *gpu, VkFormat format, uint32_t width, uint32_t height, uint32_t mips,
+/* With layers above 0 it is an array. */
+bool gpu_create_image(struct gpu *gpu, VkFormat format, uint32_t width, uint32_t height, uint32_t layers, uint32_t mips,
                       VkImageUsageFlags usage, VkImageAspectFlags aspect, struct gpu_image *out);
 void gpu_destroy_image(struct gpu *gpu, struct gpu_image *image);
 

@@ -17,10 +17,17 @@ struct image {
     uint32_t width, height;
     bool is_float; /* float, else uint8_t of a whole */
     void *pixels;  /* malloc; NULL: no image */
+    uint32_t layers; /* that many pictures of this size, one after another, for a texture array; 0: one, for a plain texture */
 };
 
-/* Reads a picture; on failure false, with why in `reason`. Values are those of the file: no colour space is changed. */
-bool image_read(const char *path, struct image *out, char *reason, size_t capacity);
+/*
+ * Reads a picture; on failure false, with why in `reason`. Values are those of the file: no colour space is changed. `layer` names a part
+ * of a file that has several, or the channels that have it as prefix ("diffuse.R"); "" is the first.
+ */
+bool image_read(const char *path, const char *layer, struct image *out, char *reason, size_t capacity);
+
+/* layers.c: the pictures as layers of one, each at the size of the largest. False: there is no memory. */
+bool image_stack(const struct image *parts, uint32_t count, struct image *out);
 
 /* Whether files of this name hold linear light as floats: EXR, HDR, PFM. */
 bool image_is_linear(const char *path);

@@ -31,18 +31,45 @@ template <typename T> void spread(T *pixels, size_t count, int channels, T one)
     }
 }
 
+/* Channels [begin, end) of a subimage. */
+struct Part {
+    int subimage = 0, begin = 0, end = 0;
+};
+
+/* A part of that name, or the channels "name.R", "name.G"… of one; "" is all of the first. */
+bool find_layer(OIIO::ImageInput &input, const std::string &layer, Part &out)
+{
+    for (int subimage = 0; input.seek_subimage(subimage, 0); ++subimage) {
+        const OIIO::ImageSpec &spec = input.spec();
+        out = {subimage, 0, spec.nchannels};
+        if (layer.empty() || spec.get_string_attribute("oiio:subimagename") == layer || spec.get_string_attribute("name") == layer)
+            return true;
+        auto belongs = [&](int channel) { return spec.channelnames[static_cast<size_t>(channel)].rfind(layer + '.', 0) == 0; };
+        while (out.begin < spec.nchannels && !belongs(out.begin))
+            ++out.begin;
+        for (out.end = out.begin; out.end < spec.nchannels && belongs(out.end);)
+            ++out.end;
+        if (out.end > out.begin)
+            return true;
+    }
+    return false;
+}
+
 } // namespace
 
-bool image_read(const char *path, struct image *out, char *reason, size_t capacity)
+bool image_read(const char *path, const char *layer, struct image *out, char *reason, size_t capacity)
 {
     *out = {};
     auto input = OIIO::ImageInput::open(path);
     if (!input)
         return fail(reason, capacity, OIIO::geterror());
-    const OIIO::ImageSpec &spec = input->spec();
-    if (spec.width <= 0 || spec.height <= 0 || spec.nchannels <= 0)
+    Part part;
+    if (!find_layer(*input, layer, part))
+        return fail(reason, capacity, std::string("it has no layer '") + layer + "'");
+    const OIIO::ImageSpec spec = input->spec(part.subimage);
+    int channels = part.end - part.begin < 4 ? part.end - part.begin : 4;
+    if (spec.width <= 0 || spec.height <= 0 || channels <= 0)
         return fail(reason, capacity, "the picture is empty");
-    int channels = spec.nchannels < 4 ? spec.nchannels : 4;
     out->is_float = spec.format != OIIO::TypeDesc::UINT8;
     out->width = static_cast<uint32_t>(spec.width);
     out->height = static_cast<uint32_t>(spec.height);
@@ -51,7 +78,7 @@ bool image_read(const char *path, struct image *out, char *reason, size_t capaci
     if (!out->pixels)
         return fail(reason, capacity, "out of memory");
     OIIO::TypeDesc type = out->is_float ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT8;
-    if (!input->read_image(0, 0, 0, channels, type, out->pixels)) {
+    if (!input->read_image(part.subimage, 0, part.begin, part.begin + channels, type, out->pixels)) {
         fail(reason, capacity, input->geterror());
         image_finish(out);
         return false;

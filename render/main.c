@@ -32,7 +32,7 @@ struct job {
     struct painter painter;
     const char *output, *element, *look, *size, *camera, *scene, *background, *missing_texture;
     struct arg_list settings, environments;
-    size_t samples, frames;
+    size_t samples, frame, frames;
     enum scene_kind scene_kind;
     struct bind_value *values;
     struct arg_list found; /* documents, of folders too; allocated */
@@ -154,7 +154,8 @@ static bool parse(struct job *job)
         fprintf(stderr, "mxgen: a turntable has at most %d pictures\n", MAX_FRAMES);
         return false;
     }
-    job->painter.fixed_texture_modes = is_set(&job->cli, "texture-modes");
+    if (!is_set(&job->cli, "texture-modes")) /* samplers here have neither borders of any colour nor cubic filters */
+        mxg_options_set(job->cli.options, "texture-modes", "shared");
     job->values = split_settings(&job->settings);
     job->painter.values = job->values;
     job->painter.num_values = job->settings.len;
@@ -215,6 +216,7 @@ static bool prepare(struct job *job)
     if (!make_scene(job))
         return false;
     painter->scene.environment_samples = (uint32_t)job->samples;
+    painter->scene.frame = (int32_t)job->frame;
     return open_gpu(job);
 }
 
@@ -480,7 +482,7 @@ int main(int argc, char **argv)
 {
     static const struct command command = {"render", "render FILE|FOLDER... -o PICTURE.png [options]",
                                            "Draws materials, without a display: one, or a sheet of many.", NULL};
-    struct job job = {.scene = "studio", .background = "backdrop", .missing_texture = "error", .samples = 16,
+    struct job job = {.scene = "studio", .background = "backdrop", .missing_texture = "error", .samples = 16, .frame = SCENE_FRAME,
                       .painter.studio = STUDIO_DEFAULTS};
     const struct arg args[] = {
         {"output", 'o', ARG_TEXT, "FILE", "the picture to write; the ending chooses the format", &job.output},
@@ -498,6 +500,7 @@ int main(int argc, char **argv)
         {"set", 0, ARG_LIST, "PATH=VALUE", "another value for an input, or file for a texture", &job.settings},
         {"missing-texture", 0, ARG_TEXT, "error|checker", "what to do without a texture: fail, or draw a checker in its place",
          &job.missing_texture},
+        {"frame", 0, ARG_SIZE, "N", "the frame: of images with {frame} in their names too (default: 33)", &job.frame},
         {"turntable", 0, ARG_SIZE, "N", "N pictures from around: FILE gets a number before its ending", &job.frames},
         {"scene", 0, ARG_TEXT, "NAME",
          "studio; sphere; plane, to see a pattern; grid: prints the values of 4x4 pixels for each element (default: studio)",

@@ -6,11 +6,6 @@
 
 /* ---- Shaders ---- */
 
-static bool set_texture_modes(struct painter *painter, const char *mode)
-{
-    return report_status(&painter->cli->report, mxg_options_set(painter->cli->options, "texture-modes", mode));
-}
-
 static bool generate(struct painter *painter, const struct subject *subject, mxg_result **out)
 {
     mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
@@ -21,32 +16,6 @@ static bool generate(struct painter *painter, const struct subject *subject, mxg
     if (*out)
         report_list(&painter->cli->report, mxg_result_diagnostics(*out));
     return report_status(&painter->cli->report, status);
-}
-
-/* Samplers have neither borders of any colour nor cubic filters. */
-static bool is_beyond_samplers(const mxg_result *result)
-{
-    for (uint32_t i = 0; i < mxg_result_num_variables(result); ++i) {
-        mxg_variable variable = {sizeof variable};
-        mxg_result_variable(result, i, &variable);
-        if (variable.block == MXG_BLOCK_TEXTURES &&
-            (strcmp(variable.uaddressmode, "constant") == 0 || strcmp(variable.vaddressmode, "constant") == 0 ||
-             strcmp(variable.filtertype, "cubic") == 0))
-            return true;
-    }
-    return false;
-}
-
-/* The shader does what samplers cannot. */
-static bool generate_fitting(struct painter *painter, const struct subject *subject, mxg_result **out)
-{
-    if (!generate(painter, subject, out))
-        return false;
-    if (painter->fixed_texture_modes || !is_beyond_samplers(*out))
-        return true;
-    mxg_result_destroy(*out);
-    *out = NULL;
-    return set_texture_modes(painter, "shader") && generate(painter, subject, out) && set_texture_modes(painter, "sampler");
 }
 
 /* ---- Drawing ---- */
@@ -62,7 +31,7 @@ static bool fail(struct painting *painting, const struct subject *subject)
 bool painting_open(struct painter *painter, const struct subject *subject, struct painting *painting)
 {
     *painting = (struct painting){.painter = painter, .scene = painter->scene};
-    if (!generate_fitting(painter, subject, &painting->result))
+    if (!generate(painter, subject, &painting->result))
         return false;
     uint32_t width = painter->width * painter->oversampling, height = painter->height * painter->oversampling;
     painting->samples = malloc((size_t)width * height * 4 * sizeof(float));

@@ -20,7 +20,6 @@ struct painter {
     const struct bind_value *values;
     size_t num_values;
     bool checker;     /* instead of a texture that is missing */
-    bool fixed_texture_modes; /* the user's choice */
     enum background background;
     double exposure;
     uint32_t width, height;

@@ -127,7 +127,7 @@ unsigned scene_uniform(const struct scene *scene, const char *name, float out[16
         const char *name;
         double value;
     } numbers[] = {
-        {"u_frame", 33},
+        {"u_frame", scene->frame},
         {"u_time", 1.37},
         {"u_numActiveLightSources", scene->num_lights},
         {"u_envRadianceMips", image_num_mips(&scene->radiance)},
@@ -240,7 +240,7 @@ static struct matrix half_turn(void)
 
 bool scene_init_sphere(struct scene *scene, double aspect)
 {
-    *scene = (struct scene){.num_lights = SCENE_NUM_LIGHTS, .environment_samples = 64, .environment = half_turn()};
+    *scene = (struct scene){.num_lights = SCENE_NUM_LIGHTS, .environment_samples = 64, .frame = SCENE_FRAME, .environment = half_turn()};
     scene_set_camera(scene, (const double[3]){0.5, 0.7, 3.4}, (const double[3]){0.05, -0.03, 0.1});
     scene->projection = matrix_perspective(40.0, aspect, 0.1, 20.0);
     scene->world = matrix_multiply(matrix_translation(0.05, -0.03, 0.1),
@@ -314,7 +314,7 @@ bool scene_init_grid(struct scene *scene)
         .normal = {{-0.25, 0.61, 0.07}, {0.35, -0.11, -0.53}, {0.91, 0.08, -0.05}},
         .texcoord = {{0.0313, 0.9371, 0.0129}, {0.0217, 0.0171, 0.9331}},
     };
-    *scene = (struct scene){.environment_samples = 64, .environment = half_turn()};
+    *scene = (struct scene){.environment_samples = 64, .frame = SCENE_FRAME, .environment = half_turn()};
     const double axis[3] = {1, 2, 3}, target[3] = {0.4, -0.3, 0.7};
     scene->world = matrix_multiply(matrix_translation(target[0], target[1], target[2]),
                                    matrix_multiply(matrix_rotation(axis, 40.0), matrix_scale(1.3, 0.8, 1.6)));
@@ -331,7 +331,7 @@ bool scene_init_plane(struct scene *scene)
         .normal = {{0, 0, 0}, {0, 0, 0}, {1, 0, 0}},
         .texcoord = {{0, 1, 0}, {0, 0, 1}},
     };
-    *scene = (struct scene){.num_lights = SCENE_NUM_LIGHTS, .environment_samples = 64, .world = matrix_identity(),
+    *scene = (struct scene){.num_lights = SCENE_NUM_LIGHTS, .environment_samples = 64, .frame = SCENE_FRAME, .world = matrix_identity(),
                             .environment = half_turn()};
     scene_set_camera(scene, (const double[3]){0, 0, 3.4}, (const double[3]){0, 0, 0});
     scene->projection = quad_projection(scene, plane.position);

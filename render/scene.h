@@ -11,6 +11,7 @@
 #include "render/mesh.h"
 
 #define SCENE_NUM_LIGHTS 3
+#define SCENE_FRAME 33
 
 struct scene {
     struct matrix world, view, projection;
@@ -18,6 +19,7 @@ struct scene {
     struct mesh mesh;
     uint32_t num_lights;
     uint32_t environment_samples;
+    int32_t frame;
     struct matrix environment; /* from directions in the world to those in the map */
     struct image radiance, irradiance; /* latitude-longitude, first row towards +y */
     struct image texture;              /* what every texture of the document shows; may have none */

@@ -108,6 +108,12 @@ typedef struct mxg_resolver {
     void *user_data;
     bool (*open)(void *user_data, const char *from, const char *ref, mxg_blob *out_blob, const char **out_reason);
     void (*release)(void *user_data, mxg_blob *blob);
+    /*
+     * The names in a folder of textures, which `folder` names as `ref` names a file ("" is that of `from`): each with its NUL behind it, into
+     * `names`. Returns the bytes that all names need, 0 for no such folder; where that is more than `capacity`, nothing is read and it is
+     * called again. NULL: the tiles of images (<UDIM>) are those that the document lists.
+     */
+    size_t (*list_folder)(void *user_data, const char *from, const char *folder, char *names, size_t capacity);
 } mxg_resolver;
 
 typedef struct mxg_context_desc {
@@ -322,9 +328,27 @@ typedef struct mxg_variable {
     const char *file, *uaddressmode, *vaddressmode, *filtertype;
     /* user interface, from the definition: "" where absent */
     const char *uiname, *uifolder, *uimin, *uimax, *uisoftmin, *uisoftmax, *doc;
+    /* textures: the layer of the file, by name; the frames of a sequence; the tiles of an image, whose files are layers of an array */
+    const char *layer, *framerange, *frameendaction;
+    int32_t frameoffset;
+    uint32_t num_tiles;
 } mxg_variable;
 MXG_API uint32_t mxg_result_num_variables(const mxg_result *result);
 MXG_API mxg_status mxg_result_variable(const mxg_result *result, uint32_t index, mxg_variable *out);
+/* A tile of a texture: what texture coordinates from (u, v) to (u + 1, v + 1) show, and which is layer `tile` of the array. */
+typedef struct mxg_tile {
+    size_t size; /* in */
+    const char *file;
+    int32_t u, v;
+} mxg_tile;
+MXG_API mxg_status mxg_result_tile(const mxg_result *result, uint32_t variable, uint32_t tile, mxg_tile *out);
+/*
+ * The file of a texture, or of a tile of it, at a frame: {frame} and {04frame} replaced, with the offset, range and end action that the
+ * document gives. Writes as much as fits and a NUL; returns the length, 0 where there is no file for the frame: the default is shown.
+ */
+MXG_API size_t mxg_result_texture_file(const mxg_result *result, uint32_t variable, uint32_t tile, int32_t frame, char *out,
+                                       size_t capacity);
+
 /* Index of the variable of a document path; false: there is none (unused, or compiled in). */
 MXG_API bool mxg_result_find_variable(const mxg_result *result, const char *path, uint32_t *out_index);
 

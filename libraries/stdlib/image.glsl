@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Textures. Address modes and filters are the sampler's work: reflection tells them to the host. For hosts that can only
-// repeat and filter linearly they are arithmetic on coordinates, of which no more is left than the modes ask for: those
-// are known at compile time.
+// Textures. Address modes and filters are the sampler's work: reflection tells them to the host. On demand they are
+// arithmetic on coordinates, of which no more is left than the modes ask for: those are known at compile time.
 
-const int option_texture_modes = 0; // who applies the modes: 0 the host's sampler, 1 the functions below
+// Who applies the modes: 0 the host's sampler; 1 shared: the functions below do what not every sampler can, cubic filters and
+// borders of a colour; 2 the functions below, over a sampler that repeats and filters linearly.
+const int option_texture_modes = 0;
 
 // Cubic B-spline filtering by four linear lookups: Christian Sigg and Markus Hadwiger, "Fast Third-Order Texture
 // Filtering", GPU Gems 2, 2005, chapter 20. Each lookup stands for two texels of a row and two of a column, between
@@ -30,14 +31,12 @@ vec4 mx_sample_cubic(sampler2D file, vec2 uv)
 
 vec4 mx_sample(sampler2D file, vec2 uv, string filtertype)
 {
-    if (option_texture_modes == 0)
-        return texture(file, uv);
-    if (filtertype == "closest") {
+    if (option_texture_modes >= 1 && filtertype == "cubic")
+        return mx_sample_cubic(file, uv);
+    if (option_texture_modes == 2 && filtertype == "closest") {
         vec2 size = vec2(textureSize(file, 0));
         return textureLod(file, (floor(uv * size) + 0.5) / size, 0.0);
     }
-    if (filtertype == "cubic")
-        return mx_sample_cubic(file, uv);
     return texture(file, uv);
 }
 
@@ -60,9 +59,12 @@ bool mx_outside(float x, string mode)
 vec4 mx_image(sampler2D file, vec4 fallback, vec2 texcoord, string uaddressmode, string vaddressmode, string filtertype)
 {
     if (option_texture_modes == 0)
-        return texture(file, texcoord);
-    ivec2 size = textureSize(file, 0);
-    vec2 uv = vec2(mx_address(texcoord.x, size.x, uaddressmode), mx_address(texcoord.y, size.y, vaddressmode));
+        return mx_sample(file, texcoord, filtertype);
+    vec2 uv = texcoord;
+    if (option_texture_modes == 2) {
+        ivec2 size = textureSize(file, 0);
+        uv = vec2(mx_address(uv.x, size.x, uaddressmode), mx_address(uv.y, size.y, vaddressmode));
+    }
     vec4 texel = mx_sample(file, uv, filtertype);
     return mx_outside(texcoord.x, uaddressmode) || mx_outside(texcoord.y, vaddressmode) ? fallback : texel;
 }

@@ -128,6 +128,8 @@ extern const char stdio_no_memory[];
 
 /* folder.c: is the path a folder? And every file below it whose name ends with `suffix`, sorted. */
 bool folder_exists(const char *path);
+/* The names in a folder, each with its NUL, and the bytes that all need; those that do not fit are left out. NULL, or why not. */
+const char *folder_names(const char *folder, char *names, size_t capacity, size_t *out_size);
 struct path_list {
     const char **items;
     uint32_t len, cap;

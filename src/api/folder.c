@@ -36,27 +36,32 @@ static int compare(const void *a, const void *b)
     return strcmp(*(const char *const *)a, *(const char *const *)b);
 }
 
+const char *folder_names(const char *folder, char *names, size_t capacity, size_t *out_size)
+{
+    *out_size = 0;
+    DIR *dir = opendir(folder);
+    if (!dir)
+        return strerror(errno);
+    for (const struct dirent *entry; (entry = readdir(dir)) != NULL;) {
+        size_t len = strlen(entry->d_name) + 1;
+        if (*out_size + len <= capacity)
+            memcpy(names + *out_size, entry->d_name, len);
+        *out_size += len;
+    }
+    closedir(dir);
+    return NULL;
+}
+
 /* The names in a folder as paths: a jump out of memory must not cross the open folder, so they are counted first. */
 static const char *list_one(struct arena *arena, const char *folder, struct path_list *out)
 {
-    size_t size = 0;
+    size_t size = 0, capacity = 0;
     char *names = NULL;
-    for (size_t capacity = 0;; capacity = size) {
-        DIR *dir = opendir(folder);
-        if (!dir)
-            return strerror(errno);
-        size = 0;
-        for (const struct dirent *entry; (entry = readdir(dir)) != NULL;) {
-            size_t len = strlen(entry->d_name) + 1;
-            if (size + len <= capacity)
-                memcpy(names + size, entry->d_name, len);
-            size += len;
-        }
-        closedir(dir);
-        if (size <= capacity)
-            break;
-        names = arena_alloc(arena, size);
-    }
+    const char *reason;
+    while ((reason = folder_names(folder, names, capacity, &size)) == NULL && size > capacity)
+        names = arena_alloc(arena, capacity = size);
+    if (reason)
+        return reason;
     for (size_t at = 0; at < size; at += strlen(names + at) + 1)
         if (names[at] != '.') /* hidden files, and the folder and its parent */
             vec_push(arena, out, join(arena, folder, names + at));

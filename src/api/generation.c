@@ -85,6 +85,9 @@ static void set_build_options(struct generation *g)
         .neutral_names = o[OPTION_names].number != 0,
         .environment = o[OPTION_environment].number,
         .texture_modes = o[OPTION_texture_modes].number,
+        .tiles = o[OPTION_tiles].number == 0 && g->result->target->caps & CAP_TEXTURE_ARRAYS,
+        .list_folder = context->resolver.list_folder,
+        .list_user_data = context->resolver.user_data,
         .cancel = context->cancel,
         .cancel_user_data = context->cancel_user_data,
     };

@@ -63,6 +63,14 @@ void generation_start_closures(struct generation *g); /* what the closure room a
 bool generation_emit(struct generation *g);  /* the stages' effects, and the finished shader */
 bool generation_spell(struct generation *g); /* source */
 
+/* frames.c: the frames of an image sequence, as a document says them: "10-99", "clamp". */
+struct frame_sequence {
+    const char *range, *end_action;
+    int32_t offset;
+};
+/* Writes the file of a frame as mxg_result_texture_file does. */
+size_t frame_file(const char *file, const struct frame_sequence *sequence, int32_t frame, char *out, size_t capacity);
+
 /* globs.c: warns of globs in the options that match nothing. */
 void generation_check_globs(struct generation *g);
 

@@ -77,13 +77,50 @@ mxg_status mxg_result_variable(const mxg_result *result, uint32_t index, mxg_var
         .array_stride = v->array_stride,
         .matrix_stride = v->matrix_stride,
         .file = text_of(result, v->file),
-        .uaddressmode = text_of(result, v->uaddressmode),
-        .vaddressmode = text_of(result, v->vaddressmode),
-        .filtertype = text_of(result, v->filtertype),
+        .uaddressmode = text_of(result, v->sampling.uaddressmode),
+        .vaddressmode = text_of(result, v->sampling.vaddressmode),
+        .filtertype = text_of(result, v->sampling.filtertype),
+        .layer = text_of(result, v->sampling.layer),
+        .framerange = text_of(result, v->sampling.framerange),
+        .frameendaction = text_of(result, v->sampling.frameendaction),
+        .frameoffset = v->sampling.frameoffset,
+        .num_tiles = v->num_tiles,
     };
     set_default(v, &full);
     set_user_interface(result, v, &full);
     return struct_write(out, &full, sizeof full);
+}
+
+static const struct shader_tile *tile_at(const mxg_result *result, uint32_t variable, uint32_t tile)
+{
+    if (variable >= mxg_result_num_variables(result) || tile >= variable_at(result, variable)->num_tiles)
+        return NULL;
+    return &result->shader.tiles.items[variable_at(result, variable)->first_tile + tile];
+}
+
+mxg_status mxg_result_tile(const mxg_result *result, uint32_t variable, uint32_t index, mxg_tile *out)
+{
+    const struct shader_tile *tile = tile_at(result, variable, index);
+    if (!tile)
+        return MXG_ERROR_ARGUMENT;
+    mxg_tile full = {.file = text_of(result, tile->file), .u = tile->u, .v = tile->v};
+    return struct_write(out, &full, sizeof full);
+}
+
+size_t mxg_result_texture_file(const mxg_result *result, uint32_t variable, uint32_t tile, int32_t frame, char *out,
+                               size_t capacity)
+{
+    if (out && capacity)
+        *out = '\0';
+    if (variable >= mxg_result_num_variables(result))
+        return 0;
+    const struct shader_variable *v = variable_at(result, variable);
+    const struct shader_tile *part = tile_at(result, variable, tile);
+    if (v->num_tiles && !part)
+        return 0;
+    const struct frame_sequence sequence = {text_of(result, v->sampling.framerange), text_of(result, v->sampling.frameendaction),
+                                            v->sampling.frameoffset};
+    return frame_file(text_of(result, part ? part->file : v->file), &sequence, frame, out, capacity);
 }
 
 bool mxg_result_find_variable(const mxg_result *result, const char *path, uint32_t *out_index)

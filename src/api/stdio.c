@@ -133,7 +133,20 @@ static void release_file(void *user_data, mxg_blob *blob)
     release(user_data, blob->handle);
 }
 
+static size_t list_folder(void *user_data, const char *from, const char *folder, char *names, size_t capacity)
+{
+    struct mxg_context *context = user_data;
+    size_t size = 0;
+    for (int i = 0; i < 2 && !size; i++) {
+        struct block *name = join(context, i == 0 ? from : "", folder);
+        if (name)
+            folder_names(name->bytes[0] ? name->bytes : ".", names, capacity, &size);
+        release(context, name);
+    }
+    return size;
+}
+
 mxg_resolver stdio_resolver(struct mxg_context *context)
 {
-    return (mxg_resolver){.user_data = context, .open = open_file, .release = release_file};
+    return (mxg_resolver){.user_data = context, .open = open_file, .release = release_file, .list_folder = list_folder};
 }

@@ -48,7 +48,7 @@ struct builder *build_start(const struct library *lib, const struct build_option
     b->arena = shader->arena;
     b->diags = diags;
     b->resolved.arena = b->arena;
-    b->host = (struct lang_host){.user_data = b, .global = global_node, .max_inline_nodes = INLINE_NODES};
+    b->host = (struct lang_host){.user_data = b, .global = global_node, .texture = build_read_tiles, .max_inline_nodes = INLINE_NODES};
     b->document = ARENA_NEW(b->arena, struct instance);
     b->document->nodedef = LIBRARY_NONE;
     b->document->first = lib->doc.first_element;

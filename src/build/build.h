@@ -27,6 +27,10 @@ struct build_options {
     bool neutral_names;    /* uniforms are named by number */
     int environment;       /* values of option_environment… */
     int texture_modes;
+    bool tiles;            /* images of several tiles are texture arrays */
+    /* As mxg_resolver.list_folder, to find tiles; may be NULL. */
+    size_t (*list_folder)(void *user_data, const char *from, const char *folder, char *names, size_t capacity);
+    void *list_user_data;
     bool (*cancel)(void *user_data);
     void *cancel_user_data;
 };

@@ -63,6 +63,7 @@ struct builder {
     uint32_t *memo_table;
     uint32_t memo_mask;
     VEC(ir_ref) geomprops;      /* value per geomprop name, in pairs (name, ref) */
+    ir_ref missing_texel;       /* what the node at hand reads where its image has no tile */
     bool cancelled;
 };
 
@@ -103,6 +104,8 @@ ir_ref build_input(struct builder *b, struct instance *scope, elem_id node, cons
 ir_ref build_default(struct builder *b, const struct port *port);
 /* The value of a geometric property by name: defaultgeomprop. */
 ir_ref build_geomprop(struct builder *b, str_id name, doc_type type, struct diag_place place);
+/* A constant, or what a uniform is at first, for what is settled when the shader is made; false: it is neither. */
+bool build_initial(const struct builder *b, ir_ref value, struct ir_value *out);
 /* The path of an input: "SR_gold/base_color". */
 str_id build_input_path(struct builder *b, elem_id node, str_id input, elem_id element);
 
@@ -113,6 +116,23 @@ str_id build_colorspace(struct builder *b, elem_id element);
 
 /* unit.c: a value given in `unit`, in the target's unit; nothing changes without a unit. */
 ir_ref build_unit_conversion(struct builder *b, ir_ref value, elem_id element, const struct port *port);
+
+/* texture.c: a variable for the file that `variable` says. */
+ir_ref build_texture(struct builder *b, struct shader_variable variable, elem_id element);
+/*
+ * Tells hosts how a node reads its textures, before it is built: its arguments become those that read so. True where a texture has
+ * tiles.
+ */
+bool build_note_textures(struct builder *b, const struct frame *frame);
+/* lang_host.texture: reads the tile at hand. */
+ir_ref build_read_tiles(void *user_data, enum ir_op op, const ir_ref *args);
+/* Tells of tiles that are read in what was built for a node from `first_node` on and could not become nodes. */
+void build_check_tiles(struct builder *b, const struct frame *frame, uint32_t first_node);
+
+/* tiles.c: finds the tiles that the file's name stands for; false: it is one image, or an error was reported. */
+bool build_find_tiles(struct builder *b, elem_id element, struct shader_variable *texture);
+/* The layer at texture coordinates, as a float, and whether there is a tile. */
+ir_ref build_tile_layer(struct builder *b, const struct shader_variable *texture, ir_ref uv, ir_ref *out_inside);
 
 /* filename.c: the value of a filename's element with its prefix and tokens. */
 str_id build_file_name(struct builder *b, const struct instance *scope, elem_id element);

@@ -63,20 +63,10 @@ static ir_ref fit_components(const struct call *c, ir_ref value)
     return ir_construct(g, c->type, parts, n);
 }
 
-/* A uniform stands for its initial value: which stream is read is settled here. */
-static bool get_initial(const struct builder *b, ir_ref value, struct ir_value *out)
-{
-    const struct ir_node *node = ir_get(b->graph, value);
-    const struct shader_variable *uniform = node->op == IR_UNIFORM ? &b->shader->variables.items[node->attr] : NULL;
-    if (uniform)
-        *out = uniform->value;
-    return uniform ? uniform->has_default : ir_get_const(b->graph, value, out);
-}
-
 static ir_ref indexed_stream(const struct call *c, const char *prefix, ir_type_id type)
 {
     struct ir_value index;
-    if (!get_initial(c->b, arg(c, STR_index), &index) || index.w[0].i < 0)
+    if (!build_initial(c->b, arg(c, STR_index), &index) || index.w[0].i < 0)
         return not_constant(c, STR_index);
     return fit_components(c, named_stream(c, prefix, 0, (uint32_t)index.w[0].i, type));
 }

@@ -215,16 +215,23 @@ static ir_ref publish(struct builder *b, elem_id node, const struct port *port, 
     return value;
 }
 
+bool build_initial(const struct builder *b, ir_ref value, struct ir_value *out)
+{
+    const struct ir_node *node = ir_get(b->graph, value);
+    const struct shader_variable *uniform = node->op == IR_UNIFORM ? &b->shader->variables.items[node->attr] : NULL;
+    if (uniform)
+        *out = uniform->value;
+    return uniform ? uniform->has_default : ir_get_const(b->graph, value, out);
+}
+
 /* ---- textures ---- */
 
 static ir_ref texture(struct builder *b, const struct instance *scope, elem_id node, const struct port *port, elem_id element,
                       str_id input)
 {
     struct shader_variable v = describe(b, node, port, element, input, build_input_path(b, node, input, element));
-    v.block = BLOCK_TEXTURES;
-    v.update = UPDATE_UNIFORM;
     v.file = element ? build_file_name(b, scope, element) : port->value;
-    return ir_build(b->graph, IR_TEXTURE, IR_TYPE_SAMPLER, shader_add_variable(b->shader, &v), NULL, 0);
+    return build_texture(b, v, element ? element : node);
 }
 
 /* ---- defaults ---- */

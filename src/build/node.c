@@ -174,43 +174,19 @@ static void call_verbatim(struct builder *b, const struct implementation *impl, 
         results[i] = function ? ir_build(b->graph, IR_RESULT, library_type_ir(b->lib, outputs[i].type), i + 1, &call, 1) : call;
 }
 
-static str_id string_arg(const struct builder *b, ir_ref arg)
+static void call(struct builder *b, const struct frame *frame, ir_ref *results)
 {
-    struct ir_value value;
-    return arg && ir_get_const(b->graph, arg, &value) && value.type == IR_TYPE_STRING ? value.w[0].u : 0;
-}
-
-/* The mode's place in a texture; NULL: the input is none. */
-static str_id *sampler_mode(const struct builder *b, struct shader_variable *texture, str_id input)
-{
-    const char *name = build_text(b, input);
-    return strcmp(name, "uaddressmode") == 0   ? &texture->uaddressmode
-           : strcmp(name, "vaddressmode") == 0 ? &texture->vaddressmode
-           : strcmp(name, "filtertype") == 0   ? &texture->filtertype
-                                               : NULL;
-}
-
-/*
- * Hosts make samplers: they are told the address and filter modes of the node that reads a texture, and the colour that it shows
- * where there is no image, which is also that of the border.
- */
-static void note_sampler(struct builder *b, const struct nodedef *def, const struct port *ports, const ir_ref *args,
-                         struct shader_variable *texture)
-{
-    for (uint32_t i = 0; i < def->num_inputs; i++) {
-        str_id *mode = sampler_mode(b, texture, ports[i].name), value = mode ? string_arg(b, args[i]) : 0;
-        if (value) /* UsdUVTexture says black */
-            *mode = strcmp(build_text(b, value), "black") == 0 ? str_intern_z(b->shader->strings, "constant") : value;
-        if (ports[i].name == STR_default && args[i])
-            texture->has_default = ir_get_const(b->graph, args[i], &texture->value);
-    }
-}
-
-static void note_samplers(struct builder *b, const struct nodedef *def, const struct port *ports, const ir_ref *args)
-{
-    for (uint32_t i = 0; i < def->num_inputs; i++)
-        if (ports[i].type == DOC_TYPE_filename && args[i] && ir_get(b->graph, args[i])->op == IR_TEXTURE)
-            note_sampler(b, def, ports, args, &b->shader->variables.items[ir_get(b->graph, args[i])->attr]);
+    const struct implementation *impl = frame->impl;
+    uint32_t first_node = b->graph->nodes.len;
+    bool has_tiles = build_note_textures(b, frame);
+    if (impl->kind == IMPL_EXPRESSION)
+        call_expressions(b, impl, frame->args, results);
+    else if (impl->kind == IMPL_FUNCTION)
+        lang_lower_call(b->shader->unit, b->graph, &b->host, impl->ref, frame->args, results);
+    else
+        call_verbatim(b, impl, frame->args, results);
+    if (has_tiles)
+        build_check_tiles(b, frame, first_node);
 }
 
 void build_node(struct builder *b, const struct frame *frame, ir_ref *results)
@@ -220,18 +196,12 @@ void build_node(struct builder *b, const struct frame *frame, ir_ref *results)
     const struct port *ports = library_ports(b->lib, frame->node.nodedef, NULL);
     switch ((enum impl_kind)impl->kind) {
     case IMPL_EXPRESSION:
-        note_samplers(b, def, ports, frame->args);
-        call_expressions(b, impl, frame->args, results);
-        return;
     case IMPL_FUNCTION:
-        note_samplers(b, def, ports, frame->args);
-        lang_lower_call(b->shader->unit, b->graph, &b->host, impl->ref, frame->args, results);
+    case IMPL_VERBATIM:
+        call(b, frame, results);
         return;
     case IMPL_FAMILY:
         build_leaf(b, impl, frame->args, results);
-        return;
-    case IMPL_VERBATIM:
-        call_verbatim(b, impl, frame->args, results);
         return;
     case IMPL_DYNAMIC:
         if (build_dynamic(b, frame, results))

@@ -119,6 +119,11 @@ struct lang_host { /* how globals become IR nodes */
     void *user_data;
     /* The IR node for a uniform or stream (by its name and type); option constants give a constant. */
     ir_ref (*global)(void *user_data, struct ir_graph *graph, const struct lang_unit *unit, uint32_t global_id);
+    /*
+     * What a built-in function of textures gives where the texture is not a plain one; 0: it is plain. Functions that are given such a
+     * texture, which the portable language has no name for, are lowered whatever their size. May be NULL.
+     */
+    ir_ref (*texture)(void *user_data, enum ir_op op, const ir_ref *args);
     uint32_t max_outer_nodes;  /* the same limit for the called function itself and what it calls directly; 0: max_inline_nodes */
     uint32_t max_inline_nodes; /* functions larger than this are called, not lowered, unless their result folds to constants */
 };

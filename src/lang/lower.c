@@ -168,6 +168,17 @@ static enum known known_of(const struct lower *lo, const struct lang_unit *layer
     return known;
 }
 
+static bool has_special_texture(const struct lower *lo, const struct lang_unit *layer, const struct lang_function *fn, const ir_ref *in)
+{
+    for (uint32_t i = 0; i < fn->num_params; i++) {
+        const struct lang_slot *slot = ast_slot(layer, fn, i);
+        if (slot->type == IR_TYPE_SAMPLER && *in && ir_type_of(lo->graph, *in) != IR_TYPE_SAMPLER)
+            return true;
+        in += slot->mode == LANG_OUT ? 0 : lower_leaves(lo, slot->type);
+    }
+    return false;
+}
+
 /*
  * Is a function's body worth more than a call? A larger one may be small with what is known, and is tried: where a choice is known,
  * until it has executed as many nodes as a small function has, where a number is, until it has added many to the graph.
@@ -182,6 +193,10 @@ static bool is_worth_trying(struct lower *lo, const struct lang_unit *layer, con
     *out_budget = UINT32_MAX;
     if (fn->num_nodes <= limit)
         return true;
+    if (has_special_texture(lo, layer, fn, in)) {
+        lo->max_graph_nodes = UINT32_MAX;
+        return true;
+    }
     enum known known = known_of(lo, layer, fn, in);
     if (known == A_CHOICE_KNOWN)
         *out_budget = 2 * limit;

@@ -75,7 +75,11 @@ static void lower_operands(struct lower *lo, const struct lang_node *node, ir_re
             args[count++] = lower_single(lo, operand);
         ref = operand->next;
     }
-    if (!lo->failed)
+    if (lo->failed)
+        return;
+    bool is_special = node->op >= IR_TEX && node->op <= IR_TEX_FETCH && ir_type_of(lo->graph, args[0]) != IR_TYPE_SAMPLER;
+    *out = is_special && lo->host->texture ? lo->host->texture(lo->host->user_data, node->op, args) : 0;
+    if (!*out)
         *out = ir_build(lo->graph, node->op, node->type, node->b, args, count);
 }
 

@@ -175,6 +175,38 @@ static void put_ui(struct json *json, const struct shader_variable *variable)
     close(json, '}');
 }
 
+static void put_sampling(struct json *json, const struct shader_sampling *sampling)
+{
+    put_id(json, "uaddressmode", sampling->uaddressmode);
+    put_id(json, "vaddressmode", sampling->vaddressmode);
+    put_id(json, "filtertype", sampling->filtertype);
+    put_id(json, "layer", sampling->layer);
+    put_id(json, "framerange", sampling->framerange);
+    if (sampling->frameoffset) {
+        key(json, "frameoffset");
+        text_fmt(json->out, "%d", sampling->frameoffset);
+    }
+    put_id(json, "frameendaction", sampling->frameendaction);
+}
+
+static void put_tiles(struct json *json, const struct shader_variable *variable)
+{
+    if (!variable->num_tiles)
+        return;
+    key(json, "tiles");
+    open(json, '[');
+    for (uint32_t i = 0; i < variable->num_tiles; i++) {
+        const struct shader_tile *tile = &json->shader->tiles.items[variable->first_tile + i];
+        begin_item(json);
+        open(json, '{');
+        put_id(json, "file", tile->file);
+        key(json, "offset");
+        text_fmt(json->out, "[%d, %d]", tile->u, tile->v);
+        close(json, '}');
+    }
+    close(json, ']');
+}
+
 static void put_variable(struct json *json, const struct shader_variable *variable)
 {
     begin_item(json);
@@ -195,9 +227,8 @@ static void put_variable(struct json *json, const struct shader_variable *variab
         put_bool(json, "flat", true);
     put_place(json, variable);
     put_id(json, "file", variable->file);
-    put_id(json, "uaddressmode", variable->uaddressmode);
-    put_id(json, "vaddressmode", variable->vaddressmode);
-    put_id(json, "filtertype", variable->filtertype);
+    put_sampling(json, &variable->sampling);
+    put_tiles(json, variable);
     put_ui(json, variable);
     close(json, '}');
 }

@@ -362,7 +362,8 @@ static bool may_let(const struct scheduler *s, const struct plan *plan)
         return false;
     if (plan->flags & PLAN_LIGHT && s->regions.items[plan->region].outside == plan->region)
         return false;
-    return plan->flags & PLAN_STATEMENT || (type != IR_TYPE_VOID && type != IR_TYPE_SAMPLER && type != IR_TYPE_STRING);
+    bool is_opaque = type == IR_TYPE_SAMPLER || type == IR_TYPE_SAMPLER_ARRAY || type == IR_TYPE_STRING;
+    return plan->flags & PLAN_STATEMENT || (type != IR_TYPE_VOID && !is_opaque);
 }
 
 /* From here on it is read by its name, which its origin gives. */

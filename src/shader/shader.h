@@ -32,12 +32,27 @@ enum shader_update {
     UPDATE_SHADER,  /* generate again: the value is compiled in */
 };
 
+/* How a node reads a texture: what its inputs of these names say; 0: nothing. */
+struct shader_sampling {
+    str_id uaddressmode, vaddressmode, filtertype;
+    str_id layer;                      /* of the file, by name; "layerx" of "filex" */
+    str_id framerange, frameendaction; /* which frames of a sequence there are: "10-99" */
+    int32_t frameoffset;               /* added to the current frame */
+};
+
+/* One file of an image that is made of several, each for a unit square of texture coordinates. */
+struct shader_tile {
+    str_id file;
+    int32_t u, v; /* its lower left corner */
+};
+
 struct shader_variable {
     str_id name;          /* as spelled: "u_viewPosition", "SR_gold_base_color"; unique among what stands at file scope */
     uint8_t block;        /* enum shader_block */
     uint8_t stages;       /* 1 << STAGE_… of each stage that reads it, or writes it; 0: nothing does, it is not declared */
     uint8_t update;       /* enum shader_update */
     bool has_default;
+    bool has_reader;      /* of textures: `sampling` and the default are those of a node */
     bool flat;            /* not interpolated (integer streams) */
     uint16_t rank;        /* place within its block: the row of streams.def; equal ranks by index */
     ir_type_id type;
@@ -50,8 +65,9 @@ struct shader_variable {
     str_id semantic;      /* of private uniforms and streams: "worldMatrix", "position:world", "geomprop:st" … */
     struct ir_value value; /* default; type VOID where there is none */
     /* textures */
-    str_id file;          /* resolved file name, with fileprefix; UDIM tokens kept */
-    str_id uaddressmode, vaddressmode, filtertype;
+    str_id file;          /* resolved file name, with fileprefix; tokens of geometry and host kept: <UDIM>, {frame} */
+    struct shader_sampling sampling;
+    uint32_t first_tile, num_tiles; /* in shader->tiles, which are the layers of a SAMPLER_ARRAY in this order */
     /* layout.c */
     uint32_t set, binding, location;
     uint32_t offset, size, array_stride, matrix_stride; /* std140, in bytes */
@@ -146,6 +162,7 @@ struct shader {
     struct lang_unit *unit;        /* the generation's unit: specialisations, on the library's units */
     const struct lang_syntax *syntax; /* whose reserved words variables must not have; NULL: none */
     VEC(struct shader_variable) variables;
+    VEC(struct shader_tile) tiles;
     VEC(struct shader_compiled_input) compiled;
     VEC(struct shader_local) locals;
     VEC(struct shader_light) lights;

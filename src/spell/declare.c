@@ -120,7 +120,7 @@ static void write_uniform(struct spell *spell, const struct shader_variable *var
     spell_text(spell, "uniform ");
     declare(spell, variable, variable_name(spell, variable));
     bool fixed = variable->block == BLOCK_PRIVATE_UNIFORMS || !spell->options->neutral_names;
-    if (variable->has_default && variable->type != IR_TYPE_SAMPLER && fixed && spell_can(spell, CAP_UNIFORM_DEFAULTS)) {
+    if (variable->has_default && variable->block != BLOCK_TEXTURES && fixed && spell_can(spell, CAP_UNIFORM_DEFAULTS)) {
         spell_text(spell, " = ");
         lang_print_value(spell->target->syntax, spell->shader->strings, &variable->value, spell->out);
     }

@@ -171,6 +171,8 @@ static void write_form(struct spell *spell, ir_ref ref, const struct ir_node *no
         text_char(spell->out, '(');
     const char *type = node->type < IR_NUM_TYPES ? lang_syntax_type(spell->target->syntax, node->type) : "";
     lang_write_form(form, type, write_operand, &(struct form_operands){spell, ref}, spell->out);
+    if (node->op == IR_TEX_SIZE && ir_type_of(spell->shader->graph, ir_arg(spell->shader->graph, ref, 0)) == IR_TYPE_SAMPLER_ARRAY)
+        spell_text(spell, ".xy"); /* the third is the number of layers */
     if (parentheses)
         text_char(spell->out, ')');
 }

@@ -143,6 +143,8 @@ static void write_header(struct spell *spell)
     write_title(spell);
     if (spell_can(spell, CAP_PRECISION) && spell->stage_id == STAGE_PIXEL)
         spell_text(spell, "precision highp float;\nprecision highp int;\nprecision highp sampler2D;\n");
+    if (spell_can(spell, CAP_PRECISION) && spell->shader->tiles.len)
+        spell_text(spell, "precision highp sampler2DArray;\n");
     spell_text(spell, "\n");
 }
 

@@ -20,6 +20,7 @@ enum target_caps {
     CAP_IMPLICIT_LOD = 512,   /* texture() in pixel stages */
     CAP_CLOSURES = 1024,      /* the language has closures: keep the tree */
     CAP_STRINGS = 2048,       /* the language has strings */
+    CAP_TEXTURE_ARRAYS = 4096, /* the tiles of an image are layers of one texture; else its host, or texture(), finds them */
 };
 
 struct spell; /* spell/spell.h */

@@ -93,7 +93,7 @@ static inline void memory_release(void *user_data, mxg_blob *blob)
 
 static inline mxg_resolver memory_resolver(struct memory_files *files)
 {
-    return (mxg_resolver){files, memory_open, memory_release};
+    return (mxg_resolver){files, memory_open, memory_release, NULL};
 }
 
 /* ---- A document: textures, a graph, a definition with source of its own, an include ---- */

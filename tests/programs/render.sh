@@ -27,6 +27,35 @@ cat >textured.mtlx <<'X'
 </materialx>
 X
 
+# Tiles of one texel each: red, green, blue; 1011 is missing. The coordinates of the grid are doubled.
+tile() { printf 'P3 1 1 255 %s\n' "$2" >"$1"; }
+tile t.1001.0030.ppm '255 0 0'
+tile t.1002.0030.ppm '0 255 0'
+tile t.1012.0030.ppm '0 0 255'
+tile t.1001.0040.ppm '255 255 255'
+tile t.1002.0040.ppm '255 255 255'
+tile t.1012.0040.ppm '255 255 255'
+cat >tiles.mtlx <<'X'
+<?xml version="1.0"?>
+<materialx version="1.39">
+  <nodegraph name="NG">
+    <texcoord name="uv" type="vector2"/>
+    <multiply name="uv2" type="vector2">
+      <input name="in1" type="vector2" nodename="uv"/><input name="in2" type="float" value="2"/>
+    </multiply>
+    <image name="image" type="color3">
+      <input name="file" type="filename" value="t.&lt;UDIM&gt;.{04frame}.ppm"/>
+      <input name="default" type="color3" value="0.4, 0.4, 0.4"/>
+      <input name="texcoord" type="vector2" nodename="uv2"/>
+      <input name="framerange" type="string" value="30-40"/>
+      <input name="frameoffset" type="integer" value="-3"/>
+      <input name="frameendaction" type="string" value="constant"/>
+    </image>
+    <output name="out" type="color3" nodename="image"/>
+  </nodegraph>
+</materialx>
+X
+
 if ! "$render" plain.mtlx --scene grid >out 2>err && grep -q no-device err; then
     skip 'there is no Vulkan device'
     finish render
@@ -50,6 +79,17 @@ check 'the same bytes again' eval '"$render" plain.mtlx -o again.png --size 48x3
 check 'a missing texture' exits 1 "$render" textured.mtlx -o none.png
 check 'names the file' grep -q "none.png.*\[missing-texture\]" err
 check 'leaves no picture' test ! -e none.png
+quarter='1,0,0,1,0,0,0,1,0,0,1,0'
+half="$quarter,$quarter"
+missing='0.400000006,0.400000006,0.400000006,0.400000006,0.400000006,0.400000006,0,0,1,0,0,1'
+check 'tiles by <UDIM>, the default where one is missing' \
+    test "$("$render" tiles.mtlx --scene grid)" = "NG/out,$half,$missing,$missing"
+check 'another frame of all of them' test "$("$render" tiles.mtlx --scene grid --frame 43 | tr ',' '\n' | sort -u | tr '\n' ' ')" = \
+    '0.400000006 1 NG/out '
+check 'a frame that is out of range shows the default' \
+    test "$("$render" tiles.mtlx --scene grid --frame 44 | tr ',' '\n' | sort -u | tr '\n' ' ')" = '0.400000006 NG/out '
+check 'a missing tile of a frame' exits 1 "$render" tiles.mtlx --scene grid --frame 34
+check 'names its file' grep -q "t.1001.0031.ppm" err
 check 'a folder that is missing' exits 1 "$render" plain.mtlx -o missing/ball.png --size 8
 check 'is output-failed' grep -q '\[output-failed\]' err
 check 'a value that is none' exits 1 "$render" plain.mtlx -o x.png --set SR/base_color=abc

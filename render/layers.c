@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+/* Pictures of several files as the layers of one image, as texture arrays need them: of one size and format. */
+#include "render/image.h"
+
+static float texel(const struct image *image, uint32_t x, uint32_t y, unsigned channel)
+{
+    size_t at = ((size_t)y * image->width + x) * 4 + channel;
+    return image->is_float ? ((const float *)image->pixels)[at] : (float)((const uint8_t *)image->pixels)[at] / 255.0f;
+}
+
+struct between { /* two texels of a row or column, and how far it is to the second */
+    uint32_t first, second;
+    float part;
+};
+
+static struct between place(uint32_t at, uint32_t size, uint32_t old_size)
+{
+    float x = ((float)at + 0.5f) * (float)old_size / (float)size - 0.5f;
+    x = x < 0.0f ? 0.0f : x;
+    uint32_t first = (uint32_t)x < old_size ? (uint32_t)x : old_size - 1;
+    return (struct between){first, first + 1 < old_size ? first + 1 : first, x - (float)first};
+}
+
+static float mix(float a, float b, float part)
+{
+    return a + (b - a) * part;
+}
+
+static float sample(const struct image *image, const struct between *x, const struct between *y, unsigned channel)
+{
+    return mix(mix(texel(image, x->first, y->first, channel), texel(image, x->second, y->first, channel), x->part),
+               mix(texel(image, x->first, y->second, channel), texel(image, x->second, y->second, channel), x->part), y->part);
+}
+
+/* Writes a part as layer `layer`, larger by linear interpolation. */
+static void write_layer(const struct image *part, struct image *out, uint32_t layer)
+{
+    size_t at = (size_t)layer * out->width * out->height * 4;
+    for (uint32_t y = 0; y < out->height; ++y) {
+        struct between row = place(y, out->height, part->height);
+        for (uint32_t x = 0; x < out->width; ++x) {
+            struct between column = place(x, out->width, part->width);
+            for (unsigned c = 0; c < 4; ++c, ++at) {
+                float value = sample(part, &column, &row, c);
+                if (out->is_float)
+                    ((float *)out->pixels)[at] = value;
+                else
+                    ((uint8_t *)out->pixels)[at] = (uint8_t)(value * 255.0f + 0.5f);
+            }
+        }
+    }
+}
+
+bool image_stack(const struct image *parts, uint32_t count, struct image *out)
+{
+    *out = (struct image){.layers = count};
+    for (uint32_t i = 0; i < count; ++i) {
+        out->width = parts[i].width > out->width ? parts[i].width : out->width;
+        out->height = parts[i].height > out->height ? parts[i].height : out->height;
+        out->is_float |= parts[i].is_float;
+    }
+    out->pixels = calloc((size_t)count * out->height, (size_t)out->width * 4 * (out->is_float ? sizeof(float) : 1));
+    for (uint32_t i = 0; out->pixels && i < count; ++i)
+        write_layer(&parts[i], out, i);
+    return out->pixels != NULL;
+}

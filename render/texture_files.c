@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+/* The files of a document's texture as one image: the frame at hand, its layer, its tiles; the default colour where there is none. */
+#include "render/bind.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* What a texture shows where there is no image: the default of its node, black otherwise. */
+static bool make_default(const mxg_variable *variable, struct image *out)
+{
+    float *texel = calloc(4, sizeof *texel);
+    *out = (struct image){.width = 1, .height = 1, .is_float = true, .pixels = texel};
+    if (!texel)
+        return false;
+    texel[3] = 1.0f;
+    for (uint32_t i = 0; i < variable->num_values && i < 4; ++i)
+        texel[i] = variable->values[i];
+    return true;
+}
+
+/* Magenta and black, so that it cannot be taken for a material. */
+static bool make_checker(struct image *out)
+{
+    enum { SIZE = 8 };
+    uint8_t *texel = calloc(SIZE * SIZE, 4);
+    *out = (struct image){.width = SIZE, .height = SIZE, .pixels = texel};
+    for (int i = 0; texel && i < SIZE * SIZE; ++i, texel += 4) {
+        texel[0] = texel[2] = (i % SIZE + i / SIZE) % 2 ? 0 : 255;
+        texel[3] = 255;
+    }
+    return out->pixels != NULL;
+}
+
+static bool fail(struct bind *bind, const char *path, const char *why)
+{
+    bind->id = "missing-texture";
+    snprintf(bind->reason, sizeof bind->reason, "cannot read the texture '%.250s': %.200s", path, why);
+    return false;
+}
+
+/* Files are relative to the document. */
+static bool read_file(struct bind *bind, const char *file, const char *layer, struct image *out,
+                      bool *out_checker)
+{
+    const char *slash = strrchr(bind->document, '/');
+    int folder = slash && file[0] != '/' ? (int)(slash - bind->document) + 1 : 0;
+    char path[4096], reason[256];
+    snprintf(path, sizeof path, "%.*s%s", folder, bind->document, file);
+    if (image_read(path, layer, out, reason, sizeof reason))
+        return true;
+    fail(bind, path, reason);
+    *out_checker = bind->checker && make_checker(out);
+    return *out_checker;
+}
+
+static bool read_tile(struct bind *bind, uint32_t index, const mxg_variable *variable, uint32_t tile, struct image *out,
+                      bool *out_checker)
+{
+    char file[4096];
+    if (mxg_result_texture_file(bind->result, index, tile, bind->scene->frame, file, sizeof file))
+        return read_file(bind, file, variable->layer, out, out_checker);
+    return make_default(variable, out) || fail(bind, variable->file, "out of memory");
+}
+
+bool bind_read_texture(struct bind *bind, uint32_t index, const mxg_variable *variable, const char *file, struct image *out,
+                       bool *out_checker)
+{
+    if (file)
+        return *file ? read_file(bind, file, variable->layer, out, out_checker)
+                     : make_default(variable, out) || fail(bind, file, "out of memory");
+    if (!variable->num_tiles)
+        return read_tile(bind, index, variable, 0, out, out_checker);
+    struct image *tiles = calloc(variable->num_tiles, sizeof *tiles);
+    bool good = tiles != NULL;
+    for (uint32_t i = 0; good && i < variable->num_tiles; ++i)
+        good = read_tile(bind, index, variable, i, &tiles[i], out_checker);
+    if (good && !image_stack(tiles, variable->num_tiles, out))
+        good = fail(bind, variable->file, "out of memory");
+    for (uint32_t i = 0; tiles && i < variable->num_tiles; ++i)
+        image_finish(&tiles[i]);
+    free(tiles);
+    return good;
+}

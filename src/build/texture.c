@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * Textures: the variables that stand for files, and how nodes read them. Hosts make samplers and choose files, so they are told what
+ * a node says about both.
+ *
+ * An image of several tiles is a texture array, a layer per tile (tiles.c). Texture coordinates choose the layer by their whole part
+ * and the place in it by the rest:
+ *
+ *     texture(file, uv) = inside the tiles ? textureGrad(file, vec3(fract(uv), layer), dFdx(uv), dFdy(uv)) : default
+ */
+#include "build/build_priv.h"
+
+#include <stddef.h>
+
+ir_ref build_texture(struct builder *b, struct shader_variable variable, elem_id element)
+{
+    variable.block = BLOCK_TEXTURES;
+    variable.update = UPDATE_UNIFORM;
+    if (build_find_tiles(b, element, &variable))
+        variable.type = IR_TYPE_SAMPLER_ARRAY;
+    return ir_build(b->graph, IR_TEXTURE, variable.type, shader_add_variable(b->shader, &variable), NULL, 0);
+}
+
+/* ---- What nodes say of their textures ---- */
+
+static const struct sampling_input {
+    const char *name; /* of inputs that belong to one file, without what stands behind "file" in its name */
+    size_t at;
+} sampling_inputs[] = {
+    {"uaddressmode", offsetof(struct shader_sampling, uaddressmode)},
+    {"vaddressmode", offsetof(struct shader_sampling, vaddressmode)},
+    {"filtertype", offsetof(struct shader_sampling, filtertype)},
+    {"layer", offsetof(struct shader_sampling, layer)},
+    {"framerange", offsetof(struct shader_sampling, framerange)},
+    {"frameendaction", offsetof(struct shader_sampling, frameendaction)},
+};
+
+/* "layer", or "layerx" of "filex". */
+static bool belongs(const char *input, const char *name, const char *file)
+{
+    size_t len = strlen(name);
+    const char *suffix = strncmp(file, "file", 4) == 0 ? file + 4 : "";
+    return strncmp(input, name, len) == 0 && (input[len] == '\0' || strcmp(input + len, suffix) == 0);
+}
+
+/* The string that an input says; 0: none, or not known. UsdUVTexture's "black" is "constant" with the default. */
+static str_id said(const struct builder *b, ir_ref arg)
+{
+    struct ir_value value;
+    if (!arg || !ir_get_const(b->graph, arg, &value) || value.type != IR_TYPE_STRING)
+        return 0;
+    return strcmp(build_text(b, value.w[0].u), "black") == 0 ? str_intern_z(b->shader->strings, "constant") : value.w[0].u;
+}
+
+static void note_input(const struct builder *b, const struct port *file, const struct port *port, ir_ref arg,
+                       struct shader_variable *texture)
+{
+    const char *name = build_text(b, port->name);
+    struct ir_value value;
+    for (size_t i = 0; i < sizeof sampling_inputs / sizeof *sampling_inputs; i++)
+        if (belongs(name, sampling_inputs[i].name, build_text(b, file->name)))
+            *(str_id *)((char *)&texture->sampling + sampling_inputs[i].at) = said(b, arg);
+    if (strcmp(name, "frameoffset") == 0 && arg && build_initial(b, arg, &value))
+        texture->sampling.frameoffset = value.w[0].i;
+    if (port->name == STR_default && arg)
+        texture->has_default = build_initial(b, arg, &texture->value);
+}
+
+/* What stands for nothing is not told. */
+static void leave_out_defaults(struct shader_variable *texture)
+{
+    struct shader_sampling *s = &texture->sampling;
+    if (texture->num_tiles) /* a layer ends at its border */
+        s->uaddressmode = s->vaddressmode = STR_clamp;
+    if (!s->framerange)
+        s->frameendaction = 0;
+}
+
+static bool reads_alike(const struct shader_variable *a, const struct shader_variable *b)
+{
+    return memcmp(&a->sampling, &b->sampling, sizeof a->sampling) == 0 && a->has_default == b->has_default
+        && (!a->has_default || memcmp(&a->value, &b->value, sizeof a->value) == 0);
+}
+
+/* Two nodes that read one file in different ways have a variable each, with the same path. */
+static uint32_t variable_for(struct builder *b, uint32_t index, const struct shader_variable *wanted)
+{
+    struct shader_variable *first = &b->shader->variables.items[index];
+    if (!first->has_reader) {
+        *first = *wanted;
+        return index;
+    }
+    for (uint32_t i = index; i < b->shader->variables.len; i++) {
+        const struct shader_variable *v = &b->shader->variables.items[i];
+        if (v->block == BLOCK_TEXTURES && v->path == wanted->path && v->file == wanted->file && reads_alike(v, wanted))
+            return i;
+    }
+    return shader_add_variable(b->shader, wanted);
+}
+
+static void note_reader(struct builder *b, const struct nodedef *def, const struct port *ports, ir_ref *args, uint32_t file)
+{
+    uint32_t index = ir_get(b->graph, args[file])->attr;
+    struct shader_variable wanted = b->shader->variables.items[index];
+    wanted.has_reader = true;
+    wanted.has_default = false;
+    memset(&wanted.sampling, 0, sizeof wanted.sampling);
+    memset(&wanted.value, 0, sizeof wanted.value);
+    for (uint32_t i = 0; i < def->num_inputs; i++)
+        note_input(b, &ports[file], &ports[i], args[i], &wanted);
+    leave_out_defaults(&wanted);
+    args[file] = ir_build(b->graph, IR_TEXTURE, wanted.type, variable_for(b, index, &wanted), NULL, 0);
+}
+
+/* ---- Reading ---- */
+
+/* The node's default as what a texture gives: 0 for channels that it has not, 1 for alpha. */
+static ir_ref as_texel(struct builder *b, ir_ref value)
+{
+    ir_ref parts[4] = {value};
+    unsigned have = value ? ir_type_info(ir_type_of(b->graph, value))->components : 0, n = have ? 1 : 0;
+    if (have == 4)
+        return value;
+    for (unsigned i = have; i < 4; i++)
+        parts[n++] = ir_const_float(b->graph, i == 3 ? 1.0f : 0.0f);
+    return ir_construct(b->graph, IR_TYPE_VEC4, parts, n);
+}
+
+/* Address modes say what lies beyond the one image; where there are tiles, other tiles do. */
+static void begin_tiles(struct builder *b, const struct nodedef *def, const struct port *ports, ir_ref *args)
+{
+    b->missing_texel = 0;
+    for (uint32_t i = 0; i < def->num_inputs; i++) {
+        const char *name = build_text(b, ports[i].name);
+        if (strcmp(name, "uaddressmode") == 0 || strcmp(name, "vaddressmode") == 0)
+            args[i] = ir_const_string(b->graph, STR_periodic);
+        if (ports[i].name == STR_default)
+            b->missing_texel = args[i];
+    }
+    b->missing_texel = as_texel(b, b->missing_texel);
+}
+
+bool build_note_textures(struct builder *b, const struct frame *frame)
+{
+    const struct nodedef *def = library_nodedef(b->lib, frame->node.nodedef);
+    const struct port *ports = library_ports(b->lib, frame->node.nodedef, NULL);
+    ir_ref *args = frame->args;
+    bool has_tiles = false;
+    for (uint32_t i = 0; i < def->num_inputs; i++) {
+        if (ports[i].type != DOC_TYPE_filename || !args[i] || ir_get(b->graph, args[i])->op != IR_TEXTURE)
+            continue;
+        note_reader(b, def, ports, args, i);
+        has_tiles |= ir_type_of(b->graph, args[i]) == IR_TYPE_SAMPLER_ARRAY;
+    }
+    if (has_tiles)
+        begin_tiles(b, def, ports, args);
+    return has_tiles;
+}
+
+static ir_ref gradient_at(struct builder *b, enum ir_op derivative, const ir_ref *args, enum ir_op op, unsigned index)
+{
+    return op == IR_TEX ? ir_op1(b->graph, derivative, args[1]) : args[index];
+}
+
+ir_ref build_read_tiles(void *user_data, enum ir_op op, const ir_ref *args)
+{
+    struct builder *b = user_data;
+    struct ir_graph *g = b->graph;
+    if (op == IR_TEX_SIZE)
+        return 0; /* layers are of one size */
+    const struct shader_variable *texture = &b->shader->variables.items[ir_get(g, args[0])->attr];
+    if (op == IR_TEX_FETCH)
+        return ir_poison(g, IR_TYPE_VEC4); /* build_check_tiles tells */
+    ir_ref inside, layer = build_tile_layer(b, texture, args[1], &inside);
+    ir_ref at = ir_construct(g, IR_TYPE_VEC3, (ir_ref[]){ir_op1(g, IR_FRACT, args[1]), layer}, 2), texel;
+    if (op == IR_TEX_LOD)
+        texel = ir_build(g, IR_TEX_LOD, IR_TYPE_VEC4, 0, (ir_ref[]){args[0], at, args[2]}, 3);
+    else
+        texel = ir_build(g, IR_TEX_GRAD, IR_TYPE_VEC4, 0,
+                         (ir_ref[]){args[0], at, gradient_at(b, IR_DFDX, args, op, 2), gradient_at(b, IR_DFDY, args, op, 3)}, 4);
+    return ir_build(g, IR_SELECT, IR_TYPE_VEC4, 0, (ir_ref[]){inside, texel, b->missing_texel}, 3);
+}
+
+/* Functions that loop, or that are the target's own, do not become nodes. */
+void build_check_tiles(struct builder *b, const struct frame *frame, uint32_t first_node)
+{
+    for (ir_ref ref = first_node; ref < b->graph->nodes.len; ref++) {
+        const struct ir_node *node = ir_get(b->graph, ref);
+        bool is_call = node->op == IR_CALL || node->op == IR_VERBATIM;
+        for (unsigned i = 0; is_call && i < node->num_args; i++) {
+            ir_ref arg = ir_arg(b->graph, ref, i);
+            if (ir_type_of(b->graph, arg) != IR_TYPE_SAMPLER_ARRAY)
+                continue;
+            diag_add(b->diags, DIAG_ID_tiles_in_loop, doc_place(&b->lib->doc, frame->node.element),
+                     build_text(b, b->graph->callees.items[node->attr].name),
+                     build_text(b, b->shader->variables.items[ir_get(b->graph, arg)->attr].file));
+            return;
+        }
+    }
+}
