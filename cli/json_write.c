@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/json.h"
 
+#include "cli/utf8.h"
+
 #include <inttypes.h>
 #include <math.h>
-#include <string.h>
 
 static void begin_item(struct json_writer *json)
 {
@@ -25,34 +26,10 @@ void json_end(struct json_writer *json, char bracket)
     json->comma = true;
 }
 
-/* Bytes of the UTF-8 sequence that begins here (Unicode 15, table 3-7); 0 where none does. */
-static size_t utf8_length(const unsigned char *text)
-{
-    unsigned char lead = text[0], low = 0x80, high = 0xbf;
-    if (lead < 0x80)
-        return 1;
-    size_t len = lead >= 0xc2 && lead <= 0xdf ? 2 : lead >= 0xe0 && lead <= 0xef ? 3 : lead >= 0xf0 && lead <= 0xf4 ? 4 : 0;
-    if (lead == 0xe0)
-        low = 0xa0;
-    else if (lead == 0xed)
-        high = 0x9f;
-    else if (lead == 0xf0)
-        low = 0x90;
-    else if (lead == 0xf4)
-        high = 0x8f;
-    for (size_t i = 1; i < len; ++i) {
-        if (text[i] < low || text[i] > high)
-            return 0;
-        low = 0x80;
-        high = 0xbf;
-    }
-    return len;
-}
-
 static void write_quoted(FILE *out, const char *text)
 {
     putc('"', out);
-    for (const unsigned char *c = (const unsigned char *)text; *c;) {
+    for (const char *c = text; *c;) {
         size_t len = utf8_length(c);
         if (len == 0)
             fputs("\\ufffd", out);
@@ -60,8 +37,8 @@ static void write_quoted(FILE *out, const char *text)
             fprintf(out, "\\%c", *c);
         else if (*c == '\n')
             fputs("\\n", out);
-        else if (*c < 0x20)
-            fprintf(out, "\\u%04x", *c);
+        else if ((unsigned char)*c < 0x20)
+            fprintf(out, "\\u%04x", (unsigned)*c);
         else
             fwrite(c, 1, len, out);
         c += len ? len : 1;

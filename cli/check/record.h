@@ -95,6 +95,7 @@ struct check_document {
     struct check_element *elements;
     size_t num_elements;
     double load_ms, validate_ms, render_ms;
+    bool is_changed; /* since the baseline; not part of the record */
 };
 
 /* The document's failure becomes that of the stage, unless it failed earlier. */

@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-const struct sink_kind *const sink_kinds[NUM_SINK_KINDS] = {&sink_json};
+const struct sink_kind *const sink_kinds[NUM_SINK_KINDS] = {&sink_json, &sink_sarif, &sink_junit, &sink_html};
 
 static void begin_sink(struct sink *sink, const struct sink_kind *kind, const struct check_run *run, FILE *out)
 {

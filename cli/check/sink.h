@@ -45,8 +45,8 @@ struct sink_kind {
 };
 
 /* All kinds that write files; text is always written. */
-enum { NUM_SINK_KINDS = 1 };
+enum { NUM_SINK_KINDS = 4 };
 extern const struct sink_kind *const sink_kinds[NUM_SINK_KINDS];
-extern const struct sink_kind sink_text, sink_json;
+extern const struct sink_kind sink_text, sink_json, sink_sarif, sink_junit, sink_html;
 
 #endif

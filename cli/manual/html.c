@@ -4,36 +4,15 @@
  * so that any XML tool can read it.
  */
 #include "cli/manual/manual.h"
+#include "cli/markup.h"
 
 #include <string.h>
-
-static void put(FILE *out, const char *text)
-{
-    for (; *text; ++text) {
-        if (*text == '<')
-            fputs("&lt;", out);
-        else if (*text == '>')
-            fputs("&gt;", out);
-        else if (*text == '&')
-            fputs("&amp;", out);
-        else if (*text == '"')
-            fputs("&quot;", out);
-        else
-            putc(*text, out);
-    }
-}
 
 static void put_element(FILE *out, const char *tag, const char *text)
 {
     fprintf(out, "<%s>", tag);
-    put(out, text);
+    markup_text(out, text);
     fprintf(out, "</%s>", tag);
-}
-
-static void put_lines(FILE *out, const char *const *lines)
-{
-    for (; *lines; ++lines)
-        fputs(*lines, out);
 }
 
 /* ---- Tables ---- */
@@ -74,7 +53,7 @@ static void put_table(FILE *out, const struct manual_edition *edition)
         if (!port->is_output && strcmp(port->folder, folder) != 0) {
             folder = port->folder;
             fputs("<tr class=\"folder\"><th colspan=\"5\" scope=\"rowgroup\">", out);
-            put(out, folder);
+            markup_text(out, folder);
             fputs("</th></tr>\n", out);
         }
         put_row(out, port);
@@ -107,13 +86,13 @@ static void put_signatures(FILE *out, const struct manual_edition *edition)
 static void put_older(FILE *out, const struct manual_edition *edition, const struct manual_edition *first)
 {
     fputs("<details><summary>Version ", out);
-    put(out, edition->version);
+    markup_text(out, edition->version);
     fputs("</summary>\n<p>", out);
     if (edition->num_ports == 0 && edition->missing.len == 0)
         fputs("The same inputs as ", out);
     else
         fputs("Differs from ", out);
-    put(out, *first->version ? first->version : "the version above");
+    markup_text(out, *first->version ? first->version : "the version above");
     for (size_t i = 0; i < edition->missing.len; ++i) {
         fputs(i ? ", " : "; it lacks ", out);
         put_element(out, "code", edition->missing.items[i]);
@@ -132,7 +111,7 @@ static void put_targets(const struct manual *manual, FILE *out, const struct man
     }
     for (size_t i = 0; i < node->targets.len; ++i) {
         fputs(i ? ", " : "", out);
-        put(out, node->targets.items[i]);
+        markup_text(out, node->targets.items[i]);
     }
     if (node->targets.len == 0)
         fputs("<strong>not implemented</strong>", out);
@@ -143,11 +122,11 @@ static void put_picture(FILE *out, const struct manual_node *node)
     if (!node->picture)
         return;
     fputs("<a class=\"picture\" title=\"The document of this picture\" href=\"pictures/", out);
-    put(out, node->id);
+    markup_text(out, node->id);
     fputs(".mtlx\"><img loading=\"lazy\" width=\"144\" height=\"144\" src=\"", out);
-    put(out, node->picture);
+    markup_text(out, node->picture);
     fputs("\" alt=\"Picture of ", out);
-    put(out, node->name);
+    markup_text(out, node->name);
     fputs("\"/></a>\n", out);
 }
 
@@ -155,23 +134,23 @@ static void put_node(const struct manual *manual, FILE *out, const struct manual
 {
     const struct manual_edition *first = &node->editions[0];
     fputs("<article id=\"", out);
-    put(out, node->id);
+    markup_text(out, node->id);
     fputs("\">\n", out);
     put_picture(out, node);
     fputs("<h3><a href=\"#", out);
-    put(out, node->id);
+    markup_text(out, node->id);
     fputs("\">", out);
-    put(out, node->name);
+    markup_text(out, node->name);
     fputs("</a>", out);
     if (*first->version) {
         fputs(" <small>", out);
-        put(out, first->version);
+        markup_text(out, first->version);
         fputs("</small>", out);
     }
     fputs("</h3>\n", out);
     put_element(out, "p", node->text);
     fputs("\n<p class=\"facts\">", out);
-    put(out, node->file);
+    markup_text(out, node->file);
     fputs(" \xc2\xb7 ", out);
     put_targets(manual, out, node);
     fputs("</p>\n", out);
@@ -200,9 +179,9 @@ static void put_navigation(const struct manual *manual, FILE *out)
             fputs("<ul>\n", out);
         }
         fputs("<li><a href=\"#", out);
-        put(out, manual->nodes[i].id);
+        markup_text(out, manual->nodes[i].id);
         fputs("\">", out);
-        put(out, manual->nodes[i].name);
+        markup_text(out, manual->nodes[i].name);
         fputs("</a></li>\n", out);
     }
     fputs(manual->num_nodes ? "</ul></section>\n</div></nav>\n" : "</div></nav>\n", out);
@@ -225,7 +204,7 @@ void manual_write_html(const struct manual *manual, FILE *out)
     fputs("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
           "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n"
           "<meta name=\"color-scheme\" content=\"light dark\"/>\n<title>Node reference</title>\n<style>\n", out);
-    put_lines(out, manual_style);
+    markup_lines(out, manual_style);
     fputs("</style>\n</head>\n<body id=\"top\">\n", out);
     put_navigation(manual, out);
     fprintf(out, "<main>\n<header>\n<p><strong>%zu</strong> nodes with <strong>%zu</strong> signatures, "
@@ -235,6 +214,6 @@ void manual_write_html(const struct manual *manual, FILE *out)
           "all types and defaults are listed.</p>\n</header>\n", out);
     put_nodes(manual, out);
     fputs("<p id=\"none\" hidden=\"hidden\">Nothing has these words.</p>\n</main>\n<script>\n", out);
-    put_lines(out, manual_script);
+    markup_lines(out, manual_script);
     fputs("</script>\n</body>\n</html>\n", out);
 }

@@ -76,9 +76,6 @@ const char *manual_cell(struct manual *manual, const mxg_port *port, enum manual
 void manual_write_html(const struct manual *manual, FILE *out);
 void manual_write_markdown(const struct manual *manual, FILE *out);
 
-/* page.c: made of page.css and page.js when mxgen is built; ends with NULL. */
-extern const char *const manual_style[], *const manual_script[];
-
 /*
  * picture.c: draws what can be pictured into `folder`/pictures, each picture beside the document it shows. False after
  * telling that a picture could not be made.

@@ -1,0 +1,42 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# The reports of mxgen check: each is what its format says, and all tell the same. Arguments: mxgen.
+mxgen=$(realpath "$1")
+here=$(cd "$(dirname "$0")" && pwd)
+. "$here/../programs/common.sh"
+. "$here/materials.sh"
+
+mkdir show
+material Good >'show/a good.mtlx'
+material Wrong '&lt;b&gt;' >show/wrong.mtlx
+material Half | head -n 5 >show/half.mtlx
+material Odd | sed 's/standard_surface/standard_surfase/' >show/odd.mtlx
+material Warned | sed 's/specular_roughness/specular_rough/' >show/warned.mtlx
+echo '<materialx version="1.39"><nodedef name="ND_x" node="x"><output name="out" type="float"/></nodedef></materialx>' >show/library.mtlx
+
+check 'all reports at once' exits 1 "$mxgen" check show --no-compile -t glsl,essl --json r.json --sarif r.sarif --junit r.xml --html r.html
+check 'the run had what they must tell' says r.json '[x.get("stage", "passed") for x in d]' \
+    "['passed', 'load', 'passed', 'validate', 'passed', 'validate']"
+check 'they tell the same' "$here/reports.py" r.json r.sarif r.xml r.html
+check 'with times too' exits 1 "$mxgen" check show --no-compile --stats --json t.json --sarif t.sarif --junit t.xml --html t.html
+check 'which JUnit has' grep -q '<testcase [^>]* time="[0-9.]*"' t.xml
+check 'they still tell the same' "$here/reports.py" t.json t.sarif t.xml t.html
+
+# The page in a browser: cards that are shown after a filter, and their order
+browser=$(command -v chromium chromium-browser google-chrome | head -n 1)
+# shown ADDRESS: what stands on the cards that are visible, in order
+shown() {
+    timeout 60 "$browser" --headless --no-sandbox --disable-gpu --user-data-dir="$work/browser" --dump-dom "file://$work/r.html#$1" 2>browser.log |
+        grep -o '<article [^>]*>\(<img[^>]*>\)\?<h2>[^<]*' | grep -v 'hidden' | sed 's/.*<h2>//; s/ $//' | paste -sd ' '
+}
+if [ -n "$browser" ]; then
+    check 'the page shows all' is "$(shown '')" 'Good document document Odd Warned Wrong'
+    check 'filters by status' is "$(shown status=failed)" 'document Odd Wrong'
+    check 'filters by text' is "$(shown filter=show/war)" 'Warned'
+    sizes=$(json r.json '" ".join(e["path"] for e in sorted((e for x in d for e in x["elements"]), key=lambda e: -max(s.get("sourceBytes", 0) for s in e["shaders"])))')
+    check 'sorts by size' is "$(shown order=sourceBytes)" "$sizes document document"
+else
+    skip 'there is no Chromium: the page was read by a parser only'
+fi
+
+finish check-reports
