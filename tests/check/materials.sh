@@ -21,7 +21,7 @@ json() {
     python3 -c '
 import json, sys
 report = json.load(open(sys.argv[1], encoding="utf-8"))
-print(eval(sys.argv[2], {"r": report, "d": report["documents"]}))' "$@"
+print(eval(sys.argv[2].strip(), {"r": report, "d": report["documents"]}))' "$@"
 }
 
 # is GOT EXPECTED
