@@ -120,7 +120,8 @@ static void name_shader(struct generation *g)
     shader->name = element->name;
     shader->element_type = element->category;
     shader->path = str_intern(shader->strings, path.data, path.len);
-    shader->syntax = g->result->target->syntax;
+    shader->style = arena_alloc(shader->arena, sizeof *shader->style);
+    lang_style_init(shader->style, g->result->target->syntax, shader->arena);
     shader->max_lights = (uint32_t)g->options[OPTION_max_lights].number;
 }
 

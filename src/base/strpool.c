@@ -3,30 +3,6 @@
 
 #include "base/hash.h"
 
-#include <assert.h>
-
-static const struct strpool *layer_of(const struct strpool *pool, str_id id)
-{
-    while (id < pool->first)
-        pool = pool->base;
-    assert(id - pool->first < pool->num);
-    return pool;
-}
-
-const char *str_text(const struct strpool *pool, str_id id)
-{
-    pool = layer_of(pool, id);
-    uint32_t i = id - pool->first;
-    return pool->offsets ? pool->bytes + pool->offsets[i] : pool->entries.items[i].text;
-}
-
-size_t str_len(const struct strpool *pool, str_id id)
-{
-    pool = layer_of(pool, id);
-    uint32_t i = id - pool->first;
-    return pool->offsets ? pool->offsets[i + 1] - pool->offsets[i] - 1 : pool->entries.items[i].len;
-}
-
 static bool matches(const struct strpool *pool, str_id id, const char *text, size_t len, uint32_t hash)
 {
     uint32_t i = id - pool->first;

@@ -13,6 +13,8 @@
 
 #include "base/mem.h"
 
+#include <assert.h>
+
 typedef uint32_t str_id; /* 0 is the empty string, which also stands for "absent" */
 
 enum str_word {
@@ -53,8 +55,28 @@ str_id str_intern_z(struct strpool *pool, const char *text);
 /* The id of a text, or 0 where no layer has it. */
 str_id str_find(const struct strpool *pool, const char *text, size_t len);
 
+/* The layer that an id is of. */
+static inline const struct strpool *str_layer(const struct strpool *pool, str_id id)
+{
+    while (id < pool->first)
+        pool = pool->base;
+    assert(id - pool->first < pool->num);
+    return pool;
+}
+
 /* The text of an id; valid as long as its layer. */
-const char *str_text(const struct strpool *pool, str_id id);
-size_t str_len(const struct strpool *pool, str_id id);
+static inline const char *str_text(const struct strpool *pool, str_id id)
+{
+    pool = str_layer(pool, id);
+    uint32_t i = id - pool->first;
+    return pool->offsets ? pool->bytes + pool->offsets[i] : pool->entries.items[i].text;
+}
+
+static inline size_t str_len(const struct strpool *pool, str_id id)
+{
+    pool = str_layer(pool, id);
+    uint32_t i = id - pool->first;
+    return pool->offsets ? pool->offsets[i + 1] - pool->offsets[i] - 1 : pool->entries.items[i].len;
+}
 
 #endif

@@ -24,6 +24,13 @@ void text_reserve(struct text *text, size_t more)
     text->cap = cap;
 }
 
+struct text_word text_word_of(struct arena *arena, const char *bytes, size_t len)
+{
+    char *copy = arena_alloc(arena, len + TEXT_BLOCK);
+    text_copy(copy, bytes, len);
+    return (struct text_word){copy, (uint32_t)len};
+}
+
 void text_u32(struct text *text, uint32_t value)
 {
     char digits[10];

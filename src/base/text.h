@@ -16,13 +16,51 @@ void text_init(struct text *text, struct arena *arena);
 /* Room for `more` bytes behind the end; text->data + text->len is where they go. */
 void text_reserve(struct text *text, size_t more);
 
+/* Words are short: two copies that overlap do for any length between theirs and twice theirs. */
+static inline void text_copy(char *to, const char *from, size_t len)
+{
+    if (len > 16) {
+        memcpy(to, from, len);
+    } else if (len >= 8) {
+        memcpy(to, from, 8);
+        memcpy(to + len - 8, from + len - 8, 8);
+    } else if (len >= 4) {
+        memcpy(to, from, 4);
+        memcpy(to + len - 4, from + len - 4, 4);
+    } else if (len) {
+        to[0] = from[0];
+        to[len / 2] = from[len / 2];
+        to[len - 1] = from[len - 1];
+    }
+}
+
 static inline void text_mem(struct text *text, const char *bytes, size_t len)
 {
     if (text->cap - text->len < len)
         text_reserve(text, len);
-    if (len)
-        memcpy(text->data + text->len, bytes, len);
+    text_copy(text->data + text->len, bytes, len);
     text->len += len;
+}
+
+/*
+ * A word that is written often. It is copied in whole blocks, which costs less than to find out how long it is: so many bytes
+ * may be read at `bytes`.
+ */
+enum { TEXT_BLOCK = 16 };
+struct text_word {
+    const char *bytes;
+    uint32_t len;
+};
+
+static inline void text_put(struct text *text, struct text_word word)
+{
+    if (text->cap - text->len < (size_t)word.len + TEXT_BLOCK)
+        text_reserve(text, (size_t)word.len + TEXT_BLOCK);
+    char *to = text->data + text->len;
+    memcpy(to, word.bytes, TEXT_BLOCK);
+    for (uint32_t i = TEXT_BLOCK; i < word.len; i += TEXT_BLOCK)
+        memcpy(to + i, word.bytes + i, TEXT_BLOCK);
+    text->len += word.len;
 }
 
 static inline void text_char(struct text *text, char c)
@@ -36,6 +74,9 @@ static inline void text_str(struct text *text, const char *z)
 {
     text_mem(text, z, strlen(z));
 }
+
+/* A word with a copy of these bytes. */
+struct text_word text_word_of(struct arena *arena, const char *bytes, size_t len);
 
 void text_u32(struct text *text, uint32_t value);
 void text_i32(struct text *text, int32_t value);

@@ -331,14 +331,50 @@ struct lang_syntax {
 
 const struct lang_form *lang_syntax_form(const struct lang_syntax *syntax, enum ir_op op);
 const char *lang_syntax_type(const struct lang_syntax *syntax, ir_type_id type);
-bool lang_syntax_is_reserved(const struct lang_syntax *syntax, const char *name);
+bool lang_syntax_is_reserved(const struct lang_syntax *syntax, const char *name, size_t len);
 
-/* Writes operand `index` so that it binds at least as tightly as `least`. */
-typedef void lang_operand_fn(void *user_data, unsigned index, enum lang_precedence least, struct text *out);
+/* style.c: a syntax made ready to print much in it, with the rows of its bases at hand and its forms taken apart. */
 
-/* Writes a form. Parentheses around the whole are the caller's: where form->precedence is below what the context needs. */
-void lang_write_form(const struct lang_form *form, const char *type_name, lang_operand_fn *operand, void *user_data,
-                     struct text *out);
+enum { LANG_MAX_PIECES = 8, LANG_PIECE_TYPE = 255 };
+
+/* A form as characters, operand, characters, operand … characters. */
+struct lang_pieces {
+    const char *text;   /* of the form; NULL: the target cannot spell it */
+    uint8_t precedence; /* enum lang_precedence */
+    bool infix;
+    bool spreads;       /* constants beside a vector are written as vectors */
+    uint8_t num;        /* how many operands */
+    struct lang_piece {
+        uint8_t index;  /* of the operand, or LANG_PIECE_TYPE for the type's name */
+        uint8_t least;  /* precedence that the operand needs */
+        struct text_word before;
+    } pieces[LANG_MAX_PIECES];
+    struct text_word rest; /* behind the last */
+};
+
+struct lang_style {
+    const struct lang_syntax *syntax;
+    struct arena *arena;
+    struct text_word types[IR_NUM_TYPES];
+    struct lang_pieces *forms[IR_NUM_OPS]; /* each is made when it is first asked for */
+    uint64_t reserved[64];                /* a set that holds the hash of each reserved word: what is not there is free */
+};
+
+void lang_style_init(struct lang_style *style, const struct lang_syntax *syntax, struct arena *arena);
+const struct lang_pieces *lang_style_split(struct lang_style *style, enum ir_op op);
+static inline const struct lang_pieces *lang_style_form(struct lang_style *style, enum ir_op op)
+{
+    return style->forms[op] ? style->forms[op] : lang_style_split(style, op);
+}
+static inline unsigned lang_word_hash(const char *name, size_t len) /* below 4096; of no empty name */
+{
+    return ((unsigned char)name[0] * 67u + (unsigned char)name[len / 2] * 13u + (unsigned char)name[len - 1] * 5u + (unsigned)len) & 4095;
+}
+static inline bool lang_style_is_reserved(const struct lang_style *style, const char *name, size_t len)
+{
+    unsigned hash = lang_word_hash(name, len);
+    return style->reserved[hash / 64] >> hash % 64 & 1 && lang_syntax_is_reserved(style->syntax, name, len);
+}
 
 /*
  * How names of functions, globals and user types appear in the output; the strings live at least as long as the printing.
@@ -354,22 +390,20 @@ struct lang_names {
 extern const struct lang_syntax lang_syntax_portable; /* prints what the parser reads */
 
 /* `names` may be NULL below: the names of the source. */
-void lang_print_type(const struct lang_syntax *syntax, const struct lang_names *names, const struct lang_unit *unit,
+void lang_print_type(const struct lang_style *style, const struct lang_names *names, const struct lang_unit *unit,
                      ir_type_id type, struct text *out);
 /* "float x[3]": a variable with its type. */
-void lang_print_variable(const struct lang_syntax *syntax, const struct lang_names *names, const struct lang_unit *unit,
+void lang_print_variable(const struct lang_style *style, const struct lang_names *names, const struct lang_unit *unit,
                          ir_type_id type, const char *name, struct text *out);
-/* vec3(1.0) when equal; `strings` may be NULL where the value is not a string. */
-void lang_print_value(const struct lang_syntax *syntax, const struct strpool *strings, const struct ir_value *value,
-                      struct text *out);
-/* How tightly such a literal binds: -1.0 less than 1.0 or vec3(1.0). */
-enum lang_precedence lang_value_precedence(const struct ir_value *value);
-void lang_print_function(const struct lang_syntax *syntax, const struct lang_names *names, const struct lang_unit *unit,
+/* vec3(1.0) when equal; `strings` may be NULL where the value is not a string. In parentheses where `least` asks for them: -1.0. */
+void lang_print_value(const struct lang_style *style, const struct strpool *strings, ir_type_id type,
+                      const union ir_word *words, enum lang_precedence least, struct text *out);
+void lang_print_function(struct lang_style *style, const struct lang_names *names, const struct lang_unit *unit,
                          uint32_t id, struct text *out);
 /* "const float PI = 3.14;", and "struct S {…};", each with its newline. */
-void lang_print_constant(const struct lang_syntax *syntax, const struct lang_names *names, const struct lang_unit *unit,
+void lang_print_constant(const struct lang_style *style, const struct lang_names *names, const struct lang_unit *unit,
                          uint32_t global_id, struct text *out);
-void lang_print_struct(const struct lang_syntax *syntax, const struct lang_names *names, const struct lang_unit *unit,
+void lang_print_struct(const struct lang_style *style, const struct lang_names *names, const struct lang_unit *unit,
                        ir_type_id type, struct text *out);
 
 #endif

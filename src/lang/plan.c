@@ -16,6 +16,7 @@ static struct lang_plan *plan_of(struct lang_unit *unit)
         unit->plan = ARENA_NEW(unit->arena, struct lang_plan);
         unit->plan->num_ids = unit->base_functions + unit->functions.len;
         unit->plan->first_variant = ARENA_ARRAY(unit->arena, uint32_t, unit->plan->num_ids);
+        unit->plan->called = ARENA_ARRAY(unit->arena, uint64_t, unit->plan->num_ids / 64 + 1);
         unit->plan->spec = ARENA_NEW(unit->arena, struct spec);
         unit->plan->spec->unit = unit;
     }
@@ -54,6 +55,7 @@ static uint32_t add_variant(struct lang_unit *unit, uint32_t function, uint32_t 
 {
     struct lang_plan *plan = unit->plan;
     struct variant variant = {.function = function, .first_fact = plan->facts.len};
+    plan->called[function / 64] |= (uint64_t)1 << function % 64;
     fact *facts = vec_extend(unit->arena, &plan->facts, num_params);
     for (uint32_t i = 0; i < num_params; i++)
         facts[i] = FACT_UNSEEN;
@@ -131,15 +133,29 @@ uint32_t plan_note_any(struct lang_unit *unit, uint32_t function)
     return plan_note_call(unit, function, NULL, true);
 }
 
+/* Few functions of a library are called: the next one in 64 is found at once. */
+static bool is_any_called(const struct lang_plan *plan, uint32_t id)
+{
+    return plan->called[id / 64] != 0;
+}
+
 void lang_plan_finish(struct lang_unit *unit)
 {
     struct lang_plan *plan = plan_of(unit);
-    for (uint32_t id = plan->num_ids; id-- > 0;)
+    for (uint32_t id = plan->num_ids; id-- > 0;) {
+        if (!is_any_called(plan, id))
+            id &= ~63u;
         for (uint32_t link = plan->first_variant[id]; link; link = plan->variants.items[link - 1].next)
             spec_begin(unit, link - 1);
-    for (uint32_t id = 0; id < plan->num_ids; id++)
+    }
+    for (uint32_t id = 0; id < plan->num_ids; id++) {
+        if (!is_any_called(plan, id)) {
+            id |= 63;
+            continue;
+        }
         for (uint32_t link = plan->first_variant[id]; link; link = plan->variants.items[link - 1].next)
             spec_finish(unit, link - 1);
+    }
 }
 
 uint32_t lang_plan_version(const struct lang_unit *unit, uint32_t call)

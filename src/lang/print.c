@@ -3,13 +3,12 @@
 #include "lang/print.h"
 
 struct local { /* what a slot is called in the output */
-    const char *name;
-    uint32_t len;
+    struct text_word name;
     str_id id; /* of the name; 0 where it was changed */
 };
 
 struct printer {
-    const struct lang_syntax *syntax;
+    struct lang_style *style;
     const struct lang_names *names;
     const struct lang_unit *unit, *layer;
     const struct lang_function *fn;
@@ -19,11 +18,17 @@ struct printer {
     uint32_t num_visible;
     bool any_changed;     /* some local's name is not the source's */
     uint64_t initials;    /* of the names of the functions and globals in use, one bit each: few locals share one */
+    uint64_t ids;         /* of the names that have been in scope, one bit each likewise */
     unsigned indent;
 };
 
-static void print_expression(struct printer *p, lang_ref ref, enum lang_precedence least);
-static void print_statement(struct printer *p, lang_ref ref);
+static void print_expression(struct printer *p, const struct lang_node *node, enum lang_precedence least);
+static void print_statement(struct printer *p, const struct lang_node *node);
+
+static inline const struct lang_node *node_at(const struct printer *p, lang_ref ref)
+{
+    return ast_node(p->layer, ref);
+}
 
 /* Names. Pruning moves declarations into outer scopes, so that names which were apart may meet: the later one changes. */
 
@@ -54,28 +59,29 @@ static uint64_t initial(const char *name)
 /* Equal names of the source have equal ids; the characters are compared where one was changed. */
 static bool is_visible(const struct printer *p, const char *name, str_id id)
 {
+    if (id && !p->any_changed && !(p->ids >> (id & 63) & 1))
+        return false;
     for (uint32_t i = 0; i < p->num_visible; i++) {
         const struct local *local = &p->locals[p->visible[i]];
-        if (p->any_changed || !id ? is_same(local->name, name) : local->id == id)
+        if (p->any_changed || !id ? is_same(local->name.bytes, name) : local->id == id)
             return true;
     }
     return false;
 }
 
-static bool is_taken(const struct printer *p, const char *name, str_id id)
+static bool is_taken(const struct printer *p, const char *name, size_t len, str_id id)
 {
     if (is_visible(p, name, id))
         return true;
     for (uint32_t i = 0; i < num_outer(p) && p->initials & initial(name); i++)
         if (is_same(outer_name(p, i), name))
             return true;
-    return lang_syntax_is_reserved(p->syntax, name);
+    return lang_style_is_reserved(p->style, name, len);
 }
 
 /* "x_", "x_2", "x_3"… for x; "x_2" at once for x_, since "__" is reserved in GLSL. */
-static const char *variant(struct printer *p, const char *name, uint32_t number)
+static struct text variant(struct printer *p, const char *name, size_t len, uint32_t number)
 {
-    size_t len = strlen(name);
     bool ends_low = len && name[len - 1] == '_';
     struct text text;
     text_init(&text, p->out->arena);
@@ -84,29 +90,36 @@ static const char *variant(struct printer *p, const char *name, uint32_t number)
         text_char(&text, '_');
     if (ends_low || number > 1)
         text_u32(&text, number + ends_low);
-    return text_cstr(&text);
+    text_cstr(&text);
+    return text;
 }
 
 static void bring_into_scope(struct printer *p, uint32_t slot)
 {
     str_id id = ast_slot(p->layer, p->fn, slot)->name;
     const char *own = str_text(p->unit->strings, id), *name = own;
-    for (uint32_t number = 1; is_taken(p, name, name == own ? id : 0); number++)
-        name = variant(p, own, number);
-    p->locals[slot] = (struct local){name, (uint32_t)strlen(name), name == own ? id : 0};
+    size_t own_len = str_len(p->unit->strings, id), len = own_len;
+    for (uint32_t number = 1; is_taken(p, name, len, name == own ? id : 0); number++) {
+        struct text text = variant(p, own, own_len, number);
+        name = text.data;
+        len = text.len;
+    }
+    p->locals[slot] = (struct local){text_word_of(p->out->arena, name, len + 1), name == own ? id : 0};
+    p->locals[slot].name.len--; /* the NUL, for comparisons */
     p->any_changed |= name != own;
+    p->ids |= 1ull << (id & 63);
     p->visible[p->num_visible++] = slot;
 }
 
 static void print_local(struct printer *p, uint32_t slot)
 {
-    text_mem(p->out, p->locals[slot].name, p->locals[slot].len);
+    text_put(p->out, p->locals[slot].name);
 }
 
 static void print_variable(struct printer *p, uint32_t slot)
 {
     ir_type_id type = ast_slot(p->layer, p->fn, slot)->type;
-    print_base_type(p->syntax, p->names, p->unit, type, p->out);
+    print_base_type(p->style, p->names, p->unit, type, p->out);
     text_char(p->out, ' ');
     print_local(p, slot);
     print_lengths(p->unit, type, p->out);
@@ -114,12 +127,14 @@ static void print_variable(struct printer *p, uint32_t slot)
 
 /* Expressions */
 
-static void print_list(struct printer *p, lang_ref first)
+static void print_list(struct printer *p, lang_ref ref)
 {
-    for (lang_ref ref = first; ref; ref = ast_node(p->layer, ref)->next) {
-        if (ref != first)
+    while (ref) {
+        const struct lang_node *node = node_at(p, ref);
+        print_expression(p, node, LANG_PREC_ASSIGN);
+        ref = node->next;
+        if (ref)
             text_mem(p->out, ", ", 2);
-        print_expression(p, ref, LANG_PREC_ASSIGN);
     }
 }
 
@@ -127,18 +142,18 @@ static void print_construct(struct printer *p, const struct lang_node *node)
 {
     bool is_array = ast_is_user_type(node->type) && lang_user_type(p->unit, node->type, NULL)->array_length;
     if (is_array) {
-        print_open_array(p->syntax, p->names, p->unit, node->type, p->out);
+        print_open_array(p->style, p->names, p->unit, node->type, p->out);
     } else {
-        lang_print_type(p->syntax, p->names, p->unit, node->type, p->out);
+        lang_print_type(p->style, p->names, p->unit, node->type, p->out);
         text_char(p->out, '(');
     }
     print_list(p, node->a);
-    text_char(p->out, is_array && p->syntax->array_braces ? '}' : ')');
+    text_char(p->out, is_array && p->style->syntax->array_braces ? '}' : ')');
 }
 
 static void print_swizzle(struct printer *p, const struct lang_node *node)
 {
-    print_expression(p, node->a, LANG_PREC_POSTFIX);
+    print_expression(p, node_at(p, node->a), LANG_PREC_POSTFIX);
     text_char(p->out, '.');
     for (unsigned i = 0; i < node->b >> 8; i++)
         text_char(p->out, "xyzw"[node->b >> 2 * i & 3]);
@@ -146,107 +161,87 @@ static void print_swizzle(struct printer *p, const struct lang_node *node)
 
 static void print_member(struct printer *p, const struct lang_node *node)
 {
-    print_expression(p, node->a, LANG_PREC_POSTFIX);
+    const struct lang_node *whole = node_at(p, node->a);
+    print_expression(p, whole, LANG_PREC_POSTFIX);
     const struct lang_unit *layer;
-    const struct ir_user_type *user = lang_user_type(p->unit, ast_node(p->layer, node->a)->type, &layer);
+    const struct ir_user_type *user = lang_user_type(p->unit, whole->type, &layer);
     text_char(p->out, '.');
     text_str(p->out, str_text(p->unit->strings, layer->members.items[user->first_member + node->b].name));
 }
 
-/*
- * A constant beside a vector is written as a vector: compilers of shading languages would fill one when the shader runs. Products have
- * an operation of their own for a scalar.
- */
-static bool spreads_constants(const struct lang_syntax *syntax, const struct lang_node *node)
+static void print_type_name(struct printer *p, ir_type_id type)
 {
-    uint8_t rule = ir_op_info(node->op)->rule;
-    bool fits = rule == IR_RULE_SPLAT || (rule == IR_RULE_ARITH && node->op != IR_MUL);
-    return fits && syntax->wide_constants && !ast_is_user_type(node->type) && ir_type_info(node->type)->components > 1
-           && !ir_type_is_matrix(node->type) && node->op != IR_REFRACT;
+    if (!ast_is_user_type(type))
+        text_put(p->out, p->style->types[type]);
 }
 
-static void print_operand_of(struct printer *p, lang_ref ref, ir_type_id wide, enum lang_precedence least)
+/* A constant beside a vector is written as a vector where the style spreads constants (style.c). */
+static inline void print_operand(struct printer *p, const struct lang_node *operand, ir_type_id wide, enum lang_precedence least)
 {
-    const struct lang_node *operand = ast_node(p->layer, ref);
     if (!wide || operand->kind != LANG_CONST || operand->type != IR_TYPE_FLOAT) {
-        print_expression(p, ref, least);
+        print_expression(p, operand, least);
         return;
     }
-    text_str(p->out, lang_syntax_type(p->syntax, wide));
+    print_type_name(p, wide);
     text_char(p->out, '(');
-    print_expression(p, ref, LANG_PREC_ASSIGN);
+    print_expression(p, operand, LANG_PREC_ASSIGN);
     text_char(p->out, ')');
 }
 
-struct operands {
-    struct printer *printer;
-    ir_type_id wide; /* what constants are spread to; VOID: they are not */
-    lang_ref refs[4];
-};
-
-static void print_operand(void *user_data, unsigned index, enum lang_precedence least, struct text *out)
+static void print_form(struct printer *p, const struct lang_pieces *form, ir_type_id type,
+                       const struct lang_node *const *operands)
 {
-    struct operands *operands = user_data;
-    (void)out; /* the printer's own */
-    print_operand_of(operands->printer, operands->refs[index], operands->wide, least);
-}
-
-static void print_form(struct printer *p, const struct lang_form *form, ir_type_id type, struct operands *operands)
-{
-    const char *type_name = ast_is_user_type(type) ? "" : lang_syntax_type(p->syntax, type);
-    lang_write_form(form, type_name, print_operand, operands, p->out);
+    bool is_vector = type >= IR_TYPE_VEC2 && type <= IR_TYPE_VEC4;
+    ir_type_id wide = form->spreads && is_vector ? type : IR_TYPE_VOID;
+    const struct lang_piece *piece = form->pieces, *end = piece + form->num;
+    for (; piece < end; piece++) {
+        if (piece->before.len)
+            text_put(p->out, piece->before);
+        if (piece->index == LANG_PIECE_TYPE)
+            print_type_name(p, type);
+        else
+            print_operand(p, operands[piece->index], wide, (enum lang_precedence)piece->least);
+    }
+    if (form->rest.len)
+        text_put(p->out, form->rest);
 }
 
 static void print_op(struct printer *p, const struct lang_node *node, enum lang_precedence least)
 {
-    switch (node->op) {
-    case IR_CONSTRUCT:
-        print_construct(p, node);
-        return;
-    case IR_SWIZZLE:
-        print_swizzle(p, node);
-        return;
-    case IR_MEMBER:
-        print_member(p, node);
-        return;
-    default:
-        break;
-    }
-    const struct lang_form *form = lang_syntax_form(p->syntax, node->op);
+    const struct lang_pieces *form = lang_style_form(p->style, node->op);
     bool parenthesised = form->precedence < least;
     if (parenthesised)
         text_char(p->out, '(');
-    ir_type_id wide = spreads_constants(p->syntax, node) ? node->type : IR_TYPE_VOID;
-    if (form->infix) { /* most of what there is */
-        print_operand_of(p, node->a, wide, (enum lang_precedence)form->precedence);
-        text_mem(p->out, form->text + 2, strlen(form->text + 2) - 2);
-        print_operand_of(p, ast_node(p->layer, node->a)->next, wide, (enum lang_precedence)form->precedence + 1);
-    } else {
-        struct operands operands = {.printer = p, .wide = wide};
-        ast_list(p->layer, node->a, operands.refs, 4);
-        print_form(p, form, node->type, &operands);
+    const struct lang_node *operands[4] = {node_at(p, node->a)};
+    for (unsigned i = 1; i < 4 && operands[i - 1]->next; i++)
+        operands[i] = node_at(p, operands[i - 1]->next);
+    print_form(p, form, node->type, operands);
+    if (parenthesised)
+        text_char(p->out, ')');
+}
+
+static void print_op_or_part(struct printer *p, const struct lang_node *node, enum lang_precedence least)
+{
+    switch (node->op) {
+    case IR_CONSTRUCT:
+        print_construct(p, node);
+        break;
+    case IR_SWIZZLE:
+        print_swizzle(p, node);
+        break;
+    case IR_MEMBER:
+        print_member(p, node);
+        break;
+    default:
+        print_op(p, node, least);
     }
-    if (parenthesised)
-        text_char(p->out, ')');
 }
 
-static void print_constant(struct printer *p, const struct lang_node *node, enum lang_precedence least)
+static void print_expression(struct printer *p, const struct lang_node *node, enum lang_precedence least)
 {
-    struct ir_value value = ast_value(node->type, ast_words(p->layer, node));
-    bool parenthesised = lang_value_precedence(&value) < least;
-    if (parenthesised)
-        text_char(p->out, '(');
-    lang_print_value(p->syntax, p->unit->strings, &value, p->out);
-    if (parenthesised)
-        text_char(p->out, ')');
-}
-
-static void print_expression(struct printer *p, lang_ref ref, enum lang_precedence least)
-{
-    const struct lang_node *node = ast_node(p->layer, ref);
     switch (node->kind) {
     case LANG_CONST:
-        print_constant(p, node, least);
+        lang_print_value(p->style, p->unit->strings, node->type, ast_words(p->layer, node), least, p->out);
         break;
     case LANG_VAR:
         print_local(p, node->a);
@@ -266,7 +261,7 @@ static void print_expression(struct printer *p, lang_ref ref, enum lang_preceden
         text_char(p->out, ')');
         break;
     default:
-        print_op(p, node, least);
+        print_op_or_part(p, node, least);
     }
 }
 
@@ -287,13 +282,13 @@ static void print_declaration(struct printer *p, const struct lang_node *node)
     print_variable(p, node->a);
     if (node->b) {
         text_mem(p->out, " = ", 3);
-        print_expression(p, node->b, LANG_PREC_ASSIGN);
+        print_expression(p, node_at(p, node->b), LANG_PREC_ASSIGN);
     }
 }
 
 static bool is_int_one(const struct printer *p, lang_ref ref)
 {
-    const struct lang_node *node = ast_node(p->layer, ref);
+    const struct lang_node *node = node_at(p, ref);
     return node->kind == LANG_CONST && node->type == IR_TYPE_INT && ast_words(p->layer, node)->i == 1;
 }
 
@@ -301,20 +296,20 @@ static void print_assignment(struct printer *p, const struct lang_node *node)
 {
     if ((node->op == IR_ADD || node->op == IR_SUB) && is_int_one(p, node->b)) {
         text_str(p->out, node->op == IR_ADD ? "++" : "--");
-        print_expression(p, node->a, LANG_PREC_UNARY);
+        print_expression(p, node_at(p, node->a), LANG_PREC_UNARY);
         return;
     }
-    print_expression(p, node->a, LANG_PREC_UNARY);
-    const struct lang_form *form = node->op == IR_NUM_OPS ? NULL : lang_syntax_form(p->syntax, node->op);
+    print_expression(p, node_at(p, node->a), LANG_PREC_UNARY);
+    const struct lang_pieces *form = node->op == IR_NUM_OPS ? NULL : lang_style_form(p->style, node->op);
     text_char(p->out, ' ');
     if (form && form->infix) /* the operator is what stands between "$0 " and " $1" */
-        text_mem(p->out, form->text + 3, strlen(form->text) - 6);
+        text_mem(p->out, form->text + 3, form->pieces[1].before.len - 2u);
     text_mem(p->out, "= ", 2);
     if (form && !form->infix) { /* no such operator there: x = f(x, y) */
-        print_form(p, form, ast_node(p->layer, node->a)->type, &(struct operands){.printer = p, .refs = {node->a, node->b}});
+        print_form(p, form, node_at(p, node->a)->type, (const struct lang_node *[]){node_at(p, node->a), node_at(p, node->b)});
         return;
     }
-    print_expression(p, node->b, LANG_PREC_ASSIGN);
+    print_expression(p, node_at(p, node->b), LANG_PREC_ASSIGN);
 }
 
 /* A statement without indentation, ';' and newline: also the head of a `for`. */
@@ -328,12 +323,12 @@ static void print_simple(struct printer *p, const struct lang_node *node)
         print_assignment(p, node);
         break;
     case LANG_EXPR:
-        print_expression(p, node->a, LANG_PREC_ASSIGN);
+        print_expression(p, node_at(p, node->a), LANG_PREC_ASSIGN);
         break;
     case LANG_RETURN:
         text_str(p->out, node->a ? "return " : "return");
         if (node->a)
-            print_expression(p, node->a, LANG_PREC_ASSIGN);
+            print_expression(p, node_at(p, node->a), LANG_PREC_ASSIGN);
         break;
     case LANG_BREAK:
         text_str(p->out, "break");
@@ -346,17 +341,20 @@ static void print_simple(struct printer *p, const struct lang_node *node)
 
 static void print_statements(struct printer *p, lang_ref first)
 {
-    for (lang_ref ref = first; ref; ref = ast_node(p->layer, ref)->next)
-        print_statement(p, ref);
+    for (lang_ref ref = first; ref;) {
+        const struct lang_node *node = node_at(p, ref);
+        print_statement(p, node);
+        ref = node->next;
+    }
 }
 
-/* What stands between braces, in a scope of its own. `body` is a block or a single statement; 0 is empty. */
-static void print_body(struct printer *p, lang_ref body)
+/* What stands between braces, in a scope of its own. `body` is a block or a single statement; NULL is empty. */
+static void print_body(struct printer *p, const struct lang_node *body)
 {
     uint32_t mark = p->num_visible;
     p->indent++;
-    if (body && ast_node(p->layer, body)->kind == LANG_BLOCK)
-        print_statements(p, ast_node(p->layer, body)->a);
+    if (body && body->kind == LANG_BLOCK)
+        print_statements(p, body->a);
     else if (body)
         print_statement(p, body);
     p->indent--;
@@ -366,17 +364,17 @@ static void print_body(struct printer *p, lang_ref body)
 /* The only statement of a body, or 0. */
 static lang_ref only_statement(const struct printer *p, lang_ref body)
 {
-    const struct lang_node *node = body ? ast_node(p->layer, body) : NULL;
+    const struct lang_node *node = body ? node_at(p, body) : NULL;
     if (!node || node->kind != LANG_BLOCK)
         return body;
-    return node->a && !ast_node(p->layer, node->a)->next ? node->a : 0;
+    return node->a && !node_at(p, node->a)->next ? node->a : 0;
 }
 
 /* One line needs no braces; what is compound keeps them, which also settles where an `else` belongs. */
 static bool needs_braces(const struct printer *p, lang_ref body)
 {
     lang_ref only = only_statement(p, body);
-    unsigned kind = only ? ast_node(p->layer, only)->kind : LANG_BLOCK;
+    unsigned kind = only ? node_at(p, only)->kind : LANG_BLOCK;
     return kind == LANG_BLOCK || kind == LANG_IF || kind == LANG_FOR || kind == LANG_WHILE || kind == LANG_DO
            || kind == LANG_DECLARE;
 }
@@ -385,7 +383,7 @@ static bool needs_braces(const struct printer *p, lang_ref body)
 static void print_governed(struct printer *p, lang_ref body, bool braces)
 {
     text_str(p->out, braces ? " {\n" : "\n");
-    print_body(p, body);
+    print_body(p, body ? node_at(p, body) : NULL);
     if (braces) {
         print_indent(p);
         text_char(p->out, '}');
@@ -395,7 +393,7 @@ static void print_governed(struct printer *p, lang_ref body, bool braces)
 static lang_ref else_if(const struct printer *p, const struct lang_node *node)
 {
     lang_ref only = node->c ? only_statement(p, node->c) : 0;
-    return only && ast_node(p->layer, only)->kind == LANG_IF ? only : 0;
+    return only && node_at(p, only)->kind == LANG_IF ? only : 0;
 }
 
 /* All branches of a chain have braces where one needs them. */
@@ -407,7 +405,7 @@ static bool chain_needs_braces(const struct printer *p, const struct lang_node *
             return true;
         if (!next)
             return false;
-        node = ast_node(p->layer, next);
+        node = node_at(p, next);
     }
 }
 
@@ -416,7 +414,7 @@ static void print_if(struct printer *p, const struct lang_node *node)
     bool braces = chain_needs_braces(p, node);
     for (;;) {
         text_str(p->out, "if (");
-        print_expression(p, node->a, LANG_PREC_COMMA);
+        print_expression(p, node_at(p, node->a), LANG_PREC_COMMA);
         text_char(p->out, ')');
         print_governed(p, node->b, braces);
         if (!node->c)
@@ -432,7 +430,7 @@ static void print_if(struct printer *p, const struct lang_node *node)
             break;
         }
         text_char(p->out, ' ');
-        node = ast_node(p->layer, next);
+        node = node_at(p, next);
     }
     if (braces)
         text_char(p->out, '\n');
@@ -443,16 +441,16 @@ static void print_for(struct printer *p, const struct lang_node *node)
     uint32_t mark = p->num_visible;
     text_str(p->out, "for (");
     if (node->a)
-        print_simple(p, ast_node(p->layer, node->a));
+        print_simple(p, node_at(p, node->a));
     text_char(p->out, ';');
     if (node->b) {
         text_char(p->out, ' ');
-        print_expression(p, node->b, LANG_PREC_COMMA);
+        print_expression(p, node_at(p, node->b), LANG_PREC_COMMA);
     }
     text_char(p->out, ';');
     if (node->c) {
         text_char(p->out, ' ');
-        print_simple(p, ast_node(p->layer, node->c));
+        print_simple(p, node_at(p, node->c));
     }
     text_char(p->out, ')');
     bool braces = needs_braces(p, node->d);
@@ -465,7 +463,7 @@ static void print_for(struct printer *p, const struct lang_node *node)
 static void print_while(struct printer *p, const struct lang_node *node)
 {
     text_str(p->out, "while (");
-    print_expression(p, node->b, LANG_PREC_COMMA);
+    print_expression(p, node_at(p, node->b), LANG_PREC_COMMA);
     text_char(p->out, ')');
     bool braces = needs_braces(p, node->d);
     print_governed(p, node->d, braces);
@@ -478,13 +476,12 @@ static void print_do(struct printer *p, const struct lang_node *node)
     text_str(p->out, "do");
     print_governed(p, node->d, true);
     text_str(p->out, " while (");
-    print_expression(p, node->b, LANG_PREC_COMMA);
+    print_expression(p, node_at(p, node->b), LANG_PREC_COMMA);
     text_str(p->out, ");\n");
 }
 
-static void print_statement(struct printer *p, lang_ref ref)
+static void print_statement(struct printer *p, const struct lang_node *node)
 {
-    const struct lang_node *node = ast_node(p->layer, ref);
     print_indent(p);
     switch (node->kind) {
     case LANG_IF:
@@ -501,7 +498,7 @@ static void print_statement(struct printer *p, lang_ref ref)
         break;
     case LANG_BLOCK:
         text_str(p->out, "{\n");
-        print_body(p, ref);
+        print_body(p, node);
         print_indent(p);
         text_str(p->out, "}\n");
         break;
@@ -513,10 +510,10 @@ static void print_statement(struct printer *p, lang_ref ref)
 
 /* Functions */
 
-static struct printer start(const struct lang_syntax *syntax, const struct lang_names *names, const struct lang_unit *unit,
+static struct printer start(struct lang_style *style, const struct lang_names *names, const struct lang_unit *unit,
                             uint32_t id, struct text *out)
 {
-    struct printer p = {.syntax = syntax, .names = names, .unit = unit, .out = out};
+    struct printer p = {.style = style, .names = names, .unit = unit, .out = out};
     p.fn = lang_function(unit, id, &p.layer);
     p.locals = arena_alloc(out->arena, p.fn->num_slots * sizeof *p.locals);
     p.visible = arena_alloc(out->arena, p.fn->num_slots * sizeof *p.visible);
@@ -538,25 +535,25 @@ static const char *param_prefix(const struct lang_syntax *syntax, const struct l
 
 static void print_head(struct printer *p, uint32_t id)
 {
-    lang_print_type(p->syntax, p->names, p->unit, p->fn->return_type, p->out);
+    lang_print_type(p->style, p->names, p->unit, p->fn->return_type, p->out);
     text_char(p->out, ' ');
     text_str(p->out, print_function_name(p->names, p->unit, id));
     text_char(p->out, '(');
     for (uint32_t i = 0; i < p->fn->num_params; i++) {
         if (i)
             text_mem(p->out, ", ", 2);
-        text_str(p->out, param_prefix(p->syntax, ast_slot(p->layer, p->fn, i)));
+        text_str(p->out, param_prefix(p->style->syntax, ast_slot(p->layer, p->fn, i)));
         print_variable(p, i);
     }
     text_char(p->out, ')');
 }
 
-void lang_print_function(const struct lang_syntax *syntax, const struct lang_names *names, const struct lang_unit *unit,
+void lang_print_function(struct lang_style *style, const struct lang_names *names, const struct lang_unit *unit,
                          uint32_t id, struct text *out)
 {
-    struct printer p = start(syntax, names, unit, id, out);
+    struct printer p = start(style, names, unit, id, out);
     print_head(&p, id);
     text_str(out, "\n{\n");
-    print_body(&p, p.fn->body);
+    print_body(&p, node_at(&p, p.fn->body));
     text_str(out, "}\n");
 }

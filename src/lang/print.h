@@ -9,12 +9,12 @@ const char *print_function_name(const struct lang_names *names, const struct lan
 const char *print_global_name(const struct lang_names *names, const struct lang_unit *unit, uint32_t id);
 
 /* A type in two parts, which stand around a variable's name: without the lengths of arrays, and these. */
-void print_base_type(const struct lang_syntax *syntax, const struct lang_names *names, const struct lang_unit *unit,
+void print_base_type(const struct lang_style *style, const struct lang_names *names, const struct lang_unit *unit,
                      ir_type_id type, struct text *out);
 void print_lengths(const struct lang_unit *unit, ir_type_id type, struct text *out);
 
 /* The beginning of an array constructor: "float[3](" or "{". */
-void print_open_array(const struct lang_syntax *syntax, const struct lang_names *names, const struct lang_unit *unit,
+void print_open_array(const struct lang_style *style, const struct lang_names *names, const struct lang_unit *unit,
                       ir_type_id type, struct text *out);
 
 #endif

@@ -1,56 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Printing what has no control flow: forms, types, values and the declarations at file scope. */
+/* Printing what has no control flow: types, values and the declarations at file scope. */
 #include "lang/print.h"
 
 #include <math.h>
-
-/* Precedence an operand needs, by what stands around it in the form. */
-static enum lang_precedence operand_precedence(const struct lang_form *form, unsigned index, char before, char after)
-{
-    bool opens = before == '(' || before == '[' || before == ',' || before == '{';
-    bool closes = after == ')' || after == ']' || after == ',' || after == '}';
-    if (opens && closes)
-        return LANG_PREC_ASSIGN;
-    enum lang_precedence own = (enum lang_precedence)form->precedence;
-    if (own == LANG_PREC_TERNARY)
-        return index == 0 ? LANG_PREC_LOR : LANG_PREC_TERNARY;
-    return LANG_PREC_POSTFIX;
-}
-
-/* The length of what stands before the next '$'. */
-static size_t literal_length(const char *text)
-{
-    size_t len = 0;
-    while (text[len] && text[len] != '$')
-        len++;
-    return len;
-}
-
-void lang_write_form(const struct lang_form *form, const char *type_name, lang_operand_fn *operand, void *user_data,
-                     struct text *out)
-{
-    const char *p = form->text;
-    if (form->infix) { /* most of what there is: without looking around */
-        operand(user_data, 0, (enum lang_precedence)form->precedence, out);
-        text_mem(out, p + 2, literal_length(p + 2));
-        operand(user_data, 1, (enum lang_precedence)form->precedence + 1, out);
-        return;
-    }
-    for (;;) {
-        size_t len = literal_length(p);
-        text_mem(out, p, len);
-        p += len;
-        if (!*p)
-            break;
-        char before = p == form->text ? '\0' : p[-1] == ' ' ? p[-2] : p[-1];
-        unsigned index = (unsigned)(p[1] - '0');
-        if (p[1] == 'T')
-            text_str(out, type_name);
-        else
-            operand(user_data, index, operand_precedence(form, index, before, p[2]), out);
-        p += 2;
-    }
-}
 
 const char *print_function_name(const struct lang_names *names, const struct lang_unit *unit, uint32_t id)
 {
@@ -70,12 +22,15 @@ static const char *struct_name(const struct lang_names *names, const struct lang
     return name ? name : str_text(unit->strings, lang_user_type(unit, type, NULL)->name);
 }
 
-void print_base_type(const struct lang_syntax *syntax, const struct lang_names *names, const struct lang_unit *unit,
+void print_base_type(const struct lang_style *style, const struct lang_names *names, const struct lang_unit *unit,
                             ir_type_id type, struct text *out)
 {
     while (ast_is_user_type(type) && lang_user_type(unit, type, NULL)->array_length)
         type = lang_user_type(unit, type, NULL)->element;
-    text_str(out, ast_is_user_type(type) ? struct_name(names, unit, type) : lang_syntax_type(syntax, type));
+    if (ast_is_user_type(type))
+        text_str(out, struct_name(names, unit, type));
+    else
+        text_put(out, style->types[type]);
 }
 
 void print_lengths(const struct lang_unit *unit, ir_type_id type, struct text *out)
@@ -91,17 +46,17 @@ void print_lengths(const struct lang_unit *unit, ir_type_id type, struct text *o
     }
 }
 
-void lang_print_type(const struct lang_syntax *syntax, const struct lang_names *names, const struct lang_unit *unit,
+void lang_print_type(const struct lang_style *style, const struct lang_names *names, const struct lang_unit *unit,
                      ir_type_id type, struct text *out)
 {
-    print_base_type(syntax, names, unit, type, out);
+    print_base_type(style, names, unit, type, out);
     print_lengths(unit, type, out);
 }
 
-void lang_print_variable(const struct lang_syntax *syntax, const struct lang_names *names, const struct lang_unit *unit,
+void lang_print_variable(const struct lang_style *style, const struct lang_names *names, const struct lang_unit *unit,
                          ir_type_id type, const char *name, struct text *out)
 {
-    print_base_type(syntax, names, unit, type, out);
+    print_base_type(style, names, unit, type, out);
     text_char(out, ' ');
     text_str(out, name);
     print_lengths(unit, type, out);
@@ -151,77 +106,78 @@ static unsigned count_needed(const struct ir_type_info *info, const union ir_wor
     return 1;
 }
 
-void lang_print_value(const struct lang_syntax *syntax, const struct strpool *strings, const struct ir_value *value,
-                      struct text *out)
+/* A literal with a sign binds less tightly than other ones. */
+static bool has_sign(ir_type_id type, union ir_word word)
 {
-    const struct ir_type_info *info = ir_type_info(value->type);
-    if (value->type == IR_TYPE_STRING) {
-        text_json_string(out, str_text(strings, value->w[0].u), str_len(strings, value->w[0].u));
+    return type == IR_TYPE_FLOAT ? signbit(word.f) && isfinite(word.f) : type == IR_TYPE_INT && word.i < 0 && word.i != INT32_MIN;
+}
+
+void lang_print_value(const struct lang_style *style, const struct strpool *strings, ir_type_id type,
+                      const union ir_word *words, enum lang_precedence least, struct text *out)
+{
+    const struct ir_type_info *info = ir_type_info(type);
+    if (type == IR_TYPE_STRING) {
+        text_json_string(out, str_text(strings, words->u), str_len(strings, words->u));
         return;
     }
-    if (info->components == 1) {
-        print_scalar(syntax, value->type, value->w[0], out);
-        return;
+    bool parentheses = least > LANG_PREC_UNARY && has_sign(type, *words);
+    unsigned count = 1;
+    if (info->components > 1) {
+        count = count_needed(info, words);
+        text_put(out, style->types[type]);
+        parentheses = true;
     }
-    text_str(out, lang_syntax_type(syntax, value->type));
-    text_char(out, '(');
-    unsigned count = count_needed(info, value->w);
+    if (parentheses)
+        text_char(out, '(');
     for (unsigned i = 0; i < count; i++) {
         if (i)
             text_mem(out, ", ", 2);
-        print_scalar(syntax, info->scalar, value->w[i], out);
+        print_scalar(style->syntax, info->scalar, words[i], out);
     }
-    text_char(out, ')');
-}
-
-enum lang_precedence lang_value_precedence(const struct ir_value *value)
-{
-    bool negative = (value->type == IR_TYPE_FLOAT && signbit(value->w[0].f) && isfinite(value->w[0].f))
-                    || (value->type == IR_TYPE_INT && value->w[0].i < 0 && value->w[0].i != INT32_MIN);
-    return negative ? LANG_PREC_UNARY : LANG_PREC_PRIMARY;
+    if (parentheses)
+        text_char(out, ')');
 }
 
 /* A value of any type but structs from consecutive words; returns the word behind it. */
-static const union ir_word *print_words(const struct lang_syntax *syntax, const struct lang_unit *unit, ir_type_id type,
+static const union ir_word *print_words(const struct lang_style *style, const struct lang_unit *unit, ir_type_id type,
                                         const union ir_word *words, struct text *out)
 {
     if (!ast_is_user_type(type)) {
-        struct ir_value value = ast_value(type, words);
-        lang_print_value(syntax, unit->strings, &value, out);
+        lang_print_value(style, unit->strings, type, words, LANG_PREC_COMMA, out);
         return words + ir_type_info(type)->components;
     }
     const struct ir_user_type *user = lang_user_type(unit, type, NULL);
-    print_open_array(syntax, NULL, unit, type, out);
+    print_open_array(style, NULL, unit, type, out);
     for (uint32_t i = 0; i < user->array_length; i++) {
         if (i)
             text_mem(out, ", ", 2);
-        words = print_words(syntax, unit, user->element, words, out);
+        words = print_words(style, unit, user->element, words, out);
     }
-    text_char(out, syntax->array_braces ? '}' : ')');
+    text_char(out, style->syntax->array_braces ? '}' : ')');
     return words;
 }
 
-void print_open_array(const struct lang_syntax *syntax, const struct lang_names *names, const struct lang_unit *unit,
+void print_open_array(const struct lang_style *style, const struct lang_names *names, const struct lang_unit *unit,
                       ir_type_id type, struct text *out)
 {
-    if (!syntax->array_braces)
-        lang_print_type(syntax, names, unit, type, out);
-    text_char(out, syntax->array_braces ? '{' : '(');
+    if (!style->syntax->array_braces)
+        lang_print_type(style, names, unit, type, out);
+    text_char(out, style->syntax->array_braces ? '{' : '(');
 }
 
-void lang_print_constant(const struct lang_syntax *syntax, const struct lang_names *names, const struct lang_unit *unit,
+void lang_print_constant(const struct lang_style *style, const struct lang_names *names, const struct lang_unit *unit,
                          uint32_t global_id, struct text *out)
 {
     const struct lang_unit *layer;
     const struct lang_global *global = lang_global(unit, global_id, &layer);
     text_str(out, "const ");
-    lang_print_variable(syntax, names, unit, global->type, print_global_name(names, unit, global_id), out);
+    lang_print_variable(style, names, unit, global->type, print_global_name(names, unit, global_id), out);
     text_str(out, " = ");
-    print_words(syntax, unit, global->type, layer->words.items + global->words, out);
+    print_words(style, unit, global->type, layer->words.items + global->words, out);
     text_str(out, ";\n");
 }
 
-void lang_print_struct(const struct lang_syntax *syntax, const struct lang_names *names, const struct lang_unit *unit,
+void lang_print_struct(const struct lang_style *style, const struct lang_names *names, const struct lang_unit *unit,
                        ir_type_id type, struct text *out)
 {
     const struct lang_unit *layer;
@@ -232,7 +188,7 @@ void lang_print_struct(const struct lang_syntax *syntax, const struct lang_names
     for (uint32_t i = 0; i < user->num_members; i++) {
         const struct ir_member *member = &layer->members.items[user->first_member + i];
         text_str(out, "    ");
-        lang_print_variable(syntax, names, unit, member->type, str_text(unit->strings, member->name), out);
+        lang_print_variable(style, names, unit, member->type, str_text(unit->strings, member->name), out);
         text_str(out, ";\n");
     }
     text_str(out, "};\n");

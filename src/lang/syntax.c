@@ -97,11 +97,10 @@ const char *lang_syntax_type(const struct lang_syntax *syntax, ir_type_id type)
 }
 
 /* A target's list stands for itself: what its base reserves may be free there. */
-bool lang_syntax_is_reserved(const struct lang_syntax *syntax, const char *name)
+bool lang_syntax_is_reserved(const struct lang_syntax *syntax, const char *name, size_t len)
 {
     while (!syntax->reserved && syntax->base)
         syntax = syntax->base;
-    size_t len = strlen(name);
     if (len > syntax->max_reserved)
         return false;
     const struct lang_words *words = &syntax->reserved[len];

@@ -17,13 +17,26 @@ static bool is_reserved_prefix(const char *text, size_t len)
     return len >= 3 && memcmp(text, "gl_", 3) == 0;
 }
 
+/* What may stand in an identifier: 1 for letters and digits, 2 for '_', which may not stand twice. */
+#define ROW_OF(c) c, c, c, c, c, c, c, c, c, c, c, c, c
+static const uint8_t word_characters[256] = {
+    ['0'] = 1, 1, 1, 1, 1, 1, 1, 1, 1, 1,
+    ['A'] = ROW_OF(1), ROW_OF(1),
+    ['_'] = 2,
+    ['a'] = ROW_OF(1), ROW_OF(1),
+};
+
 static bool is_identifier(const char *text, size_t len)
 {
     if (len == 0 || is_digit(text[0]) || is_reserved_prefix(text, len))
         return false;
-    for (size_t i = 0; i < len; i++)
-        if (!is_letter(text[i]) && !is_digit(text[i]) && (text[i] != '_' || (i > 0 && text[i - 1] == '_')))
+    unsigned last = 1;
+    for (size_t i = 0; i < len; i++) {
+        unsigned kind = word_characters[(unsigned char)text[i]];
+        if (!kind || (kind & last & 2))
             return false;
+        last = kind;
+    }
     return true;
 }
 

@@ -73,7 +73,7 @@ static bool is_taken(const struct shader *shader, uint32_t scope, str_id name)
         if (name == words[i])
             return true;
     return *find_slot(shader, scope, name)
-        || (shader->syntax && lang_syntax_is_reserved(shader->syntax, str_text(shader->strings, name)));
+        || (shader->style && lang_style_is_reserved(shader->style, str_text(shader->strings, name), str_len(shader->strings, name)));
 }
 
 static str_id unique_name(struct shader *shader, uint32_t scope, str_id wanted)

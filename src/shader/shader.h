@@ -160,7 +160,7 @@ struct shader {
     struct strpool *strings;
     struct ir_graph *graph;
     struct lang_unit *unit;        /* the generation's unit: specialisations, on the library's units */
-    const struct lang_syntax *syntax; /* whose reserved words variables must not have; NULL: none */
+    struct lang_style *style;      /* whose reserved words variables must not have; NULL: none */
     VEC(struct shader_variable) variables;
     VEC(struct shader_tile) tiles;
     VEC(struct shader_compiled_input) compiled;

@@ -122,7 +122,7 @@ static void write_uniform(struct spell *spell, const struct shader_variable *var
     bool fixed = variable->block == BLOCK_PRIVATE_UNIFORMS || !spell->options->neutral_names;
     if (variable->has_default && variable->block != BLOCK_TEXTURES && fixed && spell_can(spell, CAP_UNIFORM_DEFAULTS)) {
         spell_text(spell, " = ");
-        lang_print_value(spell->target->syntax, spell->shader->strings, &variable->value, spell->out);
+        lang_print_value(spell->style, spell->shader->strings, variable->value.type, variable->value.w, LANG_PREC_COMMA, spell->out);
     }
     spell_text(spell, ";\n");
 }
@@ -202,7 +202,7 @@ static void write_structs(struct spell *spell)
 {
     const struct lang_reach *reach = &spell->stage->reach;
     for (uint32_t i = 0; i < reach->user_types.len; i++)
-        lang_print_struct(spell->target->syntax, &spell->lang_names, spell->shader->unit, reach->user_types.items[i], spell->out);
+        lang_print_struct(spell->style, &spell->lang_names, spell->shader->unit, reach->user_types.items[i], spell->out);
 }
 
 void spell_interface(struct spell *spell)

@@ -33,7 +33,10 @@ static void write_base_type(struct spell *spell, ir_type_id type)
     const struct ir_user_type *user;
     while ((user = user_type(spell, type)) && user->array_length)
         type = user->element;
-    spell_text(spell, user ? struct_name(spell, user->name) : lang_syntax_type(spell->target->syntax, type));
+    if (user)
+        spell_text(spell, struct_name(spell, user->name));
+    else
+        text_put(spell->out, spell->style->types[type]);
 }
 
 void spell_type(struct spell *spell, ir_type_id type)
@@ -48,16 +51,6 @@ void spell_variable(struct spell *spell, ir_type_id type, const char *name)
     text_char(spell->out, ' ');
     spell_text(spell, name);
     write_lengths(spell, type);
-}
-
-static void write_value(struct spell *spell, const struct ir_value *value, enum lang_precedence least)
-{
-    bool parentheses = lang_value_precedence(value) < least;
-    if (parentheses)
-        text_char(spell->out, '(');
-    lang_print_value(spell->target->syntax, spell->shader->strings, value, spell->out);
-    if (parentheses)
-        text_char(spell->out, ')');
 }
 
 static void write_swizzle(struct spell *spell, ir_ref ref, uint32_t attr)
@@ -150,28 +143,26 @@ static void write_call(struct spell *spell, ir_ref ref)
     text_char(spell->out, ')');
 }
 
-struct form_operands {
-    struct spell *spell;
-    ir_ref ref;
-};
-
-static void write_operand(void *user_data, unsigned index, enum lang_precedence least, struct text *out)
+static void write_form(struct spell *spell, const struct ir_node *node, enum lang_precedence least)
 {
-    const struct form_operands *operands = user_data;
-    (void)out; /* the speller's own */
-    spell_expression(operands->spell, ir_arg(operands->spell->shader->graph, operands->ref, index), least);
-}
-
-static void write_form(struct spell *spell, ir_ref ref, const struct ir_node *node, enum lang_precedence least)
-{
-    const struct lang_form *form = lang_syntax_form(spell->target->syntax, node->op);
-    assert(form && form->text);
+    const struct lang_pieces *form = lang_style_form(spell->style, node->op);
+    assert(form->text);
     bool parentheses = (enum lang_precedence)form->precedence < least;
     if (parentheses)
         text_char(spell->out, '(');
-    const char *type = node->type < IR_NUM_TYPES ? lang_syntax_type(spell->target->syntax, node->type) : "";
-    lang_write_form(form, type, write_operand, &(struct form_operands){spell, ref}, spell->out);
-    if (node->op == IR_TEX_SIZE && ir_type_of(spell->shader->graph, ir_arg(spell->shader->graph, ref, 0)) == IR_TYPE_SAMPLER_ARRAY)
+    const ir_ref *args = spell->shader->graph->args.items + node->first_arg;
+    const struct lang_piece *piece = form->pieces, *end = piece + form->num;
+    for (; piece < end; piece++) {
+        if (piece->before.len)
+            text_put(spell->out, piece->before);
+        if (piece->index == LANG_PIECE_TYPE)
+            spell_type(spell, node->type);
+        else
+            spell_expression(spell, args[piece->index], (enum lang_precedence)piece->least);
+    }
+    if (form->rest.len)
+        text_put(spell->out, form->rest);
+    if (node->op == IR_TEX_SIZE && ir_type_of(spell->shader->graph, args[0]) == IR_TYPE_SAMPLER_ARRAY)
         spell_text(spell, ".xy"); /* the third is the number of layers */
     if (parentheses)
         text_char(spell->out, ')');
@@ -197,7 +188,8 @@ static void write_source(struct spell *spell, const struct ir_node *node)
         SPELL(spell, "u_lightData[", spell->light_index, "].", spell->variables[node->attr]);
         break;
     default: /* POISON: an error was reported; the text is not used */
-        write_value(spell, &(struct ir_value){.type = node->type < IR_NUM_TYPES ? node->type : IR_TYPE_FLOAT}, LANG_PREC_COMMA);
+        lang_print_value(spell->style, spell->shader->strings, node->type < IR_NUM_TYPES ? node->type : IR_TYPE_FLOAT,
+                         (const union ir_word[16]){{0}}, LANG_PREC_COMMA, spell->out);
     }
 }
 
@@ -209,11 +201,9 @@ void spell_expression(struct spell *spell, ir_ref ref, enum lang_precedence leas
         spell_text(spell, spell->let_names.items[spell->local_of[ref] - 1]);
         return;
     }
-    struct ir_value value;
     switch (node->op) {
     case IR_CONST:
-        ir_get_const(graph, ref, &value);
-        write_value(spell, &value, least);
+        lang_print_value(spell->style, spell->shader->strings, node->type, graph->words.items + node->attr, least, spell->out);
         break;
     case IR_SWIZZLE:
         write_swizzle(spell, ref, node->attr);
@@ -241,6 +231,6 @@ void spell_expression(struct spell *spell, ir_ref ref, enum lang_precedence leas
         if (node->num_args == 0)
             write_source(spell, node);
         else
-            write_form(spell, ref, node, least);
+            write_form(spell, node, least);
     }
 }

@@ -6,9 +6,9 @@
 #include "base/hash.h"
 #include "spell/spell.h"
 
-void names_init(struct name_set *names, struct arena *arena, const struct lang_syntax *syntax)
+void names_init(struct name_set *names, struct arena *arena, const struct lang_style *style)
 {
-    *names = (struct name_set){.arena = arena, .syntax = syntax, .mask = 255};
+    *names = (struct name_set){.arena = arena, .style = style, .mask = 255};
     names->table = ARENA_ARRAY(arena, uint32_t, names->mask + 1);
 }
 
@@ -76,7 +76,7 @@ const char *names_unique(struct name_set *names, const char *text, size_t len)
     const char *base = identifier_from(text, len, names->arena, &base_len);
     bool is_new;
     struct name_entry *entry = take(names, base, (uint32_t)base_len, &is_new);
-    if (is_new && !lang_syntax_is_reserved(names->syntax, base))
+    if (is_new && !lang_style_is_reserved(names->style, base, base_len))
         return base;
     uint32_t first = (uint32_t)(entry - names->entries.items);
     for (;;) {

@@ -16,14 +16,14 @@ struct name_entry {
 
 struct name_set {
     struct arena *arena;
-    const struct lang_syntax *syntax;
+    const struct lang_style *style;
     VEC(struct name_entry) entries;
     uint32_t *table; /* open addressing: entry + 1 */
     uint32_t mask;
     uint32_t scope;  /* of the function at hand; 0 outside */
 };
 
-void names_init(struct name_set *names, struct arena *arena, const struct lang_syntax *syntax);
+void names_init(struct name_set *names, struct arena *arena, const struct lang_style *style);
 void names_open_scope(struct name_set *names); /* a new function: the names of the one before are free again */
 /* Texts given to these two must live as long as the set. */
 /* `text` made an identifier, with a number behind it where that is reserved or taken. */
@@ -44,6 +44,7 @@ struct spell {
     VEC(struct spell_mark) marks; /* ascending */
     bool blocks;                  /* uniforms stand in blocks */
     struct name_set names;
+    struct lang_style *style;     /* of the target's syntax */
     struct lang_names lang_names; /* for the portable printer */
     const char **variables;       /* how each interface variable is read in this stage */
     const char **functions;       /* names of portable functions by id, of those that are reached */

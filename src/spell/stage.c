@@ -166,16 +166,15 @@ static void write_verbatim_sources(struct spell *spell)
 static void write_functions(struct spell *spell)
 {
     const struct lang_reach *reach = &spell->stage->reach;
-    const struct lang_syntax *syntax = spell->target->syntax;
     size_t before = spell->out->len;
     for (uint32_t i = 0; i < reach->globals.len; i++)
         if (shader_global_variable(spell->shader, reach->globals.items[i]) == UINT32_MAX)
-            lang_print_constant(syntax, &spell->lang_names, spell->shader->unit, reach->globals.items[i], spell->out);
+            lang_print_constant(spell->style, &spell->lang_names, spell->shader->unit, reach->globals.items[i], spell->out);
     if (spell->out->len > before)
         spell_text(spell, "\n");
     write_verbatim_sources(spell);
     for (uint32_t i = 0; i < reach->functions.len; i++) {
-        lang_print_function(syntax, &spell->lang_names, spell->shader->unit, reach->functions.items[i], spell->out);
+        lang_print_function(spell->style, &spell->lang_names, spell->shader->unit, reach->functions.items[i], spell->out);
         spell_text(spell, "\n");
     }
     for (uint32_t i = 0; i < spell->stage->functions.len; i++)
@@ -211,9 +210,12 @@ static void init(struct spell *spell)
     spell->locals = ARENA_ARRAY(arena, const char *, shader->locals.len + 1);
     spell->local_of = ARENA_ARRAY(arena, uint32_t, shader->graph->nodes.len);
     spell->lang_names = (struct lang_names){spell, function_name, global_name, user_type_name};
-    names_init(&spell->names, arena, spell->target->syntax);
+    spell->style = shader->style ? shader->style : arena_alloc(arena, sizeof *spell->style);
+    if (spell->style != shader->style)
+        lang_style_init(spell->style, spell->target->syntax, arena);
+    names_init(&spell->names, arena, spell->style);
     if (spell->options->comments && spell->options->path && !spell->options->neutral_names) {
-        names_init(&spell->paths, arena, spell->target->syntax);
+        names_init(&spell->paths, arena, spell->style);
         spell->origins_seen = ARENA_ARRAY(arena, uint8_t, shader->graph->origins.len);
     }
     spell_name_interface(spell);

@@ -67,9 +67,11 @@ static uint32_t find(struct fixture *f, const char *name)
 
 static const char *print_function(struct fixture *f, const struct lang_syntax *syntax, const struct lang_names *names, uint32_t id)
 {
+    struct lang_style style;
     struct text text;
+    lang_style_init(&style, syntax, &f->arena);
     text_init(&text, &f->arena);
-    lang_print_function(syntax, names, &f->generated, id, &text);
+    lang_print_function(&style, names, &f->generated, id, &text);
     return text_cstr(&text);
 }
 
@@ -83,7 +85,7 @@ static void prints_as(const char *source)
     struct text text;
     text_init(&text, &f.arena);
     for (uint32_t i = 0; i < f.library.functions.len; i++)
-        lang_print_function(&lang_syntax_portable, NULL, &f.generated, i, &text);
+        text_str(&text, print_function(&f, &lang_syntax_portable, NULL, i));
     REQUIRE_STR(text_cstr(&text), source);
     teardown(&f);
 }
@@ -133,9 +135,11 @@ static void test_print_types(void)
     lang_reach_add(&reach, &f.generated, find(&f, "make"));
     REQUIRE_EQ(reach.globals.len, 1);
     REQUIRE_EQ(reach.user_types.len, 1);
-    lang_print_constant(&lang_syntax_portable, NULL, &f.generated, reach.globals.items[0], &text);
-    lang_print_struct(&lang_syntax_portable, NULL, &f.generated, reach.user_types.items[0], &text);
-    lang_print_function(&lang_syntax_portable, NULL, &f.generated, find(&f, "make"), &text);
+    struct lang_style style;
+    lang_style_init(&style, &lang_syntax_portable, &f.arena);
+    lang_print_constant(&style, NULL, &f.generated, reach.globals.items[0], &text);
+    lang_print_struct(&style, NULL, &f.generated, reach.user_types.items[0], &text);
+    lang_print_function(&style, NULL, &f.generated, find(&f, "make"), &text);
     REQUIRE_STR(text_cstr(&text), source);
     teardown(&f);
 }
@@ -367,8 +371,10 @@ static const char *text_with_callees(struct fixture *f, uint32_t id)
     struct lang_names names = {.user_data = f, .function = numbered_name};
     struct text text;
     text_init(&text, &f->arena);
+    struct lang_style style;
+    lang_style_init(&style, &lang_syntax_portable, &f->arena);
     for (uint32_t i = 0; i < reach.functions.len; i++)
-        lang_print_function(&lang_syntax_portable, &names, &f->generated, reach.functions.items[i], &text);
+        lang_print_function(&style, &names, &f->generated, reach.functions.items[i], &text);
     return text_cstr(&text);
 }
 

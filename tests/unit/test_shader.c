@@ -318,7 +318,9 @@ static void test_names(void)
     };
     struct fixture f;
     fixture_open(&f, NULL);
-    f.shader.syntax = target_find("glsl")->syntax;
+    struct lang_style style;
+    lang_style_init(&style, target_find("glsl")->syntax, &f.arena);
+    f.shader.style = &style;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         struct shader_variable v = {.name = word(&f, cases[i].wanted), .block = BLOCK_PUBLIC_UNIFORMS, .type = IR_TYPE_FLOAT};
         REQUIRE_STR(variable_name(&f, shader_add_variable(&f.shader, &v)), cases[i].got);

@@ -21,7 +21,8 @@ static const struct spell_options plain = {.generator = "mxgen 0.1", .interface 
 
 static void finish(struct fixture *f, const struct target *target, const struct spell_options *options)
 {
-    f->shader.syntax = target->syntax;
+    f->shader.style = ARENA_NEW(&f->arena, struct lang_style);
+    lang_style_init(f->shader.style, target->syntax, &f->arena);
     struct shader_layout_rules rules = {
         .blocks = target->caps & CAP_UNIFORM_BLOCKS || options->uniform_blocks,
         .bindings = (target->caps & CAP_BINDINGS) != 0,
@@ -543,20 +544,43 @@ static void check_reserved(const struct lang_syntax *syntax)
     REQUIRE(!syntax->reserved || !syntax->reserved[0].count);
 }
 
+static bool is_reserved(const char *name)
+{
+    return lang_syntax_is_reserved(&lang_syntax_portable, name, strlen(name));
+}
+
+/* What the style says of a name, the table says: of each of its words, and of words that are none. */
+static void check_style(struct arena *arena, const struct lang_syntax *syntax)
+{
+    struct lang_style style;
+    lang_style_init(&style, syntax, arena);
+    const struct lang_syntax *list = syntax;
+    while (!list->reserved && list->base)
+        list = list->base;
+    for (uint32_t len = 1; list->reserved && len <= list->max_reserved; len++)
+        for (uint32_t i = 0; i < list->reserved[len].count; i++)
+            REQUIRE(lang_style_is_reserved(&style, list->reserved[len].text + i * len, len));
+    REQUIRE(!lang_style_is_reserved(&style, "roughness", 9));
+}
+
 static void test_targets(void)
 {
     REQUIRE(target_find("glsl") == target_find("genglsl"));
     REQUIRE(target_find("nonsense") == NULL);
     REQUIRE(target_is_a(target_find("essl"), "genglsl"));
     REQUIRE(!target_is_a(target_find("glsl"), "essl"));
+    struct fixture f;
+    fixture_open(&f, "");
     for (const struct target *const *target = targets; *target; target++) {
         walk_ops(*target);
         check_reserved((*target)->syntax);
+        check_style(&f.arena, (*target)->syntax);
     }
+    fixture_close(&f);
     check_reserved(&lang_syntax_portable);
-    REQUIRE(lang_syntax_is_reserved(&lang_syntax_portable, "do") && lang_syntax_is_reserved(&lang_syntax_portable, "sampler2D"));
-    REQUIRE(!lang_syntax_is_reserved(&lang_syntax_portable, "sampler3D") && !lang_syntax_is_reserved(&lang_syntax_portable, ""));
-    REQUIRE(!lang_syntax_is_reserved(&lang_syntax_portable, "floa") && !lang_syntax_is_reserved(&lang_syntax_portable, "floats"));
+    REQUIRE(is_reserved("do") && is_reserved("sampler2D"));
+    REQUIRE(!is_reserved("sampler3D") && !is_reserved(""));
+    REQUIRE(!is_reserved("floa") && !is_reserved("floats"));
 }
 
 int main(int argc, char **argv)
