@@ -36,8 +36,7 @@ static void irradiance_of(const double d[3], float out[3])
                          0.025 * (1.0 + d[i]));
 }
 
-/* The direction of a texel's centre. */
-static void texel_direction(const struct image *map, uint32_t x, uint32_t y, double out[3])
+void environment_direction(const struct image *map, uint32_t x, uint32_t y, double out[3])
 {
     double latitude = PI * (0.5 - (y + 0.5) / map->height), longitude = 2.0 * PI * ((x + 0.5) / map->width - 0.5);
     out[0] = cos(latitude) * sin(longitude);
@@ -52,7 +51,7 @@ static bool make_map(struct image *out, uint32_t width, uint32_t height, void (*
     for (uint32_t y = 0; texel && y < height; ++y) {
         for (uint32_t x = 0; x < width; ++x, texel += 4) {
             double d[3];
-            texel_direction(out, x, y, d);
+            environment_direction(out, x, y, d);
             value(d, texel);
             texel[3] = 1.0f;
         }
@@ -88,7 +87,7 @@ void environment_lookup(const struct image *map, const double d[3], double out[3
 /* Averages boxes of texels, so that an integral over the sphere takes few of them. */
 static bool shrink(const struct image *map, uint32_t width, uint32_t height, struct image *out)
 {
-    *out = (struct image){width, height, true, calloc((size_t)width * height * 4, sizeof(float))};
+    *out = (struct image){.width = width, .height = height, .is_float = true, .pixels = calloc((size_t)width * height * 4, sizeof(float))};
     for (uint32_t y = 0; out->pixels && y < height; ++y) {
         uint32_t y0 = y * map->height / height, y1 = (y + 1) * map->height / height;
         for (uint32_t x = 0; x < width; ++x) {
@@ -110,9 +109,9 @@ static uint32_t least(uint32_t a, uint32_t b)
     return a < b ? a : b;
 }
 
-/* What a texel of a map is as light: radiance times solid angle over pi, and where it comes from. */
+/* What a texel of a map is as light. */
 struct texel_light {
-    float direction[3], light[3];
+    float direction[3], light[3], solid; /* the solid angle, up to a factor */
 };
 
 static struct texel_light *make_lights(const struct image *map)
@@ -120,15 +119,16 @@ static struct texel_light *make_lights(const struct image *map)
     struct texel_light *lights = malloc((size_t)map->width * map->height * sizeof *lights);
     for (uint32_t y = 0; lights && y < map->height; ++y) {
         double top = PI * (0.5 - (double)y / map->height), bottom = PI * (0.5 - (y + 1.0) / map->height);
-        double solid = 2.0 * PI / map->width * (sin(top) - sin(bottom));
+        double solid = sin(top) - sin(bottom);
         for (uint32_t x = 0; x < map->width; ++x) {
             struct texel_light *light = &lights[(size_t)y * map->width + x];
             double d[3];
-            texel_direction(map, x, y, d);
+            environment_direction(map, x, y, d);
             for (size_t c = 0; c < 3; ++c) {
                 light->direction[c] = (float)d[c];
-                light->light[c] = (float)(((const float *)map->pixels)[((size_t)y * map->width + x) * 4 + c] * solid / PI);
+                light->light[c] = ((const float *)map->pixels)[((size_t)y * map->width + x) * 4 + c];
             }
+            light->solid = (float)solid;
         }
     }
     return lights;
@@ -137,7 +137,7 @@ static struct texel_light *make_lights(const struct image *map)
 bool environment_irradiance(const struct image *radiance, struct image *out)
 {
     struct image small;
-    *out = (struct image){64, 32, true, malloc(64 * 32 * 4 * sizeof(float))};
+    *out = (struct image){.width = 64, .height = 32, .is_float = true, .pixels = malloc(64 * 32 * 4 * sizeof(float))};
     bool good = shrink(radiance, least(radiance->width, 128), least(radiance->height, 64), &small);
     struct texel_light *lights = good ? make_lights(&small) : NULL;
     size_t count = (size_t)small.width * small.height;
@@ -145,15 +145,18 @@ bool environment_irradiance(const struct image *radiance, struct image *out)
     for (uint32_t y = 0; lights && texel && y < out->height; ++y) {
         for (uint32_t x = 0; x < out->width; ++x, texel += 4) {
             double n[3];
-            texel_direction(out, x, y, n);
-            float sum[3] = {0};
+            environment_direction(out, x, y, n);
+            float sum[3] = {0}, weights = 0;
             for (size_t i = 0; i < count; ++i) {
                 const float *d = lights[i].direction;
                 float cosine = (float)n[0] * d[0] + (float)n[1] * d[1] + (float)n[2] * d[2];
-                for (size_t c = 0; cosine > 0 && c < 3; ++c)
+                cosine = cosine > 0 ? cosine * lights[i].solid : 0;
+                weights += cosine;
+                for (size_t c = 0; c < 3; ++c)
                     sum[c] += cosine * lights[i].light[c];
             }
-            memcpy(texel, sum, sizeof sum);
+            for (size_t c = 0; c < 3; ++c)
+                texel[c] = sum[c] / weights;
             texel[3] = 1.0f;
         }
     }

@@ -295,30 +295,57 @@ static void make_mips(VkCommandBuffer commands, const struct gpu_image *image)
                       VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
 }
 
-static bool fill_texture(struct gpu *gpu, const struct gpu_buffer *staging, const struct gpu_image *image)
+static bool fill_texture(struct gpu *gpu, const struct gpu_buffer *staging, const struct gpu_image *image, uint32_t levels)
 {
     VkCommandBuffer commands = gpu_begin(gpu);
     if (!commands)
         return false;
     gpu_image_barrier(commands, image->image, VK_IMAGE_ASPECT_COLOR_BIT, 0, image->mips, VK_IMAGE_LAYOUT_UNDEFINED,
                       VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
-    const VkBufferImageCopy copy = {.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, num_layers(image)},
-                                    .imageExtent = {image->width, image->height, 1}};
-    vkCmdCopyBufferToImage(commands, staging->buffer, image->image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &copy);
-    make_mips(commands, image);
+    VkDeviceSize offset = 0;
+    size_t texel = image->format == VK_FORMAT_R8G8B8A8_UNORM ? 4 : 16;
+    for (uint32_t level = 0; level < levels; ++level) {
+        uint32_t width = image_level_size(image->width, level), height = image_level_size(image->height, level);
+        const VkBufferImageCopy copy = {.bufferOffset = offset,
+                                        .imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, level, 0, num_layers(image)},
+                                        .imageExtent = {width, height, 1}};
+        vkCmdCopyBufferToImage(commands, staging->buffer, image->image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &copy);
+        offset += (VkDeviceSize)texel * width * height;
+    }
+    if (levels > 1)
+        gpu_image_barrier(commands, image->image, VK_IMAGE_ASPECT_COLOR_BIT, 0, image->mips,
+                          VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    else
+        make_mips(commands, image);
     return gpu_end(gpu, commands);
+}
+
+/* Copies levels and layers, each turned upside down where the last row comes first. */
+static void stage(const struct image *image, bool bottom_first, char *to)
+{
+    const char *from = image->pixels;
+    uint32_t levels = image->levels ? image->levels : 1, layers = image->layers ? image->layers : 1;
+    for (uint32_t i = 0; i < levels * layers; ++i) {
+        uint32_t level = i / layers, height = image_level_size(image->height, level);
+        size_t row = (size_t)image_level_size(image->width, level) * 4 * (image->is_float ? sizeof(float) : 1);
+        for (uint32_t y = 0; y < height; ++y)
+            memcpy(to + row * y, from + row * (bottom_first ? height - 1 - y : y), row);
+        from += row * height;
+        to += row * height;
+    }
 }
 
 bool gpu_upload_texture(struct gpu *gpu, const struct image *image, bool bottom_first, struct gpu_image *out)
 {
-    size_t row = (size_t)image->width * 4 * (image->is_float ? sizeof(float) : 1);
-    size_t rows = (size_t)image->height * (image->layers ? image->layers : 1);
+    uint32_t levels = image->levels ? image->levels : 1, layers = image->layers ? image->layers : 1;
+    size_t size = 0;
+    for (uint32_t level = 0; level < levels; ++level)
+        size += (size_t)image_level_size(image->width, level) * image_level_size(image->height, level) * layers * 4 *
+                (image->is_float ? sizeof(float) : 1);
     struct gpu_buffer staging;
-    bool good = gpu_create_buffer(gpu, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, NULL, row * rows, &staging);
-    for (size_t y = 0; good && y < rows; ++y) {
-        size_t in_layer = y % image->height, from = bottom_first ? y - in_layer + image->height - 1 - in_layer : y;
-        memcpy((char *)staging.mapped + row * y, (const char *)image->pixels + row * from, row);
-    }
+    bool good = gpu_create_buffer(gpu, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, NULL, size, &staging);
+    if (good)
+        stage(image, bottom_first, staging.mapped);
     VkFormat format = image->is_float ? VK_FORMAT_R32G32B32A32_SFLOAT : VK_FORMAT_R8G8B8A8_UNORM;
     *out = (struct gpu_image){0};
     good = good &&
@@ -326,7 +353,7 @@ bool gpu_upload_texture(struct gpu *gpu, const struct image *image, bool bottom_
                             VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT |
                                 VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
                             VK_IMAGE_ASPECT_COLOR_BIT, out) &&
-           fill_texture(gpu, &staging, out);
+           fill_texture(gpu, &staging, out, levels);
     gpu_destroy_buffer(gpu, &staging);
     return good;
 }

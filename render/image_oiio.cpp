@@ -55,9 +55,34 @@ bool find_layer(OIIO::ImageInput &input, const std::string &layer, Part &out)
     return false;
 }
 
-} // namespace
+bool read_level(OIIO::ImageInput &input, int level, const Part &part, const struct image &image, size_t first_texel)
+{
+    size_t count = size_t{image_level_size(image.width, static_cast<uint32_t>(level))} *
+                   image_level_size(image.height, static_cast<uint32_t>(level));
+    char *pixels = static_cast<char *>(image.pixels) + first_texel * 4 * (image.is_float ? sizeof(float) : 1);
+    OIIO::TypeDesc type = image.is_float ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT8;
+    int channels = part.end - part.begin;
+    if (!input.read_image(part.subimage, level, part.begin, part.end, type, pixels))
+        return false;
+    if (image.is_float)
+        spread(reinterpret_cast<float *>(pixels), count, channels, 1.0f);
+    else
+        spread(reinterpret_cast<uint8_t *>(pixels), count, channels, uint8_t{255});
+    return true;
+}
 
-bool image_read(const char *path, const char *layer, struct image *out, char *reason, size_t capacity)
+/* How many levels the file has, each half the one before. */
+uint32_t count_levels(OIIO::ImageInput &input, uint32_t width, uint32_t height)
+{
+    uint32_t levels = 1;
+    while (input.seek_subimage(0, static_cast<int>(levels)) &&
+           input.spec().width == static_cast<int>(image_level_size(width, levels)) &&
+           input.spec().height == static_cast<int>(image_level_size(height, levels)))
+        ++levels;
+    return levels;
+}
+
+bool read_levels(const char *path, const char *layer, bool all, struct image *out, char *reason, size_t capacity)
 {
     *out = {};
     auto input = OIIO::ImageInput::open(path);
@@ -67,27 +92,42 @@ bool image_read(const char *path, const char *layer, struct image *out, char *re
     if (!find_layer(*input, layer, part))
         return fail(reason, capacity, std::string("it has no layer '") + layer + "'");
     const OIIO::ImageSpec spec = input->spec(part.subimage);
-    int channels = part.end - part.begin < 4 ? part.end - part.begin : 4;
-    if (spec.width <= 0 || spec.height <= 0 || channels <= 0)
+    part.end = part.end - part.begin < 4 ? part.end : part.begin + 4;
+    if (spec.width <= 0 || spec.height <= 0 || part.end <= part.begin)
         return fail(reason, capacity, "the picture is empty");
     out->is_float = spec.format != OIIO::TypeDesc::UINT8;
     out->width = static_cast<uint32_t>(spec.width);
     out->height = static_cast<uint32_t>(spec.height);
-    size_t count = size_t{out->width} * out->height;
-    out->pixels = std::malloc(count * 4 * (out->is_float ? sizeof(float) : 1));
+    uint32_t levels = all ? count_levels(*input, out->width, out->height) : 1;
+    size_t texels = 0;
+    for (uint32_t i = 0; i < levels; ++i)
+        texels += size_t{image_level_size(out->width, i)} * image_level_size(out->height, i);
+    out->pixels = std::malloc(texels * 4 * (out->is_float ? sizeof(float) : 1));
     if (!out->pixels)
         return fail(reason, capacity, "out of memory");
-    OIIO::TypeDesc type = out->is_float ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT8;
-    if (!input->read_image(part.subimage, 0, part.begin, part.begin + channels, type, out->pixels)) {
-        fail(reason, capacity, input->geterror());
-        image_finish(out);
-        return false;
+    out->levels = levels > 1 ? levels : 0;
+    size_t first = 0;
+    for (uint32_t i = 0; i < levels; ++i) {
+        if (!read_level(*input, static_cast<int>(i), part, *out, first)) {
+            fail(reason, capacity, input->geterror());
+            image_finish(out);
+            return false;
+        }
+        first += size_t{image_level_size(out->width, i)} * image_level_size(out->height, i);
     }
-    if (out->is_float)
-        spread(static_cast<float *>(out->pixels), count, channels, 1.0f);
-    else
-        spread(static_cast<uint8_t *>(out->pixels), count, channels, uint8_t{255});
     return true;
+}
+
+} // namespace
+
+bool image_read(const char *path, const char *layer, struct image *out, char *reason, size_t capacity)
+{
+    return read_levels(path, layer, false, out, reason, capacity);
+}
+
+bool image_read_levels(const char *path, struct image *out, char *reason, size_t capacity)
+{
+    return read_levels(path, "", true, out, reason, capacity);
 }
 
 bool image_is_linear(const char *path)
@@ -111,15 +151,26 @@ OIIO::ImageSpec describe(const struct image &image, const OIIO::ImageOutput &out
     if (!image.is_float)
         spec.attribute("oiio:UnassociatedAlpha", 1);
     spec.attribute("CompressionQuality", 95);
+    if (image.levels) {
+        spec.tile_width = spec.tile_height = 64;
+        spec.attribute("textureformat", "Plain Texture"); /* what makes OpenEXR expect levels */
+    }
     return spec;
 }
 
 bool write_pixels(OIIO::ImageOutput &output, const std::string &path, const struct image &image)
 {
     OIIO::ImageSpec spec = describe(image, output);
-    size_t pixel = 4 * (image.is_float ? sizeof(float) : 1);
-    bool good = output.open(path, spec) &&
-                output.write_image(spec.format, image.pixels, static_cast<OIIO::stride_t>(pixel));
+    size_t texel = 4 * (image.is_float ? sizeof(float) : 1);
+    const char *pixels = static_cast<const char *>(image.pixels);
+    bool good = true;
+    for (uint32_t level = 0; good && level < (image.levels ? image.levels : 1); ++level) {
+        spec.width = spec.full_width = static_cast<int>(image_level_size(image.width, level));
+        spec.height = spec.full_height = static_cast<int>(image_level_size(image.height, level));
+        good = output.open(path, spec, level ? OIIO::ImageOutput::AppendMIPLevel : OIIO::ImageOutput::Create) &&
+               output.write_image(spec.format, pixels, static_cast<OIIO::stride_t>(texel));
+        pixels += texel * static_cast<size_t>(spec.width) * static_cast<size_t>(spec.height);
+    }
     return output.close() && good;
 }
 

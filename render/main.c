@@ -4,6 +4,7 @@
 #include "cli/cli.h"
 #include "cli/files.h"
 #include "cli/folder.h"
+#include "render/bake.h"
 #include "render/picture.h"
 #include "render/sheet.h"
 
@@ -30,7 +31,7 @@ static const char *const background_names[] = {"backdrop", "environment", "none"
 struct job {
     struct cli cli;
     struct painter painter;
-    const char *output, *element, *look, *size, *camera, *scene, *background, *missing_texture;
+    const char *output, *element, *look, *size, *camera, *scene, *background, *missing_texture, *baked;
     struct arg_list settings, environments;
     size_t samples, frame, frames;
     enum scene_kind scene_kind;
@@ -105,20 +106,15 @@ static size_t find_word(const char *option, const char *word, const char *const 
 }
 
 /* "--environment" is a mode of generation, or the file of a map; it may stand once for each. */
-static bool apply_environments(struct job *job)
+static void apply_environments(struct job *job)
 {
-    mxg_option option = {0};
-    for (uint32_t i = 0; !option.key || strcmp(option.key, "environment") != 0; ++i) {
-        option.size = sizeof option;
-        if (mxg_get_option(i, &option) != MXG_OK)
-            return false;
-    }
     for (size_t i = 0; i < job->environments.len; ++i) {
         const char *word = job->environments.items[i];
         if (mxg_options_set(job->cli.options, "environment", word) != MXG_OK)
             job->painter.studio.environment = word;
+        else
+            job->painter.studio.prefiltered = strcmp(word, "prefiltered") == 0;
     }
-    return true;
 }
 
 /* Fewer uniforms, smaller shader: only what the user sets has to stay open. */
@@ -159,7 +155,8 @@ static bool parse(struct job *job)
     job->values = split_settings(&job->settings);
     job->painter.values = job->values;
     job->painter.num_values = job->settings.len;
-    return job->values && apply_environments(job) && apply_interface(job);
+    apply_environments(job);
+    return job->values && apply_interface(job);
 }
 
 /* ---- Scene ---- */
@@ -451,8 +448,38 @@ static bool find_documents(struct job *job)
     return true;
 }
 
+/* mxgen render --bake-environment FILE -o FOLDER */
+static int bake(struct job *job)
+{
+    struct studio_fault fault;
+    struct baked baked = {0};
+    struct image map = {0};
+    char reason[256] = "out of memory";
+    struct studio studio = {.environment = strcmp(job->baked, "sky") == 0 ? NULL : job->baked};
+    if (!job->output) {
+        fputs("usage: mxgen render --bake-environment FILE -o FOLDER\n", stderr);
+        return EXIT_USAGE;
+    }
+    const char *why = NULL;
+    if (!studio_read_map(&studio, &map, &fault))
+        report_error(&job->cli.report, fault.id, "%s", fault.text);
+    else if (!bake_environment(&map, &baked))
+        report_status(&job->cli.report, MXG_ERROR_MEMORY);
+    else if ((why = files_make_folder(job->output)) != NULL || !baked_write(&baked, job->output, reason, sizeof reason))
+        report_error(&job->cli.report, "output-failed", "cannot write to '%s': %s", job->output, why ? why : reason);
+    baked_finish(&baked);
+    image_finish(&map);
+    return job->cli.report.errors ? EXIT_FAULT : EXIT_DONE;
+}
+
 static int run(struct job *job)
 {
+    if (job->baked)
+        return bake(job);
+    if (job->cli.parser.inputs.len == 0) {
+        fputs("usage: mxgen render FILE|FOLDER... -o PICTURE.png\n", stderr);
+        return EXIT_USAGE;
+    }
     const struct arg_list *inputs = &job->cli.parser.inputs;
     bool is_grid = !strcmp(job->scene, "grid"), is_one = inputs->len == 1 && !files_is_folder(inputs->items[0]) && !job->look;
     if ((!job->output && !is_grid) || ((is_grid || job->frames) && !is_one)) {
@@ -494,7 +521,8 @@ int main(int argc, char **argv)
         {"camera", 0, ARG_TEXT, "AZ,EL[,DIST[,FOV]]", "degrees around and up, distance, field of view (default: 25,16)",
          &job.camera},
         {"environment", 0, ARG_LIST, "FILE|MODE",
-         "a latitude-longitude map (default: a sky with three lights); none, prefiltered or importance", &job.environments},
+         "a latitude-longitude map or a baked folder (default: a sky with three lights); none, prefiltered or importance", &job.environments},
+        {"bake-environment", 0, ARG_TEXT, "FILE", "prefilters a map ('sky': the built-in one) into the folder of -o", &job.baked},
         {"background", 0, ARG_TEXT, "NAME", "backdrop, environment, or none: transparent (default: backdrop)", &job.background},
         {"samples", 0, ARG_SIZE, "N", "samples of the environment for each lobe (default: 16)", &job.samples},
         {"set", 0, ARG_LIST, "PATH=VALUE", "another value for an input, or file for a texture", &job.settings},
@@ -509,7 +537,7 @@ int main(int argc, char **argv)
     /* llvmpipe's optimiser takes minutes for large shaders; without it pictures are the same, and seconds are enough. */
     setenv("GALLIVM_PERF", "nopt", 0);
     int code;
-    if (cli_start(&job.cli, &command, args, sizeof args / sizeof *args, CLI_GENERATES | CLI_NEEDS_INPUT, argc, argv, &code)) {
+    if (cli_start(&job.cli, &command, args, sizeof args / sizeof *args, CLI_GENERATES, argc, argv, &code)) {
         job.painter.cli = &job.cli;
         code = run(&job);
     }

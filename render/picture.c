@@ -59,8 +59,8 @@ static bool resolve(const struct painter *painter, const float *samples, struct 
 {
     unsigned n = painter->oversampling;
     size_t row = (size_t)painter->width * n;
-    *out = (struct image){painter->width, painter->height, true,
-                          calloc((size_t)painter->width * painter->height * 4, sizeof(float))};
+    *out = (struct image){.width = painter->width, .height = painter->height, .is_float = true,
+                          .pixels = calloc((size_t)painter->width * painter->height * 4, sizeof(float))};
     float *pixel = out->pixels;
     for (uint32_t y = 0; pixel && y < painter->height; ++y) {
         for (uint32_t x = 0; x < painter->width; ++x, pixel += 4) {
@@ -133,7 +133,7 @@ static uint8_t encode_srgb(double linear)
 
 bool picture_develop(const struct painter *painter, const struct image *linear, struct image *out)
 {
-    *out = (struct image){linear->width, linear->height, false, malloc((size_t)linear->width * linear->height * 4)};
+    *out = (struct image){.width = linear->width, .height = linear->height, .pixels = malloc((size_t)linear->width * linear->height * 4)};
     const float *in = linear->pixels;
     uint8_t *pixel = out->pixels;
     for (uint32_t y = 0; pixel && y < linear->height; ++y) {

@@ -204,6 +204,8 @@ const struct image *scene_image(const struct scene *scene, const char *name)
         return &scene->radiance;
     if (strcmp(name, "u_envIrradiance") == 0)
         return &scene->irradiance;
+    if (strcmp(name, "u_albedoTable") == 0)
+        return &scene->albedo;
     return NULL;
 }
 
@@ -344,5 +346,6 @@ void scene_finish(struct scene *scene)
     mesh_finish(&scene->mesh);
     image_finish(&scene->radiance);
     image_finish(&scene->irradiance);
+    image_finish(&scene->albedo);
     image_finish(&scene->texture);
 }

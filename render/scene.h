@@ -22,6 +22,7 @@ struct scene {
     int32_t frame;
     struct matrix environment; /* from directions in the world to those in the map */
     struct image radiance, irradiance; /* latitude-longitude, first row towards +y */
+    struct image albedo;               /* of GGX; only for shaders that look it up */
     struct image texture;              /* what every texture of the document shows; may have none */
 };
 
@@ -60,6 +61,8 @@ void scene_backdrop(const struct scene *scene, double x, double y, double out[3]
 bool environment_make(struct image *radiance, struct image *irradiance);
 /* The radiance from direction d (unit). */
 void environment_radiance(const double d[3], float out[3]);
+/* The direction of a texel's centre. */
+void environment_direction(const struct image *map, uint32_t x, uint32_t y, double out[3]);
 /* The map's radiance from direction d (unit), between texels. */
 void environment_lookup(const struct image *map, const double d[3], double out[3]);
 /* Reads a latitude-longitude map of linear values; 8-bit pictures are taken as sRGB. On failure false, with why. */

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
+#define _POSIX_C_SOURCE 200809L
 #include "render/studio.h"
+
+#include "render/bake.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #define DEGREE (3.14159265358979323846 / 180.0)
 #define FINE_DETAIL 4            /* times the cells of a shape, each way */
@@ -54,19 +58,51 @@ static bool open_mesh(const struct studio *studio, struct mesh *out, unsigned *o
            fail(fault, mesh_fault.id, "cannot use the mesh", studio->mesh, mesh_fault.text);
 }
 
-static bool open_environment(const struct studio *studio, struct scene *scene, struct studio_fault *fault)
+bool studio_read_map(const struct studio *studio, struct image *out, struct studio_fault *fault)
 {
     char reason[256];
-    if (!studio->environment) {
-        struct image stand_in;
-        bool good = environment_make(&scene->radiance, &stand_in) && environment_irradiance(&scene->radiance, &scene->irradiance);
-        image_finish(&stand_in);
-        return good || fail(fault, "render-failed", "cannot make", "sky", "out of memory");
+    if (studio->environment)
+        return environment_read(studio->environment, out, reason, sizeof reason) ||
+               fail(fault, "bad-environment", "cannot use the environment", studio->environment, reason);
+    struct image stand_in;
+    bool good = environment_make(out, &stand_in);
+    image_finish(&stand_in);
+    return good || fail(fault, "render-failed", "cannot make the", "sky", "out of memory");
+}
+
+static bool is_folder(const char *path)
+{
+    struct stat info;
+    return stat(path, &info) == 0 && S_ISDIR(info.st_mode);
+}
+
+/* The maps as the shader wants them: baked before, baked now, or with mip levels that are plain averages. */
+static bool open_environment(const struct studio *studio, struct scene *scene, struct studio_fault *fault)
+{
+    char reason[256] = "out of memory";
+    struct baked baked = {0};
+    bool is_baked = studio->environment && is_folder(studio->environment);
+    bool good = is_baked || studio_read_map(studio, &scene->radiance, fault);
+    if (good && is_baked)
+        good = baked_read(studio->environment, &baked, reason, sizeof reason);
+    else if (good && studio->prefiltered)
+        good = bake_environment(&scene->radiance, &baked);
+    else if (good)
+        return environment_irradiance(&scene->radiance, &scene->irradiance) ||
+               fail(fault, "render-failed", "cannot make the", "irradiance", reason);
+    else
+        return false;
+    if (!good) {
+        baked_finish(&baked);
+        return fail(fault, "bad-environment", "cannot use the environment", studio->environment ? studio->environment : "sky", reason);
     }
-    return (environment_read(studio->environment, &scene->radiance, reason, sizeof reason) &&
-            environment_irradiance(&scene->radiance, &scene->irradiance)) ||
-           fail(fault, "bad-environment", "cannot use the environment", studio->environment,
-                scene->radiance.pixels ? "out of memory" : reason);
+    image_finish(&scene->radiance);
+    scene->radiance = baked.radiance;
+    scene->irradiance = baked.irradiance;
+    scene->albedo = baked.albedo;
+    if (!studio->prefiltered)
+        scene->radiance.levels = 0; /* the map itself */
+    return true;
 }
 
 bool studio_open(const struct studio *studio, double aspect, struct scene *scene, unsigned *out_made, struct studio_fault *fault)

@@ -9,7 +9,8 @@ struct studio {
     const char *mesh;                 /* a shape's name, or a file */
     double azimuth, elevation;        /* of the camera, in degrees; from the front, to the right and upwards */
     double distance, fov;             /* distance 0: the mesh fills the picture; degrees across the shorter side */
-    const char *environment;          /* file of a latitude-longitude map; NULL: the built-in sky, and lights */
+    const char *environment;          /* file of a latitude-longitude map, or folder of baked ones; NULL: the built-in sky, and lights */
+    bool prefiltered;                 /* shaders read maps that are filtered for their roughness */
 };
 
 #define STUDIO_DEFAULTS {.mesh = "ball", .azimuth = 25, .elevation = 16, .fov = 30}
@@ -27,6 +28,9 @@ bool studio_open(const struct studio *studio, double aspect, struct scene *scene
 
 /* Puts the camera where `studio` says, `turn` degrees further around. */
 void studio_aim(const struct studio *studio, double aspect, double turn, struct scene *scene);
+
+/* Reads the map that `studio` names, or makes the sky. */
+bool studio_read_map(const struct studio *studio, struct image *out, struct studio_fault *fault);
 
 /* The same mesh in triangles small enough to be displaced. */
 bool studio_refine(const struct studio *studio, const struct mesh *mesh, struct mesh *out);

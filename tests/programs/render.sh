@@ -164,6 +164,34 @@ check 'is bad-environment' grep -q 'none.exr.*\[bad-environment\]' err
 check 'EXR' exits 0 "$render" plain.mtlx -o ball.exr --size 8
 check 'is EXR' test "$(od -An -tx1 -N4 ball.exr | tr -d ' ')" = 762f3101
 
+cat >metal.mtlx <<'X'
+<?xml version="1.0"?>
+<materialx version="1.39">
+  <conductor_bsdf name="bsdf" type="BSDF"><input name="roughness" type="vector2" value="0.15, 0.15"/></conductor_bsdf>
+  <surface name="S" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="bsdf"/></surface>
+  <surfacematerial name="M" type="material"><input name="surfaceshader" type="surfaceshader" nodename="S"/></surfacematerial>
+</materialx>
+X
+# agree A B: two PPMs, within one percent of the whole range in the mean and ten for each value (a prefiltered map knows no
+# grazing angles).
+agree() {
+    paste <(pixels "$1") <(pixels "$2") | awk '
+        { for (i = 1; i < 4; i++) { d = $i - $(i + 3); s += d; n++; if (d * d > m) m = d * d } }
+        END { printf "mean %.2f, worst %.2f percent\n", s / n / 2.55, sqrt(m) / 2.55; exit !(s * s < (2.55 * n) ^ 2 && sqrt(m) < 25.5) }'
+}
+metal() { "$render" metal.mtlx -m sphere --lights none --size 48 "$@"; }
+check 'importance sampling' metal --environment importance --samples 256 -o importance.ppm
+check 'a prefiltered map' metal --environment prefiltered -o prefiltered.ppm
+check 'agrees' agree importance.ppm prefiltered.ppm
+check 'baked' exits 0 "$render" --bake-environment sky -o baked
+check 'to three files' test -s baked/radiance.exr -a -s baked/irradiance.exr -a -s baked/albedo.exr
+check 'is used' metal --environment prefiltered --environment baked -o baked.ppm
+check 'and the same' cmp prefiltered.ppm baked.ppm
+check 'a baked map for importance sampling' metal --environment baked --samples 256 -o baked.ppm
+check 'agrees, too' agree importance.ppm baked.ppm
+check 'nothing to bake' exits 1 "$render" --bake-environment none.exr -o nothing
+check 'a folder that is not baked' eval 'mkdir bare; exits 1 "$render" metal.mtlx --environment bare -o x.png && grep -q "\[bad-environment\]" err'
+
 # Many pictures
 check 'a turntable' exits 0 "$render" plain.mtlx -m cube --turntable 4 -o turn.ppm --size 8
 check 'has pictures by number' test -s turn.0000.ppm -a -s turn.0001.ppm -a -s turn.0003.ppm -a ! -e turn.0004.ppm
