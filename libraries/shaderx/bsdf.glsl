@@ -26,6 +26,6 @@ vec3 mx_thinfilmbsdf_factor(float thickness, float ior, vec3 N, vec3 V)
     if (thickness <= 0.0)
         return vec3(1.0);
     float cosine = clamp(abs(dot(N, V)), MX_EPSILON, 1.0);
-    return min(mx_fresnel_film(cosine, MX_FRESNEL_CONDUCTOR, IRON, IRON, vec3(1.0), 0.0, thickness, ior)
-             / mx_fresnel_film(cosine, MX_FRESNEL_CONDUCTOR, IRON, IRON, vec3(1.0), 0.0, 0.0, ior), 1.0);
+    return min(mx_film_index(cosine, IRON, IRON, thickness, ior)
+             / mx_film_index(cosine, IRON, IRON, 0.0, ior), 1.0);
 }

@@ -5,7 +5,7 @@
 
 vec3 mx_reflectivity(vec3 ior, vec3 extinction)
 {
-    return mx_fresnel_f0(MX_FRESNEL_CONDUCTOR, ior, extinction);
+    return mx_fresnel_f0("conductor", ior, extinction);
 }
 
 // Gulbrandsen 2014, section 3: where the index lies between the largest, (1 + sqrt r) / (1 - sqrt r), and the smallest,

@@ -43,6 +43,8 @@ static ir_ref context_value(struct shader *shader, struct closure_point *point, 
         return known(shader, &point->normal, name, normal);
     case STR_P:
         return known(shader, &point->position, name, position);
+    case STR_sample_index:
+        return ir_build(shader->graph, IR_SAMPLE, IR_TYPE_INT, 0, NULL, 0);
     default:
         return name == STR_L && light ? *light : ir_poison(shader->graph, IR_TYPE_VEC3);
     }

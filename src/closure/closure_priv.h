@@ -17,6 +17,8 @@ void closure_sample_light(struct shader *shader, const struct closure_host *host
 
 /* a · b, where 0 stands for 1. */
 ir_ref closure_mul(struct ir_graph *graph, ir_ref a, ir_ref b);
+/* product.c: the same, arranged for values that change from turn to turn of a loop. */
+ir_ref closure_product(struct ir_graph *graph, ir_ref value, ir_ref weight);
 ir_ref closure_one_minus(struct ir_graph *graph, ir_ref a);
 
 #endif

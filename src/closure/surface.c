@@ -5,9 +5,10 @@
  *     color = emission
  *     for each light: color += intensity · Σ w · eval
  *     color += Σ w · environment + Σ w · transmission
+ *     for each sample of the environment: color += what these functions give for it
  *     out1 = vec4(color · opacity, opacity)
  *
- * A leaf whose weight is not known at compile time stands behind `if (weight > 0)`.
+ * A leaf whose weight is not known at compile time may have weight 0: it stands behind `if (weight > 0)`.
  */
 #include "closure/closure_priv.h"
 
@@ -37,12 +38,6 @@ static ir_ref vec3_of(struct emitter *e, ir_ref value)
     return ir_convert(e->graph, IR_TYPE_VEC3, value);
 }
 
-/* A weight that is not known may be 0: then the leaf need not be evaluated. */
-static bool is_guarded(const struct emitter *e, const struct closure_leaf *leaf)
-{
-    return !ir_is_const(e->graph, leaf->scalar);
-}
-
 /* value · weight; 0 where nothing is left of it. */
 static ir_ref weighted(struct emitter *e, const struct closure_leaf *leaf, ir_ref value)
 {
@@ -52,7 +47,7 @@ static ir_ref weighted(struct emitter *e, const struct closure_leaf *leaf, ir_re
     uint32_t before = g->origin;
     g->origin = ir_get(g, leaf->leaf)->origin;
     ir_ref weight = ir_const_is(g, leaf->scalar, 1.0f) ? leaf->color : closure_mul(g, leaf->color, leaf->scalar);
-    value = closure_mul(g, value, weight);
+    value = closure_product(g, value, weight);
     g->origin = before;
     return value;
 }
@@ -65,14 +60,46 @@ static void declare_color(struct emitter *e)
     effect(e, EFFECT_VAR, e->color, e->base ? vec3_of(e, e->base) : ir_const_splat(e->graph, IR_TYPE_VEC3, 0.0f));
 }
 
-static void accumulate(struct emitter *e, const struct closure_leaf *leaf, ir_ref value)
+/* What leaves add to the colour in one place: values with their weights. */
+struct part {
+    const struct closure_leaf *leaf;
+    ir_ref value;
+};
+struct part_list {
+    VEC(struct part) parts;
+};
+
+static void add_part(struct emitter *e, struct part_list *list, const struct closure_leaf *leaf, ir_ref value)
 {
-    bool guarded = is_guarded(e, leaf);
-    if (guarded)
-        effect(e, EFFECT_IF, 0, ir_op2(e->graph, IR_GT, leaf->scalar, ir_const_float(e->graph, 0.0f)));
-    effect(e, EFFECT_ACCUMULATE, e->color, value);
-    if (guarded)
+    if (value)
+        vec_push(e->shader->arena, &list->parts, (struct part){leaf, value});
+}
+
+static void accumulate(struct emitter *e, ir_ref factor, ir_ref value)
+{
+    effect(e, EFFECT_ACCUMULATE, e->color, closure_mul(e->graph, factor, value));
+}
+
+/* color += factor · Σ parts. Leaves that are always there share one line; the others stand behind their guards. */
+static void accumulate_all(struct emitter *e, const struct part_list *list, ir_ref factor)
+{
+    struct ir_graph *g = e->graph;
+    ir_ref always = 0;
+    for (uint32_t i = 0; i < list->parts.len;) {
+        ir_ref guard = list->parts.items[i].leaf->scalar, sum = 0;
+        do
+            sum = add(e, sum, list->parts.items[i++].value);
+        while (i < list->parts.len && list->parts.items[i].leaf->scalar == guard);
+        if (ir_is_const(g, guard)) {
+            always = add(e, always, sum);
+            continue;
+        }
+        effect(e, EFFECT_IF, 0, ir_op2(g, IR_GT, guard, ir_const_float(g, 0.0f)));
+        accumulate(e, factor, sum);
         effect(e, EFFECT_END, 0, 0);
+    }
+    if (always)
+        accumulate(e, factor, always);
 }
 
 static bool has_function(const struct emitter *e, const struct closure_leaf *leaf, enum leaf_function which)
@@ -88,7 +115,6 @@ static bool any_has(const struct emitter *e, const struct closure_list *list, en
     return false;
 }
 
-/* Leaves that are always there share one line; the others have their own behind their guard. */
 static void emit_lights(struct emitter *e, const struct closure_list *list, bool *emitted)
 {
     if (!e->lighting->lights || !any_has(e, list, LEAF_EVAL))
@@ -97,51 +123,45 @@ static void emit_lights(struct emitter *e, const struct closure_list *list, bool
     effect(e, EFFECT_LIGHTS, 0, 0);
     ir_ref light, intensity;
     closure_sample_light(e->shader, e->host, &light, &intensity);
-    ir_ref always = 0;
+    struct part_list parts = {0};
     for (uint32_t i = 0; i < list->leaves.len; i++) {
         const struct closure_leaf *leaf = &list->leaves.items[i];
         ir_ref value = weighted(e, leaf, closure_call(e->shader, e->host, leaf->leaf, LEAF_EVAL, &light));
-        if (!value)
-            continue;
-        emitted[i] = true;
-        if (is_guarded(e, leaf))
-            accumulate(e, leaf, ir_op2(e->graph, IR_MUL, intensity, value));
-        else
-            always = add(e, always, value);
+        add_part(e, &parts, leaf, value);
+        emitted[i] |= value != 0;
     }
-    if (always)
-        effect(e, EFFECT_ACCUMULATE, e->color, ir_op2(e->graph, IR_MUL, intensity, always));
+    accumulate_all(e, &parts, intensity);
     effect(e, EFFECT_END, 0, 0);
     e->shader->lit = true;
 }
 
+/* What a function gives at once, and what it gives sample by sample. */
 static void emit_environment(struct emitter *e, const struct closure_list *list, bool *emitted)
 {
     if (!e->lighting->environment)
         return;
-    ir_ref always = 0;
+    struct part_list whole = {0}, sampled = {0};
     for (uint32_t i = 0; i < list->leaves.len; i++) {
         const struct closure_leaf *leaf = &list->leaves.items[i];
-        ir_ref reflected = closure_call(e->shader, e->host, leaf->leaf, LEAF_ENVIRONMENT, NULL);
         ir_ref refracted = closure_call(e->shader, e->host, leaf->leaf, LEAF_TRANSMISSION, NULL);
-        if (refracted)
-            refracted = closure_mul(e->graph, refracted, leaf->medium);
-        ir_ref value = weighted(e, leaf, add(e, reflected, refracted));
-        if (!value)
-            continue;
-        emitted[i] = true;
-        e->shader->lit = true;
-        if (is_guarded(e, leaf)) {
-            declare_color(e);
-            accumulate(e, leaf, value);
-        } else {
-            always = add(e, always, value);
+        ir_ref values[2] = {closure_call(e->shader, e->host, leaf->leaf, LEAF_ENVIRONMENT, NULL),
+                            refracted ? closure_mul(e->graph, refracted, leaf->medium) : 0};
+        for (unsigned k = 0; k < 2; k++) {
+            ir_ref value = weighted(e, leaf, values[k]);
+            add_part(e, value && ir_get(e->graph, value)->flags & IR_NODE_LOOP ? &sampled : &whole, leaf, value);
+            emitted[i] |= value != 0;
         }
     }
-    if (always) {
-        declare_color(e);
-        effect(e, EFFECT_ACCUMULATE, e->color, always);
+    if (!whole.parts.len && !sampled.parts.len)
+        return;
+    declare_color(e);
+    accumulate_all(e, &whole, 0);
+    if (sampled.parts.len) {
+        effect(e, EFFECT_SAMPLES, 0, 0);
+        accumulate_all(e, &sampled, 0);
+        effect(e, EFFECT_END, 0, 0);
     }
+    e->shader->lit = true;
 }
 
 static ir_ref emission(struct emitter *e, ir_ref edf)

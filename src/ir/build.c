@@ -47,12 +47,13 @@ static void sort_operands(const struct ir_graph *graph, enum ir_op op, ir_ref *a
     args[1] = first;
 }
 
-/* Arithmetic and choices are simplified where they are of vectors; what builds and takes apart, wherever it is. */
+/* Arithmetic, choices and functions are simplified where they are of vectors; what builds and takes apart, wherever it is. */
 static bool may_simplify(enum ir_op op, ir_type_id type)
 {
-    if (op > IR_SELECT)
-        return op <= IR_INDEX;
-    return (op == IR_SELECT || (op >= IR_ADD && op <= IR_DIV)) && type >= IR_TYPE_VEC2 && type <= IR_TYPE_VEC4;
+    if (op > IR_SELECT && op <= IR_INDEX)
+        return true;
+    bool on_vectors = (op >= IR_SELECT && op <= IR_SMOOTHSTEP) || (op >= IR_ADD && op <= IR_DIV);
+    return on_vectors && type >= IR_TYPE_VEC2 && type <= IR_TYPE_VEC4;
 }
 
 static bool has_poison(const struct ir_graph *graph, const ir_ref *args, unsigned num_args)

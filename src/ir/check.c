@@ -243,12 +243,14 @@ static const char *node_problem(const struct ir_graph *graph, ir_ref ref)
     if (node->num_args > graph->args.len || node->first_arg > graph->args.len - node->num_args)
         return "the operands lie outside of the graph";
     const ir_ref *args = ir_args(graph, ref);
-    unsigned derivative = node->flags & IR_NODE_DERIVATIVE;
+    unsigned derivative = node->flags & IR_NODE_DERIVATIVE, loop = node->flags & IR_NODE_LOOP;
     for (uint32_t i = 0; i < node->num_args; i++) {
         if (args[i] >= ref)
             return "an operand is not older than the node";
         if ((ir_get(graph, args[i])->flags & IR_NODE_DERIVATIVE) && !derivative)
             return "the node lacks the derivative flag of an operand";
+        if ((ir_get(graph, args[i])->flags & IR_NODE_LOOP) && !loop)
+            return "the node lacks the loop flag of an operand";
     }
     const char *problem = node->op == IR_CONST ? const_problem(graph, node)
                                                : ir_node_problem(graph, (enum ir_op)node->op, node->type, node->attr,
@@ -262,6 +264,8 @@ static const char *node_problem(const struct ir_graph *graph, ir_ref ref)
         return "the closure flag is wrong";
     if ((ir_op_info((enum ir_op)node->op)->flags & OP_DERIVATIVE) && !derivative)
         return "the derivative flag is missing";
+    if ((node->op == IR_CONTEXT || node->op == IR_SAMPLE) && !loop)
+        return "the loop flag is missing";
     if (node->op == IR_GRAPH_CALL) {
         const struct ir_function *function = &graph->functions.items[node->attr];
         for (uint32_t i = 0; i < function->num_results; i++)

@@ -123,6 +123,7 @@ static bool eval_node(const struct evaluator *e, ir_ref ref, struct ir_value *ou
     case IR_PARAM:
     case IR_LOCAL:
     case IR_CONTEXT:
+    case IR_SAMPLE:
         return eval_source(e, ref, out);
     case IR_CALL:
         return eval_call(e, ref, 0, node->type, out);

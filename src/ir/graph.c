@@ -120,8 +120,8 @@ static unsigned own_flags(const struct ir_graph *graph, struct content c)
         derivative = graph->callees.items[c.attr].derivative;
     else if (c.op == IR_GRAPH_CALL)
         derivative = function_has_derivative(graph, &graph->functions.items[c.attr]);
-    bool closure = ir_type_is_closure(c.type) || ir_type_is_shader(c.type);
-    return (derivative ? IR_NODE_DERIVATIVE : 0u) | (closure ? IR_NODE_CLOSURE : 0u);
+    bool closure = ir_type_is_closure(c.type) || ir_type_is_shader(c.type), loop = c.op == IR_CONTEXT || c.op == IR_SAMPLE;
+    return (derivative ? IR_NODE_DERIVATIVE : 0u) | (closure ? IR_NODE_CLOSURE : 0u) | (loop ? IR_NODE_LOOP : 0u);
 }
 
 /* Copies the operands to graph->args and returns their flags; they may lie there already, so that growing would move them. */
@@ -139,7 +139,7 @@ static unsigned push_args(struct ir_graph *graph, const ir_ref *args, uint32_t n
         flags |= nodes[from[i]].flags;
     }
     graph->args.len = len + num_args;
-    return flags & IR_NODE_DERIVATIVE;
+    return flags & (IR_NODE_DERIVATIVE | IR_NODE_LOOP);
 }
 
 static void push_words(struct ir_graph *graph, const uint32_t *words, uint32_t num_words)

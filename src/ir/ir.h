@@ -147,6 +147,7 @@ struct ir_node {
 enum ir_node_flags {
     IR_NODE_DERIVATIVE = 1, /* it or an operand has OP_DERIVATIVE, or calls something that has */
     IR_NODE_CLOSURE = 2,    /* closure or shader type */
+    IR_NODE_LOOP = 4,       /* it or an operand is CONTEXT or SAMPLE: it has a value inside of their loop only */
 };
 
 /* Where a node comes from: for names, comments and diagnostics. The IR carries it and does not look inside. */

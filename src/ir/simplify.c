@@ -225,6 +225,8 @@ static ir_ref gather_scalars(struct ir_graph *graph, ir_ref a, ir_ref b)
     const struct ir_node *node = ir_get(graph, a);
     if (graph->exact || node->op != IR_MUL || !is_vector(node->type) || !is_scalar_float(graph, b))
         return 0;
+    if (~node->flags & ir_get(graph, b)->flags & IR_NODE_LOOP) /* v · s stays in front of the loop */
+        return 0;
     ir_ref v = ir_arg(graph, a, 0), s = ir_arg(graph, a, 1);
     if (is_scalar_float(graph, v))
         return ir_op2(graph, IR_MUL, s, ir_op2(graph, IR_MUL, v, b));
@@ -253,6 +255,22 @@ static ir_ref simplify_arithmetic(struct ir_graph *graph, enum ir_op op, ir_type
     if (narrow_a || narrow_b)
         return ir_op2(graph, op, narrow_a ? sa : a, narrow_b ? sb : b);
     return op == IR_MUL ? gather_scalars(graph, a, b) : 0;
+}
+
+/* f(vec3(a), vec3(b)) = vec3(f(a, b)) where f works component by component. */
+static ir_ref simplify_componentwise(struct ir_graph *graph, enum ir_op op, ir_type_id type, const ir_ref *args,
+                                     unsigned num_args)
+{
+    ir_ref scalars[3];
+    if (!is_float_vector(type))
+        return 0;
+    for (unsigned i = 0; i < num_args; i++) {
+        scalars[i] = is_scalar_float(graph, args[i]) ? args[i] : splat_of(graph, args[i]);
+        if (!scalars[i])
+            return 0;
+    }
+    ir_ref scalar = ir_build(graph, op, IR_TYPE_FLOAT, 0, scalars, num_args);
+    return ir_build(graph, IR_CONSTRUCT, type, 0, &scalar, 1);
 }
 
 /* The scalar s of a product v s; 0 where `ref` is no such product. */
@@ -319,6 +337,6 @@ ir_ref ir_simplify(struct ir_graph *graph, enum ir_op op, ir_type_id type, uint3
     case IR_INDEX:
         return simplify_index(graph, args[0], args[1]);
     default:
-        return 0;
+        return op >= IR_RADIANS && op <= IR_SMOOTHSTEP ? simplify_componentwise(graph, op, type, args, num_args) : 0;
     }
 }

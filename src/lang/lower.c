@@ -267,6 +267,7 @@ static void build_call(struct lower *lo, uint32_t id, const ir_ref *in, ir_ref *
 {
     ir_ref args[LOWER_MAX_LEAVES];
     uint32_t num_args;
+    lo->num_calls++;
     if (!join_arguments(lo, id, in, args, &num_args)) {
         poison_results(lo, id, out);
         return;

@@ -38,6 +38,7 @@ struct lower {
     struct lower_frame *frame;
     unsigned depth;
     uint32_t max_graph_nodes; /* a body that makes the graph larger than this is not worth it */
+    uint32_t num_calls;       /* that were built, or found in the graph */
     bool failed; /* the function cannot become nodes: the result is of no use */
 };
 

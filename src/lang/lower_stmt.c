@@ -54,11 +54,24 @@ static void restore_leaves(struct lower *lo, const ir_ref *saved)
         memcpy(lo->frame->leaves, saved, lo->frame->num_leaves * sizeof *saved);
 }
 
-/* May the nodes since `begin` be computed although they may not be needed? */
-static bool is_cheap(const struct ir_graph *graph, uint32_t begin)
+/* Where a branch begins. */
+struct mark {
+    uint32_t nodes, calls;
+};
+
+static struct mark mark(const struct lower *lo)
 {
-    uint32_t added = graph->nodes.len - begin;
-    for (uint32_t i = begin; i < graph->nodes.len; i++) {
+    return (struct mark){lo->graph->nodes.len, lo->num_calls};
+}
+
+/* May the nodes since `begin` be computed although they may not be needed? A call may not, though there be an equal one. */
+static bool is_cheap(const struct lower *lo, struct mark begin)
+{
+    const struct ir_graph *graph = lo->graph;
+    uint32_t added = graph->nodes.len - begin.nodes;
+    if (lo->num_calls != begin.calls)
+        return false;
+    for (uint32_t i = begin.nodes; i < graph->nodes.len; i++) {
         const struct ir_node *node = ir_get(graph, i);
         bool is_read_or_call = node->op >= IR_TEX && node->op <= IR_RESULT;
         if (is_read_or_call || node->flags & IR_NODE_DERIVATIVE)
@@ -95,19 +108,19 @@ static void merge(struct lower *lo, ir_ref condition, const ir_ref *yes)
 /* What follows a statement of which one branch has returned: it must return as well, or be the end of a void function. */
 static void lower_rest(struct lower *lo, lang_ref rest)
 {
-    uint32_t begin = lo->graph->nodes.len;
+    struct mark begin = mark(lo);
     bool returned = lower_statements(lo, rest);
     bool ends = lo->frame->nesting == 0 && lo->frame->fn->return_type == IR_TYPE_VOID;
-    lo->failed |= (!returned && !ends) || !is_cheap(lo->graph, begin);
+    lo->failed |= (!returned && !ends) || !is_cheap(lo, begin);
 }
 
 /* An `if` whose condition is not known, with the statements behind it. */
 static bool lower_branches(struct lower *lo, const struct lang_node *node, ir_ref condition)
 {
-    uint32_t begin = lo->graph->nodes.len;
+    struct mark begin = mark(lo);
     const ir_ref *before = save_leaves(lo);
     bool yes_returned = lower_body(lo, node->b);
-    lo->failed |= !is_cheap(lo->graph, begin);
+    lo->failed |= !is_cheap(lo, begin);
     if (yes_returned && !node->c && !lo->failed) { /* `if (c) return x;`: the rest is the other branch */
         const ir_ref *yes = save_leaves(lo);
         restore_leaves(lo, before);
@@ -118,10 +131,10 @@ static bool lower_branches(struct lower *lo, const struct lang_node *node, ir_re
     if (lo->failed)
         return true;
     const ir_ref *yes = save_leaves(lo);
-    begin = lo->graph->nodes.len;
+    begin = mark(lo);
     restore_leaves(lo, before);
     bool no_returned = lower_body(lo, node->c);
-    lo->failed |= !is_cheap(lo->graph, begin);
+    lo->failed |= !is_cheap(lo, begin);
     if (yes_returned != no_returned && !lo->failed) {
         if (yes_returned) {
             lower_rest(lo, node->next);

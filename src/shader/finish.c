@@ -10,11 +10,14 @@ static void mark_read(struct shader *shader, uint32_t variable, enum shader_stag
     shader->variables.items[variable].stages |= (uint8_t)(1u << stage);
 }
 
-static void complete_lights(struct shader *shader, enum shader_stage_id id)
+static void complete_loops(struct shader *shader, enum shader_stage_id id)
 {
     struct shader_stage *stage = &shader->stages[id];
-    for (uint32_t i = 0; i < stage->effects.len; i++)
+    for (uint32_t i = 0; i < stage->effects.len; i++) {
         stage->has_lights |= stage->effects.items[i].kind == EFFECT_LIGHTS;
+        if (stage->effects.items[i].kind == EFFECT_SAMPLES)
+            mark_read(shader, shader_private_uniform(shader, STR_u_envRadianceSamples, IR_TYPE_INT, 0), id);
+    }
     if (!stage->has_lights)
         return;
     mark_read(shader, shader_private_uniform(shader, STR_u_numActiveLightSources, IR_TYPE_INT, 0), id);
@@ -86,7 +89,7 @@ static void name_neutrally(struct shader *shader)
 void shader_finish(struct shader *shader, const struct shader_layout_rules *rules)
 {
     shader_specialise_calls(shader);
-    complete_lights(shader, STAGE_PIXEL);
+    complete_loops(shader, STAGE_PIXEL);
     mark_outputs(shader, STAGE_PIXEL);
     shader_schedule(shader, STAGE_PIXEL);
     add_globals(shader, STAGE_PIXEL);

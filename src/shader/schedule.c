@@ -20,7 +20,7 @@
 
 enum plan_flags {
     PLAN_LOCAL = 1,      /* reads a LOCAL: may be shared within one effect only */
-    PLAN_LIGHT = 2,      /* reads the light context: may not leave its loop */
+    PLAN_LOOP = 2,       /* reads the light or sample at hand: may not leave its loop */
     PLAN_IN_ARM = 4,     /* some use stands in an expression that is not always evaluated */
     PLAN_MOVED = 8,      /* its region lies outside of that of a use */
     PLAN_STATEMENT = 16, /* a call that cannot stand in an expression */
@@ -40,7 +40,7 @@ struct plan { /* what is known of a reached node */
 
 struct region {
     uint32_t parent, header, depth; /* header: the effect that opens it */
-    uint32_t outside; /* the innermost region around it that is in no LIGHTS: itself where it is in none */
+    uint32_t outside; /* the innermost region around it that is in no loop: itself where it is in none */
 };
 
 struct visit { /* a node whose operands are being collected */
@@ -137,13 +137,13 @@ static void reach_node(struct scheduler *s, ir_ref ref)
     unsigned flags = 0;
     if (node->op == IR_LOCAL)
         flags = PLAN_LOCAL;
-    else if (node->op == IR_CONTEXT)
-        flags = PLAN_LIGHT;
-    else if (is_call(node) && (node->type == IR_TYPE_VOID || shader_call_outs(s->shader, ref)))
-        flags = PLAN_STATEMENT;
+    else if (node->flags & IR_NODE_LOOP)
+        flags = PLAN_LOOP;
+    if (is_call(node) && (node->type == IR_TYPE_VOID || shader_call_outs(s->shader, ref)))
+        flags |= PLAN_STATEMENT;
     const ir_ref *args = ir_args(s->graph, ref);
     for (uint32_t a = 0; a < node->num_args; a++)
-        flags |= plan_of(s, args[a])->flags & (PLAN_LOCAL | PLAN_LIGHT);
+        flags |= plan_of(s, args[a])->flags & PLAN_LOCAL;
     *plan_of(s, ref) = (struct plan){.ref = ref, .flags = (uint8_t)flags};
     s->is_reached[ref] = true;
     vec_push(s->arena, &s->reached, ref);
@@ -187,11 +187,12 @@ static void find_regions(struct scheduler *s, const struct effect_list *effects)
         vec_push(s->arena, &s->region_of, current);
         if (kind == EFFECT_DISCARD && s->first_discard == NO_EFFECT)
             s->first_discard = i;
-        if (kind != EFFECT_IF && kind != EFFECT_LIGHTS)
+        bool loop = kind == EFFECT_LIGHTS || kind == EFFECT_SAMPLES;
+        if (kind != EFFECT_IF && !loop)
             continue;
         struct region inner = {current, i, s->regions.items[current].depth + 1, s->regions.len};
         bool in_loop = s->regions.items[current].outside != current;
-        if (kind == EFFECT_LIGHTS || in_loop)
+        if (loop || in_loop)
             inner.outside = s->regions.items[current].outside;
         current = s->regions.len;
         vec_push(s->arena, &s->regions, inner);
@@ -238,7 +239,7 @@ static void use(struct scheduler *s, ir_ref ref, uint32_t uses, uint32_t region,
 /* Out of loops and branches, as far as the node may and should go. */
 static void move_out(struct scheduler *s, struct plan *plan)
 {
-    if (plan->flags & (PLAN_LOCAL | PLAN_LIGHT))
+    if (plan->flags & (PLAN_LOCAL | PLAN_LOOP))
         return;
     uint32_t region = s->regions.items[plan->region].outside;
     bool neighbours = needs_neighbours(s->graph, ir_get(s->graph, plan->ref));
@@ -328,6 +329,7 @@ static bool is_source(const struct scheduler *s, struct plan *plan)
         return true;
     case IR_PARAM:
     case IR_LOCAL:
+    case IR_SAMPLE:
     case IR_POISON:
         plan->cost = 1;
         plan->chars = 4;
@@ -360,7 +362,7 @@ static bool may_let(const struct scheduler *s, const struct plan *plan)
     ir_type_id type = ir_type_of(s->graph, plan->ref);
     if (plan->flags & PLAN_LOCAL && plan->effect == MANY_EFFECTS)
         return false;
-    if (plan->flags & PLAN_LIGHT && s->regions.items[plan->region].outside == plan->region)
+    if (plan->flags & PLAN_LOOP && s->regions.items[plan->region].outside == plan->region)
         return false;
     bool is_opaque = type == IR_TYPE_SAMPLER || type == IR_TYPE_SAMPLER_ARRAY || type == IR_TYPE_STRING;
     return plan->flags & PLAN_STATEMENT || (type != IR_TYPE_VOID && !is_opaque);
@@ -432,12 +434,12 @@ static bool is_part(struct scheduler *s, const struct plan *plan)
 /* May an arm become a local for the sake of let_arms? What has a name already is not copied. */
 static bool is_little_work(struct scheduler *s, const struct plan *arm)
 {
-    return arm->flags & PLAN_LIGHT && ir_get(s->graph, arm->ref)->num_args > 0 && !is_part(s, arm)
+    return arm->flags & PLAN_LOOP && ir_get(s->graph, arm->ref)->num_args > 0 && !is_part(s, arm)
            && arm->cost <= MAX_COST_OF_ARM && may_let(s, arm) && !(arm->flags & PLAN_LOCAL);
 }
 
 /*
- * A choice between locals and constants is one operation; between expressions it is a branch. In the loop over lights, what is little
+ * A choice between locals and constants is one operation; between expressions it is a branch. In a loop, what is little
  * work is rather done in vain; elsewhere one line reads better.
  */
 static void let_arms(struct scheduler *s, const struct ir_node *node)

@@ -94,7 +94,7 @@ struct shader_verbatim {
     uint32_t num_results, first_result; /* types of a function's results, in shader->result_types; RESULT 1 is the first */
 };
 
-/* Effects: what a stage does, in order, before scheduling. Structured: IF and LIGHTS end with END. */
+/* Effects: what a stage does, in order, before scheduling. Structured: IF, LIGHTS and SAMPLES end with END. */
 enum effect_kind {
     EFFECT_VAR,        /* declares mutable variable `index` with initial value `value` */
     EFFECT_ACCUMULATE, /* variable `index` += value */
@@ -103,6 +103,7 @@ enum effect_kind {
     EFFECT_POSITION,   /* the vertex's clip position = value */
     EFFECT_IF,         /* if (value) { */
     EFFECT_LIGHTS,     /* for each active light {; CONTEXT nodes inside read its data */
+    EFFECT_SAMPLES,    /* for each sample of the environment {; SAMPLE inside is its index */
     EFFECT_END,        /* } */
     EFFECT_COMMENT,    /* a line of comment: text */
     EFFECT_DISCARD,    /* alpha test: if (value) discard */
@@ -254,8 +255,8 @@ void shader_layout(struct shader *shader, const struct shader_layout_rules *rule
 /*
  * schedule.c: decides which nodes become locals and where, and collects what the stage needs: functions, and the stage's bit in
  * the variables that it reads. A node used more than once, or one that would make an expression too long, is a LET in the
- * innermost region that dominates its uses (IF, LIGHTS). What does not change from light to light is moved out of LIGHTS, and nodes with
- * derivatives stay outside of IF and LIGHTS, of the arms of SELECT, and before any DISCARD. Nodes that read a LOCAL belong to the effect
+ * innermost region that dominates its uses (IF, LIGHTS, SAMPLES). What does not change from turn to turn is moved out of loops, and nodes
+ * with derivatives stay outside of IF and loops, of the arms of SELECT, and before any DISCARD. Nodes that read a LOCAL belong to the effect
  * that uses them.
  */
 void shader_schedule(struct shader *shader, enum shader_stage_id stage);

@@ -185,7 +185,10 @@ static void write_source(struct spell *spell, const struct ir_node *node)
         spell_text(spell, spell->locals[node->attr]);
         break;
     case IR_CONTEXT:
-        SPELL(spell, "u_lightData[", spell->light_index, "].", spell->variables[node->attr]);
+        SPELL(spell, "u_lightData[", spell->loop_index, "].", spell->variables[node->attr]);
+        break;
+    case IR_SAMPLE:
+        spell_text(spell, spell->loop_index);
         break;
     default: /* POISON: an error was reported; the text is not used */
         lang_print_value(spell->style, spell->shader->strings, node->type < IR_NUM_TYPES ? node->type : IR_TYPE_FLOAT,

@@ -53,7 +53,7 @@ struct spell {
     const char **locals;          /* names of the stage's mutable variables */
     uint32_t *local_of;           /* node of a LET to its first name in let_names, + 1; 0: it is an expression */
     VEC(const char *) let_names;
-    const char *light_index; /* in a LIGHTS: the loop's variable */
+    const char *loop_index; /* in LIGHTS and SAMPLES: the loop's variable */
     struct name_set paths;        /* shown in comments so far */
     uint8_t *origins_seen;        /* origins whose path was asked for; NULL: no comments */
 };

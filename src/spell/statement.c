@@ -236,14 +236,21 @@ static void write_let(struct spell *spell, unsigned indent, ir_ref ref)
 
 /* ---- Other effects ---- */
 
-static void write_lights(struct spell *spell, unsigned indent)
+static void write_loop(struct spell *spell, unsigned indent, bool lights)
 {
-    const char *i = names_unique(&spell->names, "i", 1);
-    spell->light_index = i;
+    if (!spell->loop_index)
+        spell->loop_index = names_unique(&spell->names, "i", 1);
+    const char *i = spell->loop_index;
     open_line(spell, indent, 0);
-    SPELL(spell, "for (int ", i, " = 0; ", i, " < min(u_numActiveLightSources, ");
-    spell_number(spell, spell->shader->max_lights);
-    SPELL(spell, "); ++", i, ") {\n");
+    SPELL(spell, "for (int ", i, " = 0; ", i, " < ");
+    if (lights) {
+        spell_text(spell, "min(u_numActiveLightSources, ");
+        spell_number(spell, spell->shader->max_lights);
+        spell_text(spell, ")");
+    } else {
+        spell_text(spell, "u_envRadianceSamples");
+    }
+    SPELL(spell, "; ++", i, ") {\n");
 }
 
 static void write_if(struct spell *spell, unsigned indent, ir_ref condition, bool braces)
@@ -316,7 +323,8 @@ static void write_effect(struct spell *spell, unsigned indent, const struct effe
         write_assignment(spell, indent, "gl_Position", " = ", effect->value);
         break;
     case EFFECT_LIGHTS:
-        write_lights(spell, indent);
+    case EFFECT_SAMPLES:
+        write_loop(spell, indent, effect->kind == EFFECT_LIGHTS);
         break;
     case EFFECT_COMMENT:
         write_comment(spell, indent, effect->text);
@@ -345,6 +353,7 @@ static bool holds_one_statement(const struct effect_list *list, uint32_t opening
 void spell_statements(struct spell *spell, const struct effect_list *statements, unsigned indent)
 {
     spell->let_names.len = 0;
+    spell->loop_index = NULL;
     for (uint32_t i = 0; i < statements->len; i++) {
         const struct effect *effect = &statements->items[i];
         if (effect->kind == EFFECT_END) {
@@ -354,7 +363,7 @@ void spell_statements(struct spell *spell, const struct effect_list *statements,
         }
         if (effect->kind != EFFECT_IF) {
             write_effect(spell, indent, effect);
-            indent += effect->kind == EFFECT_LIGHTS;
+            indent += effect->kind == EFFECT_LIGHTS || effect->kind == EFFECT_SAMPLES;
             continue;
         }
         bool braces = !holds_one_statement(statements, i);

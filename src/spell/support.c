@@ -15,6 +15,7 @@ static bool is_structural(enum ir_op op)
     case IR_PARAM:
     case IR_LOCAL:
     case IR_CONTEXT:
+    case IR_SAMPLE:
     case IR_POISON:
     case IR_CONSTRUCT:
     case IR_SWIZZLE:

@@ -44,12 +44,6 @@ float mx_fresnel_dielectric(const float cosine)
     return 0.5 * dot(r, r);
 }
 
-vec3 mx_ggx_lobe(const mat3 frame, const vec3 V, const vec3 L)
-{
-    vec3 H = normalize(V + L);
-    return mx_ggx_distribution(H * frame) * mx_ggx_visibility(max(dot(frame[2], V), 1e-8), max(dot(frame[2], L), 1e-8)) * vec3(mx_fresnel_dielectric(clamp(dot(V, H), 1e-8, 1.0)));
-}
-
 void main()
 {
     vec3 color = vec3(0.0);
@@ -61,16 +55,17 @@ void main()
     vec3 coat_3 = faceforward(normal, -V, normal);
     vec3 coat_4 = normalize(tangent - coat_3 * dot(tangent, coat_3));
     mat3 coat_5 = mat3(coat_4, cross(coat_3, coat_4), coat_3);
-    float paint = max(dot(V, coat_3), 1e-8);
-    vec3 paint_2 = (vec3(1.0) - (coat.x * 0.033735957 + coat.yyy) * coat_2) * 0.75;
+    float coat_6 = max(abs(dot(normal, V)), 1e-8);
+    vec3 paint = (vec3(1.0) - (coat.x * 0.03373595 + coat.yyy) * coat_2) * 0.75 * vec3(0.6, 0.1, 0.05);
     for (int i = 0; i < min(u_numActiveLightSources, 1); ++i) {
         vec3 light = u_lightData[i].color * (u_lightData[i].type == 1 ? u_lightData[i].intensity : 0.0);
-        vec3 directional_light = -u_lightData[i].direction;
-        float paint_3 = max(dot(directional_light, coat_3), 1e-8);
-        float paint_4 = max(dot(V, directional_light), 1e-8) - paint_3 * paint;
-        float paint_5 = paint_4 / max(paint_3, paint);
-        vec3 paint_6 = paint_3 / 3.1415927 * (max(paint_4 > 0.0 ? paint_5 : paint_4, 0.0) * 0.225 + 0.89285713) * vec3(0.6, 0.1, 0.05) * paint_2;
-        color += light * (coat_2 * mx_ggx_lobe(coat_5, V, directional_light) + paint_6);
+        vec3 coat_7 = normalize(V - u_lightData[i].direction);
+        float coat_8 = max(dot(-u_lightData[i].direction, coat_3), 1e-8);
+        float coat_9 = coat_2 * (mx_ggx_distribution(coat_7 * coat_5) * mx_ggx_visibility(coat_6, coat_8));
+        float paint_2 = max(dot(V, -u_lightData[i].direction), 1e-8) - coat_6 * coat_8;
+        float paint_3 = paint_2 / max(coat_8, coat_6);
+        vec3 paint_4 = coat_8 / 3.1415927 * (max(paint_2 > 0.0 ? paint_3 : paint_2, 0.0) * 0.225 + 0.89285713) * paint;
+        color += light * (coat_9 * mx_fresnel_dielectric(clamp(dot(V, coat_7), 1e-8, 1.0)) + paint_4);
     }
     out1 = vec4(color, 1.0);
 }

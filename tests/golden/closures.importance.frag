@@ -63,12 +63,6 @@ float mx_fresnel_dielectric(const float cosine)
     return 0.5 * dot(r, r);
 }
 
-vec3 mx_ggx_lobe(const mat3 frame, const vec3 V, const vec3 L)
-{
-    vec3 H = normalize(V + L);
-    return mx_ggx_distribution(H * frame) * mx_ggx_visibility(max(dot(frame[2], V), 1e-8), max(dot(frame[2], L), 1e-8)) * vec3(mx_fresnel_dielectric(clamp(dot(V, H), 1e-8, 1.0)));
-}
-
 vec2 mx_latlong(const vec3 direction)
 {
     vec3 d = normalize((u_envMatrix * vec4(direction, 0.0)).xyz);
@@ -93,16 +87,6 @@ vec4 mx_ggx_sample(const int i, const mat3 frame, const vec3 v)
     return vec4(mx_ggx_visibility(cos_v, max(l.z, 1e-8)) * masking / count * (textureLod(u_envRadiance, mx_latlong(L), max(float(u_envRadianceMips) - 2.5 - 0.5 * log2(length(L.xz) * count * mx_ggx_distribution(h) / masking), 0.0)).xyz * u_envLightIntensity), clamp(dot(v, h), 1e-8, 1.0));
 }
 
-vec3 mx_ggx_sampled(const mat3 frame, const vec3 V)
-{
-    vec3 light = vec3(0.0);
-    for (int i = 0; i < u_envRadianceSamples; ++i) {
-        vec4 s = mx_ggx_sample(i, frame, V * frame);
-        light += s.xyz * vec3(mx_fresnel_dielectric(s.w));
-    }
-    return light;
-}
-
 void main()
 {
     vec3 color = vec3(0.0);
@@ -114,8 +98,8 @@ void main()
     vec3 coat_3 = faceforward(normal, -V, normal);
     vec3 coat_4 = normalize(tangent - coat_3 * dot(tangent, coat_3));
     mat3 coat_5 = mat3(coat_4, cross(coat_3, coat_4), coat_3);
-    float paint = max(dot(V, coat_3), 1e-8);
-    vec3 paint_2 = (vec3(1.0) - (coat.x * 0.033735957 + coat.yyy) * coat_2) * 0.75;
+    float coat_6 = max(abs(dot(normal, V)), 1e-8);
+    vec3 paint = (vec3(1.0) - (coat.x * 0.03373595 + coat.yyy) * coat_2) * 0.75 * vec3(0.6, 0.1, 0.05);
     for (int i = 0; i < min(u_numActiveLightSources, 3); ++i) {
         int type = u_lightData[i].type;
         vec3 spot_light = u_lightData[i].position - vd.positionWorld;
@@ -127,16 +111,21 @@ void main()
         vec3 light_2 = u_lightData[i].color * (type == 1 ? u_lightData[i].intensity : type == 2 ? spot_light_2 : light);
         vec3 directional_light = -u_lightData[i].direction;
         vec3 L = type == 1 ? directional_light : spot_light_4;
-        float paint_3 = max(dot(L, coat_3), 1e-8);
-        float paint_4 = max(dot(V, L), 1e-8) - paint_3 * paint;
-        float paint_5 = paint_4 / max(paint_3, paint);
-        vec3 paint_6 = paint_3 / 3.1415927 * (max(paint_4 > 0.0 ? paint_5 : paint_4, 0.0) * 0.225 + 0.89285713) * vec3(0.6, 0.1, 0.05) * paint_2;
-        color += light_2 * (coat_2 * mx_ggx_lobe(coat_5, V, L) + paint_6);
+        vec3 coat_7 = normalize(V + L);
+        float coat_8 = max(dot(L, coat_3), 1e-8);
+        float coat_9 = coat_2 * (mx_ggx_distribution(coat_7 * coat_5) * mx_ggx_visibility(coat_6, coat_8));
+        float paint_2 = max(dot(V, L), 1e-8) - coat_6 * coat_8;
+        float paint_3 = paint_2 / max(coat_8, coat_6);
+        vec3 paint_4 = coat_8 / 3.1415927 * (max(paint_2 > 0.0 ? paint_3 : paint_2, 0.0) * 0.225 + 0.89285713) * paint;
+        color += light_2 * (coat_9 * mx_fresnel_dielectric(clamp(dot(V, coat_7), 1e-8, 1.0)) + paint_4);
     }
-    vec3 paint_7 = textureLod(u_envIrradiance, mx_latlong(coat_3), 0.0).xyz * u_envLightIntensity * vec3(0.6, 0.1, 0.05);
-    vec2 paint_8 = (paint * vec2(-0.7632, -0.4993) + vec2(-0.4297, -0.6076) + vec2(0.43155003, 0.60945004)) * 0.3 + vec2(1.0);
-    vec3 paint_9 = paint_2 * (paint_7 * clamp(paint_8.x / paint_8.y, 0.0, 1.0));
-    color += coat_2 * mx_ggx_sampled(coat_5, V) + paint_9;
+    vec2 paint_5 = (coat_6 * vec2(-0.7632, -0.4993) + vec2(-0.4297, -0.6076) + vec2(0.43155003, 0.60945004)) * 0.3 + vec2(1.0);
+    float paint_6 = u_envLightIntensity * clamp(paint_5.x / paint_5.y, 0.0, 1.0);
+    color += paint * textureLod(u_envIrradiance, mx_latlong(coat_3), 0.0).xyz * paint_6;
+    for (int i = 0; i < u_envRadianceSamples; ++i) {
+        vec4 coat_10 = mx_ggx_sample(i, coat_5, V * coat_5);
+        color += coat_10.xyz * (coat_2 * mx_fresnel_dielectric(coat_10.w));
+    }
     if (SR_varnish_opacity < u_alphaThreshold)
         discard;
     out1 = vec4(SR_varnish_opacity * color, SR_varnish_opacity);

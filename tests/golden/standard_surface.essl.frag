@@ -37,7 +37,7 @@ void main()
     vec3 V = normalize(u_viewPosition - vd_positionWorld);
     // SR_clay
     vec3 diffuse = faceforward(normal, -V, normal);
-    float diffuse_2 = max(dot(V, diffuse), 1e-8);
+    float diffuse_2 = max(abs(dot(normal, V)), 1e-8);
     for (int i = 0; i < min(u_numActiveLightSources, 3); ++i) {
         int type = u_lightData[i].type;
         vec3 spot_light = u_lightData[i].position - vd_positionWorld;

@@ -53,12 +53,6 @@ float mx_fresnel_dielectric(const float cosine)
     return 0.5 * dot(r, r);
 }
 
-vec3 mx_ggx_lobe(const mat3 frame, const vec3 V, const vec3 L)
-{
-    vec3 H = normalize(V + L);
-    return mx_ggx_distribution(H * frame) * mx_ggx_visibility(max(dot(frame[2], V), 1e-8), max(dot(frame[2], L), 1e-8)) * vec3(mx_fresnel_dielectric(clamp(dot(V, H), 1e-8, 1.0)));
-}
-
 vec2 mx_latlong(const vec3 direction)
 {
     vec3 d = normalize((u_envMatrix * vec4(direction, 0.0)).xyz);
@@ -89,17 +83,6 @@ vec4 mx_ggx_sample(const int i, const mat3 frame, const vec3 v, const float refr
     return vec4((refract_ior > 0.0 ? 0.25 / cos_v : mx_ggx_visibility(cos_v, max(l.z, 1e-8))) * masking / count * (textureLod(u_envRadiance, mx_latlong(L), max(float(u_envRadianceMips) - 2.5 - 0.5 * log2(length(L.xz) * count * mx_ggx_distribution(h) / masking), 0.0)).xyz * u_envLightIntensity), clamp(dot(v, h), 1e-8, 1.0));
 }
 
-vec3 mx_ggx_sampled(const mat3 frame, const vec3 V, const float refract_ior)
-{
-    vec3 light = vec3(0.0);
-    for (int i = 0; i < u_envRadianceSamples; ++i) {
-        vec4 s = mx_ggx_sample(i, frame, V * frame, refract_ior);
-        vec3 f = vec3(mx_fresnel_dielectric(s.w));
-        light += s.xyz * (refract_ior > 0.0 ? vec3(1.0) - f : f);
-    }
-    return light;
-}
-
 void main()
 {
     vec3 color = vec3(0.0);
@@ -107,11 +90,12 @@ void main()
     vec3 V = normalize(u_viewPosition - vd.positionWorld);
     // SR_glass
     vec2 reflection = mx_ggx_albedo(normal, V);
-    float reflection_2 = (1.0 / (reflection.x + reflection.y) - 1.0) * 0.08817143 + 1.0;
+    float reflection_2 = (1.0 / (reflection.x + reflection.y) - 1.0) * 0.08817142 + 1.0;
     vec3 tangent = normalize(vd.tangentWorld);
     vec3 reflection_3 = faceforward(normal, -V, normal);
     vec3 reflection_4 = normalize(tangent - reflection_3 * dot(tangent, reflection_3));
     mat3 reflection_5 = mat3(reflection_4, cross(reflection_3, reflection_4), reflection_3);
+    float reflection_6 = max(abs(dot(normal, V)), 1e-8);
     for (int i = 0; i < min(u_numActiveLightSources, 3); ++i) {
         int type = u_lightData[i].type;
         vec3 spot_light = u_lightData[i].position - vd.positionWorld;
@@ -120,12 +104,20 @@ void main()
         vec3 spot_light_4 = normalize(spot_light);
         float spot_light_5 = spot_light_2 * smoothstep(spot_light_3, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, spot_light_4));
         float light = type == 3 ? spot_light_5 : 0.0;
-        vec3 light_2 = u_lightData[i].color * (type == 1 ? u_lightData[i].intensity : type == 2 ? spot_light_2 : light);
+        float light_2 = type == 1 ? u_lightData[i].intensity : type == 2 ? spot_light_2 : light;
         vec3 directional_light = -u_lightData[i].direction;
-        color += light_2 * (reflection_2 * mx_ggx_lobe(reflection_5, V, type == 1 ? directional_light : spot_light_4));
+        vec3 L = type == 1 ? directional_light : spot_light_4;
+        vec3 reflection_7 = normalize(V + L);
+        float reflection_8 = mx_ggx_visibility(reflection_6, max(dot(L, reflection_3), 1e-8));
+        float reflection_9 = reflection_2 * (mx_ggx_distribution(reflection_7 * reflection_5) * reflection_8);
+        color += u_lightData[i].color * (light_2 * (reflection_9 * mx_fresnel_dielectric(clamp(dot(V, reflection_7), 1e-8, 1.0))));
     }
-    vec3 reflection_6 = reflection_2 * mx_ggx_sampled(reflection_5, V, 0.0);
-    vec3 reflection_7 = vec3(1.0) - (reflection.x * 0.04258 + reflection.yyy) * reflection_2;
-    color += reflection_6 + reflection_7 * mx_ggx_sampled(reflection_5, V, 1.52);
+    vec3 reflection_10 = vec3(1.0) - (reflection.x * 0.042579994 + reflection.yyy) * reflection_2;
+    for (int i = 0; i < u_envRadianceSamples; ++i) {
+        vec4 reflection_11 = mx_ggx_sample(i, reflection_5, V * reflection_5, 0.0);
+        vec4 refraction = mx_ggx_sample(i, reflection_5, V * reflection_5, 1.52);
+        vec3 refraction_2 = reflection_10 * (refraction.xyz * (1.0 - mx_fresnel_dielectric(refraction.w)));
+        color += reflection_11.xyz * (reflection_2 * mx_fresnel_dielectric(reflection_11.w)) + refraction_2;
+    }
     out1 = vec4(color, 1.0);
 }

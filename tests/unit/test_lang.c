@@ -616,6 +616,21 @@ static void test_lower_branches(void)
            "return %3\n");
 }
 
+/* A call in a branch stays in its function, though there be an equal one already. */
+static void test_lower_call_in_branch(void)
+{
+    lowers("float sum(float x) { float s = 0.0; for (int i = 0; i < 3; ++i) s += x; return s; }\n"
+           "float h(float x) { if (x > 0.0) return sum(x); return x; }\n"
+           "float f(float x) { return sum(x) + h(x); }", "f", 24, ARGS("x"),
+           "callee \"sum\" 0x0000000000000000 pure\n"
+           "callee \"h\" 0x0000000000000001 pure\n"
+           "%1 = uniform float\n"
+           "%2 = call float %1\n"
+           "%3 = call float @1 %1\n"
+           "%4 = add float %2, %3\n"
+           "return %4\n");
+}
+
 static void test_lower_calls(void)
 {
     const char *texture_source = "vec4 f(sampler2D map, vec2 uv, bool on) { if (on) return texture(map, uv); return vec4(0.0); }";
@@ -692,6 +707,7 @@ int main(void)
     test_dropped_params();
     test_lower_straight();
     test_lower_branches();
+    test_lower_call_in_branch();
     test_lower_calls();
     test_lower_expression();
     return test_report("lang");

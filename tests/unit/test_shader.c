@@ -83,8 +83,8 @@ static void test_light_layout(void)
 /* Statements in short: "var a lights{ b acc } out", where a and b are the names of LETs. */
 static const char *describe(struct fixture *f, const struct effect_list *statements)
 {
-    static const char *const kinds[] = {"var", "acc", "assign", "out", "position", "if{", "lights{", "}", "comment", "discard",
-                                        "let", "result"};
+    static const char *const kinds[] = {"var", "acc", "assign", "out", "position", "if{", "lights{", "samples{", "}", "comment",
+                                        "discard", "let", "result"};
     struct text out;
     text_init(&out, &f->arena);
     for (uint32_t i = 0; i < statements->len; i++) {
@@ -149,6 +149,11 @@ SCHEDULE_TEST(two_light_loops, "lights{ acc } lights{ acc }", ir_ref a = op1(f, 
                   accumulate(f, a);
                   effect(f, EFFECT_END, 0, 0);
               })
+SCHEDULE_TEST(two_kinds_of_loops, "a lights{ acc } samples{ b acc acc }", ir_ref a = dear(f, "a");
+              ir_ref i = ir_op1(&f->graph, IR_SIN, ir_convert(&f->graph, IR_TYPE_FLOAT, ir_build(&f->graph, IR_SAMPLE, IR_TYPE_INT, 0, NULL, 0)));
+              name(f, "b"); ir_ref b = op2(f, IR_MUL, a, i); name(f, "");
+              effect(f, EFFECT_LIGHTS, 0, 0); accumulate(f, op2(f, IR_MUL, a, light_direction(f))); effect(f, EFFECT_END, 0, 0);
+              effect(f, EFFECT_SAMPLES, 0, 0); accumulate(f, b); accumulate(f, op1(f, IR_SQRT, b)); effect(f, EFFECT_END, 0, 0);)
 SCHEDULE_TEST(condition_in_lights, "lights{ if{ acc } }", ir_ref c = op2(f, IR_GT, uniform(f, "w", IR_TYPE_FLOAT), number(f, 0));
               effect(f, EFFECT_LIGHTS, 0, 0); effect(f, EFFECT_IF, 0, c); accumulate(f, light_direction(f));
               effect(f, EFFECT_END, 0, 0); effect(f, EFFECT_END, 0, 0);)
@@ -187,6 +192,7 @@ static void test_schedule(void)
     out_of_lights_into_if();
     stays_in_lights();
     two_light_loops();
+    two_kinds_of_loops();
     condition_in_lights();
     derivative_out_of_if();
     derivative_call_out_of_if();

@@ -38,12 +38,9 @@ vec3 mx_fujii_multiple(vec3 color, float mean)
 
 vec3 mx_oren_nayar_diffuse_bsdf_eval(vec3 color, float roughness, vec3 N, bool energy_compensation, vec3 V, vec3 L)
 {
-    if (roughness <= 0.0)
-        return color * (mx_facing_cosine(N, V, L) / MX_PI);
-
     float cos_l = mx_facing_cosine(N, V, L);
     vec3 lambert = color * (cos_l / MX_PI);
-    float cos_v = mx_facing_cosine(N, V, V);
+    float cos_v = mx_view_cosine(N, V);
     float s = max(dot(L, V), MX_EPSILON) - cos_l * cos_v;
     if (s > 0.0)
         s /= max(cos_l, cos_v);
@@ -62,11 +59,8 @@ vec3 mx_oren_nayar_diffuse_bsdf_eval(vec3 color, float roughness, vec3 N, bool e
 
 vec3 mx_oren_nayar_diffuse_bsdf_environment(vec3 color, float roughness, vec3 N, bool energy_compensation, vec3 V)
 {
-    if (roughness <= 0.0)
-        return color * mx_environment_irradiance(mx_facing(N, V));
-
     vec3 light = color * mx_environment_irradiance(mx_facing(N, V));
-    float cos_v = mx_facing_cosine(N, V, V);
+    float cos_v = mx_view_cosine(N, V);
     if (energy_compensation)
         return light * mix(mx_fujii_multiple(color, mx_fujii_mean(roughness)), vec3(1.0),
                            mx_fujii_albedo(cos_v, roughness));
@@ -84,7 +78,7 @@ vec3 mx_burley_diffuse_bsdf_eval(vec3 color, float roughness, vec3 N, vec3 V, ve
 {
     float cos_l = mx_facing_cosine(N, V, L);
     float cos_d = dot(L, normalize(L + V));
-    vec2 x = 1.0 - vec2(cos_l, mx_facing_cosine(N, V, V));
+    vec2 x = 1.0 - vec2(cos_l, mx_view_cosine(N, V));
     vec2 f = 1.0 + (2.0 * roughness * cos_d * cos_d - 0.5) * (x * x * x * x * x);
     return color * (f.x * f.y * cos_l / MX_PI);
 }
@@ -92,7 +86,7 @@ vec3 mx_burley_diffuse_bsdf_eval(vec3 color, float roughness, vec3 N, vec3 V, ve
 // Directional albedo fitted by Stephen Hill.
 vec3 mx_burley_diffuse_bsdf_environment(vec3 color, float roughness, vec3 N, vec3 V)
 {
-    float c = mx_facing_cosine(N, V, V);
+    float c = mx_view_cosine(N, V);
     float x = 1.0 - c;
     float smooth_fit = 0.97619 - 0.488095 * (x * x * x * x * x);
     float rough_fit = 1.55754 + c * (-2.02221 + c * (2.56283 - 1.06244 * c));

@@ -10,6 +10,12 @@ vec3 mx_facing(vec3 N, vec3 V)
     return faceforward(N, -V, N);
 }
 
+// Cosine between V and the side of the surface that it sees.
+float mx_view_cosine(vec3 N, vec3 V)
+{
+    return max(abs(dot(N, V)), MX_EPSILON);
+}
+
 // Axes of the tangent space around N with x along X: `w * frame` enters it, `frame * w` leaves it.
 mat3 mx_frame(vec3 N, vec3 X)
 {

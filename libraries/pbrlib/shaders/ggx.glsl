@@ -28,7 +28,7 @@ float mx_ggx_visibility(float cos_v, float cos_l, vec2 alpha)
 // Directional albedo of the lobe towards V, fitted by rational functions: x scales F0, y scales F90.
 vec2 mx_ggx_albedo(vec2 roughness, vec3 N, vec3 V)
 {
-    float c = max(abs(dot(N, V)), MX_EPSILON);
+    float c = mx_view_cosine(N, V);
     float a = sqrt(clamp(roughness.x * roughness.y, MX_EPSILON * MX_EPSILON, 1.0));
     vec4 r = vec4(0.1003, 0.9345, 1.0, 1.0)
            + a * (vec4(9.748, 2.229, 8.263, 15.94) + a * vec4(-8.245, -0.7684, -7.507, 41.26))
@@ -40,38 +40,35 @@ vec2 mx_ggx_albedo(vec2 roughness, vec3 N, vec3 V)
 }
 
 // Factor that restores the energy of multiple scattering (Turquin 2019, equations 14 and 16).
-vec3 mx_ggx_compensation(vec2 albedo, int model, vec3 n, vec3 k, vec3 f90, float film, float film_ior)
+vec3 mx_ggx_compensation(vec2 albedo, string model, vec3 n, vec3 k, vec3 f90, float exponent, float film, float film_ior)
 {
     // 1/21: the hemispherical mean of Schlick's curve with exponent 5
-    return 1.0 + mix(mx_fresnel_facing(model, n, k, film, film_ior), f90, 1.0 / 21.0)
+    return 1.0 + mix(mx_fresnel(1.0, model, n, k, f90, exponent, film, film_ior), f90, 1.0 / 21.0)
                * (1.0 / (albedo.x + albedo.y) - 1.0);
 }
 
 // Part of the light that the lobe reflects towards V; a film changes the compensation only.
-vec3 mx_ggx_reflectance(vec2 albedo, int model, vec3 n, vec3 k, vec3 f90, float film, float film_ior)
+vec3 mx_ggx_reflectance(vec2 albedo, string model, vec3 n, vec3 k, vec3 f90, float exponent, float film, float film_ior)
 {
     return (mx_fresnel_f0(model, n, k) * albedo.x + f90 * albedo.y)
-         * mx_ggx_compensation(albedo, model, n, k, f90, film, film_ior);
+         * mx_ggx_compensation(albedo, model, n, k, f90, exponent, film, film_ior);
 }
 
 // ---- lights ---------------------------------------------------------------------------------------------------------
 
-// The lobe in a frame towards L, with single scattering.
-vec3 mx_ggx_lobe(vec2 alpha, mat3 frame, vec3 V, vec3 L, int model, vec3 n, vec3 k, vec3 f90, float exponent,
+// The lobe in a frame towards L, but for Fresnel's factor.
+float mx_ggx_lobe(vec2 alpha, mat3 frame, float cos_v, vec3 L, vec3 H)
+{
+    return mx_ggx_distribution(H * frame, alpha) * mx_ggx_visibility(cos_v, max(dot(frame[2], L), MX_EPSILON), alpha);
+}
+
+vec3 mx_ggx_eval(vec2 roughness, vec3 N, vec3 X, vec3 V, vec3 L, string model, vec3 n, vec3 k, vec3 f90, float exponent,
                  float film, float film_ior)
 {
     vec3 H = normalize(V + L);
-    return mx_ggx_distribution(H * frame, alpha)
-         * mx_ggx_visibility(max(dot(frame[2], V), MX_EPSILON), max(dot(frame[2], L), MX_EPSILON), alpha)
+    return mx_ggx_compensation(mx_ggx_albedo(roughness, N, V), model, n, k, f90, exponent, film, film_ior)
+         * mx_ggx_lobe(clamp(roughness, MX_EPSILON, 1.0), mx_frame(mx_facing(N, V), X), mx_view_cosine(N, V), L, H)
          * mx_fresnel(clamp(dot(V, H), MX_EPSILON, 1.0), model, n, k, f90, exponent, film, film_ior);
-}
-
-vec3 mx_ggx_eval(vec2 roughness, vec3 N, vec3 X, vec3 V, vec3 L, int model, vec3 n, vec3 k, vec3 f90, float exponent,
-                 float film, float film_ior)
-{
-    return mx_ggx_compensation(mx_ggx_albedo(roughness, N, V), model, n, k, f90, film, film_ior)
-         * mx_ggx_lobe(clamp(roughness, MX_EPSILON, 1.0), mx_frame(mx_facing(N, V), X), V, L,
-                       model, n, k, f90, exponent, film, film_ior);
 }
 
 // ---- environment ----------------------------------------------------------------------------------------------------
@@ -85,15 +82,15 @@ vec3 mx_refract_sphere(vec3 v, vec3 h, float ior)
 }
 
 // A map whose mip levels are filtered for rising roughness.
-vec3 mx_ggx_prefiltered(vec2 roughness, vec3 N, vec3 V, float refract_ior, int model, vec3 n, vec3 k, vec3 f90,
+vec3 mx_ggx_prefiltered(vec2 roughness, vec3 N, vec3 V, float refract_ior, string model, vec3 n, vec3 k, vec3 f90,
                         float exponent, float film, float film_ior)
 {
     vec3 h = mx_facing(N, V);
     vec2 albedo = mx_ggx_albedo(roughness, N, V);
-    vec3 f = mx_fresnel_facing(model, n, k, film, film_ior) * albedo.x + f90 * albedo.y;
+    vec3 f = mx_fresnel(1.0, model, n, k, f90, exponent, film, film_ior) * albedo.x + f90 * albedo.y;
     float a = sqrt(roughness.x * roughness.y);
     if (film > 0.0) // keep the change of colour with the angle where the lobe is sharp
-        f = mix(mx_fresnel(max(dot(h, V), MX_EPSILON), model, n, k, f90, exponent, film, film_ior), f, sqrt(a));
+        f = mix(mx_fresnel(mx_view_cosine(N, V), model, n, k, f90, exponent, film, film_ior), f, sqrt(a));
     float lod = (a < 0.25 ? sqrt(a) : 0.5 * a + 0.375) * float(u_envRadianceMips - 1);
     if (refract_ior > 0.0)
         return (1.0 - f) * mx_environment_radiance(mx_refract_sphere(V, h, refract_ior), lod);
@@ -129,39 +126,31 @@ vec4 mx_ggx_sample(int i, mat3 frame, vec3 v, vec2 alpha, float refract_ior)
                 clamp(dot(v, h), MX_EPSILON, 1.0));
 }
 
-// The lobe in a frame over all directions, with single scattering.
-vec3 mx_ggx_sampled(vec2 alpha, mat3 frame, vec3 V, float refract_ior, int model, vec3 n, vec3 k, vec3 f90, float exponent,
-                    float film, float film_ior)
-{
-    vec3 light = vec3(0.0);
-    for (int i = 0; i < u_envRadianceSamples; ++i)
-    {
-        vec4 s = mx_ggx_sample(i, frame, V * frame, alpha, refract_ior);
-        vec3 f = mx_fresnel(s.w, model, n, k, f90, exponent, film, film_ior);
-        light += s.xyz * (refract_ior > 0.0 ? 1.0 - f : f);
-    }
-    return light;
-}
-
-vec3 mx_ggx_light(vec2 alpha, vec3 N, vec3 X, vec3 V, float refract_ior, int model, vec3 n, vec3 k, vec3 f90, float exponent,
-                  float film, float film_ior)
+// What the lobe reflects of all directions, or one sample's part of it.
+vec3 mx_ggx_environment(vec2 roughness, vec3 N, vec3 X, vec3 V, string model, vec3 n, vec3 k, vec3 f90, float exponent,
+                        float film, float film_ior, int sample_index)
 {
     if (option_environment == 0)
         return vec3(0.0);
+    vec3 scale = mx_ggx_compensation(mx_ggx_albedo(roughness, N, V), model, n, k, f90, exponent, film, film_ior);
+    vec2 alpha = clamp(roughness, MX_EPSILON, 1.0);
     if (option_environment == 1)
-        return mx_ggx_prefiltered(alpha, N, V, refract_ior, model, n, k, f90, exponent, film, film_ior);
-    return mx_ggx_sampled(alpha, mx_frame(mx_facing(N, V), X), V, refract_ior, model, n, k, f90, exponent, film, film_ior);
+        return scale * mx_ggx_prefiltered(alpha, N, V, 0.0, model, n, k, f90, exponent, film, film_ior);
+    mat3 frame = mx_frame(mx_facing(N, V), X);
+    vec4 light = mx_ggx_sample(sample_index, frame, V * frame, alpha, 0.0);
+    return scale * light.xyz * mx_fresnel(light.w, model, n, k, f90, exponent, film, film_ior);
 }
 
-vec3 mx_ggx_environment(vec2 roughness, vec3 N, vec3 X, vec3 V, int model, vec3 n, vec3 k, vec3 f90, float exponent,
-                        float film, float film_ior)
+// What it refracts, as above.
+vec3 mx_ggx_refraction(vec2 roughness, vec3 N, vec3 X, vec3 V, float ior, string model, vec3 n, vec3 k, vec3 f90,
+                       float exponent, float film, float film_ior, int sample_index)
 {
-    return mx_ggx_compensation(mx_ggx_albedo(roughness, N, V), model, n, k, f90, film, film_ior)
-         * mx_ggx_light(clamp(roughness, MX_EPSILON, 1.0), N, X, V, 0.0, model, n, k, f90, exponent, film, film_ior);
-}
-
-vec3 mx_ggx_refraction(vec2 roughness, vec3 N, vec3 X, vec3 V, float ior, int model, vec3 n, vec3 k, vec3 f90,
-                       float exponent, float film, float film_ior)
-{
-    return mx_ggx_light(clamp(roughness, MX_EPSILON, 1.0), N, X, V, ior, model, n, k, f90, exponent, film, film_ior);
+    if (option_environment == 0)
+        return vec3(0.0);
+    vec2 alpha = clamp(roughness, MX_EPSILON, 1.0);
+    if (option_environment == 1)
+        return mx_ggx_prefiltered(alpha, N, V, ior, model, n, k, f90, exponent, film, film_ior);
+    mat3 frame = mx_frame(mx_facing(N, V), X);
+    vec4 light = mx_ggx_sample(sample_index, frame, V * frame, alpha, ior);
+    return light.xyz * (1.0 - mx_fresnel(light.w, model, n, k, f90, exponent, film, film_ior));
 }

@@ -128,9 +128,9 @@ vec3 mx_chiang_hair_bsdf_eval(vec3 tint_R, vec3 tint_TT, vec3 tint_TRT, float io
 // A rough dielectric stands in for the lobes.
 vec3 mx_chiang_hair_bsdf_environment(vec3 tint_R, vec3 tint_TT, vec3 tint_TRT, float ior, vec2 roughness_R,
                                      vec2 roughness_TT, vec2 roughness_TRT, float cuticle_angle, vec3 absorption,
-                                     vec3 N, vec3 curve_direction, vec3 V)
+                                     vec3 N, vec3 curve_direction, vec3 V, int sample_index)
 {
     return (tint_R + tint_TT + tint_TRT) / 3.0
          * mx_ggx_environment((roughness_R + roughness_TT + roughness_TRT) / 3.0, N, curve_direction, V,
-                              MX_FRESNEL_DIELECTRIC, vec3(ior), vec3(0.0), vec3(1.0), 0.0, 0.0, 1.0);
+                              "dielectric", vec3(ior), vec3(0.0), vec3(1.0), 0.0, 0.0, 1.0, sample_index);
 }

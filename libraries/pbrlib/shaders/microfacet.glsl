@@ -19,26 +19,29 @@ vec3 mx_dielectric_bsdf_eval(vec3 tint, float ior, vec2 roughness, bool retroref
     if (scatter_mode == "T")
         return vec3(0.0);
     return max(tint, 0.0) * mx_ggx_eval(roughness, N, X, retroreflective ? reflect(-V, N) : V, L,
-                                        MX_FRESNEL_DIELECTRIC, vec3(ior), vec3(0.0), vec3(1.0), 0.0, film, film_ior);
+                                        "dielectric", vec3(ior), vec3(0.0), vec3(1.0), 0.0, film, film_ior);
 }
 
 vec3 mx_dielectric_bsdf_environment(vec3 tint, float ior, vec2 roughness, bool retroreflective, float film,
-                                    float film_ior, vec3 N, vec3 X, string distribution, string scatter_mode, vec3 V)
+                                    float film_ior, vec3 N, vec3 X, string distribution, string scatter_mode, vec3 V,
+                                    int sample_index)
 {
     if (scatter_mode == "T")
         return vec3(0.0);
     return max(tint, 0.0) * mx_ggx_environment(roughness, N, X, retroreflective ? reflect(-V, N) : V,
-                                               MX_FRESNEL_DIELECTRIC, vec3(ior), vec3(0.0), vec3(1.0), 0.0,
-                                               film, film_ior);
+                                               "dielectric", vec3(ior), vec3(0.0), vec3(1.0), 0.0,
+                                               film, film_ior, sample_index);
 }
 
 vec3 mx_dielectric_bsdf_transmission(vec3 tint, float ior, vec2 roughness, bool retroreflective, float film,
-                                     float film_ior, vec3 N, vec3 X, string distribution, string scatter_mode, vec3 V)
+                                     float film_ior, vec3 N, vec3 X, string distribution, string scatter_mode, vec3 V,
+                                     int sample_index)
 {
     if (scatter_mode == "R")
         return vec3(0.0);
-    return mx_refraction_tint(max(tint, 0.0)) * mx_ggx_refraction(roughness, N, X, V, ior, MX_FRESNEL_DIELECTRIC,
-                                                                  vec3(ior), vec3(0.0), vec3(1.0), 0.0, film, film_ior);
+    return mx_refraction_tint(max(tint, 0.0))
+         * mx_ggx_refraction(roughness, N, X, V, ior, "dielectric", vec3(ior), vec3(0.0), vec3(1.0), 0.0, film, film_ior,
+                             sample_index);
 }
 
 vec3 mx_dielectric_bsdf_throughput(vec3 tint, float ior, vec2 roughness, bool retroreflective, float film,
@@ -46,8 +49,8 @@ vec3 mx_dielectric_bsdf_throughput(vec3 tint, float ior, vec2 roughness, bool re
 {
     if (scatter_mode == "T")
         return vec3(1.0);
-    return 1.0 - mx_ggx_reflectance(mx_ggx_albedo(roughness, N, V), MX_FRESNEL_DIELECTRIC, vec3(ior), vec3(0.0), vec3(1.0),
-                                    film, film_ior);
+    return 1.0 - mx_ggx_reflectance(mx_ggx_albedo(roughness, N, V), "dielectric", vec3(ior), vec3(0.0), vec3(1.0),
+                                    0.0, film, film_ior);
 }
 
 // ---- conductor_bsdf -------------------------------------------------------------------------------------------------
@@ -56,14 +59,14 @@ vec3 mx_conductor_bsdf_eval(vec3 ior, vec3 extinction, vec2 roughness, bool retr
                             float film_ior, vec3 N, vec3 X, string distribution, vec3 V, vec3 L)
 {
     return mx_ggx_eval(roughness, N, X, retroreflective ? reflect(-V, N) : V, L,
-                       MX_FRESNEL_CONDUCTOR, ior, extinction, vec3(1.0), 0.0, film, film_ior);
+                       "conductor", ior, extinction, vec3(1.0), 0.0, film, film_ior);
 }
 
 vec3 mx_conductor_bsdf_environment(vec3 ior, vec3 extinction, vec2 roughness, bool retroreflective, float film,
-                                   float film_ior, vec3 N, vec3 X, string distribution, vec3 V)
+                                   float film_ior, vec3 N, vec3 X, string distribution, vec3 V, int sample_index)
 {
     return mx_ggx_environment(roughness, N, X, retroreflective ? reflect(-V, N) : V,
-                              MX_FRESNEL_CONDUCTOR, ior, extinction, vec3(1.0), 0.0, film, film_ior);
+                              "conductor", ior, extinction, vec3(1.0), 0.0, film, film_ior, sample_index);
 }
 
 // ---- generalized_schlick_bsdf ---------------------------------------------------------------------------------------
@@ -74,30 +77,32 @@ vec3 mx_generalized_schlick_bsdf_eval(vec3 color0, vec3 color82, vec3 color90, f
 {
     if (scatter_mode == "T")
         return vec3(0.0);
-    return mx_ggx_eval(roughness, N, X, retroreflective ? reflect(-V, N) : V, L, MX_FRESNEL_SCHLICK,
+    return mx_ggx_eval(roughness, N, X, retroreflective ? reflect(-V, N) : V, L, "schlick",
                        max(color0, 0.0), max(color82, 0.0), max(color90, 0.0), exponent, film, film_ior);
 }
 
 vec3 mx_generalized_schlick_bsdf_environment(vec3 color0, vec3 color82, vec3 color90, float exponent, vec2 roughness,
                                              bool retroreflective, float film, float film_ior, vec3 N, vec3 X,
-                                             string distribution, string scatter_mode, vec3 V)
+                                             string distribution, string scatter_mode, vec3 V, int sample_index)
 {
     if (scatter_mode == "T")
         return vec3(0.0);
-    return mx_ggx_environment(roughness, N, X, retroreflective ? reflect(-V, N) : V, MX_FRESNEL_SCHLICK,
-                              max(color0, 0.0), max(color82, 0.0), max(color90, 0.0), exponent, film, film_ior);
+    return mx_ggx_environment(roughness, N, X, retroreflective ? reflect(-V, N) : V, "schlick",
+                              max(color0, 0.0), max(color82, 0.0), max(color90, 0.0), exponent, film, film_ior,
+                              sample_index);
 }
 
 // The index that refracts follows from the mean colour at normal incidence, ((n - 1) / (n + 1))^2.
 vec3 mx_generalized_schlick_bsdf_transmission(vec3 color0, vec3 color82, vec3 color90, float exponent, vec2 roughness,
                                               bool retroreflective, float film, float film_ior, vec3 N, vec3 X,
-                                              string distribution, string scatter_mode, vec3 V)
+                                              string distribution, string scatter_mode, vec3 V, int sample_index)
 {
     if (scatter_mode == "R")
         return vec3(0.0);
     float r = sqrt(clamp(dot(color0, vec3(1.0 / 3.0)), 0.01, 0.99));
-    return mx_ggx_refraction(roughness, N, X, V, (1.0 + r) / (1.0 - r), MX_FRESNEL_SCHLICK,
-                              max(color0, 0.0), max(color82, 0.0), max(color90, 0.0), exponent, film, film_ior);
+    return mx_ggx_refraction(roughness, N, X, V, (1.0 + r) / (1.0 - r), "schlick",
+                              max(color0, 0.0), max(color82, 0.0), max(color90, 0.0), exponent, film, film_ior,
+                              sample_index);
 }
 
 vec3 mx_generalized_schlick_bsdf_throughput(vec3 color0, vec3 color82, vec3 color90, float exponent, vec2 roughness,
@@ -106,7 +111,7 @@ vec3 mx_generalized_schlick_bsdf_throughput(vec3 color0, vec3 color82, vec3 colo
 {
     if (scatter_mode == "T")
         return vec3(1.0);
-    vec3 reflected = mx_ggx_reflectance(mx_ggx_albedo(roughness, N, V), MX_FRESNEL_SCHLICK, max(color0, 0.0), max(color82, 0.0),
-                                        max(color90, 0.0), film, film_ior);
+    vec3 reflected = mx_ggx_reflectance(mx_ggx_albedo(roughness, N, V), "schlick", max(color0, 0.0), max(color82, 0.0),
+                                        max(color90, 0.0), exponent, film, film_ior);
     return vec3(1.0 - dot(reflected, vec3(1.0 / 3.0)));
 }

@@ -37,7 +37,7 @@ float mx_sheen_zeltner(vec3 N, vec3 V, vec3 L, float c, float r)
 vec3 mx_sheen_bsdf_eval(vec3 color, float roughness, vec3 N, string mode, vec3 V, vec3 L)
 {
     vec3 n = mx_facing(N, V);
-    float cos_v = max(dot(n, V), MX_EPSILON);
+    float cos_v = mx_view_cosine(N, V);
     if (mode == "zeltner")
         return color * (mx_sheen_albedo(cos_v, roughness, mode)
                         * mx_sheen_zeltner(n, V, L, min(cos_v, 1.0), clamp(roughness, 0.01, 1.0)));
@@ -53,10 +53,10 @@ vec3 mx_sheen_bsdf_eval(vec3 color, float roughness, vec3 N, string mode, vec3 V
 vec3 mx_sheen_bsdf_environment(vec3 color, float roughness, vec3 N, string mode, vec3 V)
 {
     vec3 n = mx_facing(N, V);
-    return color * mx_sheen_albedo(max(dot(n, V), MX_EPSILON), roughness, mode) * mx_environment_irradiance(n);
+    return color * mx_sheen_albedo(mx_view_cosine(N, V), roughness, mode) * mx_environment_irradiance(n);
 }
 
 vec3 mx_sheen_bsdf_throughput(vec3 color, float roughness, vec3 N, string mode, vec3 V)
 {
-    return vec3(1.0 - mx_sheen_albedo(max(abs(dot(N, V)), MX_EPSILON), roughness, mode));
+    return vec3(1.0 - mx_sheen_albedo(mx_view_cosine(N, V), roughness, mode));
 }

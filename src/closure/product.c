@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * A leaf's value times its weight. What is the same in every turn of a loop is multiplied first: as one node it is computed once in front
+ * of the loop, and the loop over lights shares it with the environment.
+ *
+ *     ((c · lobe) · fresnel) · w    →    (c · w) · lobe · fresnel
+ */
+#include "closure/closure_priv.h"
+
+enum { VARIES = 1, IS_VECTOR = 2, NUM_KINDS = 4, MAX_FACTORS = 16 };
+
+struct factors { /* by kind, each kind in the order of the nodes, so that equal products are equal nodes */
+    ir_ref items[NUM_KINDS][MAX_FACTORS];
+    unsigned counts[NUM_KINDS], count;
+};
+
+static void insert(const struct ir_graph *g, struct factors *f, ir_ref ref)
+{
+    unsigned kind = (ir_get(g, ref)->flags & IR_NODE_LOOP ? VARIES : 0) | (ir_type_of(g, ref) == IR_TYPE_FLOAT ? 0 : IS_VECTOR);
+    unsigned at = f->counts[kind]++;
+    for (; at > 0 && f->items[kind][at - 1] > ref; at--)
+        f->items[kind][at] = f->items[kind][at - 1];
+    f->items[kind][at] = ref;
+    f->count++;
+}
+
+static bool is_product(const struct ir_graph *g, ir_ref ref)
+{
+    const struct ir_node *node = ir_get(g, ref);
+    if (node->op != IR_MUL)
+        return false;
+    for (unsigned i = 0; i < 2; i++) {
+        ir_type_id type = ir_type_of(g, ir_arg(g, ref, i));
+        if (type != IR_TYPE_FLOAT && type != IR_TYPE_VEC3)
+            return false;
+    }
+    return true;
+}
+
+static void gather(const struct ir_graph *g, struct factors *f, ir_ref value)
+{
+    ir_ref open[MAX_FACTORS] = {value};
+    for (unsigned len = 1; len;) {
+        ir_ref ref = open[--len];
+        if (f->count + len + 2 <= MAX_FACTORS && is_product(g, ref)) {
+            open[len++] = ir_arg(g, ref, 0);
+            open[len++] = ir_arg(g, ref, 1);
+        } else {
+            insert(g, f, ref);
+        }
+    }
+}
+
+static ir_ref product_of(struct ir_graph *g, const struct factors *f, unsigned kind, ir_ref product)
+{
+    for (unsigned i = 0; i < f->counts[kind]; i++)
+        product = closure_mul(g, product, f->items[kind][i]);
+    return product;
+}
+
+ir_ref closure_product(struct ir_graph *g, ir_ref value, ir_ref weight)
+{
+    if (!weight)
+        return value;
+    struct factors f = {.count = 1};
+    gather(g, &f, value);
+    insert(g, &f, weight);
+    ir_ref constant = product_of(g, &f, IS_VECTOR, 0);
+    constant = closure_mul(g, constant, product_of(g, &f, 0, 0));
+    ir_ref varying = product_of(g, &f, VARIES | IS_VECTOR, 0);
+    return closure_mul(g, closure_mul(g, varying, product_of(g, &f, VARIES, 0)), constant);
+}
