@@ -16,6 +16,8 @@ ROWS = {
     "process": ("instructions of the whole process, glsl", 295e6, 6e6),
     "generation": ("instructions of a generation, glsl", 29e6, 1e6),
     "memory": ("peak memory of the process, MB", 19.7, 8),
+    "map": ("instructions to map the library", None, 100e3),
+    "image": ("bytes of the library image", None, 1.5e6),
     "source complete": ("bytes of pixel source, complete", 79e3, 24e3),
     "source reduced": ("bytes of pixel source, reduced", 76e3, 8e3),
     "spirv complete": ("SPIR-V body instructions, complete", 6831, 3000),
@@ -42,6 +44,12 @@ def generation(document, *options):
     """Instructions of the first generation of a document that is loaded already."""
     program = f"{BUILD}/bench/bench-generate"
     return (instructions(program, document, "glsl", "1", *options) - instructions(program, document, "glsl", "0", *options))
+
+
+def mapping():
+    """Instructions to map the library, once libxml2 has started."""
+    program = f"{BUILD}/bench/bench-map"
+    return instructions(program, "2") - instructions(program, "1")
 
 
 def sizes():
@@ -115,6 +123,8 @@ def main():
         print_row("process", process)
         print_row("generation", generation(DOCUMENT))
         print_row("memory", peak(*command)[0] * 1024 / 1e6)
+        print_row("map", mapping())
+        print_row("image", os.path.getsize(f"{BUILD}/libraries/stdlib.mxlib"))
         if os.path.exists(f"{BUILD}/mxgen-compile"):
             table = sizes()
             for interface in "complete", "reduced":

@@ -80,6 +80,62 @@ static void put_section(struct text *out, struct header *header, unsigned sectio
     text_mem(out, items, len * item_size);
 }
 
+/* ---- Attributes: each run of them once, since template rows repeat most of theirs ---- */
+
+struct runs {
+    struct document *doc;
+    const struct attribute *from; /* of the original */
+    uint32_t *table;              /* open addressing: 1 + an element whose attributes are in `doc` */
+    uint32_t mask;
+};
+
+/* The slot of an element with equal attributes, or a free one. */
+static uint32_t *find_run(const struct runs *runs, const struct attribute *attrs, uint16_t n)
+{
+    uint32_t i = hash_bytes(attrs, n * sizeof *attrs) & runs->mask;
+    for (; runs->table[i]; i = (i + 1) & runs->mask) {
+        const struct element *e = &runs->doc->elements.items[runs->table[i] - 1];
+        const struct attribute *have = runs->doc->attrs.items + (e->first_attr - runs->doc->first_attr);
+        if (e->num_attrs == n && memcmp(have, attrs, n * sizeof *attrs) == 0)
+            break;
+    }
+    return &runs->table[i];
+}
+
+static void share_run(struct runs *runs, uint32_t index, struct arena *arena)
+{
+    struct document *doc = runs->doc;
+    struct element *e = &doc->elements.items[index];
+    const struct attribute *attrs = runs->from + (e->first_attr - doc->first_attr);
+    uint32_t *slot = find_run(runs, attrs, e->num_attrs);
+    if (*slot) {
+        e->first_attr = doc->elements.items[*slot - 1].first_attr;
+        return;
+    }
+    e->first_attr = doc->first_attr + doc->attrs.len;
+    memcpy(vec_extend(arena, &doc->attrs, e->num_attrs), attrs, e->num_attrs * sizeof *attrs);
+    *slot = index + 1;
+}
+
+/* Gives the document elements and attributes of its own, in which equal runs are one. Nothing may be added to it after this. */
+static void share_attributes(struct document *doc, struct arena *arena)
+{
+    struct runs runs = {.doc = doc, .from = doc->attrs.items, .mask = 15};
+    uint32_t num_elements = doc->elements.len;
+    const struct element *elements = doc->elements.items;
+    while (runs.mask < 2 * num_elements)
+        runs.mask = 2 * runs.mask + 1;
+    runs.table = ARENA_ARRAY(arena, uint32_t, runs.mask + 1);
+    memset(&doc->elements, 0, sizeof doc->elements);
+    memset(&doc->attrs, 0, sizeof doc->attrs);
+    memcpy(vec_extend(arena, &doc->elements, num_elements), elements, num_elements * sizeof *elements);
+    for (uint32_t i = 0; i < num_elements; i++)
+        if (doc->elements.items[i].num_attrs)
+            share_run(&runs, i, arena);
+}
+
+/* ---- Writing ---- */
+
 static void put_strings(const struct strpool *pool, struct text *out, struct header *header)
 {
     struct text bytes;
@@ -108,10 +164,12 @@ void library_write_image(const struct library *lib, struct text *out)
         .string_mask = lib->strings.table_mask,
     };
     memcpy(header.magic, magic, sizeof magic);
+    struct library packed = *lib;
+    share_attributes(&packed.doc, out->arena);
     size_t start = out->len;
     text_mem(out, (const char *)&header, sizeof header);
     for (unsigned i = 0; i < NUM_VECS; i++) {
-        const struct any_vec *vec = (const void *)((const char *)lib + section_infos[i].offset);
+        const struct any_vec *vec = (const void *)((const char *)&packed + section_infos[i].offset);
         put_section(out, &header, i, vec->items, vec->len, section_infos[i].item_size);
     }
     put_section(out, &header, SECTION_NAME_TABLE, lib->doc.name_table, lib->doc.name_table ? lib->doc.name_mask + 1 : 0,

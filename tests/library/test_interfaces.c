@@ -219,6 +219,28 @@ static void compare_nodedef(const mxg_library *library, uint32_t index, const mx
     }
 }
 
+/* What `mxgen library doc` has to tell: nothing may be left without a meaning. */
+static void require_documentation(const mxg_library *library, uint32_t index, const mxg_nodedef *def)
+{
+    expect(*def->doc, def->name, "", "doc", "", "a sentence");
+    for (uint32_t i = 0; i < def->num_inputs; ++i) {
+        mxg_port port = {sizeof port};
+        mxg_library_port(library, index, i, &port);
+        expect(*port.doc, def->name, port.name, "doc", "", "a sentence");
+    }
+}
+
+/* It is part of every program that embeds mxgen, and of its memory. */
+static bool is_small(mxg_library *library)
+{
+    enum { BUDGET = 1500 * 1000 };
+    const void *image;
+    size_t size = 0;
+    mxg_library_image(library, &image, &size);
+    printf("library image: %zu bytes of %d\n", size, BUDGET);
+    return size > 0 && size <= BUDGET;
+}
+
 int main(int argc, char **argv)
 {
     unsigned passed = 0, failed = 0;
@@ -240,9 +262,11 @@ int main(int argc, char **argv)
             compare_nodedef(library, i, &def, row);
         else
             expect(false, def.name, "", "definition", "there", "in no table");
+        require_documentation(library, i, &def);
         ++*(faults ? &failed : &passed);
     }
     failed += passed + failed != num_rows;
+    ++*(is_small(library) ? &passed : &failed);
     if (mxg_library_num_nodedefs(library) != num_rows)
         printf("the library has %u definitions, the tables %u\n", mxg_library_num_nodedefs(library), num_rows);
     mxg_library_unref(library);

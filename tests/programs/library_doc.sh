@@ -30,7 +30,7 @@ check 'every link within the page has its end' eval \
     'grep -o "<a href=\"#[^\"]*" both/index.html | sed "s/.*#//" | sort -u | while read -r id; do grep -q " id=\"$id\"" both/index.html || exit 1; done'
 check 'ranges' grep -q '| `specular_IOR` | float | `1.5` | from 0, usually 1 to 3 |' both/index.md
 check 'values with names' grep -q '| `operationorder` | integer | `0` | SRT = 0, TRS = 1 |' both/index.md
-check 'units' grep -q '| `thinfilm_thickness` | float | `0` | in nanometer |' both/index.md
+check 'units' grep -q '| `thinfilm_thickness` | float | `0` | from 0, usually up to 2000; in nanometer |' both/index.md
 check 'older versions tell what differs' eval 'grep -A5 "^Version 1.0.0 differs from 1.0.1" both/index.md | grep -q "^| .base. | float | .0.8. |"'
 
 # Definitions of one's own, on the library that is built in
