@@ -22,6 +22,7 @@ void object_init(struct object *object, struct mxg_context *context, size_t size
     object->diagnostics.owner = object;
     diag_list_init(&object->diagnostics.list, &object->arena);
     object->diagnostics.list.max_errors = context->max_errors;
+    object->diagnostics.list.policy = &context->policy;
     for (unsigned i = 0; i < OBJECT_MAX_TEXTS; i++)
         atomic_init(&object->texts[i], NULL);
 }
@@ -80,15 +81,20 @@ static void free_text(struct mxg_context *context, struct made_text *text)
     arena_finish(&arena);
 }
 
-static void free_object(struct object *object)
+void object_empty(struct object *object)
 {
-    struct mxg_context *context = object->context;
     for (unsigned i = 0; i < OBJECT_MAX_TEXTS; i++) {
         struct made_text *text = atomic_load(&object->texts[i]);
         if (text)
-            free_text(context, text);
+            free_text(object->context, text);
     }
     arena_finish(&object->arena);
+}
+
+static void free_object(struct object *object)
+{
+    struct mxg_context *context = object->context;
+    object_empty(object);
     atomic_fetch_sub(&context->used, object->counted);
     struct mem mem = object->mem;
     mem.used = object->size;

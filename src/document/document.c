@@ -36,7 +36,8 @@ const struct element *doc_element(const struct document *doc, elem_id element)
 const struct attribute *doc_attrs(const struct document *doc, elem_id element)
 {
     doc = layer_of(doc, element);
-    return doc->attrs.items + (doc->elements.items[element - doc->first_element].first_attr - doc->first_attr);
+    const struct element *e = &doc->elements.items[element - doc->first_element];
+    return e->num_attrs ? &doc->attrs.items[e->first_attr - doc->first_attr] : NULL;
 }
 
 static struct element *own(struct document *doc, elem_id element)

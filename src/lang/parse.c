@@ -82,7 +82,7 @@ const char *parse_type_text(struct parser *p, ir_type_id type)
 static void report_bad_token(struct parser *p)
 {
     const struct token *token = &p->token;
-    unsigned char c = (unsigned char)*token->text;
+    unsigned char c = token->len ? (unsigned char)*token->text : ' ';
     if (token->len == 1 && (c < 0x20 || c >= 0x7f))
         PARSE_SYNTAX_ERROR(p, token, "a byte 0x%02x has no meaning here", c);
     else

@@ -83,10 +83,12 @@ static bool begin_final(struct spec *s)
 static bool stays_final(const struct spec *s)
 {
     const struct lang_plan *plan = s->unit->plan;
-    const uint32_t *called = plan->calls.items + variant_of(s)->first_call;
-    for (uint32_t i = 0; i < s->fn.num_calls; i++)
-        if (plan->variants.items[called[i]].version != plan->variants.items[called[i]].function)
+    uint32_t first_call = variant_of(s)->first_call;
+    for (uint32_t i = 0; i < s->fn.num_calls; i++) {
+        const struct variant *called = &plan->variants.items[plan->calls.items[first_call + i]];
+        if (called->version != called->function)
             return false;
+    }
     return true;
 }
 

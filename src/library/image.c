@@ -44,7 +44,7 @@ enum {
 struct header {
     char magic[8];
     uint64_t fingerprint; /* of the layout: sizes of the records, number of words, version */
-    uint64_t checksum;    /* of everything behind the header */
+    uint64_t checksum;    /* of everything behind it */
     uint64_t size;        /* of the whole image */
     uint32_t first_element, first_attr, first_file, root, name_mask;
     uint32_t num_strings, string_mask;
@@ -56,10 +56,16 @@ struct header {
 
 static const char magic[8] = "MXLIB\r\n";
 
+static uint64_t checksum(const void *image, size_t size)
+{
+    size_t start = offsetof(struct header, size);
+    return hash_stable(HASH_STABLE_SEED, (const char *)image + start, size - start);
+}
+
 static uint64_t fingerprint(void)
 {
     uint64_t h = HASH_STABLE_SEED;
-    uint32_t facts[NUM_VECS + 4] = {1 /* bumped when meanings change but sizes do not */, STR_NUM_WORDS, IR_NUM_OPS, NUM_ELEMENT_KINDS};
+    uint32_t facts[NUM_VECS + 4] = {2 /* bumped when meanings change but sizes do not */, STR_NUM_WORDS, IR_NUM_OPS, NUM_ELEMENT_KINDS};
     for (unsigned i = 0; i < NUM_VECS; i++)
         facts[i + 4] = (uint32_t)section_infos[i].item_size;
     return hash_stable(h, facts, sizeof facts);
@@ -177,7 +183,8 @@ void library_write_image(const struct library *lib, struct text *out)
     put_strings(&lib->strings, out, &header);
     begin_section(out);
     header.size = out->len - start;
-    header.checksum = hash_stable(HASH_STABLE_SEED, out->data + start + sizeof header, out->len - start - sizeof header);
+    memcpy(out->data + start, &header, sizeof header);
+    header.checksum = checksum(out->data + start, header.size);
     memcpy(out->data + start, &header, sizeof header);
 }
 
@@ -189,9 +196,7 @@ static const char *check_header(const struct header *header, const void *data, s
         return "it was packed by another version of mxgen; pack it again";
     if (header->size != size)
         return "it is truncated";
-    if (check_bytes
-        && header->checksum
-               != hash_stable(HASH_STABLE_SEED, (const char *)data + sizeof *header, size - sizeof *header))
+    if (check_bytes && header->checksum != checksum(data, size))
         return "it is damaged (the checksum differs)";
     return NULL;
 }

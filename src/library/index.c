@@ -288,8 +288,8 @@ static bool parse_expressions(struct indexer *ix, struct implementation *impl, s
     impl->kind = IMPL_EXPRESSION;
     impl->ref = ix->lib->refs.len;
     impl->count = def->num_outputs;
-    uint32_t *refs = vec_extend(ix->arena, &ix->lib->refs, def->num_outputs);
-    memcpy(refs, ids, def->num_outputs * sizeof *refs);
+    for (unsigned i = 0; i < def->num_outputs; i++)
+        vec_push(ix->arena, &ix->lib->refs, ids[i]);
     return true;
 }
 

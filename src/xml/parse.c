@@ -360,11 +360,16 @@ static void parse_once(struct xml_reader *reader)
      * NOENT for the right text of character references; no entity can be declared, because a DOCTYPE is refused. IGNORE_ENC because
      * the text is UTF-8 whatever its declaration says.
      */
+    /* What goes wrong while a declared encoding is looked at is told to the thread's handler, which prints unless it is ours. */
+    xmlStructuredErrorFunc handler = xmlStructuredError;
+    void *handler_data = xmlStructuredErrorContext;
+    xmlSetStructuredErrorFunc(reader, on_structured_error);
     if (prepare_parser(reader))
         xmlCtxtReadMemory(reader->parser, source->text + source->start, (int)(source->size - source->start), NULL, NULL,
                           XML_PARSE_NOENT | XML_PARSE_NONET | XML_PARSE_BIG_LINES | XML_PARSE_IGNORE_ENC);
     else
         reader->out_of_memory = true;
+    xmlSetStructuredErrorFunc(handler_data, handler);
     if (reader->out_of_memory)
         mem_fail(reader->mem);
 }

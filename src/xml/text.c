@@ -101,6 +101,17 @@ static bool apply_declared_encoding(struct xml_reader *reader)
     return false;
 }
 
+/* libxml2 looks at the first four bytes itself and takes zeros for an encoding of wider units, whatever it was told. */
+static bool check_first_bytes(struct xml_reader *reader)
+{
+    const struct xml_source *source = reader->source;
+    size_t left = source->size - source->start;
+    if (!memchr(source->text + source->start, '\0', left < 4 ? left : 4))
+        return true;
+    diag_add(reader->diags, DIAG_ID_xml_encoding, xml_place(reader, source->start), "UTF-8");
+    return false;
+}
+
 /* Finds where the XML begins: at '<?xml', or at '<materialx' behind text that is not XML. */
 static bool find_start(struct xml_reader *reader)
 {
@@ -127,7 +138,7 @@ static bool find_start(struct xml_reader *reader)
         source->start = root;
     if (source->start)
         diag_add(reader->diags, DIAG_ID_xml_text_before, xml_place(reader, 0));
-    return true;
+    return check_first_bytes(reader);
 }
 
 bool xml_prepare_text(struct xml_reader *reader, const char *data, size_t size)

@@ -184,6 +184,22 @@ static void test_own_files(const char *path)
     }
 }
 
+/* Texts made of the library that is built in go with the context. */
+static void test_builtin_text(void)
+{
+    struct heap heap = {0};
+    mxg_context_desc desc = counted(&heap);
+    mxg_context *context = NULL;
+    const char *text;
+    size_t size;
+    REQUIRE_EQ(mxg_context_create(&desc, &context), MXG_OK);
+    mxg_library *builtin = mxg_library_builtin(context);
+    REQUIRE_EQ(mxg_library_expand(builtin, &text, &size), MXG_OK);
+    mxg_library_unref(builtin);
+    mxg_context_destroy(context);
+    require_clean(&heap);
+}
+
 int main(int argc, char **argv)
 {
     if (argc != 2)
@@ -192,6 +208,7 @@ int main(int argc, char **argv)
     test_failures(true);
     test_context_goes_on();
     test_limit();
+    test_builtin_text();
     test_own_files(argv[1]);
     return test_report("api-memory");
 }

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * An input that is several files: parts that begin with a line "== NAME". What stands before the first such line is "main.mtlx"; names
+ * that no part has are not found.
+ */
+#ifndef MXG_TESTS_FUZZ_FILES_H
+#define MXG_TESTS_FUZZ_FILES_H
+
+#include "fuzz.h"
+
+#include <mxgen/mxgen.h>
+
+enum { FUZZ_MAX_FILES = 8 };
+
+struct fuzz_files {
+    struct {
+        char name[32];
+        const char *data;
+        size_t size;
+    } items[FUZZ_MAX_FILES];
+    unsigned num, num_open;
+};
+
+void fuzz_files_split(struct fuzz_files *files, const char *data, size_t size);
+mxg_resolver fuzz_files_resolver(struct fuzz_files *files);
+
+#endif

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fuzz.h"
+
+#include "base/hash.h"
+
+void *fuzz_realloc(void *user_data, void *block, size_t old_size, size_t new_size)
+{
+    struct fuzz_heap *heap = user_data;
+    if (new_size && ++heap->calls == heap->fail_at)
+        return NULL;
+    heap->held += new_size - old_size;
+    if (new_size)
+        return realloc(block, new_size);
+    free(block);
+    return NULL;
+}
+
+bool fuzz_try(struct mem *mem, void (*work)(void *arg), void *arg)
+{
+    return mem_try(mem, work, arg);
+}
+
+unsigned fuzz_choice(const char *data, size_t size, unsigned below)
+{
+    return (unsigned)(hash_stable(HASH_STABLE_SEED, data, size) >> 16) % below;
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    struct fuzz_heap heap = {0};
+    fuzz_run((const char *)data, size, &heap);
+    FUZZ_REQUIRE(heap.held == 0);
+    if (heap.calls == 0)
+        return 0;
+    struct fuzz_heap failing = {.fail_at = 1 + fuzz_choice((const char *)data, size, heap.calls)};
+    fuzz_run((const char *)data, size, &failing);
+    FUZZ_REQUIRE(failing.held == 0);
+    return 0;
+}
