@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/cli.h"
+#include "cli/warnings.h"
 
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 
-#define MAX_ARGS 40 /* of a command, the common ones included */
+#define MAX_ARGS 48 /* of a command, the common ones included */
+#define MAX_ERRORS 20 /* of a document, unless said */
 
 /* The options that every command has, written behind the command's own. */
 static size_t add_common_args(struct cli *cli, struct arg *table)
@@ -19,7 +21,11 @@ static size_t add_common_args(struct cli *cli, struct arg *table)
         {"max-elements", 0, ARG_SIZE, "N", "largest document", &cli->max_elements},
         {"max-nodes", 0, ARG_SIZE, "N", "largest graph of operations", &cli->max_nodes},
         {"max-output-size", 0, ARG_SIZE, "MIB", "largest shader", &cli->max_output_size},
-        {"max-errors", 0, ARG_SIZE, "N", "stops telling more", &cli->max_errors},
+        {"max-depth", 0, ARG_SIZE, "N", "deepest nesting of elements", &cli->max_depth},
+        {"max-include-depth", 0, ARG_SIZE, "N", "deepest nesting of includes", &cli->max_include_depth},
+        {"max-includes", 0, ARG_SIZE, "N", "most files that a document includes", &cli->max_includes},
+        {"max-errors", 0, ARG_SIZE, "N", "errors told of a document, 20 unless said; 0: all", &cli->max_errors},
+        {"warning", 'W', ARG_LIST, "WORD", "-WID, -Wno-ID: tells a warning or not; -Werror[=ID], -Wno-error=ID: as an error", &cli->warnings},
         {"quiet", 'q', ARG_FLAG, NULL, "prints errors only", &cli->quiet},
         {"verbose", 0, ARG_FLAG, NULL, "prints also how older documents were upgraded", &cli->verbose},
         {"version", 0, ARG_FLAG, NULL, "prints the version", &cli->version},
@@ -58,8 +64,15 @@ static bool create_context(struct cli *cli)
     desc.max_elements = limit_u32(cli->max_elements);
     desc.max_nodes = limit_u32(cli->max_nodes);
     desc.max_output_mib = limit_u32(cli->max_output_size);
-    desc.max_errors = limit_u32(cli->max_errors);
-    return report_status(&cli->report, mxg_context_create(&desc, &cli->context));
+    desc.max_errors = cli->max_errors ? limit_u32(cli->max_errors) : UINT32_MAX;
+    desc.max_depth = limit_u32(cli->max_depth);
+    desc.max_include_depth = limit_u32(cli->max_include_depth);
+    desc.max_includes = limit_u32(cli->max_includes);
+    char *warnings = warnings_join(&cli->warnings);
+    desc.warnings = warnings;
+    mxg_status status = mxg_context_create(&desc, &cli->context);
+    free(warnings);
+    return report_status(&cli->report, status);
 }
 
 static bool load_library(struct cli *cli)
@@ -93,7 +106,7 @@ static bool apply_settings(struct cli *cli)
 bool cli_start(struct cli *cli, const struct command *command, const struct arg *args, size_t num_args, unsigned wants,
                int argc, char **argv, int *out_exit)
 {
-    *cli = (struct cli){0};
+    *cli = (struct cli){.max_errors = MAX_ERRORS};
     struct arg table[MAX_ARGS];
     memcpy(table, args, num_args * sizeof *args);
     cli->parser.args = table;
@@ -111,6 +124,8 @@ bool cli_start(struct cli *cli, const struct command *command, const struct arg 
         *out_exit = EXIT_DONE;
         return false;
     }
+    if (!warnings_check(&cli->warnings))
+        return false;
     if ((wants & CLI_NEEDS_INPUT) && cli->parser.inputs.len == 0) {
         fprintf(stderr, "usage: mxgen %s\n", command->usage);
         return false;
@@ -145,7 +160,12 @@ void cli_forward(const struct cli *cli, struct arg_list *args)
     forward_size(args, "max-elements", cli->max_elements);
     forward_size(args, "max-nodes", cli->max_nodes);
     forward_size(args, "max-output-size", cli->max_output_size);
-    forward_size(args, "max-errors", cli->max_errors);
+    forward_size(args, "max-depth", cli->max_depth);
+    forward_size(args, "max-include-depth", cli->max_include_depth);
+    forward_size(args, "max-includes", cli->max_includes);
+    args_append(args, cli_format("--max-errors=%zu", cli->max_errors));
+    for (size_t i = 0; i < cli->warnings.len; ++i)
+        args_append(args, cli_format("-W%s", cli->warnings.items[i]));
     for (size_t i = 0; i < cli->parser.num_settings; ++i)
         args_append(args, cli_format("--%s=%s", cli->parser.settings[i].key, cli->parser.settings[i].value));
 }
@@ -157,6 +177,7 @@ void cli_finish(struct cli *cli)
     mxg_context_destroy(cli->context);
     report_finish(&cli->report);
     free(cli->library_paths.items);
+    free(cli->warnings.items);
     args_finish(&cli->parser);
 }
 

@@ -26,7 +26,8 @@ struct cli {
     struct arg_parser parser;
     struct arg_list library_paths;
     bool quiet, verbose, help, version, no_builtin_library;
-    size_t max_memory, max_file_size, max_elements, max_nodes, max_output_size, max_errors;
+    struct arg_list warnings; /* words of -W */
+    size_t max_memory, max_file_size, max_elements, max_nodes, max_output_size, max_errors, max_depth, max_include_depth, max_includes;
 
     struct report report;
     mxg_context *context;
@@ -65,12 +66,13 @@ __attribute__((format(printf, 1, 2)))
 char *
 cli_format(const char *format, ...);
 
-/* generate.c, check/check.c, inspect.c, library.c, validate.c, render.c */
+/* generate.c, check/check.c, inspect.c, library.c, validate.c, render.c, explain.c */
 int command_generate(const struct command *command, int argc, char **argv);
 int command_check(const struct command *command, int argc, char **argv);
 int command_inspect(const struct command *command, int argc, char **argv);
 int command_library(const struct command *command, int argc, char **argv);
 int command_validate(const struct command *command, int argc, char **argv);
+int command_explain(const struct command *command, int argc, char **argv);
 int command_render(const struct command *command, int argc, char **argv);
 
 #endif

@@ -16,6 +16,8 @@ static const struct command commands[] = {
      "Prints what mxgen sees: elements, graph, IR, closures with weights, statistics.", command_inspect},
     {"validate", "validate FILE...", "Checks documents against the library: every node, connection and value.",
      command_validate},
+    {"explain", "explain [ID...] [-o DIR | --markdown]", "Tells cause, cure and example of a message; without an id, lists them all.",
+     command_explain},
     {"render", "render FILE|FOLDER... -o PICTURE.png [options]", "Draws materials, without a display.", command_render},
     {"library", "library pack|list|expand|doc [PATH...] [-o PATH]", "Packs, lists, expands and documents node libraries.",
      command_library},

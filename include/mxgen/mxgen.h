@@ -128,7 +128,15 @@ typedef struct mxg_context_desc {
     uint32_t max_elements;    /* 0 = 16,000,000 */
     uint32_t max_nodes;       /* IR operations of a generation; 0 = 64,000,000 */
     uint32_t max_output_mib;  /* 0 = 256 */
-    uint32_t max_errors;      /* diagnostics kept per call; 0 = 100 */
+    uint32_t max_errors;      /* errors kept per call, with what belongs to them; 0 = 20 */
+    uint32_t max_depth;         /* of elements in elements, up to 200; 0 = 128 */
+    uint32_t max_include_depth; /* of files in files, up to 200; 0 = 16 */
+    uint32_t max_includes;      /* files that a document includes; 0 = 4,096 */
+    /*
+     * Which warnings are told and which are errors, by words separated by commas: "error" for all, "error=ID", "no-error=ID", "no-ID",
+     * "ID" (of something that is only a note otherwise). NULL: as they are. A word that is none of these is MXG_ERROR_ARGUMENT.
+     */
+    const char *warnings;
 } mxg_context_desc;
 #define MXG_CONTEXT_DESC_INIT {sizeof(mxg_context_desc)}
 
@@ -162,6 +170,22 @@ MXG_API mxg_status mxg_diagnostics_get(const mxg_diagnostics *list, uint32_t ind
  */
 MXG_API size_t mxg_diagnostics_format(const mxg_diagnostics *list, uint32_t index, const char *source, size_t source_size,
                                       bool colour, char *buffer, size_t capacity);
+
+/* Everything that can be said, for lists and help: `mxgen explain`. Static. */
+typedef struct mxg_diagnostic_kind {
+    size_t size;          /* in: sizeof(mxg_diagnostic_kind) */
+    const char *id;       /* "type-mismatch": stable */
+    mxg_severity severity; /* unless the context's `warnings` say otherwise */
+    const char *message;  /* with %s and %u where something is put in */
+    const char *cause, *cure;
+    /*
+     * An example as a difference: lines that begin with "- " make it wrong, with "+ " right, with "  " are of both; "== NAME" begins
+     * another file than example.mtlx; "$ ", "-$ ", "+$ " are the arguments of mxgen, where these matter. "": there is none.
+     */
+    const char *example;
+} mxg_diagnostic_kind;
+MXG_API uint32_t mxg_num_diagnostic_kinds(void);
+MXG_API mxg_status mxg_get_diagnostic_kind(uint32_t index, mxg_diagnostic_kind *out);
 
 MXG_API const mxg_diagnostics *mxg_library_diagnostics(const mxg_library *library);
 MXG_API const mxg_diagnostics *mxg_document_diagnostics(const mxg_document *document);

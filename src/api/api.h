@@ -50,6 +50,7 @@ void *object_new(struct mxg_context *context, size_t size, struct object *below)
 void object_init(struct object *object, struct mxg_context *context, size_t size);
 void object_ref(struct object *object);
 void object_unref(struct object *object); /* NULL is allowed */
+void object_empty(struct object *object); /* frees all that it holds but the block: of an object that stands in another's */
 
 /* Tells the context what the object holds now, and the object what of the context's limit is left to it. */
 void object_settle(struct object *object);
@@ -92,6 +93,7 @@ struct mxg_context {
     void *cancel_user_data;
     struct xml_limits xml_limits;
     uint32_t max_nodes, max_output_mib, max_errors;
+    struct diag_policy policy;
     struct mxg_library builtin; /* size 0: this build has none */
 };
 

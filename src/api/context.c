@@ -65,6 +65,9 @@ mxg_status mxg_context_create(const mxg_context_desc *desc, mxg_context **out_co
     if (!out_context || (desc && !struct_read(&d, sizeof d, desc))
         || (d.resolver && (!d.resolver->open || !d.resolver->release)))
         return MXG_ERROR_ARGUMENT;
+    struct diag_policy policy;
+    if (diag_policy_parse(&policy, d.warnings ? d.warnings : ""))
+        return MXG_ERROR_ARGUMENT;
     struct mem mem;
     mem_init(&mem, d.realloc, d.realloc_user_data);
     size_t size = sizeof(mxg_context);
@@ -75,12 +78,17 @@ mxg_status mxg_context_create(const mxg_context_desc *desc, mxg_context **out_co
     context->mem = mem;
     atomic_init(&context->used, size);
     context->max_memory = d.max_memory;
+    context->policy = policy;
     context->cancel = d.cancel;
     context->cancel_user_data = d.cancel_user_data;
-    context->xml_limits = (struct xml_limits){.max_elements = d.max_elements, .max_file_mib = or_default(d.max_file_mib, 256)};
+    context->xml_limits = (struct xml_limits){.max_depth = d.max_depth,
+                                              .max_include_depth = d.max_include_depth,
+                                              .max_includes = d.max_includes,
+                                              .max_elements = d.max_elements,
+                                              .max_file_mib = or_default(d.max_file_mib, 256)};
     context->max_nodes = or_default(d.max_nodes, 64000000);
     context->max_output_mib = or_default(d.max_output_mib, 256);
-    context->max_errors = or_default(d.max_errors, 100);
+    context->max_errors = or_default(d.max_errors, 20);
     xml_startup();
     context->resolver = d.resolver ? *d.resolver : stdio_resolver(context);
     map_builtin(context);
@@ -90,6 +98,8 @@ mxg_status mxg_context_create(const mxg_context_desc *desc, mxg_context **out_co
 
 void mxg_context_destroy(mxg_context *context)
 {
-    if (context)
-        context->mem.realloc(context->mem.user_data, context, sizeof *context, 0);
+    if (!context)
+        return;
+    object_empty(&context->builtin.object);
+    context->mem.realloc(context->mem.user_data, context, sizeof *context, 0);
 }

@@ -16,10 +16,11 @@ uint32_t mxg_diagnostics_warnings(const mxg_diagnostics *list)
     return list ? list->list.num_warnings : 0;
 }
 
+static const mxg_severity severities[] = {[DIAG_ERROR] = MXG_SEVERITY_ERROR, [DIAG_WARNING] = MXG_SEVERITY_WARNING,
+                                          [DIAG_NOTE] = MXG_SEVERITY_NOTE, [DIAG_REMARK] = MXG_SEVERITY_NOTE};
+
 mxg_status mxg_diagnostics_get(const mxg_diagnostics *list, uint32_t index, mxg_diagnostic *out)
 {
-    static const mxg_severity severities[] = {[DIAG_ERROR] = MXG_SEVERITY_ERROR, [DIAG_WARNING] = MXG_SEVERITY_WARNING,
-                                              [DIAG_NOTE] = MXG_SEVERITY_NOTE, [DIAG_REMARK] = MXG_SEVERITY_NOTE};
     if (index >= mxg_diagnostics_count(list))
         return MXG_ERROR_ARGUMENT;
     const struct diag *diag = &list->list.items.items[index];
@@ -32,6 +33,27 @@ mxg_status mxg_diagnostics_get(const mxg_diagnostics *list, uint32_t index, mxg_
         .column = diag->place.column,
         .length = diag->place.length,
         .parent = diag->parent,
+    };
+    return struct_write(out, &full, sizeof full);
+}
+
+uint32_t mxg_num_diagnostic_kinds(void)
+{
+    return DIAG_NUM_IDS;
+}
+
+mxg_status mxg_get_diagnostic_kind(uint32_t index, mxg_diagnostic_kind *out)
+{
+    if (index >= DIAG_NUM_IDS)
+        return MXG_ERROR_ARGUMENT;
+    const struct diag_explanation *explanation = diag_explain((enum diag_id)index);
+    mxg_diagnostic_kind full = {
+        .id = diag_id_text((enum diag_id)index),
+        .severity = severities[diag_id_severity((enum diag_id)index)],
+        .message = diag_id_format((enum diag_id)index),
+        .cause = explanation->cause,
+        .cure = explanation->cure,
+        .example = explanation->example,
     };
     return struct_write(out, &full, sizeof full);
 }

@@ -47,6 +47,8 @@ struct builder *build_start(const struct library *lib, const struct build_option
     b->graph = shader->graph;
     b->arena = shader->arena;
     b->diags = diags;
+    diags->trace = build_trace; /* the builder lives as long as the list: both are the result's */
+    diags->trace_data = b;
     b->resolved.arena = b->arena;
     b->host = (struct lang_host){.user_data = b, .global = global_node, .texture = build_read_tiles, .max_inline_nodes = INLINE_NODES};
     b->document = ARENA_NEW(b->arena, struct instance);

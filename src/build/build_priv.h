@@ -95,6 +95,9 @@ void build_begin_function(struct builder *b, struct frame *frame);
 /* One ref per output of the definition. */
 void build_call_function(struct builder *b, const struct frame *frame, uint32_t function, ir_ref *results);
 
+/* trace.c: adds notes that tell which nodes use the graph that is being built; a struct diag_list's `trace`. */
+void build_trace(void *builder, struct diag_list *list);
+
 /* input.c */
 
 /* The value of a binding whose node, if it has one, was asked for. `node` owns the input. */

@@ -20,10 +20,22 @@ const char *diag_id_text(enum diag_id id)
     return catalogue[id].stable;
 }
 
+bool diag_id_find(const char *stable, size_t len, enum diag_id *out_id)
+{
+    for (int id = 0; id < DIAG_NUM_IDS; id++) {
+        if (strlen(catalogue[id].stable) == len && memcmp(catalogue[id].stable, stable, len) == 0) {
+            *out_id = (enum diag_id)id;
+            return true;
+        }
+    }
+    return false;
+}
+
 const char *diag_severity_text(enum diag_severity severity)
 {
     static const char *const texts[] = {
-        [DIAG_ERROR] = "error", [DIAG_WARNING] = "warning", [DIAG_NOTE] = "note", [DIAG_REMARK] = "remark"};
+        [DIAG_ERROR] = "error", [DIAG_WARNING] = "warning", [DIAG_NOTE] = "note", [DIAG_REMARK] = "remark",
+        [DIAG_IGNORED] = "ignored"};
     return texts[severity];
 }
 
@@ -58,14 +70,32 @@ static const char *keep_file(const struct diag_list *list, const char *file)
     return arena_strndup(list->arena, file, strlen(file));
 }
 
+enum diag_severity diag_id_severity(enum diag_id id)
+{
+    return catalogue[id].severity;
+}
+
+const char *diag_id_format(enum diag_id id)
+{
+    return catalogue[id].format;
+}
+
+static enum diag_severity severity_in(const struct diag_list *list, enum diag_id id)
+{
+    return list->policy ? (enum diag_severity)list->policy->severities[id] : catalogue[id].severity;
+}
+
 static void append(struct diag_list *list, enum diag_id id, struct diag_place place, const char *message)
 {
-    enum diag_severity severity = catalogue[id].severity;
-    if (severity != DIAG_NOTE || list->items.len == 0)
+    enum diag_severity severity = severity_in(list, id);
+    bool is_note = severity == DIAG_NOTE && list->items.len > 0;
+    if (!is_note)
         list->last = list->items.len;
     place.file = keep_file(list, place.file);
     vec_push(list->arena, &list->items,
              (struct diag){.id = id, .severity = severity, .message = message, .place = place, .parent = list->last});
+    if (!is_note && list->trace)
+        list->trace(list->trace_data, list);
 }
 
 /* Counts the message; false where it is dropped. */
@@ -75,18 +105,20 @@ static bool is_kept(struct diag_list *list, enum diag_severity severity)
         return !list->muted_notes;
     list->num_errors += severity == DIAG_ERROR;
     list->num_warnings += severity == DIAG_WARNING;
-    list->muted_notes = severity == DIAG_ERROR && list->max_errors && list->num_errors > list->max_errors;
+    bool is_too_many = severity == DIAG_ERROR && list->max_errors && list->num_errors > list->max_errors;
+    list->muted_notes = is_too_many || severity == DIAG_IGNORED;
     return !list->muted_notes;
 }
 
 void diag_add(struct diag_list *list, enum diag_id id, struct diag_place place, ...)
 {
-    if (is_kept(list, catalogue[id].severity)) {
+    enum diag_severity severity = severity_in(list, id);
+    if (is_kept(list, severity)) {
         va_list args;
         va_start(args, place);
         append(list, id, place, format_message(list->arena, catalogue[id].format, args));
         va_end(args);
-    } else if (catalogue[id].severity == DIAG_ERROR && list->num_errors == list->max_errors + 1) {
+    } else if (severity == DIAG_ERROR && list->num_errors == list->max_errors + 1) {
         list->muted_notes = false;
         diag_add(list, DIAG_ID_too_many_errors, (struct diag_place){0}, list->max_errors);
         list->muted_notes = true;
@@ -95,6 +127,6 @@ void diag_add(struct diag_list *list, enum diag_id id, struct diag_place place, 
 
 void diag_repeat(struct diag_list *list, const struct diag *diag)
 {
-    if (is_kept(list, diag->severity))
+    if (is_kept(list, severity_in(list, diag->id)))
         append(list, diag->id, diag->place, arena_strndup(list->arena, diag->message, strlen(diag->message)));
 }

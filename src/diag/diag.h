@@ -14,6 +14,7 @@ enum diag_severity {
     DIAG_WARNING,
     DIAG_NOTE,   /* belongs to the message before it */
     DIAG_REMARK, /* stands alone; of interest to who asks for it */
+    DIAG_IGNORED, /* not added at all: what a policy makes of others */
 };
 
 enum diag_id {
@@ -38,8 +39,17 @@ struct diag {
     uint32_t parent; /* for notes: index of the message they belong to; else its own index */
 };
 
+/* What the author wants to hear of warnings and remarks: by -W. Errors and notes are what they are. */
+struct diag_policy {
+    uint8_t severities[DIAG_NUM_IDS]; /* enum diag_severity */
+};
+
 struct diag_list {
     struct arena *arena; /* owns messages and file names */
+    const struct diag_policy *policy; /* NULL: the catalogue's severities */
+    /* Called behind each message, not notes: adds notes that tell how the work came there. May be NULL. */
+    void (*trace)(void *user_data, struct diag_list *list);
+    void *trace_data;
     VEC(struct diag) items;
     uint32_t num_errors, num_warnings;
     uint32_t max_errors;  /* further errors are counted but not kept; 0 = unlimited */
@@ -58,9 +68,26 @@ void diag_add(struct diag_list *list, enum diag_id id, struct diag_place place, 
 /* Adds a copy of a message of another list; notes attach to the message before them. */
 void diag_repeat(struct diag_list *list, const struct diag *diag);
 
+/*
+ * A policy from words as -W has them, separated by commas: "error" makes errors of all warnings, "error=ID" of one, "no-error=ID" none
+ * of that one; "no-ID" switches one off, "ID" on (a remark becomes a warning). Their order does not count. Returns NULL, or the first
+ * word that is none of these or names what is not a warning.
+ */
+const char *diag_policy_parse(struct diag_policy *policy, const char *words);
+
 /* The stable id: "type-mismatch". */
 const char *diag_id_text(enum diag_id id);
+bool diag_id_find(const char *stable, size_t len, enum diag_id *out_id);
+enum diag_severity diag_id_severity(enum diag_id id); /* the catalogue's */
+const char *diag_id_format(enum diag_id id);
 const char *diag_severity_text(enum diag_severity severity); /* "error" … */
+
+/* explain.def: what is behind an id. All are "" rather than NULL. */
+struct diag_explanation {
+    const char *cause, *cure;
+    const char *example; /* see mxg_diagnostic_kind in mxgen.h */
+};
+const struct diag_explanation *diag_explain(enum diag_id id);
 
 /*
  * Renders one message as compilers do:

@@ -93,6 +93,8 @@ static void process(struct xml_reader *reader, const struct xml_source *source, 
         diag_add(reader->diags, DIAG_ID_include_no_href, doc_place(doc, include));
     else if (reader->include_depth >= reader->limits.max_include_depth)
         diag_add(reader->diags, DIAG_ID_include_depth, href_place(doc, include), (unsigned)reader->limits.max_include_depth);
+    else if (reader->opened.len > reader->limits.max_includes)
+        diag_add(reader->diags, DIAG_ID_too_many_includes, href_place(doc, include), (unsigned)reader->limits.max_includes);
     else if (xml_open_file(reader, source->name, href, &name, &data, &size, &reason))
         include_opened(reader, include, name, data, size);
     else if (!use_fallback(doc, include))

@@ -108,6 +108,8 @@ static void set_defaults(struct xml_limits *limits, const struct xml_limits *giv
         limits->max_depth = limits->max_depth ? 200 : 128; /* libxml2 itself stops at 256 */
     if (limits->max_include_depth == 0 || limits->max_include_depth > 200)
         limits->max_include_depth = limits->max_include_depth ? 200 : 16;
+    if (limits->max_includes == 0)
+        limits->max_includes = 4096;
     if (limits->max_elements == 0)
         limits->max_elements = 16000000;
     if (limits->max_file_mib == 0)

@@ -8,6 +8,7 @@
 struct xml_limits {
     uint32_t max_depth;        /* of elements; 0: 128 */
     uint32_t max_include_depth; /* 0: 16 */
+    uint32_t max_includes;     /* files, each once; 0: 4,096 */
     uint32_t max_elements;     /* 0: 16,000,000 */
     uint32_t max_file_mib;     /* 0: 256 */
 };

@@ -6,7 +6,7 @@
  *
  * in itself or in a file it reads (there perhaps behind //). The place is @+N or @-N lines from the comment, @N line N, @0 no line, @* any
  * place in any file, any number of times, and without @ the comment's own line. A first line "<!-- mxgen: key=value ... -->" has
- * options: target, element, library, limits (max-errors …), and those of generation. Every document is loaded, validated, and
+ * options: target, element, library, warnings, limits (max-errors …), and those of generation. Every document is loaded, validated, and
  * everything in it that can be rendered is generated.
  *
  *     test_diag FOLDER              and every id of the catalogue must be expected in a document or listed in FOLDER/elsewhere.txt
@@ -127,11 +127,18 @@ static void check_document(struct case_ *c)
 
 static bool set_limit(mxg_context_desc *desc, const char *key, const char *value)
 {
+    static char warnings[128];
+    if (strcmp(key, "warnings") == 0) {
+        snprintf(warnings, sizeof warnings, "%s", value);
+        desc->warnings = warnings;
+        return true;
+    }
     const struct {
         const char *key;
         uint32_t *out;
     } limits[] = {{"max-file-size", &desc->max_file_mib}, {"max-elements", &desc->max_elements}, {"max-nodes", &desc->max_nodes},
-                  {"max-output-size", &desc->max_output_mib}, {"max-errors", &desc->max_errors}};
+                  {"max-output-size", &desc->max_output_mib}, {"max-errors", &desc->max_errors}, {"max-depth", &desc->max_depth},
+                  {"max-include-depth", &desc->max_include_depth}, {"max-includes", &desc->max_includes}};
     for (size_t i = 0; i < sizeof limits / sizeof *limits; ++i) {
         if (strcmp(key, limits[i].key) != 0)
             continue;

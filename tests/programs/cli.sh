@@ -90,6 +90,26 @@ check '-q keeps errors' exits 1 "$mxgen" bad.mtlx -q -o bad
 check 'and prints them' grep -q bad-value err
 check 'no colour in a pipe' eval '! grep -q "$(printf "\033")" err'
 
+# Warnings
+sed 's|<input name="value" type="color3" value="1, 0.5, 0"/>|&<input name="valeu" type="float" value="1"/>|' two.mtlx >warned.mtlx
+check 'a warning' exits 0 "$mxgen" validate warned.mtlx
+check 'has its id' grep -Eq 'warning: .*valeu.*value.*\[unknown-input\]' err
+check '-Wno-ID' exits 0 "$mxgen" validate warned.mtlx -Wno-unknown-input
+check 'hides it' eval '! grep -q unknown-input err'
+check '-Werror' exits 1 "$mxgen" validate warned.mtlx -Werror
+check 'makes it an error' grep -Eq 'error: .*\[unknown-input\]' err
+check '-Werror=ID' exits 1 "$mxgen" validate warned.mtlx -Werror=unknown-input
+check '-Wno-error=ID' exits 0 "$mxgen" validate warned.mtlx -Werror -Wno-error=unknown-input
+check 'leaves a warning' grep -q 'warning: ' err
+check 'an unknown id' exits 2 "$mxgen" validate warned.mtlx -Wno-unknown-inputs
+check 'is compared too' grep -q "did you mean 'unknown-input'" err
+check 'an error cannot be switched off' exits 2 "$mxgen" validate bad.mtlx -Wno-bad-value
+for i in $(seq 30); do echo "<nonsense name='n$i' type='float'/>"; done | { echo "<materialx version='1.39'>"; cat; echo '</materialx>'; } >thirty.mtlx
+check 'thirty errors' exits 1 "$mxgen" validate thirty.mtlx
+check 'are twenty' eval 'test "$(grep -c unknown-node err)" -eq 20 && grep -q "more errors than 20" err'
+check 'unless asked for' exits 1 "$mxgen" validate thirty.mtlx --max-errors 0
+check 'all' eval 'test "$(grep -c unknown-node err)" -eq 30'
+
 # Output that cannot be written
 touch file
 check 'a folder that cannot be' exits 1 "$mxgen" two.mtlx -o file/sub

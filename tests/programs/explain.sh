@@ -1,0 +1,58 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Every message's example: what is wrong gives the message, what is right does not; and the table of messages in the documentation.
+# Arguments: the program, the documentation.
+mxgen=$(realpath "$1")
+documentation=$(realpath "$2")
+here=$(cd "$(dirname "$0")" && pwd)
+. "$here/common.sh"
+
+# Files that cannot be in an example; elsewhere (tests/diag/elsewhere.txt) they are tested.
+without_example='file-too-large graph-depth output-limit'
+
+# What mxgen says of an example: ids of all messages, with the notes' too.
+says() { # folder
+    local arguments
+    read -ra arguments <"$1/arguments"
+    (cd "$1" && "$mxgen" "${arguments[@]}" 2>&1)
+}
+severity_of() { "$mxgen" explain "$1" | sed -n '1s/ .*//p'; }
+# A note is told without its id: the text of its message before what is put in, or between.
+mentions() { # output, id
+    local message
+    case $(severity_of "$2") in
+    note)
+        ! grep -qF "[$2]" <<<"$1" || return 0 # of a message of its own
+        message=$("$mxgen" explain "$2" | sed -n '2s/^ *//p')
+        [ "$message" = %s ] && message=.
+        message=$(sed 's/%[su]/.*/g; s/[][(]/\\&/g' <<<"$message")
+        grep -Eq "note: $message" <<<"$1"
+        ;;
+    *) grep -qF "[$2]" <<<"$1" ;;
+    esac
+}
+try() { # id
+    "$mxgen" explain "$1" -o examples || return 1
+    if [ ! -d "examples/$1" ]; then
+        [[ " $without_example " == *" $1 "* ]] || { echo "no example"; return 1; }
+        return 0
+    fi
+    local wrong right
+    wrong=$(says "examples/$1/wrong")
+    right=$(says "examples/$1/right")
+    mentions "$wrong" "$1" || { echo "the wrong one says: $wrong"; return 1; }
+    ! mentions "$right" "$1" || { echo "the right one says: $right"; return 1; }
+    ! grep -q 'error: ' <<<"$right" || { echo "the right one has errors: $right"; return 1; }
+}
+
+ids=$("$mxgen" explain | sed 's/ .*//')
+for id in $ids; do
+    check "$id" try "$id"
+done
+check "there are some" test "$(wc -w <<<"$ids")" -ge 100
+check 'an unknown id' exits 2 "$mxgen" explain typ-mismatch
+check 'is compared' grep -q "did you mean 'type-mismatch'" err
+"$mxgen" explain --markdown >messages.md
+check 'docs/messages.md is what mxgen explain --markdown prints' diff messages.md "$documentation"
+
+finish explain
