@@ -83,6 +83,7 @@ static void set_build_options(struct generation *g)
         .angle_unit = str_intern_z(&g->result->strings, "degree"),
         .strings = g->result->target->caps & CAP_STRINGS,
         .neutral_names = o[OPTION_names].number != 0,
+        .short_names = !(g->result->target->caps & CAP_STAGES),
         .environment = o[OPTION_environment].number,
         .texture_modes = o[OPTION_texture_modes].number,
         .tiles = o[OPTION_tiles].number == 0 && g->result->target->caps & CAP_TEXTURE_ARRAYS,
@@ -107,6 +108,12 @@ static void init_layers(struct generation *g)
     shader_init(&result->shader, arena, &result->strings, &result->graph, &result->unit);
 }
 
+/* The type that the document gives what is generated; 0: a node has several outputs, and the definition's is not asked for. */
+static str_id value_type(const struct generation *g)
+{
+    return doc_attr_value(&g->document->layer.doc, g->element, STR_type);
+}
+
 static void name_shader(struct generation *g)
 {
     const struct document *doc = &g->document->layer.doc;
@@ -120,6 +127,7 @@ static void name_shader(struct generation *g)
     shader->name = element->name;
     shader->element_type = element->category;
     shader->path = str_intern(shader->strings, path.data, path.len);
+    shader->value_type = value_type(g);
     shader->style = arena_alloc(shader->arena, sizeof *shader->style);
     lang_style_init(shader->style, g->result->target->syntax, shader->arena);
     shader->max_lights = (uint32_t)g->options[OPTION_max_lights].number;
@@ -246,10 +254,16 @@ static const uint32_t *leaf_functions(void *user_data, uint32_t callee)
     return build_leaf_family(user_data, callee)->functions;
 }
 
+static const char *leaf_input(void *user_data, uint32_t callee, unsigned index)
+{
+    return build_leaf_input(user_data, callee, index);
+}
+
 void generation_start_closures(struct generation *g)
 {
     bind_lights(g);
     g->closure_host = (struct closure_host){.user_data = g->builder, .point = &g->point, .leaf_functions = leaf_functions,
+                                            .leaf_input = leaf_input, .rows = g->result->target->closures,
                                             .lang = build_lang_host(g->builder)};
     g->lighting = (struct closure_lighting){
         .lights = g->result->shader.lights.len > 0 && g->result->shader.max_lights > 0,
@@ -264,13 +278,23 @@ static struct shader_layout_rules layout_rules(const struct generation *g)
         .blocks = (caps & CAP_UNIFORM_BLOCKS) || ((caps & CAP_BLOCK_OPTION) && g->options[OPTION_uniform_blocks].number),
         .bindings = caps & CAP_BINDINGS,
         .neutral_names = g->options[OPTION_names].number != 0,
+        .one_stage = !(caps & CAP_STAGES),
+        .names_wholes = caps & CAP_NAMED_WHOLES,
     };
+}
+
+static bool emit(struct generation *g)
+{
+    struct shader *shader = &g->result->shader;
+    if (g->result->target->caps & CAP_CLOSURES)
+        return closure_emit_tree(shader, &g->closure_host, g->root);
+    return closure_emit(shader, &g->closure_host, &g->lighting, g->root);
 }
 
 bool generation_emit(struct generation *g)
 {
     generation_start_closures(g);
-    if (!closure_emit(&g->result->shader, &g->closure_host, &g->lighting, g->root))
+    if (!emit(g))
         report_not_renderable(g);
     if (!is_good(g))
         return false;
@@ -331,11 +355,13 @@ bool generation_spell(struct generation *g)
         .version = version_of(g),
         .generator = GENERATOR_NAME,
         .interface = g->options[OPTION_interface].text,
+        .colorspace = g->options[OPTION_colorspace].text,
         .uniform_blocks = g->options[OPTION_uniform_blocks].number,
         .neutral_names = g->options[OPTION_names].number,
         .comments = g->options[OPTION_comments].number,
         .user_data = result,
         .path = origin_path,
+        .ui = result_ui,
     };
     result->origin_paths = ARENA_ARRAY(&result->object.arena, const char *, result->graph.origins.len);
     for (int stage = 0; stage < NUM_STAGES; stage++)

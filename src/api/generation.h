@@ -71,6 +71,9 @@ struct frame_sequence {
 /* Writes the file of a frame as mxg_result_texture_file does. */
 size_t frame_file(const char *file, const struct frame_sequence *sequence, int32_t frame, char *out, size_t capacity);
 
+/* reflect.c: what the document says about a variable for a user interface; user_data is the mxg_result. */
+void result_ui(void *user_data, const struct shader_variable *variable, struct shader_ui *out);
+
 /* globs.c: warns of globs in the options that match nothing. */
 void generation_check_globs(struct generation *g);
 

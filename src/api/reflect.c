@@ -198,7 +198,7 @@ mxg_status mxg_result_info(const mxg_result *result, mxg_shader_info *out)
 
 /* ---- JSON ---- */
 
-static void fill_ui(void *user_data, const struct shader_variable *variable, struct shader_ui *out)
+void result_ui(void *user_data, const struct shader_variable *variable, struct shader_ui *out)
 {
     const mxg_result *result = user_data;
     *out = (struct shader_ui){
@@ -223,7 +223,7 @@ static void write_json(const struct object *object, struct text *out)
         .target = result->target->name,
         .generator = GENERATOR_NAME,
         .user_data = (void *)(uintptr_t)result,
-        .ui = fill_ui,
+        .ui = result_ui,
     };
     shader_reflect_json(&result->shader, &options, out);
 }

@@ -25,6 +25,7 @@ struct build_options {
     str_id distance_unit, angle_unit;
     bool strings;          /* the target has strings at run time */
     bool neutral_names;    /* uniforms are named by number */
+    bool short_names;      /* inputs have their own names, without that of their node */
     int environment;       /* values of option_environment… */
     int texture_modes;
     bool tiles;            /* images of several tiles are texture arrays */
@@ -55,6 +56,8 @@ const struct lang_host *build_lang_host(struct builder *builder);
 
 /* The family behind a LEAF node's callee. */
 const struct family *build_leaf_family(struct builder *builder, uint32_t callee);
+/* The name of the input that a LEAF node's operand `index` + 1 is; NULL beyond the last. */
+const char *build_leaf_input(struct builder *builder, uint32_t callee, unsigned index);
 
 /* Whether a path matches: '*' is any run without '/', '**' any run, '?' one character but '/'. */
 bool build_glob_matches(const char *glob, const char *path);

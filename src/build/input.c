@@ -156,9 +156,11 @@ static bool stays_variable(const struct builder *b, elem_id node, bool authored,
     return o->interface == INTERFACE_COMPLETE || authored;
 }
 
-/* "SR_gold_base_color": the path's last two names. */
+/* "SR_gold_base_color": the path's last two names; or "base_color", as long as there is one of it. */
 static str_id variable_name(struct builder *b, elem_id node, str_id input)
 {
+    if (b->options->short_names && shader_name_is_free(b->shader, input))
+        return input;
     struct text name;
     text_init(&name, b->arena);
     text_str(&name, build_text(b, doc_element(doc_of(b), node)->name));

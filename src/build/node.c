@@ -117,6 +117,18 @@ const struct family *build_leaf_family(struct builder *b, uint32_t callee)
     return library_family(b->lib, (uint32_t)b->graph->callees.items[callee].id);
 }
 
+const char *build_leaf_input(struct builder *b, uint32_t callee, unsigned index)
+{
+    uint32_t nodedef = build_leaf_family(b, callee)->nodedef;
+    const struct port *ports = library_ports(b->lib, nodedef, NULL);
+    for (unsigned i = 0; i < library_nodedef(b->lib, nodedef)->num_inputs; i++) {
+        bool is_operand = ports[i].name != STR_weight && !ir_type_is_closure(library_type_ir(b->lib, ports[i].type));
+        if (is_operand && index-- == 0)
+            return build_text(b, ports[i].name);
+    }
+    return NULL;
+}
+
 /* "{{in1}}" becomes "{{0}}": the shader's verbatim expressions know operands by number. */
 static str_id number_inputs(struct builder *b, const struct nodedef *def, const struct port *ports, str_id source)
 {

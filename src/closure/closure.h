@@ -10,11 +10,34 @@
 
 /* A leaf's functions (lang ids; LANG_NONE: absent), in the order of enum family_member of library/library.h. */
 enum leaf_function { LEAF_EVAL, LEAF_ENVIRONMENT, LEAF_TRANSMISSION, LEAF_THROUGHPUT, LEAF_EMISSION, LEAF_FACTOR,
-                     LEAF_ABSORPTION, NUM_LEAF_FUNCTIONS };
+                     LEAF_ABSORPTION, LEAF_SCATTERING, LEAF_ANISOTROPY, NUM_LEAF_FUNCTIONS };
 
 /* The shaded point in world space, each part made when it is first needed. */
 struct closure_point {
     ir_ref position, normal, view; /* unit normal, unit direction to the viewer */
+};
+
+/*
+ * A target's own closures: closure_emit_tree. Arguments are words that tree.c explains, names of the leaf's inputs for the most part.
+ */
+struct closure_option { /* further arguments, given where an input says something */
+    const char *input;
+    const char *unless;    /* of a string: the only word that matters */
+    const char *arguments;
+};
+
+struct closure_row {
+    const char *family;    /* of the leaf's functions: "mx_dielectric_bsdf" */
+    const char *closure, *arguments;
+    const struct closure_option *options; /* ends with input NULL; or NULL */
+};
+
+struct closure_rows {
+    const struct closure_row *rows; /* ends with family NULL */
+    const char *emission;    /* takes a radiance */
+    const char *medium;      /* takes albedo, extinction, anisotropy */
+    const char *transparent; /* takes nothing */
+    const char *output;      /* the variable that a shader writes its closure to */
 };
 
 struct closure_host {
@@ -22,6 +45,9 @@ struct closure_host {
     struct closure_point *point;
     /* The functions of the family behind a LEAF node's callee. */
     const uint32_t *(*leaf_functions)(void *user_data, uint32_t callee);
+    /* The name of the input that operand `index` + 1 of a LEAF node is; NULL beyond the last. */
+    const char *(*leaf_input)(void *user_data, uint32_t callee, unsigned index);
+    const struct closure_rows *rows; /* the target's; NULL: it has no closures */
     const struct lang_host *lang;
 };
 
@@ -54,6 +80,9 @@ struct closure_lighting {
  * a plain value, which is shown as a colour. False where a type has no meaning in a pixel stage (the caller reports it).
  */
 bool closure_emit(struct shader *shader, const struct closure_host *host, const struct closure_lighting *lighting, ir_ref root);
+
+/* The same for targets with closures, which get the tree (host->rows). False, too, where a leaf has no row. */
+bool closure_emit_tree(struct shader *shader, const struct closure_host *host, ir_ref root);
 
 /* Leaves and weights as text: `mxgen inspect --closures`. */
 void closure_describe(struct shader *shader, const struct closure_host *host, ir_ref root, struct text *out);

@@ -314,6 +314,8 @@ struct lang_words { /* of one length, in a row and sorted by byte value */
 };
 #define LANG_WORDS(length, words) [length] = {words, (sizeof(words) - 1) / (length)}
 
+struct lang_style;
+
 struct lang_syntax {
     const char *name;                   /* "glsl" */
     const struct lang_syntax *base;     /* rows absent here come from there; NULL for the portable form itself */
@@ -324,9 +326,14 @@ struct lang_syntax {
     const char *param_in;               /* prefix of a parameter that is never assigned: "const " in GLSL, "" elsewhere */
     const char *param_in_assigned;      /* prefix of one that is: "" in GLSL */
     const char *param_out, *param_inout; /* "out ", "inout "; OSL: "output " */
+    bool copies_params;                 /* parameters are read-only: one that is assigned is copied to a local first */
+    bool plain_scalars;                 /* neither bool nor uint: their literals are those of int */
+    bool defines_constants;             /* no variables at file scope: "#define X 1.0" */
     bool float_literals_need_suffix;    /* 1.0f */
     bool wide_constants;                /* max(v, vec3(0.0)), where a target has max(v, 0.0), too */
     bool array_braces;                  /* arrays are built as {a, b}, not float[2](a, b) */
+    /* Writes a literal of a type that the language lacks; false: it is written like the others. NULL: there is no such type. */
+    bool (*write_value)(const struct lang_style *style, ir_type_id type, const union ir_word *words, struct text *out);
 };
 
 const struct lang_form *lang_syntax_form(const struct lang_syntax *syntax, enum ir_op op);
@@ -335,7 +342,7 @@ bool lang_syntax_is_reserved(const struct lang_syntax *syntax, const char *name,
 
 /* style.c: a syntax made ready to print much in it, with the rows of its bases at hand and its forms taken apart. */
 
-enum { LANG_MAX_PIECES = 8, LANG_PIECE_TYPE = 255 };
+enum { LANG_MAX_PIECES = 9, LANG_PIECE_TYPE = 255 };
 
 /* A form as characters, operand, characters, operand … characters. */
 struct lang_pieces {
@@ -362,6 +369,7 @@ struct lang_style {
 
 void lang_style_init(struct lang_style *style, const struct lang_syntax *syntax, struct arena *arena);
 const struct lang_pieces *lang_style_split(struct lang_style *style, enum ir_op op);
+void lang_form_split(const struct lang_form *form, struct arena *arena, struct lang_pieces *out); /* out->text NULL for no form */
 static inline const struct lang_pieces *lang_style_form(struct lang_style *style, enum ir_op op)
 {
     return style->forms[op] ? style->forms[op] : lang_style_split(style, op);
@@ -376,6 +384,17 @@ static inline bool lang_style_is_reserved(const struct lang_style *style, const 
     return style->reserved[hash / 64] >> hash % 64 & 1 && lang_syntax_is_reserved(style->syntax, name, len);
 }
 
+/* An op at hand, for targets whose spelling depends on types. */
+struct lang_use {
+    enum ir_op op;
+    ir_type_id type;
+    uint32_t attr;              /* of SWIZZLE and MEMBER, as in struct ir_node */
+    const ir_type_id *operands; /* their types */
+    unsigned num_operands;
+    uint32_t named;             /* bit i: operand i is a variable, or something else that may be written twice */
+    ir_ref node;                /* of the graph; 0 in a tree */
+};
+
 /*
  * How names of functions, globals and user types appear in the output; the strings live at least as long as the printing.
  * A callback of NULL, or one that returns NULL, stands for the name in the source.
@@ -385,6 +404,8 @@ struct lang_names {
     const char *(*function)(void *user_data, uint32_t id);
     const char *(*global)(void *user_data, uint32_t id);
     const char *(*user_type)(void *user_data, ir_type_id type);
+    /* The form of an op, CONSTRUCT, SWIZZLE and INDEX included, where types decide; NULL: the syntax's own. */
+    const struct lang_pieces *(*form)(void *user_data, const struct lang_use *use);
 };
 
 extern const struct lang_syntax lang_syntax_portable; /* prints what the parser reads */

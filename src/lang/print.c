@@ -20,6 +20,7 @@ struct printer {
     uint64_t initials;    /* of the names of the functions and globals in use, one bit each: few locals share one */
     uint64_t ids;         /* of the names that have been in scope, one bit each likewise */
     unsigned indent;
+    bool is_typed;        /* the target is asked for forms by type */
 };
 
 static void print_expression(struct printer *p, const struct lang_node *node, enum lang_precedence least);
@@ -206,22 +207,63 @@ static void print_form(struct printer *p, const struct lang_pieces *form, ir_typ
         text_put(p->out, form->rest);
 }
 
-static void print_op(struct printer *p, const struct lang_node *node, enum lang_precedence least)
+static void print_formed(struct printer *p, const struct lang_pieces *form, const struct lang_node *node,
+                         const struct lang_node *const *operands, enum lang_precedence least)
 {
-    const struct lang_pieces *form = lang_style_form(p->style, node->op);
     bool parenthesised = form->precedence < least;
     if (parenthesised)
         text_char(p->out, '(');
-    const struct lang_node *operands[4] = {node_at(p, node->a)};
-    for (unsigned i = 1; i < 4 && operands[i - 1]->next; i++)
-        operands[i] = node_at(p, operands[i - 1]->next);
     print_form(p, form, node->type, operands);
     if (parenthesised)
         text_char(p->out, ')');
 }
 
+static void print_op(struct printer *p, const struct lang_node *node, enum lang_precedence least)
+{
+    const struct lang_node *operands[4] = {node_at(p, node->a)};
+    for (unsigned i = 1; i < 4 && operands[i - 1]->next; i++)
+        operands[i] = node_at(p, operands[i - 1]->next);
+    print_formed(p, lang_style_form(p->style, node->op), node, operands, least);
+}
+
+/* May the expression be written twice? */
+static bool is_named(const struct printer *p, const struct lang_node *node)
+{
+    while (node->kind == LANG_OP && node->op == IR_MEMBER)
+        node = node_at(p, node->a);
+    return node->kind == LANG_VAR;
+}
+
+/* The target's own form for the operands' types; NULL: it has none. */
+static const struct lang_pieces *typed_form(struct printer *p, enum ir_op op, uint32_t attr, ir_type_id type,
+                                            const struct lang_node *const *operands, unsigned num_operands)
+{
+    ir_type_id types[AST_MAX_OPERANDS];
+    struct lang_use use = {.op = op, .type = type, .attr = attr, .operands = types, .num_operands = num_operands};
+    for (unsigned i = 0; i < num_operands; i++) {
+        types[i] = operands[i]->type;
+        use.named |= (uint32_t)is_named(p, operands[i]) << i;
+    }
+    return p->names->form(p->names->user_data, &use);
+}
+
+static bool print_typed(struct printer *p, const struct lang_node *node, enum lang_precedence least)
+{
+    lang_ref refs[AST_MAX_OPERANDS];
+    const struct lang_node *operands[AST_MAX_OPERANDS];
+    unsigned n = ast_list(p->layer, node->a, refs, AST_MAX_OPERANDS);
+    for (unsigned i = 0; i < n; i++)
+        operands[i] = node_at(p, refs[i]);
+    const struct lang_pieces *form = typed_form(p, node->op, node->b, node->type, operands, n);
+    if (form)
+        print_formed(p, form, node, operands, least);
+    return form != NULL;
+}
+
 static void print_op_or_part(struct printer *p, const struct lang_node *node, enum lang_precedence least)
 {
+    if (p->is_typed && print_typed(p, node, least))
+        return;
     switch (node->op) {
     case IR_CONSTRUCT:
         print_construct(p, node);
@@ -292,8 +334,25 @@ static bool is_int_one(const struct printer *p, lang_ref ref)
     return node->kind == LANG_CONST && node->type == IR_TYPE_INT && ast_words(p->layer, node)->i == 1;
 }
 
+/* x = x + y, where the target has a + of its own for the types. */
+static bool print_typed_assignment(struct printer *p, const struct lang_node *node)
+{
+    if (!p->is_typed || node->op == IR_NUM_OPS)
+        return false;
+    const struct lang_node *operands[] = {node_at(p, node->a), node_at(p, node->b)};
+    const struct lang_pieces *form = typed_form(p, node->op, 0, operands[0]->type, operands, 2);
+    if (!form)
+        return false;
+    print_expression(p, operands[0], LANG_PREC_UNARY);
+    text_mem(p->out, " = ", 3);
+    print_form(p, form, operands[0]->type, operands);
+    return true;
+}
+
 static void print_assignment(struct printer *p, const struct lang_node *node)
 {
+    if (print_typed_assignment(p, node))
+        return;
     if ((node->op == IR_ADD || node->op == IR_SUB) && is_int_one(p, node->b)) {
         text_str(p->out, node->op == IR_ADD ? "++" : "--");
         print_expression(p, node_at(p, node->a), LANG_PREC_UNARY);
@@ -514,6 +573,7 @@ static struct printer start(struct lang_style *style, const struct lang_names *n
                             uint32_t id, struct text *out)
 {
     struct printer p = {.style = style, .names = names, .unit = unit, .out = out};
+    p.is_typed = names && names->form;
     p.fn = lang_function(unit, id, &p.layer);
     p.locals = arena_alloc(out->arena, p.fn->num_slots * sizeof *p.locals);
     p.visible = arena_alloc(out->arena, p.fn->num_slots * sizeof *p.visible);
@@ -533,6 +593,39 @@ static const char *param_prefix(const struct lang_syntax *syntax, const struct l
     return slot->assigned ? syntax->param_in_assigned : syntax->param_in;
 }
 
+/* A parameter that is copied has the slot's name and "_in" behind it. */
+static bool is_copied(const struct printer *p, const struct lang_slot *param)
+{
+    return p->style->syntax->copies_params && param->assigned && param->mode == LANG_IN;
+}
+
+static void print_param(struct printer *p, uint32_t slot)
+{
+    const struct lang_slot *param = ast_slot(p->layer, p->fn, slot);
+    text_str(p->out, param_prefix(p->style->syntax, param));
+    if (!is_copied(p, param)) {
+        print_variable(p, slot);
+        return;
+    }
+    lang_print_type(p->style, p->names, p->unit, param->type, p->out);
+    text_char(p->out, ' ');
+    print_local(p, slot);
+    text_str(p->out, "_in");
+}
+
+static void print_copies(struct printer *p)
+{
+    for (uint32_t i = 0; i < p->fn->num_params; i++) {
+        if (!is_copied(p, ast_slot(p->layer, p->fn, i)))
+            continue;
+        text_str(p->out, "    ");
+        print_variable(p, i);
+        text_str(p->out, " = ");
+        print_local(p, i);
+        text_str(p->out, "_in;\n");
+    }
+}
+
 static void print_head(struct printer *p, uint32_t id)
 {
     lang_print_type(p->style, p->names, p->unit, p->fn->return_type, p->out);
@@ -542,8 +635,7 @@ static void print_head(struct printer *p, uint32_t id)
     for (uint32_t i = 0; i < p->fn->num_params; i++) {
         if (i)
             text_mem(p->out, ", ", 2);
-        text_str(p->out, param_prefix(p->style->syntax, ast_slot(p->layer, p->fn, i)));
-        print_variable(p, i);
+        print_param(p, i);
     }
     text_char(p->out, ')');
 }
@@ -554,6 +646,7 @@ void lang_print_function(struct lang_style *style, const struct lang_names *name
     struct printer p = start(style, names, unit, id, out);
     print_head(&p, id);
     text_str(out, "\n{\n");
+    print_copies(&p);
     print_body(&p, node_at(&p, p.fn->body));
     text_str(out, "}\n");
 }

@@ -75,6 +75,8 @@ static void print_float(const struct lang_syntax *syntax, float f, struct text *
 
 static void print_scalar(const struct lang_syntax *syntax, ir_type_id type, union ir_word word, struct text *out)
 {
+    if (syntax->plain_scalars && (type == IR_TYPE_BOOL || type == IR_TYPE_UINT))
+        type = IR_TYPE_INT;
     switch (type) {
     case IR_TYPE_BOOL:
         text_str(out, word.u ? "true" : "false");
@@ -120,6 +122,8 @@ void lang_print_value(const struct lang_style *style, const struct strpool *stri
         text_json_string(out, str_text(strings, words->u), str_len(strings, words->u));
         return;
     }
+    if (style->syntax->write_value && style->syntax->write_value(style, type, words, out))
+        return;
     bool parentheses = least > LANG_PREC_UNARY && has_sign(type, *words);
     unsigned count = 1;
     if (info->components > 1) {
@@ -170,11 +174,16 @@ void lang_print_constant(const struct lang_style *style, const struct lang_names
 {
     const struct lang_unit *layer;
     const struct lang_global *global = lang_global(unit, global_id, &layer);
-    text_str(out, "const ");
-    lang_print_variable(style, names, unit, global->type, print_global_name(names, unit, global_id), out);
-    text_str(out, " = ");
+    const char *name = print_global_name(names, unit, global_id);
+    bool defines = style->syntax->defines_constants;
+    text_str(out, defines ? "#define " : "const ");
+    if (defines)
+        text_str(out, name);
+    else
+        lang_print_variable(style, names, unit, global->type, name, out);
+    text_str(out, defines ? " " : " = ");
     print_words(style, unit, global->type, layer->words.items + global->words, out);
-    text_str(out, ";\n");
+    text_str(out, defines ? "\n" : ";\n");
 }
 
 void lang_print_struct(const struct lang_style *style, const struct lang_names *names, const struct lang_unit *unit,

@@ -51,17 +51,15 @@ static bool spreads_constants(const struct lang_syntax *syntax, enum ir_op op)
     return fits && syntax->wide_constants && op != IR_REFRACT;
 }
 
-const struct lang_pieces *lang_style_split(struct lang_style *style, enum ir_op op)
+void lang_form_split(const struct lang_form *form, struct arena *arena, struct lang_pieces *split)
 {
-    struct lang_pieces *split = style->forms[op] = arena_alloc(style->arena, sizeof *split);
-    const struct lang_form *form = lang_syntax_form(style->syntax, op);
     split->text = form ? form->text : NULL;
     split->num = 0;
+    split->spreads = false;
     if (!split->text)
-        return split;
+        return;
     split->precedence = form->precedence;
     split->infix = form->infix;
-    split->spreads = spreads_constants(style->syntax, op);
     const char *from = form->text, *p = from;
     for (; *p; p++) {
         if (*p != '$')
@@ -70,13 +68,20 @@ const struct lang_pieces *lang_style_split(struct lang_style *style, enum ir_op 
         char before = p == form->text ? '\0' : p[-1] == ' ' ? p[-2] : p[-1];
         unsigned index = (unsigned)(p[1] - '0');
         split->pieces[split->num++] = (struct lang_piece){
-            .before = text_word_of(style->arena, from, (size_t)(p - from)),
+            .before = text_word_of(arena, from, (size_t)(p - from)),
             .index = p[1] == 'T' ? LANG_PIECE_TYPE : (uint8_t)index,
             .least = p[1] == 'T' ? 0 : (uint8_t)operand_precedence(form, index, before, p[2]),
         };
         from = p + 2;
         p++;
     }
-    split->rest = text_word_of(style->arena, from, (size_t)(p - from));
+    split->rest = text_word_of(arena, from, (size_t)(p - from));
+}
+
+const struct lang_pieces *lang_style_split(struct lang_style *style, enum ir_op op)
+{
+    struct lang_pieces *split = style->forms[op] = arena_alloc(style->arena, sizeof *split);
+    lang_form_split(lang_syntax_form(style->syntax, op), style->arena, split);
+    split->spreads = split->text && spreads_constants(style->syntax, op);
     return split;
 }

@@ -86,17 +86,24 @@ static void name_neutrally(struct shader *shader)
     }
 }
 
+static void finish_vertex_stage(struct shader *shader)
+{
+    complete_vertex_stage(shader);
+    mark_outputs(shader, STAGE_VERTEX);
+    shader_schedule(shader, STAGE_VERTEX);
+    add_globals(shader, STAGE_VERTEX);
+}
+
 void shader_finish(struct shader *shader, const struct shader_layout_rules *rules)
 {
+    shader->names_wholes = rules->names_wholes;
     shader_specialise_calls(shader);
     complete_loops(shader, STAGE_PIXEL);
     mark_outputs(shader, STAGE_PIXEL);
     shader_schedule(shader, STAGE_PIXEL);
     add_globals(shader, STAGE_PIXEL);
-    complete_vertex_stage(shader);
-    mark_outputs(shader, STAGE_VERTEX);
-    shader_schedule(shader, STAGE_VERTEX);
-    add_globals(shader, STAGE_VERTEX);
+    if (!rules->one_stage)
+        finish_vertex_stage(shader);
     shader_layout(shader, rules);
     if (rules->neutral_names)
         name_neutrally(shader);

@@ -76,6 +76,11 @@ static bool is_taken(const struct shader *shader, uint32_t scope, str_id name)
         || (shader->style && lang_style_is_reserved(shader->style, str_text(shader->strings, name), str_len(shader->strings, name)));
 }
 
+bool shader_name_is_free(const struct shader *shader, str_id name)
+{
+    return !shader->names || !is_taken(shader, NUM_BLOCKS, name);
+}
+
 static str_id unique_name(struct shader *shader, uint32_t scope, str_id wanted)
 {
     const char *text = str_text(shader->strings, wanted);

@@ -457,6 +457,25 @@ static void let_arms(struct scheduler *s, const struct ir_node *node)
             let(s, arms[i]);
 }
 
+/* Where only variables have parts, what a part is taken of becomes one. */
+static void let_wholes(const struct scheduler *s, const struct ir_node *node)
+{
+    bool takes_parts = node->op == IR_SWIZZLE || node->op == IR_MEMBER || node->op == IR_INDEX || node->op == IR_CONVERT
+                       || node->op == IR_CONSTRUCT;
+    for (uint32_t a = 0; a < node->num_args && takes_parts; a++) {
+        struct plan *whole = plan_of((struct scheduler *)(uintptr_t)s, s->graph->args.items[node->first_arg + a]);
+        const struct ir_node *operand = ir_get(s->graph, whole->ref);
+        bool has_parts = operand->type >= IR_NUM_TYPES || ir_type_info(operand->type)->components > 1;
+        if (has_parts && operand->num_args > 0 && operand->op != IR_RESULT && may_let(s, whole))
+            let(s, whole);
+    }
+}
+
+static bool is_closure_call(const struct ir_node *node)
+{
+    return node->op == IR_LEAF && node->num_args > 0;
+}
+
 /* Operands first: which nodes become locals. */
 static void choose_locals(struct scheduler *s)
 {
@@ -465,11 +484,13 @@ static void choose_locals(struct scheduler *s)
         if (is_source(s, plan))
             continue;
         let_arms(s, ir_get(s->graph, plan->ref));
+        if (s->shader->names_wholes)
+            let_wholes(s, ir_get(s->graph, plan->ref));
         measure(s, plan);
         if (!may_let(s, plan) || is_part(s, plan))
             continue;
         bool neighbours = needs_neighbours(s->graph, ir_get(s->graph, plan->ref));
-        bool wanted = plan->flags & PLAN_STATEMENT || (neighbours && plan->flags & (PLAN_IN_ARM | PLAN_MOVED));
+        bool wanted = plan->flags & PLAN_STATEMENT || is_closure_call(ir_get(s->graph, plan->ref)) || (neighbours && plan->flags & (PLAN_IN_ARM | PLAN_MOVED));
         if (!wanted && (plan->uses > 1 || plan->flags & PLAN_MOVED))
             wanted = !is_cheap(s, plan);
         if (wanted)

@@ -73,6 +73,9 @@ struct shader_variable {
     uint32_t offset, size, array_stride, matrix_stride; /* std140, in bytes */
 };
 
+/* What a shader of a target without stages is. */
+enum shader_kind { SHADER_VALUE, SHADER_SURFACE, SHADER_VOLUME, SHADER_DISPLACEMENT };
+
 /* Inputs whose value is compiled in: reported to hosts, which must know that a change needs a new shader. */
 struct shader_compiled_input {
     str_id path, doc_type, value;
@@ -181,6 +184,9 @@ struct shader {
     str_id element_type;           /* "surfacematerial" */
     str_id path;
     uint32_t num_closures;
+    uint8_t kind;                  /* enum shader_kind */
+    str_id value_type;             /* of the document: what the element gives, where that is a plain value */
+    bool names_wholes;             /* only variables have parts that can be named: from the rules of layout */
     bool transparent;              /* found by analysis: the alpha written may be below 1 */
     bool lit;                      /* reads lights or environment */
     bool numbered;                 /* sets, bindings and locations are given */
@@ -193,6 +199,7 @@ void shader_init(struct shader *shader, struct arena *arena, struct strpool *str
 
 /* Adds a variable; the name is made a valid identifier, and unique by a number behind it. Returns its index. */
 uint32_t shader_add_variable(struct shader *shader, const struct shader_variable *variable);
+bool shader_name_is_free(const struct shader *shader, str_id name); /* at file scope, without a change */
 uint32_t shader_find_variable(const struct shader *shader, enum shader_block block, str_id name); /* UINT32_MAX: none */
 
 /* The IR node that reads a variable: UNIFORM, TEXTURE or STREAM by its block. */
@@ -233,6 +240,8 @@ struct shader_layout_rules { /* from the target's table and the options */
     bool blocks;             /* uniforms stand in std140 blocks */
     bool bindings;           /* sets and bindings are numbered, locations given */
     bool neutral_names;      /* public variables are numbered: equal topology, equal names */
+    bool one_stage;          /* there is no vertex stage */
+    bool names_wholes;       /* parts are taken of variables only: v.x, but not (a + b).x */
     uint32_t set;            /* descriptor set of everything */
 };
 void shader_finish(struct shader *shader, const struct shader_layout_rules *rules);

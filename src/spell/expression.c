@@ -116,6 +116,8 @@ static const char *callee_name(const struct spell *spell, ir_ref call)
     const struct ir_node *node = ir_get(spell->shader->graph, call);
     if (node->op == IR_GRAPH_CALL)
         return spell->graph_functions[node->attr];
+    if (node->op == IR_LEAF)
+        return str_text(spell->shader->strings, spell->shader->graph->callees.items[node->attr].name);
     uint32_t callee = shader_callee(spell->shader, call);
     if (node->op == IR_VERBATIM)
         return str_text(spell->shader->strings, spell->shader->verbatim.items[callee].function);
@@ -143,9 +145,31 @@ static void write_call(struct spell *spell, ir_ref ref)
     text_char(spell->out, ')');
 }
 
-static void write_form(struct spell *spell, const struct ir_node *node, enum lang_precedence least)
+/* May the operand be written twice? */
+static bool is_named(const struct spell *spell, ir_ref ref)
 {
-    const struct lang_pieces *form = lang_style_form(spell->style, node->op);
+    uint8_t op = ir_get(spell->shader->graph, ref)->op;
+    return spell->local_of[ref] || op == IR_UNIFORM || op == IR_STREAM || op == IR_PARAM || op == IR_LOCAL || op == IR_RESULT;
+}
+
+/* The target's own form for the types at hand; NULL: it has none. */
+static const struct lang_pieces *typed_form(const struct spell *spell, ir_ref ref, const struct ir_node *node)
+{
+    bool has_form = ir_op_info(node->op)->flags & (OP_OPERATOR | OP_BUILTIN) || node->op == IR_CONST || node->op > IR_LEAF;
+    if (!spell->lang_names.form || !has_form)
+        return NULL;
+    ir_type_id types[16];
+    struct lang_use use = {.op = node->op, .type = node->type, .attr = node->attr, .operands = types, .node = ref};
+    for (; use.num_operands < node->num_args && use.num_operands < 16; use.num_operands++) {
+        ir_ref operand = ir_arg(spell->shader->graph, ref, use.num_operands);
+        types[use.num_operands] = ir_type_of(spell->shader->graph, operand);
+        use.named |= (uint32_t)is_named(spell, operand) << use.num_operands;
+    }
+    return spell->lang_names.form(spell->lang_names.user_data, &use);
+}
+
+static void write_form(struct spell *spell, const struct ir_node *node, const struct lang_pieces *form, enum lang_precedence least)
+{
     assert(form->text);
     bool parentheses = (enum lang_precedence)form->precedence < least;
     if (parentheses)
@@ -204,6 +228,11 @@ void spell_expression(struct spell *spell, ir_ref ref, enum lang_precedence leas
         spell_text(spell, spell->let_names.items[spell->local_of[ref] - 1]);
         return;
     }
+    const struct lang_pieces *own = typed_form(spell, ref, node);
+    if (own) {
+        write_form(spell, node, own, least);
+        return;
+    }
     switch (node->op) {
     case IR_CONST:
         lang_print_value(spell->style, spell->shader->strings, node->type, graph->words.items + node->attr, least, spell->out);
@@ -220,6 +249,7 @@ void spell_expression(struct spell *spell, ir_ref ref, enum lang_precedence leas
     case IR_CALL:
     case IR_VERBATIM:
     case IR_GRAPH_CALL:
+    case IR_LEAF:
         write_call(spell, ref);
         break;
     case IR_RESULT: {
@@ -234,6 +264,6 @@ void spell_expression(struct spell *spell, ir_ref ref, enum lang_precedence leas
         if (node->num_args == 0)
             write_source(spell, node);
         else
-            write_form(spell, node, least);
+            write_form(spell, node, lang_style_form(spell->style, node->op), least);
     }
 }

@@ -55,6 +55,7 @@ struct spell {
     VEC(const char *) let_names;
     const char *loop_index; /* in LIGHTS and SAMPLES: the loop's variable */
     struct name_set paths;        /* shown in comments so far */
+    void *target_data;            /* the target's own, while its hook runs */
     uint8_t *origins_seen;        /* origins whose path was asked for; NULL: no comments */
 };
 
@@ -79,6 +80,9 @@ void spell_name_interface(struct spell *spell);
 void spell_interface(struct spell *spell);
 
 /* ---- stage.c ---- */
+
+void spell_title(struct spell *spell); /* "Gold · surfacematerial · …", without a newline */
+void spell_functions(struct spell *spell); /* constants, verbatim sources, portable and IR functions */
 
 /* The stage of C-like targets: declarations, functions, main. */
 void spell_stage(struct spell *spell, enum shader_stage_id stage);

@@ -5,6 +5,13 @@
 
 /* ---- Names of functions and types ---- */
 
+/* As they are spelled: a target may have one type for several. */
+static bool equal_types(const struct spell *spell, ir_type_id a, ir_type_id b)
+{
+    const struct lang_syntax *syntax = spell->target->syntax;
+    return a == b || (a < IR_NUM_TYPES && b < IR_NUM_TYPES && strcmp(lang_syntax_type(syntax, a), lang_syntax_type(syntax, b)) == 0);
+}
+
 static bool equal_parameters(const struct spell *spell, uint32_t a, uint32_t b)
 {
     const struct lang_unit *la, *lb;
@@ -12,7 +19,7 @@ static bool equal_parameters(const struct spell *spell, uint32_t a, uint32_t b)
     if (fa->num_params != fb->num_params)
         return false;
     for (uint32_t i = 0; i < fa->num_params; i++)
-        if (la->slots.items[fa->first_slot + i].type != lb->slots.items[fb->first_slot + i].type)
+        if (!equal_types(spell, la->slots.items[fa->first_slot + i].type, lb->slots.items[fb->first_slot + i].type))
             return false;
     return true;
 }
@@ -112,8 +119,8 @@ static void write_plural(struct text *out, uint32_t n, const char *what)
         text_char(out, 's');
 }
 
-/* "// Gold · surfacematerial · mxgen 0.1 · vulkan · reduced · 1 closure · 0 textures" */
-static void write_title(struct spell *spell)
+/* "Gold · surfacematerial · mxgen 0.1 · vulkan · reduced · 1 closure · 0 textures" */
+void spell_title(struct spell *spell)
 {
     const struct shader *shader = spell->shader;
     const char *parts[] = {str_text(shader->strings, shader->name), str_text(shader->strings, shader->element_type),
@@ -123,7 +130,6 @@ static void write_title(struct spell *spell)
         const struct shader_variable *variable = &shader->variables.items[shader->interface.items[i]];
         textures += variable->block == BLOCK_TEXTURES && !variable->semantic;
     }
-    spell_text(spell, "// ");
     for (size_t i = spell->options->neutral_names ? 2 : 0; i < sizeof parts / sizeof *parts; i++) {
         if (!parts[i] || !*parts[i])
             continue;
@@ -133,14 +139,14 @@ static void write_title(struct spell *spell)
     write_plural(spell->out, shader->num_closures, "closure");
     spell_text(spell, " · ");
     write_plural(spell->out, textures, "texture");
-    spell_text(spell, "\n");
 }
 
 static void write_header(struct spell *spell)
 {
     const char *version = spell->options->version ? spell->options->version : spell->target->versions[0];
-    SPELL(spell, "#version ", version, "\n");
-    write_title(spell);
+    SPELL(spell, "#version ", version, "\n// ");
+    spell_title(spell);
+    spell_text(spell, "\n");
     if (spell_can(spell, CAP_PRECISION) && spell->stage_id == STAGE_PIXEL)
         spell_text(spell, "precision highp float;\nprecision highp int;\nprecision highp sampler2D;\n");
     if (spell_can(spell, CAP_PRECISION) && spell->shader->tiles.len)
@@ -163,7 +169,7 @@ static void write_verbatim_sources(struct spell *spell)
     }
 }
 
-static void write_functions(struct spell *spell)
+void spell_functions(struct spell *spell)
 {
     const struct lang_reach *reach = &spell->stage->reach;
     size_t before = spell->out->len;
@@ -187,7 +193,7 @@ void spell_stage(struct spell *spell, enum shader_stage_id stage)
     write_header(spell);
     spell_interface(spell);
     spell_text(spell, "\n");
-    write_functions(spell);
+    spell_functions(spell);
     spell_text(spell, "void main()\n{\n");
     names_open_scope(&spell->names);
     spell_statements(spell, &spell->stage->statements, 1);
@@ -209,7 +215,8 @@ static void init(struct spell *spell)
     spell->user_types = ARENA_ARRAY(arena, const char *, unit->base_user_types + unit->user_types.len + 1);
     spell->locals = ARENA_ARRAY(arena, const char *, shader->locals.len + 1);
     spell->local_of = ARENA_ARRAY(arena, uint32_t, shader->graph->nodes.len);
-    spell->lang_names = (struct lang_names){spell, function_name, global_name, user_type_name};
+    spell->lang_names = (struct lang_names){
+        .user_data = spell, .function = function_name, .global = global_name, .user_type = user_type_name};
     spell->style = shader->style ? shader->style : arena_alloc(arena, sizeof *spell->style);
     if (spell->style != shader->style)
         lang_style_init(spell->style, spell->target->syntax, arena);

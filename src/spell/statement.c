@@ -225,9 +225,13 @@ static void write_let(struct spell *spell, unsigned indent, ir_ref ref)
     }
     const char *name = add_local(spell, local_base(spell, ref), NULL);
     open_line(spell, indent, node->origin);
-    if (node->op == IR_CONST)
+    if (node->op == IR_CONST && !spell->target->syntax->defines_constants)
         spell_text(spell, "const ");
-    spell_variable(spell, node->type, name);
+    const char *own_type = spell->target->node_type ? spell->target->node_type(spell, ref) : NULL;
+    if (own_type)
+        SPELL(spell, own_type, " ", name);
+    else
+        spell_variable(spell, node->type, name);
     text_mem(spell->out, " = ", 3);
     spell_expression(spell, ref, LANG_PREC_ASSIGN);
     text_mem(spell->out, ";\n", 2);

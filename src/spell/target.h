@@ -5,7 +5,7 @@
 #ifndef MXG_SPELL_TARGET_H
 #define MXG_SPELL_TARGET_H
 
-#include "shader/shader.h"
+#include "closure/closure.h"
 
 enum target_caps {
     CAP_STAGES = 1,           /* vertex and pixel stages; else one shader */
@@ -21,6 +21,7 @@ enum target_caps {
     CAP_CLOSURES = 1024,      /* the language has closures: keep the tree */
     CAP_STRINGS = 2048,       /* the language has strings */
     CAP_TEXTURE_ARRAYS = 4096, /* the tiles of an image are layers of one texture; else its host, or texture(), finds them */
+    CAP_NAMED_WHOLES = 8192,  /* parts are taken of variables only: v.x, but not (a + b).x */
 };
 
 struct spell; /* spell/spell.h */
@@ -33,7 +34,10 @@ struct target {
     uint32_t caps;
     const char *const *versions;  /* values of the option `version`, first is the default; "#version" is written with it */
     const struct lang_syntax *syntax;
+    const struct closure_rows *closures; /* with CAP_CLOSURES: the language's own */
     const char *stage_suffix[NUM_STAGES]; /* "vert", "frag"; file endings */
+    /* The type of a node's local, where it does not follow from the IR's type; may be NULL, and return it. */
+    const char *(*node_type)(const struct spell *spell, ir_ref ref);
     /* Writes one stage. NULL: from base; the C-like targets share spell_stage. */
     void (*stage)(struct spell *spell, enum shader_stage_id stage);
 };
@@ -57,12 +61,15 @@ struct spell_options {
     const char *version;   /* of the target; NULL = default */
     const char *generator; /* for the first comment: "mxgen 0.1" */
     const char *interface; /* "complete", "authored", "reduced" */
+    const char *colorspace; /* the working space */
     bool uniform_blocks;
     bool neutral_names;
     bool comments;         /* paths as comments */
     void *user_data;
     /* The element path that a comment shows for an origin; NULL: none. The function may be NULL. */
     const char *(*path)(void *user_data, uint32_t origin);
+    /* What the document says about a variable for a user interface; may be NULL. */
+    void (*ui)(void *user_data, const struct shader_variable *variable, struct shader_ui *out);
 };
 
 /* Where in the source the text of an origin begins: for mapping compiler messages back. */

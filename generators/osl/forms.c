@@ -1,0 +1,476 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * How OSL writes what depends on types: its vectors have three components, so those of two and four are structs, and operations on them
+ * are functions that the file declares for itself (helpers.def; by component where it says nothing). Operators of structs are OSL's
+ * overloads: `a + b` calls __operator__add__.
+ */
+#include "generators/osl/osl.h"
+
+#include <assert.h>
+
+enum { NUM_PARTS = 4 };
+static const char parts[NUM_PARTS] = {'x', 'y', 'z', 'w'};
+
+static bool is_struct(ir_type_id type)
+{
+    return type == IR_TYPE_VEC2 || type == IR_TYPE_VEC4 || type == IR_TYPE_IVEC2;
+}
+
+static bool is_vector(ir_type_id type)
+{
+    return is_struct(type) || type == IR_TYPE_VEC3;
+}
+
+static unsigned components(ir_type_id type)
+{
+    return type < IR_NUM_TYPES ? ir_type_info(type)->components : 0;
+}
+
+static const char *type_name(ir_type_id type)
+{
+    return lang_syntax_type(&osl_syntax, type);
+}
+
+/* A type as one letter: helpers.def. */
+static char letter(ir_type_id type)
+{
+    static const char letters[IR_NUM_TYPES] = {
+        [IR_TYPE_BOOL] = 'b', [IR_TYPE_INT] = 'i', [IR_TYPE_UINT] = 'u', [IR_TYPE_FLOAT] = 'f', [IR_TYPE_IVEC2] = 'I',
+        [IR_TYPE_VEC2] = '2', [IR_TYPE_VEC3] = '3', [IR_TYPE_VEC4] = '4', [IR_TYPE_MAT2] = 'm', [IR_TYPE_MAT3] = 'M',
+        [IR_TYPE_MAT4] = 'N', [IR_TYPE_SAMPLER] = 's', [IR_TYPE_STRING] = 't',
+    };
+    return type < IR_NUM_TYPES && letters[type] ? letters[type] : '?';
+}
+
+/* ---- Forms made here: they live as long as the file is written ---- */
+
+static const struct lang_pieces *form_of(struct osl *osl, const char *text, enum lang_precedence precedence)
+{
+    struct lang_pieces *form = ARENA_NEW(osl->spell->scratch, struct lang_pieces);
+    lang_form_split(&(struct lang_form){text, (uint8_t)precedence, false}, osl->spell->scratch, form);
+    return form;
+}
+
+static const struct lang_pieces *usual_form(const struct osl *osl, enum ir_op op)
+{
+    return lang_style_form(osl->spell->style, op);
+}
+
+/* "name($0, $1)". `order` gives the operands, as digits; NULL: as they come. */
+static const struct lang_pieces *call_form(struct osl *osl, const char *name, unsigned num_operands, const char *order)
+{
+    struct text text;
+    text_init(&text, osl->spell->scratch);
+    text_str(&text, name);
+    for (unsigned i = 0; i < num_operands; i++)
+        text_fmt(&text, "%s$%c", i ? ", " : "(", order ? order[i] : (char)('0' + i));
+    text_char(&text, ')');
+    return form_of(osl, text_cstr(&text), LANG_PREC_POSTFIX);
+}
+
+/* ---- Helpers ---- */
+
+static bool has_helper(const struct osl *osl, const char *key)
+{
+    for (uint32_t i = 0; i < osl->helpers.len; i++)
+        if (strcmp(osl->helpers.items[i].key, key) == 0)
+            return true;
+    return false;
+}
+
+static void add_helper(struct osl *osl, const char *key, const char *text)
+{
+    if (!has_helper(osl, key))
+        vec_push(osl->spell->scratch, &osl->helpers, (struct osl_helper){key, text});
+}
+
+struct helper_row {
+    uint8_t op; /* enum ir_op */
+    const char *types, *name, *text;
+};
+
+static const struct helper_row helper_rows[] = {
+#define HELPER(op, types, name, text) {IR_##op, types, name, text},
+#include "generators/osl/helpers.def"
+};
+
+static const struct helper_row *find_helper(const struct lang_use *use)
+{
+    for (size_t i = 0; i < sizeof helper_rows / sizeof *helper_rows; i++) {
+        const struct helper_row *row = &helper_rows[i];
+        if (row->op != use->op || strlen(row->types) != use->num_operands)
+            continue;
+        bool fits = true;
+        for (unsigned k = 0; k < use->num_operands; k++)
+            fits &= row->types[k] == letter(use->operands[k]);
+        if (fits)
+            return row;
+    }
+    return NULL;
+}
+
+static const struct lang_pieces *helper_form(struct osl *osl, const struct helper_row *row, const struct lang_use *use)
+{
+    add_helper(osl, row->text, row->text);
+    if (strncmp(row->name, "__operator__", 12) == 0)
+        return usual_form(osl, use->op);
+    return call_form(osl, row->name, use->num_operands, use->op == IR_SELECT ? "210" : NULL);
+}
+
+/* ---- By component ---- */
+
+static const char *operator_word(enum ir_op op)
+{
+    switch (op) {
+    case IR_NEG:
+        return "__operator__neg__";
+    case IR_ADD:
+        return "__operator__add__";
+    case IR_SUB:
+        return "__operator__sub__";
+    case IR_MUL:
+        return "__operator__mul__";
+    case IR_DIV:
+        return "__operator__div__";
+    case IR_REM:
+        return "__operator__mod__";
+    default:
+        return NULL;
+    }
+}
+
+/* "min" of "min($0, $1)"; the op's own name where the form is no call. */
+static const char *function_name(struct osl *osl, enum ir_op op, const struct lang_pieces *scalar)
+{
+    const char *end = strchr(scalar->text, '(');
+    if (!end || end == scalar->text || scalar->text[0] == '$' || strchr(scalar->text, ' ') < end)
+        return ir_op_info(op)->text;
+    return arena_strndup(osl->spell->scratch, scalar->text, (size_t)(end - scalar->text));
+}
+
+static ir_type_id scalar_of(ir_type_id type)
+{
+    return is_vector(type) ? ir_type_info(type)->scalar : type;
+}
+
+/* A form with parameters a, b… for operands, of which those with parts give one. */
+static void write_part(const char *form, const struct lang_use *use, unsigned component, struct text *out)
+{
+    for (const char *p = form; *p; p++) {
+        if (*p != '$') {
+            text_char(out, *p);
+            continue;
+        }
+        p++;
+        if (*p == 'T') {
+            text_str(out, type_name(scalar_of(use->type)));
+            continue;
+        }
+        unsigned index = (unsigned)(*p - '0');
+        text_char(out, (char)('a' + index));
+        if (components(use->operands[index]) > 1)
+            text_fmt(out, ".%c", parts[component]);
+    }
+}
+
+/* "vector2 min(vector2 a, float b)\n{\n    return vector2(min(a.x, b), min(a.y, b));\n}\n" */
+static void write_component_function(const char *name, const struct lang_use *use, const struct lang_pieces *scalar, struct text *out)
+{
+    text_fmt(out, "%s %s(", type_name(use->type), name);
+    for (unsigned i = 0; i < use->num_operands; i++)
+        text_fmt(out, "%s%s %c", i ? ", " : "", type_name(use->operands[i]), (char)('a' + i));
+    text_fmt(out, ")\n{\n    return %s(", type_name(use->type));
+    for (unsigned i = 0; i < components(use->type); i++) {
+        text_str(out, i ? ", " : "");
+        write_part(scalar->text, use, i, out);
+    }
+    text_str(out, ");\n}\n");
+}
+
+static const struct lang_pieces *component_form(struct osl *osl, const struct lang_use *use)
+{
+    ir_type_id scalars[16];
+    struct lang_use each = *use;
+    each.type = scalar_of(use->type);
+    each.operands = scalars;
+    each.node = 0;
+    for (unsigned i = 0; i < use->num_operands; i++)
+        scalars[i] = scalar_of(use->operands[i]);
+    const struct lang_pieces *scalar = osl_form(osl->spell, &each);
+    if (!scalar)
+        scalar = usual_form(osl, use->op);
+    if (!scalar || !scalar->text)
+        return NULL;
+    const char *word = operator_word(use->op), *name = word ? word : function_name(osl, use->op, scalar);
+    struct text text;
+    text_init(&text, osl->spell->scratch);
+    write_component_function(name, use, scalar, &text);
+    const char *body = text_cstr(&text);
+    add_helper(osl, body, body);
+    return word ? usual_form(osl, use->op) : call_form(osl, name, use->num_operands, NULL);
+}
+
+/* ---- Taking apart and putting together ---- */
+
+/* "$0.x", "vector2($0.y, $0.x)"; of something that is no variable, by a function. */
+static const struct lang_pieces *swizzle_form(struct osl *osl, const struct lang_use *use)
+{
+    unsigned count = use->attr >> 8;
+    bool named = use->named & 1, is_color = use->node && osl->kinds[ir_arg(osl->spell->shader->graph, use->node, 0)] == OSL_COLOR;
+    struct text text, name;
+    text_init(&text, osl->spell->scratch);
+    text_init(&name, osl->spell->scratch);
+    const char *letters = is_color && named ? "rgba" : "xyzw", *whole = named ? "$0" : "v";
+    if (count > 1)
+        text_fmt(&text, "%s(", type_name(use->type));
+    for (unsigned i = 0; i < count; i++) {
+        unsigned index = use->attr >> 2 * i & 3;
+        text_fmt(&text, "%s%s.%c", i ? ", " : "", whole, letters[index]);
+        text_char(&name, parts[index]);
+    }
+    if (count > 1)
+        text_char(&text, ')');
+    if (named)
+        return form_of(osl, text_cstr(&text), LANG_PREC_POSTFIX);
+    struct text function;
+    text_init(&function, osl->spell->scratch);
+    text_fmt(&function, "%s %s_of(%s v)\n{\n    return %s;\n}\n", type_name(use->type), text_cstr(&name),
+             type_name(use->operands[0]), text_cstr(&text));
+    add_helper(osl, text_cstr(&function), text_cstr(&function));
+    text_str(&name, "_of");
+    return call_form(osl, text_cstr(&name), 1, NULL);
+}
+
+/* The parts of all operands in a row: of "$0", "$1"… where they are `named`, else of the parameters a, b… */
+static void write_parts(const struct lang_use *use, bool named, struct text *out)
+{
+    unsigned left = components(use->type), wanted = use->num_operands == 1 ? 1 : left;
+    for (unsigned i = 0; i < use->num_operands; i++) {
+        unsigned n = components(use->operands[i]);
+        for (unsigned k = 0; k < n && left; k++, left--) {
+            text_str(out, left == components(use->type) ? "" : ", ");
+            text_fmt(out, named ? "$%u" : "%c", named ? i : 'a' + i);
+            if (n > 1)
+                text_fmt(out, ".%c", parts[k]);
+        }
+    }
+    for (; wanted == 1 && left && components(use->operands[0]) == 1; left--) /* one scalar fills all */
+        text_str(out, named ? ", $0" : ", a");
+}
+
+static bool all_named(const struct lang_use *use)
+{
+    for (unsigned i = 0; i < use->num_operands; i++)
+        if (components(use->operands[i]) > 1 && !(use->named >> i & 1))
+            return false;
+    return use->num_operands > 1 || (use->named & 1);
+}
+
+static const struct lang_pieces *construct_form(struct osl *osl, const struct lang_use *use)
+{
+    if (use->type == IR_TYPE_MAT3 && use->num_operands == 9)
+        return form_of(osl, "matrix($0, $1, $2, 0, $3, $4, $5, 0, $6, $7, $8, 0, 0, 0, 0, 1)", LANG_PREC_POSTFIX);
+    if (!is_vector(use->type))
+        return NULL;
+    bool scalars = use->num_operands == components(use->type) || (use->type == IR_TYPE_VEC3 && use->num_operands == 1);
+    for (unsigned i = 0; i < use->num_operands; i++)
+        scalars &= components(use->operands[i]) == 1;
+    if (scalars)
+        return NULL;
+    struct text text;
+    text_init(&text, osl->spell->scratch);
+    if (all_named(use)) {
+        text_fmt(&text, "%s(", type_name(use->type));
+        write_parts(use, true, &text);
+        text_char(&text, ')');
+        return form_of(osl, text_cstr(&text), LANG_PREC_POSTFIX);
+    }
+    struct text name;
+    text_init(&name, osl->spell->scratch);
+    text_fmt(&name, "make_%s", type_name(use->type));
+    text_fmt(&text, "%s %s(", type_name(use->type), text_cstr(&name));
+    for (unsigned i = 0; i < use->num_operands; i++)
+        text_fmt(&text, "%s%s %c", i ? ", " : "", type_name(use->operands[i]), (char)('a' + i));
+    text_fmt(&text, ")\n{\n    return %s(", type_name(use->type));
+    write_parts(use, false, &text);
+    text_str(&text, ");\n}\n");
+    add_helper(osl, text_cstr(&text), text_cstr(&text));
+    return call_form(osl, text_cstr(&name), use->num_operands, NULL);
+}
+
+static const struct lang_pieces *convert_form(struct osl *osl, const struct lang_use *use)
+{
+    ir_type_id from = use->operands[0], to = use->type;
+    if (to == IR_TYPE_BOOL)
+        return form_of(osl, from == IR_TYPE_BOOL ? "$0" : "$0 != 0", from == IR_TYPE_BOOL ? LANG_PREC_ASSIGN : LANG_PREC_EQUAL);
+    if (components(from) == 1 && strcmp(type_name(from), type_name(to)) == 0)
+        return form_of(osl, "$0", LANG_PREC_ASSIGN); /* between int, uint and bool */
+    if (from == IR_TYPE_MAT3 && to == IR_TYPE_MAT4)
+        return form_of(osl, "$0", LANG_PREC_ASSIGN);
+    if (is_vector(from) && is_vector(to) && scalar_of(from) == scalar_of(to)) { /* cut */
+        struct lang_use cut = *use;
+        cut.op = IR_SWIZZLE;
+        cut.attr = components(to) << 8 | 0xe4; /* xyzw */
+        return swizzle_form(osl, &cut);
+    }
+    if (is_vector(from) && is_vector(to)) /* ivec2 and vec2 */
+        return component_form(osl, use);
+    return is_struct(to) || (to == IR_TYPE_VEC3 && from != IR_TYPE_FLOAT) ? construct_form(osl, use) : NULL;
+}
+
+static const struct lang_pieces *index_form(struct osl *osl, const struct lang_use *use)
+{
+    ir_type_id whole = use->operands[0];
+    if (whole >= IR_NUM_TYPES || (whole == IR_TYPE_VEC3 && use->named & 1))
+        return NULL; /* arrays, and `v[i]` */
+    const struct helper_row *row = find_helper(use);
+    return row ? helper_form(osl, row, use) : NULL;
+}
+
+/* A row vector times a matrix in OSL is ours times a column vector; products of matrices turn around. */
+static const struct lang_pieces *product_form(struct osl *osl, const struct lang_use *use)
+{
+    ir_type_id a = use->operands[0], b = use->operands[1];
+    if (ir_type_is_matrix(a) && ir_type_is_matrix(b))
+        return form_of(osl, "$1 * $0", LANG_PREC_POSTFIX);
+    if (a == IR_TYPE_MAT3 && b == IR_TYPE_VEC3)
+        return form_of(osl, "transform($0, $1)", LANG_PREC_POSTFIX);
+    if (a == IR_TYPE_VEC3 && b == IR_TYPE_MAT3)
+        return form_of(osl, "transform(transpose($1), $0)", LANG_PREC_POSTFIX);
+    if (a == IR_TYPE_VEC4 && b == IR_TYPE_MAT4) {
+        ir_type_id turned[2] = {b, a};
+        struct lang_use transform = *use;
+        transform.operands = turned;
+        add_helper(osl, find_helper(&transform)->text, find_helper(&transform)->text);
+        return form_of(osl, "transform(transpose($1), $0)", LANG_PREC_POSTFIX);
+    }
+    return NULL;
+}
+
+/* ---- Entry ---- */
+
+static bool touches_struct(const struct lang_use *use)
+{
+    bool any = is_struct(use->type);
+    for (unsigned i = 0; i < use->num_operands; i++)
+        any |= is_struct(use->operands[i]);
+    return any;
+}
+
+/* Operations of vectors and normals that OSL does not have for colours and points. */
+static bool wants_vectors(enum ir_op op)
+{
+    return op == IR_DOT || op == IR_LENGTH || op == IR_DISTANCE || op == IR_CROSS || op == IR_NORMALIZE || op == IR_REFLECT
+           || op == IR_REFRACT || op == IR_FACEFORWARD;
+}
+
+static enum osl_kind operand_kind(const struct osl *osl, const struct lang_use *use, unsigned index)
+{
+    if (!use->node || use->operands[index] != IR_TYPE_VEC3)
+        return OSL_ANY;
+    return (enum osl_kind)osl->kinds[ir_arg(osl->spell->shader->graph, use->node, index)];
+}
+
+/* The type that an operand must be cast to, lest a call mixes colours and vectors; NULL: it may stay. */
+static const char *cast_of(const struct osl *osl, const struct lang_use *use, unsigned index)
+{
+    enum osl_kind have = operand_kind(osl, use, index);
+    if (wants_vectors(use->op))
+        return have == OSL_COLOR || have == OSL_POINT ? "vector" : NULL;
+    bool is_color = use->node && osl->kinds[use->node] == OSL_COLOR;
+    bool is_call = ir_op_info(use->op)->flags & OP_BUILTIN || use->op == IR_SELECT;
+    if (use->op == IR_CLOSURE_SCALE || use->op == IR_CLOSURE_MIX)
+        is_color = is_call = true;
+    return is_call && is_color && (have == OSL_VECTOR || have == OSL_POINT) ? "color" : NULL;
+}
+
+/* "dot(vector($0), $1)"; NULL: no operand is cast. */
+static const struct lang_pieces *cast_form(struct osl *osl, const struct lang_use *use)
+{
+    const struct lang_pieces *own = usual_form(osl, use->op);
+    bool any = false;
+    for (unsigned i = 0; i < use->num_operands; i++)
+        any |= cast_of(osl, use, i) != NULL;
+    if (!any || !own)
+        return NULL;
+    struct text text;
+    text_init(&text, osl->spell->scratch);
+    for (const char *p = own->text; *p; p++) {
+        const char *cast = *p == '$' ? cast_of(osl, use, (unsigned)(p[1] - '0')) : NULL;
+        if (cast) {
+            text_fmt(&text, "%s($%c)", cast, p[1]);
+            p++;
+        } else {
+            text_char(&text, *p);
+        }
+    }
+    return form_of(osl, text_cstr(&text), (enum lang_precedence)own->precedence);
+}
+
+/* A colour made of numbers: "color(1.0)", "color($0, $1, $2)"; NULL: it is a vector. */
+static const struct lang_pieces *color_form(struct osl *osl, const struct lang_use *use)
+{
+    if (use->type != IR_TYPE_VEC3 || !use->node || osl->kinds[use->node] != OSL_COLOR)
+        return NULL;
+    struct text text;
+    text_init(&text, osl->spell->scratch);
+    struct ir_value value;
+    if (ir_get_const(osl->spell->shader->graph, use->node, &value)) {
+        lang_print_value(osl->spell->style, NULL, value.type, value.w, LANG_PREC_COMMA, &text);
+        const char *parts_of_value = text_cstr(&text) + strlen("vector");
+        struct text literal;
+        text_init(&literal, osl->spell->scratch);
+        text_fmt(&literal, "color%s", parts_of_value);
+        return form_of(osl, text_cstr(&literal), LANG_PREC_POSTFIX);
+    }
+    bool scalars = use->num_operands == 1 || use->num_operands == 3;
+    for (unsigned i = 0; i < use->num_operands; i++)
+        scalars &= components(use->operands[i]) == 1;
+    return scalars ? call_form(osl, "color", use->num_operands, NULL) : NULL;
+}
+
+const struct lang_pieces *osl_form(void *user_data, const struct lang_use *use)
+{
+    struct osl *osl = ((struct spell *)user_data)->target_data;
+    bool makes = use->op == IR_CONST || use->op == IR_CONVERT || use->op == IR_CONSTRUCT;
+    const struct lang_pieces *color = makes ? color_form(osl, use) : NULL;
+    if (color || use->op == IR_CONST)
+        return color;
+    const struct lang_pieces *product = use->op == IR_MUL ? product_form(osl, use) : NULL;
+    if (product)
+        return product;
+    if (use->op == IR_SWIZZLE)
+        return swizzle_form(osl, use);
+    if (use->op == IR_INDEX)
+        return index_form(osl, use);
+    if (use->op == IR_MEMBER)
+        return NULL;
+    const struct helper_row *row = find_helper(use);
+    if (row)
+        return helper_form(osl, row, use);
+    if (use->op == IR_CONSTRUCT)
+        return construct_form(osl, use);
+    if (use->op == IR_CONVERT)
+        return convert_form(osl, use);
+    bool by_component = touches_struct(use) || (use->op == IR_ROUND && use->type == IR_TYPE_VEC3);
+    if (by_component)
+        return component_form(osl, use);
+    return cast_form(osl, use);
+}
+
+/* Structs and small matrices, in which every part is written. */
+bool osl_write_value(const struct lang_style *style, ir_type_id type, const union ir_word *words, struct text *out)
+{
+    if (!is_struct(type) && type != IR_TYPE_MAT3)
+        return false;
+    const struct ir_type_info *info = ir_type_info(type);
+    text_fmt(out, "%s(", type_name(type));
+    for (unsigned i = 0; i < info->components; i++) {
+        text_str(out, i ? ", " : "");
+        lang_print_value(style, NULL, info->scalar, &words[i], LANG_PREC_COMMA, out);
+        if (type == IR_TYPE_MAT3 && i % 3 == 2)
+            text_str(out, ", 0");
+    }
+    text_str(out, type == IR_TYPE_MAT3 ? ", 0, 0, 0, 1)" : ")");
+    return true;
+}

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * Which of the graph's vec3 are colours. OSL tells colours, vectors and points apart, and warns of calls that mix them. One pass upwards:
+ * what comes from a colour is one. One pass downwards: what could be anything, a literal for the most part, is what it is used for.
+ */
+#include "generators/osl/osl.h"
+
+static bool is_triple(const struct ir_graph *graph, ir_ref ref)
+{
+    return ref && ir_type_of(graph, ref) == IR_TYPE_VEC3;
+}
+
+/* These give a direction, or what functions of the library return, whatever goes in. */
+static bool gives_vector(enum ir_op op)
+{
+    return op == IR_NORMALIZE || op == IR_CROSS || op == IR_REFLECT || op == IR_REFRACT || op == IR_FACEFORWARD || op == IR_CALL
+           || op == IR_GRAPH_CALL || op == IR_VERBATIM || op == IR_RESULT || op == IR_SWIZZLE || op == IR_INDEX || op == IR_MEMBER;
+}
+
+static enum osl_kind kind_of_variable(const struct osl *osl, uint32_t index)
+{
+    const struct shader_variable *variable = &osl->spell->shader->variables.items[index];
+    const char *spelled = osl->spell->variables[index]; /* NULL: nothing reads it */
+    if (spelled && strcmp(spelled, "P") == 0)
+        return OSL_POINT;
+    return strcmp(str_text(osl->spell->shader->strings, variable->doc_type), "color3") == 0 ? OSL_COLOR : OSL_VECTOR;
+}
+
+static enum osl_kind kind_of(const struct osl *osl, ir_ref ref)
+{
+    const struct ir_graph *graph = osl->spell->shader->graph;
+    const struct ir_node *node = ir_get(graph, ref);
+    if (node->op == IR_UNIFORM || node->op == IR_STREAM)
+        return kind_of_variable(osl, node->attr);
+    if (gives_vector(node->op) || (node->num_args == 0 && node->op != IR_CONST))
+        return OSL_VECTOR;
+    enum osl_kind kind = OSL_ANY;
+    for (uint32_t i = 0; i < node->num_args; i++) {
+        ir_ref arg = ir_arg(graph, ref, i);
+        if (!is_triple(graph, arg) || osl->kinds[arg] == OSL_ANY)
+            continue;
+        if (osl->kinds[arg] == OSL_COLOR)
+            return OSL_COLOR;
+        kind = OSL_VECTOR;
+    }
+    return kind;
+}
+
+/* What an operation does with operands that could be anything. */
+static enum osl_kind wanted_kind(const struct osl *osl, ir_ref user)
+{
+    const struct ir_graph *graph = osl->spell->shader->graph;
+    const struct ir_node *node = ir_get(graph, user);
+    if (node->op >= IR_LEAF)
+        return OSL_COLOR;
+    return is_triple(graph, user) && !gives_vector(node->op) ? (enum osl_kind)osl->kinds[user] : OSL_ANY;
+}
+
+void osl_find_kinds(struct osl *osl)
+{
+    const struct ir_graph *graph = osl->spell->shader->graph;
+    osl->kinds = ARENA_ARRAY(osl->spell->scratch, uint8_t, graph->nodes.len);
+    for (ir_ref ref = 1; ref < graph->nodes.len; ref++)
+        osl->kinds[ref] = (uint8_t)(is_triple(graph, ref) ? kind_of(osl, ref) : OSL_ANY);
+    for (ir_ref ref = graph->nodes.len; ref-- > 1;) {
+        const struct ir_node *node = ir_get(graph, ref);
+        enum osl_kind wanted = wanted_kind(osl, ref);
+        for (uint32_t i = 0; i < node->num_args && wanted != OSL_ANY; i++) {
+            ir_ref arg = ir_arg(graph, ref, i);
+            if (is_triple(graph, arg) && osl->kinds[arg] == OSL_ANY)
+                osl->kinds[arg] = (uint8_t)wanted;
+        }
+    }
+}
+
+const char *osl_node_type(const struct spell *spell, ir_ref ref)
+{
+    const struct osl *osl = spell->target_data;
+    return is_triple(spell->shader->graph, ref) && osl->kinds[ref] == OSL_COLOR ? "color" : NULL;
+}

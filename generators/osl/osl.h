@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+/* Shared by the files of this target. */
+#ifndef MXG_GENERATORS_OSL_H
+#define MXG_GENERATORS_OSL_H
+
+#include "spell/spell.h"
+
+extern const struct lang_syntax osl_syntax;
+extern const struct target target_osl;
+
+struct osl_helper { /* a function that the file declares for itself */
+    const char *key;  /* what it is known by: name and types */
+    const char *text;
+};
+
+/* What is known while a file is written. */
+struct osl {
+    struct spell *spell;
+    uint8_t *kinds;   /* per node of three components: enum osl_kind */
+    VEC(struct osl_helper) helpers; /* callees first */
+};
+
+/* The IR's vec3 is OSL's `vector`, or `color` where a colour is known to be in it; P is a `point`. */
+enum osl_kind { OSL_ANY, OSL_VECTOR, OSL_COLOR, OSL_POINT };
+
+/* kinds.c */
+void osl_find_kinds(struct osl *osl);
+const char *osl_node_type(const struct spell *spell, ir_ref ref); /* "color"; NULL: as its type says */
+
+/* forms.c: lang_names.form; `user_data` is the spell, whose target_data the osl. */
+const struct lang_pieces *osl_form(void *user_data, const struct lang_use *use);
+bool osl_write_value(const struct lang_style *style, ir_type_id type, const union ir_word *words, struct text *out);
+
+/* parameters.c */
+void osl_name_interface(struct osl *osl);
+void osl_write_parameters(struct osl *osl);
+void osl_write_streams(struct osl *osl);
+
+#endif

@@ -1,0 +1,359 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * Closures as the target's own, for languages that have some: the tree stays. Leaves become calls of the target's closures, by the rows
+ * that it gives (closure.h), and shaders become one closure:
+ *
+ *     surface(bsdf, edf, opacity)   mix(transparent, bsdf + edf, opacity)
+ *
+ * Everything is a node that is older than its users, so one pass upwards rewrites the tree.
+ */
+#include "closure/closure_priv.h"
+
+struct tree {
+    struct shader *shader;
+    struct ir_graph *graph;
+    const struct closure_host *host;
+    ir_ref *of; /* per node of closure or shader type: what became of it; 0: nothing */
+    bool unknown; /* some leaf has no row */
+};
+
+/* ---- Arguments ---- */
+
+/* The operand of a leaf by the name of its input; 0: there is none. */
+static ir_ref input(const struct tree *t, ir_ref leaf, const char *name, size_t len)
+{
+    const struct ir_node *node = ir_get(t->graph, leaf);
+    for (unsigned i = 0; i + 1 < node->num_args; i++) {
+        const char *have = t->host->leaf_input(t->host->user_data, node->attr, i);
+        if (have && strlen(have) == len && memcmp(have, name, len) == 0)
+            return ir_arg(t->graph, leaf, i + 1);
+    }
+    return 0;
+}
+
+static bool is_string(const struct tree *t, ir_ref value, const char *text)
+{
+    struct ir_value constant;
+    return value && ir_get_const(t->graph, value, &constant) && constant.type == IR_TYPE_STRING
+           && strcmp(str_text(t->shader->strings, constant.w[0].u), text) == 0;
+}
+
+/* A tint that counts where the leaf's scatter mode is not `unless`; black elsewhere. */
+static ir_ref scattered(struct tree *t, ir_ref leaf, ir_ref tint, const char *unless)
+{
+    return is_string(t, input(t, leaf, "scatter_mode", 12), unless) ? ir_const_splat(t->graph, IR_TYPE_VEC3, 0.0f) : tint;
+}
+
+/*
+ * One word of a row: an input's name, perhaps with a part (".x", ".y"), or with a direction in which the light is scattered
+ * (".reflected", ".transmitted"), "white" as a tint; or a constant: a digit, or text in quotes.
+ */
+static ir_ref argument(struct tree *t, ir_ref leaf, const char *word, size_t len)
+{
+    if (word[0] >= '0' && word[0] <= '9')
+        return ir_const_int(t->graph, word[0] - '0');
+    if (word[0] == '\'')
+        return ir_const_string(t->graph, str_intern(t->shader->strings, word + 1, len - 2));
+    const char *dot = memchr(word, '.', len);
+    size_t name_len = dot ? (size_t)(dot - word) : len;
+    bool is_white = name_len == 5 && memcmp(word, "white", 5) == 0;
+    ir_ref value = is_white ? ir_const_splat(t->graph, IR_TYPE_VEC3, 1.0f) : input(t, leaf, word, name_len);
+    if (!dot || !value)
+        return value;
+    if (dot[1] == 'r')
+        return scattered(t, leaf, value, "T");
+    if (dot[1] == 't')
+        return scattered(t, leaf, value, "R");
+    return ir_component(t->graph, value, dot[1] == 'x' ? 0 : 1);
+}
+
+struct arguments {
+    ir_ref refs[32];
+    unsigned count;
+};
+
+static void add_words(struct tree *t, ir_ref leaf, const char *words, struct arguments *out)
+{
+    while (*words && out->count < 32) {
+        size_t len = strcspn(words, " ");
+        ir_ref value = argument(t, leaf, words, len);
+        assert(value);
+        out->refs[out->count++] = value;
+        words += len + (words[len] == ' ');
+    }
+}
+
+/* ---- Leaves ---- */
+
+static ir_ref call(struct tree *t, const char *name, ir_type_id type, const ir_ref *args, unsigned n)
+{
+    str_id id = str_intern_z(t->shader->strings, name);
+    uint32_t callee = ir_add_callee(t->graph, (struct ir_callee){.id = (uint64_t)3 << 32 | id, .name = id});
+    t->shader->num_closures++;
+    return ir_build(t->graph, IR_LEAF, type, callee, args, n);
+}
+
+static ir_ref scaled(struct tree *t, ir_ref closure, ir_ref factor)
+{
+    ir_ref args[2] = {closure, factor};
+    if (!closure || !factor || ir_const_is(t->graph, factor, 1.0f))
+        return closure;
+    if (ir_const_is(t->graph, factor, 0.0f))
+        return 0;
+    return ir_build(t->graph, IR_CLOSURE_SCALE, ir_type_of(t->graph, closure), 0, args, 2);
+}
+
+/* Does an option of a row say anything? Its first input is 0, false or the usual word where it does not. */
+static bool is_wanted(const struct tree *t, ir_ref leaf, const struct closure_option *option)
+{
+    ir_ref value = input(t, leaf, option->input, strlen(option->input));
+    if (!value || ir_const_is(t->graph, value, 0.0f))
+        return false;
+    struct ir_value constant;
+    if (!ir_get_const(t->graph, value, &constant))
+        return true;
+    return constant.type == IR_TYPE_STRING ? is_string(t, value, option->unless) : constant.w[0].u != 0;
+}
+
+static ir_ref row_call(struct tree *t, ir_ref leaf, const struct closure_row *row)
+{
+    struct arguments args = {.count = 0};
+    add_words(t, leaf, row->arguments, &args);
+    for (const struct closure_option *option = row->options; option && option->input; option++)
+        if (is_wanted(t, leaf, option))
+            add_words(t, leaf, option->arguments, &args);
+    return call(t, row->closure, ir_type_of(t->graph, leaf), args.refs, args.count);
+}
+
+/* Emission and media are what the leaf's own functions give for the view at hand. */
+static ir_ref emission(struct tree *t, ir_ref leaf)
+{
+    ir_ref radiance = closure_call(t->shader, t->host, leaf, LEAF_EMISSION, NULL);
+    return radiance ? call(t, t->host->rows->emission, IR_TYPE_EDF, &radiance, 1) : 0;
+}
+
+static ir_ref medium(struct tree *t, ir_ref leaf)
+{
+    struct ir_graph *g = t->graph;
+    ir_ref zero = ir_const_splat(g, IR_TYPE_VEC3, 0.0f);
+    ir_ref absorption = closure_call(t->shader, t->host, leaf, LEAF_ABSORPTION, NULL);
+    ir_ref scattering = closure_call(t->shader, t->host, leaf, LEAF_SCATTERING, NULL);
+    ir_ref anisotropy = closure_call(t->shader, t->host, leaf, LEAF_ANISOTROPY, NULL);
+    absorption = absorption ? absorption : zero;
+    ir_ref extinction = scattering ? ir_op2(g, IR_ADD, absorption, scattering) : absorption;
+    ir_ref albedo = scattering ? ir_op2(g, IR_DIV, scattering, extinction) : zero;
+    ir_ref args[3] = {albedo, extinction, anisotropy ? anisotropy : ir_const_float(g, 0.0f)};
+    return call(t, t->host->rows->medium, IR_TYPE_VDF, args, 3);
+}
+
+static ir_ref leaf_call(struct tree *t, ir_ref leaf)
+{
+    const struct ir_node node = *ir_get(t->graph, leaf);
+    const uint32_t *functions = t->host->leaf_functions(t->host->user_data, node.attr);
+    if (functions[LEAF_FACTOR] != LANG_NONE)
+        return scaled(t, t->of[ir_arg(t->graph, leaf, node.num_args - 1)], closure_call(t->shader, t->host, leaf, LEAF_FACTOR, NULL));
+    const char *family = str_text(t->shader->strings, t->graph->callees.items[node.attr].name);
+    ir_ref result = 0;
+    const struct closure_row *row = t->host->rows->rows;
+    while (row->family && strcmp(row->family, family) != 0)
+        row++;
+    if (row->family)
+        result = row_call(t, leaf, row);
+    else if (node.type == IR_TYPE_EDF)
+        result = emission(t, leaf);
+    else if (node.type == IR_TYPE_VDF)
+        result = medium(t, leaf);
+    else
+        t->unknown = true;
+    return scaled(t, result, ir_arg(t->graph, leaf, 0));
+}
+
+/* ---- Operators and shaders ---- */
+
+static ir_ref sum(struct tree *t, ir_ref a, ir_ref b)
+{
+    ir_ref args[2] = {a, b};
+    if (!a || !b)
+        return a ? a : b;
+    return ir_build(t->graph, IR_CLOSURE_ADD, ir_type_of(t->graph, a), 0, args, 2);
+}
+
+static ir_ref mixed(struct tree *t, ir_ref bg, ir_ref fg, ir_ref mix)
+{
+    ir_ref args[3] = {bg, fg, mix};
+    if (ir_const_is(t->graph, mix, 0.0f) || bg == fg)
+        return bg;
+    if (ir_const_is(t->graph, mix, 1.0f))
+        return fg;
+    if (!bg)
+        return scaled(t, fg, mix);
+    if (!fg)
+        return scaled(t, bg, closure_one_minus(t->graph, mix));
+    return ir_build(t->graph, IR_CLOSURE_MIX, ir_type_of(t->graph, bg), 0, args, 3);
+}
+
+static ir_ref layered(struct tree *t, ir_ref top, ir_ref base)
+{
+    ir_ref args[2] = {top, base};
+    if (!top || !base)
+        return top ? top : base;
+    return ir_build(t->graph, IR_LAYER, IR_TYPE_BSDF, 0, args, 2);
+}
+
+static ir_ref transparent(struct tree *t)
+{
+    return call(t, t->host->rows->transparent, IR_TYPE_BSDF, NULL, 0);
+}
+
+static ir_ref seen_through(struct tree *t, ir_ref closure, ir_ref opacity)
+{
+    if (!opacity || ir_const_is(t->graph, opacity, 1.0f))
+        return closure;
+    t->shader->transparent = true;
+    return mixed(t, transparent(t), closure, opacity);
+}
+
+static ir_ref unlit(struct tree *t, ir_ref emitted, ir_ref transmitted, ir_ref opacity)
+{
+    ir_ref color = ir_convert(t->graph, IR_TYPE_VEC3, emitted);
+    ir_ref glow = call(t, t->host->rows->emission, IR_TYPE_EDF, &color, 1), through = 0;
+    if (!ir_const_is(t->graph, transmitted, 0.0f)) {
+        t->shader->transparent = true;
+        through = scaled(t, transparent(t), ir_convert(t->graph, IR_TYPE_VEC3, transmitted));
+    }
+    return seen_through(t, sum(t, glow, through), opacity);
+}
+
+/* intensity · 2^exposure of what is emitted */
+static ir_ref light(struct tree *t, ir_ref edf, ir_ref intensity, ir_ref exposure)
+{
+    ir_ref scale = ir_op2(t->graph, IR_MUL, intensity, ir_op1(t->graph, IR_EXP2, exposure));
+    return scaled(t, edf, scale);
+}
+
+static ir_ref rewrite(struct tree *t, ir_ref ref)
+{
+    ir_ref a[4] = {0};
+    const struct ir_node *node = ir_get(t->graph, ref);
+    if (node->op == IR_LEAF)
+        return leaf_call(t, ref);
+    memcpy(a, ir_args(t->graph, ref), (node->num_args < 4 ? node->num_args : 4) * sizeof *a);
+    switch (node->op) {
+    case IR_LAYER:
+        return layered(t, t->of[a[0]], t->of[a[1]]);
+    case IR_CLOSURE_MIX:
+    case IR_SHADER_MIX:
+        return mixed(t, t->of[a[0]], t->of[a[1]], a[2]);
+    case IR_CLOSURE_ADD:
+        return sum(t, t->of[a[0]], t->of[a[1]]);
+    case IR_CLOSURE_SCALE:
+        return scaled(t, t->of[a[0]], a[1]);
+    case IR_SURFACE_SHADER:
+        return seen_through(t, sum(t, t->of[a[0]], t->of[a[1]]), a[2]);
+    case IR_SURFACE_UNLIT:
+        return unlit(t, a[0], a[1], a[2]);
+    case IR_VOLUME_SHADER:
+        return sum(t, t->of[a[0]], t->of[a[1]]);
+    case IR_LIGHT_SHADER:
+        return light(t, t->of[a[0]], a[1], a[2]);
+    default:
+        return 0;
+    }
+}
+
+static ir_ref closure_of(struct tree *t, ir_ref root)
+{
+    if (!root)
+        return 0;
+    t->of = ARENA_ARRAY(t->shader->arena, ir_ref, root + 1);
+    uint8_t *needed = ir_mark(t->graph, &root, 1, t->shader->arena);
+    uint32_t before = t->graph->origin;
+    for (ir_ref ref = 1; ref <= root; ref++) {
+        if (!needed[ref] || !(ir_get(t->graph, ref)->flags & IR_NODE_CLOSURE))
+            continue;
+        t->graph->origin = ir_get(t->graph, ref)->origin;
+        t->of[ref] = rewrite(t, ref);
+    }
+    t->graph->origin = before;
+    return t->of[root];
+}
+
+/* ---- Effects ---- */
+
+static void effect(struct tree *t, enum effect_kind kind, uint32_t index, ir_ref value)
+{
+    shader_effect(t->shader, STAGE_PIXEL, (struct effect){.kind = (uint8_t)kind, .index = index, .value = value});
+}
+
+static uint32_t output(struct tree *t, const char *name, ir_type_id type, str_id doc_type)
+{
+    str_id id = str_intern_z(t->shader->strings, name);
+    return shader_add_variable(t->shader, &(struct shader_variable){.name = id, .block = BLOCK_OUTPUTS, .type = type,
+                                                                    .doc_type = doc_type});
+}
+
+/* No closure at all is black. */
+static ir_ref or_black(struct tree *t, ir_ref closure)
+{
+    ir_ref black = ir_const_splat(t->graph, IR_TYPE_VEC3, 0.0f);
+    return closure ? closure : call(t, t->host->rows->emission, IR_TYPE_EDF, &black, 1);
+}
+
+static void emit_sides(struct tree *t, ir_ref front, ir_ref back)
+{
+    struct ir_graph *g = t->graph;
+    uint32_t out = output(t, t->host->rows->output, IR_TYPE_BSDF, 0);
+    front = or_black(t, closure_of(t, front));
+    if (!back) {
+        effect(t, EFFECT_OUTPUT, out, front);
+        return;
+    }
+    str_id name = str_intern_z(t->shader->strings, "u_backfacing");
+    ir_ref behind = shader_read(t->shader, shader_private_uniform(t->shader, name, IR_TYPE_BOOL, 0));
+    back = or_black(t, closure_of(t, back));
+    effect(t, EFFECT_IF, 0, ir_op1(g, IR_NOT, behind));
+    effect(t, EFFECT_OUTPUT, out, front);
+    effect(t, EFFECT_END, 0, 0);
+    effect(t, EFFECT_IF, 0, behind);
+    effect(t, EFFECT_OUTPUT, out, back);
+    effect(t, EFFECT_END, 0, 0);
+}
+
+static bool emit_value(struct tree *t, ir_ref root)
+{
+    ir_type_id type = ir_type_of(t->graph, root);
+    if (type >= IR_NUM_TYPES || type == IR_TYPE_SAMPLER || type == IR_TYPE_VOID)
+        return false;
+    t->shader->kind = SHADER_VALUE;
+    effect(t, EFFECT_OUTPUT, output(t, "out", type, t->shader->value_type), root);
+    return true;
+}
+
+/* What is shaded is seen along a ray, which such languages know. */
+static ir_ref view(struct shader *shader)
+{
+    str_id name = str_intern_z(shader->strings, "u_incident");
+    ir_ref incident = shader_read(shader, shader_private_uniform(shader, name, IR_TYPE_VEC3, 0));
+    return ir_op1(shader->graph, IR_NEG, ir_op1(shader->graph, IR_NORMALIZE, incident));
+}
+
+bool closure_emit_tree(struct shader *shader, const struct closure_host *host, ir_ref root)
+{
+    host->point->view = view(shader);
+    struct tree t = {.shader = shader, .graph = shader->graph, .host = host};
+    ir_ref front = root, back = 0;
+    if (root && ir_get(t.graph, root)->op == IR_MATERIAL) {
+        front = ir_arg(t.graph, root, 0);
+        back = ir_arg(t.graph, root, 1);
+        if (!front)
+            front = ir_arg(t.graph, root, 3);
+    }
+    ir_type_id type = front ? ir_type_of(t.graph, front) : IR_TYPE_SURFACE;
+    if (!ir_type_is_closure(type) && !ir_type_is_shader(type))
+        return emit_value(&t, front);
+    if (type == IR_TYPE_DISPLACEMENT)
+        return false;
+    shader->kind = type == IR_TYPE_VOLUME || type == IR_TYPE_VDF ? SHADER_VOLUME : SHADER_SURFACE;
+    emit_sides(&t, front, back);
+    return !t.unknown;
+}
