@@ -57,6 +57,7 @@ struct builder *build_start(const struct library *lib, const struct build_option
     b->document->node = lib->doc.root;
     b->document->num_slots = lib->doc.elements.len;
     b->document->slots = ARENA_ARRAY(b->arena, uint32_t, lib->doc.elements.len);
+    build_check_colorspace(b);
     return b;
 }
 

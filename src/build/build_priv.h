@@ -64,6 +64,7 @@ struct builder {
     uint32_t memo_mask;
     VEC(ir_ref) geomprops;      /* value per geomprop name, in pairs (name, ref) */
     ir_ref missing_texel;       /* what the node at hand reads where its image has no tile */
+    bool has_colorspace;        /* the option names a space that the library converts to */
     bool cancelled;
 };
 
@@ -114,6 +115,8 @@ str_id build_input_path(struct builder *b, elem_id node, str_id input, elem_id e
 
 /* color.c: from `space` to the working space, by the library's transform nodes; value of a color3 or color4. */
 ir_ref build_color_transform(struct builder *b, ir_ref value, doc_type type, str_id space, struct diag_place place);
+/* Told where the option names a space that nothing converts to. */
+void build_check_colorspace(struct builder *b);
 /* The colour space that is said for an element, itself or around; 0: none, or the working one. */
 str_id build_colorspace(struct builder *b, elem_id element);
 

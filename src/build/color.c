@@ -66,52 +66,71 @@ str_id build_colorspace(struct builder *b, elem_id element)
     return space == STR_none || space == b->options->colorspace ? 0 : space;
 }
 
-/* "lin_rec709, srgb_texture, …": what the library can convert to the working space. */
+/* Every space can be converted to it. */
+static const char *const hub = "lin_rec709";
+
+/* "lin_rec709, srgb_texture, …": what the library can convert to the hub. */
 static const char *known_spaces(struct builder *b)
 {
-    const char *work = build_text(b, b->options->colorspace);
     struct text out;
     text_init(&out, b->arena);
-    text_str(&out, work);
-    size_t work_len = strlen(work);
+    text_str(&out, hub);
     for (const struct library *lib = b->lib; lib; lib = lib->base)
         for (uint32_t i = 0; i < lib->nodedefs.len; i++) {
             const char *name = build_text(b, lib->nodedefs.items[i].node);
             const char *to = strstr(name, "_to_");
             bool again = i > 0 && lib->nodedefs.items[i - 1].node == lib->nodedefs.items[i].node;
-            if (!to || again || strlen(to + 4) != work_len || strcmp(to + 4, work) != 0)
+            if (!to || again || strcmp(to + 4, hub) != 0)
                 continue;
             text_fmt(&out, ", %.*s", (int)(to - name), name);
         }
     return text_cstr(&out);
 }
 
-static const char *suggest_space(struct builder *b, str_id space)
+static const char *suggest_space(struct builder *b, const char *space)
 {
     const char *names[sizeof aliases / sizeof *aliases * 2];
     size_t count = 0;
     for (size_t i = 0; i < sizeof aliases / sizeof *aliases; i++)
         for (size_t k = 0; k < 2; k++)
             names[count++] = aliases[i][k];
-    return diag_suggest(b->arena, build_text(b, space), names, count);
+    return diag_suggest(b->arena, space, names, count);
+}
+
+/* 0: the library has no such transform. */
+static ir_ref transform(struct builder *b, ir_ref value, doc_type type, const char *from, const char *to)
+{
+    struct text name;
+    text_init(&name, b->arena);
+    text_fmt(&name, "ND_%s_to_%s_%s", from, to, build_text(b, library_type_name(b->lib, type)));
+    str_id id = str_find(b->shader->strings, name.data, name.len);
+    uint32_t nodedef = id ? library_nodedef_by_name(b->lib, id) : LIBRARY_NONE;
+    if (!value || nodedef == LIBRARY_NONE)
+        return 0;
+    ir_ref results[BUILD_MAX_OUTPUTS];
+    build_apply(b, nodedef, b->document->node, &value, results);
+    return results[0];
+}
+
+void build_check_colorspace(struct builder *b)
+{
+    const char *space = build_text(b, canonical_space(b, b->options->colorspace));
+    ir_ref black = ir_const_splat(b->graph, IR_TYPE_VEC3, 0.0f);
+    b->has_colorspace = strcmp(space, hub) == 0 || strcmp(space, "none") == 0 || transform(b, black, DOC_TYPE_color3, hub, space);
+    if (!b->has_colorspace)
+        diag_add(b->diags, DIAG_ID_bad_option, (struct diag_place){0}, space, "colorspace",
+                 "a linear colour space that the library converts lin_rec709 to");
 }
 
 ir_ref build_color_transform(struct builder *b, ir_ref value, doc_type type, str_id space, struct diag_place place)
 {
-    struct text name;
-    text_init(&name, b->arena);
-    text_fmt(&name, "ND_%s_to_%s_%s", build_text(b, space), build_text(b, b->options->colorspace),
-             build_text(b, library_type_name(b->lib, type)));
-    str_id id = str_find(b->shader->strings, name.data, name.len);
-    uint32_t nodedef = id ? library_nodedef_by_name(b->lib, id) : LIBRARY_NONE;
-    if (nodedef == LIBRARY_NONE) {
-        diag_add(b->diags, DIAG_ID_unknown_colorspace, place, build_text(b, space), suggest_space(b, space), known_spaces(b));
-        return ir_poison(b->graph, ir_type_of(b->graph, value));
-    }
-    ir_ref args[1] = {value};
-    ir_ref results[BUILD_MAX_OUTPUTS];
-    build_apply(b, nodedef, b->document->node, args, results);
-    return results[0];
+    const char *from = build_text(b, space), *to = build_text(b, canonical_space(b, b->options->colorspace));
+    ir_ref result = strcmp(from, to) == 0 ? value : transform(b, value, type, from, to);
+    if (!result)
+        result = transform(b, strcmp(from, hub) == 0 ? value : transform(b, value, type, from, hub), type, hub, to);
+    if (!result && b->has_colorspace)
+        diag_add(b->diags, DIAG_ID_unknown_colorspace, place, from, suggest_space(b, from), known_spaces(b));
+    return result ? result : ir_poison(b->graph, ir_type_of(b->graph, value));
 }
 
 /* ---- units ---- */
