@@ -182,6 +182,17 @@ const char *files_make_folder(const char *path)
     return reason ? strerror(reason) : NULL;
 }
 
+void files_put_make_name(FILE *out, const char *name)
+{
+    for (; *name; ++name) {
+        if (*name == ' ' || *name == '#')
+            putc('\\', out);
+        else if (*name == '$')
+            putc('$', out);
+        putc(*name, out);
+    }
+}
+
 bool files_is_regular(const char *path)
 {
     struct stat info;

@@ -139,43 +139,25 @@ static void generate_file(struct generate *gen, const char *input)
     mxg_document_destroy(document);
 }
 
-/* Appends a file name as make reads it: spaces and '#' escaped, '$' doubled. */
-static void append_make_name(char **text, size_t *len, const char *name)
-{
-    char *grown = realloc(*text, *len + 2 * strlen(name) + 4);
-    if (!grown) {
-        fputs("mxgen: out of memory\n", stderr);
-        exit(EXIT_FAULT);
-    }
-    *text = grown;
-    for (const char *c = name; *c; ++c) {
-        if (*c == ' ' || *c == '#')
-            grown[(*len)++] = '\\';
-        else if (*c == '$')
-            grown[(*len)++] = '$';
-        grown[(*len)++] = *c;
-    }
-}
-
 /* "out1 out2: in1 in2": what make and ninja need to know when to run again. */
 static void write_depfile(struct generate *gen)
 {
-    char *text = NULL;
-    size_t len = 0;
-    for (size_t i = 0; i < gen->outputs.len; ++i) {
-        append_make_name(&text, &len, gen->outputs.items[i]);
-        text[len++] = i + 1 < gen->outputs.len ? ' ' : ':';
+    struct files_stream stream;
+    const char *reason = files_begin(&stream, gen->depfile);
+    for (size_t i = 0; !reason && i < gen->outputs.len; ++i) {
+        files_put_make_name(stream.out, gen->outputs.items[i]);
+        putc(i + 1 < gen->outputs.len ? ' ' : ':', stream.out);
     }
-    for (size_t i = 0; len && i < gen->sources.len; ++i) {
-        text[len++] = ' ';
-        append_make_name(&text, &len, gen->sources.items[i]);
+    for (size_t i = 0; !reason && gen->outputs.len && i < gen->sources.len; ++i) {
+        putc(' ', stream.out);
+        files_put_make_name(stream.out, gen->sources.items[i]);
     }
-    if (len)
-        text[len++] = '\n';
-    const char *reason = files_write(gen->depfile, text ? text : "", len);
+    if (!reason && gen->outputs.len)
+        putc('\n', stream.out);
+    if (!reason)
+        reason = files_end(&stream, true);
     if (reason)
         report_error(&gen->cli.report, "output-failed", "cannot write '%s': %s", gen->depfile, reason);
-    free(text);
 }
 
 static void free_items(struct arg_list *list)

@@ -10,7 +10,7 @@
 static const struct command commands[] = {
     {"generate", "[generate] FILE... [--target T] [-o DIR] [options]",
      "Writes shaders for the renderable elements of documents.", command_generate},
-    {"check", "check PATH... [--target T,...] [-j N] [--json FILE] [options]",
+    {"check", "check PATH... [--target T,...] [-j N] [--json FILE] [options]  |  check merge REPORT.json... [options]",
      "Validates, generates and compiles every document in files, folders, patterns and @lists.", command_check},
     {"inspect", "inspect FILE [--graph | --dot | --ir | --closures | --statistics] [options]",
      "Prints what mxgen sees: elements, graph, IR, closures with weights, statistics.", command_inspect},

@@ -4,6 +4,7 @@
  * judged and reported.
  */
 #define _POSIX_C_SOURCE 200809L
+#include "cli/check/cache.h"
 #include "cli/check/check.h"
 #include "cli/check/inputs.h"
 #include "cli/check/pool.h"
@@ -18,6 +19,9 @@
 /* A document between being given out and being told of. */
 struct slot {
     char *path;
+    uint64_t index; /* among all documents */
+    struct cache_key key;
+    bool is_cached; /* it was not given out */
     char *record; /* NULL: not there yet */
     size_t size;
     bool is_done;
@@ -33,6 +37,9 @@ struct check {
     struct check_reports reports;
     struct check_inputs inputs;
     struct pool pool;
+    struct cache cache;
+    const char *cache_folder, *shard;
+    uint64_t num_found; /* documents, those of other shards too */
 
     struct slot *slots; /* a ring: documents are given out at most this far ahead of the one told next */
     size_t num_slots;
@@ -61,10 +68,29 @@ static struct check_document *make_failure(struct store *store, const struct slo
     return document;
 }
 
+static void forget_times(struct check_document *document)
+{
+    document->load_ms = document->validate_ms = document->render_ms = 0.0;
+    for (size_t i = 0; i < document->num_elements; ++i)
+        for (size_t k = 0; k < document->elements[i].num_shaders; ++k)
+            document->elements[i].shaders[k].generate_ms = document->elements[i].shaders[k].compile_ms = 0.0;
+}
+
+/* The record as it was made, before anything is judged: what the cache keeps. NULL: there is none. */
+static struct check_document *read_record(struct check *check, struct store *store, const struct slot *slot)
+{
+    struct check_document *document = slot->record ? check_read_document(store, slot->record, slot->size) : NULL;
+    if (document && slot->is_cached)
+        forget_times(document);
+    else if (document)
+        cache_put(&check->cache, &slot->key, document, slot->record, slot->size);
+    return document;
+}
+
 static void tell_document(struct check *check, struct slot *slot)
 {
     struct store store = {0};
-    struct check_document *document = slot->record ? check_read_document(&store, slot->record, slot->size) : NULL;
+    struct check_document *document = read_record(check, &store, slot);
     if (!document) {
         if (!slot->failed)
             slot->failed = CHECK_CRASH;
@@ -72,7 +98,8 @@ static void tell_document(struct check *check, struct slot *slot)
             slot->reason = cli_format("mxgen-check gave no readable record");
         document = make_failure(&store, slot);
     }
-    document->index = check->first;
+    document->index = slot->index;
+    check->reports.totals.cached += slot->is_cached;
     reports_document(&check->reports, document);
     store_finish(&store);
     free(slot->path);
@@ -89,15 +116,28 @@ static void tell_done(struct check *check)
 
 /* ---- Work ---- */
 
-/* Gives the next document out; false where there is no more, or no worker can be started. */
+/* The next document of this shard; NULL at the end. */
+static const char *next_path(struct check *check)
+{
+    const struct check_run *run = &check->reports.run;
+    const char *path;
+    do
+        path = inputs_next(&check->inputs);
+    while (path && check->num_found++ % (run->num_shards ? run->num_shards : 1) + 1 != (run->num_shards ? run->shard : 1));
+    return path;
+}
+
+/* Gives the next document out, or finds its record; false where there is no more, or no worker can be started. */
 static bool give_next(struct check *check)
 {
-    const char *path = inputs_next(&check->inputs);
+    const char *path = next_path(check);
     if (!path)
         return false;
     struct slot *slot = slot_of(check, check->last++);
-    *slot = (struct slot){.path = cli_format("%s", path)};
-    return pool_give(&check->pool, path, (size_t)(check->last - 1));
+    *slot = (struct slot){.path = cli_format("%s", path), .index = check->num_found - 1};
+    slot->record = cache_find(&check->cache, path, &slot->key, &slot->size);
+    slot->is_done = slot->is_cached = slot->record != NULL;
+    return slot->is_done || pool_give(&check->pool, path, (size_t)(check->last - 1));
 }
 
 static bool take_answer(struct check *check)
@@ -158,6 +198,21 @@ static void add_worker_arg(struct check *check, const char *name, const char *va
     args_append(&check->worker_args, value ? cli_format("--%s=%s", name, value) : cli_format("%s", name));
 }
 
+/* "2/8" */
+static bool parse_shard(struct check *check)
+{
+    char *end = NULL;
+    struct check_run *run = &check->reports.run;
+    if (!check->shard)
+        return true;
+    run->shard = strtoul(check->shard, &end, 10);
+    run->num_shards = *end == '/' ? strtoul(end + 1, &end, 10) : 0;
+    if (*end == '\0' && run->shard >= 1 && run->shard <= run->num_shards && run->num_shards <= 1000000)
+        return true;
+    fprintf(stderr, "mxgen: '%s' is not a shard; write K/N, from 1/N to N/N\n", check->shard);
+    return false;
+}
+
 /* The worker's command line: the same library, limits and options as here. */
 static void make_worker_args(struct check *check)
 {
@@ -183,12 +238,13 @@ static bool prepare(struct check *check)
         check->jobs = MAX_JOBS;
     if (check->time_limit > MAX_TIME_LIMIT)
         check->time_limit = MAX_TIME_LIMIT;
-    check->reports.run = (struct check_run){.targets = check->targets.items,
-                                            .num_targets = check->targets.len,
-                                            .quiet = cli->quiet,
-                                            .verbose = cli->verbose,
-                                            .compiles = !check->no_compile,
-                                            .with_times = check->stats};
+    struct check_run *run = &check->reports.run;
+    run->targets = check->targets.items;
+    run->num_targets = check->targets.len;
+    run->quiet = cli->quiet;
+    run->verbose = cli->verbose;
+    run->compiles = !check->no_compile;
+    run->with_times = check->stats;
     check->num_slots = 4 * check->jobs + 64;
     check->slots = calloc(check->num_slots, sizeof *check->slots);
     return check->slots && reports_begin(&check->reports, &check->cli.report);
@@ -203,10 +259,13 @@ static int run(struct check *check)
         return EXIT_FAULT;
     make_worker_args(check);
     inputs_init(&check->inputs, &check->cli.parser.inputs, &check->files_from);
+    cache_init(&check->cache, check->cache_folder, &check->worker_args, &check->cli.library_paths);
     pool_init(&check->pool, (char *const *)(uintptr_t)check->worker_args.items, check->jobs, (double)check->time_limit);
     check_all(check);
     reports_end(&check->reports, report, !check->pool.fault);
-    if (totals->documents == 0 && !check->inputs.failed && !check->pool.fault)
+    if (check->cache.fault)
+        fprintf(stderr, "warning: the cache '%s' cannot be written: %s [output-failed]\n", check->cache_folder, check->cache.fault);
+    if (totals->documents == 0 && !check->num_found && !check->inputs.failed && !check->pool.fault)
         report_error(report, "nothing-to-check", "no document was found");
     bool good = !report->errors && !check->inputs.failed && totals->failed[CHECK_PASSED] == totals->documents;
     return good ? EXIT_DONE : EXIT_FAULT;
@@ -221,6 +280,7 @@ static void finish(struct check *check)
     }
     free(check->slots);
     pool_finish(&check->pool);
+    cache_finish(&check->cache);
     inputs_finish(&check->inputs);
     for (size_t i = 0; i + 1 < check->worker_args.len; ++i)
         free((void *)(uintptr_t)check->worker_args.items[i]);
@@ -231,8 +291,30 @@ static void finish(struct check *check)
     cli_finish(&check->cli);
 }
 
+static const char *find_misuse(const struct check *check)
+{
+    if (check->cli.parser.inputs.len == 0 && check->files_from.len == 0)
+        return "nothing to check is named; see --help";
+    bool has_report = false;
+    for (size_t i = 0; i < SINK_DEPFILE; ++i)
+        has_report = has_report || check->reports.paths[i];
+    if (check->reports.paths[SINK_DEPFILE] && !has_report)
+        return "a depfile tells what a report depends on: write one too, --json FILE";
+    return NULL;
+}
+
+static int run_if_sensible(struct check *check)
+{
+    const char *misuse = find_misuse(check);
+    if (misuse)
+        fprintf(stderr, "mxgen: %s\n", misuse);
+    return !misuse && find_targets(check) && parse_shard(check) ? run(check) : EXIT_USAGE;
+}
+
 int command_check(const struct command *command, int argc, char **argv)
 {
+    if (argc > 1 && strcmp(argv[1], "merge") == 0)
+        return check_merge(command, argc - 1, argv + 1);
     struct check check = {.time_limit = 120};
     struct arg args[16 + NUM_SINK_KINDS] = {
         {"target", 't', ARG_LIST, "T,...", "targets to generate for (default: glsl)", &check.target_args},
@@ -240,22 +322,17 @@ int command_check(const struct command *command, int argc, char **argv)
         {"files-from", 0, ARG_LIST, "FILE", "a list of paths, one on each line; '-': standard input", &check.files_from},
         {"no-compile", 0, ARG_FLAG, NULL, "generates, and compiles nothing", &check.no_compile},
         {"time-limit", 0, ARG_SIZE, "S", "seconds that a document may take (default: 120)", &check.time_limit},
+        {"cache", 0, ARG_TEXT, "DIR", "keeps what was found, and checks again only what has changed", &check.cache_folder},
+        {"shard", 0, ARG_TEXT, "K/N", "checks the K-th of N parts; 'check merge' joins their JSON reports", &check.shard},
         {"stats", 0, ARG_FLAG, NULL, "tells times, the slowest documents and the largest shaders", &check.stats},
     };
     size_t num_args = 0;
     while (args[num_args].name)
         ++num_args;
-    for (size_t i = 0; i < NUM_SINK_KINDS; ++i)
-        args[num_args++] = (struct arg){sink_kinds[i]->option, 0, ARG_TEXT, "FILE", sink_kinds[i]->help, &check.reports.paths[i]};
+    num_args += reports_args(&check.reports, args + num_args);
     int code;
-    if (cli_start(&check.cli, command, args, num_args, CLI_GENERATES, argc, argv, &code)) {
-        if (check.cli.parser.inputs.len == 0 && check.files_from.len == 0) {
-            fprintf(stderr, "usage: mxgen %s\n", command->usage);
-            code = EXIT_USAGE;
-        } else {
-            code = find_targets(&check) ? run(&check) : EXIT_USAGE;
-        }
-    }
+    if (cli_start(&check.cli, command, args, num_args, CLI_GENERATES, argc, argv, &code))
+        code = run_if_sensible(&check);
     finish(&check);
     return code;
 }

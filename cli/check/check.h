@@ -14,6 +14,9 @@ struct check_reports {
     struct check_totals totals;
 };
 
+/* Fills in the options of reports; returns how many: NUM_SINK_KINDS. */
+size_t reports_args(struct check_reports *reports, struct arg *args);
+
 /* Opens the files. False after telling which cannot be written. */
 bool reports_begin(struct check_reports *reports, struct report *report);
 
@@ -22,5 +25,8 @@ void reports_document(struct check_reports *reports, const struct check_document
 
 /* Finishes the files, or takes them away. False after telling which could not be written. */
 bool reports_end(struct check_reports *reports, struct report *report, bool keep);
+
+/* merge.c: "mxgen check merge". */
+int check_merge(const struct command *command, int argc, char **argv);
 
 #endif

@@ -3,7 +3,10 @@
 
 #include <string.h>
 
-const struct sink_kind *const sink_kinds[NUM_SINK_KINDS] = {&sink_json, &sink_sarif, &sink_junit, &sink_html};
+const struct sink_kind *const sink_kinds[NUM_SINK_KINDS] = {
+    [SINK_JSON] = &sink_json, [SINK_SARIF] = &sink_sarif,     [SINK_JUNIT] = &sink_junit,
+    [SINK_HTML] = &sink_html, [SINK_DEPFILE] = &sink_depfile,
+};
 
 static void begin_sink(struct sink *sink, const struct sink_kind *kind, const struct check_run *run, FILE *out)
 {
@@ -14,9 +17,19 @@ static void begin_sink(struct sink *sink, const struct sink_kind *kind, const st
         kind->begin(sink);
 }
 
+size_t reports_args(struct check_reports *reports, struct arg *args)
+{
+    for (size_t i = 0; i < NUM_SINK_KINDS; ++i)
+        args[i] = (struct arg){sink_kinds[i]->option, 0, ARG_TEXT, "FILE", sink_kinds[i]->help, &reports->paths[i]};
+    return NUM_SINK_KINDS;
+}
+
 bool reports_begin(struct check_reports *reports, struct report *report)
 {
     bool good = true, is_stdout_taken = false;
+    for (size_t i = 0; i < SINK_DEPFILE; ++i)
+        if (reports->paths[i])
+            reports->run.outputs[reports->run.num_outputs++] = reports->paths[i];
     for (size_t i = 0; i < NUM_SINK_KINDS; ++i) {
         struct sink *sink = &reports->files[i];
         const char *path = reports->paths[i];

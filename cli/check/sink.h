@@ -26,6 +26,9 @@ struct check_run {
     size_t num_targets;
     bool quiet, verbose, compiles;
     bool with_times; /* reports tell times, which differ from run to run */
+    uint64_t shard, num_shards; /* from 1; 0: this is all */
+    const char *outputs[8]; /* the reports that are written to files */
+    size_t num_outputs;
 };
 
 struct sink {
@@ -44,9 +47,9 @@ struct sink_kind {
     void (*end)(struct sink *sink, const struct check_totals *totals);
 };
 
-/* All kinds that write files; text is always written. */
-enum { NUM_SINK_KINDS = 4 };
+/* All kinds that write files; text is always written. What a depfile is about comes before it. */
+enum { SINK_JSON, SINK_SARIF, SINK_JUNIT, SINK_HTML, SINK_DEPFILE, NUM_SINK_KINDS };
 extern const struct sink_kind *const sink_kinds[NUM_SINK_KINDS];
-extern const struct sink_kind sink_text, sink_json, sink_sarif, sink_junit, sink_html;
+extern const struct sink_kind sink_text, sink_json, sink_sarif, sink_junit, sink_html, sink_depfile;
 
 #endif

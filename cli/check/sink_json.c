@@ -14,6 +14,15 @@ static void begin(struct sink *sink)
     for (size_t i = 0; i < sink->run->num_targets; ++i)
         json_string(&json, sink->run->targets[i]);
     json_end(&json, ']');
+    json_key(&json, "compiles");
+    json_bool(&json, sink->run->compiles);
+    if (sink->run->num_shards) {
+        json_key(&json, "shard");
+        json_begin(&json, '{');
+        json_put_count(&json, "number", sink->run->shard);
+        json_put_count(&json, "count", sink->run->num_shards);
+        json_end(&json, '}');
+    }
     json_key(&json, "documents");
     json_begin(&json, '[');
 }

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: Apache-2.0
+#define _POSIX_C_SOURCE 200809L
+#include "cli/check/cache.h"
+
+#include "cli/cli.h"
+#include "cli/files.h"
+#include "cli/folder.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+enum { NUM_FILES = 1024 }; /* whose hashes are remembered: includes that many documents share */
+
+struct cached_file {
+    char *path;
+    char hex[SHA256_HEX + 1];
+};
+
+/* ---- Hashes ---- */
+
+static bool hash_file(const char *path, char out[SHA256_HEX + 1])
+{
+    struct sha256 sha;
+    size_t size = 0;
+    char *data = files_is_regular(path) ? files_read(path, &size) : NULL;
+    if (!data)
+        return false;
+    sha256_init(&sha);
+    sha256_add(&sha, data, size);
+    sha256_hex(&sha, out);
+    free(data);
+    return true;
+}
+
+/* The hash of a file that may have been asked for before in this run; "" where it cannot be read. */
+static const char *remembered_hash(struct cache *cache, const char *path)
+{
+    struct sha256 sha;
+    char hex[SHA256_HEX + 1];
+    sha256_init(&sha);
+    sha256_add_text(&sha, path);
+    sha256_hex(&sha, hex);
+    struct cached_file *file = &cache->files[sha.state[0] % NUM_FILES];
+    if (!file->path || strcmp(file->path, path) != 0) {
+        free(file->path);
+        file->path = cli_format("%s", path);
+        if (!hash_file(path, file->hex))
+            file->hex[0] = '\0';
+    }
+    return file->hex;
+}
+
+static void add_file(struct sha256 *sha, const char *path)
+{
+    char hex[SHA256_HEX + 1] = "";
+    hash_file(path, hex);
+    sha256_add_text(sha, path);
+    sha256_add_text(sha, hex);
+}
+
+static void add_library(struct sha256 *sha, const char *path)
+{
+    struct arg_list files = {0};
+    if (files_is_regular(path))
+        add_file(sha, path);
+    else
+        folder_find(path, "", &files);
+    for (size_t i = 0; i < files.len; ++i) {
+        add_file(sha, files.items[i]);
+        free((void *)(uintptr_t)files.items[i]);
+    }
+    free(files.items);
+}
+
+/* A program by its version, size and time: another build is another program. */
+static void add_program(struct sha256 *sha, const char *path)
+{
+    struct stat info = {0};
+    stat(path, &info);
+    int64_t numbers[] = {info.st_size, info.st_mtim.tv_sec, info.st_mtim.tv_nsec};
+    sha256_add_text(sha, mxg_version_string());
+    sha256_add(sha, numbers, sizeof numbers);
+}
+
+void cache_init(struct cache *cache, const char *folder, const struct arg_list *args, const struct arg_list *libraries)
+{
+    *cache = (struct cache){.folder = folder, .begin = time(NULL)};
+    if (!folder)
+        return;
+    struct sha256 sha;
+    const uint32_t version = CHECK_FORMAT_VERSION;
+    cache->files = calloc(NUM_FILES, sizeof *cache->files);
+    sha256_init(&sha);
+    sha256_add(&sha, &version, sizeof version);
+    add_program(&sha, args->items[0]);
+    for (size_t i = 1; i < args->len && args->items[i]; ++i)
+        sha256_add_text(&sha, args->items[i]);
+    for (size_t i = 0; i < libraries->len; ++i)
+        add_library(&sha, libraries->items[i]);
+    sha256_hex(&sha, cache->configuration);
+    if (!cache->files)
+        cache->folder = NULL;
+}
+
+void cache_finish(struct cache *cache)
+{
+    for (size_t i = 0; cache->files && i < NUM_FILES; ++i)
+        free(cache->files[i].path);
+    free(cache->files);
+}
+
+/* ---- Entries ---- */
+
+static void make_key(const struct cache *cache, const char *path, struct cache_key *out)
+{
+    struct sha256 sha;
+    *out = (struct cache_key){0};
+    if (!hash_file(path, out->document))
+        return;
+    sha256_init(&sha);
+    sha256_add_text(&sha, cache->configuration);
+    sha256_add_text(&sha, path);
+    sha256_add_text(&sha, out->document);
+    sha256_hex(&sha, out->hex);
+}
+
+static char *entry_path(const struct cache *cache, const struct cache_key *key)
+{
+    return cli_format("%s/%.2s/%s.json", cache->folder, key->hex, key->hex + 2);
+}
+
+/* The first line of an entry is an object: path and hash of each file that was read besides the document. */
+static bool is_current(struct cache *cache, const char *line, size_t len)
+{
+    struct store store = {0};
+    const struct json_value *files = json_parse(&store, line, len);
+    bool good = files && files->kind == JSON_OBJECT;
+    for (const struct json_value *file = good ? files->first : NULL; file && good; file = file->next)
+        good = file->kind == JSON_STRING && *file->text && strcmp(file->text, remembered_hash(cache, file->key)) == 0;
+    store_finish(&store);
+    return good;
+}
+
+char *cache_find(struct cache *cache, const char *path, struct cache_key *out_key, size_t *out_size)
+{
+    *out_key = (struct cache_key){0};
+    if (!cache->folder)
+        return NULL;
+    make_key(cache, path, out_key);
+    if (!out_key->hex[0])
+        return NULL;
+    char *entry = entry_path(cache, out_key), *record = NULL;
+    size_t size = 0;
+    char *text = files_read(entry, &size);
+    free(entry);
+    const char *newline = text ? memchr(text, '\n', size) : NULL;
+    if (newline && is_current(cache, text, (size_t)(newline - text))) {
+        *out_size = size - (size_t)(newline + 1 - text);
+        record = cli_format("%s", newline + 1);
+    }
+    free(text);
+    return record;
+}
+
+/* Since the run began: a worker may have read what it was before. */
+static bool may_have_changed(const struct cache *cache, const char *path)
+{
+    struct stat info;
+    return stat(path, &info) != 0 || info.st_mtim.tv_sec >= cache->begin;
+}
+
+/* What was looked for and not found may be there next time, and no file tells. */
+static bool follows_from_files(const struct cache *cache, const struct check_document *document)
+{
+    for (size_t i = 1; i < document->num_files; ++i)
+        if (may_have_changed(cache, document->files[i]))
+            return false;
+    if (document->failed == CHECK_CRASH || document->failed == CHECK_TIMEOUT || document->num_files == 0)
+        return false;
+    for (size_t i = 0; i < document->num_messages; ++i) {
+        const char *id = document->messages[i].id;
+        if (strstr(id, "missing") || strncmp(id, "file-", 5) == 0 || strcmp(id, "failed") == 0)
+            return false;
+    }
+    return true;
+}
+
+static char *make_entry(struct cache *cache, const struct check_document *document, const char *record, size_t size, size_t *out_size)
+{
+    char *text = NULL;
+    FILE *out = open_memstream(&text, out_size);
+    struct json_writer json = {.out = out};
+    if (!out)
+        return NULL;
+    json_begin(&json, '{');
+    for (size_t i = 1; i < document->num_files; ++i) {
+        json_key(&json, document->files[i]);
+        json_string(&json, remembered_hash(cache, document->files[i]));
+    }
+    json_end(&json, '}');
+    putc('\n', out);
+    fwrite(record, 1, size, out);
+    fclose(out);
+    return text;
+}
+
+void cache_put(struct cache *cache, const struct cache_key *key, const struct check_document *document, const char *record, size_t size)
+{
+    struct cache_key now;
+    if (!cache->folder || !key->hex[0] || cache->fault || !follows_from_files(cache, document))
+        return;
+    make_key(cache, document->file, &now);
+    if (strcmp(now.hex, key->hex) != 0)
+        return;
+    char *path = entry_path(cache, key), *slash = strrchr(path, '/');
+    *slash = '\0';
+    cache->fault = files_make_folder(path);
+    *slash = '/';
+    size_t entry_size = 0;
+    char *entry = make_entry(cache, document, record, size, &entry_size);
+    if (entry && !cache->fault)
+        cache->fault = files_write(path, entry, entry_size);
+    free(entry);
+    free(path);
+}
