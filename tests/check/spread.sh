@@ -1,0 +1,181 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# mxgen check, incremental and spread out: the cache, what kill -9 leaves of it, depfiles, shards, GNU parallel and Slurm. Arguments: mxgen
+mxgen=$(realpath "$1")
+here=$(cd "$(dirname "$0")" && pwd)
+examples=$here/../../examples/check
+. "$here/../programs/common.sh"
+. "$here/materials.sh"
+mkdir programs && cp "$mxgen" "$(dirname "$mxgen")/mxgen-check" programs # with a path of their own, to find their processes by
+mxgen=$work/programs/mxgen
+export PATH=$work/programs:$PATH
+
+mkdir show
+for i in $(seq 12); do material "M$i" "0.$i" >"show/m$i.mtlx"; done
+material Bad '1, 2' >show/bad.mtlx
+cat >show/part.mtlx <<'END'
+<materialx version="1.39"><standard_surface name="SR" type="surfaceshader"/></materialx>
+END
+cat >show/whole.mtlx <<'END'
+<materialx version="1.39" xmlns:xi="http://www.w3.org/2001/XInclude">
+  <xi:include href="part.mtlx"/>
+  <surfacematerial name="W" type="material"><input name="surfaceshader" type="surfaceshader" nodename="SR"/></surfacematerial>
+</materialx>
+END
+touch -d '1 hour ago' show/* # an include that is younger than the run is not remembered
+check_show() { "$mxgen" check show --no-compile --cache cache "$@" >out 2>err; }
+unchanged() { sed -n 's/.*; \([0-9]*\) documents unchanged.*/\1/p' out; }
+
+# The cache
+check 'a first run' exits 1 "$mxgen" check show --no-compile --cache cache --json first.json
+check 'finds nothing in the cache' is "$(unchanged)" ''
+check 'a second run' exits 1 "$mxgen" check show --no-compile --cache cache --json second.json
+check 'finds every document' is "$(unchanged)" 15
+check 'and tells the same' cmp first.json second.json
+material M1 0.99 >show/m1.mtlx
+check_show
+check 'a document that changed is checked again' is "$(unchanged)" 14
+touch -d '1 hour ago' show/part.mtlx && check_show
+check 'a time that changed is nothing' is "$(unchanged)" 15
+sed 's/<standard_surface/<gltf_pbr/' show/part.mtlx >part && mv part show/part.mtlx && touch -d '1 hour ago' show/part.mtlx
+check_show
+check 'where an include changed its documents are checked again' is "$(unchanged)" 13 # itself and the whole
+check_show --target essl
+check 'other options are another question' is "$(unchanged)" ''
+mkdir library && echo '<materialx version="1.39"/>' >library/a.mtlx
+check_show --library library
+check 'and so is another library' is "$(unchanged)" ''
+check_show --library library
+check 'that is remembered too' is "$(unchanged)" 15
+echo '<materialx version="1.39"><!-- --></materialx>' >library/a.mtlx
+check_show --library library
+check 'until it changes' is "$(unchanged)" ''
+sed 's/part.mtlx/later.mtlx/' show/whole.mtlx >waits.mtlx
+"$mxgen" check waits.mtlx --no-compile --cache cache >out 2>err
+cp show/part.mtlx later.mtlx
+check 'a missing include that appears is seen' exits 0 "$mxgen" check waits.mtlx --no-compile --cache cache
+for entry in cache/*/*.json; do printf 'x' >"$entry"; done
+check 'damaged entries are made anew' exits 1 "$mxgen" check show --no-compile --cache cache --json damaged.json
+check 'as if there were none' eval 'exits 1 "$mxgen" check show --no-compile --json none.json && cmp damaged.json none.json'
+check 'a cache that cannot be written is told' exits 0 "$mxgen" check show/m2.mtlx --no-compile --cache show/m1.mtlx
+check 'and changes no verdict' grep -q '^warning: the cache' err
+
+# kill -9 at odd moments
+for delay in 0.01 0.02 0.03 0.05 0.08 0.12 0.2; do
+    "$mxgen" check show --no-compile --cache killed --json killed.json >/dev/null 2>&1 &
+    sleep "$delay"
+    kill -9 $! 2>/dev/null
+    wait $! 2>/dev/null
+done
+whole() { # each entry is two lines of JSON
+    find killed -name '*.json' | while read -r entry; do
+        [ "$(wc -l <"$entry")" -eq 1 ] && head -n 1 "$entry" | python3 -m json.tool >/dev/null && tail -n 1 "$entry" | python3 -m json.tool >/dev/null || exit 1
+    done
+}
+check 'kill -9 leaves no half entry' whole
+check 'and no half report' eval '[ ! -e killed.json ] || python3 -m json.tool killed.json'
+check 'the next run is right' eval 'exits 1 "$mxgen" check show --no-compile --cache killed --json killed.json && cmp killed.json none.json'
+sleep 0.2
+check 'no worker is left' eval '! pgrep -f "$work/programs/mxgen-check"'
+
+# Depfiles
+cat >Makefile <<END
+report.json:
+	$mxgen check show/whole.mtlx --no-compile -q --json report.json --depfile report.d
+-include report.d
+END
+check 'make runs the check' make -s
+check 'and not again' make -q
+check 'until an include changes' eval 'touch show/part.mtlx && ! make -q'
+check 'a depfile without a report is refused' exits 2 "$mxgen" check show --depfile x.d
+
+# Shards
+rm -rf shards && mkdir shards
+for k in 1 2 3 4; do "$mxgen" check show --no-compile --shard $k/4 --json shards/$k.json >/dev/null; done
+check 'shards have all documents between them' is "$(cat shards/*.json | grep -c '^{"index"')" 15
+check 'they merge' exits 1 "$mxgen" check merge shards/4.json shards/2.json shards/1.json shards/3.json --json merged.json --junit merged.xml
+check 'into the same report' cmp merged.json none.json
+check 'of every kind' eval 'exits 1 "$mxgen" check show --no-compile --junit none.xml && cmp merged.xml none.xml'
+check 'a shard too few' exits 1 "$mxgen" check merge shards/[124].json
+check 'is told' grep -q 'shard 3 of 4 is missing \[shard-missing\]' err
+check 'a shard twice' exits 1 "$mxgen" check merge shards/*.json shards/2.json
+check 'is told, too' grep -q '\[shard-twice\]' err
+head -c $(($(wc -c <shards/2.json) / 2)) shards/2.json >cut.json
+check 'half a shard' exits 1 "$mxgen" check merge shards/[134].json cut.json --json half.json
+check 'is told as well' grep -q '\[report-unreadable\]' err
+check 'and gives no report' test ! -e half.json
+check 'something else' exits 1 "$mxgen" check merge show/m1.mtlx
+python3 -m json.tool shards/1.json >pretty.json
+check 'a report may have been formatted' exits 1 "$mxgen" check merge pretty.json shards/[234].json --json pretty_merged.json
+check 'and merges as well' cmp pretty_merged.json none.json
+check 'shards from 1 to N' eval 'exits 2 "$mxgen" check show --shard 0/4 && exits 2 "$mxgen" check show --shard 5/4 && exits 2 "$mxgen" check show --shard 1'
+check 'an empty shard passes' exits 0 "$mxgen" check show/m2.mtlx --no-compile --shard 2/2
+
+# GNU parallel over hosts: this one
+if command -v parallel >/dev/null; then
+    check 'GNU parallel' exits 1 "$examples/parallel.sh" 2/: 4 show --no-compile
+    check 'gives the same report' cmp report.json none.json
+else
+    skip 'GNU parallel is not installed'
+fi
+
+# Slurm: a controller and a node of our own
+slurm() {
+    local host port=$((20000 + $$ % 20000))
+    host=$(hostname -s)
+    mkdir -p slurm/state slurm/spool
+    cat >slurm/slurm.conf <<END
+ClusterName=test
+SlurmctldHost=$host(127.0.0.1)
+SlurmUser=$(id -un)
+SlurmdUser=$(id -un)
+AuthType=auth/none
+CredType=cred/none
+ProctrackType=proctrack/pgid
+TaskPlugin=task/none
+SelectType=select/cons_tres
+SelectTypeParameters=CR_CPU
+JobAcctGatherType=jobacct_gather/none
+MpiDefault=none
+SchedulerParameters=sched_interval=1
+SlurmctldPidFile=$work/slurm/slurmctld.pid
+SlurmdPidFile=$work/slurm/slurmd.pid
+SlurmdSpoolDir=$work/slurm/spool
+StateSaveLocation=$work/slurm/state
+SlurmctldPort=$port
+SlurmdPort=$((port + 1))
+SlurmctldLogFile=$work/slurm/slurmctld.log
+SlurmdLogFile=$work/slurm/slurmd.log
+NodeName=$host NodeAddr=127.0.0.1 CPUs=$(nproc) State=UNKNOWN
+PartitionName=all Nodes=ALL Default=YES MaxTime=INFINITE State=UP
+END
+    export SLURM_CONF=$work/slurm/slurm.conf
+    slurmctld -D >slurm/slurmctld.out 2>&1 &
+    controller=$!
+    slurmd -D >slurm/slurmd.out 2>&1 &
+    node=$!
+    trap 'kill $node $controller; wait; rm -rf "$work"' EXIT
+    for _ in $(seq 60); do
+        sinfo -h -o %T 2>/dev/null | grep -q idle && return
+        sleep 0.5
+    done
+    return 1
+}
+merge_array() {
+    local array
+    rm -rf shards report.json && mkdir shards
+    array=$(sbatch --parsable --array=1-3 "$examples/array.sbatch" show --no-compile) || return
+    timeout 100 sbatch --wait --output=merge.log --dependency=afterany:"$array" \
+        --wrap 'mxgen check merge shards/*.json --json report.json --html report.html'
+    [ $? -eq 1 ] || { cat merge.log shards/*.log; return 1; } # the merge's exit code
+}
+if ! command -v slurmctld >/dev/null || ! command -v slurmd >/dev/null; then
+    skip 'Slurm is not installed'
+elif slurm; then
+    check 'a Slurm array' merge_array
+    check 'gives the same report' cmp report.json none.json
+else
+    skip 'Slurm does not start here'
+fi
+
+finish check-spread
