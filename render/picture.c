@@ -20,6 +20,20 @@ static bool generate(struct painter *painter, const struct subject *subject, mxg
 
 /* ---- Drawing ---- */
 
+/* A shader that moves the surface gets triangles that are small enough. */
+static bool choose_mesh(struct painting *painting)
+{
+    struct painter *painter = painting->painter;
+    mxg_shader_info info = {sizeof info};
+    mxg_result_info(painting->result, &info);
+    if (!info.displaced || !painter->is_studio)
+        return true;
+    if (!painter->fine.vertices && !studio_refine(&painter->studio, &painter->scene.mesh, &painter->fine))
+        return report_status(&painter->cli->report, MXG_ERROR_MEMORY);
+    painting->scene.mesh = painter->fine;
+    return true;
+}
+
 static bool fail(struct painting *painting, const struct subject *subject)
 {
     const struct bind *bind = painting->bind;
@@ -31,7 +45,7 @@ static bool fail(struct painting *painting, const struct subject *subject)
 bool painting_open(struct painter *painter, const struct subject *subject, struct painting *painting)
 {
     *painting = (struct painting){.painter = painter, .scene = painter->scene};
-    if (!generate(painter, subject, &painting->result))
+    if (!generate(painter, subject, &painting->result) || !choose_mesh(painting))
         return false;
     uint32_t width = painter->width * painter->oversampling, height = painter->height * painter->oversampling;
     painting->samples = malloc((size_t)width * height * 4 * sizeof(float));

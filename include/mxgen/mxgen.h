@@ -390,6 +390,7 @@ typedef struct mxg_shader_info {
     uint64_t topology; /* equal for shaders that differ in names and uniform values alone; made when `size` reaches this far */
     uint32_t num_closures, num_textures, num_lights;
     bool transparent, lit;
+    bool displaced; /* the vertex stage moves the surface: give it small triangles */
 } mxg_shader_info;
 MXG_API mxg_status mxg_result_info(const mxg_result *result, mxg_shader_info *out);
 

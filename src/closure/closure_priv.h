@@ -12,8 +12,16 @@
 ir_ref closure_call(struct shader *shader, const struct closure_host *host, ir_ref leaf, enum leaf_function which,
                     const ir_ref *light);
 
+/* The shaded point. */
+ir_ref closure_position(struct shader *shader, const struct closure_host *host);
+
 /* lights.c: unit direction to the light at hand and the light that arrives from there, for effects inside of EFFECT_LIGHTS. */
 void closure_sample_light(struct shader *shader, const struct closure_host *host, ir_ref *direction, ir_ref *intensity);
+
+/*
+ * displacement.c: moves the shaded point and the vertices, and returns the surface with the normal bent. Either may be 0.
+ */
+ir_ref closure_displace(struct shader *shader, const struct closure_host *host, ir_ref surface, ir_ref displacement);
 
 /* a · b, where 0 stands for 1. */
 ir_ref closure_mul(struct ir_graph *graph, ir_ref a, ir_ref b);

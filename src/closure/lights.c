@@ -44,7 +44,7 @@ void closure_sample_light(struct shader *shader, const struct closure_host *host
     struct lang_host see_through = *host->lang;
     see_through.max_inline_nodes = MAX_LIGHT_NODES;
     uint32_t before = g->origin, direction_origin = named(shader, STR_L), intensity_origin = named(shader, STR_light);
-    ir_ref point = shader_stream(shader, STR_positionWorld, IR_TYPE_VEC3);
+    ir_ref point = closure_position(shader, host);
     ir_ref type = member(shader, shader_light_member(shader, STR_type, IR_TYPE_INT));
     *direction = 0;
     *intensity = ir_const_splat(g, IR_TYPE_VEC3, 0.0f);

@@ -357,7 +357,7 @@ bool closure_emit(struct shader *shader, const struct closure_host *host, const 
 {
     struct emitter e = {.shader = shader, .graph = shader->graph, .host = host, .lighting = lighting, .color = UINT32_MAX};
     if (root && ir_get(e.graph, root)->op == IR_MATERIAL)
-        root = ir_arg(e.graph, root, 0);
+        root = closure_displace(shader, host, ir_arg(e.graph, root, 0), ir_arg(e.graph, root, 2));
     ir_type_id type = root ? ir_type_of(e.graph, root) : IR_TYPE_SURFACE;
     if (type == IR_TYPE_BSDF || type == IR_TYPE_EDF) {
         ir_ref args[4] = {type == IR_TYPE_BSDF ? root : 0, type == IR_TYPE_EDF ? root : 0, ir_const_float(e.graph, 1.0f),

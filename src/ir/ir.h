@@ -267,6 +267,12 @@ uint8_t *ir_mark(const struct ir_graph *graph, const ir_ref *roots, uint32_t num
 uint8_t *ir_count_uses(const struct ir_graph *graph, const uint8_t *marked, const ir_ref *roots, uint32_t num_roots,
                        struct arena *arena);
 
+/*
+ * replace.c: the node `root` over `to` where it was over `from`; what does not change is not copied. Bodies of IR functions are left as
+ * they are.
+ */
+ir_ref ir_replace(struct ir_graph *graph, ir_ref root, ir_ref from, ir_ref to, struct arena *arena);
+
 /* print.c, parse.c: the text form (docs/ir.md); what is printed parses back to an equal graph. */
 
 void ir_print(const struct ir_graph *graph, const ir_ref *roots, uint32_t num_roots, struct text *out);

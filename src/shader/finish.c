@@ -47,12 +47,24 @@ static void mark_outputs(struct shader *shader, enum shader_stage_id id)
             mark_read(shader, effects->items[i].index, id);
 }
 
+/* Vertex data that a displaced position is made of is written before it. */
+static void keep_inputs(struct shader *shader, ir_ref position)
+{
+    uint8_t *needed = ir_mark(shader->graph, &position, 1, shader->arena);
+    for (ir_ref ref = 1; ref < shader->graph->nodes.len; ref++)
+        if (needed[ref] && ir_get(shader->graph, ref)->op == IR_STREAM)
+            mark_read(shader, ir_get(shader->graph, ref)->attr, STAGE_VERTEX);
+}
+
 /* Drops the vertex data that the pixel stage does not read, and adds the position. */
 static void complete_vertex_stage(struct shader *shader)
 {
     struct effect_list *effects = &shader->stages[STAGE_VERTEX].effects;
     bool has_position = false;
     uint32_t kept = 0;
+    for (uint32_t i = 0; i < effects->len; i++)
+        if (effects->items[i].kind == EFFECT_POSITION)
+            keep_inputs(shader, effects->items[i].value);
     for (uint32_t i = 0; i < effects->len; i++) {
         const struct effect *effect = &effects->items[i];
         has_position |= effect->kind == EFFECT_POSITION;

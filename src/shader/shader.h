@@ -189,6 +189,7 @@ struct shader {
     bool names_wholes;             /* only variables have parts that can be named: from the rules of layout */
     bool transparent;              /* found by analysis: the alpha written may be below 1 */
     bool lit;                      /* reads lights or environment */
+    bool displaced;                /* the vertex stage moves the surface */
     bool numbered;                 /* sets, bindings and locations are given */
 };
 

@@ -147,7 +147,7 @@ static void write_header(struct spell *spell)
     SPELL(spell, "#version ", version, "\n// ");
     spell_title(spell);
     spell_text(spell, "\n");
-    if (spell_can(spell, CAP_PRECISION) && spell->stage_id == STAGE_PIXEL)
+    if (spell_can(spell, CAP_PRECISION) && (spell->stage_id == STAGE_PIXEL || spell->shader->displaced))
         spell_text(spell, "precision highp float;\nprecision highp int;\nprecision highp sampler2D;\n");
     if (spell_can(spell, CAP_PRECISION) && spell->shader->tiles.len)
         spell_text(spell, "precision highp sampler2DArray;\n");
@@ -202,6 +202,22 @@ void spell_stage(struct spell *spell, enum shader_stage_id stage)
 
 /* ---- Entry ---- */
 
+/* The target's syntax for a stage that knows no neighbours on the screen: nothing differs from them. */
+static const struct lang_syntax *syntax_of_one(struct spell *spell)
+{
+    static const struct lang_form forms[IR_NUM_OPS] = {
+        [IR_DFDX] = {"$T(0.0)", LANG_PREC_POSTFIX, false},
+        [IR_DFDY] = {"$T(0.0)", LANG_PREC_POSTFIX, false},
+        [IR_FWIDTH] = {"$T(0.0)", LANG_PREC_POSTFIX, false},
+        [IR_TEX] = {"textureLod($0, $1, 0.0)", LANG_PREC_POSTFIX, false},
+    };
+    struct lang_syntax *syntax = ARENA_NEW(spell->scratch, struct lang_syntax);
+    *syntax = *spell->target->syntax;
+    syntax->base = spell->target->syntax;
+    syntax->forms = forms;
+    return syntax;
+}
+
 static void init(struct spell *spell)
 {
     const struct shader *shader = spell->shader;
@@ -217,9 +233,10 @@ static void init(struct spell *spell)
     spell->local_of = ARENA_ARRAY(arena, uint32_t, shader->graph->nodes.len);
     spell->lang_names = (struct lang_names){
         .user_data = spell, .function = function_name, .global = global_name, .user_type = user_type_name};
-    spell->style = shader->style ? shader->style : arena_alloc(arena, sizeof *spell->style);
+    bool has_neighbours = spell->stage_id == STAGE_PIXEL || !shader->displaced;
+    spell->style = shader->style && has_neighbours ? shader->style : arena_alloc(arena, sizeof *spell->style);
     if (spell->style != shader->style)
-        lang_style_init(spell->style, spell->target->syntax, arena);
+        lang_style_init(spell->style, has_neighbours ? spell->target->syntax : syntax_of_one(spell), arena);
     names_init(&spell->names, arena, spell->style);
     if (spell->options->comments && spell->options->path && !spell->options->neutral_names) {
         names_init(&spell->paths, arena, spell->style);

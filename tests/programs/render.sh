@@ -192,6 +192,35 @@ check 'agrees, too' agree importance.ppm baked.ppm
 check 'nothing to bake' exits 1 "$render" --bake-environment none.exr -o nothing
 check 'a folder that is not baked' eval 'mkdir bare; exits 1 "$render" metal.mtlx --environment bare -o x.png && grep -q "\[bad-environment\]" err'
 
+# Displacement: a ball that grows by a quarter is one seen from nearer; a plane that rises to the right is a tilted one.
+displaced() { # NAME NODES
+    cat >"$1.mtlx" <<X
+<?xml version="1.0"?>
+<materialx version="1.39">
+  $2
+  <displacement name="D" type="displacementshader"><input name="displacement" type="float" nodename="height"/></displacement>
+  <conductor_bsdf name="bsdf" type="BSDF"><input name="roughness" type="vector2" value="0.15, 0.15"/></conductor_bsdf>
+  <surface name="S" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="bsdf"/></surface>
+  <surfacematerial name="M" type="material">
+    <input name="surfaceshader" type="surfaceshader" nodename="S"/>
+    <input name="displacementshader" type="displacementshader" nodename="D"/>
+  </surfacematerial>
+</materialx>
+X
+}
+displaced grown '<constant name="height" type="float"><input name="value" type="float" value="0.25"/></constant>'
+displaced ramp '<texcoord name="uv" type="vector2"/><separate2 name="st" type="multioutput"><input name="in" type="vector2" nodename="uv"/></separate2>
+  <range name="height" type="float"><input name="in" type="float" nodename="st" output="outx"/>
+    <input name="outlow" type="float" value="-0.4"/><input name="outhigh" type="float" value="0.4"/></range>'
+printf 'v -0.8 -0.8 -0.4\nv 0.8 -0.8 0.4\nv 0.8 0.8 0.4\nv -0.8 0.8 -0.4\nf 1 2 3 4\n' >tilted.obj
+check 'a displaced ball' exits 0 "$render" grown.mtlx -m sphere --lights none --size 48 --camera 25,16,5 -o grown.ppm
+check 'a ball from nearer' metal --camera 25,16,4 -o nearer.ppm
+check 'agrees with it' agree grown.ppm nearer.ppm
+check 'a displaced plane' exits 0 "$render" ramp.mtlx -m plane --lights none --size 48 --camera 10,10,4.8 -o ramp.ppm
+check 'a tilted plane' exits 0 "$render" metal.mtlx -m tilted.obj --lights none --size 48 --camera 10,10,4 -o tilted.ppm
+check 'agrees with it' agree ramp.ppm tilted.ppm
+check 'but not with a flat one' eval 'metal -m plane --camera 10,10,4.8 -o flat.ppm && ! agree ramp.ppm flat.ppm'
+
 # Many pictures
 check 'a turntable' exits 0 "$render" plain.mtlx -m cube --turntable 4 -o turn.ppm --size 8
 check 'has pictures by number' test -s turn.0000.ppm -a -s turn.0001.ppm -a -s turn.0003.ppm -a ! -e turn.0004.ppm

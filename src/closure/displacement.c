@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * Displacement: D is evaluated in both stages, over the surface before it moved.
+ *
+ *     vertex stage    position = u_viewProjectionMatrix · (P + D)
+ *     pixel stage     the shaded point is P + D, and its normal is bent:
+ *
+ *         N' = N + g(P + D) - g(P),    g(X) = normalize(dX/dx × dX/dy) on the side of N
+ *
+ * The normals g of the facets go out of the difference, so the surface stays as smooth as it was. What a material reads of the
+ * geometry is that of the surface before it moved, except for the normal of its closures.
+ */
+#include "closure/closure_priv.h"
+
+static ir_ref stream(struct shader *shader, str_id name)
+{
+    return shader_stream(shader, name, IR_TYPE_VEC3);
+}
+
+static uint32_t named(struct shader *shader, str_id name)
+{
+    return ir_add_origin(shader->graph, name, 0, 0);
+}
+
+/* A height along the normal, or (x, y, z) along tangent, bitangent and normal. 0: nothing moves. */
+static ir_ref offset_of_shader(struct shader *shader, ir_ref displacement, ir_ref scale)
+{
+    struct ir_graph *g = shader->graph;
+    if (ir_const_is(g, displacement, 0.0f) || ir_const_is(g, scale, 0.0f))
+        return 0;
+    ir_ref amount = ir_op2(g, IR_MUL, displacement, scale);
+    ir_ref normal = ir_op1(g, IR_NORMALIZE, stream(shader, STR_normalWorld));
+    if (ir_type_of(g, amount) == IR_TYPE_FLOAT)
+        return ir_op2(g, IR_MUL, normal, amount);
+    ir_ref tangent = ir_op1(g, IR_NORMALIZE, stream(shader, STR_tangentWorld));
+    ir_ref axes[3] = {tangent, ir_op2(g, IR_CROSS, normal, tangent), normal}, sum = 0;
+    for (unsigned i = 0; i < 3; i++) {
+        ir_ref part = ir_op2(g, IR_MUL, axes[i], ir_component(g, amount, i));
+        sum = sum ? ir_op2(g, IR_ADD, sum, part) : part;
+    }
+    return sum;
+}
+
+static ir_ref mixed(struct ir_graph *g, ir_ref bg, ir_ref fg, ir_ref mix)
+{
+    ir_ref nothing = ir_const_splat(g, IR_TYPE_VEC3, 0.0f);
+    return bg || fg ? ir_op3(g, IR_MIX, bg ? bg : nothing, fg ? fg : nothing, mix) : 0;
+}
+
+/* Operands come before their node, so mixes of mixes are found in one pass. */
+static ir_ref offset_of(struct shader *shader, ir_ref root)
+{
+    struct ir_graph *g = shader->graph;
+    ir_ref *known = ARENA_ARRAY(shader->arena, ir_ref, root + 1);
+    uint8_t *needed = ir_mark(g, &root, 1, shader->arena);
+    for (ir_ref ref = 1; ref <= root; ref++) {
+        const struct ir_node node = *ir_get(g, ref);
+        if (!needed[ref] || node.type != IR_TYPE_DISPLACEMENT)
+            continue;
+        g->origin = node.origin;
+        if (node.op == IR_DISPLACEMENT_SHADER)
+            known[ref] = offset_of_shader(shader, ir_arg(g, ref, 0), ir_arg(g, ref, 1));
+        else if (node.op == IR_SHADER_MIX)
+            known[ref] = mixed(g, known[ir_arg(g, ref, 0)], known[ir_arg(g, ref, 1)], ir_arg(g, ref, 2));
+    }
+    g->origin = 0;
+    return known[root];
+}
+
+/* The normal of the surface that the screen's neighbours span, on the side of `normal`. */
+static ir_ref facet(struct shader *shader, ir_ref point, ir_ref normal)
+{
+    struct ir_graph *g = shader->graph;
+    ir_ref across = ir_op2(g, IR_CROSS, ir_op1(g, IR_DFDX, point), ir_op1(g, IR_DFDY, point));
+    ir_ref unit = ir_op1(g, IR_NORMALIZE, across);
+    return ir_op3(g, IR_FACEFORWARD, unit, ir_op1(g, IR_NEG, normal), unit);
+}
+
+static ir_ref bent_normal(struct shader *shader, ir_ref before, ir_ref after)
+{
+    struct ir_graph *g = shader->graph;
+    uint32_t origin = g->origin;
+    g->origin = named(shader, STR_facet);
+    ir_ref normal = ir_op1(g, IR_NORMALIZE, stream(shader, STR_normalWorld));
+    ir_ref bend = ir_op2(g, IR_SUB, facet(shader, after, normal), facet(shader, before, normal));
+    g->origin = origin;
+    return ir_op1(g, IR_NORMALIZE, ir_op2(g, IR_ADD, normal, bend));
+}
+
+static void move_vertices(struct shader *shader, ir_ref point)
+{
+    struct ir_graph *g = shader->graph;
+    ir_ref parts[2] = {point, ir_const_float(g, 1.0f)};
+    ir_ref matrix = shader_read(shader, shader_private_uniform(shader, STR_u_viewProjectionMatrix, IR_TYPE_MAT4, 0));
+    ir_ref args[2] = {matrix, ir_construct(g, IR_TYPE_VEC4, parts, 2)};
+    shader_effect(shader, STAGE_VERTEX, (struct effect){.kind = EFFECT_POSITION,
+                                                        .value = ir_build(g, IR_MUL, IR_TYPE_VEC4, 0, args, 2)});
+}
+
+static ir_ref view_from(struct shader *shader, ir_ref point)
+{
+    struct ir_graph *g = shader->graph;
+    ir_ref viewer = shader_read(shader, shader_private_uniform(shader, STR_u_viewPosition, IR_TYPE_VEC3, 0));
+    return ir_op1(g, IR_NORMALIZE, ir_op2(g, IR_SUB, viewer, point));
+}
+
+ir_ref closure_displace(struct shader *shader, const struct closure_host *host, ir_ref surface, ir_ref displacement)
+{
+    struct ir_graph *g = shader->graph;
+    ir_ref offset = displacement ? offset_of(shader, displacement) : 0;
+    if (!offset)
+        return surface;
+    shader->displaced = true;
+    struct closure_point *point = host->point;
+    ir_ref before = stream(shader, STR_positionWorld);
+    g->origin = named(shader, STR_P);
+    point->position = ir_op2(g, IR_ADD, before, offset);
+    g->origin = named(shader, STR_N);
+    point->normal = bent_normal(shader, before, point->position);
+    g->origin = named(shader, STR_V);
+    point->view = view_from(shader, point->position);
+    g->origin = 0;
+    move_vertices(shader, point->position);
+    return surface ? ir_replace(g, surface, stream(shader, STR_normalWorld), point->normal, shader->arena) : 0;
+}
