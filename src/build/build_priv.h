@@ -152,6 +152,9 @@ const struct implementation *build_choose(struct builder *b, uint32_t nodedef, e
 /* Calls an expression or function implementation. */
 void build_call(struct builder *b, const struct implementation *impl, const ir_ref *args, ir_ref *results);
 
+/* blur.c: `in`, averaged over texture coordinates. `node` is who asks. */
+ir_ref build_blur(struct builder *b, ir_ref in, ir_ref size, ir_ref filtertype, elem_id node);
+
 /* dynamic.c: nodes that C code builds; false: there is none for the definition. */
 bool build_dynamic(struct builder *b, const struct frame *frame, ir_ref *results);
 

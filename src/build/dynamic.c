@@ -106,6 +106,11 @@ static ir_ref build_geompropvalue(const struct call *c)
     return named_stream(c, "geomprop_", name.w[0].u, 0, c->type);
 }
 
+static ir_ref blur(const struct call *c)
+{
+    return build_blur(c->b, arg(c, STR_in), arg(c, STR_size), arg(c, STR_filtertype), c->frame->node.element);
+}
+
 /* ---- closures; ref 0 is "no closure" and the neutral element of these ---- */
 
 static ir_ref build_layer(const struct call *c)
@@ -196,6 +201,7 @@ static const struct {
     {STR_geomcolor, build_geomcolor},
     {STR_geompropvalue, build_geompropvalue},
     {STR_geompropvalueuniform, build_geompropvalue},
+    {STR_blur, blur},
     {STR_layer, build_layer},
     {STR_mix, build_mix},
     {STR_add, build_add},

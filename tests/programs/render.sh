@@ -56,6 +56,39 @@ cat >tiles.mtlx <<'X'
 </materialx>
 X
 
+# The mean of the square of x over a kernel is x squared and its variance, which is size squared by 12 for the box, by 36 for the other.
+cat >blur.mtlx <<'X'
+<?xml version="1.0"?>
+<materialx version="1.39">
+  <nodegraph name="NG">
+    <texcoord name="uv" type="vector2"/>
+    <multiply name="square" type="vector2">
+      <input name="in1" type="vector2" nodename="uv"/><input name="in2" type="vector2" nodename="uv"/>
+    </multiply>
+    <blur name="box" type="vector2">
+      <input name="in" type="vector2" nodename="square"/><input name="size" type="float" value="0.6"/>
+    </blur>
+    <blur name="gaussian" type="vector2">
+      <input name="in" type="vector2" nodename="square"/><input name="size" type="float" value="0.6"/>
+      <input name="filtertype" type="string" value="gaussian"/>
+    </blur>
+    <subtract name="by_box" type="vector2">
+      <input name="in1" type="vector2" nodename="box"/><input name="in2" type="vector2" nodename="square"/>
+    </subtract>
+    <subtract name="by_gaussian" type="vector2">
+      <input name="in1" type="vector2" nodename="gaussian"/><input name="in2" type="vector2" nodename="square"/>
+    </subtract>
+    <output name="o_box" type="vector2" nodename="by_box"/>
+    <output name="o_gaussian" type="vector2" nodename="by_gaussian"/>
+  </nodegraph>
+</materialx>
+X
+# all_near ELEMENT VALUE: every value of an element is near this one.
+all_near() {
+    "$render" blur.mtlx --scene grid --element "$1" |
+        awk -F, -v v="$2" '{ n = NF } { for (i = 2; i <= NF; i++) if ($i < v - 1e-6 || $i > v + 1e-6) exit 1 } END { exit n < 33 }'
+}
+
 if ! "$render" plain.mtlx --scene grid >out 2>err && grep -q no-device err; then
     skip 'there is no Vulkan device'
     finish render
@@ -88,6 +121,8 @@ check 'another frame of all of them' test "$("$render" tiles.mtlx --scene grid -
     '0.400000006 1 NG/out '
 check 'a frame that is out of range shows the default' \
     test "$("$render" tiles.mtlx --scene grid --frame 44 | tr ',' '\n' | sort -u | tr '\n' ' ')" = '0.400000006 NG/out '
+check 'a box blur' all_near NG/o_box 0.03
+check 'a gaussian blur' all_near NG/o_gaussian 0.01
 check 'a missing tile of a frame' exits 1 "$render" tiles.mtlx --scene grid --frame 34
 check 'names its file' grep -q "t.1001.0031.ppm" err
 check 'a folder that is missing' exits 1 "$render" plain.mtlx -o missing/ball.png --size 8

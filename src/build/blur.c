@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * blur: a shader computes its input at one point, but the input is a graph, which can be built again for other texture coordinates:
+ *
+ *     blur(in) = Σ weight[i] weight[j] in(uv + size (node[i], node[j])),  i, j = 0..2
+ *
+ * The nodes are those of quadrature with three points (Abramowitz and Stegun, "Handbook of Mathematical Functions", 25.4.30 and 25.4.46),
+ * exact where the input is a polynomial of degree 5 over the kernel. Textures are read with a footprint as wide as the nodes are apart, so
+ * that what lies between is seen in their smaller levels.
+ *
+ * What does not follow texture coordinates is the same everywhere, and stays.
+ */
+#include "build/build_priv.h"
+
+enum { POINTS = 3, TAPS = POINTS * POINTS, MAX_MOVED = 2000 };
+
+static const struct kernel {
+    const char *name;
+    float node, side, middle; /* the outer node, in sizes; the weights */
+} kernels[] = {
+    {"box", 0.38729833f, 5.0f / 18.0f, 8.0f / 18.0f},     /* Gauss-Legendre: sqrt(3/5) of half the size */
+    {"gaussian", 0.28867513f, 1.0f / 6.0f, 4.0f / 6.0f},  /* Gauss-Hermite: sqrt(3) standard deviations, of which a size has six */
+};
+
+struct blur {
+    struct builder *b;
+    const uint8_t *needed;
+    ir_ref in;
+    ir_ref offsets[TAPS][2];
+    ir_ref *moved;    /* TAPS per node: 0 where it does not follow texture coordinates */
+    uint32_t num_moved;
+    bool is_unknown;  /* it depends on what the caller of a function passes */
+};
+
+static const struct kernel *find_kernel(const struct builder *b, ir_ref filtertype)
+{
+    struct ir_value value;
+    bool known = filtertype && ir_get_const(b->graph, filtertype, &value) && value.type == IR_TYPE_STRING;
+    const char *name = known ? build_text(b, value.w[0].u) : "";
+    for (size_t i = 0; i < sizeof kernels / sizeof *kernels; i++)
+        if (strcmp(name, kernels[i].name) == 0)
+            return &kernels[i];
+    return &kernels[0];
+}
+
+static void set_offsets(struct blur *blur, const struct kernel *kernel, ir_ref size)
+{
+    struct ir_graph *g = blur->b->graph;
+    for (int tap = 0; tap < TAPS; tap++)
+        for (int axis = 0; axis < 2; axis++) {
+            int step = (axis == 0 ? tap % POINTS : tap / POINTS) - 1;
+            blur->offsets[tap][axis] = ir_op2(g, IR_MUL, size, ir_const_float(g, (float)step * kernel->node));
+        }
+}
+
+static ir_ref *moved_of(const struct blur *blur, ir_ref ref)
+{
+    return &blur->moved[(size_t)ref * TAPS];
+}
+
+static bool is_texcoord(const struct blur *blur, const struct ir_node *node)
+{
+    const struct shader *shader = blur->b->shader;
+    return node->op == IR_STREAM
+        && strncmp(str_text(shader->strings, shader->variables.items[node->attr].name), "texcoord_", 9) == 0;
+}
+
+static void move_texcoord(struct blur *blur, ir_ref ref)
+{
+    struct ir_graph *g = blur->b->graph;
+    ir_type_id type = ir_type_of(g, ref);
+    for (int tap = 0; tap < TAPS; tap++) {
+        ir_ref parts[3] = {blur->offsets[tap][0], blur->offsets[tap][1], ir_const_float(g, 0.0f)};
+        ir_ref offset = ir_construct(g, type, parts, ir_type_info(type)->components);
+        moved_of(blur, ref)[tap] = ir_op2(g, IR_ADD, ref, offset);
+    }
+}
+
+/* Half of what coordinates change by between the outer nodes along an axis, added to what they change by on the screen. */
+static ir_ref footprint(struct blur *blur, ir_ref uv, enum ir_op derivative, int before, int behind)
+{
+    struct ir_graph *g = blur->b->graph;
+    const ir_ref *taps = moved_of(blur, uv);
+    ir_ref apart = ir_op2(g, IR_MUL, ir_op2(g, IR_SUB, taps[behind], taps[before]), ir_const_float(g, 0.5f));
+    return ir_op2(g, IR_ADD, ir_op1(g, IR_ABS, ir_op1(g, derivative, uv)), ir_op1(g, IR_ABS, apart));
+}
+
+static void move_texture(struct blur *blur, ir_ref ref)
+{
+    struct ir_graph *g = blur->b->graph;
+    ir_ref file = ir_arg(g, ref, 0), uv = ir_arg(g, ref, 1);
+    ir_ref dx = footprint(blur, uv, IR_DFDX, 3, 5), dy = footprint(blur, uv, IR_DFDY, 1, 7);
+    for (int tap = 0; tap < TAPS; tap++) {
+        ir_ref args[4] = {file, moved_of(blur, uv)[tap], dx, dy};
+        moved_of(blur, ref)[tap] = ir_build(g, IR_TEX_GRAD, IR_TYPE_VEC4, 0, args, 4);
+    }
+}
+
+static void move_node(struct blur *blur, ir_ref ref)
+{
+    struct ir_graph *g = blur->b->graph;
+    const struct ir_node node = *ir_get(g, ref);
+    ir_ref *args = ARENA_ARRAY(blur->b->arena, ir_ref, node.num_args);
+    for (int tap = 0; tap < TAPS; tap++) {
+        for (uint32_t i = 0; i < node.num_args; i++) {
+            ir_ref arg = ir_arg(g, ref, i), moved = moved_of(blur, arg)[tap];
+            args[i] = moved ? moved : arg;
+        }
+        moved_of(blur, ref)[tap] = ir_build(g, (enum ir_op)node.op, node.type, node.attr, args, node.num_args);
+    }
+}
+
+static bool follows_texcoord(const struct blur *blur, ir_ref ref)
+{
+    const struct ir_node *node = ir_get(blur->b->graph, ref);
+    bool follows = is_texcoord(blur, node);
+    for (uint32_t i = 0; i < node->num_args && !follows; i++)
+        follows = moved_of(blur, ir_arg(blur->b->graph, ref, i))[0] != 0;
+    return follows;
+}
+
+static void move(struct blur *blur, ir_ref ref)
+{
+    const struct ir_node *node = ir_get(blur->b->graph, ref);
+    blur->is_unknown |= node->op == IR_PARAM;
+    if (!follows_texcoord(blur, ref) || ++blur->num_moved > MAX_MOVED)
+        return;
+    if (node->op == IR_STREAM)
+        move_texcoord(blur, ref);
+    else if (node->op == IR_TEX)
+        move_texture(blur, ref);
+    else
+        move_node(blur, ref);
+}
+
+static ir_ref sum(struct blur *blur, const struct kernel *kernel)
+{
+    struct ir_graph *g = blur->b->graph;
+    ir_ref total = 0;
+    for (int tap = 0; tap < TAPS; tap++) {
+        float x = tap % POINTS == 1 ? kernel->middle : kernel->side, y = tap / POINTS == 1 ? kernel->middle : kernel->side;
+        ir_ref part = ir_op2(g, IR_MUL, moved_of(blur, blur->in)[tap], ir_const_float(g, x * y));
+        total = total ? ir_op2(g, IR_ADD, total, part) : part;
+    }
+    return total;
+}
+
+ir_ref build_blur(struct builder *b, ir_ref in, ir_ref size, ir_ref filtertype, elem_id node)
+{
+    if (!in || ir_const_is(b->graph, size, 0.0f))
+        return in;
+    const struct kernel *kernel = find_kernel(b, filtertype);
+    struct blur blur = {.b = b, .in = in};
+    blur.needed = ir_mark(b->graph, &in, 1, b->arena);
+    blur.moved = ARENA_ARRAY(b->arena, ir_ref, ((size_t)in + 1) * TAPS);
+    set_offsets(&blur, kernel, size);
+    for (ir_ref ref = 1; ref <= in && blur.num_moved <= MAX_MOVED; ref++)
+        if (blur.needed[ref])
+            move(&blur, ref);
+    if (blur.num_moved > MAX_MOVED || blur.is_unknown) {
+        diag_add(b->diags, DIAG_ID_blur_left_out, doc_place(&b->lib->doc, node),
+                 blur.is_unknown ? "it is part of a definition that is used often" : "its input is too large to be computed nine times");
+        return in;
+    }
+    return moved_of(&blur, in)[0] ? sum(&blur, kernel) : in;
+}
