@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "validate/compile.h"
+#include "validate/oslc.h"
 #include "validate/spirv.h"
 
 #include <glslang/Include/glslang_c_interface.h>
@@ -49,27 +50,10 @@ static const struct dialect *find_dialect(const char *target)
 
 bool compile_knows_target(const char *target)
 {
-    return find_dialect(target) != NULL;
+    return find_dialect(target) || (strcmp(target, "osl") == 0 && oslc_is_installed());
 }
 
 /* ---- Messages ---- */
-
-static void add_message(struct compiled *out, mxg_stage stage, mxg_severity severity, uint32_t line, const char *text,
-                        size_t len)
-{
-    struct compile_message *more = realloc(out->messages, (out->num_messages + 1) * sizeof *more);
-    char *copy = malloc(len + 1);
-    if (more)
-        out->messages = more;
-    out->errors += severity == MXG_SEVERITY_ERROR;
-    if (!more || !copy) {
-        free(copy);
-        return;
-    }
-    memcpy(copy, text, len);
-    copy[len] = '\0';
-    out->messages[out->num_messages++] = (struct compile_message){stage, severity, line, copy};
-}
 
 /* One line of a log, "ERROR: 0:12: 'x' : undeclared identifier"; the first number is the source string. */
 static void add_log_line(struct compiled *out, mxg_stage stage, const char *text, size_t len)
@@ -89,7 +73,7 @@ static void add_log_line(struct compiled *out, mxg_stage stage, const char *text
     }
     if (line == 0 && strstr(text, "compilation errors") == text + strspn(text, "0123456789 "))
         return; /* "2 compilation errors. No code generated." */
-    add_message(out, stage, is_error ? MXG_SEVERITY_ERROR : MXG_SEVERITY_WARNING, (uint32_t)line, text,
+    compiled_add(out, stage, is_error ? MXG_SEVERITY_ERROR : MXG_SEVERITY_WARNING, (uint32_t)line, text,
                 text < end ? (size_t)(end - text) : 0);
 }
 
@@ -157,7 +141,7 @@ static void validate_spirv(mxg_stage stage, struct compiled *out)
     spv_diagnostic diagnostic = NULL;
     if (spvValidateBinary(context, code->words, code->num_words, &diagnostic) != SPV_SUCCESS) {
         const char *text = diagnostic ? diagnostic->error : "invalid SPIR-V";
-        add_message(out, stage, MXG_SEVERITY_ERROR, 0, text, strlen(text));
+        compiled_add(out, stage, MXG_SEVERITY_ERROR, 0, text, strlen(text));
     }
     spvDiagnosticDestroy(diagnostic);
     spvContextDestroy(context);
@@ -199,7 +183,7 @@ static bool link_stages(const struct dialect *dialect, glslang_program_t *progra
     static const char unexplained[] = "the stages do not link";
     add_log(out, MXG_STAGE_PIXEL, glslang_program_get_info_log(program));
     if (out->errors == 0)
-        add_message(out, MXG_STAGE_PIXEL, MXG_SEVERITY_ERROR, 0, unexplained, sizeof unexplained - 1);
+        compiled_add(out, MXG_STAGE_PIXEL, MXG_SEVERITY_ERROR, 0, unexplained, sizeof unexplained - 1);
     return false;
 }
 
@@ -233,9 +217,11 @@ static void compile_once(const struct dialect *dialect, const char *const source
 bool compile_program(const char *target, const char *const sources[MXG_NUM_STAGES], struct compiled *out)
 {
     *out = (struct compiled){0};
+    if (strcmp(target, "osl") == 0)
+        return oslc_compile_program(sources, out);
     const struct dialect *dialect = find_dialect(target);
     if (!dialect) {
-        add_message(out, MXG_STAGE_PIXEL, MXG_SEVERITY_ERROR, 0, "unknown dialect", 15);
+        compiled_add(out, MXG_STAGE_PIXEL, MXG_SEVERITY_ERROR, 0, "unknown dialect", 15);
         return false;
     }
     if (!dialect->is_spirv_source)
@@ -243,14 +229,4 @@ bool compile_program(const char *target, const char *const sources[MXG_NUM_STAGE
     if (out->errors == 0)
         compile_once(dialect, sources, true, out);
     return out->errors == 0;
-}
-
-void compiled_finish(struct compiled *compiled)
-{
-    for (size_t i = 0; i < compiled->num_messages; ++i)
-        free(compiled->messages[i].text);
-    free(compiled->messages);
-    for (int stage = 0; stage < MXG_NUM_STAGES; ++stage)
-        free(compiled->stages[stage].words);
-    *compiled = (struct compiled){0};
 }

@@ -32,11 +32,14 @@ struct compiled {
 void compile_begin(void);
 void compile_end(void);
 
-/* Whether shaders of the target can be compiled here: "glsl", "vulkan", "essl". */
+/* Whether shaders of the target can be compiled here: "glsl", "vulkan", "essl"; "osl" where there is an oslc. */
 bool compile_knows_target(const char *target);
 
 /* Compiles and links the stages of a program. True without errors. compiled_finish must follow in both cases. */
 bool compile_program(const char *target, const char *const sources[MXG_NUM_STAGES], struct compiled *out);
 void compiled_finish(struct compiled *compiled);
+
+/* compiled.c: adds a message, for what compiles. */
+void compiled_add(struct compiled *compiled, mxg_stage stage, mxg_severity severity, uint32_t line, const char *text, size_t len);
 
 #endif

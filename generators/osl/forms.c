@@ -8,8 +8,7 @@
 
 #include <assert.h>
 
-enum { NUM_PARTS = 4 };
-static const char parts[NUM_PARTS] = {'x', 'y', 'z', 'w'};
+static const char parts[] = "xyzw";
 
 static bool is_struct(ir_type_id type)
 {
@@ -70,18 +69,18 @@ static const struct lang_pieces *call_form(struct osl *osl, const char *name, un
 
 /* ---- Helpers ---- */
 
-static bool has_helper(const struct osl *osl, const char *key)
+static bool has_helper(const struct osl *osl, const char *text)
 {
     for (uint32_t i = 0; i < osl->helpers.len; i++)
-        if (strcmp(osl->helpers.items[i].key, key) == 0)
+        if (strcmp(osl->helpers.items[i], text) == 0)
             return true;
     return false;
 }
 
-static void add_helper(struct osl *osl, const char *key, const char *text)
+void osl_add_helper(struct osl *osl, const char *text)
 {
-    if (!has_helper(osl, key))
-        vec_push(osl->spell->scratch, &osl->helpers, (struct osl_helper){key, text});
+    if (!has_helper(osl, text))
+        vec_push(osl->spell->scratch, &osl->helpers, text);
 }
 
 struct helper_row {
@@ -111,7 +110,7 @@ static const struct helper_row *find_helper(const struct lang_use *use)
 
 static const struct lang_pieces *helper_form(struct osl *osl, const struct helper_row *row, const struct lang_use *use)
 {
-    add_helper(osl, row->text, row->text);
+    osl_add_helper(osl, row->text);
     if (strncmp(row->name, "__operator__", 12) == 0)
         return usual_form(osl, use->op);
     return call_form(osl, row->name, use->num_operands, use->op == IR_SELECT ? "210" : NULL);
@@ -143,9 +142,10 @@ static const char *operator_word(enum ir_op op)
 static const char *function_name(struct osl *osl, enum ir_op op, const struct lang_pieces *scalar)
 {
     const char *end = strchr(scalar->text, '(');
-    if (!end || end == scalar->text || scalar->text[0] == '$' || strchr(scalar->text, ' ') < end)
+    size_t len = end ? (size_t)(end - scalar->text) : 0;
+    if (len == 0 || memchr(scalar->text, ' ', len) || memchr(scalar->text, '$', len))
         return ir_op_info(op)->text;
-    return arena_strndup(osl->spell->scratch, scalar->text, (size_t)(end - scalar->text));
+    return arena_strndup(osl->spell->scratch, scalar->text, len);
 }
 
 static ir_type_id scalar_of(ir_type_id type)
@@ -206,21 +206,26 @@ static const struct lang_pieces *component_form(struct osl *osl, const struct la
     text_init(&text, osl->spell->scratch);
     write_component_function(name, use, scalar, &text);
     const char *body = text_cstr(&text);
-    add_helper(osl, body, body);
+    osl_add_helper(osl, body);
     return word ? usual_form(osl, use->op) : call_form(osl, name, use->num_operands, NULL);
 }
 
 /* ---- Taking apart and putting together ---- */
 
+static bool is_color_operand(const struct osl *osl, const struct lang_use *use, unsigned index)
+{
+    return use->node && osl->kinds[ir_arg(osl->spell->shader->graph, use->node, index)] == OSL_COLOR;
+}
+
 /* "$0.x", "vector2($0.y, $0.x)"; of something that is no variable, by a function. */
 static const struct lang_pieces *swizzle_form(struct osl *osl, const struct lang_use *use)
 {
     unsigned count = use->attr >> 8;
-    bool named = use->named & 1, is_color = use->node && osl->kinds[ir_arg(osl->spell->shader->graph, use->node, 0)] == OSL_COLOR;
+    bool named = use->named & 1;
     struct text text, name;
     text_init(&text, osl->spell->scratch);
     text_init(&name, osl->spell->scratch);
-    const char *letters = is_color && named ? "rgba" : "xyzw", *whole = named ? "$0" : "v";
+    const char *letters = named && is_color_operand(osl, use, 0) ? "rgba" : parts, *whole = named ? "$0" : "v";
     if (count > 1)
         text_fmt(&text, "%s(", type_name(use->type));
     for (unsigned i = 0; i < count; i++) {
@@ -236,13 +241,13 @@ static const struct lang_pieces *swizzle_form(struct osl *osl, const struct lang
     text_init(&function, osl->spell->scratch);
     text_fmt(&function, "%s %s_of(%s v)\n{\n    return %s;\n}\n", type_name(use->type), text_cstr(&name),
              type_name(use->operands[0]), text_cstr(&text));
-    add_helper(osl, text_cstr(&function), text_cstr(&function));
+    osl_add_helper(osl, text_cstr(&function));
     text_str(&name, "_of");
     return call_form(osl, text_cstr(&name), 1, NULL);
 }
 
 /* The parts of all operands in a row: of "$0", "$1"… where they are `named`, else of the parameters a, b… */
-static void write_parts(const struct lang_use *use, bool named, struct text *out)
+static void write_parts(const struct osl *osl, const struct lang_use *use, bool named, struct text *out)
 {
     unsigned left = components(use->type), wanted = use->num_operands == 1 ? 1 : left;
     for (unsigned i = 0; i < use->num_operands; i++) {
@@ -251,7 +256,7 @@ static void write_parts(const struct lang_use *use, bool named, struct text *out
             text_str(out, left == components(use->type) ? "" : ", ");
             text_fmt(out, named ? "$%u" : "%c", named ? i : 'a' + i);
             if (n > 1)
-                text_fmt(out, ".%c", parts[k]);
+                text_fmt(out, ".%c", (named && is_color_operand(osl, use, i) ? "rgba" : parts)[k]);
         }
     }
     for (; wanted == 1 && left && components(use->operands[0]) == 1; left--) /* one scalar fills all */
@@ -281,7 +286,7 @@ static const struct lang_pieces *construct_form(struct osl *osl, const struct la
     text_init(&text, osl->spell->scratch);
     if (all_named(use)) {
         text_fmt(&text, "%s(", type_name(use->type));
-        write_parts(use, true, &text);
+        write_parts(osl, use, true, &text);
         text_char(&text, ')');
         return form_of(osl, text_cstr(&text), LANG_PREC_POSTFIX);
     }
@@ -292,9 +297,9 @@ static const struct lang_pieces *construct_form(struct osl *osl, const struct la
     for (unsigned i = 0; i < use->num_operands; i++)
         text_fmt(&text, "%s%s %c", i ? ", " : "", type_name(use->operands[i]), (char)('a' + i));
     text_fmt(&text, ")\n{\n    return %s(", type_name(use->type));
-    write_parts(use, false, &text);
+    write_parts(osl, use, false, &text);
     text_str(&text, ");\n}\n");
-    add_helper(osl, text_cstr(&text), text_cstr(&text));
+    osl_add_helper(osl, text_cstr(&text));
     return call_form(osl, text_cstr(&name), use->num_operands, NULL);
 }
 
@@ -341,7 +346,7 @@ static const struct lang_pieces *product_form(struct osl *osl, const struct lang
         ir_type_id turned[2] = {b, a};
         struct lang_use transform = *use;
         transform.operands = turned;
-        add_helper(osl, find_helper(&transform)->text, find_helper(&transform)->text);
+        osl_add_helper(osl, find_helper(&transform)->text);
         return form_of(osl, "transform(transpose($1), $0)", LANG_PREC_POSTFIX);
     }
     return NULL;
@@ -368,7 +373,9 @@ static enum osl_kind operand_kind(const struct osl *osl, const struct lang_use *
 {
     if (!use->node || use->operands[index] != IR_TYPE_VEC3)
         return OSL_ANY;
-    return (enum osl_kind)osl->kinds[ir_arg(osl->spell->shader->graph, use->node, index)];
+    ir_ref operand = ir_arg(osl->spell->shader->graph, use->node, index);
+    bool is_local = osl->spell->local_of[operand]; /* declared as vector or color */
+    return is_local && osl->kinds[operand] == OSL_POINT ? OSL_VECTOR : (enum osl_kind)osl->kinds[operand];
 }
 
 /* The type that an operand must be cast to, lest a call mixes colours and vectors; NULL: it may stay. */
@@ -445,6 +452,9 @@ const struct lang_pieces *osl_form(void *user_data, const struct lang_use *use)
         return index_form(osl, use);
     if (use->op == IR_MEMBER)
         return NULL;
+    const char *texture = use->op == IR_TEX ? osl_texture_call(osl, use) : NULL;
+    if (texture)
+        return form_of(osl, texture, use->type == IR_TYPE_VEC4 ? LANG_PREC_POSTFIX : LANG_PREC_UNARY);
     const struct helper_row *row = find_helper(use);
     if (row)
         return helper_form(osl, row, use);

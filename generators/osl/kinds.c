@@ -32,6 +32,8 @@ static enum osl_kind kind_of(const struct osl *osl, ir_ref ref)
     const struct ir_node *node = ir_get(graph, ref);
     if (node->op == IR_UNIFORM || node->op == IR_STREAM)
         return kind_of_variable(osl, node->attr);
+    if (node->op == IR_TEX)
+        return OSL_COLOR;
     if (gives_vector(node->op) || (node->num_args == 0 && node->op != IR_CONST))
         return OSL_VECTOR;
     enum osl_kind kind = OSL_ANY;
@@ -41,7 +43,8 @@ static enum osl_kind kind_of(const struct osl *osl, ir_ref ref)
             continue;
         if (osl->kinds[arg] == OSL_COLOR)
             return OSL_COLOR;
-        kind = OSL_VECTOR;
+        bool is_point = osl->kinds[arg] == OSL_POINT && ir_op_info(node->op)->flags & OP_OPERATOR;
+        kind = is_point || kind == OSL_POINT ? OSL_POINT : OSL_VECTOR;
     }
     return kind;
 }

@@ -98,12 +98,12 @@ static void write_declarations(struct osl *osl, const char *rest)
     for (size_t i = 0; i < sizeof structs / sizeof *structs; i++) {
         bool needed = mentions(rest, structs[i].name);
         for (uint32_t k = 0; k < osl->helpers.len && !needed; k++)
-            needed = mentions(osl->helpers.items[k].text, structs[i].name);
+            needed = mentions(osl->helpers.items[k], structs[i].name);
         if (needed)
             SPELL(spell, structs[i].text, "\n");
     }
     for (uint32_t i = 0; i < osl->helpers.len; i++)
-        SPELL(spell, osl->helpers.items[i].text, "\n");
+        SPELL(spell, osl->helpers.items[i], "\n");
 }
 
 static void write_structs(struct spell *spell)
@@ -143,6 +143,7 @@ static void write_stage(struct spell *spell, enum shader_stage_id stage)
     struct text *out = spell->out, rest;
     spell->target_data = &osl;
     spell->lang_names.form = osl_form;
+    spell->lang_names.global = osl_global_name;
     osl_name_interface(&osl);
     osl_find_kinds(&osl);
     text_init(&rest, spell->scratch);
@@ -164,7 +165,7 @@ const struct target target_osl = {
     .name = "osl",
     .materialx_name = "genosl",
     .brief = "Open Shading Language 1.14 and later",
-    .caps = CAP_OVERLOADS | CAP_BITWISE | CAP_IMPLICIT_LOD | CAP_CLOSURES | CAP_STRINGS | CAP_NAMED_WHOLES,
+    .caps = CAP_OVERLOADS | CAP_BITWISE | CAP_IMPLICIT_LOD | CAP_CLOSURES | CAP_STRINGS | CAP_NAMED_WHOLES | CAP_TYPED_TEXTURES,
     .closures = &closures,
     .syntax = &osl_syntax,
     .stage_suffix = {NULL, "osl"},

@@ -8,16 +8,11 @@
 extern const struct lang_syntax osl_syntax;
 extern const struct target target_osl;
 
-struct osl_helper { /* a function that the file declares for itself */
-    const char *key;  /* what it is known by: name and types */
-    const char *text;
-};
-
 /* What is known while a file is written. */
 struct osl {
     struct spell *spell;
     uint8_t *kinds;   /* per node of three components: enum osl_kind */
-    VEC(struct osl_helper) helpers; /* callees first */
+    VEC(const char *) helpers; /* functions that the file declares for itself, callees first */
 };
 
 /* The IR's vec3 is OSL's `vector`, or `color` where a colour is known to be in it; P is a `point`. */
@@ -27,12 +22,17 @@ enum osl_kind { OSL_ANY, OSL_VECTOR, OSL_COLOR, OSL_POINT };
 void osl_find_kinds(struct osl *osl);
 const char *osl_node_type(const struct spell *spell, ir_ref ref); /* "color"; NULL: as its type says */
 
+void osl_add_helper(struct osl *osl, const char *text); /* unless it is there */
 /* forms.c: lang_names.form; `user_data` is the spell, whose target_data the osl. */
 const struct lang_pieces *osl_form(void *user_data, const struct lang_use *use);
 bool osl_write_value(const struct lang_style *style, ir_type_id type, const union ir_word *words, struct text *out);
 
+/* textures.c: the form that reads a texture of the graph; NULL: it is one that a function was given. */
+const char *osl_texture_call(struct osl *osl, const struct lang_use *use);
+
 /* parameters.c */
 void osl_name_interface(struct osl *osl);
+const char *osl_global_name(void *user_data, uint32_t id); /* lang_names.global */
 void osl_write_parameters(struct osl *osl);
 void osl_write_streams(struct osl *osl);
 

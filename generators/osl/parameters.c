@@ -57,7 +57,8 @@ static bool is_read(const struct osl *osl, const struct shader_variable *variabl
 /* "st" of the stream "geomprop_st": the name of the primitive's variable. */
 static const char *primitive_name(const char *stream)
 {
-    return strncmp(stream, "geomprop_", 9) == 0 ? stream + 9 : strncmp(stream, "u_geomprop_", 11) == 0 ? stream + 11 : stream;
+    return strncmp(stream, "geomprop_", 9) == 0 ? stream + 9 : strncmp(stream, "u_geomprop_", 11) == 0 ? stream + 11
+           : strncmp(stream, "u_", 2) == 0 ? stream + 2 : stream;
 }
 
 static unsigned array_length(const struct shader_variable *variable)
@@ -76,23 +77,51 @@ static bool is_global(const char *expression)
     return strlen(expression) <= 4 && !strpbrk(expression, "( ");
 }
 
+/* "st_value": the struct that an array is put into. */
+static const char *value_name(struct spell *spell, const char *stream)
+{
+    struct text name;
+    text_init(&name, spell->scratch);
+    text_fmt(&name, "%s_value", primitive_name(stream));
+    return names_unique(&spell->names, text_cstr(&name), name.len);
+}
+
 void osl_name_interface(struct osl *osl)
 {
     struct spell *spell = osl->spell;
     for (uint32_t i = 0; i < spell->shader->interface.len; i++) {
         const struct shader_variable *variable = interface_variable(osl, i);
         const char *name = text_of(osl, variable->name);
-        if (is_stream(variable) && !expression_of(osl, variable) && !array_length(variable))
-            name = primitive_name(name);
         const char *expression = expression_of(osl, variable);
+        if (is_stream(variable) && !expression && !array_length(variable))
+            name = primitive_name(name);
         if (ir_type_is_closure(variable->type))
             name = "Ci";
         else if (expression && is_global(expression))
             name = expression;
+        else if (is_stream(variable) && !expression && array_length(variable))
+            name = value_name(spell, name);
         else if (is_stream(variable))
             name = names_unique(&spell->names, name, strlen(name));
         spell->variables[spell->shader->interface.items[i]] = name;
     }
+}
+
+/* Functions do not see the shader's locals: they have expressions for them. */
+const char *osl_global_name(void *user_data, uint32_t id)
+{
+    struct spell *spell = user_data;
+    const struct osl *osl = spell->target_data;
+    uint32_t index = shader_global_variable(spell->shader, id);
+    if (index == UINT32_MAX)
+        return NULL;
+    const char *expression = expression_of(osl, &spell->shader->variables.items[index]);
+    if (!expression || is_global(expression))
+        return spell->variables[index];
+    struct text text;
+    text_init(&text, spell->scratch);
+    text_fmt(&text, strchr(expression, ' ') ? "(%s)" : "%s", expression);
+    return text_cstr(&text);
 }
 
 /* ---- Metadata ---- */

@@ -279,6 +279,7 @@ static struct shader_layout_rules layout_rules(const struct generation *g)
         .bindings = caps & CAP_BINDINGS,
         .neutral_names = g->options[OPTION_names].number != 0,
         .one_stage = !(caps & CAP_STAGES),
+        .typed_textures = caps & CAP_TYPED_TEXTURES,
         .names_wholes = caps & CAP_NAMED_WHOLES,
     };
 }

@@ -461,7 +461,7 @@ static void let_arms(struct scheduler *s, const struct ir_node *node)
 static void let_wholes(const struct scheduler *s, const struct ir_node *node)
 {
     bool takes_parts = node->op == IR_SWIZZLE || node->op == IR_MEMBER || node->op == IR_INDEX || node->op == IR_CONVERT
-                       || node->op == IR_CONSTRUCT;
+                       || node->op == IR_CONSTRUCT || node->op == IR_TEX;
     for (uint32_t a = 0; a < node->num_args && takes_parts; a++) {
         struct plan *whole = plan_of((struct scheduler *)(uintptr_t)s, s->graph->args.items[node->first_arg + a]);
         const struct ir_node *operand = ir_get(s->graph, whole->ref);

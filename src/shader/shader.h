@@ -242,6 +242,7 @@ struct shader_layout_rules { /* from the target's table and the options */
     bool bindings;           /* sets and bindings are numbered, locations given */
     bool neutral_names;      /* public variables are numbered: equal topology, equal names */
     bool one_stage;          /* there is no vertex stage */
+    bool typed_textures;     /* texture() gives one or three channels where no more are wanted */
     bool names_wholes;       /* parts are taken of variables only: v.x, but not (a + b).x */
     uint32_t set;            /* descriptor set of everything */
 };

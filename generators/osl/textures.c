@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * Reads of textures with what the node says about them: address modes, filter, and the colour where there is no image.
+ *
+ *     color c = (color)texture(file, uv.x, 1 - uv.y, "swrap", "clamp", "twrap", "periodic");
+ */
+#include "generators/osl/osl.h"
+
+static const char *const wraps[][2] = {{"constant", "black"}, {"clamp", "clamp"}, {"periodic", "periodic"}, {"mirror", "mirror"}};
+/* "linear" is what texture() does unless it is told: it filters better than that. */
+static const char *const filters[][2] = {{"closest", "closest"}, {"linear", "smartcubic"}, {"cubic", "cubic"}};
+
+static const char *translate(const char *const (*words)[2], size_t count, const char *word, const char *otherwise)
+{
+    for (size_t i = 0; i < count; i++)
+        if (strcmp(words[i][0], word) == 0)
+            return words[i][1];
+    return otherwise;
+}
+
+struct modes {
+    const char *swrap, *twrap, *interp;
+};
+
+static struct modes modes_of(const struct spell *spell, const struct shader_variable *texture)
+{
+    const struct strpool *strings = spell->shader->strings;
+    return (struct modes){
+        .swrap = translate(wraps, 4, str_text(strings, texture->sampling.uaddressmode), "periodic"),
+        .twrap = translate(wraps, 4, str_text(strings, texture->sampling.vaddressmode), "periodic"),
+        .interp = translate(filters, 3, str_text(strings, texture->sampling.filtertype), "smartcubic"),
+    };
+}
+
+/* What stands for a missing image: the node's default, as four channels. */
+static void write_missing(const struct spell *spell, const struct shader_variable *texture, unsigned count, struct text *out)
+{
+    const struct ir_value *value = &texture->value;
+    bool is_number = texture->has_default && value->type < IR_NUM_TYPES;
+    unsigned n = is_number ? ir_type_info(value->type)->components : 0;
+    for (unsigned i = 0; i < count; i++) {
+        union ir_word word = {.f = i == 3 && n < 4 ? 1.0f : 0.0f};
+        if (n && (i < n || (n == 1 && i < 3)))
+            word = value->w[n == 1 ? 0 : i];
+        text_str(out, i ? ", " : "");
+        lang_print_value(spell->style, NULL, IR_TYPE_FLOAT, &word, LANG_PREC_COMMA, out);
+    }
+}
+
+/* One or three channels are what OSL's texture() gives by itself. */
+static void write_call(const struct spell *spell, const struct shader_variable *texture, ir_type_id type, struct text *out)
+{
+    struct modes modes = modes_of(spell, texture);
+    text_fmt(out, "(%s)texture($0, $1.x, 1 - $1.y", type == IR_TYPE_FLOAT ? "float" : "color");
+    if (strcmp(modes.swrap, modes.twrap) == 0)
+        text_fmt(out, ", \"wrap\", \"%s\"", modes.swrap);
+    else
+        text_fmt(out, ", \"swrap\", \"%s\", \"twrap\", \"%s\"", modes.swrap, modes.twrap);
+    if (strcmp(modes.interp, "smartcubic") != 0)
+        text_fmt(out, ", \"interp\", \"%s\"", modes.interp);
+    text_str(out, ", \"missingcolor\", color(");
+    write_missing(spell, texture, 3, out);
+    text_str(out, "))");
+}
+
+static const char whole_texel[] =
+    "vector4 texel(string file, vector2 uv, string swrap, string twrap, string interp, vector4 missing)\n{\n    float alpha;\n"
+    "    color c = texture(file, uv.x, 1 - uv.y, \"swrap\", swrap, \"twrap\", twrap, \"interp\", interp, \"alpha\", alpha,\n"
+    "                      \"missingcolor\", color(missing.x, missing.y, missing.z), \"missingalpha\", missing.w);\n"
+    "    return vector4(c[0], c[1], c[2], alpha);\n}\n";
+
+static void write_whole(struct osl *osl, const struct shader_variable *texture, struct text *out)
+{
+    struct modes modes = modes_of(osl->spell, texture);
+    osl_add_helper(osl, whole_texel);
+    text_fmt(out, "texel($0, $1, \"%s\", \"%s\", \"%s\", vector4(", modes.swrap, modes.twrap, modes.interp);
+    write_missing(osl->spell, texture, 4, out);
+    text_str(out, "))");
+}
+
+const char *osl_texture_call(struct osl *osl, const struct lang_use *use)
+{
+    const struct spell *spell = osl->spell;
+    const struct ir_node *texture = use->node ? ir_get(spell->shader->graph, ir_arg(spell->shader->graph, use->node, 0)) : NULL;
+    if (!texture || texture->op != IR_TEXTURE)
+        return NULL;
+    const struct shader_variable *variable = &spell->shader->variables.items[texture->attr];
+    struct text text;
+    text_init(&text, spell->scratch);
+    if (use->type == IR_TYPE_VEC4)
+        write_whole(osl, variable, &text);
+    else
+        write_call(spell, variable, use->type, &text);
+    return text_cstr(&text);
+}
