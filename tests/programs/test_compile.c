@@ -61,7 +61,7 @@ int main(void)
     refuses("vulkan", desktop_vertex, broken_pixel, 5, "missing");
     refuses("vulkan", desktop_vertex, desktop_pixel, 2, "outside a block"); /* loose uniforms are not Vulkan's */
     REQUIRE(compile_knows_target("essl"));
-    REQUIRE(!compile_knows_target("osl"));
+    REQUIRE(!compile_knows_target("msl"));
     compile_end();
     return test_report("compile");
 }
