@@ -76,6 +76,7 @@ struct example_file {
     char *name, *text;
     size_t len;
     bool is_whole; /* it needs no <materialx> around it */
+    bool is_there; /* on this side */
 };
 
 static void append(struct example_file *file, const char *text, size_t len)
@@ -102,9 +103,9 @@ static void write_text(struct cli *cli, const char *folder, const char *name, co
 static void finish_file(struct cli *cli, const char *folder, struct example_file *file)
 {
     static const char end[] = "</materialx>\n";
-    if (file->text && !file->is_whole)
+    if (file->is_there && !file->is_whole)
         append(file, end, sizeof end - 1);
-    if (file->text)
+    if (file->is_there)
         write_text(cli, folder, file->name, file->text, file->len);
     free(file->name);
     free(file->text);
@@ -142,6 +143,7 @@ static void write_side(struct cli *cli, const char *example, char side, const ch
             for (size_t i = 0; i < line.len; ++i)
                 append(&file, line.text[i] == '\'' ? "\"" : &line.text[i], 1);
             append(&file, "\n", 1);
+            file.is_there = true;
         }
     }
     finish_file(cli, folder, &file);

@@ -55,12 +55,13 @@ static struct block *join(struct mxg_context *context, const char *from, const c
     memcpy(name->bytes, from, folder);
     while (strncmp(ref, "./", 2) == 0)
         ref += 2;
-    for (; folder > 1 && strncmp(ref, "../", 3) == 0; ref += 3) {
+    while (folder > 1 && strncmp(ref, "../", 3) == 0) {
         size_t parent = folder - 1;
         while (parent > 0 && name->bytes[parent - 1] != '/')
             parent--;
         if (memcmp(name->bytes + parent, "../", 3) == 0)
             break; /* already above where it began */
+        ref += memcmp(name->bytes + parent, "./", 2) == 0 ? 0 : 3; /* "./" is no folder to leave */
         folder = parent;
     }
     memcpy(name->bytes + folder, ref, strlen(ref) + 1);

@@ -1,39 +1,100 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Checks of a whole document against its library. */
+/* Checks of a whole document against its library, and of the files that it names. */
 #include "api/generation.h"
 
-/* Definition and connections of a node, the connection of an output; doc_validate has looked at the rest. */
-static void check_element(struct generation *g, elem_id element, struct resolve_out *resolved)
+/* ---- Textures: whether their files are there, as far as the host tells what lies in a folder ---- */
+
+struct texture_check {
+    const struct document *doc;
+    const mxg_resolver *resolver;
+    struct arena *arena;
+    struct diag_list *diags;
+    const char *from, *folder; /* whose names these are: textures of a document often lie in one folder */
+    const char *names;
+    size_t size;
+};
+
+static void list_folder(struct texture_check *c, const char *from, const char *folder)
 {
-    const struct library *layer = &g->document->layer;
-    struct diag_list *diags = &g->result->object.diagnostics.list;
-    const struct element *e = doc_element(&layer->doc, element);
-    if (e->kind == KIND_NODE) {
-        resolved->bindings.len = 0;
-        library_resolve_node(layer, element, resolved, diags);
-    } else if (e->kind == KIND_OUTPUT && doc_element(&layer->doc, e->parent)->kind != KIND_NODE) {
-        library_resolve_connection(layer, element, library_type(layer, doc_attr_value(&layer->doc, element, STR_type)), diags);
-    }
+    if (c->folder && strcmp(c->from, from) == 0 && strcmp(c->folder, folder) == 0)
+        return;
+    char *names = NULL;
+    size_t capacity = 0, size;
+    while ((size = c->resolver->list_folder(c->resolver->user_data, from, folder, names, capacity)) > capacity)
+        names = arena_alloc(c->arena, capacity = size);
+    c->from = from;
+    c->folder = folder;
+    c->names = names;
+    c->size = size;
 }
 
-static bool is_in_graph(const struct document *doc, elem_id element)
+static bool has_name(const struct texture_check *c, const char *name, size_t len)
 {
-    elem_id parent = doc_element(doc, element)->parent;
-    return parent == doc->root || (parent && doc_element(doc, parent)->kind == KIND_NODEGRAPH);
+    for (size_t at = 0; at < c->size; at += strlen(c->names + at) + 1)
+        if (strncmp(c->names + at, name, len) == 0 && !c->names[at + len])
+            return true;
+    return false;
+}
+
+/* The tiles of the rows that have any, up to the last one of each: a row that ends early is usual, one with a hole is not. */
+static void check_tiles(struct texture_check *c, const char *path, const char *pattern, struct diag_place place)
+{
+    enum { FIRST = 1001, ROW = 10, NUM_TILES = 1000 };
+    const char *token = strstr(pattern, "<UDIM>");
+    struct text missing, name;
+    text_init(&missing, c->arena);
+    text_init(&name, c->arena);
+    for (int row = FIRST, last; row < FIRST + NUM_TILES; row += ROW) {
+        bool is_there[ROW];
+        last = -1;
+        for (int u = 0; u < ROW; u++) {
+            name.len = 0;
+            text_fmt(&name, "%.*s%d%s", (int)(token - pattern), pattern, row + u, token + strlen("<UDIM>"));
+            is_there[u] = has_name(c, name.data, name.len);
+            last = is_there[u] ? u : last;
+        }
+        for (int u = 0; u < last; u++)
+            if (!is_there[u])
+                text_fmt(&missing, "%s%d", missing.len ? ", " : "", row + u);
+    }
+    if (missing.len)
+        diag_add(c->diags, DIAG_ID_missing_tiles, place, path, text_cstr(&missing));
+}
+
+/* Tokens and frames are known when it is drawn; of tiles, generation tells where there are none. */
+static void check_texture(struct texture_check *c, elem_id element)
+{
+    str_id value = doc_attr_value(c->doc, element, STR_value), prefix = doc_inherited_attr(c->doc, element, STR_fileprefix);
+    struct text path;
+    text_init(&path, c->arena);
+    text_fmt(&path, "%s%s", str_text(c->doc->strings, prefix), str_text(c->doc->strings, value));
+    const char *text = text_cstr(&path), *slash = strrchr(text, '/'), *name = slash ? slash + 1 : text;
+    struct diag_place place = doc_attr_place(c->doc, element, STR_value);
+    if (!*name || strpbrk(text, "[{") || strstr(text, "://"))
+        return;
+    list_folder(c, place.file ? place.file : "", arena_strndup(c->arena, text, (size_t)(name - text)));
+    if (strstr(name, "<UDIM>"))
+        check_tiles(c, text, name, place);
+    else if (!strchr(text, '<') && !has_name(c, name, strlen(name)))
+        diag_add(c->diags, DIAG_ID_missing_texture, place, text);
+}
+
+static void check_textures(struct generation *g)
+{
+    const struct document *doc = &g->document->layer.doc;
+    struct texture_check c = {.doc = doc,
+                              .resolver = &g->result->object.context->resolver,
+                              .arena = &g->scratch,
+                              .diags = &g->result->object.diagnostics.list};
+    for (elem_id e = c.resolver->list_folder ? doc->root : 0; e; e = doc_next_in_tree(doc, doc->root, e))
+        if (doc_attr_value(doc, e, STR_type) == STR_filename && doc_attr_value(doc, e, STR_value))
+            check_texture(&c, e);
 }
 
 static void validate(struct generation *g)
 {
-    const struct library *layer = &g->document->layer;
-    const struct document *doc = &layer->doc;
-    struct diag_list *diags = &g->result->object.diagnostics.list;
-    struct resolve_out resolved = {.arena = &g->scratch};
-    doc_validate(doc, diags);
-    for (elem_id e = doc->root; e; e = doc_next_in_tree(doc, doc->root, e))
-        if (is_in_graph(doc, e))
-            check_element(g, e, &resolved);
-    for (uint32_t i = 0; layer->deferred && i < layer->deferred->items.len; i++)
-        diag_repeat(diags, &layer->deferred->items.items[i]);
+    library_validate(&g->document->layer, &g->scratch, &g->result->object.diagnostics.list);
+    check_textures(g);
 }
 
 mxg_status mxg_document_validate(mxg_context *context, const mxg_document *document, mxg_result **out_result)

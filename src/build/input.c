@@ -43,32 +43,13 @@ static bool parse(struct builder *b, doc_type type, str_id text, const struct po
     return value && doc_parse_value(type, build_text(b, value), str_len(b->shader->strings, value), NULL, out);
 }
 
-/* Strings with an enum accept its words only. */
-static bool in_enum(struct builder *b, const struct port *port, str_id text)
-{
-    const char *names = build_text(b, doc_attr_value(doc_of(b), port->element, STR_enum)), *word = build_text(b, text);
-    size_t len = strlen(word);
-    for (const char *p = names; *p;) {
-        p += strspn(p, " ");
-        size_t n = strcspn(p, ","), trimmed = n;
-        while (trimmed && p[trimmed - 1] == ' ')
-            trimmed--;
-        if (trimmed == len && memcmp(p, word, len) == 0)
-            return true;
-        p += n + (p[n] == ',');
-    }
-    return false;
-}
-
 /* The constant that attribute `value` of an element says; poison and a diagnostic where it does not parse. */
 static ir_ref constant(struct builder *b, const struct port *port, str_id text, elem_id element)
 {
     ir_type_id ir = library_type_ir(b->lib, port->type);
     struct ir_value value;
     if (ir == IR_TYPE_STRING) {
-        if ((port->flags & PORT_ENUM) && text && !in_enum(b, port, text))
-            diag_add(b->diags, DIAG_ID_bad_enum_value, doc_attr_place(doc_of(b), element, STR_value), build_text(b, text),
-                     build_text(b, doc_attr_value(doc_of(b), port->element, STR_enum)));
+        library_check_enum(b->lib, port, text, doc_attr_place(doc_of(b), element, STR_value), b->diags);
         return ir_const_string(b->graph, text);
     }
     if (parse(b, port->type, text, port, &value))
@@ -350,54 +331,17 @@ static elem_id graph_around(const struct builder *b, elem_id element)
     return element;
 }
 
-/* " (did you mean 'x'?)" among the interface inputs of a graph, which its definition says where it has one. */
-static const char *suggest_interface(struct builder *b, elem_id graph, uint32_t nodedef, str_id name)
-{
-    VEC(const char *) names = {0};
-    for (int i = 0; nodedef != LIBRARY_NONE && i < library_nodedef(b->lib, nodedef)->num_inputs; i++)
-        vec_push(b->arena, &names, build_text(b, library_ports(b->lib, nodedef, NULL)[i].name));
-    for (elem_id e = graph ? doc_element(doc_of(b), graph)->first_child : 0; e; e = doc_element(doc_of(b), e)->next)
-        if (doc_element(doc_of(b), e)->kind == KIND_INPUT)
-            vec_push(b->arena, &names, build_text(b, doc_element(doc_of(b), e)->name));
-    return diag_suggest(b->arena, build_text(b, name), names.items, names.len);
-}
-
-/* The definition that a graph of the document implements, by its own word or that of an <implementation>. */
-static uint32_t implemented_nodedef(const struct builder *b, elem_id graph)
-{
-    str_id name = element_attr(b, graph, STR_nodedef);
-    if (name)
-        return library_nodedef_by_name(b->lib, name);
-    for (uint32_t i = 0; graph && i < b->lib->impls.len; i++)
-        if (b->lib->impls.items[i].kind == IMPL_GRAPH && b->lib->impls.items[i].ref == graph)
-            return b->lib->impls.items[i].nodedef;
-    return LIBRARY_NONE;
-}
-
 /* A functional graph that is not used as a node, but is itself generated, has the defaults of its definition. */
 static ir_ref interface_arg(struct builder *b, struct instance *scope, const struct port *port, const struct binding *binding)
 {
-    str_id name = binding->ref;
     elem_id alone = scope->graph ? 0 : graph_around(b, binding->element);
-    uint32_t nodedef = alone ? implemented_nodedef(b, alone) : scope->nodedef;
+    uint32_t nodedef = alone ? library_implemented_nodedef(b->lib, alone) : scope->nodedef;
     if (nodedef == LIBRARY_NONE && element_attr(b, alone, STR_nodedef)) /* reported when the document was read */
         return unset(b, scope, doc_element(doc_of(b), binding->element)->parent, port, binding->element, true);
-    const struct port *ports = nodedef != LIBRARY_NONE ? library_ports(b->lib, nodedef, NULL) : NULL;
-    int index = ports && binding->input < library_nodedef(b->lib, nodedef)->num_inputs ? binding->input : -1;
-    if (ports && (index < 0 || ports[index].name != name))
-        index = library_find_input(b->lib, nodedef, name);
-    if (index < 0) {
-        diag_add(b->diags, DIAG_ID_dangling_interfacename, doc_attr_place(doc_of(b), binding->element, STR_interfacename),
-                 build_text(b, name), suggest_interface(b, graph_around(b, binding->element), nodedef, name));
+    int index = library_resolve_interface(b->lib, binding->element, nodedef, binding, port, b->diags);
+    if (index < 0)
         return ir_poison(b->graph, library_type_ir(b->lib, port->type));
-    }
-    const struct port *have = ports + index;
-    if (have->type != port->type) {
-        diag_add(b->diags, DIAG_ID_type_mismatch, doc_attr_place(doc_of(b), binding->element, STR_interfacename),
-                 build_text(b, port->name), build_text(b, library_type_name(b->lib, port->type)),
-                 build_text(b, library_type_name(b->lib, have->type)));
-        return ir_poison(b->graph, library_type_ir(b->lib, port->type));
-    }
+    const struct port *have = library_ports(b->lib, nodedef, NULL) + index;
     return alone ? unset(b, scope, alone, have, 0, true) : scope->args[index];
 }
 

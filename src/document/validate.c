@@ -72,15 +72,20 @@ static bool is_name(const char *text)
     return false;
 }
 
+/* What is no element of MaterialX reads as a node. */
+static bool is_foreign(const struct validation *v, elem_id element)
+{
+    const struct element *e = doc_element(v->doc, element);
+    return e->kind == KIND_NODE && e->parent && doc_element(v->doc, e->parent)->kind == KIND_NODE;
+}
+
 static void check_place(struct validation *v, elem_id element)
 {
     const struct element *e = doc_element(v->doc, element);
     const struct element *parent = doc_element(v->doc, e->parent);
     if (rules[e->kind].parents >> parent->kind & 1)
         return;
-    /* What is no element of MaterialX reads as a node. */
-    bool is_foreign = e->kind == KIND_NODE && parent->kind == KIND_NODE;
-    diag_add(v->diags, is_foreign ? DIAG_ID_foreign_element : DIAG_ID_misplaced_element, doc_place(v->doc, element),
+    diag_add(v->diags, is_foreign(v, element) ? DIAG_ID_foreign_element : DIAG_ID_misplaced_element, doc_place(v->doc, element),
              text_of(v, e->category), text_of(v, parent->category));
 }
 
@@ -200,6 +205,8 @@ static void check_element(struct validation *v, elem_id element)
         check_standing(v, element);
     check_name(v, element);
     check_type_and_values(v, element);
+    if (!is_foreign(v, element)) /* nothing of it counts */
+        validate_attributes(v, element);
     if (doc_element(v->doc, element)->kind == KIND_NODEDEF)
         check_has_output(v, element);
 }

@@ -7,13 +7,22 @@
 /* Errors that get a suggestion: a document that is wrong throughout is reported in linear time. */
 enum { MAX_SUGGESTIONS = 64 };
 
+enum { VALIDATION_REMEMBERED = 256 };
+
 struct validation {
     const struct document *doc;
     struct diag_list *diags;
     struct arena *arena;
+    struct good_attribute { /* kinds of elements on which an attribute was found to mean something */
+        str_id name;
+        uint64_t kinds;
+    } good[VALIDATION_REMEMBERED];
 };
 
-/* validate_links.c: what names refer to is there and has the right type; graphs have no cycles. */
+/* validate_attributes.c */
+void validate_attributes(struct validation *v, elem_id element);
+
+/* validate_links.c: top-level elements that others refer to are there; graphs have no cycles. Connections are library/validate.c's. */
 void validate_links(struct validation *v);
 
 #endif

@@ -1,26 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Checks of references: connections and their types, inheritance, looks; cycles in a graph. */
+/* Checks of references: inheritance, looks; cycles in a graph. */
 #include "document/validate.h"
-
-enum { MAX_CANDIDATES = 256 }; /* names looked through for a suggestion */
 
 static const char *text_of(const struct validation *v, str_id id)
 {
     return str_text(v->doc->strings, id);
-}
-
-/* " (did you mean 'x'?)" from the children of a kind. */
-static const char *suggest_child(struct validation *v, elem_id parent, enum element_kind kind, str_id wanted)
-{
-    const char *names[MAX_CANDIDATES];
-    size_t count = 0;
-    if (v->diags->num_errors > MAX_SUGGESTIONS)
-        return "";
-    elem_id e = parent ? doc_element(v->doc, parent)->first_child : 0;
-    for (; e && count < MAX_CANDIDATES; e = doc_element(v->doc, e)->next)
-        if (doc_element(v->doc, e)->kind == kind)
-            names[count++] = text_of(v, doc_element(v->doc, e)->name);
-    return diag_suggest(v->arena, text_of(v, wanted), names, count);
 }
 
 /* A top-level element of a kind, in the document or in what it stands on; 0: none. */
@@ -30,140 +14,6 @@ static elem_id find_top_level(const struct document *doc, enum element_kind kind
     for (; doc && !found; doc = doc->base)
         found = doc_child_of_kind(doc, doc->root, kind, name);
     return found;
-}
-
-/* The graph whose nodes a port's nodename means; 0: none. */
-static elem_id scope_of(const struct document *doc, elem_id port)
-{
-    const struct element *e = doc_element(doc, port);
-    return e->kind == KIND_OUTPUT ? e->parent : doc_element(doc, e->parent)->parent;
-}
-
-static void check_types(struct validation *v, elem_id port, str_id attr, str_id source_type)
-{
-    str_id type = doc_attr_value(v->doc, port, STR_type);
-    bool fits = type == source_type || !type || !source_type || source_type == STR_multioutput
-                || (type == STR_filename && source_type == STR_string);
-    if (!fits)
-        diag_add(v->diags, DIAG_ID_type_mismatch, doc_attr_place(v->doc, port, attr),
-                 text_of(v, doc_element(v->doc, port)->name), text_of(v, type), text_of(v, source_type));
-}
-
-static void check_nodename(struct validation *v, elem_id port, str_id name)
-{
-    const struct document *doc = v->doc;
-    elem_id scope = scope_of(doc, port), node = scope ? doc_child(doc, scope, name) : 0;
-    enum element_kind kind = node ? (enum element_kind)doc_element(doc, node)->kind : KIND_MATERIALX;
-    if (kind == KIND_NODE) {
-        check_types(v, port, STR_nodename, doc_attr_value(doc, node, STR_type));
-    } else if (kind != KIND_NODEGRAPH) {
-        diag_add(v->diags, DIAG_ID_dangling_nodename, doc_attr_place(doc, port, STR_nodename), text_of(v, name),
-                 suggest_child(v, scope, KIND_NODE, name));
-    }
-}
-
-/* The output of a graph that a port means; 0 where that is reported or left to the definition. */
-static elem_id find_output(struct validation *v, elem_id port, elem_id graph)
-{
-    const struct document *doc = v->doc;
-    str_id name = doc_attr_value(doc, port, STR_output);
-    const char *graph_name = text_of(v, doc_element(doc, graph)->name);
-    if (name) {
-        elem_id found = doc_child_of_kind(doc, graph, KIND_OUTPUT, name);
-        if (!found)
-            diag_add(v->diags, DIAG_ID_dangling_output, doc_attr_place(doc, port, STR_output), graph_name, text_of(v, name),
-                     suggest_child(v, graph, KIND_OUTPUT, name));
-        return found;
-    }
-    elem_id first = 0, fitting = 0;
-    uint32_t count = 0;
-    for (elem_id e = doc_element(doc, graph)->first_child; e; e = doc_element(doc, e)->next) {
-        if (doc_element(doc, e)->kind != KIND_OUTPUT)
-            continue;
-        count++;
-        first = first ? first : e;
-        if (!fitting && doc_attr_value(doc, e, STR_type) == doc_attr_value(doc, port, STR_type))
-            fitting = e;
-    }
-    elem_id assumed = fitting ? fitting : first;
-    if (count > 1) {
-        const char *output = text_of(v, doc_element(doc, assumed)->name);
-        diag_add(v->diags, DIAG_ID_output_needed, doc_attr_place(doc, port, STR_nodegraph), graph_name, output, output);
-    }
-    return assumed;
-}
-
-static void check_nodegraph(struct validation *v, elem_id port, str_id name)
-{
-    const struct document *doc = v->doc;
-    elem_id scope = scope_of(doc, port), graph = scope ? doc_child_of_kind(doc, scope, KIND_NODEGRAPH, name) : 0;
-    if (!graph)
-        graph = find_top_level(doc, KIND_NODEGRAPH, name);
-    if (!graph) {
-        diag_add(v->diags, DIAG_ID_dangling_nodegraph, doc_attr_place(doc, port, STR_nodegraph), text_of(v, name),
-                 suggest_child(v, doc->root, KIND_NODEGRAPH, name));
-        return;
-    }
-    elem_id output = find_output(v, port, graph);
-    if (output)
-        check_types(v, port, STR_nodegraph, doc_attr_value(doc, output, STR_type));
-}
-
-/* Whether an <implementation> makes a graph the implementation of a definition, which then says the inputs. */
-static bool is_implementation(const struct document *doc, elem_id graph)
-{
-    str_id name = doc_element(doc, graph)->name;
-    for (elem_id e = doc_element(doc, doc->root)->first_child; e; e = doc_element(doc, e)->next)
-        if (doc_element(doc, e)->kind == KIND_IMPLEMENTATION && doc_attr_value(doc, e, STR_nodegraph) == name)
-            return true;
-    return false;
-}
-
-/* The input of a definition or of one it inherits from. */
-static elem_id find_nodedef_input(const struct document *doc, elem_id nodedef, str_id name)
-{
-    enum { MAX_INHERITANCE = 64 };
-    elem_id found = 0;
-    for (int depth = 0; nodedef && !found && depth < MAX_INHERITANCE; depth++) {
-        found = doc_child(doc, nodedef, name);
-        nodedef = find_top_level(doc, KIND_NODEDEF, doc_attr_value(doc, nodedef, STR_inherit));
-    }
-    return found;
-}
-
-static void check_interfacename(struct validation *v, elem_id port, str_id name)
-{
-    const struct document *doc = v->doc;
-    elem_id graph = doc_element(doc, port)->parent;
-    while (graph && doc_element(doc, graph)->kind != KIND_NODEGRAPH)
-        graph = doc_element(doc, graph)->parent;
-    elem_id input = graph ? doc_child(doc, graph, name) : 0;
-    str_id nodedef_name = graph ? doc_attr_value(doc, graph, STR_nodedef) : STR_EMPTY;
-    if (!input && nodedef_name) {
-        elem_id nodedef = find_top_level(doc, KIND_NODEDEF, nodedef_name);
-        if (!nodedef)
-            return; /* it may be in a library that is not here */
-        input = find_nodedef_input(doc, nodedef, name);
-    } else if (!input && graph && is_implementation(doc, graph)) {
-        return;
-    }
-    if (!input)
-        diag_add(v->diags, DIAG_ID_dangling_interfacename, doc_attr_place(doc, port, STR_interfacename), text_of(v, name),
-                 suggest_child(v, graph, KIND_INPUT, name));
-    else
-        check_types(v, port, STR_interfacename, doc_attr_value(doc, input, STR_type));
-}
-
-static void check_connections(struct validation *v, elem_id port)
-{
-    str_id nodename = doc_attr_value(v->doc, port, STR_nodename), graph = doc_attr_value(v->doc, port, STR_nodegraph);
-    str_id interface = doc_attr_value(v->doc, port, STR_interfacename);
-    if (nodename)
-        check_nodename(v, port, nodename);
-    if (graph)
-        check_nodegraph(v, port, graph);
-    if (interface)
-        check_interfacename(v, port, interface);
 }
 
 /* References to top-level elements; lists have commas. */
@@ -304,8 +154,6 @@ void validate_links(struct validation *v)
     elem_id *marks = ARENA_ARRAY(v->arena, elem_id, doc->elements.len);
     for (elem_id e = doc->root; e; e = doc_next_in_tree(doc, doc->root, e)) {
         enum element_kind kind = (enum element_kind)doc_element(doc, e)->kind;
-        if ((kind == KIND_INPUT || kind == KIND_OUTPUT) && doc_element(doc, e)->parent)
-            check_connections(v, e);
         check_references(v, e);
         check_inheritance(v, e, marks);
         if (kind == KIND_NODE)

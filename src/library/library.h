@@ -202,6 +202,42 @@ const char *library_suggest_nodedef(const struct library *lib, str_id name, stru
 int library_resolve_output(const struct library *lib, elem_id port, elem_id node, str_id output, doc_type type,
                            struct diag_list *diags);
 
+/* interface.c */
+
+elem_id library_graph_around(const struct library *lib, elem_id element); /* the nodegraph, 0: none */
+/* The definition that a graph of this layer implements, by its own word or that of an <implementation>. LIBRARY_NONE. */
+uint32_t library_implemented_nodedef(const struct library *lib, elem_id graph);
+/*
+ * Which input of a graph's definition `asker` takes its value from, a BIND_INTERFACE, for `port`. -1 after reporting that there is none or
+ * that it has another type.
+ */
+int library_resolve_interface(const struct library *lib, elem_id asker, uint32_t nodedef, const struct binding *binding,
+                              const struct port *port, struct diag_list *diags);
+
+/* colorspace.c */
+
+/* The name by which the library knows a colour space: `space` itself, or what it is an alias of. */
+const char *library_canonical_space(const char *space);
+/* The definition that converts colours of a type; LIBRARY_NONE: the library knows none. */
+uint32_t library_color_transform(const struct library *lib, const char *from, const char *to, const char *type);
+extern const char *const library_color_hub; /* every space can be converted to it */
+void library_report_space(const struct library *lib, const char *space, struct diag_place place, struct diag_list *diags);
+
+/* unit.c */
+
+/* The scale of a unit to its type's base unit; type 0: of any. False: unknown. */
+bool library_unit_scale(const struct library *lib, str_id type, str_id unit, float *out_scale);
+bool library_has_unit_type(const struct library *lib, str_id type);
+const char *library_suggest_unit_type(const struct library *lib, str_id type, struct arena *arena);
+const char *library_suggest_unit(const struct library *lib, str_id unit, struct arena *arena);
+
+/* validate.c: checks a document's layer against the definitions below it and its own, and doc_validate's. `scratch` may be freed behind it. */
+void library_validate(const struct library *lib, struct arena *scratch, struct diag_list *diags);
+
+/* enum.c: a string with an enum accepts its words only; others are reported. Not set, 0, is no word. */
+void library_check_enum(const struct library *lib, const struct port *port, str_id text, struct diag_place place,
+                        struct diag_list *diags);
+
 /* image.c */
 
 /* The layer as one block (library must stand on no base); the layout is that of this build, checked when mapped. */

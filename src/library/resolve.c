@@ -269,7 +269,8 @@ struct graph_node library_resolve_node(const struct library *lib, elem_id node, 
     const struct nodedef *def = library_nodedef(lib, result.nodedef);
     const struct port *ports = library_ports(lib, result.nodedef, NULL);
     struct binding *bindings = vec_extend(out->arena, &out->bindings, def->num_inputs);
-    memset(bindings, 0, def->num_inputs * sizeof *bindings);
+    for (unsigned i = 0; i < def->num_inputs; i++)
+        bindings[i] = (struct binding){.kind = BIND_DEFAULT};
     unsigned port = 0; /* most nodes have their inputs in the definition's order */
     for (elem_id e = doc_element(&lib->doc, node)->first_child; e; e = doc_element(&lib->doc, e)->next) {
         const struct element *input = doc_element(&lib->doc, e);

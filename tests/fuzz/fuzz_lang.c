@@ -34,25 +34,27 @@ static bool read_source(void *user_data, const char *from, const char *ref, cons
 static const char *print(struct arena *arena, const struct lang_unit *unit)
 {
     struct text out;
+    struct lang_style style;
     text_init(&out, arena);
+    lang_style_init(&style, &lang_syntax_portable, arena);
     for (uint32_t i = 0; i < unit->user_types.len; i++) {
         ir_type_id type = (ir_type_id)(IR_TYPE_FIRST_USER + i);
         if (!lang_user_type(unit, type, NULL)->array_length)
-            lang_print_struct(&lang_syntax_portable, NULL, unit, type, &out);
+            lang_print_struct(&style, NULL, unit, type, &out);
     }
     for (uint32_t i = 0; i < unit->globals.len; i++) {
         const struct lang_global *global = &unit->globals.items[i];
         if (global->kind == LANG_GLOBAL_CONST || global->kind == LANG_GLOBAL_OPTION) {
-            lang_print_constant(&lang_syntax_portable, NULL, unit, i, &out);
+            lang_print_constant(&style, NULL, unit, i, &out);
             continue;
         }
         text_str(&out, global->kind == LANG_GLOBAL_UNIFORM ? "uniform " : "in ");
-        lang_print_variable(&lang_syntax_portable, NULL, unit, global->type, str_text(unit->strings, global->name), &out);
+        lang_print_variable(&style, NULL, unit, global->type, str_text(unit->strings, global->name), &out);
         text_str(&out, ";\n");
     }
     for (uint32_t i = 0; i < unit->functions.len; i++)
         if (!(unit->functions.items[i].flags & LANG_FN_EXPRESSION))
-            lang_print_function(&lang_syntax_portable, NULL, unit, i, &out);
+            lang_print_function(&style, NULL, unit, i, &out);
     return text_cstr(&out);
 }
 

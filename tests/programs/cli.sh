@@ -57,6 +57,11 @@ check 'without -o files go to the current folder' eval '(mkdir -p cwd && cd cwd 
 check 'two runs give the same bytes' eval '"$mxgen" two.mtlx -o again && diff -r all again'
 check 'and so does another working directory' eval '(cd other && "$mxgen" ../two.mtlx -o ../elsewhere) && diff -r all elsewhere'
 
+mkdir -p deep/deeper && sed 's|<look |<xi:include href="../../thrice_part.mtlx"/><look |; s|<materialx |&xmlns:xi="http://www.w3.org/2001/XInclude" |' two.mtlx >deep/deeper/up.mtlx
+echo '<materialx version="1.39"/>' >thrice_part.mtlx
+check 'an include further up' exits 0 "$mxgen" validate deep/deeper/up.mtlx
+check 'and from "./"' exits 0 "$mxgen" validate ./deep/./deeper/up.mtlx
+
 # Bad input: exit code 1, and nothing half-written
 check 'a bad value' exits 1 "$mxgen" bad.mtlx -o bad
 check 'has id, line and column' grep -Eq '^bad\.mtlx:8:[0-9]+: error: .*\[bad-value\]' err

@@ -223,15 +223,6 @@ static void test_validation(void)
     require_valid("<nodedef name=\"N\" node=\"n\"/>", "2:1 no-output");
     require_valid("<input name=\"i\" type=\"float\"/>", "2:1 misplaced-element");
     require_valid("<nodedef name=\"N\" node=\"n\"><add name=\"a\" type=\"float\"/><output name=\"o\" type=\"float\"/></nodedef>", "2:28 misplaced-element");
-    require_valid("<add name=\"a\" type=\"float\"><input name=\"in1\" type=\"float\" nodename=\"b\"/></add>", "2:69 dangling-nodename");
-    require_valid("<add name=\"a\" type=\"float\"><input name=\"in1\" type=\"float\" nodegraph=\"b\"/></add>", "2:70 dangling-nodegraph");
-    require_valid("<add name=\"a\" type=\"float\"><input name=\"in1\" type=\"float\" interfacename=\"b\"/></add>", "2:74 dangling-interfacename");
-    require_valid("<nodegraph name=\"g\"><output name=\"o\" type=\"float\"/></nodegraph>"
-                  "<add name=\"a\" type=\"float\"><input name=\"in1\" type=\"float\" nodegraph=\"g\" output=\"p\"/></add>", "2:144 dangling-output");
-    require_valid("<nodegraph name=\"g\"><output name=\"o\" type=\"float\"/><output name=\"p\" type=\"float\"/></nodegraph>"
-                  "<add name=\"a\" type=\"float\"><input name=\"in1\" type=\"float\" nodegraph=\"g\"/></add>", "2:164 output-needed");
-    require_valid("<add name=\"b\" type=\"color3\"/><add name=\"a\" type=\"float\"><input name=\"in1\" type=\"float\" nodename=\"b\"/></add>",
-                  "2:98 type-mismatch");
     require_valid("<add name=\"b\" type=\"float\"/><add name=\"a\" type=\"float\"><input name=\"in1\" type=\"float\" nodename=\"b\" value=\"1\"/></add>",
                   "2:107 value-and-connection");
     require_valid("<add name=\"b\" type=\"float\"/><nodegraph name=\"c\"><output name=\"o\" type=\"float\"/></nodegraph>"

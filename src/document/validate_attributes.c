@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+/* Attributes that MaterialX does not know, or not on this kind of element. */
+#include "document/validate.h"
+
+#define IN(KIND) ((uint64_t)1 << KIND_##KIND)
+#define ANYWHERE UINT64_MAX
+#define PORTS (IN(INPUT) | IN(OUTPUT))
+#define VALUES (IN(INPUT) | IN(TOKEN) | IN(TOKENDEFAULT) | IN(MEMBER) | IN(GEOMPROPDEF) | IN(GEOMPROP) | IN(GEOMATTR) | IN(PROPERTY) | IN(PROPERTYASSIGN))
+#define ON_GEOMETRY (IN(MATERIALASSIGN) | IN(VISIBILITY) | IN(PROPERTYASSIGN) | IN(PROPERTYSETASSIGN))
+
+static const struct {
+    const char *name;
+    uint64_t kinds;
+} attributes[] = {
+#define ATTRIBUTE(name, kinds) {name, kinds},
+#include "document/attributes.def"
+#undef ATTRIBUTE
+};
+enum { NUM_ATTRIBUTES = sizeof attributes / sizeof *attributes };
+
+static const char *text_of(const struct validation *v, str_id id)
+{
+    return str_text(v->doc->strings, id);
+}
+
+/* Does an <attributedef> declare it? ("Custom Attributes and Inputs") */
+static bool is_declared(const struct validation *v, str_id name)
+{
+    for (const struct document *doc = v->doc; doc; doc = doc->base)
+        for (elem_id e = doc_element(doc, doc->root)->first_child; e; e = doc_element(doc, e)->next)
+            if (doc_element(doc, e)->kind == KIND_ATTRIBUTEDEF && doc_attr_value(doc, e, STR_attrname) == name)
+                return true;
+    return false;
+}
+
+/* Those of this kind of element are meant more likely. */
+static const char *suggest(struct validation *v, enum element_kind kind, str_id name)
+{
+    const char *names[NUM_ATTRIBUTES];
+    size_t count = 0;
+    for (size_t i = 0; i < NUM_ATTRIBUTES; i++)
+        if (attributes[i].kinds >> kind & 1)
+            names[count++] = attributes[i].name;
+    return diag_suggest(v->arena, text_of(v, name), names, count);
+}
+
+/* False after telling that it means nothing here. */
+static bool check_attribute(struct validation *v, elem_id element, str_id name)
+{
+    const struct element *e = doc_element(v->doc, element);
+    const char *text = text_of(v, name);
+    uint64_t kinds = 0;
+    for (size_t i = 0; i < NUM_ATTRIBUTES && !kinds; i++)
+        kinds = strcmp(attributes[i].name, text) == 0 ? attributes[i].kinds : 0;
+    if (kinds >> e->kind & 1 || strchr(text, ':') || is_declared(v, name)) /* a prefix is another program's */
+        return true;
+    struct diag_place place = doc_attr_place(v->doc, element, name);
+    if (kinds)
+        diag_add(v->diags, DIAG_ID_misplaced_attribute, place, text, text_of(v, e->category));
+    else
+        diag_add(v->diags, DIAG_ID_unknown_attribute, place, text, suggest(v, (enum element_kind)e->kind, name));
+    return false;
+}
+
+/* Documents use the same attributes on the same kinds over and over: what was found good is remembered. */
+void validate_attributes(struct validation *v, elem_id element)
+{
+    const struct element *e = doc_element(v->doc, element);
+    const struct attribute *attrs = doc_attrs(v->doc, element);
+    for (uint32_t i = 0; i < e->num_attrs; i++) {
+        struct good_attribute *good = &v->good[attrs[i].name % VALIDATION_REMEMBERED];
+        if (good->name != attrs[i].name)
+            *good = (struct good_attribute){.name = attrs[i].name};
+        if (!(good->kinds >> e->kind & 1) && check_attribute(v, element, attrs[i].name))
+            good->kinds |= (uint64_t)1 << e->kind;
+    }
+}

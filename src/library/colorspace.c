@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+/* Names of colour spaces. A transform is a node of the library (cmlib), `<space>_to_<space>`: the set of spaces is the library's. */
+#include "library/library.h"
+
+#include <stdio.h>
+
+/*
+ * Other names of colour spaces: an alias of the specification ("Color Spaces and Color Management Systems"), those of old
+ * documents, those that the ASWF's Color Interop Forum recommends, and those of OpenColorIO's configuration for ACES.
+ */
+static const char *const aliases[][2] = {
+    {"lin_ap1", "acescg"},
+    {"lin_srgb", "lin_rec709"},
+    {"gamma18", "g18_rec709"},
+    {"gamma22", "g22_rec709"},
+    {"gamma24", "rec709_display"},
+    {"lin_ap1_scene", "acescg"},
+    {"lin_rec709_scene", "lin_rec709"},
+    {"lin_p3d65_scene", "lin_displayp3"},
+    {"lin_adobergb_scene", "lin_adobergb"},
+    {"srgb_rec709_scene", "srgb_texture"},
+    {"srgb_p3d65_scene", "srgb_displayp3"},
+    {"g18_rec709_scene", "g18_rec709"},
+    {"g22_rec709_scene", "g22_rec709"},
+    {"g22_ap1_scene", "g22_ap1"},
+    {"g22_adobergb_scene", "adobergb"},
+    {"lin_ap0_scene", "lin_ap0"},
+    {"lin_rec2020_scene", "lin_rec2020"},
+    {"lin_ciexyzd65_scene", "lin_ciexyzd65"},
+    {"Raw", "none"},
+    {"raw", "none"},
+    {"srgb_tx", "srgb_texture"},
+    {"sRGB - Texture", "srgb_texture"},
+    {"Utility - sRGB - Texture", "srgb_texture"},
+    {"sRGB Encoded Rec.709 (sRGB)", "srgb_texture"},
+    {"Linear Rec.709 (sRGB)", "lin_rec709"},
+    {"ACEScg", "acescg"},
+    {"ACES2065-1", "lin_ap0"},
+    {"Linear Rec.2020", "lin_rec2020"},
+    {"CIE XYZ-D65 - Scene-referred", "lin_ciexyzd65"},
+    {"Linear P3-D65", "lin_displayp3"},
+    {"sRGB Encoded P3-D65", "srgb_displayp3"},
+    {"Linear AdobeRGB", "lin_adobergb"},
+    {"Gamma 2.2 Encoded AdobeRGB", "adobergb"},
+    {"Gamma 2.2 Encoded AP1", "g22_ap1"},
+    {"Gamma 1.8 Encoded Rec.709", "g18_rec709"},
+    {"Gamma 2.2 Encoded Rec.709", "g22_rec709"},
+    {"Gamma 2.4 Encoded Rec.709", "rec709_display"},
+};
+
+const char *library_canonical_space(const char *space)
+{
+    for (size_t i = 0; i < sizeof aliases / sizeof *aliases; i++)
+        if (strcmp(space, aliases[i][0]) == 0)
+            return aliases[i][1];
+    return space;
+}
+
+uint32_t library_color_transform(const struct library *lib, const char *from, const char *to, const char *type)
+{
+    char name[256];
+    int len = snprintf(name, sizeof name, "ND_%s_to_%s_%s", from, to, type);
+    str_id id = len > 0 && (size_t)len < sizeof name ? str_find(&lib->strings, name, (size_t)len) : 0;
+    return id ? library_nodedef_by_name(lib, id) : LIBRARY_NONE;
+}
+
+const char *const library_color_hub = "lin_rec709";
+
+/* "lin_rec709, srgb_texture, …": what the library can convert to the hub. */
+static const char *known_spaces(const struct library *lib, struct arena *arena)
+{
+    struct text out;
+    text_init(&out, arena);
+    text_str(&out, library_color_hub);
+    for (; lib; lib = lib->base)
+        for (uint32_t i = 0; i < lib->nodedefs.len; i++) {
+            const char *name = str_text(&lib->strings, lib->nodedefs.items[i].node);
+            const char *to = strstr(name, "_to_");
+            bool again = i > 0 && lib->nodedefs.items[i - 1].node == lib->nodedefs.items[i].node;
+            if (to && !again && strcmp(to + 4, library_color_hub) == 0)
+                text_fmt(&out, ", %.*s", (int)(to - name), name);
+        }
+    return text_cstr(&out);
+}
+
+static const char *suggest_space(const char *space, struct arena *arena)
+{
+    const char *names[sizeof aliases / sizeof *aliases * 2];
+    size_t count = 0;
+    for (size_t i = 0; i < sizeof aliases / sizeof *aliases; i++)
+        for (size_t k = 0; k < 2; k++)
+            names[count++] = aliases[i][k];
+    return diag_suggest(arena, space, names, count);
+}
+
+void library_report_space(const struct library *lib, const char *space, struct diag_place place, struct diag_list *diags)
+{
+    diag_add(diags, DIAG_ID_unknown_colorspace, place, space, suggest_space(space, diags->arena), known_spaces(lib, diags->arena));
+}

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+/* What the files of the validation share. */
+#ifndef MXG_LIBRARY_VALIDATE_H
+#define MXG_LIBRARY_VALIDATE_H
+
+#include "library/library.h"
+
+struct validate {
+    const struct library *lib;
+    const struct document *doc; /* its own layer's */
+    struct diag_list *diags;
+    struct resolve_out resolved;
+    uint8_t *used; /* per own element: a connection leads there */
+};
+
+/* validate_inputs.c: the value of a node's input against its definition; that it has one, where it must. */
+void validate_input(struct validate *v, elem_id node, uint32_t nodedef, const struct port *port, const struct binding *binding);
+
+/* validate_inputs.c: units, colour spaces, ranges and lists of words that an element says by itself. */
+void validate_attributes_of(struct validate *v, elem_id element);
+
+#endif
