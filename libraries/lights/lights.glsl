@@ -7,18 +7,25 @@ void mx_directional_light(vec3 direction, vec3 color, float intensity, vec3 P, o
     radiance = color * intensity;
 }
 
+float mx_falloff(vec3 d, float intensity, float decay_rate)
+{
+    return intensity / pow(length(d) + 1.0, decay_rate);
+}
+
 void mx_point_light(vec3 position, vec3 color, float intensity, float decay_rate, vec3 P, out vec3 to_light,
                     out vec3 radiance)
 {
     vec3 d = position - P;
     to_light = normalize(d);
-    radiance = color * (intensity / pow(length(d) + 1.0, decay_rate));
+    radiance = color * mx_falloff(d, intensity, decay_rate);
 }
 
 // inner_angle and outer_angle are cosines; the edge is never quite sharp, where smoothstep would be undefined.
 void mx_spot_light(vec3 position, vec3 direction, vec3 color, float intensity, float decay_rate, float inner_angle,
                    float outer_angle, vec3 P, out vec3 to_light, out vec3 radiance)
 {
-    mx_point_light(position, color, intensity, decay_rate, P, to_light, radiance);
-    radiance *= smoothstep(min(inner_angle, outer_angle) - 1e-5, inner_angle, -dot(to_light, direction));
+    vec3 d = position - P;
+    to_light = normalize(d);
+    float cone = smoothstep(min(inner_angle, outer_angle) - 1e-5, inner_angle, -dot(to_light, direction));
+    radiance = color * (mx_falloff(d, intensity, decay_rate) * cone);
 }

@@ -35,7 +35,7 @@ static ir_ref global_node(void *user_data, struct ir_graph *graph, const struct 
 }
 
 /* Functions of at most this many tree nodes are lowered into the shader's graph instead of being called. */
-enum { INLINE_NODES = 24 };
+enum { INLINE_NODES = 14 };
 
 struct builder *build_start(const struct library *lib, const struct build_options *options, struct shader *shader,
                             struct diag_list *diags)

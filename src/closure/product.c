@@ -24,6 +24,7 @@ static void insert(const struct ir_graph *g, struct factors *f, ir_ref ref)
     f->count++;
 }
 
+/* Outside of loops a colour and its scale stay together: other leaves may have the same one. */
 static bool is_product(const struct ir_graph *g, ir_ref ref)
 {
     const struct ir_node *node = ir_get(g, ref);
@@ -31,10 +32,17 @@ static bool is_product(const struct ir_graph *g, ir_ref ref)
         return false;
     for (unsigned i = 0; i < 2; i++) {
         ir_type_id type = ir_type_of(g, ir_arg(g, ref, i));
-        if (type != IR_TYPE_FLOAT && type != IR_TYPE_VEC3)
+        if (type != IR_TYPE_VEC3 && (type != IR_TYPE_FLOAT || !(node->flags & IR_NODE_LOOP)))
             return false;
     }
     return true;
+}
+
+/* A vector of one scalar is that scalar's factor. */
+static bool is_splat(const struct ir_graph *g, ir_ref ref)
+{
+    const struct ir_node *node = ir_get(g, ref);
+    return node->op == IR_CONSTRUCT && node->num_args == 1 && ir_type_of(g, ir_arg(g, ref, 0)) == IR_TYPE_FLOAT;
 }
 
 static void gather(const struct ir_graph *g, struct factors *f, ir_ref value)
@@ -42,6 +50,8 @@ static void gather(const struct ir_graph *g, struct factors *f, ir_ref value)
     ir_ref open[MAX_FACTORS] = {value};
     for (unsigned len = 1; len;) {
         ir_ref ref = open[--len];
+        if (is_splat(g, ref))
+            ref = ir_arg(g, ref, 0);
         if (f->count + len + 2 <= MAX_FACTORS && is_product(g, ref)) {
             open[len++] = ir_arg(g, ref, 0);
             open[len++] = ir_arg(g, ref, 1);

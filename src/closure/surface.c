@@ -77,7 +77,7 @@ static void add_part(struct emitter *e, struct part_list *list, const struct clo
 
 static void accumulate(struct emitter *e, ir_ref factor, ir_ref value)
 {
-    effect(e, EFFECT_ACCUMULATE, e->color, closure_mul(e->graph, factor, value));
+    effect(e, EFFECT_ACCUMULATE, e->color, vec3_of(e, closure_mul(e->graph, factor, value)));
 }
 
 /* color += factor · Σ parts. Leaves that are always there share one line; the others stand behind their guards. */

@@ -214,6 +214,18 @@ static ir_ref splat_of(struct ir_graph *graph, ir_ref ref)
     return ir_const_float(graph, words[0].f);
 }
 
+/* v.y of v.yyy, else 0. */
+static ir_ref repeated_of(struct ir_graph *graph, ir_ref ref)
+{
+    const struct ir_node *node = ir_get(graph, ref);
+    if (node->op != IR_SWIZZLE || !is_float_vector(node->type))
+        return 0;
+    for (unsigned i = 1; i < ir_type_info(node->type)->components; i++)
+        if ((node->attr >> (2 * i) & 3) != (node->attr & 3))
+            return 0;
+    return ir_component(graph, ir_arg(graph, ref, 0), node->attr & 3);
+}
+
 /* (v · s) · t = v · (s t): one product of scalars for one of vectors. */
 static ir_ref gather_scalars(struct ir_graph *graph, ir_ref a, ir_ref b)
 {
@@ -225,7 +237,7 @@ static ir_ref gather_scalars(struct ir_graph *graph, ir_ref a, ir_ref b)
     const struct ir_node *node = ir_get(graph, a);
     if (graph->exact || node->op != IR_MUL || !is_vector(node->type) || !is_scalar_float(graph, b))
         return 0;
-    if (~node->flags & ir_get(graph, b)->flags & IR_NODE_LOOP) /* v · s stays in front of the loop */
+    if (ir_get(graph, b)->flags & IR_NODE_LOOP) /* v · s may stand in front of the loop, or be what several have in common */
         return 0;
     ir_ref v = ir_arg(graph, a, 0), s = ir_arg(graph, a, 1);
     if (is_scalar_float(graph, v))
@@ -242,8 +254,9 @@ static ir_ref simplify_arithmetic(struct ir_graph *graph, enum ir_op op, ir_type
     if (!is_float_vector(type))
         return 0;
     ir_ref sa = is_scalar_float(graph, a) ? a : splat_of(graph, a), sb = is_scalar_float(graph, b) ? b : splat_of(graph, b);
-    if (sa && sb) {
-        ir_ref scalar = ir_op2(graph, op, sa, sb);
+    ir_ref fill_a = sa ? sa : repeated_of(graph, a), fill_b = sb ? sb : repeated_of(graph, b);
+    if (fill_a && fill_b) {
+        ir_ref scalar = ir_op2(graph, op, fill_a, fill_b);
         return ir_build(graph, IR_CONSTRUCT, type, 0, &scalar, 1);
     }
     if (op != IR_MUL && sa == a && ir_is_const(graph, a))

@@ -290,7 +290,7 @@ static void find_places(struct scheduler *s, const struct effect_list *effects)
  * and a load, a local a variable, a store and a load per use.
  */
 enum { GOOD_CHARS = 110, MAX_CHARS = 220, MIN_SPLIT_CHARS = 40, MAX_REPEATED_CHARS = 32 };
-enum { COST_OPERATOR = 1, COST_BUILTIN = 4, COST_CALL = 16, COST_LOCAL = 2, MAX_COST_IN_LOOP = 3, MAX_COST_OF_ARM = 24 };
+enum { COST_OPERATOR = 1, COST_BUILTIN = 4, COST_CALL = 32, COST_LOCAL = 2, MAX_COST_IN_LOOP = 3, MAX_COST_OF_ARM = 24 };
 
 static bool is_splat(const struct ir_value *value)
 {
@@ -434,7 +434,8 @@ static bool is_part(struct scheduler *s, const struct plan *plan)
 /* May an arm become a local for the sake of let_arms? What has a name already is not copied. */
 static bool is_little_work(struct scheduler *s, const struct plan *arm)
 {
-    return arm->flags & PLAN_LOOP && ir_get(s->graph, arm->ref)->num_args > 0 && !is_part(s, arm)
+    const struct ir_node *node = ir_get(s->graph, arm->ref);
+    return arm->flags & PLAN_LOOP && (node->num_args > 0 || node->op == IR_CONTEXT) && !is_part(s, arm)
            && arm->cost <= MAX_COST_OF_ARM && may_let(s, arm) && !(arm->flags & PLAN_LOCAL);
 }
 

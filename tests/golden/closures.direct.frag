@@ -17,9 +17,8 @@ in VertexData {
 } vd;
 out vec4 out1;
 
-vec2 mx_ggx_albedo(const vec3 N, const vec3 V)
+vec2 mx_ggx_albedo(const float c)
 {
-    float c = max(abs(dot(N, V)), 1e-8);
     vec4 r = vec4(0.477028, 1.0224305, 1.3185087, 1.7036159) + c * (vec4(-0.679836, -2.4724538, -1.278424, -1.52478) + c * vec4(28.273684, 1.4824458, 27.56899, 14.8198395));
     return clamp(r.xy / r.zw, vec2(0.0), vec2(1.0));
 }
@@ -36,6 +35,11 @@ float mx_ggx_visibility(const float cos_v, const float cos_l)
     return 0.5 * cos_l / (cos_v * sqrt(mix(cos_l * cos_l, 1.0, 0.0016)) + cos_l * sqrt(mix(cos_v * cos_v, 1.0, 0.0016)));
 }
 
+float mx_ggx_lobe(const vec3 N, const vec3 x, const float cos_v, const vec3 L, const vec3 H)
+{
+    return mx_ggx_distribution(vec3(dot(H, x), dot(H, cross(N, x)), dot(H, N))) * mx_ggx_visibility(cos_v, max(dot(N, L), 1e-8));
+}
+
 float mx_fresnel_dielectric(const float cosine)
 {
     float g = sqrt(max(2.1025002 + cosine * cosine - 1.0, 0.0));
@@ -49,23 +53,22 @@ void main()
     vec3 color = vec3(0.0);
     vec3 normal = normalize(vd.normalWorld);
     vec3 V = normalize(u_viewPosition - vd.positionWorld);
-    vec2 coat = mx_ggx_albedo(normal, V);
-    float coat_2 = (1.0 / (coat.x + coat.y) - 1.0) * 0.079748526 + 1.0;
+    float coat = max(abs(dot(normal, V)), 1e-8);
+    vec2 coat_2 = mx_ggx_albedo(coat);
+    float coat_3 = (1.0 / (coat_2.x + coat_2.y) - 1.0) * 0.079748526 + 1.0;
+    vec3 coat_4 = faceforward(normal, -V, normal);
     vec3 tangent = normalize(vd.tangentWorld);
-    vec3 coat_3 = faceforward(normal, -V, normal);
-    vec3 coat_4 = normalize(tangent - coat_3 * dot(tangent, coat_3));
-    mat3 coat_5 = mat3(coat_4, cross(coat_3, coat_4), coat_3);
-    float coat_6 = max(abs(dot(normal, V)), 1e-8);
-    vec3 paint = (vec3(1.0) - (coat.x * 0.03373595 + coat.yyy) * coat_2) * 0.75 * vec3(0.6, 0.1, 0.05);
+    vec3 coat_5 = normalize(tangent - coat_4 * dot(tangent, coat_4));
+    vec3 paint = (1.0 - (coat_2.x * 0.033735953 + coat_2.y) * coat_3) * 0.75 * vec3(0.6, 0.1, 0.05);
     for (int i = 0; i < min(u_numActiveLightSources, 1); ++i) {
-        vec3 light = u_lightData[i].color * (u_lightData[i].type == 1 ? u_lightData[i].intensity : 0.0);
-        vec3 coat_7 = normalize(V - u_lightData[i].direction);
-        float coat_8 = max(dot(-u_lightData[i].direction, coat_3), 1e-8);
-        float coat_9 = coat_2 * (mx_ggx_distribution(coat_7 * coat_5) * mx_ggx_visibility(coat_6, coat_8));
-        float paint_2 = max(dot(V, -u_lightData[i].direction), 1e-8) - coat_6 * coat_8;
-        float paint_3 = paint_2 / max(coat_8, coat_6);
-        vec3 paint_4 = coat_8 / 3.1415927 * (max(paint_2 > 0.0 ? paint_3 : paint_2, 0.0) * 0.225 + 0.89285713) * paint;
-        color += light * (coat_9 * mx_fresnel_dielectric(clamp(dot(V, coat_7), 1e-8, 1.0)) + paint_4);
+        float intensity = u_lightData[i].intensity;
+        vec3 light = u_lightData[i].color * (u_lightData[i].type == 1 ? intensity : 0.0);
+        vec3 directional_light = -u_lightData[i].direction;
+        vec3 coat_6 = normalize(V - u_lightData[i].direction);
+        float coat_7 = coat_3 * mx_ggx_lobe(coat_4, coat_5, coat, directional_light, coat_6);
+        float paint_2 = max(dot(directional_light, coat_4), 1e-8);
+        vec3 paint_3 = paint * (paint_2 / 3.1415927 * (max(max(dot(V, directional_light), 1e-8) - coat * paint_2, 0.0) / max(paint_2, coat) * 0.225 + 0.89285713));
+        color += light * (coat_7 * mx_fresnel_dielectric(clamp(dot(V, coat_6), 1e-8, 1.0)) + paint_3);
     }
     out1 = vec4(color, 1.0);
 }

@@ -36,9 +36,8 @@ layout(location = 0) in VertexData {
 } vd;
 layout(location = 0) out vec4 out1;
 
-vec2 mx_ggx_albedo(const vec3 N, const vec3 V)
+vec2 mx_ggx_albedo(const float c)
 {
-    float c = max(abs(dot(N, V)), 1e-8);
     vec4 r = vec4(0.477028, 1.0224305, 1.3185087, 1.7036159) + c * (vec4(-0.679836, -2.4724538, -1.278424, -1.52478) + c * vec4(28.273684, 1.4824458, 27.56899, 14.8198395));
     return clamp(r.xy / r.zw, vec2(0.0), vec2(1.0));
 }
@@ -55,6 +54,11 @@ float mx_ggx_visibility(const float cos_v, const float cos_l)
     return 0.5 * cos_l / (cos_v * sqrt(mix(cos_l * cos_l, 1.0, 0.0016)) + cos_l * sqrt(mix(cos_v * cos_v, 1.0, 0.0016)));
 }
 
+float mx_ggx_lobe(const vec3 N, const vec3 x, const float cos_v, const vec3 L, const vec3 H)
+{
+    return mx_ggx_distribution(vec3(dot(H, x), dot(H, cross(N, x)), dot(H, N))) * mx_ggx_visibility(cos_v, max(dot(N, L), 1e-8));
+}
+
 float mx_fresnel_dielectric(const float cosine)
 {
     float g = sqrt(max(2.1025002 + cosine * cosine - 1.0, 0.0));
@@ -69,6 +73,11 @@ vec2 mx_latlong(const vec3 direction)
     return vec2(atan(d.x, -d.z), -2.0 * asin(d.y)) * 0.15915494 + vec2(0.5);
 }
 
+vec3 mx_leave_frame(const vec3 w, const vec3 N, const vec3 x)
+{
+    return w.x * x + w.y * cross(N, x) + w.z * N;
+}
+
 vec3 mx_ggx_normal(const int i, const vec3 v)
 {
     float top = (1.0 - fract((float(i) + 1.0) * 1.618034)) * (1.0 + v.z);
@@ -76,15 +85,15 @@ vec3 mx_ggx_normal(const int i, const vec3 v)
     return normalize(vec3((v.xy + sqrt(max(1.0 - z * z, 0.0)) * cos(6.2831855 * (float(i) + 0.5) / float(u_envRadianceSamples) - vec2(0.0, 1.5707964))) * 0.04, top));
 }
 
-vec4 mx_ggx_sample(const int i, const mat3 frame, const vec3 v)
+vec4 mx_ggx_sample(const int i, const vec3 N, const vec3 x, const vec3 v)
 {
     vec3 h = mx_ggx_normal(i, normalize(vec3(v.xy * 0.04, v.z)));
-    vec3 l = reflect(-v, h);
-    vec3 L = frame * l;
     float cos_v = max(v.z, 1e-8);
-    float masking = 2.0 * (cos_v + sqrt(mix(cos_v * cos_v, 1.0, 0.0016)));
-    float count = float(u_envRadianceSamples);
-    return vec4(mx_ggx_visibility(cos_v, max(l.z, 1e-8)) * masking / count * (textureLod(u_envRadiance, mx_latlong(L), max(float(u_envRadianceMips) - 2.5 - 0.5 * log2(length(L.xz) * count * mx_ggx_distribution(h) / masking), 0.0)).xyz * u_envLightIntensity), clamp(dot(v, h), 1e-8, 1.0));
+    float masking = 2.0 * (cos_v + sqrt(mix(cos_v * cos_v, 1.0, 0.0016))) / float(u_envRadianceSamples);
+    vec3 l = reflect(-v, h);
+    float weight = mx_ggx_visibility(cos_v, max(l.z, 1e-8));
+    vec3 L = mx_leave_frame(l, N, x);
+    return vec4(weight * masking * (textureLod(u_envRadiance, mx_latlong(L), max(float(u_envRadianceMips) - 2.5 - 0.5 * log2(length(L.xz) * mx_ggx_distribution(h) / masking), 0.0)).xyz * u_envLightIntensity), clamp(dot(v, h), 1e-8, 1.0));
 }
 
 void main()
@@ -92,39 +101,39 @@ void main()
     vec3 color = vec3(0.0);
     vec3 normal = normalize(vd.normalWorld);
     vec3 V = normalize(u_viewPosition - vd.positionWorld);
-    vec2 coat = mx_ggx_albedo(normal, V);
-    float coat_2 = (1.0 / (coat.x + coat.y) - 1.0) * 0.079748526 + 1.0;
+    float coat = max(abs(dot(normal, V)), 1e-8);
+    vec2 coat_2 = mx_ggx_albedo(coat);
+    float coat_3 = (1.0 / (coat_2.x + coat_2.y) - 1.0) * 0.079748526 + 1.0;
+    vec3 coat_4 = faceforward(normal, -V, normal);
     vec3 tangent = normalize(vd.tangentWorld);
-    vec3 coat_3 = faceforward(normal, -V, normal);
-    vec3 coat_4 = normalize(tangent - coat_3 * dot(tangent, coat_3));
-    mat3 coat_5 = mat3(coat_4, cross(coat_3, coat_4), coat_3);
-    float coat_6 = max(abs(dot(normal, V)), 1e-8);
-    vec3 paint = (vec3(1.0) - (coat.x * 0.03373595 + coat.yyy) * coat_2) * 0.75 * vec3(0.6, 0.1, 0.05);
+    vec3 coat_5 = normalize(tangent - coat_4 * dot(tangent, coat_4));
+    vec3 paint = (1.0 - (coat_2.x * 0.033735953 + coat_2.y) * coat_3) * 0.75 * vec3(0.6, 0.1, 0.05);
     for (int i = 0; i < min(u_numActiveLightSources, 3); ++i) {
         int type = u_lightData[i].type;
+        float intensity = u_lightData[i].intensity;
         vec3 spot_light = u_lightData[i].position - vd.positionWorld;
-        float spot_light_2 = u_lightData[i].intensity / pow(length(spot_light) + 1.0, u_lightData[i].decay_rate);
+        float spot_light_2 = intensity / pow(length(spot_light) + 1.0, u_lightData[i].decay_rate);
         float spot_light_3 = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
         vec3 spot_light_4 = normalize(spot_light);
-        float spot_light_5 = spot_light_2 * smoothstep(spot_light_3, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, spot_light_4));
+        float spot_light_5 = smoothstep(spot_light_3, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, spot_light_4)) * spot_light_2;
         float light = type == 3 ? spot_light_5 : 0.0;
-        vec3 light_2 = u_lightData[i].color * (type == 1 ? u_lightData[i].intensity : type == 2 ? spot_light_2 : light);
+        float light_2 = type == 2 ? spot_light_2 : light;
         vec3 directional_light = -u_lightData[i].direction;
         vec3 L = type == 1 ? directional_light : spot_light_4;
-        vec3 coat_7 = normalize(V + L);
-        float coat_8 = max(dot(L, coat_3), 1e-8);
-        float coat_9 = coat_2 * (mx_ggx_distribution(coat_7 * coat_5) * mx_ggx_visibility(coat_6, coat_8));
-        float paint_2 = max(dot(V, L), 1e-8) - coat_6 * coat_8;
-        float paint_3 = paint_2 / max(coat_8, coat_6);
-        vec3 paint_4 = coat_8 / 3.1415927 * (max(paint_2 > 0.0 ? paint_3 : paint_2, 0.0) * 0.225 + 0.89285713) * paint;
-        color += light_2 * (coat_9 * mx_fresnel_dielectric(clamp(dot(V, coat_7), 1e-8, 1.0)) + paint_4);
+        vec3 coat_6 = normalize(V + L);
+        float coat_7 = coat_3 * mx_ggx_lobe(coat_4, coat_5, coat, L, coat_6);
+        float paint_2 = max(dot(L, coat_4), 1e-8);
+        vec3 paint_3 = paint * (paint_2 / 3.1415927 * (max(max(dot(V, L), 1e-8) - coat * paint_2, 0.0) / max(paint_2, coat) * 0.225 + 0.89285713));
+        vec3 t = coat_7 * mx_fresnel_dielectric(clamp(dot(V, coat_6), 1e-8, 1.0)) + paint_3;
+        color += u_lightData[i].color * (type == 1 ? intensity : light_2) * t;
     }
-    vec2 paint_5 = (coat_6 * vec2(-0.7632, -0.4993) + vec2(-0.4297, -0.6076) + vec2(0.43155003, 0.60945004)) * 0.3 + vec2(1.0);
-    float paint_6 = u_envLightIntensity * clamp(paint_5.x / paint_5.y, 0.0, 1.0);
-    color += paint * textureLod(u_envIrradiance, mx_latlong(coat_3), 0.0).xyz * paint_6;
+    vec2 paint_4 = (coat * vec2(-0.7632, -0.4993) + vec2(-0.4297, -0.6076) + vec2(0.43155003, 0.60945004)) * 0.3 + vec2(1.0);
+    float paint_5 = u_envLightIntensity * clamp(paint_4.x / paint_4.y, 0.0, 1.0);
+    color += paint * (textureLod(u_envIrradiance, mx_latlong(coat_4), 0.0).xyz * paint_5);
+    vec3 coat_8 = vec3(dot(V, coat_5), dot(V, cross(coat_4, coat_5)), dot(V, coat_4));
     for (int i = 0; i < u_envRadianceSamples; ++i) {
-        vec4 coat_10 = mx_ggx_sample(i, coat_5, V * coat_5);
-        color += coat_10.xyz * (coat_2 * mx_fresnel_dielectric(coat_10.w));
+        vec4 coat_9 = mx_ggx_sample(i, coat_4, coat_5, coat_8);
+        color += coat_3 * coat_9.xyz * mx_fresnel_dielectric(coat_9.w);
     }
     if (SR_varnish_opacity < u_alphaThreshold)
         discard;

@@ -26,9 +26,8 @@ in VertexData {
 } vd;
 out vec4 out1;
 
-vec2 mx_ggx_albedo(const vec3 N, const vec3 V)
+vec2 mx_ggx_albedo(const float c)
 {
-    float c = max(abs(dot(N, V)), 1e-8);
     vec4 r = vec4(0.477028, 1.0224305, 1.3185087, 1.7036159) + c * (vec4(-0.679836, -2.4724538, -1.278424, -1.52478) + c * vec4(28.273684, 1.4824458, 27.56899, 14.8198395));
     return clamp(r.xy / r.zw, vec2(0.0), vec2(1.0));
 }
@@ -43,6 +42,11 @@ float mx_ggx_distribution(const vec3 h)
 float mx_ggx_visibility(const float cos_v, const float cos_l)
 {
     return 0.5 * cos_l / (cos_v * sqrt(mix(cos_l * cos_l, 1.0, 0.0016)) + cos_l * sqrt(mix(cos_v * cos_v, 1.0, 0.0016)));
+}
+
+float mx_ggx_lobe(const vec3 N, const vec3 x, const float cos_v, const vec3 L, const vec3 H)
+{
+    return mx_ggx_distribution(vec3(dot(H, x), dot(H, cross(N, x)), dot(H, N))) * mx_ggx_visibility(cos_v, max(dot(N, L), 1e-8));
 }
 
 float mx_fresnel_dielectric(const float cosine)
@@ -61,7 +65,7 @@ vec2 mx_latlong(const vec3 direction)
 
 vec3 mx_ggx_prefiltered(const vec3 N, const vec3 V)
 {
-    vec2 albedo = mx_ggx_albedo(N, V);
+    vec2 albedo = mx_ggx_albedo(max(abs(dot(N, V)), 1e-8));
     return (vec3(0.033735953) * albedo.x + vec3(albedo.y)) * (textureLod(u_envRadiance, mx_latlong(reflect(-V, faceforward(N, -V, N))), 0.2 * float(u_envRadianceMips - 1)).xyz * u_envLightIntensity);
 }
 
@@ -70,36 +74,35 @@ void main()
     vec3 color = vec3(0.0);
     vec3 normal = normalize(vd.normalWorld);
     vec3 V = normalize(u_viewPosition - vd.positionWorld);
-    vec2 coat = mx_ggx_albedo(normal, V);
-    float coat_2 = (1.0 / (coat.x + coat.y) - 1.0) * 0.079748526 + 1.0;
+    float coat = max(abs(dot(normal, V)), 1e-8);
+    vec2 coat_2 = mx_ggx_albedo(coat);
+    float coat_3 = (1.0 / (coat_2.x + coat_2.y) - 1.0) * 0.079748526 + 1.0;
+    vec3 coat_4 = faceforward(normal, -V, normal);
     vec3 tangent = normalize(vd.tangentWorld);
-    vec3 coat_3 = faceforward(normal, -V, normal);
-    vec3 coat_4 = normalize(tangent - coat_3 * dot(tangent, coat_3));
-    mat3 coat_5 = mat3(coat_4, cross(coat_3, coat_4), coat_3);
-    float coat_6 = max(abs(dot(normal, V)), 1e-8);
-    vec3 paint = (vec3(1.0) - (coat.x * 0.03373595 + coat.yyy) * coat_2) * 0.75 * vec3(0.6, 0.1, 0.05);
+    vec3 coat_5 = normalize(tangent - coat_4 * dot(tangent, coat_4));
+    vec3 paint = (1.0 - (coat_2.x * 0.033735953 + coat_2.y) * coat_3) * 0.75 * vec3(0.6, 0.1, 0.05);
     for (int i = 0; i < min(u_numActiveLightSources, 3); ++i) {
         int type = u_lightData[i].type;
+        float intensity = u_lightData[i].intensity;
         vec3 spot_light = u_lightData[i].position - vd.positionWorld;
-        float spot_light_2 = u_lightData[i].intensity / pow(length(spot_light) + 1.0, u_lightData[i].decay_rate);
+        float spot_light_2 = intensity / pow(length(spot_light) + 1.0, u_lightData[i].decay_rate);
         float spot_light_3 = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
         vec3 spot_light_4 = normalize(spot_light);
-        float spot_light_5 = spot_light_2 * smoothstep(spot_light_3, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, spot_light_4));
+        float spot_light_5 = smoothstep(spot_light_3, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, spot_light_4)) * spot_light_2;
         float light = type == 3 ? spot_light_5 : 0.0;
-        vec3 light_2 = u_lightData[i].color * (type == 1 ? u_lightData[i].intensity : type == 2 ? spot_light_2 : light);
+        float light_2 = type == 2 ? spot_light_2 : light;
         vec3 directional_light = -u_lightData[i].direction;
         vec3 L = type == 1 ? directional_light : spot_light_4;
-        vec3 coat_7 = normalize(V + L);
-        float coat_8 = max(dot(L, coat_3), 1e-8);
-        float coat_9 = coat_2 * (mx_ggx_distribution(coat_7 * coat_5) * mx_ggx_visibility(coat_6, coat_8));
-        float paint_2 = max(dot(V, L), 1e-8) - coat_6 * coat_8;
-        float paint_3 = paint_2 / max(coat_8, coat_6);
-        vec3 paint_4 = coat_8 / 3.1415927 * (max(paint_2 > 0.0 ? paint_3 : paint_2, 0.0) * 0.225 + 0.89285713) * paint;
-        color += light_2 * (coat_9 * mx_fresnel_dielectric(clamp(dot(V, coat_7), 1e-8, 1.0)) + paint_4);
+        vec3 coat_6 = normalize(V + L);
+        float coat_7 = coat_3 * mx_ggx_lobe(coat_4, coat_5, coat, L, coat_6);
+        float paint_2 = max(dot(L, coat_4), 1e-8);
+        vec3 paint_3 = paint * (paint_2 / 3.1415927 * (max(max(dot(V, L), 1e-8) - coat * paint_2, 0.0) / max(paint_2, coat) * 0.225 + 0.89285713));
+        vec3 t = coat_7 * mx_fresnel_dielectric(clamp(dot(V, coat_6), 1e-8, 1.0)) + paint_3;
+        color += u_lightData[i].color * (type == 1 ? intensity : light_2) * t;
     }
-    vec2 paint_5 = (coat_6 * vec2(-0.7632, -0.4993) + vec2(-0.4297, -0.6076) + vec2(0.43155003, 0.60945004)) * 0.3 + vec2(1.0);
-    float paint_6 = u_envLightIntensity * clamp(paint_5.x / paint_5.y, 0.0, 1.0);
-    vec3 paint_7 = paint * textureLod(u_envIrradiance, mx_latlong(coat_3), 0.0).xyz * paint_6;
-    color += coat_2 * mx_ggx_prefiltered(normal, V) + paint_7;
+    vec2 paint_4 = (coat * vec2(-0.7632, -0.4993) + vec2(-0.4297, -0.6076) + vec2(0.43155003, 0.60945004)) * 0.3 + vec2(1.0);
+    float paint_5 = u_envLightIntensity * clamp(paint_4.x / paint_4.y, 0.0, 1.0);
+    vec3 paint_6 = paint * (textureLod(u_envIrradiance, mx_latlong(coat_4), 0.0).xyz * paint_5);
+    color += coat_3 * mx_ggx_prefiltered(normal, V) + paint_6;
     out1 = vec4(color, 1.0);
 }

@@ -9,12 +9,15 @@ in VertexData {
 } vd;
 out vec4 out1;
 
+vec3 mx_srgb_texture_to_lin_rec709(const vec3 color)
+{
+    return mix(color / vec3(12.92), pow(max((color + vec3(0.055)) / vec3(1.055), vec3(0.0)), vec3(2.4)), step(0.04045, color));
+}
+
 void main()
 {
     // NG
-    vec3 base = texture(NG_file, vd.texcoord_0).xyz;
-    vec3 base_2 = mix(base / vec3(12.92), pow(max((base + vec3(0.055)) / vec3(1.055), 0.0), vec3(2.4)), step(0.04045, base));
-    vec3 tiled = texture(tiled_file, vd.texcoord_0 * vec2(4.0, 2.0)).xyz;
-    vec3 tiled_2 = mix(tiled / vec3(12.92), pow(max((tiled + vec3(0.055)) / vec3(1.055), 0.0), vec3(2.4)), step(0.04045, tiled));
-    out1 = vec4(base_2 * texture(framed_file, vd.texcoord_0).xyz + tiled_2, 1.0);
+    vec3 base = mx_srgb_texture_to_lin_rec709(texture(NG_file, vd.texcoord_0).xyz);
+    vec3 tiled = mx_srgb_texture_to_lin_rec709(texture(tiled_file, vd.texcoord_0 * vec2(4.0, 2.0)).xyz);
+    out1 = vec4(base * texture(framed_file, vd.texcoord_0).xyz + tiled, 1.0);
 }

@@ -26,9 +26,8 @@ in VertexData {
 } vd;
 out vec4 out1;
 
-vec2 mx_ggx_albedo(const vec3 N, const vec3 V)
+vec2 mx_ggx_albedo(const float c)
 {
-    float c = max(abs(dot(N, V)), 1e-8);
     vec4 r = vec4(0.101274714, 0.9347229, 1.0008262, 1.0015944) + c * (vec4(-0.6305036, -2.3233747, -1.7638469, 0.22252001) + c * vec4(29.337357, 1.4241437, 28.956388, 13.085487));
     return clamp(r.xy / r.zw, vec2(0.0), vec2(1.0));
 }
@@ -45,6 +44,11 @@ float mx_ggx_visibility(const float cos_v, const float cos_l)
     return 0.5 * cos_l / (cos_v * sqrt(mix(cos_l * cos_l, 1.0, 9.999999e-9)) + cos_l * sqrt(mix(cos_v * cos_v, 1.0, 9.999999e-9)));
 }
 
+float mx_ggx_lobe(const vec3 N, const vec3 x, const float cos_v, const vec3 L, const vec3 H)
+{
+    return mx_ggx_distribution(vec3(dot(H, x), dot(H, cross(N, x)), dot(H, N))) * mx_ggx_visibility(cos_v, max(dot(N, L), 1e-8));
+}
+
 float mx_fresnel_dielectric(const float cosine)
 {
     float g = sqrt(max(2.3104 + cosine * cosine - 1.0, 0.0));
@@ -57,6 +61,11 @@ vec2 mx_latlong(const vec3 direction)
 {
     vec3 d = normalize((u_envMatrix * vec4(direction, 0.0)).xyz);
     return vec2(atan(d.x, -d.z), -2.0 * asin(d.y)) * 0.15915494 + vec2(0.5);
+}
+
+vec3 mx_leave_frame(const vec3 w, const vec3 N, const vec3 x)
+{
+    return w.x * x + w.y * cross(N, x) + w.z * N;
 }
 
 vec3 mx_refract_sphere(const vec3 v, const vec3 h, const float ior)
@@ -72,15 +81,19 @@ vec3 mx_ggx_normal(const int i, const vec3 v)
     return normalize(vec3((v.xy + sqrt(max(1.0 - z * z, 0.0)) * cos(6.2831855 * (float(i) + 0.5) / float(u_envRadianceSamples) - vec2(0.0, 1.5707964))) * 0.0001, top));
 }
 
-vec4 mx_ggx_sample(const int i, const mat3 frame, const vec3 v, const float refract_ior)
+vec4 mx_ggx_sample(const int i, const vec3 N, const vec3 x, const vec3 v, const float refract_ior)
 {
     vec3 h = mx_ggx_normal(i, normalize(vec3(v.xy * 0.0001, v.z)));
-    vec3 l = refract_ior > 0.0 ? mx_refract_sphere(v, h, refract_ior) : reflect(-v, h);
-    vec3 L = frame * l;
     float cos_v = max(v.z, 1e-8);
-    float masking = 2.0 * (cos_v + sqrt(mix(cos_v * cos_v, 1.0, 9.999999e-9)));
-    float count = float(u_envRadianceSamples);
-    return vec4((refract_ior > 0.0 ? 0.25 / cos_v : mx_ggx_visibility(cos_v, max(l.z, 1e-8))) * masking / count * (textureLod(u_envRadiance, mx_latlong(L), max(float(u_envRadianceMips) - 2.5 - 0.5 * log2(length(L.xz) * count * mx_ggx_distribution(h) / masking), 0.0)).xyz * u_envLightIntensity), clamp(dot(v, h), 1e-8, 1.0));
+    float masking = 2.0 * (cos_v + sqrt(mix(cos_v * cos_v, 1.0, 9.999999e-9))) / float(u_envRadianceSamples);
+    vec3 l = reflect(-v, h);
+    float weight = 0.25 / cos_v;
+    if (refract_ior > 0.0)
+        l = mx_refract_sphere(v, h, refract_ior);
+    else
+        weight = mx_ggx_visibility(cos_v, max(l.z, 1e-8));
+    vec3 L = mx_leave_frame(l, N, x);
+    return vec4(weight * masking * (textureLod(u_envRadiance, mx_latlong(L), max(float(u_envRadianceMips) - 2.5 - 0.5 * log2(length(L.xz) * mx_ggx_distribution(h) / masking), 0.0)).xyz * u_envLightIntensity), clamp(dot(v, h), 1e-8, 1.0));
 }
 
 void main()
@@ -89,35 +102,36 @@ void main()
     vec3 normal = normalize(vd.normalWorld);
     vec3 V = normalize(u_viewPosition - vd.positionWorld);
     // SR_glass
-    vec2 reflection = mx_ggx_albedo(normal, V);
-    float reflection_2 = (1.0 / (reflection.x + reflection.y) - 1.0) * 0.08817142 + 1.0;
+    float reflection = max(abs(dot(normal, V)), 1e-8);
+    vec2 reflection_2 = mx_ggx_albedo(reflection);
+    float reflection_3 = (1.0 / (reflection_2.x + reflection_2.y) - 1.0) * 0.08817142 + 1.0;
+    vec3 reflection_4 = faceforward(normal, -V, normal);
     vec3 tangent = normalize(vd.tangentWorld);
-    vec3 reflection_3 = faceforward(normal, -V, normal);
-    vec3 reflection_4 = normalize(tangent - reflection_3 * dot(tangent, reflection_3));
-    mat3 reflection_5 = mat3(reflection_4, cross(reflection_3, reflection_4), reflection_3);
-    float reflection_6 = max(abs(dot(normal, V)), 1e-8);
+    vec3 reflection_5 = normalize(tangent - reflection_4 * dot(tangent, reflection_4));
     for (int i = 0; i < min(u_numActiveLightSources, 3); ++i) {
         int type = u_lightData[i].type;
+        float intensity = u_lightData[i].intensity;
         vec3 spot_light = u_lightData[i].position - vd.positionWorld;
-        float spot_light_2 = u_lightData[i].intensity / pow(length(spot_light) + 1.0, u_lightData[i].decay_rate);
+        float spot_light_2 = intensity / pow(length(spot_light) + 1.0, u_lightData[i].decay_rate);
         float spot_light_3 = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
         vec3 spot_light_4 = normalize(spot_light);
-        float spot_light_5 = spot_light_2 * smoothstep(spot_light_3, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, spot_light_4));
+        float spot_light_5 = smoothstep(spot_light_3, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, spot_light_4)) * spot_light_2;
         float light = type == 3 ? spot_light_5 : 0.0;
-        float light_2 = type == 1 ? u_lightData[i].intensity : type == 2 ? spot_light_2 : light;
+        float light_2 = type == 2 ? spot_light_2 : light;
         vec3 directional_light = -u_lightData[i].direction;
         vec3 L = type == 1 ? directional_light : spot_light_4;
-        vec3 reflection_7 = normalize(V + L);
-        float reflection_8 = mx_ggx_visibility(reflection_6, max(dot(L, reflection_3), 1e-8));
-        float reflection_9 = reflection_2 * (mx_ggx_distribution(reflection_7 * reflection_5) * reflection_8);
-        color += u_lightData[i].color * (light_2 * (reflection_9 * mx_fresnel_dielectric(clamp(dot(V, reflection_7), 1e-8, 1.0))));
+        vec3 reflection_6 = normalize(V + L);
+        float reflection_7 = reflection_3 * mx_ggx_lobe(reflection_4, reflection_5, reflection, L, reflection_6);
+        float reflection_8 = reflection_7 * mx_fresnel_dielectric(clamp(dot(V, reflection_6), 1e-8, 1.0));
+        color += u_lightData[i].color * (type == 1 ? intensity : light_2) * reflection_8;
     }
-    vec3 reflection_10 = vec3(1.0) - (reflection.x * 0.042579994 + reflection.yyy) * reflection_2;
+    vec3 reflection_9 = vec3(dot(V, reflection_5), dot(V, cross(reflection_4, reflection_5)), dot(V, reflection_4));
+    float reflection_10 = 1.0 - (reflection_2.x * 0.042579994 + reflection_2.y) * reflection_3;
     for (int i = 0; i < u_envRadianceSamples; ++i) {
-        vec4 reflection_11 = mx_ggx_sample(i, reflection_5, V * reflection_5, 0.0);
-        vec4 refraction = mx_ggx_sample(i, reflection_5, V * reflection_5, 1.52);
-        vec3 refraction_2 = reflection_10 * (refraction.xyz * (1.0 - mx_fresnel_dielectric(refraction.w)));
-        color += reflection_11.xyz * (reflection_2 * mx_fresnel_dielectric(reflection_11.w)) + refraction_2;
+        vec4 reflection_11 = mx_ggx_sample(i, reflection_4, reflection_5, reflection_9, 0.0);
+        vec4 refraction = mx_ggx_sample(i, reflection_4, reflection_5, reflection_9, 1.52);
+        vec3 refraction_2 = refraction.xyz * (reflection_10 * (1.0 - mx_fresnel_dielectric(refraction.w)));
+        color += reflection_3 * reflection_11.xyz * mx_fresnel_dielectric(reflection_11.w) + refraction_2;
     }
     out1 = vec4(color, 1.0);
 }

@@ -44,22 +44,23 @@ void main()
     float diffuse_2 = max(abs(dot(normal, V)), 1e-8);
     for (int i = 0; i < min(u_numActiveLightSources, 3); ++i) {
         int type = u_lightData[i].type;
+        float intensity = u_lightData[i].intensity;
         vec3 spot_light = u_lightData[i].position - vd.positionWorld;
-        float spot_light_2 = u_lightData[i].intensity / pow(length(spot_light) + 1.0, u_lightData[i].decay_rate);
+        float spot_light_2 = intensity / pow(length(spot_light) + 1.0, u_lightData[i].decay_rate);
         float spot_light_3 = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
         vec3 spot_light_4 = normalize(spot_light);
-        float spot_light_5 = spot_light_2 * smoothstep(spot_light_3, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, spot_light_4));
+        float spot_light_5 = smoothstep(spot_light_3, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, spot_light_4)) * spot_light_2;
         float light = type == 3 ? spot_light_5 : 0.0;
+        float light_2 = type == 2 ? spot_light_2 : light;
+        vec3 light_3 = u_lightData[i].color * (type == 1 ? intensity : light_2);
         vec3 directional_light = -u_lightData[i].direction;
         vec3 L = type == 1 ? directional_light : spot_light_4;
         float diffuse_3 = max(dot(L, diffuse), 1e-8);
-        float diffuse_4 = max(dot(L, V), 1e-8) - diffuse_3 * diffuse_2;
-        float diffuse_5 = diffuse_4 / max(diffuse_3, diffuse_2);
-        vec3 diffuse_6 = diffuse_3 / 3.1415927 * (max(diffuse_4 > 0.0 ? diffuse_5 : diffuse_4, 0.0) * 0.35999998 + 0.73913044) * vec3(0.5, 0.25, 0.15);
-        color += u_lightData[i].color * (type == 1 ? u_lightData[i].intensity : type == 2 ? spot_light_2 : light) * diffuse_6;
+        float diffuse_4 = max(max(dot(L, V), 1e-8) - diffuse_3 * diffuse_2, 0.0) / max(diffuse_3, diffuse_2) * 0.35999998 + 0.73913044;
+        color += light_3 * (diffuse_3 / 3.1415927 * vec3(0.5, 0.25, 0.15) * diffuse_4);
     }
-    vec3 diffuse_7 = textureLod(u_envIrradiance, mx_latlong(diffuse), 0.0).xyz * u_envLightIntensity * vec3(0.5, 0.25, 0.15);
-    vec2 diffuse_8 = (diffuse_2 * vec2(-0.7632, -0.4993) + vec2(-0.4297, -0.6076) + vec2(0.86310005, 1.2189001)) * 0.6 + vec2(1.0);
-    color += diffuse_7 * clamp(diffuse_8.x / diffuse_8.y, 0.0, 1.0);
+    vec2 diffuse_5 = (diffuse_2 * vec2(-0.7632, -0.4993) + vec2(-0.4297, -0.6076) + vec2(0.86310005, 1.2189001)) * 0.6 + vec2(1.0);
+    float diffuse_6 = u_envLightIntensity * clamp(diffuse_5.x / diffuse_5.y, 0.0, 1.0);
+    color += textureLod(u_envIrradiance, mx_latlong(diffuse), 0.0).xyz * diffuse_6 * vec3(0.5, 0.25, 0.15);
     out1 = vec4(color, 1.0);
 }

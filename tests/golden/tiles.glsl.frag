@@ -13,6 +13,11 @@ in VertexData {
 } vd;
 out vec4 out1;
 
+vec3 mx_srgb_texture_to_lin_rec709(const vec3 color)
+{
+    return mix(color / vec3(12.92), pow(max((color + vec3(0.055)) / vec3(1.055), vec3(0.0)), vec3(2.4)), step(0.04045, color));
+}
+
 void main()
 {
     // NG
@@ -24,8 +29,7 @@ void main()
     vec2 wall_5 = fract(vd.texcoord_0);
     vec2 wall_6 = dFdx(vd.texcoord_0);
     vec2 wall_7 = dFdy(vd.texcoord_0);
-    vec3 wall_8 = (wall_4 ? textureGrad(wall_file, vec3(wall_5, wall_3), wall_6, wall_7) : vec4(1.0, 0.0, 1.0, 1.0)).xyz;
-    vec3 wall_9 = mix(wall_8 / vec3(12.92), pow(max((wall_8 + vec3(0.055)) / vec3(1.055), 0.0), vec3(2.4)), step(0.04045, wall_8));
+    vec3 wall_8 = mx_srgb_texture_to_lin_rec709((wall_4 ? textureGrad(wall_file, vec3(wall_5, wall_3), wall_6, wall_7) : vec4(1.0, 0.0, 1.0, 1.0)).xyz);
     vec3 stone_2 = abs(normalize(vd.normalObject));
     vec3 stone_3 = stone_2 / dot(stone_2, vec3(1.0));
     vec3 stone_4 = stone_3 / dot(stone_3, vec3(1.0));
@@ -39,5 +43,5 @@ void main()
     vec4 stone_12 = textureGrad(stone_filez, vec3(fract(vd.positionObject.xy), stone_8), stone_10, stone_11);
     vec4 rust = textureGrad(rust_file, vec3(wall_5, wall.x + wall.y * 2.0), wall_6, wall_7);
     float rust_2 = (wall_2 && (wall.x >= 0.0 && wall.x <= 1.0) ? rust : vec4(0.0, 0.0, 0.0, 1.0)).x;
-    out1 = vec4(mix(wall_9, (stone_6 + (stone_9 ? stone_12 : vec4(0.0, 0.0, 0.0, 1.0)) * stone_4.z).xyz, rust_2), 1.0);
+    out1 = vec4(mix(wall_8, (stone_6 + (stone_9 ? stone_12 : vec4(0.0, 0.0, 0.0, 1.0)) * stone_4.z).xyz, rust_2), 1.0);
 }

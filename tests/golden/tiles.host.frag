@@ -13,6 +13,11 @@ in VertexData {
 } vd;
 out vec4 out1;
 
+vec3 mx_srgb_texture_to_lin_rec709(const vec3 color)
+{
+    return mix(color / vec3(12.92), pow(max((color + vec3(0.055)) / vec3(1.055), vec3(0.0)), vec3(2.4)), step(0.04045, color));
+}
+
 vec4 mx_triplanar(sampler2D filex, sampler2D filey, sampler2D filez, const vec3 position, const vec3 normal)
 {
     vec3 weight = abs(normalize(normal));
@@ -42,8 +47,7 @@ vec4 mx_sample_cubic(sampler2D file, const vec2 uv)
 void main()
 {
     // NG
-    vec3 wall = texture(wall_file, vd.texcoord_0).xyz;
-    vec3 wall_2 = mix(wall / vec3(12.92), pow(max((wall + vec3(0.055)) / vec3(1.055), 0.0), vec3(2.4)), step(0.04045, wall));
+    vec3 wall = mx_srgb_texture_to_lin_rec709(texture(wall_file, vd.texcoord_0).xyz);
     vec3 stone = mx_triplanar(stone_filex, stone_filey, stone_filez, vd.positionObject, normalize(vd.normalObject)).xyz;
-    out1 = vec4(mix(wall_2, stone, mx_sample_cubic(rust_file, vd.texcoord_0).x), 1.0);
+    out1 = vec4(mix(wall, stone, mx_sample_cubic(rust_file, vd.texcoord_0).x), 1.0);
 }

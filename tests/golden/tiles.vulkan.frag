@@ -13,6 +13,11 @@ layout(location = 0) in VertexData {
 } vd;
 layout(location = 0) out vec4 out1;
 
+vec3 mx_srgb_texture_to_lin_rec709(const vec3 color)
+{
+    return mix(color / vec3(12.92), pow(max((color + vec3(0.055)) / vec3(1.055), vec3(0.0)), vec3(2.4)), step(0.04045, color));
+}
+
 void main()
 {
     // NG
@@ -23,8 +28,6 @@ void main()
     vec2 wall_4 = dFdx(vd.texcoord_0);
     vec2 wall_5 = dFdy(vd.texcoord_0);
     vec4 wall_6 = textureGrad(wall_file, vec3(fract(vd.texcoord_0), wall_2), wall_4, wall_5);
-    vec3 wall_7 = (wall_3 ? wall_6 : vec4(1.0, 0.0, 1.0, 1.0)).xyz;
-    vec3 wall_8 = mix(wall_7 / vec3(12.92), pow(max((wall_7 + vec3(0.055)) / vec3(1.055), 0.0), vec3(2.4)), step(0.04045, wall_7));
     vec3 stone_2 = abs(normalize(vd.normalObject));
     vec3 stone_3 = stone_2 / dot(stone_2, vec3(1.0));
     vec3 stone_4 = stone_3 / dot(stone_3, vec3(1.0));
@@ -36,6 +39,7 @@ void main()
     vec2 stone_10 = dFdy(vd.positionObject.xy);
     const vec4 stone_11 = vec4(0.0, 0.0, 0.0, 1.0);
     vec4 stone_12 = (stone_8 ? textureGrad(stone_filez, vec3(fract(vd.positionObject.xy), stone_7), stone_9, stone_10) : stone_11) * stone_4.z;
+    vec3 stone_13 = (stone_5 + texture(stone_filey, vd.positionObject.xz) * stone_4.y + stone_12).xyz;
     vec2 rust = vec2(textureSize(rust_file, 0).xy);
     vec2 rust_2 = vd.texcoord_0 * rust - vec2(0.5);
     vec2 rust_3 = floor(rust_2);
@@ -60,5 +64,5 @@ void main()
     vec2 rust_22 = floor(rust_13);
     vec4 rust_23 = textureGrad(rust_file, vec3(fract(rust_13), rust_22.x + rust_22.y * 2.0), wall_4, wall_5);
     float rust_24 = mix(rust_17, mix(rust_21, rust_22.y <= 1.0 && rust_22.y >= 0.0 && (rust_22.x <= 1.0 && rust_22.x >= 0.0) ? rust_23 : stone_11, rust_12.x), rust_12.y).x;
-    out1 = vec4(mix(wall_8, (stone_5 + texture(stone_filey, vd.positionObject.xz) * stone_4.y + stone_12).xyz, rust_24), 1.0);
+    out1 = vec4(mix(mx_srgb_texture_to_lin_rec709((wall_3 ? wall_6 : vec4(1.0, 0.0, 1.0, 1.0)).xyz), stone_13, rust_24), 1.0);
 }

@@ -42,33 +42,32 @@ vec3 mx_oren_nayar_diffuse_bsdf_eval(vec3 color, float roughness, vec3 N, bool e
     vec3 lambert = color * (cos_l / MX_PI);
     float cos_v = mx_view_cosine(N, V);
     float s = max(dot(L, V), MX_EPSILON) - cos_l * cos_v;
-    if (s > 0.0)
-        s /= max(cos_l, cos_v);
+    float t = max(s, 0.0) / max(cos_l, cos_v);
     if (!energy_compensation)
     {
         // Qualitative model of Oren and Nayar 1994, equation 30
         float r2 = roughness * roughness;
-        return lambert * (1.0 - 0.5 * r2 / (r2 + 0.33) + 0.45 * r2 / (r2 + 0.09) * max(s, 0.0));
+        return lambert * (1.0 - 0.5 * r2 / (r2 + 0.33) + 0.45 * r2 / (r2 + 0.09) * t);
     }
     float mean = mx_fujii_mean(roughness);
     float multiple = max(1.0 - mx_fujii_albedo(cos_v, roughness), MX_EPSILON)
                    * max(1.0 - mx_fujii_albedo(cos_l, roughness), MX_EPSILON) / max(1.0 - mean, MX_EPSILON);
-    return lambert * ((1.0 + roughness * s) / (1.0 + MX_FUJII_A * roughness)
+    return lambert * ((1.0 + roughness * (t + min(s, 0.0))) / (1.0 + MX_FUJII_A * roughness)
                       + mx_fujii_multiple(color, mean) * multiple);
 }
 
 vec3 mx_oren_nayar_diffuse_bsdf_environment(vec3 color, float roughness, vec3 N, bool energy_compensation, vec3 V)
 {
-    vec3 light = color * mx_environment_irradiance(mx_facing(N, V));
+    vec3 light = mx_environment_irradiance(mx_facing(N, V));
     float cos_v = mx_view_cosine(N, V);
     if (energy_compensation)
-        return light * mix(mx_fujii_multiple(color, mx_fujii_mean(roughness)), vec3(1.0),
-                           mx_fujii_albedo(cos_v, roughness));
+        return color * light * mix(mx_fujii_multiple(color, mx_fujii_mean(roughness)), vec3(1.0),
+                                   mx_fujii_albedo(cos_v, roughness));
 
     // Rational fit to the directional albedo of the qualitative model
     vec2 fit = 1.0 + roughness * (vec2(-0.4297, -0.6076) + vec2(-0.7632, -0.4993) * cos_v
                                   + vec2(1.4385, 2.0315) * roughness);
-    return light * clamp(fit.x / fit.y, 0.0, 1.0);
+    return color * (light * clamp(fit.x / fit.y, 0.0, 1.0));
 }
 
 // ---- burley_diffuse_bsdf --------------------------------------------------------------------------------------------
@@ -90,7 +89,7 @@ vec3 mx_burley_diffuse_bsdf_environment(vec3 color, float roughness, vec3 N, vec
     float x = 1.0 - c;
     float smooth_fit = 0.97619 - 0.488095 * (x * x * x * x * x);
     float rough_fit = 1.55754 + c * (-2.02221 + c * (2.56283 - 1.06244 * c));
-    return color * mix(smooth_fit, rough_fit, roughness) * mx_environment_irradiance(mx_facing(N, V));
+    return color * (mix(smooth_fit, rough_fit, roughness) * mx_environment_irradiance(mx_facing(N, V)));
 }
 
 // ---- translucent_bsdf -----------------------------------------------------------------------------------------------
@@ -109,24 +108,35 @@ vec3 mx_translucent_bsdf_environment(vec3 color, vec3 N)
 
 // Burley's normalised diffusion profile (Christensen 2015) gathered around a circle of the local curvature
 // (after Penner 2011, "Pre-integrated skin shading").
-vec3 mx_subsurface_bsdf_eval(vec3 color, vec3 radius, float anisotropy, vec3 N, vec3 V, vec3 L, vec3 P)
+
+// Exponent of the profile where the chord is the diameter of the circle.
+vec3 mx_subsurface_falloff(vec3 radius, vec3 n, vec3 P)
 {
-    const int SAMPLES = 32;
-    vec3 n = mx_facing(N, V);
-    float r = 1.0 / max(length(fwidth(n)) / length(fwidth(P)), 0.01);
-    float theta = acos(dot(n, L));
+    float curvature = max(length(fwidth(n)) / length(fwidth(P)), 0.01);
+    return -2.0 / (3.0 * curvature * max(radius, 0.1));
+}
+
+vec3 mx_subsurface_light(vec3 falloff, float cos_l)
+{
+    const float STEP = MX_PI / 16.0;
+    float theta = acos(cos_l);
     vec3 light = vec3(0.0);
     vec3 sum = vec3(0.0);
-    for (int i = 0; i < SAMPLES; ++i)
+    for (float x = 0.5 * STEP - MX_PI; x < MX_PI; x += STEP)
     {
-        float x = (float(i) + 0.5) * (2.0 * MX_PI / float(SAMPLES)) - MX_PI;
-        float d = r * abs(2.0 * sin(0.5 * x));
-        vec3 e = exp(-d / (3.0 * max(radius, 0.1)));
-        vec3 profile = (e + e * e * e) / max(d, MX_EPSILON);
+        float d = abs(sin(0.5 * x)); // the chord, in diameters
+        vec3 e = exp(falloff * d);
+        vec3 profile = (e + e * e * e) / d;
         light += profile * max(cos(theta + x), 0.0);
         sum += profile;
     }
-    return color * light / (MX_PI * sum);
+    return light / (MX_PI * sum);
+}
+
+vec3 mx_subsurface_bsdf_eval(vec3 color, vec3 radius, float anisotropy, vec3 N, vec3 V, vec3 L, vec3 P)
+{
+    vec3 n = mx_facing(N, V);
+    return color * mx_subsurface_light(mx_subsurface_falloff(radius, n, P), dot(n, L));
 }
 
 vec3 mx_subsurface_bsdf_environment(vec3 color, vec3 radius, float anisotropy, vec3 N, vec3 V)

@@ -16,9 +16,19 @@ float mx_view_cosine(vec3 N, vec3 V)
     return max(abs(dot(N, V)), MX_EPSILON);
 }
 
-// Axes of the tangent space around N with x along X: `w * frame` enters it, `frame * w` leaves it.
-mat3 mx_frame(vec3 N, vec3 X)
+// Unit tangent along X.
+vec3 mx_tangent(vec3 N, vec3 X)
 {
-    vec3 x = normalize(X - dot(X, N) * N);
-    return mat3(x, cross(N, x), N);
+    return normalize(X - dot(X, N) * N);
+}
+
+// Into the tangent space around N with x along the unit tangent `x`, and out of it.
+vec3 mx_enter_frame(vec3 w, vec3 N, vec3 x)
+{
+    return vec3(dot(w, x), dot(w, cross(N, x)), dot(w, N));
+}
+
+vec3 mx_leave_frame(vec3 w, vec3 N, vec3 x)
+{
+    return w.x * x + w.y * cross(N, x) + w.z * N;
 }

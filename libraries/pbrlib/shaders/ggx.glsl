@@ -25,11 +25,16 @@ float mx_ggx_visibility(float cos_v, float cos_l, vec2 alpha)
     return 0.5 * cos_l / (cos_v * mx_ggx_masking(cos_l, alpha) + cos_l * mx_ggx_masking(cos_v, alpha));
 }
 
-// Directional albedo of the lobe towards V, fitted by rational functions: x scales F0, y scales F90.
-vec2 mx_ggx_albedo(vec2 roughness, vec3 N, vec3 V)
+// Roughness that the formulas can bear.
+vec2 mx_ggx_alpha(vec2 roughness)
 {
-    float c = mx_view_cosine(N, V);
-    float a = sqrt(clamp(roughness.x * roughness.y, MX_EPSILON * MX_EPSILON, 1.0));
+    return clamp(roughness, MX_EPSILON, 1.0);
+}
+
+// Directional albedo of the lobe at the viewer's cosine c, fitted by rational functions: x scales F0, y scales F90.
+vec2 mx_ggx_albedo(vec2 alpha, float c)
+{
+    float a = sqrt(alpha.x * alpha.y);
     vec4 r = vec4(0.1003, 0.9345, 1.0, 1.0)
            + a * (vec4(9.748, 2.229, 8.263, 15.94) + a * vec4(-8.245, -0.7684, -7.507, 41.26))
            + c * (vec4(-0.6303, -2.323, -1.765, 0.2281)
@@ -48,26 +53,30 @@ vec3 mx_ggx_compensation(vec2 albedo, string model, vec3 n, vec3 k, vec3 f90, fl
 }
 
 // Part of the light that the lobe reflects towards V; a film changes the compensation only.
-vec3 mx_ggx_reflectance(vec2 albedo, string model, vec3 n, vec3 k, vec3 f90, float exponent, float film, float film_ior)
+vec3 mx_ggx_reflectance(vec2 roughness, vec3 N, vec3 V, string model, vec3 n, vec3 k, vec3 f90, float exponent, float film, float film_ior)
 {
+    vec2 albedo = mx_ggx_albedo(mx_ggx_alpha(roughness), mx_view_cosine(N, V));
     return (mx_fresnel_f0(model, n, k) * albedo.x + f90 * albedo.y)
          * mx_ggx_compensation(albedo, model, n, k, f90, exponent, film, film_ior);
 }
 
 // ---- lights ---------------------------------------------------------------------------------------------------------
 
-// The lobe in a frame towards L, but for Fresnel's factor.
-float mx_ggx_lobe(vec2 alpha, mat3 frame, float cos_v, vec3 L, vec3 H)
+// The lobe towards L, but for Fresnel's factor; N faces V, and x is a unit tangent.
+float mx_ggx_lobe(vec2 alpha, vec3 N, vec3 x, float cos_v, vec3 L, vec3 H)
 {
-    return mx_ggx_distribution(H * frame, alpha) * mx_ggx_visibility(cos_v, max(dot(frame[2], L), MX_EPSILON), alpha);
+    return mx_ggx_distribution(mx_enter_frame(H, N, x), alpha) * mx_ggx_visibility(cos_v, max(dot(N, L), MX_EPSILON), alpha);
 }
 
 vec3 mx_ggx_eval(vec2 roughness, vec3 N, vec3 X, vec3 V, vec3 L, string model, vec3 n, vec3 k, vec3 f90, float exponent,
                  float film, float film_ior)
 {
+    vec2 alpha = mx_ggx_alpha(roughness);
+    float cos_v = mx_view_cosine(N, V);
+    vec3 n_v = mx_facing(N, V);
     vec3 H = normalize(V + L);
-    return mx_ggx_compensation(mx_ggx_albedo(roughness, N, V), model, n, k, f90, exponent, film, film_ior)
-         * mx_ggx_lobe(clamp(roughness, MX_EPSILON, 1.0), mx_frame(mx_facing(N, V), X), mx_view_cosine(N, V), L, H)
+    return mx_ggx_compensation(mx_ggx_albedo(alpha, cos_v), model, n, k, f90, exponent, film, film_ior)
+         * mx_ggx_lobe(alpha, n_v, mx_tangent(n_v, X), cos_v, L, H)
          * mx_fresnel(clamp(dot(V, H), MX_EPSILON, 1.0), model, n, k, f90, exponent, film, film_ior);
 }
 
@@ -82,13 +91,13 @@ vec3 mx_refract_sphere(vec3 v, vec3 h, float ior)
 }
 
 // A map whose mip levels are filtered for rising roughness.
-vec3 mx_ggx_prefiltered(vec2 roughness, vec3 N, vec3 V, float refract_ior, string model, vec3 n, vec3 k, vec3 f90,
+vec3 mx_ggx_prefiltered(vec2 alpha, vec3 N, vec3 V, float refract_ior, string model, vec3 n, vec3 k, vec3 f90,
                         float exponent, float film, float film_ior)
 {
     vec3 h = mx_facing(N, V);
-    vec2 albedo = mx_ggx_albedo(roughness, N, V);
+    vec2 albedo = mx_ggx_albedo(alpha, mx_view_cosine(N, V));
     vec3 f = mx_fresnel(1.0, model, n, k, f90, exponent, film, film_ior) * albedo.x + f90 * albedo.y;
-    float a = sqrt(roughness.x * roughness.y);
+    float a = sqrt(alpha.x * alpha.y);
     if (film > 0.0) // keep the change of colour with the angle where the lobe is sharp
         f = mix(mx_fresnel(mx_view_cosine(N, V), model, n, k, f90, exponent, film, film_ior), f, sqrt(a));
     float lod = (a < 0.25 ? sqrt(a) : 0.5 * a + 0.375) * float(u_envRadianceMips - 1);
@@ -110,18 +119,21 @@ vec3 mx_ggx_normal(int i, vec3 v, vec2 alpha)
 
 // Sample number i: its light, and in the fourth component the cosine at its facet. The light is filtered over the
 // solid angle of the sample (Krivanek and Colbert 2008; the mip level is equation 13 of GPU Gems 3, section 20.4).
-vec4 mx_ggx_sample(int i, mat3 frame, vec3 v, vec2 alpha, float refract_ior)
+vec4 mx_ggx_sample(int i, vec3 N, vec3 x, vec3 v, vec2 alpha, float refract_ior)
 {
     vec3 h = mx_ggx_normal(i, normalize(vec3(v.xy * alpha, v.z)), alpha);
-    vec3 l = refract_ior > 0.0 ? mx_refract_sphere(v, h, refract_ior) : reflect(-v, h);
-    vec3 L = frame * l;
     float cos_v = max(v.z, MX_EPSILON);
-    float masking = 2.0 * (cos_v + mx_ggx_masking(cos_v, alpha));
-    float count = float(u_envRadianceSamples);
-    float solid = length(L.xz) * count * mx_ggx_distribution(h, alpha) / masking;
+    float masking = 2.0 * (cos_v + mx_ggx_masking(cos_v, alpha)) / float(u_envRadianceSamples);
     // A visible normal weighs G2 / G1 where it reflects, and 1 / G1 where it refracts.
-    float weight = refract_ior > 0.0 ? 0.25 / cos_v : mx_ggx_visibility(cos_v, max(l.z, MX_EPSILON), alpha);
-    return vec4(weight * masking / count
+    vec3 l = reflect(-v, h);
+    float weight = 0.25 / cos_v;
+    if (refract_ior > 0.0)
+        l = mx_refract_sphere(v, h, refract_ior);
+    else
+        weight = mx_ggx_visibility(cos_v, max(l.z, MX_EPSILON), alpha);
+    vec3 L = mx_leave_frame(l, N, x);
+    float solid = length(L.xz) * mx_ggx_distribution(h, alpha) / masking;
+    return vec4(weight * masking
                     * mx_environment_radiance(L, max(float(u_envRadianceMips) - 2.5 - 0.5 * log2(solid), 0.0)),
                 clamp(dot(v, h), MX_EPSILON, 1.0));
 }
@@ -132,12 +144,13 @@ vec3 mx_ggx_environment(vec2 roughness, vec3 N, vec3 X, vec3 V, string model, ve
 {
     if (option_environment == 0)
         return vec3(0.0);
-    vec3 scale = mx_ggx_compensation(mx_ggx_albedo(roughness, N, V), model, n, k, f90, exponent, film, film_ior);
-    vec2 alpha = clamp(roughness, MX_EPSILON, 1.0);
+    vec2 alpha = mx_ggx_alpha(roughness);
+    vec3 scale = mx_ggx_compensation(mx_ggx_albedo(alpha, mx_view_cosine(N, V)), model, n, k, f90, exponent, film, film_ior);
     if (option_environment == 1)
         return scale * mx_ggx_prefiltered(alpha, N, V, 0.0, model, n, k, f90, exponent, film, film_ior);
-    mat3 frame = mx_frame(mx_facing(N, V), X);
-    vec4 light = mx_ggx_sample(sample_index, frame, V * frame, alpha, 0.0);
+    vec3 n_v = mx_facing(N, V);
+    vec3 x = mx_tangent(n_v, X);
+    vec4 light = mx_ggx_sample(sample_index, n_v, x, mx_enter_frame(V, n_v, x), alpha, 0.0);
     return scale * light.xyz * mx_fresnel(light.w, model, n, k, f90, exponent, film, film_ior);
 }
 
@@ -147,10 +160,11 @@ vec3 mx_ggx_refraction(vec2 roughness, vec3 N, vec3 X, vec3 V, float ior, string
 {
     if (option_environment == 0)
         return vec3(0.0);
-    vec2 alpha = clamp(roughness, MX_EPSILON, 1.0);
+    vec2 alpha = mx_ggx_alpha(roughness);
     if (option_environment == 1)
         return mx_ggx_prefiltered(alpha, N, V, ior, model, n, k, f90, exponent, film, film_ior);
-    mat3 frame = mx_frame(mx_facing(N, V), X);
-    vec4 light = mx_ggx_sample(sample_index, frame, V * frame, alpha, ior);
+    vec3 n_v = mx_facing(N, V);
+    vec3 x = mx_tangent(n_v, X);
+    vec4 light = mx_ggx_sample(sample_index, n_v, x, mx_enter_frame(V, n_v, x), alpha, ior);
     return light.xyz * (1.0 - mx_fresnel(light.w, model, n, k, f90, exponent, film, film_ior));
 }

@@ -82,9 +82,10 @@ vec3 mx_chiang_hair_bsdf_eval(vec3 tint_R, vec3 tint_TT, vec3 tint_TRT, float io
                               vec2 roughness_TT, vec2 roughness_TRT, float cuticle_angle, vec3 absorption, vec3 N,
                               vec3 curve_direction, vec3 V, vec3 L)
 {
-    mat3 frame = mx_frame(mx_facing(N, V), curve_direction);
-    vec3 v = V * frame;
-    vec3 l = L * frame;
+    vec3 n = mx_facing(N, V);
+    vec3 x = mx_tangent(n, curve_direction);
+    vec3 v = mx_enter_frame(V, n, x);
+    vec3 l = mx_enter_frame(L, n, x);
     vec2 o = vec2(v.x, mx_hair_cosine(v.x));
     float phi = atan(l.z * v.y - v.z * l.y, l.y * v.y + l.z * v.z);
 

@@ -8,7 +8,7 @@ uniform bool u_refractionTwoSided;
 // Tint of light that crosses the surface, or both surfaces of an object.
 vec3 mx_refraction_tint(vec3 tint)
 {
-    return u_refractionTwoSided ? tint * tint : tint;
+    return tint * (u_refractionTwoSided ? tint : vec3(1.0));
 }
 
 // ---- dielectric_bsdf ------------------------------------------------------------------------------------------------
@@ -49,7 +49,7 @@ vec3 mx_dielectric_bsdf_throughput(vec3 tint, float ior, vec2 roughness, bool re
 {
     if (scatter_mode == "T")
         return vec3(1.0);
-    return 1.0 - mx_ggx_reflectance(mx_ggx_albedo(roughness, N, V), "dielectric", vec3(ior), vec3(0.0), vec3(1.0),
+    return 1.0 - mx_ggx_reflectance(roughness, N, V, "dielectric", vec3(ior), vec3(0.0), vec3(1.0),
                                     0.0, film, film_ior);
 }
 
@@ -111,7 +111,7 @@ vec3 mx_generalized_schlick_bsdf_throughput(vec3 color0, vec3 color82, vec3 colo
 {
     if (scatter_mode == "T")
         return vec3(1.0);
-    vec3 reflected = mx_ggx_reflectance(mx_ggx_albedo(roughness, N, V), "schlick", max(color0, 0.0), max(color82, 0.0),
+    vec3 reflected = mx_ggx_reflectance(roughness, N, V, "schlick", max(color0, 0.0), max(color82, 0.0),
                                         max(color90, 0.0), exponent, film, film_ior);
     return vec3(1.0 - dot(reflected, vec3(1.0 / 3.0)));
 }

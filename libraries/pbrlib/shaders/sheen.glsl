@@ -9,9 +9,9 @@ float mx_sheen_albedo(float c, float roughness, string mode)
     if (mode == "conty_kulla")
     {
         float r = roughness;
-        vec2 fit = vec2(13.67300, 1.0) + c * vec2(-68.78018, 61.57746) + r * vec2(799.08825, 442.78211)
-                 + c * r * vec2(-905.00061, 2597.49308) + c * c * vec2(60.28956, 121.81241)
-                 + r * r * vec2(1086.96473, 3045.55075);
+        vec2 fit = vec2(13.67300, 1.0)
+                 + c * (vec2(-68.78018, 61.57746) + c * vec2(60.28956, 121.81241) + r * vec2(-905.00061, 2597.49308))
+                 + r * (vec2(799.08825, 442.78211) + r * vec2(1086.96473, 3045.55075));
         return clamp(fit.x / fit.y, 0.0, 1.0);
     }
     float r = clamp(roughness, 0.01, 1.0);
@@ -28,7 +28,7 @@ float mx_sheen_zeltner(vec3 N, vec3 V, vec3 L, float c, float r)
     float a = (2.58126 * c + 0.813703 * r) * r / (1.0 + 0.310327 * c * c + 2.60994 * c * r);
     float b = sqrt(1.0 - c) * (r - 1.0) * r * r * r
             / (0.0000254053 + 1.71228 * c - 1.71506 * c * r + 1.34174 * r * r);
-    vec3 l = L * mx_frame(N, V + 1e-5 * N.yzx);
+    vec3 l = mx_enter_frame(L, N, mx_tangent(N, V + 1e-5 * N.yzx));
     vec3 w = vec3(a * l.x + b * l.z, a * l.y, l.z);
     float scale = a / dot(w, w);
     return max(w.z, 0.0) / MX_PI * scale * scale;
@@ -53,7 +53,7 @@ vec3 mx_sheen_bsdf_eval(vec3 color, float roughness, vec3 N, string mode, vec3 V
 vec3 mx_sheen_bsdf_environment(vec3 color, float roughness, vec3 N, string mode, vec3 V)
 {
     vec3 n = mx_facing(N, V);
-    return color * mx_sheen_albedo(mx_view_cosine(N, V), roughness, mode) * mx_environment_irradiance(n);
+    return color * (mx_sheen_albedo(mx_view_cosine(N, V), roughness, mode) * mx_environment_irradiance(n));
 }
 
 vec3 mx_sheen_bsdf_throughput(vec3 color, float roughness, vec3 N, string mode, vec3 V)
