@@ -352,7 +352,7 @@ bool bind_shader(struct bind *bind)
     mxg_result_info(bind->result, &info);
     bind->draw.num_vertices = bind->scene->mesh.num_vertices;
     bind->draw.num_indices = bind->scene->mesh.num_indices;
-    bind->draw.blend = info.transparent && !bind->is_opaque;
+    bind->draw.blend = info.alpha == MXG_ALPHA_BLEND && !bind->is_opaque;
     bind->max_lights = info.num_lights;
     return check_values(bind) && make_blocks(bind) && bind_textures(bind) && bind_attributes(bind) && bind_scene(bind);
 }

@@ -384,6 +384,12 @@ typedef struct mxg_compiled_input {
 MXG_API uint32_t mxg_result_num_compiled_inputs(const mxg_result *result);
 MXG_API mxg_status mxg_result_compiled_input(const mxg_result *result, uint32_t index, mxg_compiled_input *out);
 
+/*
+ * How a host draws what a shader gives: as it is; with a depth test alone, since pixels below u_alphaThreshold are discarded and the others
+ * have alpha 1; or blended over what is behind, in order. Colours are premultiplied.
+ */
+typedef enum mxg_alpha { MXG_ALPHA_OPAQUE, MXG_ALPHA_MASK, MXG_ALPHA_BLEND, MXG_ALPHA_MAX_ENUM = 0x7fffffff } mxg_alpha;
+
 typedef struct mxg_shader_info {
     size_t size; /* in */
     const char *name, *path, *target;
@@ -391,6 +397,7 @@ typedef struct mxg_shader_info {
     uint32_t num_closures, num_textures, num_lights;
     bool transparent, lit;
     bool displaced; /* the vertex stage moves the surface: give it small triangles */
+    mxg_alpha alpha;
 } mxg_shader_info;
 MXG_API mxg_status mxg_result_info(const mxg_result *result, mxg_shader_info *out);
 

@@ -185,6 +185,7 @@ mxg_status mxg_result_info(const mxg_result *result, mxg_shader_info *out)
         .num_textures = count_textures(result),
         .num_lights = shader->stages[STAGE_PIXEL].has_lights ? shader->max_lights : 0,
         .transparent = shader->transparent,
+        .alpha = (mxg_alpha)shader->alpha,
         .displaced = shader->displaced,
         .lit = shader->lit,
     };

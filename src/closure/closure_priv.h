@@ -23,6 +23,9 @@ void closure_sample_light(struct shader *shader, const struct closure_host *host
  */
 ir_ref closure_displace(struct shader *shader, const struct closure_host *host, ir_ref surface, ir_ref displacement);
 
+/* alpha.c: what an alpha that is not always 1 can be. */
+enum shader_alpha closure_alpha(struct shader *shader, ir_ref alpha);
+
 /* a · b, where 0 stands for 1. */
 ir_ref closure_mul(struct ir_graph *graph, ir_ref a, ir_ref b);
 /* product.c: the same, arranged for values that change from turn to turn of a loop. */

@@ -198,6 +198,7 @@ static void alpha_test(struct emitter *e, ir_ref alpha)
                                                 IR_TYPE_FLOAT, 0);
     effect(e, EFFECT_DISCARD, 0, ir_op2(e->graph, IR_LT, alpha, shader_read(e->shader, threshold)));
     e->shader->transparent = true;
+    e->shader->alpha = (uint8_t)closure_alpha(e->shader, alpha);
 }
 
 static bool is_opaque(const struct emitter *e, ir_ref opacity)

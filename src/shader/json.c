@@ -351,6 +351,8 @@ void shader_reflect_json(const struct shader *shader, const struct shader_reflec
     text_char(out, '"');
     put_number(&json, "closures", shader->num_closures);
     put_bool(&json, "transparent", shader->transparent);
+    if (shader->alpha != ALPHA_OPAQUE)
+        put_string(&json, "alpha", shader->alpha == ALPHA_MASK ? "mask" : "blend");
     if (shader->displaced)
         put_bool(&json, "displaced", true);
     put_bool(&json, "lit", shader->lit);

@@ -24,6 +24,9 @@ enum shader_block {
 };
 const char *shader_block_name(enum shader_block block); /* "PublicUniforms" … */
 
+/* What the alpha that is written may be: 1, 0 or 1, anything. */
+enum shader_alpha { ALPHA_OPAQUE, ALPHA_MASK, ALPHA_BLEND };
+
 enum shader_stage_id { STAGE_VERTEX, STAGE_PIXEL, NUM_STAGES };
 
 /* What a host must do when the value of an input changes. */
@@ -188,6 +191,7 @@ struct shader {
     str_id value_type;             /* of the document: what the element gives, where that is a plain value */
     bool names_wholes;             /* only variables have parts that can be named: from the rules of layout */
     bool transparent;              /* found by analysis: the alpha written may be below 1 */
+    uint8_t alpha;                 /* enum shader_alpha */
     bool lit;                      /* reads lights or environment */
     bool displaced;                /* the vertex stage moves the surface */
     bool numbered;                 /* sets, bindings and locations are given */

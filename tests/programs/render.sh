@@ -256,6 +256,41 @@ check 'a tilted plane' exits 0 "$render" metal.mtlx -m tilted.obj --lights none 
 check 'agrees with it' agree ramp.ppm tilted.ppm
 check 'but not with a flat one' eval 'metal -m plane --camera 10,10,4.8 -o flat.ppm && ! agree ramp.ppm flat.ppm'
 
+# Transparency: half of white over black, in any order of triangles; a mask hides what is behind it.
+sheet() { # NAME OPACITY
+    cat >"$1.mtlx" <<X
+<?xml version="1.0"?>
+<materialx version="1.39">
+  <texcoord name="uv" type="vector2"/>
+  <separate2 name="st" type="multioutput"><input name="in" type="vector2" nodename="uv"/></separate2>
+  <position name="p" type="vector3"/>
+  <separate3 name="xyz" type="multioutput"><input name="in" type="vector3" nodename="p"/></separate3>
+  <ifgreater name="near" type="color3"><input name="value1" type="float" nodename="xyz" output="outz"/>
+    <input name="in1" type="color3" value="1, 0, 0"/><input name="in2" type="color3" value="0, 0, 1"/></ifgreater>
+  $2
+  <surface_unlit name="S" type="surfaceshader">
+    <input name="emission_color" type="color3" nodename="near"/><input name="opacity" type="float" nodename="opacity"/>
+  </surface_unlit>
+  <surfacematerial name="M" type="material"><input name="surfaceshader" type="surfaceshader" nodename="S"/></surfacematerial>
+</materialx>
+X
+}
+sheet half '<constant name="opacity" type="float"><input name="value" type="float" value="0.5"/></constant>'
+sheet mask '<ifgreater name="opacity" type="float"><input name="value1" type="float" nodename="st" output="outx"/>
+  <input name="value2" type="float" value="0.5"/><input name="in1" type="float" value="1"/><input name="in2" type="float" value="0"/></ifgreater>'
+# Two sheets, the nearer one first in one file and last in the other.
+near='v -1 -1 0.1\nv 1 -1 0.1\nv 1 1 0.1\nv -1 1 0.1\n' far='v -1 -1 -0.1\nv 1 -1 -0.1\nv 1 1 -0.1\nv -1 1 -0.1\n'
+printf "$near${far}f 1 2 3 4\nf 5 6 7 8\n" >near_first.obj
+printf "$near${far}f 5 6 7 8\nf 1 2 3 4\n" >far_first.obj
+for mesh in near_first far_first; do
+    check "$mesh" exits 0 "$render" half.mtlx -m $mesh.obj --camera 0,0,3 --size 8 -o $mesh.ppm -q
+done
+check 'the order of triangles does not matter' cmp near_first.ppm far_first.ppm
+# Red at one half over blue at one half: twice as much red, before sRGB.
+check 'the near sheet is above' test "$(pixels near_first.ppm | sed -n 36p | awk '{ print ($1 > $3 + 20 && $3 > $2 + 20) }')" = 1
+check 'a mask' exits 0 "$render" mask.mtlx -m plane --camera 0,0,3 --size 16 --background none -o mask.ppm
+check 'is half a plane' test "$(pixels mask.ppm | awk '!$1 && !$2 && $3 == 203 { n++ } END { print n }')" = 128
+
 # Many pictures
 check 'a turntable' exits 0 "$render" plain.mtlx -m cube --turntable 4 -o turn.ppm --size 8
 check 'has pictures by number' test -s turn.0000.ppm -a -s turn.0001.ppm -a -s turn.0003.ppm -a ! -e turn.0004.ppm
