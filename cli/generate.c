@@ -54,6 +54,14 @@ static void write_result(struct generate *gen, const char *folder, const char *e
     }
 }
 
+static void add_source(struct generate *gen, const char *file)
+{
+    for (size_t i = 0; i < gen->sources.len; ++i)
+        if (strcmp(gen->sources.items[i], file) == 0)
+            return;
+    args_append(&gen->sources, cli_format("%s", file));
+}
+
 static void generate_element(struct generate *gen, const mxg_document *document, const char *folder,
                              const char *element)
 {
@@ -69,6 +77,8 @@ static void generate_element(struct generate *gen, const mxg_document *document,
         mxg_shader_info info = {offsetof(mxg_shader_info, topology)}; /* the path; the hash would have to be made */
         mxg_result_info(result, &info);
         write_result(gen, folder, info.path, result);
+        for (uint32_t i = 0; i < mxg_result_num_files(result); ++i)
+            add_source(gen, mxg_result_file(result, i));
     }
     mxg_result_destroy(result);
 }
@@ -131,7 +141,7 @@ static void generate_file(struct generate *gen, const char *input)
     if (!document)
         return;
     for (uint32_t i = 0; i < mxg_document_num_files(document); ++i)
-        args_append(&gen->sources, cli_format("%s", mxg_document_file(document, i)));
+        add_source(gen, mxg_document_file(document, i));
     char *folder = output_folder(gen, input);
     if (folder)
         generate_elements(gen, document, folder);

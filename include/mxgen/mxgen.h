@@ -326,6 +326,10 @@ MXG_API const char *mxg_result_source(const mxg_result *result, mxg_stage stage,
 MXG_API bool mxg_result_source_place(const mxg_result *result, mxg_stage stage, uint32_t line, const char **out_file,
                                      uint32_t *out_line, uint32_t *out_column, const char **out_path);
 
+/* Files beside those of the document that the shader depends on: photometric profiles. */
+MXG_API uint32_t mxg_result_num_files(const mxg_result *result);
+MXG_API const char *mxg_result_file(const mxg_result *result, uint32_t index);
+
 /* ---- Reflection ---- */
 
 typedef enum mxg_block {

@@ -87,6 +87,7 @@ static void set_build_options(struct generation *g)
         .environment = o[OPTION_environment].number,
         .texture_modes = o[OPTION_texture_modes].number,
         .tiles = o[OPTION_tiles].number == 0 && g->result->target->caps & CAP_TEXTURE_ARRAYS,
+        .reader = &g->reader,
         .list_folder = context->resolver.list_folder,
         .list_user_data = context->resolver.user_data,
         .cancel = context->cancel,
@@ -402,7 +403,12 @@ mxg_status generation_run(mxg_context *context, const mxg_document *document, co
     g->document = document;
     g->user_data = user_data;
     arena_init(&g->scratch, &result->object.mem);
+    file_source_init(&g->files, &result->object);
+    g->reader = file_source_for_lang(&g->files);
     mxg_status status = object_run(&result->object, run_steps, &run);
+    result->files.items = g->files.names.items;
+    result->files.len = g->files.names.len;
+    file_source_finish(&g->files);
     arena_finish(&g->scratch);
     object_settle(&result->object);
     if (status != MXG_OK) {

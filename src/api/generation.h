@@ -24,6 +24,7 @@ struct mxg_result {
     struct ir_graph graph;
     struct shader shader;
     struct stage_source stages[NUM_STAGES];
+    VEC(const char *) files; /* read for it */
     const char **origin_paths; /* of origins of graph, made when asked for during generation */
     bool has_shader;         /* generation ended well */
     const char *text;        /* of an inspection; NULL */
@@ -45,6 +46,8 @@ struct generation {
     struct closure_lighting lighting;
     ir_ref root;
     struct arena scratch;
+    struct file_source files; /* what a generation reads beside the document */
+    struct lang_reader reader;
     bool cancelled;
     void *user_data;         /* of the caller's steps */
 };

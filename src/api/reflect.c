@@ -7,6 +7,18 @@ static const char *text_of(const mxg_result *result, str_id id)
     return str_text(&result->strings, id);
 }
 
+/* ---- Files ---- */
+
+uint32_t mxg_result_num_files(const mxg_result *result)
+{
+    return result ? result->files.len : 0;
+}
+
+const char *mxg_result_file(const mxg_result *result, uint32_t index)
+{
+    return index < mxg_result_num_files(result) ? result->files.items[index] : NULL;
+}
+
 /* ---- Variables ---- */
 
 uint32_t mxg_result_num_variables(const mxg_result *result)

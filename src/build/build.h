@@ -29,6 +29,7 @@ struct build_options {
     int environment;       /* values of option_environment… */
     int texture_modes;
     bool tiles;            /* images of several tiles are texture arrays */
+    const struct lang_reader *reader; /* of photometric files; may be NULL */
     /* As mxg_resolver.list_folder, to find tiles; may be NULL. */
     size_t (*list_folder)(void *user_data, const char *from, const char *folder, char *names, size_t capacity);
     void *list_user_data;

@@ -155,6 +155,9 @@ void build_call(struct builder *b, const struct implementation *impl, const ir_r
 /* blur.c: `in`, averaged over texture coordinates. `node` is who asks. */
 ir_ref build_blur(struct builder *b, ir_ref in, ir_ref size, ir_ref filtertype, elem_id node);
 
+/* profile.c: emission by the photometric file that a texture names; evenly where it cannot be read. */
+ir_ref build_measured_edf(struct builder *b, ir_ref color, ir_ref normal, ir_ref file, elem_id node);
+
 /* dynamic.c: nodes that C code builds; false: there is none for the definition. */
 bool build_dynamic(struct builder *b, const struct frame *frame, ir_ref *results);
 

@@ -147,6 +147,11 @@ static ir_ref build_multiply(const struct call *c)
     return build_op(c, IR_CLOSURE_SCALE, args, 2);
 }
 
+static ir_ref measured_edf(const struct call *c)
+{
+    return build_measured_edf(c->b, arg(c, STR_color), arg(c, STR_normal), arg(c, STR_file), c->frame->node.element);
+}
+
 /* ---- shaders ---- */
 
 static ir_ref build_surface(const struct call *c)
@@ -206,6 +211,7 @@ static const struct {
     {STR_mix, build_mix},
     {STR_add, build_add},
     {STR_multiply, build_multiply},
+    {STR_measured_edf, measured_edf},
     {STR_surface, build_surface},
     {STR_surface_unlit, build_surface_unlit},
     {STR_volume, build_volume},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* What hosts are told of textures: their tiles, layers and frames, and how nodes read them. */
+/* Files that nodes name: what hosts are told of textures, their tiles, layers and frames; photometric profiles. */
 #include "tests/api/fixture.h"
 
 /* Names in the folder "maps/" of the files' place, in no order. */
@@ -19,6 +19,16 @@ static size_t list_maps(void *user_data, const char *from, const char *name, cha
 static const struct memory_file files[] = {
     {"loop.glsl", "uniform float u_time;\n"
                   "float sum(sampler2D f) { float s = 0.0; for (float i = 0.0; i < u_time; ++i) s += texture(f, vec2(i)).r; return s; }"},
+    /* At 0, 45 and 90 degrees from the axis 2, 1 and, in the mean around it, 0.75 candela */
+    {"lamp.ies", "IESNA:LM-63-2002\r\n[TEST] none\r\nTILT=NONE\r\n1 1000 0.5 3 3 1 2 0 0 0\r\n1 1 100\r\n0 45 90\r\n0, 90, 180\r\n"
+                 "4 2 1\r\n4 2 2\r\n4 2 1\r\n"},
+    {"tilted.ies", "TILT=INCLUDE\n1 2 0 90 1 1\n1 1000 1 2 1 1 2 0 0 0\n1 1 100\n0 90 0 1 1"},
+    {"type_b.ies", "TILT=NONE\n1 1000 1 2 1 2 2 0 0 0\n1 1 100\n0 90 0 1 1"},
+    {"short.ies", "TILT=NONE\n1 1000 1 2 1 1 2 0 0 0\n1 1 100\n0 90 0 1"},
+    {"dark.ies", "TILT=NONE\n1 1000 1 2 1 1 2 0 0 0\n1 1 100\n0 90 0 0 0"},
+    {"mixed_up.ies", "TILT=NONE\n1 1000 1 2 1 1 2 0 0 0\n1 1 100\n90 0 0 1 1"},
+    {"many.ies", "TILT=NONE\n1 1000 1 1e9 1 1 2 0 0 0\n1 1 100\n"},
+    {"other.ies", "not a profile"},
     {NULL, NULL},
 };
 
@@ -269,8 +279,47 @@ static void test_two_ways(void)
     finish(&shot);
 }
 
+#define LAMP(file) \
+    "<measured_edf name=\"light\" type=\"EDF\"><input name=\"file\" type=\"filename\" fileprefix=\"\" value=\"" file "\"/></measured_edf>" \
+    "<surface name=\"s\" type=\"surfaceshader\"><input name=\"edf\" type=\"EDF\" nodename=\"light\"/></surface>"
+
+/* Intensities relative to the greatest, every two degrees; what stands behind the last angle is not stored. */
+static void test_profile(void)
+{
+    struct shot shot;
+    mxg_compiled_input file = {sizeof file};
+    shoot(&shot, LAMP("lamp.ies"), false, NULL, NULL, MXG_OK);
+    REQUIRE_EQ(mxg_diagnostics_count(mxg_result_diagnostics(shot.result)), 0);
+    const char *table = strstr(mxg_result_source(shot.result, MXG_STAGE_PIXEL, NULL), "float[47](1.0, 0.9777");
+    REQUIRE(table && strstr(table, ", 0.375") && strstr(table, ", 0.0);")); /* 90 degrees, and behind */
+    REQUIRE_EQ(mxg_result_num_files(shot.result), 1);
+    REQUIRE_STR(mxg_result_file(shot.result, 0), "lamp.ies");
+    REQUIRE(!mxg_result_file(shot.result, 1));
+    REQUIRE_EQ(mxg_result_compiled_input(shot.result, 0, &file), MXG_OK);
+    REQUIRE_STR(file.path, "light/file");
+    finish(&shot);
+    shoot(&shot, LAMP("tilted.ies"), false, NULL, NULL, MXG_OK);
+    REQUIRE_EQ(mxg_diagnostics_count(mxg_result_diagnostics(shot.result)), 0);
+    finish(&shot);
+}
+
+static void test_bad_profiles(void)
+{
+    static const char *const bodies[] = {LAMP("type_b.ies"),   LAMP("short.ies"), LAMP("dark.ies"),
+                                         LAMP("mixed_up.ies"), LAMP("many.ies"),  LAMP("other.ies"), LAMP("missing.ies")};
+    for (size_t i = 0; i < sizeof bodies / sizeof *bodies; i++) {
+        struct shot shot;
+        shoot(&shot, bodies[i], false, NULL, NULL, MXG_OK);
+        REQUIRE_EQ(count_diagnostics(&shot, "no-profile"), 1);
+        REQUIRE(!strstr(mxg_result_source(shot.result, MXG_STAGE_PIXEL, NULL), "float["));
+        finish(&shot);
+    }
+}
+
 int main(void)
 {
+    test_profile();
+    test_bad_profiles();
     test_tiles_of_folder();
     test_tiles_of_document();
     test_no_tiles();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// uniform_edf, conical_edf, measured_edf and generalized_schlick_edf.
+// uniform_edf, conical_edf and generalized_schlick_edf.
 
 #include "frame.glsl"
 
@@ -15,12 +15,6 @@ vec3 mx_conical_edf_emission(vec3 color, vec3 N, float inner_angle, float outer_
 {
     vec2 cones = cos(radians(0.5 * vec2(max(inner_angle, outer_angle), inner_angle)));
     return color * (cones.x < cones.y ? smoothstep(cones.x, cones.y, dot(N, V)) : step(cones.y, dot(N, V)));
-}
-
-// Goniometric profiles are for renderers that read them; here the light is emitted evenly.
-vec3 mx_measured_edf_emission(vec3 color, vec3 N, sampler2D file)
-{
-    return color;
 }
 
 // Factor of the emission below a Schlick interface on the geometry's own normal.

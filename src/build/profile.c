@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * measured_edf: emission by a photometric file (ANSI/IES LM-63, type C). The shader gets a table of intensities by the angle from the normal,
+ * relative to the greatest; around the normal, for which the node has no direction, they are averaged.
+ */
+#include "build/build_priv.h"
+
+#include "base/num.h"
+
+enum { STEP = 2, LENGTH = 180 / STEP + 1, MAX_ANGLES = 4096 }; /* degrees between entries, and how many there are */
+
+struct measurement {
+    const char *at, *end;
+    const char *fault;  /* NULL: none */
+    unsigned num_vertical, num_horizontal;
+    float *vertical, *horizontal, *candela; /* candela: all vertical angles of the first horizontal one, then of the next … */
+};
+
+/* ---- Reading ---- */
+
+/* Behind the line that begins with "TILT="; out_include: the lamp's tilt follows. */
+static void skip_keywords(struct measurement *m, bool *out_include)
+{
+    while (m->at < m->end) {
+        const char *line = m->at, *newline = memchr(line, '\n', (size_t)(m->end - line));
+        m->at = newline ? newline + 1 : m->end;
+        if ((size_t)(m->at - line) < 5 || memcmp(line, "TILT=", 5) != 0)
+            continue;
+        *out_include = (size_t)(m->at - line) >= 12 && memcmp(line + 5, "INCLUDE", 7) == 0;
+        return;
+    }
+    m->fault = "it has no line TILT=";
+}
+
+static float next_number(struct measurement *m)
+{
+    float value = 0.0f;
+    while (m->at < m->end && strchr(" \t\r\n,", *m->at))
+        m->at++;
+    size_t len = num_parse_float(m->at, (size_t)(m->end - m->at), &value);
+    if (!len && !m->fault)
+        m->fault = "a number is missing";
+    m->at += len;
+    return value;
+}
+
+static float *next_numbers(struct measurement *m, struct arena *arena, size_t count)
+{
+    float *numbers = ARENA_ARRAY(arena, float, count);
+    for (size_t i = 0; i < count && !m->fault; i++)
+        numbers[i] = next_number(m);
+    return numbers;
+}
+
+static unsigned next_count(struct measurement *m)
+{
+    float count = next_number(m);
+    if (!m->fault && !(count >= 1.0f && count <= MAX_ANGLES))
+        m->fault = "it has no usable number of angles";
+    return m->fault ? 0 : (unsigned)count;
+}
+
+static bool ascends(const float *numbers, unsigned count)
+{
+    for (unsigned i = 1; i < count; i++)
+        if (!(numbers[i] > numbers[i - 1]))
+            return false;
+    return true;
+}
+
+static void read_measurement(struct measurement *m, struct arena *arena)
+{
+    enum { BEFORE_ANGLES = 3, BEHIND_TYPE = 7 }; /* lamps, lumens, factor; units, three sizes, two of the ballast, watts */
+    bool has_tilt = false;
+    skip_keywords(m, &has_tilt);
+    if (has_tilt) {
+        next_number(m);
+        unsigned count = next_count(m);
+        next_numbers(m, arena, 2 * (size_t)count);
+    }
+    next_numbers(m, arena, BEFORE_ANGLES);
+    m->num_vertical = next_count(m);
+    m->num_horizontal = next_count(m);
+    if (next_number(m) != 1.0f && !m->fault)
+        m->fault = "it is not of photometric type C";
+    next_numbers(m, arena, BEHIND_TYPE);
+    m->vertical = next_numbers(m, arena, m->num_vertical);
+    m->horizontal = next_numbers(m, arena, m->num_horizontal);
+    m->candela = m->fault ? NULL : next_numbers(m, arena, (size_t)m->num_vertical * m->num_horizontal);
+    if (!m->fault && (!ascends(m->vertical, m->num_vertical) || !ascends(m->horizontal, m->num_horizontal)))
+        m->fault = "its angles do not ascend";
+}
+
+/* ---- The table ---- */
+
+/* How much of the circle a horizontal angle stands for: up to half way to its neighbours. */
+static float share(const struct measurement *m, unsigned i)
+{
+    if (m->num_horizontal == 1)
+        return 1.0f;
+    float before = m->horizontal[i > 0 ? i - 1 : i], behind = m->horizontal[i + 1 < m->num_horizontal ? i + 1 : i];
+    return 0.5f * (behind - before) / (m->horizontal[m->num_horizontal - 1] - m->horizontal[0]);
+}
+
+/* Around the axis, at a measured vertical angle. */
+static float mean(const struct measurement *m, unsigned vertical)
+{
+    float sum = 0.0f;
+    for (unsigned i = 0; i < m->num_horizontal; i++)
+        sum += share(m, i) * m->candela[(size_t)i * m->num_vertical + vertical];
+    return sum;
+}
+
+/* Linear between the angles measured; nothing is emitted beyond them. */
+static float intensity(const struct measurement *m, float angle)
+{
+    unsigned i = 0;
+    if (angle < m->vertical[0] || angle > m->vertical[m->num_vertical - 1])
+        return 0.0f;
+    while (i + 1 < m->num_vertical && m->vertical[i + 1] < angle)
+        i++;
+    if (i + 1 == m->num_vertical)
+        return mean(m, i);
+    float t = (angle - m->vertical[i]) / (m->vertical[i + 1] - m->vertical[i]);
+    return mean(m, i) * (1.0f - t) + mean(m, i + 1) * t;
+}
+
+static void make_table(struct measurement *m, float table[LENGTH])
+{
+    float greatest = 0.0f;
+    for (int i = 0; i < LENGTH; i++) {
+        table[i] = intensity(m, (float)(i * STEP));
+        greatest = table[i] > greatest ? table[i] : greatest;
+    }
+    for (int i = 0; i < LENGTH && greatest > 0.0f; i++)
+        table[i] /= greatest;
+    if (!(greatest > 0.0f))
+        m->fault = "it has no light";
+}
+
+static bool read_table(struct builder *b, elem_id element, const char *file, float table[LENGTH])
+{
+    const struct lang_reader *reader = b->options->reader;
+    struct diag_place place = doc_attr_place(&b->lib->doc, element, STR_value);
+    const char *name, *text, *reason = "there is no reader";
+    size_t len;
+    if (!reader || !reader->read(reader->user_data, place.file ? place.file : "", file, &name, &text, &len, &reason)) {
+        diag_add(b->diags, DIAG_ID_no_profile, place, file, reason);
+        return false;
+    }
+    struct measurement m = {.at = text, .end = text + len};
+    read_measurement(&m, b->arena);
+    if (!m.fault)
+        make_table(&m, table);
+    if (m.fault)
+        diag_add(b->diags, DIAG_ID_no_profile, place, file, m.fault);
+    return !m.fault;
+}
+
+/* ---- In the shader ---- */
+
+/* The entries up to the last that is not 0, and one behind it. */
+static unsigned used_length(const float table[LENGTH])
+{
+    unsigned length = LENGTH;
+    while (length > 2 && table[length - 2] == 0.0f && table[length - 1] == 0.0f)
+        length--;
+    return length;
+}
+
+/* The table's value at the angle between the normal and the viewer. */
+static ir_ref look_up(struct builder *b, const float table[LENGTH], ir_ref normal)
+{
+    struct ir_graph *g = b->graph;
+    ir_ref entries[LENGTH];
+    unsigned length = used_length(table);
+    for (unsigned i = 0; i < length; i++)
+        entries[i] = ir_const_float(g, table[i]);
+    ir_ref array = ir_construct(g, (ir_type_id)ir_add_array(g, IR_TYPE_FLOAT, length), entries, length);
+    ir_ref from_viewer = build_geomprop(b, str_intern_z(b->shader->strings, "Vworld"), DOC_TYPE_vector3, (struct diag_place){0});
+    ir_ref cosine = ir_op1(g, IR_NEG, ir_op2(g, IR_DOT, ir_op1(g, IR_NORMALIZE, normal), from_viewer));
+    ir_ref angle = ir_op1(g, IR_ACOS, ir_op3(g, IR_CLAMP, cosine, ir_const_float(g, -1.0f), ir_const_float(g, 1.0f)));
+    ir_ref entry = ir_op2(g, IR_MUL, ir_op1(g, IR_DEGREES, angle), ir_const_float(g, 1.0f / STEP));
+    ir_ref at = ir_op2(g, IR_MIN, entry, ir_const_float(g, (float)(length - 1)));
+    ir_ref below = ir_op2(g, IR_MIN, ir_op1(g, IR_FLOOR, at), ir_const_float(g, (float)(length - 2)));
+    ir_ref index = ir_convert(g, IR_TYPE_INT, below);
+    ir_ref values[2];
+    for (int i = 0; i < 2; i++)
+        values[i] = ir_build(g, IR_INDEX, IR_TYPE_FLOAT, 0, (ir_ref[]){array, ir_op2(g, IR_ADD, index, ir_const_int(g, i))}, 2);
+    return ir_op3(g, IR_MIX, values[0], values[1], ir_op2(g, IR_SUB, at, below));
+}
+
+/* The even emission, if the library has it, scaled by the profile of the file that the texture `file` names. */
+ir_ref build_measured_edf(struct builder *b, ir_ref color, ir_ref normal, ir_ref file, elem_id node)
+{
+    str_id even = str_find(b->shader->strings, "ND_uniform_edf", strlen("ND_uniform_edf"));
+    uint32_t nodedef = even ? library_nodedef_by_name(b->lib, even) : LIBRARY_NONE;
+    const struct ir_node *source = file ? ir_get(b->graph, file) : NULL;
+    const struct shader_variable *texture = source && source->op == IR_TEXTURE ? &b->shader->variables.items[source->attr] : NULL;
+    float table[LENGTH];
+    if (texture && *build_text(b, texture->file)) {
+        struct shader_compiled_input compiled = {texture->path, texture->doc_type, texture->file, texture->element};
+        vec_push(b->arena, &b->shader->compiled, compiled);
+        if (read_table(b, texture->element, build_text(b, texture->file), table))
+            color = ir_op2(b->graph, IR_MUL, color, look_up(b, table, normal));
+    }
+    ir_ref results[BUILD_MAX_OUTPUTS] = {0};
+    if (nodedef != LIBRARY_NONE)
+        build_apply(b, nodedef, node, &color, results);
+    return results[0];
+}
