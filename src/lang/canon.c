@@ -40,7 +40,7 @@ static bool has_outputs(const struct copier *c, uint32_t function)
 /* Versions are named by what they are versions of. */
 static uint32_t given_function(const struct copier *c, uint32_t id)
 {
-    return id >= c->made->base_functions ? lang_function(c->made, id, NULL)->origin - 1 : id;
+    return id >= c->made->base_functions ? c->made->versions.items[id - c->made->base_functions].origin : id;
 }
 
 static void copy_call(struct copier *c, struct lang_node *node)
@@ -154,7 +154,6 @@ static bool is_final(const struct copier *c, const struct lang_function *fn)
 static struct lang_function copy_function(struct copier *c, uint32_t id, uint32_t version)
 {
     struct lang_function fn = *lang_function(c->made, version, &c->from);
-    fn.origin = 0;
     c->calls.len = 0;
     c->is_simple = true;
     c->is_used = arena_zalloc(c->to->arena, fn.num_slots);

@@ -55,7 +55,7 @@ lang_ref check_cast(struct parser *p, lang_ref a, ir_type_id type)
 {
     if (tree_type(p, a) == type)
         return a;
-    uint32_t place = tree_node(p, a)->place;
+    uint32_t place = tree_place(p, a);
     struct ir_value from, to;
     if (tree_node(p, a)->kind == LANG_CONST && check_value(p, a, &from) && ir_eval_op(IR_CONVERT, type, 0, &from, 1, &to))
         return tree_const(p, &to, place);
@@ -67,7 +67,7 @@ lang_ref check_convert(struct parser *p, lang_ref a, ir_type_id type, const char
     ir_type_id from = tree_type(p, a);
     if (check_converts(from, type))
         return check_cast(p, a, type);
-    PARSE_TYPE_ERROR(p, tree_node(p, a)->place, "%s is %s; %s was expected", what, parse_type_text(p, from),
+    PARSE_TYPE_ERROR(p, tree_place(p, a), "%s is %s; %s was expected", what, parse_type_text(p, from),
                      parse_type_text(p, type));
     return 0;
 }
@@ -242,12 +242,12 @@ lang_ref check_index(struct parser *p, lang_ref a, lang_ref index, uint32_t plac
     }
     ir_type_id type = tree_type(p, index);
     if (type != IR_TYPE_INT && type != IR_TYPE_UINT) {
-        PARSE_TYPE_ERROR(p, tree_node(p, index)->place, "an index is %s; int was expected", parse_type_text(p, type));
+        PARSE_TYPE_ERROR(p, tree_place(p, index), "an index is %s; int was expected", parse_type_text(p, type));
         return 0;
     }
     struct ir_value value;
     if (check_value(p, index, &value) && value.w[0].u >= length) { /* a negative int is a large uint */
-        PARSE_TYPE_ERROR(p, tree_node(p, index)->place, "index %d is outside of %s", value.w[0].i,
+        PARSE_TYPE_ERROR(p, tree_place(p, index), "index %d is outside of %s", value.w[0].i,
                          parse_type_text(p, tree_type(p, a)));
         return 0;
     }
@@ -271,7 +271,7 @@ static bool repeats_component(uint32_t attr)
 
 static bool refuse_assignment(struct parser *p, lang_ref target, const char *doing, const char *why)
 {
-    PARSE_ERROR(p, parse_where(p, tree_node(p, target)->place, 0), lang_not_assignable, doing, why);
+    PARSE_ERROR(p, parse_where(p, tree_place(p, target), 0), lang_not_assignable, doing, why);
     return false;
 }
 

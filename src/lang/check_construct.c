@@ -57,10 +57,10 @@ static lang_ref construct_from_parts(struct parser *p, ir_type_id type, lang_ref
     for (unsigned i = 0; i < num_args; i++) {
         ir_type_id from = tree_type(p, args[i]);
         if (!is_part(from))
-            return wrong_parts(p, type, tree_node(p, args[i])->place,
+            return wrong_parts(p, type, tree_place(p, args[i]),
                                parse_say(p, "%s is neither scalar nor vector", parse_type_text(p, from)));
         if (have >= want)
-            return wrong_parts(p, type, tree_node(p, args[i])->place, "the arguments before this one fill it");
+            return wrong_parts(p, type, tree_place(p, args[i]), "the arguments before this one fill it");
         unsigned rest = want - have;
         have += components_of(from);
         args[i] = cut(p, args[i], rest, place);

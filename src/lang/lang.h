@@ -56,7 +56,6 @@ struct lang_node {
     ir_type_id type; /* of an expression */
     lang_ref next;   /* next sibling: operand, argument or statement */
     uint32_t a, b, c, d;
-    uint32_t place;  /* line << 12 | column in the function's file */
 };
 
 enum lang_param_mode { LANG_IN, LANG_OUT, LANG_INOUT };
@@ -87,11 +86,14 @@ struct lang_function {
     uint32_t file;                  /* index in unit->files */
     uint32_t place;
     uint32_t num_nodes;             /* size of the body: for inlining decisions */
-    uint32_t origin;                /* 1 + id of the function this is a version of (plan.c); 0 = written by hand */
-    uint32_t dropped[2];            /* of a version: bit i is set where parameter i of the origin is gone */
     uint32_t first_callee, num_callees;   /* in unit->refs: function ids called directly, each once */
     uint32_t first_global, num_globals;   /* in unit->refs: globals read directly, each once */
     uint32_t first_call, num_calls;       /* in unit->refs, where it is LANG_FN_FINAL: its CALL nodes, arguments first */
+};
+
+struct lang_version { /* what a function of a generation's layer is (plan.c) */
+    uint32_t origin;     /* id of the function that it was made from */
+    uint32_t dropped[2]; /* bit i is set where parameter i of that is gone */
 };
 
 enum lang_global_kind { LANG_GLOBAL_CONST, LANG_GLOBAL_UNIFORM, LANG_GLOBAL_STREAM, LANG_GLOBAL_OPTION };
@@ -149,6 +151,7 @@ struct lang_unit {
     /* Of a generation's layer: */
     struct lang_host host;   /* who knows the options, and the graph that their values are nodes of; from lang_lower_call */
     struct ir_graph *graph;
+    VEC(struct lang_version) versions; /* by function */
     struct lang_plan *plan;  /* plan.c: which constants functions take for granted; NULL until the shader stands */
 };
 

@@ -156,6 +156,11 @@ struct local { /* a parameter or local variable in scope */
     uint32_t place;
 };
 
+struct tree_origin { /* what the parser knows of a node, and nobody else asks for */
+    uint32_t place; /* line << 12 | column in the function's file */
+    uint8_t height; /* as an expression */
+};
+
 struct parser {
     struct lang_unit *unit;
     struct diag_list *diags;
@@ -174,7 +179,7 @@ struct parser {
     bool stopped;                      /* too many errors */
     bool reported;                     /* the last message was not suppressed: its notes may follow */
     uint32_t first_node;               /* nodes from here on belong to this parse … */
-    VEC(uint8_t) heights;              /* … and have these heights as expressions */
+    VEC(struct tree_origin) origins;   /* … and come from here */
     VEC(lang_ref) operands;            /* stack of operands that wait for their node */
     /* the function being parsed */
     ir_type_id return_type;
@@ -250,6 +255,7 @@ lang_ref parse_expression(struct parser *p); /* 0 after an error, which has been
 /* parse_tree.c: building nodes */
 
 struct lang_node *tree_node(struct parser *p, lang_ref ref);
+uint32_t tree_place(const struct parser *p, lang_ref ref); /* of a node of this parse */
 lang_ref tree_new(struct parser *p, enum lang_kind kind, enum ir_op op, ir_type_id type, uint32_t place);
 lang_ref tree_const(struct parser *p, const struct ir_value *value, uint32_t place);
 /*

@@ -54,7 +54,7 @@ static void drop_tree(struct parser *p, const struct parse_mark *mark, uint32_t 
         memmove(words + mark->words, words + p->unit->words.len - keep, keep * sizeof *words);
     p->unit->words.len = mark->words + keep;
     p->unit->nodes.len = mark->nodes;
-    p->heights.len = mark->nodes - p->first_node;
+    p->origins.len = mark->nodes - p->first_node;
 }
 
 static ir_type_id sized_array(struct parser *p, ir_type_id element, uint32_t place)
@@ -63,7 +63,7 @@ static ir_type_id sized_array(struct parser *p, ir_type_id element, uint32_t pla
     struct ir_value length = {0};
     lang_ref size = parse_expression(p);
     bool constant = size && check_value(p, size, &length);
-    uint32_t size_place = size ? tree_node(p, size)->place : place;
+    uint32_t size_place = size ? tree_place(p, size) : place;
     drop_tree(p, &mark, 0);
     if (!size || element == IR_TYPE_VOID)
         return IR_TYPE_VOID;
@@ -223,7 +223,7 @@ static void parse_constant(struct parser *p, const struct token *at, str_id name
     lang_ref value = parse_initialiser(p, type, unsized);
     if (value) {
         global.type = tree_type(p, value);
-        uint32_t place = tree_node(p, value)->place;
+        uint32_t place = tree_place(p, value);
         bool scalar = global.type == check_scalar(global.type);
         if (!check_words(p, value, &global.words, &global.num_words))
             PARSE_ERROR(p, parse_where(p, place, 0), lang_not_constant,

@@ -69,7 +69,7 @@ lang_ref parse_initialiser(struct parser *p, ir_type_id type, bool unsized)
         return check_convert(p, value, type, "the initialiser");
     if (check_is_array(p, tree_type(p, value), &element, &length) && element == type)
         return value;
-    PARSE_TYPE_ERROR(p, tree_node(p, value)->place, "the initialiser is %s; an array of %s was expected",
+    PARSE_TYPE_ERROR(p, tree_place(p, value), "the initialiser is %s; an array of %s was expected",
                      parse_type_text(p, tree_type(p, value)), parse_type_text(p, type));
     return 0;
 }
@@ -314,7 +314,7 @@ static lang_ref parse_return(struct parser *p, const struct token *at)
     lang_ref value = p->token.kind == TOKEN_SEMICOLON ? 0 : parse_expression(p);
     bool is_void = p->return_type == IR_TYPE_VOID;
     if (value && is_void)
-        PARSE_TYPE_ERROR(p, tree_node(p, value)->place, "the function is void; it returns no value");
+        PARSE_TYPE_ERROR(p, tree_place(p, value), "the function is void; it returns no value");
     else if (value)
         value = check_convert(p, value, p->return_type, "the returned value");
     else if (p->token.kind == TOKEN_SEMICOLON && p->last.kind == TOKEN_RETURN && !is_void)

@@ -6,16 +6,21 @@ struct lang_node *tree_node(struct parser *p, lang_ref ref)
     return &p->unit->nodes.items[ref];
 }
 
-static lang_ref push(struct parser *p, struct lang_node node, unsigned height)
+uint32_t tree_place(const struct parser *p, lang_ref ref)
+{
+    return p->origins.items[ref - p->first_node].place;
+}
+
+static lang_ref push(struct parser *p, struct lang_node node, unsigned height, uint32_t place)
 {
     vec_push(p->unit->arena, &p->unit->nodes, node);
-    vec_push(p->unit->arena, &p->heights, (uint8_t)height);
+    vec_push(p->unit->arena, &p->origins, (struct tree_origin){place, (uint8_t)height});
     return p->unit->nodes.len - 1;
 }
 
 lang_ref tree_new(struct parser *p, enum lang_kind kind, enum ir_op op, ir_type_id type, uint32_t place)
 {
-    return push(p, (struct lang_node){.kind = (uint8_t)kind, .op = (uint8_t)op, .type = type, .place = place}, 1);
+    return push(p, (struct lang_node){.kind = (uint8_t)kind, .op = (uint8_t)op, .type = type}, 1, place);
 }
 
 lang_ref tree_const(struct parser *p, const struct ir_value *value, uint32_t place)
@@ -34,7 +39,7 @@ static unsigned chain_operands(struct parser *p, const lang_ref *args, unsigned 
     unsigned height = 0;
     for (unsigned i = 0; i < num_args; i++) {
         tree_node(p, args[i])->next = i + 1 < num_args ? args[i + 1] : 0;
-        unsigned h = p->heights.items[args[i] - p->first_node];
+        unsigned h = p->origins.items[args[i] - p->first_node].height;
         height = h > height ? h : height;
     }
     if (height < PARSE_MAX_DEPTH)
@@ -67,13 +72,13 @@ lang_ref tree_op(struct parser *p, enum ir_op op, ir_type_id type, uint32_t attr
     unsigned height = chain_operands(p, args, num_args, place);
     if (!height)
         return 0;
-    lang_ref ref = push(p, (struct lang_node){.kind = LANG_OP, .op = (uint8_t)op, .type = type, .a = args[0], .b = attr,
-                                              .place = place}, height);
+    lang_ref ref = push(p, (struct lang_node){.kind = LANG_OP, .op = (uint8_t)op, .type = type, .a = args[0], .b = attr},
+                        height, place);
     struct ir_value value;
     if (!all_literals(p, args, num_args) || !check_value(p, ref, &value) || !is_finite(&value))
         return ref;
     p->unit->nodes.len--;
-    p->heights.len--;
+    p->origins.len--;
     return tree_const(p, &value, place);
 }
 
@@ -84,7 +89,7 @@ lang_ref tree_call(struct parser *p, uint32_t function, ir_type_id type, const l
     if (!height)
         return 0;
     return push(p, (struct lang_node){.kind = LANG_CALL, .op = IR_NUM_OPS, .type = type, .a = function,
-                                      .b = num_args ? args[0] : 0, .place = place}, height);
+                                      .b = num_args ? args[0] : 0}, height, place);
 }
 
 lang_ref tree_swizzle(struct parser *p, lang_ref a, const uint8_t *components, unsigned count, uint32_t place)

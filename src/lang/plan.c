@@ -167,5 +167,5 @@ bool lang_param_dropped(const struct lang_unit *unit, uint32_t version, uint32_t
 {
     if (version == given || index >= SPEC_MAX_PARAMS)
         return false;
-    return lang_function(unit, version, NULL)->dropped[index / 32] >> index % 32 & 1;
+    return unit->versions.items[version - unit->base_functions].dropped[index / 32] >> index % 32 & 1;
 }

@@ -17,7 +17,7 @@ static lang_ref evaluate(struct spec *s, const struct lang_node *call, const lan
         spec_get(s, args[i], &values[i]);
     if (!lang_eval_call(s->unit, call->a, values, &result, MAX_EVAL_STEPS, s->unit->arena) || !spec_is_finite(&result))
         return 0;
-    return spec_constant(s, &result, call->place);
+    return spec_constant(s, &result);
 }
 
 /* The plan learns what the callee is passed. */

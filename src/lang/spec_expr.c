@@ -19,19 +19,19 @@ void spec_append(struct spec *s, struct chain *chain, lang_ref ref)
     chain->last = ref;
 }
 
-static lang_ref add_constant(struct spec *s, ir_type_id type, const union ir_word *words, uint32_t place)
+static lang_ref add_constant(struct spec *s, ir_type_id type, const union ir_word *words)
 {
     uint32_t count = ir_type_info(type)->components, at = s->unit->words.len;
     union ir_word copy[16]; /* the words may be of this unit, which moves when it grows */
     memcpy(copy, words, count * sizeof *copy);
     union ir_word *to = vec_extend(s->unit->arena, &s->unit->words, count);
     memcpy(to, copy, count * sizeof *copy);
-    return spec_add(s, (struct lang_node){.kind = LANG_CONST, .type = type, .a = at, .place = place});
+    return spec_add(s, (struct lang_node){.kind = LANG_CONST, .type = type, .a = at});
 }
 
-lang_ref spec_constant(struct spec *s, const struct ir_value *value, uint32_t place)
+lang_ref spec_constant(struct spec *s, const struct ir_value *value)
 {
-    return add_constant(s, value->type, value->w, place);
+    return add_constant(s, value->type, value->w);
 }
 
 bool spec_get(const struct spec *s, lang_ref ref, struct ir_value *out)
@@ -89,7 +89,6 @@ static lang_ref spec_variable(struct spec *s, struct lang_node node)
         return spec_add(s, node);
     s->changed = true;
     struct lang_node constant = *spec_node(s, known);
-    constant.place = node.place;
     constant.c = 0;
     if (!ast_slot(s->layer, &s->fn, node.a)->assigned && is_long(s, &constant))
         constant.c = node.a + 1; /* may become the variable again (spec_sweep.c) */
@@ -110,11 +109,11 @@ static lang_ref spec_global(struct spec *s, struct lang_node node)
     struct ir_value value;
     if (global->kind == LANG_GLOBAL_CONST && !ast_is_user_type(node.type)) {
         s->changed = true;
-        return add_constant(s, node.type, layer->words.items + global->words, node.place);
+        return add_constant(s, node.type, layer->words.items + global->words);
     }
     if (global->kind == LANG_GLOBAL_OPTION && option_value(s->unit, node.a, &value)) {
         s->changed = true;
-        return spec_constant(s, &value, node.place);
+        return spec_constant(s, &value);
     }
     return spec_add(s, node);
 }
@@ -174,11 +173,11 @@ static lang_ref element_of_global(struct spec *s, const struct lang_node *node, 
     uint32_t size = ir_type_info(node->type)->components;
     if (global->kind != LANG_GLOBAL_CONST || size == 0 || index >= global->num_words / size)
         return 0;
-    return add_constant(s, node->type, layer->words.items + global->words + index * size, node->place);
+    return add_constant(s, node->type, layer->words.items + global->words + index * size);
 }
 
 /* A member or element of a struct or array whose parts are all constants. */
-static lang_ref part_of_known(struct spec *s, const struct lang_node *node, uint32_t slot, uint32_t index)
+static lang_ref part_of_known(struct spec *s, uint32_t slot, uint32_t index)
 {
     if (!s->known[slot] || spec_node(s, s->known[slot])->kind != LANG_OP)
         return 0;
@@ -188,7 +187,6 @@ static lang_ref part_of_known(struct spec *s, const struct lang_node *node, uint
     if (!part || spec_node(s, part)->kind != LANG_CONST)
         return 0;
     struct lang_node constant = *spec_node(s, part);
-    constant.place = node->place;
     return spec_add(s, constant);
 }
 
@@ -200,7 +198,7 @@ static lang_ref fold_part(struct spec *s, const struct lang_node *node, const la
         || (node->op == IR_INDEX && !spec_get(s, args[1], &index)))
         return 0;
     if (whole.kind == LANG_VAR)
-        return part_of_known(s, node, whole.a, index.w[0].u);
+        return part_of_known(s, whole.a, index.w[0].u);
     return whole.kind == LANG_GLOBAL ? element_of_global(s, node, whole.a, index.w[0].u) : 0;
 }
 
@@ -241,7 +239,7 @@ lang_ref spec_expression(struct spec *s, lang_ref ref)
     struct lang_node node = *ast_node(s->layer, ref);
     switch (node.kind) {
     case LANG_CONST:
-        return add_constant(s, node.type, s->layer->words.items + node.a, node.place);
+        return add_constant(s, node.type, s->layer->words.items + node.a);
     case LANG_VAR:
         return spec_variable(s, node);
     case LANG_GLOBAL:

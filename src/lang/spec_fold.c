@@ -24,7 +24,7 @@ static lang_ref fold_constants(struct spec *s, const struct lang_node *op, const
         spec_get(s, args[i], &values[i]);
     if (!ir_eval_op(op->op, op->type, op->b, values, num_args, &result) || !spec_is_finite(&result))
         return 0;
-    return spec_constant(s, &result, op->place);
+    return spec_constant(s, &result);
 }
 
 /* Is it a constant scalar or vector with all components equal to `number`? */
@@ -67,15 +67,14 @@ static lang_ref as_result(struct spec *s, const struct lang_node *op, lang_ref r
     spec_node(s, ref)->next = 0;
     if (fits)
         return ref;
-    return spec_add(s, (struct lang_node){.kind = LANG_OP, .op = IR_CONSTRUCT, .type = op->type, .a = ref,
-                                          .place = op->place});
+    return spec_add(s, (struct lang_node){.kind = LANG_OP, .op = IR_CONSTRUCT, .type = op->type, .a = ref});
 }
 
 static lang_ref zero(struct spec *s, const struct lang_node *op, lang_ref dropped)
 {
     if (spec_has_effects(s, dropped))
         return 0;
-    return spec_constant(s, &(struct ir_value){.type = op->type}, op->place);
+    return spec_constant(s, &(struct ir_value){.type = op->type});
 }
 
 /* A product in the sense of linear algebra with a vector of ones is a sum of columns, not an identity. */
@@ -105,8 +104,7 @@ static lang_ref simplify_sub(struct spec *s, const struct lang_node *op, lang_re
         return as_result(s, op, a);
     if (!is_number(s, a, 0) || spec_node(s, b)->type != op->type)
         return 0;
-    return spec_add(s, (struct lang_node){.kind = LANG_OP, .op = IR_NEG, .type = op->type, .a = as_result(s, op, b),
-                                          .place = op->place});
+    return spec_add(s, (struct lang_node){.kind = LANG_OP, .op = IR_NEG, .type = op->type, .a = as_result(s, op, b)});
 }
 
 static lang_ref simplify_logic(struct spec *s, const struct lang_node *op, lang_ref a, lang_ref b)
@@ -117,7 +115,7 @@ static lang_ref simplify_logic(struct spec *s, const struct lang_node *op, lang_
     if (is_false_or_true(s, b, neutral))
         return as_result(s, op, a);
     bool decided = is_false_or_true(s, a, !neutral) || (is_false_or_true(s, b, !neutral) && !spec_has_effects(s, a));
-    return decided ? spec_constant(s, &(struct ir_value){.type = IR_TYPE_BOOL, .w = {{.u = !neutral}}}, op->place) : 0;
+    return decided ? spec_constant(s, &(struct ir_value){.type = IR_TYPE_BOOL, .w = {{.u = !neutral}}}) : 0;
 }
 
 static lang_ref simplify_mix(struct spec *s, const struct lang_node *op, const lang_ref *args)
@@ -150,7 +148,7 @@ static lang_ref shorten(struct spec *s, const struct lang_node *op, const lang_r
             continue;
         value.type = ir_type_info(value.type)->scalar;
         lang_ref parts[2] = {args[0], args[1]};
-        parts[i] = spec_constant(s, &value, op->place);
+        parts[i] = spec_constant(s, &value);
         spec_node(s, parts[0])->next = parts[1];
         spec_node(s, parts[1])->next = 0;
         struct lang_node shorter = *op;

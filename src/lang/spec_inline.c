@@ -21,7 +21,7 @@ static lang_ref copy_argument(struct inlining *in, uint32_t param)
 static lang_ref copy_constant(struct inlining *in, struct lang_node node)
 {
     struct ir_value value = ast_value(node.type, ast_words(in->layer, &node));
-    return spec_constant(in->s, &value, node.place);
+    return spec_constant(in->s, &value);
 }
 
 static lang_ref copy(struct inlining *in, lang_ref ref)

@@ -3,13 +3,13 @@
 #include "lang/specialise.h"
 
 /* Arguments that the version of the callee still takes. */
-static lang_ref remaining_arguments(struct spec *s, const struct lang_function *version, lang_ref first)
+static lang_ref remaining_arguments(struct spec *s, uint32_t given, uint32_t version, lang_ref first)
 {
     struct chain chain = {0};
     unsigned i = 0;
     for (lang_ref ref = first, next; ref; ref = next, i++) {
         next = spec_node(s, ref)->next;
-        if (i < SPEC_MAX_PARAMS && version->dropped[i / 32] >> i % 32 & 1)
+        if (lang_param_dropped(s->unit, version, given, i))
             continue;
         spec_node(s, ref)->next = 0;
         spec_append(s, &chain, ref);
@@ -48,7 +48,6 @@ static lang_ref call_inner(struct spec *s, const struct lang_node *call, struct 
         spec_append(s, &chain, arg);
     }
     inner.b = chain.first;
-    inner.place = call->place;
     return spec_add(s, inner);
 }
 
@@ -78,8 +77,8 @@ static void resolve(struct spec *s, lang_ref ref)
     call.c = 0;
     if (variant->version != call.a) {
         s->changed = true;
+        call.b = remaining_arguments(s, call.a, variant->version, call.b);
         call.a = variant->version;
-        call.b = remaining_arguments(s, lang_function(s->unit, call.a, NULL), call.b);
     }
     lang_ref shorter = skip_wrapper(s, &call);
     if (!shorter)

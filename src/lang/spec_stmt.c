@@ -97,7 +97,7 @@ static lang_ref fold_assignment(struct spec *s, const struct lang_node *node, la
         return 0;
     for (unsigned i = 0; i < 2; i++) /* the originals stay where they are */
         args[i] = spec_add(s, *spec_node(s, args[i]));
-    struct lang_node op = {.kind = LANG_OP, .op = node->op, .type = spec_node(s, args[0])->type, .place = node->place};
+    struct lang_node op = {.kind = LANG_OP, .op = node->op, .type = spec_node(s, args[0])->type};
     return spec_fold(s, &op, args, 2);
 }
 

@@ -297,8 +297,7 @@ static bool sweep_assign(struct spec *s, lang_ref ref, unsigned loops, uint32_t 
 static void invert_condition(struct spec *s, lang_ref ref)
 {
     struct lang_node node = *spec_node(s, ref);
-    lang_ref not = spec_add(s, (struct lang_node){.kind = LANG_OP, .op = IR_NOT, .type = IR_TYPE_BOOL, .a = node.a,
-                                                  .place = node.place});
+    lang_ref not = spec_add(s, (struct lang_node){.kind = LANG_OP, .op = IR_NOT, .type = IR_TYPE_BOOL, .a = node.a});
     spec_node(s, ref)->a = not;
     spec_node(s, ref)->b = node.c;
     spec_node(s, ref)->c = 0;

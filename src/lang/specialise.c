@@ -132,13 +132,13 @@ static void add_slot(struct spec *s, uint32_t index, struct lang_function *out)
     vec_push(s->unit->arena, &s->unit->slots, slot);
 }
 
-static void finish_slots(struct spec *s, struct lang_function *out)
+static void finish_slots(struct spec *s, struct lang_function *out, struct lang_version *version)
 {
     out->first_slot = s->unit->slots.len;
     out->num_slots = 0;
     for (uint32_t i = 0; i < s->fn.num_params; i++) {
         if (s->slots[i].is_dropped) {
-            out->dropped[i / 32] |= 1u << i % 32;
+            version->dropped[i / 32] |= 1u << i % 32;
             continue;
         }
         if (ast_slot(s->layer, &s->fn, i)->type == IR_TYPE_STRING)
@@ -167,9 +167,8 @@ static uint32_t add_version(struct spec *s, lang_ref body)
 {
     struct lang_unit *unit = s->unit;
     struct lang_function fn = s->fn;
-    fn.origin = variant_of(s)->function + 1;
-    fn.dropped[0] = fn.dropped[1] = 0;
-    finish_slots(s, &fn);
+    struct lang_version version = {.origin = variant_of(s)->function};
+    finish_slots(s, &fn, &version);
     fn.flags = s->flags;
     fn.body = spec_add(s, (struct lang_node){.kind = LANG_BLOCK, .a = body});
     fn.num_nodes = s->num_nodes;
@@ -177,7 +176,10 @@ static uint32_t add_version(struct spec *s, lang_ref body)
     fn.first_callee = push_refs(unit, s->callees.items, s->callees.len);
     fn.num_globals = s->globals.len;
     fn.first_global = push_refs(unit, s->globals.items, s->globals.len);
+    while (unit->versions.len < unit->functions.len) /* functions that were written */
+        vec_push(unit->arena, &unit->versions, (struct lang_version){LANG_NONE});
     vec_push(unit->arena, &unit->functions, fn);
+    vec_push(unit->arena, &unit->versions, version);
     return unit->base_functions + unit->functions.len - 1;
 }
 

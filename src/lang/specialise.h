@@ -96,7 +96,7 @@ static inline struct lang_node *spec_node(struct spec *s, lang_ref ref)
 
 lang_ref spec_add(struct spec *s, struct lang_node node); /* next is cleared */
 void spec_append(struct spec *s, struct chain *chain, lang_ref ref);
-lang_ref spec_constant(struct spec *s, const struct ir_value *value, uint32_t place);
+lang_ref spec_constant(struct spec *s, const struct ir_value *value);
 bool spec_get(const struct spec *s, lang_ref ref, struct ir_value *out); /* the value of a CONST */
 
 /* spec_expr.c. A result of spec_expression may be of a kind other than the source's. */
