@@ -107,6 +107,7 @@ struct ir_op_info {
     int8_t arity; /* -1: variable */
     uint8_t rule; /* enum ir_rule */
     uint8_t flags;
+    uint8_t text_len;
     const char *doc;
 };
 extern const struct ir_op_info ir_ops[IR_NUM_OPS];

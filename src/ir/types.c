@@ -9,7 +9,7 @@ const struct ir_type_info ir_types[IR_NUM_TYPES] = {
 };
 
 const struct ir_op_info ir_ops[IR_NUM_OPS] = {
-#define OP(ID, text, arity, rule, flags, doc) {text, arity, IR_RULE_##rule, flags, doc},
+#define OP(ID, text, arity, rule, flags, doc) {text, arity, IR_RULE_##rule, flags, sizeof text - 1, doc},
 #include "ir/ops.def"
 #undef OP
 };

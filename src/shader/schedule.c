@@ -25,16 +25,19 @@ enum plan_flags {
     PLAN_MOVED = 8,      /* its region lies outside of that of a use */
     PLAN_STATEMENT = 16, /* a call that cannot stand in an expression */
     PLAN_LET = 32,
+    PLAN_NEIGHBOURS = 64, /* to be evaluated by all pixels together */
 };
 
-struct plan { /* what is known of a reached node */
-    ir_ref ref;
+struct plan { /* what is known of a reached node, and what of the node itself is often asked for */
     uint32_t uses;
     uint32_t region;
     uint32_t first;  /* the first effect that needs it */
     uint32_t effect; /* the only effect that needs it, or MANY_EFFECTS */
+    uint32_t first_arg, num_args;
     uint16_t cost;   /* instructions to compute it from locals and interface variables */
     uint16_t chars;  /* its length as an expression, about */
+    ir_type_id type;
+    uint8_t op;
     uint8_t flags;   /* enum plan_flags */
 };
 
@@ -45,7 +48,7 @@ struct region {
 
 struct visit { /* a node whose operands are being collected */
     ir_ref ref;
-    uint32_t next;
+    const ir_ref *next, *end; /* those that are left */
 };
 
 struct scheduler {
@@ -79,9 +82,24 @@ unsigned shader_call_outs(const struct shader *shader, ir_ref call)
     return outs;
 }
 
-static struct plan *plan_of(struct scheduler *s, ir_ref ref)
+static inline struct plan *plan_of(struct scheduler *s, ir_ref ref)
 {
     return &s->plans[ref];
+}
+
+static inline ir_ref ref_of(const struct scheduler *s, const struct plan *plan)
+{
+    return (ir_ref)(plan - s->plans);
+}
+
+static inline const struct ir_node *node_of(const struct scheduler *s, const struct plan *plan)
+{
+    return ir_get(s->graph, ref_of(s, plan));
+}
+
+static inline const ir_ref *args_of(const struct scheduler *s, const struct plan *plan)
+{
+    return s->graph->args.items + plan->first_arg;
 }
 
 static bool is_call(const struct ir_node *node)
@@ -101,74 +119,85 @@ static bool needs_neighbours(const struct ir_graph *graph, const struct ir_node 
 
 /* ---- Collect ---- */
 
-static void note_needs(struct scheduler *s, ir_ref ref)
+static void need_verbatim(struct scheduler *s, uint32_t callee)
 {
-    const struct ir_node *node = ir_get(s->graph, ref);
+    for (uint32_t i = 0; i < s->stage->verbatim.len; i++)
+        if (s->stage->verbatim.items[i] == callee)
+            return;
+    vec_push(s->arena, &s->stage->verbatim, callee);
+}
+
+/* What the shader must have for the node; returns flags that follow from it. */
+static unsigned note_needs(struct scheduler *s, ir_ref ref, const struct ir_node *node)
+{
     switch (node->op) {
+    case IR_LOCAL:
+        return PLAN_LOCAL;
     case IR_CONTEXT:
     case IR_UNIFORM:
     case IR_STREAM:
     case IR_TEXTURE:
         s->shader->variables.items[node->attr].stages |= s->stage_bit;
-        break;
+        return 0;
     case IR_CALL:
         lang_reach_add(&s->stage->reach, s->shader->unit, shader_callee(s->shader, ref));
         break;
-    case IR_VERBATIM: {
-        uint32_t callee = shader_callee(s->shader, ref);
-        for (uint32_t i = 0; i < s->stage->verbatim.len; i++)
-            if (s->stage->verbatim.items[i] == callee)
-                return;
-        vec_push(s->arena, &s->stage->verbatim, callee);
+    case IR_VERBATIM:
+        need_verbatim(s, shader_callee(s->shader, ref));
         break;
-    }
     case IR_GRAPH_CALL:
         vec_push(s->arena, &s->called, node->attr);
         break;
     default:
-        break;
+        return ir_op_info(node->op)->flags & OP_DERIVATIVE ? PLAN_NEIGHBOURS : 0;
     }
+    bool is_statement = node->type == IR_TYPE_VOID || shader_call_outs(s->shader, ref);
+    return (is_statement ? PLAN_STATEMENT : 0u) | (needs_neighbours(s->graph, node) ? PLAN_NEIGHBOURS : 0u);
 }
 
 /* What the node depends on follows from its operands, which are reached before. */
 static void reach_node(struct scheduler *s, ir_ref ref)
 {
     const struct ir_node *node = ir_get(s->graph, ref);
-    unsigned flags = 0;
-    if (node->op == IR_LOCAL)
-        flags = PLAN_LOCAL;
-    else if (node->flags & IR_NODE_LOOP)
-        flags = PLAN_LOOP;
-    if (is_call(node) && (node->type == IR_TYPE_VOID || shader_call_outs(s->shader, ref)))
-        flags |= PLAN_STATEMENT;
-    const ir_ref *args = ir_args(s->graph, ref);
-    for (uint32_t a = 0; a < node->num_args; a++)
-        flags |= plan_of(s, args[a])->flags & PLAN_LOCAL;
-    *plan_of(s, ref) = (struct plan){.ref = ref, .flags = (uint8_t)flags};
+    unsigned flags = note_needs(s, ref, node);
+    if (node->flags & IR_NODE_LOOP && node->op != IR_LOCAL)
+        flags |= PLAN_LOOP;
+    const ir_ref *args = s->graph->args.items + node->first_arg, *end = args + node->num_args;
+    for (; args < end; args++)
+        flags |= plan_of(s, *args)->flags & PLAN_LOCAL;
+    *plan_of(s, ref) = (struct plan){.first_arg = node->first_arg, .num_args = node->num_args, .type = node->type,
+                                     .op = node->op, .flags = (uint8_t)flags};
     s->is_reached[ref] = true;
     vec_push(s->arena, &s->reached, ref);
-    note_needs(s, ref);
+}
+
+static void visit(struct scheduler *s, ir_ref ref)
+{
+    const struct ir_node *node = ir_get(s->graph, ref);
+    const ir_ref *args = s->graph->args.items + node->first_arg;
+    if (node->num_args)
+        vec_push(s->arena, &s->visits, (struct visit){ref, args, args + node->num_args});
+    else
+        reach_node(s, ref);
 }
 
 static void collect(struct scheduler *s, ir_ref root)
 {
-    if (!s->is_reached[root])
-        vec_push(s->arena, &s->visits, (struct visit){root, 0});
+    const bool *is_reached = s->is_reached;
+    if (!is_reached[root])
+        visit(s, root);
     while (s->visits.len) {
         struct visit *top = &vec_last(&s->visits);
-        const struct ir_node *node = ir_get(s->graph, top->ref);
-        if (top->next == node->num_args) {
+        const ir_ref *next = top->next, *end = top->end;
+        while (next < end && is_reached[*next])
+            next++;
+        if (next == end) {
             reach_node(s, top->ref);
             s->visits.len--;
-            continue;
+        } else {
+            top->next = next + 1;
+            visit(s, *next);
         }
-        ir_ref operand = ir_arg(s->graph, top->ref, top->next++);
-        if (!operand || s->is_reached[operand])
-            continue;
-        if (ir_get(s->graph, operand)->num_args == 0)
-            reach_node(s, operand);
-        else
-            vec_push(s->arena, &s->visits, (struct visit){operand, 0});
     }
 }
 
@@ -219,21 +248,20 @@ static uint32_t lift(const struct scheduler *s, uint32_t effect, uint32_t region
     return effect;
 }
 
-static void use(struct scheduler *s, ir_ref ref, uint32_t uses, uint32_t region, uint32_t first, uint32_t effect, bool in_arm)
+static inline void use(struct scheduler *s, struct plan *plan, uint32_t uses, uint32_t region, uint32_t first,
+                       uint32_t effect)
 {
-    struct plan *plan = plan_of(s, ref);
     if (plan->uses == 0) {
         plan->region = region;
         plan->first = first;
         plan->effect = effect;
     } else {
-        plan->region = common_region(s, plan->region, region);
+        if (plan->region != region)
+            plan->region = common_region(s, plan->region, region);
         plan->first = first < plan->first ? first : plan->first;
         plan->effect = effect == plan->effect ? effect : MANY_EFFECTS;
     }
     plan->uses += uses;
-    if (in_arm)
-        plan->flags |= PLAN_IN_ARM;
 }
 
 /* Out of loops and branches, as far as the node may and should go. */
@@ -242,7 +270,7 @@ static void move_out(struct scheduler *s, struct plan *plan)
     if (plan->flags & (PLAN_LOCAL | PLAN_LOOP))
         return;
     uint32_t region = s->regions.items[plan->region].outside;
-    bool neighbours = needs_neighbours(s->graph, ir_get(s->graph, plan->ref));
+    bool neighbours = plan->flags & PLAN_NEIGHBOURS;
     if (neighbours)
         region = 0;
     if (region != plan->region) {
@@ -256,9 +284,9 @@ static void move_out(struct scheduler *s, struct plan *plan)
 }
 
 /* Are all operands but the first evaluated only sometimes? */
-static bool has_arms(const struct ir_node *node)
+static bool has_arms(const struct plan *plan)
 {
-    return node->op == IR_SELECT || node->op == IR_LAND || node->op == IR_LOR;
+    return plan->op == IR_SELECT || plan->op == IR_LAND || plan->op == IR_LOR;
 }
 
 /* Users first: where each node belongs. */
@@ -268,18 +296,22 @@ static void find_places(struct scheduler *s, const struct effect_list *effects)
         const struct effect *effect = &effects->items[i];
         if (!effect->value)
             continue;
-        use(s, effect->value, 1, s->region_of.items[i], i, i, false);
+        use(s, plan_of(s, effect->value), 1, s->region_of.items[i], i, i);
     }
     for (uint32_t i = s->reached.len; i-- > 0;) {
         struct plan *plan = plan_of(s, s->reached.items[i]);
-        const struct ir_node *node = ir_get(s->graph, plan->ref);
         move_out(s, plan);
-        uint32_t uses = node->op == IR_RESULT ? plan->uses : 1; /* a result is another name of its call */
-        const ir_ref *args = ir_args(s->graph, plan->ref);
-        bool in_arm = plan->flags & PLAN_IN_ARM, arms = in_arm || has_arms(node);
-        for (uint32_t a = 0; a < node->num_args; a++)
-            if (args[a])
-                use(s, args[a], uses, plan->region, plan->first, plan->effect, a ? arms : in_arm);
+        uint32_t uses = plan->op == IR_RESULT ? plan->uses : 1; /* a result is another name of its call */
+        uint32_t region = plan->region, first = plan->first, effect = plan->effect;
+        uint8_t in_arm = plan->flags & PLAN_IN_ARM, arms = has_arms(plan) ? PLAN_IN_ARM : in_arm;
+        const ir_ref *args = args_of(s, plan), *end = args + plan->num_args;
+        for (; args < end; args++, in_arm = arms) {
+            struct plan *operand = plan_of(s, *args);
+            if (!*args)
+                continue;
+            use(s, operand, uses, region, first, effect);
+            operand->flags |= in_arm;
+        }
     }
 }
 
@@ -292,10 +324,10 @@ static void find_places(struct scheduler *s, const struct effect_list *effects)
 enum { GOOD_CHARS = 110, MAX_CHARS = 220, MIN_SPLIT_CHARS = 40, MAX_REPEATED_CHARS = 32 };
 enum { COST_OPERATOR = 1, COST_BUILTIN = 4, COST_CALL = 32, COST_LOCAL = 2, MAX_COST_IN_LOOP = 3, MAX_COST_OF_ARM = 24 };
 
-static bool is_splat(const struct ir_value *value)
+static bool is_splat(ir_type_id type, const union ir_word *words)
 {
-    for (uint32_t i = 1; i < ir_type_info(value->type)->components; i++)
-        if (value->w[i].u != value->w[0].u)
+    for (uint32_t i = 1; i < ir_type_info(type)->components; i++)
+        if (words[i].u != words[0].u)
             return false;
     return true;
 }
@@ -308,12 +340,11 @@ static uint16_t clamp16(uint32_t n)
 /* Nodes that never become locals for their own sake: names, and small constants. Fills cost and chars. */
 static bool is_source(const struct scheduler *s, struct plan *plan)
 {
-    const struct ir_node *node = ir_get(s->graph, plan->ref);
-    switch (node->op) {
+    const struct ir_node *node = node_of(s, plan);
+    switch (plan->op) {
     case IR_CONST: {
-        struct ir_value value;
-        bool known = ir_get_const(s->graph, plan->ref, &value);
-        uint32_t components = known && !is_splat(&value) ? ir_type_info(value.type)->components : 1;
+        bool splat = is_splat(plan->type, s->graph->words.items + node->attr);
+        uint32_t components = splat ? 1 : ir_type_info(plan->type)->components;
         plan->chars = clamp16(components == 1 ? 5 : 4 + 6 * components);
         return components == 1 || plan->uses < (components > 4 ? 2u : 3u);
     }
@@ -340,9 +371,10 @@ static bool is_source(const struct scheduler *s, struct plan *plan)
 }
 
 /* What an operation adds to its operands. */
-static void own_measure(const struct scheduler *s, const struct ir_node *node, uint32_t *out_cost, uint32_t *out_chars)
+static void own_measure(const struct scheduler *s, const struct plan *plan, uint32_t *out_cost, uint32_t *out_chars)
 {
-    const struct ir_op_info *info = ir_op_info(node->op);
+    const struct ir_op_info *info = ir_op_info(plan->op);
+    const struct ir_node *node = node_of(s, plan);
     if (is_call(node)) {
         str_id name = node->op == IR_GRAPH_CALL ? s->graph->functions.items[node->attr].name
                                                 : s->graph->callees.items[node->attr].name;
@@ -350,16 +382,16 @@ static void own_measure(const struct scheduler *s, const struct ir_node *node, u
         *out_chars = (uint32_t)str_len(s->shader->strings, name) + 2 * node->num_args;
     } else if (info->flags & OP_BUILTIN) {
         *out_cost = COST_BUILTIN;
-        *out_chars = (uint32_t)strlen(info->text) + 2 * node->num_args;
+        *out_chars = info->text_len + 2 * plan->num_args;
     } else {
         *out_cost = COST_OPERATOR;
-        *out_chars = 3 * node->num_args + (node->op == IR_CONSTRUCT ? 4 : 0);
+        *out_chars = 3 * plan->num_args + (plan->op == IR_CONSTRUCT ? 4 : 0);
     }
 }
 
 static bool may_let(const struct scheduler *s, const struct plan *plan)
 {
-    ir_type_id type = ir_type_of(s->graph, plan->ref);
+    ir_type_id type = plan->type;
     if (plan->flags & PLAN_LOCAL && plan->effect == MANY_EFFECTS)
         return false;
     if (plan->flags & PLAN_LOOP && s->regions.items[plan->region].outside == plan->region)
@@ -371,7 +403,7 @@ static bool may_let(const struct scheduler *s, const struct plan *plan)
 /* From here on it is read by its name, which its origin gives. */
 static void let(const struct scheduler *s, struct plan *plan)
 {
-    str_id name = s->graph->origins.items[ir_get(s->graph, plan->ref)->origin].name;
+    str_id name = s->graph->origins.items[node_of(s, plan)->origin].name;
     plan->flags |= PLAN_LET;
     plan->cost = 1;
     plan->chars = clamp16((uint32_t)str_len(s->shader->strings, name) + 2);
@@ -383,18 +415,18 @@ static void let(const struct scheduler *s, struct plan *plan)
  */
 static void measure(struct scheduler *s, struct plan *plan)
 {
-    const struct ir_node *node = ir_get(s->graph, plan->ref);
+    uint32_t own_cost, own_chars;
+    own_measure(s, plan, &own_cost, &own_chars);
     for (;;) {
-        uint32_t cost, chars;
-        own_measure(s, node, &cost, &chars);
+        uint32_t cost = own_cost, chars = own_chars;
         struct plan *longest = NULL;
-        for (uint32_t a = 0; a < node->num_args; a++) {
-            struct plan *operand = plan_of(s, ir_arg(s->graph, plan->ref, a));
+        const ir_ref *args = args_of(s, plan), *end = args + plan->num_args;
+        for (; args < end; args++) {
+            struct plan *operand = plan_of(s, *args);
             cost += operand->cost;
             chars += operand->chars;
-            bool splits = operand->chars >= MIN_SPLIT_CHARS && !(operand->flags & PLAN_LET) && may_let(s, operand)
-                          && ir_get(s->graph, operand->ref)->num_args > 0;
-            if (splits && (!longest || operand->chars > longest->chars))
+            bool is_long = operand->chars >= MIN_SPLIT_CHARS && (!longest || operand->chars > longest->chars);
+            if (is_long && operand->num_args > 0 && !(operand->flags & PLAN_LET) && may_let(s, operand))
                 longest = operand;
         }
         bool long_rest = longest && chars - longest->chars >= MIN_SPLIT_CHARS;
@@ -408,10 +440,9 @@ static void measure(struct scheduler *s, struct plan *plan)
 }
 
 /* Operators on what is at hand are cheaper repeated than stored. */
-static bool is_cheap(const struct scheduler *s, const struct plan *plan)
+static bool is_cheap(const struct plan *plan)
 {
-    const struct ir_node *node = ir_get(s->graph, plan->ref);
-    if (!(ir_op_info(node->op)->flags & OP_OPERATOR) || node->op == IR_SELECT || plan->chars > MAX_REPEATED_CHARS)
+    if (!(ir_op_info(plan->op)->flags & OP_OPERATOR) || plan->op == IR_SELECT || plan->chars > MAX_REPEATED_CHARS)
         return false;
     if (plan->flags & PLAN_MOVED)
         return plan->cost <= MAX_COST_IN_LOOP;
@@ -421,21 +452,18 @@ static bool is_cheap(const struct scheduler *s, const struct plan *plan)
 /* A part of something that has a name. */
 static bool is_part(struct scheduler *s, const struct plan *plan)
 {
-    const struct ir_node *node = ir_get(s->graph, plan->ref);
-    if (node->op == IR_RESULT)
+    if (plan->op == IR_RESULT)
         return true;
-    if (node->op != IR_SWIZZLE && node->op != IR_MEMBER)
+    if (plan->op != IR_SWIZZLE && plan->op != IR_MEMBER)
         return false;
-    const struct plan *whole = plan_of(s, ir_arg(s->graph, plan->ref, 0));
-    uint8_t op = ir_get(s->graph, whole->ref)->op;
-    return whole->flags & PLAN_LET || op == IR_RESULT || ir_get(s->graph, whole->ref)->num_args == 0;
+    const struct plan *whole = plan_of(s, args_of(s, plan)[0]);
+    return whole->flags & PLAN_LET || whole->op == IR_RESULT || whole->num_args == 0;
 }
 
 /* May an arm become a local for the sake of let_arms? What has a name already is not copied. */
 static bool is_little_work(struct scheduler *s, const struct plan *arm)
 {
-    const struct ir_node *node = ir_get(s->graph, arm->ref);
-    return arm->flags & PLAN_LOOP && (node->num_args > 0 || node->op == IR_CONTEXT) && !is_part(s, arm)
+    return arm->flags & PLAN_LOOP && (arm->num_args > 0 || arm->op == IR_CONTEXT) && !is_part(s, arm)
            && arm->cost <= MAX_COST_OF_ARM && may_let(s, arm) && !(arm->flags & PLAN_LOCAL);
 }
 
@@ -443,38 +471,37 @@ static bool is_little_work(struct scheduler *s, const struct plan *arm)
  * A choice between locals and constants is one operation; between expressions it is a branch. In a loop, what is little
  * work is rather done in vain; elsewhere one line reads better.
  */
-static void let_arms(struct scheduler *s, const struct ir_node *node)
+static void let_arms(struct scheduler *s, const struct plan *plan)
 {
-    if (node->op != IR_SELECT)
-        return;
     bool all = true;
     struct plan *arms[2];
     for (unsigned i = 0; i < 2; i++) {
-        arms[i] = plan_of(s, s->graph->args.items[node->first_arg + i + 1]);
-        all &= arms[i]->flags & PLAN_LET || ir_is_const(s->graph, arms[i]->ref) || is_little_work(s, arms[i]);
+        arms[i] = plan_of(s, args_of(s, plan)[i + 1]);
+        all &= arms[i]->flags & PLAN_LET || arms[i]->op == IR_CONST || is_little_work(s, arms[i]);
     }
     for (unsigned i = 0; all && i < 2; i++)
-        if (!(arms[i]->flags & PLAN_LET) && !ir_is_const(s->graph, arms[i]->ref))
+        if (!(arms[i]->flags & PLAN_LET) && arms[i]->op != IR_CONST)
             let(s, arms[i]);
 }
 
 /* Where only variables have parts, what a part is taken of becomes one. */
-static void let_wholes(const struct scheduler *s, const struct ir_node *node)
+static void let_wholes(struct scheduler *s, const struct plan *plan)
 {
-    bool takes_parts = node->op == IR_SWIZZLE || node->op == IR_MEMBER || node->op == IR_INDEX || node->op == IR_CONVERT
-                       || node->op == IR_CONSTRUCT || node->op == IR_TEX;
-    for (uint32_t a = 0; a < node->num_args && takes_parts; a++) {
-        struct plan *whole = plan_of((struct scheduler *)(uintptr_t)s, s->graph->args.items[node->first_arg + a]);
-        const struct ir_node *operand = ir_get(s->graph, whole->ref);
-        bool has_parts = operand->type >= IR_NUM_TYPES || ir_type_info(operand->type)->components > 1;
-        if (has_parts && operand->num_args > 0 && operand->op != IR_RESULT && may_let(s, whole))
+    uint8_t op = plan->op;
+    if (op != IR_SWIZZLE && op != IR_MEMBER && op != IR_INDEX && op != IR_CONVERT && op != IR_CONSTRUCT
+        && op != IR_TEX)
+        return;
+    for (uint32_t a = 0; a < plan->num_args; a++) {
+        struct plan *whole = plan_of(s, args_of(s, plan)[a]);
+        bool has_parts = whole->type >= IR_NUM_TYPES || ir_type_info(whole->type)->components > 1;
+        if (has_parts && whole->num_args > 0 && whole->op != IR_RESULT && may_let(s, whole))
             let(s, whole);
     }
 }
 
-static bool is_closure_call(const struct ir_node *node)
+static bool is_closure_call(const struct plan *plan)
 {
-    return node->op == IR_LEAF && node->num_args > 0;
+    return plan->op == IR_LEAF && plan->num_args > 0;
 }
 
 /* Operands first: which nodes become locals. */
@@ -482,19 +509,19 @@ static void choose_locals(struct scheduler *s)
 {
     for (uint32_t i = 0; i < s->reached.len; i++) {
         struct plan *plan = plan_of(s, s->reached.items[i]);
-        if (is_source(s, plan))
+        if (plan->num_args == 0 && is_source(s, plan))
             continue;
-        let_arms(s, ir_get(s->graph, plan->ref));
+        if (plan->op == IR_SELECT)
+            let_arms(s, plan);
         if (s->shader->names_wholes)
-            let_wholes(s, ir_get(s->graph, plan->ref));
+            let_wholes(s, plan);
         measure(s, plan);
-        if (!may_let(s, plan) || is_part(s, plan))
-            continue;
-        bool neighbours = needs_neighbours(s->graph, ir_get(s->graph, plan->ref));
-        bool wanted = plan->flags & PLAN_STATEMENT || is_closure_call(ir_get(s->graph, plan->ref)) || (neighbours && plan->flags & (PLAN_IN_ARM | PLAN_MOVED));
-        if (!wanted && (plan->uses > 1 || plan->flags & PLAN_MOVED))
-            wanted = !is_cheap(s, plan);
-        if (wanted)
+        unsigned flags = plan->flags;
+        bool wanted = flags & PLAN_STATEMENT || is_closure_call(plan)
+                      || (flags & PLAN_NEIGHBOURS && flags & (PLAN_IN_ARM | PLAN_MOVED));
+        if (!wanted && (plan->uses > 1 || flags & PLAN_MOVED))
+            wanted = !is_cheap(plan);
+        if (wanted && may_let(s, plan) && !is_part(s, plan))
             let(s, plan);
     }
 }
@@ -519,7 +546,7 @@ static void write_statements(struct scheduler *s, const struct effect_list *effe
     for (uint32_t i = 0; i < s->reached.len; i++) {
         const struct plan *plan = plan_of(s, s->reached.items[i]);
         if (plan->flags & PLAN_LET)
-            statements[first[plan->first]++ + plan->first] = (struct effect){.kind = EFFECT_LET, .value = plan->ref};
+            statements[first[plan->first]++ + plan->first] = (struct effect){.kind = EFFECT_LET, .value = ref_of(s, plan)};
     }
     for (uint32_t i = 0; i < effects->len; i++)
         statements[first[i] + i] = effects->items[i];
@@ -599,7 +626,8 @@ void shader_schedule(struct shader *shader, enum shader_stage_id stage)
         .is_reached = ARENA_ARRAY(shader->arena, bool, shader->graph->nodes.len),
         .plans = arena_alloc(shader->arena, mem_array_size(shader->arena->mem, shader->graph->nodes.len, sizeof(struct plan))),
     };
-    s.plans[0] = (struct plan){0};
+    s.plans[0] = (struct plan){0}; /* of absent operands */
+    s.is_reached[0] = true;
     s.stage->functions.len = s.stage->verbatim.len = 0;
     schedule_effects(&s, &s.stage->effects, &s.stage->statements);
     schedule_functions(&s);
