@@ -95,10 +95,11 @@ void arena_finish(struct arena *arena)
     arena_init(arena, arena->mem);
 }
 
+static_assert(alignof(max_align_t) <= ARENA_ALIGNMENT, "blocks are aligned for any object");
+
 static size_t round_up(size_t size)
 {
-    size_t align = alignof(max_align_t);
-    return (size + align - 1) & ~(align - 1);
+    return (size + ARENA_ALIGNMENT - 1) & ~(size_t)(ARENA_ALIGNMENT - 1);
 }
 
 static void *alloc_large(struct arena *arena, size_t size)
@@ -128,10 +129,10 @@ static void add_chunk(struct arena *arena)
 /* Blocks from this size on stand alone, so that vectors grow by realloc and nothing is left behind. */
 static bool is_large(size_t size)
 {
-    return size > CHUNK_FIRST / 4;
+    return size > ARENA_SMALL;
 }
 
-void *arena_alloc(struct arena *arena, size_t size)
+void *arena_alloc_other(struct arena *arena, size_t size)
 {
     if (size > SIZE_MAX / 2)
         mem_fail(arena->mem);

@@ -55,8 +55,19 @@ struct arena {
 void arena_init(struct arena *arena, struct mem *mem);
 void arena_finish(struct arena *arena); /* frees everything; the arena may be used again */
 
+enum { ARENA_ALIGNMENT = 16, ARENA_SMALL = 4096 }; /* larger blocks stand alone, so that vectors grow by realloc */
+void *arena_alloc_other(struct arena *arena, size_t size); /* what arena_alloc does not do itself */
+
 /* Uninitialised memory aligned for any object; size 0 gives a valid pointer. */
-void *arena_alloc(struct arena *arena, size_t size);
+static inline void *arena_alloc(struct arena *arena, size_t size)
+{
+    size_t rounded = (size + ARENA_ALIGNMENT - 1) & ~(size_t)(ARENA_ALIGNMENT - 1);
+    if (size - 1 >= ARENA_SMALL || (size_t)(arena->end - arena->cursor) < rounded)
+        return arena_alloc_other(arena, size);
+    void *block = arena->cursor;
+    arena->cursor += rounded;
+    return block;
+}
 void *arena_zalloc(struct arena *arena, size_t size);
 
 /* Grows a block in place where it is the newest or stands alone, else by copying. block may be NULL. */

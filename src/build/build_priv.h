@@ -46,6 +46,13 @@ struct memo {
     uint32_t function;     /* + 1, once it stands */
 };
 
+/* A text that begins as the one before did, since it belongs to the same element. */
+struct build_prefix {
+    elem_id owner;
+    size_t len;
+    struct text text;
+};
+
 struct builder {
     const struct library *lib;
     const struct build_options *options;
@@ -63,6 +70,7 @@ struct builder {
     uint32_t *memo_table;
     uint32_t memo_mask;
     VEC(ir_ref) geomprops;      /* value per geomprop name, in pairs (name, ref) */
+    struct build_prefix path, name; /* in front of the paths and names of a node's inputs */
     ir_ref missing_texel;       /* what the node at hand reads where its image has no tile */
     bool has_colorspace;        /* the option names a space that the library converts to */
     bool cancelled;

@@ -61,18 +61,34 @@ static ir_ref constant(struct builder *b, const struct port *port, str_id text, 
 
 /* ---- interface ---- */
 
+/* Goes back to what stands in front of the names of an owner's inputs; true where that is to be written. */
+static bool begin_text(struct builder *b, struct build_prefix *prefix, elem_id owner)
+{
+    bool is_known = prefix->text.arena && prefix->owner == owner;
+    if (!prefix->text.arena)
+        text_init(&prefix->text, b->arena);
+    prefix->text.len = is_known ? prefix->len : 0;
+    prefix->owner = owner;
+    return !is_known;
+}
+
+static str_id end_text(struct builder *b, struct text *text, str_id name)
+{
+    text_mem(text, build_text(b, name), str_len(b->shader->strings, name));
+    return str_intern(b->shader->strings, text->data, text->len);
+}
+
 str_id build_input_path(struct builder *b, elem_id node, str_id input, elem_id element)
 {
-    struct text path;
-    text_init(&path, b->arena);
-    if (element) {
-        doc_path(doc_of(b), element, '/', &path);
-    } else {
-        doc_path(doc_of(b), node, '/', &path);
-        text_char(&path, '/');
-        text_str(&path, build_text(b, input));
+    struct text *path = &b->path.text;
+    elem_id owner = element ? doc_element(doc_of(b), element)->parent : node;
+    if (begin_text(b, &b->path, owner)) {
+        doc_path(doc_of(b), owner, '/', path);
+        if (path->len)
+            text_char(path, '/');
+        b->path.len = path->len;
     }
-    return str_intern(b->shader->strings, path.data, path.len);
+    return end_text(b, path, element ? doc_element(doc_of(b), element)->name : input);
 }
 
 struct glob_retry { /* where to go on when what stands behind a star does not match */
@@ -142,12 +158,13 @@ static str_id variable_name(struct builder *b, elem_id node, str_id input)
 {
     if (b->options->short_names && shader_name_is_free(b->shader, input))
         return input;
-    struct text name;
-    text_init(&name, b->arena);
-    text_str(&name, build_text(b, doc_element(doc_of(b), node)->name));
-    text_char(&name, '_');
-    text_str(&name, build_text(b, input));
-    return str_intern(b->shader->strings, name.data, name.len);
+    struct text *name = &b->name.text;
+    if (begin_text(b, &b->name, node)) {
+        text_str(name, build_text(b, doc_element(doc_of(b), node)->name));
+        text_char(name, '_');
+        b->name.len = name->len;
+    }
+    return end_text(b, name, input);
 }
 
 static str_id element_attr(const struct builder *b, elem_id element, str_id name)

@@ -70,6 +70,16 @@ bool names_take(struct name_set *names, const char *text, size_t len)
     return is_new;
 }
 
+static size_t put_number(char *out, uint32_t number)
+{
+    size_t len = 1;
+    for (uint32_t rest = number; rest >= 10; rest /= 10)
+        len++;
+    for (size_t i = len; i-- > 0; number /= 10)
+        out[i] = (char)('0' + number % 10);
+    return len;
+}
+
 const char *names_unique(struct name_set *names, const char *text, size_t len)
 {
     size_t base_len;
@@ -79,16 +89,14 @@ const char *names_unique(struct name_set *names, const char *text, size_t len)
     if (is_new && !lang_style_is_reserved(names->style, base, base_len))
         return base;
     uint32_t first = (uint32_t)(entry - names->entries.items);
-    for (;;) {
-        struct text name;
-        text_init(&name, names->arena);
-        text_mem(&name, base, base_len);
-        if (base[base_len - 1] != '_')
-            text_char(&name, '_');
-        text_u32(&name, names->entries.items[first].next++);
-        const char *numbered = text_cstr(&name);
-        take(names, numbered, (uint32_t)name.len, &is_new);
-        if (is_new)
-            return numbered;
-    }
+    char *numbered = arena_alloc(names->arena, base_len + sizeof "_4294967295");
+    text_copy(numbered, base, base_len);
+    if (numbered[base_len - 1] != '_')
+        numbered[base_len++] = '_';
+    do {
+        size_t end = base_len + put_number(numbered + base_len, names->entries.items[first].next++);
+        numbered[end] = '\0';
+        take(names, numbered, (uint32_t)end, &is_new);
+    } while (!is_new);
+    return numbered;
 }
