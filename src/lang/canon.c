@@ -172,6 +172,8 @@ static struct lang_function copy_function(struct copier *c, uint32_t id, uint32_
     fn.flags |= lang_function(c->made, id, NULL)->flags & LANG_FN_STRINGS;
     if (is_final(c, &fn))
         fn.flags |= LANG_FN_FINAL;
+    if (ast_is_plain(c->to, &fn))
+        fn.flags |= LANG_FN_PLAIN;
     return fn;
 }
 

@@ -74,6 +74,7 @@ enum lang_function_flags {
     LANG_FN_STRINGS = 8,    /* it has string parameters: to be specialised before it is printed for hardware */
     LANG_FN_EXPRESSION = 16, /* an inline expression: no name, LANG_INPUT slots, body is RETURN expr */
     LANG_FN_FINAL = 32,     /* nothing to specialise, unless arguments or callees are: canon.c */
+    LANG_FN_PLAIN = 64,     /* its variables and what it returns are of built-in types; told of a library's functions: canon.c */
 };
 
 struct lang_function {

@@ -113,18 +113,29 @@ struct few { /* room for the frame of a usual function */
     ir_ref leaves[FEW_LEAVES];
 };
 
-static void open_frame(struct lower *lo, struct lower_frame *frame, const ir_ref *in, struct few *few)
+static void find_offsets(struct lower *lo, struct lower_frame *frame, struct few *few)
 {
-    uint32_t num_slots = frame->fn->num_slots, num_leaves = 0;
+    static const uint32_t one_each[FEW_SLOTS + 1] = {0,  1,  2,  3,  4,  5,  6,  7,  8,  9,  10, 11, 12, 13, 14, 15, 16,
+                                                     17, 18, 19, 20, 21, 22, 23, 24, 25, 26, 27, 28, 29, 30, 31, 32};
+    uint32_t num_slots = frame->fn->num_slots;
+    if (num_slots <= FEW_SLOTS && frame->fn->flags & LANG_FN_PLAIN) {
+        frame->offsets = one_each;
+        return;
+    }
     const struct lang_slot *slots = frame->layer->slots.items + frame->fn->first_slot;
     uint32_t *offsets = num_slots <= FEW_SLOTS ? few->offsets : ARENA_ARRAY(lo->graph->arena, uint32_t, num_slots + 1);
-    for (uint32_t i = 0; i < num_slots; i++) {
-        offsets[i] = num_leaves;
-        num_leaves += lower_leaves(lo, slots[i].type);
-    }
-    offsets[num_slots] = num_leaves;
+    offsets[0] = 0;
+    for (uint32_t i = 0; i < num_slots; i++)
+        offsets[i + 1] = offsets[i] + lower_leaves(lo, slots[i].type);
     frame->offsets = offsets;
-    frame->num_leaves = num_leaves + lower_leaves(lo, frame->fn->return_type);
+}
+
+static void open_frame(struct lower *lo, struct lower_frame *frame, const ir_ref *in, struct few *few)
+{
+    find_offsets(lo, frame, few);
+    const uint32_t *offsets = frame->offsets;
+    const struct lang_slot *slots = frame->layer->slots.items + frame->fn->first_slot;
+    frame->num_leaves = offsets[frame->fn->num_slots] + lower_leaves(lo, frame->fn->return_type);
     frame->leaves = frame->num_leaves <= FEW_LEAVES ? few->leaves : ARENA_ARRAY(lo->graph->arena, ir_ref, frame->num_leaves);
     for (uint32_t i = 0, k = 0; i < frame->fn->num_params; i++)
         for (; k < offsets[i + 1]; k++)
@@ -314,6 +325,8 @@ static void lower_inline_expression(struct lower *lo, const ir_ref *args, ir_ref
 static bool fits(const struct lower *lo)
 {
     const struct lang_function *fn = lo->frame->fn;
+    if (fn->flags & LANG_FN_PLAIN)
+        return fn->num_params < LOWER_MAX_LEAVES;
     uint32_t leaves = lower_leaves(lo, fn->return_type);
     for (uint32_t i = 0; i < fn->num_params; i++)
         leaves += lower_leaves(lo, ast_slot(lo->frame->layer, fn, i)->type);
@@ -326,6 +339,19 @@ static const ir_ref *join_result(struct lower *lo, ir_type_id type, const ir_ref
     if (!*out)
         *out = ir_poison(lo->graph, graph_type(lo, type));
     return leaves;
+}
+
+/* Without structs, arguments are their own leaves, and so are results. */
+static void lower_plain_function(struct lower *lo, uint32_t id, const ir_ref *args, ir_ref *results)
+{
+    const struct lang_function *fn = lo->frame->fn;
+    const struct lang_slot *slots = lo->frame->layer->slots.items + fn->first_slot;
+    lower_call(lo, id, args, results);
+    if (fn->return_type != IR_TYPE_VOID && !*results++)
+        results[-1] = ir_poison(lo->graph, fn->return_type);
+    for (uint32_t i = 0; i < fn->num_params; i++)
+        if (slots[i].mode != LANG_IN && !*results++)
+            results[-1] = ir_poison(lo->graph, slots[i].type);
 }
 
 static void lower_function(struct lower *lo, uint32_t id, const ir_ref *args, ir_ref *results)
@@ -366,8 +392,8 @@ void lang_lower_call(struct lang_unit *generated, struct ir_graph *graph, const 
     frame.fn = lang_function(generated, id, &frame.layer);
     if (frame.fn->flags & LANG_FN_EXPRESSION)
         lower_inline_expression(&lo, args, results);
-    else if (fits(&lo))
-        lower_function(&lo, id, args, results);
-    else
+    else if (!fits(&lo))
         poison_whole_results(&lo, results);
+    else
+        (frame.fn->flags & LANG_FN_PLAIN ? lower_plain_function : lower_function)(&lo, id, args, results);
 }
