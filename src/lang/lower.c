@@ -39,12 +39,11 @@ static ir_type_id part_type(const struct lower *lo, ir_type_id type, uint32_t in
     return user->array_length ? user->element : layer->members.items[user->first_member + index].type;
 }
 
-static const ir_ref *join(struct lower *lo, ir_type_id type, const ir_ref *leaves, ir_ref *out)
+static const ir_ref *join(struct lower *lo, ir_type_id type, const ir_ref *leaves, ir_ref *out);
+static ir_ref *split(struct lower *lo, ir_type_id type, ir_ref node, ir_ref *leaves);
+
+static const ir_ref *join_user_type(struct lower *lo, ir_type_id type, const ir_ref *leaves, ir_ref *out)
 {
-    if (!ast_is_user_type(type)) {
-        *out = *leaves;
-        return leaves + 1;
-    }
     uint32_t count;
     part_type(lo, type, 0, &count);
     ir_ref *parts = ARENA_ARRAY(lo->graph->arena, ir_ref, count);
@@ -58,12 +57,8 @@ static const ir_ref *join(struct lower *lo, ir_type_id type, const ir_ref *leave
     return leaves;
 }
 
-static ir_ref *split(struct lower *lo, ir_type_id type, ir_ref node, ir_ref *leaves)
+static ir_ref *split_user_type(struct lower *lo, ir_type_id type, ir_ref node, ir_ref *leaves)
 {
-    if (!ast_is_user_type(type)) {
-        *leaves = node;
-        return leaves + 1;
-    }
     uint32_t count;
     part_type(lo, type, 0, &count);
     bool is_array = lang_user_type(lo->unit, type, NULL)->array_length;
@@ -75,6 +70,22 @@ static ir_ref *split(struct lower *lo, ir_type_id type, ir_ref node, ir_ref *lea
         leaves = split(lo, part, value, leaves);
     }
     return leaves;
+}
+
+static inline const ir_ref *join(struct lower *lo, ir_type_id type, const ir_ref *leaves, ir_ref *out)
+{
+    if (ast_is_user_type(type))
+        return join_user_type(lo, type, leaves, out);
+    *out = *leaves;
+    return leaves + 1;
+}
+
+static inline ir_ref *split(struct lower *lo, ir_type_id type, ir_ref node, ir_ref *leaves)
+{
+    if (ast_is_user_type(type))
+        return split_user_type(lo, type, node, leaves);
+    *leaves = node;
+    return leaves + 1;
 }
 
 /* A constant */

@@ -15,7 +15,8 @@ static inline void copy_leaves(const ir_ref *from, uint32_t count, ir_ref *out)
 /* Is there room for one more node of the tree? */
 static inline bool may_go_on(struct lower *lo)
 {
-    lo->failed |= lo->frame->budget-- == 0 || lo->graph->nodes.len > lo->max_graph_nodes;
+    if (lo->frame->budget-- == 0 || lo->graph->nodes.len > lo->max_graph_nodes)
+        lo->failed = true;
     return !lo->failed;
 }
 
@@ -28,9 +29,11 @@ ir_ref lower_single(struct lower *lo, const struct lang_node *node)
         return 0;
     if (node->kind == LANG_VAR)
         result = lo->frame->leaves[lo->frame->offsets[node->a]];
+    else if (node->kind == LANG_CONST)
+        result = ir_const_words(lo->graph, node->type, ast_words(lo->frame->layer, node));
     else
         lower_other(lo, node, &result);
-    return lo->failed ? 0 : value_of(lo, result, node->type);
+    return result || lo->failed ? result : ir_poison(lo->graph, node->type);
 }
 
 /* Globals */
