@@ -332,26 +332,6 @@ static const struct lang_pieces *index_form(struct osl *osl, const struct lang_u
     return row ? helper_form(osl, row, use) : NULL;
 }
 
-/* A row vector times a matrix in OSL is ours times a column vector; products of matrices turn around. */
-static const struct lang_pieces *product_form(struct osl *osl, const struct lang_use *use)
-{
-    ir_type_id a = use->operands[0], b = use->operands[1];
-    if (ir_type_is_matrix(a) && ir_type_is_matrix(b))
-        return form_of(osl, "$1 * $0", LANG_PREC_POSTFIX);
-    if (a == IR_TYPE_MAT3 && b == IR_TYPE_VEC3)
-        return form_of(osl, "transform($0, $1)", LANG_PREC_POSTFIX);
-    if (a == IR_TYPE_VEC3 && b == IR_TYPE_MAT3)
-        return form_of(osl, "transform(transpose($1), $0)", LANG_PREC_POSTFIX);
-    if (a == IR_TYPE_VEC4 && b == IR_TYPE_MAT4) {
-        ir_type_id turned[2] = {b, a};
-        struct lang_use transform = *use;
-        transform.operands = turned;
-        osl_add_helper(osl, find_helper(&transform)->text);
-        return form_of(osl, "transform(transpose($1), $0)", LANG_PREC_POSTFIX);
-    }
-    return NULL;
-}
-
 /* ---- Entry ---- */
 
 static bool touches_struct(const struct lang_use *use)
@@ -378,12 +358,39 @@ static enum osl_kind operand_kind(const struct osl *osl, const struct lang_use *
     return is_local && osl->kinds[operand] == OSL_POINT ? OSL_VECTOR : (enum osl_kind)osl->kinds[operand];
 }
 
+static bool is_no_vector(const struct osl *osl, const struct lang_use *use, unsigned index)
+{
+    enum osl_kind kind = operand_kind(osl, use, index);
+    return kind == OSL_COLOR || kind == OSL_POINT;
+}
+
+/* A row vector times a matrix in OSL is ours times a column vector; products of matrices turn around. */
+static const struct lang_pieces *product_form(struct osl *osl, const struct lang_use *use)
+{
+    ir_type_id a = use->operands[0], b = use->operands[1];
+    if (ir_type_is_matrix(a) && ir_type_is_matrix(b))
+        return form_of(osl, "$1 * $0", LANG_PREC_POSTFIX);
+    if (a == IR_TYPE_MAT3 && b == IR_TYPE_VEC3)
+        return form_of(osl, is_no_vector(osl, use, 1) ? "transform($0, vector($1))" : "transform($0, $1)", LANG_PREC_POSTFIX);
+    if (a == IR_TYPE_VEC3 && b == IR_TYPE_MAT3)
+        return form_of(osl, is_no_vector(osl, use, 0) ? "transform(transpose($1), vector($0))" : "transform(transpose($1), $0)",
+                       LANG_PREC_POSTFIX);
+    if (a == IR_TYPE_VEC4 && b == IR_TYPE_MAT4) {
+        ir_type_id turned[2] = {b, a};
+        struct lang_use transform = *use;
+        transform.operands = turned;
+        osl_add_helper(osl, find_helper(&transform)->text);
+        return form_of(osl, "transform(transpose($1), $0)", LANG_PREC_POSTFIX);
+    }
+    return NULL;
+}
+
 /* The type that an operand must be cast to, lest a call mixes colours and vectors; NULL: it may stay. */
 static const char *cast_of(const struct osl *osl, const struct lang_use *use, unsigned index)
 {
     enum osl_kind have = operand_kind(osl, use, index);
     if (wants_vectors(use->op))
-        return have == OSL_COLOR || have == OSL_POINT ? "vector" : NULL;
+        return is_no_vector(osl, use, index) ? "vector" : NULL;
     bool is_color = use->node && osl->kinds[use->node] == OSL_COLOR;
     bool is_call = ir_op_info(use->op)->flags & OP_BUILTIN || use->op == IR_SELECT;
     if (use->op == IR_CLOSURE_SCALE || use->op == IR_CLOSURE_MIX)

@@ -189,20 +189,56 @@ static const char *first_of(const char *a, const char *b)
     return a && *a ? a : b;
 }
 
+/* "a:0|b:1" of the words "a, b" and the values "0, 1", which count from 0 where there are none. */
+static void write_choices(struct spell *spell, const char *names, const char *values, unsigned *count)
+{
+    open_piece(spell, count);
+    spell_text(spell, "string widget = \"mapper\", string options = \"");
+    for (unsigned i = 0; *names; i++) {
+        size_t n = strcspn(names, ","), m = strcspn(values, ",");
+        spell_text(spell, i ? "|" : "");
+        text_mem(spell->out, names, n);
+        text_char(spell->out, ':');
+        if (*values)
+            text_mem(spell->out, values, m);
+        else
+            spell_number(spell, i);
+        names += n + (names[n] == ',');
+        names += strspn(names, " ");
+        values += m + (values[m] == ',');
+        values += strspn(values, " ");
+    }
+    spell_text(spell, "\"");
+}
+
+static void write_widget(struct spell *spell, const struct shader_variable *variable, const struct shader_ui *ui, unsigned *count)
+{
+    bool has_choices = variable->type == IR_TYPE_INT && ui->enum_names && *ui->enum_names;
+    if (has_choices)
+        write_choices(spell, ui->enum_names, ui->enum_values ? ui->enum_values : "", count);
+    else
+        write_hint(spell, "widget", variable->type == IR_TYPE_BOOL      ? "checkBox"
+                                    : variable->type == IR_TYPE_SAMPLER ? "filename"
+                                                                        : NULL, count);
+}
+
 static void write_metadata(struct osl *osl, const struct shader_variable *variable)
 {
     struct spell *spell = osl->spell;
     struct shader_ui ui = {0};
     unsigned count = 0;
+    if (spell->options->metadata == 0)
+        return;
     if (spell->options->ui)
         spell->options->ui(spell->options->user_data, variable, &ui);
     write_label(spell, text_of(osl, variable->name), ui.name, &count);
     write_hint(spell, "page", ui.folder, &count);
     write_limit(spell, "min", first_of(ui.soft_min, ui.min), variable->type, &count);
     write_limit(spell, "max", first_of(ui.soft_max, ui.max), variable->type, &count);
-    write_hint(spell, "widget", variable->type == IR_TYPE_BOOL ? "checkBox" : variable->type == IR_TYPE_SAMPLER ? "filename" : NULL,
-               &count);
+    write_widget(spell, variable, &ui, &count);
     write_hint(spell, "colorspace", colorspace_of(osl, variable), &count);
+    if (spell->options->metadata > 1)
+        write_hint(spell, "help", ui.doc, &count);
     if (count)
         spell_text(spell, " ]]");
 }

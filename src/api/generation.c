@@ -358,6 +358,7 @@ bool generation_spell(struct generation *g)
         .generator = GENERATOR_NAME,
         .interface = g->options[OPTION_interface].text,
         .colorspace = g->options[OPTION_colorspace].text,
+        .metadata = (int)g->options[OPTION_metadata].number,
         .uniform_blocks = g->options[OPTION_uniform_blocks].number,
         .neutral_names = g->options[OPTION_names].number,
         .comments = g->options[OPTION_comments].number,

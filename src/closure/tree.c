@@ -44,6 +44,42 @@ static ir_ref scattered(struct tree *t, ir_ref leaf, ir_ref tint, const char *un
     return is_string(t, input(t, leaf, "scatter_mode", 12), unless) ? ir_const_splat(t->graph, IR_TYPE_VEC3, 0.0f) : tint;
 }
 
+/* Ops that work component by component, and have no other meaning for scalars. */
+static bool is_componentwise(enum ir_op op)
+{
+    uint8_t rule = ir_op_info(op)->rule;
+    return rule == IR_RULE_SAME ? op != IR_NORMALIZE && op != IR_CROSS && op != IR_REFLECT && op != IR_FACEFORWARD
+           : rule == IR_RULE_SPLAT ? op != IR_REFRACT
+           : rule == IR_RULE_ARITH || op == IR_SELECT;
+}
+
+enum { MAX_DEPTH = 12 };
+
+/*
+ * A component of a vector, as far down as that goes: languages without vectors of two components are spared them. (Roughness is one, of
+ * which closures take the parts.)
+ */
+static ir_ref component(struct ir_graph *g, ir_ref value, unsigned index, unsigned depth)
+{
+    const struct ir_node node = *ir_get(g, value);
+    bool is_plain = depth && is_componentwise(node.op) && ir_type_info(node.type)->columns == 1;
+    for (uint32_t i = 0; i < node.num_args; i++)
+        is_plain &= !ir_type_is_matrix(ir_type_of(g, ir_arg(g, value, i)));
+    if (!is_plain || node.num_args > 3)
+        return ir_component(g, value, index);
+    ir_ref args[3];
+    for (uint32_t i = 0; i < node.num_args; i++) {
+        args[i] = ir_arg(g, value, i);
+        if (ir_type_info(ir_type_of(g, args[i]))->components > 1)
+            args[i] = component(g, args[i], index, depth - 1);
+    }
+    uint32_t before = g->origin;
+    g->origin = node.origin;
+    ir_ref built = ir_build(g, (enum ir_op)node.op, ir_type_info(node.type)->scalar, node.attr, args, node.num_args);
+    g->origin = before;
+    return built;
+}
+
 /*
  * One word of a row: an input's name, perhaps with a part (".x", ".y"), or with a direction in which the light is scattered
  * (".reflected", ".transmitted"), "white" as a tint; or a constant: a digit, or text in quotes.
@@ -64,7 +100,7 @@ static ir_ref argument(struct tree *t, ir_ref leaf, const char *word, size_t len
         return scattered(t, leaf, value, "T");
     if (dot[1] == 't')
         return scattered(t, leaf, value, "R");
-    return ir_component(t->graph, value, dot[1] == 'x' ? 0 : 1);
+    return component(t->graph, value, dot[1] == 'x' ? 0 : 1, MAX_DEPTH);
 }
 
 struct arguments {
@@ -89,7 +125,6 @@ static ir_ref call(struct tree *t, const char *name, ir_type_id type, const ir_r
 {
     str_id id = str_intern_z(t->shader->strings, name);
     uint32_t callee = ir_add_callee(t->graph, (struct ir_callee){.id = (uint64_t)3 << 32 | id, .name = id});
-    t->shader->num_closures++;
     return ir_build(t->graph, IR_LEAF, type, callee, args, n);
 }
 
@@ -129,7 +164,7 @@ static ir_ref row_call(struct tree *t, ir_ref leaf, const struct closure_row *ro
 static ir_ref emission(struct tree *t, ir_ref leaf)
 {
     ir_ref radiance = closure_call(t->shader, t->host, leaf, LEAF_EMISSION, NULL);
-    return radiance ? call(t, t->host->rows->emission, IR_TYPE_EDF, &radiance, 1) : 0;
+    return radiance && !ir_const_is(t->graph, radiance, 0.0f) ? call(t, t->host->rows->emission, IR_TYPE_EDF, &radiance, 1) : 0;
 }
 
 static ir_ref medium(struct tree *t, ir_ref leaf)
@@ -299,18 +334,30 @@ static ir_ref or_black(struct tree *t, ir_ref closure)
     return closure ? closure : call(t, t->host->rows->emission, IR_TYPE_EDF, &black, 1);
 }
 
+/* Of those that are left: weights of 0 have dropped some. */
+static uint32_t count_calls(const struct tree *t, const ir_ref *roots, uint32_t num_roots)
+{
+    uint32_t count = 0;
+    const uint8_t *needed = ir_mark(t->graph, roots, num_roots, t->shader->arena);
+    for (ir_ref ref = 1; ref < t->graph->nodes.len; ref++)
+        count += needed[ref] && ir_get(t->graph, ref)->op == IR_LEAF;
+    return count;
+}
+
 static void emit_sides(struct tree *t, ir_ref front, ir_ref back)
 {
     struct ir_graph *g = t->graph;
     uint32_t out = output(t, t->host->rows->output, IR_TYPE_BSDF, 0);
     front = or_black(t, closure_of(t, front));
     if (!back) {
+        t->shader->num_closures = count_calls(t, &front, 1);
         effect(t, EFFECT_OUTPUT, out, front);
         return;
     }
     str_id name = str_intern_z(t->shader->strings, "u_backfacing");
     ir_ref behind = shader_read(t->shader, shader_private_uniform(t->shader, name, IR_TYPE_BOOL, 0));
     back = or_black(t, closure_of(t, back));
+    t->shader->num_closures = count_calls(t, (ir_ref[]){front, back}, 2);
     effect(t, EFFECT_IF, 0, ir_op1(g, IR_NOT, behind));
     effect(t, EFFECT_OUTPUT, out, front);
     effect(t, EFFECT_END, 0, 0);

@@ -63,6 +63,7 @@ struct spell_options {
     const char *generator; /* for the first comment: "mxgen 0.1" */
     const char *interface; /* "complete", "authored", "reduced" */
     const char *colorspace; /* the working space */
+    int metadata;          /* of parameters: 0 none, 1 what user interfaces need, 2 with their documentation */
     bool uniform_blocks;
     bool neutral_names;
     bool comments;         /* paths as comments */
