@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define MAX_PARTS 8 /* that a record tells */
+#define MAX_PARTS 8 /* that a record tells of each measure */
 
 /* ---- Measures ---- */
 
@@ -35,7 +35,62 @@ static void add_uniform(const mxg_variable *variable, uint64_t *size)
         *size = (end + STD140_ROUND - 1) / STD140_ROUND * STD140_ROUND;
 }
 
-static void measure(const mxg_result *result, struct check_shader *shader)
+/* ---- Parts ---- */
+
+static void add_part(struct examiner *examiner, struct check_shader *shader, enum measure measure, const char *name, size_t len,
+                     uint64_t count)
+{
+    for (size_t i = 0; i < shader->num_parts; ++i) {
+        struct check_part *part = &shader->parts[i];
+        if (part->measure == measure && strncmp(part->name, name, len) == 0 && part->name[len] == '\0') {
+            part->count += count;
+            return;
+        }
+    }
+    shader->parts = store_grow(&examiner->store, shader->parts, shader->num_parts, sizeof *shader->parts);
+    shader->parts[shader->num_parts++] = (struct check_part){measure, store_text(&examiner->store, name, len), count};
+}
+
+static int compare_parts(const void *a, const void *b)
+{
+    const struct check_part *left = a, *right = b;
+    if (left->measure != right->measure)
+        return left->measure < right->measure ? -1 : 1;
+    if (left->count != right->count)
+        return left->count < right->count ? 1 : -1;
+    return strcmp(left->name, right->name);
+}
+
+/* Keeps the largest of each measure, in order. */
+static void rank_parts(struct check_shader *shader)
+{
+    size_t kept = 0, num_of_measure = 0;
+    if (shader->num_parts)
+        qsort(shader->parts, shader->num_parts, sizeof *shader->parts, compare_parts);
+    for (size_t i = 0; i < shader->num_parts; ++i) {
+        num_of_measure = i && shader->parts[i].measure == shader->parts[i - 1].measure ? num_of_measure + 1 : 0;
+        if (num_of_measure < MAX_PARTS)
+            shader->parts[kept++] = shader->parts[i];
+    }
+    shader->num_parts = kept;
+}
+
+/* Textures one by one, uniforms by the node that they belong to. */
+static void add_variable_part(struct examiner *examiner, struct check_shader *shader, const mxg_variable *variable)
+{
+    const char *slash = strrchr(variable->path, '/');
+    size_t len = slash ? (size_t)(slash - variable->path) : strlen(variable->path);
+    if (variable->block == MXG_BLOCK_TEXTURES) {
+        const char *name = *variable->path ? variable->path : variable->name;
+        add_part(examiner, shader, MEASURE_SAMPLERS, name, strlen(name), 1);
+        if (*variable->path)
+            add_part(examiner, shader, MEASURE_TEXTURES, name, strlen(name), 1);
+    } else if (variable->block == MXG_BLOCK_PUBLIC_UNIFORMS) {
+        add_part(examiner, shader, MEASURE_UNIFORM_BYTES, variable->path, len, variable->byte_size ? variable->byte_size : loose_size(variable));
+    }
+}
+
+static void measure(struct examiner *examiner, const mxg_result *result, struct check_shader *shader)
 {
     uint64_t sizes[MXG_NUM_BLOCKS] = {0};
     for (uint32_t i = 0; i < mxg_result_num_variables(result); ++i) {
@@ -45,6 +100,7 @@ static void measure(const mxg_result *result, struct check_shader *shader)
         shader->measures[MEASURE_SAMPLERS] += is_texture;
         shader->measures[MEASURE_TEXTURES] += is_texture && *variable.path;
         add_uniform(&variable, &sizes[variable.block]);
+        add_variable_part(examiner, shader, &variable);
     }
     shader->measures[MEASURE_UNIFORM_BYTES] =
         sizes[MXG_BLOCK_PUBLIC_UNIFORMS] + sizes[MXG_BLOCK_PRIVATE_UNIFORMS] + sizes[MXG_BLOCK_LIGHT_DATA];
@@ -55,38 +111,15 @@ static void measure(const mxg_result *result, struct check_shader *shader)
     }
 }
 
-/* ---- Parts ---- */
-
-static void add_part(struct store *store, struct check_shader *shader, const char *name, size_t len, uint64_t instructions)
-{
-    for (size_t i = 0; i < shader->num_parts; ++i) {
-        struct check_part *part = &shader->parts[i];
-        if (strncmp(part->name, name, len) == 0 && part->name[len] == '\0') {
-            part->instructions += instructions;
-            return;
-        }
-    }
-    shader->parts = store_grow(store, shader->parts, shader->num_parts, sizeof *shader->parts);
-    shader->parts[shader->num_parts++] = (struct check_part){store_text(store, name, len), instructions};
-}
-
-/* A function by its name; a line of main by the node of the document that it was written for. */
+/* A function by its name; a line of main by the node that it was written for. */
 static void add_spirv_part(struct examiner *examiner, const mxg_result *result, mxg_stage stage,
                            const struct spirv_part *part, struct check_shader *shader)
 {
-    const char *file = NULL, *path = NULL, *name = part->function;
-    uint32_t line = 0, column = 0;
-    if (part->line && mxg_result_source_place(result, stage, part->line, &file, &line, &column, &path) && path && *path)
+    char path[1024];
+    const char *name = part->function;
+    if (part->line && mxg_result_source_path(result, stage, part->line, path, sizeof path))
         name = path;
-    add_part(&examiner->store, shader, name, strcspn(name, "("), part->instructions);
-}
-
-static int compare_parts(const void *a, const void *b)
-{
-    const struct check_part *left = a, *right = b;
-    if (left->instructions != right->instructions)
-        return left->instructions < right->instructions ? 1 : -1;
-    return strcmp(left->name, right->name);
+    add_part(examiner, shader, MEASURE_INSTRUCTIONS, name, strcspn(name, "("), part->instructions);
 }
 
 static void count_parts(struct examiner *examiner, const mxg_result *result, const struct compiled *compiled,
@@ -102,10 +135,6 @@ static void count_parts(struct examiner *examiner, const mxg_result *result, con
             add_spirv_part(examiner, result, (mxg_stage)stage, &parts[i], shader);
         free(parts);
     }
-    if (shader->num_parts)
-        qsort(shader->parts, shader->num_parts, sizeof *shader->parts, compare_parts);
-    if (shader->num_parts > MAX_PARTS)
-        shader->num_parts = MAX_PARTS;
 }
 
 /* ---- Compilation ---- */
@@ -181,7 +210,8 @@ void examine_shader(struct examiner *examiner, const mxg_result *result, struct 
     snprintf(topology, sizeof topology, "%016" PRIx64, info.topology);
     shader->topology = store_text(&examiner->store, topology, strlen(topology));
     shader->measures[MEASURE_CLOSURES] = info.num_closures;
-    measure(result, shader);
+    measure(examiner, result, shader);
     if (examiner->compile && compile_knows_target(shader->target))
         compile(examiner, result, shader, element);
+    rank_parts(shader);
 }

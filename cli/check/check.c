@@ -4,6 +4,7 @@
  * judged and reported.
  */
 #define _POSIX_C_SOURCE 200809L
+#include "cli/check/budget.h"
 #include "cli/check/cache.h"
 #include "cli/check/check.h"
 #include "cli/check/inputs.h"
@@ -38,6 +39,8 @@ struct check {
     struct check_inputs inputs;
     struct pool pool;
     struct cache cache;
+    struct budget budget;
+    const char *budget_args[NUM_MEASURES];
     const char *cache_folder, *shard;
     uint64_t num_found; /* documents, those of other shards too */
 
@@ -99,6 +102,7 @@ static void tell_document(struct check *check, struct slot *slot)
         document = make_failure(&store, slot);
     }
     document->index = slot->index;
+    budget_judge(&check->budget, &store, document);
     check->reports.totals.cached += slot->is_cached;
     reports_document(&check->reports, document);
     store_finish(&store);
@@ -213,6 +217,14 @@ static bool parse_shard(struct check *check)
     return false;
 }
 
+static bool parse_budgets(struct check *check)
+{
+    for (int i = 0; i < NUM_MEASURES; ++i)
+        if (check->budget_args[i] && !budget_add(&check->budget, (enum measure)i, check->budget_args[i]))
+            return false;
+    return true;
+}
+
 /* The worker's command line: the same library, limits and options as here. */
 static void make_worker_args(struct check *check)
 {
@@ -281,6 +293,7 @@ static void finish(struct check *check)
     free(check->slots);
     pool_finish(&check->pool);
     cache_finish(&check->cache);
+    budget_finish(&check->budget);
     inputs_finish(&check->inputs);
     for (size_t i = 0; i + 1 < check->worker_args.len; ++i)
         free((void *)(uintptr_t)check->worker_args.items[i]);
@@ -308,7 +321,7 @@ static int run_if_sensible(struct check *check)
     const char *misuse = find_misuse(check);
     if (misuse)
         fprintf(stderr, "mxgen: %s\n", misuse);
-    return !misuse && find_targets(check) && parse_shard(check) ? run(check) : EXIT_USAGE;
+    return !misuse && find_targets(check) && parse_shard(check) && parse_budgets(check) ? run(check) : EXIT_USAGE;
 }
 
 int command_check(const struct command *command, int argc, char **argv)
@@ -316,7 +329,7 @@ int command_check(const struct command *command, int argc, char **argv)
     if (argc > 1 && strcmp(argv[1], "merge") == 0)
         return check_merge(command, argc - 1, argv + 1);
     struct check check = {.time_limit = 120};
-    struct arg args[16 + NUM_SINK_KINDS] = {
+    struct arg args[16 + NUM_SINK_KINDS + NUM_MEASURES] = {
         {"target", 't', ARG_LIST, "T,...", "targets to generate for (default: glsl)", &check.target_args},
         {"jobs", 'j', ARG_SIZE, "N", "documents at a time (default: as many as there are cores)", &check.jobs},
         {"files-from", 0, ARG_LIST, "FILE", "a list of paths, one on each line; '-': standard input", &check.files_from},
@@ -330,6 +343,8 @@ int command_check(const struct command *command, int argc, char **argv)
     while (args[num_args].name)
         ++num_args;
     num_args += reports_args(&check.reports, args + num_args);
+    for (int i = 0; i < NUM_MEASURES; ++i)
+        args[num_args++] = (struct arg){measure_infos[i].option, 0, ARG_TEXT, "N | T=N,...", measure_infos[i].meaning, &check.budget_args[i]};
     int code;
     if (cli_start(&check.cli, command, args, num_args, CLI_GENERATES, argc, argv, &code))
         code = run_if_sensible(&check);

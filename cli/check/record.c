@@ -68,6 +68,28 @@ static void write_message(struct json_writer *json, const struct check_message *
     json_end(json, '}');
 }
 
+/* "parts": {"instructions": {"main": 12, …}, …} */
+static void write_parts(struct json_writer *json, const struct check_shader *shader)
+{
+    if (shader->num_parts == 0)
+        return;
+    json_key(json, "parts");
+    json_begin(json, '{');
+    for (size_t i = 0; i < shader->num_parts; ++i) {
+        const struct check_part *part = &shader->parts[i];
+        if (i == 0 || part->measure != part[-1].measure) {
+            if (i)
+                json_end(json, '}');
+            json_key(json, measure_infos[part->measure].key);
+            json_begin(json, '{');
+        }
+        json_key(json, part->name);
+        json_count(json, part->count);
+    }
+    json_end(json, '}');
+    json_end(json, '}');
+}
+
 static void write_shader(struct json_writer *json, const struct check_shader *shader, bool with_times)
 {
     json_begin(json, '{');
@@ -78,17 +100,7 @@ static void write_shader(struct json_writer *json, const struct check_shader *sh
     json_put_string(json, "topology", shader->topology);
     for (size_t i = 0; i < NUM_MEASURES; ++i)
         json_put_count(json, measure_infos[i].key, shader->measures[i]);
-    if (shader->num_parts) {
-        json_key(json, "parts");
-        json_begin(json, '[');
-        for (size_t i = 0; i < shader->num_parts; ++i) {
-            json_begin(json, '{');
-            json_put_string(json, "name", shader->parts[i].name);
-            json_put_count(json, "instructions", shader->parts[i].instructions);
-            json_end(json, '}');
-        }
-        json_end(json, ']');
-    }
+    write_parts(json, shader);
     if (shader->num_messages) {
         json_key(json, "messages");
         json_begin(json, '[');
@@ -193,10 +205,14 @@ static void read_message(struct check_message *out, const struct json_value *val
 
 static void read_parts(struct store *store, struct check_shader *out, const struct json_value *parts)
 {
-    out->parts = store_array(store, count_items(parts), sizeof *out->parts);
-    for (const struct json_value *item = parts->first; item; item = item->next)
-        out->parts[out->num_parts++] =
-            (struct check_part){json_get_text(item, "name"), json_get_count(item, "instructions")};
+    for (int measure = 0; measure < NUM_MEASURES; ++measure) {
+        for (const struct json_value *item = json_get(parts, measure_infos[measure].key)->first; item; item = item->next) {
+            if (!item->key)
+                continue;
+            out->parts = store_grow(store, out->parts, out->num_parts, sizeof *out->parts);
+            out->parts[out->num_parts++] = (struct check_part){(enum measure)measure, item->key, item->number > 0.0 ? (uint64_t)item->number : 0};
+        }
+    }
 }
 
 /* Only indices of messages that are there. */

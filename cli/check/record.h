@@ -56,10 +56,11 @@ struct check_message {
     const char *rendered;          /* as a compiler shows it, with notes and the source line */
 };
 
-/* A part of a shader: a function, or what a node of the document became. */
+/* What a shader has so much for: a function or node with its instructions, a node with its bytes of uniforms, a texture. */
 struct check_part {
+    enum measure measure;
     const char *name;
-    uint64_t instructions;
+    uint64_t count;
 };
 
 /* An element for one target. */
@@ -69,7 +70,7 @@ struct check_shader {
     bool compiled;        /* there was a compiler for the target */
     const char *topology; /* hexadecimal; "" where nothing was generated */
     uint64_t measures[NUM_MEASURES];
-    struct check_part *parts; /* the largest first; some are left out */
+    struct check_part *parts; /* of each measure the largest first; some are left out */
     size_t num_parts;
     uint32_t *messages; /* indices into those of the document */
     size_t num_messages;

@@ -326,6 +326,12 @@ MXG_API const char *mxg_result_source(const mxg_result *result, mxg_stage stage,
 MXG_API bool mxg_result_source_place(const mxg_result *result, mxg_stage stage, uint32_t line, const char **out_file,
                                      uint32_t *out_line, uint32_t *out_column, const char **out_path);
 
+/*
+ * The path of the node that a line was written for, also of one inside of a definition: "SR_gold/coat_bsdf". Writes at most `capacity`
+ * bytes with a NUL; returns the length it needs without the NUL, 0 where there is none or no memory.
+ */
+MXG_API size_t mxg_result_source_path(const mxg_result *result, mxg_stage stage, uint32_t line, char *buffer, size_t capacity);
+
 /* Files beside those of the document that the shader depends on: photometric profiles. */
 MXG_API uint32_t mxg_result_num_files(const mxg_result *result);
 MXG_API const char *mxg_result_file(const mxg_result *result, uint32_t index);

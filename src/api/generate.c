@@ -2,6 +2,8 @@
 /* From an element to the source of its shader. */
 #include "api/generation.h"
 
+#include <stdio.h>
+
 static void drop_source(mxg_result *result)
 {
     for (int stage = 0; stage < NUM_STAGES; stage++)
@@ -97,6 +99,52 @@ bool mxg_result_source_place(const mxg_result *result, mxg_stage stage, uint32_t
     if (out_path)
         *out_path = result->origin_paths[origin] ? result->origin_paths[origin] : "";
     return true;
+}
+
+enum { MAX_NAMES = 64 }; /* of a path; outer ones are left out beyond */
+
+struct names {
+    const char *items[MAX_NAMES]; /* the innermost first */
+    uint32_t len;
+};
+
+static void add_name(struct names *names, const struct document *doc, elem_id element)
+{
+    const char *name = str_text(doc->strings, doc_element(doc, element)->name);
+    if (names->len < MAX_NAMES && *name)
+        names->items[names->len++] = name;
+}
+
+/* Names of what was instantiated in what, then those of the elements around the outermost. */
+static void collect_names(const mxg_result *result, uint32_t origin, struct names *out)
+{
+    const struct document *doc = &result->document->layer.doc;
+    const struct ir_origin *origins = result->graph.origins.items;
+    for (; origin; origin = origins[origin].parent) {
+        elem_id element = origins[origin].element;
+        if (element)
+            add_name(out, doc, element);
+        for (; element && !origins[origin].parent && doc_element(doc, element)->parent != doc->root;)
+            if ((element = doc_element(doc, element)->parent) != 0)
+                add_name(out, doc, element);
+    }
+}
+
+size_t mxg_result_source_path(const mxg_result *result, mxg_stage stage, uint32_t line, char *buffer, size_t capacity)
+{
+    struct names names = {.len = 0};
+    size_t len = 0;
+    if (capacity)
+        *buffer = '\0';
+    if (!result || (unsigned)stage >= NUM_STAGES || !result->has_shader)
+        return 0;
+    collect_names(result, origin_of_line(&result->stages[stage], line), &names);
+    while (names.len--) {
+        const char *name = names.items[names.len];
+        int n = snprintf(len < capacity ? buffer + len : NULL, len < capacity ? capacity - len : 0, "%s%s", len ? "/" : "", name);
+        len += n > 0 ? (size_t)n : 0;
+    }
+    return len;
 }
 
 uint32_t mxg_num_targets(void)

@@ -77,7 +77,10 @@ static void add_part(struct emitter *e, struct part_list *list, const struct clo
 
 static void accumulate(struct emitter *e, ir_ref factor, ir_ref value)
 {
+    uint32_t before = e->graph->origin;
+    e->graph->origin = ir_get(e->graph, value)->origin;
     effect(e, EFFECT_ACCUMULATE, e->color, vec3_of(e, closure_mul(e->graph, factor, value)));
+    e->graph->origin = before;
 }
 
 /* color += factor · Σ parts. Leaves that are always there share one line; the others stand behind their guards. */

@@ -166,6 +166,9 @@ static void test_refused_indices(const struct objects *o)
     REQUIRE(!mxg_document_file(o->document, mxg_document_num_files(o->document)));
     REQUIRE(!mxg_result_source(o->result, MXG_NUM_STAGES, NULL));
     REQUIRE(!mxg_result_source_place(o->result, MXG_STAGE_PIXEL, 100000, NULL, NULL, NULL, NULL));
+    REQUIRE_EQ(mxg_result_source_path(o->result, MXG_STAGE_PIXEL, 100000, NULL, 0), 0);
+    REQUIRE_EQ(mxg_result_source_path(o->result, MXG_NUM_STAGES, 1, NULL, 0), 0);
+    REQUIRE_EQ(mxg_result_source_path(NULL, MXG_STAGE_PIXEL, 1, NULL, 0), 0);
 }
 
 /* Accessors of NULL are of something empty, and NULL can be destroyed. */

@@ -69,7 +69,7 @@ static void test_places(const struct bench *b)
 {
     mxg_result *result = generate(b, "glsl", NULL, MXG_OK);
     const char *source = mxg_result_source(result, MXG_STAGE_PIXEL, NULL);
-    bool found = false;
+    bool found = false, inside = false;
     uint32_t line = 1;
     for (const char *c = source; *c; line += *c++ == '\n') {
         const char *file = NULL, *path = NULL;
@@ -77,9 +77,15 @@ static void test_places(const struct bench *b)
         if ((c != source && c[-1] != '\n') || !mxg_result_source_place(result, MXG_STAGE_PIXEL, line, &file, &at_line, &at_column, &path))
             continue;
         REQUIRE(file && path && at_line && at_column);
+        char node[64];
+        size_t len = mxg_result_source_path(result, MXG_STAGE_PIXEL, line, node, sizeof node);
+        REQUIRE(len == strlen(node) && strncmp(node, path, strlen(path)) == 0); /* the same, or inside of it */
+        inside = inside || strncmp(node, "S/", 2) == 0;
         found = found || (strcmp(path, "G/t") == 0 && at_line == 8 && at_column == 5 && strcmp(file, "main.mtlx") == 0);
     }
-    REQUIRE(found);
+    REQUIRE(found && inside);
+    char cut[2];
+    REQUIRE_EQ(mxg_result_source_path(result, MXG_STAGE_PIXEL, 1, cut, sizeof cut), 0);
     REQUIRE(!mxg_result_source_place(result, MXG_STAGE_PIXEL, 1, NULL, NULL, NULL, NULL)); /* "#version" */
     mxg_result_destroy(result);
 }

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+#define _POSIX_C_SOURCE 200809L
+#include "cli/check/budget.h"
+
+#include "cli/cli.h"
+#include "cli/files.h"
+
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define FILE_NAME "mxgen.toml"
+enum { NUM_PARTS = 5 }; /* that a message names */
+
+void budget_add_rule(struct store *store, struct budget_rules *rules, struct budget_rule rule)
+{
+    rules->items = store_grow(store, rules->items, rules->len, sizeof rule);
+    rules->items[rules->len++] = rule;
+}
+
+bool budget_add(struct budget *budget, enum measure measure, const char *text)
+{
+    for (const char *at = text; *at;) {
+        size_t len = strcspn(at, ",");
+        const char *equals = memchr(at, '=', len), *digits = equals ? equals + 1 : at;
+        char *end = NULL;
+        unsigned long long limit = strtoull(digits, &end, 10);
+        if (end != at + len || *digits < '0' || *digits > '9') {
+            fprintf(stderr, "mxgen: '%s' is no budget; write --%s N, or TARGET=N,...\n", text, measure_infos[measure].option);
+            return false;
+        }
+        const char *target = store_text(&budget->store, at, equals ? (size_t)(equals - at) : 0);
+        budget_add_rule(&budget->store, &budget->command_line, (struct budget_rule){measure, target, limit});
+        at += len + (at[len] == ',');
+    }
+    return true;
+}
+
+void budget_finish(struct budget *budget)
+{
+    store_finish(&budget->store);
+    store_finish(&budget->file.store);
+    free(budget->file.folder);
+}
+
+/* ---- The file ---- */
+
+/* The nearest file in the folder and those above it; NULL where there is none. */
+static char *find_file(const char *folder)
+{
+    char *at = cli_format("%s", folder);
+    for (;;) {
+        char *path = *at ? cli_format("%s/" FILE_NAME, at) : cli_format(FILE_NAME);
+        if (files_is_regular(path)) {
+            free(at);
+            return path;
+        }
+        free(path);
+        char *slash = strrchr(at, '/');
+        if (!*at || slash == at)
+            break;
+        *(slash ? slash : at) = '\0';
+    }
+    free(at);
+    return NULL;
+}
+
+static void load_file(struct budget_file *file)
+{
+    char *path = find_file(file->folder);
+    size_t size = 0;
+    char *text = path ? files_read(path, &size) : NULL;
+    if (path)
+        file->path = store_text(&file->store, path, strlen(path));
+    if (text)
+        budget_read_toml(&file->store, file->path, text, &file->rules, &file->fault);
+    free(text);
+    free(path);
+}
+
+/* Documents come folder by folder. */
+static const struct budget_file *file_of(struct budget *budget, const char *document)
+{
+    struct budget_file *file = &budget->file;
+    const char *slash = strrchr(document, '/');
+    char *folder = cli_format("%.*s", slash ? (int)(slash - document) : 0, document);
+    if (file->folder && strcmp(file->folder, folder) == 0) {
+        free(folder);
+        return file;
+    }
+    free(file->folder);
+    store_finish(&file->store);
+    *file = (struct budget_file){.folder = folder};
+    load_file(file);
+    return file;
+}
+
+/* ---- Verdicts ---- */
+
+/* The last rule about a measure for this target, else the last one for all. */
+static const struct budget_rule *find_rule(const struct budget_rules *rules, enum measure measure, const char *target)
+{
+    const struct budget_rule *found = NULL;
+    for (size_t i = 0; i < rules->len; ++i) {
+        const struct budget_rule *rule = &rules->items[i];
+        bool is_own = strcmp(rule->target, target) == 0;
+        if (rule->measure == measure && (is_own || (!*rule->target && (!found || !*found->target))))
+            found = rule;
+    }
+    return found;
+}
+
+static char *describe_parts(const struct check_shader *shader, enum measure measure)
+{
+    char *text = NULL;
+    size_t size = 0, count = 0;
+    FILE *out = open_memstream(&text, &size);
+    for (size_t i = 0; out && i < shader->num_parts && count < NUM_PARTS; ++i) {
+        const struct check_part *part = &shader->parts[i];
+        if (part->measure != measure)
+            continue;
+        fprintf(out, "%s%s %" PRIu64, count++ ? ", " : ": ", part->name, part->count);
+    }
+    if (out)
+        fclose(out);
+    return text;
+}
+
+static void fail(struct store *store, struct check_document *document, const struct check_element *element,
+                 struct check_shader *shader, const struct budget_rule *rule)
+{
+    const struct measure_info *info = &measure_infos[rule->measure];
+    char *parts = describe_parts(shader, rule->measure);
+    char *text = cli_format("'%s' for %s has %" PRIu64 " %s, where %" PRIu64 " are allowed%s", element->path, shader->target,
+                            shader->measures[rule->measure], info->noun, rule->limit, parts ? parts : "");
+    char *rendered = cli_format("%s: error: %s [over-budget]\n", document->file, text);
+    struct check_message message = {.id = "over-budget",
+                                    .text = store_text(store, text, strlen(text)),
+                                    .file = document->file,
+                                    .element = element->path,
+                                    .target = shader->target,
+                                    .rendered = store_text(store, rendered, strlen(rendered))};
+    uint32_t index = check_add_message(store, document, &message);
+    shader->messages = store_grow(store, shader->messages, shader->num_messages, sizeof index);
+    shader->messages[shader->num_messages++] = index;
+    check_fail(&shader->failed, CHECK_BUDGET);
+    check_fail(&document->failed, CHECK_BUDGET);
+    free(rendered);
+    free(text);
+    free(parts);
+}
+
+static void judge_shader(const struct budget *budget, const struct budget_file *file, struct store *store,
+                         struct check_document *document, const struct check_element *element, struct check_shader *shader)
+{
+    for (int measure = 0; measure < NUM_MEASURES; ++measure) {
+        const struct budget_rule *rule = find_rule(&budget->command_line, (enum measure)measure, shader->target);
+        if (!rule)
+            rule = find_rule(&file->rules, (enum measure)measure, shader->target);
+        if (rule && shader->measures[measure] > rule->limit)
+            fail(store, document, element, shader, rule);
+    }
+}
+
+static const char *copy(struct store *store, const char *text)
+{
+    return store_text(store, text, strlen(text));
+}
+
+void budget_judge(struct budget *budget, struct store *store, struct check_document *document)
+{
+    const struct budget_file *file = file_of(budget, document->file);
+    if (file->fault.id) {
+        struct check_message message = file->fault;
+        message.text = copy(store, message.text);
+        message.file = copy(store, message.file);
+        message.rendered = copy(store, message.rendered);
+        check_add_message(store, document, &message);
+        check_fail(&document->failed, CHECK_BUDGET);
+    }
+    for (size_t i = 0; i < document->num_elements; ++i)
+        for (size_t k = 0; k < document->elements[i].num_shaders; ++k)
+            judge_shader(budget, file, store, document, &document->elements[i], &document->elements[i].shaders[k]);
+}
