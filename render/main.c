@@ -31,7 +31,7 @@ static const char *const background_names[] = {"backdrop", "environment", "none"
 struct job {
     struct cli cli;
     struct painter painter;
-    const char *output, *element, *look, *size, *camera, *scene, *background, *missing_texture, *baked;
+    const char *output, *copy, *element, *look, *size, *camera, *scene, *background, *missing_texture, *baked;
     struct arg_list settings, environments;
     size_t samples, frame, frames;
     enum scene_kind scene_kind;
@@ -234,8 +234,11 @@ static void tell_progress(const struct job *job, size_t done, size_t count, cons
 static void draw_one(struct job *job, const struct subject *subject)
 {
     struct image picture;
-    if (picture_draw(&job->painter, subject, &picture))
+    if (picture_draw(&job->painter, subject, &picture)) {
         picture_write(&job->painter, job->output, &picture);
+        if (job->copy)
+            picture_write(&job->painter, job->copy, &picture);
+    }
     image_finish(&picture);
 }
 
@@ -513,6 +516,7 @@ int main(int argc, char **argv)
                       .painter.studio = STUDIO_DEFAULTS};
     const struct arg args[] = {
         {"output", 'o', ARG_TEXT, "FILE", "the picture to write; the ending chooses the format", &job.output},
+        {"copy", 0, ARG_TEXT, "FILE", "writes a single picture to this file too, in the format of its ending", &job.copy},
         {"size", 's', ARG_TEXT, "W[xH]", "its size in pixels (default: 512; 160 for each on a sheet)", &job.size},
         {"element", 'e', ARG_TEXT, "PATH", "what to draw (default: the first that can be rendered)", &job.element},
         {"look", 0, ARG_TEXT, "NAME", "draws the materials that a look assigns", &job.look},

@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
+#include <unistd.h>
 
 double examine_clock(void)
 {
@@ -166,6 +167,8 @@ static void examine_element(struct examiner *examiner, const mxg_document *docum
         shader->topology = "";
         generate(examiner, document, element->path, shader);
     }
+    if (examiner->render && element->num_shaders && element->shaders[0].failed != CHECK_GENERATE)
+        examine_picture(examiner, element);
 }
 
 const struct check_document *examine(struct examiner *examiner, const char *path)
@@ -195,4 +198,7 @@ void examiner_finish(struct examiner *examiner)
     store_finish(&examiner->store);
     if (examiner->is_compiler_ready)
         compile_end();
+    if (examiner->folder)
+        rmdir(examiner->folder);
+    free(examiner->folder);
 }

@@ -15,6 +15,7 @@ struct examiner {
     struct store store; /* of the document at hand */
     struct check_document *document;
     bool is_compiler_ready;
+    char *folder; /* for pictures; NULL: not needed yet */
 };
 
 /* The record lives until the next call. */
@@ -23,6 +24,9 @@ void examiner_finish(struct examiner *examiner);
 
 /* examine_shader.c: what was generated is measured and compiled. */
 void examine_shader(struct examiner *examiner, const mxg_result *result, struct check_shader *shader, const char *element);
+
+/* examine_picture.c: draws an element. */
+void examine_picture(struct examiner *examiner, struct check_element *element);
 
 /* Adds a message of the current document for a shader; its text is copied. */
 void examine_add(struct examiner *examiner, struct check_shader *shader, struct check_message message);

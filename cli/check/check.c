@@ -4,11 +4,13 @@
  * judged and reported.
  */
 #define _POSIX_C_SOURCE 200809L
+#include "cli/check/baseline.h"
 #include "cli/check/budget.h"
 #include "cli/check/cache.h"
 #include "cli/check/check.h"
 #include "cli/check/inputs.h"
 #include "cli/check/pool.h"
+#include "cli/files.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -40,6 +42,8 @@ struct check {
     struct pool pool;
     struct cache cache;
     struct budget budget;
+    struct baseline baseline;
+    bool update_baseline;
     const char *budget_args[NUM_MEASURES];
     const char *cache_folder, *shard;
     uint64_t num_found; /* documents, those of other shards too */
@@ -103,6 +107,8 @@ static void tell_document(struct check *check, struct slot *slot)
     }
     document->index = slot->index;
     budget_judge(&check->budget, &store, document);
+    if (check->reports.run.is_compared)
+        baseline_compare(&check->baseline, &store, document);
     check->reports.totals.cached += slot->is_cached;
     reports_document(&check->reports, document);
     store_finish(&store);
@@ -240,6 +246,20 @@ static void make_worker_args(struct check *check)
     args_append(&check->worker_args, NULL);
 }
 
+/* A baseline that is there is compared with; one that is not, or is to be new, is written. */
+static bool prepare_baseline(struct check *check)
+{
+    const char **path = &check->reports.paths[SINK_BASELINE];
+    if (!*path || !files_is_regular(*path))
+        return true;
+    check->reports.run.is_compared = baseline_open(&check->baseline, *path);
+    if (!check->reports.run.is_compared)
+        report_error(&check->cli.report, "report-unreadable", "cannot read '%s': %s", *path, check->baseline.reader.fault);
+    if (!check->update_baseline)
+        *path = NULL;
+    return check->reports.run.is_compared;
+}
+
 static bool prepare(struct check *check)
 {
     const struct cli *cli = &check->cli;
@@ -257,6 +277,8 @@ static bool prepare(struct check *check)
     run->verbose = cli->verbose;
     run->compiles = !check->no_compile;
     run->with_times = check->stats;
+    if (!prepare_baseline(check))
+        return false;
     check->num_slots = 4 * check->jobs + 64;
     check->slots = calloc(check->num_slots, sizeof *check->slots);
     return check->slots && reports_begin(&check->reports, &check->cli.report);
@@ -274,12 +296,14 @@ static int run(struct check *check)
     cache_init(&check->cache, check->cache_folder, &check->worker_args, &check->cli.library_paths);
     pool_init(&check->pool, (char *const *)(uintptr_t)check->worker_args.items, check->jobs, (double)check->time_limit);
     check_all(check);
+    if (check->reports.run.is_compared && !check->reports.run.num_shards)
+        check->reports.totals.changes[CHANGE_GONE] += baseline_list_gone(&check->baseline, check->reports.text.out);
     reports_end(&check->reports, report, !check->pool.fault);
     if (check->cache.fault)
         fprintf(stderr, "warning: the cache '%s' cannot be written: %s [output-failed]\n", check->cache_folder, check->cache.fault);
     if (totals->documents == 0 && !check->num_found && !check->inputs.failed && !check->pool.fault)
         report_error(report, "nothing-to-check", "no document was found");
-    bool good = !report->errors && !check->inputs.failed && totals->failed[CHECK_PASSED] == totals->documents;
+    bool good = !report->errors && !check->inputs.failed && reports_are_good(&check->reports);
     return good ? EXIT_DONE : EXIT_FAULT;
 }
 
@@ -294,6 +318,7 @@ static void finish(struct check *check)
     pool_finish(&check->pool);
     cache_finish(&check->cache);
     budget_finish(&check->budget);
+    baseline_close(&check->baseline);
     inputs_finish(&check->inputs);
     for (size_t i = 0; i + 1 < check->worker_args.len; ++i)
         free((void *)(uintptr_t)check->worker_args.items[i]);
@@ -334,9 +359,11 @@ int command_check(const struct command *command, int argc, char **argv)
         {"jobs", 'j', ARG_SIZE, "N", "documents at a time (default: as many as there are cores)", &check.jobs},
         {"files-from", 0, ARG_LIST, "FILE", "a list of paths, one on each line; '-': standard input", &check.files_from},
         {"no-compile", 0, ARG_FLAG, NULL, "generates, and compiles nothing", &check.no_compile},
-        {"time-limit", 0, ARG_SIZE, "S", "seconds that a document may take (default: 120)", &check.time_limit},
+        {"render", 0, ARG_FLAG, NULL, "draws every element, for the gallery and to compare with a baseline", &check.render},
+        {"time-limit", 0, ARG_SIZE, "S", "seconds that a step of a document may take, one element for one target (default: 120)", &check.time_limit},
         {"cache", 0, ARG_TEXT, "DIR", "keeps what was found, and checks again only what has changed", &check.cache_folder},
         {"shard", 0, ARG_TEXT, "K/N", "checks the K-th of N parts; 'check merge' joins their JSON reports", &check.shard},
+        {"update-baseline", 0, ARG_FLAG, NULL, "writes the baseline anew, after the comparison", &check.update_baseline},
         {"stats", 0, ARG_FLAG, NULL, "tells times, the slowest documents and the largest shaders", &check.stats},
     };
     size_t num_args = 0;

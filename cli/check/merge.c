@@ -106,7 +106,6 @@ static void tell_all(struct merge *merge)
 
 static int run(struct merge *merge)
 {
-    const struct check_totals *totals = &merge->reports.totals;
     if (!open_parts(merge))
         return EXIT_FAULT;
     merge->reports.run = (struct check_run){
@@ -115,13 +114,14 @@ static int run(struct merge *merge)
         .quiet = merge->cli.quiet,
         .verbose = merge->cli.verbose,
         .compiles = json_get(merge->parts[0].reader.header, "compiles")->kind == JSON_TRUE,
+        .is_compared = json_get(merge->parts[0].reader.header, "compared")->kind == JSON_TRUE,
         .with_times = merge->stats,
     };
     if (!reports_begin(&merge->reports, &merge->cli.report))
         return EXIT_FAULT;
     tell_all(merge);
     reports_end(&merge->reports, &merge->cli.report, merge->cli.report.errors == 0);
-    return merge->cli.report.errors || totals->failed[CHECK_PASSED] != totals->documents ? EXIT_FAULT : EXIT_DONE;
+    return merge->cli.report.errors || !reports_are_good(&merge->reports) ? EXIT_FAULT : EXIT_DONE;
 }
 
 int check_merge(const struct command *command, int argc, char **argv)

@@ -204,6 +204,7 @@ static bool take_frame(struct pool *pool, struct pool_worker *worker, struct poo
     if (header.kind == FRAME_MARK) {
         free(worker->mark);
         worker->mark = body;
+        worker->deadline = now() + pool->time_limit; /* it goes on */
         return false;
     }
     worker->is_ready = true;

@@ -15,7 +15,7 @@ struct pool {
     char *const *argv; /* of a worker; the first is the program */
     struct pool_worker *workers;
     size_t num_workers, num_busy;
-    double time_limit; /* seconds for a document */
+    double time_limit; /* seconds for a step of a document */
     const char *fault; /* workers cannot be started: why; nothing more can be done */
     char reason[256];
 };

@@ -15,11 +15,22 @@ const struct measure_info measure_infos[NUM_MEASURES] = {
 #undef MEASURE
 };
 
+static const char *const change_names[NUM_CHECK_CHANGES] = {
+#define CHANGE(name, text) text,
+    CHECK_CHANGES(CHANGE)
+#undef CHANGE
+};
+
 static const char *const severities[] = {"error", "warning", "note"};
 
 const char *check_stage_name(enum check_stage stage)
 {
     return stage_names[stage];
+}
+
+const char *check_change_name(enum check_change_kind kind)
+{
+    return change_names[kind];
 }
 
 void check_fail(enum check_stage *failed, enum check_stage stage)
@@ -128,6 +139,24 @@ static void write_element(struct json_writer *json, const struct check_element *
     json_end(json, '}');
 }
 
+static void write_changes(struct json_writer *json, const struct check_document *document)
+{
+    if (document->num_changes == 0)
+        return;
+    json_key(json, "changes");
+    json_begin(json, '[');
+    for (size_t i = 0; i < document->num_changes; ++i) {
+        const struct check_change *change = &document->changes[i];
+        json_begin(json, '{');
+        json_put_string(json, "kind", change_names[change->kind]);
+        json_put_string(json, "element", change->element);
+        json_put_string(json, "target", change->target);
+        json_put_string(json, "text", change->text);
+        json_end(json, '}');
+    }
+    json_end(json, ']');
+}
+
 void check_write_document(FILE *out, const struct check_document *document, bool with_times)
 {
     struct json_writer json = {.out = out};
@@ -151,6 +180,7 @@ void check_write_document(FILE *out, const struct check_document *document, bool
     for (size_t i = 0; i < document->num_elements; ++i)
         write_element(&json, &document->elements[i], with_times);
     json_end(&json, ']');
+    write_changes(&json, document);
     json_put_number(&json, "loadMs", with_times ? document->load_ms : 0.0);
     json_put_number(&json, "validateMs", with_times ? document->validate_ms : 0.0);
     json_put_number(&json, "renderMs", with_times ? document->render_ms : 0.0);
@@ -250,6 +280,15 @@ static void read_element(struct store *store, struct check_element *out, const s
         read_shader(store, &out->shaders[out->num_shaders++], item, num_messages);
 }
 
+static void read_changes(struct store *store, struct check_document *out, const struct json_value *changes)
+{
+    out->changes = store_array(store, count_items(changes), sizeof *out->changes);
+    for (const struct json_value *item = changes->first; item; item = item->next)
+        out->changes[out->num_changes++] = (struct check_change){
+            (enum check_change_kind)find_name(json_get_text(item, "kind"), change_names, NUM_CHECK_CHANGES),
+            json_get_text(item, "element"), json_get_text(item, "target"), json_get_text(item, "text")};
+}
+
 struct check_document *check_read_document(struct store *store, const char *text, size_t len)
 {
     const struct json_value *value = json_parse(store, text, len);
@@ -270,6 +309,7 @@ struct check_document *check_read_document(struct store *store, const char *text
     document->elements = store_array(store, count_items(elements), sizeof *document->elements);
     for (const struct json_value *item = elements->first; item; item = item->next)
         read_element(store, &document->elements[document->num_elements++], item, document->num_messages);
+    read_changes(store, document, json_get(value, "changes"));
     document->load_ms = json_get_number(value, "loadMs");
     document->validate_ms = json_get_number(value, "validateMs");
     document->render_ms = json_get_number(value, "renderMs");

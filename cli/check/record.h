@@ -85,6 +85,31 @@ struct check_element {
     const char *signature; /* of the picture, see picture.h */
 };
 
+/* What differs from a baseline. */
+#define CHECK_CHANGES(X)                                                                                               \
+    X(FAILS, "fails") /* newly */                                                                                      \
+    X(FIXED, "fixed")                                                                                                  \
+    X(TOPOLOGY, "topology")                                                                                            \
+    X(SIZE, "size")                                                                                                    \
+    X(PICTURE, "picture")                                                                                              \
+    X(NEW, "new")                                                                                                      \
+    X(GONE, "gone")
+
+enum check_change_kind {
+#define CHANGE(name, text) CHANGE_##name,
+    CHECK_CHANGES(CHANGE)
+#undef CHANGE
+    NUM_CHECK_CHANGES
+};
+
+const char *check_change_name(enum check_change_kind kind);
+
+struct check_change {
+    enum check_change_kind kind;
+    const char *element, *target; /* "": the document; all targets */
+    const char *text;
+};
+
 struct check_document {
     uint64_t index; /* among all documents, those of other shards too */
     const char *file;
@@ -96,7 +121,8 @@ struct check_document {
     struct check_element *elements;
     size_t num_elements;
     double load_ms, validate_ms, render_ms;
-    bool is_changed; /* since the baseline; not part of the record */
+    struct check_change *changes; /* since the baseline */
+    size_t num_changes;
 };
 
 /* The document's failure becomes that of the stage, unless it failed earlier. */

@@ -5,7 +5,7 @@
 
 const struct sink_kind *const sink_kinds[NUM_SINK_KINDS] = {
     [SINK_JSON] = &sink_json, [SINK_SARIF] = &sink_sarif,     [SINK_JUNIT] = &sink_junit,
-    [SINK_HTML] = &sink_html, [SINK_DEPFILE] = &sink_depfile,
+    [SINK_HTML] = &sink_html, [SINK_DEPFILE] = &sink_depfile, [SINK_BASELINE] = &sink_baseline,
 };
 
 static void begin_sink(struct sink *sink, const struct sink_kind *kind, const struct check_run *run, FILE *out)
@@ -67,6 +67,15 @@ static void add_shader(struct check_totals *totals, const struct check_shader *s
         add_uncompiled(totals, shader->target, run);
 }
 
+static void add_changes(struct check_totals *totals, const struct check_document *document)
+{
+    bool has[NUM_CHECK_CHANGES] = {false};
+    for (size_t i = 0; i < document->num_changes; ++i)
+        has[document->changes[i].kind] = true;
+    for (size_t i = 0; i < NUM_CHECK_CHANGES; ++i)
+        totals->changes[i] += has[i];
+}
+
 static void add_document(struct check_totals *totals, const struct check_document *document, const struct check_run *run)
 {
     ++totals->documents;
@@ -80,6 +89,7 @@ static void add_document(struct check_totals *totals, const struct check_documen
     for (size_t i = 0; i < document->num_elements; ++i)
         for (size_t k = 0; k < document->elements[i].num_shaders; ++k)
             add_shader(totals, &document->elements[i].shaders[k], run);
+    add_changes(totals, document);
     totals->load_ms += document->load_ms;
     totals->validate_ms += document->validate_ms;
     totals->render_ms += document->render_ms;
@@ -101,6 +111,12 @@ void reports_document(struct check_reports *reports, const struct check_document
     for (size_t i = 0; i < NUM_SINK_KINDS; ++i)
         tell(&reports->files[i], document);
     tell(&reports->text, document);
+}
+
+bool reports_are_good(const struct check_reports *reports)
+{
+    const struct check_totals *totals = &reports->totals;
+    return reports->run.is_compared ? totals->changes[CHANGE_FAILS] == 0 : totals->failed[CHECK_PASSED] == totals->documents;
 }
 
 bool reports_end(struct check_reports *reports, struct report *report, bool keep)

@@ -15,6 +15,7 @@ enum { MAX_TARGETS = 16 };
 struct check_totals {
     uint64_t documents, empty /* no elements */, elements, shaders, errors, warnings, cached;
     uint64_t failed[NUM_CHECK_STAGES]; /* documents, by the stage; at CHECK_PASSED those that passed */
+    uint64_t changes[NUM_CHECK_CHANGES]; /* since a baseline: documents with such a change; CHANGE_GONE: those that are not there too */
     const char *uncompiled[MAX_TARGETS]; /* targets that there is no compiler for */
     size_t num_uncompiled;
     double load_ms, validate_ms, generate_ms, compile_ms, render_ms; /* of all workers */
@@ -25,7 +26,8 @@ struct check_run {
     const char *const *targets;
     size_t num_targets;
     bool quiet, verbose, compiles;
-    bool with_times; /* reports tell times, which differ from run to run */
+    bool is_compared; /* with a baseline */
+    bool with_times;  /* reports tell times, which differ from run to run */
     uint64_t shard, num_shards; /* from 1; 0: this is all */
     const char *outputs[8]; /* the reports that are written to files */
     size_t num_outputs;
@@ -48,8 +50,8 @@ struct sink_kind {
 };
 
 /* All kinds that write files; text is always written. What a depfile is about comes before it. */
-enum { SINK_JSON, SINK_SARIF, SINK_JUNIT, SINK_HTML, SINK_DEPFILE, NUM_SINK_KINDS };
+enum { SINK_JSON, SINK_SARIF, SINK_JUNIT, SINK_HTML, SINK_DEPFILE, SINK_BASELINE, NUM_SINK_KINDS };
 extern const struct sink_kind *const sink_kinds[NUM_SINK_KINDS];
-extern const struct sink_kind sink_text, sink_json, sink_sarif, sink_junit, sink_html, sink_depfile;
+extern const struct sink_kind sink_text, sink_json, sink_sarif, sink_junit, sink_html, sink_depfile, sink_baseline;
 
 #endif

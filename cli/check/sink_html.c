@@ -49,6 +49,32 @@ static const char *stage_of(const struct check_document *document, const struct 
     return check_stage_name(failed);
 }
 
+/* A change of the document is one of all its elements. */
+static bool is_change_of(const struct check_change *change, const struct check_element *element)
+{
+    return !element || !*change->element || strcmp(change->element, element->path) == 0;
+}
+
+static bool has_changed(const struct check_document *document, const struct check_element *element)
+{
+    for (size_t i = 0; i < document->num_changes; ++i)
+        if (is_change_of(&document->changes[i], element))
+            return true;
+    return false;
+}
+
+static void write_changes(FILE *out, const struct check_document *document, const struct check_element *element)
+{
+    for (size_t i = 0; i < document->num_changes; ++i) {
+        const struct check_change *change = &document->changes[i];
+        if (!is_change_of(change, element))
+            continue;
+        fprintf(out, "<p class=\"change\">%s: %s%s", check_change_name(change->kind), change->target, *change->target ? ": " : "");
+        markup_text(out, change->text);
+        fputs("</p>", out);
+    }
+}
+
 static void begin_card(struct sink *sink, const struct check_document *document, const struct check_element *element)
 {
     const char *stage = stage_of(document, element);
@@ -57,7 +83,7 @@ static void begin_card(struct sink *sink, const struct check_document *document,
         warned = warned || document->messages[i].severity == MXG_SEVERITY_WARNING;
     bool passed = strcmp(stage, check_stage_name(CHECK_PASSED)) == 0;
     fprintf(sink->out, "<article class=\"%s%s%s\"", passed ? "passed" : "failed", warned ? " warned" : "",
-            document->is_changed ? " changed" : "");
+            has_changed(document, element) ? " changed" : "");
     for (size_t i = 0; element && i < NUM_MEASURES; ++i)
         fprintf(sink->out, " data-%s=\"%" PRIu64 "\"", measure_infos[i].option + strlen("max-"), largest(element, i));
     putc('>', sink->out);
@@ -99,6 +125,7 @@ static void write_card(struct sink *sink, const struct check_document *document,
     begin_card(sink, document, element);
     if (element)
         write_table(sink->out, element);
+    write_changes(sink->out, document, element);
     for (size_t i = 0; i < document->num_messages; ++i) {
         const struct check_message *message = &document->messages[i];
         if (!is_about(message, element))

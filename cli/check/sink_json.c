@@ -16,6 +16,10 @@ static void begin(struct sink *sink)
     json_end(&json, ']');
     json_key(&json, "compiles");
     json_bool(&json, sink->run->compiles);
+    if (sink->run->is_compared && sink->kind == &sink_json) {
+        json_key(&json, "compared");
+        json_bool(&json, true);
+    }
     if (sink->run->num_shards) {
         json_key(&json, "shard");
         json_begin(&json, '{');
@@ -42,6 +46,15 @@ static void put_stages(struct json_writer *json, const struct check_totals *tota
     json_end(json, '}');
 }
 
+static void put_changes(struct json_writer *json, const struct check_totals *totals)
+{
+    json_key(json, "changes");
+    json_begin(json, '{');
+    for (int kind = 0; kind < NUM_CHECK_CHANGES; ++kind)
+        json_put_count(json, check_change_name((enum check_change_kind)kind), totals->changes[kind]);
+    json_end(json, '}');
+}
+
 static void end(struct sink *sink, const struct check_totals *totals)
 {
     struct json_writer json = {.out = sink->out};
@@ -60,9 +73,28 @@ static void end(struct sink *sink, const struct check_totals *totals)
     json_put_count(&json, "errors", totals->errors);
     json_put_count(&json, "warnings", totals->warnings);
     put_stages(&json, totals);
+    if (sink->run->is_compared && sink->kind == &sink_json)
+        put_changes(&json, totals);
     json_end(&json, '}');
     json_end(&json, '}');
     fputc('\n', sink->out);
 }
 
+/* A baseline: the same without pictures, of which signatures are enough, and without what came of a comparison. */
+static void write_plain(struct sink *sink, const struct check_document *document)
+{
+    struct check_document plain = *document;
+    struct store store = {0};
+    plain.num_changes = 0;
+    plain.elements = store_array(&store, plain.num_elements, sizeof *plain.elements);
+    for (size_t i = 0; i < plain.num_elements; ++i) {
+        plain.elements[i] = document->elements[i];
+        plain.elements[i].picture = "";
+    }
+    write_document(sink, &plain);
+    store_finish(&store);
+}
+
+const struct sink_kind sink_baseline = {"baseline", "compares with this report of an earlier run; writes it where there is none", begin,
+                                        write_plain, end};
 const struct sink_kind sink_json = {"json", "writes all that was found as JSON", begin, write_document, end};

@@ -83,6 +83,18 @@ static bool has_warning(const struct check_document *document)
     return false;
 }
 
+/* "topology: 'Gold', glsl: another shader: …" */
+static void print_changes(FILE *out, const struct check_document *document)
+{
+    for (size_t i = 0; i < document->num_changes; ++i) {
+        const struct check_change *change = &document->changes[i];
+        fprintf(out, "changed %s (%s)", document->file, check_change_name(change->kind));
+        if (*change->element)
+            fprintf(out, " '%s'", change->element);
+        fprintf(out, "%s%s: %s\n", *change->target ? " for " : "", change->target, change->text);
+    }
+}
+
 static void print_document(struct sink *sink, const struct check_document *document)
 {
     const struct check_run *run = sink->run;
@@ -95,6 +107,15 @@ static void print_document(struct sink *sink, const struct check_document *docum
     for (size_t i = 0; i < document->num_messages; ++i)
         if (document->messages[i].severity == MXG_SEVERITY_ERROR || !run->quiet)
             fputs(document->messages[i].rendered, sink->out);
+    print_changes(sink->out, document);
+}
+
+static void print_comparison(FILE *out, const struct check_totals *totals)
+{
+    fputs("since the baseline:", out);
+    for (int kind = 0; kind < NUM_CHECK_CHANGES; ++kind)
+        fprintf(out, "%s %s %" PRIu64, kind ? "," : "", check_change_name((enum check_change_kind)kind), totals->changes[kind]);
+    fputs(" (documents)\n", out);
 }
 
 /* ---- Summary ---- */
@@ -148,6 +169,8 @@ static void end(struct sink *sink, const struct check_totals *totals)
     if (totals->cached)
         fprintf(sink->out, "; %" PRIu64 " documents unchanged since they were checked", totals->cached);
     fputc('\n', sink->out);
+    if (sink->run->is_compared)
+        print_comparison(sink->out, totals);
     print_failures(sink->out, totals);
 }
 

@@ -1,0 +1,110 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Budgets and baselines of mxgen check. Arguments: mxgen, whether shaders can be compiled, whether pictures can be drawn (yes or no).
+mxgen=$(realpath "$1") compiles=$2 draws=$3
+here=$(cd "$(dirname "$0")" && pwd)
+. "$here/../programs/common.sh"
+. "$here/materials.sh"
+export MESA_SHADER_CACHE_DISABLE=true
+mkdir -p show/deep/deeper
+material Near >show/deep/near.mtlx
+material Deep >show/deep/deeper/deep.mtlx
+quick=(--no-compile -t glsl,essl)
+
+# Budgets on the command line
+check 'a budget that is kept' exits 0 "$mxgen" check show "${quick[@]}" --max-source-bytes 1000000
+check 'a budget that is not' exits 1 "$mxgen" check show/deep/near.mtlx "${quick[@]}" --max-source-bytes 1000 --json over.json
+check 'fails every target' says over.json '[(m["id"], m["target"]) for m in d[0]["messages"]]' "[('over-budget', 'glsl'), ('over-budget', 'essl')]"
+check 'at the stage budget' says over.json '(d[0]["stage"], d[0]["elements"][0]["shaders"][0]["stage"])' "('budget', 'budget')"
+check 'for one target' exits 1 "$mxgen" check show/deep/near.mtlx "${quick[@]}" --max-uniform-bytes essl=10,glsl=100000 --json one.json
+check 'fails that one' says one.json '[s["status"] for s in d[0]["elements"][0]["shaders"]]' "['passed', 'failed']"
+check 'and names the node' grep -Eq "bytes of uniforms, where 10 are allowed: SR [0-9]+ \[over-budget\]" out
+check 'samplers by name' eval 'exits 1 "$mxgen" check show/deep/near.mtlx "${quick[@]}" --max-samplers 1 && grep -q "has 2 samplers, where 1 are allowed: u_envIrradiance 1, u_envRadiance 1 " out'
+check 'closures' exits 1 "$mxgen" check show "${quick[@]}" --max-closures 1
+check 'a budget of 0 is one' exits 1 "$mxgen" check show "${quick[@]}" --max-closures 0
+check 'what is no number' exits 2 "$mxgen" check show --max-closures many
+check 'has nothing behind it' exits 2 "$mxgen" check show --max-closures 1x
+if [ "$compiles" = yes ]; then
+    check 'instructions' exits 1 "$mxgen" check show/deep/near.mtlx --max-instructions 500
+    check 'name functions and nodes' grep -Eq 'instructions, where 500 are allowed: .*(, mx_ggx|: mx_ggx).*\[over-budget\]' out
+    check 'as many as there are' eval '[ "$(grep -o "SR/[a-z]* [0-9]*" out | wc -l)" -ge 2 ]'
+fi
+
+# Budgets in files
+cat >show/mxgen.toml <<'END'
+# for the whole show
+[tool]
+max-closures = "somebody else's"
+[budget]
+max-source-bytes = 1_000 # bytes
+[budget.essl]
+max-source-bytes = 1_000_000
+END
+check 'a file' exits 1 "$mxgen" check show "${quick[@]}" --json file.json
+check 'holds for what lies below it' says file.json '[s["status"] for x in d for s in x["elements"][0]["shaders"]]' "['failed', 'passed', 'failed', 'passed']"
+check 'the command line says more' exits 0 "$mxgen" check show "${quick[@]}" --max-source-bytes 1000000
+check 'about its own measures' exits 1 "$mxgen" check show "${quick[@]}" --max-closures 100
+printf '[budget]\nmax-closures = 100\n' >show/deep/deeper/mxgen.toml
+check 'the nearest file holds' eval '"$mxgen" check show "${quick[@]}" --json near.json >out; says near.json "[x[\"status\"] for x in d]" "['"'passed', 'failed'"']"'
+for fault in 'max-closure = 1' 'max-closures = many' 'max-closures = 1__0' 'max-closures' '[budget.gsls]' '[budget'; do
+    printf '[budget]\n\n%s\n' "$fault" >show/deep/deeper/mxgen.toml
+    check "a fault in a file: $fault" exits 1 "$mxgen" check show/deep/deeper "${quick[@]}"
+    check 'is told with its line' grep -q '^show/deep/deeper/mxgen.toml:3: error: .*\[budget-invalid\]' out
+done
+rm show/mxgen.toml show/deep/deeper/mxgen.toml
+
+# Baselines
+changes() { json "$1" '[(x["file"].split("/")[-1], c["kind"]) for x in d for c in x.get("changes", [])]'; }
+compared() { tail -n 2 out | head -n 1; }
+material Bad '1, 2' >show/bad.mtlx
+check 'a baseline is written' exits 1 "$mxgen" check show "${quick[@]}" --baseline base.json
+check 'with everything' says base.json 'len(d)' 3
+check 'what is as it was passes, known failures too' exits 0 "$mxgen" check show "${quick[@]}" --baseline base.json --json same.json
+check 'and has no changes' is "$(changes same.json)" '[]'
+check 'the baseline stays as it is' says base.json 'len(d)' 3
+material Near 0.9 >show/deep/near.mtlx # a value of a uniform
+check 'another value of a uniform is no change' eval 'exits 0 "$mxgen" check show "${quick[@]}" --baseline base.json --json value.json && is "$(changes value.json)" "[]"'
+sed 's/<input.*specular_rough.*/<input name="coat" type="float" value="0.5"\/>/; /<.input>/d' show/deep/near.mtlx >near && mv near show/deep/near.mtlx
+material Good >show/bad.mtlx
+material More >show/more.mtlx
+material Worse '1, 2' >show/deep/deeper/deep.mtlx
+"$mxgen" check show --no-compile -t glsl --interface authored --baseline other.json >/dev/null
+check 'what newly fails' exits 1 "$mxgen" check show "${quick[@]}" --baseline base.json --json changed.json
+check 'is told' grep -q '^changed show/deep/deeper/deep.mtlx (fails): fails at validate, where it passed' out
+check 'with what got better and what is new' eval 'changes changed.json | grep -q "bad.mtlx., .fixed.*deep.mtlx., .fails.*more.mtlx., .new"'
+check 'and summed up' is "$(compared | grep -o 'fails [0-9]*, fixed [0-9]*')" 'fails 1, fixed 1'
+rm show/more.mtlx show/deep/near.mtlx
+check 'what is gone' exits 1 "$mxgen" check show "${quick[@]}" --baseline base.json
+check 'is told, too' grep -q '^changed show/deep/near.mtlx (gone)' out
+check 'a baseline is renewed' eval '"$mxgen" check show "${quick[@]}" --baseline base.json --update-baseline >/dev/null; exits 0 "$mxgen" check show "${quick[@]}" --baseline base.json'
+material Near >show/deep/near.mtlx
+mkdir library
+"$mxgen" check show/deep/near.mtlx "${quick[@]}" --baseline sizes.json >/dev/null
+check 'other options' exits 0 "$mxgen" check show/deep/near.mtlx "${quick[@]}" --interface reduced --baseline sizes.json
+check 'make another shader' grep -q "(topology) 'Near' for glsl: another shader" out
+check 'of another size' grep -Eq "\(size\) 'Near' for essl: [0-9]+ bytes of source, before [0-9]+ \(-[0-9.]+ %\)" out
+check 'a baseline that is none' exits 1 "$mxgen" check show --baseline show/bad.mtlx
+check 'is told as well' grep -q '\[report-unreadable\]' err
+if python3 -c 'import jsonschema' 2>/dev/null; then
+    for report in over changed base; do
+        check "$report.json is as its schema says" validates "$here/../../docs/check.schema.json" $report.json
+    done
+fi
+
+# Pictures
+if [ "$draws" = yes ]; then
+    sed 's|<input.*specular_rough.*/>|<input name="base_color" type="color3" value="0.8, 0.1, 0.1"/>|' show/deep/near.mtlx >red.mtlx
+    draw=("$mxgen" check red.mtlx --no-compile --render)
+    check 'pictures' exits 0 "${draw[@]}" --baseline red.json --html red.html --json drawn.json
+    check 'are PNGs' eval 'json drawn.json "d[0][\"elements\"][0][\"picture\"]" | base64 -d | head -c 8 | od -An -c | grep -q "P *N *G"'
+    check 'in the gallery' grep -q 'src="data:image/png;base64,iVBOR' red.html
+    check 'and signatures in the baseline' says red.json '(len(d[0]["elements"][0]["signature"]), "picture" in d[0]["elements"][0])' '(1024, False)'
+    check 'a second run draws the same' eval 'exits 0 "${draw[@]}" --baseline red.json --json red2.json && is "$(changes red2.json)" "[]"'
+    sed -i 's/0.8, 0.1, 0.1/0.1, 0.8, 0.1/' red.mtlx
+    check 'another colour' exits 0 "${draw[@]}" --baseline red.json --json green.json
+    check 'looks different, though the shader is the same' is "$(changes green.json)" "[('red.mtlx', 'picture')]"
+else
+    skip 'there is no renderer: nothing was drawn'
+fi
+
+finish check-judge
