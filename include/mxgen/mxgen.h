@@ -259,7 +259,7 @@ typedef struct mxg_renderable {
 } mxg_renderable;
 MXG_API uint32_t mxg_document_num_renderables(const mxg_document *document);
 MXG_API mxg_status mxg_document_renderable(const mxg_document *document, uint32_t index, mxg_renderable *out);
-/* Those that a look assigns; MXG_ERROR_ARGUMENT behind the last, and where `look` is the path of anything else. */
+/* Those that a look, or a group of looks, assigns; MXG_ERROR_ARGUMENT behind the last, and where `look` is the path of anything else. */
 MXG_API mxg_status mxg_document_look_material(const mxg_document *document, const char *look, uint32_t index, mxg_renderable *out);
 
 /* Checks the whole document against its library without generating: every node, connection and value. */

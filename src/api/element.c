@@ -99,12 +99,38 @@ static bool look_assigns(const struct search *s, elem_id look, elem_id material)
     return false;
 }
 
-/* A look stands for its material, where it has only one. */
+static elem_id find_top(const struct search *s, enum element_kind kind, const char *name, size_t len)
+{
+    str_id id = str_find(s->doc->strings, name, len);
+    return id ? doc_child_of_kind(s->doc, s->doc->root, kind, id) : 0;
+}
+
+/* A look, or a group of looks and groups by name: "day, night". */
+static bool assigns(const struct search *s, elem_id look, elem_id material, unsigned depth)
+{
+    enum { MAX_GROUPS = 16 };
+    if (doc_element(s->doc, look)->kind == KIND_LOOK)
+        return look_assigns(s, look, material);
+    for (const char *name = str_text(s->doc->strings, doc_attr_value(s->doc, look, STR_looks)); *name && depth < MAX_GROUPS;) {
+        name += strspn(name, ", ");
+        size_t len = strcspn(name, ", ");
+        elem_id part = find_top(s, KIND_LOOK, name, len);
+        if (!part)
+            part = find_top(s, KIND_LOOKGROUP, name, len);
+        if (part && assigns(s, part, material, depth + 1))
+            return true;
+        name += len;
+    }
+    return false;
+}
+
+/* A look stands for its material, where it has only one; a group for its default look, or for all. */
 static elem_id find_in_look(const struct search *s, elem_id look)
 {
     struct choices materials = {0};
+    elem_id usual = doc_child_of_kind(s->doc, s->doc->root, KIND_LOOK, doc_attr_value(s->doc, look, STR_default));
     for (uint32_t i = 0; i < s->document->renderables.len; i++)
-        if (look_assigns(s, look, s->document->renderables.items[i]))
+        if (assigns(s, usual ? usual : look, s->document->renderables.items[i], 0))
             add_choice(s, &materials, s->document->renderables.items[i]);
     return only_choice(s, look, &materials);
 }
@@ -153,6 +179,7 @@ static elem_id find_meant(const struct search *s, elem_id element)
     case KIND_NODEGRAPH:
         return find_in_graph(s, element);
     case KIND_LOOK:
+    case KIND_LOOKGROUP:
         return find_in_look(s, element);
     case KIND_MATERIALASSIGN: {
         elem_id material = assigned_material(s, element);
@@ -222,9 +249,10 @@ mxg_status mxg_document_look_material(const mxg_document *document, const char *
         return MXG_ERROR_ARGUMENT;
     struct search s = {document, &document->layer.doc, NULL};
     elem_id element = find_own(&s, look, strlen(look));
-    bool is_look = element && doc_element(s.doc, element)->kind == KIND_LOOK;
+    enum element_kind kind = element ? doc_element(s.doc, element)->kind : KIND_NODE;
+    bool is_look = kind == KIND_LOOK || kind == KIND_LOOKGROUP;
     for (uint32_t i = 0; is_look && i < document->renderables.len; i++)
-        if (look_assigns(&s, element, document->renderables.items[i]) && index-- == 0)
+        if (assigns(&s, element, document->renderables.items[i], 0) && index-- == 0)
             return mxg_document_renderable(document, i, out);
     return MXG_ERROR_ARGUMENT;
 }

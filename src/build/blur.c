@@ -96,6 +96,25 @@ static void move_texture(struct blur *blur, ir_ref ref)
     }
 }
 
+/* The derivative of coordinates that a texture is read with, as wide as the nodes are apart. */
+static ir_ref widened(struct blur *blur, ir_ref gradient, enum ir_op derivative, int before, int behind)
+{
+    struct ir_graph *g = blur->b->graph;
+    ir_ref uv = ir_get(g, gradient)->op == derivative ? ir_arg(g, gradient, 0) : 0;
+    return uv && moved_of(blur, uv)[0] ? footprint(blur, uv, derivative, before, behind) : gradient;
+}
+
+/* Tiles, and filters of the shader's own. */
+static void move_gradient_texture(struct blur *blur, ir_ref ref)
+{
+    struct ir_graph *g = blur->b->graph;
+    ir_ref at = ir_arg(g, ref, 1), dx = widened(blur, ir_arg(g, ref, 2), IR_DFDX, 3, 5), dy = widened(blur, ir_arg(g, ref, 3), IR_DFDY, 1, 7);
+    for (int tap = 0; tap < TAPS; tap++) {
+        ir_ref moved = moved_of(blur, at)[tap], args[4] = {ir_arg(g, ref, 0), moved ? moved : at, dx, dy};
+        moved_of(blur, ref)[tap] = ir_build(g, IR_TEX_GRAD, IR_TYPE_VEC4, 0, args, 4);
+    }
+}
+
 static void move_node(struct blur *blur, ir_ref ref)
 {
     struct ir_graph *g = blur->b->graph;
@@ -129,6 +148,8 @@ static void move(struct blur *blur, ir_ref ref)
         move_texcoord(blur, ref);
     else if (node->op == IR_TEX)
         move_texture(blur, ref);
+    else if (node->op == IR_TEX_GRAD)
+        move_gradient_texture(blur, ref);
     else
         move_node(blur, ref);
 }

@@ -211,6 +211,8 @@ static const char elements[] =
     "  <surfacematerial name=\"M\" type=\"material\">"
     "<input name=\"surfaceshader\" type=\"surfaceshader\" nodename=\"S\"/></surfacematerial>\n"
     "  <look name=\"L\"><materialassign name=\"MA\" material=\"M\" geom=\"/\"/></look>\n"
+    "  <look name=\"L0\"/><lookgroup name=\"night\" looks=\"night, L0\"/>\n"
+    "  <lookgroup name=\"day\" looks=\"L0, L\"/><lookgroup name=\"all\" looks=\"night,day\" default=\"L\"/>\n"
     "</materialx>\n";
 
 static void test_elements(void)
@@ -222,6 +224,9 @@ static void test_elements(void)
         {NULL, NULL, "M"},
         {"M", NULL, "M"},
         {"L", NULL, "M"},
+        {"day", NULL, "M"},
+        {"all", NULL, "M"},
+        {"night", "not-renderable", NULL}, /* it names itself, and a look without a material */
         {"S", NULL, "S"},
         {"S/out", NULL, "S/out"},
         {"one", NULL, "one/out"},
@@ -249,6 +254,8 @@ static void test_elements(void)
     REQUIRE_EQ(mxg_document_num_renderables(b.document), 1); /* M */
     mxg_renderable material = {sizeof material};
     REQUIRE(mxg_document_look_material(b.document, "L", 0, &material) == MXG_OK && strcmp(material.path, "M") == 0);
+    REQUIRE(mxg_document_look_material(b.document, "all", 0, &material) == MXG_OK && strcmp(material.path, "M") == 0);
+    REQUIRE_EQ(mxg_document_look_material(b.document, "night", 0, &material), MXG_ERROR_ARGUMENT);
     REQUIRE_EQ(mxg_document_look_material(b.document, "L", 1, &material), MXG_ERROR_ARGUMENT);
     REQUIRE_EQ(mxg_document_look_material(b.document, "M", 0, &material), MXG_ERROR_ARGUMENT);
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {

@@ -187,6 +187,24 @@ static void test_tiles_in_loop(void)
     finish(&shot);
 }
 
+/* A blur reads nine tiles, each with a footprint that reaches to the next reading. */
+static void test_blurred_tiles(void)
+{
+    static const char body[] =
+        "<image name=\"i\" type=\"color3\"><input name=\"file\" type=\"filename\" value=\"wall.&lt;UDIM&gt;.png\"/></image>"
+        "<blur name=\"b\" type=\"color3\"><input name=\"in\" type=\"color3\" nodename=\"i\"/>"
+        "<input name=\"size\" type=\"float\" value=\"0.1\"/></blur><output name=\"o\" type=\"color3\" nodename=\"b\"/>";
+    struct shot shot;
+    shoot(&shot, body, true, "interface", "reduced", MXG_OK);
+    const char *source = mxg_result_source(shot.result, MXG_STAGE_PIXEL, NULL);
+    unsigned readings = 0;
+    for (const char *at = source; (at = strstr(at, "textureGrad(")) != NULL; at++)
+        readings++;
+    REQUIRE_EQ(readings, 9);
+    REQUIRE(strstr(source, "dFdx(vd.texcoord_0)") && strstr(source, " + abs(i")); /* what the screen asks for, and the kernel */
+    finish(&shot);
+}
+
 static const char *file_at(const struct shot *shot, int32_t frame)
 {
     static char file[64];
@@ -324,6 +342,7 @@ int main(void)
     test_tiles_of_document();
     test_no_tiles();
     test_tiles_in_loop();
+    test_blurred_tiles();
     test_frames();
     test_frame_names();
     test_two_ways();
