@@ -90,6 +90,7 @@ static void set_build_options(struct generation *g)
         .reader = &g->reader,
         .list_folder = context->resolver.list_folder,
         .list_user_data = context->resolver.user_data,
+        .integrator = o[OPTION_integrator].number,
         .cancel = context->cancel,
         .cancel_user_data = context->cancel_user_data,
     };
@@ -250,7 +251,7 @@ static void bind_lights(struct generation *g)
 
 static const uint32_t *leaf_functions(void *user_data, uint32_t callee)
 {
-    _Static_assert((int)LEAF_EVAL == FAMILY_EVAL && (int)LEAF_FACTOR == FAMILY_FACTOR && (int)LEAF_ABSORPTION == FAMILY_ABSORPTION,
+    _Static_assert((int)LEAF_EVAL == FAMILY_EVAL && (int)LEAF_FACTOR == FAMILY_FACTOR && (int)LEAF_PDF == FAMILY_PDF,
                    "leaf functions are the first members of a family");
     return build_leaf_family(user_data, callee)->functions;
 }

@@ -6,6 +6,21 @@ static const struct document *doc_of(const struct builder *b)
     return &b->lib->doc;
 }
 
+/* The value of "option_environment"…; NULL where there is no such option. */
+static const int *find_option(const struct build_options *options, const char *name)
+{
+    const struct {
+        const char *name;
+        const int *value;
+    } known[] = {{"option_environment", &options->environment},
+                 {"option_texture_modes", &options->texture_modes},
+                 {"option_integrator", &options->integrator}};
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++)
+        if (strcmp(name, known[i].name) == 0)
+            return known[i].value;
+    return NULL;
+}
+
 /* How functions of the library see the host: uniforms and streams become interface variables, options constants. */
 static ir_ref global_node(void *user_data, struct ir_graph *graph, const struct lang_unit *unit, uint32_t global_id)
 {
@@ -20,12 +35,12 @@ static ir_ref global_node(void *user_data, struct ir_graph *graph, const struct 
         enum ir_op op = global->type == IR_TYPE_SAMPLER ? IR_TEXTURE : IR_UNIFORM;
         return ir_build(graph, op, global->type, variable, NULL, 0);
     }
-    case LANG_GLOBAL_OPTION:
-        if (strcmp(str_text(unit->strings, global->name), "option_environment") == 0)
-            return ir_const_int(graph, b->options->environment);
-        if (strcmp(str_text(unit->strings, global->name), "option_texture_modes") == 0)
-            return ir_const_int(graph, b->options->texture_modes);
+    case LANG_GLOBAL_OPTION: {
+        const int *option = find_option(b->options, str_text(unit->strings, global->name));
+        if (option)
+            return ir_const_int(graph, *option);
         break;
+    }
     case LANG_GLOBAL_CONST:
         break;
     }

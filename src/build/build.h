@@ -33,6 +33,7 @@ struct build_options {
     /* As mxg_resolver.list_folder, to find tiles; may be NULL. */
     size_t (*list_folder)(void *user_data, const char *from, const char *folder, char *names, size_t capacity);
     void *list_user_data;
+    int integrator;
     bool (*cancel)(void *user_data);
     void *cancel_user_data;
 };

@@ -10,7 +10,8 @@
 
 /* A leaf's functions (lang ids; LANG_NONE: absent), in the order of enum family_member of library/library.h. */
 enum leaf_function { LEAF_EVAL, LEAF_ENVIRONMENT, LEAF_TRANSMISSION, LEAF_THROUGHPUT, LEAF_EMISSION, LEAF_FACTOR,
-                     LEAF_ABSORPTION, LEAF_SCATTERING, LEAF_ANISOTROPY, NUM_LEAF_FUNCTIONS };
+                     LEAF_ABSORPTION, LEAF_SCATTERING, LEAF_ANISOTROPY, LEAF_ALBEDO, LEAF_REFRACTION, LEAF_SAMPLE, LEAF_PDF,
+                     NUM_LEAF_FUNCTIONS };
 
 /* The shaded point in world space, each part made when it is first needed. */
 struct closure_point {

@@ -296,7 +296,8 @@ static bool parse_expressions(struct indexer *ix, struct implementation *impl, s
 static const char *const family_suffixes[NUM_FAMILY_MEMBERS] = {
     [FAMILY_EVAL] = "_eval", [FAMILY_ENVIRONMENT] = "_environment", [FAMILY_TRANSMISSION] = "_transmission",
     [FAMILY_THROUGHPUT] = "_throughput", [FAMILY_EMISSION] = "_emission", [FAMILY_FACTOR] = "_factor",
-    [FAMILY_ABSORPTION] = "_absorption", [FAMILY_SCATTERING] = "_scattering", [FAMILY_ANISOTROPY] = "_anisotropy",
+    [FAMILY_ABSORPTION] = "_absorption", [FAMILY_ALBEDO] = "_albedo", [FAMILY_REFRACTION] = "_refraction",
+    [FAMILY_SAMPLE] = "_sample", [FAMILY_PDF] = "_pdf", [FAMILY_SCATTERING] = "_scattering", [FAMILY_ANISOTROPY] = "_anisotropy",
 };
 
 static bool find_family(struct indexer *ix, struct implementation *impl, str_id name, uint32_t file)

@@ -19,8 +19,10 @@ out vec4 out1;
 
 vec2 mx_ggx_albedo(const float c)
 {
-    vec4 r = vec4(0.477028, 1.0224305, 1.3185087, 1.7036159) + c * (vec4(-0.679836, -2.4724538, -1.278424, -1.52478) + c * vec4(28.273684, 1.4824458, 27.56899, 14.8198395));
-    return clamp(r.xy / r.zw, vec2(0.0), vec2(1.0));
+    float u = 0.04 / (0.04 + c);
+    vec4 powers_u = vec4(1.0, u, u * u, u * u * u);
+    float x = clamp(1.0 - c - 0.04 * dot(powers_u, vec4(-0.5512581, 5.4328256, -3.6860163, 0.27730379)), 0.0, 1.0);
+    return vec2(min(1.0046 - u * dot(powers_u, vec4(-0.16347954, 2.7701693, -5.364232, 2.791722)), 1.0), x * x * x * x * x);
 }
 
 float mx_ggx_distribution(const vec3 h)
@@ -55,11 +57,11 @@ void main()
     vec3 V = normalize(u_viewPosition - vd.positionWorld);
     float coat = max(abs(dot(normal, V)), 1e-8);
     vec2 coat_2 = mx_ggx_albedo(coat);
-    float coat_3 = (1.0 / (coat_2.x + coat_2.y) - 1.0) * 0.079748526 + 1.0;
+    float coat_3 = (1.0 / coat_2.x - 1.0) * 0.079748526 + 1.0;
     vec3 coat_4 = faceforward(normal, -V, normal);
     vec3 tangent = normalize(vd.tangentWorld);
     vec3 coat_5 = normalize(tangent - coat_4 * dot(tangent, coat_4));
-    vec3 paint = (1.0 - (coat_2.x * 0.033735953 + coat_2.y) * coat_3) * 0.75 * vec3(0.6, 0.1, 0.05);
+    vec3 paint = (1.0 - mix(0.033735953, 1.0, coat_2.y) * coat_2.x * coat_3) * 0.75 * vec3(0.6, 0.1, 0.05);
     for (int i = 0; i < min(u_numActiveLightSources, 1); ++i) {
         float intensity = u_lightData[i].intensity;
         vec3 light = u_lightData[i].color * (u_lightData[i].type == 1 ? intensity : 0.0);
@@ -67,7 +69,7 @@ void main()
         vec3 coat_6 = normalize(V - u_lightData[i].direction);
         float coat_7 = coat_3 * mx_ggx_lobe(coat_4, coat_5, coat, directional_light, coat_6);
         float paint_2 = max(dot(directional_light, coat_4), 1e-8);
-        vec3 paint_3 = paint * (paint_2 / 3.1415927 * (max(max(dot(V, directional_light), 1e-8) - coat * paint_2, 0.0) / max(paint_2, coat) * 0.225 + 0.89285713));
+        vec3 paint_3 = paint * (paint_2 / 3.1415927 * (max(dot(V, directional_light) - coat * paint_2, 0.0) / max(paint_2, coat) * 0.225 + 0.89285713));
         color += light * (coat_7 * mx_fresnel_dielectric(clamp(dot(V, coat_6), 1e-8, 1.0)) + paint_3);
     }
     out1 = vec4(color, 1.0);

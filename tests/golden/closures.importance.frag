@@ -38,8 +38,10 @@ layout(location = 0) out vec4 out1;
 
 vec2 mx_ggx_albedo(const float c)
 {
-    vec4 r = vec4(0.477028, 1.0224305, 1.3185087, 1.7036159) + c * (vec4(-0.679836, -2.4724538, -1.278424, -1.52478) + c * vec4(28.273684, 1.4824458, 27.56899, 14.8198395));
-    return clamp(r.xy / r.zw, vec2(0.0), vec2(1.0));
+    float u = 0.04 / (0.04 + c);
+    vec4 powers_u = vec4(1.0, u, u * u, u * u * u);
+    float x = clamp(1.0 - c - 0.04 * dot(powers_u, vec4(-0.5512581, 5.4328256, -3.6860163, 0.27730379)), 0.0, 1.0);
+    return vec2(min(1.0046 - u * dot(powers_u, vec4(-0.16347954, 2.7701693, -5.364232, 2.791722)), 1.0), x * x * x * x * x);
 }
 
 float mx_ggx_distribution(const vec3 h)
@@ -78,18 +80,19 @@ vec3 mx_leave_frame(const vec3 w, const vec3 N, const vec3 x)
     return w.x * x + w.y * cross(N, x) + w.z * N;
 }
 
-vec3 mx_ggx_normal(const int i, const vec3 v)
+vec3 mx_ggx_visible_normal(const vec2 xi, const vec3 v)
 {
-    float top = (1.0 - fract((float(i) + 1.0) * 1.618034)) * (1.0 + v.z);
+    float top = (1.0 - xi.y) * (1.0 + v.z);
     float z = top - v.z;
-    return normalize(vec3((v.xy + sqrt(max(1.0 - z * z, 0.0)) * cos(6.2831855 * (float(i) + 0.5) / float(u_envRadianceSamples) - vec2(0.0, 1.5707964))) * 0.04, top));
+    return normalize(vec3((v.xy + sqrt(max(1.0 - z * z, 0.0)) * cos(6.2831855 * (xi.x - vec2(0.0, 0.25)))) * 0.04, top));
 }
 
 vec4 mx_ggx_sample(const int i, const vec3 N, const vec3 x, const vec3 v)
 {
-    vec3 h = mx_ggx_normal(i, normalize(vec3(v.xy * 0.04, v.z)));
+    float count = float(u_envRadianceSamples);
+    vec3 h = mx_ggx_visible_normal(vec2((float(i) + 0.5) / count, fract((float(i) + 1.0) * 1.618034)), normalize(vec3(v.xy * 0.04, v.z)));
     float cos_v = max(v.z, 1e-8);
-    float masking = 2.0 * (cos_v + sqrt(mix(cos_v * cos_v, 1.0, 0.0016))) / float(u_envRadianceSamples);
+    float masking = 2.0 * (cos_v + sqrt(mix(cos_v * cos_v, 1.0, 0.0016))) / count;
     vec3 l = reflect(-v, h);
     float weight = mx_ggx_visibility(cos_v, max(l.z, 1e-8));
     vec3 L = mx_leave_frame(l, N, x);
@@ -103,11 +106,12 @@ void main()
     vec3 V = normalize(u_viewPosition - vd.positionWorld);
     float coat = max(abs(dot(normal, V)), 1e-8);
     vec2 coat_2 = mx_ggx_albedo(coat);
-    float coat_3 = (1.0 / (coat_2.x + coat_2.y) - 1.0) * 0.079748526 + 1.0;
+    float coat_3 = (1.0 / coat_2.x - 1.0) * 0.079748526 + 1.0;
     vec3 coat_4 = faceforward(normal, -V, normal);
     vec3 tangent = normalize(vd.tangentWorld);
     vec3 coat_5 = normalize(tangent - coat_4 * dot(tangent, coat_4));
-    vec3 paint = (1.0 - (coat_2.x * 0.033735953 + coat_2.y) * coat_3) * 0.75 * vec3(0.6, 0.1, 0.05);
+    float paint = (1.0 - mix(0.033735953, 1.0, coat_2.y) * coat_2.x * coat_3) * 0.75;
+    vec3 paint_2 = paint * vec3(0.6, 0.1, 0.05);
     for (int i = 0; i < min(u_numActiveLightSources, 3); ++i) {
         int type = u_lightData[i].type;
         float intensity = u_lightData[i].intensity;
@@ -122,14 +126,14 @@ void main()
         vec3 L = type == 1 ? directional_light : spot_light_4;
         vec3 coat_6 = normalize(V + L);
         float coat_7 = coat_3 * mx_ggx_lobe(coat_4, coat_5, coat, L, coat_6);
-        float paint_2 = max(dot(L, coat_4), 1e-8);
-        vec3 paint_3 = paint * (paint_2 / 3.1415927 * (max(max(dot(V, L), 1e-8) - coat * paint_2, 0.0) / max(paint_2, coat) * 0.225 + 0.89285713));
-        vec3 t = coat_7 * mx_fresnel_dielectric(clamp(dot(V, coat_6), 1e-8, 1.0)) + paint_3;
+        float paint_3 = max(dot(L, coat_4), 1e-8);
+        vec3 paint_4 = paint_2 * (paint_3 / 3.1415927 * (max(dot(V, L) - coat * paint_3, 0.0) / max(paint_3, coat) * 0.225 + 0.89285713));
+        vec3 t = coat_7 * mx_fresnel_dielectric(clamp(dot(V, coat_6), 1e-8, 1.0)) + paint_4;
         color += u_lightData[i].color * (type == 1 ? intensity : light_2) * t;
     }
-    vec2 paint_4 = (coat * vec2(-0.7632, -0.4993) + vec2(-0.4297, -0.6076) + vec2(0.43155003, 0.60945004)) * 0.3 + vec2(1.0);
-    float paint_5 = u_envLightIntensity * clamp(paint_4.x / paint_4.y, 0.0, 1.0);
-    color += paint * (textureLod(u_envIrradiance, mx_latlong(coat_4), 0.0).xyz * paint_5);
+    vec3 paint_5 = textureLod(u_envIrradiance, mx_latlong(coat_4), 0.0).xyz * u_envLightIntensity;
+    vec2 paint_6 = (coat * vec2(-0.7632, -0.4993) + vec2(-0.4297, -0.6076) + vec2(0.43155003, 0.60945004)) * 0.3 + vec2(1.0);
+    color += paint_5 * (paint * clamp(paint_6.x / paint_6.y, 0.0, 1.0) * vec3(0.6, 0.1, 0.05));
     vec3 coat_8 = vec3(dot(V, coat_5), dot(V, cross(coat_4, coat_5)), dot(V, coat_4));
     for (int i = 0; i < u_envRadianceSamples; ++i) {
         vec4 coat_9 = mx_ggx_sample(i, coat_4, coat_5, coat_8);

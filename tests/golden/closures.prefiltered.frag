@@ -28,8 +28,10 @@ out vec4 out1;
 
 vec2 mx_ggx_albedo(const float c)
 {
-    vec4 r = vec4(0.477028, 1.0224305, 1.3185087, 1.7036159) + c * (vec4(-0.679836, -2.4724538, -1.278424, -1.52478) + c * vec4(28.273684, 1.4824458, 27.56899, 14.8198395));
-    return clamp(r.xy / r.zw, vec2(0.0), vec2(1.0));
+    float u = 0.04 / (0.04 + c);
+    vec4 powers_u = vec4(1.0, u, u * u, u * u * u);
+    float x = clamp(1.0 - c - 0.04 * dot(powers_u, vec4(-0.5512581, 5.4328256, -3.6860163, 0.27730379)), 0.0, 1.0);
+    return vec2(min(1.0046 - u * dot(powers_u, vec4(-0.16347954, 2.7701693, -5.364232, 2.791722)), 1.0), x * x * x * x * x);
 }
 
 float mx_ggx_distribution(const vec3 h)
@@ -66,7 +68,7 @@ vec2 mx_latlong(const vec3 direction)
 vec3 mx_ggx_prefiltered(const vec3 N, const vec3 V)
 {
     vec2 albedo = mx_ggx_albedo(max(abs(dot(N, V)), 1e-8));
-    return (vec3(0.033735953) * albedo.x + vec3(albedo.y)) * (textureLod(u_envRadiance, mx_latlong(reflect(-V, faceforward(N, -V, N))), 0.2 * float(u_envRadianceMips - 1)).xyz * u_envLightIntensity);
+    return mix(vec3(0.033735953), vec3(1.0), albedo.y) * albedo.x * (textureLod(u_envRadiance, mx_latlong(reflect(-V, faceforward(N, -V, N))), 0.2 * float(u_envRadianceMips - 1)).xyz * u_envLightIntensity);
 }
 
 void main()
@@ -76,11 +78,12 @@ void main()
     vec3 V = normalize(u_viewPosition - vd.positionWorld);
     float coat = max(abs(dot(normal, V)), 1e-8);
     vec2 coat_2 = mx_ggx_albedo(coat);
-    float coat_3 = (1.0 / (coat_2.x + coat_2.y) - 1.0) * 0.079748526 + 1.0;
+    float coat_3 = (1.0 / coat_2.x - 1.0) * 0.079748526 + 1.0;
     vec3 coat_4 = faceforward(normal, -V, normal);
     vec3 tangent = normalize(vd.tangentWorld);
     vec3 coat_5 = normalize(tangent - coat_4 * dot(tangent, coat_4));
-    vec3 paint = (1.0 - (coat_2.x * 0.033735953 + coat_2.y) * coat_3) * 0.75 * vec3(0.6, 0.1, 0.05);
+    float paint = (1.0 - mix(0.033735953, 1.0, coat_2.y) * coat_2.x * coat_3) * 0.75;
+    vec3 paint_2 = paint * vec3(0.6, 0.1, 0.05);
     for (int i = 0; i < min(u_numActiveLightSources, 3); ++i) {
         int type = u_lightData[i].type;
         float intensity = u_lightData[i].intensity;
@@ -95,14 +98,14 @@ void main()
         vec3 L = type == 1 ? directional_light : spot_light_4;
         vec3 coat_6 = normalize(V + L);
         float coat_7 = coat_3 * mx_ggx_lobe(coat_4, coat_5, coat, L, coat_6);
-        float paint_2 = max(dot(L, coat_4), 1e-8);
-        vec3 paint_3 = paint * (paint_2 / 3.1415927 * (max(max(dot(V, L), 1e-8) - coat * paint_2, 0.0) / max(paint_2, coat) * 0.225 + 0.89285713));
-        vec3 t = coat_7 * mx_fresnel_dielectric(clamp(dot(V, coat_6), 1e-8, 1.0)) + paint_3;
+        float paint_3 = max(dot(L, coat_4), 1e-8);
+        vec3 paint_4 = paint_2 * (paint_3 / 3.1415927 * (max(dot(V, L) - coat * paint_3, 0.0) / max(paint_3, coat) * 0.225 + 0.89285713));
+        vec3 t = coat_7 * mx_fresnel_dielectric(clamp(dot(V, coat_6), 1e-8, 1.0)) + paint_4;
         color += u_lightData[i].color * (type == 1 ? intensity : light_2) * t;
     }
-    vec2 paint_4 = (coat * vec2(-0.7632, -0.4993) + vec2(-0.4297, -0.6076) + vec2(0.43155003, 0.60945004)) * 0.3 + vec2(1.0);
-    float paint_5 = u_envLightIntensity * clamp(paint_4.x / paint_4.y, 0.0, 1.0);
-    vec3 paint_6 = paint * (textureLod(u_envIrradiance, mx_latlong(coat_4), 0.0).xyz * paint_5);
-    color += coat_3 * mx_ggx_prefiltered(normal, V) + paint_6;
+    vec3 paint_5 = textureLod(u_envIrradiance, mx_latlong(coat_4), 0.0).xyz * u_envLightIntensity;
+    vec2 paint_6 = (coat * vec2(-0.7632, -0.4993) + vec2(-0.4297, -0.6076) + vec2(0.43155003, 0.60945004)) * 0.3 + vec2(1.0);
+    vec3 paint_7 = paint_5 * (paint * clamp(paint_6.x / paint_6.y, 0.0, 1.0) * vec3(0.6, 0.1, 0.05));
+    color += coat_3 * mx_ggx_prefiltered(normal, V) + paint_7;
     out1 = vec4(color, 1.0);
 }

@@ -28,8 +28,10 @@ out vec4 out1;
 
 vec2 mx_ggx_albedo(const float c)
 {
-    vec4 r = vec4(0.101274714, 0.9347229, 1.0008262, 1.0015944) + c * (vec4(-0.6305036, -2.3233747, -1.7638469, 0.22252001) + c * vec4(29.337357, 1.4241437, 28.956388, 13.085487));
-    return clamp(r.xy / r.zw, vec2(0.0), vec2(1.0));
+    float u = 0.0001 / (0.0001 + c);
+    vec4 powers_u = vec4(1.0, u, u * u, u * u * u);
+    float x = clamp(1.0 - c - 0.0001 * dot(powers_u, vec4(-0.201624, 5.292261, -3.7565958, 0.21825665)), 0.0, 1.0);
+    return vec2(min(1.0046 - u * dot(powers_u, vec4(-0.14479354, 2.7591474, -5.43134, 2.849591)), 1.0), x * x * x * x * x);
 }
 
 float mx_ggx_distribution(const vec3 h)
@@ -74,18 +76,19 @@ vec3 mx_refract_sphere(const vec3 v, const vec3 h, const float ior)
     return refract(inside, normalize(inside * dot(inside, h) - 0.5 * h), ior);
 }
 
-vec3 mx_ggx_normal(const int i, const vec3 v)
+vec3 mx_ggx_visible_normal(const vec2 xi, const vec3 v)
 {
-    float top = (1.0 - fract((float(i) + 1.0) * 1.618034)) * (1.0 + v.z);
+    float top = (1.0 - xi.y) * (1.0 + v.z);
     float z = top - v.z;
-    return normalize(vec3((v.xy + sqrt(max(1.0 - z * z, 0.0)) * cos(6.2831855 * (float(i) + 0.5) / float(u_envRadianceSamples) - vec2(0.0, 1.5707964))) * 0.0001, top));
+    return normalize(vec3((v.xy + sqrt(max(1.0 - z * z, 0.0)) * cos(6.2831855 * (xi.x - vec2(0.0, 0.25)))) * 0.0001, top));
 }
 
 vec4 mx_ggx_sample(const int i, const vec3 N, const vec3 x, const vec3 v, const float refract_ior)
 {
-    vec3 h = mx_ggx_normal(i, normalize(vec3(v.xy * 0.0001, v.z)));
+    float count = float(u_envRadianceSamples);
+    vec3 h = mx_ggx_visible_normal(vec2((float(i) + 0.5) / count, fract((float(i) + 1.0) * 1.618034)), normalize(vec3(v.xy * 0.0001, v.z)));
     float cos_v = max(v.z, 1e-8);
-    float masking = 2.0 * (cos_v + sqrt(mix(cos_v * cos_v, 1.0, 9.999999e-9))) / float(u_envRadianceSamples);
+    float masking = 2.0 * (cos_v + sqrt(mix(cos_v * cos_v, 1.0, 9.999999e-9))) / count;
     vec3 l = reflect(-v, h);
     float weight = 0.25 / cos_v;
     if (refract_ior > 0.0)
@@ -104,7 +107,7 @@ void main()
     // SR_glass
     float reflection = max(abs(dot(normal, V)), 1e-8);
     vec2 reflection_2 = mx_ggx_albedo(reflection);
-    float reflection_3 = (1.0 / (reflection_2.x + reflection_2.y) - 1.0) * 0.08817142 + 1.0;
+    float reflection_3 = (1.0 / reflection_2.x - 1.0) * 0.08817142 + 1.0;
     vec3 reflection_4 = faceforward(normal, -V, normal);
     vec3 tangent = normalize(vd.tangentWorld);
     vec3 reflection_5 = normalize(tangent - reflection_4 * dot(tangent, reflection_4));
@@ -126,7 +129,7 @@ void main()
         color += u_lightData[i].color * (type == 1 ? intensity : light_2) * reflection_8;
     }
     vec3 reflection_9 = vec3(dot(V, reflection_5), dot(V, cross(reflection_4, reflection_5)), dot(V, reflection_4));
-    float reflection_10 = 1.0 - (reflection_2.x * 0.042579994 + reflection_2.y) * reflection_3;
+    float reflection_10 = 1.0 - mix(0.042579994, 1.0, reflection_2.y) * reflection_2.x * reflection_3;
     for (int i = 0; i < u_envRadianceSamples; ++i) {
         vec4 reflection_11 = mx_ggx_sample(i, reflection_4, reflection_5, reflection_9, 0.0);
         vec4 refraction = mx_ggx_sample(i, reflection_4, reflection_5, reflection_9, 1.52);

@@ -9,7 +9,7 @@ import sys
 
 ROOT = pathlib.Path(sys.argv[1])
 COMPILER = sys.argv[2:]
-CODE = "src generators cli validate render bench tests examples include".split()
+CODE = "src generators cli validate render bench tests examples fits include".split()
 passed = 0
 failures = []
 

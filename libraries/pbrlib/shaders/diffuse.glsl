@@ -2,6 +2,7 @@
 // oren_nayar_diffuse_bsdf, burley_diffuse_bsdf, translucent_bsdf and subsurface_bsdf.
 
 #include "environment.glsl"
+#include "sampling.glsl"
 
 // max(cos, epsilon) between the side of N seen from V and a direction.
 float mx_facing_cosine(vec3 N, vec3 V, vec3 direction)
@@ -41,7 +42,7 @@ vec3 mx_oren_nayar_diffuse_bsdf_eval(vec3 color, float roughness, vec3 N, bool e
     float cos_l = mx_facing_cosine(N, V, L);
     vec3 lambert = color * (cos_l / MX_PI);
     float cos_v = mx_view_cosine(N, V);
-    float s = max(dot(L, V), MX_EPSILON) - cos_l * cos_v;
+    float s = dot(L, V) - cos_l * cos_v;
     float t = max(s, 0.0) / max(cos_l, cos_v);
     if (!energy_compensation)
     {
@@ -56,40 +57,88 @@ vec3 mx_oren_nayar_diffuse_bsdf_eval(vec3 color, float roughness, vec3 N, bool e
                       + mx_fujii_multiple(color, mean) * multiple);
 }
 
-vec3 mx_oren_nayar_diffuse_bsdf_environment(vec3 color, float roughness, vec3 N, bool energy_compensation, vec3 V)
+vec3 mx_oren_nayar_diffuse_bsdf_albedo(vec3 color, float roughness, vec3 N, bool energy_compensation, vec3 V)
 {
-    vec3 light = mx_environment_irradiance(mx_facing(N, V));
     float cos_v = mx_view_cosine(N, V);
     if (energy_compensation)
-        return color * light * mix(mx_fujii_multiple(color, mx_fujii_mean(roughness)), vec3(1.0),
-                                   mx_fujii_albedo(cos_v, roughness));
+        return color * mix(mx_fujii_multiple(color, mx_fujii_mean(roughness)), vec3(1.0),
+                           mx_fujii_albedo(cos_v, roughness));
 
     // Rational fit to the directional albedo of the qualitative model
     vec2 fit = 1.0 + roughness * (vec2(-0.4297, -0.6076) + vec2(-0.7632, -0.4993) * cos_v
                                   + vec2(1.4385, 2.0315) * roughness);
-    return color * (light * clamp(fit.x / fit.y, 0.0, 1.0));
+    return color * clamp(fit.x / fit.y, 0.0, 1.0);
+}
+
+vec3 mx_oren_nayar_diffuse_bsdf_environment(vec3 color, float roughness, vec3 N, bool energy_compensation, vec3 V)
+{
+    return mx_oren_nayar_diffuse_bsdf_albedo(color, roughness, N, energy_compensation, V)
+         * mx_environment_irradiance(mx_facing(N, V));
+}
+
+void mx_oren_nayar_diffuse_bsdf_sample(vec3 color, float roughness, vec3 N, bool energy_compensation, vec3 V, vec3 xi,
+                                       out vec3 L, out vec3 weight, out float pdf)
+{
+    L = mx_any_frame(mx_facing(N, V)) * mx_sample_cosine(xi.xy);
+    pdf = mx_cosine_pdf(mx_facing(N, V), L);
+    weight = mx_oren_nayar_diffuse_bsdf_eval(color, roughness, N, energy_compensation, V, L) / max(pdf, MX_EPSILON);
+}
+
+float mx_oren_nayar_diffuse_bsdf_pdf(vec3 color, float roughness, vec3 N, bool energy_compensation, vec3 V, vec3 L)
+{
+    return mx_cosine_pdf(mx_facing(N, V), L);
 }
 
 // ---- burley_diffuse_bsdf --------------------------------------------------------------------------------------------
+
+// Directional albedo of a white surface, fitted by Stephen Hill.
+float mx_burley_albedo(float c, float roughness)
+{
+    float x = 1.0 - c;
+    float smooth_fit = 0.97619 - 0.488095 * (x * x * x * x * x);
+    float rough_fit = 1.55754 + c * (-2.02221 + c * (2.56283 - 1.06244 * c));
+    return mix(smooth_fit, rough_fit, roughness);
+}
+
+// The model reflects more than there is where it is rough and seen at grazing angles; a path tracer takes that back.
+float mx_burley_excess(float albedo)
+{
+    return option_integrator == 1 ? max(albedo, 1.0) : 1.0;
+}
 
 // Burley 2012, section 5.3.
 vec3 mx_burley_diffuse_bsdf_eval(vec3 color, float roughness, vec3 N, vec3 V, vec3 L)
 {
     float cos_l = mx_facing_cosine(N, V, L);
+    float cos_v = mx_view_cosine(N, V);
     float cos_d = dot(L, normalize(L + V));
-    vec2 x = 1.0 - vec2(cos_l, mx_view_cosine(N, V));
+    vec2 x = 1.0 - vec2(cos_l, cos_v);
     vec2 f = 1.0 + (2.0 * roughness * cos_d * cos_d - 0.5) * (x * x * x * x * x);
-    return color * (f.x * f.y * cos_l / MX_PI);
+    return color * (f.x * f.y * cos_l / MX_PI / mx_burley_excess(mx_burley_albedo(cos_v, roughness)));
 }
 
-// Directional albedo fitted by Stephen Hill.
+vec3 mx_burley_diffuse_bsdf_albedo(vec3 color, float roughness, vec3 N, vec3 V)
+{
+    float albedo = mx_burley_albedo(mx_view_cosine(N, V), roughness);
+    return color * (albedo / mx_burley_excess(albedo));
+}
+
 vec3 mx_burley_diffuse_bsdf_environment(vec3 color, float roughness, vec3 N, vec3 V)
 {
-    float c = mx_view_cosine(N, V);
-    float x = 1.0 - c;
-    float smooth_fit = 0.97619 - 0.488095 * (x * x * x * x * x);
-    float rough_fit = 1.55754 + c * (-2.02221 + c * (2.56283 - 1.06244 * c));
-    return color * (mix(smooth_fit, rough_fit, roughness) * mx_environment_irradiance(mx_facing(N, V)));
+    return mx_burley_diffuse_bsdf_albedo(color, roughness, N, V) * mx_environment_irradiance(mx_facing(N, V));
+}
+
+void mx_burley_diffuse_bsdf_sample(vec3 color, float roughness, vec3 N, vec3 V, vec3 xi, out vec3 L, out vec3 weight,
+                                   out float pdf)
+{
+    L = mx_any_frame(mx_facing(N, V)) * mx_sample_cosine(xi.xy);
+    pdf = mx_cosine_pdf(mx_facing(N, V), L);
+    weight = mx_burley_diffuse_bsdf_eval(color, roughness, N, V, L) / max(pdf, MX_EPSILON);
+}
+
+float mx_burley_diffuse_bsdf_pdf(vec3 color, float roughness, vec3 N, vec3 V, vec3 L)
+{
+    return mx_cosine_pdf(mx_facing(N, V), L);
 }
 
 // ---- translucent_bsdf -----------------------------------------------------------------------------------------------
@@ -102,6 +151,23 @@ vec3 mx_translucent_bsdf_eval(vec3 color, vec3 N, vec3 L)
 vec3 mx_translucent_bsdf_environment(vec3 color, vec3 N)
 {
     return color * mx_environment_irradiance(-N);
+}
+
+vec3 mx_translucent_bsdf_albedo(vec3 color, vec3 N, vec3 V)
+{
+    return color;
+}
+
+void mx_translucent_bsdf_sample(vec3 color, vec3 N, vec3 V, vec3 xi, out vec3 L, out vec3 weight, out float pdf)
+{
+    L = mx_any_frame(-N) * mx_sample_cosine(xi.xy);
+    pdf = mx_cosine_pdf(-N, L);
+    weight = color;
+}
+
+float mx_translucent_bsdf_pdf(vec3 color, vec3 N, vec3 V, vec3 L)
+{
+    return mx_cosine_pdf(-N, L);
 }
 
 // ---- subsurface_bsdf ------------------------------------------------------------------------------------------------
@@ -136,10 +202,30 @@ vec3 mx_subsurface_light(vec3 falloff, float cos_l)
 vec3 mx_subsurface_bsdf_eval(vec3 color, vec3 radius, float anisotropy, vec3 N, vec3 V, vec3 L, vec3 P)
 {
     vec3 n = mx_facing(N, V);
+    if (option_integrator == 1) // where there are no screen derivatives: what leaves where it entered
+        return color * mx_cosine_pdf(n, L);
     return color * mx_subsurface_light(mx_subsurface_falloff(radius, n, P), dot(n, L));
 }
 
 vec3 mx_subsurface_bsdf_environment(vec3 color, vec3 radius, float anisotropy, vec3 N, vec3 V)
 {
     return color * mx_environment_irradiance(mx_facing(N, V));
+}
+
+vec3 mx_subsurface_bsdf_albedo(vec3 color, vec3 radius, float anisotropy, vec3 N, vec3 V)
+{
+    return color;
+}
+
+void mx_subsurface_bsdf_sample(vec3 color, vec3 radius, float anisotropy, vec3 N, vec3 V, vec3 xi, out vec3 L, out
+                               vec3 weight, out float pdf)
+{
+    L = mx_any_frame(mx_facing(N, V)) * mx_sample_cosine(xi.xy);
+    pdf = mx_cosine_pdf(mx_facing(N, V), L);
+    weight = color;
+}
+
+float mx_subsurface_bsdf_pdf(vec3 color, vec3 radius, float anisotropy, vec3 N, vec3 V, vec3 L)
+{
+    return mx_cosine_pdf(mx_facing(N, V), L);
 }

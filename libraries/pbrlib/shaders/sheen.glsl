@@ -2,35 +2,46 @@
 // sheen_bsdf: Conty and Kulla 2017, or Zeltner, Burley and Chiang 2022.
 
 #include "environment.glsl"
+#include "sampling.glsl"
 
-// Directional albedo: a rational fit for Conty and Kulla, the Gaussian fit of Zeltner et al.'s table.
+// Directional albedo: for Conty and Kulla by the program fits/sheen.c, for Zeltner et al. their Gaussian fit.
 float mx_sheen_albedo(float c, float roughness, string mode)
 {
     if (mode == "conty_kulla")
     {
-        float r = roughness;
-        vec2 fit = vec2(13.67300, 1.0)
-                 + c * (vec2(-68.78018, 61.57746) + c * vec2(60.28956, 121.81241) + r * vec2(-905.00061, 2597.49308))
-                 + r * (vec2(799.08825, 442.78211) + r * vec2(1086.96473, 3045.55075));
-        return clamp(fit.x / fit.y, 0.0, 1.0);
+        const mat4 FIT = mat4(3.7341, -15.9587, 23.6210, -11.0989, -8.2265, 35.1081, -49.7137, 23.2945,
+                              4.0691, -17.8820, 25.6639, -12.0167, -0.5833, 2.6552, -3.9393, 1.8999);
+        vec2 x = 1.0 / vec2(1.0 + c, 0.2 + roughness);
+        vec2 x2 = x * x;
+        return clamp(dot(vec4(1.0, x.x, x2.x, x2.x * x.x), FIT * vec4(1.0, x.y, x2.y, x2.y * x.y)), 0.0, 1.0);
     }
     float r = clamp(roughness, 0.01, 1.0);
     float width = r * (0.0206607 + 1.58491 * r) / (0.0379424 + r * (1.32227 + r));
     float mean = r * (-0.193854 + r * (-1.14885 + r * (1.7932 - 0.95943 * r * r))) / (0.046391 + r);
     float offset = r * (0.000654023 + r * (-0.0207818 + 0.119681 * r)) / (1.26264 + r * (-1.92021 + r));
     float x = (c - mean) / width;
-    return exp(-0.5 * x * x) / (width * sqrt(2.0 * MX_PI)) + offset;
+    return max(exp(-0.5 * x * x) / (width * sqrt(2.0 * MX_PI)) + offset, 0.0);
 }
 
 // Zeltner et al.: clamped cosine under the linear transform M^-1 = [a 0 b; 0 a 0; 0 0 1] in the plane of V and N.
+vec2 mx_sheen_transform(float c, float r)
+{
+    return vec2((2.58126 * c + 0.813703 * r) * r / (1.0 + 0.310327 * c * c + 2.60994 * c * r),
+                sqrt(1.0 - c) * (r - 1.0) * r * r * r
+                    / (0.0000254053 + 1.71228 * c - 1.71506 * c * r + 1.34174 * r * r));
+}
+
+mat3 mx_sheen_frame(vec3 N, vec3 V)
+{
+    return mx_frame(N, V + 1e-5 * N.yzx);
+}
+
 float mx_sheen_zeltner(vec3 N, vec3 V, vec3 L, float c, float r)
 {
-    float a = (2.58126 * c + 0.813703 * r) * r / (1.0 + 0.310327 * c * c + 2.60994 * c * r);
-    float b = sqrt(1.0 - c) * (r - 1.0) * r * r * r
-            / (0.0000254053 + 1.71228 * c - 1.71506 * c * r + 1.34174 * r * r);
+    vec2 m = mx_sheen_transform(c, r);
     vec3 l = mx_enter_frame(L, N, mx_tangent(N, V + 1e-5 * N.yzx));
-    vec3 w = vec3(a * l.x + b * l.z, a * l.y, l.z);
-    float scale = a / dot(w, w);
+    vec3 w = vec3(m.x * l.x + m.y * l.z, m.x * l.y, l.z);
+    float scale = m.x / dot(w, w);
     return max(w.z, 0.0) / MX_PI * scale * scale;
 }
 
@@ -50,13 +61,44 @@ vec3 mx_sheen_bsdf_eval(vec3 color, float roughness, vec3 N, string mode, vec3 V
     return color * (d * cos_l / (4.0 * (cos_l + cos_v - cos_l * cos_v)));
 }
 
+vec3 mx_sheen_bsdf_albedo(vec3 color, float roughness, vec3 N, string mode, vec3 V)
+{
+    return color * mx_sheen_albedo(mx_view_cosine(N, V), roughness, mode);
+}
+
 vec3 mx_sheen_bsdf_environment(vec3 color, float roughness, vec3 N, string mode, vec3 V)
 {
-    vec3 n = mx_facing(N, V);
-    return color * (mx_sheen_albedo(mx_view_cosine(N, V), roughness, mode) * mx_environment_irradiance(n));
+    return mx_sheen_bsdf_albedo(color, roughness, N, mode, V) * mx_environment_irradiance(mx_facing(N, V));
 }
 
 vec3 mx_sheen_bsdf_throughput(vec3 color, float roughness, vec3 N, string mode, vec3 V)
 {
     return vec3(1.0 - mx_sheen_albedo(mx_view_cosine(N, V), roughness, mode));
+}
+
+// Zeltner's lobe as it is; Conty and Kulla's is so wide that even directions serve it (their section 3).
+float mx_sheen_bsdf_pdf(vec3 color, float roughness, vec3 N, string mode, vec3 V, vec3 L)
+{
+    vec3 n = mx_facing(N, V);
+    if (mode == "zeltner")
+        return mx_sheen_zeltner(n, V, L, clamp(dot(n, V), MX_EPSILON, 1.0), clamp(roughness, 0.01, 1.0));
+    return dot(n, L) > 0.0 ? 0.5 / MX_PI : 0.0;
+}
+
+void mx_sheen_bsdf_sample(vec3 color, float roughness, vec3 N, string mode, vec3 V, vec3 xi, out vec3 L, out vec3 weight,
+                          out float pdf)
+{
+    vec3 n = mx_facing(N, V);
+    if (mode == "zeltner")
+    {
+        vec2 m = mx_sheen_transform(clamp(dot(n, V), MX_EPSILON, 1.0), clamp(roughness, 0.01, 1.0));
+        vec3 w = mx_sample_cosine(xi.xy);
+        L = mx_sheen_frame(n, V) * normalize(vec3(w.x - m.y * w.z, w.y, m.x * w.z));
+    }
+    else
+    {
+        L = mx_any_frame(n) * vec3(mx_polar(sqrt(1.0 - xi.x * xi.x), xi.y), xi.x);
+    }
+    pdf = mx_sheen_bsdf_pdf(color, roughness, N, mode, V, L);
+    weight = mx_sheen_bsdf_eval(color, roughness, N, mode, V, L) / max(pdf, MX_EPSILON);
 }

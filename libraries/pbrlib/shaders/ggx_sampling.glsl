@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+// The GGX lobe for path tracing: it reflects and refracts at normals that are visible from V (Heitz 2018, "Sampling the GGX
+// Distribution of Visible Normals"). Interfaces as in fresnel.glsl; `mode` is the sum of these:
+
+#include "ggx.glsl"
+
+const int MX_REFLECTS = 1;
+const int MX_REFRACTS = 2;
+
+int mx_ggx_mode(string scatter_mode)
+{
+    return scatter_mode == "R" ? MX_REFLECTS : scatter_mode == "T" ? MX_REFRACTS : MX_REFLECTS + MX_REFRACTS;
+}
+
+// Share of the samples that reflect.
+float mx_ggx_share(vec3 fresnel, int mode)
+{
+    if (mode == MX_REFLECTS)
+        return 1.0;
+    return mode == MX_REFRACTS ? 0.0 : clamp(dot(fresnel, vec3(1.0 / 3.0)), 0.0, 1.0);
+}
+
+// Single masking G1 over the cosine: the density of the normals visible from v over (v·h) D(h) (Heitz 2018, equation 3).
+float mx_ggx_masked(vec3 v, vec2 alpha)
+{
+    return 2.0 / (v.z + mx_ggx_smith(v, alpha));
+}
+
+// Normal of the facet that refracts l, below the horizon, towards v (Walter et al. 2007, equation 16).
+vec3 mx_refracting_normal(vec3 v, vec3 l, float eta)
+{
+    vec3 h = normalize(v + eta * l);
+    return h.z < 0.0 ? -h : h;
+}
+
+// Solid angle of normals for that of refracted directions (Walter et al. 2007, equation 17).
+float mx_refraction_jacobian(vec3 v, vec3 l, vec3 h, float eta)
+{
+    float cos_l = dot(l, h);
+    float sum = dot(v, h) + eta * cos_l;
+    return eta * eta * abs(cos_l) / (sum * sum);
+}
+
+// Refracted light (Walter et al. 2007, equation 21), as a part of energy: radiance grows by the square of the index, and shrinks again
+// where it leaves the medium; both are left out.
+vec3 mx_ggx_refracted(vec2 roughness, vec3 N, vec3 X, vec3 V, vec3 L, float eta, string model, vec3 n, vec3 k, vec3 f90,
+                      float exponent, float film, float film_ior)
+{
+    vec2 alpha = mx_ggx_alpha(roughness);
+    mat3 frame = mx_frame(mx_facing(N, V), X);
+    vec3 v = mx_ggx_local(frame, V);
+    vec3 l = L * frame;
+    vec3 h = mx_refracting_normal(v, l, eta);
+    float cos_h = dot(v, h);
+    if (l.z >= 0.0 || cos_h <= 0.0 || dot(l, h) >= 0.0)
+        return vec3(0.0);
+    return (1.0 - mx_fresnel(min(cos_h, 1.0), model, n, k, f90, exponent, film, film_ior))
+         * (mx_ggx_distribution(h, alpha) * mx_ggx_masked(v, alpha) * mx_ggx_masked(-l, alpha) * -l.z
+            * cos_h * mx_refraction_jacobian(v, l, h, eta));
+}
+
+float mx_ggx_pdf(vec2 roughness, vec3 N, vec3 X, vec3 V, vec3 L, float eta, int mode, string model, vec3 n, vec3 k, vec3 f90,
+                 float exponent, float film, float film_ior)
+{
+    vec2 alpha = mx_ggx_alpha(roughness);
+    mat3 frame = mx_frame(mx_facing(N, V), X);
+    vec3 v = mx_ggx_local(frame, V);
+    vec3 l = L * frame;
+    bool is_reflected = l.z > 0.0;
+    vec3 h = is_reflected ? normalize(v + l) : mx_refracting_normal(v, l, eta);
+    float cos_h = dot(v, h);
+    if (cos_h <= 0.0 || (!is_reflected && dot(l, h) >= 0.0))
+        return 0.0;
+    float share = mx_ggx_share(mx_fresnel(min(cos_h, 1.0), model, n, k, f90, exponent, film, film_ior), mode);
+    return mx_ggx_masked(v, alpha) * mx_ggx_distribution(h, alpha)
+         * (is_reflected ? 0.25 * share : (1.0 - share) * cos_h * mx_refraction_jacobian(v, l, h, eta));
+}
+
+// What mx_ggx_eval and mx_ggx_refracted are over mx_ggx_pdf, without the numbers that become huge where the surface is smooth.
+void mx_ggx_scatter(vec2 roughness, vec3 N, vec3 X, vec3 V, vec3 xi, float eta, int mode, string model, vec3 n, vec3 k, vec3 f90,
+                    float exponent, float film, float film_ior, out vec3 L, out vec3 weight, out float pdf)
+{
+    vec2 alpha = mx_ggx_alpha(roughness);
+    mat3 frame = mx_frame(mx_facing(N, V), X);
+    vec3 v = mx_ggx_local(frame, V);
+    vec3 h = mx_ggx_visible_normal(xi.xy, normalize(vec3(v.xy * alpha, v.z)), alpha);
+    float cos_h = clamp(dot(v, h), MX_EPSILON, 1.0);
+    vec3 f = mx_fresnel(cos_h, model, n, k, f90, exponent, film, film_ior);
+    float share = mx_ggx_share(f, mode);
+    bool is_reflected = xi.z < share;
+    vec3 l = is_reflected ? reflect(-v, h) : refract(-v, h, 1.0 / eta);
+    float density = mx_ggx_masked(v, alpha);
+    L = frame * l;
+    weight = vec3(0.0);
+    pdf = 0.0;
+    if (is_reflected ? l.z <= 0.0 : l.z >= 0.0) // behind its own surface, or refraction that cannot be
+        return;
+    if (is_reflected)
+    {
+        weight = f * (mx_ggx_smith_visibility(v, l, alpha) * 4.0 / (density * share))
+               * mx_ggx_compensation(mx_ggx_albedo(alpha, v.z), model, n, k, f90, exponent, film, film_ior);
+        pdf = 0.25 * share;
+    }
+    else
+    {
+        weight = (1.0 - f) * (mx_ggx_masked(-l, alpha) * -l.z / (1.0 - share));
+        pdf = (1.0 - share) * cos_h * mx_refraction_jacobian(v, l, h, eta);
+    }
+    pdf *= density * mx_ggx_distribution(h, alpha);
+}

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// Directions for path tracing. Random numbers xi are in [0, 1).
+
+#include "frame.glsl"
+
+const int option_integrator = 0; // 0 raster, 1 path tracing
+
+// Axes of the tangent space around N with x along X: `w * frame` enters it, `frame * w` leaves it.
+mat3 mx_frame(vec3 N, vec3 X)
+{
+    vec3 x = mx_tangent(N, X);
+    return mat3(x, cross(N, x), N);
+}
+
+// Axes around N where none matters.
+mat3 mx_any_frame(vec3 N)
+{
+    return mx_frame(N, abs(N.x) < 0.7 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0));
+}
+
+vec2 mx_polar(float radius, float turn)
+{
+    return radius * cos(2.0 * MX_PI * (turn - vec2(0.0, 0.25)));
+}
+
+// Directions around +z, as dense as their cosine.
+vec3 mx_sample_cosine(vec2 xi)
+{
+    return vec3(mx_polar(sqrt(xi.x), xi.y), sqrt(1.0 - xi.x));
+}
+
+float mx_cosine_pdf(vec3 N, vec3 L)
+{
+    return max(dot(N, L), 0.0) / MX_PI;
+}
