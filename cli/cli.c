@@ -24,6 +24,9 @@ static size_t add_common_args(struct cli *cli, struct arg *table)
         {"max-depth", 0, ARG_SIZE, "N", "deepest nesting of elements", &cli->max_depth},
         {"max-include-depth", 0, ARG_SIZE, "N", "deepest nesting of includes", &cli->max_include_depth},
         {"max-includes", 0, ARG_SIZE, "N", "most files that a document includes", &cli->max_includes},
+        {"trust", 0, ARG_FLAG, NULL, "accepts source for one target in documents", &cli->trust},
+        {"sandbox", 0, ARG_FLAG, NULL, "documents may refer to files beside and below them only, and bring no source", &cli->sandbox},
+        {"include-root", 0, ARG_LIST, "DIR", "with --sandbox: documents may refer to files there, too", &cli->include_roots},
         {"max-errors", 0, ARG_SIZE, "N", "errors told of a document, 20 unless said; 0: all", &cli->max_errors},
         {"warning", 'W', ARG_LIST, "WORD", "-WID, -Wno-ID: tells a warning or not; -Werror[=ID], -Wno-error=ID: as an error", &cli->warnings},
         {"quiet", 'q', ARG_FLAG, NULL, "prints errors only", &cli->quiet},
@@ -68,6 +71,10 @@ static bool create_context(struct cli *cli)
     desc.max_depth = limit_u32(cli->max_depth);
     desc.max_include_depth = limit_u32(cli->max_include_depth);
     desc.max_includes = limit_u32(cli->max_includes);
+    desc.trust = cli->trust;
+    desc.sandbox = cli->sandbox;
+    desc.include_roots = cli->include_roots.items;
+    desc.num_include_roots = cli->include_roots.len;
     char *warnings = warnings_join(&cli->warnings);
     desc.warnings = warnings;
     mxg_status status = mxg_context_create(&desc, &cli->context);
@@ -163,6 +170,12 @@ void cli_forward(const struct cli *cli, struct arg_list *args)
     forward_size(args, "max-depth", cli->max_depth);
     forward_size(args, "max-include-depth", cli->max_include_depth);
     forward_size(args, "max-includes", cli->max_includes);
+    if (cli->trust)
+        args_append(args, cli_format("--trust"));
+    if (cli->sandbox)
+        args_append(args, cli_format("--sandbox"));
+    for (size_t i = 0; i < cli->include_roots.len; ++i)
+        args_append(args, cli_format("--include-root=%s", cli->include_roots.items[i]));
     args_append(args, cli_format("--max-errors=%zu", cli->max_errors));
     for (size_t i = 0; i < cli->warnings.len; ++i)
         args_append(args, cli_format("-W%s", cli->warnings.items[i]));
@@ -178,6 +191,7 @@ void cli_finish(struct cli *cli)
     report_finish(&cli->report);
     free(cli->library_paths.items);
     free(cli->warnings.items);
+    free(cli->include_roots.items);
     args_finish(&cli->parser);
 }
 

@@ -27,6 +27,8 @@ struct cli {
     struct arg_list library_paths;
     bool quiet, verbose, help, version, no_builtin_library;
     struct arg_list warnings; /* words of -W */
+    struct arg_list include_roots;
+    bool trust, sandbox;
     size_t max_memory, max_file_size, max_elements, max_nodes, max_output_size, max_errors, max_depth, max_include_depth, max_includes;
 
     struct report report;

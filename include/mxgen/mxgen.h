@@ -137,6 +137,18 @@ typedef struct mxg_context_desc {
      * "ID" (of something that is only a note otherwise). NULL: as they are. A word that is none of these is MXG_ERROR_ARGUMENT.
      */
     const char *warnings;
+    /*
+     * Source that documents bring (libraries may bring any). Without either: portable source, which mxgen reads and writes anew; source
+     * for one target that is not portable would be passed on as it is, and is refused. trust: all. sandbox without trust: none.
+     */
+    bool trust;
+    /*
+     * Without a resolver: files that documents refer to must lie in or below the folder of a file that the caller named, or one of the
+     * include roots.
+     */
+    bool sandbox;
+    const char *const *include_roots; /* folders; num_include_roots of them */
+    size_t num_include_roots;
 } mxg_context_desc;
 #define MXG_CONTEXT_DESC_INIT {sizeof(mxg_context_desc)}
 

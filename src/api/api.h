@@ -94,6 +94,9 @@ struct mxg_context {
     struct xml_limits xml_limits;
     uint32_t max_nodes, max_output_mib, max_errors;
     struct diag_policy policy;
+    bool sandbox;
+    enum library_trust trust; /* in the source that documents bring */
+    struct sandbox_root *roots; /* canonical */
     struct mxg_library builtin; /* size 0: this build has none */
 };
 
@@ -127,6 +130,13 @@ bool file_source_read(struct file_source *source, const char *path, const char *
 /* Files through stdio: what a context without resolver has. Its reason is stdio_no_memory itself where that was the reason. */
 mxg_resolver stdio_resolver(struct mxg_context *context);
 extern const char stdio_no_memory[];
+
+/* sandbox.c: what the caller names opens its folder to what documents refer to. False: no memory. */
+bool sandbox_admit_file(struct mxg_context *context, const char *file);
+bool sandbox_admit_folder(struct mxg_context *context, const char *folder);
+/* Why a file that a document refers to is not opened; NULL: it may be. */
+const char *sandbox_fault(const struct mxg_context *context, const char *path);
+void sandbox_finish(struct mxg_context *context);
 
 /* folder.c: is the path a folder? And every file below it whose name ends with `suffix`, sorted. */
 bool folder_exists(const char *path);

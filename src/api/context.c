@@ -66,6 +66,9 @@ mxg_status mxg_context_create(const mxg_context_desc *desc, mxg_context **out_co
         || (d.resolver && (!d.resolver->open || !d.resolver->release)))
         return MXG_ERROR_ARGUMENT;
     struct diag_policy policy;
+    for (size_t i = 0; i < d.num_include_roots; i++)
+        if (!d.include_roots || !d.include_roots[i])
+            return MXG_ERROR_ARGUMENT;
     if (diag_policy_parse(&policy, d.warnings ? d.warnings : ""))
         return MXG_ERROR_ARGUMENT;
     struct mem mem;
@@ -89,6 +92,14 @@ mxg_status mxg_context_create(const mxg_context_desc *desc, mxg_context **out_co
     context->max_nodes = or_default(d.max_nodes, 64000000);
     context->max_output_mib = or_default(d.max_output_mib, 256);
     context->max_errors = or_default(d.max_errors, 20);
+    context->sandbox = d.sandbox;
+    context->trust = d.trust ? LIBRARY_TRUST_ALL : d.sandbox ? LIBRARY_TRUST_GRAPHS : LIBRARY_TRUST_PORTABLE;
+    for (size_t i = 0; i < d.num_include_roots; i++) {
+        if (!sandbox_admit_folder(context, d.include_roots[i])) {
+            mxg_context_destroy(context);
+            return MXG_ERROR_MEMORY;
+        }
+    }
     xml_startup();
     context->resolver = d.resolver ? *d.resolver : stdio_resolver(context);
     map_builtin(context);
@@ -101,5 +112,6 @@ void mxg_context_destroy(mxg_context *context)
     if (!context)
         return;
     object_empty(&context->builtin.object);
+    sandbox_finish(context);
     context->mem.realloc(context->mem.user_data, context, sizeof *context, 0);
 }

@@ -20,6 +20,7 @@ static void read_layer(void *arg)
     struct xml_files files = file_source_for_xml(&load->files);
     struct lang_reader reader = file_source_for_lang(&load->files);
     library_init(layer, &document->object.arena, load->base);
+    layer->trust = document->object.context->trust;
     if (load->data) {
         vec_push(&document->object.arena, &load->files.names,
                  arena_strndup(&document->object.arena, load->name, strlen(load->name)));
@@ -44,6 +45,10 @@ static mxg_status load_document(mxg_context *context, mxg_library *library, stru
         return MXG_ERROR_MEMORY;
     load->base = &library->layer;
     struct object *object = &load->document->object;
+    if (!sandbox_admit_file(context, load->name)) {
+        object_unref(object);
+        return MXG_ERROR_MEMORY;
+    }
     file_source_init(&load->files, object);
     mxg_status status = object_run(object, read_layer, load);
     file_source_finish(&load->files);

@@ -60,6 +60,8 @@ static void read_file(struct load *load, const char *path)
 {
     struct xml_files files = file_source_for_xml(&load->files);
     mxg_library *library = load->library;
+    if (!sandbox_admit_file(library->object.context, path))
+        mem_fail(&library->object.mem);
     xml_read_file(&library->layer.doc, &files, &library->object.context->xml_limits, path, &library->object.diagnostics.list);
 }
 

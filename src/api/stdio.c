@@ -120,8 +120,12 @@ static bool open_file(void *user_data, const char *from, const char *ref, mxg_bl
     enum outcome outcome = MISSING;
     for (int i = one_place; i < 2 && outcome == MISSING; i++) {
         struct block *name = join(context, i == 0 ? from : "", ref);
-        *out_reason = stdio_no_memory;
-        outcome = name ? open_at(context, name->bytes, out_blob, out_reason) : UNREADABLE;
+        const char *fault = name ? NULL : stdio_no_memory;
+        if (name && *from) /* what the caller names may be anything */
+            fault = sandbox_fault(context, name->bytes);
+        if (fault)
+            *out_reason = fault;
+        outcome = fault ? UNREADABLE : open_at(context, name->bytes, out_blob, out_reason);
         release(context, name);
     }
     if (outcome == UNREADABLE)
@@ -140,7 +144,7 @@ static size_t list_folder(void *user_data, const char *from, const char *folder,
     size_t size = 0;
     for (int i = 0; i < 2 && !size; i++) {
         struct block *name = join(context, i == 0 ? from : "", folder);
-        if (name)
+        if (name && !(*from && sandbox_fault(context, name->bytes[0] ? name->bytes : ".")))
             folder_names(name->bytes[0] ? name->bytes : ".", names, capacity, &size);
         release(context, name);
     }

@@ -410,15 +410,24 @@ static bool parse_source(struct indexer *ix, struct implementation *impl, struct
     return parse_expressions(ix, impl, source, file, diags);
 }
 
+static void refuse_source(struct indexer *ix, const struct implementation *impl, const char *reason, struct diag_list *diags)
+{
+    diag_add(diags, DIAG_ID_untrusted_source, doc_place(&ix->lib->doc, impl->element), text_of(ix->lib, impl->name), reason);
+}
+
 /* What does not parse is kept as it is for the targets it is written for; a portable implementation must parse. */
 static void parse_implementation(struct indexer *ix, struct implementation *impl)
 {
     struct diag_list faults;
     diag_list_init(&faults, ix->arena);
-    if (parse_source(ix, impl, &faults))
+    if (ix->lib->trust == LIBRARY_TRUST_GRAPHS)
+        refuse_source(ix, impl, "no source is read in a sandbox", &faults);
+    else if (parse_source(ix, impl, &faults))
         return;
     str_id file_name = attr(ix, impl->element, STR_file);
-    if (impl->target) {
+    if (impl->target && ix->lib->trust == LIBRARY_TRUST_PORTABLE)
+        refuse_source(ix, impl, "it is not portable, so it would be passed on as it is", &faults);
+    if (impl->target && ix->lib->trust == LIBRARY_TRUST_ALL) {
         struct diag_list unread;
         diag_list_init(&unread, ix->arena);
         str_id source = file_name ? read_source(ix, impl->element, file_name, file_of(ix, impl->element), &unread)

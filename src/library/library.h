@@ -115,8 +115,15 @@ struct user_type { /* <typedef> that is not a standard type */
     elem_id element;
 };
 
+enum library_trust { /* in the source of implementations */
+    LIBRARY_TRUST_ALL,
+    LIBRARY_TRUST_PORTABLE, /* not in what would be emitted as it is */
+    LIBRARY_TRUST_GRAPHS,   /* in none */
+};
+
 struct library {
     struct library *base;
+    enum library_trust trust;
     struct strpool strings;
     struct document doc;
     struct lang_unit unit;

@@ -6,7 +6,7 @@
  *
  * in itself or in a file it reads (there perhaps behind //). The place is @+N or @-N lines from the comment, @N line N, @0 no line, @* any
  * place in any file, any number of times, and without @ the comment's own line. A first line "<!-- mxgen: key=value ... -->" has
- * options: target, element, library, warnings, limits (max-errors …), and those of generation. Every document is loaded, validated, and
+ * options: target, element, library, warnings, trust=yes, sandbox=yes, limits (max-errors …), and those of generation. Every document is loaded, validated, and
  * everything in it that can be rendered is generated.
  *
  *     test_diag FOLDER              and every id of the catalogue must be expected in a document or listed in FOLDER/elsewhere.txt
@@ -133,6 +133,10 @@ static bool set_limit(mxg_context_desc *desc, const char *key, const char *value
         desc->warnings = warnings;
         return true;
     }
+    desc->trust = desc->trust || strcmp(key, "trust") == 0;
+    desc->sandbox = desc->sandbox || strcmp(key, "sandbox") == 0;
+    if (strcmp(key, "trust") == 0 || strcmp(key, "sandbox") == 0)
+        return true;
     const struct {
         const char *key;
         uint32_t *out;

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * Which files documents may refer to. In a sandbox these lie in or below the folder of a file that the caller named, or one of the context's
+ * include roots. Links are followed before paths are compared.
+ */
+#define _XOPEN_SOURCE 700
+#include "api/api.h"
+
+#include <limits.h>
+#include <stdlib.h>
+#include <sys/stat.h>
+
+#ifndef PATH_MAX
+#define PATH_MAX 4096
+#endif
+
+struct sandbox_root {
+    struct sandbox_root *next;
+    size_t size;
+    size_t len; /* of the path, which does not end with '/' but for the root of the file system */
+    char path[];
+};
+
+static bool is_below(const struct sandbox_root *root, const char *path)
+{
+    if (strncmp(path, root->path, root->len) != 0)
+        return false;
+    return root->len == 1 || path[root->len] == '/' || path[root->len] == '\0';
+}
+
+static bool is_known(const struct mxg_context *context, const char *path)
+{
+    for (const struct sandbox_root *root = context->roots; root; root = root->next)
+        if (is_below(root, path))
+            return true;
+    return false;
+}
+
+static bool add(struct mxg_context *context, const char *path)
+{
+    size_t len = strlen(path), size = sizeof(struct sandbox_root) + len + 1;
+    if (is_known(context, path))
+        return true;
+    struct sandbox_root *root = context->mem.realloc(context->mem.user_data, NULL, 0, size);
+    if (!root)
+        return false;
+    *root = (struct sandbox_root){.next = context->roots, .size = size, .len = len};
+    memcpy(root->path, path, len + 1);
+    context->roots = root;
+    atomic_fetch_add(&context->used, size);
+    return true;
+}
+
+bool sandbox_admit_folder(struct mxg_context *context, const char *folder)
+{
+    char real[PATH_MAX];
+    return !context->sandbox || !realpath(folder, real) || add(context, real);
+}
+
+bool sandbox_admit_file(struct mxg_context *context, const char *file)
+{
+    char folder[PATH_MAX];
+    const char *slash = strrchr(file, '/');
+    size_t len = slash ? (size_t)(slash - file) + (slash == file) : 1;
+    if (!context->sandbox || len >= sizeof folder)
+        return true;
+    memcpy(folder, slash ? file : ".", len);
+    folder[len] = '\0';
+    return sandbox_admit_folder(context, folder);
+}
+
+const char *sandbox_fault(const struct mxg_context *context, const char *path)
+{
+    char real[PATH_MAX];
+    struct stat info;
+    if (stat(path, &info) != 0)
+        return NULL; /* opening it tells why */
+    if (context->sandbox && (!realpath(path, real) || !is_known(context, real)))
+        return "it is outside of the folders that documents may refer to; see --sandbox";
+    return S_ISREG(info.st_mode) || S_ISDIR(info.st_mode) ? NULL : "it is no plain file";
+}
+
+void sandbox_finish(struct mxg_context *context)
+{
+    while (context->roots) {
+        struct sandbox_root *root = context->roots;
+        context->roots = root->next;
+        context->mem.realloc(context->mem.user_data, root, root->size, 0);
+    }
+}
