@@ -211,7 +211,13 @@ mxg_document *cli_load(struct cli *cli, const char *path)
 
 char *cli_file_name(const char *element_path)
 {
-    char *name = cli_format("%s", element_path);
+    /* File systems take 255 bytes: of a longer name the end is replaced by a hash of the whole, so that names stay different. */
+    enum { MAX_NAME = 200 };
+    uint32_t hash = 2166136261u; /* FNV-1a */
+    for (const char *c = element_path; *c; ++c)
+        hash = (hash ^ (unsigned char)*c) * 16777619u;
+    char *name = strlen(element_path) > MAX_NAME ? cli_format("%.*s-%08x", MAX_NAME, element_path, (unsigned)hash)
+                                                 : cli_format("%s", element_path);
     for (char *c = name; *c; ++c) {
         if (*c == '/')
             *c = '.';

@@ -11,6 +11,7 @@ extern const struct target target_osl;
 /* What is known while a file is written. */
 struct osl {
     struct spell *spell;
+    const char **arrays; /* by interface variable: the parameter that a stream of several numbers comes as */
     uint8_t *kinds;   /* per node of three components: enum osl_kind */
     VEC(const char *) helpers; /* functions that the file declares for itself, callees first */
 };

@@ -89,17 +89,20 @@ static const char *value_name(struct spell *spell, const char *stream)
 void osl_name_interface(struct osl *osl)
 {
     struct spell *spell = osl->spell;
+    osl->arrays = ARENA_ARRAY(spell->scratch, const char *, spell->shader->interface.len);
     for (uint32_t i = 0; i < spell->shader->interface.len; i++) {
         const struct shader_variable *variable = interface_variable(osl, i);
         const char *name = text_of(osl, variable->name);
         const char *expression = expression_of(osl, variable);
-        if (is_stream(variable) && !expression && !array_length(variable))
+        if (is_stream(variable) && !expression && array_length(variable))
+            osl->arrays[i] = names_unique(&spell->names, primitive_name(name), strlen(primitive_name(name)));
+        else if (is_stream(variable) && !expression)
             name = primitive_name(name);
         if (ir_type_is_closure(variable->type))
             name = "Ci";
         else if (expression && is_global(expression))
             name = expression;
-        else if (is_stream(variable) && !expression && array_length(variable))
+        else if (osl->arrays[i])
             name = value_name(spell, name);
         else if (is_stream(variable))
             name = names_unique(&spell->names, name, strlen(name));
@@ -307,7 +310,7 @@ static void write_stream_parameters(struct osl *osl, unsigned *count)
             continue;
         next_parameter(spell, count);
         if (array_length(variable)) {
-            SPELL(spell, "float ", primitive_name(text_of(osl, variable->name)), "[");
+            SPELL(spell, "float ", osl->arrays[i], "[");
             spell_number(spell, array_length(variable));
             spell_text(spell, "] = ");
         } else {
@@ -357,7 +360,7 @@ void osl_write_streams(struct osl *osl)
         }
         SPELL(spell, lang_syntax_type(spell->target->syntax, variable->type), "(");
         for (unsigned k = 0; k < array_length(variable); k++) {
-            SPELL(spell, k ? ", " : "", primitive_name(text_of(osl, variable->name)), "[");
+            SPELL(spell, k ? ", " : "", osl->arrays[i], "[");
             spell_number(spell, k);
             spell_text(spell, "]");
         }

@@ -220,6 +220,9 @@ static elem_id find_path(const struct search *s, const char *path, str_id *out_o
 static elem_id find_asked(const struct search *s, const char *path, str_id *out_output)
 {
     elem_id found = find_path(s, path, out_output);
+    for (uint32_t i = 0; i < s->document->renderables.len && !found; i++) /* faulty names may hold a '/' */
+        if (strcmp(s->document->renderable_paths[i], path) == 0)
+            found = s->document->renderables.items[i];
     if (!found)
         report_unknown(s, path);
     return found ? find_meant(s, found) : 0;

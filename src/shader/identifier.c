@@ -26,9 +26,12 @@ static const uint8_t word_characters[256] = {
     ['a'] = ROW_OF(1), ROW_OF(1),
 };
 
+/* Compilers refuse names of more than 1,024 characters; a number may come behind this, and the name of a graph before it. */
+enum { MAX_LENGTH = 240 };
+
 static bool is_identifier(const char *text, size_t len)
 {
-    if (len == 0 || is_digit(text[0]) || is_reserved_prefix(text, len))
+    if (len == 0 || len > MAX_LENGTH || is_digit(text[0]) || is_reserved_prefix(text, len))
         return false;
     unsigned last = 1;
     for (size_t i = 0; i < len; i++) {
@@ -45,6 +48,7 @@ const char *identifier_from(const char *text, size_t len, struct arena *arena, s
     *out_len = len;
     if (is_identifier(text, len))
         return text;
+    len = len < MAX_LENGTH ? len : MAX_LENGTH;
     char *out = arena_alloc(arena, len + 2);
     size_t n = 0;
     if (len == 0 || is_digit(text[0]) || is_reserved_prefix(text, len))

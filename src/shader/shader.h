@@ -232,7 +232,7 @@ void shader_effect(struct shader *shader, enum shader_stage_id stage, struct eff
 uint32_t shader_add_local(struct shader *shader, str_id name, ir_type_id type);
 
 /*
- * identifier.c: text as an identifier: other characters become '_', no leading digit, no "__", no "gl_" in front; "x" for nothing.
+ * identifier.c: text as an identifier: other characters become '_', no leading digit, no "__", no "gl_" in front; "x" for nothing; what is very long is cut.
  * The text itself where it is one already.
  */
 const char *identifier_from(const char *text, size_t len, struct arena *arena, size_t *out_len);

@@ -87,6 +87,8 @@ void spell_functions(struct spell *spell); /* constants, verbatim sources, porta
 /* The stage of C-like targets: declarations, functions, main. */
 void spell_stage(struct spell *spell, enum shader_stage_id stage);
 
+/* The text of a comment, of a document's words: nothing in it ends the line or joins it with the next one. */
+void spell_comment(struct spell *spell, const char *text, size_t len);
 static inline void spell_text(struct spell *spell, const char *text) { text_str(spell->out, text); }
 /* Several texts in a row: SPELL(spell, "in ", name, ";\n"). */
 #define SPELL(spell, ...) spell_texts((spell), (const char *const[]){__VA_ARGS__, NULL})

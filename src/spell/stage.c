@@ -120,6 +120,14 @@ static void write_plural(struct text *out, uint32_t n, const char *what)
 }
 
 /* "Gold · surfacematerial · mxgen 0.1 · vulkan · reduced · 1 closure · 0 textures" */
+void spell_comment(struct spell *spell, const char *text, size_t len)
+{
+    for (size_t i = 0; i < len; i++) {
+        bool is_harmful = (unsigned char)text[i] < 0x20 || text[i] == 0x7f || text[i] == '\\';
+        text_char(spell->out, is_harmful ? '?' : text[i]);
+    }
+}
+
 void spell_title(struct spell *spell)
 {
     const struct shader *shader = spell->shader;
@@ -133,7 +141,7 @@ void spell_title(struct spell *spell)
     for (size_t i = spell->options->neutral_names ? 2 : 0; i < sizeof parts / sizeof *parts; i++) {
         if (!parts[i] || !*parts[i])
             continue;
-        spell_text(spell, parts[i]);
+        spell_comment(spell, parts[i], strlen(parts[i]));
         spell_text(spell, " · ");
     }
     write_plural(spell->out, shader->num_closures, "closure");

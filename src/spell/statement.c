@@ -76,7 +76,7 @@ static void write_path(struct spell *spell, unsigned indent, uint32_t origin)
         return;
     spell_indent(spell, indent);
     text_mem(spell->out, "// ", 3);
-    text_mem(spell->out, path, (size_t)(end - path));
+    spell_comment(spell, path, (size_t)(end - path));
     text_char(spell->out, '\n');
 }
 
@@ -301,7 +301,7 @@ static void write_comment(struct spell *spell, unsigned indent, str_id text)
         return;
     open_line(spell, indent, 0);
     text_mem(spell->out, "// ", 3);
-    spell_text(spell, str_text(spell->shader->strings, text));
+    spell_comment(spell, str_text(spell->shader->strings, text), str_len(spell->shader->strings, text));
     text_char(spell->out, '\n');
 }
 
