@@ -329,6 +329,8 @@ static const char *origin_path(void *user_data, uint32_t origin)
     return result->origin_paths[origin] = text_cstr(&path);
 }
 
+enum { USUAL_SOURCE = 24 << 10 };
+
 static bool spell_one(struct generation *g, const struct spell_options *options, enum shader_stage_id stage)
 {
     mxg_result *result = g->result;
@@ -336,6 +338,7 @@ static bool spell_one(struct generation *g, const struct spell_options *options,
     struct spell_mark *marks;
     struct stage_source *out = &result->stages[stage];
     text_init(&source, &result->object.arena);
+    text_reserve(&source, USUAL_SOURCE); /* so that it is not moved while it grows */
     spell_shader_stage(result->target, options, &result->shader, stage, &g->scratch, &source, &marks, &out->num_marks);
     uint32_t limit = result->object.context->max_output_mib;
     if (source.len > (uint64_t)limit << 20) {

@@ -54,7 +54,7 @@ void text_hex64(struct text *text, uint64_t value)
         text_char(text, "0123456789abcdef"[value >> shift & 15]);
 }
 
-void text_float(struct text *text, float value)
+void text_other_float(struct text *text, float value)
 {
     text_reserve(text, NUM_FLOAT_MAX);
     text->len += num_print_float(text->data + text->len, value);

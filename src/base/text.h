@@ -83,7 +83,20 @@ void text_i32(struct text *text, int32_t value);
 void text_hex64(struct text *text, uint64_t value); /* 16 digits */
 
 /* The shortest decimal that reads back to the same float, always with '.' or an exponent; "inf", "-inf", "nan". */
-void text_float(struct text *text, float value);
+void text_other_float(struct text *text, float value);
+static inline void text_float(struct text *text, float value)
+{
+    uint32_t bits; /* -0.0 is a float of its own */
+    memcpy(&bits, &value, sizeof bits);
+    bool is_small = bits >> 31 == 0 && value < 10.0f;
+    int digit = is_small ? (int)value : 0;
+    if (!is_small || value != (float)digit) {
+        text_other_float(text, value);
+        return;
+    }
+    const char small[3] = {(char)('0' + digit), '.', '0'}; /* most numbers of a shader */
+    text_mem(text, small, sizeof small);
+}
 
 /* As printf; for messages, not for floats (the locale's decimal point would show). */
 #if defined(__GNUC__)

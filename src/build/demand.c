@@ -138,8 +138,7 @@ static void resolve(struct builder *b, struct frame *frame, elem_id node)
         return;
     }
     if (layer == b->lib) /* what no definition reads must not go by in silence */
-        for (elem_id e = doc_element(doc_of(b), node)->first_child; e; e = doc_element(doc_of(b), e)->next)
-            doc_check_element(doc_of(b), e, b->diags);
+        doc_check_children(doc_of(b), node, b->diags);
     /* Bindings move when the vector grows: each frame keeps its own copy. */
     uint32_t before = b->resolved.bindings.len;
     frame->node = library_resolve_node(b->lib, node, &b->resolved, b->diags);

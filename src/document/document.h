@@ -191,7 +191,7 @@ void doc_write(const struct document *doc, elem_id root, struct text *out);
 
 /* validate.c: checks that need no library: names, attributes, values that parse, structure. */
 void doc_validate(const struct document *doc, struct diag_list *diags);
-/* What of it concerns how an element stands: its place, its required attributes, and that it is not connected twice. */
-void doc_check_element(const struct document *doc, elem_id element, struct diag_list *diags);
+/* What of it concerns how the children of an element stand: their place, their required attributes, and that none is connected twice. */
+void doc_check_children(const struct document *doc, elem_id parent, struct diag_list *diags);
 
 #endif

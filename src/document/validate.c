@@ -193,10 +193,11 @@ static void check_standing(struct validation *v, elem_id element)
         check_bindings(v, element);
 }
 
-void doc_check_element(const struct document *doc, elem_id element, struct diag_list *diags)
+void doc_check_children(const struct document *doc, elem_id parent, struct diag_list *diags)
 {
     struct validation v = {.doc = doc, .diags = diags, .arena = diags->arena};
-    check_standing(&v, element);
+    for (elem_id e = doc_element(doc, parent)->first_child; e; e = doc_element(doc, e)->next)
+        check_standing(&v, e);
 }
 
 static void check_element(struct validation *v, elem_id element)
