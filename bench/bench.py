@@ -3,7 +3,9 @@
 """Measures mxgen and prints counts and ratios, never times: instructions by callgrind, peak memory, sizes of what is emitted,
 growth with the size of a graph. Arguments: the build folder and a document."""
 import os
+import pathlib
 import re
+import resource
 import subprocess
 import sys
 import tempfile
@@ -104,6 +106,38 @@ def growth(folder):
             os.remove(path)
 
 
+def cpu(*command):
+    """Processor seconds of a program and what it starts; the least of three runs."""
+    times = []
+    for _ in range(3):
+        before = resource.getrusage(resource.RUSAGE_CHILDREN)
+        subprocess.run(command, check=False, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        after = resource.getrusage(resource.RUSAGE_CHILDREN)
+        times.append(after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime)
+    return min(times)
+
+
+def checks(folder):
+    """mxgen check over many documents, in processor time: against xmllint, how much of it is compilation, and with a cache."""
+    root = "../shared/materials" if os.path.isdir("../shared/materials") else "examples"
+    files = sorted(str(path) for path in pathlib.Path(root).rglob("*.mtlx") if path.is_file())
+    check = [MXGEN, "check", "-q", "-j1", *files]
+    alone = cpu("xmllint", "--noout", *files)
+    each = sum(cpu("xmllint", "--noout", path) for path in files[::10]) / len(files[::10]) * len(files)
+    generate = cpu(*check, "--no-compile")
+    print(f"\nmxgen check, {len(files)} documents of {root}, one worker, ratios of processor time")
+    print(f"{'documents a second without compiling, to xmllint --noout of all in one process':85} {alone / generate:6.2f} {'> 0.33':>8}")
+    print(f"{'the same, to an xmllint for each document':85} {each / generate:6.2f}")
+    part = [path for path in files if "/wild/" not in path] or files
+    cache = f"{folder}/cache"
+    first = cpu(MXGEN, "check", "-q", "-j1", *part)
+    compilers = 1 - cpu(MXGEN, "check", "-q", "-j1", "--no-compile", *part) / first
+    subprocess.run([MXGEN, "check", "-q", "--cache", cache, *part], check=False, stdout=subprocess.DEVNULL)
+    second = cpu(MXGEN, "check", "-q", "-j1", "--cache", cache, *part)
+    print(f"{'the part of compilers, where they are asked':85} {compilers:6.2f} {'> 0.90':>8}")
+    print(f"{'a second run with a cache, to the first':85} {second / first:6.3f} {'< 0.05':>8}")
+
+
 def same_bytes(folder):
     """Two runs from different folders."""
     texts = []
@@ -134,6 +168,7 @@ def main():
         print(f"\nprocess / libxml2 alone (start and parse: {base:,} instructions): {process / base:.2f}")
         print(f"libxml2 alone: {number(peak(f'{BUILD}/bench/bench-parse', DOCUMENT)[0] * 1024 / 1e6)} MB peak")
         print(f"two runs in two folders give the same bytes: {'yes' if same_bytes(folder) else 'NO'}")
+        checks(folder)
         growth(folder)
 
 

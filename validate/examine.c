@@ -71,6 +71,24 @@ static bool is_told(const struct examiner *examiner, const mxg_diagnostic *diagn
     return diagnostic->severity != MXG_SEVERITY_NOTE || examiner->cli->verbose;
 }
 
+static bool is_about_absence(const char *id)
+{
+    static const char *const ids[] = {"missing-texture", "missing-tiles", "include-missing", "missing-source-file"};
+    for (size_t i = 0; i < sizeof ids / sizeof *ids; ++i)
+        if (strcmp(id, ids[i]) == 0)
+            return true;
+    return false;
+}
+
+/* Of "there is no file 'a/b.png'": once it is there, the message does not stand. */
+static void add_quoted_place(struct examiner *examiner, const mxg_diagnostic *diagnostic)
+{
+    const char *quote = strchr(diagnostic->message, '\'');
+    size_t len = quote ? strcspn(quote + 1, "'") : 0;
+    if (len && diagnostic->file)
+        check_add_place(&examiner->store, examiner->document, diagnostic->file, store_text(&examiner->store, quote + 1, len));
+}
+
 static void add_diagnostics(struct examiner *examiner, const mxg_diagnostics *list, struct check_shader *shader,
                             const char *element)
 {
@@ -79,6 +97,8 @@ static void add_diagnostics(struct examiner *examiner, const mxg_diagnostics *li
         mxg_diagnostics_get(list, i, &diagnostic);
         if (!is_told(examiner, &diagnostic, i))
             continue;
+        if (is_about_absence(diagnostic.id))
+            add_quoted_place(examiner, &diagnostic);
         char *rendered = render_message(examiner, list, i);
         examine_add(examiner, shader,
                     (struct check_message){.severity = diagnostic.severity, .id = diagnostic.id, .text = diagnostic.message,

@@ -81,6 +81,8 @@ static void add_variable_part(struct examiner *examiner, struct check_shader *sh
     const char *slash = strrchr(variable->path, '/');
     size_t len = slash ? (size_t)(slash - variable->path) : strlen(variable->path);
     if (variable->block == MXG_BLOCK_TEXTURES) {
+        if (*variable->file)
+            check_add_place(&examiner->store, examiner->document, examiner->document->file, variable->file);
         const char *name = *variable->path ? variable->path : variable->name;
         add_part(examiner, shader, MEASURE_SAMPLERS, name, strlen(name), 1);
         if (*variable->path)
@@ -159,7 +161,7 @@ static void add_compile_message(struct examiner *examiner, const mxg_result *res
                   mxg_result_source_place(result, message->stage, message->line, &file, &line, &column, &path) && file;
     if (!placed)
         file = examiner->document->file;
-    char *text = cli_format("'%s', %s, %s stage, line %u: %s", path ? path : element, shader->target, stages[message->stage],
+    char *text = cli_format("'%s', %s, %s stage, line %u: %s", path && *path ? path : element, shader->target, stages[message->stage],
                             message->line, message->text);
     char *place = placed ? cli_format("%s:%u:%u", file, line, column) : cli_format("%s", file), *rendered = NULL;
     size_t size = 0;

@@ -6,6 +6,7 @@
 #include "cli/files.h"
 #include "cli/folder.h"
 
+#include <dirent.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -33,6 +34,38 @@ static bool hash_file(const char *path, char out[SHA256_HEX + 1])
     return true;
 }
 
+static int compare_names(const void *a, const void *b)
+{
+    return strcmp(*(const char *const *)a, *(const char *const *)b);
+}
+
+/* A folder by the names in it; one that is not there has none. */
+static void hash_folder(const char *path, char out[SHA256_HEX + 1])
+{
+    struct sha256 sha;
+    struct arg_list names = {0};
+    DIR *folder = opendir(path);
+    for (const struct dirent *entry; folder && (entry = readdir(folder)) != NULL;)
+        args_append(&names, cli_format("%s", entry->d_name));
+    if (folder)
+        closedir(folder);
+    if (names.len)
+        qsort(names.items, names.len, sizeof *names.items, compare_names);
+    sha256_init(&sha);
+    for (size_t i = 0; i < names.len; ++i) {
+        sha256_add_text(&sha, names.items[i]);
+        free((void *)(uintptr_t)names.items[i]);
+    }
+    sha256_hex(&sha, out);
+    free(names.items);
+}
+
+static bool is_folder_name(const char *path)
+{
+    size_t len = strlen(path);
+    return len && path[len - 1] == '/';
+}
+
 /* The hash of a file that may have been asked for before in this run; "" where it cannot be read. */
 static const char *remembered_hash(struct cache *cache, const char *path)
 {
@@ -45,7 +78,9 @@ static const char *remembered_hash(struct cache *cache, const char *path)
     if (!file->path || strcmp(file->path, path) != 0) {
         free(file->path);
         file->path = cli_format("%s", path);
-        if (!hash_file(path, file->hex))
+        if (is_folder_name(path))
+            hash_folder(path, file->hex);
+        else if (!hash_file(path, file->hex))
             file->hex[0] = '\0';
     }
     return file->hex;
@@ -130,7 +165,8 @@ static char *entry_path(const struct cache *cache, const struct cache_key *key)
     return cli_format("%s/%.2s/%s.json", cache->folder, key->hex, key->hex + 2);
 }
 
-/* The first line of an entry is an object: path and hash of each file that was read besides the document. */
+/* The first line of an entry is an object: path and hash of each file that was read besides the document, and of the
+ * names in each folder of textures. */
 static bool is_current(struct cache *cache, const char *line, size_t len)
 {
     struct store store = {0};
@@ -170,7 +206,16 @@ static bool may_have_changed(const struct cache *cache, const char *path)
     return stat(path, &info) != 0 || info.st_mtim.tv_sec >= cache->begin;
 }
 
-/* What was looked for and not found may be there next time, and no file tells. */
+/* What was looked for and not found may be there next time, and no folder tells. */
+static bool is_about_absence(const char *id)
+{
+    static const char *const ids[] = {"failed", "file-missing", "file-unreadable", "no-profile"};
+    for (size_t i = 0; i < sizeof ids / sizeof *ids; ++i)
+        if (strcmp(id, ids[i]) == 0)
+            return true;
+    return false;
+}
+
 static bool follows_from_files(const struct cache *cache, const struct check_document *document)
 {
     for (size_t i = 1; i < document->num_files; ++i)
@@ -178,11 +223,9 @@ static bool follows_from_files(const struct cache *cache, const struct check_doc
             return false;
     if (document->failed == CHECK_CRASH || document->failed == CHECK_TIMEOUT || document->num_files == 0)
         return false;
-    for (size_t i = 0; i < document->num_messages; ++i) {
-        const char *id = document->messages[i].id;
-        if (strstr(id, "missing") || strncmp(id, "file-", 5) == 0 || strcmp(id, "failed") == 0)
+    for (size_t i = 0; i < document->num_messages; ++i)
+        if (is_about_absence(document->messages[i].id))
             return false;
-    }
     return true;
 }
 
@@ -197,6 +240,10 @@ static char *make_entry(struct cache *cache, const struct check_document *docume
     for (size_t i = 1; i < document->num_files; ++i) {
         json_key(&json, document->files[i]);
         json_string(&json, remembered_hash(cache, document->files[i]));
+    }
+    for (size_t i = 0; i < document->num_folders; ++i) {
+        json_key(&json, document->folders[i]);
+        json_string(&json, remembered_hash(cache, document->folders[i]));
     }
     json_end(&json, '}');
     putc('\n', out);

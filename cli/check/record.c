@@ -55,6 +55,33 @@ uint32_t check_add_message(struct store *store, struct check_document *document,
     return (uint32_t)document->num_messages++;
 }
 
+static void add_folder(struct store *store, struct check_document *document, const char *folder)
+{
+    for (size_t i = 0; i < document->num_folders; ++i)
+        if (strcmp(document->folders[i], folder) == 0)
+            return;
+    document->folders = store_grow(store, document->folders, document->num_folders, sizeof *document->folders);
+    document->folders[document->num_folders++] = folder;
+}
+
+/* The part of a path that ends with its last '/'. */
+static size_t folder_length(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return slash ? (size_t)(slash - path) + 1 : 0;
+}
+
+void check_add_place(struct store *store, struct check_document *document, const char *from, const char *file)
+{
+    size_t len = folder_length(file), from_len = file[0] == '/' ? 0 : folder_length(from);
+    char *folder = store_alloc(store, from_len + len + 3);
+    memcpy(folder, from, from_len);
+    memcpy(folder + from_len, file, len);
+    add_folder(store, document, *folder ? folder : "./");
+    if (from_len && len)
+        add_folder(store, document, store_text(store, file, len));
+}
+
 /* ---- Writing ---- */
 
 static void put_outcome(struct json_writer *json, enum check_stage failed)
@@ -139,6 +166,15 @@ static void write_element(struct json_writer *json, const struct check_element *
     json_end(json, '}');
 }
 
+static void write_texts(struct json_writer *json, const char *key, const char *const *texts, size_t count)
+{
+    json_key(json, key);
+    json_begin(json, '[');
+    for (size_t i = 0; i < count; ++i)
+        json_string(json, texts[i]);
+    json_end(json, ']');
+}
+
 static void write_changes(struct json_writer *json, const struct check_document *document)
 {
     if (document->num_changes == 0)
@@ -170,11 +206,9 @@ void check_write_document(FILE *out, const struct check_document *document, bool
     for (size_t i = 0; i < document->num_messages; ++i)
         write_message(&json, &document->messages[i]);
     json_end(&json, ']');
-    json_key(&json, "files");
-    json_begin(&json, '[');
-    for (size_t i = 0; i < document->num_files; ++i)
-        json_string(&json, document->files[i]);
-    json_end(&json, ']');
+    write_texts(&json, "files", document->files, document->num_files);
+    if (document->num_folders)
+        write_texts(&json, "folders", document->folders, document->num_folders);
     json_key(&json, "elements");
     json_begin(&json, '[');
     for (size_t i = 0; i < document->num_elements; ++i)
@@ -280,6 +314,14 @@ static void read_element(struct store *store, struct check_element *out, const s
         read_shader(store, &out->shaders[out->num_shaders++], item, num_messages);
 }
 
+static const char **read_texts(struct store *store, const struct json_value *array, size_t *out_count)
+{
+    const char **texts = store_array(store, count_items(array), sizeof *texts);
+    for (const struct json_value *item = array->first; item; item = item->next)
+        texts[(*out_count)++] = item->kind == JSON_STRING ? item->text : "";
+    return texts;
+}
+
 static void read_changes(struct store *store, struct check_document *out, const struct json_value *changes)
 {
     out->changes = store_array(store, count_items(changes), sizeof *out->changes);
@@ -295,17 +337,15 @@ struct check_document *check_read_document(struct store *store, const char *text
     if (!value || !*json_get_text(value, "file"))
         return NULL;
     struct check_document *document = store_alloc(store, sizeof *document);
-    const struct json_value *messages = json_get(value, "messages"), *elements = json_get(value, "elements"),
-                            *files = json_get(value, "files");
+    const struct json_value *messages = json_get(value, "messages"), *elements = json_get(value, "elements");
     document->index = json_get_count(value, "index");
     document->file = json_get_text(value, "file");
     document->failed = read_outcome(value);
     document->messages = store_array(store, count_items(messages), sizeof *document->messages);
     for (const struct json_value *item = messages->first; item; item = item->next)
         read_message(&document->messages[document->num_messages++], item);
-    document->files = store_array(store, count_items(files), sizeof *document->files);
-    for (const struct json_value *item = files->first; item; item = item->next)
-        document->files[document->num_files++] = item->kind == JSON_STRING ? item->text : "";
+    document->files = read_texts(store, json_get(value, "files"), &document->num_files);
+    document->folders = read_texts(store, json_get(value, "folders"), &document->num_folders);
     document->elements = store_array(store, count_items(elements), sizeof *document->elements);
     for (const struct json_value *item = elements->first; item; item = item->next)
         read_element(store, &document->elements[document->num_elements++], item, document->num_messages);

@@ -118,6 +118,8 @@ struct check_document {
     size_t num_messages;
     const char **files; /* that were read, itself first */
     size_t num_files;
+    const char **folders; /* of textures and of what is missing, with a '/' behind: the names in them matter */
+    size_t num_folders;
     struct check_element *elements;
     size_t num_elements;
     double load_ms, validate_ms, render_ms;
@@ -130,6 +132,9 @@ void check_fail(enum check_stage *failed, enum check_stage stage);
 
 /* Appends a message, or finds an equal one; returns its index. */
 uint32_t check_add_message(struct store *store, struct check_document *document, const struct check_message *message);
+
+/* Appends the folders that a file may lie in: beside the one that names it, and in the working directory. */
+void check_add_place(struct store *store, struct check_document *document, const char *from, const char *file);
 
 /* Writes the document as one line. Times change from run to run, and are left out on demand. */
 void check_write_document(FILE *out, const struct check_document *document, bool with_times);

@@ -54,6 +54,21 @@ sed 's/part.mtlx/later.mtlx/' show/whole.mtlx >waits.mtlx
 "$mxgen" check waits.mtlx --no-compile --cache cache >out 2>err
 cp show/part.mtlx later.mtlx
 check 'a missing include that appears is seen' exits 0 "$mxgen" check waits.mtlx --no-compile --cache cache
+mkdir textures
+cat >textured.mtlx <<'END'
+<materialx version="1.39">
+  <image name="I" type="color3"><input name="file" type="filename" value="textures/wood.png"/></image>
+  <output name="out" type="color3" nodename="I"/>
+</materialx>
+END
+textured() { exits 0 "$mxgen" check textured.mtlx --no-compile --cache cache && is "$(unchanged)" "$1" && is "$(grep -c missing-texture out)" "$2"; }
+check 'a missing texture' textured '' 1
+check 'is remembered' textured 1 1
+touch textures/wood.png
+check 'until it is there' textured '' 0
+check 'which is remembered' textured 1 0
+rm textures/wood.png
+check 'until it is gone' textured '' 1
 for entry in cache/*/*.json; do printf 'x' >"$entry"; done
 check 'damaged entries are made anew' exits 1 "$mxgen" check show --no-compile --cache cache --json damaged.json
 check 'as if there were none' eval 'exits 1 "$mxgen" check show --no-compile --json none.json && cmp damaged.json none.json'
