@@ -5,7 +5,7 @@
 
 #include <pthread.h>
 
-enum { NUM_THREADS = 8, NUM_ROUNDS = 20 };
+enum { NUM_THREADS = 8, NUM_ROUNDS = 20 }; /* rounds: unless said; two generations each */
 
 /* What a generation gives, as one text; to be freed. */
 static char *all_of(const mxg_result *result)
@@ -51,6 +51,7 @@ static mxg_context *open_context(struct memory_files *files)
 static const char *const targets[] = {"glsl", "vulkan", "essl"};
 
 struct shared {
+    unsigned num_rounds;
     mxg_library *library;
     mxg_document *document;
     const mxg_result *result; /* whose reflection every thread asks for first */
@@ -80,7 +81,7 @@ static void *work(void *arg)
     char *text = all_of(shared->result);
     worker->num_wrong += strcmp(text, shared->expected[0]) != 0;
     free(text);
-    for (unsigned round = 0; round < NUM_ROUNDS; round++) {
+    for (unsigned round = 0; round < shared->num_rounds; round++) {
         check(worker, context, shared->document, round);
         mxg_document *document = load(context, round % 2 ? library : own_library);
         worker->num_wrong += !document;
@@ -94,11 +95,12 @@ static void *work(void *arg)
     return NULL;
 }
 
-int main(void)
+/* Argument: how many rounds: 500 are 1,000 generations by each thread. */
+int main(int argc, char **argv)
 {
     struct memory_files files;
     mxg_context *context = open_context(&files);
-    struct shared shared = {.library = mxg_library_builtin(context)};
+    struct shared shared = {.num_rounds = argc > 1 ? (unsigned)strtoul(argv[1], NULL, 10) : NUM_ROUNDS, .library = mxg_library_builtin(context)};
     shared.document = load(context, shared.library);
     REQUIRE(shared.document);
     for (int i = 0; i < 3; i++)

@@ -233,7 +233,7 @@ static void check_reads(struct fixture *f, const struct effect_list *list, const
         if (!is_let[operand])
             check_reads(f, list, is_let, at, operand);
         else if (!is_visible(list, at, operand))
-            REQUIRE(!"a local is read where it is not visible");
+            REQUIRE(false && "a local is read where it is not visible");
     }
 }
 

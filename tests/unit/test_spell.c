@@ -536,10 +536,10 @@ static void check_reserved(const struct lang_syntax *syntax)
     for (uint32_t len = 1; syntax->reserved && len <= syntax->max_reserved; len++) {
         const struct lang_words *words = &syntax->reserved[len];
         if (words->text && strlen(words->text) != words->count * len)
-            REQUIRE(!"a reserved word stands with those of another length");
+            REQUIRE(false && "a reserved word stands with those of another length");
         for (uint32_t i = 1; i < words->count; i++)
             if (memcmp(words->text + (i - 1) * len, words->text + i * len, len) >= 0)
-                REQUIRE(!"reserved words are not sorted");
+                REQUIRE(false && "reserved words are not sorted");
     }
     REQUIRE(!syntax->reserved || !syntax->reserved[0].count);
 }

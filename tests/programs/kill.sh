@@ -1,0 +1,42 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Killed at any moment, mxgen leaves whole files or none: each that bears its final name is what an undisturbed run writes.
+# Argument: the program.
+mxgen=$(realpath "$1")
+here=$(cd "$(dirname "$0")" && pwd)
+. "$here/common.sh"
+
+{
+    echo '<materialx version="1.39">'
+    for i in $(seq 24); do
+        echo "<standard_surface name='SR_$i' type='surfaceshader'><input name='coat' type='float' value='0.$i'/></standard_surface>"
+        echo "<surfacematerial name='M_$i' type='material'><input name='surfaceshader' type='surfaceshader' nodename='SR_$i'/></surfacematerial>"
+    done
+    echo '</materialx>'
+} >many.mtlx
+check 'undisturbed' exits 0 "$mxgen" many.mtlx --reflect -o whole --depfile whole.d
+start=$(date +%s%N)
+"$mxgen" many.mtlx --reflect -o timed >/dev/null 2>&1
+duration=$((($(date +%s%N) - start) / 1000000))
+
+killed=0
+RANDOM=1
+for round in $(seq 25); do
+    rm -rf made made.d
+    # A shell of its own, so that nobody tells of the killed one.
+    bash -c "exec '$mxgen' many.mtlx --reflect -o made --depfile made.d" >/dev/null 2>&1 &
+    victim=$!
+    sleep "$(printf '0.%03d' $((RANDOM % (duration + duration / 4 + 2))))"
+    kill -9 "$victim" 2>/dev/null
+    wait "$victim" 2>/dev/null && continue
+    killed=$((killed + 1))
+    while read -r file; do
+        check "round $round: $file is whole" cmp "made/$file" "whole/$file"
+    done < <(cd made 2>/dev/null && find . -type f \( -name '*.frag' -o -name '*.vert' -o -name '*.json' \))
+    [ ! -e made.d ] || check "round $round: depfile" eval 'sed "s|made/|whole/|g" made.d | cmp - whole.d'
+done
+check 'some were killed' test "$killed" -ge 5
+check 'a later run is not disturbed by what was left' exits 0 "$mxgen" many.mtlx --reflect -o made
+check 'and writes everything' eval 'for file in whole/*; do cmp "$file" "made/${file#whole/}" || exit 1; done'
+
+finish kill
