@@ -16,14 +16,6 @@ static void note_use(struct validate *v, const struct binding *binding)
 
 /* ---- Connections ---- */
 
-/* A port that no definition describes has the type that it says. */
-static struct port port_of(const struct validate *v, elem_id element)
-{
-    return (struct port){.name = doc_element(v->doc, element)->name,
-                         .type = library_type(v->lib, doc_attr_value(v->doc, element, STR_type)),
-                         .element = element};
-}
-
 static void check_interface(struct validate *v, const struct port *port, const struct binding *binding)
 {
     elem_id graph = library_graph_around(v->lib, binding->element);
@@ -40,9 +32,10 @@ static void check_binding(struct validate *v, const struct port *port, const str
         check_interface(v, port, binding);
 }
 
-static void check_connection(struct validate *v, elem_id element)
+/* A port that no definition describes; of type NONE where its own word is what is wrong, perhaps. */
+static void check_connection(struct validate *v, elem_id element, doc_type type)
 {
-    struct port port = port_of(v, element);
+    struct port port = {.name = doc_element(v->doc, element)->name, .type = type, .element = element};
     struct binding binding = library_resolve_connection(v->lib, element, port.type, v->diags);
     check_binding(v, &port, &binding);
 }
@@ -57,7 +50,7 @@ static void check_node(struct validate *v, elem_id node)
         const struct element *child = doc_element(v->doc, e);
         bool is_defined = nodedef != LIBRARY_NONE && library_find_input(v->lib, nodedef, child->name) >= 0;
         if (child->kind == KIND_INPUT && !is_defined)
-            check_connection(v, e);
+            check_connection(v, e, DOC_TYPE_NONE);
     }
     if (nodedef == LIBRARY_NONE)
         return;
@@ -84,7 +77,7 @@ static void check_element(struct validate *v, elem_id element)
     if (is_in_graph && kind == KIND_NODE)
         check_node(v, element);
     else if (is_in_graph && (kind == KIND_OUTPUT || (kind == KIND_INPUT && is_connected(v->doc, element))))
-        check_connection(v, element);
+        check_connection(v, element, library_type(v->lib, doc_attr_value(v->doc, element, STR_type)));
     validate_attributes_of(v, element);
 }
 

@@ -1,0 +1,21 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Faults as they are met in the wild, and every word that their authors read: DOCUMENT.mtlx and DOCUMENT.txt, what `mxgen validate` and then
+# generation say. Arguments: the program, the folder; --update rewrites the texts.
+mxgen=$(realpath "$1") folder=$(realpath "$2") update=${3:-}
+. "$folder/../programs/common.sh"
+
+say() { # document
+    echo "$ mxgen validate $1"
+    (cd "$folder" && "$mxgen" validate "$1" 2>&1)
+    echo "$ mxgen $1"
+    (cd "$folder" && "$mxgen" "$1" -o "$work/shaders" 2>&1)
+}
+for document in "$folder"/*.mtlx; do
+    name=$(basename "$document" .mtlx)
+    say "$name.mtlx" >said.txt
+    [ -z "$update" ] || cp said.txt "$folder/$name.txt"
+    check "$name" diff -u "$folder/$name.txt" said.txt
+done
+
+finish messages
