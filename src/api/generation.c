@@ -270,6 +270,7 @@ void generation_start_closures(struct generation *g)
     g->lighting = (struct closure_lighting){
         .lights = g->result->shader.lights.len > 0 && g->result->shader.max_lights > 0,
         .environment = g->options[OPTION_environment].number != 0,
+        .two_sided = g->options[OPTION_layering].number != 0,
     };
 }
 

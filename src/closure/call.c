@@ -50,6 +50,11 @@ static ir_ref context_value(struct shader *shader, struct closure_point *point, 
     }
 }
 
+ir_ref closure_view(struct shader *shader, const struct closure_host *host)
+{
+    return context_value(shader, host->point, STR_V, NULL);
+}
+
 ir_ref closure_position(struct shader *shader, const struct closure_host *host)
 {
     return context_value(shader, host->point, STR_P, NULL);

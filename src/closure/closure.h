@@ -50,6 +50,7 @@ struct closure_host {
     const char *(*leaf_input)(void *user_data, uint32_t callee, unsigned index);
     const struct closure_rows *rows; /* the target's; NULL: it has no closures */
     const struct lang_host *lang;
+    const ir_ref *way_in; /* direction from which light comes through layers, which take from it there, too; NULL: only on its way out */
 };
 
 /* A leaf of the flattened tree. Its weight is scalar · color; scalar decides whether the leaf is evaluated at all. */
@@ -74,6 +75,7 @@ void closure_flatten(struct shader *shader, const struct closure_host *host, ir_
 struct closure_lighting {
     bool lights;      /* light shaders are bound */
     bool environment; /* `--environment` is not none */
+    bool two_sided;   /* layers take from light on its way in, too */
 };
 
 /*

@@ -15,6 +15,9 @@ ir_ref closure_call(struct shader *shader, const struct closure_host *host, ir_r
 /* The shaded point. */
 ir_ref closure_position(struct shader *shader, const struct closure_host *host);
 
+/* Unit direction to the viewer. */
+ir_ref closure_view(struct shader *shader, const struct closure_host *host);
+
 /* lights.c: unit direction to the light at hand and the light that arrives from there, for effects inside of EFFECT_LIGHTS. */
 void closure_sample_light(struct shader *shader, const struct closure_host *host, ir_ref *direction, ir_ref *intensity);
 

@@ -143,6 +143,23 @@ static void find_throughputs(struct flattener *f, uint32_t num_nodes)
     f->graph->origin = before;
 }
 
+/*
+ * What is let through on the way in is what would be let through to a viewer in that direction. Light that bounces between layers is lost, so
+ * the product is a lower bound.
+ */
+static void add_way_in(struct flattener *f, uint32_t num_nodes)
+{
+    ir_ref *both = f->throughputs, view = f->host->point->view;
+    f->throughputs = ARENA_ARRAY(f->shader->arena, ir_ref, num_nodes);
+    f->host->point->view = *f->host->way_in;
+    find_throughputs(f, num_nodes);
+    f->host->point->view = view;
+    for (ir_ref ref = 1; ref < num_nodes; ref++)
+        if (both[ref])
+            both[ref] = ir_op2(f->graph, IR_MUL, both[ref], f->throughputs[ref]);
+    f->throughputs = both;
+}
+
 /* ---- weights, downwards ---- */
 
 /* s·c as one value: for sums of weights. */
@@ -285,6 +302,8 @@ void closure_flatten(struct shader *shader, const struct closure_host *host, ir_
     f.weights[root].scalar = 1;
     want_throughputs(&f, num_nodes);
     find_throughputs(&f, num_nodes);
+    if (host->way_in)
+        add_way_in(&f, num_nodes);
     memset(f.weights, 0, num_nodes * sizeof *f.weights);
     f.weights[root].scalar = ir_const_float(shader->graph, 1.0f);
     uint32_t before = shader->graph->origin;

@@ -12,6 +12,8 @@
  */
 #include "closure/closure_priv.h"
 
+#include <assert.h>
+
 struct emitter {
     struct shader *shader;
     struct ir_graph *graph;
@@ -118,14 +120,28 @@ static bool any_has(const struct emitter *e, const struct closure_list *list, en
     return false;
 }
 
-static void emit_lights(struct emitter *e, const struct closure_list *list, bool *emitted)
+/* Leaves under light from a direction. */
+static void flatten_under(struct emitter *e, ir_ref bsdf, const ir_ref *direction, struct closure_list *out)
+{
+    struct closure_host host = *e->host;
+    host.way_in = direction;
+    closure_flatten(e->shader, &host, bsdf, out);
+}
+
+static void emit_lights(struct emitter *e, ir_ref bsdf, const struct closure_list *list, bool *emitted)
 {
     if (!e->lighting->lights || !any_has(e, list, LEAF_EVAL))
         return;
+    struct closure_list lit;
     declare_color(e);
     effect(e, EFFECT_LIGHTS, 0, 0);
     ir_ref light, intensity;
     closure_sample_light(e->shader, e->host, &light, &intensity);
+    if (e->lighting->two_sided) {
+        flatten_under(e, bsdf, &light, &lit); /* the same leaves: only throughputs differ */
+        assert(lit.leaves.len == list->leaves.len);
+        list = &lit;
+    }
     struct part_list parts = {0};
     for (uint32_t i = 0; i < list->leaves.len; i++) {
         const struct closure_leaf *leaf = &list->leaves.items[i];
@@ -310,10 +326,15 @@ static void emit_surface(struct emitter *e, ir_ref root)
 {
     struct surface s = root ? surface_of(e, root) : (struct surface){0};
     struct closure_list list;
-    closure_flatten(e->shader, e->host, s.bsdf, &list);
+    if (e->lighting->two_sided) { /* from around, most light comes at the viewer's angle: by mirroring */
+        ir_ref view = closure_view(e->shader, e->host);
+        flatten_under(e, s.bsdf, &view, &list);
+    } else {
+        closure_flatten(e->shader, e->host, s.bsdf, &list);
+    }
     e->base = add(e, s.unlit ? vec3_of(e, s.unlit) : 0, emission(e, s.edf));
     bool *emitted = ARENA_ARRAY(e->shader->arena, bool, list.leaves.len);
-    emit_lights(e, &list, emitted);
+    emit_lights(e, s.bsdf, &list, emitted);
     emit_environment(e, &list, emitted);
     for (uint32_t i = 0; i < list.leaves.len; i++)
         e->shader->num_closures += emitted[i];
