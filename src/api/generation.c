@@ -198,8 +198,8 @@ static uint32_t find_light(const struct generation *g, const char *node, size_t 
     for (const struct library *layer = name ? lib : NULL; layer; layer = layer->base)
         for (uint32_t i = 0; i < layer->nodedefs.len; i++) {
             const struct nodedef *def = &layer->nodedefs.items[i];
-            if (def->node == name && def->num_outputs == 1
-                && layer->ports.items[def->first_port - layer->base_ports + def->num_inputs].type == DOC_TYPE_lightshader)
+            const struct port *ports = layer->ports.items + def->first_port;
+            if (def->node == name && def->num_outputs == 1 && ports[def->num_inputs].type == DOC_TYPE_lightshader)
                 return layer->base_nodedefs + i;
         }
     return LIBRARY_NONE;

@@ -18,7 +18,6 @@ void library_init(struct library *lib, struct arena *arena, struct library *base
     lib->base_impls = base->base_impls + base->impls.len;
     lib->base_families = base->base_families + base->families.len;
     lib->base_verbatims = base->base_verbatims + base->verbatims.len;
-    lib->base_ports = base->base_ports + base->ports.len;
     lib->base_types = base->base_types + base->types.len;
     lib->base_geomprops = base->base_geomprops + base->geomprops.len;
 }

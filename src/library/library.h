@@ -127,7 +127,7 @@ struct library {
     struct strpool strings;
     struct document doc;
     struct lang_unit unit;
-    uint32_t base_nodedefs, base_impls, base_families, base_verbatims, base_ports, base_types, base_geomprops;
+    uint32_t base_nodedefs, base_impls, base_families, base_verbatims, base_types, base_geomprops;
     VEC(struct nodedef) nodedefs;
     VEC(struct port) ports;
     VEC(struct implementation) impls;

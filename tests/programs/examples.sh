@@ -16,6 +16,16 @@ for document in "$examples"/*.mtlx; do
     [ -z "$compile" ] || check "${document##*/} compiles" exits 0 "$compile" "$document"
     check "${document##*/} is in the list" grep -qF "\`${document##*/}\`" "$examples/README.md"
 done
+# Light data and light code are made of what is bound, and of nothing else.
+for lights in lantern_light=7 none; do
+    check "lantern.mtlx, lights $lights" exits 0 "$mxgen" "$examples/lantern.mtlx" --lights "$lights" --environment none -o out.d
+    mv out.d/Wood.frag "$lights.frag"
+done
+check 'members of the light' grep -qE '^ *float upwards;' lantern_light=7.frag
+check 'and of no other' eval '! grep -qE "inner_angle|decay_rate|intensity" lantern_light=7.frag'
+check 'chosen by its number' grep -q 'type == 7' lantern_light=7.frag
+check 'nothing of lights and the environment' eval '! grep -qiE "light|u_env|mx_ggx" none.frag'
+[ -z "$compile" ] || check 'compiles' exits 0 "$compile" "$examples/lantern.mtlx" --lights lantern_light=7
 check 'reflection' exits 0 "${program[reflection]}" "$examples/marble.mtlx"
 check 'tells the user interface' grep -q "float NG_marble_scale = 5 .*shown as 'Scale' from 0.1 to 50" out
 check 'tells textures' eval '"${program[reflection]}" "$examples/textured.mtlx" | grep -q "sampler2D image_color_file .*textures/wood_color.png"'
