@@ -182,6 +182,23 @@ const char *files_make_folder(const char *path)
     return reason ? strerror(reason) : NULL;
 }
 
+bool files_find_program(const char *name)
+{
+    if (strchr(name, '/'))
+        return access(name, X_OK) == 0;
+    bool found = false;
+    for (const char *at = getenv("PATH"); at && *at && !found;) {
+        size_t len = strcspn(at, ":"), room = len + strlen(name) + 2;
+        char *path = malloc(room);
+        if (path)
+            snprintf(path, room, "%.*s/%s", (int)len, at, name);
+        found = path && access(path, X_OK) == 0;
+        free(path);
+        at += len + (at[len] == ':');
+    }
+    return found;
+}
+
 void files_put_make_name(FILE *out, const char *name)
 {
     for (; *name; ++name) {

@@ -30,6 +30,9 @@ const char *files_end(struct files_stream *stream, bool keep);
 /* Makes a folder and the folders above it. Returns NULL, or why it failed. */
 const char *files_make_folder(const char *path);
 
+/* Whether a program can be started by this name: a path, or one in a folder of PATH. */
+bool files_find_program(const char *name);
+
 /* Writes a file name as make reads it: spaces and '#' escaped, '$' doubled. */
 void files_put_make_name(FILE *out, const char *name);
 

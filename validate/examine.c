@@ -121,6 +121,16 @@ static void add_status(struct examiner *examiner, mxg_status status, struct chec
     free(rendered);
 }
 
+void examine_add_file(struct examiner *examiner, const char *path)
+{
+    struct check_document *document = examiner->document;
+    for (size_t i = 0; i < document->num_files; ++i)
+        if (strcmp(document->files[i], path) == 0)
+            return;
+    document->files = store_grow(&examiner->store, document->files, document->num_files, sizeof *document->files);
+    document->files[document->num_files++] = copy(examiner, path);
+}
+
 /* ---- Stages ---- */
 
 static mxg_document *load(struct examiner *examiner, const char *path)
@@ -134,9 +144,8 @@ static mxg_document *load(struct examiner *examiner, const char *path)
     if (status != MXG_OK)
         check_fail(&examiner->document->failed, CHECK_LOAD);
     uint32_t count = mxg_document_num_files(document);
-    examiner->document->files = store_array(&examiner->store, count, sizeof *examiner->document->files);
     for (uint32_t i = 0; i < count; ++i)
-        examiner->document->files[examiner->document->num_files++] = copy(examiner, mxg_document_file(document, i));
+        examine_add_file(examiner, mxg_document_file(document, i));
     examiner->document->load_ms = examine_clock() - begin;
     return document;
 }

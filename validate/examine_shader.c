@@ -216,4 +216,6 @@ void examine_shader(struct examiner *examiner, const mxg_result *result, struct 
     if (examiner->compile && compile_knows_target(shader->target))
         compile(examiner, result, shader, element);
     rank_parts(shader);
+    for (uint32_t i = 0; i < mxg_result_num_files(result); ++i)
+        examine_add_file(examiner, mxg_result_file(result, i));
 }

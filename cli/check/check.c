@@ -284,12 +284,23 @@ static bool prepare(struct check *check)
     return check->slots && reports_begin(&check->reports, &check->cli.report);
 }
 
+/* Said once, and not of every element. */
+static bool find_renderer(struct check *check)
+{
+    char *program = check->render ? cli_program("mxgen-render") : NULL;
+    bool found = !program || files_find_program(program);
+    if (!found)
+        report_error(&check->cli.report, "no-renderer", "there is no '%s': it is built where Vulkan and OpenImageIO are installed", program);
+    free(program);
+    return found;
+}
+
 /* Exit code 1 where anything failed, or nothing was there to check. */
 static int run(struct check *check)
 {
     struct report *report = &check->cli.report;
     const struct check_totals *totals = &check->reports.totals;
-    if (!prepare(check))
+    if (!find_renderer(check) || !prepare(check))
         return EXIT_FAULT;
     make_worker_args(check);
     inputs_init(&check->inputs, &check->cli.parser.inputs, &check->files_from);

@@ -99,6 +99,32 @@ static void write_document(struct sink *sink, const struct check_document *docum
         write_result(sink, &document->messages[i]);
 }
 
+static void put_text(struct json_writer *json, const char *key, const char *text)
+{
+    if (!*text)
+        return;
+    json_key(json, key);
+    json_begin(json, '{');
+    json_put_string(json, "text", text);
+    json_end(json, '}');
+}
+
+/* What 'mxgen explain' says of an id (3.49). */
+static void write_rule(struct json_writer *json, const char *id)
+{
+    mxg_diagnostic_kind kind = {sizeof kind};
+    uint32_t i = 0;
+    while (mxg_get_diagnostic_kind(i, &kind) == MXG_OK && strcmp(kind.id, id) != 0)
+        ++i;
+    json_begin(json, '{');
+    json_put_string(json, "id", id);
+    if (i < mxg_num_diagnostic_kinds()) {
+        put_text(json, "fullDescription", kind.cause);
+        put_text(json, "help", kind.cure);
+    }
+    json_end(json, '}');
+}
+
 static void end(struct sink *sink, const struct check_totals *totals)
 {
     struct sarif_state *state = sink->state;
@@ -110,11 +136,8 @@ static void end(struct sink *sink, const struct check_totals *totals)
     json_put_string(&json, "version", mxg_version_string());
     json_key(&json, "rules");
     json_begin(&json, '[');
-    for (size_t i = 0; state && i < state->num_ids; ++i) {
-        json_begin(&json, '{');
-        json_put_string(&json, "id", state->ids[i]);
-        json_end(&json, '}');
-    }
+    for (size_t i = 0; state && i < state->num_ids; ++i)
+        write_rule(&json, state->ids[i]);
     json_end(&json, ']');
     json_end(&json, '}');
     fputs("}}]}\n", sink->out);

@@ -92,6 +92,12 @@ if python3 -c 'import jsonschema' 2>/dev/null; then
 fi
 
 # Pictures
+mkdir programs && cp "$mxgen" "$(dirname "$mxgen")/mxgen-check" programs
+check 'without a renderer' exits 1 env PATH= programs/mxgen check show/deep/near.mtlx --no-compile --render
+check 'nothing is drawn' grep -q '\[no-renderer\]' err
+printf '#!/bin/sh\necho "error: no device"\nexit 1\n' >programs/mxgen-render && chmod +x programs/mxgen-render
+check 'a renderer that fails' exits 1 programs/mxgen check show/deep/near.mtlx --no-compile --render
+check 'says why' grep -q "'Near' cannot be drawn: error: no device \[render-failed\]" out
 if [ "$draws" = yes ]; then
     sed 's|<input.*specular_rough.*/>|<input name="base_color" type="color3" value="0.8, 0.1, 0.1"/>|' show/deep/near.mtlx >red.mtlx
     draw=("$mxgen" check red.mtlx --no-compile --render)

@@ -36,6 +36,7 @@ def check_sarif(path):
     check(driver["name"] == "mxgen", "SARIF: name of the tool")
     rules = [rule["id"] for rule in driver["rules"]]
     check(len(rules) == len(set(rules)), "SARIF: rules are unique")
+    check(all(rule["help"]["text"] for rule in driver["rules"]), "SARIF: rules say what to do")
     results = run["results"]
     check({result["ruleId"] for result in results} == set(rules), "SARIF: a rule for each id")
     check([result["message"]["text"] for result in results] == [message["message"] for message in messages], "SARIF: texts")

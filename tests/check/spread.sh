@@ -115,6 +115,9 @@ check 'a shard too few' exits 1 "$mxgen" check merge shards/[124].json
 check 'is told' grep -q 'shard 3 of 4 is missing \[shard-missing\]' err
 check 'a shard twice' exits 1 "$mxgen" check merge shards/*.json shards/2.json
 check 'is told, too' grep -q '\[shard-twice\]' err
+"$mxgen" check show --no-compile --shard 1/2 --json other.json >/dev/null
+check 'shards of two runs' exits 1 "$mxgen" check merge shards/2.json other.json
+check 'are told apart' grep -q '\[shard-other\]' err
 head -c $(($(wc -c <shards/2.json) / 2)) shards/2.json >cut.json
 check 'half a shard' exits 1 "$mxgen" check merge shards/[134].json cut.json --json half.json
 check 'is told as well' grep -q '\[report-unreadable\]' err
