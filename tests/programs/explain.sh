@@ -8,7 +8,7 @@ here=$(cd "$(dirname "$0")" && pwd)
 . "$here/common.sh"
 
 # Files that cannot be in an example; elsewhere (tests/diag/elsewhere.txt) they are tested.
-without_example='blur-left-out file-too-large graph-depth output-limit'
+without_example='blur-left-out check-crashed check-failed check-timeout file-too-large graph-depth output-limit render-failed shader-invalid'
 
 # What mxgen says of an example: ids of all messages, with the notes' too.
 says() { # folder
