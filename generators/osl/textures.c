@@ -20,16 +20,29 @@ static const char *translate(const char *const (*words)[2], size_t count, const 
 
 struct modes {
     const char *swrap, *twrap, *interp;
+    const char *layer; /* a subimage by name; "" for the first */
 };
 
 static struct modes modes_of(const struct spell *spell, const struct shader_variable *texture)
 {
     const struct strpool *strings = spell->shader->strings;
+    const char *layer = str_text(strings, texture->sampling.layer);
     return (struct modes){
         .swrap = translate(wraps, 4, str_text(strings, texture->sampling.uaddressmode), "periodic"),
         .twrap = translate(wraps, 4, str_text(strings, texture->sampling.vaddressmode), "periodic"),
         .interp = translate(filters, 3, str_text(strings, texture->sampling.filtertype), "smartcubic"),
+        .layer = strchr(layer, '$') ? "" : layer, /* it becomes part of a form, where that is an operand */
     };
+}
+
+/*
+ * Images have their first row on top, texture coordinates at the bottom. texture() finds the tile of <UDIM> by the whole part of its
+ * coordinates, so only the rest is turned round.
+ */
+static bool has_tiles(const struct spell *spell, const struct shader_variable *texture)
+{
+    const char *file = str_text(spell->shader->strings, texture->file);
+    return strstr(file, "<UDIM>") || strstr(file, "<UVTILE>");
 }
 
 /* What stands for a missing image: the node's default, as four channels. */
@@ -51,21 +64,27 @@ static void write_missing(const struct spell *spell, const struct shader_variabl
 static void write_call(const struct spell *spell, const struct shader_variable *texture, ir_type_id type, struct text *out)
 {
     struct modes modes = modes_of(spell, texture);
-    text_fmt(out, "(%s)texture($0, $1.x, 1 - $1.y", type == IR_TYPE_FLOAT ? "float" : "color");
+    text_fmt(out, "(%s)texture($0, $1.x, %s1 - $1.y", type == IR_TYPE_FLOAT ? "float" : "color",
+             has_tiles(spell, texture) ? "2 * floor($1.y) + " : "");
     if (strcmp(modes.swrap, modes.twrap) == 0)
         text_fmt(out, ", \"wrap\", \"%s\"", modes.swrap);
     else
         text_fmt(out, ", \"swrap\", \"%s\", \"twrap\", \"%s\"", modes.swrap, modes.twrap);
     if (strcmp(modes.interp, "smartcubic") != 0)
         text_fmt(out, ", \"interp\", \"%s\"", modes.interp);
+    if (*modes.layer) {
+        text_str(out, ", \"subimage\", ");
+        text_json_string(out, modes.layer, strlen(modes.layer));
+    }
     text_str(out, ", \"missingcolor\", color(");
     write_missing(spell, texture, 3, out);
     text_str(out, "))");
 }
 
 static const char whole_texel[] =
-    "vector4 texel(string file, vector2 uv, string swrap, string twrap, string interp, vector4 missing)\n{\n    float alpha;\n"
-    "    color c = texture(file, uv.x, 1 - uv.y, \"swrap\", swrap, \"twrap\", twrap, \"interp\", interp, \"alpha\", alpha,\n"
+    "vector4 texel(string file, float s, float t, string swrap, string twrap, string interp, string layer, vector4 missing)\n"
+    "{\n    float alpha;\n"
+    "    color c = texture(file, s, t, \"swrap\", swrap, \"twrap\", twrap, \"interp\", interp, \"subimage\", layer, \"alpha\", alpha,\n"
     "                      \"missingcolor\", color(missing.x, missing.y, missing.z), \"missingalpha\", missing.w);\n"
     "    return vector4(c[0], c[1], c[2], alpha);\n}\n";
 
@@ -73,7 +92,10 @@ static void write_whole(struct osl *osl, const struct shader_variable *texture, 
 {
     struct modes modes = modes_of(osl->spell, texture);
     osl_add_helper(osl, whole_texel);
-    text_fmt(out, "texel($0, $1, \"%s\", \"%s\", \"%s\", vector4(", modes.swrap, modes.twrap, modes.interp);
+    text_fmt(out, "texel($0, $1.x, %s1 - $1.y, \"%s\", \"%s\", \"%s\", ", has_tiles(osl->spell, texture) ? "2 * floor($1.y) + " : "",
+             modes.swrap, modes.twrap, modes.interp);
+    text_json_string(out, modes.layer, strlen(modes.layer));
+    text_str(out, ", vector4(");
     write_missing(osl->spell, texture, 4, out);
     text_str(out, "))");
 }
