@@ -115,7 +115,8 @@ bool cli_start(struct cli *cli, const struct command *command, const struct arg 
 {
     *cli = (struct cli){.max_errors = MAX_ERRORS};
     struct arg table[MAX_ARGS];
-    memcpy(table, args, num_args * sizeof *args);
+    for (size_t i = 0; i < num_args; ++i)
+        table[i] = args[i];
     cli->parser.args = table;
     cli->parser.num_args = num_args + add_common_args(cli, table + num_args);
     cli->parser.generation = wants & CLI_GENERATES;
