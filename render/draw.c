@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/draw.h"
 
+#include "render/inputs.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -13,13 +15,8 @@ struct draw_program {
     const struct draw *draw;
     struct gpu_image color, depth;
     struct gpu_buffer readback, indices;
-    struct gpu_buffer attributes[DRAW_MAX_ATTRIBUTES], blocks[DRAW_MAX_BLOCKS];
-    struct gpu_image textures[DRAW_MAX_TEXTURES];
-    VkSampler samplers[DRAW_MAX_TEXTURES];
-    VkDescriptorSetLayout set_layouts[DRAW_MAX_SETS];
-    VkDescriptorPool descriptor_pool;
-    VkDescriptorSet sets[DRAW_MAX_SETS];
-    uint32_t num_sets;
+    struct gpu_buffer attributes[DRAW_MAX_ATTRIBUTES];
+    struct inputs inputs;
     VkPipelineLayout layout;
     VkShaderModule modules[2];
     VkPipeline pipeline;
@@ -48,128 +45,16 @@ static bool create_buffers(struct draw_program *program)
     for (uint32_t i = 0; good && i < draw->num_attributes; ++i)
         good = gpu_create_buffer(program->gpu, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, draw->attributes[i].data,
                                  (size_t)draw->num_vertices * 16, &program->attributes[i]);
-    for (uint32_t i = 0; good && i < draw->num_blocks; ++i)
-        good = gpu_create_buffer(program->gpu, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, draw->blocks[i].data,
-                                 draw->blocks[i].size, &program->blocks[i]);
     return good;
 }
 
-static bool create_textures(struct draw_program *program)
+static bool create_layout(struct draw_program *program)
 {
-    bool good = true;
-    for (uint32_t i = 0; good && i < program->draw->num_textures; ++i) {
-        const struct draw_texture *texture = &program->draw->textures[i];
-        const VkSamplerCreateInfo info = {
-            .sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO,
-            .magFilter = texture->filter,
-            .minFilter = texture->filter,
-            .mipmapMode = texture->filter == VK_FILTER_LINEAR ? VK_SAMPLER_MIPMAP_MODE_LINEAR
-                                                              : VK_SAMPLER_MIPMAP_MODE_NEAREST,
-            .addressModeU = texture->u,
-            .addressModeV = texture->v,
-            .addressModeW = VK_SAMPLER_ADDRESS_MODE_REPEAT,
-            .maxLod = texture->has_mips ? VK_LOD_CLAMP_NONE : 0.0f,
-            .borderColor = VK_BORDER_COLOR_FLOAT_TRANSPARENT_BLACK,
-        };
-        good = gpu_upload_texture(program->gpu, texture->image, texture->bottom_first, &program->textures[i]) &&
-               gpu_check(program->gpu, vkCreateSampler(program->gpu->device, &info, NULL, &program->samplers[i]),
-                         "making a sampler");
-    }
-    return good;
-}
-
-/* ---- Descriptors ---- */
-
-static bool create_set_layout(struct draw_program *program, uint32_t set)
-{
-    const struct draw *draw = program->draw;
-    VkDescriptorSetLayoutBinding bindings[DRAW_MAX_BLOCKS + DRAW_MAX_TEXTURES];
-    uint32_t count = 0;
-    const VkShaderStageFlags stages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
-    for (uint32_t i = 0; i < draw->num_blocks; ++i) {
-        if (draw->blocks[i].set == set)
-            bindings[count++] = (VkDescriptorSetLayoutBinding){draw->blocks[i].binding,
-                                                               VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1, stages, NULL};
-    }
-    for (uint32_t i = 0; i < draw->num_textures; ++i) {
-        if (draw->textures[i].set == set)
-            bindings[count++] = (VkDescriptorSetLayoutBinding){
-                draw->textures[i].binding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, stages, NULL};
-    }
-    const VkDescriptorSetLayoutCreateInfo info = {
-        .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO, .bindingCount = count, .pBindings = bindings};
-    return gpu_check(program->gpu, vkCreateDescriptorSetLayout(program->gpu->device, &info, NULL, &program->set_layouts[set]),
-                     "making a descriptor set layout");
-}
-
-static bool allocate_sets(struct draw_program *program)
-{
-    const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, DRAW_MAX_BLOCKS},
-                                          {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, DRAW_MAX_TEXTURES}};
-    const VkDescriptorPoolCreateInfo pool = {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
-                                             .maxSets = DRAW_MAX_SETS,
-                                             .poolSizeCount = 2,
-                                             .pPoolSizes = sizes};
-    if (!gpu_check(program->gpu, vkCreateDescriptorPool(program->gpu->device, &pool, NULL, &program->descriptor_pool),
-                   "making a descriptor pool"))
-        return false;
-    const VkDescriptorSetAllocateInfo info = {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
-                                              .descriptorPool = program->descriptor_pool,
-                                              .descriptorSetCount = program->num_sets,
-                                              .pSetLayouts = program->set_layouts};
-    return gpu_check(program->gpu, vkAllocateDescriptorSets(program->gpu->device, &info, program->sets),
-                     "making descriptor sets");
-}
-
-static void write_sets(struct draw_program *program)
-{
-    const struct draw *draw = program->draw;
-    for (uint32_t i = 0; i < draw->num_blocks; ++i) {
-        const VkDescriptorBufferInfo buffer = {program->blocks[i].buffer, 0, VK_WHOLE_SIZE};
-        const VkWriteDescriptorSet write = {.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
-                                            .dstSet = program->sets[draw->blocks[i].set],
-                                            .dstBinding = draw->blocks[i].binding,
-                                            .descriptorCount = 1,
-                                            .descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,
-                                            .pBufferInfo = &buffer};
-        vkUpdateDescriptorSets(program->gpu->device, 1, &write, 0, NULL);
-    }
-    for (uint32_t i = 0; i < draw->num_textures; ++i) {
-        const VkDescriptorImageInfo image = {program->samplers[i], program->textures[i].view,
-                                             VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
-        const VkWriteDescriptorSet write = {.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
-                                            .dstSet = program->sets[draw->textures[i].set],
-                                            .dstBinding = draw->textures[i].binding,
-                                            .descriptorCount = 1,
-                                            .descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-                                            .pImageInfo = &image};
-        vkUpdateDescriptorSets(program->gpu->device, 1, &write, 0, NULL);
-    }
-}
-
-static bool create_descriptors(struct draw_program *program)
-{
-    const struct draw *draw = program->draw;
-    for (uint32_t i = 0; i < draw->num_blocks; ++i)
-        program->num_sets = draw->blocks[i].set >= program->num_sets ? draw->blocks[i].set + 1 : program->num_sets;
-    for (uint32_t i = 0; i < draw->num_textures; ++i)
-        program->num_sets = draw->textures[i].set >= program->num_sets ? draw->textures[i].set + 1 : program->num_sets;
-    for (uint32_t set = 0; set < program->num_sets; ++set) {
-        if (!create_set_layout(program, set))
-            return false;
-    }
     const VkPipelineLayoutCreateInfo info = {.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
-                                             .setLayoutCount = program->num_sets,
-                                             .pSetLayouts = program->set_layouts};
-    if (!gpu_check(program->gpu, vkCreatePipelineLayout(program->gpu->device, &info, NULL, &program->layout),
-                   "making a pipeline layout"))
-        return false;
-    if (program->num_sets == 0)
-        return true;
-    if (!allocate_sets(program))
-        return false;
-    write_sets(program);
-    return true;
+                                             .setLayoutCount = program->inputs.num_sets,
+                                             .pSetLayouts = program->inputs.set_layouts};
+    return gpu_check(program->gpu, vkCreatePipelineLayout(program->gpu->device, &info, NULL, &program->layout),
+                     "making a pipeline layout");
 }
 
 /* ---- Pipeline ---- */
@@ -321,9 +206,9 @@ static void record(const struct draw_program *program, VkCommandBuffer commands)
 {
     const struct draw *draw = program->draw;
     begin_rendering(program, commands);
-    if (program->num_sets)
-        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, program->layout, 0, program->num_sets,
-                                program->sets, 0, NULL);
+    if (program->inputs.num_sets)
+        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, program->layout, 0, program->inputs.num_sets,
+                                program->inputs.sets, 0, NULL);
     const VkDeviceSize zero = 0;
     for (uint32_t i = 0; i < draw->num_attributes; ++i)
         vkCmdBindVertexBuffers(commands, i, 1, &program->attributes[i].buffer, &zero);
@@ -342,8 +227,7 @@ static void record(const struct draw_program *program, VkCommandBuffer commands)
 bool draw_frame(struct draw_program *program, float *out_pixels)
 {
     const struct draw *draw = program->draw;
-    for (uint32_t i = 0; i < draw->num_blocks; ++i)
-        memcpy(program->blocks[i].mapped, draw->blocks[i].data, draw->blocks[i].size);
+    inputs_update(draw, &program->inputs);
     memcpy(program->indices.mapped, draw->indices, draw->num_indices * sizeof *draw->indices);
     VkCommandBuffer commands = gpu_begin(program->gpu);
     if (!commands)
@@ -364,7 +248,7 @@ struct draw_program *draw_open(struct gpu *gpu, const struct draw *draw)
     }
     program->gpu = gpu;
     program->draw = draw;
-    if (create_targets(program) && create_buffers(program) && create_textures(program) && create_descriptors(program) &&
+    if (create_targets(program) && create_buffers(program) && inputs_create(program->gpu, draw, &program->inputs) && create_layout(program) &&
         create_modules(program) && create_pipeline(program))
         return program;
     draw_close(program);
@@ -380,15 +264,7 @@ void draw_close(struct draw_program *program)
     for (int i = 0; i < 2; ++i)
         vkDestroyShaderModule(device, program->modules[i], NULL);
     vkDestroyPipelineLayout(device, program->layout, NULL);
-    vkDestroyDescriptorPool(device, program->descriptor_pool, NULL);
-    for (uint32_t i = 0; i < DRAW_MAX_SETS; ++i)
-        vkDestroyDescriptorSetLayout(device, program->set_layouts[i], NULL);
-    for (uint32_t i = 0; i < program->draw->num_textures; ++i) {
-        vkDestroySampler(device, program->samplers[i], NULL);
-        gpu_destroy_image(program->gpu, &program->textures[i]);
-    }
-    for (uint32_t i = 0; i < program->draw->num_blocks; ++i)
-        gpu_destroy_buffer(program->gpu, &program->blocks[i]);
+    inputs_destroy(program->gpu, program->draw, &program->inputs);
     for (uint32_t i = 0; i < program->draw->num_attributes; ++i)
         gpu_destroy_buffer(program->gpu, &program->attributes[i]);
     gpu_destroy_buffer(program->gpu, &program->indices);

@@ -32,7 +32,7 @@ bool image_read_levels(const char *path, struct image *out, char *reason, size_t
 /* layers.c: the pictures as layers of one, each at the size of the largest. False: there is no memory. */
 bool image_stack(const struct image *parts, uint32_t count, struct image *out);
 
-/* Whether files of this name hold linear light as floats: EXR, HDR, PFM. */
+/* Whether files of this name hold linear light as floats: EXR, HDR. */
 bool image_is_linear(const char *path);
 
 /*

@@ -132,7 +132,7 @@ bool image_read_levels(const char *path, struct image *out, char *reason, size_t
 
 bool image_is_linear(const char *path)
 {
-    static const char *const endings[] = {".exr", ".hdr", ".pfm"};
+    static const char *const endings[] = {".exr", ".hdr"};
     size_t len = std::strlen(path);
     for (const char *ending : endings)
         if (len >= 4 && strcasecmp(path + len - 4, ending) == 0)

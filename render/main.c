@@ -33,7 +33,8 @@ struct job {
     struct painter painter;
     const char *output, *copy, *element, *look, *size, *camera, *scene, *background, *missing_texture, *baked;
     struct arg_list settings, environments;
-    size_t samples, frame, frames;
+    size_t samples, frame, frames, paths;
+    bool path_trace;
     enum scene_kind scene_kind;
     struct bind_value *values;
     struct arg_list found; /* documents, of folders too; allocated */
@@ -152,6 +153,14 @@ static bool parse(struct job *job)
     }
     if (!is_set(&job->cli, "texture-modes")) /* samplers here have neither borders of any colour nor cubic filters */
         mxg_options_set(job->cli.options, "texture-modes", "shared");
+    if (job->path_trace && (!job->painter.is_studio || job->frames || !job->paths || job->paths > UINT32_MAX)) {
+        fputs("mxgen: paths are traced in the studio, at least one through each pixel, and for no turntable\n", stderr);
+        return false;
+    }
+    if (job->path_trace) {
+        mxg_options_set(job->cli.options, "integrator", "scatter");
+        job->painter.paths = (uint32_t)job->paths;
+    }
     job->values = split_settings(&job->settings);
     job->painter.values = job->values;
     job->painter.num_values = job->settings.len;
@@ -512,7 +521,7 @@ int main(int argc, char **argv)
 {
     static const struct command command = {"render", "render FILE|FOLDER... -o PICTURE.png [options]",
                                            "Draws materials, without a display: one, or a sheet of many.", NULL};
-    struct job job = {.scene = "studio", .background = "backdrop", .missing_texture = "error", .samples = 16, .frame = SCENE_FRAME,
+    struct job job = {.scene = "studio", .background = "backdrop", .missing_texture = "error", .samples = 16, .paths = 256, .frame = SCENE_FRAME,
                       .painter.studio = STUDIO_DEFAULTS};
     const struct arg args[] = {
         {"output", 'o', ARG_TEXT, "FILE", "the picture to write; the ending chooses the format", &job.output},
@@ -533,16 +542,19 @@ int main(int argc, char **argv)
         {"missing-texture", 0, ARG_TEXT, "error|checker", "what to do without a texture: fail, or draw a checker in its place",
          &job.missing_texture},
         {"frame", 0, ARG_SIZE, "N", "the frame: of images with {frame} in their names too (default: 33)", &job.frame},
+        {"path-trace", 0, ARG_FLAG, NULL, "traces paths: the reference, in the light of the environment alone", &job.path_trace},
+        {"paths", 0, ARG_SIZE, "N", "paths through each pixel (default: 256)", &job.paths},
         {"turntable", 0, ARG_SIZE, "N", "N pictures from around: FILE gets a number before its ending", &job.frames},
         {"scene", 0, ARG_TEXT, "NAME",
          "studio; sphere; plane, to see a pattern; grid: prints the values of 4x4 pixels for each element (default: studio)",
          &job.scene},
     };
-    /* llvmpipe's optimiser takes minutes for large shaders; without it pictures are the same, and seconds are enough. */
-    setenv("GALLIVM_PERF", "nopt", 0);
     int code;
     if (cli_start(&job.cli, &command, args, sizeof args / sizeof *args, CLI_GENERATES, argc, argv, &code)) {
         job.painter.cli = &job.cli;
+        /* llvmpipe's optimiser takes minutes for large shaders; without it pictures are the same, and seconds are enough. */
+        if (!job.path_trace)
+            setenv("GALLIVM_PERF", "nopt", 0);
         code = run(&job);
     }
     cli_finish(&job.cli);

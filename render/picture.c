@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/picture.h"
 
+#include "render/trace.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -42,6 +44,13 @@ static bool fail(struct painting *painting, const struct subject *subject)
     return false;
 }
 
+static struct bind bind_of(const struct painting *painting, const struct subject *subject)
+{
+    const struct painter *painter = painting->painter;
+    return (struct bind){.result = painting->result, .scene = &painting->scene, .document = subject->path,
+                         .values = painter->values, .num_values = painter->num_values, .checker = painter->checker};
+}
+
 bool painting_open(struct painter *painter, const struct subject *subject, struct painting *painting)
 {
     *painting = (struct painting){.painter = painter, .scene = painter->scene};
@@ -52,8 +61,7 @@ bool painting_open(struct painter *painter, const struct subject *subject, struc
     painting->bind = calloc(1, sizeof *painting->bind);
     if (!painting->bind || !painting->samples)
         return fail(painting, subject);
-    *painting->bind = (struct bind){.result = painting->result, .scene = &painting->scene, .document = subject->path,
-                                    .values = painter->values, .num_values = painter->num_values, .checker = painter->checker};
+    *painting->bind = bind_of(painting, subject);
     if (!render_open(&painting->render, &painter->gpu, painting->bind, width, height))
         return fail(painting, subject);
     if (painting->bind->reason[0]) /* it goes on with a checker */
@@ -109,8 +117,32 @@ void painting_close(struct painting *painting)
     mxg_result_destroy(painting->result);
 }
 
+/* The same picture by the reference integrator. */
+static bool picture_trace(struct painter *painter, const struct subject *subject, struct image *out)
+{
+    struct painting painting = {.painter = painter, .scene = painter->scene};
+    *out = (struct image){.width = painter->width, .height = painter->height, .is_float = true,
+                          .pixels = malloc((size_t)painter->width * painter->height * 4 * sizeof(float))};
+    painting.bind = calloc(1, sizeof *painting.bind);
+    bool good = generate(painter, subject, &painting.result);
+    if (good && painting.bind && out->pixels) {
+        *painting.bind = bind_of(&painting, subject);
+        good = trace_picture(&painter->gpu, painting.bind, painter->width, painter->height, painter->paths, painter->progress,
+                             painter->progress_data, out->pixels);
+    }
+    if (painting.result && !(good && painting.bind && out->pixels))
+        good = mxg_result_source(painting.result, MXG_STAGE_PIXEL, NULL) ? fail(&painting, subject) : false;
+    if (painting.bind)
+        bind_finish(painting.bind);
+    free(painting.bind);
+    mxg_result_destroy(painting.result);
+    return good;
+}
+
 bool picture_draw(struct painter *painter, const struct subject *subject, struct image *out)
 {
+    if (painter->paths)
+        return picture_trace(painter, subject, out);
     struct painting painting;
     *out = (struct image){0};
     bool good = painting_open(painter, subject, &painting) && painting_draw(&painting, out);

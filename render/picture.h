@@ -24,6 +24,9 @@ struct painter {
     double exposure;
     uint32_t width, height;
     unsigned oversampling; /* samples for each pixel and axis */
+    uint32_t paths;        /* through each pixel, where it is traced; 0: drawn */
+    void (*progress)(void *user_data, uint32_t done, uint32_t of);
+    void *progress_data;
 };
 
 struct subject {

@@ -88,7 +88,7 @@ static void add_log(struct compiled *out, mxg_stage stage, const char *log)
 
 /* ---- GLSL ---- */
 
-static glslang_input_t input_of(const struct dialect *dialect, mxg_stage stage, const char *source, bool to_spirv)
+static glslang_input_t input_of(const struct dialect *dialect, glslang_stage_t stage, const char *source, bool to_spirv)
 {
     int messages = GLSLANG_MSG_CASCADING_ERRORS_BIT;
     if (to_spirv)
@@ -97,7 +97,7 @@ static glslang_input_t input_of(const struct dialect *dialect, mxg_stage stage, 
         messages |= GLSLANG_MSG_VULKAN_RULES_BIT;
     return (glslang_input_t){
         .language = GLSLANG_SOURCE_GLSL,
-        .stage = glslang_stages[stage],
+        .stage = stage,
         .client = to_spirv ? dialect->client : GLSLANG_CLIENT_NONE,
         .client_version = dialect->client_version,
         .target_language = to_spirv ? GLSLANG_TARGET_SPV : GLSLANG_TARGET_NONE,
@@ -113,7 +113,7 @@ static glslang_input_t input_of(const struct dialect *dialect, mxg_stage stage, 
 static glslang_shader_t *parse_stage(const struct dialect *dialect, mxg_stage stage, const char *source, bool to_spirv,
                                      struct compiled *out)
 {
-    glslang_input_t input = input_of(dialect, stage, source, to_spirv);
+    glslang_input_t input = input_of(dialect, glslang_stages[stage], source, to_spirv);
     glslang_shader_t *shader = glslang_shader_create(&input);
     if (to_spirv && !dialect->is_spirv_source) {
         glslang_shader_set_options(shader, GLSLANG_SHADER_AUTO_MAP_BINDINGS | GLSLANG_SHADER_AUTO_MAP_LOCATIONS);
@@ -174,7 +174,7 @@ static void generate_spirv(const struct dialect *dialect, glslang_program_t *pro
 
 static bool link_stages(const struct dialect *dialect, glslang_program_t *program, bool to_spirv, struct compiled *out)
 {
-    int messages = (int)input_of(dialect, MXG_STAGE_PIXEL, NULL, to_spirv).messages;
+    int messages = (int)input_of(dialect, GLSLANG_STAGE_FRAGMENT, NULL, to_spirv).messages;
     bool linked = glslang_program_link(program, messages);
     if (linked && to_spirv && !dialect->is_spirv_source)
         linked = glslang_program_map_io(program);
@@ -229,4 +229,30 @@ bool compile_program(const char *target, const char *const sources[MXG_NUM_STAGE
     if (out->errors == 0)
         compile_once(dialect, sources, true, out);
     return out->errors == 0;
+}
+
+bool compile_compute(const char *source, struct compiled *out)
+{
+    *out = (struct compiled){0};
+    glslang_input_t input = input_of(find_dialect("vulkan"), GLSLANG_STAGE_COMPUTE, source, true);
+    glslang_shader_t *shader = glslang_shader_create(&input);
+    glslang_program_t *program = glslang_program_create();
+    bool good = glslang_shader_preprocess(shader, &input) && glslang_shader_parse(shader, &input);
+    if (good) {
+        glslang_program_add_shader(program, shader);
+        good = glslang_program_link(program, (int)input.messages);
+    }
+    add_log(out, MXG_STAGE_PIXEL, glslang_shader_get_info_log(shader));
+    if (good) {
+        glslang_program_SPIRV_generate(program, GLSLANG_STAGE_COMPUTE);
+        struct compiled_stage *code = &out->stages[MXG_STAGE_PIXEL];
+        code->num_words = glslang_program_SPIRV_get_size(program);
+        code->words = malloc(code->num_words * sizeof *code->words);
+        good = code->words != NULL;
+        if (good)
+            memcpy(code->words, glslang_program_SPIRV_get_ptr(program), code->num_words * sizeof *code->words);
+    }
+    glslang_program_delete(program);
+    glslang_shader_delete(shader);
+    return good;
 }

@@ -39,6 +39,9 @@ bool compile_knows_target(const char *target);
 bool compile_program(const char *target, const char *const sources[MXG_NUM_STAGES], struct compiled *out);
 void compiled_finish(struct compiled *compiled);
 
+/* The same for the source of a compute shader for Vulkan; code and messages stand in the place of the pixel stage. */
+bool compile_compute(const char *source, struct compiled *out);
+
 /* compiled.c: adds a message, for what compiles. */
 void compiled_add(struct compiled *compiled, mxg_stage stage, mxg_severity severity, uint32_t line, const char *text, size_t len);
 

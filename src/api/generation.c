@@ -90,7 +90,7 @@ static void set_build_options(struct generation *g)
         .reader = &g->reader,
         .list_folder = context->resolver.list_folder,
         .list_user_data = context->resolver.user_data,
-        .integrator = o[OPTION_integrator].number,
+        .integrator = o[OPTION_integrator].number != 0,
         .cancel = context->cancel,
         .cancel_user_data = context->cancel_user_data,
     };
@@ -298,6 +298,7 @@ static bool emit(struct generation *g)
 bool generation_emit(struct generation *g)
 {
     generation_start_closures(g);
+    g->result->shader.scatters = g->options[OPTION_integrator].number == 2;
     if (!emit(g))
         report_not_renderable(g);
     if (!is_good(g))
@@ -373,7 +374,7 @@ bool generation_spell(struct generation *g)
     };
     result->origin_paths = ARENA_ARRAY(&result->object.arena, const char *, result->graph.origins.len);
     for (int stage = 0; stage < NUM_STAGES; stage++)
-        if (result->target->stage_suffix[stage] && !spell_one(g, &options, (enum shader_stage_id)stage))
+        if (result->target->stage_suffix[stage] && !(stage == STAGE_VERTEX && result->shader.scatters) && !spell_one(g, &options, (enum shader_stage_id)stage))
             return false;
     return is_good(g);
 }

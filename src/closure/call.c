@@ -14,6 +14,8 @@ static ir_ref normal(struct shader *shader)
 
 static ir_ref view(struct shader *shader)
 {
+    if (shader->scatters)
+        return stream(shader, STR_viewWorld);
     ir_ref viewer = shader_read(shader, shader_private_uniform(shader, STR_u_viewPosition, IR_TYPE_VEC3, 0));
     return ir_op1(shader->graph, IR_NORMALIZE, ir_op2(shader->graph, IR_SUB, viewer, stream(shader, STR_positionWorld)));
 }
@@ -41,6 +43,8 @@ static ir_ref context_value(struct shader *shader, struct closure_point *point, 
         return known(shader, &point->view, name, view);
     case STR_N:
         return known(shader, &point->normal, name, normal);
+    case STR_xi:
+        return shader_stream(shader, STR_random, IR_TYPE_VEC3);
     case STR_P:
         return known(shader, &point->position, name, position);
     case STR_sample_index:
@@ -66,15 +70,15 @@ ir_ref closure_position(struct shader *shader, const struct closure_host *host)
  */
 enum { MAX_LEAF_NODES = 50 };
 
-ir_ref closure_call(struct shader *shader, const struct closure_host *host, ir_ref leaf, enum leaf_function which,
-                    const ir_ref *light)
+bool closure_call_all(struct shader *shader, const struct closure_host *host, ir_ref leaf, enum leaf_function which,
+                      const ir_ref *light, ir_ref *results)
 {
     struct ir_graph *g = shader->graph;
     const struct ir_node node = *ir_get(g, leaf);
     const uint32_t *functions = host->leaf_functions(host->user_data, node.attr);
     uint32_t id = functions[which];
     if (id == LANG_NONE)
-        return 0;
+        return false;
     const struct lang_unit *unit;
     const struct lang_function *fn = lang_function(shader->unit, id, &unit);
     /* Operands: the weight, the inputs, and a modifier's base. */
@@ -84,12 +88,18 @@ ir_ref closure_call(struct shader *shader, const struct closure_host *host, ir_r
         const struct lang_slot *slot = &unit->slots.items[fn->first_slot + i];
         args[i] = i < num_inputs ? ir_arg(g, leaf, i + 1) : context_value(shader, host->point, slot->name, light);
     }
-    ir_ref *results = ARENA_ARRAY(shader->arena, ir_ref, lang_num_results(shader->unit, id));
     uint32_t before = g->origin;
     g->origin = node.origin;
     struct lang_host see_through = *host->lang;
     see_through.max_outer_nodes = MAX_LEAF_NODES;
     lang_lower_call(shader->unit, g, &see_through, id, args, results);
     g->origin = before;
-    return results[0];
+    return true;
+}
+
+ir_ref closure_call(struct shader *shader, const struct closure_host *host, ir_ref leaf, enum leaf_function which,
+                    const ir_ref *light)
+{
+    ir_ref result[1];
+    return closure_call_all(shader, host, leaf, which, light, result) ? result[0] : 0;
 }

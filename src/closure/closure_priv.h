@@ -18,6 +18,14 @@ ir_ref closure_position(struct shader *shader, const struct closure_host *host);
 /* Unit direction to the viewer. */
 ir_ref closure_view(struct shader *shader, const struct closure_host *host);
 
+/* The same for functions that give several values; false where the family has none. */
+bool closure_call_all(struct shader *shader, const struct closure_host *host, ir_ref leaf, enum leaf_function which,
+                      const ir_ref *light, ir_ref *results);
+
+/* scatter.c: what a path tracer's function does. Emission and alpha may be 0: black and 1. */
+void closure_scatter(struct shader *shader, const struct closure_host *host, const struct closure_list *list, ir_ref emission,
+                     ir_ref alpha);
+
 /* lights.c: unit direction to the light at hand and the light that arrives from there, for effects inside of EFFECT_LIGHTS. */
 void closure_sample_light(struct shader *shader, const struct closure_host *host, ir_ref *direction, ir_ref *intensity);
 

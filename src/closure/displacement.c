@@ -107,7 +107,7 @@ static ir_ref view_from(struct shader *shader, ir_ref point)
 ir_ref closure_displace(struct shader *shader, const struct closure_host *host, ir_ref surface, ir_ref displacement)
 {
     struct ir_graph *g = shader->graph;
-    ir_ref offset = displacement ? offset_of(shader, displacement) : 0;
+    ir_ref offset = displacement && !shader->scatters ? offset_of(shader, displacement) : 0;
     if (!offset)
         return surface;
     shader->displaced = true;

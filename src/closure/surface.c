@@ -333,6 +333,10 @@ static void emit_surface(struct emitter *e, ir_ref root)
         closure_flatten(e->shader, e->host, s.bsdf, &list);
     }
     e->base = add(e, s.unlit ? vec3_of(e, s.unlit) : 0, emission(e, s.edf));
+    if (e->shader->scatters) {
+        closure_scatter(e->shader, e->host, &list, e->base, s.alpha);
+        return;
+    }
     bool *emitted = ARENA_ARRAY(e->shader->arena, bool, list.leaves.len);
     emit_lights(e, s.bsdf, &list, emitted);
     emit_environment(e, &list, emitted);

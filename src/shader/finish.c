@@ -117,10 +117,12 @@ static void narrow_textures(struct shader *shader)
 
 static void finish_vertex_stage(struct shader *shader)
 {
-    complete_vertex_stage(shader);
-    mark_outputs(shader, STAGE_VERTEX);
-    shader_schedule(shader, STAGE_VERTEX);
-    add_globals(shader, STAGE_VERTEX);
+    if (!shader->scatters) {
+        complete_vertex_stage(shader);
+        mark_outputs(shader, STAGE_VERTEX);
+        shader_schedule(shader, STAGE_VERTEX);
+        add_globals(shader, STAGE_VERTEX);
+    }
 }
 
 void shader_finish(struct shader *shader, const struct shader_layout_rules *rules)

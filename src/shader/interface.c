@@ -67,7 +67,7 @@ static void grow_names(struct shader *shader)
 /* Names that the speller needs at file scope. */
 static bool is_taken(const struct shader *shader, uint32_t scope, str_id name)
 {
-    static const str_id words[] = {STR_main, STR_vd, STR_u_lightData, STR_LightData, STR_LightData_block, STR_PublicUniforms,
+    static const str_id words[] = {STR_main, STR_scatter, STR_vd, STR_u_lightData, STR_LightData, STR_LightData_block, STR_PublicUniforms,
                                    STR_PrivateUniforms, STR_VertexData};
     for (size_t i = 0; i < sizeof words / sizeof *words; i++)
         if (name == words[i])
@@ -303,6 +303,8 @@ static str_id stream_semantic(struct shader *shader, const struct stream_row *ro
     }
     const char *name = str_text(shader->strings, row->name);
     bool world = strstr(name, "World") != NULL;
+    if (!world && !strstr(name, "Object"))
+        return row->name;
     struct text what;
     text_init(&what, shader->arena);
     text_mem(&what, name, strlen(name) - (world ? 5 : 6));

@@ -194,6 +194,7 @@ struct shader {
     uint8_t alpha;                 /* enum shader_alpha */
     bool lit;                      /* reads lights or environment */
     bool displaced;                /* the vertex stage moves the surface */
+    bool scatters;                 /* it is no program but a function of path tracers: there is no vertex stage */
     bool numbered;                 /* sets, bindings and locations are given */
 };
 

@@ -98,7 +98,7 @@ static void write_members(struct spell *spell, enum shader_block block)
         if (variable->block != block)
             continue;
         spell_indent(spell, 1);
-        if (variable->flat)
+        if (variable->flat && !spell->shader->scatters)
             spell_text(spell, "flat ");
         declare(spell, variable, variable_name(spell, variable));
         spell_text(spell, ";\n");
@@ -174,7 +174,8 @@ static void write_attributes(struct spell *spell, enum shader_block block, const
         const struct shader_variable *variable = interface_variable(spell, i);
         if (variable->block != block || !stage_reads(spell, variable))
             continue;
-        write_location(spell, variable->location);
+        if (*qualifier)
+            write_location(spell, variable->location);
         if (variable->flat)
             spell_text(spell, "flat ");
         spell_text(spell, qualifier);
@@ -188,6 +189,12 @@ static void write_vertex_data(struct spell *spell)
     const char *qualifier = spell->stage_id == STAGE_VERTEX ? "out " : "in ";
     if (!needs_block(spell, BLOCK_VERTEX_DATA))
         return;
+    if (spell->shader->scatters) {
+        spell_text(spell, "struct VertexData {\n");
+        write_members(spell, BLOCK_VERTEX_DATA);
+        spell_text(spell, "};\nVertexData vd;\n");
+        return;
+    }
     if (!spell_can(spell, CAP_BLOCK_STAGE_IO)) {
         write_attributes(spell, BLOCK_VERTEX_DATA, qualifier);
         return;
@@ -216,5 +223,5 @@ void spell_interface(struct spell *spell)
         write_attributes(spell, BLOCK_APP_DATA, "in ");
     write_vertex_data(spell);
     if (spell->stage_id == STAGE_PIXEL)
-        write_attributes(spell, BLOCK_OUTPUTS, "out ");
+        write_attributes(spell, BLOCK_OUTPUTS, spell->shader->scatters ? "" : "out ");
 }

@@ -202,7 +202,7 @@ void spell_stage(struct spell *spell, enum shader_stage_id stage)
     spell_interface(spell);
     spell_text(spell, "\n");
     spell_functions(spell);
-    spell_text(spell, "void main()\n{\n");
+    spell_text(spell, spell->shader->scatters ? "void scatter()\n{\n" : "void main()\n{\n");
     names_open_scope(&spell->names);
     spell_statements(spell, &spell->stage->statements, 1);
     spell_text(spell, "}\n");
@@ -241,7 +241,7 @@ static void init(struct spell *spell)
     spell->local_of = ARENA_ARRAY(arena, uint32_t, shader->graph->nodes.len);
     spell->lang_names = (struct lang_names){
         .user_data = spell, .function = function_name, .global = global_name, .user_type = user_type_name};
-    bool has_neighbours = spell->stage_id == STAGE_PIXEL || !shader->displaced;
+    bool has_neighbours = spell->stage_id == STAGE_PIXEL ? !shader->scatters : !shader->displaced;
     spell->style = shader->style && has_neighbours ? shader->style : arena_alloc(arena, sizeof *spell->style);
     if (spell->style != shader->style)
         lang_style_init(spell->style, has_neighbours ? spell->target->syntax : syntax_of_one(spell), arena);

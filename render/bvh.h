@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+/* A tree of boxes around the triangles of a mesh, as path.glsl walks it. */
+#ifndef MXG_RENDER_BVH_H
+#define MXG_RENDER_BVH_H
+
+#include "render/mesh.h"
+
+struct bvh_node {
+    float low[3];
+    uint32_t first; /* of its triangles; of an inner node, the first of its two children */
+    float high[3];
+    uint32_t count; /* of triangles; 0: an inner node */
+};
+
+struct bvh_corner {
+    float position[3], s, normal[3], t, tangent[4];
+};
+
+struct bvh {
+    struct bvh_node *nodes;
+    struct bvh_corner *corners; /* three for each triangle, in the order of the leaves */
+    uint32_t num_nodes, num_triangles;
+};
+
+/* False: out of memory. bvh_finish must follow in any case. */
+bool bvh_build(const struct mesh *mesh, struct bvh *out);
+void bvh_finish(struct bvh *bvh);
+
+#endif
