@@ -128,6 +128,7 @@ static void finish_vertex_stage(struct shader *shader)
 void shader_finish(struct shader *shader, const struct shader_layout_rules *rules)
 {
     shader->names_wholes = rules->names_wholes;
+    shader->in_blocks = rules->blocks;
     shader_specialise_calls(shader);
     if (rules->typed_textures)
         narrow_textures(shader);

@@ -322,7 +322,8 @@ static void find_places(struct scheduler *s, const struct effect_list *effects)
  * and a load, a local a variable, a store and a load per use.
  */
 enum { GOOD_CHARS = 110, MAX_CHARS = 220, MIN_SPLIT_CHARS = 40, MAX_REPEATED_CHARS = 32 };
-enum { COST_OPERATOR = 1, COST_BUILTIN = 4, COST_CALL = 32, COST_LOCAL = 2, MAX_COST_IN_LOOP = 3, MAX_COST_OF_ARM = 24 };
+enum { MIN_USES_OF_COPY = 5 }; /* an access and a load each time, or once, a store, and a load each time */
+enum { COST_OPERATOR = 1, COST_CHOICE = 3, COST_BUILTIN = 4, COST_CALL = 32, COST_LOCAL = 2, MAX_COST_IN_LOOP = 3, MAX_COST_OF_ARM = 24 };
 
 static bool is_splat(ir_type_id type, const union ir_word *words)
 {
@@ -353,6 +354,9 @@ static bool is_source(const struct scheduler *s, struct plan *plan)
         plan->chars = clamp16((uint32_t)str_len(s->shader->strings, s->shader->variables.items[node->attr].name) + 15);
         return plan->uses < 3;
     case IR_UNIFORM:
+        plan->cost = 2;
+        plan->chars = clamp16((uint32_t)str_len(s->shader->strings, s->shader->variables.items[node->attr].name) + 3);
+        return !s->shader->in_blocks || plan->uses < MIN_USES_OF_COPY || ir_type_is_matrix(node->type);
     case IR_STREAM:
     case IR_TEXTURE:
         plan->cost = 2;
@@ -384,7 +388,8 @@ static void own_measure(const struct scheduler *s, const struct plan *plan, uint
         *out_cost = COST_BUILTIN;
         *out_chars = info->text_len + 2 * plan->num_args;
     } else {
-        *out_cost = COST_OPERATOR;
+        bool chooses = node->op == IR_CONVERT && ir_type_of(s->graph, s->graph->args.items[node->first_arg]) == IR_TYPE_BOOL;
+        *out_cost = chooses ? COST_CHOICE : COST_OPERATOR;
         *out_chars = 3 * plan->num_args + (plan->op == IR_CONSTRUCT ? 4 : 0);
     }
 }

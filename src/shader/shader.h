@@ -195,6 +195,7 @@ struct shader {
     bool lit;                      /* reads lights or environment */
     bool displaced;                /* the vertex stage moves the surface */
     bool scatters;                 /* it is no program but a function of path tracers: there is no vertex stage */
+    bool in_blocks;                /* uniforms stand in blocks: each reading costs an access beside the load */
     bool numbered;                 /* sets, bindings and locations are given */
 };
 

@@ -21,13 +21,24 @@ static void write_assignment(struct spell *spell, unsigned indent, const char *n
 
 /* ---- Locals ---- */
 
-/* "metal_ior" of the origin, "direction" of a light, "noise" of the function mx_noise, else a letter. */
+/* "coat" of the input whose path is "NG/metal/coat", "alphaThreshold" of u_alphaThreshold. */
+static const char *input_name(const struct spell *spell, const struct shader_variable *variable)
+{
+    if (!variable->path)
+        return str_text(spell->shader->strings, variable->name) + strlen("u_");
+    const char *path = str_text(spell->shader->strings, variable->path), *slash = strrchr(path, '/');
+    return slash ? slash + 1 : path;
+}
+
+/* "metal_ior" of the origin, "direction" of a light, "coat" of an input, "noise" of the function mx_noise, else a letter. */
 static const char *local_base(const struct spell *spell, ir_ref ref)
 {
     const struct ir_graph *graph = spell->shader->graph;
     const struct ir_node *node = ir_get(graph, ref);
     if (node->op == IR_CONTEXT)
         return str_text(spell->shader->strings, spell->shader->variables.items[node->attr].name);
+    if (node->op == IR_UNIFORM)
+        return input_name(spell, &spell->shader->variables.items[node->attr]);
     str_id name = graph->origins.items[node->origin].name;
     if (name)
         return str_text(spell->shader->strings, name);

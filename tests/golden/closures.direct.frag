@@ -69,7 +69,7 @@ void main()
         vec3 coat_6 = normalize(V - u_lightData[i].direction);
         float coat_7 = coat_3 * mx_ggx_lobe(coat_4, coat_5, coat, directional_light, coat_6);
         float paint_2 = max(dot(directional_light, coat_4), 1e-8);
-        vec3 paint_3 = paint * (paint_2 / 3.1415927 * (max(dot(V, directional_light) - coat * paint_2, 0.0) / max(paint_2, coat) * 0.225 + 0.89285713));
+        vec3 paint_3 = paint * (paint_2 / 3.1415927 * (max(dot(V, directional_light) - coat * paint_2, 0.0) * 0.225 / max(paint_2, coat) + 0.89285713));
         color += light * (coat_7 * mx_fresnel_dielectric(clamp(dot(V, coat_6), 1e-8, 1.0)) + paint_3);
     }
     out1 = vec4(color, 1.0);

@@ -87,16 +87,15 @@ vec3 mx_ggx_visible_normal(const vec2 xi, const vec3 v)
     return normalize(vec3((v.xy + sqrt(max(1.0 - z * z, 0.0)) * cos(6.2831855 * (xi.x - vec2(0.0, 0.25)))) * 0.04, top));
 }
 
-vec4 mx_ggx_sample(const int i, const vec3 N, const vec3 x, const vec3 v)
+vec4 mx_ggx_sample(const int i, const vec3 N, const vec3 x, const vec3 V, const float cos_v)
 {
     float count = float(u_envRadianceSamples);
-    vec3 h = mx_ggx_visible_normal(vec2((float(i) + 0.5) / count, fract((float(i) + 1.0) * 1.618034)), normalize(vec3(v.xy * 0.04, v.z)));
-    float cos_v = max(v.z, 1e-8);
+    vec3 h = mx_ggx_visible_normal(vec2((float(i) + 0.5) / count, fract((float(i) + 1.0) * 1.618034)), normalize(vec3(dot(V, x) * 0.04, dot(V, cross(N, x)) * 0.04, cos_v)));
+    vec3 H = mx_leave_frame(h, N, x);
     float masking = 2.0 * (cos_v + sqrt(mix(cos_v * cos_v, 1.0, 0.0016))) / count;
-    vec3 l = reflect(-v, h);
-    float weight = mx_ggx_visibility(cos_v, max(l.z, 1e-8));
-    vec3 L = mx_leave_frame(l, N, x);
-    return vec4(weight * masking * (textureLod(u_envRadiance, mx_latlong(L), max(float(u_envRadianceMips) - 2.5 - 0.5 * log2(length(L.xz) * mx_ggx_distribution(h) / masking), 0.0)).xyz * u_envLightIntensity), clamp(dot(v, h), 1e-8, 1.0));
+    vec3 L = reflect(-V, H);
+    float weight = mx_ggx_visibility(cos_v, max(dot(N, L), 1e-8));
+    return vec4(weight * masking * (textureLod(u_envRadiance, mx_latlong(L), max(float(u_envRadianceMips) - 2.5 - 0.5 * log2(length(L.xz) * mx_ggx_distribution(h) / masking), 0.0)).xyz * u_envLightIntensity), clamp(dot(V, H), 1e-8, 1.0));
 }
 
 void main()
@@ -127,17 +126,16 @@ void main()
         vec3 coat_6 = normalize(V + L);
         float coat_7 = coat_3 * mx_ggx_lobe(coat_4, coat_5, coat, L, coat_6);
         float paint_3 = max(dot(L, coat_4), 1e-8);
-        vec3 paint_4 = paint_2 * (paint_3 / 3.1415927 * (max(dot(V, L) - coat * paint_3, 0.0) / max(paint_3, coat) * 0.225 + 0.89285713));
+        vec3 paint_4 = paint_2 * (paint_3 / 3.1415927 * (max(dot(V, L) - coat * paint_3, 0.0) * 0.225 / max(paint_3, coat) + 0.89285713));
         vec3 t = coat_7 * mx_fresnel_dielectric(clamp(dot(V, coat_6), 1e-8, 1.0)) + paint_4;
         color += u_lightData[i].color * (type == 1 ? intensity : light_2) * t;
     }
     vec3 paint_5 = textureLod(u_envIrradiance, mx_latlong(coat_4), 0.0).xyz * u_envLightIntensity;
     vec2 paint_6 = (coat * vec2(-0.7632, -0.4993) + vec2(-0.4297, -0.6076) + vec2(0.43155003, 0.60945004)) * 0.3 + vec2(1.0);
     color += paint_5 * (paint * clamp(paint_6.x / paint_6.y, 0.0, 1.0) * vec3(0.6, 0.1, 0.05));
-    vec3 coat_8 = vec3(dot(V, coat_5), dot(V, cross(coat_4, coat_5)), dot(V, coat_4));
     for (int i = 0; i < u_envRadianceSamples; ++i) {
-        vec4 coat_9 = mx_ggx_sample(i, coat_4, coat_5, coat_8);
-        color += coat_3 * coat_9.xyz * mx_fresnel_dielectric(coat_9.w);
+        vec4 coat_8 = mx_ggx_sample(i, coat_4, coat_5, V, coat);
+        color += coat_3 * coat_8.xyz * mx_fresnel_dielectric(coat_8.w);
     }
     if (SR_varnish_opacity < u_alphaThreshold)
         discard;

@@ -99,7 +99,7 @@ void main()
         vec3 coat_6 = normalize(V + L);
         float coat_7 = coat_3 * mx_ggx_lobe(coat_4, coat_5, coat, L, coat_6);
         float paint_3 = max(dot(L, coat_4), 1e-8);
-        vec3 paint_4 = paint_2 * (paint_3 / 3.1415927 * (max(dot(V, L) - coat * paint_3, 0.0) / max(paint_3, coat) * 0.225 + 0.89285713));
+        vec3 paint_4 = paint_2 * (paint_3 / 3.1415927 * (max(dot(V, L) - coat * paint_3, 0.0) * 0.225 / max(paint_3, coat) + 0.89285713));
         vec3 t = coat_7 * mx_fresnel_dielectric(clamp(dot(V, coat_6), 1e-8, 1.0)) + paint_4;
         color += u_lightData[i].color * (type == 1 ? intensity : light_2) * t;
     }

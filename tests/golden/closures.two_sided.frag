@@ -87,7 +87,7 @@ void main()
         float coat_8 = coat_3 * mx_ggx_lobe(coat_4, coat_5, coat, directional_light, coat_7);
         vec2 coat_9 = mx_ggx_albedo(max(abs(dot(normal, directional_light)), 1e-8));
         float paint = max(dot(directional_light, coat_4), 1e-8);
-        float paint_2 = paint / 3.1415927 * (max(dot(V, directional_light) - coat * paint, 0.0) / max(paint, coat) * 0.225 + 0.89285713);
+        float paint_2 = paint / 3.1415927 * (max(dot(V, directional_light) - coat * paint, 0.0) * 0.225 / max(paint, coat) + 0.89285713);
         vec3 paint_3 = coat_6 * (1.0 - mix(0.033735953, 1.0, coat_9.y) * coat_9.x * ((1.0 / coat_9.x - 1.0) * 0.079748526 + 1.0)) * 0.75 * paint_2 * vec3(0.6, 0.1, 0.05);
         color += light * (coat_8 * mx_fresnel_dielectric(clamp(dot(V, coat_7), 1e-8, 1.0)) + paint_3);
     }

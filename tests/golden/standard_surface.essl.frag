@@ -52,7 +52,7 @@ void main()
         vec3 directional_light = -u_lightData[i].direction;
         vec3 L = type == 1 ? directional_light : spot_light_4;
         float diffuse_3 = max(dot(L, diffuse), 1e-8);
-        float diffuse_4 = max(dot(L, V) - diffuse_3 * diffuse_2, 0.0) / max(diffuse_3, diffuse_2) * 0.35999998 + 0.73913044;
+        float diffuse_4 = max(dot(L, V) - diffuse_3 * diffuse_2, 0.0) * 0.35999998 / max(diffuse_3, diffuse_2) + 0.73913044;
         color += light_3 * (diffuse_3 / 3.1415927 * vec3(0.5, 0.25, 0.15) * diffuse_4);
     }
     vec2 diffuse_5 = (diffuse_2 * vec2(-0.7632, -0.4993) + vec2(-0.4297, -0.6076) + vec2(0.86310005, 1.2189001)) * 0.6 + vec2(1.0);

@@ -65,15 +65,15 @@ vec2 mx_latlong(const vec3 direction)
     return vec2(atan(d.x, -d.z), -2.0 * asin(d.y)) * 0.15915494 + vec2(0.5);
 }
 
-vec3 mx_leave_frame(const vec3 w, const vec3 N, const vec3 x)
-{
-    return w.x * x + w.y * cross(N, x) + w.z * N;
-}
-
 vec3 mx_refract_sphere(const vec3 v, const vec3 h, const float ior)
 {
     vec3 inside = refract(-v, h, 1.0 / ior);
     return refract(inside, normalize(inside * dot(inside, h) - 0.5 * h), ior);
+}
+
+vec3 mx_leave_frame(const vec3 w, const vec3 N, const vec3 x)
+{
+    return w.x * x + w.y * cross(N, x) + w.z * N;
 }
 
 vec3 mx_ggx_visible_normal(const vec2 xi, const vec3 v)
@@ -83,20 +83,20 @@ vec3 mx_ggx_visible_normal(const vec2 xi, const vec3 v)
     return normalize(vec3((v.xy + sqrt(max(1.0 - z * z, 0.0)) * cos(6.2831855 * (xi.x - vec2(0.0, 0.25)))) * 0.0001, top));
 }
 
-vec4 mx_ggx_sample(const int i, const vec3 N, const vec3 x, const vec3 v, const float refract_ior)
+vec4 mx_ggx_sample(const int i, const vec3 N, const vec3 x, const vec3 V, const float cos_v, const float refract_ior)
 {
     float count = float(u_envRadianceSamples);
-    vec3 h = mx_ggx_visible_normal(vec2((float(i) + 0.5) / count, fract((float(i) + 1.0) * 1.618034)), normalize(vec3(v.xy * 0.0001, v.z)));
-    float cos_v = max(v.z, 1e-8);
+    vec3 h = mx_ggx_visible_normal(vec2((float(i) + 0.5) / count, fract((float(i) + 1.0) * 1.618034)), normalize(vec3(dot(V, x) * 0.0001, dot(V, cross(N, x)) * 0.0001, cos_v)));
+    vec3 H = mx_leave_frame(h, N, x);
     float masking = 2.0 * (cos_v + sqrt(mix(cos_v * cos_v, 1.0, 9.999999e-9))) / count;
-    vec3 l = reflect(-v, h);
+    vec3 L = reflect(-V, H);
     float weight = 0.25 / cos_v;
     if (refract_ior > 0.0)
-        l = mx_refract_sphere(v, h, refract_ior);
+        L = mx_refract_sphere(V, H, refract_ior);
     else
-        weight = mx_ggx_visibility(cos_v, max(l.z, 1e-8));
-    vec3 L = mx_leave_frame(l, N, x);
-    return vec4(weight * masking * (textureLod(u_envRadiance, mx_latlong(L), max(float(u_envRadianceMips) - 2.5 - 0.5 * log2(length(L.xz) * mx_ggx_distribution(h) / masking), 0.0)).xyz * u_envLightIntensity), clamp(dot(v, h), 1e-8, 1.0));
+        weight = mx_ggx_visibility(cos_v, max(dot(N, L), 1e-8));
+    float solid = length(L.xz) * mx_ggx_distribution(h) / masking;
+    return vec4(weight * masking * (textureLod(u_envRadiance, mx_latlong(L), max(float(u_envRadianceMips) - 2.5 - 0.5 * log2(solid), 0.0)).xyz * u_envLightIntensity), clamp(dot(V, H), 1e-8, 1.0));
 }
 
 void main()
@@ -128,13 +128,12 @@ void main()
         float reflection_8 = reflection_7 * mx_fresnel_dielectric(clamp(dot(V, reflection_6), 1e-8, 1.0));
         color += u_lightData[i].color * (type == 1 ? intensity : light_2) * reflection_8;
     }
-    vec3 reflection_9 = vec3(dot(V, reflection_5), dot(V, cross(reflection_4, reflection_5)), dot(V, reflection_4));
-    float reflection_10 = 1.0 - mix(0.042579994, 1.0, reflection_2.y) * reflection_2.x * reflection_3;
+    float reflection_9 = 1.0 - mix(0.042579994, 1.0, reflection_2.y) * reflection_2.x * reflection_3;
     for (int i = 0; i < u_envRadianceSamples; ++i) {
-        vec4 reflection_11 = mx_ggx_sample(i, reflection_4, reflection_5, reflection_9, 0.0);
-        vec4 refraction = mx_ggx_sample(i, reflection_4, reflection_5, reflection_9, 1.52);
-        vec3 refraction_2 = refraction.xyz * (reflection_10 * (1.0 - mx_fresnel_dielectric(refraction.w)));
-        color += reflection_3 * reflection_11.xyz * mx_fresnel_dielectric(reflection_11.w) + refraction_2;
+        vec4 reflection_10 = mx_ggx_sample(i, reflection_4, reflection_5, V, reflection, 0.0);
+        vec4 refraction = mx_ggx_sample(i, reflection_4, reflection_5, V, reflection, 1.52);
+        vec3 refraction_2 = refraction.xyz * (reflection_9 * (1.0 - mx_fresnel_dielectric(refraction.w)));
+        color += reflection_3 * reflection_10.xyz * mx_fresnel_dielectric(reflection_10.w) + refraction_2;
     }
     out1 = vec4(color, 1.0);
 }

@@ -149,6 +149,12 @@ SCHEDULE_TEST(two_light_loops, "lights{ acc } lights{ acc }", ir_ref a = op1(f, 
                   accumulate(f, a);
                   effect(f, EFFECT_END, 0, 0);
               })
+SCHEDULE_TEST(uniform_read_often, "a acc acc acc acc acc", name(f, "a"); ir_ref a = uniform(f, "u", IR_TYPE_VEC3); name(f, "");
+              for (int i = 1; i <= 5; i++)
+                  accumulate(f, op2(f, IR_ADD, a, dear(f, (char[]){(char)('a' + i), 0}))); )
+SCHEDULE_TEST(uniform_read_sometimes, "acc acc acc acc", ir_ref a = uniform(f, "u", IR_TYPE_VEC3);
+              for (int i = 1; i <= 4; i++)
+                  accumulate(f, op2(f, IR_ADD, a, dear(f, (char[]){(char)('a' + i), 0}))); )
 SCHEDULE_TEST(two_kinds_of_loops, "a lights{ acc } samples{ b acc acc }", ir_ref a = dear(f, "a");
               ir_ref i = ir_op1(&f->graph, IR_SIN, ir_convert(&f->graph, IR_TYPE_FLOAT, ir_build(&f->graph, IR_SAMPLE, IR_TYPE_INT, 0, NULL, 0)));
               name(f, "b"); ir_ref b = op2(f, IR_MUL, a, i); name(f, "");
@@ -192,6 +198,8 @@ static void test_schedule(void)
     out_of_lights_into_if();
     stays_in_lights();
     two_light_loops();
+    uniform_read_often();
+    uniform_read_sometimes();
     two_kinds_of_loops();
     condition_in_lights();
     derivative_out_of_if();

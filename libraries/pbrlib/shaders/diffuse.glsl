@@ -42,18 +42,20 @@ vec3 mx_oren_nayar_diffuse_bsdf_eval(vec3 color, float roughness, vec3 N, bool e
     float cos_l = mx_facing_cosine(N, V, L);
     vec3 lambert = color * (cos_l / MX_PI);
     float cos_v = mx_view_cosine(N, V);
-    float s = dot(L, V) - cos_l * cos_v;
-    float t = max(s, 0.0) / max(cos_l, cos_v);
     if (!energy_compensation)
     {
-        // Qualitative model of Oren and Nayar 1994, equation 30
+        // Qualitative model of Oren and Nayar 1994, equation 30: A and B
         float r2 = roughness * roughness;
-        return lambert * (1.0 - 0.5 * r2 / (r2 + 0.33) + 0.45 * r2 / (r2 + 0.09) * t);
+        vec2 ab = vec2(1.0, 0.0) + r2 * vec2(-0.5, 0.45) / (r2 + vec2(0.33, 0.09));
+        return lambert * (ab.x + ab.y * max(dot(L, V) - cos_l * cos_v, 0.0) / max(cos_l, cos_v));
     }
+    float s = dot(L, V) - cos_l * cos_v;
+    if (s > 0.0)
+        s /= max(cos_l, cos_v);
     float mean = mx_fujii_mean(roughness);
     float multiple = max(1.0 - mx_fujii_albedo(cos_v, roughness), MX_EPSILON)
                    * max(1.0 - mx_fujii_albedo(cos_l, roughness), MX_EPSILON) / max(1.0 - mean, MX_EPSILON);
-    return lambert * ((1.0 + roughness * (t + min(s, 0.0))) / (1.0 + MX_FUJII_A * roughness)
+    return lambert * ((1.0 + roughness * s) / (1.0 + MX_FUJII_A * roughness)
                       + mx_fujii_multiple(color, mean) * multiple);
 }
 

@@ -157,25 +157,24 @@ vec3 mx_ggx_visible_normal(vec2 xi, vec3 v, vec2 alpha)
 // Sample number i of the spherical Fibonacci points (Marques et al. 2013): its light, and in the fourth component the cosine
 // at its facet. The light is filtered over the solid angle of the sample (Krivanek and Colbert 2008; the mip level is
 // equation 13 of GPU Gems 3, section 20.4).
-vec4 mx_ggx_sample(int i, vec3 N, vec3 x, vec3 v, vec2 alpha, float refract_ior)
+vec4 mx_ggx_sample(int i, vec3 N, vec3 x, vec3 V, float cos_v, vec2 alpha, float refract_ior)
 {
     float count = float(u_envRadianceSamples);
     vec2 xi = vec2((float(i) + 0.5) / count, fract((float(i) + 1.0) * 1.61803399));
-    vec3 h = mx_ggx_visible_normal(xi, normalize(vec3(v.xy * alpha, v.z)), alpha);
-    float cos_v = max(v.z, MX_EPSILON);
+    vec3 h = mx_ggx_visible_normal(xi, normalize(vec3(dot(V, x) * alpha.x, dot(V, cross(N, x)) * alpha.y, cos_v)), alpha);
+    vec3 H = mx_leave_frame(h, N, x);
     float masking = 2.0 * (cos_v + mx_ggx_masking(cos_v, alpha)) / count;
     // A visible normal weighs G2 / G1 where it reflects, and 1 / G1 where it refracts.
-    vec3 l = reflect(-v, h);
+    vec3 L = reflect(-V, H);
     float weight = 0.25 / cos_v;
     if (refract_ior > 0.0)
-        l = mx_refract_sphere(v, h, refract_ior);
+        L = mx_refract_sphere(V, H, refract_ior);
     else
-        weight = mx_ggx_visibility(cos_v, max(l.z, MX_EPSILON), alpha);
-    vec3 L = mx_leave_frame(l, N, x);
+        weight = mx_ggx_visibility(cos_v, max(dot(N, L), MX_EPSILON), alpha);
     float solid = length(L.xz) * mx_ggx_distribution(h, alpha) / masking;
     return vec4(weight * masking
                     * mx_environment_radiance(L, max(float(u_envRadianceMips) - 2.5 - 0.5 * log2(solid), 0.0)),
-                clamp(dot(v, h), MX_EPSILON, 1.0));
+                clamp(dot(V, H), MX_EPSILON, 1.0));
 }
 
 // What the lobe reflects of all directions, or one sample's part of it.
@@ -189,8 +188,7 @@ vec3 mx_ggx_environment(vec2 roughness, vec3 N, vec3 X, vec3 V, string model, ve
     if (option_environment == 1)
         return scale * mx_ggx_prefiltered(alpha, N, V, 0.0, model, n, k, f90, exponent, film, film_ior);
     vec3 n_v = mx_facing(N, V);
-    vec3 x = mx_tangent(n_v, X);
-    vec4 light = mx_ggx_sample(sample_index, n_v, x, mx_enter_frame(V, n_v, x), alpha, 0.0);
+    vec4 light = mx_ggx_sample(sample_index, n_v, mx_tangent(n_v, X), V, mx_view_cosine(N, V), alpha, 0.0);
     return scale * light.xyz * mx_fresnel(light.w, model, n, k, f90, exponent, film, film_ior);
 }
 
@@ -204,7 +202,6 @@ vec3 mx_ggx_refraction(vec2 roughness, vec3 N, vec3 X, vec3 V, float ior, string
     if (option_environment == 1)
         return mx_ggx_prefiltered(alpha, N, V, ior, model, n, k, f90, exponent, film, film_ior);
     vec3 n_v = mx_facing(N, V);
-    vec3 x = mx_tangent(n_v, X);
-    vec4 light = mx_ggx_sample(sample_index, n_v, x, mx_enter_frame(V, n_v, x), alpha, ior);
+    vec4 light = mx_ggx_sample(sample_index, n_v, mx_tangent(n_v, X), V, mx_view_cosine(N, V), alpha, ior);
     return light.xyz * (1.0 - mx_fresnel(light.w, model, n, k, f90, exponent, film, film_ior));
 }
