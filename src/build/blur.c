@@ -81,8 +81,10 @@ static ir_ref footprint(struct blur *blur, ir_ref uv, enum ir_op derivative, int
 {
     struct ir_graph *g = blur->b->graph;
     const ir_ref *taps = moved_of(blur, uv);
-    ir_ref apart = ir_op2(g, IR_MUL, ir_op2(g, IR_SUB, taps[behind], taps[before]), ir_const_float(g, 0.5f));
-    return ir_op2(g, IR_ADD, ir_op1(g, IR_ABS, ir_op1(g, derivative, uv)), ir_op1(g, IR_ABS, apart));
+    ir_ref apart = ir_op2(g, IR_SUB, taps[behind], taps[before]);
+    ir_ref half = ir_op1(g, IR_ABS, ir_op2(g, IR_MUL, apart, ir_const_float(g, 0.5f)));
+    ir_ref screen = ir_op1(g, IR_ABS, ir_op1(g, derivative, uv));
+    return ir_op2(g, IR_ADD, screen, half);
 }
 
 static void move_texture(struct blur *blur, ir_ref ref)

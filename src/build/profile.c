@@ -179,10 +179,11 @@ static ir_ref look_up(struct builder *b, const float table[LENGTH], ir_ref norma
     ir_ref array = ir_construct(g, (ir_type_id)ir_add_array(g, IR_TYPE_FLOAT, length), entries, length);
     ir_ref from_viewer = build_geomprop(b, str_intern_z(b->shader->strings, "Vworld"), DOC_TYPE_vector3, (struct diag_place){0});
     ir_ref cosine = ir_op1(g, IR_NEG, ir_op2(g, IR_DOT, ir_op1(g, IR_NORMALIZE, normal), from_viewer));
-    ir_ref angle = ir_op1(g, IR_ACOS, ir_op3(g, IR_CLAMP, cosine, ir_const_float(g, -1.0f), ir_const_float(g, 1.0f)));
-    ir_ref entry = ir_op2(g, IR_MUL, ir_op1(g, IR_DEGREES, angle), ir_const_float(g, 1.0f / STEP));
+    ir_ref least = ir_const_float(g, -1.0f), most = ir_const_float(g, 1.0f);
+    ir_ref angle = ir_op1(g, IR_DEGREES, ir_op1(g, IR_ACOS, ir_op3(g, IR_CLAMP, cosine, least, most)));
+    ir_ref entry = ir_op2(g, IR_MUL, angle, ir_const_float(g, 1.0f / STEP));
     ir_ref at = ir_op2(g, IR_MIN, entry, ir_const_float(g, (float)(length - 1)));
-    ir_ref below = ir_op2(g, IR_MIN, ir_op1(g, IR_FLOOR, at), ir_const_float(g, (float)(length - 2)));
+    ir_ref whole = ir_op1(g, IR_FLOOR, at), below = ir_op2(g, IR_MIN, whole, ir_const_float(g, (float)(length - 2)));
     ir_ref index = ir_convert(g, IR_TYPE_INT, below);
     ir_ref values[2];
     for (int i = 0; i < 2; i++)

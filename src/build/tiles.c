@@ -221,7 +221,10 @@ static ir_ref layer_table(struct builder *b, const struct shader_tile *tiles, ui
 static ir_ref is_between(struct ir_graph *g, ir_ref x, int32_t length)
 {
     ir_ref zero = ir_const_float(g, 0.0f), last = ir_const_float(g, (float)(length - 1));
-    return length == 1 ? ir_op2(g, IR_EQ, x, zero) : ir_op2(g, IR_LAND, ir_op2(g, IR_GE, x, zero), ir_op2(g, IR_LE, x, last));
+    if (length == 1)
+        return ir_op2(g, IR_EQ, x, zero);
+    ir_ref above = ir_op2(g, IR_GE, x, zero), below = ir_op2(g, IR_LE, x, last);
+    return ir_op2(g, IR_LAND, above, below);
 }
 
 ir_ref build_tile_layer(struct builder *b, const struct shader_variable *texture, ir_ref uv, ir_ref *out_inside)
@@ -230,10 +233,11 @@ ir_ref build_tile_layer(struct builder *b, const struct shader_variable *texture
     const struct shader_tile *tiles = b->shader->tiles.items + texture->first_tile;
     struct cells cells = cells_of(tiles, texture->num_tiles);
     struct ir_value corner = {.type = IR_TYPE_VEC2, .w = {{.f = (float)cells.u}, {.f = (float)cells.v}}};
-    ir_ref at = ir_op2(g, IR_SUB, ir_op1(g, IR_FLOOR, uv), ir_const(g, &corner));
+    ir_ref square = ir_op1(g, IR_FLOOR, uv), at = ir_op2(g, IR_SUB, square, ir_const(g, &corner));
     ir_ref column = ir_component(g, at, 0), row = ir_component(g, at, 1);
     ir_ref cell = ir_op2(g, IR_ADD, column, ir_op2(g, IR_MUL, row, ir_const_float(g, (float)cells.width)));
-    *out_inside = ir_op2(g, IR_LAND, is_between(g, column, cells.width), is_between(g, row, cells.height));
+    ir_ref in_columns = is_between(g, column, cells.width), in_rows = is_between(g, row, cells.height);
+    *out_inside = ir_op2(g, IR_LAND, in_columns, in_rows);
     if (texture->num_tiles == (uint32_t)(cells.width * cells.height))
         return cell;
     ir_ref layer = layer_table(b, tiles, texture->num_tiles, &cells, cell);

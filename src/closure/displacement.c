@@ -71,7 +71,7 @@ static ir_ref offset_of(struct shader *shader, ir_ref root)
 static ir_ref facet(struct shader *shader, ir_ref point, ir_ref normal)
 {
     struct ir_graph *g = shader->graph;
-    ir_ref across = ir_op2(g, IR_CROSS, ir_op1(g, IR_DFDX, point), ir_op1(g, IR_DFDY, point));
+    ir_ref dx = ir_op1(g, IR_DFDX, point), dy = ir_op1(g, IR_DFDY, point), across = ir_op2(g, IR_CROSS, dx, dy);
     ir_ref unit = ir_op1(g, IR_NORMALIZE, across);
     return ir_op3(g, IR_FACEFORWARD, unit, ir_op1(g, IR_NEG, normal), unit);
 }

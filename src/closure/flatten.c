@@ -93,7 +93,8 @@ static ir_ref operator_throughput(struct flattener *f, ir_ref ref)
     case IR_CLOSURE_ADD: {
         /* 1 - ((1 - Ta) + (1 - Tb)), which must not become negative */
         ir_ref sum = ir_op2(g, IR_ADD, through_of(f, a), through_of(f, b));
-        return ir_op2(g, IR_MAX, ir_op2(g, IR_SUB, sum, ir_const_float(g, 1.0f)), ir_const_float(g, 0.0f));
+        ir_ref rest = ir_op2(g, IR_SUB, sum, ir_const_float(g, 1.0f));
+        return ir_op2(g, IR_MAX, rest, ir_const_float(g, 0.0f));
     }
     default: /* a scaled closure hides as much as before */
         return through_of(f, a);
@@ -165,7 +166,13 @@ static void add_way_in(struct flattener *f, uint32_t num_nodes)
 /* s·c as one value: for sums of weights. */
 static ir_ref combined(struct ir_graph *g, struct weight w)
 {
-    return w.color ? closure_mul(g, w.color, w.scalar) : w.scalar;
+    return ir_convert(g, IR_TYPE_VEC3, w.color ? closure_mul(g, w.color, w.scalar) : w.scalar);
+}
+
+static ir_ref sum_of_weights(struct ir_graph *g, struct weight a, struct weight b)
+{
+    ir_ref first = combined(g, a), second = combined(g, b); /* nodes are made in an order that C does not leave open */
+    return ir_op2(g, IR_ADD, first, second);
 }
 
 static void add_weight(struct flattener *f, ir_ref ref, struct weight add)
@@ -183,9 +190,7 @@ static void add_weight(struct flattener *f, ir_ref ref, struct weight add)
         w->scalar = ir_op2(g, IR_ADD, w->scalar, scalar);
         return;
     }
-    ir_ref sum = ir_op2(g, IR_ADD, ir_convert(g, IR_TYPE_VEC3, combined(g, *w)),
-                        ir_convert(g, IR_TYPE_VEC3, combined(g, add)));
-    *w = (struct weight){ir_const_float(g, 1.0f), sum, w->medium};
+    *w = (struct weight){ir_const_float(g, 1.0f), sum_of_weights(g, *w, add), w->medium};
 }
 
 /* A factor goes with the scalar part when it is a float, else with the colour. */
@@ -264,9 +269,7 @@ static void merge_leaf(struct flattener *f, struct closure_list *out, ir_ref lea
         struct closure_leaf *have = &out->leaves.items[i];
         if (have->leaf != leaf || have->medium != w.medium)
             continue;
-        ir_ref sum = ir_op2(g, IR_ADD, ir_convert(g, IR_TYPE_VEC3, combined(g, (struct weight){.scalar = have->scalar, .color = have->color})),
-                            ir_convert(g, IR_TYPE_VEC3, combined(g, w)));
-        have->color = sum;
+        have->color = sum_of_weights(g, (struct weight){.scalar = have->scalar, .color = have->color}, w);
         have->scalar = ir_const_float(g, 1.0f);
         return;
     }

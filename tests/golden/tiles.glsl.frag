@@ -22,10 +22,10 @@ void main()
 {
     // NG
     vec2 wall = floor(vd.texcoord_0);
-    bool wall_2 = wall.y <= 1.0 && wall.y >= 0.0;
+    bool wall_2 = wall.y >= 0.0 && wall.y <= 1.0;
     float stone[6] = float[6](0.0, 1.0, -1.0, -1.0, -1.0, 2.0);
     float wall_3 = stone[int(clamp(wall.x + wall.y * 3.0, 0.0, 5.0))];
-    bool wall_4 = wall_2 && (wall.x <= 2.0 && wall.x >= 0.0) && wall_3 >= 0.0;
+    bool wall_4 = wall.x >= 0.0 && wall.x <= 2.0 && wall_2 && wall_3 >= 0.0;
     vec2 wall_5 = fract(vd.texcoord_0);
     vec2 wall_6 = dFdx(vd.texcoord_0);
     vec2 wall_7 = dFdy(vd.texcoord_0);
@@ -37,7 +37,7 @@ void main()
     vec4 stone_6 = stone_5 + texture(stone_filey, vd.positionObject.xz) * stone_4.y;
     vec2 stone_7 = floor(vd.positionObject.xy);
     float stone_8 = stone[int(clamp(stone_7.x + stone_7.y * 3.0, 0.0, 5.0))];
-    bool stone_9 = stone_7.y <= 1.0 && stone_7.y >= 0.0 && (stone_7.x <= 2.0 && stone_7.x >= 0.0) && stone_8 >= 0.0;
+    bool stone_9 = stone_7.x >= 0.0 && stone_7.x <= 2.0 && (stone_7.y >= 0.0 && stone_7.y <= 1.0) && stone_8 >= 0.0;
     vec2 stone_10 = dFdx(vd.positionObject.xy);
     vec2 stone_11 = dFdy(vd.positionObject.xy);
     vec4 stone_12 = textureGrad(stone_filez, vec3(fract(vd.positionObject.xy), stone_8), stone_10, stone_11);

@@ -24,7 +24,7 @@ void main()
     vec2 wall = floor(vd.texcoord_0);
     float stone[6] = float[6](0.0, 1.0, -1.0, -1.0, -1.0, 2.0);
     float wall_2 = stone[int(clamp(wall.x + wall.y * 3.0, 0.0, 5.0))];
-    bool wall_3 = wall.y <= 1.0 && wall.y >= 0.0 && (wall.x <= 2.0 && wall.x >= 0.0) && wall_2 >= 0.0;
+    bool wall_3 = wall.x >= 0.0 && wall.x <= 2.0 && (wall.y >= 0.0 && wall.y <= 1.0) && wall_2 >= 0.0;
     vec2 wall_4 = dFdx(vd.texcoord_0);
     vec2 wall_5 = dFdy(vd.texcoord_0);
     vec4 wall_6 = textureGrad(wall_file, vec3(fract(vd.texcoord_0), wall_2), wall_4, wall_5);
@@ -34,7 +34,7 @@ void main()
     vec4 stone_5 = texture(stone_filex, vd.positionObject.yz) * stone_4.x;
     vec2 stone_6 = floor(vd.positionObject.xy);
     float stone_7 = stone[int(clamp(stone_6.x + stone_6.y * 3.0, 0.0, 5.0))];
-    bool stone_8 = stone_6.y <= 1.0 && stone_6.y >= 0.0 && (stone_6.x <= 2.0 && stone_6.x >= 0.0) && stone_7 >= 0.0;
+    bool stone_8 = stone_6.x >= 0.0 && stone_6.x <= 2.0 && (stone_6.y >= 0.0 && stone_6.y <= 1.0) && stone_7 >= 0.0;
     vec2 stone_9 = dFdx(vd.positionObject.xy);
     vec2 stone_10 = dFdy(vd.positionObject.xy);
     const vec4 stone_11 = vec4(0.0, 0.0, 0.0, 1.0);
@@ -49,20 +49,20 @@ void main()
     vec2 rust_7 = (rust_3 - vec2(0.5) + rust_5 / (rust_5 + (vec2(1.0) - rust_4) * rust_6 / vec2(6.0))) / rust;
     vec2 rust_8 = floor(rust_7);
     vec4 rust_9 = textureGrad(rust_file, vec3(fract(rust_7), rust_8.x + rust_8.y * 2.0), wall_4, wall_5);
-    vec4 rust_10 = rust_8.y <= 1.0 && rust_8.y >= 0.0 && (rust_8.x <= 1.0 && rust_8.x >= 0.0) ? rust_9 : stone_11;
+    vec4 rust_10 = rust_8.x >= 0.0 && rust_8.x <= 1.0 && (rust_8.y >= 0.0 && rust_8.y <= 1.0) ? rust_9 : stone_11;
     vec2 rust_11 = rust_4 * (rust_4 * rust_4) / vec2(6.0);
     vec2 rust_12 = vec2(0.6666667) - rust_6 * (vec2(1.0) - (vec2(1.0) - rust_4) * 0.5) + rust_11;
     vec2 rust_13 = (rust_3 + vec2(1.5) + rust_11 / rust_12) / rust;
     vec2 rust_14 = vec2(rust_13.x, rust_7.y);
     vec2 rust_15 = floor(rust_14);
     vec4 rust_16 = textureGrad(rust_file, vec3(fract(rust_14), rust_15.x + rust_15.y * 2.0), wall_4, wall_5);
-    vec4 rust_17 = mix(rust_10, rust_15.y <= 1.0 && rust_15.y >= 0.0 && (rust_15.x <= 1.0 && rust_15.x >= 0.0) ? rust_16 : stone_11, rust_12.x);
+    vec4 rust_17 = mix(rust_10, rust_15.x >= 0.0 && rust_15.x <= 1.0 && (rust_15.y >= 0.0 && rust_15.y <= 1.0) ? rust_16 : stone_11, rust_12.x);
     vec2 rust_18 = vec2(rust_7.x, rust_13.y);
     vec2 rust_19 = floor(rust_18);
     vec4 rust_20 = textureGrad(rust_file, vec3(fract(rust_18), rust_19.x + rust_19.y * 2.0), wall_4, wall_5);
-    vec4 rust_21 = rust_19.y <= 1.0 && rust_19.y >= 0.0 && (rust_19.x <= 1.0 && rust_19.x >= 0.0) ? rust_20 : stone_11;
+    vec4 rust_21 = rust_19.x >= 0.0 && rust_19.x <= 1.0 && (rust_19.y >= 0.0 && rust_19.y <= 1.0) ? rust_20 : stone_11;
     vec2 rust_22 = floor(rust_13);
     vec4 rust_23 = textureGrad(rust_file, vec3(fract(rust_13), rust_22.x + rust_22.y * 2.0), wall_4, wall_5);
-    float rust_24 = mix(rust_17, mix(rust_21, rust_22.y <= 1.0 && rust_22.y >= 0.0 && (rust_22.x <= 1.0 && rust_22.x >= 0.0) ? rust_23 : stone_11, rust_12.x), rust_12.y).x;
+    float rust_24 = mix(rust_17, mix(rust_21, rust_22.x >= 0.0 && rust_22.x <= 1.0 && (rust_22.y >= 0.0 && rust_22.y <= 1.0) ? rust_23 : stone_11, rust_12.x), rust_12.y).x;
     out1 = vec4(mix(mx_srgb_texture_to_lin_rec709((wall_3 ? wall_6 : vec4(1.0, 0.0, 1.0, 1.0)).xyz), stone_13, rust_24), 1.0);
 }

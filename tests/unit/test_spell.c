@@ -194,7 +194,8 @@ static void test_statements(void)
     STATEMENTS("    vec3 color = v;\n    float s_b = 2.0;\n    float s = step_on(a, s_b);\n    color += vec3(s_b + s);\n", &plain,
                effect(f, EFFECT_VAR, f->color, v); name(f, "s"); ir_ref args[] = {a, number(f, 2)}; ir_ref s = call(f, "step_on", args, 2);
                f->graph.origin = 0;
-               accumulate(f, vec3_of(f, op2(f, IR_ADD, result(f, s, 0, IR_TYPE_FLOAT), result(f, s, 1, IR_TYPE_FLOAT)))););
+               ir_ref out = result(f, s, 1, IR_TYPE_FLOAT), returned = result(f, s, 0, IR_TYPE_FLOAT);
+               accumulate(f, vec3_of(f, op2(f, IR_ADD, out, returned))););
     STATEMENTS("    vec3 color = v;\n    // NG\n    vec3 n = sin(v);\n    color += n;\n    color += n + vec3(1.0);\n"
                "    vec3 m = sin(n);\n    color += m;\n    color += m + vec3(1.0);\n",
                (&(struct spell_options){.comments = true, .path = path_of, .user_data = f}), effect(f, EFFECT_VAR, f->color, v);
@@ -232,7 +233,8 @@ static void test_graph_functions(void)
     name(&f, "deep");
     ir_ref deep = ir_build(&f.graph, IR_GRAPH_CALL, IR_TYPE_VEC3, inner, args, 1);
     f.graph.origin = 0;
-    ir_ref sum = op2(&f, IR_ADD, result(&f, deep, 0, IR_TYPE_VEC3), op2(&f, IR_MUL, result(&f, deep, 1, IR_TYPE_FLOAT), args[1]));
+    ir_ref scaled = op2(&f, IR_MUL, args[1], result(&f, deep, 1, IR_TYPE_FLOAT));
+    ir_ref sum = op2(&f, IR_ADD, scaled, result(&f, deep, 0, IR_TYPE_VEC3));
     ir_set_results(&f.graph, outer, &sum, 1);
     ir_ref given[] = {uniform(&f, "v", IR_TYPE_VEC3), uniform(&f, "a", IR_TYPE_FLOAT)};
     effect(&f, EFFECT_VAR, f.color, ir_build(&f.graph, IR_GRAPH_CALL, IR_TYPE_VEC3, outer, given, 2));
@@ -295,7 +297,8 @@ static void build_lit(struct fixture *f)
     if (!texel)
         texel = ir_build(&f->graph, IR_TEX, IR_TYPE_VEC4, 0, (ir_ref[]){uniform(f, "image_file", IR_TYPE_SAMPLER), uv}, 2);
     name(f, "base");
-    ir_ref base = op2(f, IR_MUL, uniform(f, "base_color", IR_TYPE_VEC3), ir_swizzle(&f->graph, texel, (uint8_t[]){0, 1, 2}, 3));
+    ir_ref image = ir_swizzle(&f->graph, texel, (uint8_t[]){0, 1, 2}, 3);
+    ir_ref base = op2(f, IR_MUL, image, uniform(f, "base_color", IR_TYPE_VEC3));
     f->graph.origin = 0;
     effect(f, EFFECT_VAR, f->color, op2(f, IR_MUL, base, call(f, "noise", &uv, 1)));
     effect(f, EFFECT_LIGHTS, 0, 0);
@@ -430,7 +433,8 @@ static void test_function_names(void)
     uniform(&f, "make_pair", IR_TYPE_FLOAT); /* not used, not in the way */
     ir_ref clash = uniform(&f, "noise", IR_TYPE_FLOAT);
     effect(&f, EFFECT_VAR, f.color, ir_build(&f.graph, IR_MEMBER, IR_TYPE_VEC3, 1, &p, 1));
-    accumulate(&f, vec3_of(&f, op2(&f, IR_MUL, ir_build(&f.graph, IR_MEMBER, IR_TYPE_FLOAT, 0, &p, 1), op2(&f, IR_SUB, t1, t2))));
+    ir_ref difference = op2(&f, IR_SUB, t1, t2), member = ir_build(&f.graph, IR_MEMBER, IR_TYPE_FLOAT, 0, &p, 1);
+    accumulate(&f, vec3_of(&f, op2(&f, IR_MUL, difference, member)));
     accumulate(&f, vec3_of(&f, op2(&f, IR_MUL, clash, call(&f, "noise", &uv, 1))));
     write_color(&f);
     const char *text = stage_from(&f, "void main");
