@@ -115,23 +115,30 @@ static void write_structs(struct spell *spell)
         spell_text(spell, "\n");
 }
 
-static const char *shader_type(const struct shader *shader)
+static const char *shader_type(const struct spell *spell)
 {
-    static const char *const words[] = {[SHADER_VALUE] = "shader", [SHADER_SURFACE] = "surface", [SHADER_VOLUME] = "volume",
-                                        [SHADER_DISPLACEMENT] = "displacement"};
-    return words[shader->kind];
+    static const char *const words[] = {[SHADER_VALUE] = "shader", [SHADER_SURFACE] = "surface", [SHADER_VOLUME] = "volume"};
+    return spell->stage_id == STAGE_VERTEX ? "displacement" : words[spell->shader->kind];
+}
+
+/* "NG_out": the element's path. */
+static const char *shader_name(struct spell *spell)
+{
+    const char *path = str_text(spell->shader->strings, spell->options->neutral_names ? 0 : spell->shader->path);
+    return *path ? names_unique(&spell->names, path, strlen(path)) : "neutral";
 }
 
 static void write_shader(struct osl *osl)
 {
     struct spell *spell = osl->spell;
-    const char *name = str_text(spell->shader->strings, spell->shader->name);
-    SPELL(spell, shader_type(spell->shader), " ", names_unique(&spell->names, name, strlen(name)));
+    SPELL(spell, shader_type(spell), " ", shader_name(spell));
     osl_write_parameters(osl);
     spell_text(spell, "{\n");
     names_open_scope(&spell->names);
     osl_write_streams(osl);
     spell_statements(spell, &spell->stage->statements, 1);
+    if (spell->stage_id == STAGE_VERTEX)
+        spell_text(spell, "    N = calculatenormal(P);\n");
     spell_text(spell, "}\n");
 }
 
@@ -168,7 +175,8 @@ const struct target target_osl = {
     .caps = CAP_OVERLOADS | CAP_BITWISE | CAP_IMPLICIT_LOD | CAP_CLOSURES | CAP_STRINGS | CAP_NAMED_WHOLES | CAP_TYPED_TEXTURES,
     .closures = &closures,
     .syntax = &osl_syntax,
-    .stage_suffix = {NULL, "osl"},
+    .position = "P",
+    .stage_suffix = {"displacement.osl", "osl"},
     .node_type = osl_node_type,
     .stage = write_stage,
 };

@@ -356,6 +356,14 @@ static bool spell_one(struct generation *g, const struct spell_options *options,
     return !is_cancelled(g);
 }
 
+/* A vertex stage may have nothing to do: of what path tracers call, and in OSL where nothing moves. */
+static bool has_stage(const mxg_result *result, int stage)
+{
+    const struct shader *shader = &result->shader;
+    bool is_idle = stage == STAGE_VERTEX && (shader->scatters || shader->stages[stage].statements.len == 0);
+    return result->target->stage_suffix[stage] && !is_idle;
+}
+
 bool generation_spell(struct generation *g)
 {
     mxg_result *result = g->result;
@@ -374,7 +382,7 @@ bool generation_spell(struct generation *g)
     };
     result->origin_paths = ARENA_ARRAY(&result->object.arena, const char *, result->graph.origins.len);
     for (int stage = 0; stage < NUM_STAGES; stage++)
-        if (result->target->stage_suffix[stage] && !(stage == STAGE_VERTEX && result->shader.scatters) && !spell_one(g, &options, (enum shader_stage_id)stage))
+        if (has_stage(result, stage) && !spell_one(g, &options, (enum shader_stage_id)stage))
             return false;
     return is_good(g);
 }

@@ -29,6 +29,9 @@ void closure_scatter(struct shader *shader, const struct closure_host *host, con
 /* lights.c: unit direction to the light at hand and the light that arrives from there, for effects inside of EFFECT_LIGHTS. */
 void closure_sample_light(struct shader *shader, const struct closure_host *host, ir_ref *direction, ir_ref *intensity);
 
+/* displacement.c: how far a displacement shader moves a point; 0: nothing moves. */
+ir_ref closure_offset(struct shader *shader, ir_ref displacement);
+
 /*
  * displacement.c: moves the shaded point and the vertices, and returns the surface with the normal bent. Either may be 0.
  */

@@ -48,7 +48,7 @@ static ir_ref mixed(struct ir_graph *g, ir_ref bg, ir_ref fg, ir_ref mix)
 }
 
 /* Operands come before their node, so mixes of mixes are found in one pass. */
-static ir_ref offset_of(struct shader *shader, ir_ref root)
+ir_ref closure_offset(struct shader *shader, ir_ref root)
 {
     struct ir_graph *g = shader->graph;
     ir_ref *known = ARENA_ARRAY(shader->arena, ir_ref, root + 1);
@@ -107,7 +107,7 @@ static ir_ref view_from(struct shader *shader, ir_ref point)
 ir_ref closure_displace(struct shader *shader, const struct closure_host *host, ir_ref surface, ir_ref displacement)
 {
     struct ir_graph *g = shader->graph;
-    ir_ref offset = displacement && !shader->scatters ? offset_of(shader, displacement) : 0;
+    ir_ref offset = displacement && !shader->scatters ? closure_offset(shader, displacement) : 0;
     if (!offset)
         return surface;
     shader->displaced = true;

@@ -366,6 +366,17 @@ static void emit_sides(struct tree *t, ir_ref front, ir_ref back)
     effect(t, EFFECT_END, 0, 0);
 }
 
+/* A shader of its own, which moves the point: the vertex stage. */
+static void emit_displacement(struct tree *t, ir_ref displacement)
+{
+    ir_ref offset = displacement ? closure_offset(t->shader, displacement) : 0;
+    if (!offset)
+        return;
+    ir_ref before = shader_stream(t->shader, STR_positionWorld, IR_TYPE_VEC3);
+    t->shader->displaced = true;
+    shader_effect(t->shader, STAGE_VERTEX, (struct effect){.kind = EFFECT_POSITION, .value = ir_op2(t->graph, IR_ADD, before, offset)});
+}
+
 static bool emit_value(struct tree *t, ir_ref root)
 {
     ir_type_id type = ir_type_of(t->graph, root);
@@ -388,18 +399,20 @@ bool closure_emit_tree(struct shader *shader, const struct closure_host *host, i
 {
     host->point->view = view(shader);
     struct tree t = {.shader = shader, .graph = shader->graph, .host = host};
-    ir_ref front = root, back = 0;
+    ir_ref front = root, back = 0, displacement = root && ir_type_of(t.graph, root) == IR_TYPE_DISPLACEMENT ? root : 0;
     if (root && ir_get(t.graph, root)->op == IR_MATERIAL) {
         front = ir_arg(t.graph, root, 0);
         back = ir_arg(t.graph, root, 1);
+        displacement = ir_arg(t.graph, root, 2);
         if (!front)
             front = ir_arg(t.graph, root, 3);
     }
+    emit_displacement(&t, displacement);
+    if (displacement == root)
+        return shader->displaced;
     ir_type_id type = front ? ir_type_of(t.graph, front) : IR_TYPE_SURFACE;
     if (!ir_type_is_closure(type) && !ir_type_is_shader(type))
         return emit_value(&t, front);
-    if (type == IR_TYPE_DISPLACEMENT)
-        return false;
     shader->kind = type == IR_TYPE_VOLUME || type == IR_TYPE_VDF ? SHADER_VOLUME : SHADER_SURFACE;
     emit_sides(&t, front, back);
     return !t.unknown;

@@ -125,6 +125,21 @@ static void finish_vertex_stage(struct shader *shader)
     }
 }
 
+/* Languages without a vertex stage have a shader that moves the point, where there is something to move; vertex data are expressions. */
+static void finish_displacement(struct shader *shader)
+{
+    struct effect_list *effects = &shader->stages[STAGE_VERTEX].effects;
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < effects->len; i++)
+        if (effects->items[i].kind == EFFECT_POSITION)
+            effects->items[kept++] = effects->items[i];
+    effects->len = kept;
+    if (kept) {
+        shader_schedule(shader, STAGE_VERTEX);
+        add_globals(shader, STAGE_VERTEX);
+    }
+}
+
 void shader_finish(struct shader *shader, const struct shader_layout_rules *rules)
 {
     shader->names_wholes = rules->names_wholes;
@@ -136,7 +151,9 @@ void shader_finish(struct shader *shader, const struct shader_layout_rules *rule
     mark_outputs(shader, STAGE_PIXEL);
     shader_schedule(shader, STAGE_PIXEL);
     add_globals(shader, STAGE_PIXEL);
-    if (!rules->one_stage)
+    if (rules->one_stage)
+        finish_displacement(shader);
+    else
         finish_vertex_stage(shader);
     shader_layout(shader, rules);
     if (rules->neutral_names)

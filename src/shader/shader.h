@@ -77,7 +77,7 @@ struct shader_variable {
 };
 
 /* What a shader of a target without stages is. */
-enum shader_kind { SHADER_VALUE, SHADER_SURFACE, SHADER_VOLUME, SHADER_DISPLACEMENT };
+enum shader_kind { SHADER_VALUE, SHADER_SURFACE, SHADER_VOLUME };
 
 /* Inputs whose value is compiled in: reported to hosts, which must know that a change needs a new shader. */
 struct shader_compiled_input {

@@ -335,7 +335,7 @@ static void write_effect(struct spell *spell, unsigned indent, const struct effe
         write_assignment(spell, indent, spell->variables[effect->index], " = ", effect->value);
         break;
     case EFFECT_POSITION:
-        write_assignment(spell, indent, "gl_Position", " = ", effect->value);
+        write_assignment(spell, indent, spell->target->position ? spell->target->position : "gl_Position", " = ", effect->value);
         break;
     case EFFECT_LIGHTS:
     case EFFECT_SAMPLES:

@@ -36,6 +36,7 @@ struct target {
     const char *const *versions;  /* values of the option `version`, first is the default; "#version" is written with it */
     const struct lang_syntax *syntax;
     const struct closure_rows *closures; /* with CAP_CLOSURES: the language's own */
+    const char *position; /* what the vertex stage writes the position to; NULL: gl_Position */
     const char *stage_suffix[NUM_STAGES]; /* "vert", "frag"; file endings */
     /* The type of a node's local, where it does not follow from the IR's type; may be NULL, and return it. */
     const char *(*node_type)(const struct spell *spell, ir_ref ref);

@@ -50,9 +50,10 @@ for document in *.mtlx; do
         run_line "$document" "${words[@]}"
     done < <(sed -n 's/^<!-- mxgen: \(.*\) -->$/\1/p' "$document")
 done
-for file in "$golden"/*.vert "$golden"/*.frag "$golden"/*.json; do # what no run makes any more
+for file in "$golden"/*.vert "$golden"/*.frag "$golden"/*.osl "$golden"/*.json; do # what no run makes any more
     [ -n "${kept[${file##*/}]:-}" ] && continue
     [ -n "$update" ] && rm -v "$file" || check "${file##*/} is made by a run" false
 done
 [ -n "$compile" ] || skip 'golden: nothing is compiled without glslang'
+command -v oslc >/dev/null || skip 'golden: OSL is not compiled without oslc'
 finish golden
