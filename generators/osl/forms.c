@@ -31,7 +31,7 @@ static const char *type_name(ir_type_id type)
 }
 
 /* A type as one letter: helpers.def. */
-static char letter(ir_type_id type)
+char osl_type_letter(ir_type_id type)
 {
     static const char letters[IR_NUM_TYPES] = {
         [IR_TYPE_BOOL] = 'b', [IR_TYPE_INT] = 'i', [IR_TYPE_UINT] = 'u', [IR_TYPE_FLOAT] = 'f', [IR_TYPE_IVEC2] = 'I',
@@ -101,7 +101,7 @@ static const struct helper_row *find_helper(const struct lang_use *use)
             continue;
         bool fits = true;
         for (unsigned k = 0; k < use->num_operands; k++)
-            fits &= row->types[k] == letter(use->operands[k]);
+            fits &= row->types[k] == osl_type_letter(use->operands[k]);
         if (fits)
             return row;
     }
@@ -153,8 +153,8 @@ static ir_type_id scalar_of(ir_type_id type)
     return is_vector(type) ? ir_type_info(type)->scalar : type;
 }
 
-/* A form with parameters a, b… for operands, of which those with parts give one. */
-static void write_part(const char *form, const struct lang_use *use, unsigned component, struct text *out)
+/* A form of the operands themselves ("$0", where `named`) or of parameters a, b…; of those with parts, of one. */
+static void write_part(const char *form, const struct lang_use *use, unsigned component, bool named, struct text *out)
 {
     for (const char *p = form; *p; p++) {
         if (*p != '$') {
@@ -167,7 +167,7 @@ static void write_part(const char *form, const struct lang_use *use, unsigned co
             continue;
         }
         unsigned index = (unsigned)(*p - '0');
-        text_char(out, (char)('a' + index));
+        text_fmt(out, named ? "$%u" : "%c", named ? index : 'a' + index);
         if (components(use->operands[index]) > 1)
             text_fmt(out, ".%c", parts[component]);
     }
@@ -182,9 +182,25 @@ static void write_component_function(const char *name, const struct lang_use *us
     text_fmt(out, ")\n{\n    return %s(", type_name(use->type));
     for (unsigned i = 0; i < components(use->type); i++) {
         text_str(out, i ? ", " : "");
-        write_part(scalar->text, use, i, out);
+        write_part(scalar->text, use, i, false, out);
     }
     text_str(out, ");\n}\n");
+}
+
+/* "vector2($0.x + $1.x, $0.y + $1.y)": a pair of names and numbers needs no function; NULL: there is more to it. */
+static const struct lang_pieces *pair_form(struct osl *osl, const struct lang_use *use, const struct lang_pieces *scalar)
+{
+    uint32_t all = (1u << use->num_operands) - 1;
+    if (use->type != IR_TYPE_VEC2 || (use->named & all) != all || 2 * scalar->num > LANG_MAX_PIECES)
+        return NULL;
+    struct text text;
+    text_init(&text, osl->spell->scratch);
+    text_str(&text, "vector2(");
+    write_part(scalar->text, use, 0, true, &text);
+    text_str(&text, ", ");
+    write_part(scalar->text, use, 1, true, &text);
+    text_char(&text, ')');
+    return form_of(osl, text_cstr(&text), LANG_PREC_POSTFIX);
 }
 
 static const struct lang_pieces *component_form(struct osl *osl, const struct lang_use *use)
@@ -201,6 +217,9 @@ static const struct lang_pieces *component_form(struct osl *osl, const struct la
         scalar = usual_form(osl, use->op);
     if (!scalar || !scalar->text)
         return NULL;
+    const struct lang_pieces *pair = pair_form(osl, use, scalar);
+    if (pair)
+        return pair;
     const char *word = operator_word(use->op), *name = word ? word : function_name(osl, use->op, scalar);
     struct text text;
     text_init(&text, osl->spell->scratch);
@@ -364,6 +383,20 @@ static bool is_no_vector(const struct osl *osl, const struct lang_use *use, unsi
     return kind == OSL_COLOR || kind == OSL_POINT;
 }
 
+/* Sums of a number and a matrix have the matrix first. */
+static const struct lang_pieces *turned_sum_form(struct osl *osl, const struct lang_use *use)
+{
+    if (use->op != IR_ADD || use->operands[0] != IR_TYPE_FLOAT || !ir_type_is_matrix(use->operands[1]))
+        return NULL;
+    struct lang_use turned = *use;
+    turned.operands = (ir_type_id[]){use->operands[1], use->operands[0]};
+    const struct helper_row *row = find_helper(&turned);
+    if (!row)
+        return NULL;
+    osl_add_helper(osl, row->text);
+    return call_form(osl, row->name, 2, "10");
+}
+
 /* A row vector times a matrix in OSL is ours times a column vector; products of matrices turn around. */
 static const struct lang_pieces *product_form(struct osl *osl, const struct lang_use *use)
 {
@@ -450,7 +483,7 @@ const struct lang_pieces *osl_form(void *user_data, const struct lang_use *use)
     const struct lang_pieces *color = makes ? color_form(osl, use) : NULL;
     if (color || use->op == IR_CONST)
         return color;
-    const struct lang_pieces *product = use->op == IR_MUL ? product_form(osl, use) : NULL;
+    const struct lang_pieces *product = use->op == IR_MUL ? product_form(osl, use) : turned_sum_form(osl, use);
     if (product)
         return product;
     if (use->op == IR_SWIZZLE)

@@ -82,7 +82,7 @@ static bool is_word(const char *at, const char *begin, size_t len)
     return !strchr(letters, at[len]) && (at == begin || !strchr(letters, at[-1]));
 }
 
-static bool mentions(const char *text, const char *word)
+bool osl_mentions(const char *text, const char *word)
 {
     size_t len = strlen(word);
     for (const char *at = text; (at = strstr(at, word)) != NULL; at += len)
@@ -92,13 +92,13 @@ static bool mentions(const char *text, const char *word)
 }
 
 /* Above the rest stand the structs and helpers that it mentions. */
-static void write_declarations(struct osl *osl, const char *rest)
+static void write_declarations(struct osl *osl, const char *above, const char *shader)
 {
     struct spell *spell = osl->spell;
     for (size_t i = 0; i < sizeof structs / sizeof *structs; i++) {
-        bool needed = mentions(rest, structs[i].name);
+        bool needed = osl_mentions(above, structs[i].name) || osl_mentions(shader, structs[i].name);
         for (uint32_t k = 0; k < osl->helpers.len && !needed; k++)
-            needed = mentions(osl->helpers.items[k], structs[i].name);
+            needed = osl_mentions(osl->helpers.items[k], structs[i].name);
         if (needed)
             SPELL(spell, structs[i].text, "\n");
     }
@@ -142,30 +142,41 @@ static void write_shader(struct osl *osl)
     spell_text(spell, "}\n");
 }
 
-/* The rest is written first: it decides what is declared above it. */
+static void write_graph_functions(struct spell *spell)
+{
+    for (uint32_t i = 0; i < spell->stage->functions.len; i++)
+        spell_graph_function(spell, &spell->stage->functions.items[i]);
+}
+
+/* The shader is written first: it decides what stands above it. */
 static void write_stage(struct spell *spell, enum shader_stage_id stage)
 {
     (void)stage;
     struct osl osl = {.spell = spell};
-    struct text *out = spell->out, rest;
+    struct text *out = spell->out, shader, above;
     spell->target_data = &osl;
     spell->lang_names.form = osl_form;
     spell->lang_names.global = osl_global_name;
     osl_name_interface(&osl);
     osl_find_kinds(&osl);
-    text_init(&rest, spell->scratch);
-    spell->out = &rest;
-    write_structs(spell);
-    spell_functions(spell);
+    text_init(&shader, spell->scratch);
+    spell->out = &shader;
+    write_graph_functions(spell);
     write_shader(&osl);
+    text_init(&above, spell->scratch);
+    spell->out = &above;
+    write_structs(spell);
+    spell_verbatim_sources(spell);
+    osl_write_functions(&osl, text_cstr(&shader), &above);
     spell->out = out;
     spell_text(spell, "// ");
     spell_title(spell);
     spell_text(spell, "\n\n");
-    write_declarations(&osl, text_cstr(&rest));
+    write_declarations(&osl, text_cstr(&above), text_cstr(&shader));
+    SPELL(spell, text_cstr(&above));
     for (uint32_t i = 0; i < spell->marks.len; i++)
         spell->marks.items[i].at += out->len;
-    text_mem(out, rest.data, rest.len);
+    text_mem(out, shader.data, shader.len);
 }
 
 const struct target target_osl = {

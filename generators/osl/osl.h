@@ -28,6 +28,11 @@ void osl_add_helper(struct osl *osl, const char *text); /* unless it is there */
 const struct lang_pieces *osl_form(void *user_data, const struct lang_use *use);
 bool osl_write_value(const struct lang_style *style, ir_type_id type, const union ir_word *words, struct text *out);
 
+/* functions.c: those of the library that a shader's text needs */
+void osl_write_functions(struct osl *osl, const char *shader, struct text *out);
+char osl_type_letter(ir_type_id type); /* as in helpers.def */
+bool osl_mentions(const char *text, const char *word);
+
 /* textures.c: the form that reads a texture of the graph; NULL: it is one that a function was given. */
 const char *osl_texture_call(struct osl *osl, const struct lang_use *use);
 

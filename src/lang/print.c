@@ -231,7 +231,8 @@ static bool is_named(const struct printer *p, const struct lang_node *node)
 {
     while (node->kind == LANG_OP && node->op == IR_MEMBER)
         node = node_at(p, node->a);
-    return node->kind == LANG_VAR;
+    bool is_number = node->kind == LANG_CONST && !ast_is_user_type(node->type) && ir_type_info(node->type)->components == 1;
+    return node->kind == LANG_VAR || is_number;
 }
 
 /* The target's own form for the operands' types; NULL: it has none. */

@@ -148,8 +148,10 @@ static void write_call(struct spell *spell, ir_ref ref)
 /* May the operand be written twice? */
 static bool is_named(const struct spell *spell, ir_ref ref)
 {
-    uint8_t op = ir_get(spell->shader->graph, ref)->op;
-    return spell->local_of[ref] || op == IR_UNIFORM || op == IR_STREAM || op == IR_PARAM || op == IR_LOCAL || op == IR_RESULT;
+    const struct ir_node *node = ir_get(spell->shader->graph, ref);
+    uint8_t op = node->op;
+    bool is_number = op == IR_CONST && node->type < IR_NUM_TYPES && ir_type_info(node->type)->components == 1;
+    return is_number || spell->local_of[ref] || op == IR_UNIFORM || op == IR_STREAM || op == IR_PARAM || op == IR_LOCAL || op == IR_RESULT;
 }
 
 /* The target's own form for the types at hand; NULL: it has none. */

@@ -82,7 +82,7 @@ void spell_interface(struct spell *spell);
 /* ---- stage.c ---- */
 
 void spell_title(struct spell *spell); /* "Gold · surfacematerial · …", without a newline */
-void spell_functions(struct spell *spell); /* constants, verbatim sources, portable and IR functions */
+void spell_verbatim_sources(struct spell *spell); /* each once */
 
 /* The stage of C-like targets: declarations, functions, main. */
 void spell_stage(struct spell *spell, enum shader_stage_id stage);

@@ -162,7 +162,7 @@ static void write_header(struct spell *spell)
     spell_text(spell, "\n");
 }
 
-static void write_verbatim_sources(struct spell *spell)
+void spell_verbatim_sources(struct spell *spell)
 {
     const struct shader *shader = spell->shader;
     for (uint32_t i = 0; i < spell->stage->verbatim.len; i++) {
@@ -177,7 +177,7 @@ static void write_verbatim_sources(struct spell *spell)
     }
 }
 
-void spell_functions(struct spell *spell)
+static void write_functions(struct spell *spell)
 {
     const struct lang_reach *reach = &spell->stage->reach;
     size_t before = spell->out->len;
@@ -186,7 +186,7 @@ void spell_functions(struct spell *spell)
             lang_print_constant(spell->style, &spell->lang_names, spell->shader->unit, reach->globals.items[i], spell->out);
     if (spell->out->len > before)
         spell_text(spell, "\n");
-    write_verbatim_sources(spell);
+    spell_verbatim_sources(spell);
     for (uint32_t i = 0; i < reach->functions.len; i++) {
         lang_print_function(spell->style, &spell->lang_names, spell->shader->unit, reach->functions.items[i], spell->out);
         spell_text(spell, "\n");
@@ -201,7 +201,7 @@ void spell_stage(struct spell *spell, enum shader_stage_id stage)
     write_header(spell);
     spell_interface(spell);
     spell_text(spell, "\n");
-    spell_functions(spell);
+    write_functions(spell);
     spell_text(spell, spell->shader->scatters ? "void scatter()\n{\n" : "void main()\n{\n");
     names_open_scope(&spell->names);
     spell_statements(spell, &spell->stage->statements, 1);
