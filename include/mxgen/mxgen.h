@@ -282,7 +282,7 @@ MXG_API mxg_status mxg_document_validate(mxg_context *context, const mxg_documen
 typedef struct mxg_target {
     size_t size; /* in */
     const char *name, *materialx_name, *brief;
-    const char *stage_suffix[2]; /* file endings of vertex and pixel stage; NULL: no such stage */
+    const char *stage_suffix[2]; /* file endings of vertex and pixel stage (OSL: of displacement and shader); NULL: no such stage */
 } mxg_target;
 MXG_API uint32_t mxg_num_targets(void);
 MXG_API mxg_status mxg_get_target(uint32_t index, mxg_target *out);
@@ -332,7 +332,7 @@ MXG_API mxg_status mxg_generate(mxg_context *context, const mxg_document *docume
                                 mxg_result **out_result);
 MXG_API void mxg_result_destroy(mxg_result *result);
 
-/* The source of a stage; NULL where there is none. */
+/* The source of a stage; NULL where there is none: of a vertex stage of OSL where nothing is displaced. */
 MXG_API const char *mxg_result_source(const mxg_result *result, mxg_stage stage, size_t *out_size);
 /* The place in the document that a line (from 1) of a stage's source comes from; false: none. */
 MXG_API bool mxg_result_source_place(const mxg_result *result, mxg_stage stage, uint32_t line, const char **out_file,
