@@ -287,11 +287,26 @@ static struct shader_layout_rules layout_rules(const struct generation *g)
     };
 }
 
+/* A stage that shades surfaces has no place for what is inside: that is said, and what is on the surface is drawn. */
+static void warn_of_volume(struct generation *g)
+{
+    const struct ir_graph *graph = &g->result->graph;
+    bool has_volume = ir_type_of(graph, g->root) == IR_TYPE_VOLUME || ir_type_of(graph, g->root) == IR_TYPE_VDF;
+    if (ir_get(graph, g->root)->op == IR_MATERIAL)
+        has_volume = ir_arg(graph, g->root, 3) != 0;
+    const struct document *doc = &g->document->layer.doc;
+    if (has_volume)
+        diag_add(diags_of(g), DIAG_ID_volume_not_drawn, doc_place(doc, g->element),
+                 str_text(doc->strings, doc_element(doc, g->element)->name), g->desc.target);
+}
+
 static bool emit(struct generation *g)
 {
     struct shader *shader = &g->result->shader;
     if (g->result->target->caps & CAP_CLOSURES)
         return closure_emit_tree(shader, &g->closure_host, g->root);
+    if (g->root)
+        warn_of_volume(g);
     return closure_emit(shader, &g->closure_host, &g->lighting, g->root);
 }
 
