@@ -6,10 +6,10 @@
 
 #define MAX_DEPTH 64
 
-/* A text with a NUL behind it, so that no look ahead needs the end. */
+/* A text with a NUL behind it, so that no look ahead needs the end. It is ours: strings are decoded where they stand. */
 struct reader {
     struct store *store;
-    const char *at;
+    char *at;
     unsigned depth;
 };
 
@@ -17,7 +17,8 @@ static struct json_value *read_value(struct reader *reader);
 
 static void skip_space(struct reader *reader)
 {
-    reader->at += strspn(reader->at, " \t\r\n");
+    while (*reader->at == ' ' || *reader->at == '\n' || *reader->at == '\r' || *reader->at == '\t')
+        ++reader->at;
 }
 
 /* A character that must stand here, after white space. */
@@ -88,23 +89,26 @@ static char *read_string(struct reader *reader)
 {
     if (!accept(reader, '"'))
         return NULL;
-    size_t len = 0; /* up to the closing quote */
-    while (reader->at[len] && reader->at[len] != '"')
-        len += reader->at[len] == '\\' && reader->at[len + 1] ? 2 : 1;
-    char *text = store_alloc(reader->store, len + 1), *out = text;
-    while (out && *reader->at != '"') {
+    char *text = reader->at, *out = text;
+    while (*reader->at != '"') {
+        char *begin = reader->at;
+        while ((unsigned char)*reader->at >= 0x20 && *reader->at != '"' && *reader->at != '\\')
+            ++reader->at;
+        size_t len = (size_t)(reader->at - begin);
+        if (out != begin)
+            memmove(out, begin, len);
+        out += len;
         if ((unsigned char)*reader->at < 0x20)
             return NULL;
-        if (*reader->at != '\\') {
-            *out++ = *reader->at++;
-        } else {
-            ++reader->at;
-            out = read_escape(reader, out);
-        }
+        if (*reader->at == '"')
+            break;
+        ++reader->at;
+        out = read_escape(reader, out);
+        if (!out)
+            return NULL;
     }
-    if (!out)
-        return NULL;
     ++reader->at;
+    *out = '\0';
     return text;
 }
 
@@ -139,14 +143,20 @@ static struct json_value *read_items(struct reader *reader, enum json_kind kind,
     return accept(reader, end) ? parent : NULL;
 }
 
+/* Counts are read at once; what else there is takes strtod. */
 static struct json_value *read_number(struct reader *reader)
 {
-    char *end;
-    size_t len = strspn(reader->at, "+-.0123456789eE");
+    size_t len = strspn(reader->at, "+-.0123456789eE"), num_digits = 0;
     if (len == 0 || strchr("+.eE", *reader->at))
         return NULL;
     struct json_value *value = new_value(reader, JSON_NUMBER);
-    value->number = strtod(reader->at, &end);
+    for (uint64_t count = 0; num_digits < 15 && reader->at[num_digits] >= '0' && reader->at[num_digits] <= '9';) {
+        count = count * 10 + (uint64_t)(reader->at[num_digits++] - '0');
+        value->number = (double)count;
+    }
+    char *end = reader->at + num_digits;
+    if (num_digits != len)
+        value->number = strtod(reader->at, &end);
     if (end != reader->at + len)
         return NULL;
     reader->at = end;
@@ -195,7 +205,7 @@ static struct json_value *read_value(struct reader *reader)
 
 const struct json_value *json_parse(struct store *store, const char *text, size_t len)
 {
-    const char *copy = store_text(store, text, len);
+    char *copy = store_text(store, text, len);
     struct reader reader = {.store = store, .at = copy};
     struct json_value *value = read_value(&reader);
     if (!value)

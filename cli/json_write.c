@@ -3,7 +3,6 @@
 
 #include "cli/utf8.h"
 
-#include <inttypes.h>
 #include <math.h>
 
 static void begin_item(struct json_writer *json)
@@ -26,22 +25,42 @@ void json_end(struct json_writer *json, char bracket)
     json->comma = true;
 }
 
+/* How many characters stand for themselves. */
+static size_t plain_length(const char *text)
+{
+    size_t len = 0;
+    for (unsigned char c; c = (unsigned char)text[len], c >= 0x20 && c < 0x80 && c != '"' && c != '\\';)
+        ++len;
+    return len;
+}
+
+/* One character that is not plain; returns how many bytes it has. */
+static size_t write_special(FILE *out, const char *c)
+{
+    size_t len = utf8_length(c);
+    if (len == 0)
+        fputs("\\ufffd", out);
+    else if (*c == '"' || *c == '\\')
+        fprintf(out, "\\%c", *c);
+    else if (*c == '\n')
+        fputs("\\n", out);
+    else if ((unsigned char)*c < 0x20)
+        fprintf(out, "\\u%04x", (unsigned)*c);
+    else
+        fwrite(c, 1, len, out);
+    return len ? len : 1;
+}
+
 static void write_quoted(FILE *out, const char *text)
 {
     putc('"', out);
     for (const char *c = text; *c;) {
-        size_t len = utf8_length(c);
-        if (len == 0)
-            fputs("\\ufffd", out);
-        else if (*c == '"' || *c == '\\')
-            fprintf(out, "\\%c", *c);
-        else if (*c == '\n')
-            fputs("\\n", out);
-        else if ((unsigned char)*c < 0x20)
-            fprintf(out, "\\u%04x", (unsigned)*c);
-        else
-            fwrite(c, 1, len, out);
-        c += len ? len : 1;
+        size_t plain = plain_length(c);
+        if (plain)
+            fwrite(c, 1, plain, out);
+        c += plain;
+        if (*c)
+            c += write_special(out, c);
     }
     putc('"', out);
 }
@@ -60,16 +79,38 @@ void json_string(struct json_writer *json, const char *text)
     write_quoted(json->out, text);
 }
 
+/* Backwards from `end`; returns where it begins. */
+static char *put_digits(char *end, uint64_t value)
+{
+    do
+        *--end = (char)('0' + value % 10);
+    while (value /= 10);
+    return end;
+}
+
 void json_number(struct json_writer *json, double value)
 {
-    begin_item(json);
-    fprintf(json->out, "%.15g", round(value * 1000.0) / 1000.0);
+    char digits[32], *end = digits + sizeof digits, *begin;
+    if (!(value >= 0.0 && value < 1e9)) {
+        begin_item(json);
+        fprintf(json->out, "%.15g", round(value * 1000.0) / 1000.0);
+        return;
+    }
+    uint64_t thousandths = (uint64_t)round(value * 1000.0);
+    json_count(json, thousandths / 1000);
+    if (thousandths % 1000 == 0)
+        return;
+    for (begin = put_digits(end, thousandths % 1000 + 1000); end[-1] == '0';)
+        --end;
+    *begin = '.'; /* in place of the 1 before three digits */
+    fwrite(begin, 1, (size_t)(end - begin), json->out);
 }
 
 void json_count(struct json_writer *json, uint64_t value)
 {
+    char digits[32], *end = digits + sizeof digits, *begin = put_digits(end, value);
     begin_item(json);
-    fprintf(json->out, "%" PRIu64, value);
+    fwrite(begin, 1, (size_t)(end - begin), json->out);
 }
 
 void json_bool(struct json_writer *json, bool value)

@@ -20,6 +20,7 @@ void report_finish(struct report *report)
     free(report->source_name);
     free(report->source);
     free(report->printed);
+    free(report->text);
     *report = (struct report){0};
 }
 
@@ -40,27 +41,45 @@ static void load_source(struct report *report, const char *file)
         report->source = files_read(file, &report->source_size);
 }
 
-void report_print(struct report *report, const mxg_diagnostics *list, uint32_t index, FILE *out)
+/* Room for `size` bytes behind the text. */
+static bool reserve(struct report *report, size_t size)
 {
-    mxg_diagnostic diagnostic = {sizeof diagnostic};
-    mxg_diagnostics_get(list, index, &diagnostic);
-    if (diagnostic.file)
-        load_source(report, diagnostic.file);
-    const char *source = diagnostic.file ? report->source : NULL;
-    size_t size = diagnostic.file ? report->source_size : 0;
-    char small[1024], *text = small;
-    size_t len = mxg_diagnostics_format(list, index, source, size, report->colour, small, sizeof small);
-    if (len >= sizeof small) {
-        text = malloc(len + 1);
-        if (!text)
-            return;
-        mxg_diagnostics_format(list, index, source, size, report->colour, text, len + 1);
+    if (report->capacity - report->len >= size)
+        return true;
+    size_t capacity = (report->len + size) * 2 + 1024;
+    char *text = realloc(report->text, capacity);
+    if (text) {
+        report->text = text;
+        report->capacity = capacity;
     }
-    fputs(text, out);
-    if (len && text[len - 1] != '\n')
-        fputc('\n', out);
-    if (text != small)
-        free(text);
+    return text != NULL;
+}
+
+/* Appends one message as it is printed. */
+static void render(struct report *report, const mxg_diagnostics *list, uint32_t index, const char *file)
+{
+    if (file)
+        load_source(report, file);
+    const char *source = file ? report->source : NULL;
+    size_t size = file ? report->source_size : 0, room = report->capacity - report->len;
+    size_t len = mxg_diagnostics_format(list, index, source, size, report->colour, room ? report->text + report->len : NULL, room);
+    if (!reserve(report, len + 2))
+        return;
+    if (len >= room)
+        mxg_diagnostics_format(list, index, source, size, report->colour, report->text + report->len, report->capacity - report->len);
+    report->len += len;
+    if (len && report->text[report->len - 1] != '\n')
+        report->text[report->len++] = '\n';
+    report->text[report->len] = '\0';
+}
+
+const char *report_render(struct report *report, const mxg_diagnostics *list, uint32_t index)
+{
+    mxg_diagnostic part = {sizeof part};
+    report->len = 0;
+    for (uint32_t i = index; mxg_diagnostics_get(list, i, &part) == MXG_OK && part.parent == index; ++i)
+        render(report, list, i, part.file);
+    return report->text ? report->text : "";
 }
 
 /* Notes are shown where their message is; those about upgrades only when asked for. */
@@ -103,8 +122,11 @@ void report_list(struct report *report, const mxg_diagnostics *list)
         mxg_diagnostics_get(list, i, &diagnostic);
         if (diagnostic.parent == i)
             shown = is_shown(report, &diagnostic) && is_new(report, &diagnostic);
-        if (shown && is_shown(report, &diagnostic))
-            report_print(report, list, i, stderr);
+        if (!shown || !is_shown(report, &diagnostic))
+            continue;
+        report->len = 0;
+        render(report, list, i, diagnostic.file);
+        fputs(report->text ? report->text : "", stderr);
     }
     report->errors += mxg_diagnostics_errors(list);
 }

@@ -16,13 +16,15 @@ struct report {
     size_t num_printed;
     char *source_name, *source; /* the file read last */
     size_t source_size;
+    char *text; /* of the message at hand */
+    size_t len, capacity;
 };
 
 void report_init(struct report *report); /* colour where stderr is a terminal */
 void report_finish(struct report *report);
 
-/* Prints one message as it is, with its source line. */
-void report_print(struct report *report, const mxg_diagnostics *list, uint32_t index, FILE *out);
+/* A message with its notes and source lines, as it is printed; lives until the next one. */
+const char *report_render(struct report *report, const mxg_diagnostics *list, uint32_t index);
 
 /* Prints a list to stderr. */
 void report_list(struct report *report, const mxg_diagnostics *list);

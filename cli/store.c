@@ -16,18 +16,20 @@ struct store_block {
 static struct store_block *add_block(struct store *store, size_t size)
 {
     size_t capacity = size > BLOCK_SIZE ? size : BLOCK_SIZE;
-    struct store_block *block = calloc(1, sizeof *block + capacity);
+    struct store_block *block = malloc(sizeof *block + capacity);
     if (!block) {
         fputs("mxgen: out of memory\n", stderr);
         exit(1);
     }
+    block->used = 0;
     block->capacity = capacity;
     block->next = store->blocks;
     store->blocks = block;
     return block;
 }
 
-void *store_alloc(struct store *store, size_t size)
+/* Not zeroed. */
+static void *take(struct store *store, size_t size)
 {
     size_t unit = sizeof(max_align_t), rounded = (size + unit - 1) / unit * unit;
     struct store_block *block = store->blocks;
@@ -38,10 +40,16 @@ void *store_alloc(struct store *store, size_t size)
     return data;
 }
 
+void *store_alloc(struct store *store, size_t size)
+{
+    return memset(take(store, size), 0, size);
+}
+
 char *store_text(struct store *store, const char *text, size_t len)
 {
-    char *copy = store_alloc(store, len + 1);
+    char *copy = take(store, len + 1);
     memcpy(copy, text, len);
+    copy[len] = '\0';
     return copy;
 }
 

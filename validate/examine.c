@@ -32,36 +32,30 @@ static const char *copy(struct examiner *examiner, const char *text)
     return text ? store_text(&examiner->store, text, strlen(text)) : "";
 }
 
-void examine_add(struct examiner *examiner, struct check_shader *shader, struct check_message message)
+static void refer(struct examiner *examiner, struct check_shader *shader, uint32_t index)
 {
-    message.id = copy(examiner, message.id);
-    message.text = copy(examiner, message.text);
-    message.file = copy(examiner, message.file);
-    message.element = copy(examiner, message.element);
-    message.target = copy(examiner, message.target);
-    message.rendered = copy(examiner, message.rendered);
-    uint32_t index = check_add_message(&examiner->store, examiner->document, &message);
-    for (size_t i = 0; shader && i < shader->num_messages; ++i)
+    for (size_t i = 0; i < shader->num_messages; ++i)
         if (shader->messages[i] == index)
             return;
-    if (!shader)
-        return;
     shader->messages = store_grow(&examiner->store, shader->messages, shader->num_messages, sizeof index);
     shader->messages[shader->num_messages++] = index;
 }
 
-/* The message and its notes, as they are printed. To be freed. */
-static char *render_message(struct examiner *examiner, const mxg_diagnostics *list, uint32_t index)
+void examine_add(struct examiner *examiner, struct check_shader *shader, struct check_message message)
 {
-    char *text = NULL;
-    size_t size = 0;
-    FILE *out = open_memstream(&text, &size);
-    mxg_diagnostic note = {sizeof note};
-    for (uint32_t i = index; out && mxg_diagnostics_get(list, i, &note) == MXG_OK && note.parent == index; ++i)
-        report_print(&examiner->cli->report, list, i, out);
-    if (out)
-        fclose(out);
-    return text;
+    message.file = message.file ? message.file : "";
+    uint32_t index = check_find_message(examiner->document, &message);
+    if (index == examiner->document->num_messages) {
+        message.id = copy(examiner, message.id);
+        message.text = copy(examiner, message.text);
+        message.file = copy(examiner, message.file);
+        message.element = copy(examiner, message.element);
+        message.target = copy(examiner, message.target);
+        message.rendered = copy(examiner, message.rendered);
+        check_add_message(&examiner->store, examiner->document, &message);
+    }
+    if (shader)
+        refer(examiner, shader, index);
 }
 
 static bool is_told(const struct examiner *examiner, const mxg_diagnostic *diagnostic, uint32_t index)
@@ -99,13 +93,13 @@ static void add_diagnostics(struct examiner *examiner, const mxg_diagnostics *li
             continue;
         if (is_about_absence(diagnostic.id))
             add_quoted_place(examiner, &diagnostic);
-        char *rendered = render_message(examiner, list, i);
-        examine_add(examiner, shader,
-                    (struct check_message){.severity = diagnostic.severity, .id = diagnostic.id, .text = diagnostic.message,
-                                           .file = diagnostic.file, .line = diagnostic.line, .column = diagnostic.column,
-                                           .length = diagnostic.length, .element = element,
-                                           .target = shader ? shader->target : NULL, .rendered = rendered});
-        free(rendered);
+        struct check_message message = {.severity = diagnostic.severity, .id = diagnostic.id, .text = diagnostic.message,
+                                        .file = diagnostic.file ? diagnostic.file : "", .line = diagnostic.line,
+                                        .column = diagnostic.column, .length = diagnostic.length, .element = element,
+                                        .target = shader ? shader->target : NULL};
+        if (check_find_message(examiner->document, &message) == examiner->document->num_messages)
+            message.rendered = report_render(&examiner->cli->report, list, i);
+        examine_add(examiner, shader, message);
     }
 }
 

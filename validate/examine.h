@@ -11,6 +11,7 @@ struct examiner {
     struct arg_list targets;
     bool compile, render;
     int marks; /* where marks go */
+    bool is_brief; /* nobody asks for measures */
 
     struct store store; /* of the document at hand */
     struct check_document *document;

@@ -200,11 +200,12 @@ static void compile(struct examiner *examiner, const mxg_result *result, struct 
     shader->compile_ms = examine_clock() - begin;
     for (size_t i = 0; i < compiled.num_messages; ++i)
         add_compile_message(examiner, result, &compiled.messages[i], shader, element);
-    count_parts(examiner, result, &compiled, shader);
+    if (!examiner->is_brief)
+        count_parts(examiner, result, &compiled, shader);
     compiled_finish(&compiled);
 }
 
-void examine_shader(struct examiner *examiner, const mxg_result *result, struct check_shader *shader, const char *element)
+static void tell_facts(struct examiner *examiner, const mxg_result *result, struct check_shader *shader)
 {
     mxg_shader_info info = {sizeof info};
     mxg_result_info(result, &info);
@@ -213,6 +214,12 @@ void examine_shader(struct examiner *examiner, const mxg_result *result, struct 
     shader->topology = store_text(&examiner->store, topology, strlen(topology));
     shader->measures[MEASURE_CLOSURES] = info.num_closures;
     measure(examiner, result, shader);
+}
+
+void examine_shader(struct examiner *examiner, const mxg_result *result, struct check_shader *shader, const char *element)
+{
+    if (!examiner->is_brief)
+        tell_facts(examiner, result, shader);
     if (examiner->compile && compile_knows_target(shader->target))
         compile(examiner, result, shader, element);
     rank_parts(shader);

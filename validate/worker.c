@@ -38,6 +38,7 @@ static void serve(struct examiner *examiner)
     struct frame_header header;
     bool alive = frame_write(examiner->marks, FRAME_READY, "", 0);
     for (char *path; alive && (path = frame_read(STDIN_FILENO, &header)) != NULL;) {
+        examiner->is_brief = header.kind == FRAME_TASK_BRIEF;
         alive = send_record(examiner->marks, examine(examiner, path));
         free(path);
     }

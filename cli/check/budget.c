@@ -39,8 +39,10 @@ bool budget_add(struct budget *budget, enum measure measure, const char *text)
 void budget_finish(struct budget *budget)
 {
     store_finish(&budget->store);
-    store_finish(&budget->file.store);
-    free(budget->file.folder);
+    store_finish(&budget->given.store);
+    store_finish(&budget->judged.store);
+    free(budget->given.folder);
+    free(budget->judged.folder);
 }
 
 /* ---- The file ---- */
@@ -78,10 +80,9 @@ static void load_file(struct budget_file *file)
     free(path);
 }
 
-/* Documents come folder by folder. */
-static const struct budget_file *file_of(struct budget *budget, const char *document)
+/* Documents come folder by folder: `file` is mostly the one already. */
+static const struct budget_file *file_of(struct budget_file *file, const char *document)
 {
-    struct budget_file *file = &budget->file;
     const char *slash = strrchr(document, '/');
     char *folder = cli_format("%.*s", slash ? (int)(slash - document) : 0, document);
     if (file->folder && strcmp(file->folder, folder) == 0) {
@@ -93,6 +94,12 @@ static const struct budget_file *file_of(struct budget *budget, const char *docu
     *file = (struct budget_file){.folder = folder};
     load_file(file);
     return file;
+}
+
+bool budget_has_file(struct budget *budget, const char *document)
+{
+    const struct budget_file *file = file_of(&budget->given, document);
+    return file->rules.len || file->fault.id;
 }
 
 /* ---- Verdicts ---- */
@@ -169,7 +176,7 @@ static const char *copy(struct store *store, const char *text)
 
 void budget_judge(struct budget *budget, struct store *store, struct check_document *document)
 {
-    const struct budget_file *file = file_of(budget, document->file);
+    const struct budget_file *file = file_of(&budget->judged, document->file);
     if (file->fault.id) {
         struct check_message message = file->fault;
         message.text = copy(store, message.text);

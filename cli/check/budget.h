@@ -28,12 +28,15 @@ struct budget {
         const char *path; /* NULL: there is none */
         struct budget_rules rules;
         struct check_message fault; /* id: NULL where there is none */
-    } file; /* that of the last folder */
+    } given, judged; /* those of the folders of the last document that was given out, and that was judged */
 };
 
 /* Takes "2000" or "glsl=2000,essl=1500". False after telling what is wrong. */
 bool budget_add(struct budget *budget, enum measure measure, const char *text);
 void budget_finish(struct budget *budget);
+
+/* Whether a file has budgets, or a fault, for a document. */
+bool budget_has_file(struct budget *budget, const char *document);
 
 /* Fails what is over its budget, with a message that names what it is made of. */
 void budget_judge(struct budget *budget, struct store *store, struct check_document *document);

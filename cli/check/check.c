@@ -37,6 +37,7 @@ struct check {
     struct arg_list target_args, files_from, targets, worker_args;
     size_t jobs, time_limit;
     bool no_compile, render, stats;
+    bool needs_measures; /* of every document */
     struct check_reports reports;
     struct check_inputs inputs;
     struct pool pool;
@@ -137,6 +138,12 @@ static const char *next_path(struct check *check)
     return path;
 }
 
+/* Whether a report, or the budget of a document, is about more than verdicts and messages. */
+static bool is_brief(struct check *check, const char *path)
+{
+    return !check->needs_measures && !budget_has_file(&check->budget, path);
+}
+
 /* Gives the next document out, or finds its record; false where there is no more, or no worker can be started. */
 static bool give_next(struct check *check)
 {
@@ -147,7 +154,7 @@ static bool give_next(struct check *check)
     *slot = (struct slot){.path = cli_format("%s", path), .index = check->num_found - 1};
     slot->record = cache_find(&check->cache, path, &slot->key, &slot->size);
     slot->is_done = slot->is_cached = slot->record != NULL;
-    return slot->is_done || pool_give(&check->pool, path, (size_t)(check->last - 1));
+    return slot->is_done || pool_give(&check->pool, path, is_brief(check, path), (size_t)(check->last - 1));
 }
 
 static bool take_answer(struct check *check)
@@ -279,6 +286,9 @@ static bool prepare(struct check *check)
     run->with_times = check->stats;
     if (!prepare_baseline(check))
         return false;
+    const char *const *paths = check->reports.paths;
+    check->needs_measures = check->stats || check->cache_folder || check->budget.command_line.len || run->is_compared ||
+                            paths[SINK_JSON] || paths[SINK_HTML] || paths[SINK_BASELINE];
     check->num_slots = 4 * check->jobs + 64;
     check->slots = calloc(check->num_slots, sizeof *check->slots);
     return check->slots && reports_begin(&check->reports, &check->cli.report);

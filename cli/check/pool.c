@@ -141,7 +141,7 @@ static struct pool_worker *find_idle(const struct pool *pool)
     return found;
 }
 
-bool pool_give(struct pool *pool, const char *path, size_t ticket)
+bool pool_give(struct pool *pool, const char *path, bool is_brief, size_t ticket)
 {
     if (pool->fault)
         return false;
@@ -152,7 +152,7 @@ bool pool_give(struct pool *pool, const char *path, size_t ticket)
     worker->ticket = ticket;
     worker->deadline = now() + pool->time_limit;
     ++pool->num_busy;
-    frame_write(worker->to, FRAME_TASK, path, strlen(path));
+    frame_write(worker->to, is_brief ? FRAME_TASK_BRIEF : FRAME_TASK, path, strlen(path));
     return true;
 }
 

@@ -35,8 +35,8 @@ void pool_finish(struct pool *pool);
 
 bool pool_has_idle(const struct pool *pool);
 
-/* Gives a document to an idle worker. False: pool->fault says why. */
-bool pool_give(struct pool *pool, const char *path, size_t ticket);
+/* Gives a document to an idle worker; a brief record has no measures. False: pool->fault says why. */
+bool pool_give(struct pool *pool, const char *path, bool is_brief, size_t ticket);
 
 /* Waits until a worker is done. False: pool->fault says why. There must be a busy one. */
 bool pool_wait(struct pool *pool, struct pool_answer *out);

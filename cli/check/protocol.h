@@ -12,6 +12,7 @@
 
 enum frame_kind {
     FRAME_TASK = 1, /* to a worker: the path of a document */
+    FRAME_TASK_BRIEF, /* the same; nobody asks for more than verdicts and messages */
     FRAME_MARK,     /* from it: what it begins with, in case that this is the last one hears of it */
     FRAME_RECORD,   /* from it: what came of the document, as record.h writes it */
     FRAME_READY,    /* from it, once: it has its library and waits */

@@ -45,11 +45,16 @@ static bool is_same_message(const struct check_message *a, const struct check_me
            strcmp(a->file, b->file) == 0;
 }
 
+uint32_t check_find_message(const struct check_document *document, const struct check_message *message)
+{
+    uint32_t index = 0;
+    while (index < document->num_messages && !is_same_message(&document->messages[index], message))
+        ++index;
+    return index;
+}
+
 uint32_t check_add_message(struct store *store, struct check_document *document, const struct check_message *message)
 {
-    for (size_t i = 0; i < document->num_messages; ++i)
-        if (is_same_message(&document->messages[i], message))
-            return (uint32_t)i;
     document->messages = store_grow(store, document->messages, document->num_messages, sizeof *message);
     document->messages[document->num_messages] = *message;
     return (uint32_t)document->num_messages++;

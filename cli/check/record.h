@@ -68,7 +68,7 @@ struct check_shader {
     const char *target;
     enum check_stage failed;
     bool compiled;        /* there was a compiler for the target */
-    const char *topology; /* hexadecimal; "" where nothing was generated */
+    const char *topology; /* hexadecimal; "" where nothing was generated, or in a brief record */
     uint64_t measures[NUM_MEASURES];
     struct check_part *parts; /* of each measure the largest first; some are left out */
     size_t num_parts;
@@ -130,7 +130,10 @@ struct check_document {
 /* The document's failure becomes that of the stage, unless it failed earlier. */
 void check_fail(enum check_stage *failed, enum check_stage stage);
 
-/* Appends a message, or finds an equal one; returns its index. */
+/* The index of an equal message; how many there are where there is none. */
+uint32_t check_find_message(const struct check_document *document, const struct check_message *message);
+
+/* Appends a message; returns its index. */
 uint32_t check_add_message(struct store *store, struct check_document *document, const struct check_message *message);
 
 /* Appends the folders that a file may lie in: beside the one that names it, and in the working directory. */

@@ -63,7 +63,7 @@ static void add_shader(struct check_totals *totals, const struct check_shader *s
     ++totals->shaders;
     totals->generate_ms += shader->generate_ms;
     totals->compile_ms += shader->compile_ms;
-    if (!shader->compiled && *shader->topology && run->compiles)
+    if (!shader->compiled && shader->failed != CHECK_GENERATE && run->compiles)
         add_uncompiled(totals, shader->target, run);
 }
 

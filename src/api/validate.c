@@ -36,26 +36,39 @@ static bool has_name(const struct texture_check *c, const char *name, size_t len
     return false;
 }
 
+enum { FIRST_TILE = 1001, TILE_ROW = 10, NUM_TILES = 1000 };
+
+/* Which tiles of "wood.<UDIM>.png" lie in the folder. */
+static void find_tiles(const struct texture_check *c, const char *pattern, bool is_there[NUM_TILES])
+{
+    size_t before = (size_t)(strstr(pattern, "<UDIM>") - pattern), behind = before + strlen("<UDIM>");
+    memset(is_there, 0, NUM_TILES * sizeof *is_there);
+    for (size_t at = 0; at < c->size; at += strlen(c->names + at) + 1) {
+        const char *name = c->names + at;
+        if (strncmp(name, pattern, before) != 0)
+            continue;
+        int number = 0, digits = 0;
+        for (; digits < 4 && name[before + (size_t)digits] >= '0' && name[before + (size_t)digits] <= '9'; digits++)
+            number = number * 10 + name[before + (size_t)digits] - '0';
+        if (digits == 4 && number >= FIRST_TILE && number < FIRST_TILE + NUM_TILES && strcmp(name + before + 4, pattern + behind) == 0)
+            is_there[number - FIRST_TILE] = true;
+    }
+}
+
 /* The tiles of the rows that have any, up to the last one of each: a row that ends early is usual, one with a hole is not. */
 static void check_tiles(struct texture_check *c, const char *path, const char *pattern, struct diag_place place)
 {
-    enum { FIRST = 1001, ROW = 10, NUM_TILES = 1000 };
-    const char *token = strstr(pattern, "<UDIM>");
-    struct text missing, name;
+    bool is_there[NUM_TILES];
+    struct text missing;
     text_init(&missing, c->arena);
-    text_init(&name, c->arena);
-    for (int row = FIRST, last; row < FIRST + NUM_TILES; row += ROW) {
-        bool is_there[ROW];
-        last = -1;
-        for (int u = 0; u < ROW; u++) {
-            name.len = 0;
-            text_fmt(&name, "%.*s%d%s", (int)(token - pattern), pattern, row + u, token + strlen("<UDIM>"));
-            is_there[u] = has_name(c, name.data, name.len);
-            last = is_there[u] ? u : last;
-        }
+    find_tiles(c, pattern, is_there);
+    for (int row = 0; row < NUM_TILES; row += TILE_ROW) {
+        int last = TILE_ROW - 1;
+        while (last > 0 && !is_there[row + last])
+            last--;
         for (int u = 0; u < last; u++)
-            if (!is_there[u])
-                text_fmt(&missing, "%s%d", missing.len ? ", " : "", row + u);
+            if (!is_there[row + u])
+                text_fmt(&missing, "%s%d", missing.len ? ", " : "", FIRST_TILE + row + u);
     }
     if (missing.len)
         diag_add(c->diags, DIAG_ID_missing_tiles, place, path, text_cstr(&missing));

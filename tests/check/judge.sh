@@ -42,6 +42,8 @@ max-source-bytes = 1_000_000
 END
 check 'a file' exits 1 "$mxgen" check show "${quick[@]}" --json file.json
 check 'holds for what lies below it' says file.json '[s["status"] for x in d for s in x["elements"][0]["shaders"]]' "['failed', 'passed', 'failed', 'passed']"
+check 'without any report, too' exits 1 "$mxgen" check show "${quick[@]}"
+check 'and says what there is' grep -q "bytes of source, where 1000 are allowed" out
 check 'the command line says more' exits 0 "$mxgen" check show "${quick[@]}" --max-source-bytes 1000000
 check 'about its own measures' exits 1 "$mxgen" check show "${quick[@]}" --max-closures 100
 printf '[budget]\nmax-closures = 100\n' >show/deep/deeper/mxgen.toml
