@@ -321,7 +321,8 @@ static void find_places(struct scheduler *s, const struct effect_list *effects)
  * Expressions are kept to about a line. Costs are those of SPIR-V before any optimiser: reading a block's member takes an access chain
  * and a load, a local a variable, a store and a load per use.
  */
-enum { GOOD_CHARS = 110, MAX_CHARS = 220, MIN_SPLIT_CHARS = 40, MAX_REPEATED_CHARS = 32 };
+/* Characters. A name counts as any other, however long it is: shaders that differ in names alone have the same statements. */
+enum { GOOD_CHARS = 110, MAX_CHARS = 220, MIN_SPLIT_CHARS = 40, MAX_REPEATED_CHARS = 32, NAME_CHARS = 10 };
 enum { MIN_USES_OF_COPY = 5 }; /* an access and a load each time, or once, a store, and a load each time */
 enum { COST_OPERATOR = 1, COST_CHOICE = 3, COST_BUILTIN = 4, COST_CALL = 32, COST_LOCAL = 2, MAX_COST_IN_LOOP = 3, MAX_COST_OF_ARM = 24 };
 
@@ -351,16 +352,16 @@ static bool is_source(const struct scheduler *s, struct plan *plan)
     }
     case IR_CONTEXT: /* u_lightData[i].member */
         plan->cost = 3;
-        plan->chars = clamp16((uint32_t)str_len(s->shader->strings, s->shader->variables.items[node->attr].name) + 15);
+        plan->chars = clamp16(NAME_CHARS + 15);
         return plan->uses < 3;
     case IR_UNIFORM:
         plan->cost = 2;
-        plan->chars = clamp16((uint32_t)str_len(s->shader->strings, s->shader->variables.items[node->attr].name) + 3);
+        plan->chars = clamp16(NAME_CHARS + 3);
         return !s->shader->in_blocks || plan->uses < MIN_USES_OF_COPY || ir_type_is_matrix(node->type);
     case IR_STREAM:
     case IR_TEXTURE:
         plan->cost = 2;
-        plan->chars = clamp16((uint32_t)str_len(s->shader->strings, s->shader->variables.items[node->attr].name) + 3);
+        plan->chars = clamp16(NAME_CHARS + 3);
         return true;
     case IR_PARAM:
     case IR_LOCAL:
@@ -406,12 +407,11 @@ static bool may_let(const struct scheduler *s, const struct plan *plan)
 }
 
 /* From here on it is read by its name, which its origin gives. */
-static void let(const struct scheduler *s, struct plan *plan)
+static void let(struct plan *plan)
 {
-    str_id name = s->graph->origins.items[node_of(s, plan)->origin].name;
     plan->flags |= PLAN_LET;
     plan->cost = 1;
-    plan->chars = clamp16((uint32_t)str_len(s->shader->strings, name) + 2);
+    plan->chars = NAME_CHARS + 2;
 }
 
 /*
@@ -440,7 +440,7 @@ static void measure(struct scheduler *s, struct plan *plan)
             plan->chars = clamp16(chars);
             return;
         }
-        let(s, longest);
+        let(longest);
     }
 }
 
@@ -486,7 +486,7 @@ static void let_arms(struct scheduler *s, const struct plan *plan)
     }
     for (unsigned i = 0; all && i < 2; i++)
         if (!(arms[i]->flags & PLAN_LET) && arms[i]->op != IR_CONST)
-            let(s, arms[i]);
+            let(arms[i]);
 }
 
 /* Where only variables have parts, what a part is taken of becomes one. */
@@ -500,7 +500,7 @@ static void let_wholes(struct scheduler *s, const struct plan *plan)
         struct plan *whole = plan_of(s, args_of(s, plan)[a]);
         bool has_parts = whole->type >= IR_NUM_TYPES || ir_type_info(whole->type)->components > 1;
         if (has_parts && whole->num_args > 0 && whole->op != IR_RESULT && may_let(s, whole))
-            let(s, whole);
+            let(whole);
     }
 }
 
@@ -527,7 +527,7 @@ static void choose_locals(struct scheduler *s)
         if (!wanted && (plan->uses > 1 || flags & PLAN_MOVED))
             wanted = !is_cheap(plan);
         if (wanted && may_let(s, plan) && !is_part(s, plan))
-            let(s, plan);
+            let(plan);
     }
 }
 

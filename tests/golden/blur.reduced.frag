@@ -23,6 +23,6 @@ void main()
     vec3 soft_11 = soft_10 + textureGrad(wood_file, vd.texcoord_0, soft_3, soft_6).xyz * 0.22222224;
     vec3 soft_12 = textureGrad(wood_file, vd.texcoord_0 + vec2(-0.028867513, 0.028867513), soft_3, soft_6).xyz * 0.01388889;
     vec3 soft_13 = soft_11 + textureGrad(wood_file, soft, soft_3, soft_6).xyz * 0.05555556 + soft_12;
-    vec3 soft_14 = textureGrad(wood_file, vd.texcoord_0 + vec2(0.028867513), soft_3, soft_6).xyz * 0.01388889;
-    out1 = vec4(soft_13 + textureGrad(wood_file, soft_4, soft_3, soft_6).xyz * 0.05555556 + soft_14 + vec3(1.0, 0.0, 0.0), 1.0);
+    vec3 soft_14 = soft_13 + textureGrad(wood_file, soft_4, soft_3, soft_6).xyz * 0.05555556;
+    out1 = vec4(soft_14 + textureGrad(wood_file, vd.texcoord_0 + vec2(0.028867513), soft_3, soft_6).xyz * 0.01388889 + vec3(1.0, 0.0, 0.0), 1.0);
 }

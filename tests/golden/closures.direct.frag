@@ -64,13 +64,13 @@ void main()
     vec3 paint = (1.0 - mix(0.033735953, 1.0, coat_2.y) * coat_2.x * coat_3) * 0.75 * vec3(0.6, 0.1, 0.05);
     for (int i = 0; i < min(u_numActiveLightSources, 1); ++i) {
         float intensity = u_lightData[i].intensity;
-        vec3 light = u_lightData[i].color * (u_lightData[i].type == 1 ? intensity : 0.0);
         vec3 directional_light = -u_lightData[i].direction;
         vec3 coat_6 = normalize(V - u_lightData[i].direction);
         float coat_7 = coat_3 * mx_ggx_lobe(coat_4, coat_5, coat, directional_light, coat_6);
         float paint_2 = max(dot(directional_light, coat_4), 1e-8);
         vec3 paint_3 = paint * (paint_2 / 3.1415927 * (max(dot(V, directional_light) - coat * paint_2, 0.0) * 0.225 / max(paint_2, coat) + 0.89285713));
-        color += light * (coat_7 * mx_fresnel_dielectric(clamp(dot(V, coat_6), 1e-8, 1.0)) + paint_3);
+        vec3 t = coat_7 * mx_fresnel_dielectric(clamp(dot(V, coat_6), 1e-8, 1.0)) + paint_3;
+        color += u_lightData[i].color * (u_lightData[i].type == 1 ? intensity : 0.0) * t;
     }
     out1 = vec4(color, 1.0);
 }

@@ -130,9 +130,9 @@ void main()
         vec3 t = coat_7 * mx_fresnel_dielectric(clamp(dot(V, coat_6), 1e-8, 1.0)) + paint_4;
         color += u_lightData[i].color * (type == 1 ? intensity : light_2) * t;
     }
-    vec3 paint_5 = textureLod(u_envIrradiance, mx_latlong(coat_4), 0.0).xyz * u_envLightIntensity;
-    vec2 paint_6 = (coat * vec2(-0.7632, -0.4993) + vec2(-0.4297, -0.6076) + vec2(0.43155003, 0.60945004)) * 0.3 + vec2(1.0);
-    color += paint_5 * (paint * clamp(paint_6.x / paint_6.y, 0.0, 1.0) * vec3(0.6, 0.1, 0.05));
+    vec2 paint_5 = (coat * vec2(-0.7632, -0.4993) + vec2(-0.4297, -0.6076) + vec2(0.43155003, 0.60945004)) * 0.3 + vec2(1.0);
+    vec3 paint_6 = paint * clamp(paint_5.x / paint_5.y, 0.0, 1.0) * vec3(0.6, 0.1, 0.05);
+    color += textureLod(u_envIrradiance, mx_latlong(coat_4), 0.0).xyz * u_envLightIntensity * paint_6;
     for (int i = 0; i < u_envRadianceSamples; ++i) {
         vec4 coat_8 = mx_ggx_sample(i, coat_4, coat_5, V, coat);
         color += coat_3 * coat_8.xyz * mx_fresnel_dielectric(coat_8.w);

@@ -103,9 +103,9 @@ void main()
         vec3 t = coat_7 * mx_fresnel_dielectric(clamp(dot(V, coat_6), 1e-8, 1.0)) + paint_4;
         color += u_lightData[i].color * (type == 1 ? intensity : light_2) * t;
     }
-    vec3 paint_5 = textureLod(u_envIrradiance, mx_latlong(coat_4), 0.0).xyz * u_envLightIntensity;
-    vec2 paint_6 = (coat * vec2(-0.7632, -0.4993) + vec2(-0.4297, -0.6076) + vec2(0.43155003, 0.60945004)) * 0.3 + vec2(1.0);
-    vec3 paint_7 = paint_5 * (paint * clamp(paint_6.x / paint_6.y, 0.0, 1.0) * vec3(0.6, 0.1, 0.05));
+    vec2 paint_5 = (coat * vec2(-0.7632, -0.4993) + vec2(-0.4297, -0.6076) + vec2(0.43155003, 0.60945004)) * 0.3 + vec2(1.0);
+    vec3 paint_6 = paint * clamp(paint_5.x / paint_5.y, 0.0, 1.0) * vec3(0.6, 0.1, 0.05);
+    vec3 paint_7 = textureLod(u_envIrradiance, mx_latlong(coat_4), 0.0).xyz * u_envLightIntensity * paint_6;
     color += coat_3 * mx_ggx_prefiltered(normal, V) + paint_7;
     out1 = vec4(color, 1.0);
 }

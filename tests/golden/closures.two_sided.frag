@@ -81,19 +81,21 @@ void main()
     float coat_6 = 1.0 - mix(0.033735953, 1.0, coat_2.y) * coat_2.x * coat_3;
     for (int i = 0; i < min(u_numActiveLightSources, 1); ++i) {
         float intensity = u_lightData[i].intensity;
-        vec3 light = u_lightData[i].color * (u_lightData[i].type == 1 ? intensity : 0.0);
         vec3 directional_light = -u_lightData[i].direction;
         vec3 coat_7 = normalize(V - u_lightData[i].direction);
         float coat_8 = coat_3 * mx_ggx_lobe(coat_4, coat_5, coat, directional_light, coat_7);
         vec2 coat_9 = mx_ggx_albedo(max(abs(dot(normal, directional_light)), 1e-8));
+        float coat_10 = (1.0 / coat_9.x - 1.0) * 0.079748526 + 1.0;
         float paint = max(dot(directional_light, coat_4), 1e-8);
         float paint_2 = paint / 3.1415927 * (max(dot(V, directional_light) - coat * paint, 0.0) * 0.225 / max(paint, coat) + 0.89285713);
-        vec3 paint_3 = coat_6 * (1.0 - mix(0.033735953, 1.0, coat_9.y) * coat_9.x * ((1.0 / coat_9.x - 1.0) * 0.079748526 + 1.0)) * 0.75 * paint_2 * vec3(0.6, 0.1, 0.05);
-        color += light * (coat_8 * mx_fresnel_dielectric(clamp(dot(V, coat_7), 1e-8, 1.0)) + paint_3);
+        vec3 paint_3 = coat_6 * (1.0 - mix(0.033735953, 1.0, coat_9.y) * coat_9.x * coat_10) * 0.75 * paint_2 * vec3(0.6, 0.1, 0.05);
+        vec3 t = coat_8 * mx_fresnel_dielectric(clamp(dot(V, coat_7), 1e-8, 1.0)) + paint_3;
+        color += u_lightData[i].color * (u_lightData[i].type == 1 ? intensity : 0.0) * t;
     }
+    vec3 coat_11 = coat_3 * mx_ggx_prefiltered(normal, V);
     vec2 paint_4 = (coat * vec2(-0.7632, -0.4993) + vec2(-0.4297, -0.6076) + vec2(0.43155003, 0.60945004)) * 0.3 + vec2(1.0);
-    vec3 paint_5 = textureLod(u_envIrradiance, mx_latlong(coat_4), 0.0).xyz * u_envLightIntensity;
-    vec3 paint_6 = clamp(paint_4.x / paint_4.y, 0.0, 1.0) * vec3(0.6, 0.1, 0.05) * paint_5 * (coat_6 * coat_6 * 0.75);
-    color += coat_3 * mx_ggx_prefiltered(normal, V) + paint_6;
+    vec3 paint_5 = clamp(paint_4.x / paint_4.y, 0.0, 1.0) * vec3(0.6, 0.1, 0.05);
+    vec3 paint_6 = paint_5 * (textureLod(u_envIrradiance, mx_latlong(coat_4), 0.0).xyz * u_envLightIntensity);
+    color += coat_11 + paint_6 * (coat_6 * coat_6 * 0.75);
     out1 = vec4(color, 1.0);
 }

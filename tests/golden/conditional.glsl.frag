@@ -69,6 +69,7 @@ void main()
 {
     // NG
     vec2 board = floor(vd.texcoord_0 * 8.0);
-    vec3 chosen = 2 > NG_mode ? vd.texcoord_0.x > NG_limit ? vec3(mod(board.x + board.y, 2.0)) : vec3(1.0, 0.0, 0.0) : vec3(0.0);
+    vec3 board_2 = vec3(mod(board.x + board.y, 2.0));
+    vec3 chosen = 2 > NG_mode ? vd.texcoord_0.x > NG_limit ? board_2 : vec3(1.0, 0.0, 0.0) : vec3(0.0);
     out1 = vec4(1 > NG_mode ? mx_noise_vec3(vd.positionObject) : chosen, 1.0);
 }

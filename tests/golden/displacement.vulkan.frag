@@ -36,10 +36,12 @@ void main()
     vec3 color = vec3(0.0);
     vec3 normal = normalize(vd.normalWorld);
     float both = texture(height_file, vd.texcoord_0).x * mx_line(vd.texcoord_0);
-    vec3 P = mix(normalize(vd.tangentWorld) * 0.1 + normal * both, normal * (both * 0.5), 0.25) + vd.positionWorld;
+    vec3 D1 = normalize(vd.tangentWorld) * 0.1 + normal * both;
+    vec3 P = mix(D1, normal * (both * 0.5), 0.25) + vd.positionWorld;
     vec3 facet = normalize(cross(dFdx(P), dFdy(P)));
-    vec3 facet_2 = normalize(cross(dFdx(vd.positionWorld), dFdy(vd.positionWorld)));
-    vec3 N = normalize(normal + (faceforward(facet, -normal, facet) - faceforward(facet_2, -normal, facet_2)));
+    vec3 facet_2 = faceforward(facet, -normal, facet);
+    vec3 facet_3 = normalize(cross(dFdx(vd.positionWorld), dFdy(vd.positionWorld)));
+    vec3 N = normalize(normal + (facet_2 - faceforward(facet_3, -normal, facet_3)));
     color += textureLod(u_envIrradiance, mx_latlong(faceforward(N, -normalize(u_viewPosition - P), N)), 0.0).xyz * (u_envLightIntensity * 0.18);
     out1 = vec4(color, 1.0);
 }

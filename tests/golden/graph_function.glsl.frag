@@ -18,10 +18,10 @@ void main()
     // six/left/left/right/right/right
     float left = abs(abs(abs(abs(abs(abs(abs(abs(right - 1.0) * 2.0 - 1.0) * 2.0 - 1.0) * 2.0 - 1.0) * 2.0 - 1.0) * 2.0 - 1.0) * 2.0 - 1.0) * 2.0 - 1.0);
     // six/left/right/left/right/right
-    float left_2 = abs(abs(abs(abs(abs(abs(abs(left * 2.0 - 1.0) * 2.0 - 1.0) * 2.0 - 1.0) * 2.0 - 1.0) * 2.0 - 1.0) * 2.0 - 1.0) * 2.0 - 1.0) * 2.0 - 1.0;
-    // six/left/right/right/right/right
-    float left_3 = abs(abs(abs(abs(abs(abs(abs(abs(left_2) * 2.0 - 1.0) * 2.0 - 1.0) * 2.0 - 1.0) * 2.0 - 1.0) * 2.0 - 1.0) * 2.0 - 1.0) * 2.0 - 1.0) * 2.0;
+    float left_2 = abs(abs(abs(abs(abs(abs(abs(left * 2.0 - 1.0) * 2.0 - 1.0) * 2.0 - 1.0) * 2.0 - 1.0) * 2.0 - 1.0) * 2.0 - 1.0) * 2.0 - 1.0) * 2.0;
+    // six/left/right/right/right/left
+    float right_2 = abs(abs(abs(abs(abs(abs(abs(abs(left_2 - 1.0) * 2.0 - 1.0) * 2.0 - 1.0) * 2.0 - 1.0) * 2.0 - 1.0) * 2.0 - 1.0) * 2.0 - 1.0) * 2.0 - 1.0);
     // six/right/right/right/right
-    float right_2 = fold(fold(fold(fold(fold(fold(fold(fold(fold(fold(fold(fold(fold(fold(fold(fold(abs(abs(left_3 - 1.0) * 2.0 - 1.0)))))))))))))))));
-    out1 = vec4(right_2, right_2, right_2, 1.0);
+    float right_3 = fold(fold(fold(fold(fold(fold(fold(fold(fold(fold(fold(fold(fold(fold(fold(fold(abs(abs(right_2 * 2.0 - 1.0) * 2.0 - 1.0)))))))))))))))));
+    out1 = vec4(right_3, right_3, right_3, 1.0);
 }

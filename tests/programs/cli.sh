@@ -147,6 +147,20 @@ for command in generate inspect validate library; do
 done
 check 'help has the options of generation' eval '"$mxgen" generate --help | grep -q -- --interface'
 
+# Materials that differ in names and in values of uniforms share a program
+one_material() { # NAME VALUE of the shader
+    printf '%s\n' '<materialx version="1.39">' "<standard_surface name='SR_$1' type='surfaceshader'><input name='coat' type='float' value='$2'/>" \
+        "<input name='base_color' type='color3' value='$2, 0.2, 0.7'/></standard_surface>" \
+        "<surfacematerial name='$1' type='material'><input name='surfaceshader' type='surfaceshader' nodename='SR_$1'/></surfacematerial>" '</materialx>'
+}
+one_material a 0.25 >short.mtlx
+one_material a_material_of_a_show_whose_names_are_never_short_at_all 1 >long.mtlx
+check 'a short name' exits 0 "$mxgen" short.mtlx --names neutral --reflect -o short
+check 'a long name' exits 0 "$mxgen" long.mtlx --names neutral --reflect -o long
+check 'the same topology' eval 'diff <(grep topology short/*.json) <(grep topology long/*.json)'
+check 'and neutral, the same statements' eval 'diff <(sed "1,/^void main/d" short/*.frag) <(sed "1,/^void main/d" long/*.frag)'
+check 'by path, the same topology' eval '"$mxgen" long.mtlx --reflect -o path && diff <(grep topology short/*.json) <(grep topology path/*.json)'
+
 # Other commands
 check 'validate' exits 0 "$mxgen" validate two.mtlx
 check 'validate finds' exits 1 "$mxgen" validate bad.mtlx
