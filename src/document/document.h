@@ -194,4 +194,7 @@ void doc_validate(const struct document *doc, struct diag_list *diags);
 /* What of it concerns how the children of an element stand: their place, their required attributes, and that none is connected twice. */
 void doc_check_children(const struct document *doc, elem_id parent, struct diag_list *diags);
 
+/* Tells that the type which an element says is none, or that it says none. */
+void doc_report_type(const struct document *doc, elem_id element, struct diag_list *diags);
+
 #endif

@@ -123,18 +123,27 @@ static elem_id find_typedef(const struct document *doc, str_id type)
     return found;
 }
 
-static const char *suggest_type(struct validation *v, str_id type)
+static const char *suggest_type(const struct document *doc, const char *type, struct arena *arena)
 {
     VEC(const char *) names = {0};
-    if (v->diags->num_errors > MAX_SUGGESTIONS)
-        return "";
     for (doc_type t = DOC_TYPE_NONE + 1; t < DOC_NUM_TYPES; t++)
-        vec_push(v->arena, &names, text_of(v, doc_type_name(t)));
-    for (const struct document *layer = v->doc; layer; layer = layer->base)
+        vec_push(arena, &names, str_text(doc->strings, doc_type_name(t)));
+    for (const struct document *layer = doc; layer; layer = layer->base)
         for (elem_id e = doc_element(layer, layer->root)->first_child; e; e = doc_element(layer, e)->next)
             if (doc_element(layer, e)->kind == KIND_TYPEDEF)
-                vec_push(v->arena, &names, text_of(v, doc_element(layer, e)->name));
-    return diag_suggest(v->arena, text_of(v, type), names.items, names.len);
+                vec_push(arena, &names, str_text(doc->strings, doc_element(layer, e)->name));
+    return diag_suggest(arena, type, names.items, names.len);
+}
+
+void doc_report_type(const struct document *doc, elem_id element, struct diag_list *diags)
+{
+    const char *type = str_text(doc->strings, doc_attr_value(doc, element, STR_type));
+    if (!*type) {
+        diag_add(diags, DIAG_ID_missing_attribute, doc_place(doc, element), str_text(doc->strings, doc_element(doc, element)->category), "type");
+        return;
+    }
+    const char *suggestion = diags->num_errors > MAX_SUGGESTIONS ? "" : suggest_type(doc, type, diags->arena);
+    diag_add(diags, DIAG_ID_unknown_type, doc_attr_place(doc, element, STR_type), type, suggestion);
 }
 
 static void check_value(struct validation *v, elem_id element, doc_type type, str_id attr)
@@ -152,8 +161,7 @@ static void check_type_and_values(struct validation *v, elem_id element)
     str_id name = doc_attr_value(v->doc, element, STR_type);
     doc_type type = doc_type_of(name);
     if (name && !type && !find_typedef(v->doc, name))
-        diag_add(v->diags, DIAG_ID_unknown_type, doc_attr_place(v->doc, element, STR_type), text_of(v, name),
-                 suggest_type(v, name));
+        doc_report_type(v->doc, element, v->diags);
     if (!type || e->kind == KIND_NODE)
         return;
     for (size_t i = 0; i < sizeof typed / sizeof *typed; i++)

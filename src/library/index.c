@@ -27,7 +27,7 @@ static bool has_type(struct indexer *ix, elem_id element, doc_type *out_type)
     *out_type = library_type(ix->lib, name);
     if (*out_type)
         return true;
-    diag_add(ix->diags, DIAG_ID_unknown_type, doc_attr_place(&ix->lib->doc, element, STR_type), text_of(ix->lib, name), "");
+    doc_report_type(&ix->lib->doc, element, ix->diags);
     return false;
 }
 
@@ -182,7 +182,7 @@ static uint32_t default_nodedef(const struct library *lib, str_id node, doc_type
     for (; lib; lib = lib->base)
         for (uint32_t i = 0; i < lib->nodedefs.len; i++) {
             const struct nodedef *def = &lib->nodedefs.items[i];
-            if (def->node == node && lib->ports.items[def->first_port + def->num_inputs].type == type)
+            if (def->node == node && def->num_outputs && lib->ports.items[def->first_port + def->num_inputs].type == type)
                 return lib->base_nodedefs + i;
         }
     return LIBRARY_NONE;
@@ -486,6 +486,8 @@ static void add_implementation(struct indexer *ix, elem_id element)
                  text_of(lib, e->name), text_of(lib, nodedef));
         return;
     }
+    if (!library_nodedef(lib, impl.nodedef)->num_outputs)
+        return; /* of nothing, too: no-output or unknown-type */
     str_id graph = attr(ix, element, STR_nodegraph);
     bool outputs = false;
     for (elem_id c = e->first_child; c; c = doc_element(&lib->doc, c)->next)

@@ -54,6 +54,8 @@ static struct candidate fit_outputs(const struct library *lib, const struct node
         return (struct candidate){FIT_EXACT, NULL, 0, 0, 0};
     if (def->num_outputs > 1 && type == STR_multioutput)
         return (struct candidate){FIT_EXACT, NULL, 0, 0, 0};
+    if (def->num_outputs == 0)
+        return misfit("it has no output of a known type", 0, 0, 0);
     const struct port *out = &ports[def->num_inputs];
     if (def->num_outputs == 1 && library_type(lib, type) == out->type)
         return (struct candidate){FIT_EXACT, NULL, 0, 0, 0};
