@@ -160,7 +160,10 @@ enum { TEXT_IMAGE, TEXT_EXPANDED };
 
 static void write_image(const struct object *object, struct text *out)
 {
-    library_write_image(&((const mxg_library *)object)->layer, out);
+    mxg_library *library = (mxg_library *)(uintptr_t)object; /* documents hold references of it */
+    struct lang_recorder recorder;
+    library_rehearse(library, &recorder, out->arena);
+    library_write_image(&library->layer, &recorder, out);
 }
 
 static void write_expanded(const struct object *object, struct text *out)

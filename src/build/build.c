@@ -22,9 +22,8 @@ static const int *find_option(const struct build_options *options, const char *n
 }
 
 /* How functions of the library see the host: uniforms and streams become interface variables, options constants. */
-static ir_ref global_node(void *user_data, struct ir_graph *graph, const struct lang_unit *unit, uint32_t global_id)
+static ir_ref make_global(struct builder *b, struct ir_graph *graph, const struct lang_unit *unit, uint32_t global_id)
 {
-    struct builder *b = user_data;
     const struct lang_unit *layer;
     const struct lang_global *global = lang_global(unit, global_id, &layer);
     switch ((enum lang_global_kind)global->kind) {
@@ -49,6 +48,21 @@ static ir_ref global_node(void *user_data, struct ir_graph *graph, const struct 
     return ir_const(graph, &value);
 }
 
+static ir_ref global_node(void *user_data, struct ir_graph *graph, const struct lang_unit *unit, uint32_t global_id)
+{
+    struct builder *b = user_data;
+    if (!b->globals[global_id])
+        b->globals[global_id] = make_global(b, graph, unit, global_id);
+    return b->globals[global_id];
+}
+
+/* The options of find_option as one number. */
+static uint32_t choice_of(const struct build_options *options)
+{
+    bool fits = (unsigned)options->environment < 256 && (unsigned)options->texture_modes < 256 && (unsigned)options->integrator < 256;
+    return fits ? (uint32_t)options->environment | (uint32_t)options->texture_modes << 8 | (uint32_t)options->integrator << 16 : LANG_NONE;
+}
+
 /* Functions of at most this many tree nodes are lowered into the shader's graph instead of being called. */
 enum { INLINE_NODES = 14 };
 
@@ -65,7 +79,9 @@ struct builder *build_start(const struct library *lib, const struct build_option
     diags->trace = build_trace; /* the builder lives as long as the list: both are the result's */
     diags->trace_data = b;
     b->resolved.arena = b->arena;
-    b->host = (struct lang_host){.user_data = b, .global = global_node, .texture = build_read_tiles, .max_inline_nodes = INLINE_NODES};
+    b->globals = ARENA_ARRAY(b->arena, ir_ref, shader->unit->base_globals + shader->unit->globals.len);
+    b->host = (struct lang_host){.user_data = b, .global = global_node, .texture = build_read_tiles, .max_inline_nodes = INLINE_NODES,
+                                .choice = choice_of(options)};
     b->document = ARENA_NEW(b->arena, struct instance);
     b->document->nodedef = LIBRARY_NONE;
     b->document->first = lib->doc.first_element;

@@ -70,6 +70,7 @@ struct builder {
     uint32_t *memo_table;
     uint32_t memo_mask;
     VEC(ir_ref) geomprops;      /* value per geomprop name, in pairs (name, ref) */
+    ir_ref *globals;            /* by id: what functions see of the host, once it was asked for */
     struct build_prefix path, name; /* in front of the paths and names of a node's inputs */
     ir_ref missing_texel;       /* what the node at hand reads where its image has no tile */
     bool has_colorspace;        /* the option names a space that the library converts to */

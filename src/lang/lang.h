@@ -97,6 +97,18 @@ struct lang_version { /* what a function of a generation's layer is (plan.c) */
     uint32_t dropped[2]; /* bit i is set where parameter i of that is gone */
 };
 
+/* What a call of a function became for arguments of one pattern: fragment.c. */
+struct lang_fragment {
+    uint32_t hash;       /* of the pattern */
+    uint32_t first_code; /* in unit->codes: the pattern, the nodes, the results */
+    uint16_t pattern_len, num_nodes;
+    uint16_t next;       /* of the same function: its number + 1; 0: none */
+    uint16_t flags;      /* enum lang_fragment_flags */
+    uint32_t choice;     /* of the host that it was made for */
+};
+
+enum lang_fragment_flags { LANG_FRAGMENT_WEIGHED = 1 /* whether branches are cheap was asked: derivatives among the arguments matter */ };
+
 enum lang_global_kind { LANG_GLOBAL_CONST, LANG_GLOBAL_UNIFORM, LANG_GLOBAL_STREAM, LANG_GLOBAL_OPTION };
 
 struct lang_global {
@@ -129,6 +141,7 @@ struct lang_host { /* how globals become IR nodes */
     ir_ref (*texture)(void *user_data, enum ir_op op, const ir_ref *args);
     uint32_t max_outer_nodes;  /* the same limit for the called function itself and what it calls directly; 0: max_inline_nodes */
     uint32_t max_inline_nodes; /* functions larger than this are called, not lowered, unless their result folds to constants */
+    uint32_t choice;           /* the values of all options, as a number; LANG_NONE: one that no fragment was made for */
 };
 
 /*
@@ -149,11 +162,16 @@ struct lang_unit {
     VEC(uint32_t) refs;
     VEC(struct ir_user_type) user_types;
     VEC(struct ir_member) members;
+    /* Of an image layer: */
+    VEC(struct lang_fragment) fragments;
+    VEC(uint16_t) codes;
+    VEC(uint16_t) fragment_of; /* by function: number + 1 of its first fragment; 0: none */
     /* Of a generation's layer: */
     struct lang_host host;   /* who knows the options, and the graph that their values are nodes of; from lang_lower_call */
     struct ir_graph *graph;
     VEC(struct lang_version) versions; /* by function */
     struct lang_plan *plan;  /* plan.c: which constants functions take for granted; NULL until the shader stands */
+    struct lang_recorder *recorder; /* fragment_record.c: takes down what calls become; NULL */
 };
 
 void lang_unit_init(struct lang_unit *unit, struct arena *arena, struct strpool *strings, const struct lang_unit *base);
@@ -247,6 +265,23 @@ uint32_t lang_find_function(const struct lang_unit *unit, uint32_t file, str_id 
 void lang_lower_call(struct lang_unit *generated, struct ir_graph *graph, const struct lang_host *host, uint32_t id,
                      const ir_ref *args, ir_ref *results);
 unsigned lang_num_results(const struct lang_unit *unit, uint32_t id);
+
+/*
+ * fragment_record.c: while a generation's layer has a recorder, what lang_lower_call makes of functions of the lowest layer is taken down as
+ * fragments, in vectors of `arena` that stand beside those of the layer. For an image; other layers have none.
+ */
+struct lang_recorder {
+    struct arena *arena;
+    VEC(struct lang_fragment) fragments;
+    VEC(uint16_t) codes;
+    VEC(uint16_t) fragment_of;
+    struct lang_global_use { /* of the call at hand */
+        ir_ref node;
+        uint32_t global;
+    } globals[16];
+    unsigned num_globals;
+};
+void lang_recorder_init(struct lang_recorder *recorder, struct arena *arena, const struct lang_unit *lowest);
 
 /*
  * plan.c (specialise.c): one version per function for a whole shader. First lang_plan_call for every call in the IR, then

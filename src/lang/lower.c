@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /* Calls into IR. A call is, in this order of preference: a constant, the nodes of the callee's body, a CALL. */
+#include "lang/fragment.h"
 #include "lang/lower.h"
 
 enum { MAX_EVAL_STEPS = 20000, FEW_SLOTS = 32, FEW_LEAVES = 64 };
@@ -285,6 +286,14 @@ static void poison_results(struct lower *lo, uint32_t id, ir_ref *out)
             out = poison(lo, ast_slot(layer, fn, i)->type, out);
 }
 
+uint32_t lower_callee(struct lower *lo, uint32_t id)
+{
+    const struct lang_function *fn = lang_function(lo->unit, id, NULL);
+    return ir_add_callee(lo->graph, (struct ir_callee){.id = id, .name = fn->name,
+                                                       .derivative = (fn->flags & LANG_FN_DERIVATIVE) != 0,
+                                                       .pure = (fn->flags & LANG_FN_PURE) != 0});
+}
+
 static void build_call(struct lower *lo, uint32_t id, const ir_ref *in, ir_ref *out)
 {
     ir_ref args[LOWER_MAX_LEAVES];
@@ -296,10 +305,8 @@ static void build_call(struct lower *lo, uint32_t id, const ir_ref *in, ir_ref *
     }
     const struct lang_unit *layer;
     const struct lang_function *fn = lang_function(lo->unit, id, &layer);
-    struct ir_callee callee = {.id = id, .name = fn->name, .derivative = (fn->flags & LANG_FN_DERIVATIVE) != 0,
-                               .pure = (fn->flags & LANG_FN_PURE) != 0};
     ir_type_id type = graph_type(lo, fn->return_type);
-    ir_ref call = ir_build(lo->graph, IR_CALL, type, ir_add_callee(lo->graph, callee), args, num_args);
+    ir_ref call = ir_build(lo->graph, IR_CALL, type, lower_callee(lo, id), args, num_args);
     bool is_single = fn->return_type != IR_TYPE_VOID && lang_num_results(lo->unit, id) == 1;
     if (fn->return_type != IR_TYPE_VOID) {
         ir_ref value = is_single ? call : ir_build(lo->graph, IR_RESULT, type, 0, &call, 1);
@@ -393,6 +400,21 @@ static void poison_whole_results(struct lower *lo, ir_ref *results)
             *results++ = ir_poison(lo->graph, graph_type(lo, ast_slot(lo->frame->layer, fn, i)->type));
 }
 
+/* A function that is called, by a fragment where there is one. */
+static void lower_known_function(struct lower *lo, uint32_t id, const ir_ref *args, ir_ref *results)
+{
+    struct fragment_pattern pattern;
+    bool may_match = fragment_begin(lo, id, args, &pattern);
+    if (may_match && fragment_restore(lo, id, &pattern, results))
+        return;
+    if (!fits(lo))
+        poison_whole_results(lo, results);
+    else
+        (lo->frame->fn->flags & LANG_FN_PLAIN ? lower_plain_function : lower_function)(lo, id, args, results);
+    if (may_match && lo->unit->recorder)
+        fragment_record(lo, id, &pattern, results);
+}
+
 void lang_lower_call(struct lang_unit *generated, struct ir_graph *graph, const struct lang_host *host, uint32_t id,
                      const ir_ref *args, ir_ref *results)
 {
@@ -403,8 +425,6 @@ void lang_lower_call(struct lang_unit *generated, struct ir_graph *graph, const 
     frame.fn = lang_function(generated, id, &frame.layer);
     if (frame.fn->flags & LANG_FN_EXPRESSION)
         lower_inline_expression(&lo, args, results);
-    else if (!fits(&lo))
-        poison_whole_results(&lo, results);
     else
-        (frame.fn->flags & LANG_FN_PLAIN ? lower_plain_function : lower_function)(&lo, id, args, results);
+        lower_known_function(&lo, id, args, results);
 }

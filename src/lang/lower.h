@@ -40,6 +40,7 @@ struct lower {
     uint32_t max_graph_nodes; /* a body that makes the graph larger than this is not worth it */
     uint32_t num_calls;       /* that were built, or found in the graph */
     bool failed; /* the function cannot become nodes: the result is of no use */
+    bool weighed; /* whether a branch is cheap was asked */
 };
 
 static inline const struct lang_node *lower_node(const struct lower *lo, lang_ref ref)
@@ -59,6 +60,9 @@ void lower_assign(struct lower *lo, lang_ref target, const ir_ref *leaves);
 
 /* lower_stmt.c. True where the function has returned. */
 bool lower_statements(struct lower *lo, lang_ref first);
+
+/* lower.c: the graph's number for a function that is called. */
+uint32_t lower_callee(struct lower *lo, uint32_t id);
 
 /* lower.c: leaves of the in and inout parameters to leaves of the returned value and the out and inout parameters. */
 void lower_call(struct lower *lo, uint32_t id, const ir_ref *in, ir_ref *out);

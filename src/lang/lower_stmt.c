@@ -65,8 +65,9 @@ static struct mark mark(const struct lower *lo)
 }
 
 /* May the nodes since `begin` be computed although they may not be needed? A call may not, though there be an equal one. */
-static bool is_cheap(const struct lower *lo, struct mark begin)
+static bool is_cheap(struct lower *lo, struct mark begin)
 {
+    lo->weighed = true;
     const struct ir_graph *graph = lo->graph;
     uint32_t added = graph->nodes.len - begin.nodes;
     if (lo->num_calls != begin.calls)

@@ -31,6 +31,7 @@ static const struct section_info section_infos[] = {
     SECTION(nodedefs),       SECTION(ports),         SECTION(impls),          SECTION(families),
     SECTION(verbatims),      SECTION(graph_nodes),   SECTION(bindings),       SECTION(geomprops),
     SECTION(types),          SECTION(refs),          SECTION(node_table),     SECTION(element_info),
+    SECTION(unit.fragments), SECTION(unit.codes),    SECTION(unit.fragment_of),
 };
 enum {
     NUM_VECS = sizeof section_infos / sizeof *section_infos,
@@ -65,7 +66,7 @@ static uint64_t checksum(const void *image, size_t size)
 static uint64_t fingerprint(void)
 {
     uint64_t h = HASH_STABLE_SEED;
-    uint32_t facts[NUM_VECS + 4] = {2 /* bumped when meanings change but sizes do not */, STR_NUM_WORDS, IR_NUM_OPS, NUM_ELEMENT_KINDS};
+    uint32_t facts[NUM_VECS + 4] = {3 /* bumped when meanings change but sizes do not */, STR_NUM_WORDS, IR_NUM_OPS, NUM_ELEMENT_KINDS};
     for (unsigned i = 0; i < NUM_VECS; i++)
         facts[i + 4] = (uint32_t)section_infos[i].item_size;
     return hash_stable(h, facts, sizeof facts);
@@ -157,7 +158,14 @@ static void put_strings(const struct strpool *pool, struct text *out, struct hea
     put_section(out, header, SECTION_STR_TABLE, pool->table, pool->table_mask + 1, sizeof *pool->table);
 }
 
-void library_write_image(const struct library *lib, struct text *out)
+static void add_fragments(struct lang_unit *unit, const struct lang_recorder *recorder)
+{
+    memcpy(&unit->fragments, &recorder->fragments, sizeof unit->fragments);
+    memcpy(&unit->codes, &recorder->codes, sizeof unit->codes);
+    memcpy(&unit->fragment_of, &recorder->fragment_of, sizeof unit->fragment_of);
+}
+
+void library_write_image(const struct library *lib, const struct lang_recorder *recorder, struct text *out)
 {
     struct header header = {
         .fingerprint = fingerprint(),
@@ -172,6 +180,7 @@ void library_write_image(const struct library *lib, struct text *out)
     memcpy(header.magic, magic, sizeof magic);
     struct library packed = *lib;
     share_attributes(&packed.doc, out->arena);
+    add_fragments(&packed.unit, recorder);
     size_t start = out->len;
     text_mem(out, (const char *)&header, sizeof header);
     for (unsigned i = 0; i < NUM_VECS; i++) {

@@ -126,6 +126,23 @@ static const struct memory_file fixture_files[] = {
      "</materialx>\n"},
     {"tint.glsl", "#include \"curve.glsl\"\nvoid tint(vec3 color, float by, out vec3 result) { result = curve(color * by); }\n"},
     {"curve.glsl", "vec3 curve(vec3 x) { return x * x * (3.0 - 2.0 * x); }\n"},
+    {"model.mtlx", /* a library that stands alone, with a shading model */
+     "<materialx version=\"1.39\">\n"
+     "  <nodedef name=\"ND_lobe\" node=\"lobe\"><input name=\"weight\" type=\"float\" value=\"1\"/>"
+     "<input name=\"color\" type=\"color3\" value=\"0.5, 0.5, 0.5\"/><output name=\"out\" type=\"BSDF\"/></nodedef>\n"
+     "  <implementation name=\"IM_lobe\" nodedef=\"ND_lobe\" file=\"lobe.glsl\" function=\"lobe\"/>\n"
+     "  <nodedef name=\"ND_surface\" node=\"surface\"><input name=\"bsdf\" type=\"BSDF\" value=\"\"/>"
+     "<input name=\"edf\" type=\"EDF\" value=\"\"/><input name=\"opacity\" type=\"float\" value=\"1\"/>"
+     "<input name=\"thin_walled\" type=\"boolean\" value=\"false\"/><output name=\"out\" type=\"surfaceshader\"/></nodedef>\n"
+     "  <implementation name=\"IM_surface\" nodedef=\"ND_surface\"/>\n"
+     "  <nodedef name=\"ND_model\" node=\"model\"><input name=\"color\" type=\"color3\" value=\"1, 0, 0\"/>"
+     "<output name=\"out\" type=\"surfaceshader\"/></nodedef>\n"
+     "  <nodegraph name=\"NG_model\" nodedef=\"ND_model\">"
+     "<lobe name=\"l\" type=\"BSDF\"><input name=\"color\" type=\"color3\" interfacename=\"color\"/></lobe>"
+     "<surface name=\"s\" type=\"surfaceshader\"><input name=\"bsdf\" type=\"BSDF\" nodename=\"l\"/></surface>"
+     "<output name=\"out\" type=\"surfaceshader\" nodename=\"s\"/></nodegraph>\n"
+     "</materialx>\n"},
+    {"lobe.glsl", "vec3 lobe_environment(vec3 color, vec3 V) { return color * (V * 0.5 + 0.5); }\n"},
     {NULL, NULL},
 };
 

@@ -200,6 +200,38 @@ static void test_builtin_text(void)
     require_clean(&heap);
 }
 
+/* Packing generates, with memory of its own beside that of what is generated. */
+static mxg_status pack(const mxg_context_desc *desc, size_t *out_size)
+{
+    static const char *const paths[] = {"model.mtlx"};
+    mxg_context *context = NULL;
+    mxg_library *library = NULL;
+    const void *data;
+    mxg_status status = mxg_context_create(desc, &context);
+    if (status == MXG_OK)
+        status = mxg_library_load(context, NULL, paths, 1, &library);
+    if (status == MXG_OK)
+        status = mxg_library_image(library, &data, out_size);
+    mxg_library_unref(library);
+    mxg_context_destroy(context);
+    return status;
+}
+
+static void test_pack(void)
+{
+    struct heap unlimited = {0};
+    mxg_context_desc desc = counted(&unlimited);
+    size_t whole = 0, size = 0;
+    REQUIRE_EQ(pack(&desc, &whole), MXG_OK);
+    for (unsigned k = 1; k <= unlimited.calls; k++) {
+        struct heap heap = {.fail_at = k};
+        desc = counted(&heap);
+        mxg_status status = pack(&desc, &size);
+        REQUIRE(status == MXG_ERROR_MEMORY || (status == MXG_OK && size == whole));
+        require_clean(&heap);
+    }
+}
+
 int main(int argc, char **argv)
 {
     if (argc != 2)
@@ -210,5 +242,6 @@ int main(int argc, char **argv)
     test_limit();
     test_builtin_text();
     test_own_files(argv[1]);
+    test_pack();
     return test_report("api-memory");
 }

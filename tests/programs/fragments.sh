@@ -1,0 +1,51 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# A library read from its sources has no fragments, its image has: the shaders are the same. Arguments: mxgen.
+mxgen=$(realpath "$1")
+here=$(cd "$(dirname "$0")" && pwd)
+root=$here/../..
+. "$here/common.sh"
+
+# Models whose inputs are all variable, as the image was made for; of some of them images, a normal map and constants.
+{
+    echo '<materialx version="1.39">'
+    for model in standard_surface open_pbr_surface gltf_pbr UsdPreviewSurface disney_principled; do
+        echo "<$model name=\"all_$model\" type=\"surfaceshader\"/>"
+    done
+    cat <<'END'
+<image name="color" type="color3"><input name="file" type="filename" value="a.png"/></image>
+<image name="grey" type="float"><input name="file" type="filename" value="b.png"/></image>
+<normalmap name="bent" type="vector3"><input name="in" type="vector3" value="0.4, 0.5, 0.9"/></normalmap>
+<standard_surface name="textured" type="surfaceshader">
+  <input name="base_color" type="color3" nodename="color"/>
+  <input name="specular_color" type="color3" nodename="color"/>
+  <input name="specular_roughness" type="float" nodename="grey"/>
+  <input name="transmission" type="float" nodename="grey"/>
+  <input name="normal" type="vector3" nodename="bent"/>
+</standard_surface>
+<gltf_pbr name="equal" type="surfaceshader">
+  <input name="metallic" type="float" nodename="grey"/>
+  <input name="roughness" type="float" nodename="grey"/>
+  <input name="transmission" type="float" nodename="grey"/>
+</gltf_pbr>
+</materialx>
+END
+} >models.mtlx
+
+compare() {
+    local document=$1
+    shift
+    rm -rf image sources
+    "$mxgen" "$document" -q -o image "$@" >/dev/null 2>&1
+    "$mxgen" "$document" -q -o sources --no-builtin-library --library "$root/libraries" "$@" >/dev/null 2>&1
+    [ -n "$(ls image)" ] && diff -r image sources
+}
+
+for options in '' '--interface reduced' '--environment prefiltered' '--environment none --lights directional_light' '--layering two-sided' \
+    '--integrator path' '--target vulkan --interface authored'; do
+    check "models $options" compare models.mtlx --target glsl $options
+done
+for document in "$root"/examples/*.mtlx "$root"/bench/standard_surface_default.mtlx; do
+    check "${document##*/}" compare "$document" --target glsl
+done
+finish fragments

@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * Fragments: a call of a library's function is restored where it was taken down for arguments of the same pattern, and only there. Behind
+ * the recording the constant 2.5 in the trees becomes 3.5: so the result tells where it comes from.
+ */
+#include "lang/lang.h"
+
+#include "test.h"
+
+struct fixture {
+    struct mem mem;
+    struct arena arena;
+    struct strpool strings;
+    struct diag_list diags;
+    struct lang_unit library, generated;
+    struct ir_graph graph;
+    struct lang_recorder recorder;
+    struct lang_host host;
+    const char *source;
+    uint32_t file;
+};
+
+static bool read_source(void *user_data, const char *from, const char *ref, const char **out_name, const char **out_text,
+                        size_t *out_len, const char **out_reason)
+{
+    const struct fixture *f = user_data;
+    (void)from, (void)out_reason;
+    *out_name = ref;
+    *out_text = f->source;
+    *out_len = strlen(f->source);
+    return true;
+}
+
+static ir_ref global_node(void *user_data, struct ir_graph *graph, const struct lang_unit *unit, uint32_t global_id)
+{
+    (void)user_data, (void)unit;
+    return ir_build(graph, IR_UNIFORM, IR_TYPE_FLOAT, 100 + global_id, NULL, 0);
+}
+
+/* A new generation over the library. */
+static void begin(struct fixture *f)
+{
+    lang_unit_init(&f->generated, &f->arena, &f->strings, &f->library);
+    ir_graph_init(&f->graph, &f->arena, &f->strings);
+}
+
+static void setup(struct fixture *f, const char *source)
+{
+    *f = (struct fixture){.source = source, .host = {.global = global_node, .max_inline_nodes = 40}};
+    mem_init(&f->mem, NULL, NULL);
+    arena_init(&f->arena, &f->mem);
+    strpool_init(&f->strings, &f->arena, NULL);
+    diag_list_init(&f->diags, &f->arena);
+    lang_unit_init(&f->library, &f->arena, &f->strings, NULL);
+    struct lang_reader reader = {f, read_source};
+    f->file = lang_parse_file(&f->library, &reader, "", "test.glsl", (struct diag_place){0}, &f->diags);
+    REQUIRE(f->file != LANG_NONE);
+    lang_make_canonical(&f->library);
+    begin(f);
+}
+
+static void teardown(struct fixture *f)
+{
+    ir_ref node;
+    REQUIRE(!ir_check(&f->graph, &node));
+    arena_finish(&f->arena);
+    REQUIRE_EQ(f->mem.used, 0);
+}
+
+static ir_ref uniform(struct fixture *f, ir_type_id type, uint32_t number)
+{
+    return ir_build(&f->graph, IR_UNIFORM, type, number, NULL, 0);
+}
+
+/* The graph behind a call of f, as text. */
+static const char *call(struct fixture *f, const ir_ref *args)
+{
+    ir_ref results[4];
+    uint32_t id = lang_find_function(&f->library, f->file, str_find(&f->strings, "f", 1), NULL, 0);
+    lang_lower_call(&f->generated, &f->graph, &f->host, id, args, results);
+    struct text text;
+    text_init(&text, &f->arena);
+    ir_print(&f->graph, results, lang_num_results(&f->generated, id), &text);
+    return text_cstr(&text);
+}
+
+/* Takes down a call, gives the fragments to the library, and changes its trees. Returns what the call became. */
+static const char *record(struct fixture *f, const ir_ref *args)
+{
+    lang_recorder_init(&f->recorder, &f->arena, &f->library);
+    f->generated.recorder = &f->recorder;
+    const char *text = call(f, args);
+    memcpy(&f->library.fragments, &f->recorder.fragments, sizeof f->library.fragments);
+    memcpy(&f->library.codes, &f->recorder.codes, sizeof f->library.codes);
+    memcpy(&f->library.fragment_of, &f->recorder.fragment_of, sizeof f->library.fragment_of);
+    for (uint32_t i = 0; i < f->library.words.len; i++)
+        if (f->library.words.items[i].f == 2.5f)
+            f->library.words.items[i].f = 3.5f;
+    begin(f);
+    return text;
+}
+
+static bool is_restored(struct fixture *f, const ir_ref *args)
+{
+    const char *text = call(f, args);
+    bool restored = strstr(text, "2.5"), read = strstr(text, "3.5");
+    REQUIRE(!restored || !read);
+    return restored;
+}
+
+static const char two_factors[] = "float f(float x, float y) { return x * 2.5 + sin(y); }";
+
+static void record_two(struct fixture *f, const char *source)
+{
+    setup(f, source);
+    record(f, (ir_ref[]){uniform(f, IR_TYPE_FLOAT, 0), uniform(f, IR_TYPE_FLOAT, 1)});
+    REQUIRE_EQ(f->recorder.fragments.len, 1);
+}
+
+static void test_same_pattern(void)
+{
+    struct fixture f;
+    record_two(&f, two_factors);
+    REQUIRE(is_restored(&f, (ir_ref[]){uniform(&f, IR_TYPE_FLOAT, 7), uniform(&f, IR_TYPE_FLOAT, 8)}));
+    ir_ref sine = ir_op1(&f.graph, IR_SIN, uniform(&f, IR_TYPE_FLOAT, 3)); /* no rule looks through a sine */
+    REQUIRE(is_restored(&f, (ir_ref[]){sine, uniform(&f, IR_TYPE_FLOAT, 8)}));
+    teardown(&f);
+}
+
+static void test_other_pattern(void)
+{
+    struct fixture f;
+    record_two(&f, two_factors);
+    ir_ref a = uniform(&f, IR_TYPE_FLOAT, 0), b = uniform(&f, IR_TYPE_FLOAT, 1);
+    ir_ref product = ir_op2(&f.graph, IR_MUL, a, b), sample = ir_build(&f.graph, IR_SAMPLE, IR_TYPE_INT, 0, NULL, 0);
+    REQUIRE(!is_restored(&f, (ir_ref[]){a, a}));
+    REQUIRE(!is_restored(&f, (ir_ref[]){ir_const_float(&f.graph, 1.0f), b}));
+    REQUIRE(!is_restored(&f, (ir_ref[]){a, ir_const_float(&f.graph, 4.0f)}));
+    REQUIRE(!is_restored(&f, (ir_ref[]){product, uniform(&f, IR_TYPE_FLOAT, 2)}));
+    REQUIRE(!is_restored(&f, (ir_ref[]){a, ir_convert(&f.graph, IR_TYPE_FLOAT, sample)}));
+    REQUIRE(is_restored(&f, (ir_ref[]){a, b}));
+    f.host.max_inline_nodes--;
+    REQUIRE(!is_restored(&f, (ir_ref[]){a, b}));
+    f.host.max_inline_nodes++;
+    f.host.choice = 1;
+    REQUIRE(!is_restored(&f, (ir_ref[]){a, b}));
+    f.host.choice = LANG_NONE;
+    REQUIRE(!is_restored(&f, (ir_ref[]){a, b}));
+    teardown(&f);
+}
+
+/* What is looked through belongs to the pattern, with what is behind it. */
+static void test_looked_through(void)
+{
+    struct fixture f;
+    setup(&f, two_factors);
+    ir_ref a = uniform(&f, IR_TYPE_FLOAT, 0), b = uniform(&f, IR_TYPE_FLOAT, 1);
+    record(&f, (ir_ref[]){ir_op2(&f.graph, IR_MUL, a, b), a});
+    a = uniform(&f, IR_TYPE_FLOAT, 5), b = uniform(&f, IR_TYPE_FLOAT, 6);
+    ir_ref product = ir_op2(&f.graph, IR_MUL, a, b);
+    REQUIRE(is_restored(&f, (ir_ref[]){product, a}));
+    REQUIRE(!is_restored(&f, (ir_ref[]){product, b}));
+    REQUIRE(!is_restored(&f, (ir_ref[]){a, b}));
+    REQUIRE(!is_restored(&f, (ir_ref[]){ir_op2(&f.graph, IR_MUL, a, ir_const_float(&f.graph, 4.0f)), a}));
+    teardown(&f);
+}
+
+/* Where branches were weighed, derivatives among the arguments may weigh otherwise. */
+static void test_derivatives(void)
+{
+    struct fixture f;
+    record_two(&f, two_factors);
+    ir_ref slope = ir_op1(&f.graph, IR_DFDX, uniform(&f, IR_TYPE_FLOAT, 0));
+    REQUIRE(is_restored(&f, (ir_ref[]){slope, uniform(&f, IR_TYPE_FLOAT, 1)}));
+    teardown(&f);
+    record_two(&f, "float f(float x, float y) { float z = 2.5 * y; if (x > 0.0) z = z - x; return z; }");
+    slope = ir_op1(&f.graph, IR_DFDX, uniform(&f, IR_TYPE_FLOAT, 0));
+    REQUIRE(!is_restored(&f, (ir_ref[]){uniform(&f, IR_TYPE_FLOAT, 1), slope}));
+    REQUIRE(is_restored(&f, (ir_ref[]){uniform(&f, IR_TYPE_FLOAT, 0), uniform(&f, IR_TYPE_FLOAT, 1)}));
+    teardown(&f);
+}
+
+/* Every kind of node, and operands in the order in which they stand where they are restored. */
+static void test_same_nodes(void)
+{
+    static const char source[] =
+        "uniform float u_gain;\n"
+        "float large(float x) { for (int i = 0; i < 4; ++i) { x += sin(x) * x; } return x; }\n"
+        "float two(float x, out float y) { for (int i = 0; i < 4; ++i) { x += x; } y = x; return x - 1.0; }\n"
+        "vec3 f(vec3 v, float s, mat3 m) { float t; float r = two(s, t); vec4 w = vec4(v.zxy, large(s));\n"
+        "  vec3 q = s * s > 0.5 ? w.xyz + v : v * vec3(1.0, 2.0, -3.0);\n"
+        "  return m * q + (w.w + r * t) * vec3(u_gain, s, v.y) + mat3(s, v.x, s, v.y, s, v.z, s, s, r)[1]; }";
+    struct fixture f;
+    setup(&f, source);
+    const ir_ref forwards[3] = {uniform(&f, IR_TYPE_VEC3, 0), uniform(&f, IR_TYPE_FLOAT, 1), uniform(&f, IR_TYPE_MAT3, 2)};
+    const char *recorded = record(&f, forwards);
+    REQUIRE_EQ(f.recorder.fragments.len, 1);
+    const ir_ref again[3] = {uniform(&f, IR_TYPE_VEC3, 0), uniform(&f, IR_TYPE_FLOAT, 1), uniform(&f, IR_TYPE_MAT3, 2)};
+    REQUIRE_STR(call(&f, again), recorded);
+    uint32_t num_nodes = f.graph.nodes.len;
+    call(&f, again);
+    REQUIRE_EQ(f.graph.nodes.len, num_nodes);
+    begin(&f);
+    ir_ref m = uniform(&f, IR_TYPE_MAT3, 2), s = uniform(&f, IR_TYPE_FLOAT, 1), v = uniform(&f, IR_TYPE_VEC3, 0);
+    const char *restored = call(&f, (ir_ref[]){v, s, m});
+    begin(&f);
+    f.host.choice = LANG_NONE;
+    m = uniform(&f, IR_TYPE_MAT3, 2), s = uniform(&f, IR_TYPE_FLOAT, 1), v = uniform(&f, IR_TYPE_VEC3, 0);
+    REQUIRE_STR(restored, call(&f, (ir_ref[]){v, s, m}));
+    teardown(&f);
+}
+
+/* A document's string has a number that means another one in the next document. */
+static void test_foreign_strings(void)
+{
+    struct fixture f;
+    setup(&f, "float f(float x, string mode) { if (mode == \"twice\") return x * 2.5 * 2.0; return x + 2.5; }");
+    struct strpool own;
+    strpool_init(&own, &f.arena, &f.strings);
+    ir_ref foreign = ir_const_string(&f.graph, str_intern_z(&own, "of the document"));
+    record(&f, (ir_ref[]){uniform(&f, IR_TYPE_FLOAT, 0), foreign});
+    REQUIRE_EQ(f.recorder.fragments.len, 0);
+    teardown(&f);
+}
+
+int main(void)
+{
+    test_same_pattern();
+    test_other_pattern();
+    test_looked_through();
+    test_derivatives();
+    test_same_nodes();
+    test_foreign_strings();
+    return test_report("fragment");
+}
