@@ -134,6 +134,7 @@ unsigned scene_uniform(const struct scene *scene, const char *name, float out[16
         {"u_envRadianceSamples", scene->environment_samples},
         {"u_envLightIntensity", 1},
         {"u_alphaThreshold", 0.001},
+        {"u_volumeDepth", 2},
     };
     if (strncmp(name, "u_", 2) != 0)
         return 0;

@@ -159,11 +159,11 @@ static bool is_cancelled(struct generation *g)
     return g->cancelled;
 }
 
-static void report_not_renderable(struct generation *g)
+static void report_not_renderable(struct generation *g, const char *why)
 {
     const struct document *doc = &g->document->layer.doc;
     diag_add(diags_of(g), DIAG_ID_not_renderable, doc_place(doc, g->element),
-             str_text(doc->strings, doc_element(doc, g->element)->name), "it gives no surface, volume, light or colour");
+             str_text(doc->strings, doc_element(doc, g->element)->name), why);
 }
 
 /* Whether work may go on: not cancelled, within limits, nothing reported. */
@@ -184,7 +184,7 @@ bool generation_build(struct generation *g)
     if (!is_good(g))
         return false;
     if (!g->root)
-        report_not_renderable(g);
+        report_not_renderable(g, "it gives no surface, volume, light or colour");
     return g->root != 0;
 }
 
@@ -287,26 +287,11 @@ static struct shader_layout_rules layout_rules(const struct generation *g)
     };
 }
 
-/* A stage that shades surfaces has no place for what is inside: that is said, and what is on the surface is drawn. */
-static void warn_of_volume(struct generation *g)
-{
-    const struct ir_graph *graph = &g->result->graph;
-    bool has_volume = ir_type_of(graph, g->root) == IR_TYPE_VOLUME || ir_type_of(graph, g->root) == IR_TYPE_VDF;
-    if (ir_get(graph, g->root)->op == IR_MATERIAL)
-        has_volume = ir_arg(graph, g->root, 3) != 0;
-    const struct document *doc = &g->document->layer.doc;
-    if (has_volume)
-        diag_add(diags_of(g), DIAG_ID_volume_not_drawn, doc_place(doc, g->element),
-                 str_text(doc->strings, doc_element(doc, g->element)->name), g->desc.target);
-}
-
 static bool emit(struct generation *g)
 {
     struct shader *shader = &g->result->shader;
     if (g->result->target->caps & CAP_CLOSURES)
         return closure_emit_tree(shader, &g->closure_host, g->root);
-    if (g->root)
-        warn_of_volume(g);
     return closure_emit(shader, &g->closure_host, &g->lighting, g->root);
 }
 
@@ -315,7 +300,8 @@ bool generation_emit(struct generation *g)
     generation_start_closures(g);
     g->result->shader.scatters = g->options[OPTION_integrator].number == 2;
     if (!emit(g))
-        report_not_renderable(g);
+        report_not_renderable(g, g->result->shader.scatters ? "a path tracer is given surfaces and values only"
+                                                            : "it gives no surface, volume, light or colour");
     if (!is_good(g))
         return false;
     g->result->graph.max_nodes = 0; /* finishing adds a few nodes that it must have */

@@ -198,6 +198,16 @@ static ir_ref build_volumematerial(const struct call *c)
     return build_op(c, IR_MATERIAL, args, 4);
 }
 
+/* The inputs that may be shown follow the one that says which. Any value can be the root of a shader. */
+static ir_ref build_osl_set_ci(const struct call *c)
+{
+    struct ir_value mode;
+    if (!build_initial(c->b, arg(c, STR_output_mode), &mode))
+        return not_constant(c, STR_output_mode);
+    uint32_t input = mode.w[0].u + 1;
+    return input < c->def->num_inputs ? c->frame->args[input] : 0;
+}
+
 static const struct {
     str_id node;
     ir_ref (*build)(const struct call *call);
@@ -219,6 +229,7 @@ static const struct {
     {STR_displacement, build_displacement},
     {STR_surfacematerial, build_surfacematerial},
     {STR_volumematerial, build_volumematerial},
+    {STR_osl_set_ci, build_osl_set_ci},
 };
 
 bool build_dynamic(struct builder *b, const struct frame *frame, ir_ref *results)

@@ -59,6 +59,11 @@ ir_ref closure_view(struct shader *shader, const struct closure_host *host)
     return context_value(shader, host->point, STR_V, NULL);
 }
 
+ir_ref closure_normal(struct shader *shader, const struct closure_host *host)
+{
+    return context_value(shader, host->point, STR_N, NULL);
+}
+
 ir_ref closure_position(struct shader *shader, const struct closure_host *host)
 {
     return context_value(shader, host->point, STR_P, NULL);

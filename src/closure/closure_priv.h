@@ -15,6 +15,9 @@ ir_ref closure_call(struct shader *shader, const struct closure_host *host, ir_r
 /* The shaded point. */
 ir_ref closure_position(struct shader *shader, const struct closure_host *host);
 
+/* Its unit normal. */
+ir_ref closure_normal(struct shader *shader, const struct closure_host *host);
+
 /* Unit direction to the viewer. */
 ir_ref closure_view(struct shader *shader, const struct closure_host *host);
 
@@ -25,6 +28,15 @@ bool closure_call_all(struct shader *shader, const struct closure_host *host, ir
 /* scatter.c: what a path tracer's function does. Emission and alpha may be 0: black and 1. */
 void closure_scatter(struct shader *shader, const struct closure_host *host, const struct closure_list *list, ir_ref emission,
                      ir_ref alpha);
+
+/* volume.c: a volume as what stands behind the shaded point. */
+struct closure_volume {
+    struct closure_list scattering; /* leaves that scatter light, with weights that count `path` */
+    ir_ref vdf, edf;                /* what it was made of, each 0 where absent; edf: light that is emitted per unit length */
+    ir_ref path;                    /* vec3: length over which light is gathered */
+    ir_ref alpha;
+};
+void closure_volume(struct shader *shader, const struct closure_host *host, ir_ref root, struct closure_volume *out);
 
 /* lights.c: unit direction to the light at hand and the light that arrives from there, for effects inside of EFFECT_LIGHTS. */
 void closure_sample_light(struct shader *shader, const struct closure_host *host, ir_ref *direction, ir_ref *intensity);
@@ -45,5 +57,7 @@ ir_ref closure_mul(struct ir_graph *graph, ir_ref a, ir_ref b);
 /* product.c: the same, arranged for values that change from turn to turn of a loop. */
 ir_ref closure_product(struct ir_graph *graph, ir_ref value, ir_ref weight);
 ir_ref closure_one_minus(struct ir_graph *graph, ir_ref a);
+/* Two closures of one type, either of which may be 0: none. */
+ir_ref closure_mixed(struct ir_graph *graph, ir_ref bg, ir_ref fg, ir_ref mix);
 
 #endif

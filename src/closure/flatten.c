@@ -46,6 +46,12 @@ ir_ref closure_one_minus(struct ir_graph *g, ir_ref a)
     return ir_op2(g, IR_SUB, one, a);
 }
 
+ir_ref closure_mixed(struct ir_graph *g, ir_ref bg, ir_ref fg, ir_ref mix)
+{
+    ir_ref args[3] = {bg, fg, mix};
+    return bg == fg ? bg : ir_build(g, IR_CLOSURE_MIX, ir_type_of(g, bg ? bg : fg), 0, args, 3);
+}
+
 /* The base of a leaf that modifies another closure; 0 where the leaf is none such. */
 static ir_ref modified_base(const struct flattener *f, ir_ref ref)
 {

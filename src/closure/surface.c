@@ -259,12 +259,6 @@ static ir_ref scaled_closure(struct ir_graph *g, ir_ref closure, ir_ref factor)
     return closure ? ir_build(g, IR_CLOSURE_SCALE, ir_type_of(g, closure), 0, args, 2) : 0;
 }
 
-static ir_ref mixed_closure(struct ir_graph *g, ir_ref bg, ir_ref fg, ir_ref mix)
-{
-    ir_ref args[3] = {bg, fg, mix};
-    return bg == fg ? bg : ir_build(g, IR_CLOSURE_MIX, ir_type_of(g, bg ? bg : fg), 0, args, 3);
-}
-
 static struct surface premultiplied(struct emitter *e, struct surface s)
 {
     if (s.premultiplied || is_opaque(e, s.alpha))
@@ -283,7 +277,7 @@ static struct surface mixed(struct emitter *e, struct surface bg, struct surface
     bg = premultiplied(e, bg);
     fg = premultiplied(e, fg);
     ir_ref one = ir_const_float(g, 1.0f), black = ir_const_splat(g, IR_TYPE_VEC3, 0.0f);
-    struct surface s = {.bsdf = mixed_closure(g, bg.bsdf, fg.bsdf, mix), .edf = mixed_closure(g, bg.edf, fg.edf, mix),
+    struct surface s = {.bsdf = closure_mixed(g, bg.bsdf, fg.bsdf, mix), .edf = closure_mixed(g, bg.edf, fg.edf, mix),
                         .premultiplied = true};
     if (bg.unlit || fg.unlit)
         s.unlit = ir_op3(g, IR_MIX, bg.unlit ? vec3_of(e, bg.unlit) : black, fg.unlit ? vec3_of(e, fg.unlit) : black, mix);
@@ -345,6 +339,26 @@ static void emit_surface(struct emitter *e, ir_ref root)
     finish_surface(e, &s);
 }
 
+/* ---- volumes ---- */
+
+static void emit_volume(struct emitter *e, ir_ref root)
+{
+    struct closure_volume volume;
+    closure_volume(e->shader, e->host, root, &volume);
+    struct closure_lighting lighting = *e->lighting;
+    lighting.two_sided = false; /* nothing is layered inside */
+    e->lighting = &lighting;
+    ir_ref emitted_light = emission(e, volume.edf);
+    e->base = emitted_light ? ir_op2(e->graph, IR_MUL, vec3_of(e, emitted_light), volume.path) : 0;
+    bool *emitted = ARENA_ARRAY(e->shader->arena, bool, volume.scattering.leaves.len);
+    emit_lights(e, 0, &volume.scattering, emitted);
+    emit_environment(e, &volume.scattering, emitted);
+    e->shader->num_closures += volume.scattering.leaves.len;
+    e->shader->transparent = true;
+    e->shader->alpha = ALPHA_BLEND; /* no alpha test: what glows may take nothing from the background */
+    write_output(e, final_color(e), volume.alpha);
+}
+
 /* ---- values ---- */
 
 /* A value as a colour: scalars grey, two components red and green, an alpha kept. */
@@ -386,13 +400,20 @@ bool closure_emit(struct shader *shader, const struct closure_host *host, const 
 {
     struct emitter e = {.shader = shader, .graph = shader->graph, .host = host, .lighting = lighting, .color = UINT32_MAX};
     if (root && ir_get(e.graph, root)->op == IR_MATERIAL)
-        root = closure_displace(shader, host, ir_arg(e.graph, root, 0), ir_arg(e.graph, root, 2));
+        root = ir_arg(e.graph, root, 3) ? ir_arg(e.graph, root, 3)
+                                        : closure_displace(shader, host, ir_arg(e.graph, root, 0), ir_arg(e.graph, root, 2));
     ir_type_id type = root ? ir_type_of(e.graph, root) : IR_TYPE_SURFACE;
     if (type == IR_TYPE_BSDF || type == IR_TYPE_EDF) {
         ir_ref args[4] = {type == IR_TYPE_BSDF ? root : 0, type == IR_TYPE_EDF ? root : 0, ir_const_float(e.graph, 1.0f),
                           ir_const_bool(e.graph, false)};
         root = ir_build(e.graph, IR_SURFACE_SHADER, IR_TYPE_SURFACE, 0, args, 4);
         type = IR_TYPE_SURFACE;
+    }
+    if (type == IR_TYPE_VOLUME || type == IR_TYPE_VDF) {
+        if (shader->scatters)
+            return false;
+        emit_volume(&e, root);
+        return true;
     }
     if (type != IR_TYPE_SURFACE)
         return emit_value(&e, root);
@@ -432,7 +453,7 @@ void closure_describe(struct shader *shader, const struct closure_host *host, ir
     struct closure_lighting lighting = {true, true};
     struct emitter e = {.shader = shader, .graph = shader->graph, .host = host, .lighting = &lighting, .color = UINT32_MAX};
     if (root && ir_get(e.graph, root)->op == IR_MATERIAL)
-        root = ir_arg(e.graph, root, 0);
+        root = ir_arg(e.graph, root, ir_arg(e.graph, root, 3) ? 3 : 0);
     if (!root)
         return;
     ir_type_id type = ir_type_of(e.graph, root);
@@ -441,6 +462,13 @@ void closure_describe(struct shader *shader, const struct closure_host *host, ir
         s.bsdf = root;
     if (type == IR_TYPE_EDF)
         s.edf = root;
+    if (type == IR_TYPE_VOLUME || type == IR_TYPE_VDF) {
+        struct closure_volume volume;
+        closure_volume(shader, host, root, &volume);
+        text_str(out, "vdf\n");
+        describe_list(shader, host, volume.vdf, out);
+        s.edf = volume.edf;
+    }
     text_str(out, "bsdf\n");
     describe_list(shader, host, s.bsdf, out);
     text_str(out, "edf\n");

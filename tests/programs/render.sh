@@ -256,6 +256,41 @@ check 'a tilted plane' exits 0 "$render" metal.mtlx -m tilted.obj --lights none 
 check 'agrees with it' agree ramp.ppm tilted.ppm
 check 'but not with a flat one' eval 'metal -m plane --camera 10,10,4.8 -o flat.ppm && ! agree ramp.ppm flat.ppm'
 
+# Volumes. In a white room one that scatters only is not to be seen: what it takes it gives back.
+printf 'PF\n2 1\n-1.0\n\0\0\200\077\0\0\200\077\0\0\200\077\0\0\200\077\0\0\200\077\0\0\200\077' >white.pfm
+volume() { # NAME ABSORPTION SCATTERING EMISSION
+    cat >"$1.mtlx" <<X
+<?xml version="1.0"?>
+<materialx version="1.39">
+  <anisotropic_vdf name="vdf" type="VDF">
+    <input name="absorption" type="vector3" value="$2"/><input name="scattering" type="vector3" value="$3"/>
+    <input name="anisotropy" type="float" value="0.3"/>
+  </anisotropic_vdf>
+  <uniform_edf name="edf" type="EDF"><input name="color" type="color3" value="$4"/></uniform_edf>
+  <volume name="one" type="volumeshader"><input name="vdf" type="VDF" nodename="vdf"/><input name="edf" type="EDF" nodename="edf"/></volume>
+  <volume name="none" type="volumeshader"/>
+  <mix name="V" type="volumeshader"><input name="fg" type="volumeshader" nodename="one"/>
+    <input name="bg" type="volumeshader" nodename="none"/><input name="mix" type="float" value="0.5"/></mix>
+  <volumematerial name="M" type="material"><input name="volumeshader" type="volumeshader" nodename="V"/></volumematerial>
+</materialx>
+X
+}
+in_room() { # NAME ENVIRONMENT
+    "$render" "$1.mtlx" -m sphere --camera 0,0,5 --lights none --environment "$2" --background environment --size 32 -o "$1.ppm" -q
+}
+# middle FILE: the green of a pixel in the middle, as light (the inverse of sRGB), over that of white.
+middle() { pixels "$1" | sed -n 529p | awk '{ printf "%.3f", ($2 / 203) ^ 2.2 }'; }
+near() { awk "BEGIN { d = $1 - $2; exit !(d < 0.02 && d > -0.02) }"; }
+volume milk '0,0,0' '3,3,3' '0,0,0'
+check 'a volume that scatters only' in_room milk white.pfm
+check 'is not seen in a white room' test "$(pixels milk.ppm | awk '{ for (i = 1; i < 4; i++) if ($i < 202 || $i > 204) n++ } END { print n + 0 }')" = 0
+volume ink '1,1,1' '0,0,0' '0,0,0'
+check 'a volume that absorbs' in_room ink white.pfm
+check 'by the law of Beer: half of 1, over 2' near "$(middle ink.ppm)" 0.368
+volume glow '0,0,0' '0,0,0' '0,0.5,0'
+check 'a volume that emits' in_room glow red.pfm
+check 'for all of the way: half of 0.5, over 2' near "$(middle glow.ppm)" 0.5
+
 # Transparency: half of white over black, in any order of triangles; a mask hides what is behind it.
 sheet() { # NAME OPACITY
     cat >"$1.mtlx" <<X
