@@ -38,7 +38,36 @@ static void write_file(struct generate *gen, const char *folder, const char *ele
     free(name);
 }
 
-static void write_result(struct generate *gen, const char *folder, const char *element, const mxg_result *result)
+static bool is_written(const struct generate *gen, const char *folder, const char *name)
+{
+    char *path = cli_format("%s/%s.osl", folder, name);
+    const char *tidy = strncmp(path, "./", 2) == 0 ? path + 2 : path;
+    bool found = false;
+    for (size_t i = 0; i < gen->outputs.len && !found; ++i)
+        found = strcmp(gen->outputs.items[i], tidy) == 0;
+    free(path);
+    return found;
+}
+
+/* The lists of a network's layers, and the shaders that they are of, of which other elements may have some, too. */
+static void write_network(struct generate *gen, const char *folder, const char *element, const mxg_result *result)
+{
+    static const char *const suffixes[MXG_NUM_STAGES] = {"displacement.oslgroup", "oslgroup"};
+    for (int stage = 0; stage < MXG_NUM_STAGES; ++stage) {
+        size_t size = 0;
+        const char *text = mxg_result_source(result, (mxg_stage)stage, &size);
+        if (text)
+            write_file(gen, folder, element, suffixes[stage], text, size);
+    }
+    for (uint32_t i = 0; i < mxg_result_num_parts(result); ++i) {
+        mxg_part part = {sizeof part};
+        mxg_result_part(result, i, &part);
+        if (!is_written(gen, folder, part.name))
+            write_file(gen, folder, part.name, "osl", part.source, part.source_size);
+    }
+}
+
+static void write_stages(struct generate *gen, const char *folder, const char *element, const mxg_result *result)
 {
     for (int stage = 0; stage < MXG_NUM_STAGES; ++stage) {
         size_t size = 0;
@@ -47,6 +76,14 @@ static void write_result(struct generate *gen, const char *folder, const char *e
         if (text && suffix)
             write_file(gen, folder, element, suffix, text, size);
     }
+}
+
+static void write_result(struct generate *gen, const char *folder, const char *element, const mxg_result *result)
+{
+    if (mxg_result_num_parts(result))
+        write_network(gen, folder, element, result);
+    else
+        write_stages(gen, folder, element, result);
     if (gen->reflect) {
         size_t size = 0;
         const char *text = mxg_result_reflection_json(result, &size);

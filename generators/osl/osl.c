@@ -124,6 +124,8 @@ static const char *shader_type(const struct spell *spell)
 /* "NG_out": the element's path. */
 static const char *shader_name(struct spell *spell)
 {
+    if (spell->options->shader_name)
+        return spell->options->shader_name;
     const char *path = str_text(spell->shader->strings, spell->options->neutral_names ? 0 : spell->shader->path);
     return *path ? names_unique(&spell->names, path, strlen(path)) : "neutral";
 }
@@ -185,6 +187,7 @@ const struct target target_osl = {
     .brief = "Open Shading Language 1.14 and later",
     .caps = CAP_OVERLOADS | CAP_BITWISE | CAP_IMPLICIT_LOD | CAP_CLOSURES | CAP_STRINGS | CAP_NAMED_WHOLES | CAP_TYPED_TEXTURES,
     .closures = &closures,
+    .network = &osl_network,
     .syntax = &osl_syntax,
     .position = "P",
     .stage_suffix = {"displacement.osl", "osl"},

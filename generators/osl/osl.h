@@ -7,6 +7,7 @@
 
 extern const struct lang_syntax osl_syntax;
 extern const struct target target_osl;
+extern const struct target_network osl_network; /* network.c */
 
 /* What is known while a file is written. */
 struct osl {

@@ -61,6 +61,12 @@ static const char *primitive_name(const char *stream)
            : strncmp(stream, "u_", 2) == 0 ? stream + 2 : stream;
 }
 
+/* The closure that surfaces and volumes end in is a variable of OSL. */
+static bool is_result(const struct osl *osl, const struct shader_variable *variable)
+{
+    return variable->block == BLOCK_OUTPUTS && ir_type_is_closure(variable->type) && osl->spell->shader->kind != SHADER_VALUE;
+}
+
 static unsigned array_length(const struct shader_variable *variable)
 {
     return variable->type == IR_TYPE_VEC2 ? 2 : variable->type == IR_TYPE_VEC4 ? 4 : 0;
@@ -98,7 +104,7 @@ void osl_name_interface(struct osl *osl)
             osl->arrays[i] = names_unique(&spell->names, primitive_name(name), strlen(primitive_name(name)));
         else if (is_stream(variable) && !expression)
             name = primitive_name(name);
-        if (ir_type_is_closure(variable->type))
+        if (is_result(osl, variable))
             name = "Ci";
         else if (expression && is_global(expression))
             name = expression;
@@ -263,6 +269,10 @@ static void write_default(struct osl *osl, const struct shader_variable *variabl
         write_string(spell, text_of(osl, variable->file));
         return;
     }
+    if (ir_type_is_closure(variable->type)) {
+        spell_text(spell, "0");
+        return;
+    }
     if (!variable->has_default)
         value = (struct ir_value){.type = variable->type};
     bool is_struct = array_length(variable) != 0;
@@ -326,7 +336,7 @@ static void write_outputs(struct osl *osl, unsigned *count)
     struct spell *spell = osl->spell;
     for (uint32_t i = 0; i < spell->shader->interface.len; i++) {
         const struct shader_variable *variable = interface_variable(osl, i);
-        if (variable->block != BLOCK_OUTPUTS || !is_read(osl, variable) || ir_type_is_closure(variable->type))
+        if (variable->block != BLOCK_OUTPUTS || !is_read(osl, variable) || is_result(osl, variable))
             continue;
         next_parameter(spell, count);
         SPELL(spell, "output ", type_name(osl, variable), " ", text_of(osl, variable->name), " = ");

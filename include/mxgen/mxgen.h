@@ -334,6 +334,20 @@ MXG_API void mxg_result_destroy(mxg_result *result);
 
 /* The source of a stage; NULL where there is none: of a vertex stage of OSL where nothing is displaced. */
 MXG_API const char *mxg_result_source(const mxg_result *result, mxg_stage stage, size_t *out_size);
+/*
+ * With the option `osl-network` the sources above are lists of layers, values and connections, as OSL's ShaderGroupBegin takes them, and these
+ * are the shaders of the layers: a file each, "<name>.osl". Shaders of one name are equal, whatever the element.
+ */
+typedef struct mxg_part {
+    size_t size; /* in */
+    const char *name;    /* "ND_image_color3_clamp" */
+    const char *source;
+    size_t source_size;
+    const char *nodedef; /* "ND_image_color3"; "" of the shader that ends a group */
+} mxg_part;
+MXG_API uint32_t mxg_result_num_parts(const mxg_result *result);
+MXG_API mxg_status mxg_result_part(const mxg_result *result, uint32_t index, mxg_part *out);
+
 /* The place in the document that a line (from 1) of a stage's source comes from; false: none. */
 MXG_API bool mxg_result_source_place(const mxg_result *result, mxg_stage stage, uint32_t line, const char **out_file,
                                      uint32_t *out_line, uint32_t *out_column, const char **out_path);

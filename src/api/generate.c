@@ -12,7 +12,11 @@ static void drop_source(mxg_result *result)
 
 static void generate(struct generation *g)
 {
-    g->result->has_shader = generation_start(g) && generation_build(g) && generation_emit(g) && generation_spell(g);
+    bool built = generation_start(g) && generation_build(g);
+    if (g->result->network.arena)
+        g->result->has_shader = built && generation_make_network(g);
+    else
+        g->result->has_shader = built && generation_emit(g) && generation_spell(g);
     if (!g->result->has_shader)
         drop_source(g->result);
 }

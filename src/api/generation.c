@@ -49,6 +49,14 @@ static bool check_version(struct generation *g)
     return !version;
 }
 
+static bool check_network(struct generation *g)
+{
+    bool is_possible = g->result->target->network || !g->options[OPTION_osl_network].number;
+    if (!is_possible)
+        diag_add(diags_of(g), DIAG_ID_bad_option, nowhere, "true", "osl-network", "false: only 'osl' has networks");
+    return is_possible;
+}
+
 /* MaterialX names of the target and those it inherits, nearest first. */
 static const str_id *target_names(struct generation *g, unsigned *out_count)
 {
@@ -138,7 +146,7 @@ static void name_shader(struct generation *g)
 bool generation_start(struct generation *g)
 {
     g->options = g->desc.options ? options_values(g->desc.options) : options_default(&g->result->object.arena);
-    bool good = find_target(g) && check_version(g);
+    bool good = find_target(g) && check_version(g) && check_network(g);
     g->element = document_find_element(g->document, g->desc.element, diags_of(g), &g->output_name, &g->output);
     if (!good || !g->element)
         return false;
@@ -159,7 +167,7 @@ static bool is_cancelled(struct generation *g)
     return g->cancelled;
 }
 
-static void report_not_renderable(struct generation *g, const char *why)
+void generation_report_not_renderable(struct generation *g, const char *why)
 {
     const struct document *doc = &g->document->layer.doc;
     diag_add(diags_of(g), DIAG_ID_not_renderable, doc_place(doc, g->element),
@@ -180,11 +188,13 @@ static bool is_good(struct generation *g)
 bool generation_build(struct generation *g)
 {
     g->builder = build_start(&g->document->layer, &g->build_options, &g->result->shader, diags_of(g));
+    if (g->options[OPTION_osl_network].number)
+        build_record_network(g->builder, &g->result->network);
     g->root = build_element(g->builder, g->element, g->output);
     if (!is_good(g))
         return false;
     if (!g->root)
-        report_not_renderable(g, "it gives no surface, volume, light or colour");
+        generation_report_not_renderable(g, "it gives no surface, volume, light or colour");
     return g->root != 0;
 }
 
@@ -261,12 +271,16 @@ static const char *leaf_input(void *user_data, uint32_t callee, unsigned index)
     return build_leaf_input(user_data, callee, index);
 }
 
+struct closure_host generation_closure_host(const struct generation *g, struct builder *builder, struct closure_point *point)
+{
+    return (struct closure_host){.user_data = builder, .point = point, .leaf_functions = leaf_functions, .leaf_input = leaf_input,
+                                 .rows = g->result->target->closures, .lang = build_lang_host(builder)};
+}
+
 void generation_start_closures(struct generation *g)
 {
     bind_lights(g);
-    g->closure_host = (struct closure_host){.user_data = g->builder, .point = &g->point, .leaf_functions = leaf_functions,
-                                            .leaf_input = leaf_input, .rows = g->result->target->closures,
-                                            .lang = build_lang_host(g->builder)};
+    g->closure_host = generation_closure_host(g, g->builder, &g->point);
     g->lighting = (struct closure_lighting){
         .lights = g->result->shader.lights.len > 0 && g->result->shader.max_lights > 0,
         .environment = g->options[OPTION_environment].number != 0,
@@ -274,7 +288,7 @@ void generation_start_closures(struct generation *g)
     };
 }
 
-static struct shader_layout_rules layout_rules(const struct generation *g)
+struct shader_layout_rules generation_layout_rules(const struct generation *g)
 {
     uint32_t caps = g->result->target->caps;
     return (struct shader_layout_rules){
@@ -300,12 +314,12 @@ bool generation_emit(struct generation *g)
     generation_start_closures(g);
     g->result->shader.scatters = g->options[OPTION_integrator].number == 2;
     if (!emit(g))
-        report_not_renderable(g, g->result->shader.scatters ? "a path tracer is given surfaces and values only"
+        generation_report_not_renderable(g, g->result->shader.scatters ? "a path tracer is given surfaces and values only"
                                                             : "it gives no surface, volume, light or colour");
     if (!is_good(g))
         return false;
     g->result->graph.max_nodes = 0; /* finishing adds a few nodes that it must have */
-    struct shader_layout_rules rules = layout_rules(g);
+    struct shader_layout_rules rules = generation_layout_rules(g);
     shader_finish(&g->result->shader, &rules);
     return is_good(g);
 }
@@ -365,10 +379,10 @@ static bool has_stage(const mxg_result *result, int stage)
     return result->target->stage_suffix[stage] && !is_idle;
 }
 
-bool generation_spell(struct generation *g)
+struct spell_options generation_spell_options(const struct generation *g)
 {
     mxg_result *result = g->result;
-    struct spell_options options = {
+    return (struct spell_options){
         .version = version_of(g),
         .generator = GENERATOR_NAME,
         .interface = g->options[OPTION_interface].text,
@@ -381,6 +395,12 @@ bool generation_spell(struct generation *g)
         .path = origin_path,
         .ui = result_ui,
     };
+}
+
+bool generation_spell(struct generation *g)
+{
+    mxg_result *result = g->result;
+    struct spell_options options = generation_spell_options(g);
     result->origin_paths = ARENA_ARRAY(&result->object.arena, const char *, result->graph.origins.len);
     for (int stage = 0; stage < NUM_STAGES; stage++)
         if (has_stage(result, stage) && !spell_one(g, &options, (enum shader_stage_id)stage))

@@ -15,6 +15,12 @@ struct stage_source {
     uint32_t num_marks;
 };
 
+struct network_part { /* a shader that layers of a network are of */
+    const char *name, *source;
+    size_t size;
+    const char *nodedef; /* "": of a group's end */
+};
+
 struct mxg_result {
     struct object object; /* stands on the document */
     const mxg_document *document;
@@ -24,6 +30,10 @@ struct mxg_result {
     struct ir_graph graph;
     struct shader shader;
     struct stage_source stages[NUM_STAGES];
+    struct network network;  /* option osl-network: in the place of stages are lists of layers */
+    struct network_group groups[2];
+    uint32_t num_groups;     /* 0: it is no network */
+    VEC(struct network_part) parts;
     VEC(const char *) files; /* read for it */
     const char **origin_paths; /* of origins of graph, made when asked for during generation */
     bool has_shader;         /* generation ended well */
@@ -65,6 +75,14 @@ bool generation_build(struct generation *g); /* g->root */
 void generation_start_closures(struct generation *g); /* what the closure room asks for; generation_emit does it itself */
 bool generation_emit(struct generation *g);  /* the stages' effects, and the finished shader */
 bool generation_spell(struct generation *g); /* source */
+/* Instead of the last two. */
+bool generation_make_network(struct generation *g); /* network.c */
+
+/* What network.c shares with them. */
+struct closure_host generation_closure_host(const struct generation *g, struct builder *builder, struct closure_point *point);
+struct shader_layout_rules generation_layout_rules(const struct generation *g);
+struct spell_options generation_spell_options(const struct generation *g);
+void generation_report_not_renderable(struct generation *g, const char *why);
 
 /* frames.c: the frames of an image sequence, as a document says them: "10-99", "clamp". */
 struct frame_sequence {

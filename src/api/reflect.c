@@ -180,7 +180,9 @@ enum { TEXT_REFLECTION, TEXT_TOPOLOGY };
 
 static void write_topology(const struct object *object, struct text *out)
 {
-    uint64_t topology = shader_topology(&((const mxg_result *)object)->shader, out->arena);
+    const mxg_result *result = (const mxg_result *)object;
+    uint64_t topology = result->num_groups ? network_topology(result->groups, result->num_groups)
+                                           : shader_topology(&result->shader, out->arena);
     text_mem(out, (const char *)&topology, sizeof topology);
 }
 
@@ -238,6 +240,8 @@ static void write_json(const struct object *object, struct text *out)
         .generator = GENERATOR_NAME,
         .user_data = (void *)(uintptr_t)result,
         .ui = result_ui,
+        .groups = result->groups,
+        .num_groups = result->num_groups,
     };
     shader_reflect_json(&result->shader, &options, out);
 }

@@ -10,7 +10,7 @@
 #define MXG_BUILD_BUILD_H
 
 #include "library/library.h"
-#include "shader/shader.h"
+#include "shader/network.h"
 
 /* Which inputs stay variable (design section 6). */
 enum build_interface { INTERFACE_COMPLETE, INTERFACE_AUTHORED, INTERFACE_REDUCED };
@@ -49,6 +49,18 @@ struct builder *build_start(const struct library *lib, const struct build_option
  * error. Inputs of the element itself (for materials: of its shaders) are the shader's interface.
  */
 ir_ref build_element(struct builder *builder, elem_id element, unsigned output);
+
+/*
+ * network.c: from now on builder notes layers in `network`, and what build_element gives is over sources that stand for them. (The second
+ * function says what such a value is.)
+ */
+void build_record_network(struct builder *builder, struct network *network);
+struct network_input build_network_input(struct builder *builder, ir_ref value);
+/* A layer that gives a value which is no layer's; UINT32_MAX: there is none of its type. */
+uint32_t build_constant_layer(struct builder *builder, ir_ref value, str_id doc_type);
+/* With a builder of its own: the results of a node of a network over parameters, whose names are noted, and the names of its outputs. */
+void build_network_node(struct builder *builder, struct network_node *node, ir_ref *results);
+str_id build_network_output(struct builder *builder, const struct network_node *node, uint32_t index, str_id *out_type);
 
 /* True where the work stopped because of builder->options->cancel. */
 bool build_cancelled(const struct builder *builder);

@@ -73,6 +73,7 @@ struct builder {
     ir_ref *globals;            /* by id: what functions see of the host, once it was asked for */
     struct build_prefix path, name; /* in front of the paths and names of a node's inputs */
     ir_ref missing_texel;       /* what the node at hand reads where its image has no tile */
+    struct recorder *recorder;  /* network.c; NULL: one shader is built */
     bool has_colorspace;        /* the option names a space that the library converts to */
     bool cancelled;
 };
@@ -166,6 +167,11 @@ ir_ref build_blur(struct builder *b, ir_ref in, ir_ref size, ir_ref filtertype, 
 
 /* profile.c: emission by the photometric file that a texture names; evenly where it cannot be read. */
 ir_ref build_measured_edf(struct builder *b, ir_ref color, ir_ref normal, ir_ref file, elem_id node);
+
+/* network.c, where there is a recorder. build_node: notes a layer for results that are no plain values; they become sources that stand for it. */
+void build_record_node(struct builder *b, const struct frame *frame, ir_ref *results);
+/* A geometric property that no node gives, by a node that reads it. */
+ir_ref build_property_layer(struct builder *b, const struct geomprop *prop);
 
 /* dynamic.c: nodes that C code builds; false: there is none for the definition. */
 bool build_dynamic(struct builder *b, const struct frame *frame, ir_ref *results);

@@ -248,6 +248,8 @@ static ir_ref geomprop_arg(struct builder *b, const struct geomprop *prop, const
 /* A property that a node gives is that node with the property's space and index; any other is a stream of its name. */
 static ir_ref make_geomprop(struct builder *b, const struct geomprop *prop)
 {
+    if (prop->nodedef == LIBRARY_NONE && b->recorder)
+        return build_property_layer(b, prop);
     if (prop->nodedef == LIBRARY_NONE) {
         struct text name;
         text_init(&name, b->arena);
@@ -261,7 +263,7 @@ static ir_ref make_geomprop(struct builder *b, const struct geomprop *prop)
     for (uint32_t i = 0; i < def->num_inputs; i++)
         args[i] = geomprop_arg(b, prop, &ports[i]);
     uint32_t before = b->graph->origin;
-    b->graph->origin = ir_add_origin(b->graph, prop->geomprop, 0, 0);
+    b->graph->origin = ir_add_origin(b->graph, b->recorder ? prop->name : prop->geomprop, 0, 0);
     ir_ref results[BUILD_MAX_OUTPUTS];
     build_apply(b, prop->nodedef, prop->element, args, results);
     b->graph->origin = before;

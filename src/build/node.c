@@ -201,7 +201,7 @@ static void call(struct builder *b, const struct frame *frame, ir_ref *results)
         build_check_tiles(b, frame, first_node);
 }
 
-void build_node(struct builder *b, const struct frame *frame, ir_ref *results)
+static void build_by_implementation(struct builder *b, const struct frame *frame, ir_ref *results)
 {
     const struct implementation *impl = frame->impl;
     const struct nodedef *def = library_nodedef(b->lib, frame->node.nodedef);
@@ -227,6 +227,13 @@ void build_node(struct builder *b, const struct frame *frame, ir_ref *results)
     }
     for (uint32_t i = 0; i < def->num_outputs; i++)
         results[i] = ir_poison(b->graph, library_type_ir(b->lib, ports[def->num_inputs + i].type));
+}
+
+void build_node(struct builder *b, const struct frame *frame, ir_ref *results)
+{
+    build_by_implementation(b, frame, results);
+    if (b->recorder)
+        build_record_node(b, frame, results);
 }
 
 uint32_t build_light_function(struct builder *b, uint32_t nodedef)

@@ -46,7 +46,7 @@ uint32_t build_outlined(struct builder *b, const struct frame *frame)
 {
     const struct nodedef *def = library_nodedef(b->lib, frame->node.nodedef);
     const struct port *ports = library_ports(b->lib, frame->node.nodedef, NULL);
-    if (!gives_numbers(b, def, ports + def->num_inputs) || b->graph->functions.len >= MAX_FUNCTIONS)
+    if (b->recorder || !gives_numbers(b, def, ports + def->num_inputs) || b->graph->functions.len >= MAX_FUNCTIONS)
         return LIBRARY_NONE;
     /* Complemented, an implementation's number is that of no other memo. */
     struct memo *memo = build_memo(b, ~frame->impl->ref, fixed_args(b, frame->args, def->num_inputs), def->num_inputs);

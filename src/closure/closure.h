@@ -87,6 +87,16 @@ bool closure_emit(struct shader *shader, const struct closure_host *host, const 
 /* The same for targets with closures, which get the tree (host->rows). False, too, where a leaf has no row. */
 bool closure_emit_tree(struct shader *shader, const struct closure_host *host, ir_ref root);
 
+/*
+ * One node of a network: its results become outputs of these names and document types. Closures and shaders of any kind are closures there,
+ * those that come from other layers are uniforms; a displacement is the offset. False where a leaf has no row.
+ */
+struct closure_result {
+    ir_ref value;
+    str_id name, doc_type;
+};
+bool closure_emit_node(struct shader *shader, const struct closure_host *host, const struct closure_result *results, unsigned n);
+
 /* Leaves and weights as text: `mxgen inspect --closures`. */
 void closure_describe(struct shader *shader, const struct closure_host *host, ir_ref root, struct text *out);
 

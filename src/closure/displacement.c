@@ -60,6 +60,8 @@ ir_ref closure_offset(struct shader *shader, ir_ref root)
         g->origin = node.origin;
         if (node.op == IR_DISPLACEMENT_SHADER)
             known[ref] = offset_of_shader(shader, ir_arg(g, ref, 0), ir_arg(g, ref, 1));
+        else if (node.op == IR_UNIFORM) /* the offset, from another layer of a network */
+            known[ref] = ir_build(g, IR_UNIFORM, IR_TYPE_VEC3, node.attr, NULL, 0);
         else if (node.op == IR_SHADER_MIX)
             known[ref] = mixed(g, known[ir_arg(g, ref, 0)], known[ir_arg(g, ref, 1)], ir_arg(g, ref, 2));
     }

@@ -291,6 +291,8 @@ static ir_ref rewrite(struct tree *t, ir_ref ref)
         return sum(t, t->of[a[0]], t->of[a[1]]);
     case IR_LIGHT_SHADER:
         return light(t, t->of[a[0]], a[1], a[2]);
+    case IR_UNIFORM: /* what another layer of a network gives */
+        return ir_build(t->graph, IR_UNIFORM, IR_TYPE_BSDF, node->attr, NULL, 0);
     default:
         return 0;
     }
@@ -416,4 +418,41 @@ bool closure_emit_tree(struct shader *shader, const struct closure_host *host, i
     shader->kind = type == IR_TYPE_VOLUME || type == IR_TYPE_VDF ? SHADER_VOLUME : SHADER_SURFACE;
     emit_sides(&t, front, back);
     return !t.unknown;
+}
+
+static bool emit_result(struct tree *t, const struct closure_result *result)
+{
+    ir_type_id type = ir_type_of(t->graph, result->value);
+    ir_ref value = result->value;
+    str_id doc_type = result->doc_type;
+    if (type == IR_TYPE_DISPLACEMENT) {
+        value = closure_offset(t->shader, value);
+        type = IR_TYPE_VEC3;
+        doc_type = 0;
+    } else if (ir_type_is_closure(type) || ir_type_is_shader(type)) {
+        value = closure_of(t, value);
+        type = IR_TYPE_BSDF;
+    }
+    uint32_t out = output(t, str_text(t->shader->strings, result->name), type, doc_type);
+    if (!value && type == IR_TYPE_VEC3)
+        value = ir_const_splat(t->graph, type, 0.0f);
+    if (value) /* no closure at all is what the output is at first */
+        effect(t, EFFECT_OUTPUT, out, value);
+    else
+        t->shader->variables.items[out].stages = 1 << STAGE_PIXEL;
+    return !t->unknown;
+}
+
+bool closure_emit_node(struct shader *shader, const struct closure_host *host, const struct closure_result *results, unsigned n)
+{
+    host->point->view = view(shader);
+    struct tree t = {.shader = shader, .graph = shader->graph, .host = host};
+    shader->kind = SHADER_VALUE;
+    bool good = true;
+    const struct effect_list *effects = &shader->stages[STAGE_PIXEL].effects;
+    for (unsigned i = 0; i < n; i++)
+        good = results[i].value && emit_result(&t, &results[i]) && good;
+    for (uint32_t i = 0; i < effects->len; i++)
+        shader->num_closures += count_calls(&t, &effects->items[i].value, 1);
+    return good;
 }

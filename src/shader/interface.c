@@ -72,13 +72,13 @@ static bool is_taken(const struct shader *shader, uint32_t scope, str_id name)
     for (size_t i = 0; i < sizeof words / sizeof *words; i++)
         if (name == words[i])
             return true;
-    return *find_slot(shader, scope, name)
+    return (shader->names && *find_slot(shader, scope, name))
         || (shader->style && lang_style_is_reserved(shader->style, str_text(shader->strings, name), str_len(shader->strings, name)));
 }
 
 bool shader_name_is_free(const struct shader *shader, str_id name)
 {
-    return !shader->names || !is_taken(shader, NUM_BLOCKS, name);
+    return !is_taken(shader, NUM_BLOCKS, name);
 }
 
 static str_id unique_name(struct shader *shader, uint32_t scope, str_id wanted)

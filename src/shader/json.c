@@ -1,112 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /* The reflection as JSON (docs/reflection.md). Fields that say nothing are left out. */
-#include "shader/shader.h"
+#include "shader/json.h"
 
-#include <math.h>
-
-struct json {
-    const struct shader *shader;
-    const struct shader_reflect_options *options;
-    struct text *out;
-    unsigned depth;
-    bool first; /* nothing stands yet in the object or array at hand */
-};
-
-/* ---- Writing ---- */
-
-static void begin_item(struct json *json)
-{
-    text_str(json->out, json->first ? "\n" : ",\n");
-    for (unsigned i = 0; i < json->depth; i++)
-        text_mem(json->out, "  ", 2);
-    json->first = false;
-}
-
-static void open(struct json *json, char bracket)
-{
-    text_char(json->out, bracket);
-    json->depth++;
-    json->first = true;
-}
-
-static void close(struct json *json, char bracket)
-{
-    json->depth--;
-    if (!json->first) {
-        json->first = true;
-        begin_item(json);
-    }
-    text_char(json->out, bracket);
-    json->first = false;
-}
-
-static void key(struct json *json, const char *name)
-{
-    begin_item(json);
-    text_json_string(json->out, name, strlen(name));
-    text_mem(json->out, ": ", 2);
-}
-
-static void put_string(struct json *json, const char *name, const char *value)
-{
-    if (!value || !*value)
-        return;
-    key(json, name);
-    text_json_string(json->out, value, strlen(value));
-}
-
-static void put_id(struct json *json, const char *name, str_id value)
-{
-    put_string(json, name, str_text(json->shader->strings, value));
-}
-
-static void put_number(struct json *json, const char *name, uint32_t value)
-{
-    key(json, name);
-    text_u32(json->out, value);
-}
-
-static void put_nonzero(struct json *json, const char *name, uint32_t value)
-{
-    if (value)
-        put_number(json, name, value);
-}
-
-static void put_bool(struct json *json, const char *name, bool value)
-{
-    key(json, name);
-    text_str(json->out, value ? "true" : "false");
-}
-
-/* JSON has no word for infinities and NaN. */
-static void write_scalar(struct text *out, ir_type_id scalar, union ir_word word)
-{
-    if (scalar == IR_TYPE_BOOL)
-        text_str(out, word.u ? "true" : "false");
-    else if (scalar == IR_TYPE_INT)
-        text_i32(out, word.i);
-    else if (scalar == IR_TYPE_UINT)
-        text_u32(out, word.u);
-    else if (!isfinite(word.f))
-        text_str(out, "null");
-    else
-        text_float(out, word.f);
-}
-
-static void put_value(struct json *json, const char *name, const struct ir_value *value)
-{
-    const struct ir_type_info *info = ir_type_info(value->type);
-    key(json, name);
-    if (info->components > 1)
-        text_char(json->out, '[');
-    for (unsigned i = 0; i < info->components; i++) {
-        if (i)
-            text_mem(json->out, ", ", 2);
-        write_scalar(json->out, info->scalar, value->w[i]);
-    }
-    if (info->components > 1)
-        text_char(json->out, ']');
-}
+#include "shader/network.h"
 
 /* ---- Variables ---- */
 
@@ -114,7 +10,7 @@ static const char *const stage_names[NUM_STAGES] = {"vertex", "pixel"};
 
 static void put_stages(struct json *json, uint8_t stages)
 {
-    key(json, "stages");
+    reflect_key(json, "stages");
     text_char(json->out, '[');
     for (int stage = 0, n = 0; stage < NUM_STAGES; stage++)
         if (stages >> stage & 1)
@@ -130,20 +26,20 @@ static void put_place(struct json *json, const struct shader_variable *variable)
     case BLOCK_LIGHT_DATA:
         if (!json->shader->buffers[variable->block].size)
             return;
-        put_number(json, "offset", variable->offset);
-        put_number(json, "size", variable->size);
-        put_nonzero(json, "arrayStride", variable->array_stride);
-        put_nonzero(json, "matrixStride", variable->matrix_stride);
+        reflect_number(json, "offset", variable->offset);
+        reflect_number(json, "size", variable->size);
+        reflect_nonzero(json, "arrayStride", variable->array_stride);
+        reflect_nonzero(json, "matrixStride", variable->matrix_stride);
         break;
     case BLOCK_TEXTURES:
         if (json->shader->numbered) {
-            put_number(json, "set", variable->set);
-            put_number(json, "binding", variable->binding);
+            reflect_number(json, "set", variable->set);
+            reflect_number(json, "binding", variable->binding);
         }
         break;
     default:
         if (json->shader->numbered)
-            put_number(json, "location", variable->location);
+            reflect_number(json, "location", variable->location);
     }
 }
 
@@ -166,71 +62,71 @@ static void put_ui(struct json *json, const struct shader_variable *variable)
         any |= fields[i].value && *fields[i].value;
     if (!any)
         return;
-    key(json, "ui");
-    open(json, '{');
+    reflect_key(json, "ui");
+    reflect_open(json, '{');
     for (size_t i = 0; i < sizeof fields / sizeof *fields; i++)
-        put_string(json, fields[i].key, fields[i].value);
+        reflect_string(json, fields[i].key, fields[i].value);
     if (ui.advanced)
-        put_bool(json, "advanced", true);
-    close(json, '}');
+        reflect_bool(json, "advanced", true);
+    reflect_close(json, '}');
 }
 
 static void put_sampling(struct json *json, const struct shader_sampling *sampling)
 {
-    put_id(json, "uaddressmode", sampling->uaddressmode);
-    put_id(json, "vaddressmode", sampling->vaddressmode);
-    put_id(json, "filtertype", sampling->filtertype);
-    put_id(json, "layer", sampling->layer);
-    put_id(json, "framerange", sampling->framerange);
+    reflect_id(json, "uaddressmode", sampling->uaddressmode);
+    reflect_id(json, "vaddressmode", sampling->vaddressmode);
+    reflect_id(json, "filtertype", sampling->filtertype);
+    reflect_id(json, "layer", sampling->layer);
+    reflect_id(json, "framerange", sampling->framerange);
     if (sampling->frameoffset) {
-        key(json, "frameoffset");
+        reflect_key(json, "frameoffset");
         text_fmt(json->out, "%d", sampling->frameoffset);
     }
-    put_id(json, "frameendaction", sampling->frameendaction);
+    reflect_id(json, "frameendaction", sampling->frameendaction);
 }
 
 static void put_tiles(struct json *json, const struct shader_variable *variable)
 {
     if (!variable->num_tiles)
         return;
-    key(json, "tiles");
-    open(json, '[');
+    reflect_key(json, "tiles");
+    reflect_open(json, '[');
     for (uint32_t i = 0; i < variable->num_tiles; i++) {
         const struct shader_tile *tile = &json->shader->tiles.items[variable->first_tile + i];
-        begin_item(json);
-        open(json, '{');
-        put_id(json, "file", tile->file);
-        key(json, "offset");
+        reflect_item(json);
+        reflect_open(json, '{');
+        reflect_id(json, "file", tile->file);
+        reflect_key(json, "offset");
         text_fmt(json->out, "[%d, %d]", tile->u, tile->v);
-        close(json, '}');
+        reflect_close(json, '}');
     }
-    close(json, ']');
+    reflect_close(json, ']');
 }
 
 static void put_variable(struct json *json, const struct shader_variable *variable)
 {
-    begin_item(json);
-    open(json, '{');
-    put_id(json, "name", variable->name);
-    put_string(json, "type", ir_type_text(variable->type));
-    put_nonzero(json, "arrayLength", variable->array_length);
+    reflect_item(json);
+    reflect_open(json, '{');
+    reflect_id(json, "name", variable->name);
+    reflect_string(json, "type", ir_type_text(variable->type));
+    reflect_nonzero(json, "arrayLength", variable->array_length);
     put_stages(json, variable->stages);
-    put_id(json, "path", variable->path);
-    put_id(json, "documentType", variable->doc_type);
-    put_id(json, "semantic", variable->semantic);
-    put_id(json, "colorspace", variable->colorspace);
-    put_id(json, "unit", variable->unit);
-    put_id(json, "unittype", variable->unittype);
+    reflect_id(json, "path", variable->path);
+    reflect_id(json, "documentType", variable->doc_type);
+    reflect_id(json, "semantic", variable->semantic);
+    reflect_id(json, "colorspace", variable->colorspace);
+    reflect_id(json, "unit", variable->unit);
+    reflect_id(json, "unittype", variable->unittype);
     if (variable->has_default)
-        put_value(json, "default", &variable->value);
+        reflect_value(json, "default", &variable->value);
     if (variable->flat)
-        put_bool(json, "flat", true);
+        reflect_bool(json, "flat", true);
     put_place(json, variable);
-    put_id(json, "file", variable->file);
+    reflect_id(json, "file", variable->file);
     put_sampling(json, &variable->sampling);
     put_tiles(json, variable);
     put_ui(json, variable);
-    close(json, '}');
+    reflect_close(json, '}');
 }
 
 static bool is_used(const struct shader *shader, enum shader_block block)
@@ -247,47 +143,47 @@ static void put_block(struct json *json, enum shader_block block)
     const struct shader_buffer *buffer = &shader->buffers[block];
     if (!is_used(shader, block))
         return;
-    begin_item(json);
-    open(json, '{');
-    put_string(json, "name", shader_block_name(block));
+    reflect_item(json);
+    reflect_open(json, '{');
+    reflect_string(json, "name", shader_block_name(block));
     if (buffer->size) {
         if (shader->numbered) {
-            put_number(json, "set", buffer->set);
-            put_number(json, "binding", buffer->binding);
+            reflect_number(json, "set", buffer->set);
+            reflect_number(json, "binding", buffer->binding);
         }
-        put_number(json, "size", buffer->size);
+        reflect_number(json, "size", buffer->size);
     }
     if (block == BLOCK_LIGHT_DATA) {
-        put_number(json, "arrayLength", shader->max_lights);
-        put_nonzero(json, "arrayStride", buffer->stride);
+        reflect_number(json, "arrayLength", shader->max_lights);
+        reflect_nonzero(json, "arrayStride", buffer->stride);
     }
-    key(json, "variables");
-    open(json, '[');
+    reflect_key(json, "variables");
+    reflect_open(json, '[');
     for (uint32_t i = 0; i < shader->interface.len; i++) {
         const struct shader_variable *variable = &shader->variables.items[shader->interface.items[i]];
         if (variable->block == block)
             put_variable(json, variable);
     }
-    close(json, ']');
-    close(json, '}');
+    reflect_close(json, ']');
+    reflect_close(json, '}');
 }
 
 /* ---- The rest ---- */
 
 static void put_compiled(struct json *json)
 {
-    key(json, "compiledInputs");
-    open(json, '[');
+    reflect_key(json, "compiledInputs");
+    reflect_open(json, '[');
     for (uint32_t i = 0; i < json->shader->compiled.len; i++) {
         const struct shader_compiled_input *input = &json->shader->compiled.items[i];
-        begin_item(json);
-        open(json, '{');
-        put_id(json, "path", input->path);
-        put_id(json, "documentType", input->doc_type);
-        put_id(json, "value", input->value);
-        close(json, '}');
+        reflect_item(json);
+        reflect_open(json, '{');
+        reflect_id(json, "path", input->path);
+        reflect_id(json, "documentType", input->doc_type);
+        reflect_id(json, "value", input->value);
+        reflect_close(json, '}');
     }
-    close(json, ']');
+    reflect_close(json, ']');
 }
 
 static void put_lights(struct json *json)
@@ -295,75 +191,95 @@ static void put_lights(struct json *json)
     const struct shader *shader = json->shader;
     if (!is_used(shader, BLOCK_LIGHT_DATA))
         return;
-    key(json, "lights");
-    open(json, '[');
+    reflect_key(json, "lights");
+    reflect_open(json, '[');
     for (uint32_t i = 0; i < shader->lights.len; i++) {
         const struct shader_light *light = &shader->lights.items[i];
-        begin_item(json);
-        open(json, '{');
-        put_number(json, "type", (uint32_t)light->type);
-        put_id(json, "function", lang_function(shader->unit, light->function, NULL)->name);
-        key(json, "members");
-        open(json, '[');
+        reflect_item(json);
+        reflect_open(json, '{');
+        reflect_number(json, "type", (uint32_t)light->type);
+        reflect_id(json, "function", lang_function(shader->unit, light->function, NULL)->name);
+        reflect_key(json, "members");
+        reflect_open(json, '[');
         for (uint32_t m = 0; m < light->num_members; m++) {
             str_id name = shader->variables.items[shader->light_members.items[light->first_member + m]].name;
-            begin_item(json);
+            reflect_item(json);
             text_json_string(json->out, str_text(shader->strings, name), str_len(shader->strings, name));
         }
-        close(json, ']');
-        close(json, '}');
+        reflect_close(json, ']');
+        reflect_close(json, '}');
     }
-    close(json, ']');
+    reflect_close(json, ']');
 }
 
 static void put_functions(struct json *json)
 {
-    key(json, "functions");
-    open(json, '{');
+    reflect_key(json, "functions");
+    reflect_open(json, '{');
     for (int stage = 0; stage < NUM_STAGES; stage++) {
         const struct lang_reach *reach = &json->shader->stages[stage].reach;
         if (!reach->functions.len)
             continue;
-        key(json, stage_names[stage]);
-        open(json, '[');
+        reflect_key(json, stage_names[stage]);
+        reflect_open(json, '[');
         for (uint32_t i = 0; i < reach->functions.len; i++) {
             str_id name = lang_function(json->shader->unit, reach->functions.items[i], NULL)->name;
-            begin_item(json);
+            reflect_item(json);
             text_json_string(json->out, str_text(json->shader->strings, name), str_len(json->shader->strings, name));
         }
-        close(json, ']');
+        reflect_close(json, ']');
     }
-    close(json, '}');
+    reflect_close(json, '}');
+}
+
+static void put_topology(struct json *json, uint64_t topology)
+{
+    reflect_key(json, "topology");
+    text_char(json->out, '"');
+    text_hex64(json->out, topology);
+    text_char(json->out, '"');
+}
+
+static void put_shader(struct json *json)
+{
+    const struct shader *shader = json->shader;
+    put_topology(json, shader_topology(shader, json->out->arena));
+    reflect_number(json, "closures", shader->num_closures);
+    reflect_bool(json, "transparent", shader->transparent);
+    if (shader->alpha != ALPHA_OPAQUE)
+        reflect_string(json, "alpha", shader->alpha == ALPHA_MASK ? "mask" : "blend");
+    if (shader->displaced)
+        reflect_bool(json, "displaced", true);
+    reflect_bool(json, "lit", shader->lit);
+    reflect_key(json, "blocks");
+    reflect_open(json, '[');
+    for (int block = 0; block < NUM_BLOCKS; block++)
+        put_block(json, (enum shader_block)block);
+    reflect_close(json, ']');
+    put_lights(json);
+    put_functions(json);
+    put_compiled(json);
+}
+
+static void put_network(struct json *json)
+{
+    put_topology(json, network_topology(json->options->groups, json->options->num_groups));
+    network_reflect(json, json->options->groups, json->options->num_groups);
 }
 
 void shader_reflect_json(const struct shader *shader, const struct shader_reflect_options *options, struct text *out)
 {
     struct json json = {.shader = shader, .options = options, .out = out};
-    open(&json, '{');
-    put_id(&json, "name", shader->name);
-    put_id(&json, "path", shader->path);
-    put_id(&json, "element", shader->element_type);
-    put_string(&json, "target", options->target);
-    put_string(&json, "generator", options->generator);
-    key(&json, "topology");
-    text_char(out, '"');
-    text_hex64(out, shader_topology(shader, out->arena));
-    text_char(out, '"');
-    put_number(&json, "closures", shader->num_closures);
-    put_bool(&json, "transparent", shader->transparent);
-    if (shader->alpha != ALPHA_OPAQUE)
-        put_string(&json, "alpha", shader->alpha == ALPHA_MASK ? "mask" : "blend");
-    if (shader->displaced)
-        put_bool(&json, "displaced", true);
-    put_bool(&json, "lit", shader->lit);
-    key(&json, "blocks");
-    open(&json, '[');
-    for (int block = 0; block < NUM_BLOCKS; block++)
-        put_block(&json, (enum shader_block)block);
-    close(&json, ']');
-    put_lights(&json);
-    put_functions(&json);
-    put_compiled(&json);
-    close(&json, '}');
+    reflect_open(&json, '{');
+    reflect_id(&json, "name", shader->name);
+    reflect_id(&json, "path", shader->path);
+    reflect_id(&json, "element", shader->element_type);
+    reflect_string(&json, "target", options->target);
+    reflect_string(&json, "generator", options->generator);
+    if (options->num_groups)
+        put_network(&json);
+    else
+        put_shader(&json);
+    reflect_close(&json, '}');
     text_char(out, '\n');
 }

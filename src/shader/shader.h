@@ -300,6 +300,8 @@ struct shader_reflect_options {
     void *user_data;
     /* Fills the strings for a variable, which is zeroed before; NULL: none. */
     void (*ui)(void *user_data, const struct shader_variable *variable, struct shader_ui *out);
+    const struct network_group *groups; /* num_groups: it is a network, and no more */
+    uint32_t num_groups;
 };
 void shader_reflect_json(const struct shader *shader, const struct shader_reflect_options *options, struct text *out);
 

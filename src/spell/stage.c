@@ -250,6 +250,8 @@ static void init(struct spell *spell)
         names_init(&spell->paths, arena, spell->style);
         spell->origins_seen = ARENA_ARRAY(arena, uint8_t, shader->graph->origins.len);
     }
+    if (spell->options->shader_name)
+        names_take(&spell->names, spell->options->shader_name, strlen(spell->options->shader_name));
     spell_name_interface(spell);
     name_types(spell);
     name_functions(spell);

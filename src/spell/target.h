@@ -6,6 +6,7 @@
 #define MXG_SPELL_TARGET_H
 
 #include "closure/closure.h"
+#include "shader/network.h"
 
 enum target_caps {
     CAP_STAGES = 1,           /* vertex and pixel stages; else one shader */
@@ -27,6 +28,11 @@ enum target_caps {
 
 struct spell; /* spell/spell.h */
 
+struct target_network { /* for hosts that put shaders together themselves */
+    struct network_end ends[NUM_NETWORK_USES];
+    void (*write)(const struct network_group *group, struct text *out);
+};
+
 struct target {
     const char *name;             /* "glsl": --target */
     const char *materialx_name;   /* "genglsl": target of implementations */
@@ -36,6 +42,7 @@ struct target {
     const char *const *versions;  /* values of the option `version`, first is the default; "#version" is written with it */
     const struct lang_syntax *syntax;
     const struct closure_rows *closures; /* with CAP_CLOSURES: the language's own */
+    const struct target_network *network; /* NULL: shaders of the target are whole */
     const char *position; /* what the vertex stage writes the position to; NULL: gl_Position */
     const char *stage_suffix[NUM_STAGES]; /* "vert", "frag"; file endings */
     /* The type of a node's local, where it does not follow from the IR's type; may be NULL, and return it. */
@@ -67,6 +74,7 @@ struct spell_options {
     int metadata;          /* of parameters: 0 none, 1 what user interfaces need, 2 with their documentation */
     bool uniform_blocks;
     bool neutral_names;
+    const char *shader_name; /* no other function or shader has it; NULL: from the element's path */
     bool comments;         /* paths as comments */
     void *user_data;
     /* The element path that a comment shows for an origin; NULL: none. The function may be NULL. */

@@ -1,0 +1,392 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * Networks: what a node is built to is looked at and put away, and a layer is noted instead, whose outputs are sources of which nothing is
+ * known. So graphs are flattened, values, tokens and conversions found, and nodes that come to nothing left out as for any shader:
+ *
+ *     multiply(in1, 1)   in1          mix of two constants   a constant          layer(top, nothing)   top
+ */
+#include "build/build_priv.h"
+
+#include "base/hash.h"
+
+struct recorder {
+    struct network *network;
+    uint32_t *layer_of;   /* by variable of the shader: the layer that it is an output of, + 1 */
+    uint32_t num_layers_of;
+    VEC(uint8_t) output_of; /* by such a variable, too */
+    ir_ref *source_of;    /* by node that was put away: the layer's output that stands for it */
+    uint32_t num_sources;
+};
+
+void build_record_network(struct builder *b, struct network *network)
+{
+    *network = (struct network){.arena = b->arena, .strings = b->shader->strings};
+    b->recorder = ARENA_NEW(b->arena, struct recorder);
+    b->recorder->network = network;
+}
+
+/* Element `index` of an array that grows with what it is indexed by. */
+static uint32_t *at(struct arena *arena, uint32_t **items, uint32_t *len, uint32_t index)
+{
+    if (index >= *len) {
+        uint32_t more = index + index / 2 + 64;
+        uint32_t *grown = ARENA_ARRAY(arena, uint32_t, more);
+        if (*len)
+            memcpy(grown, *items, *len * sizeof *grown);
+        *items = grown;
+        *len = more;
+    }
+    return &(*items)[index];
+}
+
+static uint32_t layer_of(const struct recorder *r, uint32_t variable)
+{
+    return variable < r->num_layers_of ? r->layer_of[variable] : 0;
+}
+
+/* ---- What of an input is settled with the shader ---- */
+
+/* Texts choose code; nodes of C code read streams by index, and profiles. */
+static bool is_settled(const struct builder *b, const struct implementation *impl, const struct port *port)
+{
+    ir_type_id type = library_type_ir(b->lib, port->type);
+    bool is_read_by_code = impl->kind == IMPL_DYNAMIC && (port->name == STR_index || type == IR_TYPE_SAMPLER);
+    return type == IR_TYPE_STRING || is_read_by_code;
+}
+
+static struct ir_value settled_value(const struct builder *b, ir_ref arg)
+{
+    struct ir_value value = {.type = IR_TYPE_VOID};
+    const struct ir_node *node = ir_get(b->graph, arg);
+    if (node->op == IR_TEXTURE)
+        value = (struct ir_value){.type = IR_TYPE_SAMPLER, .w[0].u = b->shader->variables.items[node->attr].file};
+    else
+        build_initial(b, arg, &value);
+    return value;
+}
+
+static struct ir_value default_value(struct builder *b, const struct port *port)
+{
+    struct ir_value value = {.type = library_type_ir(b->lib, port->type)};
+    if (value.type == IR_TYPE_STRING || value.type == IR_TYPE_SAMPLER)
+        value.w[0].u = port->value;
+    else if (!port->geomprop && port->value && (port->flags & PORT_HAS_VALUE))
+        build_initial(b, build_default(b, port), &value);
+    return value;
+}
+
+static bool has_numbers(ir_type_id type)
+{
+    return type >= IR_TYPE_BOOL && type <= IR_TYPE_MAT4;
+}
+
+static void add_word(struct text *name, const char *word)
+{
+    bool is_plain = *word != '\0';
+    text_char(name, '_');
+    for (const char *c = word; *c; c++) {
+        bool is_word = (*c >= '0' && *c <= '9') || ((*c | 0x20) >= 'a' && (*c | 0x20) <= 'z');
+        text_char(name, is_word ? *c : '_');
+        is_plain &= is_word;
+    }
+    if (!is_plain) /* other words may look the same */
+        text_fmt(name, "x%u", (unsigned)hash_stable(0, word, strlen(word)));
+}
+
+/* "ND_image_color3_clamp": of the definition "ND_image_color3" where an address mode is not the usual one. */
+static str_id node_name(struct builder *b, const struct nodedef *def, const struct port *ports, const struct ir_value *fixed)
+{
+    struct text name;
+    text_init(&name, b->arena);
+    text_str(&name, build_text(b, def->name));
+    for (unsigned i = 0; i < def->num_inputs; i++) {
+        struct ir_value usual = default_value(b, &ports[i]);
+        if (fixed[i].type == IR_TYPE_VOID || fixed[i].w[0].u == usual.w[0].u)
+            continue;
+        struct text number;
+        text_init(&number, b->arena);
+        text_fmt(&number, "%d", fixed[i].w[0].i);
+        add_word(&name, fixed[i].type == IR_TYPE_INT ? text_cstr(&number) : build_text(b, fixed[i].w[0].u));
+    }
+    size_t len;
+    const char *identifier = identifier_from(text_cstr(&name), name.len, b->arena, &len);
+    return str_intern(b->shader->strings, identifier, len);
+}
+
+static uint32_t node_of(struct builder *b, const struct frame *frame)
+{
+    struct network *network = b->recorder->network;
+    const struct nodedef *def = library_nodedef(b->lib, frame->node.nodedef);
+    const struct port *ports = library_ports(b->lib, frame->node.nodedef, NULL);
+    struct ir_value *fixed = ARENA_ARRAY(b->arena, struct ir_value, def->num_inputs);
+    str_id *names = ARENA_ARRAY(b->arena, str_id, def->num_inputs);
+    for (unsigned i = 0; i < def->num_inputs; i++) {
+        names[i] = ports[i].name;
+        if (is_settled(b, frame->impl, &ports[i]) && frame->args[i])
+            fixed[i] = settled_value(b, frame->args[i]);
+    }
+    for (uint32_t n = 0; n < network->nodes.len; n++) {
+        const struct network_node *node = &network->nodes.items[n];
+        bool is_same = node->definition == frame->node.nodedef;
+        for (unsigned i = 0; i < def->num_inputs && is_same; i++)
+            is_same = fixed[i].type == node->fixed[i].type && fixed[i].w[0].u == node->fixed[i].w[0].u;
+        if (is_same)
+            return n;
+    }
+    vec_push(b->arena, &network->nodes,
+             (struct network_node){.name = node_name(b, def, ports, fixed), .definition = frame->node.nodedef, .fixed = fixed,
+                                   .num_inputs = def->num_inputs, .num_outputs = def->num_outputs, .ports = names, .definition_name = def->name});
+    return network->nodes.len - 1;
+}
+
+/* ---- Inputs ---- */
+
+static bool uniform_value(void *user_data, const struct ir_graph *graph, ir_ref ref, struct ir_value *out)
+{
+    (void)graph;
+    return build_initial(user_data, ref, out);
+}
+
+struct network_input build_network_input(struct builder *b, ir_ref arg)
+{
+    struct recorder *r = b->recorder;
+    struct network_input input = {.kind = NETWORK_DEFAULT};
+    if (!arg)
+        return input;
+    const struct ir_node *node = ir_get(b->graph, arg);
+    const struct shader_variable *variable = NULL;
+    input.type = node->type;
+    if (node->op == IR_UNIFORM || node->op == IR_STREAM || node->op == IR_TEXTURE)
+        variable = &b->shader->variables.items[node->attr];
+    if (variable && layer_of(r, node->attr)) {
+        input.kind = NETWORK_LAYER;
+        input.layer = layer_of(r, node->attr) - 1;
+        input.output = r->output_of.items[node->attr];
+    } else if (node->op == IR_TEXTURE) {
+        input.kind = NETWORK_FILE;
+        input.file = variable->file;
+        input.path = variable->path;
+    } else if (ir_get_const(b->graph, arg, &input.value)) {
+        input.kind = NETWORK_VALUE;
+    } else { /* a uniform, perhaps in another unit: what a host sets is the value that results */
+        struct ir_eval_env env = {.user_data = b, .source = uniform_value};
+        if (ir_eval(b->graph, arg, &env, b->arena, &input.value))
+            input.kind = NETWORK_VALUE;
+        if (node->op == IR_UNIFORM)
+            input.path = variable->path;
+    }
+    return input;
+}
+
+static void add_input(struct builder *b, const struct frame *frame, const struct port *port, ir_ref arg)
+{
+    struct network_input input = {.kind = NETWORK_DEFAULT};
+    if (!is_settled(b, frame->impl, port))
+        input = build_network_input(b, arg);
+    input.doc_type = library_type_name(b->lib, port->type);
+    struct ir_value usual = default_value(b, port);
+    bool is_usual = input.kind == NETWORK_VALUE && !input.path && !port->geomprop && has_numbers(usual.type)
+                    && ir_value_equal(&input.value, &usual);
+    if (is_usual)
+        input.kind = NETWORK_DEFAULT;
+    vec_push(b->arena, &b->recorder->network->inputs, input);
+}
+
+/* ---- Layers ---- */
+
+/* "NG_marble/noise": by what the node at hand was built for. */
+static void write_path(const struct builder *b, uint32_t origin, char between, struct text *out)
+{
+    const struct ir_origin *o = &b->graph->origins.items[origin];
+    if (o->parent) {
+        write_path(b, o->parent, between, out);
+        text_char(out, between);
+    } else if (o->element) {
+        doc_path(&b->lib->doc, o->element, between, out);
+        return;
+    }
+    text_str(out, build_text(b, o->name));
+}
+
+/* A node that no element stands for, a conversion, has its own name behind that of the node that needs it. */
+static str_id path_of(struct builder *b, const struct frame *frame, char between)
+{
+    struct text path;
+    text_init(&path, b->arena);
+    write_path(b, b->graph->origin, between, &path);
+    if (!frame->scope && b->graph->origins.items[b->graph->origin].element)
+        text_fmt(&path, "%c%s", between, build_text(b, library_nodedef(b->lib, frame->node.nodedef)->node));
+    return str_intern(b->shader->strings, path.data, path.len);
+}
+
+/* A source of which nothing is known; its variable gives the first output's layer a name that is unique. */
+static ir_ref add_source(struct builder *b, str_id name, ir_type_id type, uint32_t layer, unsigned output)
+{
+    struct recorder *r = b->recorder;
+    uint32_t variable = shader_add_variable(b->shader, &(struct shader_variable){.name = name, .block = BLOCK_VERTEX_DATA, .type = type});
+    *at(b->arena, &r->layer_of, &r->num_layers_of, variable) = layer + 1;
+    while (r->output_of.len <= variable)
+        vec_push(b->arena, &r->output_of, 0);
+    r->output_of.items[variable] = (uint8_t)output;
+    return ir_build(b->graph, IR_STREAM, type, variable, NULL, 0);
+}
+
+static bool is_argument(const struct builder *b, const struct frame *frame, ir_ref value)
+{
+    for (unsigned i = 0; i < library_nodedef(b->lib, frame->node.nodedef)->num_inputs; i++)
+        if (frame->args[i] == value)
+            return true;
+    return false;
+}
+
+/* The value needs no layer: it is a constant, nothing, what another layer gives, or an argument. */
+static bool is_plain(const struct builder *b, const struct frame *frame, ir_ref value)
+{
+    const struct ir_node *node = ir_get(b->graph, value);
+    bool is_source = node->op == IR_STREAM && layer_of(b->recorder, node->attr);
+    return !value || node->op == IR_CONST || node->op == IR_POISON || node->type == IR_TYPE_MATERIAL || is_source || is_argument(b, frame, value);
+}
+
+static ir_ref known_source(const struct recorder *r, ir_ref value)
+{
+    return value < r->num_sources ? r->source_of[value] : 0;
+}
+
+void build_record_node(struct builder *b, const struct frame *frame, ir_ref *results)
+{
+    struct recorder *r = b->recorder;
+    const struct nodedef *def = library_nodedef(b->lib, frame->node.nodedef);
+    const struct port *ports = library_ports(b->lib, frame->node.nodedef, NULL);
+    bool is_new = false;
+    for (unsigned i = 0; i < def->num_outputs; i++)
+        is_new |= !is_plain(b, frame, results[i]) && !known_source(r, results[i]);
+    uint32_t layer = r->network->layers.len;
+    str_id name = is_new ? path_of(b, frame, '_') : 0;
+    if (is_new) {
+        struct network_layer made = {.path = path_of(b, frame, '/'), .node = node_of(b, frame), .first_input = r->network->inputs.len};
+        for (unsigned i = 0; i < def->num_inputs; i++)
+            add_input(b, frame, &ports[i], frame->args[i]);
+        vec_push(b->arena, &r->network->layers, made);
+    }
+    for (unsigned i = 0; i < def->num_outputs; i++) {
+        if (is_plain(b, frame, results[i]))
+            continue;
+        ir_ref source = known_source(r, results[i]);
+        if (!source) {
+            source = add_source(b, name, ir_type_of(b->graph, results[i]), layer, i);
+            *at(b->arena, &r->source_of, &r->num_sources, results[i]) = source;
+            if (!r->network->layers.items[layer].name)
+                r->network->layers.items[layer].name = b->shader->variables.items[ir_get(b->graph, source)->attr].name;
+        }
+        results[i] = source;
+    }
+}
+
+/* "ND_constant_color3"; LIBRARY_NONE */
+static uint32_t definition_of(const struct builder *b, const char *node, str_id type)
+{
+    struct text name;
+    text_init(&name, b->arena);
+    text_fmt(&name, "ND_%s_%s", node, build_text(b, type));
+    str_id id = str_find(b->shader->strings, text_cstr(&name), name.len);
+    return id ? library_nodedef_by_name(b->lib, id) : LIBRARY_NONE;
+}
+
+uint32_t build_constant_layer(struct builder *b, ir_ref value, str_id type)
+{
+    struct frame frame = {.node = {.nodedef = definition_of(b, "constant", type)}, .args = &value};
+    if (frame.node.nodedef == LIBRARY_NONE || !(frame.impl = build_choose(b, frame.node.nodedef, 0)))
+        return UINT32_MAX;
+    struct network *network = b->recorder->network;
+    struct network_layer layer = {.node = node_of(b, &frame), .first_input = network->inputs.len};
+    add_input(b, &frame, library_ports(b->lib, frame.node.nodedef, NULL), value);
+    ir_ref source = add_source(b, str_intern_z(b->shader->strings, "constant"), ir_type_of(b->graph, value), network->layers.len, 0);
+    layer.name = layer.path = b->shader->variables.items[ir_get(b->graph, source)->attr].name;
+    vec_push(b->arena, &network->layers, layer);
+    return network->layers.len - 1;
+}
+
+ir_ref build_property_layer(struct builder *b, const struct geomprop *prop)
+{
+    uint32_t nodedef = definition_of(b, "geompropvalue", library_type_name(b->lib, prop->type));
+    if (nodedef == LIBRARY_NONE)
+        return ir_poison(b->graph, library_type_ir(b->lib, prop->type));
+    const struct nodedef *def = library_nodedef(b->lib, nodedef);
+    const struct port *ports = library_ports(b->lib, nodedef, NULL);
+    ir_ref *args = ARENA_ARRAY(b->arena, ir_ref, def->num_inputs), results[BUILD_MAX_OUTPUTS];
+    for (unsigned i = 0; i < def->num_inputs; i++)
+        args[i] = ports[i].name == STR_geomprop ? ir_const_string(b->graph, prop->name) : build_default(b, &ports[i]);
+    uint32_t before = b->graph->origin;
+    b->graph->origin = ir_add_origin(b->graph, prop->name, 0, 0);
+    build_apply(b, nodedef, prop->element, args, results);
+    b->graph->origin = before;
+    return results[0];
+}
+
+/* ---- The shader of a node ---- */
+
+/* "normal_in" where the language or another parameter has the name. */
+static str_id parameter_name(struct builder *b, str_id input)
+{
+    if (shader_name_is_free(b->shader, input))
+        return input;
+    struct text name;
+    text_init(&name, b->arena);
+    text_fmt(&name, "%s_in", build_text(b, input));
+    return str_intern(b->shader->strings, name.data, name.len);
+}
+
+/* What comes from another layer is a closure of any kind; of displacements, the offset. */
+static ir_type_id parameter_type(ir_type_id type)
+{
+    return type == IR_TYPE_DISPLACEMENT ? IR_TYPE_VEC3 : ir_type_is_closure(type) || ir_type_is_shader(type) ? IR_TYPE_BSDF : type;
+}
+
+static ir_ref add_parameter(struct builder *b, const struct port *port, str_id *out_name)
+{
+    ir_type_id type = library_type_ir(b->lib, port->type);
+    struct shader_variable v = {.name = parameter_name(b, port->name), .block = BLOCK_PUBLIC_UNIFORMS, .type = parameter_type(type),
+                                .doc_type = library_type_name(b->lib, port->type), .definition = port->element};
+    if (type == IR_TYPE_SAMPLER) {
+        v.file = port->value;
+        ir_ref texture = build_texture(b, v, port->element);
+        *out_name = b->shader->variables.items[ir_get(b->graph, texture)->attr].name;
+        return texture;
+    }
+    v.has_default = has_numbers(type);
+    v.value = default_value(b, port);
+    uint32_t variable = shader_add_variable(b->shader, &v);
+    *out_name = b->shader->variables.items[variable].name;
+    return ir_build(b->graph, IR_UNIFORM, type, variable, NULL, 0);
+}
+
+static ir_ref settled(struct builder *b, const struct port *port, const struct ir_value *value)
+{
+    if (value->type == IR_TYPE_STRING)
+        return ir_const_string(b->graph, value->w[0].u);
+    if (value->type != IR_TYPE_SAMPLER)
+        return ir_const(b->graph, value);
+    struct shader_variable v = {.name = port->name, .type = IR_TYPE_SAMPLER, .file = value->w[0].u};
+    return build_texture(b, v, b->document->node);
+}
+
+void build_network_node(struct builder *b, struct network_node *node, ir_ref *results)
+{
+    const struct port *ports = library_ports(b->lib, node->definition, NULL);
+    struct frame frame = {.node = {.nodedef = node->definition, .element = b->document->node}};
+    str_id *names = ARENA_ARRAY(b->arena, str_id, node->num_inputs);
+    frame.args = ARENA_ARRAY(b->arena, ir_ref, node->num_inputs);
+    frame.impl = build_choose(b, node->definition, frame.node.element);
+    b->graph->origin = ir_add_origin(b->graph, library_nodedef(b->lib, node->definition)->node, 0, 0);
+    for (uint32_t i = 0; i < node->num_inputs; i++)
+        frame.args[i] = node->fixed[i].type == IR_TYPE_VOID ? add_parameter(b, &ports[i], &names[i]) : settled(b, &ports[i], &node->fixed[i]);
+    node->inputs = names;
+    build_node(b, &frame, results);
+}
+
+str_id build_network_output(struct builder *b, const struct network_node *node, uint32_t index, str_id *out_type)
+{
+    const struct port *port = library_ports(b->lib, node->definition, NULL) + node->num_inputs + index;
+    *out_type = library_type_name(b->lib, port->type);
+    return port->name;
+}
