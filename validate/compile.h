@@ -39,6 +39,9 @@ bool compile_knows_target(const char *target);
 bool compile_program(const char *target, const char *const sources[MXG_NUM_STAGES], struct compiled *out);
 void compiled_finish(struct compiled *compiled);
 
+/* compiled.c: the same of what was generated, the stages of a shader, or the shaders of a network each by itself. */
+bool compile_result(const char *target, const mxg_result *result, struct compiled *out);
+
 /* The same for the source of a compute shader for Vulkan; code and messages stand in the place of the pixel stage. */
 bool compile_compute(const char *source, struct compiled *out);
 

@@ -185,9 +185,6 @@ static void add_compile_message(struct examiner *examiner, const mxg_result *res
 static void compile(struct examiner *examiner, const mxg_result *result, struct check_shader *shader, const char *element)
 {
     double begin = examine_clock();
-    const char *sources[MXG_NUM_STAGES];
-    for (int stage = 0; stage < MXG_NUM_STAGES; ++stage)
-        sources[stage] = mxg_result_source(result, (mxg_stage)stage, NULL);
     examine_mark(examiner, CHECK_COMPILE, element, shader->target);
     if (!examiner->is_compiler_ready) {
         compile_begin();
@@ -195,7 +192,7 @@ static void compile(struct examiner *examiner, const mxg_result *result, struct 
     }
     struct compiled compiled = {0};
     shader->compiled = true;
-    if (!compile_program(shader->target, sources, &compiled))
+    if (!compile_result(shader->target, result, &compiled))
         check_fail(&shader->failed, CHECK_COMPILE);
     shader->compile_ms = examine_clock() - begin;
     for (size_t i = 0; i < compiled.num_messages; ++i)

@@ -84,16 +84,13 @@ static void print_sizes(const struct check *check, const char *element, const ch
            compiled->stages[MXG_STAGE_VERTEX].body_instructions);
 }
 
-static void compile_result(struct check *check, const char *target, const char *interface, const mxg_result *result)
+static void check_result(struct check *check, const char *target, const char *interface, const mxg_result *result)
 {
     mxg_shader_info info = {sizeof info};
     mxg_result_info(result, &info);
-    const char *sources[MXG_NUM_STAGES];
-    for (int stage = 0; stage < MXG_NUM_STAGES; ++stage)
-        sources[stage] = mxg_result_source(result, (mxg_stage)stage, NULL);
     struct compiled compiled = {0};
     if (!check->no_compile && compile_knows_target(target))
-        compile_program(target, sources, &compiled);
+        compile_result(target, result, &compiled);
     for (size_t i = 0; i < compiled.num_messages; ++i)
         print_message(check, result, info.path, target, &compiled.messages[i]);
     print_sizes(check, info.path, target, interface, result, &compiled);
@@ -112,7 +109,7 @@ static void check_element(struct check *check, const mxg_document *document, con
     if (result)
         report_list(&check->cli.report, mxg_result_diagnostics(result));
     if (report_status(&check->cli.report, status))
-        compile_result(check, target, interface, result);
+        check_result(check, target, interface, result);
     mxg_result_destroy(result);
 }
 

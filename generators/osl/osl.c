@@ -185,7 +185,8 @@ const struct target target_osl = {
     .name = "osl",
     .materialx_name = "genosl",
     .brief = "Open Shading Language 1.14 and later",
-    .caps = CAP_OVERLOADS | CAP_BITWISE | CAP_IMPLICIT_LOD | CAP_CLOSURES | CAP_STRINGS | CAP_NAMED_WHOLES | CAP_TYPED_TEXTURES,
+    .caps = CAP_OVERLOADS | CAP_BITWISE | CAP_IMPLICIT_LOD | CAP_CLOSURES | CAP_STRINGS | CAP_NAMED_WHOLES | CAP_TYPED_TEXTURES
+            | CAP_MISSING_COLORS,
     .closures = &closures,
     .network = &osl_network,
     .syntax = &osl_syntax,

@@ -45,6 +45,17 @@ static bool has_tiles(const struct spell *spell, const struct shader_variable *t
     return strstr(file, "<UDIM>") || strstr(file, "<UVTILE>");
 }
 
+/* A channel of the parameter that the default is; it has `n`. */
+static void write_part_of(const struct spell *spell, uint32_t parameter, unsigned n, unsigned channel, struct text *out)
+{
+    bool is_struct = n == 2 || n == 4;
+    text_str(out, spell->variables[parameter]);
+    if (is_struct)
+        text_fmt(out, ".%c", "xyzw"[channel]);
+    else if (n == 3)
+        text_fmt(out, "[%u]", channel);
+}
+
 /* What stands for a missing image: the node's default, as four channels. */
 static void write_missing(const struct spell *spell, const struct shader_variable *texture, unsigned count, struct text *out)
 {
@@ -52,12 +63,23 @@ static void write_missing(const struct spell *spell, const struct shader_variabl
     bool is_number = texture->has_default && value->type < IR_NUM_TYPES;
     unsigned n = is_number ? ir_type_info(value->type)->components : 0;
     for (unsigned i = 0; i < count; i++) {
+        bool is_said = n && (i < n || (n == 1 && i < 3));
         union ir_word word = {.f = i == 3 && n < 4 ? 1.0f : 0.0f};
-        if (n && (i < n || (n == 1 && i < 3)))
-            word = value->w[n == 1 ? 0 : i];
         text_str(out, i ? ", " : "");
+        if (is_said && texture->fallback) {
+            write_part_of(spell, texture->fallback - 1, n, n == 1 ? 0 : i, out);
+            continue;
+        }
+        if (is_said)
+            word = value->w[n == 1 ? 0 : i];
         lang_print_value(spell->style, NULL, IR_TYPE_FLOAT, &word, LANG_PREC_COMMA, out);
     }
+}
+
+static bool is_color(const struct spell *spell, uint32_t parameter)
+{
+    const struct shader_variable *variable = &spell->shader->variables.items[parameter];
+    return strcmp(str_text(spell->shader->strings, variable->doc_type), "color3") == 0;
 }
 
 /* One or three channels are what OSL's texture() gives by itself. */
@@ -76,7 +98,12 @@ static void write_call(const struct spell *spell, const struct shader_variable *
         text_str(out, ", \"subimage\", ");
         text_json_string(out, modes.layer, strlen(modes.layer));
     }
-    text_str(out, ", \"missingcolor\", color(");
+    text_str(out, ", \"missingcolor\", ");
+    if (texture->fallback && is_color(spell, texture->fallback - 1)) {
+        text_fmt(out, "%s)", spell->variables[texture->fallback - 1]);
+        return;
+    }
+    text_str(out, "color(");
     write_missing(spell, texture, 3, out);
     text_str(out, "))");
 }

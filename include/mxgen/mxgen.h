@@ -340,10 +340,10 @@ MXG_API const char *mxg_result_source(const mxg_result *result, mxg_stage stage,
  */
 typedef struct mxg_part {
     size_t size; /* in */
-    const char *name;    /* "ND_image_color3_clamp" */
+    const char *name;    /* "ND_dielectric_bsdf_scatter_mode_T" */
     const char *source;
     size_t source_size;
-    const char *nodedef; /* "ND_image_color3"; "" of the shader that ends a group */
+    const char *nodedef; /* "ND_dielectric_bsdf"; "" of the shader that ends a group */
 } mxg_part;
 MXG_API uint32_t mxg_result_num_parts(const mxg_result *result);
 MXG_API mxg_status mxg_result_part(const mxg_result *result, uint32_t index, mxg_part *out);

@@ -94,6 +94,7 @@ static void set_build_options(struct generation *g)
         .short_names = !(g->result->target->caps & CAP_STAGES),
         .environment = o[OPTION_environment].number,
         .texture_modes = o[OPTION_texture_modes].number,
+        .missing_colors = g->result->target->caps & CAP_MISSING_COLORS,
         .tiles = o[OPTION_tiles].number == 0 && g->result->target->caps & CAP_TEXTURE_ARRAYS,
         .reader = &g->reader,
         .list_folder = context->resolver.list_folder,

@@ -28,6 +28,7 @@ struct build_options {
     bool short_names;      /* inputs have their own names, without that of their node */
     int environment;       /* values of option_environment… */
     int texture_modes;
+    bool missing_colors;   /* texture() gives another colour where there is no image, which may be a variable */
     bool tiles;            /* images of several tiles are texture arrays */
     const struct lang_reader *reader; /* of photometric files; may be NULL */
     /* As mxg_resolver.list_folder, to find tiles; may be NULL. */

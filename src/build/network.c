@@ -54,14 +54,27 @@ static bool is_settled(const struct builder *b, const struct implementation *imp
     return type == IR_TYPE_STRING || is_read_by_code;
 }
 
-static struct ir_value settled_value(const struct builder *b, ir_ref arg)
+/* Languages that find tiles by themselves read them in another way: of other files no more than that is settled. */
+static str_id settled_file(struct builder *b, const struct implementation *impl, str_id file)
+{
+    const char *name = build_text(b, file);
+    if (impl->kind == IMPL_DYNAMIC)
+        return file;
+    return strstr(name, "<UDIM>") || strstr(name, "<UVTILE>") ? str_intern_z(b->shader->strings, "<UDIM>") : 0;
+}
+
+/* Type VOID: nothing is settled. */
+static struct ir_value settled_value(struct builder *b, const struct implementation *impl, const struct port *port, ir_ref arg)
 {
     struct ir_value value = {.type = IR_TYPE_VOID};
     const struct ir_node *node = ir_get(b->graph, arg);
-    if (node->op == IR_TEXTURE)
-        value = (struct ir_value){.type = IR_TYPE_SAMPLER, .w[0].u = b->shader->variables.items[node->attr].file};
-    else
+    if (node->op == IR_TEXTURE) {
+        str_id file = settled_file(b, impl, b->shader->variables.items[node->attr].file);
+        if (file)
+            value = (struct ir_value){.type = IR_TYPE_SAMPLER, .w[0].u = file};
+    } else if (is_settled(b, impl, port)) {
         build_initial(b, arg, &value);
+    }
     return value;
 }
 
@@ -82,6 +95,8 @@ static bool has_numbers(ir_type_id type)
 
 static void add_word(struct text *name, const char *word)
 {
+    if (strcmp(word, "<UDIM>") == 0)
+        word = "tiles";
     bool is_plain = *word != '\0';
     text_char(name, '_');
     for (const char *c = word; *c; c++) {
@@ -93,7 +108,7 @@ static void add_word(struct text *name, const char *word)
         text_fmt(name, "x%u", (unsigned)hash_stable(0, word, strlen(word)));
 }
 
-/* "ND_image_color3_clamp": of the definition "ND_image_color3" where an address mode is not the usual one. */
+/* "ND_dielectric_bsdf_scatter_mode_T": of the definition "ND_dielectric_bsdf" where the mode is not the usual one. */
 static str_id node_name(struct builder *b, const struct nodedef *def, const struct port *ports, const struct ir_value *fixed)
 {
     struct text name;
@@ -105,6 +120,7 @@ static str_id node_name(struct builder *b, const struct nodedef *def, const stru
             continue;
         struct text number;
         text_init(&number, b->arena);
+        text_fmt(&name, "_%s", build_text(b, ports[i].name));
         text_fmt(&number, "%d", fixed[i].w[0].i);
         add_word(&name, fixed[i].type == IR_TYPE_INT ? text_cstr(&number) : build_text(b, fixed[i].w[0].u));
     }
@@ -122,8 +138,8 @@ static uint32_t node_of(struct builder *b, const struct frame *frame)
     str_id *names = ARENA_ARRAY(b->arena, str_id, def->num_inputs);
     for (unsigned i = 0; i < def->num_inputs; i++) {
         names[i] = ports[i].name;
-        if (is_settled(b, frame->impl, &ports[i]) && frame->args[i])
-            fixed[i] = settled_value(b, frame->args[i]);
+        if (frame->args[i])
+            fixed[i] = settled_value(b, frame->impl, &ports[i], frame->args[i]);
     }
     for (uint32_t n = 0; n < network->nodes.len; n++) {
         const struct network_node *node = &network->nodes.items[n];
@@ -342,13 +358,13 @@ static ir_type_id parameter_type(ir_type_id type)
     return type == IR_TYPE_DISPLACEMENT ? IR_TYPE_VEC3 : ir_type_is_closure(type) || ir_type_is_shader(type) ? IR_TYPE_BSDF : type;
 }
 
-static ir_ref add_parameter(struct builder *b, const struct port *port, str_id *out_name)
+static ir_ref add_parameter(struct builder *b, const struct port *port, str_id file, str_id *out_name)
 {
     ir_type_id type = library_type_ir(b->lib, port->type);
     struct shader_variable v = {.name = parameter_name(b, port->name), .block = BLOCK_PUBLIC_UNIFORMS, .type = parameter_type(type),
                                 .doc_type = library_type_name(b->lib, port->type), .definition = port->element};
     if (type == IR_TYPE_SAMPLER) {
-        v.file = port->value;
+        v.file = file;
         ir_ref texture = build_texture(b, v, port->element);
         *out_name = b->shader->variables.items[ir_get(b->graph, texture)->attr].name;
         return texture;
@@ -360,8 +376,11 @@ static ir_ref add_parameter(struct builder *b, const struct port *port, str_id *
     return ir_build(b->graph, IR_UNIFORM, type, variable, NULL, 0);
 }
 
-static ir_ref settled(struct builder *b, const struct port *port, const struct ir_value *value)
+static ir_ref argument(struct builder *b, const struct implementation *impl, const struct port *port, const struct ir_value *value,
+                       str_id *out_name)
 {
+    if (value->type == IR_TYPE_VOID || (value->type == IR_TYPE_SAMPLER && impl->kind != IMPL_DYNAMIC))
+        return add_parameter(b, port, value->type == IR_TYPE_VOID ? port->value : value->w[0].u, out_name);
     if (value->type == IR_TYPE_STRING)
         return ir_const_string(b->graph, value->w[0].u);
     if (value->type != IR_TYPE_SAMPLER)
@@ -379,7 +398,7 @@ void build_network_node(struct builder *b, struct network_node *node, ir_ref *re
     frame.impl = build_choose(b, node->definition, frame.node.element);
     b->graph->origin = ir_add_origin(b->graph, library_nodedef(b->lib, node->definition)->node, 0, 0);
     for (uint32_t i = 0; i < node->num_inputs; i++)
-        frame.args[i] = node->fixed[i].type == IR_TYPE_VOID ? add_parameter(b, &ports[i], &names[i]) : settled(b, &ports[i], &node->fixed[i]);
+        frame.args[i] = argument(b, frame.impl, &ports[i], &node->fixed[i], &names[i]);
     node->inputs = names;
     build_node(b, &frame, results);
 }

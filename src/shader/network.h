@@ -12,7 +12,7 @@
 
 /* A definition, and what of its inputs must be known when its shader is made. */
 struct network_node {
-    str_id name;                   /* of the shader: "ND_image_color3_clamp" */
+    str_id name;                   /* of the shader: "ND_dielectric_bsdf_scatter_mode_T" */
     uint32_t definition;
     str_id definition_name;
     uint32_t num_inputs, num_outputs;

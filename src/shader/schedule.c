@@ -138,6 +138,8 @@ static unsigned note_needs(struct scheduler *s, ir_ref ref, const struct ir_node
     case IR_STREAM:
     case IR_TEXTURE:
         s->shader->variables.items[node->attr].stages |= s->stage_bit;
+        if (s->shader->variables.items[node->attr].fallback)
+            s->shader->variables.items[s->shader->variables.items[node->attr].fallback - 1].stages |= s->stage_bit;
         return 0;
     case IR_CALL:
         lang_reach_add(&s->stage->reach, s->shader->unit, shader_callee(s->shader, ref));

@@ -70,6 +70,7 @@ struct shader_variable {
     /* textures */
     str_id file;          /* resolved file name, with fileprefix; tokens of geometry and host kept: <UDIM>, {frame} */
     struct shader_sampling sampling;
+    uint32_t fallback;    /* variable that the default is, + 1, where the target reads it with the texture; 0: `value` */
     uint32_t first_tile, num_tiles; /* in shader->tiles, which are the layers of a SAMPLER_ARRAY in this order */
     /* layout.c */
     uint32_t set, binding, location;

@@ -23,6 +23,7 @@ enum target_caps {
     CAP_STRINGS = 2048,       /* the language has strings */
     CAP_TEXTURE_ARRAYS = 4096, /* the tiles of an image are layers of one texture; else its host, or texture(), finds them */
     CAP_TYPED_TEXTURES = 16384, /* texture() gives as many channels as are wanted: one, three or four */
+    CAP_MISSING_COLORS = 32768, /* texture() is told what to give where there is no image */
     CAP_NAMED_WHOLES = 8192,  /* parts are taken of variables only: v.x, but not (a + b).x */
 };
 

@@ -348,6 +348,59 @@ static void test_lifetimes(void)
     mxg_context_destroy(b.context);
 }
 
+/* ---- Networks ---- */
+
+static const char network[] = "<materialx version=\"1.39\">"
+    "<noise2d name=\"n\" type=\"float\"><input name=\"amplitude\" type=\"float\" value=\"0.25\"/></noise2d>"
+    "<multiply name=\"m\" type=\"float\"><input name=\"in1\" type=\"float\" nodename=\"n\"/><input name=\"in2\" type=\"float\" value=\"1\"/></multiply>"
+    "<oren_nayar_diffuse_bsdf name=\"b\" type=\"BSDF\"><input name=\"roughness\" type=\"float\" nodename=\"m\"/></oren_nayar_diffuse_bsdf>"
+    "<surface name=\"S\" type=\"surfaceshader\"><input name=\"bsdf\" type=\"BSDF\" nodename=\"b\"/></surface>"
+    "<surfacematerial name=\"M\" type=\"material\"><input name=\"surfaceshader\" type=\"surfaceshader\" nodename=\"S\"/></surfacematerial>"
+    "</materialx>";
+
+static bool has_part(const mxg_result *result, const char *name, const char *nodedef)
+{
+    for (uint32_t i = 0; i < mxg_result_num_parts(result); i++) {
+        mxg_part part = {sizeof part};
+        REQUIRE_EQ(mxg_result_part(result, i, &part), MXG_OK);
+        REQUIRE_EQ(strlen(part.source), part.source_size);
+        if (strcmp(part.name, name) == 0)
+            return strcmp(part.nodedef, nodedef) == 0 && strstr(part.source, name);
+    }
+    return false;
+}
+
+/* A shader for each node that does something, and the list of them in the place of the shader. */
+static void test_network(void)
+{
+    struct bench b;
+    bench_open(&b, network);
+    mxg_result *whole = generate(&b, "osl", "M", MXG_OK);
+    REQUIRE_EQ(mxg_result_num_parts(whole), 0);
+    REQUIRE_EQ(mxg_options_set(b.options, "osl-network", "true"), MXG_OK);
+    mxg_result *result = generate(&b, "osl", "M", MXG_OK);
+    REQUIRE(has_part(result, "ND_noise2d_float", "ND_noise2d_float"));
+    REQUIRE(has_part(result, "ND_oren_nayar_diffuse_bsdf", "ND_oren_nayar_diffuse_bsdf"));
+    REQUIRE(has_part(result, "mx_surface_root", ""));
+    REQUIRE(!has_part(result, "ND_multiply_float", "ND_multiply_float")); /* by 1 */
+    const char *list = mxg_result_source(result, MXG_STAGE_PIXEL, NULL);
+    REQUIRE(strstr(list, "param float amplitude 0.25 ;\nshader ND_noise2d_float n ;\n"));
+    REQUIRE(strstr(list, "connect n.out b.roughness ;\n"));
+    REQUIRE(!mxg_result_source(result, MXG_STAGE_VERTEX, NULL));
+    REQUIRE(strstr(mxg_result_reflection_json(result, NULL), "\"shader\": \"ND_noise2d_float\""));
+    mxg_part part = {sizeof part};
+    REQUIRE_EQ(mxg_result_part(result, mxg_result_num_parts(result), &part), MXG_ERROR_ARGUMENT);
+    mxg_shader_info info = {sizeof info}, whole_info = {sizeof whole_info};
+    REQUIRE(mxg_result_info(result, &info) == MXG_OK && mxg_result_info(whole, &whole_info) == MXG_OK);
+    REQUIRE(info.topology != whole_info.topology);
+    mxg_result_destroy(result);
+    mxg_result_destroy(whole);
+    result = generate(&b, "glsl", "M", MXG_ERROR_DOCUMENT);
+    REQUIRE(has_diagnostic(mxg_result_diagnostics(result), "bad-option"));
+    mxg_result_destroy(result);
+    bench_close(&b);
+}
+
 int main(void)
 {
     struct bench b;
@@ -361,6 +414,7 @@ int main(void)
     bench_close(&b);
     test_elements();
     test_tokens();
+    test_network();
     test_lifetimes();
     return test_report("api-generation");
 }

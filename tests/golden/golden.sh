@@ -50,7 +50,7 @@ for document in *.mtlx; do
         run_line "$document" "${words[@]}"
     done < <(sed -n 's/^<!-- mxgen: \(.*\) -->$/\1/p' "$document")
 done
-for file in "$golden"/*.vert "$golden"/*.frag "$golden"/*.osl "$golden"/*.json; do # what no run makes any more
+for file in "$golden"/*.vert "$golden"/*.frag "$golden"/*.osl "$golden"/*.oslgroup "$golden"/*.json; do # what no run makes any more
     [ -n "${kept[${file##*/}]:-}" ] && continue
     [ -n "$update" ] && rm -v "$file" || check "${file##*/} is made by a run" false
 done

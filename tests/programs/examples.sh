@@ -31,6 +31,25 @@ check 'nothing of lights and the environment' eval '! grep -qiE "light|u_env|mx_
 check 'reflection' exits 0 "${program[reflection]}" "$examples/marble.mtlx"
 check 'tells the user interface' grep -q "float NG_marble_scale = 5 .*shown as 'Scale' from 0.1 to 50" out
 check 'tells textures' eval '"${program[reflection]}" "$examples/textured.mtlx" | grep -q "sampler2D image_color_file .*textures/wood_color.png"'
+check 'osl_network' exits 0 "${program[osl_network]}" "$examples/marble.mtlx" .
+check 'prints layers' grep -q '^shader ND_fractal3d_float NG_marble_noise ;' out
+check 'connects them' grep -q '^connect NG_marble_scaled.out NG_marble_noise.position ;' out
+check 'gives values' grep -q '^param int octaves 4 ;' out
+check 'ends in a material' grep -q '^connect SR_marble_surface.out root.surfaceshader ;' out
+check 'writes each shader' eval 'for name in $(sed -n "s/^shader \([^ ]*\) .*/\1/p" out); do [ -s $name.osl ] || exit 1; done'
+[ -z "$compile" ] || check 'that compile, where oslc is' exits 0 "$compile" "$examples/marble.mtlx" --targets osl --osl-network
+if command -v oslc >/dev/null && command -v testshade >/dev/null; then
+    cp out marble.oslgroup
+    check 'compiles' eval 'for file in ND_*.osl mx_*.osl; do oslc -q "$file" || exit 1; done'
+    printf 'shader show(color value = 0) { printf("%%.3f %%.3f %%.3f\\n", value[0], value[1], value[2]); }' >show.osl
+    check 'show compiles' oslc -q show.osl
+    sed -i '/^shader mx_surface_root/,$d' marble.oslgroup
+    printf 'shader show show ;\nconnect NG_marble_color.out show.value ;\n' >>marble.oslgroup
+    check 'testshade runs the group' exits 0 testshade -t 1 -g 1 1 --group marble.oslgroup
+    check 'its marble is between both colours' eval 'read -r r g b <out && awk "BEGIN { exit !($r >= 0.149 && $r <= 0.801 && $b >= 0.249 && $b <= 0.751) }"'
+else
+    skip 'examples: the group is not run without oslc and testshade'
+fi
 check 'host_resolver' exits 0 "${program[host_resolver]}"
 check 'reads three assets' grep -q 'fract' out
 [ -z "${program[c_minimal]:-}" ] || check 'c_minimal' exits 0 "${program[c_minimal]}" "$examples/gold.mtlx"
