@@ -21,6 +21,7 @@ const struct lang_syntax glsl_syntax = {
     .param_in = "const ", /* becomes a SPIR-V value; other parameters are variables, copied at every call */
     .param_in_assigned = "",
     .wide_constants = true,
+    .in_images = true,
     .param_out = "out ",
     .param_inout = "inout ",
 };

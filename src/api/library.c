@@ -158,12 +158,21 @@ mxg_status mxg_library_load(mxg_context *context, mxg_library *base, const char 
 
 enum { TEXT_IMAGE, TEXT_EXPANDED };
 
+/* The syntax that images hold functions in; NULL: no target has one. */
+static const struct lang_syntax *image_syntax(void)
+{
+    for (const struct target *const *target = targets; *target; target++)
+        if ((*target)->syntax->in_images)
+            return (*target)->syntax;
+    return NULL;
+}
+
 static void write_image(const struct object *object, struct text *out)
 {
     mxg_library *library = (mxg_library *)(uintptr_t)object; /* documents hold references of it */
     struct lang_recorder recorder;
     library_rehearse(library, &recorder, out->arena);
-    library_write_image(&library->layer, &recorder, out);
+    library_write_image(&library->layer, &recorder, image_syntax(), out);
 }
 
 static void write_expanded(const struct object *object, struct text *out)

@@ -3,7 +3,7 @@
 
 #include "base/hash.h"
 
-static bool matches(const struct strpool *pool, str_id id, const char *text, size_t len, uint32_t hash)
+static bool is_text(const struct strpool *pool, str_id id, const char *text, size_t len, uint32_t hash)
 {
     uint32_t i = id - pool->first;
     if (!pool->offsets) {
@@ -17,11 +17,18 @@ static bool matches(const struct strpool *pool, str_id id, const char *text, siz
 static str_id find_hashed(const struct strpool *pool, const char *text, size_t len, uint32_t hash)
 {
     for (; pool; pool = pool->base) {
-        if (!pool->table)
+        const uint32_t *wide = pool->table;
+        const uint16_t *narrow = pool->narrow;
+        uint32_t mask = pool->table_mask;
+        if (!wide && !narrow)
             continue;
-        for (uint32_t slot = hash & pool->table_mask; pool->table[slot]; slot = (slot + 1) & pool->table_mask)
-            if (matches(pool, pool->table[slot], text, len, hash))
-                return pool->table[slot];
+        for (uint32_t slot = hash & mask;; slot = (slot + 1) & mask) {
+            str_id id = narrow ? narrow[slot] : wide[slot];
+            if (id == 0)
+                break;
+            if (is_text(pool, id, text, len, hash))
+                return id;
+        }
     }
     return 0;
 }

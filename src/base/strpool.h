@@ -42,6 +42,7 @@ struct strpool {
     VEC(struct str_entry) entries;
     /* image layer: text i at bytes + offsets[i], its end (NUL) at offsets[i + 1] - 1 */
     const uint32_t *offsets; /* num + 1 of them; NULL in a growing layer */
+    const uint16_t *narrow;  /* in place of `table` where all ids fit */
     const char *bytes;
 };
 

@@ -303,16 +303,27 @@ static bool is_named_child(const struct document *doc, elem_id element)
     return e->name && e->parent;
 }
 
+static bool is_child(const struct document *doc, elem_id element, elem_id parent, str_id name)
+{
+    const struct element *e = &doc->elements.items[element - doc->first_element];
+    return e->parent == parent && e->name == name;
+}
+
 /* The slot of a name below a parent, or the free slot where it would stand. */
 static uint32_t find_slot(const struct document *doc, elem_id parent, str_id name)
 {
     uint32_t slot = hash_pair(parent, name) & doc->name_mask;
-    for (; doc->name_table[slot]; slot = (slot + 1) & doc->name_mask) {
-        const struct element *e = &doc->elements.items[doc->name_table[slot] - doc->first_element];
-        if (e->parent == parent && e->name == name)
-            break;
-    }
+    while (doc->name_table[slot] && !is_child(doc, doc->name_table[slot], parent, name))
+        slot = (slot + 1) & doc->name_mask;
     return slot;
+}
+
+static elem_id find_narrow(const struct document *doc, elem_id parent, str_id name)
+{
+    uint32_t slot = hash_pair(parent, name) & doc->name_mask;
+    while (doc->narrow_names[slot] && !is_child(doc, doc->narrow_names[slot], parent, name))
+        slot = (slot + 1) & doc->name_mask;
+    return doc->narrow_names[slot];
 }
 
 /* Two elements with equal content: the second adds nothing and may stand. */
@@ -384,6 +395,8 @@ void doc_index_element(struct document *doc, elem_id element)
 elem_id doc_child(const struct document *doc, elem_id parent, str_id name)
 {
     doc = layer_of(doc, parent);
+    if (doc->narrow_names)
+        return name ? find_narrow(doc, parent, name) : 0;
     return doc->name_table && name ? doc->name_table[find_slot(doc, parent, name)] : 0;
 }
 

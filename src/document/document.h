@@ -90,6 +90,7 @@ struct document {
     VEC(str_id) files;           /* names as the user gave them or as included */
     VEC(struct doc_link) links;  /* beside `elements`; empty in an image layer */
     uint32_t *name_table;        /* (parent, name) → element: open addressing; doc_index_names */
+    const uint16_t *narrow_names; /* in place of that, of an image whose elements' ids fit */
     uint32_t name_mask;
     uint32_t num_names;          /* slots taken */
 };

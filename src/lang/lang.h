@@ -166,6 +166,8 @@ struct lang_unit {
     VEC(struct lang_fragment) fragments;
     VEC(uint16_t) codes;
     VEC(uint16_t) fragment_of; /* by function: number + 1 of its first fragment; 0: none */
+    VEC(uint32_t) texts;   /* where the text of each function begins, and where the last one's ends (texts.c) */
+    VEC(char) text_bytes;
     /* Of a generation's layer: */
     struct lang_host host;   /* who knows the options, and the graph that their values are nodes of; from lang_lower_call */
     struct ir_graph *graph;
@@ -371,6 +373,8 @@ struct lang_syntax {
     bool float_literals_need_suffix;    /* 1.0f */
     bool wide_constants;                /* max(v, vec3(0.0)), where a target has max(v, 0.0), too */
     bool array_braces;                  /* arrays are built as {a, b}, not float[2](a, b) */
+    bool in_images;                     /* library images hold functions as text in it: of one syntax, which others may take over */
+    bool without_neighbours;            /* what a pixel learns of its neighbours is spelled otherwise than in those texts */
     /* Writes a literal of a type that the language lacks; false: it is written like the others. NULL: there is no such type. */
     bool (*write_value)(const struct lang_style *style, ir_type_id type, const union ir_word *words, struct text *out);
 };
@@ -401,6 +405,7 @@ struct lang_pieces {
 struct lang_style {
     const struct lang_syntax *syntax;
     struct arena *arena;
+    bool from_images; /* functions are taken from there, where they are */
     struct text_word types[IR_NUM_TYPES];
     struct lang_pieces *forms[IR_NUM_OPS]; /* each is made when it is first asked for */
     uint64_t reserved[64];                /* a set that holds the hash of each reserved word: what is not there is free */
@@ -460,6 +465,8 @@ void lang_print_value(const struct lang_style *style, const struct strpool *stri
                       const union ir_word *words, enum lang_precedence least, struct text *out);
 void lang_print_function(struct lang_style *style, const struct lang_names *names, const struct lang_unit *unit,
                          uint32_t id, struct text *out);
+/* texts.c: the texts of a unit's functions, in memory of the arena; they are then written as they stand in styles of that syntax. */
+void lang_make_texts(struct lang_unit *unit, const struct lang_syntax *syntax, struct arena *arena);
 /* "const float PI = 3.14;", and "struct S {…};", each with its newline. */
 void lang_print_constant(const struct lang_style *style, const struct lang_names *names, const struct lang_unit *unit,
                          uint32_t global_id, struct text *out);

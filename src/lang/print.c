@@ -644,6 +644,8 @@ static void print_head(struct printer *p, uint32_t id)
 void lang_print_function(struct lang_style *style, const struct lang_names *names, const struct lang_unit *unit,
                          uint32_t id, struct text *out)
 {
+    if (print_from_image(style, names, unit, id, out))
+        return;
     struct printer p = start(style, names, unit, id, out);
     print_head(&p, id);
     text_str(out, "\n{\n");

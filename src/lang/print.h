@@ -17,4 +17,8 @@ void print_lengths(const struct lang_unit *unit, ir_type_id type, struct text *o
 void print_open_array(const struct lang_style *style, const struct lang_names *names, const struct lang_unit *unit,
                       ir_type_id type, struct text *out);
 
+/* texts.c: writes the text that an image has of the function; false: there is none, or it names things that are called otherwise here. */
+bool print_from_image(const struct lang_style *style, const struct lang_names *names, const struct lang_unit *unit, uint32_t id,
+                 struct text *out);
+
 #endif

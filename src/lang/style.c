@@ -20,7 +20,7 @@ static void add_reserved(struct lang_style *style)
 
 void lang_style_init(struct lang_style *style, const struct lang_syntax *syntax, struct arena *arena)
 {
-    *style = (struct lang_style){.syntax = syntax, .arena = arena};
+    *style = (struct lang_style){.syntax = syntax, .arena = arena, .from_images = syntax->in_images};
     for (ir_type_id type = 0; type < IR_NUM_TYPES; type++) {
         const char *name = lang_syntax_type(syntax, type);
         style->types[type] = text_word_of(arena, name, strlen(name));

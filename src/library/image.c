@@ -28,6 +28,7 @@ static const struct section_info section_infos[] = {
     SECTION(doc.elements),   SECTION(doc.attrs),     SECTION(doc.files),      SECTION(unit.nodes),
     SECTION(unit.slots),     SECTION(unit.functions), SECTION(unit.globals),  SECTION(unit.files),
     SECTION(unit.words),     SECTION(unit.refs),     SECTION(unit.user_types), SECTION(unit.members),
+    SECTION(unit.texts),     SECTION(unit.text_bytes),
     SECTION(nodedefs),       SECTION(ports),         SECTION(impls),          SECTION(families),
     SECTION(verbatims),      SECTION(graph_nodes),   SECTION(bindings),       SECTION(geomprops),
     SECTION(types),          SECTION(refs),          SECTION(node_table),     SECTION(element_info),
@@ -85,6 +86,24 @@ static void put_section(struct text *out, struct header *header, unsigned sectio
     header->sections[section].offset = begin_section(out);
     header->sections[section].len = len;
     text_mem(out, items, len * item_size);
+}
+
+/* Tables of ids have 16 bits for each where all of them fit. */
+static bool is_narrow(uint32_t max_id)
+{
+    return max_id <= UINT16_MAX;
+}
+
+static void put_table(struct text *out, struct header *header, unsigned section, const uint32_t *ids, uint32_t len, uint32_t max_id)
+{
+    if (!is_narrow(max_id)) {
+        put_section(out, header, section, ids, len, sizeof *ids);
+        return;
+    }
+    uint16_t *narrow = ARENA_ARRAY(out->arena, uint16_t, len);
+    for (uint32_t i = 0; i < len; i++)
+        narrow[i] = (uint16_t)ids[i];
+    put_section(out, header, section, narrow, len, sizeof *narrow);
 }
 
 /* ---- Attributes: each run of them once, since template rows repeat most of theirs ---- */
@@ -155,7 +174,7 @@ static void put_strings(const struct strpool *pool, struct text *out, struct hea
     offsets[pool->num] = (uint32_t)bytes.len;
     put_section(out, header, SECTION_STR_OFFSETS, offsets, pool->num + 1, sizeof *offsets);
     put_section(out, header, SECTION_STR_BYTES, bytes.data, (uint32_t)bytes.len, 1);
-    put_section(out, header, SECTION_STR_TABLE, pool->table, pool->table_mask + 1, sizeof *pool->table);
+    put_table(out, header, SECTION_STR_TABLE, pool->table, pool->table_mask + 1, pool->num);
 }
 
 static void add_fragments(struct lang_unit *unit, const struct lang_recorder *recorder)
@@ -165,7 +184,8 @@ static void add_fragments(struct lang_unit *unit, const struct lang_recorder *re
     memcpy(&unit->fragment_of, &recorder->fragment_of, sizeof unit->fragment_of);
 }
 
-void library_write_image(const struct library *lib, const struct lang_recorder *recorder, struct text *out)
+void library_write_image(const struct library *lib, const struct lang_recorder *recorder, const struct lang_syntax *syntax,
+                         struct text *out)
 {
     struct header header = {
         .fingerprint = fingerprint(),
@@ -181,14 +201,16 @@ void library_write_image(const struct library *lib, const struct lang_recorder *
     struct library packed = *lib;
     share_attributes(&packed.doc, out->arena);
     add_fragments(&packed.unit, recorder);
+    if (syntax)
+        lang_make_texts(&packed.unit, syntax, out->arena);
     size_t start = out->len;
     text_mem(out, (const char *)&header, sizeof header);
     for (unsigned i = 0; i < NUM_VECS; i++) {
         const struct any_vec *vec = (const void *)((const char *)&packed + section_infos[i].offset);
         put_section(out, &header, i, vec->items, vec->len, section_infos[i].item_size);
     }
-    put_section(out, &header, SECTION_NAME_TABLE, lib->doc.name_table, lib->doc.name_table ? lib->doc.name_mask + 1 : 0,
-                sizeof *lib->doc.name_table);
+    put_table(out, &header, SECTION_NAME_TABLE, lib->doc.name_table, lib->doc.name_table ? lib->doc.name_mask + 1 : 0,
+              lib->doc.first_element + lib->doc.elements.len);
     put_strings(&lib->strings, out, &header);
     begin_section(out);
     header.size = out->len - start;
@@ -210,6 +232,35 @@ static const char *check_header(const struct header *header, const void *data, s
     return NULL;
 }
 
+/* ---- Mapping ---- */
+
+static void map_strings(struct strpool *strings, const struct header *header, const char *base)
+{
+    const void *table = base + header->sections[SECTION_STR_TABLE].offset;
+    *strings = (struct strpool){
+        .num = header->num_strings,
+        .table_mask = header->string_mask,
+        .offsets = (const void *)(base + header->sections[SECTION_STR_OFFSETS].offset),
+        .bytes = base + header->sections[SECTION_STR_BYTES].offset,
+    };
+    if (is_narrow(header->num_strings))
+        strings->narrow = table;
+    else
+        strings->table = table;
+}
+
+static void map_names(struct document *doc, const struct header *header, char *base)
+{
+    void *table = base + header->sections[SECTION_NAME_TABLE].offset;
+    doc->name_mask = header->name_mask;
+    if (header->sections[SECTION_NAME_TABLE].len == 0)
+        return;
+    if (is_narrow(header->first_element + doc->elements.len))
+        doc->narrow_names = table;
+    else
+        doc->name_table = table;
+}
+
 const char *library_map_image(struct library *lib, const void *data, size_t size, bool check_bytes)
 {
     const struct header *header = data;
@@ -224,21 +275,13 @@ const char *library_map_image(struct library *lib, const void *data, size_t size
         vec->items = base + header->sections[i].offset;
         vec->len = header->sections[i].len;
     }
-    lib->strings = (struct strpool){
-        .num = header->num_strings,
-        .table_mask = header->string_mask,
-        .table = (const void *)(base + header->sections[SECTION_STR_TABLE].offset),
-        .offsets = (const void *)(base + header->sections[SECTION_STR_OFFSETS].offset),
-        .bytes = base + header->sections[SECTION_STR_BYTES].offset,
-    };
+    map_strings(&lib->strings, header, base);
     lib->doc.strings = &lib->strings;
     lib->doc.first_element = header->first_element;
     lib->doc.first_attr = header->first_attr;
     lib->doc.first_file = header->first_file;
     lib->doc.root = header->root;
-    lib->doc.name_mask = header->name_mask;
-    lib->doc.name_table = header->sections[SECTION_NAME_TABLE].len
-                              ? (void *)(base + header->sections[SECTION_NAME_TABLE].offset) : NULL;
+    map_names(&lib->doc, header, base);
     lib->unit.strings = &lib->strings;
     return NULL;
 }

@@ -248,8 +248,12 @@ void library_check_enum(const struct library *lib, const struct port *port, str_
 
 /* image.c */
 
-/* The layer as one block with fragments (library must stand on no base); the layout is that of this build, checked when mapped. */
-void library_write_image(const struct library *lib, const struct lang_recorder *recorder, struct text *out);
+/*
+ * The layer as one block with fragments (library must stand on no base); the layout is that of this build, checked when mapped. `syntax`:
+ * that which functions stand in as text; NULL: in none.
+ */
+void library_write_image(const struct library *lib, const struct lang_recorder *recorder, const struct lang_syntax *syntax,
+                         struct text *out);
 /* Makes `lib` refer into a mapped image, which must outlive it; NULL or why it was refused. check_bytes: verify the checksum, for files. */
 const char *library_map_image(struct library *lib, const void *data, size_t size, bool check_bytes);
 

@@ -223,6 +223,7 @@ static const struct lang_syntax *syntax_of_one(struct spell *spell)
     *syntax = *spell->target->syntax;
     syntax->base = spell->target->syntax;
     syntax->forms = forms;
+    syntax->without_neighbours = true;
     return syntax;
 }
 

@@ -200,8 +200,8 @@ static void test_strings(struct arena *arena)
     REQUIRE_STR(str_text(&top, pine), "pine");
 }
 
-/* A layer as a library image has it: offsets into one block of bytes. */
-static void test_image_layer(struct arena *arena)
+/* A layer as a library image has it: offsets into one block of bytes, and ids of 16 bits where they fit. */
+static void test_image_layer(struct arena *arena, bool is_narrow)
 {
     struct strpool growing, document;
     static const char bytes[] = "\0oak\0pine";
@@ -213,7 +213,14 @@ static void test_image_layer(struct arena *arena)
             slot = (slot + 1) & 7;
         table[slot] = id;
     }
-    struct strpool image = {.num = 3, .table_mask = 7, .table = table, .offsets = offsets, .bytes = bytes};
+    uint16_t narrow[8];
+    for (uint32_t slot = 0; slot < 8; slot++)
+        narrow[slot] = (uint16_t)table[slot];
+    struct strpool image = {.num = 3, .table_mask = 7, .offsets = offsets, .bytes = bytes};
+    if (is_narrow)
+        image.narrow = narrow;
+    else
+        image.table = table;
     REQUIRE_EQ(str_find(&image, "oak", 3), 1);
     REQUIRE_EQ(str_find(&image, "pine", 4), 2);
     REQUIRE_EQ(str_find(&image, "pin", 3), 0);
@@ -426,7 +433,8 @@ int main(void)
     test_failures();
     test_overflow();
     test_strings(&arena);
-    test_image_layer(&arena);
+    test_image_layer(&arena, false);
+    test_image_layer(&arena, true);
     test_float_forms();
     test_round_trips();
     test_locale(&arena);

@@ -183,6 +183,39 @@ static void test_print_target(void)
     teardown(&f);
 }
 
+/* What an image holds as text is taken from there, as long as all of its names are those of the source. */
+static void test_print_from_image(void)
+{
+    struct fixture f;
+    setup(&f, "float tiny(float x) { return x * 2.0; }\n"
+              "float helper(float x) { float y = x * x + 1.0; return y * y * (x - 3.0); }\n"
+              "float f(float x) { return helper(x) * helper(x + 1.0) - x * x * x; }\n"
+              "float slope(float x) { return dFdx(x) * dFdx(x) + dFdy(x) * dFdy(x); }\n");
+    struct lang_syntax shared = lang_syntax_portable, lonely;
+    shared.in_images = true;
+    lonely = shared;
+    lonely.without_neighbours = true;
+    lang_make_canonical(&f.library);
+    const char *tiny = print_function(&f, &shared, NULL, find(&f, "tiny"));
+    const char *tree = print_function(&f, &shared, NULL, find(&f, "f")), *slope = print_function(&f, &shared, NULL, find(&f, "slope"));
+    lang_make_texts(&f.library, &shared, &f.arena);
+    REQUIRE_STR(print_function(&f, &shared, NULL, find(&f, "f")), tree);
+    REQUIRE_STR(print_function(&f, &shared, NULL, find(&f, "slope")), slope);
+    for (uint32_t i = 0; i < f.library.text_bytes.len; i++)
+        if (f.library.text_bytes.items[i] == ';') /* shows which is the text of the image */
+            f.library.text_bytes.items[i] = '@';
+    REQUIRE(strchr(print_function(&f, &shared, NULL, find(&f, "f")), '@'));
+    REQUIRE(strchr(print_function(&f, &shared, NULL, find(&f, "slope")), '@'));
+    REQUIRE(strchr(print_function(&f, &lonely, NULL, find(&f, "f")), '@'));
+    REQUIRE_STR(print_function(&f, &lonely, NULL, find(&f, "slope")), slope);
+    REQUIRE_STR(print_function(&f, &shared, NULL, find(&f, "tiny")), tiny); /* nobody calls it: it is not held */
+    REQUIRE_STR(print_function(&f, &lang_syntax_portable, NULL, find(&f, "f")), tree);
+    struct lang_names names = {.function = other_name};
+    const char *renamed = print_function(&f, &shared, &names, find(&f, "f"));
+    REQUIRE(strstr(renamed, "float helper(float x)") && !strchr(renamed, '@'));
+    teardown(&f);
+}
+
 /* Reaching */
 
 static void test_reach(void)
@@ -697,6 +730,7 @@ int main(void)
     test_print_statements();
     test_print_types();
     test_print_target();
+    test_print_from_image();
     test_reach();
     test_eval();
     test_specialise_values();
