@@ -15,6 +15,7 @@
 
 #include <assert.h>
 
+#define NO_REGION UINT32_MAX
 #define NO_EFFECT UINT32_MAX
 #define MANY_EFFECTS (UINT32_MAX - 1)
 
@@ -32,7 +33,7 @@ struct plan { /* what is known of a reached node, and what of the node itself is
     uint32_t uses;
     uint32_t region;
     uint32_t first;  /* the first effect that needs it */
-    uint32_t effect; /* the only effect that needs it, or MANY_EFFECTS */
+    uint32_t effect; /* where it reads a LOCAL: the only effect that needs it, or MANY_EFFECTS */
     uint32_t first_arg, num_args;
     uint16_t cost;   /* instructions to compute it from locals and interface variables */
     uint16_t chars;  /* its length as an expression, about */
@@ -48,7 +49,7 @@ struct region {
 
 struct visit { /* a node whose operands are being collected */
     ir_ref ref;
-    const ir_ref *next, *end; /* those that are left */
+    uint32_t next, end; /* those that are left, in graph->args */
 };
 
 struct scheduler {
@@ -58,8 +59,9 @@ struct scheduler {
     struct shader_stage *stage;
     uint8_t stage_bit;
     bool *is_reached;    /* by node */
+    bool any_local;      /* a node that reads a LOCAL has been reached */
     struct plan *plans;  /* by node; of reached nodes only, and of the absent one */
-    VEC(ir_ref) reached; /* operands before users */
+    VEC(ir_ref) reached; /* operands before users; there is room for all nodes */
     VEC(struct visit) visits;
     VEC(struct region) regions;
     VEC(uint32_t) region_of; /* the region that each effect stands in */
@@ -127,11 +129,25 @@ static void need_verbatim(struct scheduler *s, uint32_t callee)
     vec_push(s->arena, &s->stage->verbatim, callee);
 }
 
-/* What the shader must have for the node; returns flags that follow from it. */
-static unsigned note_needs(struct scheduler *s, ir_ref ref, const struct ir_node *node)
+/* What the shader must have for a call; returns flags that follow from it. */
+static unsigned note_call(struct scheduler *s, ir_ref ref, const struct ir_node *node)
+{
+    if (node->op == IR_CALL)
+        lang_reach_add(&s->stage->reach, s->shader->unit, shader_callee(s->shader, ref));
+    else if (node->op == IR_VERBATIM)
+        need_verbatim(s, shader_callee(s->shader, ref));
+    else
+        vec_push(s->arena, &s->called, node->attr);
+    bool is_statement = node->type == IR_TYPE_VOID || shader_call_outs(s->shader, ref);
+    return (is_statement ? PLAN_STATEMENT : 0u) | (needs_neighbours(s->graph, node) ? PLAN_NEIGHBOURS : 0u);
+}
+
+/* The same for any node. */
+static inline unsigned note_needs(struct scheduler *s, ir_ref ref, const struct ir_node *node)
 {
     switch (node->op) {
     case IR_LOCAL:
+        s->any_local = true;
         return PLAN_LOCAL;
     case IR_CONTEXT:
     case IR_UNIFORM:
@@ -142,64 +158,69 @@ static unsigned note_needs(struct scheduler *s, ir_ref ref, const struct ir_node
             s->shader->variables.items[s->shader->variables.items[node->attr].fallback - 1].stages |= s->stage_bit;
         return 0;
     case IR_CALL:
-        lang_reach_add(&s->stage->reach, s->shader->unit, shader_callee(s->shader, ref));
-        break;
     case IR_VERBATIM:
-        need_verbatim(s, shader_callee(s->shader, ref));
-        break;
     case IR_GRAPH_CALL:
-        vec_push(s->arena, &s->called, node->attr);
-        break;
+        return note_call(s, ref, node);
     default:
         return ir_op_info(node->op)->flags & OP_DERIVATIVE ? PLAN_NEIGHBOURS : 0;
     }
-    bool is_statement = node->type == IR_TYPE_VOID || shader_call_outs(s->shader, ref);
-    return (is_statement ? PLAN_STATEMENT : 0u) | (needs_neighbours(s->graph, node) ? PLAN_NEIGHBOURS : 0u);
+}
+
+static unsigned locals_below(const struct scheduler *s, const struct ir_node *node)
+{
+    unsigned flags = 0;
+    for (uint32_t i = 0; i < node->num_args; i++)
+        flags |= s->plans[s->graph->args.items[node->first_arg + i]].flags;
+    return flags & PLAN_LOCAL;
 }
 
 /* What the node depends on follows from its operands, which are reached before. */
-static void reach_node(struct scheduler *s, ir_ref ref)
+static inline void reach_node(struct scheduler *s, ir_ref ref)
 {
-    const struct ir_node *node = ir_get(s->graph, ref);
+    const struct ir_node *node = &s->graph->nodes.items[ref];
     unsigned flags = note_needs(s, ref, node);
     if (node->flags & IR_NODE_LOOP && node->op != IR_LOCAL)
         flags |= PLAN_LOOP;
-    const ir_ref *args = s->graph->args.items + node->first_arg, *end = args + node->num_args;
-    for (; args < end; args++)
-        flags |= plan_of(s, *args)->flags & PLAN_LOCAL;
-    *plan_of(s, ref) = (struct plan){.first_arg = node->first_arg, .num_args = node->num_args, .type = node->type,
-                                     .op = node->op, .flags = (uint8_t)flags};
+    if (s->any_local)
+        flags |= locals_below(s, node);
+    s->plans[ref] = (struct plan){.region = NO_REGION, .first = NO_EFFECT, .effect = NO_EFFECT, .first_arg = node->first_arg,
+                                  .num_args = node->num_args, .type = node->type, .op = node->op, .flags = (uint8_t)flags};
     s->is_reached[ref] = true;
-    vec_push(s->arena, &s->reached, ref);
+    s->reached.items[s->reached.len++] = ref;
 }
 
-static void visit(struct scheduler *s, ir_ref ref)
+static inline struct visit visit_of(const struct scheduler *s, ir_ref ref)
 {
-    const struct ir_node *node = ir_get(s->graph, ref);
-    const ir_ref *args = s->graph->args.items + node->first_arg;
-    if (node->num_args)
-        vec_push(s->arena, &s->visits, (struct visit){ref, args, args + node->num_args});
-    else
-        reach_node(s, ref);
+    const struct ir_node *node = &s->graph->nodes.items[ref];
+    return (struct visit){ref, node->first_arg, node->first_arg + node->num_args};
 }
 
 static void collect(struct scheduler *s, ir_ref root)
 {
     const bool *is_reached = s->is_reached;
-    if (!is_reached[root])
-        visit(s, root);
-    while (s->visits.len) {
-        struct visit *top = &vec_last(&s->visits);
-        const ir_ref *next = top->next, *end = top->end;
-        while (next < end && is_reached[*next])
-            next++;
-        if (next == end) {
-            reach_node(s, top->ref);
-            s->visits.len--;
-        } else {
-            top->next = next + 1;
-            visit(s, *next);
+    const ir_ref *args = s->graph->args.items;
+    if (is_reached[root])
+        return;
+    struct visit top = visit_of(s, root);
+    for (;;) {
+        while (top.next < top.end && is_reached[args[top.next]])
+            top.next++;
+        ir_ref ref = top.ref;
+        if (top.next < top.end) {
+            ref = args[top.next++];
+            struct visit operand = visit_of(s, ref);
+            if (operand.next < operand.end) {
+                vec_push(s->arena, &s->visits, top);
+                top = operand;
+                continue;
+            }
         }
+        reach_node(s, ref);
+        if (ref != top.ref)
+            continue;
+        if (s->visits.len == 0)
+            return;
+        top = vec_pop(&s->visits);
     }
 }
 
@@ -250,20 +271,19 @@ static uint32_t lift(const struct scheduler *s, uint32_t effect, uint32_t region
     return effect;
 }
 
-static inline void use(struct scheduler *s, struct plan *plan, uint32_t uses, uint32_t region, uint32_t first,
-                       uint32_t effect)
+/* What one use says of a node; of `effect` only nodes that read a LOCAL want to know. */
+static inline void use(const struct scheduler *s, struct plan *plan, uint32_t uses, uint32_t region, uint32_t first)
 {
-    if (plan->uses == 0) {
-        plan->region = region;
+    if (plan->region != region)
+        plan->region = plan->uses ? common_region(s, plan->region, region) : region;
+    if (first < plan->first)
         plan->first = first;
-        plan->effect = effect;
-    } else {
-        if (plan->region != region)
-            plan->region = common_region(s, plan->region, region);
-        plan->first = first < plan->first ? first : plan->first;
-        plan->effect = effect == plan->effect ? effect : MANY_EFFECTS;
-    }
     plan->uses += uses;
+}
+
+static inline void use_local(struct plan *plan, uint32_t effect)
+{
+    plan->effect = plan->effect == NO_EFFECT || plan->effect == effect ? effect : MANY_EFFECTS;
 }
 
 /* Out of loops and branches, as far as the node may and should go. */
@@ -291,29 +311,40 @@ static bool has_arms(const struct plan *plan)
     return plan->op == IR_SELECT || plan->op == IR_LAND || plan->op == IR_LOR;
 }
 
+/* What a node's place says of its operands. */
+static inline void place_operands(const struct scheduler *s, struct plan *plans, const struct plan *plan)
+{
+    uint32_t uses = plan->op == IR_RESULT ? plan->uses : 1; /* a result is another name of its call */
+    uint32_t region = plan->region, first = plan->first, effect = plan->effect;
+    uint8_t in_arm = plan->flags & PLAN_IN_ARM, arms = has_arms(plan) ? PLAN_IN_ARM : in_arm;
+    bool reads_local = plan->flags & PLAN_LOCAL;
+    const ir_ref *args = args_of(s, plan), *end = args + plan->num_args;
+    for (; args < end; args++, in_arm = arms) {
+        struct plan *operand = &plans[*args]; /* that of the absent one stands for nothing */
+        use(s, operand, uses, region, first);
+        operand->flags |= in_arm;
+        if (reads_local)
+            use_local(operand, effect);
+    }
+}
+
 /* Users first: where each node belongs. */
 static void find_places(struct scheduler *s, const struct effect_list *effects)
 {
+    struct plan *plans = s->plans;
     for (uint32_t i = 0; i < effects->len; i++) {
-        const struct effect *effect = &effects->items[i];
-        if (!effect->value)
+        ir_ref value = effects->items[i].value;
+        if (!value)
             continue;
-        use(s, plan_of(s, effect->value), 1, s->region_of.items[i], i, i);
+        use(s, &plans[value], 1, s->region_of.items[i], i);
+        use_local(&plans[value], i);
     }
+    const ir_ref *reached = s->reached.items;
     for (uint32_t i = s->reached.len; i-- > 0;) {
-        struct plan *plan = plan_of(s, s->reached.items[i]);
+        struct plan *plan = &plans[reached[i]];
         move_out(s, plan);
-        uint32_t uses = plan->op == IR_RESULT ? plan->uses : 1; /* a result is another name of its call */
-        uint32_t region = plan->region, first = plan->first, effect = plan->effect;
-        uint8_t in_arm = plan->flags & PLAN_IN_ARM, arms = has_arms(plan) ? PLAN_IN_ARM : in_arm;
-        const ir_ref *args = args_of(s, plan), *end = args + plan->num_args;
-        for (; args < end; args++, in_arm = arms) {
-            struct plan *operand = plan_of(s, *args);
-            if (!*args)
-                continue;
-            use(s, operand, uses, region, first, effect);
-            operand->flags |= in_arm;
-        }
+        if (plan->num_args)
+            place_operands(s, plans, plan);
     }
 }
 
@@ -633,6 +664,7 @@ void shader_schedule(struct shader *shader, enum shader_stage_id stage)
         .is_reached = ARENA_ARRAY(shader->arena, bool, shader->graph->nodes.len),
         .plans = arena_alloc(shader->arena, mem_array_size(shader->arena->mem, shader->graph->nodes.len, sizeof(struct plan))),
     };
+    vec_reserve(s.arena, &s.reached, shader->graph->nodes.len);
     s.plans[0] = (struct plan){0}; /* of absent operands */
     s.is_reached[0] = true;
     s.stage->functions.len = s.stage->verbatim.len = 0;
