@@ -127,7 +127,7 @@ static const char *shader_name(struct spell *spell)
     if (spell->options->shader_name)
         return spell->options->shader_name;
     const char *path = str_text(spell->shader->strings, spell->options->neutral_names ? 0 : spell->shader->path);
-    return *path ? names_unique(&spell->names, path, strlen(path)) : "neutral";
+    return *path ? names_unique(&spell->names, path, strlen(path)).text : "neutral";
 }
 
 static void write_shader(struct osl *osl)

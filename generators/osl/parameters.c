@@ -89,7 +89,7 @@ static const char *value_name(struct spell *spell, const char *stream)
     struct text name;
     text_init(&name, spell->scratch);
     text_fmt(&name, "%s_value", primitive_name(stream));
-    return names_unique(&spell->names, text_cstr(&name), name.len);
+    return names_unique(&spell->names, text_cstr(&name), name.len).text;
 }
 
 void osl_name_interface(struct osl *osl)
@@ -101,7 +101,7 @@ void osl_name_interface(struct osl *osl)
         const char *name = text_of(osl, variable->name);
         const char *expression = expression_of(osl, variable);
         if (is_stream(variable) && !expression && array_length(variable))
-            osl->arrays[i] = names_unique(&spell->names, primitive_name(name), strlen(primitive_name(name)));
+            osl->arrays[i] = names_unique(&spell->names, primitive_name(name), strlen(primitive_name(name))).text;
         else if (is_stream(variable) && !expression)
             name = primitive_name(name);
         if (is_result(osl, variable))
@@ -111,8 +111,8 @@ void osl_name_interface(struct osl *osl)
         else if (osl->arrays[i])
             name = value_name(spell, name);
         else if (is_stream(variable))
-            name = names_unique(&spell->names, name, strlen(name));
-        spell->variables[spell->shader->interface.items[i]] = name;
+            name = names_unique(&spell->names, name, strlen(name)).text;
+        spell->variables[spell->shader->interface.items[i]] = (struct spell_name){name, strlen(name)};
     }
 }
 
@@ -126,7 +126,7 @@ const char *osl_global_name(void *user_data, uint32_t id)
         return NULL;
     const char *expression = expression_of(osl, &spell->shader->variables.items[index]);
     if (!expression || is_global(expression))
-        return spell->variables[index];
+        return spell->variables[index].text;
     struct text text;
     text_init(&text, spell->scratch);
     text_fmt(&text, strchr(expression, ' ') ? "(%s)" : "%s", expression);
@@ -324,7 +324,7 @@ static void write_stream_parameters(struct osl *osl, unsigned *count)
             spell_number(spell, array_length(variable));
             spell_text(spell, "] = ");
         } else {
-            SPELL(spell, type_name(osl, variable), " ", spell->variables[spell->shader->interface.items[i]], " = ");
+            SPELL(spell, type_name(osl, variable), " ", spell->variables[spell->shader->interface.items[i]].text, " = ");
         }
         write_default(osl, variable);
         spell_text(spell, " [[ int lockgeom = 0 ]]");
@@ -359,7 +359,7 @@ void osl_write_streams(struct osl *osl)
     struct spell *spell = osl->spell;
     for (uint32_t i = 0; i < spell->shader->interface.len; i++) {
         const struct shader_variable *variable = interface_variable(osl, i);
-        const char *expression = expression_of(osl, variable), *name = spell->variables[spell->shader->interface.items[i]];
+        const char *expression = expression_of(osl, variable), *name = spell->variables[spell->shader->interface.items[i]].text;
         bool is_local = expression ? !is_global(expression) : array_length(variable) > 0;
         if (!is_stream(variable) || !is_read(osl, variable) || !is_local)
             continue;

@@ -2,13 +2,13 @@
 /* What stands above the functions: structs, uniforms, textures, and what comes into the stage and goes out. */
 #include "spell/spell.h"
 
-static const char *concat(struct spell *spell, const char *a, const char *b)
+static struct spell_name prefixed(struct spell *spell, const char *prefix, struct spell_name name)
 {
     struct text text;
     text_init(&text, spell->scratch);
-    text_str(&text, a);
-    text_str(&text, b);
-    return text_cstr(&text);
+    text_str(&text, prefix);
+    text_mem(&text, name.text, name.len);
+    return (struct spell_name){text_cstr(&text), text.len};
 }
 
 static const struct shader_variable *interface_variable(const struct spell *spell, uint32_t i)
@@ -16,9 +16,9 @@ static const struct shader_variable *interface_variable(const struct spell *spel
     return &spell->shader->variables.items[spell->shader->interface.items[i]];
 }
 
-static const char *variable_name(const struct spell *spell, const struct shader_variable *variable)
+static struct spell_name variable_name(const struct spell *spell, const struct shader_variable *variable)
 {
-    return str_text(spell->shader->strings, variable->name);
+    return spell_name_of(spell->shader->strings, variable->name);
 }
 
 static bool stage_reads(const struct spell *spell, const struct shader_variable *variable)
@@ -37,19 +37,19 @@ void spell_name_interface(struct spell *spell)
     bool io_block = spell_can(spell, CAP_BLOCK_STAGE_IO);
     for (uint32_t i = 0; i < spell->shader->interface.len; i++) {
         const struct shader_variable *variable = interface_variable(spell, i);
-        const char *name = variable_name(spell, variable);
+        struct spell_name name = variable_name(spell, variable);
         if (variable->block == BLOCK_VERTEX_DATA)
-            name = concat(spell, io_block ? "vd." : "vd_", name);
+            name = prefixed(spell, io_block ? "vd." : "vd_", name);
         spell->variables[spell->shader->interface.items[i]] = name;
         bool declared = spell->blocks || stage_reads(spell, variable);
         if (declared && variable->block != BLOCK_LIGHT_DATA && !(variable->block == BLOCK_VERTEX_DATA && io_block))
-            names_take(&spell->names, name, strlen(name));
+            names_take(&spell->names, name.text, name.len);
     }
 }
 
 /* ---- Declarations ---- */
 
-static void declare(struct spell *spell, const struct shader_variable *variable, const char *name)
+static void declare(struct spell *spell, const struct shader_variable *variable, struct spell_name name)
 {
     spell_variable(spell, variable->type, name);
     if (variable->array_length) {

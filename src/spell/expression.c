@@ -45,12 +45,16 @@ void spell_type(struct spell *spell, ir_type_id type)
     write_lengths(spell, type);
 }
 
-void spell_variable(struct spell *spell, ir_type_id type, const char *name)
+void spell_variable(struct spell *spell, ir_type_id type, struct spell_name name)
 {
-    write_base_type(spell, type);
+    if (type >= IR_TYPE_FIRST_USER)
+        write_base_type(spell, type);
+    else
+        text_put(spell->out, spell->style->types[type]);
     text_char(spell->out, ' ');
-    spell_text(spell, name);
-    write_lengths(spell, type);
+    spell_name(spell, name);
+    if (type >= IR_TYPE_FIRST_USER)
+        write_lengths(spell, type);
 }
 
 static void write_swizzle(struct spell *spell, ir_ref ref, uint32_t attr)
@@ -154,11 +158,11 @@ static bool is_named(const struct spell *spell, ir_ref ref)
     return is_number || spell->local_of[ref] || op == IR_UNIFORM || op == IR_STREAM || op == IR_PARAM || op == IR_LOCAL || op == IR_RESULT;
 }
 
-/* The target's own form for the types at hand; NULL: it has none. */
+/* The form for the types at hand of a target that has such forms; NULL: none for these. */
 static const struct lang_pieces *typed_form(const struct spell *spell, ir_ref ref, const struct ir_node *node)
 {
     bool has_form = ir_op_info(node->op)->flags & (OP_OPERATOR | OP_BUILTIN) || node->op == IR_CONST || node->op > IR_LEAF;
-    if (!spell->lang_names.form || !has_form)
+    if (!has_form)
         return NULL;
     ir_type_id types[16];
     struct lang_use use = {.op = node->op, .type = node->type, .attr = node->attr, .operands = types, .node = ref};
@@ -168,6 +172,26 @@ static const struct lang_pieces *typed_form(const struct spell *spell, ir_ref re
         use.named |= (uint32_t)is_named(spell, operand) << use.num_operands;
     }
     return spell->lang_names.form(spell->lang_names.user_data, &use);
+}
+
+static void write_node(struct spell *spell, ir_ref ref, const struct ir_node *node, enum lang_precedence least);
+
+/* What stands for a node: its local, a variable, or else an expression. */
+static inline void write_operand(struct spell *spell, ir_ref ref, enum lang_precedence least)
+{
+    uint32_t local = spell->local_of[ref];
+    const struct ir_node *node = &spell->shader->graph->nodes.items[ref];
+    if (local)
+        spell_name(spell, spell->let_names.items[local - 1]);
+    else if (node->op == IR_UNIFORM || node->op == IR_STREAM)
+        spell_name(spell, spell->variables[node->attr]);
+    else
+        write_node(spell, ref, node, least);
+}
+
+void spell_expression(struct spell *spell, ir_ref ref, enum lang_precedence least)
+{
+    write_operand(spell, ref, least);
 }
 
 static void write_form(struct spell *spell, const struct ir_node *node, const struct lang_pieces *form, enum lang_precedence least)
@@ -184,7 +208,7 @@ static void write_form(struct spell *spell, const struct ir_node *node, const st
         if (piece->index == LANG_PIECE_TYPE)
             spell_type(spell, node->type);
         else
-            spell_expression(spell, args[piece->index], (enum lang_precedence)piece->least);
+            write_operand(spell, args[piece->index], (enum lang_precedence)piece->least);
     }
     if (form->rest.len)
         text_put(spell->out, form->rest);
@@ -201,17 +225,18 @@ static void write_source(struct spell *spell, const struct ir_node *node)
     case IR_UNIFORM:
     case IR_STREAM:
     case IR_TEXTURE:
-        spell_text(spell, spell->variables[node->attr]);
+        spell_name(spell, spell->variables[node->attr]);
         break;
     case IR_PARAM:
         text_char(spell->out, 'p');
         text_u32(spell->out, node->attr & 0xffff);
         break;
     case IR_LOCAL:
-        spell_text(spell, spell->locals[node->attr]);
+        spell_name(spell, spell->locals[node->attr]);
         break;
     case IR_CONTEXT:
-        SPELL(spell, "u_lightData[", spell->loop_index, "].", spell->variables[node->attr]);
+        SPELL(spell, "u_lightData[", spell->loop_index, "].");
+        spell_name(spell, spell->variables[node->attr]);
         break;
     case IR_SAMPLE:
         spell_text(spell, spell->loop_index);
@@ -222,15 +247,11 @@ static void write_source(struct spell *spell, const struct ir_node *node)
     }
 }
 
-void spell_expression(struct spell *spell, ir_ref ref, enum lang_precedence least)
+/* A node that has no local. */
+static void write_node(struct spell *spell, ir_ref ref, const struct ir_node *node, enum lang_precedence least)
 {
     const struct ir_graph *graph = spell->shader->graph;
-    const struct ir_node *node = ir_get(graph, ref);
-    if (spell->local_of[ref]) {
-        spell_text(spell, spell->let_names.items[spell->local_of[ref] - 1]);
-        return;
-    }
-    const struct lang_pieces *own = typed_form(spell, ref, node);
+    const struct lang_pieces *own = spell->lang_names.form ? typed_form(spell, ref, node) : NULL;
     if (own) {
         write_form(spell, node, own, least);
         return;
@@ -257,7 +278,7 @@ void spell_expression(struct spell *spell, ir_ref ref, enum lang_precedence leas
     case IR_RESULT: {
         uint32_t first = spell->local_of[ir_arg(graph, ref, 0)];
         if (first)
-            spell_text(spell, spell->let_names.items[first - 1 + node->attr]);
+            spell_name(spell, spell->let_names.items[first - 1 + node->attr]);
         else
             spell_expression(spell, ir_arg(graph, ref, 0), least);
         break;

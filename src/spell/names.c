@@ -8,7 +8,7 @@
 
 void names_init(struct name_set *names, struct arena *arena, const struct lang_style *style)
 {
-    *names = (struct name_set){.arena = arena, .style = style, .mask = 255};
+    *names = (struct name_set){.arena = arena, .style = style, .mask = 511};
     names->table = ARENA_ARRAY(arena, uint32_t, names->mask + 1);
 }
 
@@ -80,23 +80,41 @@ static size_t put_number(char *out, uint32_t number)
     return len;
 }
 
-const char *names_unique(struct name_set *names, const char *text, size_t len)
+/* A name that is taken, with the first number behind it that makes another one. */
+static struct spell_name add_number(struct name_set *names, uint32_t first)
 {
-    size_t base_len;
-    const char *base = identifier_from(text, len, names->arena, &base_len);
+    const struct name_entry *base = &names->entries.items[first];
+    size_t len = base->len;
+    char *numbered = arena_alloc(names->arena, len + sizeof "_4294967295");
+    text_copy(numbered, base->text, len);
+    if (numbered[len - 1] != '_')
+        numbered[len++] = '_';
     bool is_new;
-    struct name_entry *entry = take(names, base, (uint32_t)base_len, &is_new);
-    if (is_new && !lang_style_is_reserved(names->style, base, base_len))
-        return base;
-    uint32_t first = (uint32_t)(entry - names->entries.items);
-    char *numbered = arena_alloc(names->arena, base_len + sizeof "_4294967295");
-    text_copy(numbered, base, base_len);
-    if (numbered[base_len - 1] != '_')
-        numbered[base_len++] = '_';
+    size_t end;
     do {
-        size_t end = base_len + put_number(numbered + base_len, names->entries.items[first].next++);
+        end = len + put_number(numbered + len, names->entries.items[first].next++);
         numbered[end] = '\0';
         take(names, numbered, (uint32_t)end, &is_new);
     } while (!is_new);
-    return numbered;
+    return (struct spell_name){numbered, end};
+}
+
+struct spell_name names_unique(struct name_set *names, const char *text, size_t len)
+{
+    unsigned slot = (unsigned)((uintptr_t)text ^ (uintptr_t)text >> 6) % NAMES_RECENT;
+    if (names->recent[slot].text == text && names->recent[slot].len == len) {
+        uint32_t scope = names->entries.items[names->recent[slot].entry].scope;
+        if (scope == 0 || scope == names->scope)
+            return add_number(names, names->recent[slot].entry);
+    }
+    size_t base_len;
+    const char *base = identifier_from(text, len, names->arena, &base_len);
+    bool is_new;
+    uint32_t entry = (uint32_t)(take(names, base, (uint32_t)base_len, &is_new) - names->entries.items);
+    names->recent[slot].text = text;
+    names->recent[slot].len = (uint32_t)len;
+    names->recent[slot].entry = entry;
+    if (is_new && !lang_style_is_reserved(names->style, base, base_len))
+        return (struct spell_name){base, base_len};
+    return add_number(names, entry);
 }

@@ -14,6 +14,13 @@ struct name_entry {
     uint32_t next;  /* the number to try for the next of this name */
 };
 
+struct spell_name { /* as it is written */
+    const char *text;
+    size_t len;
+};
+
+enum { NAMES_RECENT = 64 };
+
 struct name_set {
     struct arena *arena;
     const struct lang_style *style;
@@ -21,13 +28,17 @@ struct name_set {
     uint32_t *table; /* open addressing: entry + 1 */
     uint32_t mask;
     uint32_t scope;  /* of the function at hand; 0 outside */
+    struct { /* names that were asked for lately, by address: most locals are called like others */
+        const char *text;
+        uint32_t len, entry;
+    } recent[NAMES_RECENT];
 };
 
 void names_init(struct name_set *names, struct arena *arena, const struct lang_style *style);
 void names_open_scope(struct name_set *names); /* a new function: the names of the one before are free again */
 /* Texts given to these two must live as long as the set. */
 /* `text` made an identifier, with a number behind it where that is reserved or taken. */
-const char *names_unique(struct name_set *names, const char *text, size_t len);
+struct spell_name names_unique(struct name_set *names, const char *text, size_t len);
 /* Takes a name as it is; false where it is taken already. */
 bool names_take(struct name_set *names, const char *text, size_t len);
 
@@ -46,13 +57,13 @@ struct spell {
     struct name_set names;
     struct lang_style *style;     /* of the target's syntax */
     struct lang_names lang_names; /* for the portable printer */
-    const char **variables;       /* how each interface variable is read in this stage */
+    struct spell_name *variables; /* how each interface variable is read in this stage; NULL: it is not */
     const char **functions;       /* names of portable functions by id, of those that are reached */
     const char **graph_functions; /* names of IR functions by index */
     const char **user_types;      /* names of structs by index, of the unit */
-    const char **locals;          /* names of the stage's mutable variables */
+    struct spell_name *locals;    /* names of the stage's mutable variables */
     uint32_t *local_of;           /* node of a LET to its first name in let_names, + 1; 0: it is an expression */
-    VEC(const char *) let_names;
+    VEC(struct spell_name) let_names;
     const char *loop_index; /* in LIGHTS and SAMPLES: the loop's variable */
     struct name_set paths;        /* shown in comments so far */
     void *target_data;            /* the target's own, while its hook runs */
@@ -66,7 +77,7 @@ void spell_expression(struct spell *spell, ir_ref ref, enum lang_precedence leas
 /* "f(a, b": the name and operands of a call, unfinished. Returns how many arguments were written. */
 unsigned spell_call_open(struct spell *spell, ir_ref call);
 void spell_type(struct spell *spell, ir_type_id type);
-void spell_variable(struct spell *spell, ir_type_id type, const char *name); /* "float x[3]" */
+void spell_variable(struct spell *spell, ir_type_id type, struct spell_name name); /* "float x[3]" */
 
 /* ---- statement.c ---- */
 
@@ -90,6 +101,11 @@ void spell_stage(struct spell *spell, enum shader_stage_id stage);
 /* The text of a comment, of a document's words: nothing in it ends the line or joins it with the next one. */
 void spell_comment(struct spell *spell, const char *text, size_t len);
 static inline void spell_text(struct spell *spell, const char *text) { text_str(spell->out, text); }
+static inline void spell_name(struct spell *spell, struct spell_name name) { text_mem(spell->out, name.text, name.len); }
+static inline struct spell_name spell_name_of(const struct strpool *strings, str_id id)
+{
+    return (struct spell_name){str_text(strings, id), str_len(strings, id)};
+}
 /* Several texts in a row: SPELL(spell, "in ", name, ";\n"). */
 #define SPELL(spell, ...) spell_texts((spell), (const char *const[]){__VA_ARGS__, NULL})
 static inline void spell_texts(struct spell *spell, const char *const *texts)

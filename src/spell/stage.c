@@ -68,14 +68,14 @@ static void name_functions(struct spell *spell)
         str_id source = lang_function(shader->unit, id, NULL)->name;
         const char *name = spell_can(spell, CAP_OVERLOADS) ? overload_of(spell, &overloads, i, source) : NULL;
         if (!name)
-            name = names_unique(&spell->names, str_text(shader->strings, source), str_len(shader->strings, source));
+            name = names_unique(&spell->names, str_text(shader->strings, source), str_len(shader->strings, source)).text;
         spell->functions[id] = name;
     }
     for (uint32_t i = 0; i < spell->stage->functions.len; i++) {
         uint32_t index = spell->stage->functions.items[i].function;
         str_id source = shader->graph->functions.items[index].name;
-        spell->graph_functions[index] = names_unique(&spell->names, str_text(shader->strings, source),
-                                                     str_len(shader->strings, source));
+        spell->graph_functions[index] =
+            names_unique(&spell->names, str_text(shader->strings, source), str_len(shader->strings, source)).text;
     }
 }
 
@@ -85,7 +85,7 @@ static void name_types(struct spell *spell)
     for (uint32_t i = 0; i < reach->user_types.len; i++) {
         str_id name = lang_user_type(spell->shader->unit, reach->user_types.items[i], NULL)->name;
         spell->user_types[reach->user_types.items[i] - IR_TYPE_FIRST_USER] =
-            names_unique(&spell->names, str_text(spell->shader->strings, name), str_len(spell->shader->strings, name));
+            names_unique(&spell->names, str_text(spell->shader->strings, name), str_len(spell->shader->strings, name)).text;
     }
 }
 
@@ -99,7 +99,7 @@ static const char *global_name(void *user_data, uint32_t id)
 {
     const struct spell *spell = user_data;
     uint32_t variable = shader_global_variable(spell->shader, id);
-    return variable == UINT32_MAX ? NULL : spell->variables[variable];
+    return variable == UINT32_MAX ? NULL : spell->variables[variable].text;
 }
 
 static const char *user_type_name(void *user_data, ir_type_id type)
@@ -233,12 +233,12 @@ static void init(struct spell *spell)
     struct arena *arena = spell->scratch;
     const struct lang_unit *unit = shader->unit;
     spell->blocks = spell_can(spell, CAP_UNIFORM_BLOCKS) || (spell_can(spell, CAP_BLOCK_OPTION) && spell->options->uniform_blocks);
-    spell->variables = ARENA_ARRAY(arena, const char *, shader->variables.len + 1);
+    spell->variables = ARENA_ARRAY(arena, struct spell_name, shader->variables.len + 1);
     uint32_t num_functions = unit->base_functions + unit->functions.len;
     spell->functions = arena_alloc(arena, mem_array_size(arena->mem, num_functions, sizeof *spell->functions));
     spell->graph_functions = ARENA_ARRAY(arena, const char *, shader->graph->functions.len + 1);
     spell->user_types = ARENA_ARRAY(arena, const char *, unit->base_user_types + unit->user_types.len + 1);
-    spell->locals = ARENA_ARRAY(arena, const char *, shader->locals.len + 1);
+    spell->locals = ARENA_ARRAY(arena, struct spell_name, shader->locals.len + 1);
     spell->local_of = ARENA_ARRAY(arena, uint32_t, shader->graph->nodes.len);
     spell->lang_names = (struct lang_names){
         .user_data = spell, .function = function_name, .global = global_name, .user_type = user_type_name};

@@ -10,10 +10,10 @@ static void open_line(struct spell *spell, unsigned indent, uint32_t origin)
     spell_indent(spell, indent);
 }
 
-static void write_assignment(struct spell *spell, unsigned indent, const char *name, const char *operator, ir_ref value)
+static void write_assignment(struct spell *spell, unsigned indent, struct spell_name name, const char *operator, ir_ref value)
 {
     open_line(spell, indent, ir_get(spell->shader->graph, value)->origin);
-    spell_text(spell, name);
+    spell_name(spell, name);
     spell_text(spell, operator);
     spell_expression(spell, value, LANG_PREC_ASSIGN);
     text_mem(spell->out, ";\n", 2);
@@ -21,52 +21,62 @@ static void write_assignment(struct spell *spell, unsigned indent, const char *n
 
 /* ---- Locals ---- */
 
+static struct spell_name without(struct spell_name name, size_t len)
+{
+    return (struct spell_name){name.text + len, name.len - len};
+}
+
 /* "coat" of the input whose path is "NG/metal/coat", "alphaThreshold" of u_alphaThreshold. */
-static const char *input_name(const struct spell *spell, const struct shader_variable *variable)
+static struct spell_name input_name(const struct spell *spell, const struct shader_variable *variable)
 {
     if (!variable->path)
-        return str_text(spell->shader->strings, variable->name) + strlen("u_");
-    const char *path = str_text(spell->shader->strings, variable->path), *slash = strrchr(path, '/');
-    return slash ? slash + 1 : path;
+        return without(spell_name_of(spell->shader->strings, variable->name), strlen("u_"));
+    struct spell_name path = spell_name_of(spell->shader->strings, variable->path);
+    const char *slash = strrchr(path.text, '/');
+    return slash ? without(path, (size_t)(slash + 1 - path.text)) : path;
 }
 
 /* "metal_ior" of the origin, "direction" of a light, "coat" of an input, "noise" of the function mx_noise, else a letter. */
-static const char *local_base(const struct spell *spell, ir_ref ref)
+static struct spell_name local_base(const struct spell *spell, ir_ref ref)
 {
     const struct ir_graph *graph = spell->shader->graph;
     const struct ir_node *node = ir_get(graph, ref);
+    const struct strpool *strings = spell->shader->strings;
+    if (spell->options->neutral_names)
+        return (struct spell_name){"v", 1};
     if (node->op == IR_CONTEXT)
-        return str_text(spell->shader->strings, spell->shader->variables.items[node->attr].name);
+        return spell_name_of(strings, spell->shader->variables.items[node->attr].name);
     if (node->op == IR_UNIFORM)
         return input_name(spell, &spell->shader->variables.items[node->attr]);
     str_id name = graph->origins.items[node->origin].name;
     if (name)
-        return str_text(spell->shader->strings, name);
+        return spell_name_of(strings, name);
     if (node->op == IR_CALL) {
-        const char *function = str_text(spell->shader->strings, lang_function(spell->shader->unit,
-                                                                              shader_callee(spell->shader, ref), NULL)->name);
-        return strncmp(function, "mx_", 3) == 0 ? function + 3 : function;
+        struct spell_name function =
+            spell_name_of(strings, lang_function(spell->shader->unit, shader_callee(spell->shader, ref), NULL)->name);
+        return strncmp(function.text, "mx_", 3) == 0 ? without(function, 3) : function;
     }
-    return node->type == IR_TYPE_BOOL ? "b" : node->type == IR_TYPE_INT ? "k" : "t";
+    return (struct spell_name){node->type == IR_TYPE_BOOL ? "b" : node->type == IR_TYPE_INT ? "k" : "t", 1};
 }
 
-static const char *add_local(struct spell *spell, const char *base, const char *part)
+static struct spell_name add_local(struct spell *spell, struct spell_name base)
 {
-    struct text text;
-    if (spell->options->neutral_names) {
-        base = "v";
-        part = NULL;
-    }
-    if (part) {
-        text_init(&text, spell->scratch);
-        text_str(&text, base);
-        text_char(&text, '_');
-        text_str(&text, part);
-        base = text_cstr(&text);
-    }
-    const char *name = names_unique(&spell->names, base, strlen(base));
+    struct spell_name name = names_unique(&spell->names, base.text, base.len);
     vec_push(spell->scratch, &spell->let_names, name);
     return name;
+}
+
+/* "metal_ior" for the part "ior" of a call's results. */
+static struct spell_name part_name(struct spell *spell, struct spell_name base, const char *part)
+{
+    if (!part || spell->options->neutral_names)
+        return base;
+    struct text text;
+    text_init(&text, spell->scratch);
+    text_mem(&text, base.text, base.len);
+    text_char(&text, '_');
+    text_str(&text, part);
+    return (struct spell_name){text_cstr(&text), text.len};
 }
 
 /*
@@ -141,7 +151,7 @@ static void write_portable_arguments(struct spell *spell, ir_ref call, uint32_t 
         if (mode == LANG_IN)
             spell_expression(spell, ir_arg(spell->shader->graph, call, operand), LANG_PREC_ASSIGN);
         else
-            spell_text(spell, spell->let_names.items[first_name + 1 + out++]);
+            spell_name(spell, spell->let_names.items[first_name + 1 + out++]);
         operand += mode != LANG_OUT;
     }
 }
@@ -158,7 +168,7 @@ static void write_call_arguments(struct spell *spell, ir_ref call, uint32_t firs
     for (unsigned i = 0; i < outs; i++) {
         if (written++)
             text_mem(spell->out, ", ", 2);
-        spell_text(spell, spell->let_names.items[first_name + 1 + i]);
+        spell_name(spell, spell->let_names.items[first_name + 1 + i]);
     }
 }
 
@@ -180,15 +190,16 @@ static ir_ref inout_operand(const struct spell *spell, ir_ref call, unsigned ind
 static void declare_outs(struct spell *spell, unsigned indent, ir_ref call, unsigned outs)
 {
     const struct ir_node *node = ir_get(spell->shader->graph, call);
-    const char *base = local_base(spell, call);
+    struct spell_name base = local_base(spell, call);
     struct call_out last = {0};
     for (unsigned i = 0; i < outs; i++) {
         struct call_out out = describe_out(spell, call, i);
-        const char *name = add_local(spell, base, node->type == IR_TYPE_VOID && outs == 1 ? NULL : out.part);
+        bool is_whole = node->type == IR_TYPE_VOID && outs == 1;
+        struct spell_name name = add_local(spell, part_name(spell, base, is_whole ? NULL : out.part));
         bool joins = i > 0 && !out.inout && !last.inout && out.type == last.type && out.type < IR_TYPE_FIRST_USER;
         if (joins) {
             text_mem(spell->out, ", ", 2);
-            spell_text(spell, name);
+            spell_name(spell, name);
         } else {
             if (i > 0)
                 text_mem(spell->out, ";\n", 2);
@@ -209,9 +220,9 @@ static void write_call_let(struct spell *spell, unsigned indent, ir_ref call, un
     const struct ir_node *node = ir_get(spell->shader->graph, call);
     uint32_t first = spell->let_names.len;
     if (node->type == IR_TYPE_VOID)
-        vec_push(spell->scratch, &spell->let_names, NULL);
+        vec_push(spell->scratch, &spell->let_names, (struct spell_name){0});
     else
-        add_local(spell, local_base(spell, call), NULL);
+        (void)add_local(spell, local_base(spell, call));
     declare_outs(spell, indent, call, outs);
     open_line(spell, indent, node->origin);
     if (node->type != IR_TYPE_VOID) {
@@ -234,15 +245,17 @@ static void write_let(struct spell *spell, unsigned indent, ir_ref ref)
             return;
         }
     }
-    const char *name = add_local(spell, local_base(spell, ref), NULL);
+    struct spell_name name = add_local(spell, local_base(spell, ref));
     open_line(spell, indent, node->origin);
     if (node->op == IR_CONST && !spell->target->syntax->defines_constants)
         spell_text(spell, "const ");
     const char *own_type = spell->target->node_type ? spell->target->node_type(spell, ref) : NULL;
-    if (own_type)
-        SPELL(spell, own_type, " ", name);
-    else
+    if (own_type) {
+        SPELL(spell, own_type, " ");
+        spell_name(spell, name);
+    } else {
         spell_variable(spell, node->type, name);
+    }
     text_mem(spell->out, " = ", 3);
     spell_expression(spell, ref, LANG_PREC_ASSIGN);
     text_mem(spell->out, ";\n", 2);
@@ -254,7 +267,7 @@ static void write_let(struct spell *spell, unsigned indent, ir_ref ref)
 static void write_loop(struct spell *spell, unsigned indent, bool lights)
 {
     if (!spell->loop_index)
-        spell->loop_index = names_unique(&spell->names, "i", 1);
+        spell->loop_index = names_unique(&spell->names, "i", 1).text;
     const char *i = spell->loop_index;
     open_line(spell, indent, 0);
     SPELL(spell, "for (int ", i, " = 0; ", i, " < ");
@@ -287,8 +300,9 @@ static void write_discard(struct spell *spell, unsigned indent, ir_ref condition
 static void write_variable(struct spell *spell, unsigned indent, const struct effect *effect)
 {
     const struct shader_local *local = &spell->shader->locals.items[effect->index];
-    const char *name = spell->options->neutral_names ? "v" : str_text(spell->shader->strings, local->name);
-    spell->locals[effect->index] = names_unique(&spell->names, name, strlen(name));
+    struct spell_name name = spell->options->neutral_names ? (struct spell_name){"v", 1}
+                                                           : spell_name_of(spell->shader->strings, local->name);
+    spell->locals[effect->index] = names_unique(&spell->names, name.text, name.len);
     open_line(spell, indent, 0);
     spell_variable(spell, local->type, spell->locals[effect->index]);
     if (effect->value) {
@@ -301,9 +315,14 @@ static void write_variable(struct spell *spell, unsigned indent, const struct ef
 static void write_result(struct spell *spell, unsigned indent, const struct effect *effect)
 {
     char name[16] = "return";
-    if (effect->index)
-        (void)snprintf(name, sizeof name, "r%u", (unsigned)effect->index);
-    write_assignment(spell, indent, name, effect->index ? " = " : " ", effect->value);
+    size_t len = effect->index ? (size_t)snprintf(name, sizeof name, "r%u", (unsigned)effect->index) : strlen(name);
+    write_assignment(spell, indent, (struct spell_name){name, len}, effect->index ? " = " : " ", effect->value);
+}
+
+static struct spell_name position_name(const struct spell *spell)
+{
+    const char *name = spell->target->position ? spell->target->position : "gl_Position";
+    return (struct spell_name){name, strlen(name)};
 }
 
 static void write_comment(struct spell *spell, unsigned indent, str_id text)
@@ -335,7 +354,7 @@ static void write_effect(struct spell *spell, unsigned indent, const struct effe
         write_assignment(spell, indent, spell->variables[effect->index], " = ", effect->value);
         break;
     case EFFECT_POSITION:
-        write_assignment(spell, indent, spell->target->position ? spell->target->position : "gl_Position", " = ", effect->value);
+        write_assignment(spell, indent, position_name(spell), " = ", effect->value);
         break;
     case EFFECT_LIGHTS:
     case EFFECT_SAMPLES:
@@ -416,7 +435,7 @@ void spell_graph_function(struct spell *spell, const struct shader_function *fun
         ir_type_id type = in ? graph->param_types.items[fn->first_param_type + index]
                              : ir_type_of(graph, graph->function_results.items[fn->first_result + index]);
         spell_text(spell, !in ? syntax->param_out : type == IR_TYPE_SAMPLER ? "" : syntax->param_in);
-        spell_variable(spell, type, name);
+        spell_variable(spell, type, (struct spell_name){name, len});
     }
     text_mem(spell->out, ")\n{\n", 4);
     spell_statements(spell, &function->statements, 1);
