@@ -5,6 +5,7 @@
  *
  * Functions keep their ids and parameters. All arrays that trees refer to are written anew, without what has been dropped.
  */
+#include "base/hash.h"
 #include "lang/specialise.h"
 
 struct copier {
@@ -13,6 +14,8 @@ struct copier {
     const struct lang_unit *made; /* the layer of the versions */
     VEC(lang_ref) calls;          /* of the function, arguments before the call that they are for */
     uint8_t *is_used;             /* by slot */
+    uint32_t *runs;               /* open addressing: 1 + a function, of each distinct run of slots */
+    uint32_t runs_mask;
     uint32_t num_effects;         /* calls so far that assign to their arguments */
     bool is_simple;               /* no call has arguments with effects, or very many */
 };
@@ -151,6 +154,22 @@ static bool is_final(const struct copier *c, const struct lang_function *fn)
     return true;
 }
 
+/* Equal runs of slots are one: expressions of many nodes have inputs of equal names and types. */
+static uint32_t copy_slots(struct copier *c, const struct lang_function *fn)
+{
+    const struct lang_slot *slots = ast_slot(c->from, fn, 0);
+    uint32_t i = hash_bytes(slots, fn->num_slots * sizeof *slots) & c->runs_mask;
+    for (; c->runs[i]; i = (i + 1) & c->runs_mask) {
+        const struct lang_function *other = &c->to->functions.items[c->runs[i] - 1];
+        if (other->num_slots == fn->num_slots && memcmp(ast_slot(c->to, other, 0), slots, fn->num_slots * sizeof *slots) == 0)
+            return other->first_slot;
+    }
+    c->runs[i] = c->to->functions.len + 1; /* which this one is going to be */
+    uint32_t first = c->to->slots.len;
+    memcpy(vec_extend(c->to->arena, &c->to->slots, fn->num_slots), slots, fn->num_slots * sizeof *slots);
+    return first;
+}
+
 static struct lang_function copy_function(struct copier *c, uint32_t id, uint32_t version)
 {
     struct lang_function fn = *lang_function(c->made, version, &c->from);
@@ -158,11 +177,7 @@ static struct lang_function copy_function(struct copier *c, uint32_t id, uint32_
     c->is_simple = true;
     c->is_used = arena_zalloc(c->to->arena, fn.num_slots);
     fn.body = copy_node(c, fn.body);
-    uint32_t slots = c->to->slots.len;
-    if (fn.num_slots)
-        memcpy(vec_extend(c->to->arena, &c->to->slots, fn.num_slots), ast_slot(c->from, &fn, 0),
-               fn.num_slots * sizeof(struct lang_slot));
-    fn.first_slot = slots;
+    fn.first_slot = fn.num_slots ? copy_slots(c, &fn) : 0;
     fn.first_callee = copy_refs(c, c->from, fn.first_callee, fn.num_callees, true);
     fn.first_global = copy_refs(c, c->from, fn.first_global, fn.num_globals, false);
     fn.num_calls = c->calls.len;
@@ -196,7 +211,10 @@ void lang_make_canonical(struct lang_unit *unit)
     struct lang_unit made, to = *unit;
     lang_unit_init(&made, unit->arena, unit->strings, unit);
     const uint32_t *versions = make_versions(&made, unit->base_functions, unit->functions.len);
-    struct copier c = {.to = &to, .made = &made};
+    struct copier c = {.to = &to, .made = &made, .runs_mask = 15};
+    while (c.runs_mask < 2 * unit->functions.len)
+        c.runs_mask = 2 * c.runs_mask + 1;
+    c.runs = ARENA_ARRAY(unit->arena, uint32_t, c.runs_mask + 1);
     memset(&to.nodes, 0, sizeof to.nodes);
     memset(&to.slots, 0, sizeof to.slots);
     memset(&to.words, 0, sizeof to.words);
