@@ -49,7 +49,7 @@ static bool has_tiles(const struct spell *spell, const struct shader_variable *t
 static void write_part_of(const struct spell *spell, uint32_t parameter, unsigned n, unsigned channel, struct text *out)
 {
     bool is_struct = n == 2 || n == 4;
-    text_str(out, spell->variables[parameter]);
+    text_str(out, spell->variables[parameter].text);
     if (is_struct)
         text_fmt(out, ".%c", "xyzw"[channel]);
     else if (n == 3)
@@ -100,7 +100,7 @@ static void write_call(const struct spell *spell, const struct shader_variable *
     }
     text_str(out, ", \"missingcolor\", ");
     if (texture->fallback && is_color(spell, texture->fallback - 1)) {
-        text_fmt(out, "%s)", spell->variables[texture->fallback - 1]);
+        text_fmt(out, "%s)", spell->variables[texture->fallback - 1].text);
         return;
     }
     text_str(out, "color(");
