@@ -231,6 +231,8 @@ static int generate_all(struct generate *gen)
     if (find_target(gen->target, &target))
         gen->target_info = &target;
     gen->several = gen->cli.parser.inputs.len > 1;
+    for (uint32_t i = 0; i < mxg_library_num_files(gen->cli.library); ++i)
+        add_source(gen, mxg_library_file(gen->cli.library, i));
     for (size_t i = 0; i < gen->cli.parser.inputs.len; ++i)
         generate_file(gen, gen->cli.parser.inputs.items[i]);
     if (gen->depfile && gen->cli.report.errors == 0)

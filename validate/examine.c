@@ -115,16 +115,6 @@ static void add_status(struct examiner *examiner, mxg_status status, struct chec
     free(rendered);
 }
 
-void examine_add_file(struct examiner *examiner, const char *path)
-{
-    struct check_document *document = examiner->document;
-    for (size_t i = 0; i < document->num_files; ++i)
-        if (strcmp(document->files[i], path) == 0)
-            return;
-    document->files = store_grow(&examiner->store, document->files, document->num_files, sizeof *document->files);
-    document->files[document->num_files++] = copy(examiner, path);
-}
-
 /* ---- Stages ---- */
 
 static mxg_document *load(struct examiner *examiner, const char *path)
@@ -139,7 +129,7 @@ static mxg_document *load(struct examiner *examiner, const char *path)
         check_fail(&examiner->document->failed, CHECK_LOAD);
     uint32_t count = mxg_document_num_files(document);
     for (uint32_t i = 0; i < count; ++i)
-        examine_add_file(examiner, mxg_document_file(document, i));
+        check_add_file(&examiner->store, examiner->document, mxg_document_file(document, i));
     examiner->document->load_ms = examine_clock() - begin;
     return document;
 }
@@ -176,6 +166,8 @@ static void generate(struct examiner *examiner, const mxg_document *document, co
     shader->generate_ms = examine_clock() - begin;
     if (status == MXG_OK)
         examine_shader(examiner, result, shader, element);
+    if (status == MXG_OK && examiner->render && !examiner->is_brief)
+        examine_images(examiner, result);
     check_fail(&examiner->document->failed, shader->failed);
     mxg_result_destroy(result);
 }

@@ -26,14 +26,12 @@ void examiner_finish(struct examiner *examiner);
 /* examine_shader.c: what was generated is measured and compiled. */
 void examine_shader(struct examiner *examiner, const mxg_result *result, struct check_shader *shader, const char *element);
 
-/* examine_picture.c: draws an element. */
+/* examine_picture.c: which images its picture shows; draws an element. */
+void examine_images(struct examiner *examiner, const mxg_result *result);
 void examine_picture(struct examiner *examiner, struct check_element *element);
 
 /* Adds a message of the current document for a shader; its text is copied. */
 void examine_add(struct examiner *examiner, struct check_shader *shader, struct check_message message);
-
-/* Adds a file that was read, once. */
-void examine_add_file(struct examiner *examiner, const char *path);
 
 /* Tells what begins, should it be the last. */
 void examine_mark(const struct examiner *examiner, enum check_stage stage, const char *element, const char *target);

@@ -14,6 +14,7 @@
 #include <unistd.h>
 
 #define SIZE "96" /* pixels */
+#define FRAME 33
 
 extern char **environ;
 
@@ -53,6 +54,7 @@ static int run(struct examiner *examiner, const char *element)
     args_append(&args, cli_format("--output=%s/picture.png", examiner->folder));
     args_append(&args, cli_format("--copy=%s/picture.ppm", examiner->folder));
     args_append(&args, cli_format("--size=" SIZE));
+    args_append(&args, cli_format("--frame=%d", FRAME));
     args_append(&args, cli_format("--missing-texture=checker"));
     cli_forward(examiner->cli, &args);
     args_append(&args, NULL);
@@ -93,6 +95,30 @@ static void fail(struct examiner *examiner, const struct check_element *element,
     check_fail(&examiner->document->failed, CHECK_RENDER);
     free(rendered);
     free(text);
+}
+
+/* Beside the document, as the renderer looks for it. */
+static void add_image(struct examiner *examiner, const char *file)
+{
+    const char *document = examiner->document->file, *slash = strrchr(document, '/');
+    int folder = slash && file[0] != '/' ? (int)(slash - document) + 1 : 0;
+    char *path = cli_format("%.*s%s", folder, document, file);
+    check_add_image(&examiner->store, examiner->document, path);
+    free(path);
+}
+
+void examine_images(struct examiner *examiner, const mxg_result *result)
+{
+    for (uint32_t i = 0; i < mxg_result_num_variables(result); ++i) {
+        mxg_variable variable = {sizeof variable};
+        char file[4096];
+        mxg_result_variable(result, i, &variable);
+        if (variable.block != MXG_BLOCK_TEXTURES || !*variable.file)
+            continue;
+        for (uint32_t tile = 0; tile < (variable.num_tiles ? variable.num_tiles : 1); ++tile)
+            if (mxg_result_texture_file(result, i, tile, FRAME, file, sizeof file))
+                add_image(examiner, file);
+    }
 }
 
 void examine_picture(struct examiner *examiner, struct check_element *element)

@@ -221,5 +221,5 @@ void examine_shader(struct examiner *examiner, const mxg_result *result, struct 
         compile(examiner, result, shader, element);
     rank_parts(shader);
     for (uint32_t i = 0; i < mxg_result_num_files(result); ++i)
-        examine_add_file(examiner, mxg_result_file(result, i));
+        check_add_file(&examiner->store, examiner->document, mxg_result_file(result, i));
 }

@@ -177,6 +177,8 @@ static const char *copy(struct store *store, const char *text)
 void budget_judge(struct budget *budget, struct store *store, struct check_document *document)
 {
     const struct budget_file *file = file_of(&budget->judged, document->file);
+    if (file->path && document->num_files)
+        check_add_file(store, document, file->path);
     if (file->fault.id) {
         struct check_message message = file->fault;
         message.text = copy(store, message.text);

@@ -4,9 +4,9 @@
 
 #include "cli/cli.h"
 #include "cli/files.h"
-#include "cli/folder.h"
 
 #include <dirent.h>
+#include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -94,20 +94,6 @@ static void add_file(struct sha256 *sha, const char *path)
     sha256_add_text(sha, hex);
 }
 
-static void add_library(struct sha256 *sha, const char *path)
-{
-    struct arg_list files = {0};
-    if (files_is_regular(path))
-        add_file(sha, path);
-    else
-        folder_find(path, "", &files);
-    for (size_t i = 0; i < files.len; ++i) {
-        add_file(sha, files.items[i]);
-        free((void *)(uintptr_t)files.items[i]);
-    }
-    free(files.items);
-}
-
 /* A program by its version, size and time: another build is another program. */
 static void add_program(struct sha256 *sha, const char *path)
 {
@@ -118,7 +104,14 @@ static void add_program(struct sha256 *sha, const char *path)
     sha256_add(sha, numbers, sizeof numbers);
 }
 
-void cache_init(struct cache *cache, const char *folder, const struct arg_list *args, const struct arg_list *libraries)
+static void add_renderer(struct sha256 *sha)
+{
+    char *program = cli_program("mxgen-render");
+    add_program(sha, program);
+    free(program);
+}
+
+void cache_init(struct cache *cache, const char *folder, const struct arg_list *args, const mxg_library *library)
 {
     *cache = (struct cache){.folder = folder, .begin = time(NULL)};
     if (!folder)
@@ -129,10 +122,13 @@ void cache_init(struct cache *cache, const char *folder, const struct arg_list *
     sha256_init(&sha);
     sha256_add(&sha, &version, sizeof version);
     add_program(&sha, args->items[0]);
-    for (size_t i = 1; i < args->len && args->items[i]; ++i)
+    for (size_t i = 1; i < args->len && args->items[i]; ++i) {
         sha256_add_text(&sha, args->items[i]);
-    for (size_t i = 0; i < libraries->len; ++i)
-        add_library(&sha, libraries->items[i]);
+        if (strcmp(args->items[i], "--render") == 0)
+            add_renderer(&sha);
+    }
+    for (uint32_t i = 0; i < mxg_library_num_files(library); ++i)
+        add_file(&sha, mxg_library_file(library, i));
     sha256_hex(&sha, cache->configuration);
     if (!cache->files)
         cache->folder = NULL;
@@ -165,15 +161,36 @@ static char *entry_path(const struct cache *cache, const struct cache_key *key)
     return cli_format("%s/%.2s/%s.json", cache->folder, key->hex, key->hex + 2);
 }
 
+#define STAMP "stamp " /* what is said of an image begins with that */
+
+/* Images are large: size and time stand for what is in them. */
+static void stamp_image(const char *path, char out[SHA256_HEX + 1])
+{
+    struct stat info;
+    if (stat(path, &info) == 0)
+        snprintf(out, SHA256_HEX + 1, STAMP "%jd %jd.%09ld", (intmax_t)info.st_size, (intmax_t)info.st_mtim.tv_sec, info.st_mtim.tv_nsec);
+    else
+        snprintf(out, SHA256_HEX + 1, STAMP "none");
+}
+
+static bool is_as_before(struct cache *cache, const char *path, const char *said)
+{
+    char stamp[SHA256_HEX + 1];
+    if (strncmp(said, STAMP, strlen(STAMP)) != 0)
+        return strcmp(said, remembered_hash(cache, path)) == 0;
+    stamp_image(path, stamp);
+    return strcmp(said, stamp) == 0;
+}
+
 /* The first line of an entry is an object: path and hash of each file that was read besides the document, and of the
- * names in each folder of textures. */
+ * names in each folder of textures; path and stamp of each image that a picture shows. */
 static bool is_current(struct cache *cache, const char *line, size_t len)
 {
     struct store store = {0};
     const struct json_value *files = json_parse(&store, line, len);
     bool good = files && files->kind == JSON_OBJECT;
     for (const struct json_value *file = good ? files->first : NULL; file && good; file = file->next)
-        good = file->kind == JSON_STRING && *file->text && strcmp(file->text, remembered_hash(cache, file->key)) == 0;
+        good = file->kind == JSON_STRING && *file->text && is_as_before(cache, file->key, file->text);
     store_finish(&store);
     return good;
 }
@@ -221,6 +238,9 @@ static bool follows_from_files(const struct cache *cache, const struct check_doc
     for (size_t i = 1; i < document->num_files; ++i)
         if (may_have_changed(cache, document->files[i]))
             return false;
+    for (size_t i = 0; i < document->num_images; ++i)
+        if (files_is_regular(document->images[i]) && may_have_changed(cache, document->images[i]))
+            return false;
     if (document->failed == CHECK_CRASH || document->failed == CHECK_TIMEOUT || document->num_files == 0)
         return false;
     for (size_t i = 0; i < document->num_messages; ++i)
@@ -244,6 +264,12 @@ static char *make_entry(struct cache *cache, const struct check_document *docume
     for (size_t i = 0; i < document->num_folders; ++i) {
         json_key(&json, document->folders[i]);
         json_string(&json, remembered_hash(cache, document->folders[i]));
+    }
+    for (size_t i = 0; i < document->num_images; ++i) {
+        char stamp[SHA256_HEX + 1];
+        stamp_image(document->images[i], stamp);
+        json_key(&json, document->images[i]);
+        json_string(&json, stamp);
     }
     json_end(&json, '}');
     putc('\n', out);

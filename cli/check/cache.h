@@ -2,8 +2,8 @@
 /*
  * Records of documents that were checked before. An entry is named after all that its record follows from: the document's
  * bytes and name, what the workers are told, their program and the libraries; inside it says which other files were read, with
- * the hashes of these. Entries appear whole or not at all, so that several runs may share a cache and one that is killed
- * leaves nothing broken; what cannot be read counts as absent.
+ * the hashes of these, and for images that pictures show size and time. Entries appear whole or not at all, so that several
+ * runs may share a cache and one that is killed leaves nothing broken; what cannot be read counts as absent.
  */
 #ifndef MXG_CLI_CHECK_CACHE_H
 #define MXG_CLI_CHECK_CACHE_H
@@ -27,8 +27,8 @@ struct cache {
     time_t begin;
 };
 
-/* `args` are those of the workers, the program first; `libraries` are files and folders. */
-void cache_init(struct cache *cache, const char *folder, const struct arg_list *args, const struct arg_list *libraries);
+/* `args` are those of the workers, the program first. */
+void cache_init(struct cache *cache, const char *folder, const struct arg_list *args, const mxg_library *library);
 void cache_finish(struct cache *cache);
 
 /* The key of a document as it is now, and the record of it; NULL where there is none. To be freed. */

@@ -45,6 +45,7 @@ struct check {
     struct budget budget;
     struct baseline baseline;
     bool update_baseline;
+    const char *baseline_path;
     const char *budget_args[NUM_MEASURES];
     const char *cache_folder, *shard;
     uint64_t num_found; /* documents, those of other shards too */
@@ -259,12 +260,29 @@ static bool prepare_baseline(struct check *check)
     const char **path = &check->reports.paths[SINK_BASELINE];
     if (!*path || !files_is_regular(*path))
         return true;
+    check->baseline_path = *path;
     check->reports.run.is_compared = baseline_open(&check->baseline, *path);
     if (!check->reports.run.is_compared)
         report_error(&check->cli.report, "report-unreadable", "cannot read '%s': %s", *path, check->baseline.reader.fault);
     if (!check->update_baseline)
         *path = NULL;
     return check->reports.run.is_compared;
+}
+
+/* What all documents depend on, for the depfile. */
+static void name_inputs(struct check *check)
+{
+    struct arg_list *inputs = &check->reports.run.inputs;
+    for (uint32_t i = 0; i < mxg_library_num_files(check->cli.library); ++i)
+        args_append(inputs, mxg_library_file(check->cli.library, i));
+    for (size_t i = 0; i < check->files_from.len; ++i)
+        if (strcmp(check->files_from.items[i], "-") != 0)
+            args_append(inputs, check->files_from.items[i]);
+    for (size_t i = 0; i < check->cli.parser.inputs.len; ++i)
+        if (check->cli.parser.inputs.items[i][0] == '@')
+            args_append(inputs, check->cli.parser.inputs.items[i] + 1);
+    if (check->reports.run.is_compared)
+        args_append(inputs, check->baseline_path);
 }
 
 static bool prepare(struct check *check)
@@ -286,6 +304,7 @@ static bool prepare(struct check *check)
     run->with_times = check->stats;
     if (!prepare_baseline(check))
         return false;
+    name_inputs(check);
     const char *const *paths = check->reports.paths;
     check->needs_measures = check->stats || check->cache_folder || check->budget.command_line.len || run->is_compared ||
                             paths[SINK_JSON] || paths[SINK_HTML] || paths[SINK_BASELINE];
@@ -314,7 +333,7 @@ static int run(struct check *check)
         return EXIT_FAULT;
     make_worker_args(check);
     inputs_init(&check->inputs, &check->cli.parser.inputs, &check->files_from);
-    cache_init(&check->cache, check->cache_folder, &check->worker_args, &check->cli.library_paths);
+    cache_init(&check->cache, check->cache_folder, &check->worker_args, check->cli.library);
     pool_init(&check->pool, (char *const *)(uintptr_t)check->worker_args.items, check->jobs, (double)check->time_limit);
     check_all(check);
     if (check->reports.run.is_compared && !check->reports.run.num_shards)
@@ -347,6 +366,7 @@ static void finish(struct check *check)
     free(check->target_args.items);
     free(check->files_from.items);
     free(check->targets.items);
+    free(check->reports.run.inputs.items);
     cli_finish(&check->cli);
 }
 

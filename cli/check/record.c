@@ -60,13 +60,36 @@ uint32_t check_add_message(struct store *store, struct check_document *document,
     return (uint32_t)document->num_messages++;
 }
 
+static bool has_text(const char *const *texts, size_t count, const char *text)
+{
+    for (size_t i = 0; i < count; ++i)
+        if (strcmp(texts[i], text) == 0)
+            return true;
+    return false;
+}
+
 static void add_folder(struct store *store, struct check_document *document, const char *folder)
 {
-    for (size_t i = 0; i < document->num_folders; ++i)
-        if (strcmp(document->folders[i], folder) == 0)
-            return;
+    if (has_text(document->folders, document->num_folders, folder))
+        return;
     document->folders = store_grow(store, document->folders, document->num_folders, sizeof *document->folders);
     document->folders[document->num_folders++] = folder;
+}
+
+void check_add_file(struct store *store, struct check_document *document, const char *path)
+{
+    if (has_text(document->files, document->num_files, path))
+        return;
+    document->files = store_grow(store, document->files, document->num_files, sizeof *document->files);
+    document->files[document->num_files++] = store_text(store, path, strlen(path));
+}
+
+void check_add_image(struct store *store, struct check_document *document, const char *path)
+{
+    if (has_text(document->images, document->num_images, path))
+        return;
+    document->images = store_grow(store, document->images, document->num_images, sizeof *document->images);
+    document->images[document->num_images++] = store_text(store, path, strlen(path));
 }
 
 /* The part of a path that ends with its last '/'. */
@@ -214,6 +237,8 @@ void check_write_document(FILE *out, const struct check_document *document, bool
     write_texts(&json, "files", document->files, document->num_files);
     if (document->num_folders)
         write_texts(&json, "folders", document->folders, document->num_folders);
+    if (document->num_images)
+        write_texts(&json, "images", document->images, document->num_images);
     json_key(&json, "elements");
     json_begin(&json, '[');
     for (size_t i = 0; i < document->num_elements; ++i)
@@ -351,6 +376,7 @@ struct check_document *check_read_document(struct store *store, const char *text
         read_message(&document->messages[document->num_messages++], item);
     document->files = read_texts(store, json_get(value, "files"), &document->num_files);
     document->folders = read_texts(store, json_get(value, "folders"), &document->num_folders);
+    document->images = read_texts(store, json_get(value, "images"), &document->num_images);
     document->elements = store_array(store, count_items(elements), sizeof *document->elements);
     for (const struct json_value *item = elements->first; item; item = item->next)
         read_element(store, &document->elements[document->num_elements++], item, document->num_messages);

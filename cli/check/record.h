@@ -120,6 +120,8 @@ struct check_document {
     size_t num_files;
     const char **folders; /* of textures and of what is missing, with a '/' behind: the names in them matter */
     size_t num_folders;
+    const char **images; /* that the pictures show, whether they are there or not: what is in them matters */
+    size_t num_images;
     struct check_element *elements;
     size_t num_elements;
     double load_ms, validate_ms, render_ms;
@@ -138,6 +140,10 @@ uint32_t check_add_message(struct store *store, struct check_document *document,
 
 /* Appends the folders that a file may lie in: beside the one that names it, and in the working directory. */
 void check_add_place(struct store *store, struct check_document *document, const char *from, const char *file);
+
+/* Appends a file, or an image, once; the name is copied. */
+void check_add_file(struct store *store, struct check_document *document, const char *path);
+void check_add_image(struct store *store, struct check_document *document, const char *path);
 
 /* Writes the document as one line. Times change from run to run, and are left out on demand. */
 void check_write_document(FILE *out, const struct check_document *document, bool with_times);

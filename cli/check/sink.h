@@ -6,6 +6,7 @@
 #ifndef MXG_CLI_CHECK_SINK_H
 #define MXG_CLI_CHECK_SINK_H
 
+#include "cli/args.h"
 #include "cli/check/record.h"
 #include "cli/files.h"
 
@@ -31,6 +32,7 @@ struct check_run {
     uint64_t shard, num_shards; /* from 1; 0: this is all */
     const char *outputs[8]; /* the reports that are written to files */
     size_t num_outputs;
+    struct arg_list inputs; /* files that were read for the run as a whole: libraries, lists, the baseline */
 };
 
 struct sink {

@@ -218,6 +218,10 @@ MXG_API mxg_status mxg_library_load(mxg_context *context, mxg_library *base, con
 MXG_API mxg_library *mxg_library_ref(mxg_library *library); /* atomic; returns its argument */
 MXG_API void mxg_library_unref(mxg_library *library);
 
+/* Files that were read for it and for what it stands on: for depfiles and watchers. The built-in library has none. */
+MXG_API uint32_t mxg_library_num_files(const mxg_library *library);
+MXG_API const char *mxg_library_file(const mxg_library *library, uint32_t index);
+
 /* The library image, for mxg_library_load and for embedding; it lives as long as the library. Only of libraries on no base. */
 MXG_API mxg_status mxg_library_image(mxg_library *library, const void **out_data, size_t *out_size);
 /* The library as a plain MaterialX document: templates expanded. */

@@ -82,6 +82,7 @@ struct mxg_library {
     struct library layer;
     const void *image; /* the bytes that the layer was mapped from; NULL: it was read from files */
     size_t image_size;
+    VEC(const char *) files; /* that it was read from */
 };
 
 struct mxg_context {

@@ -117,6 +117,8 @@ static mxg_status load_layer(mxg_context *context, mxg_library *base, const char
     struct object *object = &load.library->object;
     file_source_init(&load.files, object);
     mxg_status status = object_run(object, work, &load);
+    load.library->files.items = load.files.names.items;
+    load.library->files.len = load.files.names.len;
     file_source_finish(&load.files);
     if (status != MXG_OK) {
         object_unref(object);
@@ -152,6 +154,31 @@ mxg_status mxg_library_load(mxg_context *context, mxg_library *base, const char 
     status = load_layer(context, image, paths + 1, num_paths - 1, read_paths, out_library);
     mxg_library_unref(image);
     return status;
+}
+
+/* ---- Files ---- */
+
+static const mxg_library *base_of(const mxg_library *library)
+{
+    return (const mxg_library *)library->object.below;
+}
+
+uint32_t mxg_library_num_files(const mxg_library *library)
+{
+    uint32_t count = 0;
+    for (; library; library = base_of(library))
+        count += library->files.len;
+    return count;
+}
+
+const char *mxg_library_file(const mxg_library *library, uint32_t index)
+{
+    for (; library; library = base_of(library)) {
+        uint32_t below = mxg_library_num_files(base_of(library));
+        if (index >= below)
+            return index - below < library->files.len ? library->files.items[index - below] : NULL;
+    }
+    return NULL;
 }
 
 /* ---- As image and as text ---- */

@@ -111,6 +111,30 @@ if [ "$draws" = yes ]; then
     sed -i 's/0.8, 0.1, 0.1/0.1, 0.8, 0.1/' red.mtlx
     check 'another colour' exits 0 "${draw[@]}" --baseline red.json --json green.json
     check 'looks different, though the shader is the same' is "$(changes green.json)" "[('red.mtlx', 'picture')]"
+
+    # An image that changes under its name
+    paint() { # FILE R G B: a picture of 4 x 4 pixels
+        python3 -c 'import struct, sys, zlib
+chunk = lambda kind, data: struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+row = b"\0" + bytes(map(int, sys.argv[2:5])) * 4
+open(sys.argv[1], "wb").write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", 4, 4, 8, 2, 0, 0, 0)) + chunk(b"IDAT", zlib.compress(row * 4)) + chunk(b"IEND", b""))' "$@"
+        touch -d "$((++painted)) hours ago" "$1"
+    }
+    painted=0
+    mkdir -p look/wood
+    sed 's|<standard_surface.*|<image name="I" type="color3"><input name="file" type="filename" value="wood/oak.png"/></image>\n&|
+         s|<input.*specular_rough.*/>|<input name="base_color" type="color3" nodename="I"/>|' show/deep/near.mtlx >look/oak.mtlx
+    touch -d '1 hour ago' look/oak.mtlx
+    look() { exits "$1" "$mxgen" check look --no-compile --render --cache drawn --baseline look.json --json "$2" --depfile look.d; }
+    paint look/wood/oak.png 200 60 20
+    check 'a picture with an image' look 0 first.json
+    check 'is kept' look 0 second.json
+    check 'in the cache' grep -q '1 documents unchanged' out
+    check 'its depfile names the image' grep -q '^ look/wood/oak.png' look.d
+    check 'and so does the report' says first.json 'd[0]["images"]' "['look/wood/oak.png']"
+    paint look/wood/oak.png 20 60 200
+    check 'where the image changes' look 0 third.json
+    check 'it is drawn again' is "$(changes third.json)" "[('oak.mtlx', 'picture')]"
 else
     skip 'there is no renderer: nothing was drawn'
 fi

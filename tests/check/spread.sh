@@ -102,6 +102,12 @@ END
 check 'make runs the check' make -s
 check 'and not again' make -q
 check 'until an include changes' eval 'touch show/part.mtlx && ! make -q'
+printf '[budget]\nmax-closures = 100\n' >show/mxgen.toml
+echo show/whole.mtlx >list
+"$mxgen" check show/whole.mtlx --no-compile --json base.json >/dev/null
+check 'a depfile names' exits 0 "$mxgen" check @list --library library --no-compile --baseline base.json --json r.json --depfile r.d
+for file in show/whole.mtlx show/part.mtlx show/mxgen.toml library/a.mtlx list base.json; do check "$file" grep -q "^ $file\( \|\$\)" r.d; done
+rm show/mxgen.toml
 check 'a depfile without a report is refused' exits 2 "$mxgen" check show --depfile x.d
 
 # Shards

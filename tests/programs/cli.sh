@@ -199,7 +199,8 @@ check 'the image lists' eval '"$mxgen" library list image.mxlib | grep -q "^ND_t
 check 'without the library its node is unknown' exits 1 "$mxgen" thrice.mtlx
 check 'and says so' grep -q '\[unknown-node\]' err
 check 'an image is a library of its own' exits 0 "$mxgen" thrice.mtlx --no-builtin-library --library image.mxlib -o image
-check '--library with a document' exits 0 "$mxgen" thrice.mtlx --library extra.mtlx -o document
+check '--library with a document' exits 0 "$mxgen" thrice.mtlx --library extra.mtlx -o document --depfile library.d
+check 'a depfile names the library' grep -q ' extra.mtlx' library.d
 check 'gives the same' diff -r image document
 head -c 100 image.mxlib >broken.mxlib
 check 'a broken image' exits 1 "$mxgen" thrice.mtlx --library broken.mxlib
