@@ -92,6 +92,54 @@ static void add_variable_part(struct examiner *examiner, struct check_shader *sh
     }
 }
 
+static void add_closure_parts(struct examiner *examiner, const mxg_result *result, struct check_shader *shader)
+{
+    char path[1024];
+    for (uint32_t i = 0; i < shader->measures[MEASURE_CLOSURES]; ++i)
+        if (mxg_result_closure_path(result, i, path, sizeof path))
+            add_part(examiner, shader, MEASURE_CLOSURES, path, strlen(path), 1);
+}
+
+/* Where a reader of a source stands. */
+struct listing {
+    const char *before; /* the line above */
+    const char *name;   /* of the function around; NULL: none */
+    size_t name_len;
+};
+
+/* "vec3 mx_rotate(vec3 v)" stands above the bracket that its body begins with; the shader itself has a line of parameters there. */
+static void enter_function(struct listing *at)
+{
+    size_t end = strcspn(at->before, "(\n"), begin = end;
+    while (begin && at->before[begin - 1] != ' ')
+        --begin;
+    bool has_name = at->before[end] == '(' && end > begin;
+    at->name = has_name ? at->before + begin : "main";
+    at->name_len = has_name ? end - begin : strlen(at->name);
+}
+
+/* Functions as a whole, lines of main by the node that they were written for, and what stands around them. */
+static void add_source_parts(struct examiner *examiner, const mxg_result *result, mxg_stage stage, const char *source,
+                             struct check_shader *shader)
+{
+    struct listing at = {.before = ""};
+    char path[1024];
+    uint32_t number = 1;
+    for (const char *line = source; *line; ++number) {
+        size_t len = strcspn(line, "\n"), size = len + (line[len] == '\n');
+        const char *name = "declarations";
+        if (len == 1 && *line == '{')
+            enter_function(&at);
+        if (at.name)
+            name = mxg_result_source_path(result, stage, number, path, sizeof path) ? path : at.name;
+        add_part(examiner, shader, MEASURE_SOURCE_BYTES, name, name == at.name ? at.name_len : strlen(name), size);
+        if (len == 1 && *line == '}')
+            at.name = NULL;
+        at.before = line;
+        line += size;
+    }
+}
+
 static void measure(struct examiner *examiner, const mxg_result *result, struct check_shader *shader)
 {
     uint64_t sizes[MXG_NUM_BLOCKS] = {0};
@@ -108,8 +156,11 @@ static void measure(struct examiner *examiner, const mxg_result *result, struct 
         sizes[MXG_BLOCK_PUBLIC_UNIFORMS] + sizes[MXG_BLOCK_PRIVATE_UNIFORMS] + sizes[MXG_BLOCK_LIGHT_DATA];
     for (int stage = 0; stage < MXG_NUM_STAGES; ++stage) {
         size_t size = 0;
-        if (mxg_result_source(result, (mxg_stage)stage, &size))
-            shader->measures[MEASURE_SOURCE_BYTES] += size;
+        const char *source = mxg_result_source(result, (mxg_stage)stage, &size);
+        if (!source)
+            continue;
+        shader->measures[MEASURE_SOURCE_BYTES] += size;
+        add_source_parts(examiner, result, (mxg_stage)stage, source, shader);
     }
 }
 
@@ -210,6 +261,7 @@ static void tell_facts(struct examiner *examiner, const mxg_result *result, stru
     snprintf(topology, sizeof topology, "%016" PRIx64, info.topology);
     shader->topology = store_text(&examiner->store, topology, strlen(topology));
     shader->measures[MEASURE_CLOSURES] = info.num_closures;
+    add_closure_parts(examiner, result, shader);
     measure(examiner, result, shader);
 }
 

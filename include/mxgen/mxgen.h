@@ -362,6 +362,9 @@ MXG_API bool mxg_result_source_place(const mxg_result *result, mxg_stage stage, 
  */
 MXG_API size_t mxg_result_source_path(const mxg_result *result, mxg_stage stage, uint32_t line, char *buffer, size_t capacity);
 
+/* The path of the node that closure `index` was evaluated for, in the same way; there are num_closures of mxg_shader_info. */
+MXG_API size_t mxg_result_closure_path(const mxg_result *result, uint32_t index, char *buffer, size_t capacity);
+
 /* Files beside those of the document that the shader depends on: photometric profiles. */
 MXG_API uint32_t mxg_result_num_files(const mxg_result *result);
 MXG_API const char *mxg_result_file(const mxg_result *result, uint32_t index);

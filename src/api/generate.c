@@ -122,8 +122,8 @@ static void add_name(struct names *names, const struct document *doc, elem_id el
 /* Names of what was instantiated in what, then those of the elements around the outermost. */
 static void collect_names(const mxg_result *result, uint32_t origin, struct names *out)
 {
-    const struct document *doc = &result->document->layer.doc;
-    const struct ir_origin *origins = result->graph.origins.items;
+    const struct document *doc = origin ? &result->document->layer.doc : NULL;
+    const struct ir_origin *origins = origin ? result->graph.origins.items : NULL;
     for (; origin; origin = origins[origin].parent) {
         elem_id element = origins[origin].element;
         if (element)
@@ -134,21 +134,31 @@ static void collect_names(const mxg_result *result, uint32_t origin, struct name
     }
 }
 
-size_t mxg_result_source_path(const mxg_result *result, mxg_stage stage, uint32_t line, char *buffer, size_t capacity)
+static size_t write_path(const mxg_result *result, uint32_t origin, char *buffer, size_t capacity)
 {
     struct names names = {.len = 0};
     size_t len = 0;
     if (capacity)
         *buffer = '\0';
-    if (!result || (unsigned)stage >= NUM_STAGES || !result->has_shader)
-        return 0;
-    collect_names(result, origin_of_line(&result->stages[stage], line), &names);
+    collect_names(result, origin, &names);
     while (names.len--) {
         const char *name = names.items[names.len];
         int n = snprintf(len < capacity ? buffer + len : NULL, len < capacity ? capacity - len : 0, "%s%s", len ? "/" : "", name);
         len += n > 0 ? (size_t)n : 0;
     }
     return len;
+}
+
+size_t mxg_result_source_path(const mxg_result *result, mxg_stage stage, uint32_t line, char *buffer, size_t capacity)
+{
+    bool is_there = result && (unsigned)stage < NUM_STAGES && result->has_shader;
+    return write_path(result, is_there ? origin_of_line(&result->stages[stage], line) : 0, buffer, capacity);
+}
+
+size_t mxg_result_closure_path(const mxg_result *result, uint32_t index, char *buffer, size_t capacity)
+{
+    bool is_there = result && result->has_shader && index < result->shader.closures.len;
+    return write_path(result, is_there ? result->shader.closures.items[index] : 0, buffer, capacity);
 }
 
 uint32_t mxg_num_targets(void)

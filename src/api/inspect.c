@@ -82,7 +82,7 @@ static void view_statistics(struct generation *g, struct text *out)
     const struct shader_stage *pixel = &shader->stages[STAGE_PIXEL];
     write_counts(out, "elements", g->document->layer.doc.elements.len);
     write_counts(out, "operations built", result->graph.nodes.len - 1);
-    write_counts(out, "closures", shader->num_closures);
+    write_counts(out, "closures", shader->closures.len);
     write_counts(out, "variables", shader->interface.len);
     write_counts(out, "compiled inputs", shader->compiled.len);
     write_counts(out, "functions", pixel->reach.functions.len + pixel->functions.len);

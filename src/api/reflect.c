@@ -195,7 +195,7 @@ mxg_status mxg_result_info(const mxg_result *result, mxg_shader_info *out)
         .name = text_of(result, shader->name),
         .path = text_of(result, shader->path),
         .target = result->target->name,
-        .num_closures = shader->num_closures,
+        .num_closures = shader->closures.len,
         .num_textures = count_textures(result),
         .num_lights = shader->stages[STAGE_PIXEL].has_lights ? shader->max_lights : 0,
         .transparent = shader->transparent,

@@ -98,7 +98,7 @@ static void sample_leaves(struct scatter *s, const struct closure_list *list)
         if (!shares[i] || ir_const_is(g, shares[i], 0.0f))
             continue;
         sample(s, &list->leaves.items[i], shares[i]);
-        s->shader->num_closures++;
+        shader_add_closure(s->shader, list->leaves.items[i].leaf);
     }
 }
 

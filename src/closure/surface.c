@@ -191,7 +191,8 @@ static ir_ref emission(struct emitter *e, ir_ref edf)
     for (uint32_t i = 0; i < list.leaves.len; i++) {
         ir_ref value = closure_call(e->shader, e->host, list.leaves.items[i].leaf, LEAF_EMISSION, NULL);
         value = weighted(e, &list.leaves.items[i], value);
-        e->shader->num_closures += value != 0;
+        if (value)
+            shader_add_closure(e->shader, list.leaves.items[i].leaf);
         sum = add(e, sum, value);
     }
     return sum;
@@ -335,7 +336,8 @@ static void emit_surface(struct emitter *e, ir_ref root)
     emit_lights(e, s.bsdf, &list, emitted);
     emit_environment(e, &list, emitted);
     for (uint32_t i = 0; i < list.leaves.len; i++)
-        e->shader->num_closures += emitted[i];
+        if (emitted[i])
+            shader_add_closure(e->shader, list.leaves.items[i].leaf);
     finish_surface(e, &s);
 }
 
@@ -353,7 +355,8 @@ static void emit_volume(struct emitter *e, ir_ref root)
     bool *emitted = ARENA_ARRAY(e->shader->arena, bool, volume.scattering.leaves.len);
     emit_lights(e, 0, &volume.scattering, emitted);
     emit_environment(e, &volume.scattering, emitted);
-    e->shader->num_closures += volume.scattering.leaves.len;
+    for (uint32_t i = 0; i < volume.scattering.leaves.len; i++)
+        shader_add_closure(e->shader, volume.scattering.leaves.items[i].leaf);
     e->shader->transparent = true;
     e->shader->alpha = ALPHA_BLEND; /* no alpha test: what glows may take nothing from the background */
     write_output(e, final_color(e), volume.alpha);

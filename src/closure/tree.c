@@ -336,14 +336,13 @@ static ir_ref or_black(struct tree *t, ir_ref closure)
     return closure ? closure : call(t, t->host->rows->emission, IR_TYPE_EDF, &black, 1);
 }
 
-/* Of those that are left: weights of 0 have dropped some. */
-static uint32_t count_calls(const struct tree *t, const ir_ref *roots, uint32_t num_roots)
+/* Those that are left: weights of 0 have dropped some. */
+static void add_closures(const struct tree *t, const ir_ref *roots, uint32_t num_roots)
 {
-    uint32_t count = 0;
     const uint8_t *needed = ir_mark(t->graph, roots, num_roots, t->shader->arena);
     for (ir_ref ref = 1; ref < t->graph->nodes.len; ref++)
-        count += needed[ref] && ir_get(t->graph, ref)->op == IR_LEAF;
-    return count;
+        if (needed[ref] && ir_get(t->graph, ref)->op == IR_LEAF)
+            shader_add_closure(t->shader, ref);
 }
 
 static void emit_sides(struct tree *t, ir_ref front, ir_ref back)
@@ -352,14 +351,14 @@ static void emit_sides(struct tree *t, ir_ref front, ir_ref back)
     uint32_t out = output(t, t->host->rows->output, IR_TYPE_BSDF, 0);
     front = or_black(t, closure_of(t, front));
     if (!back) {
-        t->shader->num_closures = count_calls(t, &front, 1);
+        add_closures(t, &front, 1);
         effect(t, EFFECT_OUTPUT, out, front);
         return;
     }
     str_id name = str_intern_z(t->shader->strings, "u_backfacing");
     ir_ref behind = shader_read(t->shader, shader_private_uniform(t->shader, name, IR_TYPE_BOOL, 0));
     back = or_black(t, closure_of(t, back));
-    t->shader->num_closures = count_calls(t, (ir_ref[]){front, back}, 2);
+    add_closures(t, (ir_ref[]){front, back}, 2);
     effect(t, EFFECT_IF, 0, ir_op1(g, IR_NOT, behind));
     effect(t, EFFECT_OUTPUT, out, front);
     effect(t, EFFECT_END, 0, 0);
@@ -453,6 +452,6 @@ bool closure_emit_node(struct shader *shader, const struct closure_host *host, c
     for (unsigned i = 0; i < n; i++)
         good = results[i].value && emit_result(&t, &results[i]) && good;
     for (uint32_t i = 0; i < effects->len; i++)
-        shader->num_closures += count_calls(&t, &effects->items[i].value, 1);
+        add_closures(&t, &effects->items[i].value, 1);
     return good;
 }

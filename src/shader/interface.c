@@ -420,6 +420,11 @@ void shader_effect(struct shader *shader, enum shader_stage_id stage, struct eff
     vec_push(shader->arena, &shader->stages[stage].effects, effect);
 }
 
+void shader_add_closure(struct shader *shader, ir_ref leaf)
+{
+    vec_push(shader->arena, &shader->closures, ir_get(shader->graph, leaf)->origin);
+}
+
 uint32_t shader_add_local(struct shader *shader, str_id name, ir_type_id type)
 {
     vec_push(shader->arena, &shader->locals, (struct shader_local){name, type});

@@ -244,7 +244,7 @@ static void put_shader(struct json *json)
 {
     const struct shader *shader = json->shader;
     put_topology(json, shader_topology(shader, json->out->arena));
-    reflect_number(json, "closures", shader->num_closures);
+    reflect_number(json, "closures", shader->closures.len);
     reflect_bool(json, "transparent", shader->transparent);
     if (shader->alpha != ALPHA_OPAQUE)
         reflect_string(json, "alpha", shader->alpha == ALPHA_MASK ? "mask" : "blend");

@@ -187,7 +187,7 @@ struct shader {
     str_id name;                   /* of the element: "Gold" */
     str_id element_type;           /* "surfacematerial" */
     str_id path;
-    uint32_t num_closures;
+    VEC(uint32_t) closures;        /* that are evaluated, by the origins of their leaves */
     uint8_t kind;                  /* enum shader_kind */
     str_id value_type;             /* of the document: what the element gives, where that is a plain value */
     bool names_wholes;             /* only variables have parts that can be named: from the rules of layout */
@@ -232,6 +232,9 @@ ir_ref shader_stream(struct shader *shader, str_id name, ir_type_id type);
 ir_ref shader_vertex_stream(struct shader *shader, str_id name, ir_type_id type);
 
 void shader_effect(struct shader *shader, enum shader_stage_id stage, struct effect effect);
+
+/* Counts a leaf among the closures that are evaluated. */
+void shader_add_closure(struct shader *shader, ir_ref leaf);
 uint32_t shader_add_local(struct shader *shader, str_id name, ir_type_id type);
 
 /*

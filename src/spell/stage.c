@@ -144,7 +144,7 @@ void spell_title(struct spell *spell)
         spell_comment(spell, parts[i], strlen(parts[i]));
         spell_text(spell, " · ");
     }
-    write_plural(spell->out, shader->num_closures, "closure");
+    write_plural(spell->out, shader->closures.len, "closure");
     spell_text(spell, " · ");
     write_plural(spell->out, textures, "texture");
 }

@@ -127,6 +127,16 @@ static void test_variables(const struct bench *b)
     REQUIRE_STR(info.path, "M");
     REQUIRE_STR(info.target, "vulkan");
     REQUIRE(info.topology && info.num_closures && info.num_textures >= 1 && info.lit);
+    bool has_coating = false;
+    for (uint32_t i = 0; i < info.num_closures; i++) {
+        char leaf[64];
+        size_t len = mxg_result_closure_path(result, i, leaf, sizeof leaf);
+        REQUIRE(len > 2 && len == strlen(leaf) && strncmp(leaf, "S/", 2) == 0);
+        has_coating = has_coating || strcmp(leaf, "S/coating") == 0;
+    }
+    REQUIRE(has_coating);
+    REQUIRE_EQ(mxg_result_closure_path(result, info.num_closures, NULL, 0), 0);
+    REQUIRE_EQ(mxg_result_closure_path(NULL, 0, NULL, 0), 0);
     mxg_result_destroy(result);
 }
 

@@ -10,6 +10,7 @@ mkdir -p show/deep/deeper
 material Near >show/deep/near.mtlx
 material Deep >show/deep/deeper/deep.mtlx
 quick=(--no-compile -t glsl,essl)
+echo '<materialx version="1.39"><position name="p" type="vector3"/><output name="o" type="vector3" nodename="p"/></materialx>' >plain.mtlx
 
 # Budgets on the command line
 check 'a budget that is kept' exits 0 "$mxgen" check show "${quick[@]}" --max-source-bytes 1000000
@@ -21,6 +22,12 @@ check 'fails that one' says one.json '[s["status"] for s in d[0]["elements"][0][
 check 'and names the node' grep -Eq "bytes of uniforms, where 10 are allowed: SR [0-9]+ \[over-budget\]" out
 check 'samplers by name' eval 'exits 1 "$mxgen" check show/deep/near.mtlx "${quick[@]}" --max-samplers 1 && grep -q "has 2 samplers, where 1 are allowed: u_envIrradiance 1, u_envRadiance 1 " out'
 check 'closures' exits 1 "$mxgen" check show "${quick[@]}" --max-closures 1
+check 'by their nodes' grep -Eq 'has [0-9]+ closures, where 1 are allowed: SR/[a-z]+ 1, SR/[a-z]+ 1,' out
+check 'bytes of source' exits 1 "$mxgen" check show/deep/near.mtlx --no-compile -t osl --max-source-bytes 100 --json source.json
+check 'by functions and nodes' grep -Eq 'bytes of source, where 100 are allowed: declarations [0-9]+, (mx_|SR)' out
+check 'all of which are the whole, where few are' eval '
+    exits 0 "$mxgen" check plain.mtlx --no-compile -t glsl,essl,osl --json plain.json &&
+    says plain.json "[sum(s[\"parts\"][\"sourceBytes\"].values()) == s[\"sourceBytes\"] for s in d[0][\"elements\"][0][\"shaders\"]]" "[True, True, True]"'
 check 'a budget of 0 is one' exits 1 "$mxgen" check show "${quick[@]}" --max-closures 0
 check 'what is no number' exits 2 "$mxgen" check show --max-closures many
 check 'has nothing behind it' exits 2 "$mxgen" check show --max-closures 1x

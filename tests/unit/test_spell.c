@@ -308,7 +308,7 @@ static void build_lit(struct fixture *f)
     accumulate(f, n);
     effect(f, EFFECT_END, 0, 0);
     write_color(f);
-    f->shader.num_closures = 1;
+    vec_push(&f->arena, &f->shader.closures, 0);
 }
 
 static const char *const lit_main =
