@@ -126,6 +126,7 @@ bool cli_start(struct cli *cli, const struct command *command, const struct arg 
     bool parsed = args_parse(&cli->parser, argc, argv);
     cli->report.quiet = cli->quiet;
     cli->report.verbose = cli->verbose;
+    cli->report.max_errors = cli->max_errors;
     if (!parsed)
         return false;
     if (answer_help(cli, command)) {
@@ -199,6 +200,7 @@ void cli_finish(struct cli *cli)
 mxg_document *cli_load(struct cli *cli, const char *path)
 {
     mxg_document *document = NULL;
+    report_document(&cli->report);
     mxg_status status = mxg_document_load(cli->context, cli->library, path, &document);
     if (document)
         report_list(&cli->report, mxg_document_diagnostics(document));

@@ -97,20 +97,74 @@ static uint64_t hash_text(uint64_t hash, const char *text)
     return (hash ^ 0xff) * 0x100000001b3u;
 }
 
+/* The place of a hash, or the free one where it belongs. */
+static uint64_t *find_printed(uint64_t *table, size_t capacity, uint64_t hash)
+{
+    size_t at = hash & (capacity - 1);
+    while (table[at] && table[at] != hash)
+        at = (at + 1) & (capacity - 1);
+    return &table[at];
+}
+
+static bool grow_printed(struct report *report)
+{
+    size_t capacity = report->capacity_printed ? report->capacity_printed * 2 : 64;
+    uint64_t *table = calloc(capacity, sizeof *table);
+    if (!table)
+        return false;
+    for (size_t i = 0; i < report->capacity_printed; ++i)
+        if (report->printed[i])
+            *find_printed(table, capacity, report->printed[i]) = report->printed[i];
+    free(report->printed);
+    report->printed = table;
+    report->capacity_printed = capacity;
+    return true;
+}
+
 /* Many materials of a document may meet the same fault: it is told once. */
 static bool is_new(struct report *report, const mxg_diagnostic *diagnostic)
 {
     uint64_t hash = 0xcbf29ce484222325u ^ ((uint64_t)diagnostic->line << 32 | diagnostic->column);
     hash = hash_text(hash_text(hash_text(hash, diagnostic->id), diagnostic->file), diagnostic->message);
-    for (size_t i = 0; i < report->num_printed; ++i)
-        if (report->printed[i] == hash)
-            return false;
-    uint64_t *more = realloc(report->printed, (report->num_printed + 1) * sizeof *more);
-    if (more) {
-        report->printed = more;
-        report->printed[report->num_printed++] = hash;
+    hash = hash ? hash : 1;
+    if (report->num_printed * 2 >= report->capacity_printed && !grow_printed(report))
+        return true;
+    uint64_t *place = find_printed(report->printed, report->capacity_printed, hash);
+    bool is_new = *place == 0;
+    *place = hash;
+    report->num_printed += is_new;
+    return is_new;
+}
+
+void report_document(struct report *report)
+{
+    report->document_errors = 0;
+    report->is_rest_told = false;
+}
+
+/* A message with its notes may be printed; errors up to the limit. */
+static bool admit(struct report *report, const mxg_diagnostic *diagnostic)
+{
+    if (!is_shown(report, diagnostic) || !is_new(report, diagnostic))
+        return false;
+    if (diagnostic->severity != MXG_SEVERITY_ERROR || !report->max_errors)
+        return true;
+    if (report->document_errors < report->max_errors) {
+        ++report->document_errors;
+        return true;
     }
-    return true;
+    if (!report->is_rest_told)
+        fprintf(stderr, "note: more errors than %zu; the rest is not shown\n", report->max_errors);
+    report->is_rest_told = true;
+    return false;
+}
+
+/* The list may know that it is not whole. */
+static bool is_about_rest(struct report *report, const mxg_diagnostic *diagnostic)
+{
+    bool is_note = strcmp(diagnostic->id, "too-many-errors") == 0, is_told = report->is_rest_told;
+    report->is_rest_told = is_told || is_note;
+    return is_note && is_told;
 }
 
 void report_list(struct report *report, const mxg_diagnostics *list)
@@ -121,8 +175,8 @@ void report_list(struct report *report, const mxg_diagnostics *list)
         mxg_diagnostic diagnostic = {sizeof diagnostic};
         mxg_diagnostics_get(list, i, &diagnostic);
         if (diagnostic.parent == i)
-            shown = is_shown(report, &diagnostic) && is_new(report, &diagnostic);
-        if (!shown || !is_shown(report, &diagnostic))
+            shown = admit(report, &diagnostic);
+        if (!shown || !is_shown(report, &diagnostic) || is_about_rest(report, &diagnostic))
             continue;
         report->len = 0;
         render(report, list, i, diagnostic.file);

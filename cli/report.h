@@ -11,9 +11,12 @@ struct report {
     bool quiet;   /* errors only */
     bool verbose; /* also what was upgraded in older documents */
     bool colour;
-    uint32_t errors;            /* told so far, repeated ones too */
-    uint64_t *printed;          /* hashes of the messages printed */
-    size_t num_printed;
+    uint32_t errors;            /* told so far, repeated ones and those behind the limit too */
+    size_t max_errors;          /* that are printed of a document; 0: all */
+    size_t document_errors;     /* printed of the document at hand */
+    bool is_rest_told;          /* that there are more */
+    uint64_t *printed;          /* hashes of the messages printed, in a table; 0: free */
+    size_t num_printed, capacity_printed;
     char *source_name, *source; /* the file read last */
     size_t source_size;
     char *text; /* of the message at hand */
@@ -26,7 +29,10 @@ void report_finish(struct report *report);
 /* A message with its notes and source lines, as it is printed; lives until the next one. */
 const char *report_render(struct report *report, const mxg_diagnostics *list, uint32_t index);
 
-/* Prints a list to stderr. */
+/* What follows is about another document: its errors are counted anew. */
+void report_document(struct report *report);
+
+/* Prints a list to stderr: what was not printed before, up to the limit of errors. */
 void report_list(struct report *report, const mxg_diagnostics *list);
 
 /* An error of the program itself: "error: message [id]". */

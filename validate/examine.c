@@ -41,11 +41,38 @@ static void refer(struct examiner *examiner, struct check_shader *shader, uint32
     shader->messages[shader->num_messages++] = index;
 }
 
+static bool is_beyond_limit(const struct examiner *examiner, const struct check_message *message)
+{
+    size_t most = examiner->cli->max_errors;
+    return message->severity == MXG_SEVERITY_ERROR && most && examiner->num_errors >= most;
+}
+
+static void count_error(struct examiner *examiner, const struct check_message *message, uint32_t index)
+{
+    if (message->severity != MXG_SEVERITY_ERROR)
+        return;
+    ++examiner->num_errors;
+    examiner->last_error = index;
+}
+
+/* The last error speaks for those behind it. */
+static void tell_rest(struct examiner *examiner, struct check_message *last)
+{
+    if (strstr(last->rendered, "the rest is not shown"))
+        return;
+    char *text = cli_format("%snote: more errors than %zu; the rest is not shown\n", last->rendered, examiner->cli->max_errors);
+    last->rendered = copy(examiner, text);
+    free(text);
+}
+
 void examine_add(struct examiner *examiner, struct check_shader *shader, struct check_message message)
 {
     message.file = message.file ? message.file : "";
     uint32_t index = check_find_message(examiner->document, &message);
-    if (index == examiner->document->num_messages) {
+    if (index == examiner->document->num_messages && is_beyond_limit(examiner, &message)) {
+        index = examiner->last_error;
+        tell_rest(examiner, &examiner->document->messages[index]);
+    } else if (index == examiner->document->num_messages) {
         message.id = copy(examiner, message.id);
         message.text = copy(examiner, message.text);
         message.file = copy(examiner, message.file);
@@ -53,6 +80,7 @@ void examine_add(struct examiner *examiner, struct check_shader *shader, struct 
         message.target = copy(examiner, message.target);
         message.rendered = copy(examiner, message.rendered);
         check_add_message(&examiner->store, examiner->document, &message);
+        count_error(examiner, &message, index);
     }
     if (shader)
         refer(examiner, shader, index);
@@ -191,6 +219,7 @@ const struct check_document *examine(struct examiner *examiner, const char *path
     store_finish(&examiner->store);
     struct check_document *record = examiner->document = store_alloc(&examiner->store, sizeof *record);
     record->file = copy(examiner, path);
+    examiner->num_errors = 0;
     mxg_document *document = load(examiner, path);
     if (document && record->num_files)
         validate(examiner, document);

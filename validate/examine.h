@@ -15,6 +15,8 @@ struct examiner {
 
     struct store store; /* of the document at hand */
     struct check_document *document;
+    size_t num_errors;   /* of it that are told */
+    uint32_t last_error; /* the message of the last of them */
     bool is_compiler_ready;
     char *folder; /* for pictures; NULL: not needed yet */
 };
