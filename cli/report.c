@@ -21,6 +21,7 @@ void report_finish(struct report *report)
     free(report->source);
     free(report->printed);
     free(report->text);
+    free(report->lines);
     *report = (struct report){0};
 }
 
@@ -32,7 +33,7 @@ static void load_source(struct report *report, const char *file)
     free(report->source_name);
     free(report->source);
     report->source = NULL;
-    report->source_size = 0;
+    report->source_size = report->num_lines = 0;
     size_t len = strlen(file) + 1;
     report->source_name = malloc(len);
     if (report->source_name)
@@ -55,18 +56,46 @@ static bool reserve(struct report *report, size_t size)
     return text != NULL;
 }
 
-/* Appends one message as it is printed. */
-static void render(struct report *report, const mxg_diagnostics *list, uint32_t index, const char *file)
+/* A line of the source, from 1, without its end; NULL where there is none. Each line is looked for once. */
+static const char *find_line(struct report *report, uint32_t number, size_t *out_len)
 {
-    if (file)
-        load_source(report, file);
-    const char *source = file ? report->source : NULL;
-    size_t size = file ? report->source_size : 0, room = report->capacity - report->len;
-    size_t len = mxg_diagnostics_format(list, index, source, size, report->colour, room ? report->text + report->len : NULL, room);
+    const char *end = report->source + report->source_size;
+    while (report->source && report->num_lines <= number) {
+        const char *last = report->num_lines ? report->lines[report->num_lines - 1] : NULL;
+        const char *newline = last ? memchr(last, '\n', (size_t)(end - last)) : NULL, *next = last ? newline + 1 : report->source;
+        if (last && !newline)
+            break;
+        if (report->num_lines == report->capacity_lines) {
+            size_t capacity = report->capacity_lines ? report->capacity_lines * 2 : 256;
+            const char **lines = realloc(report->lines, capacity * sizeof *lines);
+            if (!lines)
+                return NULL;
+            report->lines = lines;
+            report->capacity_lines = capacity;
+        }
+        report->lines[report->num_lines++] = next;
+    }
+    if (!number || number > report->num_lines)
+        return NULL;
+    const char *line = report->lines[number - 1];
+    const char *newline = memchr(line, '\n', (size_t)(end - line));
+    size_t len = (size_t)((newline ? newline : end) - line);
+    *out_len = len && line[len - 1] == '\r' ? len - 1 : len;
+    return line;
+}
+
+/* Appends one message as it is printed. */
+static void render(struct report *report, const mxg_diagnostics *list, uint32_t index, const mxg_diagnostic *diagnostic)
+{
+    if (diagnostic->file)
+        load_source(report, diagnostic->file);
+    size_t size = 0, room = report->capacity - report->len;
+    const char *line = diagnostic->file ? find_line(report, diagnostic->line, &size) : NULL;
+    size_t len = mxg_diagnostics_format_line(list, index, line, size, report->colour, room ? report->text + report->len : NULL, room);
     if (!reserve(report, len + 2))
         return;
     if (len >= room)
-        mxg_diagnostics_format(list, index, source, size, report->colour, report->text + report->len, report->capacity - report->len);
+        mxg_diagnostics_format_line(list, index, line, size, report->colour, report->text + report->len, report->capacity - report->len);
     report->len += len;
     if (len && report->text[report->len - 1] != '\n')
         report->text[report->len++] = '\n';
@@ -78,7 +107,7 @@ const char *report_render(struct report *report, const mxg_diagnostics *list, ui
     mxg_diagnostic part = {sizeof part};
     report->len = 0;
     for (uint32_t i = index; mxg_diagnostics_get(list, i, &part) == MXG_OK && part.parent == index; ++i)
-        render(report, list, i, part.file);
+        render(report, list, i, &part);
     return report->text ? report->text : "";
 }
 
@@ -179,7 +208,7 @@ void report_list(struct report *report, const mxg_diagnostics *list)
         if (!shown || !is_shown(report, &diagnostic) || is_about_rest(report, &diagnostic))
             continue;
         report->len = 0;
-        render(report, list, i, diagnostic.file);
+        render(report, list, i, &diagnostic);
         fputs(report->text ? report->text : "", stderr);
     }
     report->errors += mxg_diagnostics_errors(list);

@@ -19,6 +19,8 @@ struct report {
     size_t num_printed, capacity_printed;
     char *source_name, *source; /* the file read last */
     size_t source_size;
+    const char **lines; /* of it, as far as they were looked for */
+    size_t num_lines, capacity_lines;
     char *text; /* of the message at hand */
     size_t len, capacity;
 };

@@ -32,6 +32,43 @@ static const char *copy(struct examiner *examiner, const char *text)
     return text ? store_text(&examiner->store, text, strlen(text)) : "";
 }
 
+static uint32_t hash_text(uint32_t hash, const char *text)
+{
+    for (; *text; ++text)
+        hash = (hash ^ (unsigned char)*text) * 16777619u; /* FNV-1a */
+    return hash;
+}
+
+/* The place of an equal message, or the free one where it belongs. */
+static uint32_t *find_place(const struct examiner *examiner, const struct check_message *message)
+{
+    size_t mask = examiner->capacity - 1, at = hash_text(hash_text(2166136261u ^ message->line, message->id), message->text) & mask;
+    while (examiner->messages[at] && !check_is_same_message(&examiner->document->messages[examiner->messages[at] - 1], message))
+        at = (at + 1) & mask;
+    return &examiner->messages[at];
+}
+
+/* The index of an equal message; how many there are where there is none. */
+static uint32_t find_message(const struct examiner *examiner, const struct check_message *message)
+{
+    uint32_t found = examiner->capacity ? *find_place(examiner, message) : 0;
+    return found ? found - 1 : (uint32_t)examiner->document->num_messages;
+}
+
+static void add_message(struct examiner *examiner, const struct check_message *message)
+{
+    struct check_document *document = examiner->document;
+    check_add_message(&examiner->store, document, message);
+    size_t first = document->num_messages - 1;
+    if (document->num_messages * 2 > examiner->capacity) {
+        examiner->capacity = examiner->capacity ? examiner->capacity * 2 : 64;
+        examiner->messages = store_alloc(&examiner->store, examiner->capacity * sizeof *examiner->messages);
+        first = 0;
+    }
+    for (size_t i = first; i < document->num_messages; ++i)
+        *find_place(examiner, &document->messages[i]) = (uint32_t)i + 1;
+}
+
 static void refer(struct examiner *examiner, struct check_shader *shader, uint32_t index)
 {
     for (size_t i = 0; i < shader->num_messages; ++i)
@@ -68,7 +105,7 @@ static void tell_rest(struct examiner *examiner, struct check_message *last)
 void examine_add(struct examiner *examiner, struct check_shader *shader, struct check_message message)
 {
     message.file = message.file ? message.file : "";
-    uint32_t index = check_find_message(examiner->document, &message);
+    uint32_t index = find_message(examiner, &message);
     if (index == examiner->document->num_messages && is_beyond_limit(examiner, &message)) {
         index = examiner->last_error;
         tell_rest(examiner, &examiner->document->messages[index]);
@@ -79,7 +116,7 @@ void examine_add(struct examiner *examiner, struct check_shader *shader, struct 
         message.element = copy(examiner, message.element);
         message.target = copy(examiner, message.target);
         message.rendered = copy(examiner, message.rendered);
-        check_add_message(&examiner->store, examiner->document, &message);
+        add_message(examiner, &message);
         count_error(examiner, &message, index);
     }
     if (shader)
@@ -125,7 +162,7 @@ static void add_diagnostics(struct examiner *examiner, const mxg_diagnostics *li
                                         .file = diagnostic.file ? diagnostic.file : "", .line = diagnostic.line,
                                         .column = diagnostic.column, .length = diagnostic.length, .element = element,
                                         .target = shader ? shader->target : NULL};
-        if (check_find_message(examiner->document, &message) == examiner->document->num_messages)
+        if (find_message(examiner, &message) == examiner->document->num_messages)
             message.rendered = report_render(&examiner->cli->report, list, i);
         examine_add(examiner, shader, message);
     }
@@ -219,7 +256,7 @@ const struct check_document *examine(struct examiner *examiner, const char *path
     store_finish(&examiner->store);
     struct check_document *record = examiner->document = store_alloc(&examiner->store, sizeof *record);
     record->file = copy(examiner, path);
-    examiner->num_errors = 0;
+    examiner->num_errors = examiner->capacity = 0;
     mxg_document *document = load(examiner, path);
     if (document && record->num_files)
         validate(examiner, document);

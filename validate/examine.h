@@ -15,7 +15,9 @@ struct examiner {
 
     struct store store; /* of the document at hand */
     struct check_document *document;
-    size_t num_errors;   /* of it that are told */
+    uint32_t *messages;  /* of it, in a table by what they tell: indices from 1, 0: free */
+    size_t capacity;     /* of the table */
+    size_t num_errors;   /* that are told */
     uint32_t last_error; /* the message of the last of them */
     bool is_compiler_ready;
     char *folder; /* for pictures; NULL: not needed yet */

@@ -39,18 +39,10 @@ void check_fail(enum check_stage *failed, enum check_stage stage)
         *failed = stage;
 }
 
-static bool is_same_message(const struct check_message *a, const struct check_message *b)
+bool check_is_same_message(const struct check_message *a, const struct check_message *b)
 {
     return a->line == b->line && a->column == b->column && strcmp(a->id, b->id) == 0 && strcmp(a->text, b->text) == 0 &&
            strcmp(a->file, b->file) == 0;
-}
-
-uint32_t check_find_message(const struct check_document *document, const struct check_message *message)
-{
-    uint32_t index = 0;
-    while (index < document->num_messages && !is_same_message(&document->messages[index], message))
-        ++index;
-    return index;
 }
 
 uint32_t check_add_message(struct store *store, struct check_document *document, const struct check_message *message)

@@ -132,8 +132,8 @@ struct check_document {
 /* The document's failure becomes that of the stage, unless it failed earlier. */
 void check_fail(enum check_stage *failed, enum check_stage stage);
 
-/* The index of an equal message; how many there are where there is none. */
-uint32_t check_find_message(const struct check_document *document, const struct check_message *message);
+/* Whether two messages tell the same. */
+bool check_is_same_message(const struct check_message *a, const struct check_message *b);
 
 /* Appends a message; returns its index. */
 uint32_t check_add_message(struct store *store, struct check_document *document, const struct check_message *message);

@@ -59,6 +59,7 @@ mxg_status mxg_get_diagnostic_kind(uint32_t index, mxg_diagnostic_kind *out)
 }
 
 struct format_job {
+    void (*render)(const struct diag *diag, const char *source, size_t source_len, bool colour, struct text *out);
     const struct diag *diag;
     const char *source;
     size_t source_size;
@@ -66,15 +67,14 @@ struct format_job {
     struct text text;
 };
 
-static void format(void *arg)
+static void run_job(void *arg)
 {
     struct format_job *job = arg;
-    diag_render_text(job->diag, job->source, job->source_size, job->colour, &job->text);
+    job->render(job->diag, job->source, job->source_size, job->colour, &job->text);
 }
 
 /* The text is made in memory of its own: other threads may read the same list. */
-size_t mxg_diagnostics_format(const mxg_diagnostics *list, uint32_t index, const char *source, size_t source_size,
-                              bool colour, char *buffer, size_t capacity)
+static size_t format(const mxg_diagnostics *list, uint32_t index, struct format_job *job, char *buffer, size_t capacity)
 {
     if (capacity)
         *buffer = '\0';
@@ -82,20 +82,34 @@ size_t mxg_diagnostics_format(const mxg_diagnostics *list, uint32_t index, const
         return 0;
     struct object scratch;
     object_init(&scratch, list->owner->context, 0);
-    struct format_job job = {&list->list.items.items[index], source, source_size, colour, {0}};
-    text_init(&job.text, &scratch.arena);
+    job->diag = &list->list.items.items[index];
+    text_init(&job->text, &scratch.arena);
     size_t len = 0;
-    if (object_run(&scratch, format, &job) == MXG_OK) {
-        len = job.text.len;
+    if (object_run(&scratch, run_job, job) == MXG_OK) {
+        len = job->text.len;
         size_t copied = len < capacity ? len : capacity - 1;
         if (capacity) {
-            memcpy(buffer, job.text.data, copied);
+            memcpy(buffer, job->text.data, copied);
             buffer[copied] = '\0';
         }
     }
     arena_finish(&scratch.arena);
     atomic_fetch_sub(&scratch.context->used, scratch.counted);
     return len;
+}
+
+size_t mxg_diagnostics_format(const mxg_diagnostics *list, uint32_t index, const char *source, size_t source_size,
+                              bool colour, char *buffer, size_t capacity)
+{
+    struct format_job job = {.render = diag_render_text, .source = source, .source_size = source_size, .colour = colour};
+    return format(list, index, &job, buffer, capacity);
+}
+
+size_t mxg_diagnostics_format_line(const mxg_diagnostics *list, uint32_t index, const char *line, size_t line_size,
+                                   bool colour, char *buffer, size_t capacity)
+{
+    struct format_job job = {.render = diag_render_line, .source = line, .source_size = line_size, .colour = colour};
+    return format(list, index, &job, buffer, capacity);
 }
 
 const mxg_diagnostics *mxg_library_diagnostics(const mxg_library *library)

@@ -99,6 +99,9 @@ const struct diag_explanation *diag_explain(enum diag_id id);
  */
 void diag_render_text(const struct diag *diag, const char *source, size_t source_len, bool colour, struct text *out);
 
+/* The same with the source line at hand, without its end; NULL: unknown. */
+void diag_render_line(const struct diag *diag, const char *line, size_t line_len, bool colour, struct text *out);
+
 /* One JSON object per message, notes nested in their message: an array. */
 void diag_render_json(const struct diag_list *list, struct text *out);
 

@@ -119,7 +119,7 @@ static void render_place(const struct diag_place *place, struct text *out)
     text_char(out, ' ');
 }
 
-void diag_render_text(const struct diag *diag, const char *source, size_t source_len, bool colour, struct text *out)
+void diag_render_line(const struct diag *diag, const char *line, size_t line_len, bool colour, struct text *out)
 {
     paint(out, colour, bold);
     render_place(&diag->place, out);
@@ -130,11 +130,14 @@ void diag_render_text(const struct diag *diag, const char *source, size_t source
     if (diag->severity != DIAG_NOTE)
         text_fmt(out, " [%s]", diag_id_text(diag->id));
     text_char(out, '\n');
-    if (!source || !diag->place.line || !diag->place.column)
-        return;
-    struct line line = find_line(source, source_len, diag->place.line);
-    if (line.text)
-        render_source(&diag->place, line, colour, out);
+    if (line && diag->place.line && diag->place.column)
+        render_source(&diag->place, (struct line){line, line_len}, colour, out);
+}
+
+void diag_render_text(const struct diag *diag, const char *source, size_t source_len, bool colour, struct text *out)
+{
+    struct line line = source && diag->place.line ? find_line(source, source_len, diag->place.line) : (struct line){0};
+    diag_render_line(diag, line.text, line.len, colour, out);
 }
 
 static void json_field(struct text *out, const char *name, const char *value)
