@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/args.h"
 
-#include <mxgen/mxgen.h>
+#include "cli/cli.h"
 
 #include <errno.h>
 #include <stdint.h>
@@ -25,6 +25,28 @@ void args_append(struct arg_list *list, const char *item)
 {
     list->items = grow(list->items, list->len, sizeof *list->items);
     list->items[list->len++] = item;
+}
+
+void args_forward(const struct arg *arg, struct arg_list *out)
+{
+    const struct arg_list *list = arg->out;
+    switch (arg->kind) {
+    case ARG_FLAG:
+        if (*(const bool *)arg->out)
+            args_append(out, cli_format("--%s", arg->name));
+        break;
+    case ARG_TEXT:
+        if (*(const char *const *)arg->out)
+            args_append(out, cli_format("--%s=%s", arg->name, *(const char *const *)arg->out));
+        break;
+    case ARG_SIZE:
+        args_append(out, cli_format("--%s=%zu", arg->name, *(const size_t *)arg->out));
+        break;
+    case ARG_LIST:
+        for (size_t i = 0; i < list->len; ++i)
+            args_append(out, cli_format("--%s=%s", arg->name, list->items[i]));
+        break;
+    }
 }
 
 static void add_setting(struct arg_parser *parser, const char *key, const char *value)

@@ -29,6 +29,7 @@ struct arg {
     const char *value; /* what stands behind it in the help: "DIR" */
     const char *help;
     void *out;
+    bool is_own; /* not passed on to other programs */
 };
 
 /* An option of generation as it was written, in order; applied once there is a context. */
@@ -50,6 +51,10 @@ bool args_parse(struct arg_parser *parser, int argc, char **argv);
 void args_finish(struct arg_parser *parser);
 
 void args_append(struct arg_list *list, const char *item);
+
+/* Appends what an option was given, as it is written on a command line; nothing for a text that was not given. The items are to
+ * be freed. */
+void args_forward(const struct arg *arg, struct arg_list *out);
 
 /* The options as a table for --help. */
 void args_print_help(const struct arg_parser *parser, FILE *out);

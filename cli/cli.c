@@ -29,10 +29,10 @@ static size_t add_common_args(struct cli *cli, struct arg *table)
         {"include-root", 0, ARG_LIST, "DIR", "with --sandbox: documents may refer to files there, too", &cli->include_roots},
         {"max-errors", 0, ARG_SIZE, "N", "errors told of a document, 20 unless said; 0: all", &cli->max_errors},
         {"warning", 'W', ARG_LIST, "WORD", "-WID, -Wno-ID: tells a warning or not; -Werror[=ID], -Wno-error=ID: as an error", &cli->warnings},
-        {"quiet", 'q', ARG_FLAG, NULL, "prints errors only", &cli->quiet},
+        {"quiet", 'q', ARG_FLAG, NULL, "prints errors only", &cli->quiet, .is_own = true},
         {"verbose", 0, ARG_FLAG, NULL, "prints also how older documents were upgraded", &cli->verbose},
-        {"version", 0, ARG_FLAG, NULL, "prints the version", &cli->version},
-        {"help", 'h', ARG_FLAG, NULL, "prints this", &cli->help},
+        {"version", 0, ARG_FLAG, NULL, "prints the version", &cli->version, .is_own = true},
+        {"help", 'h', ARG_FLAG, NULL, "prints this", &cli->help, .is_own = true},
     };
     memcpy(table, common, sizeof common);
     return sizeof common / sizeof *common;
@@ -149,38 +149,14 @@ bool cli_start(struct cli *cli, const struct command *command, const struct arg 
     return (wants & CLI_LIBRARY_IS_INPUT) || load_library(cli);
 }
 
-static void forward_size(struct arg_list *args, const char *name, size_t value)
+void cli_forward(struct cli *cli, struct arg_list *args)
 {
-    if (value)
-        args_append(args, cli_format("--%s=%zu", name, value));
-}
-
-void cli_forward(const struct cli *cli, struct arg_list *args)
-{
-    for (size_t i = 0; i < cli->library_paths.len; ++i)
-        args_append(args, cli_format("--library=%s", cli->library_paths.items[i]));
-    if (cli->no_builtin_library)
-        args_append(args, cli_format("--no-builtin-library"));
-    if (cli->verbose)
-        args_append(args, cli_format("--verbose"));
+    struct arg table[MAX_ARGS];
+    size_t num_args = add_common_args(cli, table);
+    for (size_t i = 0; i < num_args; ++i)
+        if (!table[i].is_own)
+            args_forward(&table[i], args);
     args_append(args, cli_format("--quiet"));
-    forward_size(args, "max-memory", cli->max_memory);
-    forward_size(args, "max-file-size", cli->max_file_size);
-    forward_size(args, "max-elements", cli->max_elements);
-    forward_size(args, "max-nodes", cli->max_nodes);
-    forward_size(args, "max-output-size", cli->max_output_size);
-    forward_size(args, "max-depth", cli->max_depth);
-    forward_size(args, "max-include-depth", cli->max_include_depth);
-    forward_size(args, "max-includes", cli->max_includes);
-    if (cli->trust)
-        args_append(args, cli_format("--trust"));
-    if (cli->sandbox)
-        args_append(args, cli_format("--sandbox"));
-    for (size_t i = 0; i < cli->include_roots.len; ++i)
-        args_append(args, cli_format("--include-root=%s", cli->include_roots.items[i]));
-    args_append(args, cli_format("--max-errors=%zu", cli->max_errors));
-    for (size_t i = 0; i < cli->warnings.len; ++i)
-        args_append(args, cli_format("-W%s", cli->warnings.items[i]));
     for (size_t i = 0; i < cli->parser.num_settings; ++i)
         args_append(args, cli_format("--%s=%s", cli->parser.settings[i].key, cli->parser.settings[i].value));
 }

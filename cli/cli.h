@@ -50,7 +50,7 @@ void cli_finish(struct cli *cli);
 
 /* Appends the arguments that give another of our programs the same library, limits and options of generation, and let it
  * print errors only. The items are to be freed. */
-void cli_forward(const struct cli *cli, struct arg_list *args);
+void cli_forward(struct cli *cli, struct arg_list *args);
 
 /* Loads a document and prints its diagnostics; NULL where errors leave nothing of it that can be rendered. */
 mxg_document *cli_load(struct cli *cli, const char *path);
