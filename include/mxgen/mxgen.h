@@ -139,7 +139,7 @@ typedef struct mxg_context_desc {
     const char *warnings;
     /*
      * Source that documents bring (libraries may bring any). Without either: portable source, which mxgen reads and writes anew; source
-     * for one target that is not portable would be passed on as it is, and is refused. trust: all. sandbox without trust: none.
+     * for one target is refused, since what is not portable of it would be passed on as it is. trust: all. sandbox without trust: none.
      */
     bool trust;
     /*

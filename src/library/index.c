@@ -422,11 +422,11 @@ static void parse_implementation(struct indexer *ix, struct implementation *impl
     diag_list_init(&faults, ix->arena);
     if (ix->lib->trust == LIBRARY_TRUST_GRAPHS)
         refuse_source(ix, impl, "no source is read in a sandbox", &faults);
+    else if (impl->target && ix->lib->trust == LIBRARY_TRUST_PORTABLE)
+        refuse_source(ix, impl, "it is written for one target", &faults);
     else if (parse_source(ix, impl, &faults))
         return;
     str_id file_name = attr(ix, impl->element, STR_file);
-    if (impl->target && ix->lib->trust == LIBRARY_TRUST_PORTABLE)
-        refuse_source(ix, impl, "it is not portable, so it would be passed on as it is", &faults);
     if (impl->target && ix->lib->trust == LIBRARY_TRUST_ALL) {
         struct diag_list unread;
         diag_list_init(&unread, ix->arena);
