@@ -6,16 +6,17 @@ import pathlib
 import re
 import sys
 
+sys.path.append(str(pathlib.Path(__file__).resolve().parent))
+from checks import check, finish
+
 ROOT = pathlib.Path(sys.argv[1])
 ROOMS = "base diag ir document xml lang shader closure library build spell bind api".split()
 FRONT = {"document", "xml", "library", "build", "bind"}
 BACK = {"ir", "closure", "shader", "spell"}
 INCLUDE = re.compile(r'^\s*#\s*include\s*["<]([^">]+)[">]', re.MULTILINE)
-failures = []
-passed = 0
 
 
-def check(path, included):
+def fault_of(path, included):
     """What is wrong with an include, or None."""
     room = path.relative_to(ROOT / "src").parts[0] if path.is_relative_to(ROOT / "src") else None
     used = included.split("/")[0] if "/" in included else None
@@ -38,11 +39,6 @@ def check(path, included):
 for folder in "src", "generators", "cli", "validate", "render":
     for path in sorted((ROOT / folder).rglob("*.[ch]")):
         for included in INCLUDE.findall(path.read_text(encoding="utf-8")):
-            fault = check(path, included)
-            if fault:
-                failures.append(f"{path.relative_to(ROOT)} includes {included}: {fault}")
-            else:
-                passed += 1
-print("\n".join(failures))
-print(f"layers: {passed} passed, {len(failures)} failed, 0 skipped")
-sys.exit(bool(failures))
+            fault = fault_of(path, included)
+            check(not fault, f"{path.relative_to(ROOT)} includes {included}: {fault}")
+finish("layers")

@@ -1,11 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Threads over one library and one document, each with a context of its own, give the bytes of a single one. */
+/*
+ * Threads over one library, each with a context of its own, and documents that they share or load for themselves give the bytes of a
+ * single one. Arguments: how many generations each thread makes, and the documents.
+ */
 #define _POSIX_C_SOURCE 200809L
 #include "tests/api/fixture.h"
 
 #include <pthread.h>
 
-enum { NUM_THREADS = 8, NUM_ROUNDS = 20 }; /* rounds: unless said; two generations each */
+enum { NUM_THREADS = 8, MAX_DOCUMENTS = 32 };
+
+static const char *const targets[] = {"glsl", "vulkan", "essl", "osl"};
+enum { NUM_TARGETS = sizeof targets / sizeof *targets };
+
+struct shared {
+    unsigned num_generations;
+    mxg_library *library;
+    const char *paths[MAX_DOCUMENTS];
+    mxg_document *documents[MAX_DOCUMENTS];
+    mxg_result *results[MAX_DOCUMENTS]; /* whose reflection is asked for by threads first */
+    char *expected[MAX_DOCUMENTS][NUM_TARGETS];
+    unsigned num_documents;
+};
+
+struct worker {
+    const struct shared *shared;
+    pthread_t thread;
+    unsigned number, num_wrong;
+};
 
 /* What a generation gives, as one text; to be freed. */
 static char *all_of(const mxg_result *result)
@@ -22,108 +44,104 @@ static char *all_of(const mxg_result *result)
     return text;
 }
 
-static char *generate(mxg_context *context, const mxg_document *document, const char *target)
+static mxg_result *generate(mxg_context *context, const mxg_document *document, const char *target)
 {
     mxg_generate_desc desc = {sizeof desc, target, NULL, NULL};
+    mxg_renderable first = {sizeof first};
     mxg_result *result = NULL;
-    char *text = mxg_generate(context, document, &desc, &result) == MXG_OK ? all_of(result) : NULL;
-    mxg_result_destroy(result);
-    return text;
+    if (mxg_document_renderable(document, 0, &first) == MXG_OK)
+        desc.element = first.path;
+    mxg_generate(context, document, &desc, &result);
+    return result;
 }
 
-static mxg_document *load(mxg_context *context, mxg_library *library)
+static mxg_document *load(mxg_context *context, mxg_library *library, const char *path)
 {
     mxg_document *document = NULL;
-    return mxg_document_load(context, library, "main.mtlx", &document) == MXG_OK ? document : NULL;
+    return mxg_document_load(context, library, path, &document) == MXG_OK ? document : NULL;
 }
 
-static mxg_context *open_context(struct memory_files *files)
+static bool gives(mxg_context *context, const mxg_document *document, const char *target, const char *expected)
 {
-    *files = (struct memory_files){.files = fixture_files};
-    mxg_resolver resolver = memory_resolver(files);
-    mxg_context_desc desc = MXG_CONTEXT_DESC_INIT;
-    desc.resolver = &resolver;
-    mxg_context *context = NULL;
-    mxg_context_create(&desc, &context);
-    return context;
-}
-
-static const char *const targets[] = {"glsl", "vulkan", "essl"};
-
-struct shared {
-    unsigned num_rounds;
-    mxg_library *library;
-    mxg_document *document;
-    const mxg_result *result; /* whose reflection every thread asks for first */
-    char *expected[3];
-};
-
-struct worker {
-    const struct shared *shared;
-    pthread_t thread;
-    unsigned num_wrong;
-};
-
-static void check(struct worker *worker, mxg_context *context, const mxg_document *document, unsigned round)
-{
-    char *text = generate(context, document, targets[round % 3]);
-    worker->num_wrong += !text || strcmp(text, worker->shared->expected[round % 3]) != 0;
+    mxg_result *result = generate(context, document, target);
+    char *text = all_of(result);
+    bool good = *text && strcmp(text, expected) == 0;
     free(text);
+    mxg_result_destroy(result);
+    return good;
 }
 
+/* Documents come in another order for each thread; every other one is loaded anew, over the shared library or the thread's own. */
 static void *work(void *arg)
 {
     struct worker *worker = arg;
     const struct shared *shared = worker->shared;
-    struct memory_files files;
-    mxg_context *context = open_context(&files);
+    mxg_context *context = NULL;
+    mxg_context_create(NULL, &context);
     mxg_library *library = mxg_library_ref(shared->library), *own_library = mxg_library_builtin(context);
-    char *text = all_of(shared->result);
-    worker->num_wrong += strcmp(text, shared->expected[0]) != 0;
-    free(text);
-    for (unsigned round = 0; round < shared->num_rounds; round++) {
-        check(worker, context, shared->document, round);
-        mxg_document *document = load(context, round % 2 ? library : own_library);
-        worker->num_wrong += !document;
-        check(worker, context, document, round);
-        mxg_document_destroy(document);
+    for (unsigned i = 0; i < shared->num_generations; i++) {
+        unsigned at = (i + worker->number) % shared->num_documents, target = (i / shared->num_documents) % NUM_TARGETS;
+        mxg_document *own = i % 2 ? load(context, i % 4 == 1 ? library : own_library, shared->paths[at]) : NULL;
+        worker->num_wrong += i % 2 && !own;
+        worker->num_wrong += !gives(context, own ? own : shared->documents[at], targets[target], shared->expected[at][target]);
+        mxg_document_destroy(own);
+        char *text = i < shared->num_documents ? all_of(shared->results[at]) : NULL;
+        worker->num_wrong += text && strcmp(text, shared->expected[at][0]) != 0;
+        free(text);
     }
     mxg_library_unref(own_library);
     mxg_library_unref(library);
     mxg_context_destroy(context);
-    worker->num_wrong += files.num_open != 0;
     return NULL;
 }
 
-/* Argument: how many rounds: 500 are 1,000 generations by each thread. */
+/* By one thread: what all must give. */
+static void prepare(struct shared *shared, mxg_context *context, const char *path)
+{
+    unsigned at = shared->num_documents++;
+    shared->paths[at] = path;
+    shared->documents[at] = load(context, shared->library, path);
+    REQUIRE(shared->documents[at]);
+    for (int target = 0; target < NUM_TARGETS; target++) {
+        mxg_result *result = generate(context, shared->documents[at], targets[target]);
+        shared->expected[at][target] = all_of(result);
+        REQUIRE(*shared->expected[at][target]);
+        mxg_result_destroy(result);
+    }
+    shared->results[at] = generate(context, shared->documents[at], targets[0]);
+}
+
+static void finish(struct shared *shared)
+{
+    for (unsigned at = 0; at < shared->num_documents; at++) {
+        for (int target = 0; target < NUM_TARGETS; target++)
+            free(shared->expected[at][target]);
+        mxg_result_destroy(shared->results[at]);
+        mxg_document_destroy(shared->documents[at]);
+    }
+    mxg_library_unref(shared->library);
+}
+
 int main(int argc, char **argv)
 {
-    struct memory_files files;
-    mxg_context *context = open_context(&files);
-    struct shared shared = {.num_rounds = argc > 1 ? (unsigned)strtoul(argv[1], NULL, 10) : NUM_ROUNDS, .library = mxg_library_builtin(context)};
-    shared.document = load(context, shared.library);
-    REQUIRE(shared.document);
-    for (int i = 0; i < 3; i++)
-        REQUIRE(shared.expected[i] = generate(context, shared.document, targets[i]));
-    mxg_generate_desc desc = {sizeof desc, targets[0], NULL, NULL};
-    mxg_result *result = NULL;
-    REQUIRE_EQ(mxg_generate(context, shared.document, &desc, &result), MXG_OK);
-    shared.result = result;
-
+    mxg_context *context = NULL;
+    mxg_context_create(NULL, &context);
+    struct shared shared = {.num_generations = argc > 1 ? (unsigned)strtoul(argv[1], NULL, 10) : 0,
+                            .library = mxg_library_builtin(context)};
+    for (int i = 2; i < argc && shared.num_documents < MAX_DOCUMENTS; i++)
+        prepare(&shared, context, argv[i]);
+    REQUIRE(shared.num_generations && shared.num_documents);
     struct worker workers[NUM_THREADS] = {{0}};
-    for (int i = 0; i < NUM_THREADS; i++) {
+    for (unsigned i = 0; i < NUM_THREADS && shared.num_documents; i++) {
         workers[i].shared = &shared;
+        workers[i].number = i;
         REQUIRE(pthread_create(&workers[i].thread, NULL, work, &workers[i]) == 0);
     }
-    for (int i = 0; i < NUM_THREADS; i++) {
+    for (int i = 0; i < NUM_THREADS && shared.num_documents; i++) {
         pthread_join(workers[i].thread, NULL);
         REQUIRE_EQ(workers[i].num_wrong, 0);
     }
-    for (int i = 0; i < 3; i++)
-        free(shared.expected[i]);
-    mxg_result_destroy(result);
-    mxg_document_destroy(shared.document);
-    mxg_library_unref(shared.library);
+    finish(&shared);
     mxg_context_destroy(context);
     return test_report("api-threads");
 }

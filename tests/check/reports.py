@@ -3,21 +3,13 @@
 """Reads reports of one run of mxgen check in all formats and compares what they say. Arguments: JSON, SARIF, JUnit, HTML."""
 import html.parser
 import json
+import pathlib
 import sys
 import urllib.parse
 import xml.etree.ElementTree
 
-failures = []
-passed = 0
-
-
-def check(good, what):
-    global passed
-    if good:
-        passed += 1
-    else:
-        failures.append(what)
-
+sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent))
+from checks import check, finish
 
 with open(sys.argv[1], encoding="utf-8") as file:
     report = json.load(file)
@@ -111,6 +103,4 @@ def check_html(path):
 check_sarif(sys.argv[2])
 check_junit(sys.argv[3])
 check_html(sys.argv[4])
-print("\n".join(sorted(set(failures))))
-print(f"check-reports: {passed} passed, {len(failures)} failed")
-sys.exit(bool(failures))
+finish("check-reports")

@@ -10,6 +10,9 @@ import sys
 import tempfile
 from xml.sax.saxutils import quoteattr
 
+sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent))
+from checks import check, finish
+
 MXGEN, COMPILE, TEMPLATE = sys.argv[1], sys.argv[2], pathlib.Path(sys.argv[3]).read_text(encoding="utf-8")
 MARK = re.compile(r"\bINJECTED\b") # a part of an identifier is harmless
 PAYLOADS = { # a geometric property is an identifier: it may be the payload's letters, but not these alone
@@ -29,16 +32,6 @@ PAYLOADS = { # a geometric property is an identifier: it may be the payload's le
     "long": "INJECTED " * 200,
 }
 TOKENS = re.compile(r'//[^\n\r]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"', re.DOTALL)
-passed = 0
-failures = []
-
-
-def check(good, what):
-    global passed
-    if good:
-        passed += 1
-    else:
-        failures.append(what)
 
 
 def attribute(text):
@@ -76,6 +69,4 @@ with tempfile.TemporaryDirectory() as folder:
             result = subprocess.run([COMPILE, document], capture_output=True, text=True, check=False)
             check(result.returncode == 0, f"{name} does not compile: {result.stdout[-1500:]}{result.stderr[-500:]}")
 
-print("\n".join(failures))
-print(f"injection: {passed} passed, {len(failures)} failed, 0 skipped")
-sys.exit(bool(failures))
+finish("injection")

@@ -7,19 +7,12 @@ import re
 import subprocess
 import sys
 
+sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent))
+from checks import check, finish
+
 ROOT = pathlib.Path(sys.argv[1])
 COMPILER = sys.argv[2:]
 CODE = "src generators cli validate render bench tests examples fits include".split()
-passed = 0
-failures = []
-
-
-def check(good, what):
-    global passed
-    if good:
-        passed += 1
-    else:
-        failures.append(what)
 
 
 def files(folder, *endings):
@@ -106,6 +99,4 @@ check_library()
 check_texts()
 if COMPILER:
     check_headers()
-print("\n".join(failures))
-print(f"sizes: {passed} passed, {len(failures)} failed, 0 skipped")
-sys.exit(bool(failures))
+finish("sizes")

@@ -8,6 +8,9 @@ import sys
 import tempfile
 from pathlib import Path
 
+sys.path.append(str(Path(__file__).resolve().parent.parent))
+from checks import check, finish
+
 MXGEN, TARGET = sys.argv[1:]
 LINE = re.compile(r"^(\S+)  (\w+)\((.*)\) -> (.*)$")
 PATTERNS = {"boolean", "integer", "float", "color3", "color4", "vector2", "vector3", "vector4"}
@@ -54,20 +57,13 @@ def unused(source):
 
 listed = subprocess.run([MXGEN, "library", "list"], capture_output=True, text=True, check=True).stdout
 definitions = [match.groups() for match in map(LINE.match, listed.splitlines()) if match]
-passed, failures = 0, []
 with tempfile.TemporaryDirectory() as folder:
     path = Path(folder, "all.mtlx")
     path.write_text(document(definitions), encoding="utf-8")
     made = subprocess.run([MXGEN, path, "--target", TARGET, "--stdout"], capture_output=True, text=True, check=False)
-    if made.returncode:
-        failures.append(made.stderr)
+    check(made.returncode == 0, made.stderr)
     for section in re.split(r"^// (?=\S+\.(?:vert|frag)$)", made.stdout, flags=re.M)[1:]:
         name, source = section.split("\n", 1)
         found = unused(source)
-        if found:
-            failures.append(f"{name}: not used: {', '.join(found)}")
-        else:
-            passed += 1
-print("\n".join(failures))
-print(f"unused: {passed} passed, {len(failures)} failed, 0 skipped")
-sys.exit(bool(failures))
+        check(not found, f"{name}: not used: {', '.join(found)}")
+finish("unused")

@@ -1,0 +1,27 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What tests written in Python share: `check` counts, `skip` says what was left out, `finish` prints the line that script/test sums up
+and ends the program."""
+import sys
+
+_passed, _failures, _skipped = 0, [], 0
+
+
+def check(good, what):
+    """Counts whether something holds; `what` is told where it does not."""
+    global _passed
+    if good:
+        _passed += 1
+    else:
+        _failures.append(what)
+
+
+def skip(why):
+    global _skipped
+    _skipped += 1
+    print(f"skip: {why}")
+
+
+def finish(name):
+    print("\n".join(dict.fromkeys(_failures)))
+    print(f"{name}: {_passed} passed, {len(_failures)} failed, {_skipped} skipped")
+    sys.exit(bool(_failures))
