@@ -3,32 +3,44 @@
 
 #include "base/hash.h"
 
-static bool is_text(const struct strpool *pool, str_id id, const char *text, size_t len, uint32_t hash)
+static inline bool is_own_text(const struct strpool *pool, str_id id, const char *text, size_t len, uint32_t hash)
 {
-    uint32_t i = id - pool->first;
-    if (!pool->offsets) {
-        const struct str_entry *e = &pool->entries.items[i];
-        return e->hash == hash && e->len == len && memcmp(e->text, text, len) == 0;
-    }
-    uint32_t at = pool->offsets[i];
-    return pool->offsets[i + 1] - at - 1 == len && memcmp(pool->bytes + at, text, len) == 0;
+    const struct str_entry *e = &pool->entries.items[id - pool->first];
+    return e->hash == hash && e->len == len && memcmp(e->text, text, len) == 0;
+}
+
+static inline bool is_image_text(const struct strpool *pool, str_id id, const char *text, size_t len)
+{
+    const uint32_t *at = &pool->offsets[id - pool->first];
+    return at[1] - at[0] - 1 == len && memcmp(pool->bytes + at[0], text, len) == 0;
+}
+
+static str_id find_in_image(const struct strpool *pool, const char *text, size_t len, uint32_t hash)
+{
+    const uint32_t *wide = pool->table;
+    const uint16_t *narrow = pool->narrow;
+    uint32_t mask = pool->table_mask, slot = hash & mask;
+    str_id id;
+    if (narrow)
+        while ((id = narrow[slot]) && !is_image_text(pool, id, text, len))
+            slot = (slot + 1) & mask;
+    else
+        while ((id = wide[slot]) && !is_image_text(pool, id, text, len))
+            slot = (slot + 1) & mask;
+    return id;
 }
 
 static str_id find_hashed(const struct strpool *pool, const char *text, size_t len, uint32_t hash)
 {
     for (; pool; pool = pool->base) {
-        const uint32_t *wide = pool->table;
-        const uint16_t *narrow = pool->narrow;
-        uint32_t mask = pool->table_mask;
-        if (!wide && !narrow)
+        if (pool->offsets)
+            return find_in_image(pool, text, len, hash); /* which stands on nothing */
+        if (!pool->table)
             continue;
-        for (uint32_t slot = hash & mask;; slot = (slot + 1) & mask) {
-            str_id id = narrow ? narrow[slot] : wide[slot];
-            if (id == 0)
-                break;
-            if (is_text(pool, id, text, len, hash))
+        str_id id;
+        for (uint32_t slot = hash & pool->table_mask; (id = pool->table[slot]); slot = (slot + 1) & pool->table_mask)
+            if (is_own_text(pool, id, text, len, hash))
                 return id;
-        }
     }
     return 0;
 }
