@@ -43,7 +43,7 @@ struct variant { /* a function with the strings and flags that choose what it is
 
 struct lang_plan {
     uint32_t *first_variant; /* by function id: 1 + index; 0 = not called */
-    uint64_t *called; /* a bit by function id: has it a variant? */
+    uint8_t *called;         /* a bit for each function that has a variant */
     uint32_t num_ids;
     VEC(struct variant) variants;
     VEC(fact) facts;

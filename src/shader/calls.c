@@ -5,18 +5,52 @@
  */
 #include "shader/shader.h"
 
-static uint8_t *mark_calls(struct shader *shader)
+static void mark_roots(const struct shader *shader, uint8_t *needed)
 {
-    uint32_t num_roots = 0;
-    for (unsigned stage = 0; stage < NUM_STAGES; stage++)
-        num_roots += shader->stages[stage].effects.len;
-    ir_ref *roots = ARENA_ARRAY(shader->arena, ir_ref, num_roots);
-    uint32_t n = 0;
-    for (unsigned stage = 0; stage < NUM_STAGES; stage++)
-        for (uint32_t i = 0; i < shader->stages[stage].effects.len; i++)
-            if (shader->stages[stage].effects.items[i].value)
-                roots[n++] = shader->stages[stage].effects.items[i].value;
-    return ir_mark(shader->graph, roots, n, shader->arena);
+    for (unsigned stage = 0; stage < NUM_STAGES; stage++) {
+        const struct effect_list *effects = &shader->stages[stage].effects;
+        for (uint32_t i = 0; i < effects->len; i++)
+            needed[effects->items[i].value] = 1;
+    }
+}
+
+static void mark_results(const struct ir_graph *graph, uint32_t function, uint8_t *needed)
+{
+    const struct ir_function *fn = &graph->functions.items[function];
+    for (uint32_t i = 0; i < fn->num_results; i++)
+        needed[graph->function_results.items[fn->first_result + i]] = 1;
+}
+
+struct call {
+    ir_ref node;
+    uint32_t planned;
+};
+
+struct calls { /* a vector */
+    struct call *items;
+    uint32_t len, cap;
+};
+
+/* Those that the stages need, the newest first: operands and the bodies of functions are older than what needs them. */
+static struct calls find_calls(const struct shader *shader)
+{
+    const struct ir_graph *graph = shader->graph;
+    struct calls calls = {0};
+    uint8_t *needed = ARENA_ARRAY(shader->arena, uint8_t, graph->nodes.len);
+    mark_roots(shader, needed);
+    for (ir_ref ref = graph->nodes.len; --ref > 0;) {
+        if (!needed[ref])
+            continue;
+        const struct ir_node *node = &graph->nodes.items[ref];
+        const ir_ref *args = graph->args.items + node->first_arg, *end = args + node->num_args;
+        for (; args < end; args++)
+            needed[*args] = 1;
+        if (node->op == IR_CALL)
+            vec_push(shader->arena, &calls, (struct call){.node = ref});
+        else if (node->op == IR_GRAPH_CALL)
+            mark_results(graph, node->attr, needed);
+    }
+    return calls;
 }
 
 /* `in` and `inout` parameters have an operand each, in order. */
@@ -70,21 +104,14 @@ static void call_version(struct shader *shader, ir_ref call, uint32_t version)
     node->attr = ir_add_callee(graph, callee);
 }
 
-struct call {
-    ir_ref node;
-    uint32_t planned;
-};
-
 void shader_specialise_calls(struct shader *shader)
 {
-    const uint8_t *needed = mark_calls(shader);
-    VEC(struct call) calls = {0};
-    for (ir_ref ref = 1; ref < shader->graph->nodes.len; ref++)
-        if (needed[ref] && ir_get(shader->graph, ref)->op == IR_CALL)
-            vec_push(shader->arena, &calls, (struct call){ref, tell_plan(shader, ref)});
+    struct calls calls = find_calls(shader);
     if (!calls.len)
         return;
+    for (uint32_t i = calls.len; i-- > 0;)
+        calls.items[i].planned = tell_plan(shader, calls.items[i].node);
     lang_plan_finish(shader->unit);
-    for (uint32_t i = 0; i < calls.len; i++)
+    for (uint32_t i = calls.len; i-- > 0;)
         call_version(shader, calls.items[i].node, lang_plan_version(shader->unit, calls.items[i].planned));
 }
