@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: Apache-2.0
+/* Which nodes become locals: measures them, operands first, and keeps expressions to about a line. */
+#include "shader/schedule.h"
+
+/*
+ * Expressions are kept to about a line. Costs are those of SPIR-V before any optimiser: reading a block's member takes an access chain
+ * and a load, a local a variable, a store and a load per use.
+ */
+/* Characters. A name counts as any other, however long it is: shaders that differ in names alone have the same statements. */
+enum { GOOD_CHARS = 110, MAX_CHARS = 220, MIN_SPLIT_CHARS = 40, MAX_REPEATED_CHARS = 32, NAME_CHARS = 10 };
+enum { MIN_USES_OF_COPY = 5 }; /* an access and a load each time, or once, a store, and a load each time */
+enum { COST_OPERATOR = 1, COST_CHOICE = 3, COST_BUILTIN = 4, COST_CALL = 32, COST_LOCAL = 2, MAX_COST_IN_LOOP = 3, MAX_COST_OF_ARM = 24 };
+
+static bool is_splat(ir_type_id type, const union ir_word *words)
+{
+    for (uint32_t i = 1; i < ir_type_info(type)->components; i++)
+        if (words[i].u != words[0].u)
+            return false;
+    return true;
+}
+
+static uint16_t clamp16(uint32_t n)
+{
+    return n < UINT16_MAX ? (uint16_t)n : UINT16_MAX;
+}
+
+/* Nodes that never become locals for their own sake: names, and small constants. Fills cost and chars. */
+static bool is_source(const struct scheduler *s, struct plan *plan)
+{
+    const struct ir_node *node = node_of(s, plan);
+    switch (plan->op) {
+    case IR_CONST: {
+        bool splat = is_splat(plan->type, s->graph->words.items + node->attr);
+        uint32_t components = splat ? 1 : ir_type_info(plan->type)->components;
+        plan->chars = clamp16(components == 1 ? 5 : 4 + 6 * components);
+        return components == 1 || plan->uses < (components > 4 ? 2u : 3u);
+    }
+    case IR_CONTEXT: /* u_lightData[i].member */
+        plan->cost = 3;
+        plan->chars = clamp16(NAME_CHARS + 15);
+        return plan->uses < 3;
+    case IR_UNIFORM:
+        plan->cost = 2;
+        plan->chars = clamp16(NAME_CHARS + 3);
+        return !s->shader->in_blocks || plan->uses < MIN_USES_OF_COPY || ir_type_is_matrix(node->type);
+    case IR_STREAM:
+    case IR_TEXTURE:
+        plan->cost = 2;
+        plan->chars = clamp16(NAME_CHARS + 3);
+        return true;
+    case IR_PARAM:
+    case IR_LOCAL:
+    case IR_SAMPLE:
+    case IR_POISON:
+        plan->cost = 1;
+        plan->chars = 4;
+        return true;
+    default:
+        return false;
+    }
+}
+
+/* What an operation adds to its operands: cost, characters, and characters for each of them. Calls have names of any length. */
+static const struct {
+    uint8_t cost, chars, chars_each;
+} measures[IR_NUM_OPS] = {
+#define OP(ID, text, arity, rule, flags, doc)                                                        \
+    [IR_##ID] = {(flags)&OP_BUILTIN ? COST_BUILTIN : COST_OPERATOR,                                   \
+                 (flags)&OP_BUILTIN ? sizeof text - 1 : IR_##ID == IR_CONSTRUCT ? 4 : 0, (flags)&OP_BUILTIN ? 2 : 3},
+#include "ir/ops.def"
+#undef OP
+};
+
+static void own_measure(const struct scheduler *s, const struct plan *plan, uint32_t *out_cost, uint32_t *out_chars)
+{
+    *out_cost = measures[plan->op].cost;
+    *out_chars = measures[plan->op].chars + measures[plan->op].chars_each * plan->num_args;
+    if (is_call(plan->op)) {
+        uint32_t attr = node_of(s, plan)->attr;
+        str_id name = plan->op == IR_GRAPH_CALL ? s->graph->functions.items[attr].name : s->graph->callees.items[attr].name;
+        *out_cost = COST_CALL;
+        *out_chars = (uint32_t)str_len(s->shader->strings, name) + 2 * plan->num_args;
+    } else if (plan->op == IR_CONVERT && plan_of(s, *args_of(s, plan))->type == IR_TYPE_BOOL) {
+        *out_cost = COST_CHOICE;
+    }
+}
+
+static bool may_let(const struct scheduler *s, const struct plan *plan)
+{
+    ir_type_id type = plan->type;
+    if (plan->flags & PLAN_LOCAL && plan->effect == MANY_EFFECTS)
+        return false;
+    if (plan->flags & PLAN_LOOP && s->regions.items[plan->region].outside == plan->region)
+        return false;
+    bool is_opaque = type == IR_TYPE_SAMPLER || type == IR_TYPE_SAMPLER_ARRAY || type == IR_TYPE_STRING;
+    return plan->flags & PLAN_STATEMENT || (type != IR_TYPE_VOID && !is_opaque);
+}
+
+/* From here on it is read by its name, which its origin gives. */
+static void let(struct plan *plan)
+{
+    plan->flags |= PLAN_LET;
+    plan->cost = 1;
+    plan->chars = NAME_CHARS + 2;
+}
+
+/* The longest operand that may become a local for the sake of a line's length; NULL: none. */
+static struct plan *longest_operand(const struct scheduler *s, const struct plan *plan)
+{
+    struct plan *longest = NULL;
+    const ir_ref *args = args_of(s, plan), *end = args + plan->num_args;
+    for (; args < end; args++) {
+        struct plan *operand = plan_of(s, *args);
+        bool is_long = operand->chars >= MIN_SPLIT_CHARS && (!longest || operand->chars > longest->chars);
+        if (is_long && operand->num_args > 0 && !(operand->flags & PLAN_LET) && may_let(s, operand))
+            longest = operand;
+    }
+    return longest;
+}
+
+/*
+ * Sums the operands up; the longest of them become locals until the whole is no longer than a line. Where hardly anything would
+ * remain without them, the line may be longer.
+ */
+static void measure(const struct scheduler *s, struct plan *plan)
+{
+    uint32_t own_cost, own_chars;
+    const ir_ref *args = args_of(s, plan), *end = args + plan->num_args;
+    own_measure(s, plan, &own_cost, &own_chars);
+    for (;;) {
+        uint32_t cost = own_cost, chars = own_chars;
+        for (const ir_ref *arg = args; arg < end; arg++) {
+            cost += plan_of(s, *arg)->cost;
+            chars += plan_of(s, *arg)->chars;
+        }
+        struct plan *longest = chars > GOOD_CHARS ? longest_operand(s, plan) : NULL;
+        if (!longest || (chars <= MAX_CHARS && chars - longest->chars < MIN_SPLIT_CHARS)) {
+            plan->cost = clamp16(cost);
+            plan->chars = clamp16(chars);
+            return;
+        }
+        let(longest);
+    }
+}
+
+/* Operators on what is at hand are cheaper repeated than stored. */
+static bool is_cheap(const struct plan *plan)
+{
+    if (!(ir_op_info(plan->op)->flags & OP_OPERATOR) || plan->op == IR_SELECT || plan->chars > MAX_REPEATED_CHARS)
+        return false;
+    if (plan->flags & PLAN_MOVED)
+        return plan->cost <= MAX_COST_IN_LOOP;
+    return (uint32_t)plan->cost * plan->uses <= (uint32_t)plan->cost + COST_LOCAL + plan->uses;
+}
+
+/* A part of something that has a name. */
+static bool is_part(struct scheduler *s, const struct plan *plan)
+{
+    if (plan->op == IR_RESULT)
+        return true;
+    if (plan->op != IR_SWIZZLE && plan->op != IR_MEMBER)
+        return false;
+    const struct plan *whole = plan_of(s, args_of(s, plan)[0]);
+    return whole->flags & PLAN_LET || whole->op == IR_RESULT || whole->num_args == 0;
+}
+
+/* May an arm become a local for the sake of let_arms? What has a name already is not copied. */
+static bool is_little_work(struct scheduler *s, const struct plan *arm)
+{
+    return arm->flags & PLAN_LOOP && (arm->num_args > 0 || arm->op == IR_CONTEXT) && !is_part(s, arm)
+           && arm->cost <= MAX_COST_OF_ARM && may_let(s, arm) && !(arm->flags & PLAN_LOCAL);
+}
+
+/*
+ * A choice between locals and constants is one operation; between expressions it is a branch. In a loop, what is little
+ * work is rather done in vain; elsewhere one line reads better.
+ */
+static void let_arms(struct scheduler *s, const struct plan *plan)
+{
+    bool all = true;
+    struct plan *arms[2];
+    for (unsigned i = 0; i < 2; i++) {
+        arms[i] = plan_of(s, args_of(s, plan)[i + 1]);
+        all &= arms[i]->flags & PLAN_LET || arms[i]->op == IR_CONST || is_little_work(s, arms[i]);
+    }
+    for (unsigned i = 0; all && i < 2; i++)
+        if (!(arms[i]->flags & PLAN_LET) && arms[i]->op != IR_CONST)
+            let(arms[i]);
+}
+
+/* Where only variables have parts, what a part is taken of becomes one. */
+static void let_wholes(struct scheduler *s, const struct plan *plan)
+{
+    uint8_t op = plan->op;
+    if (op != IR_SWIZZLE && op != IR_MEMBER && op != IR_INDEX && op != IR_CONVERT && op != IR_CONSTRUCT
+        && op != IR_TEX)
+        return;
+    for (uint32_t a = 0; a < plan->num_args; a++) {
+        struct plan *whole = plan_of(s, args_of(s, plan)[a]);
+        bool has_parts = whole->type >= IR_NUM_TYPES || ir_type_info(whole->type)->components > 1;
+        if (has_parts && whole->num_args > 0 && whole->op != IR_RESULT && may_let(s, whole))
+            let(whole);
+    }
+}
+
+/* Is the node to have a name? */
+static bool is_wanted(const struct plan *plan)
+{
+    unsigned flags = plan->flags;
+    bool is_closure_call = plan->op == IR_LEAF && plan->num_args > 0;
+    if (flags & PLAN_STATEMENT || is_closure_call || (flags & PLAN_NEIGHBOURS && flags & (PLAN_IN_ARM | PLAN_MOVED)))
+        return true;
+    return (plan->uses > 1 || flags & PLAN_MOVED) && !is_cheap(plan);
+}
+
+/* Operands first. */
+void choose_locals(struct scheduler *s)
+{
+    bool names_wholes = s->shader->names_wholes;
+    for (uint32_t i = 0; i < s->reached.len; i++) {
+        struct plan *plan = plan_of(s, s->reached.items[i]);
+        if (plan->num_args == 0 && is_source(s, plan))
+            continue;
+        if (plan->op == IR_SELECT)
+            let_arms(s, plan);
+        if (names_wholes)
+            let_wholes(s, plan);
+        measure(s, plan);
+        if (is_wanted(plan) && may_let(s, plan) && !is_part(s, plan))
+            let(plan);
+    }
+}
+
