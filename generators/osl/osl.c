@@ -158,6 +158,7 @@ static void write_stage(struct spell *spell, enum shader_stage_id stage)
     struct text *out = spell->out, shader, above;
     spell->target_data = &osl;
     spell->lang_names.form = osl_form;
+    spell->write_node = spell_typed_node;
     spell->lang_names.global = osl_global_name;
     osl_name_interface(&osl);
     osl_find_kinds(&osl);

@@ -156,6 +156,7 @@ void shader_finish(struct shader *shader, const struct shader_layout_rules *rule
     else
         finish_vertex_stage(shader);
     shader_layout(shader, rules);
+    shader->local_of = ARENA_ARRAY(shader->arena, uint32_t, shader->graph->nodes.len);
     if (rules->neutral_names)
         name_neutrally(shader);
 }

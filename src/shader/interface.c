@@ -55,7 +55,7 @@ static uint32_t *find_slot(const struct shader *shader, uint32_t scope, str_id n
 
 static void grow_names(struct shader *shader)
 {
-    uint32_t slots = shader->names_mask ? (shader->names_mask + 1) * 2 : 64;
+    uint32_t slots = shader->names_mask ? (shader->names_mask + 1) * 2 : 256;
     shader->names = ARENA_ARRAY(shader->arena, uint32_t, slots);
     shader->names_mask = slots - 1;
     for (uint32_t i = 0; i < shader->variables.len; i++) {
@@ -65,14 +65,27 @@ static void grow_names(struct shader *shader)
 }
 
 /* Names that the speller needs at file scope. */
+static bool is_speller_name(str_id name)
+{
+    switch (name) {
+    case STR_main:
+    case STR_scatter:
+    case STR_vd:
+    case STR_u_lightData:
+    case STR_LightData:
+    case STR_LightData_block:
+    case STR_PublicUniforms:
+    case STR_PrivateUniforms:
+    case STR_VertexData:
+        return true;
+    default:
+        return false;
+    }
+}
+
 static bool is_taken(const struct shader *shader, uint32_t scope, str_id name)
 {
-    static const str_id words[] = {STR_main, STR_scatter, STR_vd, STR_u_lightData, STR_LightData, STR_LightData_block, STR_PublicUniforms,
-                                   STR_PrivateUniforms, STR_VertexData};
-    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
-        if (name == words[i])
-            return true;
-    return (shader->names && *find_slot(shader, scope, name))
+    return is_speller_name(name) || (shader->names && *find_slot(shader, scope, name))
         || (shader->style && lang_style_is_reserved(shader->style, str_text(shader->strings, name), str_len(shader->strings, name)));
 }
 

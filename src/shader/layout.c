@@ -44,6 +44,7 @@ static void order_interface(struct shader *shader)
         ends[block] = starts[block];
         starts[block + 1] += starts[block];
     }
+    memcpy(shader->first_of_block, starts, sizeof starts);
     shader->interface.len = 0;
     uint32_t *order = vec_extend(shader->arena, &shader->interface, starts[NUM_BLOCKS]);
     for (uint32_t i = 0; i < shader->variables.len; i++) {

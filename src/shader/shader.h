@@ -178,6 +178,7 @@ struct shader {
     VEC(struct shader_verbatim) verbatim;
     VEC(ir_type_id) result_types;  /* of verbatim functions */
     VEC(uint32_t) interface;       /* variables that stages use, block by block, in the order of their layout */
+    uint32_t first_of_block[NUM_BLOCKS + 1]; /* in `interface`: where each block begins, and where the last one ends */
     uint32_t *names;               /* open addressing: names at file scope to variables, see interface.c */
     uint32_t names_mask;
     VEC(struct shader_binding) bindings;
@@ -197,6 +198,7 @@ struct shader {
     bool displaced;                /* the vertex stage moves the surface */
     bool scatters;                 /* it is no program but a function of path tracers: there is no vertex stage */
     bool in_blocks;                /* uniforms stand in blocks: each reading costs an access beside the load */
+    uint32_t *local_of;            /* the speller's: by node, 0 between the lists of statements; from shader_finish */
     bool numbered;                 /* sets, bindings and locations are given */
 };
 

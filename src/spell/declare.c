@@ -2,6 +2,10 @@
 /* What stands above the functions: structs, uniforms, textures, and what comes into the stage and goes out. */
 #include "spell/spell.h"
 
+/* Loops over the places in the interface of a block's variables. */
+#define EACH_OF_BLOCK(i, spell, block) \
+    for (uint32_t i = (spell)->shader->first_of_block[block]; i < (spell)->shader->first_of_block[(block) + 1]; i++)
+
 static struct spell_name prefixed(struct spell *spell, const char *prefix, struct spell_name name)
 {
     struct text text;
@@ -62,8 +66,8 @@ static void declare(struct spell *spell, const struct shader_variable *variable,
 /* Does this stage use a variable of the block? */
 static bool needs_block(const struct spell *spell, enum shader_block block)
 {
-    for (uint32_t i = 0; i < spell->shader->interface.len; i++)
-        if (interface_variable(spell, i)->block == block && stage_reads(spell, interface_variable(spell, i)))
+    EACH_OF_BLOCK (i, spell, block)
+        if (stage_reads(spell, interface_variable(spell, i)))
             return true;
     return false;
 }
@@ -93,10 +97,8 @@ static void write_location(struct spell *spell, uint32_t location)
 
 static void write_members(struct spell *spell, enum shader_block block)
 {
-    for (uint32_t i = 0; i < spell->shader->interface.len; i++) {
+    EACH_OF_BLOCK (i, spell, block) {
         const struct shader_variable *variable = interface_variable(spell, i);
-        if (variable->block != block)
-            continue;
         spell_indent(spell, 1);
         if (variable->flat && !spell->shader->scatters)
             spell_text(spell, "flat ");
@@ -135,11 +137,9 @@ static void write_uniforms(struct spell *spell, enum shader_block block)
         write_uniform_block(spell, block);
         return;
     }
-    for (uint32_t i = 0; i < spell->shader->interface.len; i++) {
-        const struct shader_variable *variable = interface_variable(spell, i);
-        if (variable->block == block && stage_reads(spell, variable))
-            write_uniform(spell, variable);
-    }
+    EACH_OF_BLOCK (i, spell, block)
+        if (stage_reads(spell, interface_variable(spell, i)))
+            write_uniform(spell, interface_variable(spell, i));
 }
 
 static void write_light_data(struct spell *spell)
@@ -159,9 +159,9 @@ static void write_light_data(struct spell *spell)
 
 static void write_textures(struct spell *spell)
 {
-    for (uint32_t i = 0; i < spell->shader->interface.len; i++) {
+    EACH_OF_BLOCK (i, spell, BLOCK_TEXTURES) {
         const struct shader_variable *variable = interface_variable(spell, i);
-        if (variable->block != BLOCK_TEXTURES || !stage_reads(spell, variable))
+        if (!stage_reads(spell, variable))
             continue;
         write_layout(spell, variable->set, variable->binding, false);
         write_uniform(spell, variable);
@@ -170,9 +170,9 @@ static void write_textures(struct spell *spell)
 
 static void write_attributes(struct spell *spell, enum shader_block block, const char *qualifier)
 {
-    for (uint32_t i = 0; i < spell->shader->interface.len; i++) {
+    EACH_OF_BLOCK (i, spell, block) {
         const struct shader_variable *variable = interface_variable(spell, i);
-        if (variable->block != block || !stage_reads(spell, variable))
+        if (!stage_reads(spell, variable))
             continue;
         if (*qualifier)
             write_location(spell, variable->location);

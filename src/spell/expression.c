@@ -158,24 +158,6 @@ static bool is_named(const struct spell *spell, ir_ref ref)
     return is_number || spell->local_of[ref] || op == IR_UNIFORM || op == IR_STREAM || op == IR_PARAM || op == IR_LOCAL || op == IR_RESULT;
 }
 
-/* The form for the types at hand of a target that has such forms; NULL: none for these. */
-static const struct lang_pieces *typed_form(const struct spell *spell, ir_ref ref, const struct ir_node *node)
-{
-    bool has_form = ir_op_info(node->op)->flags & (OP_OPERATOR | OP_BUILTIN) || node->op == IR_CONST || node->op > IR_LEAF;
-    if (!has_form)
-        return NULL;
-    ir_type_id types[16];
-    struct lang_use use = {.op = node->op, .type = node->type, .attr = node->attr, .operands = types, .node = ref};
-    for (; use.num_operands < node->num_args && use.num_operands < 16; use.num_operands++) {
-        ir_ref operand = ir_arg(spell->shader->graph, ref, use.num_operands);
-        types[use.num_operands] = ir_type_of(spell->shader->graph, operand);
-        use.named |= (uint32_t)is_named(spell, operand) << use.num_operands;
-    }
-    return spell->lang_names.form(spell->lang_names.user_data, &use);
-}
-
-static void write_node(struct spell *spell, ir_ref ref, const struct ir_node *node, enum lang_precedence least);
-
 /* What stands for a node: its local, a variable, or else an expression. */
 static inline void write_operand(struct spell *spell, ir_ref ref, enum lang_precedence least)
 {
@@ -186,7 +168,7 @@ static inline void write_operand(struct spell *spell, ir_ref ref, enum lang_prec
     else if (node->op == IR_UNIFORM || node->op == IR_STREAM)
         spell_name(spell, spell->variables[node->attr]);
     else
-        write_node(spell, ref, node, least);
+        spell->write_node(spell, ref, node, least);
 }
 
 void spell_expression(struct spell *spell, ir_ref ref, enum lang_precedence least)
@@ -247,15 +229,19 @@ static void write_source(struct spell *spell, const struct ir_node *node)
     }
 }
 
-/* A node that has no local. */
-static void write_node(struct spell *spell, ir_ref ref, const struct ir_node *node, enum lang_precedence least)
+static void write_result(struct spell *spell, ir_ref call, uint32_t index, enum lang_precedence least)
+{
+    uint32_t first = spell->local_of[call];
+    if (first)
+        spell_name(spell, spell->let_names.items[first - 1 + index]);
+    else
+        spell_expression(spell, call, least);
+}
+
+/* A node that has neither a local nor a form that was made ready. */
+static void write_other_node(struct spell *spell, ir_ref ref, const struct ir_node *node, enum lang_precedence least)
 {
     const struct ir_graph *graph = spell->shader->graph;
-    const struct lang_pieces *own = spell->lang_names.form ? typed_form(spell, ref, node) : NULL;
-    if (own) {
-        write_form(spell, node, own, least);
-        return;
-    }
     switch (node->op) {
     case IR_CONST:
         lang_print_value(spell->style, spell->shader->strings, node->type, graph->words.items + node->attr, least, spell->out);
@@ -275,18 +261,47 @@ static void write_node(struct spell *spell, ir_ref ref, const struct ir_node *no
     case IR_LEAF:
         write_call(spell, ref);
         break;
-    case IR_RESULT: {
-        uint32_t first = spell->local_of[ir_arg(graph, ref, 0)];
-        if (first)
-            spell_name(spell, spell->let_names.items[first - 1 + node->attr]);
-        else
-            spell_expression(spell, ir_arg(graph, ref, 0), least);
+    case IR_RESULT:
+        write_result(spell, ir_arg(graph, ref, 0), node->attr, least);
         break;
-    }
     default:
         if (node->num_args == 0)
             write_source(spell, node);
         else
             write_form(spell, node, lang_style_form(spell->style, node->op), least);
     }
+}
+
+void spell_node(struct spell *spell, ir_ref ref, const struct ir_node *node, enum lang_precedence least)
+{
+    const struct lang_pieces *form = spell->style->forms[node->op];
+    if (form && form->num)
+        write_form(spell, node, form, least);
+    else
+        write_other_node(spell, ref, node, least);
+}
+
+/* The form for the types at hand of a target that has such forms; NULL: none for these. */
+static const struct lang_pieces *typed_form(const struct spell *spell, ir_ref ref, const struct ir_node *node)
+{
+    bool has_form = ir_op_info(node->op)->flags & (OP_OPERATOR | OP_BUILTIN) || node->op == IR_CONST || node->op > IR_LEAF;
+    if (!has_form)
+        return NULL;
+    ir_type_id types[16];
+    struct lang_use use = {.op = node->op, .type = node->type, .attr = node->attr, .operands = types, .node = ref};
+    for (; use.num_operands < node->num_args && use.num_operands < 16; use.num_operands++) {
+        ir_ref operand = ir_arg(spell->shader->graph, ref, use.num_operands);
+        types[use.num_operands] = ir_type_of(spell->shader->graph, operand);
+        use.named |= (uint32_t)is_named(spell, operand) << use.num_operands;
+    }
+    return spell->lang_names.form(spell->lang_names.user_data, &use);
+}
+
+void spell_typed_node(struct spell *spell, ir_ref ref, const struct ir_node *node, enum lang_precedence least)
+{
+    const struct lang_pieces *own = typed_form(spell, ref, node);
+    if (own)
+        write_form(spell, node, own, least);
+    else
+        spell_node(spell, ref, node, least);
 }

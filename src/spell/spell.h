@@ -57,6 +57,8 @@ struct spell {
     struct name_set names;
     struct lang_style *style;     /* of the target's syntax */
     struct lang_names lang_names; /* for the portable printer */
+    /* Writes a node that has no local: spell_node, or spell_typed_node where the target has forms of its own by type. */
+    void (*write_node)(struct spell *spell, ir_ref ref, const struct ir_node *node, enum lang_precedence least);
     struct spell_name *variables; /* how each interface variable is read in this stage; NULL: it is not */
     const char **functions;       /* names of portable functions by id, of those that are reached */
     const char **graph_functions; /* names of IR functions by index */
@@ -74,6 +76,8 @@ struct spell {
 
 /* Writes a node so that it binds at least as tightly as `least`. */
 void spell_expression(struct spell *spell, ir_ref ref, enum lang_precedence least);
+void spell_node(struct spell *spell, ir_ref ref, const struct ir_node *node, enum lang_precedence least);
+void spell_typed_node(struct spell *spell, ir_ref ref, const struct ir_node *node, enum lang_precedence least);
 /* "f(a, b": the name and operands of a call, unfinished. Returns how many arguments were written. */
 unsigned spell_call_open(struct spell *spell, ir_ref call);
 void spell_type(struct spell *spell, ir_type_id type);

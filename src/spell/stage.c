@@ -239,7 +239,8 @@ static void init(struct spell *spell)
     spell->graph_functions = ARENA_ARRAY(arena, const char *, shader->graph->functions.len + 1);
     spell->user_types = ARENA_ARRAY(arena, const char *, unit->base_user_types + unit->user_types.len + 1);
     spell->locals = ARENA_ARRAY(arena, struct spell_name, shader->locals.len + 1);
-    spell->local_of = ARENA_ARRAY(arena, uint32_t, shader->graph->nodes.len);
+    spell->local_of = shader->local_of;
+    spell->write_node = spell_node;
     spell->lang_names = (struct lang_names){
         .user_data = spell, .function = function_name, .global = global_name, .user_type = user_type_name};
     bool has_neighbours = spell->stage_id == STAGE_PIXEL ? !shader->scatters : !shader->displaced;
