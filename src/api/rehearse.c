@@ -45,6 +45,7 @@ static void record(void *arg)
     struct generation *g = rehearsal->generation;
     if (!generation_start(g))
         return;
+    rehearsal->recorder->num_globals = 0;
     g->result->unit.recorder = rehearsal->recorder;
     if (generation_build(g)) /* a model with errors is told when it is used */
         generation_emit(g);
@@ -80,7 +81,7 @@ void library_rehearse(struct mxg_library *library, struct lang_recorder *recorde
     mxg_document *document = NULL;
     struct rehearsal rehearsal = {.recorder = recorder};
     struct text models;
-    lang_recorder_init(recorder, arena, &library->layer.unit);
+    lang_recorder_init(recorder, arena, &library->layer.unit, library->layer.nodedefs.len);
     text_init(&models, arena);
     unsigned count = write_models(&library->layer, &models);
     mxg_status status = mxg_document_parse(context, library, "models", models.data, models.len, &document);

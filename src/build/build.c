@@ -80,6 +80,7 @@ struct builder *build_start(const struct library *lib, const struct build_option
     diags->trace_data = b;
     b->resolved.arena = b->arena;
     b->globals = ARENA_ARRAY(b->arena, ir_ref, shader->unit->base_globals + shader->unit->globals.len);
+    b->may_restore = build_may_restore(b);
     b->host = (struct lang_host){.user_data = b, .global = global_node, .texture = build_read_tiles, .max_inline_nodes = INLINE_NODES,
                                 .choice = choice_of(options)};
     b->document = ARENA_NEW(b->arena, struct instance);

@@ -80,6 +80,11 @@ static void call_expressions(struct builder *b, const struct implementation *imp
         lang_lower_call(b->shader->unit, b->graph, &b->host, layer->refs.items[impl->ref + i], args, &results[i]);
 }
 
+uint32_t build_leaf_callee(struct builder *b, uint32_t family)
+{
+    return ir_add_callee(b->graph, (struct ir_callee){.id = (uint64_t)1 << 32 | family, .name = library_family(b->lib, family)->name});
+}
+
 /*
  * Weight first where the definition has one (else 1), then the inputs in order without closures, then the base of a modifier. So equal
  * lobes under different weights differ in the first operand only.
@@ -107,7 +112,7 @@ static void build_leaf(struct builder *b, const struct implementation *impl, con
         }
         operands[n++] = base;
     }
-    uint32_t callee = ir_add_callee(b->graph, (struct ir_callee){.id = (uint64_t)1 << 32 | impl->ref, .name = family->name});
+    uint32_t callee = build_leaf_callee(b, impl->ref);
     ir_type_id type = library_type_ir(b->lib, ports[def->num_inputs].type);
     results[0] = ir_const_is(b->graph, operands[0], 0.0f) ? 0 : ir_build(b->graph, IR_LEAF, type, callee, operands, n);
 }

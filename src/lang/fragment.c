@@ -18,9 +18,9 @@ static inline void put(struct fragment_pattern *pattern, unsigned code)
 }
 
 /* A string that the library does not know has a number by chance. */
-static void put_constant(struct fragment_pattern *pattern, const struct ir_graph *graph, const struct ir_node *node)
+static void put_constant(struct fragment_pattern *pattern, const struct ir_node *node)
 {
-    const union ir_word *words = graph->words.items + node->attr;
+    const union ir_word *words = pattern->graph->words.items + node->attr;
     pattern->failed |= node->type == IR_TYPE_STRING && words->u >= pattern->num_strings;
     put(pattern, fragment_head(IR_CONST, node->type, 0));
     for (unsigned i = 0; i < ir_type_info(node->type)->components; i++) {
@@ -29,35 +29,59 @@ static void put_constant(struct fragment_pattern *pattern, const struct ir_graph
     }
 }
 
-static void put_node(struct fragment_pattern *pattern, const struct ir_graph *graph, ir_ref ref, unsigned depth)
+static void put_node(struct fragment_pattern *pattern, ir_ref ref, unsigned depth);
+
+static void put_looked_through(struct fragment_pattern *pattern, ir_ref ref, unsigned depth)
 {
-    const struct ir_node *node = ir_get(graph, ref);
+    const struct ir_node *node = ir_get(pattern->graph, ref);
+    put(pattern, fragment_head((enum ir_op)node->op, node->type, node->num_args));
+    put(pattern, node->attr);
+    pattern->failed |= node->attr > UINT16_MAX || depth == FRAGMENT_MAX_DEPTH;
+    if (node->num_args >= FRAGMENT_MANY)
+        put(pattern, node->num_args);
+    for (uint32_t i = 0; i < node->num_args && !pattern->failed; i++)
+        put_node(pattern, ir_arg(pattern->graph, ref, i), depth + 1);
+}
+
+static void put_node(struct fragment_pattern *pattern, ir_ref ref, unsigned depth)
+{
+    const struct ir_node *node = ir_get(pattern->graph, ref);
     if (node->op == IR_CONST) {
-        put_constant(pattern, graph, node);
+        put_constant(pattern, node);
         return;
     }
-    for (unsigned i = 0; i < pattern->num_inputs; i++)
+    unsigned num_inputs = pattern->num_inputs;
+    for (unsigned i = 0; i < num_inputs; i++)
         if (pattern->inputs[i] == ref) {
             put(pattern, CODE_SAME);
             put(pattern, i);
             return;
         }
-    pattern->failed |= pattern->num_inputs == FRAGMENT_MAX_INPUTS || depth > FRAGMENT_MAX_DEPTH || node->type >= IR_TYPE_FIRST_USER
-                    || node->attr > UINT16_MAX;
+    pattern->failed |= num_inputs == FRAGMENT_MAX_INPUTS || node->type >= IR_TYPE_FIRST_USER;
     if (pattern->failed)
         return;
     pattern->inputs[pattern->num_inputs++] = ref;
     pattern->has_derivative |= (node->flags & IR_NODE_DERIVATIVE) != 0;
-    if (!ir_is_looked_through((enum ir_op)node->op)) {
+    if (ir_is_looked_through((enum ir_op)node->op))
+        put_looked_through(pattern, ref, depth);
+    else
         put(pattern, fragment_head(IR_CONST, node->type, node->flags & IR_NODE_LOOP ? CODE_OPAQUE_IN_LOOP : CODE_OPAQUE));
-        return;
-    }
-    put(pattern, fragment_head((enum ir_op)node->op, node->type, node->num_args));
-    put(pattern, node->attr);
-    if (node->num_args >= FRAGMENT_MANY)
-        put(pattern, node->num_args);
-    for (uint32_t i = 0; i < node->num_args; i++)
-        put_node(pattern, graph, ir_arg(graph, ref, i), depth + 1);
+}
+
+void fragment_pattern_begin(struct fragment_pattern *pattern, const struct ir_graph *graph, const struct lang_unit *layer)
+{
+    pattern->graph = graph;
+    pattern->len = pattern->num_inputs = 0;
+    pattern->num_strings = layer->strings->num;
+    pattern->has_derivative = pattern->failed = false;
+}
+
+void fragment_pattern_add(struct fragment_pattern *pattern, ir_ref argument)
+{
+    if (argument && !pattern->failed)
+        put_node(pattern, argument, 0);
+    else
+        put(pattern, CODE_ABSENT);
 }
 
 uint32_t fragment_hash(const struct fragment_pattern *pattern)
@@ -65,41 +89,13 @@ uint32_t fragment_hash(const struct fragment_pattern *pattern)
     return hash_bytes(pattern->codes, pattern->len * sizeof *pattern->codes);
 }
 
-bool fragment_begin(struct lower *lo, uint32_t id, const ir_ref *args, struct fragment_pattern *pattern)
+const struct lang_fragment *fragment_find(const struct lang_unit *layer, uint32_t first, const struct fragment_pattern *pattern,
+                                          uint32_t choice)
 {
-    const struct lang_unit *layer = lo->frame->layer;
-    const struct lang_function *fn = lo->frame->fn;
-    bool has_any = id < layer->fragment_of.len && layer->fragment_of.items[id];
-    if ((!has_any && !lo->unit->recorder) || layer->base || lo->host->choice == LANG_NONE || !(fn->flags & LANG_FN_PLAIN))
-        return false;
-    if (lo->unit->recorder)
-        lo->unit->recorder->num_globals = 0;
-    pattern->num_strings = layer->strings->num;
-    pattern->len = pattern->num_inputs = 0;
-    pattern->has_derivative = pattern->failed = false;
-    put(pattern, lo->host->max_outer_nodes);
-    put(pattern, lo->host->max_inline_nodes);
-    for (uint32_t i = 0; i < fn->num_params && !pattern->failed; i++) {
-        if (ast_slot(layer, fn, i)->mode == LANG_OUT)
-            continue;
-        if (*args)
-            put_node(pattern, lo->graph, *args, 0);
-        else
-            put(pattern, CODE_ABSENT);
-        args++;
-    }
-    return !pattern->failed;
-}
-
-/* ---- Restoring ---- */
-
-static const struct lang_fragment *find(const struct lower *lo, uint32_t id, const struct fragment_pattern *pattern)
-{
-    const struct lang_unit *layer = lo->frame->layer;
     uint32_t hash = fragment_hash(pattern);
-    for (uint32_t next = layer->fragment_of.items[id]; next;) {
+    for (uint32_t next = pattern->failed ? 0 : first; next;) {
         const struct lang_fragment *fragment = &layer->fragments.items[next - 1];
-        if (fragment->hash == hash && fragment->choice == lo->host->choice && fragment->pattern_len == pattern->len
+        if (fragment->hash == hash && fragment->choice == choice && fragment->pattern_len == pattern->len
             && !(pattern->has_derivative && fragment->flags & LANG_FRAGMENT_WEIGHED)
             && memcmp(layer->codes.items + fragment->first_code, pattern->codes, pattern->len * sizeof *pattern->codes) == 0)
             return fragment;
@@ -108,45 +104,69 @@ static const struct lang_fragment *find(const struct lower *lo, uint32_t id, con
     return NULL;
 }
 
-static ir_ref restore_constant(struct lower *lo, ir_type_id type, const uint16_t **codes)
+/* ---- Restoring ---- */
+
+uint32_t fragment_callee(struct lang_unit *unit, struct ir_graph *graph, uint32_t function)
+{
+    const struct lang_function *fn = lang_function(unit, function, NULL);
+    return ir_add_callee(graph, (struct ir_callee){.id = function, .name = fn->name,
+                                                   .derivative = (fn->flags & LANG_FN_DERIVATIVE) != 0,
+                                                   .pure = (fn->flags & LANG_FN_PURE) != 0});
+}
+
+static ir_ref restore_constant(const struct fragment_host *host, ir_type_id type, const uint16_t **codes)
 {
     union ir_word words[16];
     for (unsigned i = 0; i < ir_type_info(type)->components; i++, *codes += 2)
         words[i].u = (uint32_t)(*codes)[0] | (uint32_t)(*codes)[1] << 16;
-    return ir_const_words(lo->graph, type, words);
+    return ir_const_words(host->graph, type, words);
 }
 
-static ir_ref restore_node(struct lower *lo, const ir_ref *nodes, const uint16_t **codes)
+/* `nodes` are those that operands count from 1. */
+static ir_ref restore_op(const struct fragment_host *host, unsigned head, const ir_ref *nodes, const uint16_t **codes)
 {
-    unsigned head = *(*codes)++, count = head & 7;
     enum ir_op op = (enum ir_op)(head >> 9);
-    ir_type_id type = (ir_type_id)(head >> 3 & 63);
-    ir_ref args[LOWER_MAX_LEAVES];
-    if (op == IR_CONST)
-        return restore_constant(lo, type, codes);
-    if (op == IR_UNIFORM || op == IR_STREAM || op == IR_TEXTURE)
-        return lo->host->global(lo->host->user_data, lo->graph, lo->unit, *(*codes)++);
+    unsigned count = head & 7;
     uint32_t attr = fragment_has_attr(op) ? *(*codes)++ : 0;
+    ir_ref args[FRAGMENT_MAX_OPERANDS];
+    if (op == IR_CALL)
+        attr = fragment_callee(host->unit, host->graph, attr);
+    else if (op == IR_LEAF)
+        attr = host->leaf(host->user_data, attr);
     if (count == FRAGMENT_MANY)
         count = *(*codes)++;
     for (unsigned i = 0; i < count; i++)
         args[i] = nodes[(*codes)[i]];
     *codes += count;
-    return ir_restore(lo->graph, op, type, op == IR_CALL ? lower_callee(lo, attr) : attr, args, count);
+    return ir_restore(host->graph, op, (ir_type_id)(head >> 3 & 63), attr, args, count);
 }
 
-bool fragment_restore(struct lower *lo, uint32_t id, const struct fragment_pattern *pattern, ir_ref *results)
+static ir_ref restore_node(const struct fragment_host *host, const ir_ref *nodes, const uint16_t **codes)
 {
-    const struct lang_unit *layer = lo->frame->layer;
-    const struct lang_fragment *fragment = lo->unit->recorder ? NULL : find(lo, id, pattern);
-    if (!fragment)
-        return false;
-    ir_ref nodes[FRAGMENT_MAX_INPUTS + FRAGMENT_MAX_NODES];
-    memcpy(nodes, pattern->inputs, pattern->num_inputs * sizeof *nodes);
+    unsigned head = *(*codes)++;
+    if (head >> 9 == IR_POISON) {
+        host->origin(host->user_data, *(*codes)++);
+        head = *(*codes)++;
+    }
+    enum ir_op op = (enum ir_op)(head >> 9);
+    if (op == IR_CONST)
+        return restore_constant(host, (ir_type_id)(head >> 3 & 63), codes);
+    if (op == IR_UNIFORM || op == IR_STREAM || op == IR_TEXTURE)
+        return host->lang->global(host->lang->user_data, host->graph, host->unit, *(*codes)++);
+    if (op == IR_LOCAL)
+        return host->named(host->user_data, *(*codes)++, (ir_type_id)(head >> 3 & 63));
+    return restore_op(host, head, nodes, codes);
+}
+
+void fragment_restore(const struct fragment_host *host, const struct lang_unit *layer, const struct lang_fragment *fragment,
+                      const struct fragment_pattern *pattern, ir_ref *results)
+{
+    ir_ref nodes[1 + FRAGMENT_MAX_INPUTS + FRAGMENT_MAX_NODES], *next = nodes + 1 + pattern->num_inputs;
+    nodes[0] = 0;
+    memcpy(nodes + 1, pattern->inputs, pattern->num_inputs * sizeof *nodes);
     const uint16_t *codes = layer->codes.items + fragment->first_code + fragment->pattern_len;
-    for (unsigned i = 0; i < fragment->num_nodes; i++)
-        nodes[pattern->num_inputs + i] = restore_node(lo, nodes, &codes);
+    for (unsigned i = fragment->num_nodes; i > 0; i--)
+        *next++ = restore_node(host, nodes, &codes);
     for (unsigned count = *codes++; count > 0; count--)
         *results++ = nodes[*codes++];
-    return true;
 }

@@ -1,39 +1,76 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Fragments: what functions of a library became for arguments of a pattern, taken down when the library is packed. Where a generation calls
- * such a function with such arguments, the nodes are restored one by one; no tree is read and nothing is folded.
+ * Fragments: what functions and graphs of a library became for arguments of a pattern, taken down when the library is packed. Where a
+ * generation uses such a function with such arguments, the nodes are restored one by one; no tree is read and nothing is folded.
  *
- * A pattern tells of each argument what lowering can see of it. Constants by value; an op that rules look through, with its operands;
- * which arguments are the same node; and nothing else of what is left, since the builder asks no more of it.
+ * A pattern tells of each argument what the builder can see of it: constants by value; an op that is looked through, with its
+ * operands; which arguments are the same node; of anything else the type, and whether it belongs to a loop.
  *
- *     code       words behind it    in patterns                              in nodes
- *     CONST      the components     a constant                               the same
- *     op         operands           looked through: operands are codes       their numbers: inputs first, then earlier nodes
- *     global     its number                                                  a uniform, stream or texture of the host
- *     call       function           an argument like any other               and operands as of any op
+ *     code       words behind it        in patterns                         in nodes
+ *     CONST      the components         a constant                          the same
+ *     op         attribute, operands    looked through: operands are codes  numbers: 0 is none, inputs from 1, then earlier nodes
+ *     UNIFORM…   the global's number                                        a uniform, stream or texture of the host
+ *     CALL, LEAF function or family     an argument like any other          and operands as of any op
+ *     POISON     an element                                                 the origin of the nodes that follow
+ *     LOCAL      a name                                                     what the host knows by it
  */
 #ifndef MXG_LANG_FRAGMENT_H
 #define MXG_LANG_FRAGMENT_H
 
-#include "lang/lower.h"
+#include "lang/lang.h"
+
+#include <assert.h>
 
 enum {
-    FRAGMENT_MAX_PATTERN = 160, /* codes */
-    FRAGMENT_MAX_INPUTS = 48,
+    FRAGMENT_MAX_PATTERN = 240, /* codes */
+    FRAGMENT_MAX_INPUTS = 100,
     FRAGMENT_MAX_DEPTH = 6,     /* of ops in ops that are looked through */
     FRAGMENT_MAX_NODES = 400,
+    FRAGMENT_MAX_OPERANDS = 128,
 };
 
 struct fragment_pattern {
-    uint16_t codes[FRAGMENT_MAX_PATTERN];
-    ir_ref inputs[FRAGMENT_MAX_INPUTS]; /* each node that the pattern tells apart, in order of appearance */
+    const struct ir_graph *graph;
     unsigned len, num_inputs;
     uint32_t num_strings; /* of the library */
-    bool has_derivative; /* among the inputs */
-    bool failed;         /* too large */
+    bool has_derivative;  /* among the inputs */
+    bool failed;          /* too large */
+    uint16_t codes[FRAGMENT_MAX_PATTERN];
+    ir_ref inputs[FRAGMENT_MAX_INPUTS]; /* each node that the pattern tells apart, in order of appearance */
 };
 
-/* Heads of codes: op, type and number of operands. Of more than 6 operands the number follows. */
+void fragment_pattern_begin(struct fragment_pattern *pattern, const struct ir_graph *graph, const struct lang_unit *layer);
+void fragment_pattern_add(struct fragment_pattern *pattern, ir_ref argument); /* 0: absent */
+
+/* Who asks for nodes. Those of functions need the first three; those of graphs have leaves, origins and names, too. */
+struct fragment_host {
+    struct lang_unit *unit; /* the generation's */
+    struct ir_graph *graph;
+    const struct lang_host *lang;
+    void *user_data;
+    uint32_t (*leaf)(void *user_data, uint32_t family); /* the graph's number for what a LEAF calls */
+    void (*origin)(void *user_data, uint32_t element);  /* of nodes from here on; 0: the graph's own */
+    ir_ref (*named)(void *user_data, str_id name, ir_type_id type); /* a node that has a name beyond the graph */
+    str_id (*name)(void *user_data, ir_ref node); /* the same backwards; 0: it has none */
+};
+
+/* The fragment with this pattern in the chain that begins at `first`, made for the same options; NULL. */
+const struct lang_fragment *fragment_find(const struct lang_unit *layer, uint32_t first, const struct fragment_pattern *pattern,
+                                          uint32_t choice);
+void fragment_restore(const struct fragment_host *host, const struct lang_unit *layer, const struct lang_fragment *fragment,
+                      const struct fragment_pattern *pattern, ir_ref *results);
+
+/* fragment_record.c: takes down what became of `pattern`; false where it cannot be. `first` is the chain. */
+bool fragment_record(const struct fragment_host *host, uint16_t *first, const struct fragment_pattern *pattern, bool weighed,
+                     const ir_ref *results, unsigned num_results);
+void fragment_note_global(struct lang_recorder *recorder, ir_ref node, uint32_t global);
+
+/* The graph's number for a function that is called. */
+uint32_t fragment_callee(struct lang_unit *unit, struct ir_graph *graph, uint32_t function);
+
+/* ---- Codes ---- */
+
+/* Heads: op, type and number of operands. Of more than 6 operands the number follows. */
 enum { FRAGMENT_MANY = 7 };
 static inline uint16_t fragment_head(enum ir_op op, ir_type_id type, unsigned count)
 {
@@ -44,17 +81,8 @@ static_assert((unsigned)IR_NUM_OPS <= 128 && (unsigned)IR_TYPE_FIRST_USER <= 64,
 /* Ops whose attribute follows their head. */
 static inline bool fragment_has_attr(enum ir_op op)
 {
-    return op == IR_SWIZZLE || op == IR_MEMBER || op == IR_RESULT || op == IR_CALL;
+    return op == IR_SWIZZLE || op == IR_MEMBER || op == IR_RESULT || op == IR_CALL || op == IR_LEAF;
 }
-
-/* Writes the pattern; false where the function has no fragments, and none are taken down. */
-bool fragment_begin(struct lower *lo, uint32_t id, const ir_ref *args, struct fragment_pattern *pattern);
-/* False where no fragment has the pattern. */
-bool fragment_restore(struct lower *lo, uint32_t id, const struct fragment_pattern *pattern, ir_ref *results);
-
-/* fragment_record.c */
-void fragment_note_global(struct lang_recorder *recorder, ir_ref node, uint32_t global);
-void fragment_record(struct lower *lo, uint32_t id, const struct fragment_pattern *pattern, const ir_ref *results);
 
 uint32_t fragment_hash(const struct fragment_pattern *pattern);
 

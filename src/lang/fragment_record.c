@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Takes down fragments: what the results of a call need, beneath them what the pattern names. */
+/* Takes down fragments: what the results of a use need, above what the pattern names. */
 #include "lang/fragment.h"
 
-void lang_recorder_init(struct lang_recorder *recorder, struct arena *arena, const struct lang_unit *lowest)
+void lang_recorder_init(struct lang_recorder *recorder, struct arena *arena, const struct lang_unit *lowest, uint32_t num_graphs)
 {
     *recorder = (struct lang_recorder){.arena = arena};
     uint32_t count = lowest->functions.len;
     memset(vec_extend(arena, &recorder->fragment_of, count), 0, count * sizeof *recorder->fragment_of.items);
+    memset(vec_extend(arena, &recorder->graph_fragment_of, num_graphs), 0, num_graphs * sizeof *recorder->graph_fragment_of.items);
 }
 
 void fragment_note_global(struct lang_recorder *recorder, ir_ref node, uint32_t global)
@@ -19,34 +20,44 @@ void fragment_note_global(struct lang_recorder *recorder, ir_ref node, uint32_t 
 }
 
 struct taker {
-    struct lower *lo;
+    const struct fragment_host *host;
+    const struct ir_graph *graph;
     struct lang_recorder *recorder;
     const struct fragment_pattern *pattern;
-    uint16_t *numbers; /* of nodes, + 1; 0: has none; NEEDED: has none yet */
+    uint16_t *numbers; /* of nodes; 0: has none; NEEDED: has none yet */
     unsigned num_nodes;
+    uint32_t origin;   /* that was taken down last */
     bool failed;
 };
 enum { NEEDED = UINT16_MAX };
 
-static void put(struct taker *t, uint32_t code)
+static void put(struct taker *t, uint64_t code)
 {
     t->failed |= code > UINT16_MAX;
     vec_push(t->recorder->arena, &t->recorder->codes, (uint16_t)code);
 }
 
-/* Marks what results need. Strings of the document are not known to the library. */
+static str_id name_of(const struct taker *t, ir_ref ref)
+{
+    return t->host->name ? t->host->name(t->host->user_data, ref) : 0;
+}
+
+/* Marks what results need, down to inputs and what has a name. */
 static void find_needed(struct taker *t, const ir_ref *results, unsigned num_results)
 {
-    const struct ir_graph *graph = t->lo->graph;
     for (unsigned i = 0; i < t->pattern->num_inputs; i++)
         t->numbers[t->pattern->inputs[i]] = (uint16_t)(i + 1);
     for (unsigned i = 0; i < num_results; i++)
-        if (!t->numbers[results[i]])
+        if (results[i] && !t->numbers[results[i]])
             t->numbers[results[i]] = NEEDED;
-    for (ir_ref ref = graph->nodes.len; ref-- > 1;)
-        for (uint32_t i = 0; t->numbers[ref] == NEEDED && i < ir_get(graph, ref)->num_args; i++)
-            if (!t->numbers[ir_arg(graph, ref, i)])
-                t->numbers[ir_arg(graph, ref, i)] = NEEDED;
+    for (ir_ref ref = t->graph->nodes.len; ref-- > 1;) {
+        bool has_operands = t->numbers[ref] == NEEDED && !name_of(t, ref);
+        for (uint32_t i = 0; has_operands && i < ir_get(t->graph, ref)->num_args; i++) {
+            ir_ref operand = ir_arg(t->graph, ref, i);
+            if (operand && !t->numbers[operand])
+                t->numbers[operand] = NEEDED;
+        }
+    }
 }
 
 static void put_global(struct taker *t, ir_ref ref)
@@ -59,9 +70,11 @@ static void put_global(struct taker *t, ir_ref ref)
     t->failed = true;
 }
 
+/* A string of the document is not known to the library. */
 static void put_constant(struct taker *t, const struct ir_node *node)
 {
-    const union ir_word *words = t->lo->graph->words.items + node->attr;
+    const union ir_word *words = t->graph->words.items + node->attr;
+    t->failed |= node->type == IR_TYPE_STRING && words->u >= t->pattern->num_strings;
     for (unsigned i = 0; i < ir_type_info(node->type)->components; i++) {
         put(t, words[i].u & 0xffff);
         put(t, words[i].u >> 16);
@@ -70,25 +83,41 @@ static void put_constant(struct taker *t, const struct ir_node *node)
 
 static void put_op(struct taker *t, ir_ref ref)
 {
-    const struct ir_graph *graph = t->lo->graph;
-    const struct ir_node *node = ir_get(graph, ref);
-    bool has_attr = fragment_has_attr((enum ir_op)node->op);
-    t->failed |= node->num_args == 0 || node->num_args > LOWER_MAX_LEAVES || (node->attr && !has_attr);
+    const struct ir_node *node = ir_get(t->graph, ref);
+    bool has_attr = fragment_has_attr((enum ir_op)node->op), has_callee = node->op == IR_CALL || node->op == IR_LEAF;
+    t->failed |= node->num_args == 0 || node->num_args > FRAGMENT_MAX_OPERANDS || (node->attr && !has_attr);
     if (has_attr)
-        put(t, node->op == IR_CALL ? (uint32_t)graph->callees.items[node->attr].id : node->attr);
+        put(t, has_callee ? t->graph->callees.items[node->attr].id & UINT32_MAX : node->attr);
     if (node->num_args >= FRAGMENT_MANY)
         put(t, node->num_args);
     for (uint32_t i = 0; i < node->num_args; i++)
-        put(t, t->numbers[ir_arg(graph, ref, i)] - 1u);
+        put(t, t->numbers[ir_arg(t->graph, ref, i)]);
 }
 
-static void take_node(struct taker *t, ir_ref ref)
+/* Nodes of graphs belong to elements of theirs, those of functions to whoever calls. */
+static void put_origin(struct taker *t, const struct ir_node *node)
 {
-    const struct ir_node *node = ir_get(t->lo->graph, ref);
-    if (node->type >= IR_TYPE_FIRST_USER || node->flags & IR_NODE_CLOSURE || t->num_nodes == FRAGMENT_MAX_NODES) {
-        t->failed = true;
+    const struct ir_origin *origin = &t->graph->origins.items[node->origin];
+    uint32_t element = node->origin == t->graph->origin ? 0 : origin->element;
+    if (!t->host->origin || node->op == IR_CONST || element == t->origin)
         return;
-    }
+    t->failed |= origin->parent != t->graph->origin && node->origin != t->graph->origin;
+    t->origin = element;
+    put(t, fragment_head(IR_POISON, IR_TYPE_VOID, 0));
+    put(t, element);
+}
+
+static void put_name(struct taker *t, const struct ir_node *node, str_id name)
+{
+    t->failed |= name >= t->pattern->num_strings;
+    put(t, fragment_head(IR_LOCAL, node->type, 0));
+    put(t, name);
+}
+
+static void put_node(struct taker *t, ir_ref ref)
+{
+    const struct ir_node *node = ir_get(t->graph, ref);
+    put_origin(t, node);
     put(t, fragment_head((enum ir_op)node->op, node->type, node->num_args));
     if (node->op == IR_CONST)
         put_constant(t, node);
@@ -96,58 +125,65 @@ static void take_node(struct taker *t, ir_ref ref)
         put_global(t, ref);
     else
         put_op(t, ref);
+}
+
+static void take_node(struct taker *t, ir_ref ref)
+{
+    const struct ir_node *node = ir_get(t->graph, ref);
+    bool is_closure = node->flags & IR_NODE_CLOSURE && !t->host->leaf, is_texture = node->type == IR_TYPE_SAMPLER && t->host->leaf;
+    if (node->type >= IR_TYPE_FIRST_USER || is_closure || is_texture || t->num_nodes == FRAGMENT_MAX_NODES) {
+        t->failed = true;
+        return;
+    }
+    str_id name = name_of(t, ref);
+    if (name)
+        put_name(t, node, name);
+    else
+        put_node(t, ref);
     t->num_nodes++;
     t->numbers[ref] = (uint16_t)(t->pattern->num_inputs + t->num_nodes);
 }
 
-static bool has_foreign_string(const struct taker *t)
+static void take(struct taker *t, const ir_ref *results, unsigned num_results)
 {
-    const struct ir_graph *graph = t->lo->graph;
-    const struct strpool *known = t->lo->frame->layer->strings;
-    for (ir_ref ref = 1; ref < graph->nodes.len; ref++) {
-        const struct ir_node *node = ir_get(graph, ref);
-        if (node->op == IR_CONST && node->type == IR_TYPE_STRING && t->numbers[ref] && graph->words.items[node->attr].u >= known->num)
-            return true;
-    }
-    return false;
-}
-
-static bool is_taken(const struct taker *t, uint32_t id, uint32_t hash)
-{
-    for (uint32_t next = t->recorder->fragment_of.items[id]; next;) {
-        const struct lang_fragment *fragment = &t->recorder->fragments.items[next - 1];
-        if (fragment->hash == hash && fragment->choice == t->lo->host->choice)
-            return true;
-        next = fragment->next;
-    }
-    return false;
-}
-
-void fragment_record(struct lower *lo, uint32_t id, const struct fragment_pattern *pattern, const ir_ref *results)
-{
-    struct lang_recorder *recorder = lo->unit->recorder;
-    struct taker t = {.lo = lo, .recorder = recorder, .pattern = pattern};
-    unsigned num_results = lang_num_results(lo->unit, id);
-    uint32_t hash = fragment_hash(pattern), first_code = recorder->codes.len;
-    if (is_taken(&t, id, hash) || (lo->weighed && pattern->has_derivative) || recorder->fragments.len == UINT16_MAX)
-        return;
-    t.numbers = ARENA_ARRAY(lo->graph->arena, uint16_t, lo->graph->nodes.len);
-    find_needed(&t, results, num_results);
-    for (unsigned i = 0; i < pattern->len; i++)
-        put(&t, pattern->codes[i]);
-    for (ir_ref ref = 1; ref < lo->graph->nodes.len && !t.failed; ref++)
-        if (t.numbers[ref] == NEEDED)
-            take_node(&t, ref);
-    put(&t, num_results);
+    find_needed(t, results, num_results);
+    for (unsigned i = 0; i < t->pattern->len; i++)
+        put(t, t->pattern->codes[i]);
+    for (ir_ref ref = 1; ref < t->graph->nodes.len && !t->failed; ref++)
+        if (t->numbers[ref] == NEEDED)
+            take_node(t, ref);
+    put(t, num_results);
     for (unsigned i = 0; i < num_results; i++)
-        put(&t, t.numbers[results[i]] - 1u);
-    if (t.failed || has_foreign_string(&t)) {
+        put(t, t->numbers[results[i]]);
+}
+
+static bool is_taken(const struct lang_recorder *recorder, uint32_t first, uint32_t hash, uint32_t choice)
+{
+    for (uint32_t next = first; next; next = recorder->fragments.items[next - 1].next)
+        if (recorder->fragments.items[next - 1].hash == hash && recorder->fragments.items[next - 1].choice == choice)
+            return true;
+    return false;
+}
+
+bool fragment_record(const struct fragment_host *host, uint16_t *first, const struct fragment_pattern *pattern, bool weighed,
+                     const ir_ref *results, unsigned num_results)
+{
+    struct lang_recorder *recorder = host->unit->recorder;
+    struct taker t = {.host = host, .graph = host->graph, .recorder = recorder, .pattern = pattern};
+    uint32_t hash = fragment_hash(pattern), first_code = recorder->codes.len, choice = host->lang->choice;
+    if (pattern->failed || is_taken(recorder, *first, hash, choice) || (weighed && pattern->has_derivative)
+        || recorder->fragments.len == UINT16_MAX)
+        return false;
+    t.numbers = ARENA_ARRAY(host->graph->arena, uint16_t, host->graph->nodes.len);
+    take(&t, results, num_results);
+    if (t.failed) {
         recorder->codes.len = first_code;
-        return;
+        return false;
     }
     vec_push(recorder->arena, &recorder->fragments,
              (struct lang_fragment){.hash = hash, .first_code = first_code, .pattern_len = (uint16_t)pattern->len,
-                                    .num_nodes = (uint16_t)t.num_nodes, .next = recorder->fragment_of.items[id],
-                                    .flags = lo->weighed ? LANG_FRAGMENT_WEIGHED : 0, .choice = lo->host->choice});
-    recorder->fragment_of.items[id] = (uint16_t)recorder->fragments.len;
+                                    .num_nodes = (uint16_t)t.num_nodes, .next = *first,
+                                    .flags = weighed ? LANG_FRAGMENT_WEIGHED : 0, .choice = choice});
+    *first = (uint16_t)recorder->fragments.len;
+    return true;
 }

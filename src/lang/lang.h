@@ -165,7 +165,8 @@ struct lang_unit {
     /* Of an image layer: */
     VEC(struct lang_fragment) fragments;
     VEC(uint16_t) codes;
-    VEC(uint16_t) fragment_of; /* by function: number + 1 of its first fragment; 0: none */
+    VEC(uint16_t) fragment_of;       /* by function: number + 1 of its first fragment; 0: none */
+    VEC(uint16_t) graph_fragment_of; /* the same by a number that the owner of graphs gives */
     VEC(uint32_t) texts;   /* where the text of each function begins, and where the last one's ends (texts.c) */
     VEC(char) text_bytes;
     /* Of a generation's layer: */
@@ -277,13 +278,14 @@ struct lang_recorder {
     VEC(struct lang_fragment) fragments;
     VEC(uint16_t) codes;
     VEC(uint16_t) fragment_of;
-    struct lang_global_use { /* of the call at hand */
+    VEC(uint16_t) graph_fragment_of;
+    struct lang_global_use { /* of the generation at hand */
         ir_ref node;
         uint32_t global;
-    } globals[16];
+    } globals[64];
     unsigned num_globals;
 };
-void lang_recorder_init(struct lang_recorder *recorder, struct arena *arena, const struct lang_unit *lowest);
+void lang_recorder_init(struct lang_recorder *recorder, struct arena *arena, const struct lang_unit *lowest, uint32_t num_graphs);
 
 /*
  * plan.c (specialise.c): one version per function for a whole shader. First lang_plan_call for every call in the IR, then

@@ -286,14 +286,6 @@ static void poison_results(struct lower *lo, uint32_t id, ir_ref *out)
             out = poison(lo, ast_slot(layer, fn, i)->type, out);
 }
 
-uint32_t lower_callee(struct lower *lo, uint32_t id)
-{
-    const struct lang_function *fn = lang_function(lo->unit, id, NULL);
-    return ir_add_callee(lo->graph, (struct ir_callee){.id = id, .name = fn->name,
-                                                       .derivative = (fn->flags & LANG_FN_DERIVATIVE) != 0,
-                                                       .pure = (fn->flags & LANG_FN_PURE) != 0});
-}
-
 static void build_call(struct lower *lo, uint32_t id, const ir_ref *in, ir_ref *out)
 {
     ir_ref args[LOWER_MAX_LEAVES];
@@ -306,7 +298,7 @@ static void build_call(struct lower *lo, uint32_t id, const ir_ref *in, ir_ref *
     const struct lang_unit *layer;
     const struct lang_function *fn = lang_function(lo->unit, id, &layer);
     ir_type_id type = graph_type(lo, fn->return_type);
-    ir_ref call = ir_build(lo->graph, IR_CALL, type, lower_callee(lo, id), args, num_args);
+    ir_ref call = ir_build(lo->graph, IR_CALL, type, fragment_callee(lo->unit, lo->graph, id), args, num_args);
     bool is_single = fn->return_type != IR_TYPE_VOID && lang_num_results(lo->unit, id) == 1;
     if (fn->return_type != IR_TYPE_VOID) {
         ir_ref value = is_single ? call : ir_build(lo->graph, IR_RESULT, type, 0, &call, 1);
@@ -400,19 +392,42 @@ static void poison_whole_results(struct lower *lo, ir_ref *results)
             *results++ = ir_poison(lo->graph, graph_type(lo, ast_slot(lo->frame->layer, fn, i)->type));
 }
 
+/* False where the function has no fragments, and none are taken down. */
+static bool begin_pattern(const struct lower *lo, uint32_t id, const ir_ref *args, struct fragment_pattern *pattern)
+{
+    const struct lang_unit *layer = lo->frame->layer;
+    const struct lang_function *fn = lo->frame->fn;
+    bool has_any = id < layer->fragment_of.len && layer->fragment_of.items[id];
+    if ((!has_any && !lo->unit->recorder) || layer->base || lo->host->choice == LANG_NONE || !(fn->flags & LANG_FN_PLAIN))
+        return false;
+    fragment_pattern_begin(pattern, lo->graph, layer);
+    pattern->codes[pattern->len++] = (uint16_t)lo->host->max_outer_nodes;
+    pattern->codes[pattern->len++] = (uint16_t)lo->host->max_inline_nodes;
+    for (uint32_t i = 0; i < fn->num_params; i++)
+        if (ast_slot(layer, fn, i)->mode != LANG_OUT)
+            fragment_pattern_add(pattern, *args++);
+    return !pattern->failed;
+}
+
 /* A function that is called, by a fragment where there is one. */
 static void lower_known_function(struct lower *lo, uint32_t id, const ir_ref *args, ir_ref *results)
 {
+    const struct lang_unit *layer = lo->frame->layer;
+    struct fragment_host host = {.unit = lo->unit, .graph = lo->graph, .lang = lo->host};
     struct fragment_pattern pattern;
-    bool may_match = fragment_begin(lo, id, args, &pattern);
-    if (may_match && fragment_restore(lo, id, &pattern, results))
-        return;
-    if (!fits(lo))
+    bool has_pattern = begin_pattern(lo, id, args, &pattern);
+    struct lang_recorder *recorder = lo->unit->recorder;
+    const struct lang_fragment *fragment = NULL;
+    if (has_pattern && !recorder)
+        fragment = fragment_find(layer, layer->fragment_of.items[id], &pattern, lo->host->choice);
+    if (fragment)
+        fragment_restore(&host, layer, fragment, &pattern, results);
+    else if (!fits(lo))
         poison_whole_results(lo, results);
     else
         (lo->frame->fn->flags & LANG_FN_PLAIN ? lower_plain_function : lower_function)(lo, id, args, results);
-    if (may_match && lo->unit->recorder)
-        fragment_record(lo, id, &pattern, results);
+    if (has_pattern && recorder)
+        fragment_record(&host, &recorder->fragment_of.items[id], &pattern, lo->weighed, results, lang_num_results(lo->unit, id));
 }
 
 void lang_lower_call(struct lang_unit *generated, struct ir_graph *graph, const struct lang_host *host, uint32_t id,

@@ -61,9 +61,6 @@ void lower_assign(struct lower *lo, lang_ref target, const ir_ref *leaves);
 /* lower_stmt.c. True where the function has returned. */
 bool lower_statements(struct lower *lo, lang_ref first);
 
-/* lower.c: the graph's number for a function that is called. */
-uint32_t lower_callee(struct lower *lo, uint32_t id);
-
 /* lower.c: leaves of the in and inout parameters to leaves of the returned value and the out and inout parameters. */
 void lower_call(struct lower *lo, uint32_t id, const ir_ref *in, ir_ref *out);
 

@@ -32,7 +32,7 @@ static const struct section_info section_infos[] = {
     SECTION(nodedefs),       SECTION(ports),         SECTION(impls),          SECTION(families),
     SECTION(verbatims),      SECTION(graph_nodes),   SECTION(bindings),       SECTION(geomprops),
     SECTION(types),          SECTION(refs),          SECTION(node_table),     SECTION(element_info),
-    SECTION(unit.fragments), SECTION(unit.codes),    SECTION(unit.fragment_of),
+    SECTION(unit.fragments), SECTION(unit.codes),    SECTION(unit.fragment_of), SECTION(unit.graph_fragment_of),
 };
 enum {
     NUM_VECS = sizeof section_infos / sizeof *section_infos,
@@ -182,6 +182,7 @@ static void add_fragments(struct lang_unit *unit, const struct lang_recorder *re
     memcpy(&unit->fragments, &recorder->fragments, sizeof unit->fragments);
     memcpy(&unit->codes, &recorder->codes, sizeof unit->codes);
     memcpy(&unit->fragment_of, &recorder->fragment_of, sizeof unit->fragment_of);
+    memcpy(&unit->graph_fragment_of, &recorder->graph_fragment_of, sizeof unit->graph_fragment_of);
 }
 
 void library_write_image(const struct library *lib, const struct lang_recorder *recorder, const struct lang_syntax *syntax,

@@ -87,7 +87,7 @@ static const char *call(struct fixture *f, const ir_ref *args)
 /* Takes down a call, gives the fragments to the library, and changes its trees. Returns what the call became. */
 static const char *record(struct fixture *f, const ir_ref *args)
 {
-    lang_recorder_init(&f->recorder, &f->arena, &f->library);
+    lang_recorder_init(&f->recorder, &f->arena, &f->library, 0);
     f->generated.recorder = &f->recorder;
     const char *text = call(f, args);
     memcpy(&f->library.fragments, &f->recorder.fragments, sizeof f->library.fragments);
