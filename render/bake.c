@@ -216,7 +216,7 @@ void bake_albedo(double cosine, double alpha, double *out_a, double *out_b)
     }
 }
 
-static bool make_albedo(struct image *out)
+bool bake_albedo_table(struct image *out)
 {
     *out = (struct image){.width = ALBEDO_SIZE, .height = ALBEDO_SIZE, .is_float = true,
                           .pixels = calloc(ALBEDO_SIZE * ALBEDO_SIZE * 4, sizeof(float))};
@@ -237,7 +237,7 @@ static bool make_albedo(struct image *out)
 bool bake_environment(const struct image *map, struct baked *out)
 {
     *out = (struct baked){0};
-    return filter(map, &out->radiance) && environment_irradiance(map, &out->irradiance) && make_albedo(&out->albedo);
+    return filter(map, &out->radiance) && environment_irradiance(map, &out->irradiance) && bake_albedo_table(&out->albedo);
 }
 
 struct part {

@@ -18,6 +18,9 @@ bool baked_write(const struct baked *baked, const char *folder, char *reason, si
 bool baked_read(const char *folder, struct baked *out, char *reason, size_t capacity);
 void baked_finish(struct baked *baked);
 
+/* The table alone. False: out of memory. */
+bool bake_albedo_table(struct image *out);
+
 /* The directional albedo of GGX at a cosine and a roughness squared: A scales F0, B scales F90. */
 void bake_albedo(double cosine, double alpha, double *out_a, double *out_b);
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/bind.h"
 
+#include "render/bake.h"
+
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -161,14 +163,45 @@ static void store_private(struct bind *bind, const mxg_variable *variable)
     store(address(bind, variable), variable, values);
 }
 
-static void store_lights(struct bind *bind, const mxg_variable *variable)
+/* "u_lightData[2].color": the name of the member, or NULL where the path is none of a light. */
+static const char *light_member(const char *path, uint32_t *out_light)
+{
+    static const char array[] = "u_lightData[";
+    if (strncmp(path, array, sizeof array - 1) != 0)
+        return NULL;
+    char *end;
+    unsigned long light = strtoul(path + sizeof array - 1, &end, 10);
+    *out_light = light < SCENE_NUM_LIGHTS ? (uint32_t)light : UINT32_MAX;
+    return strncmp(end, "].", 2) == 0 ? end + 2 : NULL;
+}
+
+/* What the user says of a light's member; NULL. */
+static const struct bind_value *light_value(const struct bind *bind, uint32_t light, const char *member)
+{
+    const struct bind_value *found = NULL;
+    for (size_t i = 0; i < bind->num_values; ++i) {
+        uint32_t number;
+        const char *name = light_member(bind->values[i].path, &number);
+        if (name && number == light && strcmp(name, member) == 0)
+            found = &bind->values[i];
+    }
+    return found;
+}
+
+static bool store_lights(struct bind *bind, const mxg_variable *variable)
 {
     size_t stride = find_block(&bind->draw, variable->set, variable->binding)->size / bind->max_lights;
+    const struct shape *shape = find_shape(variable->type);
     for (uint32_t i = 0; i < SCENE_NUM_LIGHTS && i < bind->max_lights; ++i) {
-        float values[3];
-        if (scene_light(i, variable->name, values))
-            store(address(bind, variable) + i * stride, variable, values);
+        float values[MAX_COMPONENTS] = {0};
+        if (!scene_light(i, variable->name, values) && variable->num_values)
+            memcpy(values, variable->values, sizeof values);
+        const struct bind_value *said = light_value(bind, i, variable->name);
+        if (said && (!shape || parse_numbers(said->text, values) != shape->columns * shape->rows))
+            return fail_as(bind, "bad-value", "'%s' is not a value of '%s', which is a %s", said->text, said->path, variable->type);
+        store(address(bind, variable) + i * stride, variable, values);
     }
+    return true;
 }
 
 static bool is_uniform(const mxg_variable *variable)
@@ -208,8 +241,8 @@ static bool fill_blocks(struct bind *bind)
             return false;
         if (variable.block == MXG_BLOCK_PRIVATE_UNIFORMS)
             store_private(bind, &variable);
-        if (variable.block == MXG_BLOCK_LIGHT_DATA)
-            store_lights(bind, &variable);
+        if (variable.block == MXG_BLOCK_LIGHT_DATA && !store_lights(bind, &variable))
+            return false;
     }
     return true;
 }
@@ -239,6 +272,21 @@ static struct draw_texture environment_texture(const struct image *image)
                                  .v = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
                                  .filter = VK_FILTER_LINEAR,
                                  .has_mips = true};
+}
+
+/* The directional albedo of GGX: the scene's, or made now. Its image is NULL where there is no memory. */
+static struct draw_texture albedo_texture(struct bind *bind)
+{
+    const struct image *image = &bind->scene->albedo;
+    if (!image->pixels) {
+        struct image *made = &bind->images[bind->num_images];
+        image = bake_albedo_table(made) ? made : NULL;
+        bind->num_images += image != NULL;
+    }
+    return (struct draw_texture){.image = image,
+                                 .u = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
+                                 .v = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
+                                 .filter = VK_FILTER_LINEAR};
 }
 
 /* The scene's texture, which is there to be sampled exactly. */
@@ -273,9 +321,11 @@ static bool bind_texture(struct bind *bind, uint32_t index, const mxg_variable *
     const struct scene *scene = bind->scene;
     const struct image *environment = scene_image(scene, variable->name);
     bool is_test = scene->texture.pixels && !variable->num_tiles;
-    struct draw_texture texture = environment ? environment_texture(environment)
-                                  : is_test   ? test_texture(&scene->texture)
-                                              : document_texture(bind, index, variable);
+    bool is_albedo = strcmp(variable->name, "u_albedoTable") == 0;
+    struct draw_texture texture = is_albedo     ? albedo_texture(bind)
+                                  : environment ? environment_texture(environment)
+                                  : is_test     ? test_texture(&scene->texture)
+                                                : document_texture(bind, index, variable);
     texture.set = variable->set;
     texture.binding = variable->binding;
     bind->draw.textures[bind->draw.num_textures++] = texture;
@@ -334,12 +384,24 @@ static bool bind_attributes(struct bind *bind)
     return true;
 }
 
+static bool is_light_value(const struct bind *bind, const char *path)
+{
+    uint32_t light;
+    const char *name = light_member(path, &light);
+    for (uint32_t i = 0; name && light < bind->max_lights && i < mxg_result_num_variables(bind->result); ++i) {
+        mxg_variable variable = get_variable(bind, i);
+        if (variable.block == MXG_BLOCK_LIGHT_DATA && strcmp(variable.name, name) == 0)
+            return true;
+    }
+    return false;
+}
+
 /* A value for an input that the shader does not have would be silently lost. */
 static bool check_values(struct bind *bind)
 {
     for (size_t i = 0; i < bind->num_values; ++i) {
         uint32_t index;
-        if (!mxg_result_find_variable(bind->result, bind->values[i].path, &index))
+        if (!mxg_result_find_variable(bind->result, bind->values[i].path, &index) && !is_light_value(bind, bind->values[i].path))
             return fail_as(bind, "no-uniform", "the shader has no uniform for '%s': it is unused, compiled in, or misspelled",
                            bind->values[i].path);
     }

@@ -12,9 +12,10 @@
 
 namespace {
 
+/* Readers tell more than a line at times: the first is kept. */
 bool fail(char *reason, size_t capacity, const std::string &text)
 {
-    std::snprintf(reason, capacity, "%s", text.empty() ? "unknown error" : text.c_str());
+    std::snprintf(reason, capacity, "%s", text.empty() ? "unknown error" : text.substr(0, text.find('\n')).c_str());
     return false;
 }
 

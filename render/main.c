@@ -14,6 +14,7 @@
 
 #define OVERSAMPLING 2 /* samples for each pixel and axis */
 #define MAX_FRAMES 10000
+#define MAX_BOUNCES 64
 
 /* The studio takes any mesh; the others are fixed, for tests and for patterns. */
 enum scene_kind { SCENE_STUDIO, SCENE_SPHERE, SCENE_PLANE, SCENE_GRID, NUM_SCENES };
@@ -33,8 +34,8 @@ struct job {
     struct painter painter;
     const char *output, *copy, *element, *look, *size, *camera, *scene, *background, *missing_texture, *baked;
     struct arg_list settings, environments;
-    size_t samples, frame, frames, paths;
-    bool path_trace;
+    size_t samples, frame, frames, paths, bounces;
+    bool path_trace, as_drawn;
     enum scene_kind scene_kind;
     struct bind_value *values;
     struct arg_list found; /* documents, of folders too; allocated */
@@ -50,7 +51,7 @@ static bool parse_size(struct job *job)
     if (*end == 'x')
         height = strtoul(end + 1, &end, 10);
     if (*end || width < 1 || height < 1 || width > UINT16_MAX || height > UINT16_MAX) {
-        fprintf(stderr, "mxgen: '%s' is not a size; write W or WxH\n", job->size);
+        fprintf(stderr, "mxgen: '%s' is not a size; write W or WxH, each from 1 to %d\n", job->size, UINT16_MAX);
         return false;
     }
     job->painter.width = (uint32_t)width;
@@ -111,10 +112,12 @@ static void apply_environments(struct job *job)
 {
     for (size_t i = 0; i < job->environments.len; ++i) {
         const char *word = job->environments.items[i];
-        if (mxg_options_set(job->cli.options, "environment", word) != MXG_OK)
+        if (mxg_options_set(job->cli.options, "environment", word) != MXG_OK) {
             job->painter.studio.environment = word;
-        else
-            job->painter.studio.prefiltered = strcmp(word, "prefiltered") == 0;
+            continue;
+        }
+        job->painter.studio.prefiltered = strcmp(word, "prefiltered") == 0;
+        job->painter.trace.dark = strcmp(word, "none") == 0;
     }
 }
 
@@ -153,13 +156,16 @@ static bool parse(struct job *job)
     }
     if (!is_set(&job->cli, "texture-modes")) /* samplers here have neither borders of any colour nor cubic filters */
         mxg_options_set(job->cli.options, "texture-modes", "shared");
-    if (job->path_trace && (!job->painter.is_studio || job->frames || !job->paths || job->paths > UINT32_MAX)) {
-        fputs("mxgen: paths are traced in the studio, at least one through each pixel, and for no turntable\n", stderr);
+    bool is_sane = job->paths && job->paths <= UINT32_MAX && job->bounces && job->bounces <= MAX_BOUNCES;
+    if (job->path_trace && (!job->painter.is_studio || job->frames || !is_sane)) {
+        fputs("mxgen: paths are traced in the studio, at least one through each pixel, with 1 to 64 bounces, and for no turntable\n", stderr);
         return false;
     }
     if (job->path_trace) {
         mxg_options_set(job->cli.options, "integrator", "scatter");
-        job->painter.paths = (uint32_t)job->paths;
+        job->painter.trace.paths = (uint32_t)job->paths;
+        job->painter.trace.bounces = (uint32_t)job->bounces;
+        job->painter.trace.as_drawn = job->as_drawn;
     }
     job->values = split_settings(&job->settings);
     job->painter.values = job->values;
@@ -521,7 +527,7 @@ int main(int argc, char **argv)
 {
     static const struct command command = {"render", "render FILE|FOLDER... -o PICTURE.png [options]",
                                            "Draws materials, without a display: one, or a sheet of many.", NULL};
-    struct job job = {.scene = "studio", .background = "backdrop", .missing_texture = "error", .samples = 16, .paths = 256, .frame = SCENE_FRAME,
+    struct job job = {.scene = "studio", .background = "backdrop", .missing_texture = "error", .samples = 16, .paths = 256, .bounces = 32, .frame = SCENE_FRAME,
                       .painter.studio = STUDIO_DEFAULTS};
     const struct arg args[] = {
         {"output", 'o', ARG_TEXT, "FILE", "the picture to write; the ending chooses the format", &job.output},
@@ -542,8 +548,10 @@ int main(int argc, char **argv)
         {"missing-texture", 0, ARG_TEXT, "error|checker", "what to do without a texture: fail, or draw a checker in its place",
          &job.missing_texture},
         {"frame", 0, ARG_SIZE, "N", "the frame: of images with {frame} in their names too (default: 33)", &job.frame},
-        {"path-trace", 0, ARG_FLAG, NULL, "traces paths: the reference, in the light of the environment alone", &job.path_trace},
+        {"path-trace", 0, ARG_FLAG, NULL, "traces paths: the reference", &job.path_trace},
         {"paths", 0, ARG_SIZE, "N", "paths through each pixel (default: 256)", &job.paths},
+        {"bounces", 0, ARG_SIZE, "N", "how often a path may turn (default: 32)", &job.bounces},
+        {"as-drawn", 0, ARG_FLAG, NULL, "paths turn once, as drawn light does, without shadows; for comparisons", &job.as_drawn},
         {"turntable", 0, ARG_SIZE, "N", "N pictures from around: FILE gets a number before its ending", &job.frames},
         {"scene", 0, ARG_TEXT, "NAME",
          "studio; sphere; plane, to see a pattern; grid: prints the values of 4x4 pixels for each element (default: studio)",

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// A path tracer around the function scatter() of a generated shader, which stands above, as do fill_vertex_data() and
-// TRACER_SET. Paths go where closures send them; light comes from the environment and from what surfaces emit.
+// A path tracer around the function scatter() of a generated shader, which stands above, as do fill_vertex_data(), TRACER_SET and, where they
+// hold, LIGHTS (lights are bound) and TRANSPARENT (opacity may be below 1).
+//
+// Light comes from the environment, from bound lights and from what surfaces emit. Directions are drawn by closures and by the environment
+// alike, and weighed by the balance heuristic (Veach and Guibas 1995); src/closure/scatter.c tells how closures take part.
 
 struct Node { vec3 low; uint first; vec3 high; uint count; };
 struct Corner { vec4 position_s, normal_t, tangent; };
@@ -8,16 +11,23 @@ struct Corner { vec4 position_s, normal_t, tangent; };
 layout(set = TRACER_SET, binding = 0, std430) readonly buffer Nodes { Node nodes[]; };
 layout(set = TRACER_SET, binding = 1, std430) readonly buffer Corners { Corner corners[]; };
 layout(set = TRACER_SET, binding = 2, std430) buffer Film { vec4 film[]; };
-layout(set = TRACER_SET, binding = 3) uniform sampler2D environment_map;
+// Sums of the map's light: over rows (height + 1 of them, from 0 to 1), then for each row over its texels (width + 1).
+layout(set = TRACER_SET, binding = 3, std430) readonly buffer Sums { float sums[]; };
+layout(set = TRACER_SET, binding = 4) uniform sampler2D environment_map;
 layout(push_constant) uniform Camera {
     vec4 eye, right, up, forward;  // a ray through (x, y), each from -1 to 1, goes along forward + x * right + y * up
     vec4 environment[3];           // columns: from the world to the map
     uvec4 frame;                   // width, height, first sample, number of samples
-} camera;
+} camera;                          // eye.w: how often a path may turn; right.w: 1 where it goes as a drawn picture has it;
+                                   // up.w: brightness of the environment
 layout(local_size_x = 8, local_size_y = 8) in;
 
 const float NEAR = 1e-4;
-const int MAX_BOUNCES = 32;
+const float FAR = 1e29;
+const float PI = 3.14159265;
+const int MAX_HITS = 64; // those that a path goes straight through, too
+
+bool as_drawn() { return camera.right.w > 0.5; }
 
 // ---- Random numbers: Jarzynski and Olano 2020, "Hash Functions for GPU Rendering", pcg4d ----
 
@@ -48,7 +58,7 @@ float enter_box(uint node, vec3 origin, vec3 inverse, float limit)
     vec3 a = (nodes[node].low - origin) * inverse, b = (nodes[node].high - origin) * inverse;
     vec3 near = min(a, b), far = max(a, b);
     float first = max(max(near.x, near.y), max(near.z, 0.0)), last = min(min(far.x, far.y), min(far.z, limit));
-    return first <= last ? first : 1e30;
+    return first <= last ? first : 1e38;
 }
 
 // Moeller and Trumbore 1997, both sides.
@@ -66,12 +76,12 @@ void meet_triangle(uint triangle, vec3 origin, vec3 direction, inout Hit hit)
         hit = Hit(solution.z, triangle, solution.xy);
 }
 
-bool find_hit(vec3 origin, vec3 direction, out Hit hit)
+bool find_hit(vec3 origin, vec3 direction, float limit, out Hit hit)
 {
     uint stack[40];
     int top = 0;
     stack[0] = 0u;
-    hit.distance = 1e29;
+    hit.distance = limit;
     vec3 inverse = 1.0 / direction;
     while (top >= 0) {
         uint node = stack[top--];
@@ -85,61 +95,203 @@ bool find_hit(vec3 origin, vec3 direction, out Hit hit)
             stack[++top] = first;
         }
     }
-    return hit.distance < 1e29;
+    return hit.distance < limit;
 }
 
-// ---- Paths ----
+// ---- Environment ----
+
+mat3 to_map()
+{
+    return mat3(camera.environment[0].xyz, camera.environment[1].xyz, camera.environment[2].xyz);
+}
+
+vec2 place_on_map(vec3 direction)
+{
+    vec3 d = normalize(to_map() * direction);
+    return vec2(atan(d.x, -d.z), -2.0 * asin(clamp(d.y, -1.0, 1.0))) * (0.5 / PI) + 0.5;
+}
 
 vec3 environment(vec3 direction)
 {
-    vec3 d = normalize(mat3(camera.environment[0].xyz, camera.environment[1].xyz, camera.environment[2].xyz) * direction);
-    vec2 at = vec2(atan(d.x, -d.z), -2.0 * asin(clamp(d.y, -1.0, 1.0))) * (0.5 / 3.14159265) + 0.5;
-    return textureLod(environment_map, at, 0.0).rgb;
+    return camera.up.w * textureLod(environment_map, place_on_map(direction), 0.0).rgb;
 }
+
+// The last of `count` sums from `first` on, which rise from 0 to 1, that is not above x.
+uint find_sum(uint first, uint count, float x)
+{
+    uint low = 0u, high = count - 1u;
+    while (high - low > 1u) {
+        uint middle = (low + high) / 2u;
+        if (sums[first + middle] <= x)
+            low = middle;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+uint row_sums(uint row, uvec2 size)
+{
+    return size.y + 1u + row * (size.x + 1u);
+}
+
+// Density of a direction in a texel: its chance over its solid angle.
+float texel_density(uvec2 texel, uvec2 size, float latitude)
+{
+    uint row = row_sums(texel.y, size);
+    float chance = (sums[texel.y + 1u] - sums[texel.y]) * (sums[row + texel.x + 1u] - sums[row + texel.x]);
+    return chance * float(size.x * size.y) / (2.0 * PI * PI * max(cos(latitude), 1e-6));
+}
+
+float environment_density(vec3 direction)
+{
+    uvec2 size = uvec2(textureSize(environment_map, 0));
+    vec2 at = place_on_map(direction);
+    return texel_density(min(uvec2(at * vec2(size)), size - 1u), size, PI * (0.5 - at.y));
+}
+
+// A direction, and one over its density.
+vec4 draw_environment(vec4 xi)
+{
+    uvec2 size = uvec2(textureSize(environment_map, 0)), texel;
+    texel.y = find_sum(0u, size.y + 1u, xi.x);
+    texel.x = find_sum(row_sums(texel.y, size), size.x + 1u, xi.y);
+    vec2 at = (vec2(texel) + xi.zw) / vec2(size);
+    float latitude = PI * (0.5 - at.y), longitude = 2.0 * PI * (at.x - 0.5);
+    vec3 d = vec3(cos(latitude) * sin(longitude), sin(latitude), -cos(latitude) * cos(longitude));
+    return vec4(transpose(to_map()) * d, 1.0 / max(texel_density(texel, size, latitude), 1e-20));
+}
+
+// ---- Surfaces ----
 
 vec3 mixed(vec3 a, vec3 b, vec3 c, vec2 weights)
 {
     return a * (1.0 - weights.x - weights.y) + b * weights.x + c * weights.y;
 }
 
-// Runs scatter() at the hit; returns the point and the normal of the triangle.
-void shade(Hit hit, vec3 direction, out vec3 point, out vec3 facet)
+struct Point { vec3 position, facet; };
+
+vec3 beside(Point point, vec3 direction)
+{
+    return point.position + point.facet * (dot(point.facet, direction) < 0.0 ? -NEAR : NEAR);
+}
+
+// Runs scatter() at the hit.
+Point shade(Hit hit, vec3 direction, vec4 light)
 {
     Corner a = corners[hit.triangle * 3u], b = corners[hit.triangle * 3u + 1u], c = corners[hit.triangle * 3u + 2u];
-    point = mixed(a.position_s.xyz, b.position_s.xyz, c.position_s.xyz, hit.weights);
-    facet = normalize(cross(b.position_s.xyz - a.position_s.xyz, c.position_s.xyz - a.position_s.xyz));
+    Point point;
+    point.position = mixed(a.position_s.xyz, b.position_s.xyz, c.position_s.xyz, hit.weights);
+    point.facet = normalize(cross(b.position_s.xyz - a.position_s.xyz, c.position_s.xyz - a.position_s.xyz));
     vec3 normal = normalize(mixed(a.normal_t.xyz, b.normal_t.xyz, c.normal_t.xyz, hit.weights));
     vec3 tangent = normalize(mixed(a.tangent.xyz, b.tangent.xyz, c.tangent.xyz, hit.weights));
     vec2 texcoord = mixed(vec3(a.position_s.w, a.normal_t.w, 0.0), vec3(b.position_s.w, b.normal_t.w, 0.0),
                           vec3(c.position_s.w, c.normal_t.w, 0.0), hit.weights).xy;
-    fill_vertex_data(point, normal, tangent, texcoord, -direction, next_random());
+    fill_vertex_data(point.position, normal, tangent, texcoord, -direction, next_random(), light);
     scatter();
+    return point;
+}
+
+// ---- Lights ----
+
+// Whether light comes to the point from there; what is behind `limit` is behind the light. A drawn picture has no shadows.
+bool is_visible(Point point, vec3 direction, float limit)
+{
+    vec3 origin = beside(point, direction);
+    Hit hit;
+    if (as_drawn() || !find_hit(origin, direction, limit, hit))
+        return true;
+#ifdef TRANSPARENT
+    for (int i = 0; i < MAX_HITS; ++i) {
+        origin = shade(hit, direction, vec4(0.0)).position + direction * NEAR;
+        limit -= hit.distance;
+        if (next_random().x < out1.a)
+            return false;
+        if (!find_hit(origin, direction, limit, hit))
+            return true;
+    }
+#endif
+    return false;
+}
+
+bool is_light(vec3 color)
+{
+    float most = max(color.x, max(color.y, color.z));
+    return most > 0.0 && most < FAR; // and a number
+}
+
+// Light that lights send to the point where scatter() has run, and that goes on from there.
+vec3 gather(Point point, vec4 light)
+{
+    vec3 sum = vec3(0.0), around = out5.rgb * light.w * environment(light.xyz);
+#ifdef LIGHTS
+    vec4 to_light = out6;
+    vec3 bound = out7.rgb;
+    if (is_light(bound) && is_visible(point, to_light.xyz, min(to_light.w, FAR)))
+        sum += bound;
+#endif
+    if (is_light(around) && is_visible(point, light.xyz, FAR))
+        sum += around;
+    return sum;
+}
+
+// Light that escaped paths meet; `density`: of the closure that sent it there, 0 where lights could not have done so.
+vec3 meet_environment(vec3 direction, float density)
+{
+    float weight = density > 0.0 ? 1.0 / (1.0 + environment_density(direction) / density) : 1.0;
+    return weight * environment(direction);
+}
+
+// ---- Paths ----
+
+// Where a path ends that has gone into a solid, as a drawn picture has it: it leaves at the other side, whole.
+vec3 cross_solid(vec3 origin, vec3 direction)
+{
+    Hit hit;
+    if (find_hit(origin, direction, FAR, hit)) {
+        for (int i = 0; i < 16; ++i) {
+            Point point = shade(hit, direction, vec4(0.0));
+            if (out2.w > 0.5 && dot(out2.xyz, point.facet) > 0.0)
+                return environment(out2.xyz);
+        }
+    }
+    return environment(direction);
 }
 
 // Light towards the origin, and whether the path met anything that it did not pass straight through.
 vec4 trace(vec3 origin, vec3 direction)
 {
-    vec3 light = vec3(0.0), through = vec3(1.0);
-    bool met = false;
-    for (int bounce = 0; bounce < MAX_BOUNCES; ++bounce) {
+    vec3 light = vec3(0.0), through = vec3(1.0), medium = vec3(1.0);
+    int turns = 0;
+    float density = 0.0;
+    for (int i = 0; i < MAX_HITS; ++i) {
         Hit hit;
-        if (!find_hit(origin, direction, hit))
-            return met ? vec4(light + through * environment(direction), 1.0) : vec4(0.0);
-        vec3 point, facet;
-        shade(hit, direction, point, facet);
+        if ((as_drawn() && turns > 0) || turns >= int(camera.eye.w) || !find_hit(origin, direction, FAR, hit))
+            return turns > 0 ? vec4(light + through * meet_environment(direction, density), 1.0) : vec4(0.0);
+        vec4 towards = draw_environment(next_random());
+        Point point = shade(hit, direction, towards);
+        through *= pow(medium, vec3(hit.distance));
         if (next_random().x >= out1.a) {
-            origin = point + direction * NEAR;
+            origin = point.position + direction * NEAR;
             continue;
         }
-        met = true;
         light += through * out1.rgb;
-        through *= out3.rgb;
-        if (!(max(through.x, max(through.y, through.z)) > 0.0))
+        ++turns;
+        vec4 next = out2, weight = out3;
+        vec3 inside = out4.rgb;
+        light += through * gather(point, towards);
+        through *= weight.rgb;
+        if (!is_light(through))
             break;
-        direction = normalize(out2.xyz);
-        origin = point + facet * (dot(facet, direction) < 0.0 ? -NEAR : NEAR);
+        direction = normalize(next.xyz);
+        density = weight.w;
+        origin = beside(point, direction);
+        if (next.w > 0.5 && as_drawn())
+            return vec4(light + through * inside * cross_solid(origin, direction), 1.0);
+        if (next.w > 0.5) // into a solid or out of it
+            medium = dot(point.facet, direction) < 0.0 ? inside : vec3(1.0);
     }
-    return vec4(light, met ? 1.0 : 0.0);
+    return vec4(light, turns > 0 ? 1.0 : 0.0);
 }
 
 void main()

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/picture.h"
 
-#include "render/trace.h"
-
 #include <math.h>
 #include <string.h>
 
@@ -127,8 +125,7 @@ static bool picture_trace(struct painter *painter, const struct subject *subject
     bool good = generate(painter, subject, &painting.result);
     if (good && painting.bind && out->pixels) {
         *painting.bind = bind_of(&painting, subject);
-        good = trace_picture(&painter->gpu, painting.bind, painter->width, painter->height, painter->paths, painter->progress,
-                             painter->progress_data, out->pixels);
+        good = trace_picture(&painter->gpu, painting.bind, painter->width, painter->height, &painter->trace, out->pixels);
     }
     if (painting.result && !(good && painting.bind && out->pixels))
         good = mxg_result_source(painting.result, MXG_STAGE_PIXEL, NULL) ? fail(&painting, subject) : false;
@@ -141,7 +138,7 @@ static bool picture_trace(struct painter *painter, const struct subject *subject
 
 bool picture_draw(struct painter *painter, const struct subject *subject, struct image *out)
 {
-    if (painter->paths)
+    if (painter->trace.paths)
         return picture_trace(painter, subject, out);
     struct painting painting;
     *out = (struct image){0};

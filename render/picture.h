@@ -6,6 +6,7 @@
 #include "cli/cli.h"
 #include "render/render.h"
 #include "render/studio.h"
+#include "render/trace.h"
 
 enum background { BACKGROUND_BACKDROP, BACKGROUND_ENVIRONMENT, BACKGROUND_NONE };
 
@@ -24,9 +25,7 @@ struct painter {
     double exposure;
     uint32_t width, height;
     unsigned oversampling; /* samples for each pixel and axis */
-    uint32_t paths;        /* through each pixel, where it is traced; 0: drawn */
-    void (*progress)(void *user_data, uint32_t done, uint32_t of);
-    void *progress_data;
+    struct trace_options trace; /* no paths: pictures are drawn */
 };
 
 struct subject {

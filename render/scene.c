@@ -174,7 +174,7 @@ struct light {
 static const struct light lights[SCENE_NUM_LIGHTS] = {
     {LIGHT_DIRECTIONAL, {-0.6, -0.7, -0.4}, {0, 0, 0}, {1.0, 0.95, 0.9}, 2.0, 0},
     {LIGHT_DIRECTIONAL, {0.8, -0.2, -0.55}, {0, 0, 0}, {0.4, 0.55, 0.9}, 0.9, 0},
-    {LIGHT_POINT, {0, -1, 0}, {1.4, 1.1, 2.2}, {1.0, 0.8, 0.6}, 9.0, 2.0},
+    {LIGHT_POINT, {-1.4, -1.1, -2.2}, {1.4, 1.1, 2.2}, {1.0, 0.8, 0.6}, 9.0, 2.0},
 };
 
 unsigned scene_light(uint32_t index, const char *member, float out[3])
@@ -205,8 +205,6 @@ const struct image *scene_image(const struct scene *scene, const char *name)
         return &scene->radiance;
     if (strcmp(name, "u_envIrradiance") == 0)
         return &scene->irradiance;
-    if (strcmp(name, "u_albedoTable") == 0)
-        return &scene->albedo;
     return NULL;
 }
 

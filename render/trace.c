@@ -2,6 +2,7 @@
 #include "render/trace.h"
 
 #include "render/bvh.h"
+#include "render/importance.h"
 #include "render/inputs.h"
 #include "validate/compile.h"
 
@@ -9,7 +10,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { NUM_BUFFERS = 3, NUM_BINDINGS = NUM_BUFFERS + 1, GROUP = 8, SAMPLES_AT_ONCE = 16 };
+enum { NUM_BUFFERS = 4, NUM_BINDINGS = NUM_BUFFERS + 1, GROUP = 8, SAMPLES_AT_ONCE = 16 };
 
 struct camera { /* as path.glsl has it */
     float eye[4], right[4], up[4], forward[4], environment[3][4];
@@ -19,10 +20,11 @@ struct camera { /* as path.glsl has it */
 struct tracer {
     struct gpu *gpu;
     struct bind *bind;
+    const struct trace_options *options;
     struct compiled compiled;
     struct bvh bvh;
     struct inputs inputs;
-    struct gpu_buffer buffers[NUM_BUFFERS]; /* nodes, corners, film */
+    struct gpu_buffer buffers[NUM_BUFFERS]; /* nodes, corners, film, sums */
     struct gpu_image environment;
     VkSampler sampler;
     VkDescriptorSetLayout set_layout;
@@ -84,11 +86,13 @@ static const struct {
     {"texcoord_", "texcoord", true},
     {"viewWorld", "view", false},
     {"random", "random", false},
+    {"lightWorld", "light", false},
 };
 
 static void append_fill(struct source *source, const mxg_result *result)
 {
-    append(source, "void fill_vertex_data(vec3 point, vec3 normal, vec3 tangent, vec2 texcoord, vec3 view, vec4 random)\n{\n");
+    append(source, "void fill_vertex_data(vec3 point, vec3 normal, vec3 tangent, vec2 texcoord, vec3 view, vec4 random,\n"
+                   "                      vec4 light)\n{\n");
     for (uint32_t i = 0; i < mxg_result_num_variables(result); ++i) {
         mxg_variable variable = {sizeof variable};
         mxg_result_variable(result, i, &variable);
@@ -114,6 +118,10 @@ static bool compile(struct tracer *tracer)
     append_fill(&source, tracer->bind->result);
     snprintf(line, sizeof line, "#define TRACER_SET %u\n", tracer->inputs.num_sets);
     append(&source, line);
+    mxg_shader_info info = {sizeof info};
+    mxg_result_info(tracer->bind->result, &info);
+    append(&source, info.transparent ? "#define TRANSPARENT\n" : "");
+    append(&source, info.num_lights ? "#define LIGHTS\n" : "");
     for (const char *const *piece = trace_source; *piece; ++piece)
         append(&source, *piece);
     bool good = source.text && compile_compute(source.text, &tracer->compiled);
@@ -132,7 +140,12 @@ static bool create_buffers(struct tracer *tracer)
     struct gpu *gpu = tracer->gpu;
     size_t film = (size_t)tracer->width * tracer->height * 4 * sizeof(float);
     const VkBufferUsageFlags usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
-    if (!gpu_create_buffer(gpu, usage, tracer->bvh.nodes, tracer->bvh.num_nodes * sizeof *tracer->bvh.nodes, &tracer->buffers[0]) ||
+    size_t num_sums;
+    float *sums = importance_of_map(&tracer->bind->scene->radiance, &num_sums);
+    bool good = sums ? gpu_create_buffer(gpu, usage, sums, num_sums * sizeof *sums, &tracer->buffers[3])
+                     : fail(tracer, "render-failed", "out of memory");
+    free(sums);
+    if (!good || !gpu_create_buffer(gpu, usage, tracer->bvh.nodes, tracer->bvh.num_nodes * sizeof *tracer->bvh.nodes, &tracer->buffers[0]) ||
         !gpu_create_buffer(gpu, usage, tracer->bvh.corners, 3 * (size_t)tracer->bvh.num_triangles * sizeof *tracer->bvh.corners,
                            &tracer->buffers[1]) ||
         !gpu_create_buffer(gpu, usage, NULL, film, &tracer->buffers[2]))
@@ -227,6 +240,9 @@ static struct camera make_camera(const struct tracer *tracer)
     const struct scene *scene = tracer->bind->scene;
     struct matrix axes = matrix_transpose(scene->view); /* of a rotation: its inverse */
     struct camera camera = {.frame = {tracer->width, tracer->height, 0, 0}};
+    camera.eye[3] = (float)tracer->options->bounces;
+    camera.right[3] = tracer->options->as_drawn ? 1 : 0;
+    camera.up[3] = tracer->options->dark ? 0 : 1;
     for (size_t i = 0; i < 3; ++i) {
         camera.eye[i] = (float)scene->eye[i];
         camera.right[i] = (float)(axes.m[0][i] / scene->projection.m[0][0]);
@@ -282,18 +298,19 @@ static void close(struct tracer *tracer)
     bvh_finish(&tracer->bvh);
 }
 
-bool trace_picture(struct gpu *gpu, struct bind *bind, uint32_t width, uint32_t height, uint32_t samples,
-                   void (*progress)(void *user_data, uint32_t done, uint32_t of), void *user_data, float *out_pixels)
+bool trace_picture(struct gpu *gpu, struct bind *bind, uint32_t width, uint32_t height, const struct trace_options *options,
+                   float *out_pixels)
 {
-    struct tracer tracer = {.gpu = gpu, .bind = bind, .width = width, .height = height};
+    struct tracer tracer = {.gpu = gpu, .bind = bind, .options = options, .width = width, .height = height};
+    uint32_t samples = options->paths;
     bool good = open(&tracer);
     struct camera camera = make_camera(&tracer);
     for (uint32_t done = 0; good && done < samples; done += camera.frame[3]) {
         camera.frame[2] = done;
         camera.frame[3] = samples - done < SAMPLES_AT_ONCE ? samples - done : SAMPLES_AT_ONCE;
         good = run_samples(&tracer, &camera);
-        if (progress)
-            progress(user_data, done + camera.frame[3], samples);
+        if (options->progress)
+            options->progress(options->progress_data, done + camera.frame[3], samples);
     }
     for (size_t i = 0; good && i < (size_t)width * height * 4; ++i)
         out_pixels[i] = ((const float *)tracer.buffers[2].mapped)[i] / (float)samples;

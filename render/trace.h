@@ -8,11 +8,20 @@
 /* path.glsl, as lines in pieces; NULL behind the last. */
 extern const char *const trace_source[];
 
+struct trace_options {
+    uint32_t paths;   /* through each pixel */
+    uint32_t bounces; /* how often a path may turn */
+    bool dark;        /* there is no light from around */
+    bool as_drawn;    /* once, without shadows; what goes into a solid leaves it at the other side, whole */
+    void (*progress)(void *user_data, uint32_t done, uint32_t of); /* may be NULL */
+    void *progress_data;
+};
+
 /*
- * Traces `samples` paths through each pixel: RGBA, first row on top. `bind` as for render_open; light comes from the scene's
- * environment alone. False: see bind->id and bind->reason. bind_finish must follow in any case. `progress` may be NULL.
+ * Traces paths: RGBA, first row on top. `bind` as for render_open. False: see bind->id and bind->reason. bind_finish must follow in any
+ * case.
  */
-bool trace_picture(struct gpu *gpu, struct bind *bind, uint32_t width, uint32_t height, uint32_t samples,
-                   void (*progress)(void *user_data, uint32_t done, uint32_t of), void *user_data, float *out_pixels);
+bool trace_picture(struct gpu *gpu, struct bind *bind, uint32_t width, uint32_t height, const struct trace_options *options,
+                   float *out_pixels);
 
 #endif

@@ -93,6 +93,7 @@ static void set_build_options(struct generation *g)
         .neutral_names = o[OPTION_names].number != 0,
         .short_names = !(g->result->target->caps & CAP_STAGES),
         .environment = o[OPTION_environment].number,
+        .albedo = o[OPTION_albedo].number,
         .texture_modes = o[OPTION_texture_modes].number,
         .missing_colors = g->result->target->caps & CAP_MISSING_COLORS,
         .tiles = o[OPTION_tiles].number == 0 && g->result->target->caps & CAP_TEXTURE_ARRAYS,
@@ -217,19 +218,103 @@ static uint32_t find_light(const struct generation *g, const char *node, size_t 
 }
 
 /* Its inputs become members of LightData. */
-static void add_light(struct generation *g, uint32_t nodedef, uint32_t function, int32_t type)
+static struct shader_light start_light(struct generation *g, uint32_t nodedef, int32_t type)
 {
     struct shader *shader = &g->result->shader;
     const struct library *lib = &g->document->layer;
     const struct nodedef *def = library_nodedef(lib, nodedef);
     const struct port *ports = library_ports(lib, nodedef, NULL);
-    struct shader_light light = {.type = type, .function = function, .first_member = shader->light_members.len,
-                                 .num_members = def->num_inputs};
+    struct shader_light light = {.type = type, .name = def->node, .function = LANG_NONE, .first_member = shader->light_members.len};
     for (uint32_t i = 0; i < def->num_inputs; i++) {
-        uint32_t member = shader_light_member(shader, ports[i].name, library_type_ir(lib, ports[i].type));
-        vec_push(shader->arena, &shader->light_members, member);
+        ir_type_id ir_type = library_type_ir(lib, ports[i].type);
+        if (ir_type_is_closure(ir_type)) /* of the node `light`: nothing is connected to it */
+            continue;
+        vec_push(shader->arena, &shader->light_members, shader_light_member(shader, ports[i].name, ir_type));
+        light.num_members++;
+    }
+    return light;
+}
+
+/* Hosts that do not know a member leave it at what its definition says. */
+static void tell_defaults(struct generation *g, uint32_t nodedef, const struct shader_light *light)
+{
+    const struct library *lib = &g->document->layer;
+    const struct port *ports = library_ports(lib, nodedef, NULL);
+    for (uint32_t i = 0, m = light->first_member; m < light->first_member + light->num_members; i++) {
+        if (ir_type_is_closure(library_type_ir(lib, ports[i].type)))
+            continue;
+        struct shader_variable *member = &g->result->shader.variables.items[g->result->shader.light_members.items[m++]];
+        if (!member->has_default)
+            member->has_default = build_port_value(g->builder, &ports[i], &member->value);
+    }
+}
+
+/* A light made of nodes stands somewhere and faces something, which the host says. */
+static void place_light(struct generation *g, struct shader_light *light)
+{
+    light->position = shader_light_member(&g->result->shader, STR_position, IR_TYPE_VEC3);
+    light->direction = shader_light_member(&g->result->shader, STR_direction, IR_TYPE_VEC3);
+}
+
+static ir_ref read_member(struct generation *g, uint32_t variable)
+{
+    return ir_build(&g->result->graph, IR_CONTEXT, g->result->shader.variables.items[variable].type, variable, NULL, 0);
+}
+
+/* A light shader by its definition: a function, or nodes over the members. */
+static bool add_defined_light(struct generation *g, uint32_t nodedef, int32_t type)
+{
+    struct shader *shader = &g->result->shader;
+    uint32_t function = build_light_function(g->builder, nodedef);
+    struct shader_light light = start_light(g, nodedef, type);
+    light.function = function;
+    if (function == LIBRARY_NONE) {
+        const struct library *lib = &g->document->layer;
+        const struct nodedef *def = library_nodedef(lib, nodedef);
+        const struct port *ports = library_ports(lib, nodedef, NULL);
+        ir_ref *args = ARENA_ARRAY(shader->arena, ir_ref, def->num_inputs + 1);
+        for (uint32_t i = 0, m = light.first_member; i < def->num_inputs; i++)
+            if (!ir_type_is_closure(library_type_ir(lib, ports[i].type)))
+                args[i] = read_member(g, shader->light_members.items[m++]);
+        tell_defaults(g, nodedef, &light);
+        place_light(g, &light);
+        light.function = LANG_NONE;
+        light.shader = build_light_shader(g->builder, nodedef, lib->doc.root, args);
+        if (!light.shader)
+            return false;
     }
     vec_push(shader->arena, &shader->lights, light);
+    return true;
+}
+
+/* A light of the document: a <light> with its EDF. Its inputs are those of the shader's interface. */
+static bool add_light_element(struct generation *g, const char *path, int32_t type)
+{
+    const struct document *doc = &g->document->layer.doc;
+    elem_id element = doc_find(doc, path, strlen(path));
+    if (!element || doc_attr_value(doc, element, STR_type) != STR_lightshader)
+        return false;
+    struct shader_light light = {.type = type, .name = doc_element(doc, element)->name, .function = LANG_NONE};
+    light.shader = build_element(g->builder, element, 0);
+    if (!light.shader || ir_get(&g->result->graph, light.shader)->op != IR_LIGHT_SHADER || !ir_arg(&g->result->graph, light.shader, 0))
+        return false;
+    place_light(g, &light);
+    vec_push(g->result->shader.arena, &g->result->shader.lights, light);
+    return true;
+}
+
+/* A node whose definition is a function is no light by itself, but its definition is. */
+static const char *light_hint(struct generation *g, const char *item, size_t len)
+{
+    const struct document *doc = &g->document->layer.doc;
+    elem_id element = doc_find(doc, item, len);
+    if (!element || doc_attr_value(doc, element, STR_type) != STR_lightshader)
+        return "";
+    const char *node = str_text(doc->strings, doc_element(doc, element)->category);
+    struct text hint;
+    text_init(&hint, &g->scratch);
+    text_fmt(&hint, strcmp(node, "light") == 0 ? "; the node has no EDF" : "; bind '%s', and let the host set its members", node);
+    return text_cstr(&hint);
 }
 
 /* "directional_light=1"; without a number, the next one. Lights of the default that the library lacks are not bound. */
@@ -243,11 +328,10 @@ static void bind_light(struct generation *g, const char *item, int32_t next_type
         return;
     }
     uint32_t nodedef = find_light(g, item, len);
-    uint32_t function = nodedef != LIBRARY_NONE ? build_light_function(g->builder, nodedef) : LIBRARY_NONE;
-    if (function != LIBRARY_NONE)
-        add_light(g, nodedef, function, (int32_t)type);
-    else if (g->options[OPTION_lights].is_set)
-        diag_add(diags_of(g), DIAG_ID_unknown_light, nowhere, arena_strndup(&g->scratch, item, len), "");
+    bool is_bound = nodedef != LIBRARY_NONE ? add_defined_light(g, nodedef, (int32_t)type)
+                                            : add_light_element(g, arena_strndup(&g->scratch, item, len), (int32_t)type);
+    if (!is_bound && g->options[OPTION_lights].is_set)
+        diag_add(diags_of(g), DIAG_ID_unknown_light, nowhere, arena_strndup(&g->scratch, item, len), light_hint(g, item, len));
 }
 
 static void bind_lights(struct generation *g)

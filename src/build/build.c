@@ -13,6 +13,7 @@ static const int *find_option(const struct build_options *options, const char *n
         const char *name;
         const int *value;
     } known[] = {{"option_environment", &options->environment},
+                 {"option_albedo", &options->albedo},
                  {"option_texture_modes", &options->texture_modes},
                  {"option_integrator", &options->integrator}};
     for (size_t i = 0; i < sizeof known / sizeof *known; i++)

@@ -27,6 +27,7 @@ struct build_options {
     bool neutral_names;    /* uniforms are named by number */
     bool short_names;      /* inputs have their own names, without that of their node */
     int environment;       /* values of option_environment… */
+    int albedo;
     int texture_modes;
     bool missing_colors;   /* texture() gives another colour where there is no image, which may be a variable */
     bool tiles;            /* images of several tiles are texture arrays */
@@ -79,5 +80,9 @@ bool build_glob_matches(const char *glob, const char *path);
 
 /* A light shader's implementation function for the target; LIBRARY_NONE. */
 uint32_t build_light_function(struct builder *builder, uint32_t nodedef);
+/* What an input of a definition is when nothing is said; false: no number is known. */
+bool build_port_value(struct builder *builder, const struct port *port, struct ir_value *out);
+/* The LIGHT_SHADER that a definition made of nodes gives for its inputs; 0 after an error. `where` is told in messages. */
+ir_ref build_light_shader(struct builder *builder, uint32_t nodedef, elem_id where, const ir_ref *args);
 
 #endif

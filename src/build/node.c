@@ -191,9 +191,21 @@ static void call_verbatim(struct builder *b, const struct implementation *impl, 
         results[i] = function ? ir_build(b->graph, IR_RESULT, library_type_ir(b->lib, outputs[i].type), i + 1, &call, 1) : call;
 }
 
+/* A light's function wants the shaded point, which only the loop over lights has: elsewhere such a node is a light without emission. */
+static ir_ref dark_light(struct builder *b)
+{
+    ir_ref args[3] = {0, ir_const_float(b->graph, 1.0f), ir_const_float(b->graph, 0.0f)};
+    return ir_build(b->graph, IR_LIGHT_SHADER, IR_TYPE_LIGHT, 0, args, 3);
+}
+
 static void call(struct builder *b, const struct frame *frame, ir_ref *results)
 {
     const struct implementation *impl = frame->impl;
+    const struct nodedef *def = library_nodedef(b->lib, impl->nodedef);
+    if (library_type_ir(b->lib, library_ports(b->lib, impl->nodedef, NULL)[def->num_inputs].type) == IR_TYPE_LIGHT) {
+        results[0] = dark_light(b);
+        return;
+    }
     uint32_t first_node = b->graph->nodes.len;
     bool has_tiles = build_note_textures(b, frame);
     if (impl->kind == IMPL_EXPRESSION)
@@ -245,4 +257,11 @@ uint32_t build_light_function(struct builder *b, uint32_t nodedef)
 {
     const struct implementation *impl = best_of(b, nodedef);
     return impl && impl->kind == IMPL_FUNCTION ? impl->ref : LIBRARY_NONE;
+}
+
+ir_ref build_light_shader(struct builder *b, uint32_t nodedef, elem_id where, const ir_ref *args)
+{
+    ir_ref result = 0;
+    build_apply(b, nodedef, where, args, &result);
+    return result && ir_get(b->graph, result)->op == IR_LIGHT_SHADER ? result : 0;
 }

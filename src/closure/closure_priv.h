@@ -26,8 +26,8 @@ bool closure_call_all(struct shader *shader, const struct closure_host *host, ir
                       const ir_ref *light, ir_ref *results);
 
 /* scatter.c: what a path tracer's function does. Emission and alpha may be 0: black and 1. */
-void closure_scatter(struct shader *shader, const struct closure_host *host, const struct closure_list *list, ir_ref emission,
-                     ir_ref alpha);
+void closure_scatter(struct shader *shader, const struct closure_host *host, const struct closure_list *list,
+                     const struct closure_lighting *lighting, ir_ref emission, ir_ref alpha);
 
 /* volume.c: a volume as what stands behind the shaded point. */
 struct closure_volume {
@@ -38,8 +38,14 @@ struct closure_volume {
 };
 void closure_volume(struct shader *shader, const struct closure_host *host, ir_ref root, struct closure_volume *out);
 
-/* lights.c: unit direction to the light at hand and the light that arrives from there, for effects inside of EFFECT_LIGHTS. */
-void closure_sample_light(struct shader *shader, const struct closure_host *host, ir_ref *direction, ir_ref *intensity);
+/* lights.c: the light at hand, for effects inside of EFFECT_LIGHTS. */
+struct closure_light {
+    ir_ref direction; /* unit, to the light */
+    ir_ref intensity; /* that arrives from there */
+};
+void closure_sample_light(struct shader *shader, const struct closure_host *host, struct closure_light *out);
+/* How far it is from the shaded point: lights without a position are far. */
+ir_ref closure_light_distance(struct shader *shader, const struct closure_host *host);
 
 /* displacement.c: how far a displacement shader moves a point; 0: nothing moves. */
 ir_ref closure_offset(struct shader *shader, ir_ref displacement);

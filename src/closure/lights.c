@@ -16,21 +16,54 @@ static ir_ref member(struct shader *shader, uint32_t variable)
 }
 
 /* Direction and intensity as the function of one light shader gives them. */
-static void sample(struct shader *shader, const struct lang_host *host, const struct shader_light *light, ir_ref point,
-                   ir_ref *results)
+static void call_function(struct shader *shader, const struct closure_host *host, const struct shader_light *light, ir_ref *results)
 {
+    struct lang_host see_through = *host->lang;
+    see_through.max_inline_nodes = MAX_LIGHT_NODES;
     ir_ref *args = ARENA_ARRAY(shader->arena, ir_ref, light->num_members + 1);
     for (uint32_t i = 0; i < light->num_members; i++)
         args[i] = member(shader, shader->light_members.items[light->first_member + i]);
-    args[light->num_members] = point;
-    lang_lower_call(shader->unit, shader->graph, host, light->function, args, results);
+    args[light->num_members] = closure_position(shader, host);
+    lang_lower_call(shader->unit, shader->graph, &see_through, light->function, args, results);
 }
 
-/* "point_light" of mx_point_light. */
-static const char *light_name(const struct shader *shader, const struct shader_light *light)
+/* What a light emits along `to_point`; its normal is the direction that it faces. 0: nothing. */
+static ir_ref emission(struct shader *shader, const struct closure_host *host, ir_ref edf, ir_ref facing, ir_ref to_point)
 {
-    const char *name = str_text(shader->strings, lang_function(shader->unit, light->function, NULL)->name);
-    return strncmp(name, "mx_", 3) == 0 ? name + 3 : name;
+    struct ir_graph *g = shader->graph;
+    struct closure_point point = {.position = closure_position(shader, host), .normal = facing, .view = to_point};
+    struct closure_host at_light = *host;
+    at_light.point = &point;
+    at_light.way_in = NULL;
+    ir_ref sum = 0;
+    struct closure_list list;
+    closure_flatten(shader, &at_light, edf, &list);
+    for (uint32_t i = 0; i < list.leaves.len; i++) {
+        const struct closure_leaf *leaf = &list.leaves.items[i];
+        ir_ref value = closure_call(shader, &at_light, leaf->leaf, LEAF_EMISSION, NULL);
+        value = value ? ir_convert(g, IR_TYPE_VEC3, closure_mul(g, value, closure_mul(g, leaf->color, leaf->scalar))) : 0;
+        sum = value && sum ? ir_op2(g, IR_ADD, sum, value) : value ? value : sum;
+    }
+    return sum;
+}
+
+/*
+ * A light made of nodes: its EDF at u_lightData[i].position, facing u_lightData[i].direction.
+ *
+ *     intensity = edf · intensity · 2^exposure / distance²
+ */
+static void sample_emitter(struct shader *shader, const struct closure_host *host, const struct shader_light *light, ir_ref *results)
+{
+    struct ir_graph *g = shader->graph;
+    ir_ref facing = ir_op1(g, IR_NORMALIZE, member(shader, light->direction));
+    ir_ref away = ir_op2(g, IR_SUB, member(shader, light->position), closure_position(shader, host));
+    ir_ref distance = ir_op1(g, IR_LENGTH, away), square = ir_op2(g, IR_MUL, distance, distance);
+    ir_ref normal = shader_stream(shader, STR_normalWorld, IR_TYPE_VEC3);
+    ir_ref root = ir_replace(g, light->shader, normal, member(shader, light->direction), shader->arena);
+    results[0] = ir_op2(g, IR_DIV, away, distance);
+    ir_ref emitted = ir_arg(g, root, 0) ? emission(shader, host, ir_arg(g, root, 0), facing, ir_op1(g, IR_NEG, results[0])) : 0;
+    ir_ref scale = ir_op2(g, IR_MUL, ir_arg(g, root, 1), ir_op1(g, IR_EXP2, ir_arg(g, root, 2)));
+    results[1] = emitted ? ir_op2(g, IR_MUL, emitted, ir_op2(g, IR_DIV, scale, square)) : ir_const_splat(g, IR_TYPE_VEC3, 0.0f);
 }
 
 static uint32_t named(struct shader *shader, str_id name)
@@ -38,26 +71,58 @@ static uint32_t named(struct shader *shader, str_id name)
     return ir_add_origin(shader->graph, name, 0, 0);
 }
 
-void closure_sample_light(struct shader *shader, const struct closure_host *host, ir_ref *direction, ir_ref *intensity)
+static ir_ref type_of_light(struct shader *shader)
+{
+    return member(shader, shader_light_member(shader, STR_type, IR_TYPE_INT));
+}
+
+void closure_sample_light(struct shader *shader, const struct closure_host *host, struct closure_light *out)
 {
     struct ir_graph *g = shader->graph;
-    struct lang_host see_through = *host->lang;
-    see_through.max_inline_nodes = MAX_LIGHT_NODES;
     uint32_t before = g->origin, direction_origin = named(shader, STR_L), intensity_origin = named(shader, STR_light);
-    ir_ref point = closure_position(shader, host);
-    ir_ref type = member(shader, shader_light_member(shader, STR_type, IR_TYPE_INT));
-    *direction = 0;
-    *intensity = ir_const_splat(g, IR_TYPE_VEC3, 0.0f);
+    ir_ref type = type_of_light(shader);
+    closure_position(shader, host); /* once, outside of the loop */
+    *out = (struct closure_light){0, ir_const_splat(g, IR_TYPE_VEC3, 0.0f)};
     for (uint32_t i = shader->lights.len; i-- > 0;) {
         const struct shader_light *light = &shader->lights.items[i];
         ir_ref results[2];
-        g->origin = named(shader, str_intern_z(shader->strings, light_name(shader, light)));
-        sample(shader, &see_through, light, point, results);
+        g->origin = named(shader, light->name);
+        if (light->shader)
+            sample_emitter(shader, host, light, results);
+        else
+            call_function(shader, host, light, results);
         ir_ref is_this = ir_op2(g, IR_EQ, type, ir_const_int(g, light->type));
         g->origin = direction_origin;
-        *direction = *direction && *direction != results[0] ? ir_op3(g, IR_SELECT, is_this, results[0], *direction) : results[0];
+        out->direction = out->direction && out->direction != results[0] ? ir_op3(g, IR_SELECT, is_this, results[0], out->direction)
+                                                                        : results[0];
         g->origin = intensity_origin;
-        *intensity = ir_op3(g, IR_SELECT, is_this, results[1], *intensity);
+        out->intensity = ir_op3(g, IR_SELECT, is_this, results[1], out->intensity);
     }
     g->origin = before;
+}
+
+static ir_ref distance_to(struct shader *shader, const struct closure_host *host, uint32_t position)
+{
+    struct ir_graph *g = shader->graph;
+    return ir_op1(g, IR_LENGTH, ir_op2(g, IR_SUB, member(shader, position), closure_position(shader, host)));
+}
+
+ir_ref closure_light_distance(struct shader *shader, const struct closure_host *host)
+{
+    struct ir_graph *g = shader->graph;
+    ir_ref type = type_of_light(shader), far = ir_const_float(g, 1e30f), distance = far;
+    for (uint32_t i = shader->lights.len; i-- > 0;) {
+        const struct shader_light *light = &shader->lights.items[i];
+        ir_ref this_one = far;
+        if (light->shader)
+            this_one = distance_to(shader, host, light->position);
+        for (uint32_t m = 0; m < light->num_members; m++) {
+            uint32_t variable = shader->light_members.items[light->first_member + m];
+            const struct shader_variable *v = &shader->variables.items[variable];
+            if (v->name == STR_position && v->type == IR_TYPE_VEC3)
+                this_one = distance_to(shader, host, variable);
+        }
+        distance = ir_op3(g, IR_SELECT, ir_op2(g, IR_EQ, type, ir_const_int(g, light->type)), this_one, distance);
+    }
+    return distance;
 }

@@ -1,17 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * What a path tracer asks of a surface: light that it emits, opacity, and one direction to go on in.
+ * What a path tracer asks of a surface: light that it emits, opacity, one direction to go on in, and what it makes of light.
  *
  *     out1 = vec4(emission, opacity)
- *     pick = random.w · Σ pᵢ                       pᵢ = the mean of wᵢ · (1 + albedoᵢ) / 2
- *     for each leaf:  if (0 <= pick < pᵢ) { L, f cos / pdf = sample(random.xyz);  weight = wᵢ · f cos / pdf · Σ pᵢ / pᵢ }
+ *     pick = random.w · Σ pᵢ                       pᵢ = the mean of wᵢ · (1 + albedoᵢ) / 2,  Pᵢ = pᵢ / Σ pᵢ
+ *     for each leaf:  if (0 <= pick < pᵢ) { L, f cos / pdf, pdf = sample(random.xyz);  weight = wᵢ · f cos / pdf / Pᵢ;  density = Pᵢ · pdf }
  *                     pick -= pᵢ
- *     out2 = vec4(L, 1)       out3 = vec4(weight, 1)
+ *     out2 = vec4(L, is it inside)      out3 = vec4(weight, density)      out4 = vec4(medium, 0)
+ *     out5 = vec4(Σ wᵢ · evalᵢ(lightWorld.xyz) / (1 + lightWorld.w · Pᵢ · pdfᵢ(lightWorld.xyz)), 0)
+ *     out6, out7: one of the bound lights, see light_up
  *
  * One leaf is picked, and its sample weighs what that leaf alone gives there, over the chance to pick it: the expectation is the sum of all
  * leaves (Pharr, Jakob, Humphreys, "Physically Based Rendering", section 2.2.3, on a discrete choice). Densities of the other leaves do
  * not enter, so lobes may be as sharp as they like, mirrors included; and weights stay below 2 Σ pᵢ, since a leaf's own sample is near its
  * albedo.
+ *
+ * Directions that lights draw are weighed against those by the balance heuristic (Veach and Guibas 1995, "Optimally Combining Sampling
+ * Techniques"), for each leaf by itself: lightWorld.w is one over the density of the light's direction, 0 for a light that is a point. Light
+ * that goes into a solid meets its other side first, so lights do not shine through it: density is 0 there, and out5 black.
  */
 #include "closure/closure_priv.h"
 
@@ -19,7 +25,9 @@ struct scatter {
     struct shader *shader;
     struct ir_graph *graph;
     const struct closure_host *host;
-    uint32_t pick, direction, weight; /* locals */
+    const struct closure_list *list;
+    ir_ref *shares;                                                   /* p of each leaf; 0: it is never picked */
+    uint32_t pick, direction, is_inside, weight, density, medium;     /* locals */
     ir_ref total;
 };
 
@@ -28,16 +36,36 @@ static void effect(struct scatter *s, enum effect_kind kind, uint32_t index, ir_
     shader_effect(s->shader, STAGE_PIXEL, (struct effect){.kind = (uint8_t)kind, .index = index, .value = value});
 }
 
-static uint32_t local(struct scatter *s, str_id name, ir_type_id type, ir_ref value)
+static uint32_t local(struct scatter *s, str_id name, ir_ref value)
 {
-    uint32_t index = shader_add_local(s->shader, name, type);
+    uint32_t index = shader_add_local(s->shader, name, ir_type_of(s->graph, value));
     effect(s, EFFECT_VAR, index, value);
     return index;
 }
 
-static ir_ref read(struct scatter *s, uint32_t index, ir_type_id type)
+static ir_ref read(struct scatter *s, uint32_t index)
 {
-    return ir_build(s->graph, IR_LOCAL, type, index, NULL, 0);
+    return ir_build(s->graph, IR_LOCAL, s->shader->locals.items[index].type, index, NULL, 0);
+}
+
+static ir_ref number(struct scatter *s, float value)
+{
+    return ir_const_float(s->graph, value);
+}
+
+static ir_ref grey(struct scatter *s, float value)
+{
+    return ir_const_splat(s->graph, IR_TYPE_VEC3, value);
+}
+
+static ir_ref op2(struct scatter *s, enum ir_op op, ir_ref a, ir_ref b)
+{
+    return ir_op2(s->graph, op, a, b);
+}
+
+static ir_ref mean_of(struct scatter *s, ir_ref color)
+{
+    return op2(s, IR_DOT, color, grey(s, 1.0f / 3.0f));
 }
 
 static ir_ref weight_of(struct scatter *s, const struct closure_leaf *leaf)
@@ -52,54 +80,100 @@ static ir_ref share_of(struct scatter *s, const struct closure_leaf *leaf)
     struct ir_graph *g = s->graph;
     ir_ref albedo = closure_call(s->shader, s->host, leaf->leaf, LEAF_ALBEDO, NULL), light = weight_of(s, leaf);
     if (albedo) {
-        ir_ref half = ir_const_splat(g, IR_TYPE_VEC3, 0.5f);
-        albedo = ir_op2(g, IR_ADD, half, ir_op2(g, IR_MUL, half, ir_convert(g, IR_TYPE_VEC3, albedo)));
-        light = ir_op2(g, IR_MUL, light, albedo);
+        ir_ref half = grey(s, 0.5f);
+        albedo = op2(s, IR_ADD, half, op2(s, IR_MUL, half, ir_convert(g, IR_TYPE_VEC3, albedo)));
+        light = op2(s, IR_MUL, light, albedo);
     }
-    ir_ref mean = ir_op2(g, IR_DOT, light, ir_const_splat(g, IR_TYPE_VEC3, 1.0f / 3.0f));
-    return ir_op2(g, IR_MAX, mean, ir_const_float(g, 0.0f));
+    return op2(s, IR_MAX, mean_of(s, light), number(s, 0.0f));
+}
+
+static bool has(const struct scatter *s, const struct closure_leaf *leaf, enum leaf_function which)
+{
+    return s->host->leaf_functions(s->host->user_data, ir_get(s->graph, leaf->leaf)->attr)[which] != LANG_NONE;
+}
+
+/* Light from L comes from the side that is seen. */
+static ir_ref is_in_front(struct scatter *s, ir_ref direction)
+{
+    ir_ref normal = closure_normal(s->shader, s->host), view = closure_view(s->shader, s->host);
+    ir_ref sides = op2(s, IR_MUL, op2(s, IR_DOT, normal, view), op2(s, IR_DOT, normal, direction));
+    return op2(s, IR_GT, sides, number(s, 0.0f));
 }
 
 static void sample(struct scatter *s, const struct closure_leaf *leaf, ir_ref share)
 {
     struct ir_graph *g = s->graph;
-    ir_ref pick = read(s, s->pick, IR_TYPE_FLOAT), zero = ir_const_float(g, 0.0f);
-    ir_ref is_it = ir_op2(g, IR_LAND, ir_op2(g, IR_GE, pick, zero), ir_op2(g, IR_LT, pick, share));
+    ir_ref pick = read(s, s->pick), nothing = number(s, 0.0f), one = number(s, 1.0f);
+    ir_ref is_it = op2(s, IR_LAND, op2(s, IR_GE, pick, nothing), op2(s, IR_LT, pick, share));
     ir_ref results[3]; /* direction, f cos / pdf, pdf */
     closure_call_all(s->shader, s->host, leaf->leaf, LEAF_SAMPLE, NULL, results);
-    ir_ref weight = ir_op2(g, IR_MUL, ir_op2(g, IR_MUL, weight_of(s, leaf), results[1]), ir_op2(g, IR_DIV, s->total, share));
+    ir_ref weight = op2(s, IR_MUL, op2(s, IR_MUL, weight_of(s, leaf), results[1]), op2(s, IR_DIV, s->total, share));
+    ir_ref density = op2(s, IR_MUL, results[2], op2(s, IR_DIV, share, s->total));
     effect(s, EFFECT_IF, 0, is_it);
     effect(s, EFFECT_ASSIGN, s->direction, results[0]);
     effect(s, EFFECT_ASSIGN, s->weight, weight);
+    if (has(s, leaf, LEAF_REFRACTION)) {
+        ir_ref in_front = is_in_front(s, results[0]);
+        density = ir_op3(g, IR_SELECT, in_front, density, nothing);
+        effect(s, EFFECT_ASSIGN, s->is_inside, ir_op3(g, IR_SELECT, in_front, nothing, one));
+        if (leaf->medium)
+            effect(s, EFFECT_ASSIGN, s->medium, ir_convert(g, IR_TYPE_VEC3, leaf->medium));
+    }
+    effect(s, EFFECT_ASSIGN, s->density, density);
     effect(s, EFFECT_END, 0, 0);
     effect(s, EFFECT_ACCUMULATE, s->pick, ir_op1(g, IR_NEG, share));
 }
 
-static bool can_sample(const struct scatter *s, const struct closure_leaf *leaf)
+static void find_shares(struct scatter *s)
 {
-    return s->host->leaf_functions(s->host->user_data, ir_get(s->graph, leaf->leaf)->attr)[LEAF_SAMPLE] != LANG_NONE;
+    s->shares = ARENA_ARRAY(s->shader->arena, ir_ref, s->list->leaves.len);
+    s->total = number(s, 0.0f);
+    for (uint32_t i = 0; i < s->list->leaves.len; i++) {
+        const struct closure_leaf *leaf = &s->list->leaves.items[i];
+        ir_ref share = has(s, leaf, LEAF_SAMPLE) ? share_of(s, leaf) : 0;
+        if (!share || ir_const_is(s->graph, share, 0.0f))
+            continue;
+        s->shares[i] = share;
+        s->total = op2(s, IR_ADD, s->total, share);
+        shader_add_closure(s->shader, leaf->leaf);
+    }
 }
 
-static void sample_leaves(struct scatter *s, const struct closure_list *list)
+static void sample_leaves(struct scatter *s)
+{
+    ir_ref chance = ir_component(s->graph, shader_stream(s->shader, STR_random, IR_TYPE_VEC4), 3);
+    s->pick = local(s, STR_pick, op2(s, IR_MUL, chance, s->total));
+    s->direction = local(s, STR_L, grey(s, 0.0f));
+    s->is_inside = local(s, STR_inside, number(s, 0.0f));
+    s->weight = local(s, STR_weight, grey(s, 0.0f));
+    s->density = local(s, STR_density, number(s, 0.0f));
+    s->medium = local(s, STR_medium, grey(s, 1.0f));
+    for (uint32_t i = 0; i < s->list->leaves.len; i++)
+        if (s->shares[i])
+            sample(s, &s->list->leaves.items[i], s->shares[i]);
+}
+
+/* What all leaves make of light from a direction; solid_angle 0: of a light that no sample finds. */
+static ir_ref response(struct scatter *s, ir_ref direction, ir_ref solid_angle)
 {
     struct ir_graph *g = s->graph;
-    ir_ref *shares = ARENA_ARRAY(s->shader->arena, ir_ref, list->leaves.len);
-    s->total = ir_const_float(g, 0.0f);
-    for (uint32_t i = 0; i < list->leaves.len; i++) {
-        shares[i] = can_sample(s, &list->leaves.items[i]) ? share_of(s, &list->leaves.items[i]) : 0;
-        s->total = shares[i] ? ir_op2(g, IR_ADD, s->total, shares[i]) : s->total;
-    }
-    ir_ref chance = ir_component(g, shader_stream(s->shader, STR_random, IR_TYPE_VEC4), 3);
-    ir_ref nothing = ir_const_splat(g, IR_TYPE_VEC3, 0.0f);
-    s->pick = local(s, STR_pick, IR_TYPE_FLOAT, ir_op2(g, IR_MUL, chance, s->total));
-    s->direction = local(s, STR_L, IR_TYPE_VEC3, nothing);
-    s->weight = local(s, STR_weight, IR_TYPE_VEC3, nothing);
-    for (uint32_t i = 0; i < list->leaves.len; i++) {
-        if (!shares[i] || ir_const_is(g, shares[i], 0.0f))
+    ir_ref sum = grey(s, 0.0f);
+    for (uint32_t i = 0; i < s->list->leaves.len; i++) {
+        const struct closure_leaf *leaf = &s->list->leaves.items[i];
+        ir_ref value = closure_call(s->shader, s->host, leaf->leaf, LEAF_EVAL, &direction);
+        if (!value || !s->shares[i])
             continue;
-        sample(s, &list->leaves.items[i], shares[i]);
-        shader_add_closure(s->shader, list->leaves.items[i].leaf);
+        value = op2(s, IR_MUL, ir_convert(g, IR_TYPE_VEC3, value), weight_of(s, leaf));
+        if (solid_angle) {
+            ir_ref density = closure_call(s->shader, s->host, leaf->leaf, LEAF_PDF, &direction);
+            density = op2(s, IR_MUL, density, op2(s, IR_DIV, s->shares[i], s->total));
+            value = op2(s, IR_DIV, value, op2(s, IR_ADD, number(s, 1.0f), op2(s, IR_MUL, solid_angle, density)));
+        }
+        if (has(s, leaf, LEAF_REFRACTION))
+            value = ir_op3(g, IR_SELECT, is_in_front(s, direction), value, grey(s, 0.0f));
+        sum = op2(s, IR_ADD, sum, value);
     }
+    return sum;
 }
 
 static void write_output(struct scatter *s, str_id name, ir_ref rgb, ir_ref a)
@@ -110,14 +184,61 @@ static void write_output(struct scatter *s, str_id name, ir_ref rgb, ir_ref a)
     effect(s, EFFECT_OUTPUT, out, ir_construct(s->graph, IR_TYPE_VEC4, parts, 2));
 }
 
-void closure_scatter(struct shader *shader, const struct closure_host *host, const struct closure_list *list, ir_ref emission,
-                     ir_ref alpha)
+/*
+ * One of the bound lights, picked by what would come of it were nothing in between, in one pass (reservoir sampling: Chao 1982, "A General
+ * Purpose Unequal Probability Sampling Plan"):
+ *
+ *     for each light:  c = intensity · Σ wᵢ · evalᵢ,  m = mean(c),  sum += m
+ *                      if (chance · sum < m) { keep L, distance, c / m }      what is left of the chance serves the next
+ *     out6 = vec4(L, distance)      out7 = vec4(kept · sum, 0)
+ */
+static void light_up(struct scatter *s)
 {
-    struct scatter s = {.shader = shader, .graph = shader->graph, .host = host};
-    ir_ref one = ir_const_float(s.graph, 1.0f), nothing = ir_const_splat(s.graph, IR_TYPE_VEC3, 0.0f);
-    sample_leaves(&s, list);
-    write_output(&s, STR_out1, emission ? ir_convert(s.graph, IR_TYPE_VEC3, emission) : nothing, alpha ? alpha : one);
-    write_output(&s, STR_out2, read(&s, s.direction, IR_TYPE_VEC3), one);
-    write_output(&s, STR_out3, read(&s, s.weight, IR_TYPE_VEC3), one);
+    struct ir_graph *g = s->graph;
+    ir_ref nothing = number(s, 0.0f), random = ir_component(g, shader_stream(s->shader, STR_random, IR_TYPE_VEC4), 3);
+    uint32_t chance = local(s, STR_chance, ir_op1(g, IR_FRACT, op2(s, IR_MUL, random, number(s, 4096.0f))));
+    uint32_t sum = local(s, STR_sum, nothing), kept = local(s, STR_light, grey(s, 0.0f));
+    uint32_t to_light = local(s, STR_L, grey(s, 0.0f)), away = local(s, STR_distance, nothing);
+    effect(s, EFFECT_LIGHTS, 0, 0);
+    struct closure_light light;
+    closure_sample_light(s->shader, s->host, &light);
+    ir_ref lit = op2(s, IR_MUL, light.intensity, response(s, light.direction, 0));
+    ir_ref mean = op2(s, IR_MAX, mean_of(s, lit), nothing);
+    effect(s, EFFECT_ACCUMULATE, sum, mean);
+    ir_ref point = op2(s, IR_MUL, read(s, chance), read(s, sum)), is_it = op2(s, IR_LT, point, mean);
+    effect(s, EFFECT_IF, 0, is_it);
+    effect(s, EFFECT_ASSIGN, to_light, light.direction);
+    effect(s, EFFECT_ASSIGN, away, closure_light_distance(s->shader, s->host));
+    effect(s, EFFECT_ASSIGN, kept, op2(s, IR_DIV, lit, mean));
+    effect(s, EFFECT_END, 0, 0);
+    ir_ref rest = op2(s, IR_DIV, op2(s, IR_SUB, point, mean), op2(s, IR_SUB, read(s, sum), mean));
+    rest = ir_op3(g, IR_SELECT, is_it, op2(s, IR_DIV, point, mean), rest);
+    effect(s, EFFECT_IF, 0, op2(s, IR_GT, mean, nothing));
+    effect(s, EFFECT_ASSIGN, chance, rest);
+    effect(s, EFFECT_END, 0, 0);
+    effect(s, EFFECT_END, 0, 0);
+    write_output(s, STR_out6, read(s, to_light), read(s, away));
+    write_output(s, STR_out7, op2(s, IR_MUL, read(s, kept), read(s, sum)), nothing);
+    s->shader->lit = true;
+}
+
+void closure_scatter(struct shader *shader, const struct closure_host *host, const struct closure_list *list,
+                     const struct closure_lighting *lighting, ir_ref emission, ir_ref alpha)
+{
+    struct scatter s = {.shader = shader, .graph = shader->graph, .host = host, .list = list};
+    ir_ref one = number(&s, 1.0f), nothing = number(&s, 0.0f);
+    find_shares(&s);
+    sample_leaves(&s);
+    write_output(&s, STR_out1, emission ? ir_convert(s.graph, IR_TYPE_VEC3, emission) : grey(&s, 0.0f), alpha ? alpha : one);
+    write_output(&s, STR_out2, read(&s, s.direction), read(&s, s.is_inside));
+    write_output(&s, STR_out3, read(&s, s.weight), read(&s, s.density));
+    write_output(&s, STR_out4, read(&s, s.medium), nothing);
+    ir_ref light = shader_stream(shader, STR_lightWorld, IR_TYPE_VEC4), direction[3];
+    for (unsigned i = 0; i < 3; i++)
+        direction[i] = ir_component(s.graph, light, i);
+    ir_ref seen = response(&s, ir_construct(s.graph, IR_TYPE_VEC3, direction, 3), ir_component(s.graph, light, 3));
+    write_output(&s, STR_out5, seen, nothing);
+    if (lighting->lights)
+        light_up(&s);
     shader->transparent = alpha && !ir_const_is(s.graph, alpha, 1.0f);
 }

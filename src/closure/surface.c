@@ -135,21 +135,21 @@ static void emit_lights(struct emitter *e, ir_ref bsdf, const struct closure_lis
     struct closure_list lit;
     declare_color(e);
     effect(e, EFFECT_LIGHTS, 0, 0);
-    ir_ref light, intensity;
-    closure_sample_light(e->shader, e->host, &light, &intensity);
+    struct closure_light light;
+    closure_sample_light(e->shader, e->host, &light);
     if (e->lighting->two_sided) {
-        flatten_under(e, bsdf, &light, &lit); /* the same leaves: only throughputs differ */
+        flatten_under(e, bsdf, &light.direction, &lit); /* the same leaves: only throughputs differ */
         assert(lit.leaves.len == list->leaves.len);
         list = &lit;
     }
     struct part_list parts = {0};
     for (uint32_t i = 0; i < list->leaves.len; i++) {
         const struct closure_leaf *leaf = &list->leaves.items[i];
-        ir_ref value = weighted(e, leaf, closure_call(e->shader, e->host, leaf->leaf, LEAF_EVAL, &light));
+        ir_ref value = weighted(e, leaf, closure_call(e->shader, e->host, leaf->leaf, LEAF_EVAL, &light.direction));
         add_part(e, &parts, leaf, value);
         emitted[i] |= value != 0;
     }
-    accumulate_all(e, &parts, intensity);
+    accumulate_all(e, &parts, light.intensity);
     effect(e, EFFECT_END, 0, 0);
     e->shader->lit = true;
 }
@@ -329,7 +329,7 @@ static void emit_surface(struct emitter *e, ir_ref root)
     }
     e->base = add(e, s.unlit ? vec3_of(e, s.unlit) : 0, emission(e, s.edf));
     if (e->shader->scatters) {
-        closure_scatter(e->shader, e->host, &list, e->base, s.alpha);
+        closure_scatter(e->shader, e->host, &list, e->lighting, e->base, s.alpha);
         return;
     }
     bool *emitted = ARENA_ARRAY(e->shader->arena, bool, list.leaves.len);

@@ -198,7 +198,10 @@ static void put_lights(struct json *json)
         reflect_item(json);
         reflect_open(json, '{');
         reflect_number(json, "type", (uint32_t)light->type);
-        reflect_id(json, "function", lang_function(shader->unit, light->function, NULL)->name);
+        if (light->shader)
+            reflect_id(json, "shader", light->name);
+        else
+            reflect_id(json, "function", lang_function(shader->unit, light->function, NULL)->name);
         reflect_key(json, "members");
         reflect_open(json, '[');
         for (uint32_t m = 0; m < light->num_members; m++) {

@@ -86,10 +86,13 @@ struct shader_compiled_input {
     uint32_t element;
 };
 
-/* A light shader bound by the host: its number in u_lightData[].type and the function that samples it. */
+/* A light shader bound by the host: its number in u_lightData[].type and what samples it. */
 struct shader_light {
     int32_t type;
-    uint32_t function;          /* lang function: inputs, P, out direction, out intensity */
+    str_id name;                /* of its node, for comments and reflection */
+    uint32_t function;          /* lang function: inputs, P, out direction, out intensity; LANG_NONE: */
+    ir_ref shader;              /* a LIGHT_SHADER over members of LightData: it stands at a position and faces a direction */
+    uint32_t position, direction; /* variables; only of a LIGHT_SHADER */
     uint32_t first_member, num_members; /* its inputs as LightData members: in shader->light_members (variable indices) */
 };
 

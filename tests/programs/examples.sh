@@ -28,6 +28,27 @@ check 'and of no other' eval '! grep -qE "inner_angle|decay_rate|intensity" lant
 check 'chosen by its number' grep -q 'type == 7' lantern_light=7.frag
 check 'nothing of lights and the environment' eval '! grep -qiE "light|u_env|mx_ggx" none.frag'
 [ -z "$compile" ] || check 'compiles' exits 0 "$compile" "$examples/lantern.mtlx" --lights lantern_light=7
+# Lights made of nodes stand where the host puts them, and have the inputs of their definition.
+check 'stage.mtlx, its lights' exits 0 "$mxgen" "$examples/stage.mtlx" --lights spot=1,bulb=2 --environment none --reflect -o out.d
+for member in 'vec3 position' 'vec3 direction' 'float temperature' 'float power'; do
+    check "stage.mtlx: $member" grep -qE "^ *$member;" out.d/Curtain.frag
+done
+check 'and no other' eval '! grep -qE "decay_rate|float intensity|inner_angle;" out.d/Curtain.frag'
+check 'reflection tells them' eval 'grep -q "\"shader\": *\"spot\"" out.d/Curtain.json && grep -q "\"shader\": *\"bulb\"" out.d/Curtain.json'
+[ -z "$compile" ] || check 'stage.mtlx compiles' exits 0 "$compile" "$examples/stage.mtlx" --lights spot=1,bulb=2
+cat >key.mtlx <<'XML'
+<?xml version="1.0"?>
+<materialx version="1.39">
+  <point_light name="key" type="lightshader"/>
+  <light name="off" type="lightshader"/>
+  <standard_surface name="S" type="surfaceshader"/>
+</materialx>
+XML
+check 'a light that is a function' exits 1 "$mxgen" key.mtlx --element S --lights key=1 -o out.d
+check 'is bound by its definition' grep -q "unknown light shader 'key'; bind 'point_light'" err
+check 'a light that emits nothing' exits 1 "$mxgen" key.mtlx --element S --lights off=1 -o out.d
+check 'has no EDF' grep -q "the node has no EDF" err
+check 'a light is not rendered itself' exits 1 "$mxgen" key.mtlx --element key -o out.d
 check 'reflection' exits 0 "${program[reflection]}" "$examples/marble.mtlx"
 check 'tells the user interface' grep -q "float NG_marble_scale = 5 .*shown as 'Scale' from 0.1 to 50" out
 check 'tells textures' eval '"${program[reflection]}" "$examples/textured.mtlx" | grep -q "sampler2D image_color_file .*textures/wood_color.png"'

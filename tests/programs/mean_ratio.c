@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* mean_ratio A B: the mean of picture A over that of B, of all colours together. */
+/* mean_ratio A B: the mean of picture A over that of B, of all colours together; their sizes may differ. */
 #include "render/image.h"
 
 #include <stdio.h>
@@ -16,7 +16,7 @@ static double mean_of(const char *path)
     for (size_t i = 0; i < (size_t)image.width * image.height * 4; ++i)
         sum += i % 4 == 3 ? 0 : ((float *)image.pixels)[i];
     image_finish(&image);
-    return sum;
+    return sum / ((double)image.width * image.height);
 }
 
 int main(int argc, char **argv)

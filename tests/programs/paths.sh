@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # The drawn picture against the traced one, on a sphere in the light of the sky: means within 3 percent. ../materials/paths.tsv lists the
-# exceptions among MaterialX's examples, with what their ratio is and why. Arguments: mxgen-render, mean_ratio, the folder shared/materials.
+# exceptions among MaterialX's examples: their ratio, what makes both alike (then they agree, which proves the reason), and the reason.
+# Arguments: mxgen-render, mean_ratio, the folder shared/materials.
 render=$(realpath "$1") mean_ratio=$(realpath "$2") materials=$(realpath -m "$3")
 here=$(cd "$(dirname "$0")" && pwd)
 table=$here/../materials/paths.tsv
@@ -11,41 +12,74 @@ export MESA_SHADER_CACHE_DISABLE=true
 # near RATIO EXPECTED
 near() { awk -v a="$1" -v b="$2" 'BEGIN { print a; exit !(a > b - 0.03 && a < b + 0.03) }'; }
 
-# compare NAME EXPECTED DOCUMENT [ARGUMENT...]
+# compare NAME EXPECTED DOCUMENT [OF-WHAT-IS-DRAWN] [OF-WHAT-IS-TRACED] [LIGHTS]
 compare() {
-    local name=$1 expected=$2
-    shift 2
+    local name=$1 expected=$2 document=$3 lights=${6:-none}
     rm -f drawn.exr traced.exr
-    check "$name is drawn" exits 0 "$render" "$@" -q -m sphere --lights none --size 32 --samples 256 -o drawn.exr
-    check "$name is traced" exits 0 "$render" "$@" -q -m sphere --path-trace --paths 64 --size 32 -o traced.exr
+    # shellcheck disable=SC2086 # arguments, divided by spaces
+    check "$name is drawn" exits 0 "$render" "$document" -q -m sphere --lights "$lights" --size 32 --samples 256 ${4:-} -o drawn.exr
+    # shellcheck disable=SC2086
+    check "$name is traced" exits 0 "$render" "$document" -q -m sphere --lights "$lights" --path-trace --paths 64 --size 32 ${5:-} -o traced.exr
     check "$name agrees" near "$("$mean_ratio" drawn.exr traced.exr)" "$expected"
 }
 
-# leaf NAME EXPECTED NODES: a surface of the BSDF "bsdf".
+# leaf NAME NODES [OF-WHAT-IS-DRAWN] [OF-WHAT-IS-TRACED] [LIGHTS]: a surface of the BSDF "bsdf".
 leaf() {
     cat >"$1.mtlx" <<XML
 <?xml version="1.0"?>
 <materialx version="1.39">
-  $3
+  $2
   <surface name="S" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="bsdf"/></surface>
   <surfacematerial name="M" type="material"><input name="surfaceshader" type="surfaceshader" nodename="S"/></surfacematerial>
 </materialx>
 XML
-    compare "$1" "$2" "$1.mtlx"
+    compare "$1" 1 "$1.mtlx" "${3:-}" "${4:-}" "${5:-none}"
 }
 
-leaf diffuse 1 '<oren_nayar_diffuse_bsdf name="bsdf" type="BSDF"><input name="color" type="color3" value="0.8, 0.5, 0.2"/></oren_nayar_diffuse_bsdf>'
+leaf diffuse '<oren_nayar_diffuse_bsdf name="bsdf" type="BSDF"><input name="color" type="color3" value="0.8, 0.5, 0.2"/></oren_nayar_diffuse_bsdf>'
 if grep -q no-device err; then
     skip 'there is no Vulkan device'
     passed=0 failed=0
     finish paths
 fi
-leaf mirror 1 '<conductor_bsdf name="bsdf" type="BSDF"><input name="roughness" type="vector2" value="0.0004, 0.0004"/></conductor_bsdf>'
-leaf layered 1 '<dielectric_bsdf name="coat" type="BSDF"/><burley_diffuse_bsdf name="base" type="BSDF"/>
+leaf mirror '<conductor_bsdf name="bsdf" type="BSDF"><input name="roughness" type="vector2" value="0.0004, 0.0004"/></conductor_bsdf>'
+leaf layered '<dielectric_bsdf name="coat" type="BSDF"/><burley_diffuse_bsdf name="base" type="BSDF"/>
   <layer name="bsdf" type="BSDF"><input name="top" type="BSDF" nodename="coat"/><input name="base" type="BSDF" nodename="base"/></layer>'
-leaf mixed 1 '<conductor_bsdf name="metal" type="BSDF"/><oren_nayar_diffuse_bsdf name="base" type="BSDF"/>
+leaf mixed '<conductor_bsdf name="metal" type="BSDF"/><oren_nayar_diffuse_bsdf name="base" type="BSDF"/>
   <mix name="bsdf" type="BSDF"><input name="fg" type="BSDF" nodename="metal"/><input name="bg" type="BSDF" nodename="base"/>
     <input name="mix" type="float" value="0.25"/></mix>'
+
+# The bound lights, which no sample finds: a drawn picture has no shadows, and a ball throws none on itself.
+bound=directional_light,point_light,spot_light
+leaf lit '<conductor_bsdf name="metal" type="BSDF"><input name="roughness" type="vector2" value="0.2, 0.2"/></conductor_bsdf>
+  <oren_nayar_diffuse_bsdf name="base" type="BSDF"/><mix name="bsdf" type="BSDF"><input name="fg" type="BSDF" nodename="metal"/>
+    <input name="bg" type="BSDF" nodename="base"/><input name="mix" type="float" value="0.25"/></mix>' '' '' $bound
+cat >lamp.mtlx <<'XML'
+<?xml version="1.0"?>
+<materialx version="1.39">
+  <conical_edf name="cone" type="EDF"><input name="inner_angle" type="float" value="10"/><input name="outer_angle" type="float" value="40"/></conical_edf>
+  <light name="lamp" type="lightshader"><input name="edf" type="EDF" nodename="cone"/><input name="intensity" type="float" value="40"/></light>
+  <standard_surface name="S" type="surfaceshader"/>
+</materialx>
+XML
+compare lamp 1 lamp.mtlx '-e S --environment none' '-e S --environment none' lamp=2
+
+# What MaterialX's rasters simplify, and `--integrator path` does not.
+leaf sheen '<sheen_bsdf name="bsdf" type="BSDF"/>' '--integrator path'
+leaf zeltner '<sheen_bsdf name="bsdf" type="BSDF"><input name="mode" type="string" value="zeltner"/></sheen_bsdf>' \
+    '--integrator path --size 96' # few pixels hold its rim
+leaf burley '<burley_diffuse_bsdf name="bsdf" type="BSDF"><input name="roughness" type="float" value="1"/></burley_diffuse_bsdf>' '--integrator path'
+leaf rough '<oren_nayar_diffuse_bsdf name="bsdf" type="BSDF"><input name="roughness" type="float" value="1"/></oren_nayar_diffuse_bsdf>' \
+    '--integrator path'
+leaf film '<dielectric_bsdf name="coat" type="BSDF"><input name="thinfilm_thickness" type="float" value="420"/><input name="thinfilm_ior" type="float"
+    value="2"/></dielectric_bsdf><oren_nayar_diffuse_bsdf name="base" type="BSDF"><input name="color" type="color3" value="0.8, 0.8, 0.8"/>
+  </oren_nayar_diffuse_bsdf><layer name="bsdf" type="BSDF"><input name="top" type="BSDF" nodename="coat"/><input name="base" type="BSDF"
+    nodename="base"/></layer>' '--integrator path'
+leaf hair '<chiang_hair_bsdf name="bsdf" type="BSDF"/>' '--integrator path' '--as-drawn'
+
+# A smooth solid, into which light goes and which it leaves.
+leaf solid '<dielectric_bsdf name="bsdf" type="BSDF"><input name="roughness" type="vector2" value="0, 0"/><input name="scatter_mode"
+    type="string" value="RT"/></dielectric_bsdf>' '' '--as-drawn'
 
 # A surface that is not there, and one that glows.
 cat >clear.mtlx <<'XML'
@@ -65,14 +99,17 @@ check 'no turntable of paths' exits 2 "$render" clear.mtlx --path-trace --turnta
 
 examples=$materials/resources/Materials/Examples
 [ -d "$examples" ] || { skip "there is no folder $examples"; finish paths; }
-declare -A expected
-while IFS=$'\t' read -r document ratio _; do
-    expected[$document]=$ratio
+declare -A row
+while IFS= read -r line; do
+    name=${line%%$'\t'*}
+    row[$name]=${line//$'\t'/|}
 done < <(sed 1d "$table")
 for document in "$examples"/*/*.mtlx; do
     name=${document#"$examples"/}
     case $name in *chess_set* | *look*) continue ;; esac
-    compare "$name" "${expected[$name]:-1}" "$document"
+    IFS=\| read -r -a columns <<<"${row[$name]:-}"
+    compare "$name" "${columns[1]:-1}" "$document"
+    [ -z "${columns[1]:-}" ] || compare "$name, like with like" 1 "$document" "${columns[2]:-}" "${columns[3]:-}"
 done
 
 finish paths

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Pictures, and that uniforms drive them. Argument: mxgen-render.
-render=$(realpath "$1")
+# Pictures, and that uniforms drive them. Arguments: mxgen-render, mean_ratio, the module lost_device.
+render=$(realpath "$1") mean_ratio=$(realpath "$2") lost_device=$(realpath "$3")
 here=$(cd "$(dirname "$0")" && pwd)
 . "$here/common.sh"
 
@@ -132,6 +132,16 @@ check 'is bad-value' grep -q '\[bad-value\]' err
 check 'an input that is none' exits 1 "$render" plain.mtlx -o x.png --set SR/none=1
 check 'is no-uniform' grep -q '\[no-uniform\]' err
 check 'a size that is none' exits 2 "$render" plain.mtlx -o x.png --size 0
+# The driver loses the device: while it sends textures, and while it draws or traces.
+for lost in 1 2; do
+    for how in '' '--path-trace --paths 64'; do
+        # shellcheck disable=SC2086
+        LD_PRELOAD=$lost_device LOST_DEVICE=$lost exits 1 "$render" plain.mtlx -m sphere --size 8 $how -o lost.png >lost.log
+        check "a device that is lost $lost $how" test "$(wc -c <lost.log)" = 0
+        check 'is told' grep -q '\[device-lost\]' err
+        check 'and nothing is written' test ! -e lost.png
+    done
+done
 check 'no driver' eval 'VK_DRIVER_FILES=/none VK_ICD_FILENAMES=/none exits 1 "$render" plain.mtlx -o x.png && grep -q mesa-vulkan-drivers err'
 check 'leaves nothing behind' test -z "$(ls -A | grep -E '^x.png|tmp')"
 
@@ -357,5 +367,57 @@ check 'is a sheet' test "$(sed -n 2p both.ppm | cut -d ' ' -f 1)" = 44
 check 'a look that is none' exits 1 "$render" look.mtlx --look green -o x.png
 check 'is no-look' grep -q '\[no-look\]' err
 check 'nothing is left behind' test -z "$(ls -A | grep -E '^x\.|tmp-')"
+
+# ratio_is A B EXPECTED: the means of two pictures, within 1 percent.
+ratio_is() { awk -v a="$("$mean_ratio" "$1" "$2")" -v b="$3" 'BEGIN { print a; exit !(a > b * 0.99 && a < b * 1.01) }'; }
+
+# What lobes reflect in all, by a fit and by the baked table: pictures agree, and only the latter asks for a texture.
+cat >rough.mtlx <<'X'
+<?xml version="1.0"?>
+<materialx version="1.39">
+  <standard_surface name="SR" type="surfaceshader">
+    <input name="specular" type="float" value="1"/><input name="specular_roughness" type="float" value="0.7"/>
+    <input name="metalness" type="float" value="0.5"/>
+  </standard_surface>
+</materialx>
+X
+check 'albedo by a fit' exits 0 "$render" rough.mtlx -q -m sphere --size 16 -o fit.exr
+check 'albedo by the table' exits 0 "$render" rough.mtlx -q -m sphere --size 16 --albedo table -o table.exr
+check 'they agree' ratio_is table.exr fit.exr 1
+check 'they are two' eval '! cmp -s table.exr fit.exr'
+check 'by the table of a baked environment' exits 0 "$render" rough.mtlx -q -m sphere --size 16 --environment baked --albedo table -o baked.exr
+
+# A light made of nodes: what it sends to a white plane at a distance of 10 is its intensity over 100 pi, a little less towards the corners;
+# half of that distance four times as much; nothing where the cone looks away.
+cat >light.mtlx <<'X'
+<?xml version="1.0"?>
+<materialx version="1.39">
+  <uniform_edf name="glow" type="EDF"/>
+  <light name="bulb" type="lightshader">
+    <input name="edf" type="EDF" nodename="glow"/><input name="intensity" type="float" value="157.08"/><input name="exposure" type="float" value="1"/>
+  </light>
+  <conical_edf name="cone" type="EDF"><input name="inner_angle" type="float" value="60"/></conical_edf>
+  <light name="spot" type="lightshader"><input name="edf" type="EDF" nodename="cone"/><input name="intensity" type="float" value="314.16"/></light>
+  <oren_nayar_diffuse_bsdf name="white" type="BSDF"><input name="color" type="color3" value="1, 1, 1"/></oren_nayar_diffuse_bsdf>
+  <surface name="S" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="white"/></surface>
+  <surface name="G" type="surfaceshader"><input name="edf" type="EDF" nodename="glow"/></surface>
+</materialx>
+X
+# lit NAME LIGHT DISTANCE [FACING]: the picture by one light in front of the plane.
+lit() {
+    check "$1 is drawn" exits 0 "$render" light.mtlx -e S -q --scene plane --environment none --lights "$2=1" --max-lights 1 --size 8 \
+        --set "u_lightData[0].position=0,0,$3" ${4:+--set "u_lightData[0].direction=$4"} -o "$1.exr"
+}
+lit far bulb 10
+lit near bulb 5
+lit spot spot 10 0,0,-1
+lit away spot 10 0,0,1
+check 'a plane that glows' exits 0 "$render" light.mtlx -e G -q --scene plane --size 8 -o glow.exr
+check 'a light falls off with the square of the distance' ratio_is far.exr glow.exr 0.987
+check 'and is brighter when it is near' ratio_is near.exr glow.exr 3.8
+check 'in its cone' ratio_is spot.exr far.exr 1
+check 'and not behind' test "$("$mean_ratio" away.exr glow.exr)" = 0.0000
+check 'no such member' exits 1 "$render" light.mtlx -e S --lights bulb=1 --set 'u_lightData[0].colour=1' -o x.png
+check 'is told' grep -q no-uniform err
 
 finish render

@@ -72,12 +72,6 @@ vec3 mx_oren_nayar_diffuse_bsdf_albedo(vec3 color, float roughness, vec3 N, bool
     return color * clamp(fit.x / fit.y, 0.0, 1.0);
 }
 
-vec3 mx_oren_nayar_diffuse_bsdf_environment(vec3 color, float roughness, vec3 N, bool energy_compensation, vec3 V)
-{
-    return mx_oren_nayar_diffuse_bsdf_albedo(color, roughness, N, energy_compensation, V)
-         * mx_environment_irradiance(mx_facing(N, V));
-}
-
 void mx_oren_nayar_diffuse_bsdf_sample(vec3 color, float roughness, vec3 N, bool energy_compensation, vec3 V, vec3 xi,
                                        out vec3 L, out vec3 weight, out float pdf)
 {
@@ -89,6 +83,22 @@ void mx_oren_nayar_diffuse_bsdf_sample(vec3 color, float roughness, vec3 N, bool
 float mx_oren_nayar_diffuse_bsdf_pdf(vec3 color, float roughness, vec3 N, bool energy_compensation, vec3 V, vec3 L)
 {
     return mx_cosine_pdf(mx_facing(N, V), L);
+}
+
+vec3 mx_oren_nayar_diffuse_bsdf_environment(vec3 color, float roughness, vec3 N, bool energy_compensation, vec3 V,
+                                            int sample_index)
+{
+    if (option_integrator == 1 && option_environment == 2 && roughness > 0.0)
+    {
+        vec3 L;
+        vec3 weight;
+        float pdf;
+        mx_oren_nayar_diffuse_bsdf_sample(color, roughness, N, energy_compensation, V, mx_lobe_random(sample_index), L,
+                                          weight, pdf);
+        return mx_lobe_light(L, weight, pdf);
+    }
+    return mx_oren_nayar_diffuse_bsdf_albedo(color, roughness, N, energy_compensation, V)
+         * mx_environment_irradiance(mx_facing(N, V));
 }
 
 // ---- burley_diffuse_bsdf --------------------------------------------------------------------------------------------
@@ -125,11 +135,6 @@ vec3 mx_burley_diffuse_bsdf_albedo(vec3 color, float roughness, vec3 N, vec3 V)
     return color * (albedo / mx_burley_excess(albedo));
 }
 
-vec3 mx_burley_diffuse_bsdf_environment(vec3 color, float roughness, vec3 N, vec3 V)
-{
-    return mx_burley_diffuse_bsdf_albedo(color, roughness, N, V) * mx_environment_irradiance(mx_facing(N, V));
-}
-
 void mx_burley_diffuse_bsdf_sample(vec3 color, float roughness, vec3 N, vec3 V, vec3 xi, out vec3 L, out vec3 weight,
                                    out float pdf)
 {
@@ -141,6 +146,19 @@ void mx_burley_diffuse_bsdf_sample(vec3 color, float roughness, vec3 N, vec3 V, 
 float mx_burley_diffuse_bsdf_pdf(vec3 color, float roughness, vec3 N, vec3 V, vec3 L)
 {
     return mx_cosine_pdf(mx_facing(N, V), L);
+}
+
+vec3 mx_burley_diffuse_bsdf_environment(vec3 color, float roughness, vec3 N, vec3 V, int sample_index)
+{
+    if (option_integrator == 1 && option_environment == 2)
+    {
+        vec3 L;
+        vec3 weight;
+        float pdf;
+        mx_burley_diffuse_bsdf_sample(color, roughness, N, V, mx_lobe_random(sample_index), L, weight, pdf);
+        return mx_lobe_light(L, weight, pdf);
+    }
+    return mx_burley_diffuse_bsdf_albedo(color, roughness, N, V) * mx_environment_irradiance(mx_facing(N, V));
 }
 
 // ---- translucent_bsdf -----------------------------------------------------------------------------------------------

@@ -32,10 +32,21 @@ vec2 mx_ggx_alpha(vec2 roughness)
     return clamp(roughness, MX_EPSILON, 1.0);
 }
 
+const int option_albedo = 0; // 0 by a fit, 1 from the host's table
+
+uniform sampler2D u_albedoTable;
+
 // What a white lobe reflects at the viewer's cosine c (x), and the mean of Schlick's (1 - cos)^5 over it (y); the program fits/ggx.c makes
-// the constants. x is never too small by more than 0.001, so that giving lost energy back adds none.
+// the constants. x is never too small by more than 0.001, so that giving lost energy back adds none. The table holds what scales the
+// reflectance facing the viewer, and that at grazing angles: c to the right, the mean of alpha downwards.
 vec2 mx_ggx_albedo(vec2 alpha, float c)
 {
+    if (option_albedo == 1)
+    {
+        vec2 scales = textureLod(u_albedoTable, vec2(c, sqrt(alpha.x * alpha.y)), 0.0).xy;
+        float sum = clamp(scales.x + scales.y, MX_EPSILON, 1.0);
+        return vec2(sum, scales.y / sum);
+    }
     const mat4 LOST = mat4(-0.1447, 2.7590, -5.4314, 2.8497, -0.9366, 1.4766, 0.5911, -1.0905,
                            11.8506, -30.2645, 27.3289, -8.9414, -4.3199, 8.2596, -3.1648, -0.8054);
     const mat4 COSINE = mat4(-0.2006, 5.2916, -3.7565, 0.2180, -10.2439, 6.6203, -0.9657, 2.5694,

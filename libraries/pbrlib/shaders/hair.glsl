@@ -228,11 +228,20 @@ void mx_chiang_hair_bsdf_sample(vec3 tint_R, vec3 tint_TT, vec3 tint_TRT, float 
            / max(pdf, MX_EPSILON);
 }
 
-// A rough dielectric stands in for the lobes.
+// A rough dielectric stands in for the lobes where they are not sampled.
 vec3 mx_chiang_hair_bsdf_environment(vec3 tint_R, vec3 tint_TT, vec3 tint_TRT, float ior, vec2 roughness_R,
                                      vec2 roughness_TT, vec2 roughness_TRT, float cuticle_angle, vec3 absorption,
                                      vec3 N, vec3 curve_direction, vec3 V, int sample_index)
 {
+    if (option_integrator == 1 && option_environment == 2)
+    {
+        vec3 L;
+        vec3 weight;
+        float pdf;
+        mx_chiang_hair_bsdf_sample(tint_R, tint_TT, tint_TRT, ior, roughness_R, roughness_TT, roughness_TRT, cuticle_angle,
+                                   absorption, N, curve_direction, V, mx_lobe_random(sample_index), L, weight, pdf);
+        return mx_lobe_light(L, weight, pdf);
+    }
     return (tint_R + tint_TT + tint_TRT) / 3.0
          * mx_ggx_environment((roughness_R + roughness_TT + roughness_TRT) / 3.0, N, curve_direction, V,
                               "dielectric", vec3(ior), vec3(0.0), vec3(1.0), 0.0, 0.0, 1.0, sample_index);

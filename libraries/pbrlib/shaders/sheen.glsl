@@ -66,11 +66,6 @@ vec3 mx_sheen_bsdf_albedo(vec3 color, float roughness, vec3 N, string mode, vec3
     return color * mx_sheen_albedo(mx_view_cosine(N, V), roughness, mode);
 }
 
-vec3 mx_sheen_bsdf_environment(vec3 color, float roughness, vec3 N, string mode, vec3 V)
-{
-    return mx_sheen_bsdf_albedo(color, roughness, N, mode, V) * mx_environment_irradiance(mx_facing(N, V));
-}
-
 vec3 mx_sheen_bsdf_throughput(vec3 color, float roughness, vec3 N, string mode, vec3 V)
 {
     return vec3(1.0 - mx_sheen_albedo(mx_view_cosine(N, V), roughness, mode));
@@ -101,4 +96,17 @@ void mx_sheen_bsdf_sample(vec3 color, float roughness, vec3 N, string mode, vec3
     }
     pdf = mx_sheen_bsdf_pdf(color, roughness, N, mode, V, L);
     weight = mx_sheen_bsdf_eval(color, roughness, N, mode, V, L) / max(pdf, MX_EPSILON);
+}
+
+vec3 mx_sheen_bsdf_environment(vec3 color, float roughness, vec3 N, string mode, vec3 V, int sample_index)
+{
+    if (option_integrator == 1 && option_environment == 2)
+    {
+        vec3 L;
+        vec3 weight;
+        float pdf;
+        mx_sheen_bsdf_sample(color, roughness, N, mode, V, mx_lobe_random(sample_index), L, weight, pdf);
+        return mx_lobe_light(L, weight, pdf);
+    }
+    return mx_sheen_bsdf_albedo(color, roughness, N, mode, V) * mx_environment_irradiance(mx_facing(N, V));
 }
