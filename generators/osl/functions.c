@@ -47,6 +47,33 @@ static bool is_needed_constant(const struct spell *spell, uint32_t global, const
     return needed && shader_global_variable(spell->shader, global) == UINT32_MAX;
 }
 
+static bool is_array(const struct spell *spell, uint32_t global)
+{
+    return lang_global(spell->shader->unit, global, NULL)->type >= IR_TYPE_FIRST_USER;
+}
+
+/* Arrays cannot be macros: functions that mention one begin with it. */
+static void add_arrays(const struct spell *spell, struct text *function)
+{
+    const struct lang_reach *reach = &spell->stage->reach;
+    struct text arrays;
+    text_init(&arrays, spell->scratch);
+    const char *body = strstr(text_cstr(function), "\n{\n");
+    for (uint32_t i = 0; body && i < reach->globals.len; i++) {
+        uint32_t global = reach->globals.items[i];
+        if (!is_array(spell, global) || !is_needed_constant(spell, global, &body, 1))
+            continue;
+        text_str(&arrays, "    ");
+        lang_print_constant(spell->style, &spell->lang_names, spell->shader->unit, global, &arrays);
+    }
+    if (!arrays.len)
+        return;
+    struct text whole;
+    text_init(&whole, spell->scratch);
+    text_fmt(&whole, "%.*s\n{\n%s%s", (int)(body - text_cstr(function)), text_cstr(function), text_cstr(&arrays), body + strlen("\n{\n"));
+    *function = whole;
+}
+
 /* What is called later stands earlier, so it is from the last function to the first that one sees what is needed. */
 void osl_write_functions(struct osl *osl, const char *shader, struct text *out)
 {
@@ -65,11 +92,12 @@ void osl_write_functions(struct osl *osl, const char *shader, struct text *out)
         text_init(&text, spell->scratch);
         if (!write_native(spell, id, &text))
             lang_print_function(spell->style, &spell->lang_names, spell->shader->unit, id, &text);
+        add_arrays(spell, &text);
         vec_push(spell->scratch, &kept, text_cstr(&text));
     }
     spell->out = out;
     for (uint32_t i = 0; i < reach->globals.len; i++)
-        if (is_needed_constant(spell, reach->globals.items[i], kept.items, kept.len))
+        if (!is_array(spell, reach->globals.items[i]) && is_needed_constant(spell, reach->globals.items[i], kept.items, kept.len))
             lang_print_constant(spell->style, &spell->lang_names, spell->shader->unit, reach->globals.items[i], out);
     for (uint32_t i = kept.len; i-- > 0;)
         SPELL(spell, kept.items[i], "\n");

@@ -6,7 +6,8 @@
  */
 #include "generators/osl/osl.h"
 
-static const char *const wraps[][2] = {{"constant", "black"}, {"clamp", "clamp"}, {"periodic", "periodic"}, {"mirror", "mirror"}};
+/* Beyond the border of `constant` the shader itself has the default. */
+static const char *const wraps[][2] = {{"constant", "clamp"}, {"clamp", "clamp"}, {"periodic", "periodic"}, {"mirror", "mirror"}};
 /* "linear" is what texture() does unless it is told: it filters better than that. */
 static const char *const filters[][2] = {{"closest", "closest"}, {"linear", "smartcubic"}, {"cubic", "cubic"}};
 

@@ -3,7 +3,8 @@
 // arithmetic on coordinates, of which no more is left than the modes ask for: those are known at compile time.
 
 // Who applies the modes: 0 the host's sampler; 1 shared: the functions below do what not every sampler can, cubic filters and
-// borders of a colour; 2 the functions below, over a sampler that repeats and filters linearly.
+// borders of a colour; 2 the functions below, over a sampler that repeats and filters linearly; 3 a texture() that does all
+// but borders of a colour.
 const int option_texture_modes = 0;
 
 // Cubic B-spline filtering by four linear lookups: Christian Sigg and Markus Hadwiger, "Fast Third-Order Texture
@@ -31,7 +32,7 @@ vec4 mx_sample_cubic(sampler2D file, vec2 uv)
 
 vec4 mx_sample(sampler2D file, vec2 uv, string filtertype)
 {
-    if (option_texture_modes >= 1 && filtertype == "cubic")
+    if ((option_texture_modes == 1 || option_texture_modes == 2) && filtertype == "cubic")
         return mx_sample_cubic(file, uv);
     if (option_texture_modes == 2 && filtertype == "closest") {
         vec2 size = vec2(textureSize(file, 0));
@@ -56,17 +57,19 @@ bool mx_outside(float x, string mode)
     return (mode == "constant" || mode == "black") && (x < 0.0 || x > 1.0);
 }
 
-vec4 mx_image(sampler2D file, vec4 fallback, vec2 texcoord, string uaddressmode, string vaddressmode, string filtertype)
+// Beyond a border that is of the default's colour, where the shader has to know it.
+bool mx_beyond(vec2 uv, string uaddressmode, string vaddressmode)
 {
-    if (option_texture_modes == 0)
+    return option_texture_modes != 0 && (mx_outside(uv.x, uaddressmode) || mx_outside(uv.y, vaddressmode));
+}
+
+vec4 mx_image(sampler2D file, vec2 texcoord, string uaddressmode, string vaddressmode, string filtertype)
+{
+    if (option_texture_modes != 2)
         return mx_sample(file, texcoord, filtertype);
-    vec2 uv = texcoord;
-    if (option_texture_modes == 2) {
-        ivec2 size = textureSize(file, 0);
-        uv = vec2(mx_address(uv.x, size.x, uaddressmode), mx_address(uv.y, size.y, vaddressmode));
-    }
-    vec4 texel = mx_sample(file, uv, filtertype);
-    return mx_outside(texcoord.x, uaddressmode) || mx_outside(texcoord.y, vaddressmode) ? fallback : texel;
+    ivec2 size = textureSize(file, 0);
+    vec2 uv = vec2(mx_address(texcoord.x, size.x, uaddressmode), mx_address(texcoord.y, size.y, vaddressmode));
+    return mx_sample(file, uv, filtertype);
 }
 
 // Longitude 0, in the middle of the image, is +z; latitude runs from -y at the bottom to +y at the top.

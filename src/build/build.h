@@ -15,6 +15,8 @@
 /* Which inputs stay variable (design section 6). */
 enum build_interface { INTERFACE_COMPLETE, INTERFACE_AUTHORED, INTERFACE_REDUCED };
 
+enum { TEXTURE_MODES_BUT_BORDERS = 3 }; /* libraries/stdlib/image.glsl tells them all */
+
 struct build_options {
     const str_id *targets; /* MaterialX names of the target and those it inherits: "essl", "genglsl" */
     unsigned num_targets;
@@ -30,6 +32,7 @@ struct build_options {
     int albedo;
     int texture_modes;
     bool missing_colors;   /* texture() gives another colour where there is no image, which may be a variable */
+    bool indexed_tangents; /* tangents follow the coordinates of their index; else, as in MaterialX, the first */
     bool tiles;            /* images of several tiles are texture arrays */
     const struct lang_reader *reader; /* of photometric files; may be NULL */
     /* As mxg_resolver.list_folder, to find tiles; may be NULL. */

@@ -81,6 +81,56 @@ static ir_ref build_geomcolor(const struct call *c)
     return indexed_stream(c, "color_", IR_TYPE_VEC4);
 }
 
+/* How a value, or a part of it, changes from pixel to pixel. */
+static ir_ref change(const struct call *c, enum ir_op axis, ir_ref value, int part)
+{
+    ir_ref all = ir_op1(c->b->graph, axis, value);
+    return part < 0 ? all : ir_component(c->b->graph, all, (unsigned)part);
+}
+
+/*
+ * Along u and v of other texture coordinates than the first there are no tangents: they are found by what the point P and the coordinates do
+ * from pixel to pixel, up to a positive factor,
+ *
+ *     T = (dP/dx · dv/dy - dP/dy · dv/dx) sign D    B = (dP/dy · du/dx - dP/dx · du/dy) sign D    D = du/dx · dv/dy - du/dy · dv/dx
+ */
+static ir_ref tangent_of(const struct call *c, ir_ref point, ir_ref uv, bool along_v)
+{
+    struct ir_graph *g = c->b->graph;
+    enum ir_op first = along_v ? IR_DFDY : IR_DFDX, second = along_v ? IR_DFDX : IR_DFDY;
+    int across = along_v ? 0 : 1; /* the coordinate that does not change along the tangent */
+    ir_ref sum = ir_op2(g, IR_SUB, ir_op2(g, IR_MUL, change(c, first, point, -1), change(c, second, uv, across)),
+                        ir_op2(g, IR_MUL, change(c, second, point, -1), change(c, first, uv, across)));
+    ir_ref area = ir_op2(g, IR_SUB, ir_op2(g, IR_MUL, change(c, IR_DFDX, uv, 0), change(c, IR_DFDY, uv, 1)),
+                         ir_op2(g, IR_MUL, change(c, IR_DFDY, uv, 0), change(c, IR_DFDX, uv, 1)));
+    return ir_op1(g, IR_NORMALIZE, ir_op2(g, IR_MUL, sum, ir_op1(g, IR_SIGN, area)));
+}
+
+static ir_ref build_axis(const struct call *c, str_id object, str_id world, bool along_v)
+{
+    struct ir_value index, space;
+    if (!build_initial(c->b, arg(c, STR_index), &index) || index.w[0].i < 0)
+        return not_constant(c, STR_index);
+    if (!ir_get_const(c->b->graph, arg(c, STR_space), &space))
+        return not_constant(c, STR_space);
+    bool is_world = space.w[0].u == STR_world;
+    if (index.w[0].i == 0 || !c->b->options->indexed_tangents)
+        return ir_op1(c->b->graph, IR_NORMALIZE, shader_stream(c->b->shader, is_world ? world : object, IR_TYPE_VEC3));
+    ir_ref uv = named_stream(c, "texcoord_", 0, (uint32_t)index.w[0].i, IR_TYPE_VEC2);
+    ir_ref point = shader_stream(c->b->shader, is_world ? STR_positionWorld : STR_positionObject, IR_TYPE_VEC3);
+    return tangent_of(c, point, uv, along_v);
+}
+
+static ir_ref build_tangent(const struct call *c)
+{
+    return build_axis(c, STR_tangentObject, STR_tangentWorld, false);
+}
+
+static ir_ref build_bitangent(const struct call *c)
+{
+    return build_axis(c, STR_bitangentObject, STR_bitangentWorld, true);
+}
+
 static ir_ref geomprop_uniform(const struct call *c, str_id name)
 {
     struct text full;
@@ -214,6 +264,8 @@ static const struct {
 } dynamic_nodes[] = {
     {STR_texcoord, build_texcoord},
     {STR_geomcolor, build_geomcolor},
+    {STR_tangent, build_tangent},
+    {STR_bitangent, build_bitangent},
     {STR_geompropvalue, build_geompropvalue},
     {STR_geompropvalueuniform, build_geompropvalue},
     {STR_blur, blur},

@@ -396,7 +396,7 @@ void build_network_node(struct builder *b, struct network_node *node, ir_ref *re
     str_id *names = ARENA_ARRAY(b->arena, str_id, node->num_inputs);
     frame.args = ARENA_ARRAY(b->arena, ir_ref, node->num_inputs);
     frame.impl = build_choose(b, node->definition, frame.node.element);
-    b->graph->origin = ir_add_origin(b->graph, library_nodedef(b->lib, node->definition)->node, 0, 0);
+    b->graph->origin = ir_add_origin(b->graph, str_intern_z(b->shader->strings, "value"), 0, 0);
     for (uint32_t i = 0; i < node->num_inputs; i++)
         frame.args[i] = argument(b, frame.impl, &ports[i], &node->fixed[i], &names[i]);
     node->inputs = names;

@@ -14,6 +14,9 @@ struct tree {
     struct ir_graph *graph;
     const struct closure_host *host;
     ir_ref *of; /* per node of closure or shader type: what became of it; 0: nothing */
+    ir_ref thin; /* whether the surface is a shell without an inside; 0: it is none */
+    ir_ref turned; /* of the leaf at hand: whether it reflects back to where the light came from; 0: it does not */
+    enum side { BOTH_SIDES, REFLECTED, TRANSMITTED } side; /* what is wanted of the leaf at hand */
     bool unknown; /* some leaf has no row */
 };
 
@@ -38,10 +41,41 @@ static bool is_string(const struct tree *t, ir_ref value, const char *text)
            && strcmp(str_text(t->shader->strings, constant.w[0].u), text) == 0;
 }
 
-/* A tint that counts where the leaf's scatter mode is not `unless`; black elsewhere. */
-static ir_ref scattered(struct tree *t, ir_ref leaf, ir_ref tint, const char *unless)
+static bool scatters(const struct tree *t, ir_ref leaf, enum side side)
 {
-    return is_string(t, input(t, leaf, "scatter_mode", 12), unless) ? ir_const_splat(t->graph, IR_TYPE_VEC3, 0.0f) : tint;
+    return !is_string(t, input(t, leaf, "scatter_mode", 12), side == REFLECTED ? "T" : "R");
+}
+
+/* A tint that counts on the side that it is for; black where the leaf does not scatter there, or something else is wanted. */
+static ir_ref scattered(struct tree *t, ir_ref leaf, ir_ref tint, enum side side)
+{
+    bool counts = scatters(t, leaf, side) && (t->side == BOTH_SIDES || t->side == side);
+    return counts ? tint : ir_const_splat(t->graph, IR_TYPE_VEC3, 0.0f);
+}
+
+/* Facets that mirror about the view direction send light back along it. */
+static ir_ref facing(struct tree *t, ir_ref normal)
+{
+    return t->turned ? ir_build(t->graph, IR_SELECT, IR_TYPE_VEC3, 0, (ir_ref[]){t->turned, closure_view(t->shader, t->host), normal}, 3)
+                     : normal;
+}
+
+/*
+ * Schlick's curve F is bent by color82 at 82 degrees (Hoffman 2019, "Fresnel Equations Considered Harmful"). Closures know no such colour, so
+ * the one at 90 degrees is chosen for which the plain curve passes through the same reflectance there:
+ *
+ *     F'(82) = color82 · F(82),    color90' = color90 - (1 - color82) · F(82) / q,    q = (6/7)^exponent
+ */
+static ir_ref bent_edge(struct tree *t, ir_ref leaf, ir_ref color90)
+{
+    struct ir_graph *g = t->graph;
+    ir_ref color82 = input(t, leaf, "color82", 7), color0 = input(t, leaf, "color0", 6);
+    if (ir_const_is(g, color82, 1.0f))
+        return color90;
+    ir_ref q = ir_op2(g, IR_POW, ir_const_float(g, 6.0f / 7.0f), input(t, leaf, "exponent", 8));
+    ir_ref at82 = ir_op2(g, IR_MUL, closure_one_minus(g, color82), ir_op3(g, IR_MIX, color0, color90, q));
+    ir_ref edge = ir_op2(g, IR_SUB, color90, ir_op2(g, IR_DIV, at82, q));
+    return ir_op2(g, IR_MAX, edge, ir_const_float(g, 0.0f));
 }
 
 /* Ops that work component by component, and have no other meaning for scalars. */
@@ -81,8 +115,9 @@ static ir_ref component(struct ir_graph *g, ir_ref value, unsigned index, unsign
 }
 
 /*
- * One word of a row: an input's name, perhaps with a part (".x", ".y"), or with a direction in which the light is scattered
- * (".reflected", ".transmitted"), "white" as a tint; or a constant: a digit, or text in quotes.
+ * One word of a row: an input's name, perhaps with a part (".x", ".y"), with a direction in which the light is scattered (".reflected",
+ * ".transmitted"), "white" as a tint, or with what becomes of a normal (".facing") and of Schlick's last colour (".bent"); or a constant: a
+ * digit, or text in quotes.
  */
 static ir_ref argument(struct tree *t, ir_ref leaf, const char *word, size_t len)
 {
@@ -97,9 +132,13 @@ static ir_ref argument(struct tree *t, ir_ref leaf, const char *word, size_t len
     if (!dot || !value)
         return value;
     if (dot[1] == 'r')
-        return scattered(t, leaf, value, "T");
+        return scattered(t, leaf, value, REFLECTED);
     if (dot[1] == 't')
-        return scattered(t, leaf, value, "R");
+        return scattered(t, leaf, value, TRANSMITTED);
+    if (dot[1] == 'f')
+        return facing(t, value);
+    if (dot[1] == 'b')
+        return bent_edge(t, leaf, value);
     return component(t->graph, value, dot[1] == 'x' ? 0 : 1, MAX_DEPTH);
 }
 
@@ -138,6 +177,41 @@ static ir_ref scaled(struct tree *t, ir_ref closure, ir_ref factor)
     return ir_build(t->graph, IR_CLOSURE_SCALE, ir_type_of(t->graph, closure), 0, args, 2);
 }
 
+static ir_ref sum(struct tree *t, ir_ref a, ir_ref b)
+{
+    ir_ref args[2] = {a, b};
+    if (!a || !b)
+        return a ? a : b;
+    return ir_build(t->graph, IR_CLOSURE_ADD, ir_type_of(t->graph, a), 0, args, 2);
+}
+
+static ir_ref mixed(struct tree *t, ir_ref bg, ir_ref fg, ir_ref mix)
+{
+    ir_ref args[3] = {bg, fg, mix};
+    if (ir_const_is(t->graph, mix, 0.0f) || bg == fg)
+        return bg;
+    if (ir_const_is(t->graph, mix, 1.0f))
+        return fg;
+    if (!bg)
+        return scaled(t, fg, mix);
+    if (!fg)
+        return scaled(t, bg, closure_one_minus(t->graph, mix));
+    return ir_build(t->graph, IR_CLOSURE_MIX, ir_type_of(t->graph, bg), 0, args, 3);
+}
+
+static ir_ref layered(struct tree *t, ir_ref top, ir_ref base)
+{
+    ir_ref args[2] = {top, base};
+    if (!top || !base)
+        return top ? top : base;
+    return ir_build(t->graph, IR_LAYER, IR_TYPE_BSDF, 0, args, 2);
+}
+
+static ir_ref transparent(struct tree *t)
+{
+    return call(t, t->host->rows->transparent, IR_TYPE_BSDF, NULL, 0);
+}
+
 /* Does an option of a row say anything? Its first input is 0, false or the usual word where it does not. */
 static bool is_wanted(const struct tree *t, ir_ref leaf, const struct closure_option *option)
 {
@@ -150,14 +224,53 @@ static bool is_wanted(const struct tree *t, ir_ref leaf, const struct closure_op
     return constant.type == IR_TYPE_STRING ? is_string(t, value, option->unless) : constant.w[0].u != 0;
 }
 
-static ir_ref row_call(struct tree *t, ir_ref leaf, const struct closure_row *row)
+static ir_ref side_call(struct tree *t, ir_ref leaf, const struct closure_row *row, enum side side)
 {
+    t->side = side;
     struct arguments args = {.count = 0};
     add_words(t, leaf, row->arguments, &args);
     for (const struct closure_option *option = row->options; option && option->input; option++)
         if (is_wanted(t, leaf, option))
             add_words(t, leaf, option->arguments, &args);
     return call(t, row->closure, ir_type_of(t->graph, leaf), args.refs, args.count);
+}
+
+/* Through a shell without an inside light goes on as it came, in the colour that the leaf has for transmission. */
+static ir_ref straight(struct tree *t, ir_ref leaf, const char *word)
+{
+    ir_ref tint = argument(t, leaf, word, strcspn(word, " "));
+    return scaled(t, transparent(t), tint);
+}
+
+/* "tint.transmitted" of a row; NULL: its leaf has no other side. */
+static const char *transmitted_word(const struct closure_row *row)
+{
+    const char *at = strstr(row->arguments, ".transmitted");
+    while (at && at > row->arguments && at[-1] != ' ')
+        at--;
+    return at;
+}
+
+static bool is_false(const struct tree *t, ir_ref value)
+{
+    struct ir_value constant;
+    return !value || (ir_get_const(t->graph, value, &constant) && constant.w[0].u == 0);
+}
+
+/* One closure; of leaves that transmit one for each side, where the sides differ in more than in tints. */
+static ir_ref row_call(struct tree *t, ir_ref leaf, const struct closure_row *row)
+{
+    const char *word = transmitted_word(row);
+    bool transmits = word && scatters(t, leaf, TRANSMITTED), reflects = !word || scatters(t, leaf, REFLECTED);
+    ir_ref turned = reflects ? input(t, leaf, "retroreflective", 15) : 0, thin = transmits ? t->thin : 0;
+    t->turned = is_false(t, turned) ? 0 : turned;
+    ir_ref whole = t->turned && transmits ? 0 : side_call(t, leaf, row, BOTH_SIDES);
+    ir_ref reflected = reflects && (!whole || thin) ? side_call(t, leaf, row, REFLECTED) : 0;
+    t->turned = 0;
+    if (!whole)
+        whole = sum(t, reflected, side_call(t, leaf, row, TRANSMITTED));
+    t->side = BOTH_SIDES;
+    return thin ? mixed(t, whole, layered(t, reflected, straight(t, leaf, word)), ir_convert(t->graph, IR_TYPE_FLOAT, thin)) : whole;
 }
 
 /* Emission and media are what the leaf's own functions give for the view at hand. */
@@ -203,42 +316,7 @@ static ir_ref leaf_call(struct tree *t, ir_ref leaf)
     return scaled(t, result, ir_arg(t->graph, leaf, 0));
 }
 
-/* ---- Operators and shaders ---- */
-
-static ir_ref sum(struct tree *t, ir_ref a, ir_ref b)
-{
-    ir_ref args[2] = {a, b};
-    if (!a || !b)
-        return a ? a : b;
-    return ir_build(t->graph, IR_CLOSURE_ADD, ir_type_of(t->graph, a), 0, args, 2);
-}
-
-static ir_ref mixed(struct tree *t, ir_ref bg, ir_ref fg, ir_ref mix)
-{
-    ir_ref args[3] = {bg, fg, mix};
-    if (ir_const_is(t->graph, mix, 0.0f) || bg == fg)
-        return bg;
-    if (ir_const_is(t->graph, mix, 1.0f))
-        return fg;
-    if (!bg)
-        return scaled(t, fg, mix);
-    if (!fg)
-        return scaled(t, bg, closure_one_minus(t->graph, mix));
-    return ir_build(t->graph, IR_CLOSURE_MIX, ir_type_of(t->graph, bg), 0, args, 3);
-}
-
-static ir_ref layered(struct tree *t, ir_ref top, ir_ref base)
-{
-    ir_ref args[2] = {top, base};
-    if (!top || !base)
-        return top ? top : base;
-    return ir_build(t->graph, IR_LAYER, IR_TYPE_BSDF, 0, args, 2);
-}
-
-static ir_ref transparent(struct tree *t)
-{
-    return call(t, t->host->rows->transparent, IR_TYPE_BSDF, NULL, 0);
-}
+/* ---- Shaders ---- */
 
 static ir_ref seen_through(struct tree *t, ir_ref closure, ir_ref opacity)
 {
@@ -303,6 +381,8 @@ static ir_ref closure_of(struct tree *t, ir_ref root)
     if (!root)
         return 0;
     t->of = ARENA_ARRAY(t->shader->arena, ir_ref, root + 1);
+    bool is_thin = ir_get(t->graph, root)->op == IR_SURFACE_SHADER && !is_false(t, ir_arg(t->graph, root, 3));
+    t->thin = is_thin ? ir_arg(t->graph, root, 3) : 0;
     uint8_t *needed = ir_mark(t->graph, &root, 1, t->shader->arena);
     uint32_t before = t->graph->origin;
     for (ir_ref ref = 1; ref <= root; ref++) {

@@ -371,7 +371,7 @@ struct lang_syntax {
     const char *param_out, *param_inout; /* "out ", "inout "; OSL: "output " */
     bool copies_params;                 /* parameters are read-only: one that is assigned is copied to a local first */
     bool plain_scalars;                 /* neither bool nor uint: their literals are those of int */
-    bool defines_constants;             /* no variables at file scope: "#define X 1.0" */
+    bool defines_constants;             /* no variables at file scope: "#define X 1.0"; arrays are declared in functions */
     bool float_literals_need_suffix;    /* 1.0f */
     bool wide_constants;                /* max(v, vec3(0.0)), where a target has max(v, 0.0), too */
     bool array_braces;                  /* arrays are built as {a, b}, not float[2](a, b) */

@@ -181,8 +181,9 @@ void lang_print_constant(const struct lang_style *style, const struct lang_names
     const struct lang_unit *layer;
     const struct lang_global *global = lang_global(unit, global_id, &layer);
     const char *name = print_global_name(names, unit, global_id);
-    bool defines = style->syntax->defines_constants;
-    text_str(out, defines ? "#define " : "const ");
+    bool is_local = style->syntax->defines_constants && ast_is_user_type(global->type);
+    bool defines = style->syntax->defines_constants && !is_local;
+    text_str(out, defines ? "#define " : is_local ? "" : "const ");
     if (defines)
         text_str(out, name);
     else

@@ -198,7 +198,8 @@ static void let_wholes(struct scheduler *s, const struct plan *plan)
     for (uint32_t a = 0; a < plan->num_args; a++) {
         struct plan *whole = plan_of(s, args_of(s, plan)[a]);
         bool has_parts = whole->type >= IR_NUM_TYPES || ir_type_info(whole->type)->components > 1;
-        if (has_parts && whole->num_args > 0 && whole->op != IR_RESULT && may_let(s, whole))
+        bool is_named = whole->num_args == 0 && whole->op != IR_CONST;
+        if (has_parts && !is_named && whole->op != IR_RESULT && may_let(s, whole))
             let(whole);
     }
 }

@@ -100,7 +100,7 @@ static void add_portable_functions(struct hasher *h, const struct lang_reach *re
 
 /* ---- The graph ---- */
 
-static uint64_t attribute(const struct hasher *h, ir_ref ref)
+static uint64_t attribute(struct hasher *h, ir_ref ref)
 {
     const struct ir_node *node = ir_get(h->shader->graph, ref);
     switch (node->op) {
@@ -119,6 +119,9 @@ static uint64_t attribute(const struct hasher *h, ir_ref ref)
         return h->graph_function_numbers[node->attr];
     case IR_VERBATIM:
         return shader_callee(h->shader, ref);
+    case IR_LEAF:
+        add_text(h, h->shader->graph->callees.items[node->attr].name);
+        return 0;
     default:
         return node->attr;
     }
@@ -132,7 +135,9 @@ static void add_node(struct hasher *h, ir_ref ref)
     add(h, (uint64_t)node->op << 48 | (uint64_t)node->type << 32 | node->num_args);
     add(h, attribute(h, ref));
     struct ir_value value;
-    if (node->op == IR_CONST && ir_get_const(graph, ref, &value))
+    if (node->op == IR_CONST && node->type == IR_TYPE_STRING) /* its number is not the same in another build */
+        add_text(h, graph->words.items[node->attr].u);
+    else if (node->op == IR_CONST && ir_get_const(graph, ref, &value))
         for (uint32_t i = 0; i < ir_type_info(value.type)->components; i++)
             add(h, value.w[i].u);
     for (uint32_t i = 0; i < node->num_args; i++)

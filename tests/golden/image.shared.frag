@@ -18,7 +18,7 @@ void main()
 {
     // NG
     vec4 framed = texture(framed_file, vd.texcoord_0);
-    vec3 framed_2 = (vd.texcoord_0.x < 0.0 || vd.texcoord_0.x > 1.0 ? vec4(1.0, 0.0, 1.0, 1.0) : framed).xyz;
+    vec3 framed_2 = vd.texcoord_0.x < 0.0 || vd.texcoord_0.x > 1.0 ? vec3(1.0, 0.0, 1.0) : framed.xyz;
     vec3 tiled = mx_srgb_texture_to_lin_rec709(texture(tiled_file, vd.texcoord_0 * vec2(4.0, 2.0)).xyz);
     out1 = vec4(mx_srgb_texture_to_lin_rec709(texture(NG_file, vd.texcoord_0).xyz) * framed_2 + tiled, 1.0);
 }

@@ -53,7 +53,7 @@ def show(folder, case, kind):
 
 
 def run_row(document, row, folder):
-    fault = generate(document, folder, "--element", row["case"])
+    fault = generate(scene.without_modes(document, folder), folder, "--element", row["case"])
     if fault:
         return fault
     probe = folder / "probe.tif"

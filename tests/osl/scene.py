@@ -74,6 +74,14 @@ def place(source, case, probe):
     return SCENE + head + "\nshader " + body
 
 
+def without_modes(document, folder):
+    """A copy of a document whose images repeat, as the reference has them, whatever the document says."""
+    text = re.sub(r'(<input name="(?:[uv]addressmode|wrap[ST])" type="string" value=")\w+"', r'\1periodic"', document.read_text(encoding="utf-8"))
+    copy = folder / document.name
+    copy.write_text(text, encoding="utf-8")
+    return copy
+
+
 def printing(case, kind, name):
     """A statement that prints a value for the pixel at hand."""
     if kind in PARTS:
