@@ -108,13 +108,13 @@ static ir_ref tangent_of(const struct call *c, ir_ref point, ir_ref uv, bool alo
 
 static ir_ref build_axis(const struct call *c, str_id object, str_id world, bool along_v)
 {
-    struct ir_value index, space;
-    if (!build_initial(c->b, arg(c, STR_index), &index) || index.w[0].i < 0)
+    struct ir_value index = {.type = IR_TYPE_INT}, space;
+    if (c->b->options->indexed_tangents && (!build_initial(c->b, arg(c, STR_index), &index) || index.w[0].i < 0))
         return not_constant(c, STR_index);
     if (!ir_get_const(c->b->graph, arg(c, STR_space), &space))
         return not_constant(c, STR_space);
     bool is_world = space.w[0].u == STR_world;
-    if (index.w[0].i == 0 || !c->b->options->indexed_tangents)
+    if (index.w[0].i == 0)
         return ir_op1(c->b->graph, IR_NORMALIZE, shader_stream(c->b->shader, is_world ? world : object, IR_TYPE_VEC3));
     ir_ref uv = named_stream(c, "texcoord_", 0, (uint32_t)index.w[0].i, IR_TYPE_VEC2);
     ir_ref point = shader_stream(c->b->shader, is_world ? STR_positionWorld : STR_positionObject, IR_TYPE_VEC3);
