@@ -29,6 +29,8 @@ static ir_ref build_op(const struct call *c, enum ir_op op, const ir_ref *args, 
 
 static ir_ref not_constant(const struct call *c, str_id input)
 {
+    if (ir_get(c->b->graph, arg(c, input))->op == IR_POISON) /* it has been told what is wrong with it */
+        return ir_poison(c->b->graph, c->type);
     diag_add(c->b->diags, DIAG_ID_input_must_be_constant, doc_place(&c->b->lib->doc, c->frame->node.element),
              build_text(c->b, input), build_text(c->b, c->def->node));
     return ir_poison(c->b->graph, c->type);
