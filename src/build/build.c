@@ -1,25 +1,51 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "build/build_priv.h"
 
+#include <assert.h>
+#include <stddef.h>
+
 static const struct document *doc_of(const struct builder *b)
 {
     return &b->lib->doc;
 }
 
+/* What functions know of the options. */
+static const struct known_option {
+    const char *name;
+    size_t offset; /* of an int in struct build_options */
+} known_options[] = {{"option_environment", offsetof(struct build_options, environment)},
+                     {"option_albedo", offsetof(struct build_options, albedo)},
+                     {"option_texture_modes", offsetof(struct build_options, texture_modes)},
+                     {"option_integrator", offsetof(struct build_options, integrator)}};
+enum { NUM_KNOWN_OPTIONS = sizeof known_options / sizeof *known_options };
+
+static const int *option_value(const struct build_options *options, const struct known_option *known)
+{
+    return (const int *)(const void *)((const char *)options + known->offset);
+}
+
 /* The value of "option_environment"…; NULL where there is no such option. */
 static const int *find_option(const struct build_options *options, const char *name)
 {
-    const struct {
-        const char *name;
-        const int *value;
-    } known[] = {{"option_environment", &options->environment},
-                 {"option_albedo", &options->albedo},
-                 {"option_texture_modes", &options->texture_modes},
-                 {"option_integrator", &options->integrator}};
-    for (size_t i = 0; i < sizeof known / sizeof *known; i++)
-        if (strcmp(name, known[i].name) == 0)
-            return known[i].value;
+    for (size_t i = 0; i < NUM_KNOWN_OPTIONS; i++)
+        if (strcmp(name, known_options[i].name) == 0)
+            return option_value(options, &known_options[i]);
     return NULL;
+}
+
+/* All of them as one number. */
+static uint32_t choice_of(const struct build_options *options)
+{
+    enum { BITS = 8 };
+    static_assert(NUM_KNOWN_OPTIONS * BITS <= 32, "one number does not suffice");
+    uint32_t choice = 0;
+    for (size_t i = 0; i < NUM_KNOWN_OPTIONS; i++) {
+        int value = *option_value(options, &known_options[i]);
+        if (value < 0 || value >= 1 << BITS)
+            return LANG_NONE;
+        choice = choice << BITS | (uint32_t)value;
+    }
+    return choice;
 }
 
 /* How functions of the library see the host: uniforms and streams become interface variables, options constants. */
@@ -55,13 +81,6 @@ static ir_ref global_node(void *user_data, struct ir_graph *graph, const struct 
     if (!b->globals[global_id])
         b->globals[global_id] = make_global(b, graph, unit, global_id);
     return b->globals[global_id];
-}
-
-/* The options of find_option as one number. */
-static uint32_t choice_of(const struct build_options *options)
-{
-    bool fits = (unsigned)options->environment < 256 && (unsigned)options->texture_modes < 256 && (unsigned)options->integrator < 256;
-    return fits ? (uint32_t)options->environment | (uint32_t)options->texture_modes << 8 | (uint32_t)options->integrator << 16 : LANG_NONE;
 }
 
 /* Functions of at most this many tree nodes are lowered into the shader's graph instead of being called. */

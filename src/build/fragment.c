@@ -82,7 +82,7 @@ static struct fragment_host host_of(struct restoring *r)
 {
     struct builder *b = r->b;
     return (struct fragment_host){.unit = b->shader->unit, .graph = b->graph, .lang = &b->host, .user_data = r,
-                                  .leaf = leaf, .origin = set_origin, .named = geomprop, .name = geomprop_name};
+                                  .leaf = leaf, .origin = set_origin, .own = r->outer, .outer = r->outer, .named = geomprop, .name = geomprop_name};
 }
 
 bool build_restore(struct builder *b, const struct frame *frame, ir_ref *results)
@@ -96,8 +96,13 @@ bool build_restore(struct builder *b, const struct frame *frame, ir_ref *results
         return false;
     struct restoring restoring = {b, b->graph->origin};
     struct fragment_host host = host_of(&restoring);
-    fragment_restore(&host, unit, fragment, &pattern, results);
+    size_t room = fragment_room(fragment, pattern.num_inputs);
+    ir_ref *nodes = arena_alloc(b->arena, room * sizeof *nodes);
+    const uint16_t *codes = fragment_restore(&host, unit, fragment, pattern.inputs, pattern.num_inputs, nodes);
+    for (unsigned i = 0; i < codes[0]; i++)
+        results[i] = nodes[codes[i + 1]];
     b->graph->origin = restoring.outer;
+    b->shader->model = (struct shader_model){results[0], (unsigned)(fragment - unit->fragments.items) + 1, nodes, (unsigned)room, restoring.outer};
     return true;
 }
 
@@ -113,6 +118,7 @@ void build_record(struct builder *b, const struct frame *frame, const ir_ref *re
     struct fragment_host host = host_of(&restoring);
     uint32_t before = b->graph->origin;
     b->graph->origin = frame->inner->origin;
-    fragment_record(&host, &recorder->graph_fragment_of.items[frame->node.nodedef], &pattern, false, results, 1);
+    unsigned number = fragment_record(&host, &recorder->graph_fragment_of.items[frame->node.nodedef], &pattern, false, results, 1);
+    b->shader->model = (struct shader_model){number ? results[0] : 0, number, recorder->nodes.items, recorder->nodes.len, restoring.outer};
     b->graph->origin = before;
 }

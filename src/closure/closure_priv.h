@@ -47,6 +47,19 @@ void closure_sample_light(struct shader *shader, const struct closure_host *host
 /* How far it is from the shaded point: lights without a position are far. */
 ir_ref closure_light_distance(struct shader *shader, const struct closure_host *host);
 
+/* How a surface is lit: surface.c. */
+struct closure_lit {
+    uint32_t color;             /* index of the mutable variable; UINT32_MAX while there is none */
+    ir_ref base;                /* what the colour begins with; 0 = black */
+    struct closure_light light; /* the one at hand; 0: none was asked for */
+};
+
+/* model.c: whether a surface may be lit by a fragment, or what lights it be taken down as one. */
+bool closure_is_usual(const struct shader *shader, const struct closure_host *host, const struct closure_lighting *lighting, ir_ref root);
+bool closure_restore_lit(struct shader *shader, const struct closure_host *host, struct closure_lit *state);
+void closure_record_lit(struct shader *shader, const struct closure_host *host, uint32_t first_effect, uint32_t first_closure,
+                        struct closure_lit *state);
+
 /* displacement.c: how far a displacement shader moves a point; 0: nothing moves. */
 ir_ref closure_offset(struct shader *shader, ir_ref displacement);
 

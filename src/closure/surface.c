@@ -19,8 +19,7 @@ struct emitter {
     struct ir_graph *graph;
     const struct closure_host *host;
     const struct closure_lighting *lighting;
-    uint32_t color;      /* index of the mutable variable; UINT32_MAX while there is none */
-    ir_ref base;         /* what the colour begins with; 0 = black */
+    struct closure_lit lit;
 };
 
 static void effect(struct emitter *e, enum effect_kind kind, uint32_t index, ir_ref value)
@@ -56,10 +55,10 @@ static ir_ref weighted(struct emitter *e, const struct closure_leaf *leaf, ir_re
 
 static void declare_color(struct emitter *e)
 {
-    if (e->color != UINT32_MAX)
+    if (e->lit.color != UINT32_MAX)
         return;
-    e->color = shader_add_local(e->shader, STR_color, IR_TYPE_VEC3);
-    effect(e, EFFECT_VAR, e->color, e->base ? vec3_of(e, e->base) : ir_const_splat(e->graph, IR_TYPE_VEC3, 0.0f));
+    e->lit.color = shader_add_local(e->shader, STR_color, IR_TYPE_VEC3);
+    effect(e, EFFECT_VAR, e->lit.color, e->lit.base ? vec3_of(e, e->lit.base) : ir_const_splat(e->graph, IR_TYPE_VEC3, 0.0f));
 }
 
 /* What leaves add to the colour in one place: values with their weights. */
@@ -81,7 +80,7 @@ static void accumulate(struct emitter *e, ir_ref factor, ir_ref value)
 {
     uint32_t before = e->graph->origin;
     e->graph->origin = ir_get(e->graph, value)->origin;
-    effect(e, EFFECT_ACCUMULATE, e->color, vec3_of(e, closure_mul(e->graph, factor, value)));
+    effect(e, EFFECT_ACCUMULATE, e->lit.color, vec3_of(e, closure_mul(e->graph, factor, value)));
     e->graph->origin = before;
 }
 
@@ -135,21 +134,20 @@ static void emit_lights(struct emitter *e, ir_ref bsdf, const struct closure_lis
     struct closure_list lit;
     declare_color(e);
     effect(e, EFFECT_LIGHTS, 0, 0);
-    struct closure_light light;
-    closure_sample_light(e->shader, e->host, &light);
+    closure_sample_light(e->shader, e->host, &e->lit.light);
     if (e->lighting->two_sided) {
-        flatten_under(e, bsdf, &light.direction, &lit); /* the same leaves: only throughputs differ */
+        flatten_under(e, bsdf, &e->lit.light.direction, &lit); /* the same leaves: only throughputs differ */
         assert(lit.leaves.len == list->leaves.len);
         list = &lit;
     }
     struct part_list parts = {0};
     for (uint32_t i = 0; i < list->leaves.len; i++) {
         const struct closure_leaf *leaf = &list->leaves.items[i];
-        ir_ref value = weighted(e, leaf, closure_call(e->shader, e->host, leaf->leaf, LEAF_EVAL, &light.direction));
+        ir_ref value = weighted(e, leaf, closure_call(e->shader, e->host, leaf->leaf, LEAF_EVAL, &e->lit.light.direction));
         add_part(e, &parts, leaf, value);
         emitted[i] |= value != 0;
     }
-    accumulate_all(e, &parts, light.intensity);
+    accumulate_all(e, &parts, e->lit.light.intensity);
     effect(e, EFFECT_END, 0, 0);
     e->shader->lit = true;
 }
@@ -228,9 +226,9 @@ static bool is_opaque(const struct emitter *e, ir_ref opacity)
 
 static ir_ref final_color(struct emitter *e)
 {
-    if (e->color != UINT32_MAX)
-        return ir_build(e->graph, IR_LOCAL, IR_TYPE_VEC3, e->color, NULL, 0);
-    return e->base ? vec3_of(e, e->base) : ir_const_splat(e->graph, IR_TYPE_VEC3, 0.0f);
+    if (e->lit.color != UINT32_MAX)
+        return ir_build(e->graph, IR_LOCAL, IR_TYPE_VEC3, e->lit.color, NULL, 0);
+    return e->lit.base ? vec3_of(e, e->lit.base) : ir_const_splat(e->graph, IR_TYPE_VEC3, 0.0f);
 }
 
 /* ---- surfaces ---- */
@@ -299,6 +297,8 @@ static struct surface unlit_surface(struct emitter *e, ir_ref emitted, ir_ref tr
 static struct surface surface_of(struct emitter *e, ir_ref root)
 {
     struct ir_graph *g = e->graph;
+    if (ir_get(g, root)->op == IR_SURFACE_SHADER)
+        return (struct surface){.bsdf = ir_arg(g, root, 0), .edf = ir_arg(g, root, 1), .alpha = ir_arg(g, root, 2)};
     struct surface *known = ARENA_ARRAY(e->shader->arena, struct surface, root + 1);
     uint8_t *needed = ir_mark(g, &root, 1, e->shader->arena);
     for (ir_ref ref = 1; ref <= root; ref++) {
@@ -317,27 +317,42 @@ static struct surface surface_of(struct emitter *e, ir_ref root)
     return known[root];
 }
 
-static void emit_surface(struct emitter *e, ir_ref root)
+/* Lights, environment and emission; false where it is left to path tracers. */
+static bool emit_parts(struct emitter *e, const struct surface *s)
 {
-    struct surface s = root ? surface_of(e, root) : (struct surface){0};
     struct closure_list list;
     if (e->lighting->two_sided) { /* from around, most light comes at the viewer's angle: by mirroring */
         ir_ref view = closure_view(e->shader, e->host);
-        flatten_under(e, s.bsdf, &view, &list);
+        flatten_under(e, s->bsdf, &view, &list);
     } else {
-        closure_flatten(e->shader, e->host, s.bsdf, &list);
+        closure_flatten(e->shader, e->host, s->bsdf, &list);
     }
-    e->base = add(e, s.unlit ? vec3_of(e, s.unlit) : 0, emission(e, s.edf));
+    e->lit.base = add(e, s->unlit ? vec3_of(e, s->unlit) : 0, emission(e, s->edf));
     if (e->shader->scatters) {
-        closure_scatter(e->shader, e->host, &list, e->lighting, e->base, s.alpha);
-        return;
+        closure_scatter(e->shader, e->host, &list, e->lighting, e->lit.base, s->alpha);
+        return false;
     }
     bool *emitted = ARENA_ARRAY(e->shader->arena, bool, list.leaves.len);
-    emit_lights(e, s.bsdf, &list, emitted);
+    emit_lights(e, s->bsdf, &list, emitted);
     emit_environment(e, &list, emitted);
     for (uint32_t i = 0; i < list.leaves.len; i++)
         if (emitted[i])
             shader_add_closure(e->shader, list.leaves.items[i].leaf);
+    return true;
+}
+
+static void emit_surface(struct emitter *e, ir_ref root)
+{
+    struct shader *shader = e->shader;
+    struct surface s = root ? surface_of(e, root) : (struct surface){0};
+    uint32_t first_effect = shader->stages[STAGE_PIXEL].effects.len, first_closure = shader->closures.len;
+    bool is_usual = closure_is_usual(shader, e->host, e->lighting, root);
+    if (!is_usual || !closure_restore_lit(shader, e->host, &e->lit)) {
+        if (!emit_parts(e, &s))
+            return;
+        if (is_usual && shader->unit->recorder)
+            closure_record_lit(shader, e->host, first_effect, first_closure, &e->lit);
+    }
     finish_surface(e, &s);
 }
 
@@ -351,7 +366,7 @@ static void emit_volume(struct emitter *e, ir_ref root)
     lighting.two_sided = false; /* nothing is layered inside */
     e->lighting = &lighting;
     ir_ref emitted_light = emission(e, volume.edf);
-    e->base = emitted_light ? ir_op2(e->graph, IR_MUL, vec3_of(e, emitted_light), volume.path) : 0;
+    e->lit.base = emitted_light ? ir_op2(e->graph, IR_MUL, vec3_of(e, emitted_light), volume.path) : 0;
     bool *emitted = ARENA_ARRAY(e->shader->arena, bool, volume.scattering.leaves.len);
     emit_lights(e, 0, &volume.scattering, emitted);
     emit_environment(e, &volume.scattering, emitted);
@@ -401,7 +416,7 @@ static bool emit_value(struct emitter *e, ir_ref root)
 
 bool closure_emit(struct shader *shader, const struct closure_host *host, const struct closure_lighting *lighting, ir_ref root)
 {
-    struct emitter e = {.shader = shader, .graph = shader->graph, .host = host, .lighting = lighting, .color = UINT32_MAX};
+    struct emitter e = {.shader = shader, .graph = shader->graph, .host = host, .lighting = lighting, .lit = {.color = UINT32_MAX}};
     if (root && ir_get(e.graph, root)->op == IR_MATERIAL)
         root = ir_arg(e.graph, root, 3) ? ir_arg(e.graph, root, 3)
                                         : closure_displace(shader, host, ir_arg(e.graph, root, 0), ir_arg(e.graph, root, 2));
@@ -454,7 +469,7 @@ static void describe_list(struct shader *shader, const struct closure_host *host
 void closure_describe(struct shader *shader, const struct closure_host *host, ir_ref root, struct text *out)
 {
     struct closure_lighting lighting = {true, true};
-    struct emitter e = {.shader = shader, .graph = shader->graph, .host = host, .lighting = &lighting, .color = UINT32_MAX};
+    struct emitter e = {.shader = shader, .graph = shader->graph, .host = host, .lighting = &lighting, .lit = {.color = UINT32_MAX}};
     if (root && ir_get(e.graph, root)->op == IR_MATERIAL)
         root = ir_arg(e.graph, root, ir_arg(e.graph, root, 3) ? 3 : 0);
     if (!root)

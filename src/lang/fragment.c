@@ -158,15 +158,15 @@ static ir_ref restore_node(const struct fragment_host *host, const ir_ref *nodes
     return restore_op(host, head, nodes, codes);
 }
 
-void fragment_restore(const struct fragment_host *host, const struct lang_unit *layer, const struct lang_fragment *fragment,
-                      const struct fragment_pattern *pattern, ir_ref *results)
+const uint16_t *fragment_restore(const struct fragment_host *host, const struct lang_unit *layer, const struct lang_fragment *fragment,
+                                 const ir_ref *inputs, unsigned num_inputs, ir_ref *nodes)
 {
-    ir_ref nodes[1 + FRAGMENT_MAX_INPUTS + FRAGMENT_MAX_NODES], *next = nodes + 1 + pattern->num_inputs;
-    nodes[0] = 0;
-    memcpy(nodes + 1, pattern->inputs, pattern->num_inputs * sizeof *nodes);
+    ir_ref *next = nodes + 1 + num_inputs;
     const uint16_t *codes = layer->codes.items + fragment->first_code + fragment->pattern_len;
+    nodes[0] = 0;
+    if (num_inputs)
+        memcpy(nodes + 1, inputs, num_inputs * sizeof *nodes);
     for (unsigned i = fragment->num_nodes; i > 0; i--)
         *next++ = restore_node(host, nodes, &codes);
-    for (unsigned count = *codes++; count > 0; count--)
-        *results++ = nodes[*codes++];
+    return codes;
 }

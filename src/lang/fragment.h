@@ -29,6 +29,8 @@ enum {
     FRAGMENT_MAX_OPERANDS = 128,
 };
 
+enum { FRAGMENT_OUTER = UINT16_MAX };
+
 struct fragment_pattern {
     const struct ir_graph *graph;
     unsigned len, num_inputs;
@@ -49,7 +51,8 @@ struct fragment_host {
     const struct lang_host *lang;
     void *user_data;
     uint32_t (*leaf)(void *user_data, uint32_t family); /* the graph's number for what a LEAF calls */
-    void (*origin)(void *user_data, uint32_t element);  /* of nodes from here on; 0: the graph's own */
+    void (*origin)(void *user_data, uint32_t element);  /* of nodes from here on; 0: `own`; FRAGMENT_OUTER: `outer` */
+    uint32_t own, outer; /* origins; elements of the graph have one below the latter */
     ir_ref (*named)(void *user_data, str_id name, ir_type_id type); /* a node that has a name beyond the graph */
     str_id (*name)(void *user_data, ir_ref node); /* the same backwards; 0: it has none */
 };
@@ -57,12 +60,27 @@ struct fragment_host {
 /* The fragment with this pattern in the chain that begins at `first`, made for the same options; NULL. */
 const struct lang_fragment *fragment_find(const struct lang_unit *layer, uint32_t first, const struct fragment_pattern *pattern,
                                           uint32_t choice);
-void fragment_restore(const struct fragment_host *host, const struct lang_unit *layer, const struct lang_fragment *fragment,
-                      const struct fragment_pattern *pattern, ir_ref *results);
+/*
+ * Restores the nodes of a fragment over inputs into `nodes`, which has room for fragment_room(): [0] is none, then come the inputs, then the
+ * nodes. Returns the codes behind the last: the number of results, and theirs.
+ */
+static inline size_t fragment_room(const struct lang_fragment *fragment, unsigned num_inputs)
+{
+    return (size_t)1 + num_inputs + fragment->num_nodes;
+}
+const uint16_t *fragment_restore(const struct fragment_host *host, const struct lang_unit *layer, const struct lang_fragment *fragment,
+                                 const ir_ref *inputs, unsigned num_inputs, ir_ref *nodes);
 
-/* fragment_record.c: takes down what became of `pattern`; false where it cannot be. `first` is the chain. */
-bool fragment_record(const struct fragment_host *host, uint16_t *first, const struct fragment_pattern *pattern, bool weighed,
-                     const ir_ref *results, unsigned num_results);
+/* fragment_record.c: takes down what became of `pattern`; its number + 1, or 0 where it cannot be. `first` is the chain. */
+unsigned fragment_record(const struct fragment_host *host, uint16_t *first, const struct fragment_pattern *pattern, bool weighed,
+                         const ir_ref *results, unsigned num_results);
+/* What follows on the nodes of a fragment: codes that must be the same where it is restored, results, and codes behind them. */
+struct fragment_follower {
+    const ir_ref *nodes, *results;
+    const uint16_t *key, *more;
+    unsigned num_nodes, num_results, num_key, num_more;
+};
+void fragment_record_follower(const struct fragment_host *host, unsigned leader, const struct fragment_follower *follower);
 void fragment_note_global(struct lang_recorder *recorder, ir_ref node, uint32_t global);
 
 /* The graph's number for a function that is called. */

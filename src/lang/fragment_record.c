@@ -23,7 +23,9 @@ struct taker {
     const struct fragment_host *host;
     const struct ir_graph *graph;
     struct lang_recorder *recorder;
-    const struct fragment_pattern *pattern;
+    const ir_ref *inputs;
+    unsigned num_inputs;
+    uint32_t num_strings; /* of the library */
     uint16_t *numbers; /* of nodes; 0: has none; NEEDED: has none yet */
     unsigned num_nodes;
     uint32_t origin;   /* that was taken down last */
@@ -45,8 +47,9 @@ static str_id name_of(const struct taker *t, ir_ref ref)
 /* Marks what results need, down to inputs and what has a name. */
 static void find_needed(struct taker *t, const ir_ref *results, unsigned num_results)
 {
-    for (unsigned i = 0; i < t->pattern->num_inputs; i++)
-        t->numbers[t->pattern->inputs[i]] = (uint16_t)(i + 1);
+    for (unsigned i = 0; i < t->num_inputs; i++)
+        if (t->inputs[i])
+            t->numbers[t->inputs[i]] = (uint16_t)(i + 1);
     for (unsigned i = 0; i < num_results; i++)
         if (results[i] && !t->numbers[results[i]])
             t->numbers[results[i]] = NEEDED;
@@ -74,7 +77,7 @@ static void put_global(struct taker *t, ir_ref ref)
 static void put_constant(struct taker *t, const struct ir_node *node)
 {
     const union ir_word *words = t->graph->words.items + node->attr;
-    t->failed |= node->type == IR_TYPE_STRING && words->u >= t->pattern->num_strings;
+    t->failed |= node->type == IR_TYPE_STRING && words->u >= t->num_strings;
     for (unsigned i = 0; i < ir_type_info(node->type)->components; i++) {
         put(t, words[i].u & 0xffff);
         put(t, words[i].u >> 16);
@@ -97,11 +100,14 @@ static void put_op(struct taker *t, ir_ref ref)
 /* Nodes of graphs belong to elements of theirs, those of functions to whoever calls. */
 static void put_origin(struct taker *t, const struct ir_node *node)
 {
-    const struct ir_origin *origin = &t->graph->origins.items[node->origin];
-    uint32_t element = node->origin == t->graph->origin ? 0 : origin->element;
-    if (!t->host->origin || node->op == IR_CONST || element == t->origin)
+    if (!t->host->origin || node->op == IR_CONST)
         return;
-    t->failed |= origin->parent != t->graph->origin && node->origin != t->graph->origin;
+    const struct ir_origin *origin = &t->graph->origins.items[node->origin];
+    bool is_own = node->origin == t->host->own, is_outer = node->origin == t->host->outer;
+    uint32_t element = is_own ? 0 : is_outer ? FRAGMENT_OUTER : origin->element;
+    t->failed |= !is_own && !is_outer && (origin->parent != t->host->outer || !element || element == FRAGMENT_OUTER);
+    if (element == t->origin)
+        return;
     t->origin = element;
     put(t, fragment_head(IR_POISON, IR_TYPE_VOID, 0));
     put(t, element);
@@ -109,7 +115,7 @@ static void put_origin(struct taker *t, const struct ir_node *node)
 
 static void put_name(struct taker *t, const struct ir_node *node, str_id name)
 {
-    t->failed |= name >= t->pattern->num_strings;
+    t->failed |= name >= t->num_strings;
     put(t, fragment_head(IR_LOCAL, node->type, 0));
     put(t, name);
 }
@@ -140,21 +146,39 @@ static void take_node(struct taker *t, ir_ref ref)
         put_name(t, node, name);
     else
         put_node(t, ref);
+    vec_push(t->graph->arena, &t->recorder->nodes, ref);
     t->num_nodes++;
-    t->numbers[ref] = (uint16_t)(t->pattern->num_inputs + t->num_nodes);
+    t->numbers[ref] = (uint16_t)(t->num_inputs + t->num_nodes);
 }
 
 static void take(struct taker *t, const ir_ref *results, unsigned num_results)
 {
+    memset(&t->recorder->nodes, 0, sizeof t->recorder->nodes); /* those before went with their generation */
+    vec_push(t->graph->arena, &t->recorder->nodes, 0);
+    for (unsigned i = 0; i < t->num_inputs; i++)
+        vec_push(t->graph->arena, &t->recorder->nodes, t->inputs[i]);
+    t->numbers = ARENA_ARRAY(t->graph->arena, uint16_t, t->graph->nodes.len);
     find_needed(t, results, num_results);
-    for (unsigned i = 0; i < t->pattern->len; i++)
-        put(t, t->pattern->codes[i]);
     for (ir_ref ref = 1; ref < t->graph->nodes.len && !t->failed; ref++)
         if (t->numbers[ref] == NEEDED)
             take_node(t, ref);
     put(t, num_results);
     for (unsigned i = 0; i < num_results; i++)
         put(t, t->numbers[results[i]]);
+}
+
+/* The number of the new fragment + 1; 0 where it cannot be one. */
+static unsigned finish(struct taker *t, struct lang_fragment fragment)
+{
+    struct lang_recorder *recorder = t->recorder;
+    if (t->failed || recorder->fragments.len == UINT16_MAX) {
+        recorder->codes.len = fragment.first_code;
+        return 0;
+    }
+    fragment.num_nodes = (uint16_t)t->num_nodes;
+    fragment.choice = t->host->lang->choice;
+    vec_push(recorder->arena, &recorder->fragments, fragment);
+    return recorder->fragments.len;
 }
 
 static bool is_taken(const struct lang_recorder *recorder, uint32_t first, uint32_t hash, uint32_t choice)
@@ -165,25 +189,38 @@ static bool is_taken(const struct lang_recorder *recorder, uint32_t first, uint3
     return false;
 }
 
-bool fragment_record(const struct fragment_host *host, uint16_t *first, const struct fragment_pattern *pattern, bool weighed,
-                     const ir_ref *results, unsigned num_results)
+unsigned fragment_record(const struct fragment_host *host, uint16_t *first, const struct fragment_pattern *pattern, bool weighed,
+                         const ir_ref *results, unsigned num_results)
 {
     struct lang_recorder *recorder = host->unit->recorder;
-    struct taker t = {.host = host, .graph = host->graph, .recorder = recorder, .pattern = pattern};
-    uint32_t hash = fragment_hash(pattern), first_code = recorder->codes.len, choice = host->lang->choice;
-    if (pattern->failed || is_taken(recorder, *first, hash, choice) || (weighed && pattern->has_derivative)
-        || recorder->fragments.len == UINT16_MAX)
-        return false;
-    t.numbers = ARENA_ARRAY(host->graph->arena, uint16_t, host->graph->nodes.len);
+    struct taker t = {.host = host, .graph = host->graph, .recorder = recorder, .inputs = pattern->inputs, .num_inputs = pattern->num_inputs,
+                      .num_strings = pattern->num_strings};
+    struct lang_fragment fragment = {.hash = fragment_hash(pattern), .first_code = recorder->codes.len, .next = *first,
+                                     .pattern_len = (uint16_t)pattern->len, .flags = weighed ? LANG_FRAGMENT_WEIGHED : 0};
+    if (pattern->failed || is_taken(recorder, *first, fragment.hash, host->lang->choice) || (weighed && pattern->has_derivative))
+        return 0;
+    for (unsigned i = 0; i < pattern->len; i++)
+        put(&t, pattern->codes[i]);
     take(&t, results, num_results);
-    if (t.failed) {
-        recorder->codes.len = first_code;
-        return false;
-    }
-    vec_push(recorder->arena, &recorder->fragments,
-             (struct lang_fragment){.hash = hash, .first_code = first_code, .pattern_len = (uint16_t)pattern->len,
-                                    .num_nodes = (uint16_t)t.num_nodes, .next = *first,
-                                    .flags = weighed ? LANG_FRAGMENT_WEIGHED : 0, .choice = choice});
-    *first = (uint16_t)recorder->fragments.len;
-    return true;
+    unsigned number = finish(&t, fragment);
+    if (number)
+        *first = (uint16_t)number;
+    return number;
+}
+
+void fragment_record_follower(const struct fragment_host *host, unsigned leader, const struct fragment_follower *follower)
+{
+    struct lang_recorder *recorder = host->unit->recorder;
+    const struct lang_unit *lowest = host->unit;
+    while (lowest->base)
+        lowest = lowest->base;
+    struct taker t = {.host = host, .graph = host->graph, .recorder = recorder, .inputs = follower->nodes + 1,
+                      .num_inputs = follower->num_nodes - 1, .num_strings = lowest->strings->num};
+    struct lang_fragment fragment = {.first_code = recorder->codes.len, .pattern_len = (uint16_t)follower->num_key};
+    for (unsigned i = 0; i < follower->num_key; i++)
+        put(&t, follower->key[i]);
+    take(&t, follower->results, follower->num_results);
+    for (unsigned i = 0; i < follower->num_more; i++)
+        put(&t, follower->more[i]);
+    recorder->fragments.items[leader - 1].follower = (uint16_t)finish(&t, fragment);
 }

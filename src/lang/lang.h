@@ -103,7 +103,9 @@ struct lang_fragment {
     uint32_t first_code; /* in unit->codes: the pattern, the nodes, the results */
     uint16_t pattern_len, num_nodes;
     uint16_t next;       /* of the same function: its number + 1; 0: none */
+    uint16_t follower;   /* what is made of these nodes afterwards, a fragment without pattern: its number + 1; 0: none */
     uint16_t flags;      /* enum lang_fragment_flags */
+    uint16_t unused;
     uint32_t choice;     /* of the host that it was made for */
 };
 
@@ -284,6 +286,7 @@ struct lang_recorder {
         uint32_t global;
     } globals[64];
     unsigned num_globals;
+    VEC(ir_ref) nodes; /* of the fragment that was taken down last, as restoring it gives them: [0] is none, then inputs and nodes */
 };
 void lang_recorder_init(struct lang_recorder *recorder, struct arena *arena, const struct lang_unit *lowest, uint32_t num_graphs);
 

@@ -409,6 +409,15 @@ static bool begin_pattern(const struct lower *lo, uint32_t id, const ir_ref *arg
     return !pattern->failed;
 }
 
+static void restore(const struct fragment_host *host, const struct lang_unit *layer, const struct lang_fragment *fragment,
+                    const struct fragment_pattern *pattern, ir_ref *results)
+{
+    ir_ref nodes[1 + FRAGMENT_MAX_INPUTS + FRAGMENT_MAX_NODES];
+    const uint16_t *codes = fragment_restore(host, layer, fragment, pattern->inputs, pattern->num_inputs, nodes);
+    for (unsigned count = *codes++; count > 0; count--)
+        *results++ = nodes[*codes++];
+}
+
 /* A function that is called, by a fragment where there is one. */
 static void lower_known_function(struct lower *lo, uint32_t id, const ir_ref *args, ir_ref *results)
 {
@@ -421,7 +430,7 @@ static void lower_known_function(struct lower *lo, uint32_t id, const ir_ref *ar
     if (has_pattern && !recorder)
         fragment = fragment_find(layer, layer->fragment_of.items[id], &pattern, lo->host->choice);
     if (fragment)
-        fragment_restore(&host, layer, fragment, &pattern, results);
+        restore(&host, layer, fragment, &pattern, results);
     else if (!fits(lo))
         poison_whole_results(lo, results);
     else

@@ -32,12 +32,14 @@ root=$here/../..
 END
 } >models.mtlx
 
+sources=(--no-builtin-library --library "$root/libraries")
+
 compare() {
     local document=$1
     shift
     rm -rf image sources
     "$mxgen" "$document" -q -o image "$@" >/dev/null 2>&1
-    "$mxgen" "$document" -q -o sources --no-builtin-library --library "$root/libraries" "$@" >/dev/null 2>&1
+    "$mxgen" "$document" -q -o sources "${sources[@]}" "$@" >/dev/null 2>&1
     [ -n "$(ls image)" ] && diff -r image sources
 }
 
@@ -47,5 +49,13 @@ for options in '' '--interface reduced' '--environment prefiltered' '--environme
 done
 for document in "$root"/examples/*.mtlx "$root"/bench/standard_surface_default.mtlx; do
     check "${document##*/}" compare "$document" --target glsl
+done
+
+# What is restored holds nothing that is not needed: so the numbers of operations tell that it was, the model and how it is lit.
+built() {
+    "$mxgen" inspect models.mtlx --statistics --element "$@" | awk '/operations built/ {print $3}'
+}
+for model in standard_surface open_pbr_surface gltf_pbr; do
+    check "$model is restored, with its lights" test $(($(built "all_$model") + 40)) -lt "$(built "all_$model" "${sources[@]}")"
 done
 finish fragments

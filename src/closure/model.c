@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * How a surface is lit, as a fragment that follows on the one that the surface is itself (lang/fragment.h): leaves are not found and weighted, their
+ * functions not called where a shading model's inputs are all variable, its lights the usual ones and nothing is displaced.
+ *
+ *     key    number of lights, function and type of each
+ *     more   1 if lit, closures: the elements of their leaves, effects: kind, with marks whether there is a value and whether it is about
+ *            the colour
+ */
+#include "closure/closure_priv.h"
+
+#include "lang/fragment.h"
+
+enum { MAX_LIGHTS = 8, MAX_CLOSURES = 60, MAX_EFFECTS = 250, HAS_VALUE = 256, OF_COLOR = 512 };
+
+bool closure_is_usual(const struct shader *shader, const struct closure_host *host, const struct closure_lighting *lighting, ir_ref root)
+{
+    const struct closure_point *point = host->point;
+    bool is_new = !point->position && !point->normal && !point->view;
+    return root && root == shader->model.root && is_new && lighting->lights && lighting->environment && !lighting->two_sided
+        && !shader->scatters && shader->lights.len <= MAX_LIGHTS;
+}
+
+static unsigned lights_key(const struct shader *shader, uint16_t *key)
+{
+    unsigned n = 0;
+    key[n++] = (uint16_t)shader->lights.len;
+    for (uint32_t i = 0; i < shader->lights.len; i++) {
+        key[n++] = (uint16_t)shader->lights.items[i].function;
+        key[n++] = (uint16_t)shader->lights.items[i].type;
+    }
+    return n;
+}
+
+/* The key has 16 bits for each. */
+static bool has_key(const struct shader *shader)
+{
+    for (uint32_t i = 0; i < shader->lights.len; i++)
+        if (shader->lights.items[i].function > UINT16_MAX || shader->lights.items[i].type < 0 || shader->lights.items[i].type > UINT16_MAX)
+            return false;
+    return true;
+}
+
+/* ---- What the fragment's host knows ---- */
+
+struct lit {
+    struct shader *shader;
+    const struct closure_host *host;
+    struct closure_lit *state;
+};
+
+static ir_ref named(void *user_data, str_id name, ir_type_id type)
+{
+    const struct lit *l = user_data;
+    struct closure_light *light = &l->state->light;
+    if (!light->direction && (name == STR_L || name == STR_light))
+        closure_sample_light(l->shader, l->host, light);
+    switch (name) {
+    case STR_V:
+        return closure_view(l->shader, l->host);
+    case STR_N:
+        return closure_normal(l->shader, l->host);
+    case STR_P:
+        return closure_position(l->shader, l->host);
+    case STR_L:
+        return light->direction;
+    case STR_light:
+        return light->intensity;
+    case STR_sample_index:
+        return ir_build(l->shader->graph, IR_SAMPLE, IR_TYPE_INT, 0, NULL, 0);
+    default:
+        return ir_poison(l->shader->graph, type);
+    }
+}
+
+static str_id name_of(void *user_data, ir_ref node)
+{
+    const struct lit *l = user_data;
+    const struct closure_point *point = l->host->point;
+    if (node == point->view || node == point->normal || node == point->position)
+        return node == point->view ? STR_V : node == point->normal ? STR_N : STR_P;
+    if (node == l->state->light.direction || node == l->state->light.intensity)
+        return node == l->state->light.direction ? STR_L : STR_light;
+    return ir_get(l->shader->graph, node)->op == IR_SAMPLE ? STR_sample_index : 0;
+}
+
+/* The origin that an element of the model has already: of its node. */
+static uint32_t origin_of(struct shader *shader, uint32_t element)
+{
+    struct ir_graph *g = shader->graph;
+    uint32_t outer = shader->model.origin;
+    if (!element || element == FRAGMENT_OUTER)
+        return element ? outer : 0;
+    for (uint32_t i = g->origins.len; i-- > 1;)
+        if (g->origins.items[i].element == element && g->origins.items[i].parent == outer)
+            return i;
+    return ir_add_origin(g, 0, element, outer);
+}
+
+static void set_origin(void *user_data, uint32_t element)
+{
+    const struct lit *l = user_data;
+    l->shader->graph->origin = origin_of(l->shader, element);
+}
+
+static struct fragment_host host_of(struct lit *l)
+{
+    return (struct fragment_host){.unit = l->shader->unit, .graph = l->shader->graph, .lang = l->host->lang, .user_data = l,
+                                  .origin = set_origin, .own = 0, .outer = l->shader->model.origin, .named = named, .name = name_of};
+}
+
+/* ---- Taking down ---- */
+
+struct notes { /* `more` and what it is about */
+    uint16_t codes[3 + MAX_CLOSURES + MAX_EFFECTS];
+    ir_ref results[1 + MAX_EFFECTS];
+    unsigned len, num_results;
+};
+
+/* False where a leaf is no element of the model. */
+static bool note_closures(struct notes *notes, const struct shader *shader, uint32_t first)
+{
+    uint32_t count = shader->closures.len - first;
+    notes->codes[notes->len++] = (uint16_t)count;
+    for (uint32_t i = first; i < shader->closures.len && count <= MAX_CLOSURES; i++) {
+        const struct ir_origin *origin = &shader->graph->origins.items[shader->closures.items[i]];
+        if (origin->parent != shader->model.origin || !origin->element || origin->element >= FRAGMENT_OUTER)
+            return false;
+        notes->codes[notes->len++] = (uint16_t)origin->element;
+    }
+    return count <= MAX_CLOSURES;
+}
+
+static bool note_effects(struct notes *notes, const struct effect_list *effects, uint32_t first, uint32_t color)
+{
+    uint32_t count = effects->len - first;
+    notes->codes[notes->len++] = (uint16_t)count;
+    for (uint32_t i = first; i < effects->len && count <= MAX_EFFECTS; i++) {
+        const struct effect *effect = &effects->items[i];
+        bool is_of_color = effect->kind == EFFECT_VAR || effect->kind == EFFECT_ACCUMULATE;
+        if (effect->text || effect->index != (is_of_color ? color : 0))
+            return false;
+        notes->codes[notes->len++] = (uint16_t)(effect->kind | (effect->value ? HAS_VALUE : 0) | (is_of_color ? OF_COLOR : 0));
+        if (effect->value)
+            notes->results[notes->num_results++] = effect->value;
+    }
+    return count <= MAX_EFFECTS;
+}
+
+void closure_record_lit(struct shader *shader, const struct closure_host *host, uint32_t first_effect, uint32_t first_closure,
+                        struct closure_lit *state)
+{
+    struct notes notes = {.codes = {shader->lit}, .results = {state->base}, .len = 1, .num_results = 1};
+    uint16_t key[1 + 2 * MAX_LIGHTS];
+    if (!has_key(shader) || !note_closures(&notes, shader, first_closure)
+        || !note_effects(&notes, &shader->stages[STAGE_PIXEL].effects, first_effect, state->color))
+        return;
+    struct lit l = {shader, host, state};
+    struct fragment_host fragment_host = host_of(&l);
+    fragment_record_follower(&fragment_host, shader->model.fragment,
+                             &(struct fragment_follower){.nodes = shader->model.nodes, .num_nodes = shader->model.num_nodes,
+                                                         .results = notes.results, .num_results = notes.num_results, .key = key,
+                                                         .num_key = lights_key(shader, key), .more = notes.codes, .num_more = notes.len});
+}
+
+/* ---- Restoring ---- */
+
+static const struct lang_fragment *find(const struct shader *shader, const struct lang_unit *lowest)
+{
+    const struct lang_fragment *leader = &lowest->fragments.items[shader->model.fragment - 1];
+    const struct lang_fragment *fragment = leader->follower ? &lowest->fragments.items[leader->follower - 1] : NULL;
+    uint16_t key[1 + 2 * MAX_LIGHTS];
+    unsigned num_key = lights_key(shader, key);
+    bool has_lights = fragment && has_key(shader) && fragment->pattern_len == num_key
+                   && memcmp(lowest->codes.items + fragment->first_code, key, num_key * sizeof *key) == 0;
+    return has_lights ? fragment : NULL;
+}
+
+/* The effects, whose values stand in `nodes` by the numbers in `results`. */
+static void write_effects(struct shader *shader, const uint16_t *results, const uint16_t *more, const ir_ref *nodes, struct closure_lit *state)
+{
+    shader->lit |= *more++ != 0;
+    for (unsigned count = *more++; count > 0; count--)
+        vec_push(shader->arena, &shader->closures, origin_of(shader, *more++));
+    for (unsigned count = *more++; count > 0; count--) {
+        unsigned code = *more++, kind = code & 255;
+        if (kind == EFFECT_VAR)
+            state->color = shader_add_local(shader, STR_color, IR_TYPE_VEC3);
+        struct effect effect = {.kind = (uint8_t)kind, .index = code & OF_COLOR ? state->color : 0};
+        if (code & HAS_VALUE)
+            effect.value = nodes[*results++];
+        shader_effect(shader, STAGE_PIXEL, effect);
+    }
+}
+
+bool closure_restore_lit(struct shader *shader, const struct closure_host *host, struct closure_lit *state)
+{
+    const struct lang_unit *lowest = shader->unit;
+    while (lowest->base)
+        lowest = lowest->base;
+    const struct shader_model *model = &shader->model;
+    const struct lang_fragment *fragment = shader->unit->recorder ? NULL : find(shader, lowest);
+    if (!fragment)
+        return false;
+    struct lit l = {shader, host, state};
+    struct fragment_host fragment_host = host_of(&l);
+    uint32_t before = shader->graph->origin;
+    shader->graph->origin = 0;
+    ir_ref *nodes = arena_alloc(shader->arena, fragment_room(fragment, model->num_nodes - 1) * sizeof *nodes);
+    const uint16_t *codes = fragment_restore(&fragment_host, lowest, fragment, model->nodes + 1, model->num_nodes - 1, nodes);
+    shader->graph->origin = before;
+    unsigned num_results = *codes++;
+    state->base = nodes[codes[0]];
+    write_effects(shader, codes + 1, codes + num_results, nodes, state);
+    return true;
+}
