@@ -221,6 +221,7 @@ static void generate(struct examiner *examiner, const mxg_document *document, co
     desc.target = shader->target;
     desc.element = element;
     desc.options = examiner->cli->options;
+    desc.without_source = examiner->is_brief && !examiner->compile && !examiner->cli->max_output_size; /* nobody would read it */
     mxg_result *result = NULL;
     examine_mark(examiner, CHECK_GENERATE, element, shader->target);
     mxg_status status = mxg_generate(examiner->cli->context, document, &desc, &result);

@@ -330,6 +330,11 @@ typedef struct mxg_generate_desc {
      */
     const char *element;
     const mxg_options *options; /* NULL: defaults */
+    /*
+     * Everything but the source: diagnostics, variables, the topology by which a host finds a program that it has already. A third cheaper.
+     * Nothing but the limit max_output_mib can be violated by writing the source. Networks of OSL have their layers all the same.
+     */
+    bool without_source;
 } mxg_generate_desc;
 #define MXG_GENERATE_DESC_INIT {sizeof(mxg_generate_desc)}
 

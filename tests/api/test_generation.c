@@ -140,6 +140,25 @@ static void test_variables(const struct bench *b)
     mxg_result_destroy(result);
 }
 
+static void test_without_source(struct bench *b)
+{
+    mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
+    desc.target = "glsl";
+    desc.element = "M";
+    desc.options = b->options;
+    mxg_result *whole = NULL, *facts = NULL;
+    REQUIRE_EQ(mxg_generate(b->context, b->document, &desc, &whole), MXG_OK);
+    desc.without_source = true;
+    REQUIRE_EQ(mxg_generate(b->context, b->document, &desc, &facts), MXG_OK);
+    REQUIRE(mxg_result_source(whole, MXG_STAGE_PIXEL, NULL) && !mxg_result_source(facts, MXG_STAGE_PIXEL, NULL));
+    REQUIRE_STR(mxg_result_reflection_json(facts, NULL), mxg_result_reflection_json(whole, NULL));
+    REQUIRE_EQ(mxg_diagnostics_count(mxg_result_diagnostics(facts)), mxg_diagnostics_count(mxg_result_diagnostics(whole)));
+    REQUIRE_EQ(mxg_result_source_path(facts, MXG_STAGE_PIXEL, 1, NULL, 0), 0);
+    REQUIRE(!mxg_result_source_place(facts, MXG_STAGE_PIXEL, 1, NULL, NULL, NULL, NULL));
+    mxg_result_destroy(whole);
+    mxg_result_destroy(facts);
+}
+
 static void test_interfaces(struct bench *b)
 {
     mxg_options_set(b->options, "interface", "reduced");
@@ -420,6 +439,7 @@ int main(void)
     test_variables(&b);
     test_views(&b);
     test_globs(&b);
+    test_without_source(&b);
     test_interfaces(&b);
     bench_close(&b);
     test_elements();
