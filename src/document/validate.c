@@ -105,8 +105,7 @@ static void check_required(struct validation *v, elem_id element)
         if (!doc_attr(v->doc, element, rules[e->kind].required[i]))
             diag_add(v->diags, DIAG_ID_missing_attribute, doc_place(v->doc, element), text_of(v, e->category),
                      text_of(v, rules[e->kind].required[i]));
-    bool has_link = doc_attr(v->doc, element, STR_nodedef) || doc_attr(v->doc, element, STR_nodegraph);
-    if (e->kind == KIND_IMPLEMENTATION && !has_link)
+    if (e->kind == KIND_IMPLEMENTATION && !doc_attr(v->doc, element, STR_nodedef) && !doc_attr(v->doc, element, STR_nodegraph))
         diag_add(v->diags, DIAG_ID_missing_attribute, doc_place(v->doc, element), text_of(v, e->category), "nodedef");
     /* The outputs of an implementation have the types of the definition's. */
     if (e->kind == KIND_OUTPUT && !doc_attr(v->doc, element, STR_type)
@@ -146,9 +145,14 @@ void doc_report_type(const struct document *doc, elem_id element, struct diag_li
     diag_add(diags, DIAG_ID_unknown_type, doc_attr_place(doc, element, STR_type), type, suggestion);
 }
 
-static void check_value(struct validation *v, elem_id element, doc_type type, str_id attr)
+static bool has_value(str_id attr)
 {
-    str_id value = doc_attr_value(v->doc, element, attr);
+    return attr == STR_value || attr == STR_default || attr == STR_uimin || attr == STR_uimax || attr == STR_uisoftmin
+           || attr == STR_uisoftmax || attr == STR_uistep;
+}
+
+static void check_value(struct validation *v, elem_id element, doc_type type, str_id attr, str_id value)
+{
     if (value && !doc_value_is_valid(type, text_of(v, value), str_len(v->doc->strings, value)))
         diag_add(v->diags, DIAG_ID_bad_value, doc_attr_place(v->doc, element, attr), text_of(v, value),
                  text_of(v, doc_type_name(type)));
@@ -156,7 +160,7 @@ static void check_value(struct validation *v, elem_id element, doc_type type, st
 
 static void check_type_and_values(struct validation *v, elem_id element)
 {
-    static const str_id typed[] = {STR_value, STR_default, STR_uimin, STR_uimax, STR_uisoftmin, STR_uisoftmax, STR_uistep};
+    const struct attribute *attrs = doc_attrs(v->doc, element);
     const struct element *e = doc_element(v->doc, element);
     str_id name = doc_attr_value(v->doc, element, STR_type);
     doc_type type = doc_type_of(name);
@@ -164,8 +168,9 @@ static void check_type_and_values(struct validation *v, elem_id element)
         doc_report_type(v->doc, element, v->diags);
     if (!type || e->kind == KIND_NODE)
         return;
-    for (size_t i = 0; i < sizeof typed / sizeof *typed; i++)
-        check_value(v, element, type, typed[i]);
+    for (uint32_t i = 0; i < e->num_attrs; i++)
+        if (has_value(attrs[i].name))
+            check_value(v, element, type, attrs[i].name, attrs[i].value);
 }
 
 static void check_bindings(struct validation *v, elem_id element)

@@ -137,10 +137,31 @@ static bool is_version(const char *text)
     }
 }
 
+/* Few elements say more than a type and a value. */
+static bool has_more_to_say(const struct document *doc, elem_id element)
+{
+    const struct attribute *attrs = doc_attrs(doc, element);
+    for (uint32_t i = 0; i < doc_element(doc, element)->num_attrs; i++) {
+        switch (attrs[i].name) {
+        case STR_version:
+        case STR_unit:
+        case STR_unittype:
+        case STR_colorspace:
+        case STR_uimin:
+        case STR_uisoftmin:
+        case STR_enum:
+            return true;
+        default:
+            break;
+        }
+    }
+    return false;
+}
+
 void validate_attributes_of(struct validate *v, elem_id element)
 {
     const struct element *e = doc_element(v->doc, element);
-    if (!e->num_attrs)
+    if (!has_more_to_say(v->doc, element))
         return;
     str_id version = e->kind == KIND_NODEDEF ? doc_attr_value(v->doc, element, STR_version) : 0;
     if (version && !is_version(text_of(v, version)))
