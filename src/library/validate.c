@@ -59,6 +59,7 @@ static void check_node(struct validate *v, elem_id node)
     for (uint32_t i = 0; i < def->num_inputs; i++) {
         check_binding(v, &ports[i], &v->resolved.bindings.items[i]);
         validate_input(v, node, nodedef, &ports[i], &v->resolved.bindings.items[i]);
+        validate_uniform(v, node, &ports[i], &v->resolved.bindings.items[i]);
     }
 }
 
@@ -79,6 +80,7 @@ static void check_element(struct validate *v, elem_id element)
     else if (is_in_graph && (kind == KIND_OUTPUT || (kind == KIND_INPUT && is_connected(v->doc, element))))
         check_connection(v, element, library_type(v->lib, doc_attr_value(v->doc, element, STR_type)));
     validate_attributes_of(v, element);
+    validate_declaration(v, element);
 }
 
 /* ---- What nobody uses ---- */

@@ -19,4 +19,9 @@ void validate_input(struct validate *v, elem_id node, uint32_t nodedef, const st
 /* validate_inputs.c: units, colour spaces, ranges and lists of words that an element says by itself. */
 void validate_attributes_of(struct validate *v, elem_id element);
 
+/* validate_rules.c: what the specification asks beyond that: uniform inputs stay uniform, declarations fit, units have a type of numbers. */
+void validate_uniform(struct validate *v, elem_id node, const struct port *port, const struct binding *binding);
+void validate_declaration(struct validate *v, elem_id element);
+void validate_unit_type(struct validate *v, elem_id element);
+
 #endif

@@ -167,6 +167,7 @@ void validate_attributes_of(struct validate *v, elem_id element)
     if (version && !is_version(text_of(v, version)))
         diag_add(v->diags, DIAG_ID_bad_nodedef_version, doc_attr_place(v->doc, element, STR_version), text_of(v, version));
     check_unit(v, element);
+    validate_unit_type(v, element);
     check_space(v, element);
     check_bounds(v, element, STR_uimin, STR_uimax);
     check_bounds(v, element, STR_uisoftmin, STR_uisoftmax);

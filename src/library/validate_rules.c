@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * Rules of the MaterialX specification that generation does not need: it takes what was probably meant, other programs may not. Section
+ * names are those of its main document.
+ */
+#include "library/validate.h"
+
+static const char *text_of(const struct validate *v, str_id id)
+{
+    return str_text(&v->lib->strings, id);
+}
+
+static bool is_array(doc_type type)
+{
+    return type >= DOC_TYPE_integerarray && type <= DOC_TYPE_geomnamearray;
+}
+
+/* "Inputs": strings, files and lists do not vary over a surface. */
+static bool is_uniform_type(doc_type type)
+{
+    return type == DOC_TYPE_string || type == DOC_TYPE_filename || is_array(type);
+}
+
+/* ---- Uniform inputs ---- */
+
+static elem_id child_input(const struct validate *v, elem_id node, const char *name)
+{
+    for (elem_id e = doc_element(v->doc, node)->first_child; e; e = doc_element(v->doc, e)->next)
+        if (strcmp(text_of(v, doc_element(v->doc, e)->name), name) == 0)
+            return e;
+    return 0;
+}
+
+/* Through <dot>, which passes its input on. 0: none. */
+static elem_id source_of_dots(struct validate *v, elem_id node)
+{
+    for (unsigned depth = 0; node && strcmp(text_of(v, doc_element(v->doc, node)->category), "dot") == 0; depth++) {
+        elem_id in = child_input(v, node, "in");
+        str_id name = in ? doc_attr_value(v->doc, in, STR_nodename) : 0;
+        node = name && depth < 64 ? doc_child_of_kind(v->doc, doc_element(v->doc, node)->parent, KIND_NODE, name) : 0;
+    }
+    return node;
+}
+
+static bool gives_uniform(struct validate *v, elem_id node, unsigned output)
+{
+    const char *category = text_of(v, doc_element(v->doc, node)->category);
+    struct diag_list unheard; /* the node is checked by itself */
+    diag_list_init(&unheard, v->resolved.arena);
+    if (strcmp(category, "constant") == 0 || strcmp(category, "geompropvalueuniform") == 0)
+        return true;
+    uint32_t nodedef = library_match(v->lib, node, &unheard);
+    if (nodedef == LIBRARY_NONE || output >= library_nodedef(v->lib, nodedef)->num_outputs)
+        return true; /* unknown */
+    const struct port *ports = library_ports(v->lib, nodedef, NULL);
+    return ports[library_nodedef(v->lib, nodedef)->num_inputs + output].flags & PORT_UNIFORM;
+}
+
+static bool is_uniform_interface(const struct validate *v, const struct binding *binding)
+{
+    elem_id graph = library_graph_around(v->lib, binding->element);
+    uint32_t nodedef = graph ? library_implemented_nodedef(v->lib, graph) : LIBRARY_NONE;
+    int input = nodedef == LIBRARY_NONE ? -1 : library_find_input(v->lib, nodedef, binding->ref);
+    if (input < 0)
+        return true; /* of a compound graph, or told already */
+    const struct port *port = &library_ports(v->lib, nodedef, NULL)[input];
+    return port->flags & PORT_UNIFORM || is_uniform_type(port->type);
+}
+
+void validate_uniform(struct validate *v, elem_id node, const struct port *port, const struct binding *binding)
+{
+    if (!(port->flags & PORT_UNIFORM || is_uniform_type(port->type)))
+        return;
+    str_id varies = 0;
+    if (binding->kind == BIND_INTERFACE && !is_uniform_interface(v, binding))
+        varies = binding->ref;
+    if (binding->kind == BIND_NODE && binding->ref >= v->doc->first_element) {
+        elem_id source = source_of_dots(v, binding->ref);
+        if (source && !gives_uniform(v, source, source == binding->ref ? binding->output : 0))
+            varies = doc_element(v->doc, source)->name;
+    }
+    elem_id input = varies ? child_input(v, node, text_of(v, port->name)) : 0; /* not the output of a graph between */
+    if (input)
+        diag_add(v->diags, DIAG_ID_uniform_connected, doc_place(v->doc, input), text_of(v, port->name),
+                 text_of(v, doc_element(v->doc, node)->category), text_of(v, varies));
+}
+
+/* ---- Declarations ---- */
+
+static void tell(struct validate *v, elem_id element, const char *what)
+{
+    const struct element *e = doc_element(v->doc, element);
+    diag_add(v->diags, DIAG_ID_bad_definition, doc_place(v->doc, element), text_of(v, e->category), text_of(v, e->name), what);
+}
+
+static bool has(const struct validate *v, elem_id element, str_id attr)
+{
+    return doc_attr(v->doc, element, attr) != NULL;
+}
+
+static bool is_connected(const struct validate *v, elem_id port)
+{
+    return has(v, port, STR_nodename) || has(v, port, STR_nodegraph) || has(v, port, STR_interfacename);
+}
+
+/* "NodeDef Input Elements" */
+static void check_declared_input(struct validate *v, elem_id input)
+{
+    doc_type type = library_type(v->lib, doc_attr_value(v->doc, input, STR_type));
+    bool is_uniform = doc_attr_is_true(v->doc, input, STR_uniform), takes_geometry = has(v, input, STR_defaultgeomprop);
+    if (is_uniform_type(type) && !is_uniform)
+        tell(v, input, "takes strings, files or lists, which do not vary: say uniform=\"true\"");
+    if (takes_geometry && is_uniform)
+        tell(v, input, "is uniform, and its defaultgeomprop varies");
+    else if (takes_geometry && type != DOC_TYPE_vector2 && type != DOC_TYPE_vector3)
+        tell(v, input, "has a defaultgeomprop, which only vector2 and vector3 can have");
+    else if (takes_geometry && has(v, input, STR_value))
+        tell(v, input, "has a value and a defaultgeomprop: one of them counts");
+}
+
+/* "NodeDef Output Elements" */
+static void check_declared_output(struct validate *v, elem_id nodedef, elem_id output)
+{
+    str_id name = doc_attr_value(v->doc, output, STR_defaultinput);
+    elem_id input = name ? doc_child_of_kind(v->doc, nodedef, KIND_INPUT, name) : 0;
+    if (is_connected(v, output))
+        tell(v, output, "is of a definition, where nothing is connected");
+    if (input && doc_attr_value(v->doc, input, STR_type) != doc_attr_value(v->doc, output, STR_type))
+        tell(v, output, "has a defaultinput of another type");
+    else if (name && !input && !has(v, nodedef, STR_inherit))
+        tell(v, output, "has a defaultinput that is no input");
+}
+
+static void check_nodedef(struct validate *v, elem_id nodedef)
+{
+    for (elem_id e = doc_element(v->doc, nodedef)->first_child; e; e = doc_element(v->doc, e)->next) {
+        if (doc_element(v->doc, e)->kind == KIND_INPUT)
+            check_declared_input(v, e);
+        else if (doc_element(v->doc, e)->kind == KIND_OUTPUT)
+            check_declared_output(v, nodedef, e);
+    }
+}
+
+/* "Functional Nodegraphs": the definition says what goes in and out. */
+static void check_functional_graph(struct validate *v, elem_id graph, uint32_t id)
+{
+    const struct nodedef *def = library_nodedef(v->lib, id);
+    const struct port *outputs = library_ports(v->lib, id, NULL) + def->num_inputs;
+    for (elem_id e = doc_element(v->doc, graph)->first_child; e; e = doc_element(v->doc, e)->next)
+        if (doc_element(v->doc, e)->kind == KIND_INPUT) {
+            tell(v, e, "is of a graph that implements a definition, whose inputs count");
+            break;
+        }
+    for (unsigned i = 0; i < def->num_outputs; i++) {
+        elem_id output = doc_child_of_kind(v->doc, graph, KIND_OUTPUT, outputs[i].name);
+        for (elem_id e = doc_element(v->doc, graph)->first_child; e && !output && def->num_outputs == 1; e = doc_element(v->doc, e)->next)
+            output = doc_element(v->doc, e)->kind == KIND_OUTPUT ? e : 0; /* the only one may have any name */
+        if (!output)
+            tell(v, graph, "lacks an output of the definition that it implements");
+        else if (library_type(v->lib, doc_attr_value(v->doc, output, STR_type)) != outputs[i].type)
+            tell(v, output, "has another type than in the definition that its graph implements");
+    }
+}
+
+static void check_graph(struct validate *v, elem_id graph)
+{
+    uint32_t nodedef = library_implemented_nodedef(v->lib, graph);
+    if (nodedef != LIBRARY_NONE)
+        check_functional_graph(v, graph, nodedef);
+    for (elem_id e = doc_element(v->doc, graph)->first_child; e; e = doc_element(v->doc, e)->next)
+        if (doc_element(v->doc, e)->kind == KIND_OUTPUT && !is_connected(v, e) && !has(v, e, STR_value))
+            tell(v, e, "is connected to nothing");
+}
+
+/* "Custom Geometric Properties" */
+static void check_geompropdef(struct validate *v, elem_id element)
+{
+    doc_type type = library_type(v->lib, doc_attr_value(v->doc, element, STR_type));
+    bool is_uniform = doc_attr_is_true(v->doc, element, STR_uniform), is_standard = has(v, element, STR_geomprop);
+    bool is_placed = has(v, element, STR_space) || has(v, element, STR_index);
+    if (is_uniform_type(type) && !is_uniform)
+        tell(v, element, "has strings or files, which do not vary: say uniform=\"true\"");
+    if (is_uniform && (is_standard || is_placed))
+        tell(v, element, "is uniform, so it has no geomprop, space or index");
+    else if (is_placed && !is_standard)
+        tell(v, element, "has a space or index, which only standard properties have: say which by geomprop");
+}
+
+static void check_unit_scale(struct validate *v, elem_id unit)
+{
+    struct ir_value scale;
+    str_id text = doc_attr_value(v->doc, unit, STR_scale);
+    bool is_number = text && doc_parse_value(DOC_TYPE_float, text_of(v, text), str_len(&v->lib->strings, text), NULL, &scale);
+    if (text && (!is_number || !(scale.w[0].f > 0.0f)))
+        tell(v, unit, "needs a scale above 0");
+}
+
+void validate_declaration(struct validate *v, elem_id element)
+{
+    const struct element *e = doc_element(v->doc, element);
+    switch (e->kind) {
+    case KIND_NODEDEF:
+        check_nodedef(v, element);
+        break;
+    case KIND_NODEGRAPH:
+        check_graph(v, element);
+        break;
+    case KIND_GEOMPROPDEF:
+        check_geompropdef(v, element);
+        break;
+    case KIND_IMPLEMENTATION:
+        if (has(v, element, STR_file) && has(v, element, STR_sourcecode))
+            tell(v, element, "has a file and sourcecode: one of them counts");
+        break;
+    case KIND_TYPEDEF:
+        if (doc_type_of(e->name))
+            tell(v, element, "has the name of a type of MaterialX");
+        break;
+    case KIND_UNIT:
+        check_unit_scale(v, element);
+        break;
+    case KIND_INPUT:
+        if (doc_element(v->doc, e->parent)->kind == KIND_VARIANT && is_connected(v, element))
+            tell(v, element, "is of a variant, which has values only");
+        break;
+    default:
+        break;
+    }
+}
+
+/* "Units": floats and vectors have them, and files of such. */
+void validate_unit_type(struct validate *v, elem_id element)
+{
+    str_id name = doc_attr_value(v->doc, element, STR_type);
+    doc_type type = library_type(v->lib, name);
+    bool can_have = type == DOC_TYPE_float || type == DOC_TYPE_vector2 || type == DOC_TYPE_vector3 || type == DOC_TYPE_vector4
+                    || type == DOC_TYPE_filename || type == DOC_TYPE_floatarray
+                    || (type >= DOC_TYPE_vector2array && type <= DOC_TYPE_vector4array);
+    if (type && !can_have && (has(v, element, STR_unit) || has(v, element, STR_unittype)))
+        diag_add(v->diags, DIAG_ID_unit_misplaced, doc_place(v->doc, element), text_of(v, doc_element(v->doc, element)->name),
+                 text_of(v, name));
+}
