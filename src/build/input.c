@@ -55,7 +55,8 @@ static ir_ref constant(struct builder *b, const struct port *port, str_id text, 
     if (parse(b, port->type, text, port, &value))
         return ir_const(b->graph, &value);
     diag_add(b->diags, DIAG_ID_bad_value, doc_attr_place(doc_of(b), element, STR_value), build_text(b, text),
-             build_text(b, library_type_name(b->lib, port->type)));
+             build_text(b, library_type_name(b->lib, port->type)),
+             doc_value_fault(port->type, build_text(b, text), str_len(&b->lib->strings, text), b->diags->arena));
     return ir_poison(b->graph, ir);
 }
 

@@ -42,6 +42,8 @@ bool doc_parse_value(doc_type type, const char *text, size_t len, struct strpool
 
 /* Whether a text is a value of the type; arrays too. Types without a form of their own (strings, file names, shaders): always. */
 bool doc_value_is_valid(doc_type type, const char *text, size_t len);
+/* What is wrong with a value that is not valid, to be said behind it. */
+const char *doc_value_fault(doc_type type, const char *text, size_t len, struct arena *arena);
 
 /* document.c */
 

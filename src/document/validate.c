@@ -79,12 +79,29 @@ static bool is_foreign(const struct validation *v, elem_id element)
     return e->kind == KIND_NODE && e->parent && doc_element(v->doc, e->parent)->kind == KIND_NODE;
 }
 
+/* Materials had elements of their own before 1.38, which the upgrade knows where the version says so. */
+static bool is_outdated(const struct validation *v, elem_id element)
+{
+    static const char *const names[] = {"shaderref", "bindinput", "bindparam", "bindtoken", "materialinherit"};
+    const char *category = is_foreign(v, element) ? text_of(v, doc_element(v->doc, element)->category) : "";
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        if (strcmp(names[i], category) == 0)
+            return true;
+    return false;
+}
+
 static void check_place(struct validation *v, elem_id element)
 {
     const struct element *e = doc_element(v->doc, element);
     const struct element *parent = doc_element(v->doc, e->parent);
     if (rules[e->kind].parents >> parent->kind & 1)
         return;
+    if (is_outdated(v, element)) {
+        if (!v->is_age_told)
+            diag_add(v->diags, DIAG_ID_outdated_element, doc_place(v->doc, element), text_of(v, e->category));
+        v->is_age_told = true;
+        return;
+    }
     diag_add(v->diags, is_foreign(v, element) ? DIAG_ID_foreign_element : DIAG_ID_misplaced_element, doc_place(v->doc, element),
              text_of(v, e->category), text_of(v, parent->category));
 }
@@ -155,7 +172,7 @@ static void check_value(struct validation *v, elem_id element, doc_type type, st
 {
     if (value && !doc_value_is_valid(type, text_of(v, value), str_len(v->doc->strings, value)))
         diag_add(v->diags, DIAG_ID_bad_value, doc_attr_place(v->doc, element, attr), text_of(v, value),
-                 text_of(v, doc_type_name(type)));
+                 text_of(v, doc_type_name(type)), doc_value_fault(type, text_of(v, value), str_len(v->doc->strings, value), v->arena));
 }
 
 static void check_type_and_values(struct validation *v, elem_id element)
@@ -201,7 +218,8 @@ static void check_standing(struct validation *v, elem_id element)
 {
     const struct element *e = doc_element(v->doc, element);
     check_place(v, element);
-    check_required(v, element);
+    if (!is_outdated(v, element))
+        check_required(v, element);
     if (e->kind == KIND_INPUT || e->kind == KIND_OUTPUT)
         check_bindings(v, element);
 }

@@ -13,6 +13,7 @@ struct validation {
     const struct document *doc;
     struct diag_list *diags;
     struct arena *arena;
+    bool is_age_told; /* that there are elements older than the version that the document says */
     struct good_attribute { /* kinds of elements on which an attribute was found to mean something */
         str_id name;
         uint64_t kinds;

@@ -37,8 +37,8 @@ static size_t parse_number(bool integer, const char *text, size_t len, union ir_
     return read;
 }
 
-/* Reads numbers up to the end of the text; returns how many, or -1 where something else stands there. */
-static int64_t parse_numbers(bool integer, const char *text, size_t len, union ir_word *out, size_t max_kept)
+/* Reads numbers up to the end of the text; returns how many, or -1 where what stands at *out_fault is none. */
+static int64_t find_numbers(bool integer, const char *text, size_t len, union ir_word *out, size_t max_kept, size_t *out_fault)
 {
     size_t at = skip_spaces(text, len, 0), count = 0;
     if (at == len)
@@ -46,18 +46,26 @@ static int64_t parse_numbers(bool integer, const char *text, size_t len, union i
     for (;;) {
         union ir_word word;
         size_t read = parse_number(integer, text + at, len - at, &word);
+        *out_fault = at;
         if (read == 0)
             return -1;
         if (count < max_kept)
             out[count] = word;
         count++;
-        at += read;
-        if (skip_spaces(text, len, at) == len)
+        if (skip_spaces(text, len, at + read) == len)
             return (int64_t)count;
-        at = skip_separator(text, len, at);
+        at = skip_separator(text, len, at + read);
+        if (at == len)
+            *out_fault = at;
         if (at == 0 || at == len)
             return -1;
     }
+}
+
+static int64_t parse_numbers(bool integer, const char *text, size_t len, union ir_word *out, size_t max_kept)
+{
+    size_t fault;
+    return find_numbers(integer, text, len, out, max_kept, &fault);
 }
 
 static bool parse_bool(const char *text, size_t len, union ir_word *out)
@@ -96,4 +104,27 @@ bool doc_value_is_valid(doc_type type, const char *text, size_t len)
     static const uint8_t group[] = {1, 1, 3, 4, 2, 3, 4};
     int64_t count = parse_numbers(type == DOC_TYPE_integerarray, text, len, NULL, 0);
     return count >= 0 && count % group[type - DOC_TYPE_integerarray] == 0;
+}
+
+const char *doc_value_fault(doc_type type, const char *text, size_t len, struct arena *arena)
+{
+    struct text said;
+    size_t fault = 0, end;
+    bool integer = type == DOC_TYPE_integer || type == DOC_TYPE_integerarray;
+    text_init(&said, arena);
+    if (type == DOC_TYPE_boolean)
+        return ": it is 'true' or 'false'";
+    int64_t count = find_numbers(integer, text, len, NULL, 0, &fault);
+    if (count >= 0) {
+        text_fmt(&said, ": it has %d number%s", (int)count, count == 1 ? "" : "s");
+        if (doc_type_components(type))
+            text_fmt(&said, " instead of %u", doc_type_components(type));
+        return text_cstr(&said);
+    }
+    for (end = fault; end < len && text[end] != ',' && !is_space(text[end]);)
+        end++;
+    if (end == fault)
+        return ": a number is missing behind a comma";
+    text_fmt(&said, ": '%.*s' is no %s", (int)(end - fault), text + fault, integer ? "integer" : "number");
+    return text_cstr(&said);
 }
