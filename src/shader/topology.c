@@ -31,6 +31,17 @@ static void add_text(struct hasher *h, str_id id)
     add(h, hash_stable(HASH_STABLE_SEED, text, str_len(h->shader->strings, id)));
 }
 
+/* Strings by their text: their ids depend on what else there is. */
+static void add_words(struct hasher *h, ir_type_id type, const union ir_word *words)
+{
+    if (type == IR_TYPE_STRING) {
+        add_text(h, words->u);
+        return;
+    }
+    for (uint32_t i = 0; i < ir_type_info(type)->components; i++)
+        add(h, words[i].u);
+}
+
 static void add_variables(struct hasher *h)
 {
     for (uint32_t i = 0; i < h->shader->interface.len; i++) {
@@ -59,8 +70,7 @@ static void add_tree_node(struct hasher *h, const struct lang_unit *layer, const
     if (node->kind == LANG_GLOBAL)
         add_text(h, lang_global(h->shader->unit, node->a, NULL)->name);
     if (node->kind == LANG_CONST && node->type < IR_NUM_TYPES)
-        for (uint32_t i = 0; i < ir_type_info(node->type)->components; i++)
-            add(h, layer->words.items[node->a + i].u);
+        add_words(h, node->type, layer->words.items + node->a);
 }
 
 static void add_tree(struct hasher *h, const struct lang_unit *layer, lang_ref root)
@@ -135,11 +145,8 @@ static void add_node(struct hasher *h, ir_ref ref)
     add(h, (uint64_t)node->op << 48 | (uint64_t)node->type << 32 | node->num_args);
     add(h, attribute(h, ref));
     struct ir_value value;
-    if (node->op == IR_CONST && node->type == IR_TYPE_STRING) /* its number is not the same in another build */
-        add_text(h, graph->words.items[node->attr].u);
-    else if (node->op == IR_CONST && ir_get_const(graph, ref, &value))
-        for (uint32_t i = 0; i < ir_type_info(value.type)->components; i++)
-            add(h, value.w[i].u);
+    if (node->op == IR_CONST && ir_get_const(graph, ref, &value))
+        add_words(h, value.type, value.w);
     for (uint32_t i = 0; i < node->num_args; i++)
         add(h, h->node_numbers[ir_arg(graph, ref, i)]);
 }

@@ -425,8 +425,28 @@ static uint64_t topology(const char *uniform_name, const char *garbage, float co
     return hash;
 }
 
+/* Of a shader that compares a string with `mode`; `garbage` is a string that was known before. */
+static uint64_t topology_of_string(const char *garbage, const char *mode)
+{
+    struct fixture f;
+    fixture_open(&f, NULL);
+    if (garbage)
+        word(&f, garbage);
+    ir_ref constant = ir_const_string(&f.graph, word(&f, mode));
+    ir_ref equal = ir_build(&f.graph, IR_EQ, IR_TYPE_BOOL, 0, (ir_ref[]){uniform(&f, "mode", IR_TYPE_STRING), constant}, 2);
+    accumulate(&f, vec3_of(&f, ir_convert(&f.graph, IR_TYPE_FLOAT, equal)));
+    write_color(&f);
+    scheduled(&f);
+    uint64_t hash = shader_topology(&f.shader, &f.arena);
+    fixture_close(&f);
+    return hash;
+}
+
 static void test_topology(void)
 {
+    uint64_t string = topology_of_string(NULL, "round and round");
+    REQUIRE(string == topology_of_string("something else", "round and round"));
+    REQUIRE(string != topology_of_string(NULL, "back and forth"));
     uint64_t hash = topology("base", NULL, 2, IR_MUL);
     REQUIRE(hash == topology("base", NULL, 2, IR_MUL));
     REQUIRE(hash == topology("other_name", NULL, 2, IR_MUL));
