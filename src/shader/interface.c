@@ -188,7 +188,7 @@ uint32_t shader_global_variable(const struct shader *shader, uint32_t global_id)
 /* ---- Uniforms ---- */
 
 struct uniform_row {
-    str_id name;
+    str_id semantic;
     ir_type_id type;
     float value;
 };
@@ -198,6 +198,28 @@ static const struct uniform_row uniform_rows[] = {
 #define UNIFORM(name, TYPE, value) {STR_##name, IR_TYPE_##TYPE, value},
 #include "shader/streams.def"
 };
+enum {
+#define UNIFORM(name, TYPE, value) ROW_##name,
+#include "shader/streams.def"
+};
+
+static const struct uniform_row *find_uniform(str_id name)
+{
+    switch (name) {
+#define UNIFORM(name, TYPE, value) \
+    case STR_u_##name: \
+        return &uniform_rows[ROW_##name];
+#include "shader/streams.def"
+    default:
+        return NULL;
+    }
+}
+
+static str_id semantic_of(struct shader *shader, str_id name)
+{
+    const char *text = str_text(shader->strings, name);
+    return strncmp(text, "u_", 2) == 0 ? str_intern_z(shader->strings, text + 2) : name;
+}
 
 static struct ir_value default_value(ir_type_id type, float number)
 {
@@ -220,10 +242,7 @@ static struct ir_value default_value(ir_type_id type, float number)
 
 uint32_t shader_private_uniform(struct shader *shader, str_id name, ir_type_id type, uint16_t array_length)
 {
-    const struct uniform_row *row = NULL;
-    for (size_t i = 0; i < sizeof uniform_rows / sizeof *uniform_rows && !row; i++)
-        if (name == uniform_rows[i].name)
-            row = &uniform_rows[i];
+    const struct uniform_row *row = find_uniform(name);
     type = row ? row->type : type;
     enum shader_block block = uniform_block(type);
     uint32_t found = find_binding(shader, block, name, scalar_of(type));
@@ -235,8 +254,7 @@ uint32_t shader_private_uniform(struct shader *shader, str_id name, ir_type_id t
         variable.has_default = true;
         variable.value = default_value(variable.type, row ? row->value : 0);
     }
-    const char *text = str_text(shader->strings, name);
-    variable.semantic = str_intern_z(shader->strings, strncmp(text, "u_", 2) == 0 ? text + 2 : text);
+    variable.semantic = row ? row->semantic : semantic_of(shader, name);
     return bind(shader, &variable);
 }
 
