@@ -209,10 +209,10 @@ static uint32_t find_light(const struct generation *g, const char *node, size_t 
     const struct library *lib = &g->document->layer;
     str_id name = str_find(&g->result->strings, node, len);
     for (const struct library *layer = name ? lib : NULL; layer; layer = layer->base)
-        for (uint32_t i = 0; i < layer->nodedefs.len; i++) {
+        for (uint32_t i = library_first_of_node(layer, name); i != LIBRARY_NONE; i = layer->nodedefs.items[i].next_same_node) {
             const struct nodedef *def = &layer->nodedefs.items[i];
             const struct port *ports = layer->ports.items + def->first_port;
-            if (def->node == name && def->num_outputs == 1 && ports[def->num_inputs].type == DOC_TYPE_lightshader)
+            if (def->num_outputs == 1 && ports[def->num_inputs].type == DOC_TYPE_lightshader)
                 return layer->base_nodedefs + i;
         }
     return LIBRARY_NONE;

@@ -154,6 +154,8 @@ const struct family *library_family(const struct library *lib, uint32_t id);
 const struct verbatim *library_verbatim(const struct library *lib, uint32_t id);
 const struct geomprop *library_geomprop(const struct library *lib, str_id name);
 uint32_t library_num_nodedefs(const struct library *lib); /* with lower layers */
+/* The first definition of a node in one layer, by its own index; LIBRARY_NONE. `next_same_node` leads on. */
+uint32_t library_first_of_node(const struct library *layer, str_id node);
 
 /* The ports of a definition: inputs, then outputs. */
 const struct port *library_ports(const struct library *lib, uint32_t nodedef, const struct library **out_layer);

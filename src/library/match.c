@@ -9,8 +9,7 @@ static const char *text_of(const struct library *lib, str_id id)
     return str_text(&lib->strings, id);
 }
 
-/* The first definition of a node in one layer; LIBRARY_NONE. */
-static uint32_t first_of_node(const struct library *layer, str_id node)
+uint32_t library_first_of_node(const struct library *layer, str_id node)
 {
     if (!layer->node_table.len)
         return LIBRARY_NONE;
@@ -144,7 +143,7 @@ static void collect_misfits(const struct library *lib, elem_id node, bool of_typ
 {
     str_id category = doc_element(&lib->doc, node)->category;
     for (const struct library *layer = lib; layer; layer = layer->base)
-        for (uint32_t own = first_of_node(layer, category); own != LIBRARY_NONE; own = layer->nodedefs.items[own].next_same_node) {
+        for (uint32_t own = library_first_of_node(layer, category); own != LIBRARY_NONE; own = layer->nodedefs.items[own].next_same_node) {
             uint32_t id = layer->base_nodedefs + own;
             bool gives = fit_outputs(lib, library_nodedef(lib, id), library_ports(lib, id, NULL), node).fit != FIT_NOT;
             if (gives == of_type && fit(lib, id, node, false).fit == FIT_NOT)
@@ -227,7 +226,7 @@ uint32_t library_match(const struct library *lib, elem_id node, struct diag_list
     uint32_t with_extra = LIBRARY_NONE;
     bool known = false;
     for (const struct library *layer = lib; layer; layer = layer->base)
-        for (uint32_t own = first_of_node(layer, category); own != LIBRARY_NONE;
+        for (uint32_t own = library_first_of_node(layer, category); own != LIBRARY_NONE;
              own = layer->nodedefs.items[own].next_same_node) {
             known = true;
             struct candidate c = fit(lib, layer->base_nodedefs + own, node, false);

@@ -6,13 +6,13 @@
 #include "base/hash.h"
 #include "spell/spell.h"
 
-enum { FIRST_ENTRIES = 160 }; /* the names of a usual shader, so that they are not moved while they come */
+enum { SLOTS = 512, FEW_SLOTS = 64 }; /* at first: those of usual stages are not moved while they come */
 
-void names_init(struct name_set *names, struct arena *arena, const struct lang_style *style)
+void names_init(struct name_set *names, struct arena *arena, const struct lang_style *style, bool few)
 {
-    *names = (struct name_set){.arena = arena, .style = style, .mask = 511};
+    *names = (struct name_set){.arena = arena, .style = style, .mask = (few ? FEW_SLOTS : SLOTS) - 1};
     names->table = ARENA_ARRAY(arena, uint32_t, names->mask + 1);
-    vec_reserve(arena, &names->entries, FIRST_ENTRIES);
+    vec_reserve(arena, &names->entries, names->mask / 3);
 }
 
 void names_open_scope(struct name_set *names)

@@ -34,7 +34,8 @@ struct name_set {
     } recent[NAMES_RECENT];
 };
 
-void names_init(struct name_set *names, struct arena *arena, const struct lang_style *style);
+/* `few`: less names are to be expected than a pixel stage has. */
+void names_init(struct name_set *names, struct arena *arena, const struct lang_style *style, bool few);
 void names_open_scope(struct name_set *names); /* a new function: the names of the one before are free again */
 /* Texts given to these two must live as long as the set. */
 /* `text` made an identifier, with a number behind it where that is reserved or taken. */
