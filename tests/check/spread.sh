@@ -75,6 +75,28 @@ check 'as if there were none' eval 'exits 1 "$mxgen" check show --no-compile --j
 check 'a cache that cannot be written is told' exits 0 "$mxgen" check show/m2.mtlx --no-compile --cache show/m1.mtlx
 check 'and changes no verdict' grep -q '^warning: the cache' err
 
+# A disk that is full, then has room, then is read only
+mkdir disk
+on_disk() { unshare -rm sh -c "mount -t tmpfs -o size=16k none disk && $1" >out 2>err; }
+run='mxgen check show --no-compile --cache disk/cache'
+if on_disk true; then
+    check 'a full disk' on_disk "{ $run --json full.json; test \$? -eq 1; }"
+    check 'is told' grep -q "^warning: the cache 'disk/cache' cannot be written: No space left" err
+    check 'and changes no verdict' cmp full.json none.json
+    check 'what it kept is whole' on_disk "{ $run; mount -o remount,size=8m disk; $run; $run --json again.json; test -z \"\$(find disk -name '*.tmp')\"; }"
+    check 'and the rest is made' is "$(sed -n 's/.*; \([0-9]*\) documents unchanged.*/\1/p' out | tail -n 1)" 15
+    check 'into the same report' cmp again.json none.json
+    check 'a disk that is read only' on_disk "{ mount -o remount,ro disk; $run --json ro.json; test \$? -eq 1; }"
+    check 'is told as well' grep -q "^warning: the cache 'disk/cache' cannot be written: Read-only" err
+    check 'and changes no verdict either' cmp ro.json none.json
+    check 'a report that cannot be written' on_disk "{ mount -o remount,ro disk; $run --json disk/r.json; test \$? -eq 1; }"
+    check 'is an error' grep -q "^error: cannot write 'disk/r.json': Read-only file system \[output-failed\]" err
+    check 'one on a full disk' on_disk "{ head -c 12000 /dev/zero >disk/fill; mxgen check show --no-compile --json disk/r.json; test \$(ls disk) = fill; }"
+    check 'is one, too, and leaves nothing' grep -q "^error: cannot write 'disk/r.json': No space left on device \[output-failed\]" err
+else
+    skip 'no file system of our own can be mounted here: full and read-only disks were not tried'
+fi
+
 # kill -9 at odd moments
 for delay in 0.01 0.02 0.03 0.05 0.08 0.12 0.2; do
     "$mxgen" check show --no-compile --cache killed --json killed.json >/dev/null 2>&1 &
