@@ -150,6 +150,8 @@ def checks(folder):
     print(f"\nmxgen check, {len(files)} documents of {root}, one worker, ratios of processor time")
     print(f"{'documents a second without compiling, to xmllint --noout of all in one process':85} {alone / generate:6.2f} {'> 0.33':>8}")
     print(f"{'the same, to an xmllint for each document':85} {each / generate:6.2f}")
+    report = cpu(*check, "--no-compile", "--json", f"{folder}/report.json")
+    print(f"{'with a JSON report, for which every shader is written and measured':85} {alone / report:6.2f}")
     part = [path for path in files if "/wild/" not in path] or files
     cache = f"{folder}/cache"
     first = cpu(MXGEN, "check", "-q", "-j1", *part)
