@@ -75,6 +75,14 @@ enum shader_alpha closure_alpha(struct shader *shader, ir_ref alpha);
 ir_ref closure_mul(struct ir_graph *graph, ir_ref a, ir_ref b);
 /* product.c: the same, arranged for values that change from turn to turn of a loop. */
 ir_ref closure_product(struct ir_graph *graph, ir_ref value, ir_ref weight);
+/* What a leaf adds to the colour in one place: a value with its weight. */
+struct closure_part {
+    const struct closure_leaf *leaf;
+    ir_ref value;
+    bool is_guarded; /* a branch is needed where the leaf's weight is 0 */
+};
+/* guard.c: finds which need one. in_loop: only what is computed in each turn counts. */
+void closure_find_guarded(struct shader *shader, struct closure_part *parts, uint32_t count, bool in_loop);
 ir_ref closure_one_minus(struct ir_graph *graph, ir_ref a);
 /* Two closures of one type, either of which may be 0: none. */
 ir_ref closure_mixed(struct ir_graph *graph, ir_ref bg, ir_ref fg, ir_ref mix);

@@ -8,7 +8,7 @@
  *     for each sample of the environment: color += what these functions give for it
  *     out1 = vec4(color · opacity, opacity)
  *
- * A leaf whose weight is not known at compile time may have weight 0: it stands behind `if (weight > 0)`.
+ * A leaf whose weight is not known at compile time may have weight 0: what is dear of it stands behind `if (weight > 0)`.
  */
 #include "closure/closure_priv.h"
 
@@ -61,19 +61,14 @@ static void declare_color(struct emitter *e)
     effect(e, EFFECT_VAR, e->lit.color, e->lit.base ? vec3_of(e, e->lit.base) : ir_const_splat(e->graph, IR_TYPE_VEC3, 0.0f));
 }
 
-/* What leaves add to the colour in one place: values with their weights. */
-struct part {
-    const struct closure_leaf *leaf;
-    ir_ref value;
-};
 struct part_list {
-    VEC(struct part) parts;
+    VEC(struct closure_part) parts;
 };
 
 static void add_part(struct emitter *e, struct part_list *list, const struct closure_leaf *leaf, ir_ref value)
 {
     if (value)
-        vec_push(e->shader->arena, &list->parts, (struct part){leaf, value});
+        vec_push(e->shader->arena, &list->parts, (struct closure_part){leaf, value, false});
 }
 
 static void accumulate(struct emitter *e, ir_ref factor, ir_ref value)
@@ -84,17 +79,19 @@ static void accumulate(struct emitter *e, ir_ref factor, ir_ref value)
     e->graph->origin = before;
 }
 
-/* color += factor · Σ parts. Leaves that are always there share one line; the others stand behind their guards. */
-static void accumulate_all(struct emitter *e, const struct part_list *list, ir_ref factor)
+/* color += factor · Σ parts. Leaves that are always computed share one line; the others stand behind their guards. */
+static void accumulate_all(struct emitter *e, struct part_list *list, ir_ref factor, bool in_loop)
 {
     struct ir_graph *g = e->graph;
     ir_ref always = 0;
+    closure_find_guarded(e->shader, list->parts.items, list->parts.len, in_loop);
     for (uint32_t i = 0; i < list->parts.len;) {
-        ir_ref guard = list->parts.items[i].leaf->scalar, sum = 0;
+        const struct closure_part *first = &list->parts.items[i];
+        ir_ref guard = first->leaf->scalar, sum = 0;
         do
             sum = add(e, sum, list->parts.items[i++].value);
-        while (i < list->parts.len && list->parts.items[i].leaf->scalar == guard);
-        if (ir_is_const(g, guard)) {
+        while (i < list->parts.len && list->parts.items[i].leaf->scalar == guard && list->parts.items[i].is_guarded == first->is_guarded);
+        if (!first->is_guarded || ir_is_const(g, guard)) {
             always = add(e, always, sum);
             continue;
         }
@@ -147,7 +144,7 @@ static void emit_lights(struct emitter *e, ir_ref bsdf, const struct closure_lis
         add_part(e, &parts, leaf, value);
         emitted[i] |= value != 0;
     }
-    accumulate_all(e, &parts, e->lit.light.intensity);
+    accumulate_all(e, &parts, e->lit.light.intensity, true);
     effect(e, EFFECT_END, 0, 0);
     e->shader->lit = true;
 }
@@ -172,10 +169,10 @@ static void emit_environment(struct emitter *e, const struct closure_list *list,
     if (!whole.parts.len && !sampled.parts.len)
         return;
     declare_color(e);
-    accumulate_all(e, &whole, 0);
+    accumulate_all(e, &whole, 0, false);
     if (sampled.parts.len) {
         effect(e, EFFECT_SAMPLES, 0, 0);
-        accumulate_all(e, &sampled, 0);
+        accumulate_all(e, &sampled, 0, true);
         effect(e, EFFECT_END, 0, 0);
     }
     e->shader->lit = true;

@@ -139,10 +139,27 @@ static ir_ref simplify_swizzle(struct ir_graph *graph, ir_type_id type, uint32_t
     return ir_intern_const(graph, type, words); /* of a constructor with a variable that was not asked for */
 }
 
+/* The struct that all members are of, in their order; 0 where they are not one's. */
+static ir_ref whole_of(const struct ir_graph *graph, ir_type_id type, const ir_ref *members, unsigned count)
+{
+    const struct ir_node *first = ir_get(graph, members[0]);
+    ir_ref whole = first->op == IR_MEMBER ? ir_arg(graph, members[0], 0) : 0;
+    if (!whole || ir_type_of(graph, whole) != type)
+        return 0;
+    for (unsigned i = 0; i < count; i++) {
+        const struct ir_node *node = ir_get(graph, members[i]);
+        if (node->op != IR_MEMBER || node->attr != i || ir_arg(graph, members[i], 0) != whole)
+            return 0;
+    }
+    return whole;
+}
+
 static ir_ref simplify_construct(struct ir_graph *graph, ir_type_id type, const ir_ref *args, unsigned num_args)
 {
     if (num_args == 1 && ir_type_of(graph, args[0]) == type)
         return args[0];
+    if (type >= IR_NUM_TYPES)
+        return whole_of(graph, type, args, num_args);
     if (!is_vector(type))
         return 0;
     struct component list[4];

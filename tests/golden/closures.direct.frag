@@ -1,6 +1,18 @@
 #version 450
 // Varnish · surfacematerial · mxgen 0.1 · glsl · reduced · 2 closures · 0 textures
 
+struct mx_GgxLobe {
+    mat3 frame;
+    vec3 stretch;
+    float area;
+    vec3 v;
+    float masking;
+    vec3 cap;
+    float step;
+    float weight;
+    float level;
+    mat4 map;
+};
 uniform vec3 u_viewPosition = vec3(0.0);
 uniform int u_numActiveLightSources = 0;
 struct LightData {
@@ -17,29 +29,50 @@ in VertexData {
 } vd;
 out vec4 out1;
 
-vec2 mx_ggx_albedo(const float c)
+float mx_bicubic(const mat4 m, const float x)
 {
-    float u = 0.04 / (0.04 + c);
-    vec4 powers_u = vec4(1.0, u, u * u, u * u * u);
-    float x = clamp(1.0 - c - 0.04 * dot(powers_u, vec4(-0.5512581, 5.4328256, -3.6860163, 0.27730379)), 0.0, 1.0);
-    return vec2(min(1.0046 - u * dot(powers_u, vec4(-0.16347954, 2.7701693, -5.364232, 2.791722)), 1.0), x * x * x * x * x);
+    return dot(vec4(1.0, x, x * x, x * x * x), m * vec4(1.0, 0.04, 0.0016, 0.000064));
 }
 
-float mx_ggx_distribution(const vec3 h)
+vec2 mx_ggx_albedo_fit(const float u, const float c)
 {
-    vec3 e = vec3(h.xy / vec2(0.04), h.z);
-    float d = dot(e, e);
-    return 1.0 / (0.005026548 * d * d);
+    float x = clamp(1.0 - c - 0.04 * mx_bicubic(mat4(-0.2006, 5.2916, -3.7565, 0.218, -10.2439, 6.6203, -0.9657, 2.5694, 38.3042, -80.8059, 71.731, -28.5214, -34.2, 89.1079, -88.4065, 33.782), u), 0.0, 1.0);
+    return vec2(min(1.0046 - u * mx_bicubic(mat4(-0.1447, 2.759, -5.4314, 2.8497, -0.9366, 1.4766, 0.5911, -1.0905, 11.8506, -30.2645, 27.3289, -8.9414, -4.3199, 8.2596, -3.1648, -0.8054), u), 1.0), x * x * x * x * x);
 }
 
-float mx_ggx_visibility(const float cos_v, const float cos_l)
+mx_GgxLobe mx_ggx_lobe_at(const mat3 frame, const vec3 v)
 {
-    return 0.5 * cos_l / (cos_v * sqrt(mix(cos_l * cos_l, 1.0, 0.0016)) + cos_l * sqrt(mix(cos_v * cos_v, 1.0, 0.0016)));
+    return mx_GgxLobe(frame, vec3(0.04, 0.04, 1.0), 0.0016, v, sqrt(mix(v.z * v.z, 1.0, 0.0016)), normalize(v * vec3(0.04, 0.04, 1.0)), 0.0, 0.0, 0.0, mat4(1.0));
 }
 
-float mx_ggx_lobe(const vec3 N, const vec3 x, const float cos_v, const vec3 L, const vec3 H)
+mat3 mx_frame(const vec3 N, const vec3 X)
 {
-    return mx_ggx_distribution(vec3(dot(H, x), dot(H, cross(N, x)), dot(H, N))) * mx_ggx_visibility(cos_v, max(dot(N, L), 1e-8));
+    mat3 frame;
+    frame[0] = normalize(X - dot(X, N) * N);
+    frame[1] = cross(N, frame[0]);
+    frame[2] = N;
+    return frame;
+}
+
+mx_GgxLobe mx_ggx_lobe(const vec3 N, const vec3 X, const vec3 V)
+{
+    mat3 frame = mx_frame(N, X);
+    return mx_ggx_lobe_at(frame, max(V * frame, vec3(-1.0, -1.0, 1e-8)));
+}
+
+float mx_ggx_distribution(const vec3 e, const float area)
+{
+    return 1.0 / (3.1415927 * area * dot(e, e) * dot(e, e));
+}
+
+float mx_ggx_visibility(const mx_GgxLobe lobe, const float cos_l)
+{
+    return cos_l / (lobe.v.z * sqrt(mix(cos_l * cos_l, 1.0, lobe.area)) + cos_l * lobe.masking);
+}
+
+float mx_ggx_light(const mx_GgxLobe lobe, const vec3 L, const vec3 H)
+{
+    return 0.5 * mx_ggx_distribution(H * lobe.frame / lobe.stretch, lobe.area) * mx_ggx_visibility(lobe, max(dot(L, lobe.frame[2]), 1e-8));
 }
 
 float mx_fresnel_dielectric(const float cosine)
@@ -56,20 +89,19 @@ void main()
     vec3 normal = normalize(vd.normalWorld);
     vec3 V = normalize(u_viewPosition - vd.positionWorld);
     float coat = max(abs(dot(normal, V)), 1e-8);
-    vec2 coat_2 = mx_ggx_albedo(coat);
+    vec2 coat_2 = mx_ggx_albedo_fit(0.04 / (coat + 0.04), coat);
     float coat_3 = (1.0 / coat_2.x - 1.0) * 0.079748526 + 1.0;
     vec3 coat_4 = faceforward(normal, -V, normal);
-    vec3 tangent = normalize(vd.tangentWorld);
-    vec3 coat_5 = normalize(tangent - coat_4 * dot(tangent, coat_4));
+    mx_GgxLobe coat_5 = mx_ggx_lobe(coat_4, normalize(vd.tangentWorld), V);
     vec3 paint = (1.0 - mix(0.033735953, 1.0, coat_2.y) * coat_2.x * coat_3) * 0.75 * vec3(0.6, 0.1, 0.05);
     for (int i = 0; i < min(u_numActiveLightSources, 1); ++i) {
         float intensity = u_lightData[i].intensity;
         vec3 directional_light = -u_lightData[i].direction;
         vec3 coat_6 = normalize(V - u_lightData[i].direction);
-        float coat_7 = coat_3 * mx_ggx_lobe(coat_4, coat_5, coat, directional_light, coat_6);
+        float coat_7 = mx_fresnel_dielectric(clamp(dot(V, coat_6), 1e-8, 1.0));
         float paint_2 = max(dot(directional_light, coat_4), 1e-8);
         vec3 paint_3 = paint * (paint_2 / 3.1415927 * (max(dot(V, directional_light) - coat * paint_2, 0.0) * 0.225 / max(paint_2, coat) + 0.89285713));
-        vec3 t = coat_7 * mx_fresnel_dielectric(clamp(dot(V, coat_6), 1e-8, 1.0)) + paint_3;
+        vec3 t = coat_3 * mx_ggx_light(coat_5, directional_light, coat_6) * coat_7 + paint_3;
         color += u_lightData[i].color * (u_lightData[i].type == 1 ? intensity : 0.0) * t;
     }
     out1 = vec4(color, 1.0);

@@ -1,6 +1,18 @@
 #version 450
 // Varnish · surfacematerial · mxgen 0.1 · vulkan · complete · 2 closures · 0 textures
 
+struct mx_GgxLobe {
+    mat3 frame;
+    vec3 stretch;
+    float area;
+    vec3 v;
+    float masking;
+    vec3 cap;
+    float step;
+    float weight;
+    float level;
+    mat4 map;
+};
 layout(set = 0, binding = 1, std140) uniform PublicUniforms {
     float SR_varnish_opacity;
 };
@@ -36,29 +48,53 @@ layout(location = 0) in VertexData {
 } vd;
 layout(location = 0) out vec4 out1;
 
-vec2 mx_ggx_albedo(const float c)
+float mx_bicubic(const mat4 m, const float x)
 {
-    float u = 0.04 / (0.04 + c);
-    vec4 powers_u = vec4(1.0, u, u * u, u * u * u);
-    float x = clamp(1.0 - c - 0.04 * dot(powers_u, vec4(-0.5512581, 5.4328256, -3.6860163, 0.27730379)), 0.0, 1.0);
-    return vec2(min(1.0046 - u * dot(powers_u, vec4(-0.16347954, 2.7701693, -5.364232, 2.791722)), 1.0), x * x * x * x * x);
+    return dot(vec4(1.0, x, x * x, x * x * x), m * vec4(1.0, 0.04, 0.0016, 0.000064));
 }
 
-float mx_ggx_distribution(const vec3 h)
+vec2 mx_ggx_albedo_fit(const float u, const float c)
 {
-    vec3 e = vec3(h.xy / vec2(0.04), h.z);
-    float d = dot(e, e);
-    return 1.0 / (0.005026548 * d * d);
+    float x = clamp(1.0 - c - 0.04 * mx_bicubic(mat4(-0.2006, 5.2916, -3.7565, 0.218, -10.2439, 6.6203, -0.9657, 2.5694, 38.3042, -80.8059, 71.731, -28.5214, -34.2, 89.1079, -88.4065, 33.782), u), 0.0, 1.0);
+    return vec2(min(1.0046 - u * mx_bicubic(mat4(-0.1447, 2.759, -5.4314, 2.8497, -0.9366, 1.4766, 0.5911, -1.0905, 11.8506, -30.2645, 27.3289, -8.9414, -4.3199, 8.2596, -3.1648, -0.8054), u), 1.0), x * x * x * x * x);
 }
 
-float mx_ggx_visibility(const float cos_v, const float cos_l)
+mx_GgxLobe mx_ggx_lobe_at(const mat3 frame, const vec3 v)
 {
-    return 0.5 * cos_l / (cos_v * sqrt(mix(cos_l * cos_l, 1.0, 0.0016)) + cos_l * sqrt(mix(cos_v * cos_v, 1.0, 0.0016)));
+    float masking = sqrt(mix(v.z * v.z, 1.0, 0.0016));
+    float step_ = 1.0 / float(max(u_envRadianceSamples, 1));
+    float weight = step_ * (v.z + masking);
+    return mx_GgxLobe(frame, vec3(0.04, 0.04, 1.0), 0.0016, v, masking, normalize(v * vec3(0.04, 0.04, 1.0)), step_, weight * u_envLightIntensity, weight * 0.0016 * exp2(2.0 * float(u_envRadianceMips) - 2.3485), u_envMatrix);
 }
 
-float mx_ggx_lobe(const vec3 N, const vec3 x, const float cos_v, const vec3 L, const vec3 H)
+mat3 mx_frame(const vec3 N, const vec3 X)
 {
-    return mx_ggx_distribution(vec3(dot(H, x), dot(H, cross(N, x)), dot(H, N))) * mx_ggx_visibility(cos_v, max(dot(N, L), 1e-8));
+    mat3 frame;
+    frame[0] = normalize(X - dot(X, N) * N);
+    frame[1] = cross(N, frame[0]);
+    frame[2] = N;
+    return frame;
+}
+
+mx_GgxLobe mx_ggx_lobe(const vec3 N, const vec3 X, const vec3 V)
+{
+    mat3 frame = mx_frame(N, X);
+    return mx_ggx_lobe_at(frame, max(V * frame, vec3(-1.0, -1.0, 1e-8)));
+}
+
+float mx_ggx_distribution(const vec3 e, const float area)
+{
+    return 1.0 / (3.1415927 * area * dot(e, e) * dot(e, e));
+}
+
+float mx_ggx_visibility(const mx_GgxLobe lobe, const float cos_l)
+{
+    return cos_l / (lobe.v.z * sqrt(mix(cos_l * cos_l, 1.0, lobe.area)) + cos_l * lobe.masking);
+}
+
+float mx_ggx_light(const mx_GgxLobe lobe, const vec3 L, const vec3 H)
+{
+    return 0.5 * mx_ggx_distribution(H * lobe.frame / lobe.stretch, lobe.area) * mx_ggx_visibility(lobe, max(dot(L, lobe.frame[2]), 1e-8));
 }
 
 float mx_fresnel_dielectric(const float cosine)
@@ -69,33 +105,46 @@ float mx_fresnel_dielectric(const float cosine)
     return 0.5 * dot(r, r);
 }
 
-vec2 mx_latlong(const vec3 direction)
+vec2 mx_latlong(const mat4 map, const vec3 direction)
 {
-    vec3 d = normalize((u_envMatrix * vec4(direction, 0.0)).xyz);
-    return vec2(atan(d.x, -d.z), -2.0 * asin(d.y)) * 0.15915494 + vec2(0.5);
+    vec3 d = normalize((map * vec4(direction, 0.0)).xyz);
+    return vec2(atan(d.x, -d.z), -2.0 * asin(clamp(d.y, -1.0, 1.0))) * 0.15915494 + vec2(0.5);
 }
 
-vec3 mx_leave_frame(const vec3 w, const vec3 N, const vec3 x)
+vec3 mx_filtered_light(const mat4 map, const vec3 L, const float level)
 {
-    return w.x * x + w.y * cross(N, x) + w.z * N;
+    return textureLod(u_envRadiance, mx_latlong(map, L), max(0.25 * log2(level * level / dot(L.xz, L.xz)), 0.0)).xyz;
 }
 
-vec3 mx_ggx_visible_normal(const vec2 xi, const vec3 v)
+vec4 mx_ggx_sample_at(const mx_GgxLobe lobe, const vec3 h, const float level)
 {
-    float top = (1.0 - xi.y) * (1.0 + v.z);
-    float z = top - v.z;
-    return normalize(vec3((v.xy + sqrt(max(1.0 - z * z, 0.0)) * cos(6.2831855 * (xi.x - vec2(0.0, 0.25)))) * 0.04, top));
+    vec3 l = reflect(-lobe.v, h);
+    return vec4(mx_ggx_visibility(lobe, max(l.z, 1e-8)) * mx_filtered_light(lobe.map, lobe.frame * l, level), clamp(dot(lobe.v, h), 1e-8, 1.0));
 }
 
-vec4 mx_ggx_sample(const int i, const vec3 N, const vec3 x, const vec3 V, const float cos_v)
+vec3 mx_ggx_cap(const vec2 around, const float depth, const vec3 v)
 {
-    float count = float(u_envRadianceSamples);
-    vec3 h = mx_ggx_visible_normal(vec2((float(i) + 0.5) / count, fract((float(i) + 1.0) * 1.618034)), normalize(vec3(dot(V, x) * 0.04, dot(V, cross(N, x)) * 0.04, cos_v)));
-    vec3 H = mx_leave_frame(h, N, x);
-    float masking = 2.0 * (cos_v + sqrt(mix(cos_v * cos_v, 1.0, 0.0016))) / count;
-    vec3 L = reflect(-V, H);
-    float weight = mx_ggx_visibility(cos_v, max(dot(N, L), 1e-8));
-    return vec4(weight * masking * (textureLod(u_envRadiance, mx_latlong(L), max(float(u_envRadianceMips) - 2.5 - 0.5 * log2(length(L.xz) * mx_ggx_distribution(h) / masking), 0.0)).xyz * u_envLightIntensity), clamp(dot(V, H), 1e-8, 1.0));
+    return vec3(v.xy + sqrt(depth * (2.0 - depth)) * around, v.z + 1.0 - depth);
+}
+
+vec4 mx_ggx_sample(const mx_GgxLobe lobe, const vec2 around, const float xi)
+{
+    vec3 cap = mx_ggx_cap(around, xi * (1.0 + lobe.cap.z), lobe.cap);
+    vec3 h = cap * lobe.stretch;
+    float s = dot(cap, cap) / dot(h, h);
+    return mx_ggx_sample_at(lobe, normalize(h), s * s * lobe.level);
+}
+
+vec3 mx_ggx_gather(const mx_GgxLobe lobe)
+{
+    vec2 around = vec2(1.0, 0.0);
+    vec3 sum = vec3(0.0);
+    for (float xi = 0.5 * lobe.step; xi < 1.0; xi += lobe.step) {
+        vec4 light = mx_ggx_sample(lobe, around, xi);
+        sum += vec3(mx_fresnel_dielectric(light.w)) * light.xyz;
+        around = mat2(-0.7373689, 0.6754903, -0.6754903, -0.7373689) * around;
+    }
+    return lobe.weight * sum;
 }
 
 void main()
@@ -104,11 +153,10 @@ void main()
     vec3 normal = normalize(vd.normalWorld);
     vec3 V = normalize(u_viewPosition - vd.positionWorld);
     float coat = max(abs(dot(normal, V)), 1e-8);
-    vec2 coat_2 = mx_ggx_albedo(coat);
+    vec2 coat_2 = mx_ggx_albedo_fit(0.04 / (coat + 0.04), coat);
     float coat_3 = (1.0 / coat_2.x - 1.0) * 0.079748526 + 1.0;
     vec3 coat_4 = faceforward(normal, -V, normal);
-    vec3 tangent = normalize(vd.tangentWorld);
-    vec3 coat_5 = normalize(tangent - coat_4 * dot(tangent, coat_4));
+    mx_GgxLobe coat_5 = mx_ggx_lobe(coat_4, normalize(vd.tangentWorld), V);
     float paint = (1.0 - mix(0.033735953, 1.0, coat_2.y) * coat_2.x * coat_3) * 0.75;
     vec3 paint_2 = paint * vec3(0.6, 0.1, 0.05);
     for (int i = 0; i < min(u_numActiveLightSources, 3); ++i) {
@@ -124,19 +172,16 @@ void main()
         vec3 directional_light = -u_lightData[i].direction;
         vec3 L = type == 1 ? directional_light : spot_light_4;
         vec3 coat_6 = normalize(V + L);
-        float coat_7 = coat_3 * mx_ggx_lobe(coat_4, coat_5, coat, L, coat_6);
+        float coat_7 = mx_fresnel_dielectric(clamp(dot(V, coat_6), 1e-8, 1.0));
         float paint_3 = max(dot(L, coat_4), 1e-8);
         vec3 paint_4 = paint_2 * (paint_3 / 3.1415927 * (max(dot(V, L) - coat * paint_3, 0.0) * 0.225 / max(paint_3, coat) + 0.89285713));
-        vec3 t = coat_7 * mx_fresnel_dielectric(clamp(dot(V, coat_6), 1e-8, 1.0)) + paint_4;
+        vec3 t = coat_3 * mx_ggx_light(coat_5, L, coat_6) * coat_7 + paint_4;
         color += u_lightData[i].color * (type == 1 ? intensity : light_2) * t;
     }
     vec2 paint_5 = (coat * vec2(-0.7632, -0.4993) + vec2(-0.4297, -0.6076) + vec2(0.43155003, 0.60945004)) * 0.3 + vec2(1.0);
     vec3 paint_6 = paint * clamp(paint_5.x / paint_5.y, 0.0, 1.0) * vec3(0.6, 0.1, 0.05);
-    color += textureLod(u_envIrradiance, mx_latlong(coat_4), 0.0).xyz * u_envLightIntensity * paint_6;
-    for (int i = 0; i < u_envRadianceSamples; ++i) {
-        vec4 coat_8 = mx_ggx_sample(i, coat_4, coat_5, V, coat);
-        color += coat_3 * coat_8.xyz * mx_fresnel_dielectric(coat_8.w);
-    }
+    vec3 paint_7 = textureLod(u_envIrradiance, mx_latlong(u_envMatrix, coat_4), 0.0).xyz * u_envLightIntensity * paint_6;
+    color += coat_3 * mx_ggx_gather(coat_5) + paint_7;
     if (SR_varnish_opacity < u_alphaThreshold)
         discard;
     out1 = vec4(SR_varnish_opacity * color, SR_varnish_opacity);

@@ -1,6 +1,18 @@
 #version 450
 // Varnish · surfacematerial · mxgen 0.1 · glsl · reduced · 2 closures · 0 textures
 
+struct mx_GgxLobe {
+    mat3 frame;
+    vec3 stretch;
+    float area;
+    vec3 v;
+    float masking;
+    vec3 cap;
+    float step;
+    float weight;
+    float level;
+    mat4 map;
+};
 uniform vec3 u_viewPosition = vec3(0.0);
 uniform int u_numActiveLightSources = 0;
 uniform mat4 u_envMatrix = mat4(-1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 0.0, 0.0, 0.0, 1.0);
@@ -22,29 +34,50 @@ in VertexData {
 } vd;
 out vec4 out1;
 
-vec2 mx_ggx_albedo(const float c)
+float mx_bicubic(const mat4 m, const float x)
 {
-    float u = 0.04 / (0.04 + c);
-    vec4 powers_u = vec4(1.0, u, u * u, u * u * u);
-    float x = clamp(1.0 - c - 0.04 * dot(powers_u, vec4(-0.5512581, 5.4328256, -3.6860163, 0.27730379)), 0.0, 1.0);
-    return vec2(min(1.0046 - u * dot(powers_u, vec4(-0.16347954, 2.7701693, -5.364232, 2.791722)), 1.0), x * x * x * x * x);
+    return dot(vec4(1.0, x, x * x, x * x * x), m * vec4(1.0, 0.04, 0.0016, 0.000064));
 }
 
-float mx_ggx_distribution(const vec3 h)
+vec2 mx_ggx_albedo_fit(const float u, const float c)
 {
-    vec3 e = vec3(h.xy / vec2(0.04), h.z);
-    float d = dot(e, e);
-    return 1.0 / (0.005026548 * d * d);
+    float x = clamp(1.0 - c - 0.04 * mx_bicubic(mat4(-0.2006, 5.2916, -3.7565, 0.218, -10.2439, 6.6203, -0.9657, 2.5694, 38.3042, -80.8059, 71.731, -28.5214, -34.2, 89.1079, -88.4065, 33.782), u), 0.0, 1.0);
+    return vec2(min(1.0046 - u * mx_bicubic(mat4(-0.1447, 2.759, -5.4314, 2.8497, -0.9366, 1.4766, 0.5911, -1.0905, 11.8506, -30.2645, 27.3289, -8.9414, -4.3199, 8.2596, -3.1648, -0.8054), u), 1.0), x * x * x * x * x);
 }
 
-float mx_ggx_visibility(const float cos_v, const float cos_l)
+mx_GgxLobe mx_ggx_lobe_at(const mat3 frame, const vec3 v)
 {
-    return 0.5 * cos_l / (cos_v * sqrt(mix(cos_l * cos_l, 1.0, 0.0016)) + cos_l * sqrt(mix(cos_v * cos_v, 1.0, 0.0016)));
+    return mx_GgxLobe(frame, vec3(0.04, 0.04, 1.0), 0.0016, v, sqrt(mix(v.z * v.z, 1.0, 0.0016)), normalize(v * vec3(0.04, 0.04, 1.0)), 0.0, 0.0, 0.0, mat4(1.0));
 }
 
-float mx_ggx_lobe(const vec3 N, const vec3 x, const float cos_v, const vec3 L, const vec3 H)
+mat3 mx_frame(const vec3 N, const vec3 X)
 {
-    return mx_ggx_distribution(vec3(dot(H, x), dot(H, cross(N, x)), dot(H, N))) * mx_ggx_visibility(cos_v, max(dot(N, L), 1e-8));
+    mat3 frame;
+    frame[0] = normalize(X - dot(X, N) * N);
+    frame[1] = cross(N, frame[0]);
+    frame[2] = N;
+    return frame;
+}
+
+mx_GgxLobe mx_ggx_lobe(const vec3 N, const vec3 X, const vec3 V)
+{
+    mat3 frame = mx_frame(N, X);
+    return mx_ggx_lobe_at(frame, max(V * frame, vec3(-1.0, -1.0, 1e-8)));
+}
+
+float mx_ggx_distribution(const vec3 e, const float area)
+{
+    return 1.0 / (3.1415927 * area * dot(e, e) * dot(e, e));
+}
+
+float mx_ggx_visibility(const mx_GgxLobe lobe, const float cos_l)
+{
+    return cos_l / (lobe.v.z * sqrt(mix(cos_l * cos_l, 1.0, lobe.area)) + cos_l * lobe.masking);
+}
+
+float mx_ggx_light(const mx_GgxLobe lobe, const vec3 L, const vec3 H)
+{
+    return 0.5 * mx_ggx_distribution(H * lobe.frame / lobe.stretch, lobe.area) * mx_ggx_visibility(lobe, max(dot(L, lobe.frame[2]), 1e-8));
 }
 
 float mx_fresnel_dielectric(const float cosine)
@@ -55,16 +88,21 @@ float mx_fresnel_dielectric(const float cosine)
     return 0.5 * dot(r, r);
 }
 
-vec2 mx_latlong(const vec3 direction)
+vec2 mx_latlong(const mat4 map, const vec3 direction)
 {
-    vec3 d = normalize((u_envMatrix * vec4(direction, 0.0)).xyz);
-    return vec2(atan(d.x, -d.z), -2.0 * asin(d.y)) * 0.15915494 + vec2(0.5);
+    vec3 d = normalize((map * vec4(direction, 0.0)).xyz);
+    return vec2(atan(d.x, -d.z), -2.0 * asin(clamp(d.y, -1.0, 1.0))) * 0.15915494 + vec2(0.5);
+}
+
+vec2 mx_ggx_albedo(const float c)
+{
+    return mx_ggx_albedo_fit(0.04 / (0.04 + c), c);
 }
 
 vec3 mx_ggx_prefiltered(const vec3 N, const vec3 V)
 {
     vec2 albedo = mx_ggx_albedo(max(abs(dot(N, V)), 1e-8));
-    return mix(vec3(0.033735953), vec3(1.0), albedo.y) * albedo.x * (textureLod(u_envRadiance, mx_latlong(reflect(-V, faceforward(N, -V, N))), 0.2 * float(u_envRadianceMips - 1)).xyz * u_envLightIntensity);
+    return mix(vec3(0.033735953), vec3(1.0), albedo.y) * albedo.x * (textureLod(u_envRadiance, mx_latlong(u_envMatrix, reflect(-V, faceforward(N, -V, N))), 0.2 * float(u_envRadianceMips - 1)).xyz * u_envLightIntensity);
 }
 
 void main()
@@ -73,29 +111,29 @@ void main()
     vec3 normal = normalize(vd.normalWorld);
     vec3 V = normalize(u_viewPosition - vd.positionWorld);
     float coat = max(abs(dot(normal, V)), 1e-8);
-    vec2 coat_2 = mx_ggx_albedo(coat);
+    vec2 coat_2 = mx_ggx_albedo_fit(0.04 / (coat + 0.04), coat);
     float coat_3 = (1.0 / coat_2.x - 1.0) * 0.079748526 + 1.0;
     vec3 coat_4 = faceforward(normal, -V, normal);
-    vec3 tangent = normalize(vd.tangentWorld);
-    vec3 coat_5 = normalize(tangent - coat_4 * dot(tangent, coat_4));
+    mx_GgxLobe coat_5 = mx_ggx_lobe(coat_4, normalize(vd.tangentWorld), V);
     float coat_6 = 1.0 - mix(0.033735953, 1.0, coat_2.y) * coat_2.x * coat_3;
     for (int i = 0; i < min(u_numActiveLightSources, 1); ++i) {
         float intensity = u_lightData[i].intensity;
         vec3 directional_light = -u_lightData[i].direction;
         vec3 coat_7 = normalize(V - u_lightData[i].direction);
-        float coat_8 = coat_3 * mx_ggx_lobe(coat_4, coat_5, coat, directional_light, coat_7);
-        vec2 coat_9 = mx_ggx_albedo(max(abs(dot(normal, directional_light)), 1e-8));
-        float coat_10 = (1.0 / coat_9.x - 1.0) * 0.079748526 + 1.0;
+        float coat_8 = mx_fresnel_dielectric(clamp(dot(V, coat_7), 1e-8, 1.0));
+        float coat_9 = max(abs(dot(normal, directional_light)), 1e-8);
+        vec2 coat_10 = mx_ggx_albedo_fit(0.04 / (coat_9 + 0.04), coat_9);
+        float coat_11 = (1.0 / coat_10.x - 1.0) * 0.079748526 + 1.0;
         float paint = max(dot(directional_light, coat_4), 1e-8);
         float paint_2 = paint / 3.1415927 * (max(dot(V, directional_light) - coat * paint, 0.0) * 0.225 / max(paint, coat) + 0.89285713);
-        vec3 paint_3 = coat_6 * (1.0 - mix(0.033735953, 1.0, coat_9.y) * coat_9.x * coat_10) * 0.75 * paint_2 * vec3(0.6, 0.1, 0.05);
-        vec3 t = coat_8 * mx_fresnel_dielectric(clamp(dot(V, coat_7), 1e-8, 1.0)) + paint_3;
+        vec3 paint_3 = coat_6 * (1.0 - mix(0.033735953, 1.0, coat_10.y) * coat_10.x * coat_11) * 0.75 * paint_2 * vec3(0.6, 0.1, 0.05);
+        vec3 t = coat_3 * mx_ggx_light(coat_5, directional_light, coat_7) * coat_8 + paint_3;
         color += u_lightData[i].color * (u_lightData[i].type == 1 ? intensity : 0.0) * t;
     }
-    vec3 coat_11 = coat_3 * mx_ggx_prefiltered(normal, V);
+    vec3 coat_12 = coat_3 * mx_ggx_prefiltered(normal, V);
     vec2 paint_4 = (coat * vec2(-0.7632, -0.4993) + vec2(-0.4297, -0.6076) + vec2(0.43155003, 0.60945004)) * 0.3 + vec2(1.0);
-    vec3 paint_5 = clamp(paint_4.x / paint_4.y, 0.0, 1.0) * vec3(0.6, 0.1, 0.05);
-    vec3 paint_6 = paint_5 * (textureLod(u_envIrradiance, mx_latlong(coat_4), 0.0).xyz * u_envLightIntensity);
-    color += coat_11 + paint_6 * (coat_6 * coat_6 * 0.75);
+    vec3 paint_5 = textureLod(u_envIrradiance, mx_latlong(u_envMatrix, coat_4), 0.0).xyz * u_envLightIntensity;
+    vec3 paint_6 = clamp(paint_4.x / paint_4.y, 0.0, 1.0) * vec3(0.6, 0.1, 0.05) * paint_5;
+    color += coat_12 + paint_6 * (coat_6 * coat_6 * 0.75);
     out1 = vec4(color, 1.0);
 }

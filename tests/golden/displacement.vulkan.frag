@@ -25,10 +25,10 @@ float mx_line(const vec2 p)
     return distance(from, vec2(0.5) * clamp(dot(from, vec2(0.5)) / 0.5, 0.0, 1.0)) > 0.1 ? 0.0 : 1.0;
 }
 
-vec2 mx_latlong(const vec3 direction)
+vec2 mx_latlong(const mat4 map, const vec3 direction)
 {
-    vec3 d = normalize((u_envMatrix * vec4(direction, 0.0)).xyz);
-    return vec2(atan(d.x, -d.z), -2.0 * asin(d.y)) * 0.15915494 + vec2(0.5);
+    vec3 d = normalize((map * vec4(direction, 0.0)).xyz);
+    return vec2(atan(d.x, -d.z), -2.0 * asin(clamp(d.y, -1.0, 1.0))) * 0.15915494 + vec2(0.5);
 }
 
 void main()
@@ -42,6 +42,6 @@ void main()
     vec3 facet_2 = faceforward(facet, -normal, facet);
     vec3 facet_3 = normalize(cross(dFdx(vd.positionWorld), dFdy(vd.positionWorld)));
     vec3 N = normalize(normal + (facet_2 - faceforward(facet_3, -normal, facet_3)));
-    color += textureLod(u_envIrradiance, mx_latlong(faceforward(N, -normalize(u_viewPosition - P), N)), 0.0).xyz * (u_envLightIntensity * 0.18);
+    color += textureLod(u_envIrradiance, mx_latlong(u_envMatrix, faceforward(N, -normalize(u_viewPosition - P), N)), 0.0).xyz * (u_envLightIntensity * 0.18);
     out1 = vec4(color, 1.0);
 }

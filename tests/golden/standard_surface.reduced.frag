@@ -28,10 +28,10 @@ layout(location = 0) in VertexData {
 } vd;
 layout(location = 0) out vec4 out1;
 
-vec2 mx_latlong(const vec3 direction)
+vec2 mx_latlong(const mat4 map, const vec3 direction)
 {
-    vec3 d = normalize((u_envMatrix * vec4(direction, 0.0)).xyz);
-    return vec2(atan(d.x, -d.z), -2.0 * asin(d.y)) * 0.15915494 + vec2(0.5);
+    vec3 d = normalize((map * vec4(direction, 0.0)).xyz);
+    return vec2(atan(d.x, -d.z), -2.0 * asin(clamp(d.y, -1.0, 1.0))) * 0.15915494 + vec2(0.5);
 }
 
 void main()
@@ -60,7 +60,7 @@ void main()
         color += light_3 * (diffuse_3 / 3.1415927 * vec3(0.5, 0.25, 0.15) * diffuse_4);
     }
     vec2 diffuse_5 = (diffuse_2 * vec2(-0.7632, -0.4993) + vec2(-0.4297, -0.6076) + vec2(0.86310005, 1.2189001)) * 0.6 + vec2(1.0);
-    vec3 diffuse_6 = clamp(diffuse_5.x / diffuse_5.y, 0.0, 1.0) * vec3(0.5, 0.25, 0.15);
-    color += diffuse_6 * (textureLod(u_envIrradiance, mx_latlong(diffuse), 0.0).xyz * u_envLightIntensity);
+    vec3 diffuse_6 = textureLod(u_envIrradiance, mx_latlong(u_envMatrix, diffuse), 0.0).xyz * u_envLightIntensity;
+    color += clamp(diffuse_5.x / diffuse_5.y, 0.0, 1.0) * vec3(0.5, 0.25, 0.15) * diffuse_6;
     out1 = vec4(color, 1.0);
 }

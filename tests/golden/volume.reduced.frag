@@ -34,21 +34,19 @@ void main()
     vec3 color = depth * path * (vd.texcoord_0.x * vec3(0.2, 0.06, 0.01));
     vec3 smoke = path * (t * depth * 1.2);
     for (int i = 0; i < min(u_numActiveLightSources, 3); ++i) {
-        if (t > 0.0) {
-            int type = u_lightData[i].type;
-            float intensity = u_lightData[i].intensity;
-            vec3 spot_light = u_lightData[i].position - vd.positionWorld;
-            float spot_light_2 = intensity / pow(length(spot_light) + 1.0, u_lightData[i].decay_rate);
-            float spot_light_3 = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
-            vec3 spot_light_4 = normalize(spot_light);
-            float spot_light_5 = smoothstep(spot_light_3, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, spot_light_4)) * spot_light_2;
-            float light = type == 3 ? spot_light_5 : 0.0;
-            float light_2 = type == 2 ? spot_light_2 : light;
-            vec3 light_3 = u_lightData[i].color * (type == 1 ? intensity : light_2);
-            vec3 directional_light = -u_lightData[i].direction;
-            float smoke_2 = dot(V, type == 1 ? directional_light : spot_light_4) * 0.8 + 1.16;
-            color += light_3 * (0.84 / (smoke_2 * 12.566371 * sqrt(smoke_2)) * smoke);
-        }
+        int type = u_lightData[i].type;
+        float intensity = u_lightData[i].intensity;
+        vec3 spot_light = u_lightData[i].position - vd.positionWorld;
+        float spot_light_2 = intensity / pow(length(spot_light) + 1.0, u_lightData[i].decay_rate);
+        float spot_light_3 = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
+        vec3 spot_light_4 = normalize(spot_light);
+        float spot_light_5 = smoothstep(spot_light_3, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, spot_light_4)) * spot_light_2;
+        float light = type == 3 ? spot_light_5 : 0.0;
+        float light_2 = type == 2 ? spot_light_2 : light;
+        vec3 light_3 = u_lightData[i].color * (type == 1 ? intensity : light_2);
+        vec3 directional_light = -u_lightData[i].direction;
+        float smoke_2 = dot(V, type == 1 ? directional_light : spot_light_4) * 0.8 + 1.16;
+        color += light_3 * (0.84 / (smoke_2 * 12.566371 * sqrt(smoke_2)) * smoke);
     }
     out1 = vec4(color, dot(lost, vec3(0.33333334)));
 }

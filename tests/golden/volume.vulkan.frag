@@ -30,10 +30,10 @@ layout(location = 0) in VertexData {
 } vd;
 layout(location = 0) out vec4 out1;
 
-vec2 mx_latlong(const vec3 direction)
+vec2 mx_latlong(const mat4 map, const vec3 direction)
 {
-    vec3 d = normalize((u_envMatrix * vec4(direction, 0.0)).xyz);
-    return vec2(atan(d.x, -d.z), -2.0 * asin(d.y)) * 0.15915494 + vec2(0.5);
+    vec3 d = normalize((map * vec4(direction, 0.0)).xyz);
+    return vec2(atan(d.x, -d.z), -2.0 * asin(clamp(d.y, -1.0, 1.0))) * 0.15915494 + vec2(0.5);
 }
 
 void main()
@@ -48,25 +48,23 @@ void main()
     vec3 color = depth * path * (vd.texcoord_0.x * vec3(0.2, 0.06, 0.01));
     vec3 smoke = path * (t * depth * 1.2);
     for (int i = 0; i < min(u_numActiveLightSources, 3); ++i) {
-        if (t > 0.0) {
-            int type = u_lightData[i].type;
-            float intensity = u_lightData[i].intensity;
-            vec3 spot_light = u_lightData[i].position - vd.positionWorld;
-            float spot_light_2 = intensity / pow(length(spot_light) + 1.0, u_lightData[i].decay_rate);
-            float spot_light_3 = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
-            vec3 spot_light_4 = normalize(spot_light);
-            float spot_light_5 = smoothstep(spot_light_3, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, spot_light_4)) * spot_light_2;
-            float light = type == 3 ? spot_light_5 : 0.0;
-            float light_2 = type == 2 ? spot_light_2 : light;
-            vec3 light_3 = u_lightData[i].color * (type == 1 ? intensity : light_2);
-            vec3 directional_light = -u_lightData[i].direction;
-            float smoke_2 = dot(V, type == 1 ? directional_light : spot_light_4) * 0.8 + 1.16;
-            color += light_3 * (0.84 / (smoke_2 * 12.566371 * sqrt(smoke_2)) * smoke);
-        }
+        int type = u_lightData[i].type;
+        float intensity = u_lightData[i].intensity;
+        vec3 spot_light = u_lightData[i].position - vd.positionWorld;
+        float spot_light_2 = intensity / pow(length(spot_light) + 1.0, u_lightData[i].decay_rate);
+        float spot_light_3 = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
+        vec3 spot_light_4 = normalize(spot_light);
+        float spot_light_5 = smoothstep(spot_light_3, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, spot_light_4)) * spot_light_2;
+        float light = type == 3 ? spot_light_5 : 0.0;
+        float light_2 = type == 2 ? spot_light_2 : light;
+        vec3 light_3 = u_lightData[i].color * (type == 1 ? intensity : light_2);
+        vec3 directional_light = -u_lightData[i].direction;
+        float smoke_2 = dot(V, type == 1 ? directional_light : spot_light_4) * 0.8 + 1.16;
+        color += light_3 * (0.84 / (smoke_2 * 12.566371 * sqrt(smoke_2)) * smoke);
     }
     if (t > 0.0) {
-        vec3 smoke_3 = textureLod(u_envIrradiance, mx_latlong(-V), 0.0).xyz * u_envLightIntensity;
-        vec3 smoke_4 = mix(smoke_3, u_envLightIntensity * textureLod(u_envIrradiance, mx_latlong(V), 0.0).xyz, 0.19999999) * 1.2;
+        vec3 smoke_3 = textureLod(u_envIrradiance, mx_latlong(u_envMatrix, -V), 0.0).xyz * u_envLightIntensity;
+        vec3 smoke_4 = mix(smoke_3, u_envLightIntensity * textureLod(u_envIrradiance, mx_latlong(u_envMatrix, V), 0.0).xyz, 0.19999999) * 1.2;
         color += path * (t * depth) * smoke_4;
     }
     out1 = vec4(color, dot(lost, vec3(0.33333334)));

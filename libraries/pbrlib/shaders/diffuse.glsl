@@ -72,8 +72,8 @@ vec3 mx_oren_nayar_diffuse_bsdf_albedo(vec3 color, float roughness, vec3 N, bool
     return color * clamp(fit.x / fit.y, 0.0, 1.0);
 }
 
-void mx_oren_nayar_diffuse_bsdf_sample(vec3 color, float roughness, vec3 N, bool energy_compensation, vec3 V, vec3 xi,
-                                       out vec3 L, out vec3 weight, out float pdf)
+void mx_oren_nayar_diffuse_bsdf_sample(vec3 color, float roughness, vec3 N, bool energy_compensation, vec3 V, vec3 xi, out vec3 L,
+                                       out vec3 weight, out float pdf)
 {
     L = mx_any_frame(mx_facing(N, V)) * mx_sample_cosine(xi.xy);
     pdf = mx_cosine_pdf(mx_facing(N, V), L);
@@ -85,13 +85,11 @@ float mx_oren_nayar_diffuse_bsdf_pdf(vec3 color, float roughness, vec3 N, bool e
     return mx_cosine_pdf(mx_facing(N, V), L);
 }
 
-vec3 mx_oren_nayar_diffuse_bsdf_environment(vec3 color, float roughness, vec3 N, bool energy_compensation, vec3 V,
-                                            int sample_index)
+vec3 mx_oren_nayar_diffuse_bsdf_environment(vec3 color, float roughness, vec3 N, bool energy_compensation, vec3 V, int sample_index)
 {
     if (option_integrator == 1 && option_environment == 2 && roughness > 0.0)
     {
-        vec3 L;
-        vec3 weight;
+        vec3 L, weight;
         float pdf;
         mx_oren_nayar_diffuse_bsdf_sample(color, roughness, N, energy_compensation, V, mx_lobe_random(sample_index), L,
                                           weight, pdf);
@@ -135,8 +133,7 @@ vec3 mx_burley_diffuse_bsdf_albedo(vec3 color, float roughness, vec3 N, vec3 V)
     return color * (albedo / mx_burley_excess(albedo));
 }
 
-void mx_burley_diffuse_bsdf_sample(vec3 color, float roughness, vec3 N, vec3 V, vec3 xi, out vec3 L, out vec3 weight,
-                                   out float pdf)
+void mx_burley_diffuse_bsdf_sample(vec3 color, float roughness, vec3 N, vec3 V, vec3 xi, out vec3 L, out vec3 weight, out float pdf)
 {
     L = mx_any_frame(mx_facing(N, V)) * mx_sample_cosine(xi.xy);
     pdf = mx_cosine_pdf(mx_facing(N, V), L);
@@ -152,8 +149,7 @@ vec3 mx_burley_diffuse_bsdf_environment(vec3 color, float roughness, vec3 N, vec
 {
     if (option_integrator == 1 && option_environment == 2)
     {
-        vec3 L;
-        vec3 weight;
+        vec3 L, weight;
         float pdf;
         mx_burley_diffuse_bsdf_sample(color, roughness, N, V, mx_lobe_random(sample_index), L, weight, pdf);
         return mx_lobe_light(L, weight, pdf);
@@ -237,8 +233,8 @@ vec3 mx_subsurface_bsdf_albedo(vec3 color, vec3 radius, float anisotropy, vec3 N
     return color;
 }
 
-void mx_subsurface_bsdf_sample(vec3 color, vec3 radius, float anisotropy, vec3 N, vec3 V, vec3 xi, out vec3 L, out
-                               vec3 weight, out float pdf)
+void mx_subsurface_bsdf_sample(vec3 color, vec3 radius, float anisotropy, vec3 N, vec3 V, vec3 xi, out vec3 L, out vec3 weight,
+                               out float pdf)
 {
     L = mx_any_frame(mx_facing(N, V)) * mx_sample_cosine(xi.xy);
     pdf = mx_cosine_pdf(mx_facing(N, V), L);

@@ -12,15 +12,16 @@ uniform float u_envLightIntensity;
 uniform int u_envRadianceMips;
 uniform int u_envRadianceSamples;
 
-vec2 mx_latlong(vec3 direction)
+// Where the light of a direction is in a picture; `map` turns directions of the world into those of the picture.
+vec2 mx_latlong(mat4 map, vec3 direction)
 {
-    vec3 d = normalize((u_envMatrix * vec4(direction, 0.0)).xyz);
-    return vec2(atan(d.x, -d.z), -2.0 * asin(d.y)) * (0.5 / MX_PI) + 0.5;
+    vec3 d = normalize((map * vec4(direction, 0.0)).xyz);
+    return vec2(atan(d.x, -d.z), -2.0 * asin(clamp(d.y, -1.0, 1.0))) * (0.5 / MX_PI) + 0.5;
 }
 
 vec3 mx_environment_radiance(vec3 direction, float lod)
 {
-    return textureLod(u_envRadiance, mx_latlong(direction), lod).rgb * u_envLightIntensity;
+    return textureLod(u_envRadiance, mx_latlong(u_envMatrix, direction), lod).rgb * u_envLightIntensity;
 }
 
 // Cosine-weighted average of the light around N.
@@ -28,7 +29,14 @@ vec3 mx_environment_irradiance(vec3 N)
 {
     if (option_environment == 0)
         return vec3(0.0);
-    return textureLod(u_envIrradiance, mx_latlong(N), 0.0).rgb * u_envLightIntensity;
+    return textureLod(u_envIrradiance, mx_latlong(u_envMatrix, N), 0.0).rgb * u_envLightIntensity;
+}
+
+// Light of a direction, filtered over the solid angle of a sample (Krivanek and Colbert 2008; the mip level is equation 13 of GPU Gems 3,
+// section 20.4).
+vec3 mx_filtered_light(mat4 map, vec3 L, float level)
+{
+    return textureLod(u_envRadiance, mx_latlong(map, L), max(0.25 * log2(level * level / dot(L.xz, L.xz)), 0.0)).rgb;
 }
 
 // ---- lobes by their own samples -------------------------------------------------------------------------------------
@@ -43,10 +51,10 @@ vec3 mx_lobe_random(int i)
     return vec3((n - 0.5) / float(u_envRadianceSamples), fract(n * 0.75487767), fract(n * 0.56984029));
 }
 
-// A sample's part of what the lobe reflects; filtered as in mx_ggx_sample.
+// A sample's part of what the lobe reflects.
 vec3 mx_lobe_light(vec3 L, vec3 weight, float pdf)
 {
     float count = float(u_envRadianceSamples);
-    float solid = max(length(L.xz) * pdf * count, MX_EPSILON);
-    return weight / count * mx_environment_radiance(L, max(float(u_envRadianceMips) - 2.5 - 0.5 * log2(solid), 0.0));
+    float level = exp2(2.0 * float(u_envRadianceMips) - 5.0) / max(pdf * count, MX_EPSILON);
+    return weight * (u_envLightIntensity / count) * mx_filtered_light(u_envMatrix, L, level);
 }

@@ -32,3 +32,9 @@ vec3 mx_leave_frame(vec3 w, vec3 N, vec3 x)
 {
     return w.x * x + w.y * cross(N, x) + w.z * N;
 }
+
+// A polynomial of two variables, what directional albedos are fitted by (the programs in fits/).
+float mx_bicubic(mat4 m, float x, float y)
+{
+    return dot(vec4(1.0, x, x * x, x * x * x), m * vec4(1.0, y, y * y, y * y * y));
+}

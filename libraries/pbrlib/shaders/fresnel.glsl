@@ -3,7 +3,7 @@
 //
 // An interface travels as plain parameters, which stay visible to specialisation:
 //   model            "dielectric", "conductor" or "schlick"
-//   n, k             complex index of refraction; for Schlick the colours at 0 and at 82 degrees
+//   n, k             complex index of refraction; for Schlick the colour facing the viewer and mx_schlick_bend
 //   f90              reflectance at grazing incidence
 //   exponent         of Schlick's curve
 //   film, film_ior   thickness in nanometres and index of a thin film on top; thickness 0 is no film
@@ -40,21 +40,24 @@ vec3 mx_fresnel_ratio(vec3 x, vec3 y, vec3 u, vec3 v)
 // perpendicular part, (n + ik)^2 times the cosine in the parallel part.
 vec3 mx_fresnel_conductor(float cosine, vec3 n, vec3 k)
 {
-    vec3 u;
-    vec3 v;
+    vec3 u, v;
     mx_fresnel_refract(cosine, n, k, u, v);
     return 0.5 * (mx_fresnel_ratio(vec3(cosine), vec3(0.0), u, v)
                 + mx_fresnel_ratio(cosine * (n * n - k * k), 2.0 * cosine * n * k, u, v));
 }
 
-// Schlick's curve bent towards f82 at cos = 1/7 (Hoffman 2019, "Fresnel Equations Considered Harmful").
-vec3 mx_fresnel_schlick(float cosine, vec3 f0, vec3 f82, vec3 f90, float exponent)
+// What bends Schlick's curve towards f82 at cos = 1/7 (Hoffman 2019, "Fresnel Equations Considered Harmful"): the factor of cos (1 - cos)^6.
+vec3 mx_schlick_bend(vec3 f0, vec3 f82, vec3 f90, float exponent)
 {
     const float LIFT = 17.6513846; // 7 (7/6)^6, the inverse of cos (1 - cos)^6 there
+    return mix(max(f0, 0.0), max(f90, 0.0), pow(6.0 / 7.0, exponent)) * (1.0 - max(f82, 0.0)) * LIFT;
+}
+
+vec3 mx_fresnel_schlick(float cosine, vec3 f0, vec3 bend, vec3 f90, float exponent)
+{
     float x = 1.0 - cosine;
     float x3 = x * x * x;
-    return mix(f0, f90, pow(x, exponent))
-         - mix(f0, f90, pow(6.0 / 7.0, exponent)) * (1.0 - f82) * (LIFT * cosine * x3 * x3);
+    return mix(f0, f90, exponent == 5.0 ? x3 * x * x : pow(x, exponent)) - bend * (cosine * x3 * x3);
 }
 
 // ---- thin films -----------------------------------------------------------------------------------------------------
@@ -121,39 +124,43 @@ vec3 mx_film_index(float cosine, vec3 n, vec3 k, float film, float film_ior)
     float d = 0.004 * MX_PI * ior * c * film;
     vec3 m = n / ior;
     vec3 l = k / ior;
-    vec3 u;
-    vec3 v;
+    vec3 u, v;
     mx_fresnel_refract(c, m, l, u, v);
     return mx_film_rgb(mx_film_polarized(a.x, vec3(c), vec3(0.0), u, v, d),
                        mx_film_polarized(a.y, c * (m * m - l * l), 2.0 * c * m * l, u, v, d));
 }
 
 // A film on a colour, which has no phase: light turns where its colour says that the index behind the film is lower.
-vec3 mx_film_schlick(float cosine, vec3 f0, vec3 f82, vec3 f90, float exponent, float film, float film_ior)
+vec3 mx_film_schlick(float cosine, vec3 f0, vec3 bend, vec3 f90, float exponent, float film, float film_ior)
 {
     float ior = max(film_ior, 1.0);
     float c = mx_film_cosine(cosine, ior);
     vec2 a = mx_film_amplitudes(cosine, c, ior);
     float d = 0.004 * MX_PI * ior * c * film;
     vec3 turn = 1.0 - 2.0 * step(sqrt(clamp(f0, 0.01, 0.99)), vec3((ior - 1.0) / (ior + 1.0)));
-    vec3 r = turn * sqrt(max(0.5 * mx_fresnel_schlick(c, f0, f82, f90, exponent), 0.0));
+    vec3 r = turn * sqrt(max(0.5 * mx_fresnel_schlick(c, f0, bend, f90, exponent), 0.0));
     return mx_film_rgb(mx_film_series(a.x, -r, vec3(0.0), d), mx_film_series(a.y, r, vec3(0.0), d));
 }
 
 // ---- all of them ----------------------------------------------------------------------------------------------------
+
+vec3 mx_fresnel_bare(float cosine, string model, vec3 n, vec3 k, vec3 f90, float exponent)
+{
+    if (model == "schlick")
+        return mx_fresnel_schlick(cosine, n, k, f90, exponent);
+    return model == "dielectric" ? vec3(mx_fresnel_dielectric(cosine, n.x)) : mx_fresnel_conductor(cosine, n, k);
+}
 
 vec3 mx_fresnel(float cosine, string model, vec3 n, vec3 k, vec3 f90, float exponent, float film, float film_ior)
 {
     if (film > 0.0)
         return model == "schlick" ? mx_film_schlick(cosine, n, k, f90, exponent, film, film_ior)
                                   : mx_film_index(cosine, n, k, film, film_ior);
-    if (model == "schlick")
-        return mx_fresnel_schlick(cosine, n, k, f90, exponent);
-    return model == "dielectric" ? vec3(mx_fresnel_dielectric(cosine, n.x)) : mx_fresnel_conductor(cosine, n, k);
+    return mx_fresnel_bare(cosine, model, n, k, f90, exponent);
 }
 
 // Reflectance facing the viewer of the bare interface.
 vec3 mx_fresnel_f0(string model, vec3 n, vec3 k)
 {
-    return model == "schlick" ? n : mx_fresnel(1.0, model, n, k, vec3(1.0), 0.0, 0.0, 1.0);
+    return model == "schlick" ? n : mx_fresnel_bare(1.0, model, n, k, vec3(1.0), 0.0);
 }

@@ -6,24 +6,17 @@
 #include "fresnel.glsl"
 #include "sampling.glsl"
 
-// Distribution of normals (Burley 2012, appendix B.2, equation 13).
-float mx_ggx_distribution(vec3 h, vec2 alpha)
+// Distribution of normals (Burley 2012, appendix B.2, equation 13) at a normal that is stretched to that of a unit sphere; `area` is the
+// product of the roughness along x and y.
+float mx_ggx_distribution(vec3 e, float area)
 {
-    vec3 e = vec3(h.xy / alpha, h.z);
-    float d = dot(e, e);
-    return 1.0 / (MX_PI * alpha.x * alpha.y * d * d);
+    return 1.0 / (MX_PI * area * dot(e, e) * dot(e, e));
 }
 
 // Heitz 2014, "Understanding the Masking-Shadowing Function", equation 72: cos (1 + 2 Lambda).
-float mx_ggx_masking(float cosine, vec2 alpha)
+float mx_ggx_masking(float cosine, float area)
 {
-    return sqrt(mix(cosine * cosine, 1.0, alpha.x * alpha.y));
-}
-
-// Height-correlated masking and shadowing G2 (equation 99) over 4 cos_v, the divisor left of the reflection model.
-float mx_ggx_visibility(float cos_v, float cos_l, vec2 alpha)
-{
-    return 0.5 * cos_l / (cos_v * mx_ggx_masking(cos_l, alpha) + cos_l * mx_ggx_masking(cos_v, alpha));
+    return sqrt(mix(cosine * cosine, 1.0, area));
 }
 
 // Roughness that the formulas can bear.
@@ -32,31 +25,80 @@ vec2 mx_ggx_alpha(vec2 roughness)
     return clamp(roughness, MX_EPSILON, 1.0);
 }
 
+// A direction in the frame, never below the horizon.
+vec3 mx_ggx_local(mat3 frame, vec3 V)
+{
+    return max(V * frame, vec3(-1.0, -1.0, MX_EPSILON));
+}
+
+// The lobe as lights and samples of the environment see it. Its frame faces the viewer.
+struct mx_GgxLobe {
+    mat3 frame;
+    vec3 stretch;  // roughness along x and y, 1
+    float area;    // product of both
+    vec3 v;        // direction to the viewer, in the frame
+    float masking; // of v
+    vec3 cap;      // v, stretched
+    float step;    // between samples of the environment: 1 / their number
+    float weight;  // of one
+    float level;   // where their mip levels begin
+    mat4 map;      // to the directions of the map
+};
+
+mx_GgxLobe mx_ggx_lobe_at(mat3 frame, vec2 alpha, vec3 v)
+{
+    float area = alpha.x * alpha.y;
+    float masking = mx_ggx_masking(v.z, area);
+    float step = option_environment == 2 ? 1.0 / float(max(u_envRadianceSamples, 1)) : 0.0;
+    float weight = step * (v.z + masking);
+    return mx_GgxLobe(frame, vec3(alpha, 1.0), area, v, masking, normalize(v * vec3(alpha, 1.0)), step,
+                      option_environment == 2 ? weight * u_envLightIntensity : 0.0,
+                      option_environment == 2 ? weight * area * exp2(2.0 * float(u_envRadianceMips) - 2.3485) : 0.0, // 2 pi / 32
+                      option_environment == 2 ? u_envMatrix : mat4(1.0));
+}
+
+// N faces V.
+mx_GgxLobe mx_ggx_lobe(vec2 roughness, vec3 N, vec3 X, vec3 V)
+{
+    mat3 frame = mx_frame(N, X);
+    return mx_ggx_lobe_at(frame, mx_ggx_alpha(roughness), mx_ggx_local(frame, V));
+}
+
+// Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v; half is left of the divisor of the reflection model.
+float mx_ggx_visibility(mx_GgxLobe lobe, float cos_l)
+{
+    return cos_l / (lobe.v.z * mx_ggx_masking(cos_l, lobe.area) + cos_l * lobe.masking);
+}
+
 const int option_albedo = 0; // 0 by a fit, 1 from the host's table
 
 uniform sampler2D u_albedoTable;
 
-// What a white lobe reflects at the viewer's cosine c (x), and the mean of Schlick's (1 - cos)^5 over it (y); the program fits/ggx.c makes
-// the constants. x is never too small by more than 0.001, so that giving lost energy back adds none. The table holds what scales the
-// reflectance facing the viewer, and that at grazing angles: c to the right, the mean of alpha downwards.
-vec2 mx_ggx_albedo(vec2 alpha, float c)
+// The program fits/ggx.c makes the constants. x is never too small by more than 0.001, so that giving lost energy back adds none. `u`
+// follows what happens where light grazes the facets.
+vec2 mx_ggx_albedo_fit(float a, float u, float c)
 {
-    if (option_albedo == 1)
-    {
-        vec2 scales = textureLod(u_albedoTable, vec2(c, sqrt(alpha.x * alpha.y)), 0.0).xy;
-        float sum = clamp(scales.x + scales.y, MX_EPSILON, 1.0);
-        return vec2(sum, scales.y / sum);
-    }
     const mat4 LOST = mat4(-0.1447, 2.7590, -5.4314, 2.8497, -0.9366, 1.4766, 0.5911, -1.0905,
                            11.8506, -30.2645, 27.3289, -8.9414, -4.3199, 8.2596, -3.1648, -0.8054);
     const mat4 COSINE = mat4(-0.2006, 5.2916, -3.7565, 0.2180, -10.2439, 6.6203, -0.9657, 2.5694,
                              38.3042, -80.8059, 71.7310, -28.5214, -34.2000, 89.1079, -88.4065, 33.7820);
+    float x = clamp(1.0 - c - a * mx_bicubic(COSINE, u, a), 0.0, 1.0);
+    return vec2(min(1.0046 - u * mx_bicubic(LOST, u, a), 1.0), x * x * x * x * x);
+}
+
+// What a white lobe reflects at the viewer's cosine c (x), and the mean of Schlick's (1 - cos)^5 over it (y). The table holds what scales the
+// reflectance facing the viewer, and that at grazing angles: c to the right, the mean of alpha downwards.
+vec2 mx_ggx_albedo(vec2 roughness, float c)
+{
+    vec2 alpha = mx_ggx_alpha(roughness);
     float a = sqrt(alpha.x * alpha.y);
-    float u = a / (a + c);
-    vec4 powers_u = vec4(1.0, u, u * u, u * u * u);
-    vec4 powers_a = vec4(1.0, a, a * a, a * a * a);
-    float x = clamp(1.0 - c - a * dot(powers_u, COSINE * powers_a), 0.0, 1.0);
-    return vec2(min(1.0046 - u * dot(powers_u, LOST * powers_a), 1.0), x * x * x * x * x);
+    if (option_albedo == 1)
+    {
+        vec2 scales = textureLod(u_albedoTable, vec2(c, a), 0.0).xy;
+        float sum = clamp(scales.x + scales.y, MX_EPSILON, 1.0);
+        return vec2(sum, scales.y / sum);
+    }
+    return mx_ggx_albedo_fit(a, a / (a + c), c);
 }
 
 // Factor that restores the energy of multiple scattering (Turquin 2019, equations 14 and 16).
@@ -69,10 +111,9 @@ vec3 mx_ggx_compensation(vec2 albedo, string model, vec3 n, vec3 k, vec3 f90, fl
 
 // Part of the light that the lobe reflects towards V. A raster has Schlick's curve for every interface, under which a film
 // changes the compensation only; a path tracer takes the interface as it is at the lobe's mean angle.
-vec3 mx_ggx_reflectance(vec2 roughness, vec3 N, vec3 V, string model, vec3 n, vec3 k, vec3 f90, float exponent, float film,
-                        float film_ior)
+vec3 mx_ggx_reflectance(vec2 roughness, vec3 N, vec3 V, string model, vec3 n, vec3 k, vec3 f90, float exponent, float film, float film_ior)
 {
-    vec2 albedo = mx_ggx_albedo(mx_ggx_alpha(roughness), mx_view_cosine(N, V));
+    vec2 albedo = mx_ggx_albedo(roughness, mx_view_cosine(N, V));
     vec3 f = option_integrator == 0
         ? mix(mx_fresnel_f0(model, n, k), f90, albedo.y)
         : mx_fresnel(max(1.0 - pow(albedo.y, 0.2), MX_EPSILON), model, n, k, f90, exponent, film, film_ior);
@@ -81,10 +122,11 @@ vec3 mx_ggx_reflectance(vec2 roughness, vec3 N, vec3 V, string model, vec3 n, ve
 
 // ---- lights ---------------------------------------------------------------------------------------------------------
 
-// The lobe towards L, but for Fresnel's factor; N faces V, and x is a unit tangent.
-float mx_ggx_lobe(vec2 alpha, vec3 N, vec3 x, float cos_v, vec3 L, vec3 H)
+// The lobe towards L, but for Fresnel's factor.
+float mx_ggx_light(mx_GgxLobe lobe, vec3 L, vec3 H)
 {
-    return mx_ggx_distribution(mx_enter_frame(H, N, x), alpha) * mx_ggx_visibility(cos_v, max(dot(N, L), MX_EPSILON), alpha);
+    vec3 e = H * lobe.frame / lobe.stretch;
+    return 0.5 * mx_ggx_distribution(e, lobe.area) * mx_ggx_visibility(lobe, max(dot(L, lobe.frame[2]), MX_EPSILON));
 }
 
 // ---- masking by direction -------------------------------------------------------------------------------------------
@@ -101,31 +143,20 @@ float mx_ggx_smith_visibility(vec3 v, vec3 l, vec2 alpha)
     return 0.5 * l.z / (v.z * mx_ggx_smith(l, alpha) + l.z * mx_ggx_smith(v, alpha));
 }
 
-// A direction in the frame, never below the horizon.
-vec3 mx_ggx_local(mat3 frame, vec3 V)
+float mx_ggx_smith_lobe(vec2 roughness, mat3 frame, vec3 V, vec3 L, vec3 H)
 {
-    vec3 v = V * frame;
-    return vec3(v.xy, max(v.z, MX_EPSILON));
-}
-
-float mx_ggx_smith_lobe(vec2 alpha, mat3 frame, vec3 V, vec3 L, vec3 H)
-{
-    return mx_ggx_distribution(H * frame, alpha)
+    vec2 alpha = mx_ggx_alpha(roughness);
+    return mx_ggx_distribution(H * frame / vec3(alpha, 1.0), alpha.x * alpha.y)
          * mx_ggx_smith_visibility(mx_ggx_local(frame, V), mx_ggx_local(frame, L), alpha);
 }
 
-// ---- both -----------------------------------------------------------------------------------------------------------
-
-vec3 mx_ggx_eval(vec2 roughness, vec3 N, vec3 X, vec3 V, vec3 L, string model, vec3 n, vec3 k, vec3 f90, float exponent,
-                 float film, float film_ior)
+vec3 mx_ggx_eval(vec2 roughness, vec3 N, vec3 X, vec3 V, vec3 L, string model, vec3 n, vec3 k, vec3 f90, float exponent, float film,
+                 float film_ior)
 {
-    vec2 alpha = mx_ggx_alpha(roughness);
-    float cos_v = mx_view_cosine(N, V);
-    vec3 n_v = mx_facing(N, V);
     vec3 H = normalize(V + L);
-    return mx_ggx_compensation(mx_ggx_albedo(alpha, cos_v), model, n, k, f90, exponent, film, film_ior)
-         * (option_integrator == 1 ? mx_ggx_smith_lobe(alpha, mx_frame(n_v, X), V, L, H)
-                                   : mx_ggx_lobe(alpha, n_v, mx_tangent(n_v, X), cos_v, L, H))
+    return mx_ggx_compensation(mx_ggx_albedo(roughness, mx_view_cosine(N, V)), model, n, k, f90, exponent, film, film_ior)
+         * (option_integrator == 1 ? mx_ggx_smith_lobe(roughness, mx_frame(mx_facing(N, V), X), V, L, H)
+                                   : mx_ggx_light(mx_ggx_lobe(roughness, mx_facing(N, V), X, V), L, H))
          * mx_fresnel(clamp(dot(V, H), MX_EPSILON, 1.0), model, n, k, f90, exponent, film, film_ior);
 }
 
@@ -140,11 +171,12 @@ vec3 mx_refract_sphere(vec3 v, vec3 h, float ior)
 }
 
 // A map whose mip levels are filtered for rising roughness.
-vec3 mx_ggx_prefiltered(vec2 alpha, vec3 N, vec3 V, float refract_ior, string model, vec3 n, vec3 k, vec3 f90,
-                        float exponent, float film, float film_ior)
+vec3 mx_ggx_prefiltered(vec2 roughness, vec3 N, vec3 V, float refract_ior, string model, vec3 n, vec3 k, vec3 f90, float exponent,
+                        float film, float film_ior)
 {
     vec3 h = mx_facing(N, V);
-    vec2 albedo = mx_ggx_albedo(alpha, mx_view_cosine(N, V));
+    vec2 alpha = mx_ggx_alpha(roughness);
+    vec2 albedo = mx_ggx_albedo(roughness, mx_view_cosine(N, V));
     vec3 f = mix(mx_fresnel(1.0, model, n, k, f90, exponent, film, film_ior), f90, albedo.y) * albedo.x;
     float a = sqrt(alpha.x * alpha.y);
     if (film > 0.0) // keep the change of colour with the angle where the lobe is sharp
@@ -155,64 +187,94 @@ vec3 mx_ggx_prefiltered(vec2 alpha, vec3 N, vec3 V, float refract_ior, string mo
     return f * mx_environment_radiance(reflect(-V, h), lod);
 }
 
-// A normal of those visible from v, which is stretched by the roughness (Dupuy and Benyoub 2023, "Sampling Visible GGX
-// Normals with Spherical Caps").
-vec3 mx_ggx_visible_normal(vec2 xi, vec3 v, vec2 alpha)
+// A normal of those visible from v, which is stretched by the roughness, before it is scaled to length 1 (Dupuy and Benyoub 2023, "Sampling
+// Visible GGX Normals with Spherical Caps"): (cos, sin) of its turn around z, and how far the cap is below its top. Times `stretch` it is
+// one of the rough surface.
+vec3 mx_ggx_cap(vec2 around, float depth, vec3 v)
 {
-    float top = (1.0 - xi.y) * (1.0 + v.z);
-    float z = top - v.z;
-    vec2 around = sqrt(max(1.0 - z * z, 0.0)) * cos(2.0 * MX_PI * (xi.x - vec2(0.0, 0.25)));
-    return normalize(vec3((v.xy + around) * alpha, top));
+    return vec3(v.xy + sqrt(depth * (2.0 - depth)) * around, v.z + 1.0 - depth);
 }
 
-// Sample number i of the spherical Fibonacci points (Marques et al. 2013): its light, and in the fourth component the cosine
-// at its facet. The light is filtered over the solid angle of the sample (Krivanek and Colbert 2008; the mip level is
-// equation 13 of GPU Gems 3, section 20.4).
-vec4 mx_ggx_sample(int i, vec3 N, vec3 x, vec3 V, float cos_v, vec2 alpha, float refract_ior)
+// The light of a sample, and in the fourth component the cosine at its facet h. A visible normal weighs G2 / G1 where it reflects, and 1 / G1
+// where it refracts.
+vec4 mx_ggx_sample_at(mx_GgxLobe lobe, vec3 h, float level, float refract_ior)
 {
-    float count = float(u_envRadianceSamples);
-    vec2 xi = vec2((float(i) + 0.5) / count, fract((float(i) + 1.0) * 1.61803399));
-    vec3 h = mx_ggx_visible_normal(xi, normalize(vec3(dot(V, x) * alpha.x, dot(V, cross(N, x)) * alpha.y, cos_v)), alpha);
-    vec3 H = mx_leave_frame(h, N, x);
-    float masking = 2.0 * (cos_v + mx_ggx_masking(cos_v, alpha)) / count;
-    // A visible normal weighs G2 / G1 where it reflects, and 1 / G1 where it refracts.
-    vec3 L = reflect(-V, H);
-    float weight = 0.25 / cos_v;
+    vec3 l = reflect(-lobe.v, h);
+    float weight = mx_ggx_visibility(lobe, max(l.z, MX_EPSILON));
     if (refract_ior > 0.0)
-        L = mx_refract_sphere(V, H, refract_ior);
-    else
-        weight = mx_ggx_visibility(cos_v, max(dot(N, L), MX_EPSILON), alpha);
-    float solid = length(L.xz) * mx_ggx_distribution(h, alpha) / masking;
-    return vec4(weight * masking
-                    * mx_environment_radiance(L, max(float(u_envRadianceMips) - 2.5 - 0.5 * log2(solid), 0.0)),
-                clamp(dot(V, H), MX_EPSILON, 1.0));
+    {
+        l = mx_refract_sphere(lobe.v, h, refract_ior);
+        weight = 0.5 / lobe.v.z;
+    }
+    return vec4(weight * mx_filtered_light(lobe.map, lobe.frame * l, level), clamp(dot(lobe.v, h), MX_EPSILON, 1.0));
 }
 
-// What the lobe reflects of all directions, or one sample's part of it.
-vec3 mx_ggx_environment(vec2 roughness, vec3 N, vec3 X, vec3 V, string model, vec3 n, vec3 k, vec3 f90, float exponent,
-                        float film, float film_ior, int sample_index)
+vec4 mx_ggx_sample(mx_GgxLobe lobe, vec2 around, float xi, float refract_ior)
+{
+    vec3 cap = mx_ggx_cap(around, xi * (1.0 + lobe.cap.z), lobe.cap);
+    vec3 h = cap * lobe.stretch;
+    float s = dot(cap, cap) / dot(h, h);
+    return mx_ggx_sample_at(lobe, normalize(h), s * s * lobe.level, refract_ior);
+}
+
+// Samples are spherical Fibonacci points (Marques et al. 2013): each is the golden angle further around the one before.
+const mat2 MX_GOLDEN_TURN = mat2(-0.73736888, 0.67549029, -0.67549029, -0.73736888);
+
+vec3 mx_ggx_gather(mx_GgxLobe lobe, float limit, float refract_ior, string model, vec3 n, vec3 k, vec3 f90, float exponent)
+{
+    vec2 around = vec2(1.0, 0.0);
+    vec3 sum = vec3(0.0);
+    for (float xi = 0.5 * lobe.step; xi < limit; xi += lobe.step)
+    {
+        vec4 light = mx_ggx_sample(lobe, around, xi, refract_ior);
+        vec3 f = mx_fresnel_bare(light.w, model, n, k, f90, exponent);
+        sum += (refract_ior > 0.0 ? 1.0 - f : f) * light.xyz;
+        around = MX_GOLDEN_TURN * around;
+    }
+    return lobe.weight * sum;
+}
+
+vec3 mx_ggx_gather_film(mx_GgxLobe lobe, float limit, float refract_ior, bool is_index, vec3 n, vec3 k, vec3 f90, float exponent,
+                        float film, float film_ior)
+{
+    vec2 around = vec2(1.0, 0.0);
+    vec3 sum = vec3(0.0);
+    for (float xi = 0.5 * lobe.step; xi < limit; xi += lobe.step)
+    {
+        vec4 light = mx_ggx_sample(lobe, around, xi, refract_ior);
+        vec3 f = is_index ? mx_film_index(light.w, n, k, film, film_ior)
+                          : mx_film_schlick(light.w, n, k, f90, exponent, film, film_ior);
+        sum += (refract_ior > 0.0 ? 1.0 - f : f) * light.xyz;
+        around = MX_GOLDEN_TURN * around;
+    }
+    return lobe.weight * sum;
+}
+
+// What the lobe reflects of all directions.
+vec3 mx_ggx_environment(vec2 roughness, vec3 N, vec3 X, vec3 V, string model, vec3 n, vec3 k, vec3 f90, float exponent, float film,
+                        float film_ior)
 {
     if (option_environment == 0)
         return vec3(0.0);
-    vec2 alpha = mx_ggx_alpha(roughness);
-    vec3 scale = mx_ggx_compensation(mx_ggx_albedo(alpha, mx_view_cosine(N, V)), model, n, k, f90, exponent, film, film_ior);
+    vec3 scale = mx_ggx_compensation(mx_ggx_albedo(roughness, mx_view_cosine(N, V)), model, n, k, f90, exponent, film, film_ior);
     if (option_environment == 1)
-        return scale * mx_ggx_prefiltered(alpha, N, V, 0.0, model, n, k, f90, exponent, film, film_ior);
-    vec3 n_v = mx_facing(N, V);
-    vec4 light = mx_ggx_sample(sample_index, n_v, mx_tangent(n_v, X), V, mx_view_cosine(N, V), alpha, 0.0);
-    return scale * light.xyz * mx_fresnel(light.w, model, n, k, f90, exponent, film, film_ior);
+        return scale * mx_ggx_prefiltered(roughness, N, V, 0.0, model, n, k, f90, exponent, film, film_ior);
+    // A loop that no pixel needs is over at once, a branch that none takes may not be: both loops stand side by side, one of them empty.
+    mx_GgxLobe lobe = mx_ggx_lobe(roughness, mx_facing(N, V), X, V);
+    return scale
+         * (film > 0.0 ? mx_ggx_gather_film(lobe, film > 0.0 ? 1.0 : 0.0, 0.0, model != "schlick", n, k, f90, exponent, film, film_ior)
+                       : mx_ggx_gather(lobe, film > 0.0 ? 0.0 : 1.0, 0.0, model, n, k, f90, exponent));
 }
 
-// What it refracts, as above.
-vec3 mx_ggx_refraction(vec2 roughness, vec3 N, vec3 X, vec3 V, float ior, string model, vec3 n, vec3 k, vec3 f90,
-                       float exponent, float film, float film_ior, int sample_index)
+// What it refracts.
+vec3 mx_ggx_refraction(vec2 roughness, vec3 N, vec3 X, vec3 V, float ior, string model, vec3 n, vec3 k, vec3 f90, float exponent,
+                       float film, float film_ior)
 {
     if (option_environment == 0)
         return vec3(0.0);
-    vec2 alpha = mx_ggx_alpha(roughness);
     if (option_environment == 1)
-        return mx_ggx_prefiltered(alpha, N, V, ior, model, n, k, f90, exponent, film, film_ior);
-    vec3 n_v = mx_facing(N, V);
-    vec4 light = mx_ggx_sample(sample_index, n_v, mx_tangent(n_v, X), V, mx_view_cosine(N, V), alpha, ior);
-    return light.xyz * (1.0 - mx_fresnel(light.w, model, n, k, f90, exponent, film, film_ior));
+        return mx_ggx_prefiltered(roughness, N, V, ior, model, n, k, f90, exponent, film, film_ior);
+    mx_GgxLobe lobe = mx_ggx_lobe(roughness, mx_facing(N, V), X, V);
+    return film > 0.0 ? mx_ggx_gather_film(lobe, film > 0.0 ? 1.0 : 0.0, ior, model != "schlick", n, k, f90, exponent, film, film_ior)
+                      : mx_ggx_gather(lobe, film > 0.0 ? 0.0 : 1.0, ior, model, n, k, f90, exponent);
 }

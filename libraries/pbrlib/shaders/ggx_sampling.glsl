@@ -43,8 +43,8 @@ float mx_refraction_jacobian(vec3 v, vec3 l, vec3 h, float eta)
 
 // Refracted light (Walter et al. 2007, equation 21), as a part of energy: radiance grows by the square of the index, and shrinks again
 // where it leaves the medium; both are left out.
-vec3 mx_ggx_refracted(vec2 roughness, vec3 N, vec3 X, vec3 V, vec3 L, float eta, string model, vec3 n, vec3 k, vec3 f90,
-                      float exponent, float film, float film_ior)
+vec3 mx_ggx_refracted(vec2 roughness, vec3 N, vec3 X, vec3 V, vec3 L, float eta, string model, vec3 n, vec3 k, vec3 f90, float exponent,
+                      float film, float film_ior)
 {
     vec2 alpha = mx_ggx_alpha(roughness);
     mat3 frame = mx_frame(mx_facing(N, V), X);
@@ -55,7 +55,7 @@ vec3 mx_ggx_refracted(vec2 roughness, vec3 N, vec3 X, vec3 V, vec3 L, float eta,
     if (l.z >= 0.0 || cos_h <= 0.0 || dot(l, h) >= 0.0)
         return vec3(0.0);
     return (1.0 - mx_fresnel(min(cos_h, 1.0), model, n, k, f90, exponent, film, film_ior))
-         * (mx_ggx_distribution(h, alpha) * mx_ggx_masked(v, alpha) * mx_ggx_masked(-l, alpha) * -l.z
+         * (mx_ggx_distribution(h / vec3(alpha, 1.0), alpha.x * alpha.y) * mx_ggx_masked(v, alpha) * mx_ggx_masked(-l, alpha) * -l.z
             * cos_h * mx_refraction_jacobian(v, l, h, eta));
 }
 
@@ -72,7 +72,7 @@ float mx_ggx_pdf(vec2 roughness, vec3 N, vec3 X, vec3 V, vec3 L, float eta, int 
     if (cos_h <= 0.0 || (!is_reflected && dot(l, h) >= 0.0))
         return 0.0;
     float share = mx_ggx_share(mx_fresnel(min(cos_h, 1.0), model, n, k, f90, exponent, film, film_ior), mode);
-    return mx_ggx_masked(v, alpha) * mx_ggx_distribution(h, alpha)
+    return mx_ggx_masked(v, alpha) * mx_ggx_distribution(h / vec3(alpha, 1.0), alpha.x * alpha.y)
          * (is_reflected ? 0.25 * share : (1.0 - share) * cos_h * mx_refraction_jacobian(v, l, h, eta));
 }
 
@@ -83,7 +83,9 @@ void mx_ggx_scatter(vec2 roughness, vec3 N, vec3 X, vec3 V, vec3 xi, float eta, 
     vec2 alpha = mx_ggx_alpha(roughness);
     mat3 frame = mx_frame(mx_facing(N, V), X);
     vec3 v = mx_ggx_local(frame, V);
-    vec3 h = mx_ggx_visible_normal(xi.xy, normalize(vec3(v.xy * alpha, v.z)), alpha);
+    vec3 stretch = vec3(alpha, 1.0);
+    vec3 cap = normalize(v * stretch);
+    vec3 h = normalize(mx_ggx_cap(mx_polar(1.0, xi.x), xi.y * (1.0 + cap.z), cap) * stretch);
     float cos_h = clamp(dot(v, h), MX_EPSILON, 1.0);
     vec3 f = mx_fresnel(cos_h, model, n, k, f90, exponent, film, film_ior);
     float share = mx_ggx_share(f, mode);
@@ -98,7 +100,7 @@ void mx_ggx_scatter(vec2 roughness, vec3 N, vec3 X, vec3 V, vec3 xi, float eta, 
     if (is_reflected)
     {
         weight = f * (mx_ggx_smith_visibility(v, l, alpha) * 4.0 / (density * share))
-               * mx_ggx_compensation(mx_ggx_albedo(alpha, v.z), model, n, k, f90, exponent, film, film_ior);
+               * mx_ggx_compensation(mx_ggx_albedo(roughness, v.z), model, n, k, f90, exponent, film, film_ior);
         pdf = 0.25 * share;
     }
     else
@@ -106,5 +108,5 @@ void mx_ggx_scatter(vec2 roughness, vec3 N, vec3 X, vec3 V, vec3 xi, float eta, 
         weight = (1.0 - f) * (mx_ggx_masked(-l, alpha) * -l.z / (1.0 - share));
         pdf = (1.0 - share) * cos_h * mx_refraction_jacobian(v, l, h, eta);
     }
-    pdf *= density * mx_ggx_distribution(h, alpha);
+    pdf *= density * mx_ggx_distribution(h / vec3(alpha, 1.0), alpha.x * alpha.y);
 }

@@ -8,8 +8,7 @@
 // ---- parameters -----------------------------------------------------------------------------------------------------
 
 // d'Eon et al. 2011, section 6.1: pigments as colours exp(-absorption).
-vec3 mx_deon_hair_absorption_from_melanin(float melanin_concentration, float melanin_redness, vec3 eumelanin_color,
-                                          vec3 pheomelanin_color)
+vec3 mx_deon_hair_absorption_from_melanin(float melanin_concentration, float melanin_redness, vec3 eumelanin_color, vec3 pheomelanin_color)
 {
     float melanin = -log(max(1.0 - melanin_concentration, 0.0001));
     return max(-melanin * mix(log(eumelanin_color), log(pheomelanin_color), melanin_redness), 0.0);
@@ -25,8 +24,8 @@ vec3 mx_chiang_hair_absorption_from_color(vec3 color, float azimuthal_roughness)
 }
 
 // Chiang et al. 2016, equations 7 and 8: variance along the hair, logistic scale around it.
-void mx_chiang_hair_roughness(float longitudinal, float azimuthal, float scale_TT, float scale_TRT,
-                              out vec2 roughness_R, out vec2 roughness_TT, out vec2 roughness_TRT)
+void mx_chiang_hair_roughness(float longitudinal, float azimuthal, float scale_TT, float scale_TRT, out vec2 roughness_R,
+                              out vec2 roughness_TT, out vec2 roughness_TRT)
 {
     float m = clamp(longitudinal, 0.001, 1.0);
     float n = clamp(azimuthal, 0.001, 1.0);
@@ -124,9 +123,8 @@ float mx_hair_around(int p, float phi, vec2 gamma, float roughness)
     return p == 3 ? 0.5 / MX_PI : mx_hair_azimuthal(direct, roughness);
 }
 
-vec3 mx_chiang_hair_bsdf_eval(vec3 tint_R, vec3 tint_TT, vec3 tint_TRT, float ior, vec2 roughness_R,
-                              vec2 roughness_TT, vec2 roughness_TRT, float cuticle_angle, vec3 absorption, vec3 N,
-                              vec3 curve_direction, vec3 V, vec3 L)
+vec3 mx_chiang_hair_bsdf_eval(vec3 tint_R, vec3 tint_TT, vec3 tint_TRT, float ior, vec2 roughness_R, vec2 roughness_TT, vec2 roughness_TRT,
+                              float cuticle_angle, vec3 absorption, vec3 N, vec3 curve_direction, vec3 V, vec3 L)
 {
     vec3 n = mx_facing(N, V);
     vec3 x = mx_tangent(n, curve_direction);
@@ -148,9 +146,8 @@ vec3 mx_chiang_hair_bsdf_eval(vec3 tint_R, vec3 tint_TT, vec3 tint_TRT, float io
 }
 
 // M_p and N_p are densities, but for the tilt of M_p: what is left are the paths' parts.
-vec3 mx_chiang_hair_bsdf_albedo(vec3 tint_R, vec3 tint_TT, vec3 tint_TRT, float ior, vec2 roughness_R,
-                                vec2 roughness_TT, vec2 roughness_TRT, float cuticle_angle, vec3 absorption, vec3 N,
-                                vec3 curve_direction, vec3 V)
+vec3 mx_chiang_hair_bsdf_albedo(vec3 tint_R, vec3 tint_TT, vec3 tint_TRT, float ior, vec2 roughness_R, vec2 roughness_TT,
+                                vec2 roughness_TRT, float cuticle_angle, vec3 absorption, vec3 N, vec3 curve_direction, vec3 V)
 {
     float reflected;
     vec3 through;
@@ -162,9 +159,8 @@ vec3 mx_chiang_hair_bsdf_albedo(vec3 tint_R, vec3 tint_TT, vec3 tint_TRT, float 
 }
 
 // A path is chosen by its mean part, and tilts V instead of L, so that M_p stays a density.
-float mx_chiang_hair_bsdf_pdf(vec3 tint_R, vec3 tint_TT, vec3 tint_TRT, float ior, vec2 roughness_R,
-                              vec2 roughness_TT, vec2 roughness_TRT, float cuticle_angle, vec3 absorption, vec3 N,
-                              vec3 curve_direction, vec3 V, vec3 L)
+float mx_chiang_hair_bsdf_pdf(vec3 tint_R, vec3 tint_TT, vec3 tint_TRT, float ior, vec2 roughness_R, vec2 roughness_TT, vec2 roughness_TRT,
+                              float cuticle_angle, vec3 absorption, vec3 N, vec3 curve_direction, vec3 V, vec3 L)
 {
     mat3 frame = mx_frame(mx_facing(N, V), curve_direction);
     vec3 v = V * frame;
@@ -186,10 +182,9 @@ float mx_chiang_hair_bsdf_pdf(vec3 tint_R, vec3 tint_TT, vec3 tint_TRT, float io
 
 // M_p after d'Eon et al. 2013, "Importance Sampling for Physically-Based Hair Fiber Models", N_p by inversion; xi.z chooses the path,
 // and what is left of it the angle around the cone of M_p.
-void mx_chiang_hair_bsdf_sample(vec3 tint_R, vec3 tint_TT, vec3 tint_TRT, float ior, vec2 roughness_R,
-                                vec2 roughness_TT, vec2 roughness_TRT, float cuticle_angle, vec3 absorption, vec3 N,
-                                vec3 curve_direction, vec3 V, vec3 xi, out vec3 L, out vec3 weight,
-                                out float pdf)
+void mx_chiang_hair_bsdf_sample(vec3 tint_R, vec3 tint_TT, vec3 tint_TRT, float ior, vec2 roughness_R, vec2 roughness_TT,
+                                vec2 roughness_TRT, float cuticle_angle, vec3 absorption, vec3 N, vec3 curve_direction, vec3 V, vec3 xi,
+                                out vec3 L, out vec3 weight, out float pdf)
 {
     mat3 frame = mx_frame(mx_facing(N, V), curve_direction);
     vec3 v = V * frame;
@@ -229,20 +224,18 @@ void mx_chiang_hair_bsdf_sample(vec3 tint_R, vec3 tint_TT, vec3 tint_TRT, float 
 }
 
 // A rough dielectric stands in for the lobes where they are not sampled.
-vec3 mx_chiang_hair_bsdf_environment(vec3 tint_R, vec3 tint_TT, vec3 tint_TRT, float ior, vec2 roughness_R,
-                                     vec2 roughness_TT, vec2 roughness_TRT, float cuticle_angle, vec3 absorption,
-                                     vec3 N, vec3 curve_direction, vec3 V, int sample_index)
+vec3 mx_chiang_hair_bsdf_environment(vec3 tint_R, vec3 tint_TT, vec3 tint_TRT, float ior, vec2 roughness_R, vec2 roughness_TT,
+                                     vec2 roughness_TRT, float cuticle_angle, vec3 absorption, vec3 N, vec3 curve_direction, vec3 V,
+                                     int sample_index)
 {
     if (option_integrator == 1 && option_environment == 2)
     {
-        vec3 L;
-        vec3 weight;
+        vec3 L, weight;
         float pdf;
         mx_chiang_hair_bsdf_sample(tint_R, tint_TT, tint_TRT, ior, roughness_R, roughness_TT, roughness_TRT, cuticle_angle,
                                    absorption, N, curve_direction, V, mx_lobe_random(sample_index), L, weight, pdf);
         return mx_lobe_light(L, weight, pdf);
     }
-    return (tint_R + tint_TT + tint_TRT) / 3.0
-         * mx_ggx_environment((roughness_R + roughness_TT + roughness_TRT) / 3.0, N, curve_direction, V,
-                              "dielectric", vec3(ior), vec3(0.0), vec3(1.0), 0.0, 0.0, 1.0, sample_index);
+    return (tint_R + tint_TT + tint_TRT) / 3.0 * mx_ggx_environment((roughness_R + roughness_TT + roughness_TRT) / 3.0, N, curve_direction,
+                                                                    V, "dielectric", vec3(ior), vec3(0.0), vec3(1.0), 0.0, 0.0, 1.0);
 }

@@ -8,8 +8,11 @@ const int option_integrator = 0; // 0 raster, 1 path tracing
 // Axes of the tangent space around N with x along X: `w * frame` enters it, `frame * w` leaves it.
 mat3 mx_frame(vec3 N, vec3 X)
 {
-    vec3 x = mx_tangent(N, X);
-    return mat3(x, cross(N, x), N);
+    mat3 frame;
+    frame[0] = mx_tangent(N, X);
+    frame[1] = cross(N, frame[0]);
+    frame[2] = N;
+    return frame;
 }
 
 // Axes around N where none matters.

@@ -11,9 +11,7 @@ float mx_sheen_albedo(float c, float roughness, string mode)
     {
         const mat4 FIT = mat4(3.7341, -15.9587, 23.6210, -11.0989, -8.2265, 35.1081, -49.7137, 23.2945,
                               4.0691, -17.8820, 25.6639, -12.0167, -0.5833, 2.6552, -3.9393, 1.8999);
-        vec2 x = 1.0 / vec2(1.0 + c, 0.2 + roughness);
-        vec2 x2 = x * x;
-        return clamp(dot(vec4(1.0, x.x, x2.x, x2.x * x.x), FIT * vec4(1.0, x.y, x2.y, x2.y * x.y)), 0.0, 1.0);
+        return clamp(mx_bicubic(FIT, 1.0 / (1.0 + c), 1.0 / (0.2 + roughness)), 0.0, 1.0);
     }
     float r = clamp(roughness, 0.01, 1.0);
     float width = r * (0.0206607 + 1.58491 * r) / (0.0379424 + r * (1.32227 + r));
@@ -80,8 +78,7 @@ float mx_sheen_bsdf_pdf(vec3 color, float roughness, vec3 N, string mode, vec3 V
     return dot(n, L) > 0.0 ? 0.5 / MX_PI : 0.0;
 }
 
-void mx_sheen_bsdf_sample(vec3 color, float roughness, vec3 N, string mode, vec3 V, vec3 xi, out vec3 L, out vec3 weight,
-                          out float pdf)
+void mx_sheen_bsdf_sample(vec3 color, float roughness, vec3 N, string mode, vec3 V, vec3 xi, out vec3 L, out vec3 weight, out float pdf)
 {
     vec3 n = mx_facing(N, V);
     if (mode == "zeltner")
@@ -102,8 +99,7 @@ vec3 mx_sheen_bsdf_environment(vec3 color, float roughness, vec3 N, string mode,
 {
     if (option_integrator == 1 && option_environment == 2)
     {
-        vec3 L;
-        vec3 weight;
+        vec3 L, weight;
         float pdf;
         mx_sheen_bsdf_sample(color, roughness, N, mode, V, mx_lobe_random(sample_index), L, weight, pdf);
         return mx_lobe_light(L, weight, pdf);
