@@ -39,24 +39,10 @@ static bool list_documents(struct suite *suite)
 
 static bool read_deviations(struct suite *suite)
 {
-    char *path = lines_path(suite->folder, ".", "deviations", ".tsv"), *line = NULL;
-    size_t room = 0;
-    FILE *file = lines_open(path);
-    while (file && lines_next(file, &line, &room)) {
-        char *rest = line;
-        if (!*line || *line == '#')
-            continue;
-        suite->deviations = lines_grow(suite->deviations, suite->num_deviations, sizeof *suite->deviations);
-        struct deviation *d = &suite->deviations[suite->num_deviations++];
-        *d = (struct deviation){0};
-        d->document = strdup(lines_field(&rest, '\t'));
-        d->row = strdup(lines_field(&rest, '\t'));
-    }
-    if (file)
-        fclose(file);
-    free(line);
+    char *path = lines_path(suite->folder, ".", "deviations", ".tsv");
+    bool good = path && deviations_read(&suite->deviations, path, 0);
     free(path);
-    return file != NULL;
+    return good;
 }
 
 bool suite_open(struct suite *suite, const char *folder)
@@ -72,12 +58,8 @@ void suite_close(struct suite *suite)
 {
     for (size_t i = 0; i < suite->num_documents; ++i)
         free(suite->documents[i]);
-    for (size_t i = 0; i < suite->num_deviations; ++i) {
-        free(suite->deviations[i].document);
-        free(suite->deviations[i].row);
-    }
     free(suite->documents);
-    free(suite->deviations);
+    deviations_finish(&suite->deviations);
 }
 
 char *suite_case_file(const struct suite *suite, size_t index)
@@ -171,16 +153,6 @@ static bool agrees(const struct row *row, const float *values, size_t *out_at)
     return worst <= row->tolerance;
 }
 
-static struct deviation *find_deviation(struct suite *suite, const struct row_list *list, const struct row *row)
-{
-    for (size_t i = 0; i < suite->num_deviations; ++i) {
-        struct deviation *d = &suite->deviations[i];
-        if (strcmp(d->document, list->document) == 0 && strcmp(d->row, row->name) == 0)
-            return d;
-    }
-    return NULL;
-}
-
 static bool fail(struct suite *suite, const struct row_list *list, const struct row *row)
 {
     bool is_shown = ++suite->failed <= MAX_FAILURES_SHOWN;
@@ -191,11 +163,9 @@ static bool fail(struct suite *suite, const struct row_list *list, const struct 
 
 void suite_judge(struct suite *suite, const struct row_list *list, const struct row *row, const float *values, const char *problem)
 {
-    struct deviation *deviation = find_deviation(suite, list, row);
+    const struct deviation *deviation = deviations_find(&suite->deviations, list->document, row->name);
     size_t at = 0;
     bool good = values && agrees(row, values, &at);
-    if (deviation)
-        deviation->is_found = true;
     if (values && !row->is_defined) {
         ++suite->undefined;
     } else if (good && deviation) {
@@ -216,21 +186,14 @@ void suite_judge(struct suite *suite, const struct row_list *list, const struct 
 
 void suite_skip(struct suite *suite, const struct row_list *list, const struct row *row)
 {
-    struct deviation *deviation = find_deviation(suite, list, row);
-    if (deviation)
-        deviation->is_found = true;
+    (void)deviations_find(&suite->deviations, list->document, row->name);
     ++suite->skipped;
 }
 
 static void check_deviations(struct suite *suite, size_t num_rows)
 {
-    for (size_t i = 0; i < suite->num_deviations; ++i) {
-        const struct deviation *d = &suite->deviations[i];
-        if (!d->is_found)
-            printf("deviations.tsv: there is no row '%s' of '%s'\n", d->row, d->document);
-        suite->failed += !d->is_found;
-    }
-    if (suite->num_deviations * 100 > num_rows * MAX_DEVIATIONS_PERCENT) {
+    suite->failed += deviations_list_lost(&suite->deviations);
+    if (suite->deviations.len * 100 > num_rows * MAX_DEVIATIONS_PERCENT) {
         printf("deviations.tsv has more than %d %% of the rows\n", MAX_DEVIATIONS_PERCENT);
         ++suite->failed;
     }

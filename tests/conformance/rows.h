@@ -6,6 +6,8 @@
 #ifndef MXG_TESTS_CONFORMANCE_ROWS_H
 #define MXG_TESTS_CONFORMANCE_ROWS_H
 
+#include "deviations.h"
+
 #include <stdbool.h>
 #include <stddef.h>
 
@@ -25,17 +27,11 @@ struct row_list {
     size_t len;
 };
 
-struct deviation {
-    char *document, *row; /* and a reason, for people */
-    bool is_found;
-};
-
 struct suite {
     const char *folder;
     char **documents; /* sorted */
     size_t num_documents;
-    struct deviation *deviations;
-    size_t num_deviations;
+    struct deviations deviations;
     size_t agree, deviate, undefined, skipped, failed;
 };
 

@@ -9,6 +9,7 @@
  * larger cells only; the shader is drawn whole in any case.
  */
 #define _POSIX_C_SOURCE 200809L
+#include "deviations.h"
 #include "lines.h"
 #include "render/render.h"
 #include "validate/compile.h"
@@ -36,12 +37,6 @@ struct errors {
     double mean, rms; /* relative */
 };
 
-struct deviation {
-    char *material, *image;
-    struct errors at_most; /* what is allowed instead */
-    bool is_found;
-};
-
 struct run {
     const char *folder, *documents; /* "": none */
     char **names;
@@ -50,8 +45,7 @@ struct run {
     mxg_library *library;
     struct gpu gpu;
     struct scene scenes[NUM_IMAGE_KINDS];
-    struct deviation *deviations;
-    size_t num_deviations;
+    struct deviations deviations; /* of materials and images; mean and rms in percent that are allowed instead */
     struct errors worst; /* of all that agree */
     size_t agree, deviate, failed;
 };
@@ -123,27 +117,17 @@ static struct errors measure(const struct reference *reference, float (*pixels)[
     return (struct errors){fabs(sum / values - expected_sum / values) / mean, sqrt(square_sum / fmax((double)kept, 1.0)) / mean};
 }
 
-static struct deviation *find_deviation(struct run *run, const char *material, const char *image)
-{
-    for (size_t i = 0; i < run->num_deviations; ++i)
-        if (strcmp(run->deviations[i].material, material) == 0 && strcmp(run->deviations[i].image, image) == 0)
-            return &run->deviations[i];
-    return NULL;
-}
-
 static void judge(struct run *run, const char *material, const char *image, const char *file, float (*pixels)[4])
 {
     struct reference reference;
     struct errors limit = {max_mean_error, max_rms_error}, got = {INFINITY, INFINITY};
-    struct deviation *deviation = find_deviation(run, material, image);
+    const struct deviation *deviation = deviations_find(&run->deviations, material, image);
     if (read_reference(run->folder, file, &reference))
         got = measure(&reference, pixels);
     free(reference.values);
     bool agrees = got.mean <= limit.mean && got.rms <= limit.rms;
-    if (deviation) {
-        deviation->is_found = true;
-        limit = deviation->at_most;
-    }
+    if (deviation)
+        limit = (struct errors){deviation->numbers[0] / 100.0, deviation->numbers[1] / 100.0};
     bool is_allowed = got.mean <= limit.mean && got.rms <= limit.rms;
     if (deviation && agrees)
         printf("%s, %s: agrees, though deviations.tsv has it (", material, image);
@@ -241,34 +225,11 @@ static bool make_scene(struct scene *scene, enum image_kind kind)
 }
 
 /* "material, image, mean error in percent, rms error in percent, reason" */
-static bool read_deviations(struct run *run, const char *path)
-{
-    char *line = NULL;
-    size_t room = 0;
-    FILE *file = lines_open(path);
-    while (file && lines_next(file, &line, &room)) {
-        char *rest = line;
-        if (!*line || *line == '#')
-            continue;
-        run->deviations = lines_grow(run->deviations, run->num_deviations, sizeof *run->deviations);
-        struct deviation *d = &run->deviations[run->num_deviations++];
-        *d = (struct deviation){0};
-        d->material = strdup(lines_field(&rest, '\t'));
-        d->image = strdup(lines_field(&rest, '\t'));
-        d->at_most.mean = strtod(lines_field(&rest, '\t'), NULL) / 100.0;
-        d->at_most.rms = strtod(lines_field(&rest, '\t'), NULL) / 100.0;
-    }
-    if (file)
-        fclose(file);
-    free(line);
-    return file != NULL;
-}
-
 static bool start(struct run *run, const char *deviations)
 {
     compile_begin();
     bool good = mxg_context_create(NULL, &run->context) == MXG_OK && (run->library = mxg_library_builtin(run->context)) != NULL &&
-                read_deviations(run, deviations);
+                deviations_read(&run->deviations, deviations, 2);
     for (int kind = 0; kind < NUM_IMAGE_KINDS; ++kind)
         good = good && make_scene(&run->scenes[kind], (enum image_kind)kind);
     return good;
@@ -276,11 +237,7 @@ static bool start(struct run *run, const char *deviations)
 
 static void stop(struct run *run)
 {
-    for (size_t i = 0; i < run->num_deviations; ++i) {
-        free(run->deviations[i].material);
-        free(run->deviations[i].image);
-    }
-    free(run->deviations);
+    deviations_finish(&run->deviations);
     for (int kind = 0; kind < NUM_IMAGE_KINDS; ++kind)
         scene_finish(&run->scenes[kind]);
     gpu_close(&run->gpu);
@@ -298,11 +255,8 @@ static void check_all(struct run *run)
     run->failed += !good;
     while (good && lines_next(file, &line, &room))
         check_line(run, line);
-    for (size_t i = 0; i < run->num_deviations && run->num_names == 0 && *run->documents; ++i) {
-        if (!run->deviations[i].is_found)
-            printf("deviations: there is no image %s of %s\n", run->deviations[i].image, run->deviations[i].material);
-        run->failed += !run->deviations[i].is_found;
-    }
+    if (run->num_names == 0 && *run->documents)
+        run->failed += deviations_list_lost(&run->deviations);
     if (file)
         fclose(file);
     free(line);

@@ -57,7 +57,13 @@ static void release_part(void *user_data, mxg_blob *blob)
     files->num_open--;
 }
 
-mxg_resolver fuzz_files_resolver(struct fuzz_files *files)
+mxg_context *fuzz_files_context(struct fuzz_files *files, struct fuzz_heap *heap, mxg_context_desc desc)
 {
-    return (mxg_resolver){files, open_part, release_part};
+    mxg_resolver resolver = {files, open_part, release_part};
+    mxg_context *context = NULL;
+    desc.size = sizeof desc;
+    desc.realloc = heap ? fuzz_realloc : NULL;
+    desc.realloc_user_data = heap;
+    desc.resolver = &resolver;
+    return mxg_context_create(&desc, &context) == MXG_OK ? context : NULL;
 }

@@ -22,6 +22,8 @@ struct fuzz_files {
 };
 
 void fuzz_files_split(struct fuzz_files *files, const char *data, size_t size);
-mxg_resolver fuzz_files_resolver(struct fuzz_files *files);
+
+/* A context that reads these files with memory of the heap, and the rest as `desc` says. NULL: it cannot be made. */
+mxg_context *fuzz_files_context(struct fuzz_files *files, struct fuzz_heap *heap, mxg_context_desc desc);
 
 #endif

@@ -15,9 +15,26 @@ void *fuzz_realloc(void *user_data, void *block, size_t old_size, size_t new_siz
     return NULL;
 }
 
-bool fuzz_try(struct mem *mem, void (*work)(void *arg), void *arg)
+struct attempt {
+    struct fuzz_job job;
+    void (*work)(struct fuzz_job *job);
+};
+
+static void run_attempt(void *arg)
 {
-    return mem_try(mem, work, arg);
+    struct attempt *attempt = arg;
+    attempt->work(&attempt->job);
+}
+
+void fuzz_run_job(const char *data, size_t size, struct fuzz_heap *heap, size_t limit, void (*work)(struct fuzz_job *job))
+{
+    struct mem mem;
+    struct attempt attempt = {{data, size, {0}}, work};
+    mem_init(&mem, fuzz_realloc, heap);
+    mem.limit = limit ? limit : mem.limit;
+    arena_init(&attempt.job.arena, &mem);
+    mem_try(&mem, run_attempt, &attempt);
+    arena_finish(&attempt.job.arena);
 }
 
 unsigned fuzz_choice(const char *data, size_t size, unsigned below)

@@ -21,8 +21,15 @@ void *fuzz_realloc(void *heap, void *block, size_t old_size, size_t new_size);
 /* The target. The bytes are not followed by a NUL. */
 void fuzz_run(const char *data, size_t size, struct fuzz_heap *heap);
 
-/* For targets of internal functions: work(arg) with a trap set. False: memory ran out. Everything must be in `mem`'s arenas. */
-bool fuzz_try(struct mem *mem, void (*work)(void *arg), void *arg);
+/* An input for internal functions; everything they make must be in its arena. */
+struct fuzz_job {
+    const char *data;
+    size_t size;
+    struct arena arena;
+};
+
+/* Runs work on a job for the input, up to where memory runs out: at `limit` bytes (0: none), or because it is to fail. */
+void fuzz_run_job(const char *data, size_t size, struct fuzz_heap *heap, size_t limit, void (*work)(struct fuzz_job *job));
 
 /* A number made of all bytes of the input: for choices. */
 unsigned fuzz_choice(const char *data, size_t size, unsigned below);

@@ -129,6 +129,7 @@ static void read_result(struct machine *m, unsigned slot, unsigned argument)
     uint32_t line, column;
     char text[80];
     mxg_result_source(result, (mxg_stage)(argument % 3), NULL);
+    mxg_result_closure_path(result, argument, text, argument % sizeof text);
     mxg_result_source_place(result, (mxg_stage)(argument % 3), argument, &file, &line, &column, &path);
     mxg_result_variable(result, argument, &variable);
     mxg_result_find_variable(result, name_of(argument), &line);
@@ -158,6 +159,7 @@ static void read_library(struct machine *m, unsigned slot, unsigned argument)
     mxg_nodedef def = {sizeof def};
     mxg_port port = {sizeof port};
     mxg_library_nodedef(library, argument * 7, &def);
+    mxg_library_file(library, argument);
     mxg_library_port(library, argument * 7, argument % 32, &port);
     mxg_library_supports(library, argument * 7, name_of(argument));
     mxg_library_image(library, &data, &size);
@@ -175,13 +177,7 @@ void fuzz_run(const char *data, size_t size, struct fuzz_heap *heap)
     struct machine m = {0};
     struct fuzz_files files;
     fuzz_files_split(&files, parts, sizeof parts - 1);
-    mxg_resolver resolver = fuzz_files_resolver(&files);
-    mxg_context_desc desc = MXG_CONTEXT_DESC_INIT;
-    desc.realloc = fuzz_realloc;
-    desc.realloc_user_data = heap;
-    desc.resolver = &resolver;
-    desc.max_memory = (size_t)64 << 20;
-    mxg_context_create(&desc, &m.context);
+    m.context = fuzz_files_context(&files, heap, (mxg_context_desc){.max_memory = (size_t)64 << 20});
     for (size_t i = 0; i + 1 < size && i < 2 * MAX_CALLS; i += 2) {
         unsigned call = (unsigned char)data[i], argument = (unsigned char)data[i + 1];
         calls[call % NUM_CALLS](&m, call / NUM_CALLS % NUM_SLOTS, argument);

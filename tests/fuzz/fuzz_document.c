@@ -59,18 +59,10 @@ void fuzz_run(const char *data, size_t size, struct fuzz_heap *heap)
 {
     struct fuzz_files files;
     fuzz_files_split(&files, data, size);
-    mxg_resolver resolver = fuzz_files_resolver(&files);
-    mxg_context_desc desc = MXG_CONTEXT_DESC_INIT;
-    desc.realloc = fuzz_realloc;
-    desc.realloc_user_data = heap;
-    desc.resolver = &resolver;
-    desc.max_memory = (size_t)256 << 20;
-    desc.max_elements = 20000;
-    desc.max_nodes = 50000;
-    desc.max_output_mib = 4;
-    mxg_context *context = NULL;
+    mxg_context_desc limits = {.max_memory = (size_t)256 << 20, .max_elements = 20000, .max_nodes = 50000, .max_output_mib = 4};
+    mxg_context *context = fuzz_files_context(&files, heap, limits);
     mxg_document *document = NULL;
-    if (mxg_context_create(&desc, &context) != MXG_OK)
+    if (!context)
         return;
     mxg_library *library = mxg_library_builtin(context);
     FUZZ_REQUIRE(is_expected(mxg_document_load(context, library, "main.mtlx", &document)));

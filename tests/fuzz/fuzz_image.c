@@ -26,13 +26,10 @@ static void pack(void)
     static const char *const paths[] = {"main.mtlx"};
     struct fuzz_files files;
     fuzz_files_split(&files, library_text, sizeof library_text - 1);
-    mxg_resolver resolver = fuzz_files_resolver(&files);
-    mxg_context_desc desc = MXG_CONTEXT_DESC_INIT;
-    desc.resolver = &resolver;
-    mxg_context *context;
+    mxg_context *context = fuzz_files_context(&files, NULL, (mxg_context_desc){0});
     mxg_library *library;
     const void *data;
-    FUZZ_REQUIRE(mxg_context_create(&desc, &context) == MXG_OK);
+    FUZZ_REQUIRE(context);
     FUZZ_REQUIRE(mxg_library_load(context, NULL, paths, 1, &library) == MXG_OK);
     FUZZ_REQUIRE(mxg_library_image(library, &data, &image_size) == MXG_OK);
     char *copy = malloc(image_size);
@@ -63,14 +60,9 @@ void fuzz_run(const char *data, size_t size, struct fuzz_heap *heap)
     size_t left;
     char *copy = damaged((const unsigned char *)data, size, &left);
     struct fuzz_files files = {.num = 1, .items = {{"image.mxlib", copy, left}}};
-    mxg_resolver resolver = fuzz_files_resolver(&files);
-    mxg_context_desc desc = MXG_CONTEXT_DESC_INIT;
-    desc.realloc = fuzz_realloc;
-    desc.realloc_user_data = heap;
-    desc.resolver = &resolver;
-    mxg_context *context = NULL;
+    mxg_context *context = fuzz_files_context(&files, heap, (mxg_context_desc){0});
     mxg_library *library = NULL;
-    if (mxg_context_create(&desc, &context) == MXG_OK) {
+    if (context) {
         bool is_whole = left == image_size && memcmp(copy, image, left) == 0;
         mxg_status status = mxg_library_load(context, NULL, paths, 1, &library);
         FUZZ_REQUIRE(status == (is_whole ? MXG_OK : MXG_ERROR_DOCUMENT) || (status == MXG_ERROR_MEMORY && heap->fail_at));

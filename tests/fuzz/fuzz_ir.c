@@ -4,12 +4,6 @@
 
 #include "ir/ir.h"
 
-struct job {
-    const char *data;
-    size_t size;
-    struct arena arena;
-};
-
 /* Parses into a graph of its own and prints it; NULL where the text is not IR. */
 static const char *reprint(struct arena *arena, const char *text, size_t len)
 {
@@ -32,9 +26,8 @@ static const char *reprint(struct arena *arena, const char *text, size_t len)
     return text_cstr(&out);
 }
 
-static void run(void *arg)
+static void run(struct fuzz_job *job)
 {
-    struct job *job = arg;
     const char *first = reprint(&job->arena, job->data, job->size);
     if (!first)
         return;
@@ -47,10 +40,5 @@ static void run(void *arg)
 
 void fuzz_run(const char *data, size_t size, struct fuzz_heap *heap)
 {
-    struct mem mem;
-    struct job job = {data, size, {0}};
-    mem_init(&mem, fuzz_realloc, heap);
-    arena_init(&job.arena, &mem);
-    fuzz_try(&mem, run, &job);
-    arena_finish(&job.arena);
+    fuzz_run_job(data, size, heap, 0, run);
 }

@@ -7,19 +7,13 @@
 
 #include "lang/lang.h"
 
-struct job {
-    const char *data;
-    size_t size;
-    struct arena arena;
-};
-
 enum { MAX_STEPS = 20000 };
 
 /* The file includes itself and one other. */
 static bool read_source(void *user_data, const char *from, const char *ref, const char **out_name, const char **out_text,
                         size_t *out_len, const char **out_reason)
 {
-    const struct job *job = user_data;
+    const struct fuzz_job *job = user_data;
     static const char other[] = "const float HALF = 0.5;\nfloat twice(float x) { return x * 2.0; }\n";
     bool is_main = strcmp(ref, "main.glsl") == 0;
     (void)from;
@@ -61,7 +55,7 @@ static const char *print(struct arena *arena, const struct lang_unit *unit)
 /* Parses a text into a unit of its own. False where it has errors. */
 static bool parse(struct arena *arena, const char *text, size_t size, struct lang_unit *out)
 {
-    struct job job = {text, size, {0}}; /* what read_source needs */
+    struct fuzz_job job = {text, size, {0}}; /* what read_source needs */
     struct lang_reader reader = {&job, read_source};
     struct diag_list diags;
     struct strpool *strings = ARENA_NEW(arena, struct strpool);
@@ -93,9 +87,8 @@ static void require_same(const char *first, const char *second)
     FUZZ_REQUIRE(strcmp(first, second) == 0);
 }
 
-static void run(void *arg)
+static void run(struct fuzz_job *job)
 {
-    struct job *job = arg;
     struct lang_unit unit, again;
     if (!parse(&job->arena, job->data, job->size, &unit))
         return;
@@ -113,11 +106,5 @@ static void run(void *arg)
 
 void fuzz_run(const char *data, size_t size, struct fuzz_heap *heap)
 {
-    struct mem mem;
-    struct job job = {data, size, {0}};
-    mem_init(&mem, fuzz_realloc, heap);
-    mem.limit = (size_t)256 << 20;
-    arena_init(&job.arena, &mem);
-    fuzz_try(&mem, run, &job);
-    arena_finish(&job.arena);
+    fuzz_run_job(data, size, heap, (size_t)256 << 20, run);
 }

@@ -6,12 +6,6 @@
 #include "document/document.h"
 #include "ir/ir.h"
 
-struct job {
-    const char *data;
-    size_t size;
-    struct arena arena;
-};
-
 /* What is printed reads back to the same float. */
 static void check_float(float value)
 {
@@ -23,9 +17,8 @@ static void check_float(float value)
         FUZZ_REQUIRE(num_parse_float(text, len, &again) == len && memcmp(&again, &value, sizeof value) == 0);
 }
 
-static void run(void *arg)
+static void run(struct fuzz_job *job)
 {
-    struct job *job = arg;
     struct strpool strings;
     struct ir_value value;
     strpool_init(&strings, &job->arena, NULL);
@@ -47,10 +40,5 @@ static void run(void *arg)
 
 void fuzz_run(const char *data, size_t size, struct fuzz_heap *heap)
 {
-    struct mem mem;
-    struct job job = {data, size, {0}};
-    mem_init(&mem, fuzz_realloc, heap);
-    arena_init(&job.arena, &mem);
-    fuzz_try(&mem, run, &job);
-    arena_finish(&job.arena);
+    fuzz_run_job(data, size, heap, 0, run);
 }
