@@ -8,7 +8,7 @@
  *         N' = N + g(P + D) - g(P),    g(X) = normalize(dX/dx × dX/dy) on the side of N
  *
  * The normals g of the facets go out of the difference, so the surface stays as smooth as it was. What a material reads of the
- * geometry is that of the surface before it moved, except for the normal of its closures.
+ * geometry is that of the surface before it moved, except for the normal, which is bent wherever it is read, in functions, too.
  */
 #include "closure/closure_priv.h"
 

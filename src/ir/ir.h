@@ -276,8 +276,7 @@ uint8_t *ir_count_uses(const struct ir_graph *graph, const uint8_t *marked, cons
                        struct arena *arena);
 
 /*
- * replace.c: the node `root` over `to` where it was over `from`; what does not change is not copied. Bodies of IR functions are left as
- * they are.
+ * replace.c: the node `root` over `to` where it was over `from`, in IR functions, too; what does not change is not copied.
  */
 ir_ref ir_replace(struct ir_graph *graph, ir_ref root, ir_ref from, ir_ref to, struct arena *arena);
 

@@ -418,6 +418,32 @@ static void test_marks(void)
     teardown(&f);
 }
 
+static bool source_value(void *user_data, const struct ir_graph *graph, ir_ref ref, struct ir_value *out);
+
+/* Uniform 2 in the place of uniform 1: in the graph, in functions, and in functions that only they call. */
+static void test_replace(void)
+{
+    static const char text[] = "function \"inner\" float\n%p = param float @0:0\n%n = uniform float @1\n%q = mul float %p, %n\nresults 0 = %q\n"
+                               "function \"same\" float\n%s = param float @1:0\n%t = mul float %s, 2.0\nresults 1 = %t\n"
+                               "function \"outer\" float\n%x = param float @2:0\n%y = graph_call float @0 %x\n%z = graph_call float @1 %y\n"
+                               "results 2 = %z, %y\n"
+                               "%k = uniform float @3\n%a = graph_call void @2 %k\n%b = result float %a\n%c = result float @1 %a\n"
+                               "%d = add float %b, %c\n%e = mul float %d, %n\n%m = uniform float @2\nreturn %e, %n, %m\n";
+    struct fixture f;
+    setup(&f);
+    ir_ref *roots;
+    uint32_t num_roots, line;
+    struct ir_value value;
+    struct ir_eval_env env = {.source = source_value};
+    REQUIRE(!ir_parse(&f.graph, text, strlen(text), &roots, &num_roots, &line));
+    REQUIRE(ir_eval(&f.graph, roots[0], &env, &f.arena, &value) && value.w[0].f == 3.0f * 11.0f * 13.0f * 11.0f);
+    ir_ref replaced = ir_replace(&f.graph, roots[0], roots[1], roots[2], &f.arena);
+    REQUIRE(ir_eval(&f.graph, replaced, &env, &f.arena, &value) && value.w[0].f == 3.0f * 12.0f * 13.0f * 12.0f);
+    REQUIRE_EQ(ir_mark(&f.graph, &replaced, 1, &f.arena)[roots[1]], 0);
+    REQUIRE_EQ(ir_replace(&f.graph, replaced, roots[1], roots[2], &f.arena), replaced);
+    teardown(&f);
+}
+
 /* Uniform k has the value 10 + k, or is unknown from 8 on; calls give their first argument plus the index of the result. */
 static bool source_value(void *user_data, const struct ir_graph *graph, ir_ref ref, struct ir_value *out)
 {
@@ -636,6 +662,7 @@ int main(void)
     test_round_trip();
     test_parse_errors();
     test_marks();
+    test_replace();
     test_eval();
     test_chain();
     test_limits();
