@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/bvh.h"
 
+#include "render/matrix.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -88,6 +90,8 @@ static struct bvh_corner make_corner(const struct vertex *vertex)
     memcpy(corner.position, vertex->position, sizeof corner.position);
     memcpy(corner.normal, vertex->normal, sizeof corner.normal);
     memcpy(corner.tangent, vertex->tangent, sizeof vertex->tangent);
+    memcpy(corner.rest, vertex->position, sizeof vertex->position);
+    memcpy(corner.moved, vertex->normal, sizeof vertex->normal);
     return corner;
 }
 
@@ -105,6 +109,97 @@ bool bvh_build(const struct mesh *mesh, struct bvh *out)
         out->corners[i] = make_corner(&mesh->vertices[mesh->indices[items[i / 3].triangle * 3 + i % 3]]);
     free(items);
     return good;
+}
+
+/* ---- Displacement ---- */
+
+/* Twice a triangle's area, along its normal. */
+static void facet_of(const struct bvh_corner *corners, bool at_rest, double out[3])
+{
+    double edges[2][3];
+    for (size_t k = 0; k < 2; ++k)
+        for (size_t i = 0; i < 3; ++i) {
+            const float *to = at_rest ? corners[k + 1].rest : corners[k + 1].position, *from = at_rest ? corners[0].rest : corners[0].position;
+            edges[k][i] = (double)to[i] - (double)from[i];
+        }
+    vector_cross(edges[0], edges[1], out);
+}
+
+/* By place, then by normal; what differs by rounding alone is equal. */
+static int compare_corners(const void *a, const void *b)
+{
+    const struct bvh_corner *x = *(const struct bvh_corner *const *)a, *y = *(const struct bvh_corner *const *)b;
+    for (size_t i = 0; i < 6; ++i) {
+        const float *u = i < 3 ? x->rest : x->normal, *v = i < 3 ? y->rest : y->normal;
+        long p = lrintf(u[i % 3] * 65536.0f), q = lrintf(v[i % 3] * 65536.0f);
+        if (p != q)
+            return p < q ? -1 : 1;
+    }
+    return 0;
+}
+
+/* Corners at one vertex: of one place and normal, whatever their texture coordinates. N' = N + g' - g, as a drawn surface has it. */
+static void bend(const struct bvh *bvh, struct bvh_corner **group, uint32_t count)
+{
+    double before[3] = {0}, after[3] = {0}, normal[3];
+    for (uint32_t k = 0; k < count; ++k) {
+        const struct bvh_corner *triangle = bvh->corners + (group[k] - bvh->corners) / 3 * 3;
+        double facet[2][3];
+        facet_of(triangle, true, facet[0]);
+        facet_of(triangle, false, facet[1]);
+        for (size_t i = 0; i < 3; ++i) {
+            before[i] += facet[0][i];
+            after[i] += facet[1][i];
+        }
+    }
+    vector_normalize(before);
+    vector_normalize(after);
+    for (size_t i = 0; i < 3; ++i)
+        normal[i] = (double)group[0]->normal[i] + after[i] - before[i];
+    vector_normalize(normal);
+    for (uint32_t k = 0; k < count; ++k)
+        for (size_t i = 0; i < 3; ++i)
+            group[k]->moved[i] = (float)normal[i];
+}
+
+/* The boxes around what moved: children stand behind their parents. */
+static void refit(struct bvh *bvh)
+{
+    for (uint32_t n = bvh->num_nodes; n-- > 0;) {
+        struct bvh_node *node = &bvh->nodes[n];
+        uint32_t parts = node->count ? 3 * node->count : 2;
+        for (size_t i = 0; i < 3; ++i) {
+            node->low[i] = INFINITY;
+            node->high[i] = -INFINITY;
+            for (uint32_t k = 0; k < parts; ++k) {
+                const float *corner = bvh->corners[3 * node->first + (node->count ? k : 0)].position;
+                const struct bvh_node *child = node->count ? NULL : &bvh->nodes[node->first + k];
+                node->low[i] = fminf(node->low[i], child ? child->low[i] : corner[i]);
+                node->high[i] = fmaxf(node->high[i], child ? child->high[i] : corner[i]);
+            }
+        }
+    }
+}
+
+bool bvh_move(struct bvh *bvh, const float *positions)
+{
+    uint32_t count = 3 * bvh->num_triangles;
+    struct bvh_corner **sorted = malloc(count * sizeof *sorted);
+    for (uint32_t i = 0; sorted && i < count; ++i) {
+        memcpy(bvh->corners[i].position, positions + 4 * (size_t)i, sizeof bvh->corners[i].position);
+        sorted[i] = &bvh->corners[i];
+    }
+    if (!sorted)
+        return false;
+    qsort(sorted, count, sizeof *sorted, compare_corners);
+    for (uint32_t first = 0, end = 0; first < count; first = end) {
+        while (end < count && compare_corners(&sorted[first], &sorted[end]) == 0)
+            ++end;
+        bend(bvh, sorted + first, end - first);
+    }
+    free(sorted);
+    refit(bvh);
+    return true;
 }
 
 void bvh_finish(struct bvh *bvh)

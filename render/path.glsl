@@ -6,7 +6,7 @@
 // alike, and weighed by the balance heuristic (Veach and Guibas 1995); src/closure/scatter.c tells how closures take part.
 
 struct Node { vec3 low; uint first; vec3 high; uint count; };
-struct Corner { vec4 position_s, normal_t, tangent; };
+struct Corner { vec4 position_s, normal_t, tangent, rest, moved; }; // at rest: before the surface was displaced
 
 layout(set = TRACER_SET, binding = 0, std430) readonly buffer Nodes { Node nodes[]; };
 layout(set = TRACER_SET, binding = 1, std430) readonly buffer Corners { Corner corners[]; };
@@ -19,7 +19,7 @@ layout(push_constant) uniform Camera {
     vec4 environment[3];           // columns: from the world to the map
     uvec4 frame;                   // width, height, first sample, number of samples
 } camera;                          // eye.w: how often a path may turn; right.w: 1 where it goes as a drawn picture has it;
-                                   // up.w: brightness of the environment
+                                   // up.w: brightness of the environment; forward.w: 1 to displace the corners
 layout(local_size_x = 8, local_size_y = 8) in;
 
 const float NEAR = 1e-4;
@@ -187,7 +187,9 @@ Point shade(Hit hit, vec3 direction, vec4 light)
     vec3 tangent = normalize(mixed(a.tangent.xyz, b.tangent.xyz, c.tangent.xyz, hit.weights));
     vec2 texcoord = mixed(vec3(a.position_s.w, a.normal_t.w, 0.0), vec3(b.position_s.w, b.normal_t.w, 0.0),
                           vec3(c.position_s.w, c.normal_t.w, 0.0), hit.weights).xy;
-    fill_vertex_data(point.position, normal, tangent, texcoord, -direction, next_random(), light);
+    vec3 rest = mixed(a.rest.xyz, b.rest.xyz, c.rest.xyz, hit.weights);
+    vec3 moved = normalize(mixed(a.moved.xyz, b.moved.xyz, c.moved.xyz, hit.weights));
+    fill_vertex_data(rest, normal, tangent, texcoord, -direction, next_random(), light, moved);
     scatter();
     return point;
 }
@@ -294,9 +296,29 @@ vec4 trace(vec3 origin, vec3 direction)
     return vec4(light, turns > 0 ? 1.0 : 0.0);
 }
 
+#ifdef DISPLACED
+// Corner number i, and where it goes.
+void displace(uint i)
+{
+    Corner c = corners[i];
+    fill_vertex_data(c.rest.xyz, c.normal_t.xyz, c.tangent.xyz, vec2(c.position_s.w, c.normal_t.w), c.normal_t.xyz, vec4(0.5),
+                     vec4(c.normal_t.xyz, 0.0), c.normal_t.xyz);
+    scatter();
+    film[i] = vec4(c.rest.xyz + out8.xyz, 0.0);
+}
+#endif
+
 void main()
 {
     uvec2 pixel = gl_GlobalInvocationID.xy;
+#ifdef DISPLACED
+    if (camera.forward.w > 0.5) {
+        uint i = pixel.y * camera.frame.x + pixel.x;
+        if (pixel.x < camera.frame.x && i < camera.frame.y)
+            displace(i);
+        return;
+    }
+#endif
     if (pixel.x >= camera.frame.x || pixel.y >= camera.frame.y)
         return;
     vec4 sum = vec4(0.0);

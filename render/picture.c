@@ -122,7 +122,7 @@ static bool picture_trace(struct painter *painter, const struct subject *subject
     *out = (struct image){.width = painter->width, .height = painter->height, .is_float = true,
                           .pixels = malloc((size_t)painter->width * painter->height * 4 * sizeof(float))};
     painting.bind = calloc(1, sizeof *painting.bind);
-    bool good = generate(painter, subject, &painting.result);
+    bool good = generate(painter, subject, &painting.result) && choose_mesh(&painting);
     if (good && painting.bind && out->pixels) {
         *painting.bind = bind_of(&painting, subject);
         good = trace_picture(&painter->gpu, painting.bind, painter->width, painter->height, &painter->trace, out->pixels);

@@ -87,12 +87,13 @@ static const struct {
     {"viewWorld", "view", false},
     {"random", "random", false},
     {"lightWorld", "light", false},
+    {"normalMoved", "moved", false},
 };
 
 static void append_fill(struct source *source, const mxg_result *result)
 {
     append(source, "void fill_vertex_data(vec3 point, vec3 normal, vec3 tangent, vec2 texcoord, vec3 view, vec4 random,\n"
-                   "                      vec4 light)\n{\n");
+                   "                      vec4 light, vec3 moved)\n{\n");
     for (uint32_t i = 0; i < mxg_result_num_variables(result); ++i) {
         mxg_variable variable = {sizeof variable};
         mxg_result_variable(result, i, &variable);
@@ -122,6 +123,7 @@ static bool compile(struct tracer *tracer)
     mxg_result_info(tracer->bind->result, &info);
     append(&source, info.transparent ? "#define TRANSPARENT\n" : "");
     append(&source, info.num_lights ? "#define LIGHTS\n" : "");
+    append(&source, info.displaced ? "#define DISPLACED\n" : "");
     for (const char *const *piece = trace_source; *piece; ++piece)
         append(&source, *piece);
     bool good = source.text && compile_compute(source.text, &tracer->compiled);
@@ -135,10 +137,18 @@ static bool compile(struct tracer *tracer)
 
 /* ---- Device ---- */
 
+static bool is_displaced(const struct tracer *tracer)
+{
+    mxg_shader_info info = {sizeof info};
+    mxg_result_info(tracer->bind->result, &info);
+    return info.displaced;
+}
+
 static bool create_buffers(struct tracer *tracer)
 {
     struct gpu *gpu = tracer->gpu;
-    size_t film = (size_t)tracer->width * tracer->height * 4 * sizeof(float);
+    size_t pixels = (size_t)tracer->width * tracer->height, corners = 3 * (size_t)tracer->bvh.num_triangles;
+    size_t film = (is_displaced(tracer) && corners > pixels ? corners : pixels) * 4 * sizeof(float);
     const VkBufferUsageFlags usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
     size_t num_sums;
     float *sums = importance_of_map(&tracer->bind->scene->radiance, &num_sums);
@@ -254,7 +264,8 @@ static struct camera make_camera(const struct tracer *tracer)
     return camera;
 }
 
-static bool run_samples(struct tracer *tracer, const struct camera *camera)
+/* One invocation for each place of an area. */
+static bool run(struct tracer *tracer, const struct camera *camera, uint32_t width, uint32_t height)
 {
     VkCommandBuffer commands = gpu_begin(tracer->gpu);
     if (!commands)
@@ -266,8 +277,24 @@ static bool run_samples(struct tracer *tracer, const struct camera *camera)
     vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, tracer->layout, tracer->inputs.num_sets, 1, &tracer->set, 0,
                             NULL);
     vkCmdPushConstants(commands, tracer->layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof *camera, camera);
-    vkCmdDispatch(commands, (tracer->width + GROUP - 1) / GROUP, (tracer->height + GROUP - 1) / GROUP, 1);
+    vkCmdDispatch(commands, (width + GROUP - 1) / GROUP, (height + GROUP - 1) / GROUP, 1);
     return gpu_end(tracer->gpu, commands);
+}
+
+/* Asks the shader where the corners go, and moves them there. */
+static bool displace(struct tracer *tracer)
+{
+    enum { ROW = 1024 };
+    uint32_t count = 3 * tracer->bvh.num_triangles;
+    const struct camera camera = {.forward = {0, 0, 0, 1}, .frame = {ROW, count, 0, 0}};
+    if (!run(tracer, &camera, ROW, (count + ROW - 1) / ROW))
+        return false;
+    if (!bvh_move(&tracer->bvh, tracer->buffers[2].mapped))
+        return fail(tracer, "render-failed", "out of memory");
+    memcpy(tracer->buffers[0].mapped, tracer->bvh.nodes, tracer->bvh.num_nodes * sizeof *tracer->bvh.nodes);
+    memcpy(tracer->buffers[1].mapped, tracer->bvh.corners, count * sizeof *tracer->bvh.corners);
+    memset(tracer->buffers[2].mapped, 0, count * 4 * sizeof(float));
+    return true;
 }
 
 static bool open(struct tracer *tracer)
@@ -278,7 +305,7 @@ static bool open(struct tracer *tracer)
         !create_buffers(tracer) || !create_set(tracer))
         return false;
     write_set(tracer);
-    return create_pipeline(tracer);
+    return create_pipeline(tracer) && (!is_displaced(tracer) || displace(tracer));
 }
 
 static void close(struct tracer *tracer)
@@ -308,7 +335,7 @@ bool trace_picture(struct gpu *gpu, struct bind *bind, uint32_t width, uint32_t 
     for (uint32_t done = 0; good && done < samples; done += camera.frame[3]) {
         camera.frame[2] = done;
         camera.frame[3] = samples - done < SAMPLES_AT_ONCE ? samples - done : SAMPLES_AT_ONCE;
-        good = run_samples(&tracer, &camera);
+        good = run(&tracer, &camera, width, height);
         if (options->progress)
             options->progress(options->progress_data, done + camera.frame[3], samples);
     }

@@ -7,6 +7,8 @@
  *
  *         N' = N + g(P + D) - g(P),    g(X) = normalize(dX/dx × dX/dy) on the side of N
  *
+ * (A path tracer moves its mesh beforehand, and knows N'.)
+ *
  * The normals g of the facets go out of the difference, so the surface stays as smooth as it was. What a material reads of the
  * geometry is that of the surface before it moved, except for the normal, which is bent wherever it is read, in functions, too.
  */
@@ -99,6 +101,16 @@ static void move_vertices(struct shader *shader, ir_ref point)
                                                         .value = ir_build(g, IR_MUL, IR_TYPE_VEC4, 0, args, 2)});
 }
 
+/* A path tracer asks for the offset of each vertex before it moves the mesh, and knows the normals then. */
+static void tell_offset(struct shader *shader, ir_ref offset)
+{
+    struct ir_graph *g = shader->graph;
+    ir_ref parts[2] = {offset, ir_const_float(g, 0.0f)};
+    uint32_t out = shader_add_variable(shader, &(struct shader_variable){.name = STR_out8, .block = BLOCK_OUTPUTS, .type = IR_TYPE_VEC4});
+    shader_effect(shader, STAGE_PIXEL, (struct effect){.kind = EFFECT_OUTPUT, .index = out,
+                                                       .value = ir_construct(g, IR_TYPE_VEC4, parts, 2)});
+}
+
 static ir_ref view_from(struct shader *shader, ir_ref point)
 {
     struct ir_graph *g = shader->graph;
@@ -109,7 +121,7 @@ static ir_ref view_from(struct shader *shader, ir_ref point)
 ir_ref closure_displace(struct shader *shader, const struct closure_host *host, ir_ref surface, ir_ref displacement)
 {
     struct ir_graph *g = shader->graph;
-    ir_ref offset = displacement && !shader->scatters ? closure_offset(shader, displacement) : 0;
+    ir_ref offset = displacement ? closure_offset(shader, displacement) : 0;
     if (!offset)
         return surface;
     shader->displaced = true;
@@ -118,10 +130,16 @@ ir_ref closure_displace(struct shader *shader, const struct closure_host *host, 
     g->origin = named(shader, STR_P);
     point->position = ir_op2(g, IR_ADD, before, offset);
     g->origin = named(shader, STR_N);
-    point->normal = bent_normal(shader, before, point->position);
-    g->origin = named(shader, STR_V);
-    point->view = view_from(shader, point->position);
+    point->normal = shader->scatters ? ir_op1(g, IR_NORMALIZE, stream(shader, STR_normalMoved))
+                                     : bent_normal(shader, before, point->position);
+    if (shader->scatters) {
+        tell_offset(shader, offset);
+    } else {
+        g->origin = named(shader, STR_V);
+        point->view = view_from(shader, point->position);
+        g->origin = 0;
+        move_vertices(shader, point->position);
+    }
     g->origin = 0;
-    move_vertices(shader, point->position);
     return surface ? ir_replace(g, surface, stream(shader, STR_normalWorld), point->normal, shader->arena) : 0;
 }

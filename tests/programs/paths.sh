@@ -81,6 +81,24 @@ leaf hair '<chiang_hair_bsdf name="bsdf" type="BSDF"/>' '--integrator path' '--a
 leaf solid '<dielectric_bsdf name="bsdf" type="BSDF"><input name="roughness" type="vector2" value="0, 0"/><input name="scatter_mode"
     type="string" value="RT"/></dielectric_bsdf>' '' '--as-drawn'
 
+# A surface that moves: bumps, by their light, and a ball that shrinks, by its size.
+compare displaced 1 "$here/../../examples/displaced.mtlx" '' '--bounces 1'
+cat >ball.mtlx <<'XML'
+<?xml version="1.0"?>
+<materialx version="1.39">
+  <uniform_edf name="edf" type="EDF"/>
+  <surface name="S" type="surfaceshader"><input name="edf" type="EDF" nodename="edf"/></surface>
+  <displacement name="D" type="displacementshader"><input name="displacement" type="float" value="-0.2"/></displacement>
+  <surfacematerial name="M" type="material"><input name="surfaceshader" type="surfaceshader" nodename="S"/>
+    <input name="displacementshader" type="displacementshader" nodename="D"/></surfacematerial>
+</materialx>
+XML
+compare shrunk 1 ball.mtlx
+mv traced.exr shrunk.exr
+sed -i 's/value="-0.2"/value="0"/' ball.mtlx
+compare 'not displaced' 1 ball.mtlx
+check 'what shrinks covers less: 0.8 squared, and a little less in perspective' near "$("$mean_ratio" shrunk.exr traced.exr)" 0.62
+
 # A surface that is not there, and one that glows.
 cat >clear.mtlx <<'XML'
 <?xml version="1.0"?>
