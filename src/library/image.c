@@ -31,12 +31,13 @@ static const struct section_info section_infos[] = {
     SECTION(unit.texts),     SECTION(unit.text_bytes),
     SECTION(nodedefs),       SECTION(ports),         SECTION(impls),          SECTION(families),
     SECTION(verbatims),      SECTION(graph_nodes),   SECTION(bindings),       SECTION(geomprops),
-    SECTION(types),          SECTION(refs),          SECTION(node_table),     SECTION(element_info),
+    SECTION(types),          SECTION(refs),          SECTION(node_table),
     SECTION(unit.fragments), SECTION(unit.codes),    SECTION(unit.fragment_of), SECTION(unit.graph_fragment_of),
 };
 enum {
     NUM_VECS = sizeof section_infos / sizeof *section_infos,
     SECTION_NAME_TABLE = NUM_VECS, /* the document's name table */
+    SECTION_ELEMENT_INFO,
     SECTION_STR_OFFSETS,
     SECTION_STR_BYTES,
     SECTION_STR_TABLE,
@@ -67,7 +68,7 @@ static uint64_t checksum(const void *image, size_t size)
 static uint64_t fingerprint(void)
 {
     uint64_t h = HASH_STABLE_SEED;
-    uint32_t facts[NUM_VECS + 4] = {3 /* bumped when meanings change but sizes do not */, STR_NUM_WORDS, IR_NUM_OPS, NUM_ELEMENT_KINDS};
+    uint32_t facts[NUM_VECS + 4] = {4 /* bumped when meanings change but sizes do not */, STR_NUM_WORDS, IR_NUM_OPS, NUM_ELEMENT_KINDS};
     for (unsigned i = 0; i < NUM_VECS; i++)
         facts[i + 4] = (uint32_t)section_infos[i].item_size;
     return hash_stable(h, facts, sizeof facts);
@@ -104,6 +105,13 @@ static void put_table(struct text *out, struct header *header, unsigned section,
     for (uint32_t i = 0; i < len; i++)
         narrow[i] = (uint16_t)ids[i];
     put_section(out, header, section, narrow, len, sizeof *narrow);
+}
+
+/* What an element_info says at most. */
+static uint32_t max_info(const struct library *lib)
+{
+    uint32_t most = lib->nodedefs.len > lib->graph_nodes.len ? lib->nodedefs.len : lib->graph_nodes.len;
+    return most > lib->geomprops.len ? most : lib->geomprops.len;
 }
 
 /* ---- Attributes: each run of them once, since template rows repeat most of theirs ---- */
@@ -212,6 +220,7 @@ void library_write_image(const struct library *lib, const struct lang_recorder *
     }
     put_table(out, &header, SECTION_NAME_TABLE, lib->doc.name_table, lib->doc.name_table ? lib->doc.name_mask + 1 : 0,
               lib->doc.first_element + lib->doc.elements.len);
+    put_table(out, &header, SECTION_ELEMENT_INFO, lib->element_info.items, lib->element_info.len, max_info(lib));
     put_strings(&lib->strings, out, &header);
     begin_section(out);
     header.size = out->len - start;
@@ -262,6 +271,18 @@ static void map_names(struct document *doc, const struct header *header, char *b
         doc->name_table = table;
 }
 
+static void map_element_info(struct library *lib, const struct header *header, char *base)
+{
+    void *table = base + header->sections[SECTION_ELEMENT_INFO].offset;
+    if (header->sections[SECTION_ELEMENT_INFO].len < lib->doc.elements.len)
+        return; /* it was never indexed */
+    if (is_narrow(max_info(lib)))
+        lib->narrow_info = table;
+    else
+        lib->element_info.items = table;
+    lib->element_info.len = lib->narrow_info ? 0 : header->sections[SECTION_ELEMENT_INFO].len;
+}
+
 const char *library_map_image(struct library *lib, const void *data, size_t size, bool check_bytes)
 {
     const struct header *header = data;
@@ -283,6 +304,7 @@ const char *library_map_image(struct library *lib, const void *data, size_t size
     lib->doc.first_file = header->first_file;
     lib->doc.root = header->root;
     map_names(&lib->doc, header, base);
+    map_element_info(lib, header, base);
     lib->unit.strings = &lib->strings;
     return NULL;
 }

@@ -107,6 +107,8 @@ uint32_t library_element_info(const struct library *lib, elem_id element, const 
     if (out_layer)
         *out_layer = lib;
     uint32_t own = element - lib->doc.first_element;
+    if (lib->narrow_info)
+        return own < lib->doc.elements.len ? (uint32_t)lib->narrow_info[own] - 1 : LIBRARY_NONE;
     return own < lib->element_info.len ? lib->element_info.items[own] - 1 : LIBRARY_NONE;
 }
 

@@ -140,6 +140,7 @@ struct library {
     VEC(uint32_t) refs;
     VEC(uint32_t) node_table;   /* open addressing by node name: first nodedef of that node (own index + 1) */
     VEC(uint32_t) element_info; /* per own element: 1 + own index of its nodedef, geomprop or graph_node; 0 = none */
+    const uint16_t *narrow_info; /* in place of `element_info` in an image layer of few definitions */
     VEC(uint32_t) overrides;    /* impl indices (own) for nodedefs of lower layers */
     struct diag_list *deferred; /* faults of implementations, told when one is used */
 };
