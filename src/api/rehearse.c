@@ -46,6 +46,7 @@ static void record(void *arg)
     if (!generation_start(g))
         return;
     rehearsal->recorder->num_globals = 0;
+    rehearsal->recorder->weighed = false;
     g->result->unit.recorder = rehearsal->recorder;
     if (generation_build(g)) /* a model with errors is told when it is used */
         generation_emit(g);

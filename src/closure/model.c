@@ -171,6 +171,8 @@ static const struct lang_fragment *find(const struct shader *shader, const struc
     const struct lang_fragment *fragment = leader->follower ? &lowest->fragments.items[leader->follower - 1] : NULL;
     uint16_t key[1 + 2 * MAX_LIGHTS];
     unsigned num_key = lights_key(shader, key);
+    if (fragment && fragment->flags & LANG_FRAGMENT_WEIGHED && shader->model.has_derivative)
+        return NULL;
     bool has_lights = fragment && has_key(shader) && fragment->pattern_len == num_key
                    && memcmp(lowest->codes.items + fragment->first_code, key, num_key * sizeof *key) == 0;
     return has_lights ? fragment : NULL;

@@ -216,7 +216,8 @@ void fragment_record_follower(const struct fragment_host *host, unsigned leader,
         lowest = lowest->base;
     struct taker t = {.host = host, .graph = host->graph, .recorder = recorder, .inputs = follower->nodes + 1,
                       .num_inputs = follower->num_nodes - 1, .num_strings = lowest->strings->num};
-    struct lang_fragment fragment = {.first_code = recorder->codes.len, .pattern_len = (uint16_t)follower->num_key};
+    struct lang_fragment fragment = {.first_code = recorder->codes.len, .pattern_len = (uint16_t)follower->num_key,
+                                     .flags = recorder->weighed ? LANG_FRAGMENT_WEIGHED : 0};
     for (unsigned i = 0; i < follower->num_key; i++)
         put(&t, follower->key[i]);
     take(&t, follower->results, follower->num_results);

@@ -286,6 +286,7 @@ struct lang_recorder {
         uint32_t global;
     } globals[64];
     unsigned num_globals;
+    bool weighed;      /* in the generation at hand: LANG_FRAGMENT_WEIGHED */
     VEC(ir_ref) nodes; /* of the fragment that was taken down last, as restoring it gives them: [0] is none, then inputs and nodes */
 };
 void lang_recorder_init(struct lang_recorder *recorder, struct arena *arena, const struct lang_unit *lowest, uint32_t num_graphs);

@@ -451,4 +451,6 @@ void lang_lower_call(struct lang_unit *generated, struct ir_graph *graph, const 
         lower_inline_expression(&lo, args, results);
     else
         lower_known_function(&lo, id, args, results);
+    if (generated->recorder)
+        generated->recorder->weighed |= lo.weighed;
 }

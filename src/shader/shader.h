@@ -173,6 +173,7 @@ struct shader_model {
     const ir_ref *nodes;   /* of the fragment */
     unsigned num_nodes;
     uint32_t origin;       /* of the node that uses the model */
+    bool has_derivative;   /* among what it is made of */
 };
 
 struct shader {
