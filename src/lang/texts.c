@@ -14,6 +14,8 @@ static bool is_worth_text(const struct lang_function *fn)
     return stays && is_called;
 }
 
+enum { MAX_TEXT = 1024 }; /* few shaders have longer ones, and the image has room for many shorter */
+
 void lang_make_texts(struct lang_unit *unit, const struct lang_syntax *syntax, struct arena *arena)
 {
     struct lang_style *style = arena_alloc(arena, sizeof *style);
@@ -23,9 +25,12 @@ void lang_make_texts(struct lang_unit *unit, const struct lang_syntax *syntax, s
     text_init(&text, arena);
     memset(&unit->texts, 0, sizeof unit->texts);
     for (uint32_t i = 0; i < unit->functions.len; i++) {
-        vec_push(arena, &unit->texts, (uint32_t)text.len);
+        size_t before = text.len;
+        vec_push(arena, &unit->texts, (uint32_t)before);
         if (is_worth_text(&unit->functions.items[i]))
             lang_print_function(style, NULL, unit, unit->base_functions + i, &text);
+        if (text.len > before + MAX_TEXT)
+            text.len = before;
     }
     vec_push(arena, &unit->texts, (uint32_t)text.len);
     memset(&unit->text_bytes, 0, sizeof unit->text_bytes);
