@@ -62,11 +62,11 @@ static bool is_source(const struct scheduler *s, struct plan *plan)
 
 /* What an operation adds to its operands: cost, characters, and characters for each of them. Calls have names of any length. */
 static const struct {
-    uint8_t cost, chars, chars_each;
+    uint8_t cost, chars, chars_each, unused; /* of a size that is an address's scale */
 } measures[IR_NUM_OPS] = {
 #define OP(ID, text, arity, rule, flags, doc)                                                        \
     [IR_##ID] = {(flags)&OP_BUILTIN ? COST_BUILTIN : COST_OPERATOR,                                   \
-                 (flags)&OP_BUILTIN ? sizeof text - 1 : IR_##ID == IR_CONSTRUCT ? 4 : 0, (flags)&OP_BUILTIN ? 2 : 3},
+                 (flags)&OP_BUILTIN ? sizeof text - 1 : IR_##ID == IR_CONSTRUCT ? 4 : 0, (flags)&OP_BUILTIN ? 2 : 3, 0},
 #include "ir/ops.def"
 #undef OP
 };
@@ -125,13 +125,15 @@ static struct plan *longest_operand(const struct scheduler *s, const struct plan
 static void measure(const struct scheduler *s, struct plan *plan)
 {
     uint32_t own_cost, own_chars;
+    const struct plan *plans = s->plans;
     const ir_ref *args = args_of(s, plan), *end = args + plan->num_args;
     own_measure(s, plan, &own_cost, &own_chars);
     for (;;) {
         uint32_t cost = own_cost, chars = own_chars;
         for (const ir_ref *arg = args; arg < end; arg++) {
-            cost += plan_of(s, *arg)->cost;
-            chars += plan_of(s, *arg)->chars;
+            const struct plan *operand = &plans[*arg];
+            cost += operand->cost;
+            chars += operand->chars;
         }
         struct plan *longest = chars > GOOD_CHARS ? longest_operand(s, plan) : NULL;
         if (!longest || (chars <= MAX_CHARS && chars - longest->chars < MIN_SPLIT_CHARS)) {
