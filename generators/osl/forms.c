@@ -93,18 +93,29 @@ static const struct helper_row helper_rows[] = {
 #include "generators/osl/helpers.def"
 };
 
-static const struct helper_row *find_helper(const struct lang_use *use)
+enum { NUM_HELPERS = sizeof helper_rows / sizeof *helper_rows };
+
+void osl_index_helpers(struct osl *osl)
 {
-    for (size_t i = 0; i < sizeof helper_rows / sizeof *helper_rows; i++) {
-        const struct helper_row *row = &helper_rows[i];
-        if (row->op != use->op || strlen(row->types) != use->num_operands)
-            continue;
-        bool fits = true;
-        for (unsigned k = 0; k < use->num_operands; k++)
-            fits &= row->types[k] == osl_type_letter(use->operands[k]);
-        if (fits)
-            return row;
-    }
+    static_assert(NUM_HELPERS < UINT8_MAX, "the index has bytes");
+    for (unsigned i = NUM_HELPERS; i-- > 0;)
+        osl->first_helper[helper_rows[i].op] = (uint8_t)(i + 1);
+}
+
+static bool fits(const struct helper_row *row, const struct lang_use *use)
+{
+    unsigned i = 0;
+    while (i < use->num_operands && row->types[i] == osl_type_letter(use->operands[i]))
+        i++;
+    return i == use->num_operands && !row->types[i];
+}
+
+static const struct helper_row *find_helper(const struct osl *osl, const struct lang_use *use)
+{
+    unsigned first = osl->first_helper[use->op];
+    for (unsigned i = first; first && i <= NUM_HELPERS; i++)
+        if (helper_rows[i - 1].op == use->op && fits(&helper_rows[i - 1], use))
+            return &helper_rows[i - 1];
     return NULL;
 }
 
@@ -347,7 +358,7 @@ static const struct lang_pieces *index_form(struct osl *osl, const struct lang_u
     ir_type_id whole = use->operands[0];
     if (whole >= IR_NUM_TYPES || (whole == IR_TYPE_VEC3 && use->named & 1))
         return NULL; /* arrays, and `v[i]` */
-    const struct helper_row *row = find_helper(use);
+    const struct helper_row *row = find_helper(osl, use);
     return row ? helper_form(osl, row, use) : NULL;
 }
 
@@ -390,7 +401,7 @@ static const struct lang_pieces *turned_sum_form(struct osl *osl, const struct l
         return NULL;
     struct lang_use turned = *use;
     turned.operands = (ir_type_id[]){use->operands[1], use->operands[0]};
-    const struct helper_row *row = find_helper(&turned);
+    const struct helper_row *row = find_helper(osl, &turned);
     if (!row)
         return NULL;
     osl_add_helper(osl, row->text);
@@ -412,7 +423,7 @@ static const struct lang_pieces *product_form(struct osl *osl, const struct lang
         ir_type_id turned[2] = {b, a};
         struct lang_use transform = *use;
         transform.operands = turned;
-        osl_add_helper(osl, find_helper(&transform)->text);
+        osl_add_helper(osl, find_helper(osl, &transform)->text);
         return form_of(osl, "transform(transpose($1), $0)", LANG_PREC_POSTFIX);
     }
     return NULL;
@@ -495,7 +506,7 @@ const struct lang_pieces *osl_form(void *user_data, const struct lang_use *use)
     const char *texture = use->op == IR_TEX ? osl_texture_call(osl, use) : NULL;
     if (texture)
         return form_of(osl, texture, use->type == IR_TYPE_VEC4 ? LANG_PREC_POSTFIX : LANG_PREC_UNARY);
-    const struct helper_row *row = find_helper(use);
+    const struct helper_row *row = find_helper(osl, use);
     if (row)
         return helper_form(osl, row, use);
     if (use->op == IR_CONSTRUCT)

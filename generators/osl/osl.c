@@ -160,6 +160,7 @@ static void write_stage(struct spell *spell, enum shader_stage_id stage)
     spell->lang_names.form = osl_form;
     spell->write_node = spell_typed_node;
     spell->lang_names.global = osl_global_name;
+    osl_index_helpers(&osl);
     osl_name_interface(&osl);
     osl_find_kinds(&osl);
     text_init(&shader, spell->scratch);

@@ -14,6 +14,7 @@ struct osl {
     struct spell *spell;
     const char **arrays; /* by interface variable: the parameter that a stream of several numbers comes as */
     uint8_t *kinds;   /* per node of three components: enum osl_kind */
+    uint8_t first_helper[IR_NUM_OPS]; /* the first row of helpers.def for an op, + 1; 0: there is none */
     VEC(const char *) helpers; /* functions that the file declares for itself, callees first */
 };
 
@@ -24,6 +25,7 @@ enum osl_kind { OSL_ANY, OSL_VECTOR, OSL_COLOR, OSL_POINT };
 void osl_find_kinds(struct osl *osl);
 const char *osl_node_type(const struct spell *spell, ir_ref ref); /* "color"; NULL: as its type says */
 
+void osl_index_helpers(struct osl *osl);
 void osl_add_helper(struct osl *osl, const char *text); /* unless it is there */
 /* forms.c: lang_names.form; `user_data` is the spell, whose target_data the osl. */
 const struct lang_pieces *osl_form(void *user_data, const struct lang_use *use);

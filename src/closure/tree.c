@@ -9,10 +9,16 @@
  */
 #include "closure/closure_priv.h"
 
+struct leaf_inputs { /* their names, of the leaf that was asked last */
+    uint32_t callee;
+    VEC(const char *) names; /* NULL: the operand has none */
+};
+
 struct tree {
     struct shader *shader;
     struct ir_graph *graph;
     const struct closure_host *host;
+    struct leaf_inputs *inputs;
     ir_ref *of; /* per node of closure or shader type: what became of it; 0: nothing */
     ir_ref thin; /* whether the surface is a shell without an inside; 0: it is none */
     ir_ref turned; /* of the leaf at hand: whether it reflects back to where the light came from; 0: it does not */
@@ -22,13 +28,24 @@ struct tree {
 
 /* ---- Arguments ---- */
 
+static void name_inputs(const struct tree *t, const struct ir_node *leaf)
+{
+    struct leaf_inputs *inputs = t->inputs;
+    if (inputs->callee == leaf->attr && inputs->names.len + 1 == leaf->num_args)
+        return;
+    inputs->callee = leaf->attr;
+    inputs->names.len = 0;
+    for (unsigned i = 0; i + 1 < leaf->num_args; i++)
+        vec_push(t->shader->arena, &inputs->names, t->host->leaf_input(t->host->user_data, leaf->attr, i));
+}
+
 /* The operand of a leaf by the name of its input; 0: there is none. */
 static ir_ref input(const struct tree *t, ir_ref leaf, const char *name, size_t len)
 {
-    const struct ir_node *node = ir_get(t->graph, leaf);
-    for (unsigned i = 0; i + 1 < node->num_args; i++) {
-        const char *have = t->host->leaf_input(t->host->user_data, node->attr, i);
-        if (have && strlen(have) == len && memcmp(have, name, len) == 0)
+    name_inputs(t, ir_get(t->graph, leaf));
+    for (unsigned i = 0; i < t->inputs->names.len; i++) {
+        const char *have = t->inputs->names.items[i];
+        if (have && strncmp(have, name, len) == 0 && have[len] == '\0')
             return ir_arg(t->graph, leaf, i + 1);
     }
     return 0;
@@ -479,7 +496,7 @@ static ir_ref view(struct shader *shader)
 bool closure_emit_tree(struct shader *shader, const struct closure_host *host, ir_ref root)
 {
     host->point->view = view(shader);
-    struct tree t = {.shader = shader, .graph = shader->graph, .host = host};
+    struct tree t = {.shader = shader, .graph = shader->graph, .host = host, .inputs = &(struct leaf_inputs){0}};
     ir_ref front = root, back = 0, displacement = root && ir_type_of(t.graph, root) == IR_TYPE_DISPLACEMENT ? root : 0;
     if (root && ir_get(t.graph, root)->op == IR_MATERIAL) {
         front = ir_arg(t.graph, root, 0);
@@ -525,7 +542,7 @@ static bool emit_result(struct tree *t, const struct closure_result *result)
 bool closure_emit_node(struct shader *shader, const struct closure_host *host, const struct closure_result *results, unsigned n)
 {
     host->point->view = view(shader);
-    struct tree t = {.shader = shader, .graph = shader->graph, .host = host};
+    struct tree t = {.shader = shader, .graph = shader->graph, .host = host, .inputs = &(struct leaf_inputs){0}};
     shader->kind = SHADER_VALUE;
     bool good = true;
     const struct effect_list *effects = &shader->stages[STAGE_PIXEL].effects;
