@@ -7,6 +7,7 @@
 
 const char *print_function_name(const struct lang_names *names, const struct lang_unit *unit, uint32_t id);
 const char *print_global_name(const struct lang_names *names, const struct lang_unit *unit, uint32_t id);
+const char *print_struct_name(const struct lang_names *names, const struct lang_unit *unit, ir_type_id type);
 
 /* A type in two parts, which stand around a variable's name: without the lengths of arrays, and these. */
 void print_base_type(const struct lang_style *style, const struct lang_names *names, const struct lang_unit *unit,

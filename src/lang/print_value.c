@@ -16,7 +16,7 @@ const char *print_global_name(const struct lang_names *names, const struct lang_
     return name ? name : str_text(unit->strings, lang_global(unit, id, NULL)->name);
 }
 
-static const char *struct_name(const struct lang_names *names, const struct lang_unit *unit, ir_type_id type)
+const char *print_struct_name(const struct lang_names *names, const struct lang_unit *unit, ir_type_id type)
 {
     const char *name = names && names->user_type ? names->user_type(names->user_data, type) : NULL;
     return name ? name : str_text(unit->strings, lang_user_type(unit, type, NULL)->name);
@@ -28,7 +28,7 @@ void print_base_type(const struct lang_style *style, const struct lang_names *na
     while (ast_is_user_type(type) && lang_user_type(unit, type, NULL)->array_length)
         type = lang_user_type(unit, type, NULL)->element;
     if (ast_is_user_type(type))
-        text_str(out, struct_name(names, unit, type));
+        text_str(out, print_struct_name(names, unit, type));
     else
         text_put(out, style->types[type]);
 }
@@ -199,7 +199,7 @@ void lang_print_struct(const struct lang_style *style, const struct lang_names *
     const struct lang_unit *layer;
     const struct ir_user_type *user = lang_user_type(unit, type, &layer);
     text_str(out, "struct ");
-    text_str(out, struct_name(names, unit, type));
+    text_str(out, print_struct_name(names, unit, type));
     text_str(out, " {\n");
     for (uint32_t i = 0; i < user->num_members; i++) {
         const struct ir_member *member = &layer->members.items[user->first_member + i];

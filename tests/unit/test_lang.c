@@ -183,6 +183,12 @@ static void test_print_target(void)
     teardown(&f);
 }
 
+static const char *other_type(void *user_data, ir_type_id type)
+{
+    (void)user_data, (void)type;
+    return "Other";
+}
+
 /* What an image holds as text is taken from there, as long as all of its names are those of the source. */
 static void test_print_from_image(void)
 {
@@ -190,6 +196,7 @@ static void test_print_from_image(void)
     setup(&f, "float tiny(float x) { return x * 2.0; }\n"
               "float helper(float x) { float y = x * x + 1.0; return y * y * (x - 3.0); }\n"
               "float f(float x) { return helper(x) * helper(x + 1.0) - x * x * x; }\n"
+              "struct Ray { vec3 from; vec3 to; }; float reach(Ray ray) { return length(ray.to - ray.from) * 2.0 + ray.to.x; }\n"
               "float slope(float x) { return dFdx(x) * dFdx(x) + dFdy(x) * dFdy(x); }\n");
     struct lang_syntax shared = lang_syntax_portable, lonely;
     shared.in_images = true;
@@ -213,6 +220,10 @@ static void test_print_from_image(void)
     struct lang_names names = {.function = other_name};
     const char *renamed = print_function(&f, &shared, &names, find(&f, "f"));
     REQUIRE(strstr(renamed, "float helper(float x)") && !strchr(renamed, '@'));
+    REQUIRE(strchr(print_function(&f, &shared, NULL, find(&f, "reach")), '@'));
+    names = (struct lang_names){.user_type = other_type};
+    const char *retyped = print_function(&f, &shared, &names, find(&f, "reach"));
+    REQUIRE(strstr(retyped, "float reach(Other ray)") && !strchr(retyped, '@'));
     teardown(&f);
 }
 
