@@ -60,14 +60,15 @@ ir_ref build_unit_conversion(struct builder *b, ir_ref value, elem_id element, c
     str_id type = doc_attr_value(doc, element, STR_unittype);
     if (!type)
         type = doc_attr_value(doc, port->element, STR_unittype);
+    if (!type)
+        type = library_unit_type_of(b->lib, unit);
     /* What the definition works in, else the option's unit (specification, "Units"). */
     str_id target = doc_attr_value(doc, port->element, STR_unit);
     if (!target)
         target = type == STR_angle ? b->options->angle_unit : b->options->distance_unit;
     float from, to;
     if (!library_unit_scale(b->lib, type, unit, &from) || !library_unit_scale(b->lib, type, target, &to)) {
-        diag_add(b->diags, DIAG_ID_unknown_unit, doc_attr_place(doc, element, STR_unit), build_text(b, unit),
-                 library_suggest_unit(b->lib, unit, b->arena));
+        library_report_unit(b->lib, type, unit, doc_attr_place(doc, element, STR_unit), b->diags);
         return value;
     }
     return from == to ? value : ir_op2(b->graph, IR_MUL, value, ir_const_float(b->graph, from / to));

@@ -236,6 +236,10 @@ void library_report_space(const struct library *lib, const char *space, struct d
 
 /* unit.c */
 
+/* The first type that has a unit of this name; 0: none. */
+str_id library_unit_type_of(const struct library *lib, str_id unit);
+/* Tells that a unit is none, or none of its type. */
+void library_report_unit(const struct library *lib, str_id type, str_id unit, struct diag_place place, struct diag_list *diags);
 /* The scale of a unit to its type's base unit; type 0: of any. False: unknown. */
 bool library_unit_scale(const struct library *lib, str_id type, str_id unit, float *out_scale);
 bool library_has_unit_type(const struct library *lib, str_id type);

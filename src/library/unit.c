@@ -26,6 +26,26 @@ bool library_unit_scale(const struct library *lib, str_id type, str_id unit, flo
     return false;
 }
 
+str_id library_unit_type_of(const struct library *lib, str_id unit)
+{
+    for (const struct library *layer = lib; layer; layer = layer->base) {
+        const struct document *doc = &layer->doc;
+        for (elem_id e = doc_element(doc, doc->root)->first_child; e; e = doc_element(doc, e)->next)
+            if (doc_element(doc, e)->kind == KIND_UNITDEF && doc_child_of_kind(doc, e, KIND_UNIT, unit))
+                return doc_attr_value(doc, e, STR_unittype);
+    }
+    return 0;
+}
+
+void library_report_unit(const struct library *lib, str_id type, str_id unit, struct diag_place place, struct diag_list *diags)
+{
+    str_id other = library_unit_type_of(lib, unit);
+    if (other && library_has_unit_type(lib, type))
+        diag_add(diags, DIAG_ID_unit_of_other_type, place, text_of(lib, unit), text_of(lib, other), text_of(lib, type));
+    else
+        diag_add(diags, DIAG_ID_unknown_unit, place, text_of(lib, unit), library_suggest_unit(lib, unit, diags->arena));
+}
+
 bool library_has_unit_type(const struct library *lib, str_id type)
 {
     for (const struct library *layer = lib; layer; layer = layer->base)

@@ -22,6 +22,7 @@ void validate_attributes_of(struct validate *v, elem_id element);
 /* validate_rules.c: what the specification asks beyond that: uniform inputs stay uniform, declarations fit, units have a type of numbers. */
 void validate_uniform(struct validate *v, elem_id node, const struct port *port, const struct binding *binding);
 void validate_declaration(struct validate *v, elem_id element);
+void validate_unit(struct validate *v, elem_id node, const struct port *port, elem_id input);
 void validate_unit_type(struct validate *v, elem_id element);
 
 #endif

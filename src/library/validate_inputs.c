@@ -62,6 +62,7 @@ void validate_input(struct validate *v, elem_id node, uint32_t nodedef, const st
     if (port->type == DOC_TYPE_string)
         library_check_enum(v->lib, port, text, doc_attr_place(v->doc, binding->element, STR_value), v->diags);
     check_range(v, binding->element, port, text);
+    validate_unit(v, node, port, binding->element);
 }
 
 /* ---- What elements say ---- */
@@ -74,8 +75,7 @@ static void check_unit(struct validate *v, elem_id element)
         diag_add(v->diags, DIAG_ID_unknown_unittype, doc_attr_place(v->doc, element, STR_unittype), text_of(v, type),
                  library_suggest_unit_type(v->lib, type, v->diags->arena));
     else if (unit && !library_unit_scale(v->lib, type, unit, &scale))
-        diag_add(v->diags, DIAG_ID_unknown_unit, doc_attr_place(v->doc, element, STR_unit), text_of(v, unit),
-                 library_suggest_unit(v->lib, unit, v->diags->arena));
+        library_report_unit(v->lib, type, unit, doc_attr_place(v->doc, element, STR_unit), v->diags);
 }
 
 /* A library may have no colour transforms at all: then no space is known, and none can be told to be wrong. */

@@ -229,14 +229,32 @@ void validate_declaration(struct validate *v, elem_id element)
 }
 
 /* "Units": floats and vectors have them, and files of such. */
+static bool can_have_unit(doc_type type)
+{
+    return type == DOC_TYPE_float || type == DOC_TYPE_vector2 || type == DOC_TYPE_vector3 || type == DOC_TYPE_vector4
+           || type == DOC_TYPE_filename || type == DOC_TYPE_floatarray
+           || (type >= DOC_TYPE_vector2array && type <= DOC_TYPE_vector4array);
+}
+
 void validate_unit_type(struct validate *v, elem_id element)
 {
     str_id name = doc_attr_value(v->doc, element, STR_type);
     doc_type type = library_type(v->lib, name);
-    bool can_have = type == DOC_TYPE_float || type == DOC_TYPE_vector2 || type == DOC_TYPE_vector3 || type == DOC_TYPE_vector4
-                    || type == DOC_TYPE_filename || type == DOC_TYPE_floatarray
-                    || (type >= DOC_TYPE_vector2array && type <= DOC_TYPE_vector4array);
-    if (type && !can_have && (has(v, element, STR_unit) || has(v, element, STR_unittype)))
+    if (type && !can_have_unit(type) && (has(v, element, STR_unit) || has(v, element, STR_unittype)))
         diag_add(v->diags, DIAG_ID_unit_misplaced, doc_place(v->doc, element), text_of(v, doc_element(v->doc, element)->name),
                  text_of(v, name));
+}
+
+/* The node or the definition says of which type a unit is; where both do not, the first that has it is taken. */
+void validate_unit(struct validate *v, elem_id node, const struct port *port, elem_id input)
+{
+    str_id unit = doc_attr_value(v->doc, input, STR_unit), type = doc_attr_value(v->doc, port->element, STR_unittype);
+    float scale;
+    if (!unit || has(v, input, STR_unittype) || !can_have_unit(port->type) || !library_unit_type_of(v->lib, unit))
+        return; /* which is told, or good, by itself */
+    if (!type)
+        diag_add(v->diags, DIAG_ID_unit_without_type, doc_attr_place(v->doc, input, STR_unit), text_of(v, unit),
+                 text_of(v, doc_element(v->doc, node)->category), text_of(v, library_unit_type_of(v->lib, unit)));
+    else if (!library_unit_scale(v->lib, type, unit, &scale))
+        library_report_unit(v->lib, type, unit, doc_attr_place(v->doc, input, STR_unit), v->diags);
 }
