@@ -176,6 +176,35 @@ vec3 beside(Point point, vec3 direction)
     return point.position + point.facet * (dot(point.facet, direction) < 0.0 ? -NEAR : NEAR);
 }
 
+// How much position, normal and texture coordinates change over a pixel, whose ray is beside this one by `size` at the hit (Igehy 1999,
+// "Tracing Ray Differentials", to the first order).
+void find_differentials(Corner a, Corner b, Corner c, vec3 facet, vec3 direction, float size)
+{
+    vec3 x = camera.right.xyz - direction * dot(direction, camera.right.xyz);
+    x = normalize(dot(x, x) > 1e-12 ? x : cross(direction, vec3(direction.z, direction.x, direction.y)));
+    vec3 y = cross(x, direction), u = b.position_s.xyz - a.position_s.xyz, v = c.position_s.xyz - a.position_s.xyz;
+    float slope = dot(facet, direction);
+    slope = abs(slope) < 0.05 ? (slope < 0.0 ? -0.05 : 0.05) : slope;
+    x = (x - direction * (dot(facet, x) / slope)) * size;
+    y = (y - direction * (dot(facet, y) / slope)) * size;
+    mat2 squares = mat2(dot(u, u), dot(u, v), dot(u, v), dot(v, v)); // the triangle's weights at x and y
+    if (abs(determinant(squares)) < 1e-30)
+        return;
+    mat2 weights = inverse(squares) * mat2(dot(u, x), dot(v, x), dot(u, y), dot(v, y));
+    u = b.rest.xyz - a.rest.xyz;
+    v = c.rest.xyz - a.rest.xyz;
+    dx_point = u * weights[0].x + v * weights[0].y;
+    dy_point = u * weights[1].x + v * weights[1].y;
+    u = b.normal_t.xyz - a.normal_t.xyz;
+    v = c.normal_t.xyz - a.normal_t.xyz;
+    dx_normal = u * weights[0].x + v * weights[0].y;
+    dy_normal = u * weights[1].x + v * weights[1].y;
+    mat2 texcoord = mat2(vec2(b.position_s.w, b.normal_t.w) - vec2(a.position_s.w, a.normal_t.w),
+                         vec2(c.position_s.w, c.normal_t.w) - vec2(a.position_s.w, a.normal_t.w));
+    dx_texcoord = texcoord * weights[0];
+    dy_texcoord = texcoord * weights[1];
+}
+
 // Runs scatter() at the hit.
 Point shade(Hit hit, vec3 direction, vec4 light)
 {
@@ -189,6 +218,7 @@ Point shade(Hit hit, vec3 direction, vec4 light)
                           vec3(c.position_s.w, c.normal_t.w, 0.0), hit.weights).xy;
     vec3 rest = mixed(a.rest.xyz, b.rest.xyz, c.rest.xyz, hit.weights);
     vec3 moved = normalize(mixed(a.moved.xyz, b.moved.xyz, c.moved.xyz, hit.weights));
+    find_differentials(a, b, c, point.facet, direction, hit.distance * length(camera.right.xyz) / float(camera.frame.x));
     fill_vertex_data(rest, normal, tangent, texcoord, -direction, next_random(), light, moved);
     scatter();
     return point;

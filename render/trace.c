@@ -84,6 +84,16 @@ static const struct {
     {"bitangentObject", "cross(normal, tangent)", false},
     {"bitangentWorld", "cross(normal, tangent)", false},
     {"texcoord_", "texcoord", true},
+    {"dx_positionObject", "dx_point", false},
+    {"dx_positionWorld", "dx_point", false},
+    {"dy_positionObject", "dy_point", false},
+    {"dy_positionWorld", "dy_point", false},
+    {"dx_normalObject", "dx_normal", false},
+    {"dx_normalWorld", "dx_normal", false},
+    {"dy_normalObject", "dy_normal", false},
+    {"dy_normalWorld", "dy_normal", false},
+    {"dx_texcoord_", "dx_texcoord", true},
+    {"dy_texcoord_", "dy_texcoord", true},
     {"viewWorld", "view", false},
     {"random", "random", false},
     {"lightWorld", "light", false},
@@ -92,6 +102,7 @@ static const struct {
 
 static void append_fill(struct source *source, const mxg_result *result)
 {
+    append(source, "vec3 dx_point, dy_point, dx_normal, dy_normal;\nvec2 dx_texcoord, dy_texcoord;\n\n");
     append(source, "void fill_vertex_data(vec3 point, vec3 normal, vec3 tangent, vec2 texcoord, vec3 view, vec4 random,\n"
                    "                      vec4 light, vec3 moved)\n{\n");
     for (uint32_t i = 0; i < mxg_result_num_variables(result); ++i) {

@@ -57,13 +57,18 @@ vec3 mx_normalmap(vec3 texel, vec2 scale, vec3 normal, vec3 tangent, vec3 bitang
 
 // The graph (u, v, height) is a surface over the screen. Its normal is the cross product of its two screen-space
 // derivatives, whatever the mapping between screen and texture is.
-vec3 mx_heighttonormal(float height, float scale, vec2 texcoord)
+vec3 mx_slopes_to_normal(vec3 dx, vec3 dy)
 {
-    float steepness = scale / 16.0; // heights count as they do in a Sobel filter
-    vec3 n = cross(vec3(dFdx(texcoord), dFdx(height) * steepness), vec3(dFdy(texcoord), dFdy(height) * steepness));
+    vec3 n = cross(dx, dy);
     if (dot(n, n) < 1e-16)
         n = vec3(0.0, 0.0, 1.0);
     else if (n.z < 0.0)
         n = -n; // mirrored texture coordinates
     return normalize(n) * 0.5 + 0.5;
+}
+
+vec3 mx_heighttonormal(float height, float scale, vec2 texcoord)
+{
+    float steepness = scale / 16.0; // heights count as they do in a Sobel filter
+    return mx_slopes_to_normal(vec3(dFdx(texcoord), dFdx(height) * steepness), vec3(dFdy(texcoord), dFdy(height) * steepness));
 }

@@ -68,6 +68,9 @@ ir_ref closure_offset(struct shader *shader, ir_ref displacement);
  */
 ir_ref closure_displace(struct shader *shader, const struct closure_host *host, ir_ref surface, ir_ref displacement);
 
+/* differentials.c: `root` with derivatives along the screen written out, for path tracers. */
+ir_ref closure_differentials(struct shader *shader, ir_ref root);
+
 /* alpha.c: what an alpha that is not always 1 can be. */
 enum shader_alpha closure_alpha(struct shader *shader, ir_ref alpha);
 

@@ -414,6 +414,8 @@ static bool emit_value(struct emitter *e, ir_ref root)
 bool closure_emit(struct shader *shader, const struct closure_host *host, const struct closure_lighting *lighting, ir_ref root)
 {
     struct emitter e = {.shader = shader, .graph = shader->graph, .host = host, .lighting = lighting, .lit = {.color = UINT32_MAX}};
+    if (root && shader->scatters)
+        root = closure_differentials(shader, root);
     if (root && ir_get(e.graph, root)->op == IR_MATERIAL)
         root = ir_arg(e.graph, root, 3) ? ir_arg(e.graph, root, 3)
                                         : closure_displace(shader, host, ir_arg(e.graph, root, 0), ir_arg(e.graph, root, 2));

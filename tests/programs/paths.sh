@@ -99,6 +99,28 @@ sed -i 's/value="-0.2"/value="0"/' ball.mtlx
 compare 'not displaced' 1 ball.mtlx
 check 'what shrinks covers less: 0.8 squared, and a little less in perspective' near "$("$mean_ratio" shrunk.exr traced.exr)" 0.62
 
+# Derivatives along the screen: a slope that glows in the colour of its normal (flat, it were 1.7 times as bright), and bumps.
+cat >slope.mtlx <<'XML'
+<?xml version="1.0"?>
+<materialx version="1.39">
+  <texcoord name="st" type="vector2"/>
+  <separate2 name="s" type="multioutput"><input name="in" type="vector2" nodename="st"/></separate2>
+  <multiply name="height" type="float"><input name="in1" type="float" nodename="s" output="outx"/><input name="in2" type="float" value="3"/></multiply>
+  <heighttonormal name="n" type="vector3"><input name="in" type="float" nodename="height"/><input name="scale" type="float" value="16"/></heighttonormal>
+  <convert name="color" type="color3"><input name="in" type="vector3" nodename="n"/></convert>
+  <uniform_edf name="edf" type="EDF"><input name="color" type="color3" nodename="color"/></uniform_edf>
+  <surface name="S" type="surfaceshader"><input name="edf" type="EDF" nodename="edf"/></surface>
+  <noise2d name="bumps" type="float"><input name="texcoord" type="vector2" nodename="uv"/></noise2d>
+  <multiply name="uv" type="vector2"><input name="in1" type="vector2" nodename="st"/><input name="in2" type="float" value="20"/></multiply>
+  <heighttonormal name="bumpy" type="vector3"><input name="in" type="float" nodename="bumps"/><input name="scale" type="float" value="1.5"/></heighttonormal>
+  <normalmap name="normal" type="vector3"><input name="in" type="vector3" nodename="bumpy"/></normalmap>
+  <standard_surface name="B" type="surfaceshader"><input name="normal" type="vector3" nodename="normal"/>
+    <input name="metalness" type="float" value="1"/></standard_surface>
+</materialx>
+XML
+compare slope 1 slope.mtlx '-e S' '-e S'
+compare bumps 1 slope.mtlx '-e B --size 64' '-e B --size 64 --as-drawn'
+
 # A surface that is not there, and one that glows.
 cat >clear.mtlx <<'XML'
 <?xml version="1.0"?>

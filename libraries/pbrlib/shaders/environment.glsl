@@ -39,16 +39,12 @@ vec3 mx_filtered_light(mat4 map, vec3 L, float level)
     return textureLod(u_envRadiance, mx_latlong(map, L), max(0.25 * log2(level * level / dot(L.xz, L.xz)), 0.0)).rgb;
 }
 
-// ---- lobes by their own samples -------------------------------------------------------------------------------------
-// What `--integrator path` adds to a raster: where an average over the hemisphere stands in for a lobe otherwise, directions
-// are drawn by its `_sample`, as a path tracer draws them.
+// ---- lobes by their own samples: with `--integrator path`, where an average over the hemisphere stands in for them otherwise
 
-// Numbers for sample i: a lattice in three dimensions (Roberts 2018, "The Unreasonable Effectiveness of Quasirandom
-// Sequences": powers of the inverse of the plastic number).
+// Numbers for sample i: powers of the plastic number (Roberts 2018, "The Unreasonable Effectiveness of Quasirandom Sequences").
 vec3 mx_lobe_random(int i)
 {
-    float n = float(i) + 1.0;
-    return vec3((n - 0.5) / float(u_envRadianceSamples), fract(n * 0.75487767), fract(n * 0.56984029));
+    return vec3((float(i) + 0.5) / float(u_envRadianceSamples), fract((float(i) + 1.0) * vec2(0.75487767, 0.56984029)));
 }
 
 // A sample's part of what the lobe reflects.
