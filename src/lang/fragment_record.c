@@ -6,8 +6,10 @@ void lang_recorder_init(struct lang_recorder *recorder, struct arena *arena, con
 {
     *recorder = (struct lang_recorder){.arena = arena};
     uint32_t count = lowest->functions.len;
-    memset(vec_extend(arena, &recorder->fragment_of, count), 0, count * sizeof *recorder->fragment_of.items);
-    memset(vec_extend(arena, &recorder->graph_fragment_of, num_graphs), 0, num_graphs * sizeof *recorder->graph_fragment_of.items);
+    if (count)
+        memset(vec_extend(arena, &recorder->fragment_of, count), 0, count * sizeof *recorder->fragment_of.items);
+    if (num_graphs)
+        memset(vec_extend(arena, &recorder->graph_fragment_of, num_graphs), 0, num_graphs * sizeof *recorder->graph_fragment_of.items);
 }
 
 void fragment_note_global(struct lang_recorder *recorder, ir_ref node, uint32_t global)
