@@ -86,6 +86,8 @@ struct closure_part {
 };
 /* guard.c: finds which need one. in_loop: only what is computed in each turn counts. */
 void closure_find_guarded(struct shader *shader, struct closure_part *parts, uint32_t count, bool in_loop);
+/* Whether such inputs of a shading model can make a branch of its leaves necessary, unlike variables. */
+bool closure_may_guard(struct shader *shader, const ir_ref *inputs, unsigned count);
 ir_ref closure_one_minus(struct ir_graph *graph, ir_ref a);
 /* Two closures of one type, either of which may be 0: none. */
 ir_ref closure_mixed(struct ir_graph *graph, ir_ref bg, ir_ref fg, ir_ref mix);

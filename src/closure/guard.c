@@ -71,25 +71,33 @@ static bool is_partial(const struct ir_graph *g, ir_ref ref)
     }
 }
 
-static bool has_partial_input(struct shader *shader, ir_ref leaf)
+/* Whether one of the nodes that `refs` stand on, they among them, is partial, or is dear where that is asked, too. */
+static bool reaches(struct shader *shader, const ir_ref *refs, unsigned count, bool or_dear)
 {
     const struct ir_graph *g = shader->graph;
-    unsigned count = ir_get(g, leaf)->num_args;
-    const ir_ref *inputs = ir_args(g, leaf);
-    const uint8_t *needed = ir_mark(g, inputs, count, shader->arena);
+    const uint8_t *needed = ir_mark(g, refs, count, shader->arena);
     ir_ref last = 0;
     for (unsigned i = 0; i < count; i++)
-        last = inputs[i] > last ? inputs[i] : last;
+        last = refs[i] > last ? refs[i] : last;
     for (ir_ref ref = 1; ref <= last; ref++)
-        if (needed[ref] && is_partial(g, ref))
+        if (needed[ref] && (is_partial(g, ref) || (or_dear && is_dear((enum ir_op)ir_get(g, ref)->op))))
             return true;
     return false;
 }
 
+bool closure_may_guard(struct shader *shader, const ir_ref *inputs, unsigned count)
+{
+    bool have_operands = false;
+    for (unsigned i = 0; i < count; i++)
+        have_operands |= ir_get(shader->graph, inputs[i])->num_args > 0;
+    return have_operands && reaches(shader, inputs, count, true);
+}
+
 void closure_find_guarded(struct shader *shader, struct closure_part *parts, uint32_t count, bool in_loop)
 {
+    const struct ir_graph *g = shader->graph;
     guard_dear(shader, parts, count, in_loop);
     for (uint32_t i = 0; i < count; i++)
-        if (!parts[i].is_guarded && !ir_is_const(shader->graph, parts[i].leaf->scalar))
-            parts[i].is_guarded = has_partial_input(shader, parts[i].leaf->leaf);
+        if (!parts[i].is_guarded && !ir_is_const(g, parts[i].leaf->scalar))
+            parts[i].is_guarded = reaches(shader, ir_args(g, parts[i].leaf->leaf), ir_get(g, parts[i].leaf->leaf)->num_args, false);
 }

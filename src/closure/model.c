@@ -165,7 +165,7 @@ void closure_record_lit(struct shader *shader, const struct closure_host *host, 
 
 /* ---- Restoring ---- */
 
-static const struct lang_fragment *find(const struct shader *shader, const struct lang_unit *lowest)
+static const struct lang_fragment *find(struct shader *shader, const struct lang_unit *lowest)
 {
     const struct lang_fragment *leader = &lowest->fragments.items[shader->model.fragment - 1];
     const struct lang_fragment *fragment = leader->follower ? &lowest->fragments.items[leader->follower - 1] : NULL;
@@ -173,6 +173,8 @@ static const struct lang_fragment *find(const struct shader *shader, const struc
     unsigned num_key = lights_key(shader, key);
     if (fragment && fragment->flags & LANG_FRAGMENT_WEIGHED && shader->model.has_derivative)
         return NULL;
+    if (closure_may_guard(shader, shader->model.nodes + 1, shader->model.num_inputs))
+        return NULL; /* the fragment was made without such inputs, and has no branches on their account */
     bool has_lights = fragment && has_key(shader) && fragment->pattern_len == num_key
                    && memcmp(lowest->codes.items + fragment->first_code, key, num_key * sizeof *key) == 0;
     return has_lights ? fragment : NULL;

@@ -61,6 +61,7 @@ struct ir_user_type {
     ir_type_id element; /* of an array */
     uint16_t num_members;
     uint32_t first_member; /* in the table's members */
+    uint32_t known_as;     /* of a graph's: the type of the language that it was made of; 0: none */
 };
 
 /* values.c, fold.c: constants and their arithmetic, shared by the builder and by the language's evaluator */

@@ -2,6 +2,7 @@
 #include "lang/fragment.h"
 
 #include "base/hash.h"
+#include "lang/lower.h"
 
 /* What no constant begins with: of type 0, or of an operand. */
 enum { CODE_ABSENT = 0, CODE_SAME = 1, CODE_OPAQUE = 2, CODE_OPAQUE_IN_LOOP = 3 };
@@ -21,7 +22,7 @@ static inline void put(struct fragment_pattern *pattern, unsigned code)
 static void put_constant(struct fragment_pattern *pattern, const struct ir_node *node)
 {
     const union ir_word *words = pattern->graph->words.items + node->attr;
-    pattern->failed |= node->type == IR_TYPE_STRING && words->u >= pattern->num_strings;
+    pattern->failed |= node->type == IR_TYPE_STRING && words->u >= pattern->layer->strings->num;
     put(pattern, fragment_head(IR_CONST, node->type, 0));
     for (unsigned i = 0; i < ir_type_info(node->type)->components; i++) {
         put(pattern, words[i].u & 0xffff);
@@ -29,12 +30,22 @@ static void put_constant(struct fragment_pattern *pattern, const struct ir_node 
     }
 }
 
+static void put_head(struct fragment_pattern *pattern, enum ir_op op, ir_type_id type, unsigned count)
+{
+    put(pattern, fragment_head(op, type, count));
+    if (type < IR_TYPE_FIRST_USER)
+        return;
+    uint16_t code = fragment_user_type(pattern->graph, pattern->layer, type);
+    pattern->failed |= code == 0;
+    put(pattern, code);
+}
+
 static void put_node(struct fragment_pattern *pattern, ir_ref ref, unsigned depth);
 
 static void put_looked_through(struct fragment_pattern *pattern, ir_ref ref, unsigned depth)
 {
     const struct ir_node *node = ir_get(pattern->graph, ref);
-    put(pattern, fragment_head((enum ir_op)node->op, node->type, node->num_args));
+    put_head(pattern, (enum ir_op)node->op, node->type, node->num_args);
     put(pattern, node->attr);
     pattern->failed |= node->attr > UINT16_MAX || depth == FRAGMENT_MAX_DEPTH;
     if (node->num_args >= FRAGMENT_MANY)
@@ -57,7 +68,7 @@ static void put_node(struct fragment_pattern *pattern, ir_ref ref, unsigned dept
             put(pattern, i);
             return;
         }
-    pattern->failed |= num_inputs == FRAGMENT_MAX_INPUTS || node->type >= IR_TYPE_FIRST_USER;
+    pattern->failed |= num_inputs == FRAGMENT_MAX_INPUTS;
     if (pattern->failed)
         return;
     pattern->inputs[pattern->num_inputs++] = ref;
@@ -65,14 +76,14 @@ static void put_node(struct fragment_pattern *pattern, ir_ref ref, unsigned dept
     if (ir_is_looked_through((enum ir_op)node->op))
         put_looked_through(pattern, ref, depth);
     else
-        put(pattern, fragment_head(IR_CONST, node->type, node->flags & IR_NODE_LOOP ? CODE_OPAQUE_IN_LOOP : CODE_OPAQUE));
+        put_head(pattern, IR_CONST, node->type, node->flags & IR_NODE_LOOP ? CODE_OPAQUE_IN_LOOP : CODE_OPAQUE);
 }
 
 void fragment_pattern_begin(struct fragment_pattern *pattern, const struct ir_graph *graph, const struct lang_unit *layer)
 {
     pattern->graph = graph;
     pattern->len = pattern->num_inputs = 0;
-    pattern->num_strings = layer->strings->num;
+    pattern->layer = layer;
     pattern->has_derivative = pattern->failed = false;
 }
 
@@ -122,10 +133,17 @@ static ir_ref restore_constant(const struct fragment_host *host, ir_type_id type
     return ir_const_words(host->graph, type, words);
 }
 
+static inline ir_type_id restore_type(const struct fragment_host *host, unsigned head, const uint16_t **codes)
+{
+    unsigned type = head >> 3 & 63;
+    return type == FRAGMENT_USER_TYPE ? lower_graph_type(host->unit, host->graph, (ir_type_id)*(*codes)++) : (ir_type_id)type;
+}
+
 /* `nodes` are those that operands count from 1. */
 static ir_ref restore_op(const struct fragment_host *host, unsigned head, const ir_ref *nodes, const uint16_t **codes)
 {
     enum ir_op op = (enum ir_op)(head >> 9);
+    ir_type_id type = restore_type(host, head, codes);
     unsigned count = head & 7;
     uint32_t attr = fragment_has_attr(op) ? *(*codes)++ : 0;
     ir_ref args[FRAGMENT_MAX_OPERANDS];
@@ -138,7 +156,7 @@ static ir_ref restore_op(const struct fragment_host *host, unsigned head, const 
     for (unsigned i = 0; i < count; i++)
         args[i] = nodes[(*codes)[i]];
     *codes += count;
-    return ir_restore(host->graph, op, (ir_type_id)(head >> 3 & 63), attr, args, count);
+    return ir_restore(host->graph, op, type, attr, args, count);
 }
 
 static ir_ref restore_node(const struct fragment_host *host, const ir_ref *nodes, const uint16_t **codes)
@@ -153,8 +171,10 @@ static ir_ref restore_node(const struct fragment_host *host, const ir_ref *nodes
         return restore_constant(host, (ir_type_id)(head >> 3 & 63), codes);
     if (op == IR_UNIFORM || op == IR_STREAM || op == IR_TEXTURE)
         return host->lang->global(host->lang->user_data, host->graph, host->unit, *(*codes)++);
-    if (op == IR_LOCAL)
-        return host->named(host->user_data, *(*codes)++, (ir_type_id)(head >> 3 & 63));
+    if (op == IR_LOCAL) {
+        ir_type_id type = restore_type(host, head, codes);
+        return host->named(host->user_data, *(*codes)++, type);
+    }
     return restore_op(host, head, nodes, codes);
 }
 

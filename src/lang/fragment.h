@@ -33,8 +33,8 @@ enum { FRAGMENT_OUTER = UINT16_MAX };
 
 struct fragment_pattern {
     const struct ir_graph *graph;
+    const struct lang_unit *layer; /* the library's */
     unsigned len, num_inputs;
-    uint32_t num_strings; /* of the library */
     bool has_derivative;  /* among the inputs */
     bool failed;          /* too large */
     uint16_t codes[FRAGMENT_MAX_PATTERN];
@@ -88,13 +88,21 @@ uint32_t fragment_callee(struct lang_unit *unit, struct ir_graph *graph, uint32_
 
 /* ---- Codes ---- */
 
-/* Heads: op, type and number of operands. Of more than 6 operands the number follows. */
-enum { FRAGMENT_MANY = 7 };
+/* Heads: op, type and number of operands. Of structs and arrays the language's type follows, of more than 6 operands the number. */
+enum { FRAGMENT_MANY = 7, FRAGMENT_USER_TYPE = 63 };
 static inline uint16_t fragment_head(enum ir_op op, ir_type_id type, unsigned count)
 {
-    return (uint16_t)((unsigned)op << 9 | (unsigned)type << 3 | (count < FRAGMENT_MANY ? count : FRAGMENT_MANY));
+    unsigned known = type < IR_TYPE_FIRST_USER ? type : FRAGMENT_USER_TYPE;
+    return (uint16_t)((unsigned)op << 9 | known << 3 | (count < FRAGMENT_MANY ? count : FRAGMENT_MANY));
 }
-static_assert((unsigned)IR_NUM_OPS <= 128 && (unsigned)IR_TYPE_FIRST_USER <= 64, "heads do not suffice");
+static_assert((unsigned)IR_NUM_OPS <= 128 && (unsigned)IR_NUM_TYPES <= (unsigned)FRAGMENT_USER_TYPE, "heads do not suffice");
+
+/* The code behind a head of this type; 0: it has no name in the library. */
+static inline uint16_t fragment_user_type(const struct ir_graph *graph, const struct lang_unit *layer, ir_type_id type)
+{
+    uint32_t known_as = graph->user_types.items[type - IR_TYPE_FIRST_USER].known_as;
+    return known_as < IR_TYPE_FIRST_USER + layer->user_types.len && known_as <= UINT16_MAX ? (uint16_t)known_as : 0;
+}
 
 /* Ops whose attribute follows their head. */
 static inline bool fragment_has_attr(enum ir_op op)

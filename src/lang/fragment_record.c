@@ -27,7 +27,7 @@ struct taker {
     struct lang_recorder *recorder;
     const ir_ref *inputs;
     unsigned num_inputs;
-    uint32_t num_strings; /* of the library */
+    const struct lang_unit *layer; /* the library's */
     uint16_t *numbers; /* of nodes; 0: has none; NEEDED: has none yet */
     unsigned num_nodes;
     uint32_t origin;   /* that was taken down last */
@@ -39,6 +39,16 @@ static void put(struct taker *t, uint64_t code)
 {
     t->failed |= code > UINT16_MAX;
     vec_push(t->recorder->arena, &t->recorder->codes, (uint16_t)code);
+}
+
+static void put_head(struct taker *t, enum ir_op op, ir_type_id type, unsigned count)
+{
+    put(t, fragment_head(op, type, count));
+    if (type < IR_TYPE_FIRST_USER)
+        return;
+    uint16_t code = fragment_user_type(t->graph, t->layer, type);
+    t->failed |= code == 0;
+    put(t, code);
 }
 
 static str_id name_of(const struct taker *t, ir_ref ref)
@@ -79,7 +89,7 @@ static void put_global(struct taker *t, ir_ref ref)
 static void put_constant(struct taker *t, const struct ir_node *node)
 {
     const union ir_word *words = t->graph->words.items + node->attr;
-    t->failed |= node->type == IR_TYPE_STRING && words->u >= t->num_strings;
+    t->failed |= node->type == IR_TYPE_STRING && words->u >= t->layer->strings->num;
     for (unsigned i = 0; i < ir_type_info(node->type)->components; i++) {
         put(t, words[i].u & 0xffff);
         put(t, words[i].u >> 16);
@@ -117,8 +127,8 @@ static void put_origin(struct taker *t, const struct ir_node *node)
 
 static void put_name(struct taker *t, const struct ir_node *node, str_id name)
 {
-    t->failed |= name >= t->num_strings;
-    put(t, fragment_head(IR_LOCAL, node->type, 0));
+    t->failed |= name >= t->layer->strings->num;
+    put_head(t, IR_LOCAL, node->type, 0);
     put(t, name);
 }
 
@@ -126,7 +136,7 @@ static void put_node(struct taker *t, ir_ref ref)
 {
     const struct ir_node *node = ir_get(t->graph, ref);
     put_origin(t, node);
-    put(t, fragment_head((enum ir_op)node->op, node->type, node->num_args));
+    put_head(t, (enum ir_op)node->op, node->type, node->num_args);
     if (node->op == IR_CONST)
         put_constant(t, node);
     else if (node->op == IR_UNIFORM || node->op == IR_STREAM || node->op == IR_TEXTURE)
@@ -139,7 +149,7 @@ static void take_node(struct taker *t, ir_ref ref)
 {
     const struct ir_node *node = ir_get(t->graph, ref);
     bool is_closure = node->flags & IR_NODE_CLOSURE && !t->host->leaf, is_texture = node->type == IR_TYPE_SAMPLER && t->host->leaf;
-    if (node->type >= IR_TYPE_FIRST_USER || is_closure || is_texture || t->num_nodes == FRAGMENT_MAX_NODES) {
+    if (is_closure || is_texture || t->num_nodes == FRAGMENT_MAX_NODES) {
         t->failed = true;
         return;
     }
@@ -196,7 +206,7 @@ unsigned fragment_record(const struct fragment_host *host, uint16_t *first, cons
 {
     struct lang_recorder *recorder = host->unit->recorder;
     struct taker t = {.host = host, .graph = host->graph, .recorder = recorder, .inputs = pattern->inputs, .num_inputs = pattern->num_inputs,
-                      .num_strings = pattern->num_strings};
+                      .layer = pattern->layer};
     struct lang_fragment fragment = {.hash = fragment_hash(pattern), .first_code = recorder->codes.len, .next = *first,
                                      .pattern_len = (uint16_t)pattern->len, .flags = weighed ? LANG_FRAGMENT_WEIGHED : 0};
     if (pattern->failed || is_taken(recorder, *first, fragment.hash, host->lang->choice) || (weighed && pattern->has_derivative))
@@ -217,7 +227,7 @@ void fragment_record_follower(const struct fragment_host *host, unsigned leader,
     while (lowest->base)
         lowest = lowest->base;
     struct taker t = {.host = host, .graph = host->graph, .recorder = recorder, .inputs = follower->nodes + 1,
-                      .num_inputs = follower->num_nodes - 1, .num_strings = lowest->strings->num};
+                      .num_inputs = follower->num_nodes - 1, .layer = lowest};
     struct lang_fragment fragment = {.first_code = recorder->codes.len, .pattern_len = (uint16_t)follower->num_key,
                                      .flags = recorder->weighed ? LANG_FRAGMENT_WEIGHED : 0};
     for (unsigned i = 0; i < follower->num_key; i++)

@@ -16,20 +16,37 @@ unsigned lang_num_results(const struct lang_unit *unit, uint32_t id)
 
 /* Structs and arrays between rows of leaves and single nodes */
 
-static ir_type_id graph_type(struct lower *lo, ir_type_id type)
+static ir_type_id make_graph_type(const struct lang_unit *unit, struct ir_graph *graph, ir_type_id type)
+{
+    const struct lang_unit *layer;
+    const struct ir_user_type *user = lang_user_type(unit, type, &layer);
+    if (user->array_length)
+        return (ir_type_id)ir_add_array(graph, lower_graph_type(unit, graph, user->element), user->array_length);
+    struct ir_member *members = ARENA_ARRAY(graph->arena, struct ir_member, user->num_members);
+    for (uint32_t i = 0; i < user->num_members; i++) {
+        members[i] = layer->members.items[user->first_member + i];
+        members[i].type = lower_graph_type(unit, graph, members[i].type);
+    }
+    return (ir_type_id)ir_add_struct(graph, user->name, members, user->num_members);
+}
+
+ir_type_id lower_graph_type(const struct lang_unit *unit, struct ir_graph *graph, ir_type_id type)
 {
     if (!ast_is_user_type(type))
         return type;
-    const struct lang_unit *layer;
-    const struct ir_user_type *user = lang_user_type(lo->unit, type, &layer);
-    if (user->array_length)
-        return (ir_type_id)ir_add_array(lo->graph, graph_type(lo, user->element), user->array_length);
-    struct ir_member *members = ARENA_ARRAY(lo->graph->arena, struct ir_member, user->num_members);
-    for (uint32_t i = 0; i < user->num_members; i++) {
-        members[i] = layer->members.items[user->first_member + i];
-        members[i].type = graph_type(lo, members[i].type);
-    }
-    return (ir_type_id)ir_add_struct(lo->graph, user->name, members, user->num_members);
+    for (uint32_t i = 0; i < graph->user_types.len; i++)
+        if (graph->user_types.items[i].known_as == type)
+            return (ir_type_id)(IR_TYPE_FIRST_USER + i);
+    ir_type_id result = make_graph_type(unit, graph, type);
+    struct ir_user_type *made = &graph->user_types.items[result - IR_TYPE_FIRST_USER];
+    if (!made->known_as)
+        made->known_as = type;
+    return result;
+}
+
+static ir_type_id graph_type(struct lower *lo, ir_type_id type)
+{
+    return lower_graph_type(lo->unit, lo->graph, type);
 }
 
 static ir_type_id part_type(const struct lower *lo, ir_type_id type, uint32_t index, uint32_t *out_count)

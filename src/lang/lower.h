@@ -58,6 +58,9 @@ void lower_expression(struct lower *lo, const struct lang_node *node, ir_ref *ou
 ir_ref lower_single(struct lower *lo, const struct lang_node *node); /* of a built-in type */
 void lower_assign(struct lower *lo, lang_ref target, const ir_ref *leaves);
 
+/* lower.c: the graph's form of a type of the language. */
+ir_type_id lower_graph_type(const struct lang_unit *unit, struct ir_graph *graph, ir_type_id type);
+
 /* lower_stmt.c. True where the function has returned. */
 bool lower_statements(struct lower *lo, lang_ref first);
 

@@ -170,8 +170,8 @@ struct shader_buffer {
 struct shader_model {
     ir_ref root;           /* 0: there is none */
     unsigned fragment;     /* its number + 1 */
-    const ir_ref *nodes;   /* of the fragment */
-    unsigned num_nodes;
+    const ir_ref *nodes;   /* of the fragment: none, inputs, and what it restored */
+    unsigned num_nodes, num_inputs;
     uint32_t origin;       /* of the node that uses the model */
     bool has_derivative;   /* among what it is made of */
 };
