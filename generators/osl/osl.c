@@ -133,6 +133,7 @@ static const char *shader_name(struct spell *spell)
 static void write_shader(struct osl *osl)
 {
     struct spell *spell = osl->spell;
+    osl_write_macros(osl);
     SPELL(spell, shader_type(spell), " ", shader_name(spell));
     osl_write_parameters(osl);
     spell_text(spell, "{\n");

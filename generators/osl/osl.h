@@ -9,12 +9,19 @@ extern const struct lang_syntax osl_syntax;
 extern const struct target target_osl;
 extern const struct target_network osl_network; /* network.c */
 
+/* A piece of metadata that parameters share. */
+struct osl_macro {
+    const char *text, *name;
+    uint32_t uses;
+};
+
 /* What is known while a file is written. */
 struct osl {
     struct spell *spell;
     const char **arrays; /* by interface variable: the parameter that a stream of several numbers comes as */
     uint8_t *kinds;   /* per node of three components: enum osl_kind */
     uint8_t first_helper[IR_NUM_OPS]; /* the first row of helpers.def for an op, + 1; 0: there is none */
+    VEC(struct osl_macro) macros;
     VEC(const char *) helpers; /* functions that the file declares for itself, callees first */
 };
 
@@ -39,7 +46,13 @@ bool osl_mentions(const char *text, const char *word);
 /* textures.c: the form that reads a texture of the graph; NULL: it is one that a function was given. */
 const char *osl_texture_call(struct osl *osl, const struct lang_use *use);
 
+/* metadata.c */
+void osl_write_macros(struct osl *osl); /* above the shader */
+void osl_write_metadata(struct osl *osl, const struct shader_variable *variable);
+
 /* parameters.c */
+const struct shader_variable *osl_interface_variable(const struct osl *osl, uint32_t i);
+bool osl_is_read(const struct osl *osl, const struct shader_variable *variable); /* in the stage at hand */
 void osl_name_interface(struct osl *osl);
 const char *osl_global_name(void *user_data, uint32_t id); /* lang_names.global */
 void osl_write_parameters(struct osl *osl);

@@ -29,7 +29,7 @@ static const char *find_row(const struct expression_row *rows, size_t count, con
     return NULL;
 }
 
-static const struct shader_variable *interface_variable(const struct osl *osl, uint32_t i)
+const struct shader_variable *osl_interface_variable(const struct osl *osl, uint32_t i)
 {
     return &osl->spell->shader->variables.items[osl->spell->shader->interface.items[i]];
 }
@@ -49,7 +49,7 @@ static const char *expression_of(const struct osl *osl, const struct shader_vari
     return NULL;
 }
 
-static bool is_read(const struct osl *osl, const struct shader_variable *variable)
+bool osl_is_read(const struct osl *osl, const struct shader_variable *variable)
 {
     return variable->stages >> osl->spell->stage_id & 1;
 }
@@ -97,7 +97,7 @@ void osl_name_interface(struct osl *osl)
     struct spell *spell = osl->spell;
     osl->arrays = ARENA_ARRAY(spell->scratch, const char *, spell->shader->interface.len);
     for (uint32_t i = 0; i < spell->shader->interface.len; i++) {
-        const struct shader_variable *variable = interface_variable(osl, i);
+        const struct shader_variable *variable = osl_interface_variable(osl, i);
         const char *name = text_of(osl, variable->name);
         const char *expression = expression_of(osl, variable);
         if (is_stream(variable) && !expression && array_length(variable))
@@ -133,125 +133,6 @@ const char *osl_global_name(void *user_data, uint32_t id)
     return text_cstr(&text);
 }
 
-/* ---- Metadata ---- */
-
-static void write_string(struct spell *spell, const char *text)
-{
-    text_json_string(spell->out, text, strlen(text));
-}
-
-/* "[[ " or ", " in front of the next piece. */
-static void open_piece(struct spell *spell, unsigned *count)
-{
-    spell_text(spell, (*count)++ ? ", " : " [[ ");
-}
-
-static void write_hint(struct spell *spell, const char *name, const char *text, unsigned *count)
-{
-    if (!text || !*text)
-        return;
-    open_piece(spell, count);
-    SPELL(spell, "string ", name, " = ");
-    write_string(spell, text);
-}
-
-static void write_limit(struct spell *spell, const char *name, const char *text, ir_type_id type, unsigned *count)
-{
-    bool is_scalar = type == IR_TYPE_FLOAT || type == IR_TYPE_INT;
-    if (!text || !*text || !is_scalar)
-        return;
-    open_piece(spell, count);
-    SPELL(spell, type == IR_TYPE_INT ? "int " : "float ", name, " = ");
-    size_t len = strlen(text);
-    while (strchr(text, '.') && len > 1 && (text[len - 1] == '0' || text[len - 1] == '.') && text[len - 2] != '-')
-        if (text[--len] == '.') /* "1.0" is 1 */
-            break;
-    text_mem(spell->out, text, len);
-}
-
-/* A label that only says the name again, "Base Color" of base_color, is what user interfaces make of the name themselves. */
-static bool says_name(const char *label, const char *name)
-{
-    for (; *label && *name; label++, name++)
-        if ((*label == ' ' ? '_' : *label | 0x20) != (*name == '_' ? '_' : *name | 0x20))
-            return false;
-    return *label == *name;
-}
-
-static void write_label(struct spell *spell, const char *name, const char *label, unsigned *count)
-{
-    if (label && !says_name(label, name))
-        write_hint(spell, "label", label, count);
-}
-
-/* Of colours and images; those in the working space need no word. */
-static const char *colorspace_of(const struct osl *osl, const struct shader_variable *variable)
-{
-    const char *space = text_of(osl, variable->colorspace), *type = text_of(osl, variable->doc_type);
-    bool has_space = strcmp(type, "color3") == 0 || strcmp(type, "color4") == 0 || variable->type == IR_TYPE_SAMPLER;
-    const char *working = osl->spell->options->colorspace;
-    return has_space && !(working && strcmp(space, working) == 0) ? space : NULL;
-}
-
-static const char *first_of(const char *a, const char *b)
-{
-    return a && *a ? a : b;
-}
-
-/* "a:0|b:1" of the words "a, b" and the values "0, 1", which count from 0 where there are none. */
-static void write_choices(struct spell *spell, const char *names, const char *values, unsigned *count)
-{
-    open_piece(spell, count);
-    spell_text(spell, "string widget = \"mapper\", string options = \"");
-    for (unsigned i = 0; *names; i++) {
-        size_t n = strcspn(names, ","), m = strcspn(values, ",");
-        spell_text(spell, i ? "|" : "");
-        text_mem(spell->out, names, n);
-        text_char(spell->out, ':');
-        if (*values)
-            text_mem(spell->out, values, m);
-        else
-            spell_number(spell, i);
-        names += n + (names[n] == ',');
-        names += strspn(names, " ");
-        values += m + (values[m] == ',');
-        values += strspn(values, " ");
-    }
-    spell_text(spell, "\"");
-}
-
-static void write_widget(struct spell *spell, const struct shader_variable *variable, const struct shader_ui *ui, unsigned *count)
-{
-    bool has_choices = variable->type == IR_TYPE_INT && ui->enum_names && *ui->enum_names;
-    if (has_choices)
-        write_choices(spell, ui->enum_names, ui->enum_values ? ui->enum_values : "", count);
-    else
-        write_hint(spell, "widget", variable->type == IR_TYPE_BOOL      ? "checkBox"
-                                    : variable->type == IR_TYPE_SAMPLER ? "filename"
-                                                                        : NULL, count);
-}
-
-static void write_metadata(struct osl *osl, const struct shader_variable *variable)
-{
-    struct spell *spell = osl->spell;
-    struct shader_ui ui = {0};
-    unsigned count = 0;
-    if (spell->options->metadata == 0)
-        return;
-    if (spell->options->ui)
-        spell->options->ui(spell->options->user_data, variable, &ui);
-    write_label(spell, text_of(osl, variable->name), ui.name, &count);
-    write_hint(spell, "page", ui.folder, &count);
-    write_limit(spell, "min", first_of(ui.soft_min, ui.min), variable->type, &count);
-    write_limit(spell, "max", first_of(ui.soft_max, ui.max), variable->type, &count);
-    write_widget(spell, variable, &ui, &count);
-    write_hint(spell, "colorspace", colorspace_of(osl, variable), &count);
-    if (spell->options->metadata > 1)
-        write_hint(spell, "help", ui.doc, &count);
-    if (count)
-        spell_text(spell, " ]]");
-}
-
 /* ---- Parameters ---- */
 
 static const char *type_name(const struct osl *osl, const struct shader_variable *variable)
@@ -266,7 +147,7 @@ static void write_default(struct osl *osl, const struct shader_variable *variabl
     struct spell *spell = osl->spell;
     struct ir_value value = variable->value;
     if (variable->type == IR_TYPE_SAMPLER) {
-        write_string(spell, text_of(osl, variable->file));
+        text_json_string(spell->out, text_of(osl, variable->file), strlen(text_of(osl, variable->file)));
         return;
     }
     if (ir_type_is_closure(variable->type)) {
@@ -301,13 +182,13 @@ static void write_inputs(struct osl *osl, enum shader_block block, unsigned *cou
 {
     struct spell *spell = osl->spell;
     for (uint32_t i = 0; i < spell->shader->interface.len; i++) {
-        const struct shader_variable *variable = interface_variable(osl, i);
-        if (variable->block != block || !is_read(osl, variable))
+        const struct shader_variable *variable = osl_interface_variable(osl, i);
+        if (variable->block != block || !osl_is_read(osl, variable))
             continue;
         next_parameter(spell, count);
         SPELL(spell, type_name(osl, variable), " ", text_of(osl, variable->name), " = ");
         write_default(osl, variable);
-        write_metadata(osl, variable);
+        osl_write_metadata(osl, variable);
     }
 }
 
@@ -315,8 +196,8 @@ static void write_stream_parameters(struct osl *osl, unsigned *count)
 {
     struct spell *spell = osl->spell;
     for (uint32_t i = 0; i < spell->shader->interface.len; i++) {
-        const struct shader_variable *variable = interface_variable(osl, i);
-        if (!is_stream(variable) || !is_read(osl, variable) || expression_of(osl, variable))
+        const struct shader_variable *variable = osl_interface_variable(osl, i);
+        if (!is_stream(variable) || !osl_is_read(osl, variable) || expression_of(osl, variable))
             continue;
         next_parameter(spell, count);
         if (array_length(variable)) {
@@ -335,8 +216,8 @@ static void write_outputs(struct osl *osl, unsigned *count)
 {
     struct spell *spell = osl->spell;
     for (uint32_t i = 0; i < spell->shader->interface.len; i++) {
-        const struct shader_variable *variable = interface_variable(osl, i);
-        if (variable->block != BLOCK_OUTPUTS || !is_read(osl, variable) || is_result(osl, variable))
+        const struct shader_variable *variable = osl_interface_variable(osl, i);
+        if (variable->block != BLOCK_OUTPUTS || !osl_is_read(osl, variable) || is_result(osl, variable))
             continue;
         next_parameter(spell, count);
         SPELL(spell, "output ", type_name(osl, variable), " ", text_of(osl, variable->name), " = ");
@@ -358,10 +239,10 @@ void osl_write_streams(struct osl *osl)
 {
     struct spell *spell = osl->spell;
     for (uint32_t i = 0; i < spell->shader->interface.len; i++) {
-        const struct shader_variable *variable = interface_variable(osl, i);
+        const struct shader_variable *variable = osl_interface_variable(osl, i);
         const char *expression = expression_of(osl, variable), *name = spell->variables[spell->shader->interface.items[i]].text;
         bool is_local = expression ? !is_global(expression) : array_length(variable) > 0;
-        if (!is_stream(variable) || !is_read(osl, variable) || !is_local)
+        if (!is_stream(variable) || !osl_is_read(osl, variable) || !is_local)
             continue;
         SPELL(spell, "    ", type_name(osl, variable), " ", name, " = ");
         if (expression) {

@@ -18,8 +18,9 @@ void mx_artistic_ior(vec3 reflectivity, vec3 edge_color, out vec3 ior, out vec3 
 // Burley 2012, section 5.4: the aspect ratio stretches one axis and shrinks the other.
 vec2 mx_roughness_anisotropy(float roughness, float anisotropy)
 {
+    float squared = clamp(roughness * roughness, MX_EPSILON, 1.0);
     float aspect = sqrt(1.0 - clamp(anisotropy, 0.0, 0.98));
-    return min(clamp(roughness * roughness, MX_EPSILON, 1.0) * vec2(1.0 / aspect, aspect), 1.0);
+    return vec2(min(squared / aspect, 1.0), squared * aspect);
 }
 
 // A negative second value means that both are alike.
