@@ -414,11 +414,15 @@ static const struct lang_pieces *product_form(struct osl *osl, const struct lang
     ir_type_id a = use->operands[0], b = use->operands[1];
     if (ir_type_is_matrix(a) && ir_type_is_matrix(b))
         return form_of(osl, "$1 * $0", LANG_PREC_POSTFIX);
+    bool is_color = use->node && osl->kinds[use->node] == OSL_COLOR; /* transform() gives a vector */
     if (a == IR_TYPE_MAT3 && b == IR_TYPE_VEC3)
-        return form_of(osl, is_no_vector(osl, use, 1) ? "transform($0, vector($1))" : "transform($0, $1)", LANG_PREC_POSTFIX);
+        return form_of(osl, is_color                     ? "color(transform($0, vector($1)))"
+                            : is_no_vector(osl, use, 1) ? "transform($0, vector($1))"
+                                                        : "transform($0, $1)", LANG_PREC_POSTFIX);
     if (a == IR_TYPE_VEC3 && b == IR_TYPE_MAT3)
-        return form_of(osl, is_no_vector(osl, use, 0) ? "transform(transpose($1), vector($0))" : "transform(transpose($1), $0)",
-                       LANG_PREC_POSTFIX);
+        return form_of(osl, is_color                     ? "color(transform(transpose($1), vector($0)))"
+                            : is_no_vector(osl, use, 0) ? "transform(transpose($1), vector($0))"
+                                                        : "transform(transpose($1), $0)", LANG_PREC_POSTFIX);
     if (a == IR_TYPE_VEC4 && b == IR_TYPE_MAT4) {
         ir_type_id turned[2] = {b, a};
         struct lang_use transform = *use;

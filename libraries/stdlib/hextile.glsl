@@ -43,8 +43,7 @@ vec3 mx_hextile_corners(vec2 coord, out vec2 corner1, out vec2 corner2, out vec2
 // Dave Hoskins, "Hash without Sine", 2014.
 vec2 mx_hextile_random(vec2 corner)
 {
-    vec2 p = corner + 0.12345; // away from the zeros of the hash
-    vec3 q = fract(p.xyx * vec3(0.1031, 0.1030, 0.0973));
+    vec3 q = fract((corner.xyx + 0.12345) * vec3(0.1031, 0.1030, 0.0973)); // away from the zeros of the hash
     q += dot(q, q.yzx + 33.33);
     return fract((q.xx + q.yz) * q.zy);
 }
@@ -55,7 +54,6 @@ mx_HexTile mx_hextile(vec2 coord, vec2 corner, float rotation, vec2 rotation_ran
     vec2 random = mx_hextile_random(corner);
     vec2 center = vec2(corner.x + 0.5 * corner.y, corner.y / (2.0 * MX_LATTICE_SKEW)) / MX_LATTICE_DENSITY;
     float size = mix(1.0, mix(scale_range.x, scale_range.y, random.y), scale);
-
     mx_HexTile tile;
     tile.rotation = radians(mix(rotation_range.x, rotation_range.y, random.x * rotation));
     tile.uv = mx_rotate2d(coord - center, -tile.rotation) / size + center +
@@ -65,11 +63,10 @@ mx_HexTile mx_hextile(vec2 coord, vec2 corner, float rotation, vec2 rotation_ran
     return tile;
 }
 
-mx_HexTiles mx_hextiles(vec2 coord, float rotation, vec2 rotation_range, float scale, vec2 scale_range, float offset,
-                        vec2 offset_range)
+mx_HexTiles mx_hextiles(vec2 coord, float rotation, vec2 rotation_range, float scale, vec2 scale_range, float offset, vec2 offset_range)
 {
-    vec2 corner1, corner2, corner3;
     mx_HexTiles tiles;
+    vec2 corner1, corner2, corner3;
     tiles.barycentric = mx_hextile_corners(coord, corner1, corner2, corner3);
     tiles.a = mx_hextile(coord, corner1, rotation, rotation_range, scale, scale_range, offset, offset_range);
     tiles.b = mx_hextile(coord, corner2, rotation, rotation_range, scale, scale_range, offset, offset_range);
@@ -101,7 +98,6 @@ vec4 mx_hextiledimage(sampler2D file, mx_HexTiles tiles, float falloff, float co
     vec4 c1 = textureGrad(file, tiles.a.uv, tiles.a.dx, tiles.a.dy);
     vec4 c2 = textureGrad(file, tiles.b.uv, tiles.b.dx, tiles.b.dy);
     vec4 c3 = textureGrad(file, tiles.c.uv, tiles.c.dx, tiles.c.dy);
-
     vec3 luma = vec3(dot(c1.rgb, lumacoeffs), dot(c2.rgb, lumacoeffs), dot(c3.rgb, lumacoeffs));
     vec3 w = mx_hextile_weights(tiles.barycentric, mix(vec3(1.0), luma, contrast), falloff);
     float alpha = has_alpha ? dot(mx_hextile_weights(tiles.barycentric, vec3(1.0), falloff), vec3(c1.a, c2.a, c3.a)) : 0.0;
@@ -129,8 +125,7 @@ vec3 mx_hextilednormalmap(sampler2D file, mx_HexTiles tiles, float falloff, floa
                           vec3 bitangent)
 {
     vec3 w = clamp(mx_hextile_weights(tiles.barycentric, vec3(1.0), falloff), 0.0, 1.0);
-    vec3 gradient = w.x * mx_hextile_gradient(file, tiles.a, strength, flip_g, normal, tangent, bitangent) +
-                    w.y * mx_hextile_gradient(file, tiles.b, strength, flip_g, normal, tangent, bitangent) +
-                    w.z * mx_hextile_gradient(file, tiles.c, strength, flip_g, normal, tangent, bitangent);
-    return normalize(normal - gradient);
+    return normalize(normal - w.x * mx_hextile_gradient(file, tiles.a, strength, flip_g, normal, tangent, bitangent)
+                            - w.y * mx_hextile_gradient(file, tiles.b, strength, flip_g, normal, tangent, bitangent)
+                            - w.z * mx_hextile_gradient(file, tiles.c, strength, flip_g, normal, tangent, bitangent));
 }

@@ -2,9 +2,8 @@
 // Textures. Address modes and filters are the sampler's work: reflection tells them to the host. On demand they are
 // arithmetic on coordinates, of which no more is left than the modes ask for: those are known at compile time.
 
-// Who applies the modes: 0 the host's sampler; 1 shared: the functions below do what not every sampler can, cubic filters and
-// borders of a colour; 2 the functions below, over a sampler that repeats and filters linearly; 3 a texture() that does all
-// but borders of a colour.
+// Who applies the modes: 0 the host's sampler; 1 it, but for cubic filters and borders of a colour, which are made below; 2 the
+// functions below, over a sampler that repeats and filters linearly; 3 a texture() that does all but borders of a colour.
 const int option_texture_modes = 0;
 
 // Cubic B-spline filtering by four linear lookups: Christian Sigg and Markus Hadwiger, "Fast Third-Order Texture
@@ -52,15 +51,12 @@ float mx_address(float x, int size, string mode)
     return clamp(mirrored, border, 1.0 - border);
 }
 
-bool mx_outside(float x, string mode)
-{
-    return (mode == "constant" || mode == "black") && (x < 0.0 || x > 1.0);
-}
-
 // Beyond a border that is of the default's colour, where the shader has to know it.
 bool mx_beyond(vec2 uv, string uaddressmode, string vaddressmode)
 {
-    return option_texture_modes != 0 && (mx_outside(uv.x, uaddressmode) || mx_outside(uv.y, vaddressmode));
+    bool beyond_u = (uaddressmode == "constant" || uaddressmode == "black") && (uv.x < 0.0 || uv.x > 1.0);
+    bool beyond_v = (vaddressmode == "constant" || vaddressmode == "black") && (uv.y < 0.0 || uv.y > 1.0);
+    return option_texture_modes != 0 && (beyond_u || beyond_v);
 }
 
 vec4 mx_image(sampler2D file, vec2 texcoord, string uaddressmode, string vaddressmode, string filtertype)
