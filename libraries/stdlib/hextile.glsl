@@ -121,8 +121,7 @@ vec3 mx_hextile_gradient(sampler2D file, mx_HexTile tile, float strength, bool f
     return mx_surface_gradient(normal, normalize(slope * strength + normal * n.z));
 }
 
-vec3 mx_hextilednormalmap(sampler2D file, mx_HexTiles tiles, float falloff, float strength, bool flip_g, vec3 normal, vec3 tangent,
-                          vec3 bitangent)
+vec3 mx_hextilednormalmap(sampler2D file, mx_HexTiles tiles, float falloff, float strength, bool flip_g, vec3 normal, vec3 tangent, vec3 bitangent)
 {
     vec3 w = clamp(mx_hextile_weights(tiles.barycentric, vec3(1.0), falloff), 0.0, 1.0);
     return normalize(normal - w.x * mx_hextile_gradient(file, tiles.a, strength, flip_g, normal, tangent, bitangent)
