@@ -246,7 +246,7 @@ static void test_convert(void)
     teardown(&f);
 }
 
-/* Structs and arrays are taken apart where they were put together. */
+/* Structs and arrays are taken apart where they were put together, and structs put together where they were taken apart. */
 static void test_user_types(void)
 {
     struct fixture f;
@@ -266,7 +266,9 @@ static void test_user_types(void)
     REQUIRE_EQ(ir_build(g, IR_INDEX, ray, 0, (ir_ref[]){both, ir_const_int(g, 1)}, 2), a);
     ir_ref any = ir_build(g, IR_UNIFORM, rays, 2, NULL, 0), i = ir_build(g, IR_UNIFORM, IR_TYPE_INT, 3, NULL, 0);
     ir_ref one = ir_build(g, IR_INDEX, ray, 0, (ir_ref[]){any, i}, 2);
-    ir_ref root = ir_build(g, IR_MEMBER, IR_TYPE_VEC3, 0, &one, 1);
+    ir_ref root = ir_build(g, IR_MEMBER, IR_TYPE_VEC3, 0, &one, 1), last = ir_build(g, IR_MEMBER, IR_TYPE_FLOAT, 1, &one, 1);
+    REQUIRE_EQ(ir_construct(g, ray, (ir_ref[]){root, last}, 2), one);
+    REQUIRE(ir_construct(g, ray, (ir_ref[]){root, t}, 2) != one);
     REQUIRE_STR(print(&f, &root, 1),
                 "struct \"Ray\" vec3 \"origin\", float \"Ray\"\n"
                 "array $0 2\n"
