@@ -232,7 +232,7 @@ static void generate(struct examiner *examiner, const mxg_document *document, co
     shader->generate_ms = examine_clock() - begin;
     if (status == MXG_OK)
         examine_shader(examiner, result, shader, element);
-    if (status == MXG_OK && examiner->render && !examiner->is_brief)
+    if (status == MXG_OK && examiner->render)
         examine_images(examiner, result);
     check_fail(&examiner->document->failed, shader->failed);
     mxg_result_destroy(result);

@@ -138,6 +138,8 @@ open(sys.argv[1], "wb").write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(
     check 'is kept' look 0 second.json
     check 'in the cache' grep -q '1 documents unchanged' out
     check 'its depfile names the image' grep -q '^ look/wood/oak.png' look.d
+    check 'with any report' exits 0 "$mxgen" check look --no-compile --render --junit look.xml --depfile look2.d
+    check 'its depfile does' grep -q '^ look/wood/oak.png' look2.d
     check 'and so does the report' says first.json 'd[0]["images"]' "['look/wood/oak.png']"
     paint look/wood/oak.png 20 60 200
     check 'where the image changes' look 0 third.json
