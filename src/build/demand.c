@@ -183,7 +183,8 @@ static void finish(struct builder *b, uint32_t first_result)
 static uint32_t add_results(struct builder *b, const ir_ref *results, uint32_t n)
 {
     uint32_t first = b->results.len;
-    memcpy(vec_extend(b->arena, &b->results, n), results, n * sizeof *results);
+    for (uint32_t i = 0; i < n; i++) /* of a definition without outputs there are none */
+        vec_push(b->arena, &b->results, results[i]);
     return first;
 }
 

@@ -49,12 +49,12 @@ static struct candidate fit_outputs(const struct library *lib, const struct node
                                     elem_id node)
 {
     str_id type = doc_attr_value(&lib->doc, node, STR_type);
+    if (def->num_outputs == 0)
+        return misfit("it has no output of a known type", 0, 0, 0);
     if (!type)
         return (struct candidate){FIT_EXACT, NULL, 0, 0, 0};
     if (def->num_outputs > 1 && type == STR_multioutput)
         return (struct candidate){FIT_EXACT, NULL, 0, 0, 0};
-    if (def->num_outputs == 0)
-        return misfit("it has no output of a known type", 0, 0, 0);
     const struct port *out = &ports[def->num_inputs];
     if (def->num_outputs == 1 && library_type(lib, type) == out->type)
         return (struct candidate){FIT_EXACT, NULL, 0, 0, 0};
