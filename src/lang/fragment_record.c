@@ -65,6 +65,10 @@ static void find_needed(struct taker *t, const ir_ref *results, unsigned num_res
     for (unsigned i = 0; i < num_results; i++)
         if (results[i] && !t->numbers[results[i]])
             t->numbers[results[i]] = NEEDED;
+    for (ir_ref ref = t->recorder->first_new; ref && ref < t->graph->nodes.len; ref++)
+        if (!t->numbers[ref])
+            t->numbers[ref] = NEEDED;
+    t->recorder->first_new = 0;
     for (ir_ref ref = t->graph->nodes.len; ref-- > 1;) {
         bool has_operands = t->numbers[ref] == NEEDED && !name_of(t, ref);
         for (uint32_t i = 0; has_operands && i < ir_get(t->graph, ref)->num_args; i++) {

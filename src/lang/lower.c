@@ -446,12 +446,15 @@ static void lower_known_function(struct lower *lo, uint32_t id, const ir_ref *ar
     const struct lang_fragment *fragment = NULL;
     if (has_pattern && !recorder)
         fragment = fragment_find(layer, layer->fragment_of.items[id], &pattern, lo->host->choice);
+    uint32_t first_new = lo->graph->nodes.len;
     if (fragment)
         restore(&host, layer, fragment, &pattern, results);
     else if (!fits(lo))
         poison_whole_results(lo, results);
     else
         (lo->frame->fn->flags & LANG_FN_PLAIN ? lower_plain_function : lower_function)(lo, id, args, results);
+    if (has_pattern && recorder)
+        recorder->first_new = first_new;
     if (has_pattern && recorder)
         fragment_record(&host, &recorder->fragment_of.items[id], &pattern, lo->weighed, results, lang_num_results(lo->unit, id));
 }
