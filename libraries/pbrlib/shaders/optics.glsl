@@ -8,7 +8,7 @@ void mx_artistic_ior(vec3 reflectivity, vec3 edge_color, out vec3 ior, out vec3 
 {
     vec3 r = clamp(reflectivity, 0.0, 0.99);
     vec3 s = sqrt(r);
-    vec3 n = mix((1.0 + s) * (1.0 + s) / (1.0 - r), (1.0 - r) / (1.0 + r), edge_color);
+    vec3 n = mix((1.0 + s) / (1.0 - s), (1.0 - r) / (1.0 + r), edge_color);
     vec3 a = s * (n + 1.0);
     vec3 b = n - 1.0;
     ior = n;
