@@ -172,6 +172,10 @@ ir_ref build_blur(struct builder *b, ir_ref in, ir_ref size, ir_ref filtertype, 
 {
     if (!in || ir_const_is(b->graph, size, 0.0f))
         return in;
+    if (b->recorder && !ir_is_const(b->graph, in)) {
+        diag_add(b->diags, DIAG_ID_blur_left_out, doc_place(&b->lib->doc, node), "a layer of a network cannot ask for its input elsewhere");
+        return in;
+    }
     const struct kernel *kernel = find_kernel(b, filtertype);
     struct blur blur = {.b = b, .in = in};
     blur.needed = ir_mark(b->graph, &in, 1, b->arena);
