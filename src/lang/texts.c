@@ -59,7 +59,8 @@ void lang_make_texts(struct lang_unit *unit, const struct lang_syntax *syntax, s
     }
     vec_push(arena, &unit->texts, (uint32_t)text.len);
     memset(&unit->text_bytes, 0, sizeof unit->text_bytes);
-    memcpy(vec_extend(arena, &unit->text_bytes, text.len), text.data, text.len);
+    if (text.len)
+        memcpy(vec_extend(arena, &unit->text_bytes, text.len), text.data, text.len);
 }
 
 static bool has_own_type(const struct lang_names *names, const struct lang_unit *unit, ir_type_id type)
