@@ -135,13 +135,13 @@ vec4 mx_ggx_sample(const mx_GgxLobe lobe, const vec2 around, const float xi)
     return mx_ggx_sample_at(lobe, normalize(h), s * s * lobe.level);
 }
 
-vec3 mx_ggx_gather(const mx_GgxLobe lobe)
+vec3 mx_ggx_gather_dielectric(const mx_GgxLobe lobe)
 {
     vec2 around = vec2(1.0, 0.0);
     vec3 sum = vec3(0.0);
     for (float xi = 0.5 * lobe.step; xi < 1.0; xi += lobe.step) {
         vec4 light = mx_ggx_sample(lobe, around, xi);
-        sum += vec3(mx_fresnel_dielectric(light.w)) * light.xyz;
+        sum += mx_fresnel_dielectric(light.w) * light.xyz;
         around = mat2(-0.7373689, 0.6754903, -0.6754903, -0.7373689) * around;
     }
     return lobe.weight * sum;
@@ -181,7 +181,7 @@ void main()
     vec2 paint_5 = (coat * vec2(-0.7632, -0.4993) + vec2(-0.4297, -0.6076) + vec2(0.43155003, 0.60945004)) * 0.3 + vec2(1.0);
     vec3 paint_6 = paint * clamp(paint_5.x / paint_5.y, 0.0, 1.0) * vec3(0.6, 0.1, 0.05);
     vec3 paint_7 = textureLod(u_envIrradiance, mx_latlong(u_envMatrix, coat_4), 0.0).xyz * u_envLightIntensity * paint_6;
-    color += coat_3 * mx_ggx_gather(coat_5) + paint_7;
+    color += coat_3 * mx_ggx_gather_dielectric(coat_5) + paint_7;
     if (SR_varnish_opacity < u_alphaThreshold)
         discard;
     out1 = vec4(SR_varnish_opacity * color, SR_varnish_opacity);

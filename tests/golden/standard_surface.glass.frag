@@ -136,14 +136,14 @@ vec4 mx_ggx_sample(const mx_GgxLobe lobe, const vec2 around, const float xi, con
     return mx_ggx_sample_at(lobe, normalize(h), s * s * lobe.level, refract_ior);
 }
 
-vec3 mx_ggx_gather(const mx_GgxLobe lobe, const float refract_ior)
+vec3 mx_ggx_gather_dielectric(const mx_GgxLobe lobe, const float refract_ior)
 {
     vec2 around = vec2(1.0, 0.0);
     vec3 sum = vec3(0.0);
     for (float xi = 0.5 * lobe.step; xi < 1.0; xi += lobe.step) {
         vec4 light = mx_ggx_sample(lobe, around, xi, refract_ior);
-        vec3 f = vec3(mx_fresnel_dielectric(light.w));
-        sum += (refract_ior > 0.0 ? vec3(1.0) - f : f) * light.xyz;
+        float f = mx_fresnel_dielectric(light.w);
+        sum += (refract_ior > 0.0 ? 1.0 - f : f) * light.xyz;
         around = mat2(-0.7373689, 0.6754903, -0.6754903, -0.7373689) * around;
     }
     return lobe.weight * sum;
@@ -176,7 +176,8 @@ void main()
         float reflection_7 = reflection_3 * mx_ggx_light(reflection_4, L, reflection_5) * reflection_6;
         color += u_lightData[i].color * (type == 1 ? intensity : light_2) * reflection_7;
     }
-    float reflection_8 = 1.0 - mix(0.042579994, 1.0, reflection_2.y) * reflection_2.x * reflection_3;
-    color += reflection_3 * mx_ggx_gather(reflection_4, 0.0) + reflection_8 * mx_ggx_gather(reflection_4, 1.52);
+    vec3 reflection_8 = reflection_3 * mx_ggx_gather_dielectric(reflection_4, 0.0);
+    float reflection_9 = 1.0 - mix(0.042579994, 1.0, reflection_2.y) * reflection_2.x * reflection_3;
+    color += reflection_8 + reflection_9 * mx_ggx_gather_dielectric(reflection_4, 1.52);
     out1 = vec4(color, 1.0);
 }

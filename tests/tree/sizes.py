@@ -55,18 +55,12 @@ def check_lengths():
         print(f"  {where}: {length} lines")
 
 
-def path_tracing_lines(path, text):
-    """MaterialX's library has no sampling to compare with: lines of functions for that, with what stands before them."""
-    whole = re.findall(r"(?<=\n\n)(?:[^\n]+\n)*?\w+ \w+_bsdf_(?:sample|pdf|refraction)\((?:.|\n)*?\n\}\n", text)
-    return len(text.splitlines()) if "sampling" in path.name else sum(part.count("\n") + 1 for part in whole)
-
-
 def check_library():
-    """A third of MaterialX's own, written for no target."""
-    for endings, limit in ((".mtlx",), 6866), ((".glsl", ".inline"), 2633):
-        size = sum(len(lines(path)) - path_tracing_lines(path, path.read_text(encoding="utf-8")) for path in files("libraries", *endings))
-        check(size <= limit, f"libraries: {size} lines of {endings[0]}; {limit} is the budget")
-        print(f"libraries: {size} lines of {endings[0]}")
+    """A third of MaterialX's own 20,600 lines of XML and 7,900 of source, written for no target; it has no sampling, ours has."""
+    sizes = {endings: sum(len(lines(path)) for path in files("libraries", *endings)) for endings in ((".mtlx",), (".glsl", ".inline"))}
+    whole = sum(sizes.values())
+    check(whole <= 9500, f"libraries: {whole} lines; 9,500 is the budget")
+    print(f"libraries: {whole} lines,", ", ".join(f"{size} of {endings[0]}" for endings, size in sizes.items()))
     for path in files("libraries", ".mtlx"):
         bound = [str(number) for number, line in enumerate(lines(path), 1) if "target=" in line and "<!-- only there:" not in line]
         check(not bound, f"{path.relative_to(ROOT)}: for one target without a reason, line {', '.join(bound)}")

@@ -220,15 +220,65 @@ vec4 mx_ggx_sample(mx_GgxLobe lobe, vec2 around, float xi, float refract_ior)
 // Samples are spherical Fibonacci points (Marques et al. 2013): each is the golden angle further around the one before.
 const mat2 MX_GOLDEN_TURN = mat2(-0.73736888, 0.67549029, -0.67549029, -0.73736888);
 
-vec3 mx_ggx_gather(mx_GgxLobe lobe, float limit, float refract_ior, string model, vec3 n, vec3 k, vec3 f90, float exponent)
+// A function for each interface: what has nothing left to choose needs no version of its own.
+vec3 mx_ggx_gather_dielectric(mx_GgxLobe lobe, float limit, float refract_ior, float ior)
 {
     vec2 around = vec2(1.0, 0.0);
     vec3 sum = vec3(0.0);
     for (float xi = 0.5 * lobe.step; xi < limit; xi += lobe.step)
     {
         vec4 light = mx_ggx_sample(lobe, around, xi, refract_ior);
-        vec3 f = mx_fresnel_bare(light.w, model, n, k, f90, exponent);
+        float f = mx_fresnel_dielectric(light.w, ior);
         sum += (refract_ior > 0.0 ? 1.0 - f : f) * light.xyz;
+        around = MX_GOLDEN_TURN * around;
+    }
+    return lobe.weight * sum;
+}
+
+vec3 mx_ggx_gather_conductor(mx_GgxLobe lobe, float limit, vec3 n, vec3 k)
+{
+    vec2 around = vec2(1.0, 0.0);
+    vec3 sum = vec3(0.0);
+    for (float xi = 0.5 * lobe.step; xi < limit; xi += lobe.step)
+    {
+        vec4 light = mx_ggx_sample(lobe, around, xi, 0.0);
+        sum += mx_fresnel_conductor(light.w, n, k) * light.xyz;
+        around = MX_GOLDEN_TURN * around;
+    }
+    return lobe.weight * sum;
+}
+
+vec3 mx_ggx_gather_schlick(mx_GgxLobe lobe, float limit, float refract_ior, vec3 f0, vec3 bend, vec3 f90, float exponent)
+{
+    vec2 around = vec2(1.0, 0.0);
+    vec3 sum = vec3(0.0);
+    for (float xi = 0.5 * lobe.step; xi < limit; xi += lobe.step)
+    {
+        vec4 light = mx_ggx_sample(lobe, around, xi, refract_ior);
+        vec3 f = mx_fresnel_schlick(light.w, f0, bend, f90, exponent);
+        sum += (refract_ior > 0.0 ? 1.0 - f : f) * light.xyz;
+        around = MX_GOLDEN_TURN * around;
+    }
+    return lobe.weight * sum;
+}
+
+vec3 mx_ggx_gather(mx_GgxLobe lobe, float limit, float refract_ior, string model, vec3 n, vec3 k, vec3 f90, float exponent)
+{
+    if (model == "dielectric")
+        return mx_ggx_gather_dielectric(lobe, limit, refract_ior, n.x);
+    return model == "conductor" ? mx_ggx_gather_conductor(lobe, limit, n, k)
+                                : mx_ggx_gather_schlick(lobe, limit, refract_ior, n, k, f90, exponent);
+}
+
+// What a film on an index of refraction reflects.
+vec3 mx_ggx_gather_filmed(mx_GgxLobe lobe, float limit, vec3 n, vec3 k, float film, float film_ior)
+{
+    vec2 around = vec2(1.0, 0.0);
+    vec3 sum = vec3(0.0);
+    for (float xi = 0.5 * lobe.step; xi < limit; xi += lobe.step)
+    {
+        vec4 light = mx_ggx_sample(lobe, around, xi, 0.0);
+        sum += mx_film_index(light.w, n, k, film, film_ior) * light.xyz;
         around = MX_GOLDEN_TURN * around;
     }
     return lobe.weight * sum;
@@ -261,9 +311,11 @@ vec3 mx_ggx_environment(vec2 roughness, vec3 N, vec3 X, vec3 V, string model, ve
         return scale * mx_ggx_prefiltered(roughness, N, V, 0.0, model, n, k, f90, exponent, film, film_ior);
     // A loop that no pixel needs is over at once, a branch that none takes may not be: both loops stand side by side, one of them empty.
     mx_GgxLobe lobe = mx_ggx_lobe(roughness, mx_facing(N, V), X, V);
-    return scale
-         * (film > 0.0 ? mx_ggx_gather_film(lobe, film > 0.0 ? 1.0 : 0.0, 0.0, model != "schlick", n, k, f90, exponent, film, film_ior)
-                       : mx_ggx_gather(lobe, film > 0.0 ? 0.0 : 1.0, 0.0, model, n, k, f90, exponent));
+    float filmed = film > 0.0 ? 1.0 : 0.0;
+    vec3 bare = mx_ggx_gather(lobe, film > 0.0 ? 0.0 : 1.0, 0.0, model, n, k, f90, exponent);
+    if (model == "schlick")
+        return scale * (film > 0.0 ? mx_ggx_gather_film(lobe, filmed, 0.0, false, n, k, f90, exponent, film, film_ior) : bare);
+    return scale * (film > 0.0 ? mx_ggx_gather_filmed(lobe, filmed, n, k, film, film_ior) : bare);
 }
 
 // What it refracts.
