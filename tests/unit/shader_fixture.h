@@ -3,6 +3,7 @@
 #ifndef MXG_TESTS_SHADER_FIXTURE_H
 #define MXG_TESTS_SHADER_FIXTURE_H
 
+#include "one_file.h"
 #include "spell/target.h"
 
 #include <stdio.h>
@@ -19,17 +20,6 @@ struct fixture {
     uint32_t file; /* of the portable functions */
     uint32_t color; /* a vec3 local */
 };
-
-static inline bool fixture_read(void *user_data, const char *from, const char *ref, const char **out_name,
-                                const char **out_text, size_t *out_len, const char **out_reason)
-{
-    (void)from;
-    (void)out_reason;
-    *out_name = ref;
-    *out_text = user_data;
-    *out_len = strlen(*out_text);
-    return true;
-}
 
 static inline str_id word(struct fixture *f, const char *text)
 {
@@ -52,12 +42,7 @@ static inline void fixture_open(struct fixture *f, const char *source)
     f->color = shader_add_local(&f->shader, word(f, "color"), IR_TYPE_VEC3);
     if (!source)
         return;
-    struct diag_list diags;
-    diag_list_init(&diags, &f->arena);
-    char *text = arena_strndup(&f->arena, source, strlen(source));
-    f->file = lang_parse_file(&f->unit, &(struct lang_reader){text, fixture_read}, "", "test.glsl", (struct diag_place){0}, &diags);
-    for (uint32_t i = 0; i < diags.items.len; i++)
-        printf("test.glsl:%u: %s\n", diags.items.items[i].place.line, diags.items.items[i].message);
+    f->file = parse_one_file(&f->unit, arena_strndup(&f->arena, source, strlen(source)));
 }
 
 static inline void fixture_close(struct fixture *f)

@@ -5,31 +5,19 @@
  */
 #include "lang/lang.h"
 
+#include "one_file.h"
 #include "test.h"
 
 struct fixture {
     struct mem mem;
     struct arena arena;
     struct strpool strings;
-    struct diag_list diags;
     struct lang_unit library, generated;
     struct ir_graph graph;
     struct lang_recorder recorder;
     struct lang_host host;
-    const char *source;
     uint32_t file;
 };
-
-static bool read_source(void *user_data, const char *from, const char *ref, const char **out_name, const char **out_text,
-                        size_t *out_len, const char **out_reason)
-{
-    const struct fixture *f = user_data;
-    (void)from, (void)out_reason;
-    *out_name = ref;
-    *out_text = f->source;
-    *out_len = strlen(f->source);
-    return true;
-}
 
 static ir_ref global_node(void *user_data, struct ir_graph *graph, const struct lang_unit *unit, uint32_t global_id)
 {
@@ -46,14 +34,12 @@ static void begin(struct fixture *f)
 
 static void setup(struct fixture *f, const char *source)
 {
-    *f = (struct fixture){.source = source, .host = {.global = global_node, .max_inline_nodes = 40}};
+    *f = (struct fixture){.host = {.global = global_node, .max_inline_nodes = 40}};
     mem_init(&f->mem, NULL, NULL);
     arena_init(&f->arena, &f->mem);
     strpool_init(&f->strings, &f->arena, NULL);
-    diag_list_init(&f->diags, &f->arena);
     lang_unit_init(&f->library, &f->arena, &f->strings, NULL);
-    struct lang_reader reader = {f, read_source};
-    f->file = lang_parse_file(&f->library, &reader, "", "test.glsl", (struct diag_place){0}, &f->diags);
+    f->file = parse_one_file(&f->library, source);
     REQUIRE(f->file != LANG_NONE);
     lang_make_canonical(&f->library);
     begin(f);

@@ -2,6 +2,7 @@
 /* The back half of the language: printing, reaching, evaluating, specialising and lowering what the parser has read. */
 #include "lang/lang.h"
 
+#include "one_file.h"
 #include "test.h"
 
 #include <math.h>
@@ -13,34 +14,19 @@ struct fixture {
     struct diag_list diags;
     struct lang_unit library, generated;
     struct ir_graph graph;
-    const char *source;
     uint32_t file;
     int option; /* the value of every option */
 };
 
-static bool read_source(void *user_data, const char *from, const char *ref, const char **out_name, const char **out_text,
-                        size_t *out_len, const char **out_reason)
-{
-    const struct fixture *f = user_data;
-    (void)from, (void)out_reason;
-    *out_name = ref;
-    *out_text = f->source;
-    *out_len = strlen(f->source);
-    return true;
-}
-
 static void setup(struct fixture *f, const char *source)
 {
-    *f = (struct fixture){.source = source};
+    *f = (struct fixture){0};
     mem_init(&f->mem, NULL, NULL);
     arena_init(&f->arena, &f->mem);
     strpool_init(&f->strings, &f->arena, NULL);
-    diag_list_init(&f->diags, &f->arena);
     lang_unit_init(&f->library, &f->arena, &f->strings, NULL);
-    struct lang_reader reader = {f, read_source};
-    f->file = lang_parse_file(&f->library, &reader, "", "test.glsl", (struct diag_place){0}, &f->diags);
-    for (uint32_t i = 0; i < f->diags.items.len; i++)
-        printf("%u: %s\n", f->diags.items.items[i].place.line, f->diags.items.items[i].message);
+    diag_list_init(&f->diags, &f->arena);
+    f->file = parse_one_file(&f->library, source);
     REQUIRE(f->file != LANG_NONE);
     lang_unit_init(&f->generated, &f->arena, &f->strings, &f->library);
     ir_graph_init(&f->graph, &f->arena, &f->strings);

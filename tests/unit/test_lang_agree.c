@@ -5,6 +5,7 @@
  */
 #include "lang/lang.h"
 
+#include "one_file.h"
 #include "test.h"
 
 #include <math.h>
@@ -41,7 +42,6 @@ struct agree {
     struct mem mem;
     struct arena arena, scratch; /* scratch: of one trial */
     struct strpool strings;
-    struct diag_list diags;
     struct lang_unit library, generated;
     uint32_t seed;
     const struct lang_function *fn; /* under test */
@@ -50,16 +50,6 @@ struct agree {
     bool bound[MAX_ARGS];
     struct ir_value expected[MAX_ARGS];
 };
-
-static bool read_source(void *user_data, const char *from, const char *ref, const char **out_name, const char **out_text,
-                        size_t *out_len, const char **out_reason)
-{
-    (void)user_data, (void)from, (void)out_reason;
-    *out_name = ref;
-    *out_text = source;
-    *out_len = strlen(source);
-    return true;
-}
 
 static uint32_t next_random(struct agree *a, uint32_t limit)
 {
@@ -203,12 +193,8 @@ int main(void)
     mem_init(&a.mem, NULL, NULL);
     arena_init(&a.arena, &a.mem);
     strpool_init(&a.strings, &a.arena, NULL);
-    diag_list_init(&a.diags, &a.arena);
     lang_unit_init(&a.library, &a.arena, &a.strings, NULL);
-    struct lang_reader reader = {NULL, read_source};
-    REQUIRE(lang_parse_file(&a.library, &reader, "", "agree.glsl", (struct diag_place){0}, &a.diags) != LANG_NONE);
-    for (uint32_t i = 0; i < a.diags.items.len; i++)
-        printf("%u: %s\n", a.diags.items.items[i].place.line, a.diags.items.items[i].message);
+    REQUIRE(parse_one_file(&a.library, source) != LANG_NONE);
     try_all(&a);
     lang_make_canonical(&a.library);
     try_all(&a);
