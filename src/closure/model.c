@@ -165,19 +165,22 @@ void closure_record_lit(struct shader *shader, const struct closure_host *host, 
 
 /* ---- Restoring ---- */
 
-static const struct lang_fragment *find(struct shader *shader, const struct lang_unit *lowest)
+static bool has_lights(const struct shader *shader, const struct lang_unit *lowest, const struct lang_fragment *fragment)
 {
-    const struct lang_fragment *leader = &lowest->fragments.items[shader->model.fragment - 1];
-    const struct lang_fragment *fragment = leader->follower ? &lowest->fragments.items[leader->follower - 1] : NULL;
     uint16_t key[1 + 2 * MAX_LIGHTS];
     unsigned num_key = lights_key(shader, key);
-    if (fragment && fragment->flags & LANG_FRAGMENT_WEIGHED && shader->model.has_derivative)
-        return NULL;
-    if (closure_may_guard(shader, shader->model.nodes + 1, shader->model.num_inputs))
-        return NULL; /* the fragment was made without such inputs, and has no branches on their account */
-    bool has_lights = fragment && has_key(shader) && fragment->pattern_len == num_key
-                   && memcmp(lowest->codes.items + fragment->first_code, key, num_key * sizeof *key) == 0;
-    return has_lights ? fragment : NULL;
+    return has_key(shader) && fragment->pattern_len == num_key
+        && memcmp(lowest->codes.items + fragment->first_code, key, num_key * sizeof *key) == 0;
+}
+
+/* A fragment was made with variables for inputs, and has no branches on account of others. */
+static const struct lang_fragment *find(struct shader *shader, const struct lang_unit *lowest)
+{
+    const struct shader_model *model = &shader->model;
+    uint16_t follower = lowest->fragments.items[model->fragment - 1].follower;
+    const struct lang_fragment *fragment = follower ? &lowest->fragments.items[follower - 1] : NULL;
+    bool is_same = fragment && !(fragment->flags & LANG_FRAGMENT_WEIGHED && model->has_derivative) && has_lights(shader, lowest, fragment);
+    return is_same && !closure_may_guard(shader, model->nodes + 1, model->num_inputs) ? fragment : NULL;
 }
 
 /* The effects, whose values stand in `nodes` by the numbers in `results`. */
@@ -199,9 +202,7 @@ static void write_effects(struct shader *shader, const uint16_t *results, const 
 
 bool closure_restore_lit(struct shader *shader, const struct closure_host *host, struct closure_lit *state)
 {
-    const struct lang_unit *lowest = shader->unit;
-    while (lowest->base)
-        lowest = lowest->base;
+    const struct lang_unit *lowest = lang_lowest(shader->unit);
     const struct shader_model *model = &shader->model;
     const struct lang_fragment *fragment = shader->unit->recorder ? NULL : find(shader, lowest);
     if (!fragment)

@@ -8,6 +8,34 @@
 enum { CODE_ABSENT = 0, CODE_SAME = 1, CODE_OPAQUE = 2, CODE_OPAQUE_IN_LOOP = 3 };
 static_assert((unsigned)IR_CONST == 0, "heads of constants are types");
 
+/* ---- Codes ---- */
+
+unsigned fragment_write_head(const struct ir_graph *graph, const struct lang_unit *layer, enum ir_op op, ir_type_id type, unsigned count,
+                             uint16_t out[FRAGMENT_MAX_HEAD])
+{
+    out[0] = fragment_head(op, type, count);
+    if (type < IR_TYPE_FIRST_USER)
+        return 1;
+    uint32_t known_as = graph->user_types.items[type - IR_TYPE_FIRST_USER].known_as;
+    out[1] = (uint16_t)known_as;
+    return known_as && known_as < IR_TYPE_FIRST_USER + layer->user_types.len && known_as <= UINT16_MAX ? 2 : 0;
+}
+
+unsigned fragment_write_constant(const struct ir_graph *graph, const struct lang_unit *layer, const struct ir_node *node,
+                                 uint16_t out[FRAGMENT_MAX_CONSTANT])
+{
+    const union ir_word *words = graph->words.items + node->attr;
+    if (node->type == IR_TYPE_STRING && words->u >= layer->strings->num)
+        return 0;
+    unsigned len = 0;
+    out[len++] = fragment_head(IR_CONST, node->type, 0);
+    for (unsigned i = 0; i < ir_type_info(node->type)->components; i++) {
+        out[len++] = (uint16_t)(words[i].u & 0xffff);
+        out[len++] = (uint16_t)(words[i].u >> 16);
+    }
+    return len;
+}
+
 /* ---- Patterns ---- */
 
 static inline void put(struct fragment_pattern *pattern, unsigned code)
@@ -18,26 +46,17 @@ static inline void put(struct fragment_pattern *pattern, unsigned code)
         pattern->failed = true;
 }
 
-/* A string that the library does not know has a number by chance. */
-static void put_constant(struct fragment_pattern *pattern, const struct ir_node *node)
+static inline void put_all(struct fragment_pattern *pattern, const uint16_t *codes, unsigned len)
 {
-    const union ir_word *words = pattern->graph->words.items + node->attr;
-    pattern->failed |= node->type == IR_TYPE_STRING && words->u >= pattern->layer->strings->num;
-    put(pattern, fragment_head(IR_CONST, node->type, 0));
-    for (unsigned i = 0; i < ir_type_info(node->type)->components; i++) {
-        put(pattern, words[i].u & 0xffff);
-        put(pattern, words[i].u >> 16);
-    }
+    pattern->failed |= len == 0;
+    for (unsigned i = 0; i < len; i++)
+        put(pattern, codes[i]);
 }
 
 static void put_head(struct fragment_pattern *pattern, enum ir_op op, ir_type_id type, unsigned count)
 {
-    put(pattern, fragment_head(op, type, count));
-    if (type < IR_TYPE_FIRST_USER)
-        return;
-    uint16_t code = fragment_user_type(pattern->graph, pattern->layer, type);
-    pattern->failed |= code == 0;
-    put(pattern, code);
+    uint16_t codes[FRAGMENT_MAX_HEAD];
+    put_all(pattern, codes, fragment_write_head(pattern->graph, pattern->layer, op, type, count, codes));
 }
 
 static void put_node(struct fragment_pattern *pattern, ir_ref ref, unsigned depth);
@@ -58,7 +77,8 @@ static void put_node(struct fragment_pattern *pattern, ir_ref ref, unsigned dept
 {
     const struct ir_node *node = ir_get(pattern->graph, ref);
     if (node->op == IR_CONST) {
-        put_constant(pattern, node);
+        uint16_t codes[FRAGMENT_MAX_CONSTANT];
+        put_all(pattern, codes, fragment_write_constant(pattern->graph, pattern->layer, node, codes));
         return;
     }
     unsigned num_inputs = pattern->num_inputs;

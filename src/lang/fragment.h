@@ -89,7 +89,7 @@ uint32_t fragment_callee(struct lang_unit *unit, struct ir_graph *graph, uint32_
 /* ---- Codes ---- */
 
 /* Heads: op, type and number of operands. Of structs and arrays the language's type follows, of more than 6 operands the number. */
-enum { FRAGMENT_MANY = 7, FRAGMENT_USER_TYPE = 63 };
+enum { FRAGMENT_MANY = 7, FRAGMENT_USER_TYPE = 63, FRAGMENT_MAX_HEAD = 2, FRAGMENT_MAX_CONSTANT = 1 + 2 * 16 };
 static inline uint16_t fragment_head(enum ir_op op, ir_type_id type, unsigned count)
 {
     unsigned known = type < IR_TYPE_FIRST_USER ? type : FRAGMENT_USER_TYPE;
@@ -97,12 +97,12 @@ static inline uint16_t fragment_head(enum ir_op op, ir_type_id type, unsigned co
 }
 static_assert((unsigned)IR_NUM_OPS <= 128 && (unsigned)IR_NUM_TYPES <= (unsigned)FRAGMENT_USER_TYPE, "heads do not suffice");
 
-/* The code behind a head of this type; 0: it has no name in the library. */
-static inline uint16_t fragment_user_type(const struct ir_graph *graph, const struct lang_unit *layer, ir_type_id type)
-{
-    uint32_t known_as = graph->user_types.items[type - IR_TYPE_FIRST_USER].known_as;
-    return known_as < IR_TYPE_FIRST_USER + layer->user_types.len && known_as <= UINT16_MAX ? (uint16_t)known_as : 0;
-}
+/* Writes a head and what follows it of the type; returns how many codes, 0 where the library (`layer`) does not know the type. */
+unsigned fragment_write_head(const struct ir_graph *graph, const struct lang_unit *layer, enum ir_op op, ir_type_id type, unsigned count,
+                             uint16_t out[FRAGMENT_MAX_HEAD]);
+/* The same for a constant; of strings that the library does not know, whose numbers are chance, 0. */
+unsigned fragment_write_constant(const struct ir_graph *graph, const struct lang_unit *layer, const struct ir_node *node,
+                                 uint16_t out[FRAGMENT_MAX_CONSTANT]);
 
 /* Ops whose attribute follows their head. */
 static inline bool fragment_has_attr(enum ir_op op)

@@ -41,14 +41,17 @@ static void put(struct taker *t, uint64_t code)
     vec_push(t->recorder->arena, &t->recorder->codes, (uint16_t)code);
 }
 
+static void put_all(struct taker *t, const uint16_t *codes, unsigned len)
+{
+    t->failed |= len == 0;
+    for (unsigned i = 0; i < len; i++)
+        put(t, codes[i]);
+}
+
 static void put_head(struct taker *t, enum ir_op op, ir_type_id type, unsigned count)
 {
-    put(t, fragment_head(op, type, count));
-    if (type < IR_TYPE_FIRST_USER)
-        return;
-    uint16_t code = fragment_user_type(t->graph, t->layer, type);
-    t->failed |= code == 0;
-    put(t, code);
+    uint16_t codes[FRAGMENT_MAX_HEAD];
+    put_all(t, codes, fragment_write_head(t->graph, t->layer, op, type, count, codes));
 }
 
 static str_id name_of(const struct taker *t, ir_ref ref)
@@ -87,17 +90,6 @@ static void put_global(struct taker *t, ir_ref ref)
             return;
         }
     t->failed = true;
-}
-
-/* A string of the document is not known to the library. */
-static void put_constant(struct taker *t, const struct ir_node *node)
-{
-    const union ir_word *words = t->graph->words.items + node->attr;
-    t->failed |= node->type == IR_TYPE_STRING && words->u >= t->layer->strings->num;
-    for (unsigned i = 0; i < ir_type_info(node->type)->components; i++) {
-        put(t, words[i].u & 0xffff);
-        put(t, words[i].u >> 16);
-    }
 }
 
 static void put_op(struct taker *t, ir_ref ref)
@@ -140,10 +132,13 @@ static void put_node(struct taker *t, ir_ref ref)
 {
     const struct ir_node *node = ir_get(t->graph, ref);
     put_origin(t, node);
+    if (node->op == IR_CONST) {
+        uint16_t codes[FRAGMENT_MAX_CONSTANT];
+        put_all(t, codes, fragment_write_constant(t->graph, t->layer, node, codes));
+        return;
+    }
     put_head(t, (enum ir_op)node->op, node->type, node->num_args);
-    if (node->op == IR_CONST)
-        put_constant(t, node);
-    else if (node->op == IR_UNIFORM || node->op == IR_STREAM || node->op == IR_TEXTURE)
+    if (node->op == IR_UNIFORM || node->op == IR_STREAM || node->op == IR_TEXTURE)
         put_global(t, ref);
     else
         put_op(t, ref);
@@ -227,11 +222,8 @@ unsigned fragment_record(const struct fragment_host *host, uint16_t *first, cons
 void fragment_record_follower(const struct fragment_host *host, unsigned leader, const struct fragment_follower *follower)
 {
     struct lang_recorder *recorder = host->unit->recorder;
-    const struct lang_unit *lowest = host->unit;
-    while (lowest->base)
-        lowest = lowest->base;
     struct taker t = {.host = host, .graph = host->graph, .recorder = recorder, .inputs = follower->nodes + 1,
-                      .num_inputs = follower->num_nodes - 1, .layer = lowest};
+                      .num_inputs = follower->num_nodes - 1, .layer = lang_lowest(host->unit)};
     struct lang_fragment fragment = {.first_code = recorder->codes.len, .pattern_len = (uint16_t)follower->num_key,
                                      .flags = recorder->weighed ? LANG_FRAGMENT_WEIGHED : 0};
     for (unsigned i = 0; i < follower->num_key; i++)

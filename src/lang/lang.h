@@ -202,6 +202,14 @@ static inline const struct lang_global *lang_global(const struct lang_unit *unit
     return &unit->globals.items[id - unit->base_globals];
 }
 
+/* The layer that all others stand on. */
+static inline const struct lang_unit *lang_lowest(const struct lang_unit *unit)
+{
+    while (unit->base)
+        unit = unit->base;
+    return unit;
+}
+
 static inline const struct lang_file *lang_file(const struct lang_unit *unit, uint32_t id, const struct lang_unit **out_unit)
 {
     while (id < unit->base_files)

@@ -453,10 +453,10 @@ static void lower_known_function(struct lower *lo, uint32_t id, const ir_ref *ar
         poison_whole_results(lo, results);
     else
         (lo->frame->fn->flags & LANG_FN_PLAIN ? lower_plain_function : lower_function)(lo, id, args, results);
-    if (has_pattern && recorder)
-        recorder->first_new = first_new;
-    if (has_pattern && recorder)
-        fragment_record(&host, &recorder->fragment_of.items[id], &pattern, lo->weighed, results, lang_num_results(lo->unit, id));
+    if (!has_pattern || !recorder)
+        return;
+    recorder->first_new = first_new;
+    fragment_record(&host, &recorder->fragment_of.items[id], &pattern, lo->weighed, results, lang_num_results(lo->unit, id));
 }
 
 void lang_lower_call(struct lang_unit *generated, struct ir_graph *graph, const struct lang_host *host, uint32_t id,
