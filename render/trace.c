@@ -21,6 +21,7 @@ struct tracer {
     struct gpu *gpu;
     struct bind *bind;
     const struct trace_options *options;
+    mxg_shader_info info;
     struct compiled compiled;
     struct bvh bvh;
     struct inputs inputs;
@@ -130,11 +131,9 @@ static bool compile(struct tracer *tracer)
     append_fill(&source, tracer->bind->result);
     snprintf(line, sizeof line, "#define TRACER_SET %u\n", tracer->inputs.num_sets);
     append(&source, line);
-    mxg_shader_info info = {sizeof info};
-    mxg_result_info(tracer->bind->result, &info);
-    append(&source, info.transparent ? "#define TRANSPARENT\n" : "");
-    append(&source, info.num_lights ? "#define LIGHTS\n" : "");
-    append(&source, info.displaced ? "#define DISPLACED\n" : "");
+    append(&source, tracer->info.transparent ? "#define TRANSPARENT\n" : "");
+    append(&source, tracer->info.num_lights ? "#define LIGHTS\n" : "");
+    append(&source, tracer->info.displaced ? "#define DISPLACED\n" : "");
     for (const char *const *piece = trace_source; *piece; ++piece)
         append(&source, *piece);
     bool good = source.text && compile_compute(source.text, &tracer->compiled);
@@ -148,18 +147,11 @@ static bool compile(struct tracer *tracer)
 
 /* ---- Device ---- */
 
-static bool is_displaced(const struct tracer *tracer)
-{
-    mxg_shader_info info = {sizeof info};
-    mxg_result_info(tracer->bind->result, &info);
-    return info.displaced;
-}
-
 static bool create_buffers(struct tracer *tracer)
 {
     struct gpu *gpu = tracer->gpu;
     size_t pixels = (size_t)tracer->width * tracer->height, corners = 3 * (size_t)tracer->bvh.num_triangles;
-    size_t film = (is_displaced(tracer) && corners > pixels ? corners : pixels) * 4 * sizeof(float);
+    size_t film = (tracer->info.displaced && corners > pixels ? corners : pixels) * 4 * sizeof(float);
     const VkBufferUsageFlags usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
     size_t num_sums;
     float *sums = importance_of_map(&tracer->bind->scene->radiance, &num_sums);
@@ -316,7 +308,7 @@ static bool open(struct tracer *tracer)
         !create_buffers(tracer) || !create_set(tracer))
         return false;
     write_set(tracer);
-    return create_pipeline(tracer) && (!is_displaced(tracer) || displace(tracer));
+    return create_pipeline(tracer) && (!tracer->info.displaced || displace(tracer));
 }
 
 static void close(struct tracer *tracer)
@@ -339,7 +331,8 @@ static void close(struct tracer *tracer)
 bool trace_picture(struct gpu *gpu, struct bind *bind, uint32_t width, uint32_t height, const struct trace_options *options,
                    float *out_pixels)
 {
-    struct tracer tracer = {.gpu = gpu, .bind = bind, .options = options, .width = width, .height = height};
+    struct tracer tracer = {.gpu = gpu, .bind = bind, .options = options, .info = {sizeof tracer.info}, .width = width, .height = height};
+    mxg_result_info(bind->result, &tracer.info);
     uint32_t samples = options->paths;
     bool good = open(&tracer);
     struct camera camera = make_camera(&tracer);
