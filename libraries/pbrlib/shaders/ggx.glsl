@@ -270,8 +270,8 @@ vec3 mx_ggx_gather(mx_GgxLobe lobe, float limit, float refract_ior, string model
                                 : mx_ggx_gather_schlick(lobe, limit, refract_ior, n, k, f90, exponent);
 }
 
-// What a film on an index of refraction reflects.
-vec3 mx_ggx_gather_filmed(mx_GgxLobe lobe, float limit, vec3 n, vec3 k, float film, float film_ior)
+// A film on an index of refraction, reflection alone: what most films are.
+vec3 mx_ggx_gather_film_index(mx_GgxLobe lobe, float limit, vec3 n, vec3 k, float film, float film_ior)
 {
     vec2 around = vec2(1.0, 0.0);
     vec3 sum = vec3(0.0);
@@ -284,6 +284,7 @@ vec3 mx_ggx_gather_filmed(mx_GgxLobe lobe, float limit, vec3 n, vec3 k, float fi
     return lobe.weight * sum;
 }
 
+// Any other: on a colour, or what it lets through.
 vec3 mx_ggx_gather_film(mx_GgxLobe lobe, float limit, float refract_ior, bool is_index, vec3 n, vec3 k, vec3 f90, float exponent,
                         float film, float film_ior)
 {
@@ -315,7 +316,7 @@ vec3 mx_ggx_environment(vec2 roughness, vec3 N, vec3 X, vec3 V, string model, ve
     vec3 bare = mx_ggx_gather(lobe, film > 0.0 ? 0.0 : 1.0, 0.0, model, n, k, f90, exponent);
     if (model == "schlick")
         return scale * (film > 0.0 ? mx_ggx_gather_film(lobe, filmed, 0.0, false, n, k, f90, exponent, film, film_ior) : bare);
-    return scale * (film > 0.0 ? mx_ggx_gather_filmed(lobe, filmed, n, k, film, film_ior) : bare);
+    return scale * (film > 0.0 ? mx_ggx_gather_film_index(lobe, filmed, n, k, film, film_ior) : bare);
 }
 
 // What it refracts.
