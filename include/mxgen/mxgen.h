@@ -180,10 +180,11 @@ MXG_API mxg_status mxg_diagnostics_get(const mxg_diagnostics *list, uint32_t ind
  * Renders one as compilers do, with the source line and a caret where `source` (may be NULL) holds the file's text.
  * Writes at most `capacity` bytes with a NUL; returns the length it needs without the NUL, 0 where there is none or no memory.
  */
-MXG_API size_t mxg_diagnostics_format_line(const mxg_diagnostics *list, uint32_t index, const char *line, size_t line_size,
-                                           bool colour, char *buffer, size_t capacity); /* the same with the line at hand */
 MXG_API size_t mxg_diagnostics_format(const mxg_diagnostics *list, uint32_t index, const char *source, size_t source_size,
                                       bool colour, char *buffer, size_t capacity);
+/* The same where the source line is at hand, without its end; NULL: unknown. */
+MXG_API size_t mxg_diagnostics_format_line(const mxg_diagnostics *list, uint32_t index, const char *line, size_t line_size,
+                                           bool colour, char *buffer, size_t capacity);
 
 /* Everything that can be said, for lists and help: `mxgen explain`. Static. */
 typedef struct mxg_diagnostic_kind {

@@ -177,6 +177,8 @@ void generation_report_not_renderable(struct generation *g, const char *why)
              str_text(doc->strings, doc_element(doc, g->element)->name), why);
 }
 
+static const char gives_nothing[] = "it gives no surface, volume, light or colour";
+
 /* Whether work may go on: not cancelled, within limits, nothing reported. */
 static bool is_good(struct generation *g)
 {
@@ -197,7 +199,7 @@ bool generation_build(struct generation *g)
     if (!is_good(g))
         return false;
     if (!g->root)
-        generation_report_not_renderable(g, "it gives no surface, volume, light or colour");
+        generation_report_not_renderable(g, gives_nothing);
     return g->root != 0;
 }
 
@@ -400,8 +402,7 @@ bool generation_emit(struct generation *g)
     generation_start_closures(g);
     g->result->shader.scatters = g->options[OPTION_integrator].number == 2;
     if (!emit(g))
-        generation_report_not_renderable(g, g->result->shader.scatters ? "a path tracer is given surfaces and values only"
-                                                            : "it gives no surface, volume, light or colour");
+        generation_report_not_renderable(g, g->result->shader.scatters ? "a path tracer is given surfaces and values only" : gives_nothing);
     if (!is_good(g))
         return false;
     g->result->graph.max_nodes = 0; /* finishing adds a few nodes that it must have */

@@ -233,4 +233,3 @@ void choose_locals(struct scheduler *s)
             let(plan);
     }
 }
-
