@@ -15,11 +15,15 @@ static void print_diagnostics(const mxg_diagnostics *list)
 
 int main(int argc, char **argv)
 {
+    if (argc != 2) {
+        fputs("usage: c_minimal MATERIAL.mtlx\n", stderr);
+        return 2;
+    }
     mxg_context *context = NULL;
     mxg_document *document = NULL;
     mxg_result *result = NULL;
-    if (argc != 2 || mxg_context_create(NULL, &context) != MXG_OK)
-        return 2;
+    if (mxg_context_create(NULL, &context) != MXG_OK)
+        return 1;
     mxg_library *library = mxg_library_builtin(context);
     mxg_status status = mxg_document_load(context, library, argv[1], &document);
     print_diagnostics(mxg_document_diagnostics(document));

@@ -37,7 +37,7 @@ static void print_block(const mxg_result *result, mxg_block block)
 {
     bool any = false;
     for (uint32_t i = 0; i < mxg_result_num_variables(result); ++i) {
-        mxg_variable v = {sizeof v};
+        mxg_variable v = MXG_INIT(mxg_variable);
         if (mxg_result_variable(result, i, &v) != MXG_OK || v.block != block)
             continue;
         if (!any)
@@ -50,7 +50,7 @@ static void print_block(const mxg_result *result, mxg_block block)
 static void print_compiled(const mxg_result *result)
 {
     for (uint32_t i = 0; i < mxg_result_num_compiled_inputs(result); ++i) {
-        mxg_compiled_input input = {sizeof input};
+        mxg_compiled_input input = MXG_INIT(mxg_compiled_input);
         if (mxg_result_compiled_input(result, i, &input) == MXG_OK)
             printf("%s%s %s = %s\n", i ? "  " : "compiled in, a change needs a new shader\n  ", input.type, input.path, input.value);
     }

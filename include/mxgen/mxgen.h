@@ -50,6 +50,16 @@ extern "C" {
 #define MXG_API __attribute__((visibility("default")))
 #endif
 
+/*
+ * Structs begin with their size, by which they can grow: `mxg_variable variable = MXG_INIT(mxg_variable);`. All else of it is 0: of what
+ * the caller describes that is the default.
+ */
+#ifdef __cplusplus
+#define MXG_INIT(type) [] { type sized = type(); sized.size = sizeof sized; return sized; }()
+#else
+#define MXG_INIT(type) {.size = sizeof(type)}
+#endif
+
 /* ---- Version ---- */
 
 /* major: incompatible; minor: additions; patch: neither. The soname carries the major. */
@@ -150,7 +160,7 @@ typedef struct mxg_context_desc {
     const char *const *include_roots; /* folders; num_include_roots of them */
     size_t num_include_roots;
 } mxg_context_desc;
-#define MXG_CONTEXT_DESC_INIT {sizeof(mxg_context_desc)}
+#define MXG_CONTEXT_DESC_INIT MXG_INIT(mxg_context_desc)
 
 /* desc may be NULL: all defaults. */
 MXG_API mxg_status mxg_context_create(const mxg_context_desc *desc, mxg_context **out_context);
@@ -243,7 +253,7 @@ typedef struct mxg_port {
     const char *name, *type, *value, *defaultgeomprop, *enum_names, *unit, *doc; /* "" where absent */
     bool uniform;
     bool advanced; /* uiadvanced */
-    const char *enum_values, *unittype, *uiname, *uifolder, *uimin, *uimax, *uisoftmin, *uisoftmax; /* "" where absent */
+    const char *enum_values, *unittype, *uiname, *uifolder, *uimin, *uimax, *uisoftmin, *uisoftmax, *uistep; /* "" where absent */
 } mxg_port;
 
 MXG_API uint32_t mxg_library_num_nodedefs(const mxg_library *library); /* those of its base included */
@@ -337,7 +347,7 @@ typedef struct mxg_generate_desc {
      */
     bool without_source;
 } mxg_generate_desc;
-#define MXG_GENERATE_DESC_INIT {sizeof(mxg_generate_desc)}
+#define MXG_GENERATE_DESC_INIT MXG_INIT(mxg_generate_desc)
 
 /* *out_result is set whenever memory allows. With MXG_ERROR_DOCUMENT it has diagnostics and no source. */
 MXG_API mxg_status mxg_generate(mxg_context *context, const mxg_document *document, const mxg_generate_desc *desc,
@@ -407,6 +417,10 @@ typedef struct mxg_variable {
     const char *layer, *framerange, *frameendaction;
     int32_t frameoffset;
     uint32_t num_tiles;
+    const char *unittype;
+    const char *uistep, *enum_names, *enum_values; /* user interface; names and values are separated by commas */
+    bool advanced;          /* uiadvanced */
+    bool flat;              /* not interpolated between vertices */
 } mxg_variable;
 MXG_API uint32_t mxg_result_num_variables(const mxg_result *result);
 MXG_API mxg_status mxg_result_variable(const mxg_result *result, uint32_t index, mxg_variable *out);

@@ -333,6 +333,7 @@ mxg_status mxg_library_port(const mxg_library *library, uint32_t nodedef, uint32
         .uimax = attr_text(lib, port->element, STR_uimax),
         .uisoftmin = attr_text(lib, port->element, STR_uisoftmin),
         .uisoftmax = attr_text(lib, port->element, STR_uisoftmax),
+        .uistep = attr_text(lib, port->element, STR_uistep),
     };
     return struct_write(out, &full, sizeof full);
 }

@@ -41,15 +41,39 @@ static const char *ui_text(const mxg_result *result, const struct shader_variabl
     return text_of(result, value);
 }
 
+void result_ui(void *user_data, const struct shader_variable *variable, struct shader_ui *out)
+{
+    const mxg_result *result = user_data;
+    *out = (struct shader_ui){
+        .name = ui_text(result, variable, STR_uiname),
+        .folder = ui_text(result, variable, STR_uifolder),
+        .min = ui_text(result, variable, STR_uimin),
+        .max = ui_text(result, variable, STR_uimax),
+        .soft_min = ui_text(result, variable, STR_uisoftmin),
+        .soft_max = ui_text(result, variable, STR_uisoftmax),
+        .step = ui_text(result, variable, STR_uistep),
+        .doc = ui_text(result, variable, STR_doc),
+        .enum_names = ui_text(result, variable, STR_enum),
+        .enum_values = ui_text(result, variable, STR_enumvalues),
+        .advanced = strcmp(ui_text(result, variable, STR_uiadvanced), "true") == 0,
+    };
+}
+
 static void set_user_interface(const mxg_result *result, const struct shader_variable *variable, mxg_variable *out)
 {
-    out->uiname = ui_text(result, variable, STR_uiname);
-    out->uifolder = ui_text(result, variable, STR_uifolder);
-    out->uimin = ui_text(result, variable, STR_uimin);
-    out->uimax = ui_text(result, variable, STR_uimax);
-    out->uisoftmin = ui_text(result, variable, STR_uisoftmin);
-    out->uisoftmax = ui_text(result, variable, STR_uisoftmax);
-    out->doc = ui_text(result, variable, STR_doc);
+    struct shader_ui ui;
+    result_ui((void *)(uintptr_t)result, variable, &ui);
+    out->uiname = ui.name;
+    out->uifolder = ui.folder;
+    out->uimin = ui.min;
+    out->uimax = ui.max;
+    out->uisoftmin = ui.soft_min;
+    out->uisoftmax = ui.soft_max;
+    out->uistep = ui.step;
+    out->doc = ui.doc;
+    out->enum_names = ui.enum_names;
+    out->enum_values = ui.enum_values;
+    out->advanced = ui.advanced;
 }
 
 static void set_default(const struct shader_variable *variable, mxg_variable *out)
@@ -97,6 +121,8 @@ mxg_status mxg_result_variable(const mxg_result *result, uint32_t index, mxg_var
         .frameendaction = text_of(result, v->sampling.frameendaction),
         .frameoffset = v->sampling.frameoffset,
         .num_tiles = v->num_tiles,
+        .unittype = text_of(result, v->unittype),
+        .flat = v->flat,
     };
     set_default(v, &full);
     set_user_interface(result, v, &full);
@@ -213,24 +239,6 @@ mxg_status mxg_result_info(const mxg_result *result, mxg_shader_info *out)
 }
 
 /* ---- JSON ---- */
-
-void result_ui(void *user_data, const struct shader_variable *variable, struct shader_ui *out)
-{
-    const mxg_result *result = user_data;
-    *out = (struct shader_ui){
-        .name = ui_text(result, variable, STR_uiname),
-        .folder = ui_text(result, variable, STR_uifolder),
-        .min = ui_text(result, variable, STR_uimin),
-        .max = ui_text(result, variable, STR_uimax),
-        .soft_min = ui_text(result, variable, STR_uisoftmin),
-        .soft_max = ui_text(result, variable, STR_uisoftmax),
-        .step = ui_text(result, variable, STR_uistep),
-        .doc = ui_text(result, variable, STR_doc),
-        .enum_names = ui_text(result, variable, STR_enum),
-        .enum_values = ui_text(result, variable, STR_enumvalues),
-        .advanced = strcmp(ui_text(result, variable, STR_uiadvanced), "true") == 0,
-    };
-}
 
 static void write_json(const struct object *object, struct text *out)
 {

@@ -140,6 +140,61 @@ static void test_variables(const struct bench *b)
     mxg_result_destroy(result);
 }
 
+static const char knobs[] =
+    "<materialx version=\"1.39\">\n"
+    "  <nodegraph name=\"G\">\n"
+    "    <input name=\"mode\" type=\"integer\" value=\"1\" uiname=\"Mode\" uifolder=\"Look\" uimin=\"0\" uimax=\"2\" uisoftmin=\"0\""
+    " uisoftmax=\"1\" uistep=\"1\" enum=\"low,middle,high\" enumvalues=\"0,1,2\" uiadvanced=\"true\" doc=\"How much.\"/>\n"
+    "    <input name=\"width\" type=\"float\" value=\"2\" unit=\"meter\" unittype=\"distance\"/>\n"
+    "    <convert name=\"m\" type=\"float\"><input name=\"in\" type=\"integer\" interfacename=\"mode\"/></convert>\n"
+    "    <multiply name=\"s\" type=\"float\"><input name=\"in1\" type=\"float\" nodename=\"m\"/>"
+    "<input name=\"in2\" type=\"float\" interfacename=\"width\"/></multiply>\n"
+    "    <geompropvalue name=\"id\" type=\"integer\"><input name=\"geomprop\" type=\"string\" value=\"id\"/></geompropvalue>\n"
+    "    <convert name=\"i\" type=\"float\"><input name=\"in\" type=\"integer\" nodename=\"id\"/></convert>\n"
+    "    <add name=\"t\" type=\"float\"><input name=\"in1\" type=\"float\" nodename=\"s\"/>"
+    "<input name=\"in2\" type=\"float\" nodename=\"i\"/></add>\n"
+    "    <output name=\"out\" type=\"float\" nodename=\"t\"/></nodegraph>\n"
+    "</materialx>\n";
+
+/* What a host makes a user interface of: all that the JSON says. */
+static void test_user_interface(void)
+{
+    struct bench b;
+    bench_open(&b, knobs);
+    mxg_result *result = generate(&b, "glsl", "G", MXG_OK);
+    uint32_t index = 0;
+    mxg_variable mode = MXG_INIT(mxg_variable), width = MXG_INIT(mxg_variable);
+    REQUIRE(mxg_result_find_variable(result, "G/mode", &index));
+    REQUIRE_EQ(mxg_result_variable(result, index, &mode), MXG_OK);
+    REQUIRE(mxg_result_find_variable(result, "G/width", &index));
+    REQUIRE_EQ(mxg_result_variable(result, index, &width), MXG_OK);
+    REQUIRE_STR(width.unit, "meter");
+    REQUIRE_STR(width.unittype, "distance");
+    const struct {
+        const char *key, *value;
+    } fields[] = {{"name", mode.uiname},       {"folder", mode.uifolder},     {"min", mode.uimin},   {"max", mode.uimax},
+                  {"softMin", mode.uisoftmin}, {"softMax", mode.uisoftmax},   {"step", mode.uistep}, {"doc", mode.doc},
+                  {"enum", mode.enum_names},   {"enumValues", mode.enum_values}};
+    const char *json = strstr(mxg_result_reflection_json(result, NULL), "\"path\": \"G/mode\"");
+    for (size_t i = 0; i < sizeof fields / sizeof *fields; i++) {
+        char field[64];
+        snprintf(field, sizeof field, "\"%s\": \"%s\"", fields[i].key, fields[i].value);
+        REQUIRE(json && *fields[i].value && strstr(json, field));
+    }
+    REQUIRE(mode.advanced && !width.advanced);
+    REQUIRE_STR(mode.enum_names, "low,middle,high");
+    REQUIRE_STR(mode.uistep, "1");
+    unsigned num_flat = 0;
+    for (uint32_t i = 0; i < mxg_result_num_variables(result); i++) {
+        mxg_variable variable = MXG_INIT(mxg_variable);
+        REQUIRE_EQ(mxg_result_variable(result, i, &variable), MXG_OK);
+        num_flat += variable.flat && variable.block == MXG_BLOCK_VERTEX_DATA;
+    }
+    REQUIRE_EQ(num_flat, 1); /* an integer */
+    mxg_result_destroy(result);
+    bench_close(&b);
+}
+
 static void test_without_source(struct bench *b)
 {
     mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
@@ -444,6 +499,7 @@ int main(void)
     bench_close(&b);
     test_elements();
     test_tokens();
+    test_user_interface();
     test_network();
     test_lifetimes();
     return test_report("api-generation");
