@@ -2,7 +2,6 @@
 #define _POSIX_C_SOURCE 200809L
 #include "validate/examine.h"
 
-#include "cli/check/protocol.h"
 #include "validate/compile.h"
 
 #include <stdlib.h>
@@ -15,14 +14,6 @@ double examine_clock(void)
     struct timespec now;
     clock_gettime(CLOCK_MONOTONIC, &now);
     return (double)now.tv_sec * 1e3 + (double)now.tv_nsec * 1e-6;
-}
-
-void examine_mark(const struct examiner *examiner, enum check_stage stage, const char *element, const char *target)
-{
-    char *text = *element ? cli_format("%s of '%s' for %s", check_stage_name(stage), element, target)
-                          : cli_format("%s", check_stage_name(stage));
-    frame_write(examiner->marks, FRAME_MARK, text, strlen(text));
-    free(text);
 }
 
 /* ---- Messages ---- */
@@ -162,7 +153,8 @@ static void add_diagnostics(struct examiner *examiner, const mxg_diagnostics *li
                                         .file = diagnostic.file ? diagnostic.file : "", .line = diagnostic.line,
                                         .column = diagnostic.column, .length = diagnostic.length, .element = element,
                                         .target = shader ? shader->target : NULL};
-        if (find_message(examiner, &message) == examiner->document->num_messages)
+        bool is_read = message.severity == MXG_SEVERITY_ERROR || !examiner->errors_only;
+        if (is_read && find_message(examiner, &message) == examiner->document->num_messages)
             message.rendered = report_render(&examiner->cli->report, list, i);
         examine_add(examiner, shader, message);
     }
@@ -186,7 +178,7 @@ static mxg_document *load(struct examiner *examiner, const char *path)
 {
     double begin = examine_clock();
     mxg_document *document = NULL;
-    examine_mark(examiner, CHECK_LOAD, "", "");
+    channel_mark(&examiner->channel, CHECK_LOAD, "", "");
     mxg_status status = mxg_document_load(examiner->cli->context, examiner->cli->library, path, &document);
     add_diagnostics(examiner, mxg_document_diagnostics(document), NULL, NULL);
     add_status(examiner, status, NULL, NULL);
@@ -203,7 +195,7 @@ static void validate(struct examiner *examiner, const mxg_document *document)
 {
     double begin = examine_clock();
     mxg_result *result = NULL;
-    examine_mark(examiner, CHECK_VALIDATE, "", "");
+    channel_mark(&examiner->channel, CHECK_VALIDATE, "", "");
     mxg_status status = mxg_document_validate(examiner->cli->context, document, &result);
     add_diagnostics(examiner, mxg_result_diagnostics(result), NULL, NULL);
     add_status(examiner, status, NULL, NULL);
@@ -223,7 +215,7 @@ static void generate(struct examiner *examiner, const mxg_document *document, co
     desc.options = examiner->cli->options;
     desc.without_source = examiner->is_brief && !examiner->compile && !examiner->cli->max_output_size; /* nobody would read it */
     mxg_result *result = NULL;
-    examine_mark(examiner, CHECK_GENERATE, element, shader->target);
+    channel_mark(&examiner->channel, CHECK_GENERATE, element, shader->target);
     mxg_status status = mxg_generate(examiner->cli->context, document, &desc, &result);
     add_diagnostics(examiner, mxg_result_diagnostics(result), shader, element);
     add_status(examiner, status, shader, element);

@@ -3,15 +3,16 @@
 #ifndef MXG_VALIDATE_EXAMINE_H
 #define MXG_VALIDATE_EXAMINE_H
 
-#include "cli/check/record.h"
+#include "cli/check/protocol.h"
 #include "cli/cli.h"
 
 struct examiner {
     struct cli *cli;
     struct arg_list targets;
     bool compile, render;
-    int marks; /* where marks go */
-    bool is_brief; /* nobody asks for measures */
+    struct channel channel;
+    bool is_brief;    /* nobody asks for measures */
+    bool errors_only; /* nobody reads how other messages are printed */
 
     struct store store; /* of the document at hand */
     struct check_document *document;
@@ -36,9 +37,6 @@ void examine_picture(struct examiner *examiner, struct check_element *element);
 
 /* Adds a message of the current document for a shader; its text is copied. */
 void examine_add(struct examiner *examiner, struct check_shader *shader, struct check_message message);
-
-/* Tells what begins, should it be the last. */
-void examine_mark(const struct examiner *examiner, enum check_stage stage, const char *element, const char *target);
 
 /* Milliseconds of a clock that only goes forward. */
 double examine_clock(void);

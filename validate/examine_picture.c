@@ -125,7 +125,7 @@ void examine_picture(struct examiner *examiner, struct check_element *element)
 {
     double begin = examine_clock();
     size_t size = 0, pixels_size = 0;
-    examine_mark(examiner, CHECK_RENDER, element->path, "vulkan");
+    channel_mark(&examiner->channel, CHECK_RENDER, element->path, "vulkan");
     bool good = make_folder(examiner) && run(examiner, element->path) == 0;
     char *picture = examiner->folder ? read_output(examiner, "picture.png", &size) : NULL;
     char *pixels = examiner->folder ? read_output(examiner, "picture.ppm", &pixels_size) : NULL;

@@ -236,7 +236,7 @@ static void add_compile_message(struct examiner *examiner, const mxg_result *res
 static void compile(struct examiner *examiner, const mxg_result *result, struct check_shader *shader, const char *element)
 {
     double begin = examine_clock();
-    examine_mark(examiner, CHECK_COMPILE, element, shader->target);
+    channel_mark(&examiner->channel, CHECK_COMPILE, element, shader->target);
     if (!examiner->is_compiler_ready) {
         compile_begin();
         examiner->is_compiler_ready = true;

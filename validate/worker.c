@@ -5,7 +5,7 @@
  * nothing but its check, and so that plain generation pays nothing for compilers.
  */
 #define _POSIX_C_SOURCE 200809L
-#include "cli/check/protocol.h"
+#include "cli/check/packed.h"
 #include "validate/examine.h"
 
 #include <stdlib.h>
@@ -20,28 +20,23 @@ static int take_output(void)
     return fd;
 }
 
-static bool send_record(int fd, const struct check_document *document)
+static bool serve(struct examiner *examiner, int output)
 {
-    char *text = NULL;
-    size_t size = 0;
-    FILE *out = open_memstream(&text, &size);
-    if (!out)
+    struct frame task;
+    if (!channel_open(&examiner->channel, STDIN_FILENO, output)) {
+        fputs("mxgen: this program is started by 'mxgen check'\n", stderr);
         return false;
-    check_write_document(out, document, true);
-    bool good = fclose(out) == 0 && frame_write(fd, FRAME_RECORD, text, size);
-    free(text);
-    return good;
-}
-
-static void serve(struct examiner *examiner)
-{
-    struct frame_header header;
-    bool alive = frame_write(examiner->marks, FRAME_READY, "", 0);
-    for (char *path; alive && (path = frame_read(STDIN_FILENO, &header)) != NULL;) {
-        examiner->is_brief = header.kind == FRAME_TASK_BRIEF;
-        alive = send_record(examiner->marks, examine(examiner, path));
-        free(path);
     }
+    while (channel_next(&examiner->channel, &task)) {
+        examiner->is_brief = task.note & TASK_BRIEF;
+        examiner->errors_only = task.note & TASK_ERRORS_ONLY;
+        const struct check_document *document = examine(examiner, task.body);
+        size_t size;
+        const char *record = check_pack_document(&examiner->store, document, &size);
+        channel_answer(&examiner->channel, record, size);
+    }
+    channel_close(&examiner->channel);
+    return true;
 }
 
 int main(int argc, char **argv)
@@ -49,7 +44,8 @@ int main(int argc, char **argv)
     static const struct command command = {"check", "-check (started by `mxgen check`)", "Checks documents.", NULL};
     struct cli cli;
     bool no_compile = false;
-    struct examiner examiner = {.cli = &cli, .marks = take_output()};
+    struct examiner examiner = {.cli = &cli};
+    int output = take_output();
     const struct arg args[] = {
         {"target", 't', ARG_LIST, "T", "a target", &examiner.targets},
         {"no-compile", 0, ARG_FLAG, NULL, "generates only", &no_compile},
@@ -59,8 +55,7 @@ int main(int argc, char **argv)
     if (cli_start(&cli, &command, args, sizeof args / sizeof *args, CLI_GENERATES, argc, argv, &code)) {
         examiner.compile = !no_compile;
         cli.report.colour = false;
-        serve(&examiner);
-        code = EXIT_DONE;
+        code = serve(&examiner, output) ? EXIT_DONE : EXIT_USAGE;
     }
     examiner_finish(&examiner);
     cli_finish(&cli);

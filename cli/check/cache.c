@@ -249,7 +249,7 @@ static bool follows_from_files(const struct cache *cache, const struct check_doc
     return true;
 }
 
-static char *make_entry(struct cache *cache, const struct check_document *document, const char *record, size_t size, size_t *out_size)
+static char *make_entry(struct cache *cache, const struct check_document *document, size_t *out_size)
 {
     char *text = NULL;
     FILE *out = open_memstream(&text, out_size);
@@ -273,12 +273,12 @@ static char *make_entry(struct cache *cache, const struct check_document *docume
     }
     json_end(&json, '}');
     putc('\n', out);
-    fwrite(record, 1, size, out);
+    check_write_document(out, document, true);
     fclose(out);
     return text;
 }
 
-void cache_put(struct cache *cache, const struct cache_key *key, const struct check_document *document, const char *record, size_t size)
+void cache_put(struct cache *cache, const struct cache_key *key, const struct check_document *document)
 {
     struct cache_key now;
     if (!cache->folder || !key->hex[0] || cache->fault || !follows_from_files(cache, document))
@@ -291,7 +291,7 @@ void cache_put(struct cache *cache, const struct cache_key *key, const struct ch
     cache->fault = files_make_folder(path);
     *slash = '/';
     size_t entry_size = 0;
-    char *entry = make_entry(cache, document, record, size, &entry_size);
+    char *entry = make_entry(cache, document, &entry_size);
     if (entry && !cache->fault)
         cache->fault = files_write(path, entry, entry_size);
     free(entry);

@@ -35,6 +35,6 @@ void cache_finish(struct cache *cache);
 char *cache_find(struct cache *cache, const char *path, struct cache_key *out_key, size_t *out_size);
 
 /* Keeps a record, if it follows from files alone and these are still what they were. */
-void cache_put(struct cache *cache, const struct cache_key *key, const struct check_document *document, const char *record, size_t size);
+void cache_put(struct cache *cache, const struct cache_key *key, const struct check_document *document);
 
 #endif

@@ -9,7 +9,9 @@
 #include "cli/check/cache.h"
 #include "cli/check/check.h"
 #include "cli/check/inputs.h"
+#include "cli/check/packed.h"
 #include "cli/check/pool.h"
+#include "cli/check/protocol.h"
 #include "cli/files.h"
 
 #include <stdlib.h>
@@ -37,7 +39,8 @@ struct check {
     struct arg_list target_args, files_from, targets, worker_args;
     size_t jobs, time_limit;
     bool no_compile, render, stats;
-    bool needs_measures; /* of every document */
+    bool needs_measures;    /* of every document */
+    bool needs_errors_only; /* of the messages, how they are printed */
     struct check_reports reports;
     struct check_inputs inputs;
     struct pool pool;
@@ -88,11 +91,14 @@ static void forget_times(struct check_document *document)
 /* The record as it was made, before anything is judged: what the cache keeps. NULL: there is none. */
 static struct check_document *read_record(struct check *check, struct store *store, const struct slot *slot)
 {
-    struct check_document *document = slot->record ? check_read_document(store, slot->record, slot->size) : NULL;
+    if (!slot->record)
+        return NULL;
+    struct check_document *document = slot->is_cached ? check_read_document(store, slot->record, slot->size)
+                                                      : check_unpack_document(store, slot->record, slot->size);
     if (document && slot->is_cached)
         forget_times(document);
     else if (document)
-        cache_put(&check->cache, &slot->key, document, slot->record, slot->size);
+        cache_put(&check->cache, &slot->key, document);
     return document;
 }
 
@@ -139,13 +145,14 @@ static const char *next_path(struct check *check)
     return path;
 }
 
-/* Whether a report, or the budget of a document, is about more than verdicts and messages. */
-static bool is_brief(struct check *check, const char *path)
+/* What of a document no report, and no budget of its own, is about. */
+static uint32_t task_note(struct check *check, const char *path)
 {
-    return !check->needs_measures && !budget_has_file(&check->budget, path);
+    bool is_brief = !check->needs_measures && !budget_has_file(&check->budget, path);
+    return (is_brief ? TASK_BRIEF : 0) | (check->needs_errors_only ? TASK_ERRORS_ONLY : 0);
 }
 
-/* Gives the next document out, or finds its record; false where there is no more, or no worker can be started. */
+/* Gives the next document out, or finds its record; false where there is no more. */
 static bool give_next(struct check *check)
 {
     const char *path = next_path(check);
@@ -155,7 +162,9 @@ static bool give_next(struct check *check)
     *slot = (struct slot){.path = cli_format("%s", path), .index = check->num_found - 1};
     slot->record = cache_find(&check->cache, path, &slot->key, &slot->size);
     slot->is_done = slot->is_cached = slot->record != NULL;
-    return slot->is_done || pool_give(&check->pool, path, is_brief(check, path), (size_t)(check->last - 1));
+    if (!slot->is_done)
+        pool_give(&check->pool, (struct pool_task){slot->path, task_note(check, path), (size_t)(check->last - 1)});
+    return true;
 }
 
 static bool take_answer(struct check *check)
@@ -175,10 +184,10 @@ static bool take_answer(struct check *check)
 static void check_all(struct check *check)
 {
     bool more = true;
-    while (!check->pool.fault && (more || check->pool.num_busy)) {
-        while (more && pool_has_idle(&check->pool) && check->last - check->first < check->num_slots)
+    while (!check->pool.fault && (more || check->pool.num_open)) {
+        while (more && pool_wants(&check->pool) && check->last - check->first < check->num_slots)
             more = give_next(check);
-        if (check->pool.num_busy)
+        if (check->pool.num_open)
             take_answer(check);
         tell_done(check);
     }
@@ -308,7 +317,8 @@ static bool prepare(struct check *check)
     const char *const *paths = check->reports.paths;
     check->needs_measures = check->stats || check->cache_folder || check->budget.command_line.len || run->is_compared ||
                             paths[SINK_JSON] || paths[SINK_HTML] || paths[SINK_BASELINE];
-    check->num_slots = 4 * check->jobs + 64;
+    check->needs_errors_only = cli->quiet && !check->needs_measures && !paths[SINK_SARIF] && !paths[SINK_JUNIT];
+    check->num_slots = 2 * pool_capacity(check->jobs) + 64;
     check->slots = calloc(check->num_slots, sizeof *check->slots);
     return check->slots && reports_begin(&check->reports, &check->cli.report);
 }

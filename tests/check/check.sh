@@ -115,6 +115,20 @@ check 'fail their documents' says odd.json '[x.get("stage", "passed") for x in d
     "['passed', 'crash', 'passed', 'timeout', 'passed', 'passed', 'crash', 'passed']"
 check 'with an id' says odd.json '[m["id"] for x in d for m in x["messages"]]' "['check-crashed', 'check-timeout', 'check-crashed']"
 check 'and say when' grep -q 'signal 9 (Killed) at: validate' out
+mkdir many
+for i in $(seq 100 199); do
+    case $i in 1?7) touch many/${i}_dies.mtlx ;; 150) touch many/${i}_hangs.mtlx ;; *) touch many/$i.mtlx ;; esac
+done
+check 'a worker that has several documents to do' exits 1 programs/mxgen check many --time-limit 1 -j1 --verbose --json many.json
+check 'loses none when it ends' says many.json '[i for i, x in enumerate(d) if x.get("stage")]' '[7, 17, 27, 37, 47, 50, 57, 67, 77, 87, 97]'
+check 'nor their order' says many.json '[int(x["file"].split("/")[1][:3]) for x in d] == list(range(100, 200))' True
+check 'nor their answers' is "$(grep -c '^passed' out)" 89
+name=$(printf 'x%.0s' $(seq 200)) deep=deep
+for i in $(seq 15); do deep=$deep/$name; done
+mkdir -p "$deep"
+touch "$deep"/{10..99}.mtlx
+check 'paths that fill a pipe' exits 0 programs/mxgen check deep -j1 --json deep.json
+check 'are all answered' says deep.json '{x["status"] for x in d}, len(d)' "({'passed'}, 90)"
 rm programs/mxgen-check
 check 'no worker at all' exits 1 env PATH= programs/mxgen check tree
 check 'has an id' grep -q '\[check-failed\]' err

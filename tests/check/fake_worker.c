@@ -4,36 +4,39 @@
  * or answers with something that is no record; with "slow" it takes a while; all others pass.
  */
 #define _POSIX_C_SOURCE 200809L
+#include "cli/check/packed.h"
 #include "cli/check/protocol.h"
 
 #include <signal.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <time.h>
 #include <unistd.h>
 
-static void answer(const char *path)
+static void answer(struct channel *channel, const char *path)
 {
-    char record[4096];
+    struct store store = {0};
+    size_t size;
+    const char *record = check_pack_document(&store, &(struct check_document){.file = path}, &size);
     if (strstr(path, "dies"))
         raise(SIGKILL);
     while (strstr(path, "hangs"))
         pause();
     if (strstr(path, "slow"))
         nanosleep(&(struct timespec){.tv_nsec = 200000000}, NULL);
-    int len = strstr(path, "lies") ? snprintf(record, sizeof record, "{\"file\":")
-                                   : snprintf(record, sizeof record, "{\"file\":\"%s\",\"status\":\"passed\"}", path);
-    frame_write(STDOUT_FILENO, FRAME_RECORD, record, (size_t)len);
+    channel_answer(channel, record, strstr(path, "lies") ? size / 2 : size);
+    store_finish(&store);
 }
 
 int main(void)
 {
-    struct frame_header header;
-    frame_write(STDOUT_FILENO, FRAME_READY, "", 0);
-    for (char *path; (path = frame_read(STDIN_FILENO, &header)) != NULL; free(path)) {
-        frame_write(STDOUT_FILENO, FRAME_MARK, "validate", 8);
-        answer(path);
+    struct channel channel;
+    struct frame task;
+    if (!channel_open(&channel, STDIN_FILENO, STDOUT_FILENO))
+        return 2;
+    while (channel_next(&channel, &task)) {
+        channel_mark(&channel, CHECK_VALIDATE, "", "");
+        answer(&channel, task.body);
     }
+    channel_close(&channel);
     return 0;
 }
