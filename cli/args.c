@@ -231,7 +231,7 @@ static bool parse_option(struct arg_parser *parser, struct written option, int a
     const char *value = option.value;
     if (!value && *index + 1 < argc)
         value = argv[++*index];
-    if (!value) {
+    if (!value || (arg && !*value)) {
         fprintf(stderr, "mxgen: option '%s' needs a value\n", option.text);
         return false;
     }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/cli.h"
+#include "cli/files.h"
 #include "cli/warnings.h"
 
+#include <errno.h>
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
@@ -16,18 +18,18 @@ static size_t add_common_args(struct cli *cli, struct arg *table)
         {"library", 0, ARG_LIST, "PATH", "adds a library: a folder, file or image", &cli->library_paths},
         {"no-builtin-library", 0, ARG_FLAG, NULL, "starts without the library that is built in",
          &cli->no_builtin_library},
-        {"max-memory", 0, ARG_SIZE, "BYTES", "gives up beyond that", &cli->max_memory},
-        {"max-file-size", 0, ARG_SIZE, "MIB", "largest file that is read", &cli->max_file_size},
-        {"max-elements", 0, ARG_SIZE, "N", "largest document", &cli->max_elements},
-        {"max-nodes", 0, ARG_SIZE, "N", "largest graph of operations", &cli->max_nodes},
-        {"max-output-size", 0, ARG_SIZE, "MIB", "largest shader", &cli->max_output_size},
-        {"max-depth", 0, ARG_SIZE, "N", "deepest nesting of elements", &cli->max_depth},
-        {"max-include-depth", 0, ARG_SIZE, "N", "deepest nesting of includes", &cli->max_include_depth},
-        {"max-includes", 0, ARG_SIZE, "N", "most files that a document includes", &cli->max_includes},
+        {"max-memory", 0, ARG_SIZE, "BYTES", "gives up beyond that (default: no limit)", &cli->max_memory},
+        {"max-file-size", 0, ARG_SIZE, "MIB", "largest file that is read (default: 256)", &cli->max_file_size},
+        {"max-elements", 0, ARG_SIZE, "N", "largest document (default: 16000000)", &cli->max_elements},
+        {"max-nodes", 0, ARG_SIZE, "N", "largest graph of operations (default: 64000000)", &cli->max_nodes},
+        {"max-output-size", 0, ARG_SIZE, "MIB", "largest shader (default: 256)", &cli->max_output_size},
+        {"max-depth", 0, ARG_SIZE, "N", "deepest nesting of elements (default: 128)", &cli->max_depth},
+        {"max-include-depth", 0, ARG_SIZE, "N", "deepest nesting of includes (default: 16)", &cli->max_include_depth},
+        {"max-includes", 0, ARG_SIZE, "N", "most files that a document includes (default: 4096)", &cli->max_includes},
         {"trust", 0, ARG_FLAG, NULL, "accepts source for one target in documents", &cli->trust},
         {"sandbox", 0, ARG_FLAG, NULL, "documents may refer to files beside and below them only, and bring no source", &cli->sandbox},
         {"include-root", 0, ARG_LIST, "DIR", "with --sandbox: documents may refer to files there, too", &cli->include_roots},
-        {"max-errors", 0, ARG_SIZE, "N", "errors told of a document, 20 unless said; 0: all", &cli->max_errors},
+        {"max-errors", 0, ARG_SIZE, "N", "errors told of a document; 0: all (default: 20)", &cli->max_errors},
         {"warning", 'W', ARG_LIST, "WORD", "-WID, -Wno-ID: tells a warning or not; -Werror[=ID], -Wno-error=ID: as an error", &cli->warnings},
         {"quiet", 'q', ARG_FLAG, NULL, "prints errors only", &cli->quiet, .is_own = true},
         {"verbose", 0, ARG_FLAG, NULL, "prints also how older documents were upgraded", &cli->verbose},
@@ -173,11 +175,44 @@ void cli_finish(struct cli *cli)
     args_finish(&cli->parser);
 }
 
+bool cli_find_target(const char *name, size_t len, mxg_target *out)
+{
+    for (uint32_t i = 0; i < mxg_num_targets(); ++i) {
+        out->size = sizeof *out;
+        mxg_get_target(i, out);
+        if ((strlen(out->name) == len && memcmp(out->name, name, len) == 0) ||
+            (strlen(out->materialx_name) == len && memcmp(out->materialx_name, name, len) == 0))
+            return true;
+    }
+    fprintf(stderr, "mxgen: there is no target '%.*s'; known are", (int)len, name);
+    for (uint32_t i = 0; i < mxg_num_targets(); ++i) {
+        mxg_get_target(i, out);
+        fprintf(stderr, "%s %s", i ? "," : ":", out->name);
+    }
+    fputc('\n', stderr);
+    return false;
+}
+
+/* Includes are relative to the current folder. */
+static mxg_status parse_stdin(struct cli *cli, mxg_document **out_document)
+{
+    size_t size = 0;
+    char *text = files_read("/dev/stdin", &size);
+    if (!text) {
+        report_error(&cli->report, "file-unreadable", "cannot read standard input: %s", strerror(errno));
+        return MXG_ERROR_DOCUMENT;
+    }
+    mxg_status status = mxg_document_parse(cli->context, cli->library, CLI_STDIN_NAME, text, size, out_document);
+    report_source(&cli->report, CLI_STDIN_NAME, text, size);
+    return status;
+}
+
 mxg_document *cli_load(struct cli *cli, const char *path)
 {
     mxg_document *document = NULL;
     report_document(&cli->report);
-    mxg_status status = mxg_document_load(cli->context, cli->library, path, &document);
+    mxg_status status = strcmp(path, "-") == 0 ? parse_stdin(cli, &document)
+                                               : mxg_document_load(cli->context, cli->library, path, &document);
     if (document)
         report_list(&cli->report, mxg_document_diagnostics(document));
     bool good = report_status(&cli->report, status);

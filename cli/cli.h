@@ -13,6 +13,9 @@
 
 #include <mxgen/mxgen.h>
 
+/* What a document of standard input is called. */
+#define CLI_STDIN_NAME "<stdin>"
+
 enum exit_code { EXIT_DONE = 0, EXIT_FAULT = 1, EXIT_USAGE = 2 };
 
 struct command {
@@ -52,8 +55,11 @@ void cli_finish(struct cli *cli);
  * print errors only. The items are to be freed. */
 void cli_forward(struct cli *cli, struct arg_list *args);
 
-/* Loads a document and prints its diagnostics; NULL where errors leave nothing of it that can be rendered. */
+/* Loads a document ("-": of standard input) and prints its diagnostics; NULL where errors leave nothing of it that can be rendered. */
 mxg_document *cli_load(struct cli *cli, const char *path);
+
+/* The target by its name, or by MaterialX's; prints that there is none, and which there are. */
+bool cli_find_target(const char *name, size_t len, mxg_target *out);
 
 /* What a file of an element is called: its path with dots. To be freed. */
 char *cli_file_name(const char *element_path);

@@ -13,7 +13,7 @@ struct generate {
     bool to_stdout, reflect;
     bool several; /* input files: each gets a folder of its own */
 
-    const mxg_target *target_info;    /* NULL: unknown, which generation reports */
+    mxg_target target_info;
     struct arg_list outputs, sources; /* for the depfile; items are allocated */
     struct arg_list folders;          /* of several inputs */
 };
@@ -72,7 +72,7 @@ static void write_stages(struct generate *gen, const char *folder, const char *e
     for (int stage = 0; stage < MXG_NUM_STAGES; ++stage) {
         size_t size = 0;
         const char *text = mxg_result_source(result, (mxg_stage)stage, &size);
-        const char *suffix = gen->target_info ? gen->target_info->stage_suffix[stage] : NULL;
+        const char *suffix = gen->target_info.stage_suffix[stage];
         if (text && suffix)
             write_file(gen, folder, element, suffix, text, size);
     }
@@ -93,6 +93,8 @@ static void write_result(struct generate *gen, const char *folder, const char *e
 
 static void add_source(struct generate *gen, const char *file)
 {
+    if (strcmp(file, CLI_STDIN_NAME) == 0)
+        return;
     for (size_t i = 0; i < gen->sources.len; ++i)
         if (strcmp(gen->sources.items[i], file) == 0)
             return;
@@ -150,7 +152,7 @@ static void generate_elements(struct generate *gen, const mxg_document *document
 /* The folder that an input's files go to, which is made; to be freed. NULL after an error. */
 static char *output_folder(struct generate *gen, const char *input)
 {
-    const char *base = files_base_name(input);
+    const char *base = strcmp(input, "-") == 0 ? "stdin" : files_base_name(input);
     const char *dot = strrchr(base, '.');
     int len = (int)(dot && dot != base ? (size_t)(dot - base) : strlen(base));
     char *folder = gen->several ? cli_format("%s/%.*s", gen->folder, len, base) : cli_format("%s", gen->folder);
@@ -214,22 +216,8 @@ static void free_items(struct arg_list *list)
     free(list->items);
 }
 
-static bool find_target(const char *name, mxg_target *out)
-{
-    for (uint32_t i = 0; i < mxg_num_targets(); ++i) {
-        out->size = sizeof *out;
-        if (mxg_get_target(i, out) == MXG_OK &&
-            (strcmp(name, out->name) == 0 || strcmp(name, out->materialx_name) == 0))
-            return true;
-    }
-    return false;
-}
-
 static int generate_all(struct generate *gen)
 {
-    mxg_target target = {sizeof target};
-    if (find_target(gen->target, &target))
-        gen->target_info = &target;
     gen->several = gen->cli.parser.inputs.len > 1;
     for (uint32_t i = 0; i < mxg_library_num_files(gen->cli.library); ++i)
         add_source(gen, mxg_library_file(gen->cli.library, i));
@@ -254,7 +242,7 @@ int command_generate(const struct command *command, int argc, char **argv)
     int code;
     if (cli_start(&gen.cli, command, args, sizeof args / sizeof *args, CLI_GENERATES | CLI_NEEDS_INPUT, argc, argv,
                   &code))
-        code = generate_all(&gen);
+        code = cli_find_target(gen.target, strlen(gen.target), &gen.target_info) ? generate_all(&gen) : EXIT_USAGE;
     cli_finish(&gen.cli);
     free(gen.elements.items);
     free_items(&gen.outputs);

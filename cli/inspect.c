@@ -2,6 +2,8 @@
 /* mxgen inspect: what the compiler sees at each stage, as text. */
 #include "cli/cli.h"
 
+#include <string.h>
+
 struct inspect {
     bool views[MXG_VIEW_STATISTICS + 1];
     const char *target, *element;
@@ -58,13 +60,15 @@ int command_inspect(const struct command *command, int argc, char **argv)
     int code;
     if (cli_start(&cli, command, args, sizeof args / sizeof *args, CLI_NEEDS_INPUT | CLI_GENERATES, argc, argv,
                   &code)) {
-        for (size_t i = 0; i < cli.parser.inputs.len; ++i) {
+        mxg_target target;
+        bool good = cli_find_target(inspect.target, strlen(inspect.target), &target);
+        for (size_t i = 0; good && i < cli.parser.inputs.len; ++i) {
             mxg_document *document = cli_load(&cli, cli.parser.inputs.items[i]);
             if (document)
                 print_views(&cli, document, &inspect);
             mxg_document_destroy(document);
         }
-        code = cli.report.errors ? EXIT_FAULT : EXIT_DONE;
+        code = !good ? EXIT_USAGE : cli.report.errors ? EXIT_FAULT : EXIT_DONE;
     }
     cli_finish(&cli);
     return code;

@@ -35,7 +35,7 @@ static void print_overview(void)
         mxg_get_target(i, &target);
         printf("  %-8s %s\n", target.name, target.brief);
     }
-    puts("\n'mxgen COMMAND --help' tells the options of a command.");
+    puts("\n'mxgen COMMAND --help' tells the options of a command. The FILE '-' is standard input.");
 }
 
 static const struct command *find_command(const char *name)
@@ -75,16 +75,31 @@ static int flush(int code)
     return code == EXIT_DONE ? EXIT_FAULT : code;
 }
 
+static bool asks_for_help(const char *word)
+{
+    return strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0 || strcmp(word, "help") == 0;
+}
+
+/* "mxgen help check" is "mxgen check --help". */
+static int help_command(const char *name)
+{
+    char option[] = "--help", *argv[] = {option, option, NULL};
+    const struct command *command = find_command(name);
+    return command ? flush(command->run(command, 2, argv)) : fail_unknown_command(name);
+}
+
 int main(int argc, char **argv)
 {
     if (argc < 2) {
         fputs("usage: mxgen FILE... --target T; see --help\n", stderr);
         return EXIT_USAGE;
     }
-    if (argc == 2 && (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0)) {
+    if (argc == 2 && asks_for_help(argv[1])) {
         print_overview();
         return flush(EXIT_DONE);
     }
+    if (strcmp(argv[1], "help") == 0)
+        return help_command(argv[2]);
     const struct command *command = find_command(argv[1]);
     if (command)
         return flush(command->run(command, argc - 1, argv + 1));

@@ -25,21 +25,27 @@ void report_finish(struct report *report)
     *report = (struct report){0};
 }
 
+void report_source(struct report *report, const char *file, char *source, size_t size)
+{
+    free(report->source_name);
+    free(report->source);
+    report->source = source;
+    report->source_size = size;
+    report->num_lines = 0;
+    size_t len = strlen(file) + 1;
+    report->source_name = malloc(len);
+    if (report->source_name)
+        memcpy(report->source_name, file, len);
+}
+
 /* Makes `source` the text of the file, or NULL where it cannot be read (a file of the built-in library). */
 static void load_source(struct report *report, const char *file)
 {
     if (report->source_name && strcmp(report->source_name, file) == 0)
         return;
-    free(report->source_name);
-    free(report->source);
-    report->source = NULL;
-    report->source_size = report->num_lines = 0;
-    size_t len = strlen(file) + 1;
-    report->source_name = malloc(len);
-    if (report->source_name)
-        memcpy(report->source_name, file, len);
-    if (files_is_regular(file))
-        report->source = files_read(file, &report->source_size);
+    size_t size = 0;
+    char *source = files_is_regular(file) ? files_read(file, &size) : NULL;
+    report_source(report, file, source, size);
 }
 
 /* Room for `size` bytes behind the text. */

@@ -31,6 +31,9 @@ void report_finish(struct report *report);
 /* A message with its notes and source lines, as it is printed; lives until the next one. */
 const char *report_render(struct report *report, const mxg_diagnostics *list, uint32_t index);
 
+/* The text of a file that messages are about, where it is no file to be read; it is freed by the report. */
+void report_source(struct report *report, const char *file, char *source, size_t size);
+
 /* What follows is about another document: its errors are counted anew. */
 void report_document(struct report *report);
 

@@ -203,12 +203,11 @@ static bool find_targets(struct check *check)
     for (size_t i = 0; i < check->target_args.len; ++i) {
         for (const char *at = check->target_args.items[i]; *at;) {
             size_t len = strcspn(at, ",");
-            mxg_target target = {sizeof target};
-            uint32_t k = 0;
-            while (mxg_get_target(k, &target) == MXG_OK && (strlen(target.name) != len || memcmp(target.name, at, len) != 0))
-                ++k;
-            if (k == mxg_num_targets() || check->targets.len == MAX_TARGETS) {
-                fprintf(stderr, "mxgen: there is no target '%.*s'; see --help\n", (int)len, at);
+            mxg_target target;
+            if (!cli_find_target(at, len, &target))
+                return false;
+            if (check->targets.len == MAX_TARGETS) {
+                fprintf(stderr, "mxgen: more than %d targets\n", MAX_TARGETS);
                 return false;
             }
             args_append(&check->targets, target.name);

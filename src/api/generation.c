@@ -205,18 +205,20 @@ bool generation_build(struct generation *g)
 
 /* ---- Lights ---- */
 
+static bool gives_light(const struct library *layer, const struct nodedef *def)
+{
+    return def->num_outputs == 1 && layer->ports.items[def->first_port + def->num_inputs].type == DOC_TYPE_lightshader;
+}
+
 /* The definition of a light shader by the name of its node. */
 static uint32_t find_light(const struct generation *g, const char *node, size_t len)
 {
     const struct library *lib = &g->document->layer;
     str_id name = str_find(&g->result->strings, node, len);
     for (const struct library *layer = name ? lib : NULL; layer; layer = layer->base)
-        for (uint32_t i = library_first_of_node(layer, name); i != LIBRARY_NONE; i = layer->nodedefs.items[i].next_same_node) {
-            const struct nodedef *def = &layer->nodedefs.items[i];
-            const struct port *ports = layer->ports.items + def->first_port;
-            if (def->num_outputs == 1 && ports[def->num_inputs].type == DOC_TYPE_lightshader)
+        for (uint32_t i = library_first_of_node(layer, name); i != LIBRARY_NONE; i = layer->nodedefs.items[i].next_same_node)
+            if (gives_light(layer, &layer->nodedefs.items[i]))
                 return layer->base_nodedefs + i;
-        }
     return LIBRARY_NONE;
 }
 
@@ -306,18 +308,52 @@ static bool add_light_element(struct generation *g, const char *path, int32_t ty
     return true;
 }
 
+/* Whether hosts describe it, and no node is connected. */
+static bool stands_alone(const struct library *layer, const struct nodedef *def)
+{
+    const struct port *inputs = layer->ports.items + def->first_port;
+    for (uint32_t i = 0; i < def->num_inputs; i++)
+        if (inputs[i].type == DOC_TYPE_lightshader || inputs[i].type == DOC_TYPE_EDF)
+            return false;
+    return true;
+}
+
+/* The definitions of light shaders, for who named none of them. */
+static void put_lights(const struct generation *g, struct text *out)
+{
+    const char *separator = "; known are: ";
+    for (const struct library *layer = &g->document->layer; layer; layer = layer->base)
+        for (uint32_t i = 0; i < layer->nodedefs.len; i++) {
+            const struct nodedef *def = &layer->nodedefs.items[i];
+            if (!gives_light(layer, def) || !stands_alone(layer, def))
+                continue;
+            text_fmt(out, "%s%s", separator, str_text(&g->result->strings, def->node));
+            separator = ", ";
+        }
+}
+
 /* A node whose definition is a function is no light by itself, but its definition is. */
 static const char *light_hint(struct generation *g, const char *item, size_t len)
 {
     const struct document *doc = &g->document->layer.doc;
     elem_id element = doc_find(doc, item, len);
-    if (!element || doc_attr_value(doc, element, STR_type) != STR_lightshader)
-        return "";
-    const char *node = str_text(doc->strings, doc_element(doc, element)->category);
     struct text hint;
     text_init(&hint, &g->scratch);
+    if (!element || doc_attr_value(doc, element, STR_type) != STR_lightshader) {
+        put_lights(g, &hint);
+        return text_cstr(&hint);
+    }
+    const char *node = str_text(doc->strings, doc_element(doc, element)->category);
     text_fmt(&hint, strcmp(node, "light") == 0 ? "; the node has no EDF" : "; bind '%s', and let the host set its members", node);
     return text_cstr(&hint);
+}
+
+static bool has_light(const struct shader *shader, int32_t type)
+{
+    for (uint32_t i = 0; i < shader->lights.len; i++)
+        if (shader->lights.items[i].type == type)
+            return true;
+    return false;
 }
 
 /* "directional_light=1"; without a number, the next one. Lights of the default that the library lacks are not bound. */
@@ -328,6 +364,10 @@ static void bind_light(struct generation *g, const char *item, int32_t next_type
     if (item[len] && (number_len == 0 || num_parse_int(item + len + 1, number_len, &type) != number_len
                       || type < INT32_MIN || type > INT32_MAX)) {
         diag_add(diags_of(g), DIAG_ID_bad_option, nowhere, item, "lights", "'node=number'");
+        return;
+    }
+    if (has_light(&g->result->shader, (int32_t)type)) {
+        diag_add(diags_of(g), DIAG_ID_bad_option, nowhere, item, "lights", "a number that no other light has");
         return;
     }
     uint32_t nodedef = find_light(g, item, len);

@@ -110,6 +110,7 @@ struct builder *build_start(const struct library *lib, const struct build_option
     b->document->num_slots = lib->doc.elements.len;
     b->document->slots = ARENA_ARRAY(b->arena, uint32_t, lib->doc.elements.len);
     build_check_colorspace(b);
+    build_check_distance_unit(b);
     return b;
 }
 

@@ -76,6 +76,7 @@ struct builder {
     struct recorder *recorder;  /* network.c; NULL: one shader is built */
     bool may_restore;           /* build_may_restore */
     bool has_colorspace;        /* the option names a space that the library converts to */
+    bool has_distance_unit;     /* the option names a unit that the library knows */
     bool cancelled;
 };
 
@@ -133,12 +134,13 @@ str_id build_input_path(struct builder *b, elem_id node, str_id input, elem_id e
 
 /* color.c: from `space` to the working space, by the library's transform nodes; value of a color3 or color4. */
 ir_ref build_color_transform(struct builder *b, ir_ref value, doc_type type, str_id space, struct diag_place place);
-/* Told where the option names a space that nothing converts to. */
+/* Told where an option names a space that nothing converts to, or a unit that nobody knows. */
 void build_check_colorspace(struct builder *b);
+void build_check_distance_unit(struct builder *b);
 /* The colour space that is said for an element, itself or around; 0: none, or the working one. */
 str_id build_colorspace(struct builder *b, elem_id element);
 
-/* unit.c: a value given in `unit`, in the target's unit; nothing changes without a unit. */
+/* A value given in `unit`, in the target's unit; nothing changes without a unit. */
 ir_ref build_unit_conversion(struct builder *b, ir_ref value, elem_id element, const struct port *port);
 
 /* texture.c: a variable for the file that `variable` says. */

@@ -38,6 +38,15 @@ void build_check_colorspace(struct builder *b)
                  "a linear colour space that the library converts lin_rec709 to");
 }
 
+void build_check_distance_unit(struct builder *b)
+{
+    const char *unit = build_text(b, b->options->distance_unit);
+    b->has_distance_unit = strcmp(unit, "meter") == 0 || library_unit_type_of(b->lib, b->options->distance_unit) == STR_distance;
+    if (!b->has_distance_unit)
+        diag_add(b->diags, DIAG_ID_bad_option, (struct diag_place){0}, unit, "distance-unit",
+                 "a unit of distance that the library knows, such as meter or centimeter");
+}
+
 ir_ref build_color_transform(struct builder *b, ir_ref value, doc_type type, str_id space, struct diag_place place)
 {
     const char *from = build_text(b, space), *to = build_text(b, canonical_space(b, b->options->colorspace)), *hub = library_color_hub;
@@ -66,6 +75,8 @@ ir_ref build_unit_conversion(struct builder *b, ir_ref value, elem_id element, c
     str_id target = doc_attr_value(doc, port->element, STR_unit);
     if (!target)
         target = type == STR_angle ? b->options->angle_unit : b->options->distance_unit;
+    if (target == b->options->distance_unit && !b->has_distance_unit)
+        return value;
     float from, to;
     if (!library_unit_scale(b->lib, type, unit, &from) || !library_unit_scale(b->lib, type, target, &to)) {
         library_report_unit(b->lib, type, unit, doc_attr_place(doc, element, STR_unit), b->diags);

@@ -83,8 +83,8 @@ static void render_source(const struct diag_place *place, struct line line, bool
 {
     uint32_t before = place->column - 1, total = code_points(line);
     const char *ellipsis = "";
-    if (before > total)
-        return; /* the text is not the one that the message is about */
+    if (before > total || total == 0)
+        return; /* the text is not the one that the message is about, or there is nothing to see */
     if (total > LINE_SHOWN && before > LINE_BEFORE) {
         size_t skipped = bytes_of(line, before - LINE_BEFORE);
         line = (struct line){line.text + skipped, line.len - skipped};

@@ -62,6 +62,19 @@ echo '<materialx version="1.39"/>' >thrice_part.mtlx
 check 'an include further up' exits 0 "$mxgen" validate deep/deeper/up.mtlx
 check 'and from "./"' exits 0 "$mxgen" validate ./deep/./deeper/up.mtlx
 
+# Standard input
+sed 's|<look |<xi:include href="other/part.mtlx"/><look |; s|<materialx |&xmlns:xi="http://www.w3.org/2001/XInclude" |' two.mtlx >piped.mtlx
+cp thrice_part.mtlx other/part.mtlx
+check 'a document of standard input' exits 0 bash -c "'$mxgen' - -o piped --depfile piped.d <piped.mtlx"
+check 'is as from a file' diff -r all piped
+check 'and no file that output depends on' eval 'grep -q "^piped/A.vert .*: other/part.mtlx$" piped.d'
+check 'one of several inputs' exits 0 bash -c "'$mxgen' - two.mtlx -e A -o inputs <two.mtlx"
+check 'has a folder, too' files inputs './stdin/A.frag ./stdin/A.vert ./two/A.frag ./two/A.vert '
+check 'its faults' exits 1 bash -c "'$mxgen' validate - <bad.mtlx"
+check 'have a place' grep -Eq '^<stdin>:8:[0-9]+: error: .*\[bad-value\]' err
+check 'and the line' grep -q 'value="abc"' err
+check 'no standard input' exits 1 bash -c "'$mxgen' - <&-"
+
 # Bad input: exit code 1, and nothing half-written
 check 'a bad value' exits 1 "$mxgen" bad.mtlx -o bad
 check 'has id, line and column' grep -Eq '^bad\.mtlx:8:[0-9]+: error: .*\[bad-value\]' err
@@ -87,8 +100,6 @@ if [ -r locked.mtlx ]; then
 else
     check 'an unreadable file' exits 1 "$mxgen" locked.mtlx
 fi
-check 'unknown target' exits 1 "$mxgen" two.mtlx --target glslx
-check 'lists the targets' grep -Eq 'glsl.*vulkan.*essl.*\[unknown-target\]' err
 check 'unknown element' exits 1 "$mxgen" two.mtlx --element B
 check 'has its id too' grep -q '\[unknown-element\]' err
 check '-q keeps errors' exits 1 "$mxgen" bad.mtlx -q -o bad
@@ -136,14 +147,29 @@ check 'suggests a command' grep -q "did you mean 'inspect'" err
 check 'bad value of an option' exits 2 "$mxgen" two.mtlx --interface some
 check 'lists the values' grep -q complete err
 check 'missing value' exits 2 "$mxgen" two.mtlx --target
+for value in --output= --element= --depfile=; do
+    check "nothing as a value of $value" exits 2 "$mxgen" two.mtlx "$value"
+done
+check 'or as the next word' exits 2 "$mxgen" two.mtlx -o ''
+for command in generate inspect check; do
+    check "unknown target of $command" exits 2 "$mxgen" "$command" two.mtlx --target glslx
+    check 'lists the targets' grep -q 'glsl, vulkan, essl, osl' err
+done
+check 'help on an unknown command' exits 2 "$mxgen" help inspec
 check 'unknown action' exits 2 "$mxgen" library lst
 
 # Texts
 check '--version' exits 0 "$mxgen" --version
 check 'says it' grep -Eq '^mxgen [0-9]+\.[0-9]+\.[0-9]+$' out
 check '--help' exits 0 "$mxgen" --help
+cp out overview
+check 'help' exits 0 "$mxgen" help
+check 'is the same' cmp out overview
 for command in generate inspect validate library; do
     check "$command --help" exits 0 "$mxgen" "$command" --help
+    cp out by_option
+    check "help $command" exits 0 "$mxgen" help "$command"
+    check 'is the same, too' cmp out by_option
 done
 check 'help has the options of generation' eval '"$mxgen" generate --help | grep -q -- --interface'
 
