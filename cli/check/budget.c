@@ -8,6 +8,7 @@
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #define FILE_NAME "mxgen.toml"
 enum { NUM_PARTS = 5 }; /* that a message names */
@@ -29,7 +30,10 @@ bool budget_add(struct budget *budget, enum measure measure, const char *text)
             fprintf(stderr, "mxgen: '%s' is no budget; write --%s N, or TARGET=N,...\n", text, measure_infos[measure].option);
             return false;
         }
-        const char *target = store_text(&budget->store, at, equals ? (size_t)(equals - at) : 0);
+        mxg_target known = {.name = ""};
+        if (equals && !cli_find_target(at, (size_t)(equals - at), &known))
+            return false;
+        const char *target = store_text(&budget->store, known.name, strlen(known.name));
         budget_add_rule(&budget->store, &budget->command_line, (struct budget_rule){measure, target, limit});
         at += len + (at[len] == ',');
     }
@@ -47,23 +51,39 @@ void budget_finish(struct budget *budget)
 
 /* ---- The file ---- */
 
+static bool is_same_folder(const char *a, const char *b)
+{
+    struct stat first, second;
+    return stat(*a ? a : ".", &first) != 0 || stat(b, &second) != 0 || (first.st_dev == second.st_dev && first.st_ino == second.st_ino);
+}
+
+/* The folder above, "" being the current one; NULL above the root. `folder` is freed. */
+static char *folder_above(char *folder)
+{
+    char *slash = strrchr(folder, '/'), *name = slash ? slash + 1 : folder, *above;
+    if (*name && strcmp(name, ".") != 0 && strcmp(name, "..") != 0)
+        above = cli_format("%.*s", (int)(slash ? (slash > folder ? slash - folder : 1) : 0), folder);
+    else
+        above = *folder ? cli_format("%s/..", folder) : cli_format("..");
+    bool is_root = *above && is_same_folder(folder, above);
+    free(folder);
+    if (!is_root)
+        return above;
+    free(above);
+    return NULL;
+}
+
 /* The nearest file in the folder and those above it; NULL where there is none. */
 static char *find_file(const char *folder)
 {
-    char *at = cli_format("%s", folder);
-    for (;;) {
+    for (char *at = cli_format("%s", folder); at; at = folder_above(at)) {
         char *path = *at ? cli_format("%s/" FILE_NAME, at) : cli_format(FILE_NAME);
         if (files_is_regular(path)) {
             free(at);
             return path;
         }
         free(path);
-        char *slash = strrchr(at, '/');
-        if (!*at || slash == at)
-            break;
-        *(slash ? slash : at) = '\0';
     }
-    free(at);
     return NULL;
 }
 
@@ -84,7 +104,7 @@ static void load_file(struct budget_file *file)
 static const struct budget_file *file_of(struct budget_file *file, const char *document)
 {
     const char *slash = strrchr(document, '/');
-    char *folder = cli_format("%.*s", slash ? (int)(slash - document) : 0, document);
+    char *folder = cli_format("%.*s", slash ? (int)(slash - document) + (slash == document) : 0, document);
     if (file->folder && strcmp(file->folder, folder) == 0) {
         free(folder);
         return file;

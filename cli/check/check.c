@@ -301,7 +301,7 @@ static bool prepare(struct check *check)
         check->jobs = cores > 0 ? (size_t)cores : 1;
     if (check->jobs > MAX_JOBS)
         check->jobs = MAX_JOBS;
-    if (check->time_limit > MAX_TIME_LIMIT)
+    if (check->time_limit == 0 || check->time_limit > MAX_TIME_LIMIT)
         check->time_limit = MAX_TIME_LIMIT;
     struct check_run *run = &check->reports.run;
     run->targets = check->targets.items;
@@ -410,7 +410,7 @@ int command_check(const struct command *command, int argc, char **argv)
         {"files-from", 0, ARG_LIST, "FILE", "a list of paths, one on each line; '-': standard input", &check.files_from},
         {"no-compile", 0, ARG_FLAG, NULL, "generates, and compiles nothing", &check.no_compile},
         {"render", 0, ARG_FLAG, NULL, "draws every element, for the gallery and to compare with a baseline", &check.render},
-        {"time-limit", 0, ARG_SIZE, "S", "seconds that a step of a document may take, one element for one target (default: 120)", &check.time_limit},
+        {"time-limit", 0, ARG_SIZE, "S", "seconds that a step of a document may take, one element for one target; 0: any (default: 120)", &check.time_limit},
         {"cache", 0, ARG_TEXT, "DIR", "keeps what was found, and checks again only what has changed", &check.cache_folder},
         {"shard", 0, ARG_TEXT, "K/N", "checks the K-th of N parts; 'check merge' joins their JSON reports", &check.shard},
         {"update-baseline", 0, ARG_FLAG, NULL, "writes the baseline anew, after the comparison", &check.update_baseline},

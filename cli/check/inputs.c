@@ -132,6 +132,13 @@ static int compare_texts(const void *a, const void *b)
     return strcmp(*(char *const *)a, *(char *const *)b);
 }
 
+/* What cannot be read is not left out in silence. */
+static void fail(struct check_inputs *inputs, const char *what, const char *name)
+{
+    fprintf(stderr, "error: cannot read %s '%s': %s [file-unreadable]\n", what, name, strerror(errno));
+    inputs->failed = true;
+}
+
 /* Documents and folders in a folder. A link to a folder is not followed: it may lead back. */
 static void push_folder(struct check_inputs *inputs, const char *path)
 {
@@ -139,6 +146,8 @@ static void push_folder(struct check_inputs *inputs, const char *path)
     DIR *folder = opendir(path);
     struct arg_list names = {0};
     size_t len = strlen(path);
+    if (!folder)
+        fail(inputs, "the folder", path);
     for (struct dirent *entry; folder && (entry = readdir(folder)) != NULL;) {
         if (entry->d_name[0] == '.')
             continue;
@@ -161,12 +170,10 @@ static void push_folder(struct check_inputs *inputs, const char *path)
 static void push_list(struct check_inputs *inputs, const char *name)
 {
     FILE *lines = strcmp(name, "-") == 0 ? stdin : fopen(name, "r");
-    if (lines) {
+    if (lines)
         push(inputs)->lines = lines;
-    } else {
-        fprintf(stderr, "error: cannot read the list '%s': %s [file-unreadable]\n", name, strerror(errno));
-        inputs->failed = true;
-    }
+    else
+        fail(inputs, "the list", name);
 }
 
 /* False where nothing matches. */

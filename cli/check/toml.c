@@ -54,16 +54,18 @@ static bool is_target(const char *name)
 /* Behind '[', which a line begins with. */
 static void read_table(struct toml *toml, char *text)
 {
-    char *end = strchr(text, ']');
-    if (!end || end[1 + strspn(end + 1, " \t")]) {
+    size_t len = strlen(TABLE);
+    text += strspn(text, " \t");
+    toml->is_ours = strncmp(text, TABLE, len) == 0 && strchr("]. \t", text[len]); /* or at its end */
+    if (!toml->is_ours)
+        return;
+    char *name = text + len + (text[len] == '.'), *end = name + strcspn(name, "] \t"), *bracket = end + strspn(end, " \t");
+    if (*bracket != ']' || bracket[1 + strspn(bracket + 1, " \t")] || (text[len] != '.' && end != name)) {
         fail(toml, "a table is a name in brackets: [" TABLE "] or [" TABLE ".TARGET]");
         return;
     }
-    *end = '\0';
-    size_t len = strlen(TABLE);
-    toml->is_ours = strncmp(text, TABLE, len) == 0 && (!text[len] || text[len] == '.');
-    toml->target = toml->is_ours && text[len] ? store_text(toml->store, text + len + 1, strlen(text + len + 1)) : "";
-    if (toml->is_ours && text[len] && !is_target(toml->target))
+    toml->target = store_text(toml->store, name, (size_t)(end - name));
+    if (text[len] == '.' && !is_target(toml->target))
         fail(toml, "there is no target of this name; 'mxgen --help' lists them");
 }
 

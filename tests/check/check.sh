@@ -34,6 +34,14 @@ check 'a list that is not there' exits 1 "$mxgen" check tree @none "${quick[@]}"
 check 'a document that is not there' exits 1 "$mxgen" check tree/none.mtlx tree/a.mtlx "${quick[@]}"
 check 'has its id' grep -q '\[file-missing\]' out
 check 'and the others are checked' grep -q '^1 passed, 1 failed (load 1)' out
+mkdir -p kept/locked && cp tree/a.mtlx kept && chmod 0 kept/locked
+if [ -r kept/locked ]; then
+    skip 'root reads every folder'
+else
+    check 'a folder that cannot be read' exits 1 "$mxgen" check kept "${quick[@]}"
+    check 'is told' grep -q "cannot read the folder 'kept/locked'.*\[file-unreadable\]" err
+fi
+check 'no limit of time' exits 0 "$mxgen" check tree/a.mtlx "${quick[@]}" --time-limit 0
 mkdir empty
 check 'nothing to check is a failure' exits 1 "$mxgen" check empty
 check 'with an id' grep -q '\[nothing-to-check\]' err

@@ -31,6 +31,8 @@ check 'all of which are the whole, where few are' eval '
 check 'a budget of 0 is one' exits 1 "$mxgen" check show "${quick[@]}" --max-closures 0
 check 'what is no number' exits 2 "$mxgen" check show --max-closures many
 check 'has nothing behind it' exits 2 "$mxgen" check show --max-closures 1x
+check 'a budget for no target' exits 2 "$mxgen" check show --max-closures glsl=100,gsls=1
+check 'says which there are' grep -q "no target 'gsls'; known are: glsl" err
 if [ "$compiles" = yes ]; then
     check 'instructions' exits 1 "$mxgen" check show/deep/near.mtlx --max-instructions 500
     check 'name functions and nodes' grep -Eq 'instructions, where 500 are allowed: .*[:,] mx_[a-z_]+ [0-9]+.*\[over-budget\]' out
@@ -42,7 +44,8 @@ cat >show/mxgen.toml <<'END'
 # for the whole show
 [tool]
 max-closures = "somebody else's"
-[budget]
+[[tool.part]]
+[ budget ]
 max-source-bytes = 1_000 # bytes
 [budget.essl]
 max-source-bytes = 1_000_000
@@ -51,11 +54,19 @@ check 'a file' exits 1 "$mxgen" check show "${quick[@]}" --json file.json
 check 'holds for what lies below it' says file.json '[s["status"] for x in d for s in x["elements"][0]["shaders"]]' "['failed', 'passed', 'failed', 'passed']"
 check 'without any report, too' exits 1 "$mxgen" check show "${quick[@]}"
 check 'and says what there is' grep -q "bytes of source, where 1000 are allowed" out
+for place in 'show .' 'show deep' 'show/deep ../deep' 'show/deep/deeper .' 'show/deep/deeper ../..'; do
+    read -r folder argument <<<"$place"
+    check "for $argument in $folder" eval '(cd "$folder" && exits 1 "$mxgen" check "$argument" "${quick[@]}" && grep -q "where 1000 are allowed" out && rm out err)'
+done
+mkdir sideways && cp show/mxgen.toml sideways
+check 'a file beside is not one above' eval '(cd sideways && "$mxgen" check ../show/deep/near.mtlx "${quick[@]}" --max-source-bytes 1000000 --json d.json --depfile d.d)'
+check 'and nothing depends on it' eval 'grep -q " ../show/deep/../mxgen.toml\| ../show/mxgen.toml" sideways/d.d && ! grep -q " mxgen.toml" sideways/d.d'
+rm -r sideways
 check 'the command line says more' exits 0 "$mxgen" check show "${quick[@]}" --max-source-bytes 1000000
 check 'about its own measures' exits 1 "$mxgen" check show "${quick[@]}" --max-closures 100
 printf '[budget]\nmax-closures = 100\n' >show/deep/deeper/mxgen.toml
 check 'the nearest file holds' eval '"$mxgen" check show "${quick[@]}" --json near.json >out; says near.json "[x[\"status\"] for x in d]" "['"'passed', 'failed'"']"'
-for fault in 'max-closure = 1' 'max-closures = many' 'max-closures = 1__0' 'max-closures' '[budget.gsls]' '[budget'; do
+for fault in 'max-closure = 1' 'max-closures = many' 'max-closures = 1__0' 'max-closures' '[budget.gsls]' '[budget' '[budget essl]' '[budget.] x'; do
     printf '[budget]\n\n%s\n' "$fault" >show/deep/deeper/mxgen.toml
     check "a fault in a file: $fault" exits 1 "$mxgen" check show/deep/deeper "${quick[@]}"
     check 'is told with its line' grep -q '^show/deep/deeper/mxgen.toml:3: error: .*\[budget-invalid\]' out
