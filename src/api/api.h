@@ -58,6 +58,9 @@ void object_settle(struct object *object);
 /* Runs work(arg) with the object's trap set: MXG_OK, or MXG_ERROR_MEMORY when it ran out. */
 mxg_status object_run(struct object *object, void (*work)(void *arg), void *arg);
 
+/* Runs work(arg, scratch) with memory of its own, which is freed behind it: MXG_OK, or MXG_ERROR_MEMORY when it ran out. */
+mxg_status context_run(struct mxg_context *context, void (*work)(void *arg, struct arena *scratch), void *arg);
+
 /* Text `index` of the object, written by `write` when it is asked for first; any thread may ask. NULL: no memory. */
 const struct made_text *object_text(const struct object *object, unsigned index,
                                     void (*write)(const struct object *object, struct text *out));
@@ -119,6 +122,7 @@ struct file_source {
     VEC(const char *) names; /* canonical, of what was read, each once */
     mxg_blob blob;
     bool is_open;          /* `blob` is to be released */
+    uint64_t digest;       /* of the bytes of all files, where it is not 0 at first */
 };
 
 void file_source_init(struct file_source *source, struct object *object);

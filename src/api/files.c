@@ -2,6 +2,8 @@
 /* How files are opened: the host's resolver as the readers of other rooms see it. */
 #include "api/api.h"
 
+#include "base/hash.h"
+
 void file_source_init(struct file_source *source, struct object *object)
 {
     *source = (struct file_source){.object = object, .resolver = &object->context->resolver};
@@ -46,6 +48,8 @@ static bool open_file(struct file_source *source, const char *from, const char *
         mem_fail(&source->object->mem);
     if (source->is_open && !source->blob.name)
         source->blob.name = ref;
+    if (source->is_open && source->digest)
+        source->digest = hash_long(source->digest, source->blob.data, source->blob.size);
     if (!source->is_open)
         *out_reason = reason ? reason : source->blob.name ? "it cannot be read" : "it was not found";
     return source->is_open;

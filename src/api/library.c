@@ -2,6 +2,8 @@
 /* Libraries: the one that is built in, and those of files, folders and images. */
 #include "api/api.h"
 
+#include "base/hash.h"
+
 mxg_library *mxg_library_ref(mxg_library *library)
 {
     if (library)
@@ -98,9 +100,11 @@ static void read_paths(void *arg)
     mxg_library *library = load->library;
     struct lang_reader reader = file_source_for_lang(&load->files);
     library_init(&library->layer, &library->object.arena, load->base ? &load->base->layer : NULL);
+    load->files.digest = hash_mix(HASH_STABLE_SEED, load->base ? load->base->layer.digest : 0);
     for (size_t i = 0; i < load->num_paths; i++)
         read_path(load, load->paths[i]);
     library_index(&library->layer, &reader, &library->object.diagnostics.list);
+    library->layer.digest = load->files.digest;
     tell_deferred(library);
     library_resolve_graphs(&library->layer, &library->object.diagnostics.list);
     lang_make_canonical(&library->layer.unit);

@@ -118,6 +118,29 @@ mxg_status object_run(struct object *object, void (*work)(void *arg), void *arg)
     return done ? MXG_OK : MXG_ERROR_MEMORY;
 }
 
+struct scratch_job {
+    void (*work)(void *arg, struct arena *scratch);
+    void *arg;
+    struct arena scratch;
+};
+
+static void run_scratch_job(void *arg)
+{
+    struct scratch_job *job = arg;
+    job->work(job->arg, &job->scratch);
+}
+
+mxg_status context_run(struct mxg_context *context, void (*work)(void *arg, struct arena *scratch), void *arg)
+{
+    struct mem mem;
+    init_mem(&mem, context);
+    struct scratch_job job = {.work = work, .arg = arg};
+    arena_init(&job.scratch, &mem);
+    bool done = mem_try(&mem, run_scratch_job, &job);
+    arena_finish(&job.scratch);
+    return done ? MXG_OK : MXG_ERROR_MEMORY;
+}
+
 struct text_job {
     const struct object *object;
     void (*write)(const struct object *object, struct text *out);

@@ -44,6 +44,18 @@ static inline uint32_t hash_bytes(const void *data, size_t size)
     return (uint32_t)(h ^ (h >> 32));
 }
 
+/* All 64 bits: where equal numbers stand for equal bytes, and nothing compares the bytes. */
+static inline uint64_t hash_long(uint64_t h, const void *data, size_t size)
+{
+    const unsigned char *p = data, *end = p + size;
+    uint64_t last = 0;
+    h = hash_mix(h, size);
+    for (; end - p >= 8; p += 8)
+        h = hash_mix(h, hash_load64(p));
+    memcpy(&last, p, (size_t)(end - p));
+    return hash_mix(h, last);
+}
+
 static inline uint32_t hash_pair(uint32_t a, uint32_t b)
 {
     uint64_t h = hash_mix(0x51ed270b0a1f39c1u, (uint64_t)a << 32 | b);

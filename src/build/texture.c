@@ -64,8 +64,10 @@ static void note_input(const struct builder *b, const struct port *file, const s
         texture->sampling.frameoffset = value.w[0].i;
     if (port->name == STR_default && arg)
         texture->has_default = build_initial(b, arg, &texture->value);
-    if (port->name == STR_default && arg && b->options->missing_colors && ir_get(b->graph, arg)->op == IR_UNIFORM)
-        texture->fallback = ir_get(b->graph, arg)->attr + 1;
+    if (port->name == STR_default && arg && ir_get(b->graph, arg)->op == IR_UNIFORM) {
+        texture->default_from = ir_get(b->graph, arg)->attr + 1;
+        texture->fallback = b->options->missing_colors ? texture->default_from : 0;
+    }
 }
 
 /* What stands for nothing is not told. */
@@ -80,8 +82,9 @@ static void leave_out_defaults(struct shader_variable *texture)
 
 static bool reads_alike(const struct shader_variable *a, const struct shader_variable *b)
 {
-    return memcmp(&a->sampling, &b->sampling, sizeof a->sampling) == 0 && a->has_default == b->has_default && a->fallback == b->fallback
-        && (!a->has_default || memcmp(&a->value, &b->value, sizeof a->value) == 0);
+    bool has_literal = a->has_default && !a->default_from;
+    return memcmp(&a->sampling, &b->sampling, sizeof a->sampling) == 0 && a->has_default == b->has_default
+        && a->default_from == b->default_from && (!has_literal || memcmp(&a->value, &b->value, sizeof a->value) == 0);
 }
 
 /* Two nodes that read one file in different ways have a variable each, with the same path. */
@@ -106,7 +109,7 @@ static void note_reader(struct builder *b, const struct nodedef *def, const stru
     struct shader_variable wanted = b->shader->variables.items[index];
     wanted.has_reader = true;
     wanted.has_default = false;
-    wanted.fallback = 0;
+    wanted.fallback = wanted.default_from = 0;
     memset(&wanted.sampling, 0, sizeof wanted.sampling);
     memset(&wanted.value, 0, sizeof wanted.value);
     for (uint32_t i = 0; i < def->num_inputs; i++)

@@ -292,6 +292,7 @@ const char *library_map_image(struct library *lib, const void *data, size_t size
     /* The records are never written through these pointers: a mapped layer does not change. */
     char *base = (char *)(uintptr_t)data;
     memset(lib, 0, sizeof *lib);
+    lib->digest = header->checksum;
     for (unsigned i = 0; i < NUM_VECS; i++) {
         struct any_vec *vec = (void *)((char *)lib + section_infos[i].offset);
         vec->items = base + header->sections[i].offset;

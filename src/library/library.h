@@ -123,6 +123,7 @@ enum library_trust { /* in the source of implementations */
 
 struct library {
     struct library *base;
+    uint64_t digest; /* of the bytes that the layer and those below it were read from; not of a document's */
     enum library_trust trust;
     struct strpool strings;
     struct document doc;

@@ -71,6 +71,7 @@ struct shader_variable {
     str_id file;          /* resolved file name, with fileprefix; tokens of geometry and host kept: <UDIM>, {frame} */
     struct shader_sampling sampling;
     uint32_t fallback;    /* variable that the default is, + 1, where the target reads it with the texture; 0: `value` */
+    uint32_t default_from; /* uniform that the default is, + 1: reads are told apart by it and not by its value, which may change */
     uint32_t first_tile, num_tiles; /* in shader->tiles, which are the layers of a SAMPLER_ARRAY in this order */
     /* layout.c */
     uint32_t set, binding, location;

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * Elements of equal structure, in all documents of some folders, have shaders of equal topology, interface, counts and diagnostics; with
+ * neutral names and without comments, of equal text. Arguments: the folders; of those that are not there the test says so.
+ */
+#define _XOPEN_SOURCE 700
+#include "tests/api/fixture.h"
+
+#include <ftw.h>
+#include <inttypes.h>
+
+static const struct request {
+    const char *target, *interface;
+    bool has_values; /* in the source: uniforms' values stand in it */
+} requests[] = {
+    {"glsl", "complete", true}, {"glsl", "authored", true},  {"glsl", "reduced", true}, {"vulkan", "complete", false},
+    {"vulkan", "reduced", false}, {"osl", "complete", true}, {"osl", "reduced", true},
+};
+enum { NUM_REQUESTS = sizeof requests / sizeof *requests };
+
+struct known {
+    uint64_t structure;
+    char *facts, *element;
+};
+
+static struct corpus {
+    mxg_context *context;
+    mxg_library *library;
+    mxg_options *options[NUM_REQUESTS];
+    struct known *known; /* of the request at hand, by structure in a table */
+    size_t len, mask;
+    char **paths;
+    size_t num_paths;
+    unsigned num_elements, num_told, num_equal;
+} corpus;
+
+/* ---- Documents ---- */
+
+static int collect(const char *path, const struct stat *status, int kind, struct FTW *at)
+{
+    size_t len = strlen(path);
+    (void)status;
+    (void)at;
+    if (kind != FTW_F || len < 5 || strcmp(path + len - 5, ".mtlx") != 0)
+        return 0;
+    corpus.paths = realloc(corpus.paths, (corpus.num_paths + 1) * sizeof *corpus.paths);
+    corpus.paths[corpus.num_paths] = memcpy(malloc(len + 1), path, len + 1);
+    corpus.num_paths++;
+    return 0;
+}
+
+/* ---- What is compared ---- */
+
+static uint64_t hash_text(const char *text)
+{
+    uint64_t hash = 0xcbf29ce484222325u;
+    for (; text && *text; text++)
+        hash = (hash ^ (unsigned char)*text) * 0x100000001b3u;
+    return hash;
+}
+
+static void print_variables(FILE *out, const mxg_result *result)
+{
+    for (uint32_t i = 0; i < mxg_result_num_variables(result); i++) {
+        mxg_variable v = {sizeof v};
+        mxg_result_variable(result, i, &v);
+        fprintf(out, "%d %s %s %s stages %u, [%u], at %u %u %u, offset %u size %u strides %u %u, values %u, modes %s %s %s, tiles %u\n",
+                (int)v.block, v.type, v.document_type, v.semantic, v.stages, v.array_length, v.set, v.binding, v.location, v.offset, v.byte_size,
+                v.array_stride, v.matrix_stride, v.num_values, v.uaddressmode, v.vaddressmode, v.filtertype, v.num_tiles);
+    }
+}
+
+static void print_diagnostics(FILE *out, const mxg_result *result)
+{
+    const mxg_diagnostics *list = mxg_result_diagnostics(result);
+    for (uint32_t i = 0; i < mxg_diagnostics_count(list); i++) {
+        mxg_diagnostic d = {sizeof d};
+        mxg_diagnostics_get(list, i, &d);
+        fprintf(out, "%d %s\n", (int)d.severity, d.id);
+    }
+}
+
+static char *facts_of(const struct request *request, mxg_status status, const mxg_result *result)
+{
+    char *facts = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&facts, &size);
+    mxg_shader_info info = {sizeof info};
+    fprintf(out, "status %d\n", (int)status);
+    print_diagnostics(out, result);
+    if (status == MXG_OK && mxg_result_info(result, &info) == MXG_OK) {
+        fprintf(out, "topology %016" PRIx64 ", closures %u, textures %u, lights %u, %d %d %d %d, compiled %u\n", info.topology, info.num_closures,
+                info.num_textures, info.num_lights, info.transparent, info.lit, info.displaced, (int)info.alpha,
+                request->has_values ? 0 : mxg_result_num_compiled_inputs(result));
+        print_variables(out, result);
+    }
+    for (int stage = 0; stage < MXG_NUM_STAGES && !request->has_values; stage++)
+        fprintf(out, "source %016" PRIx64 "\n", hash_text(mxg_result_source(result, (mxg_stage)stage, NULL)));
+    fclose(out);
+    return facts;
+}
+
+/* ---- The table ---- */
+
+static struct known *find(uint64_t structure)
+{
+    size_t at = (size_t)structure & corpus.mask;
+    while (corpus.known[at].structure && corpus.known[at].structure != structure)
+        at = (at + 1) & corpus.mask;
+    return &corpus.known[at];
+}
+
+static void grow(void)
+{
+    struct known *old = corpus.known;
+    size_t slots = corpus.known ? corpus.mask + 1 : 0;
+    corpus.mask = slots ? slots * 2 - 1 : 255;
+    corpus.known = calloc(corpus.mask + 1, sizeof *corpus.known);
+    for (size_t i = 0; i < slots; i++)
+        if (old[i].structure)
+            *find(old[i].structure) = old[i];
+    free(old);
+}
+
+static void forget(void)
+{
+    for (size_t i = 0; corpus.known && i <= corpus.mask; i++) {
+        free(corpus.known[i].facts);
+        free(corpus.known[i].element);
+    }
+    free(corpus.known);
+    corpus.known = NULL;
+    corpus.len = corpus.mask = 0;
+}
+
+static void compare(uint64_t structure, char *facts, const char *path, const char *element)
+{
+    if (corpus.len * 2 >= corpus.mask)
+        grow();
+    struct known *known = find(structure);
+    if (!known->structure) {
+        size_t size = strlen(path) + strlen(element) + 3;
+        *known = (struct known){structure, facts, malloc(size)};
+        snprintf(known->element, size, "%s: %s", path, element);
+        corpus.len++;
+        return;
+    }
+    corpus.num_equal++;
+    if (!REQUIRE_STR(facts, known->facts))
+        printf("    %s: %s, and %s\n", path, element, known->element);
+    free(facts);
+}
+
+/* ---- The whole ---- */
+
+static void examine(const mxg_document *document, const char *path, unsigned at)
+{
+    for (uint32_t i = 0; i < mxg_document_num_renderables(document); i++) {
+        mxg_renderable renderable = {sizeof renderable};
+        mxg_document_renderable(document, i, &renderable);
+        mxg_generate_desc desc = {sizeof desc, requests[at].target, renderable.path, corpus.options[at], requests[at].has_values};
+        uint64_t structure = 0;
+        REQUIRE_EQ(mxg_document_structure(corpus.context, document, &desc, &structure), MXG_OK);
+        corpus.num_elements++;
+        if (!structure)
+            continue;
+        corpus.num_told++;
+        mxg_result *result = NULL;
+        mxg_status status = mxg_generate(corpus.context, document, &desc, &result);
+        compare(structure, facts_of(&requests[at], status, result), path, renderable.path);
+        mxg_result_destroy(result);
+    }
+}
+
+static void examine_all(unsigned at)
+{
+    REQUIRE_EQ(mxg_options_create(corpus.context, &corpus.options[at]), MXG_OK);
+    mxg_options_set(corpus.options[at], "interface", requests[at].interface);
+    mxg_options_set(corpus.options[at], "names", "neutral");
+    mxg_options_set(corpus.options[at], "comments", "false");
+    for (size_t i = 0; i < corpus.num_paths; i++) {
+        mxg_document *document = NULL;
+        mxg_document_load(corpus.context, corpus.library, corpus.paths[i], &document);
+        examine(document, corpus.paths[i], at);
+        mxg_document_destroy(document);
+    }
+    forget();
+    mxg_options_destroy(corpus.options[at]);
+}
+
+int main(int argc, char **argv)
+{
+    mxg_context_create(NULL, &corpus.context);
+    corpus.library = mxg_library_builtin(corpus.context);
+    for (int i = 1; i < argc; i++) {
+        size_t before = corpus.num_paths;
+        nftw(argv[i], collect, 16, FTW_PHYS);
+        if (corpus.num_paths == before)
+            printf("skipped: '%s' has no documents\n", argv[i]);
+    }
+    REQUIRE(corpus.num_paths > 0);
+    for (unsigned at = 0; at < NUM_REQUESTS; at++)
+        examine_all(at);
+    printf("%u elements, of which %u have a structure, and %u are equal to one before\n", corpus.num_elements, corpus.num_told, corpus.num_equal);
+    REQUIRE(corpus.num_equal > 0);
+    for (size_t i = 0; i < corpus.num_paths; i++)
+        free(corpus.paths[i]);
+    free(corpus.paths);
+    mxg_library_unref(corpus.library);
+    mxg_context_destroy(corpus.context);
+    return test_report("api-structures");
+}
