@@ -372,13 +372,6 @@ static bool touches_struct(const struct lang_use *use)
     return any;
 }
 
-/* Operations of vectors and normals that OSL does not have for colours and points. */
-static bool wants_vectors(enum ir_op op)
-{
-    return op == IR_DOT || op == IR_LENGTH || op == IR_DISTANCE || op == IR_CROSS || op == IR_NORMALIZE || op == IR_REFLECT
-           || op == IR_REFRACT || op == IR_FACEFORWARD;
-}
-
 static enum osl_kind operand_kind(const struct osl *osl, const struct lang_use *use, unsigned index)
 {
     if (!use->node || use->operands[index] != IR_TYPE_VEC3)
@@ -437,7 +430,7 @@ static const struct lang_pieces *product_form(struct osl *osl, const struct lang
 static const char *cast_of(const struct osl *osl, const struct lang_use *use, unsigned index)
 {
     enum osl_kind have = operand_kind(osl, use, index);
-    if (wants_vectors(use->op))
+    if (use->op == IR_NORMALIZE) /* there is one of vectors and one of normals */
         return is_no_vector(osl, use, index) ? "vector" : NULL;
     bool is_color = use->node && osl->kinds[use->node] == OSL_COLOR;
     bool is_call = ir_op_info(use->op)->flags & OP_BUILTIN || use->op == IR_SELECT;

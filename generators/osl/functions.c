@@ -6,6 +6,13 @@
 #include "generators/osl/osl.h"
 
 static const struct {
+    const char *function, *types, *name;
+} same[] = {
+#define SAME(function, types, name) {function, types, name},
+#include "generators/osl/natives.def"
+};
+
+static const struct {
     const char *function, *types, *type, *params, *body;
 } natives[] = {
 #define NATIVE(function, types, type, params, body) {function, types, type, params, body},
@@ -20,6 +27,27 @@ static bool has_types(const struct lang_unit *layer, const struct lang_function 
         if (osl_type_letter(layer->slots.items[fn->first_slot + i].type) != types[i])
             return false;
     return true;
+}
+
+const char *osl_same_function(const struct spell *spell, uint32_t id)
+{
+    const struct lang_unit *layer;
+    const struct lang_function *fn = lang_function(spell->shader->unit, id, &layer);
+    const char *name = str_text(spell->shader->strings, fn->name);
+    for (size_t i = 0; i < sizeof same / sizeof *same; i++)
+        if (strcmp(same[i].function, name) == 0 && has_types(layer, fn, same[i].types))
+            return same[i].name;
+    return NULL;
+}
+
+void osl_name_same_functions(struct spell *spell)
+{
+    const struct lang_reach *reach = &spell->stage->reach;
+    for (uint32_t i = 0; i < reach->functions.len; i++) {
+        const char *name = osl_same_function(spell, reach->functions.items[i]);
+        if (name)
+            spell->functions[reach->functions.items[i]] = name;
+    }
 }
 
 /* "float mx_noise_float(vector p) {…}" by what OSL has; false: the function is the library's alone. */
@@ -83,6 +111,8 @@ void osl_write_functions(struct osl *osl, const char *shader, struct text *out)
     VEC(const char *) kept = {0};
     for (uint32_t i = reach->functions.len; i-- > 0;) {
         uint32_t id = reach->functions.items[i];
+        if (osl_same_function(spell, id))
+            continue;
         bool needed = osl_mentions(shader, spell->functions[id]);
         for (uint32_t k = 0; k < kept.len && !needed; k++)
             needed = osl_mentions(kept.items[k], spell->functions[id]);

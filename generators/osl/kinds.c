@@ -26,13 +26,20 @@ static enum osl_kind kind_of_variable(const struct osl *osl, uint32_t index)
     return strcmp(str_text(osl->spell->shader->strings, variable->doc_type), "color3") == 0 ? OSL_COLOR : OSL_VECTOR;
 }
 
+/* A call of the library's function, in whose place stands one of stdosl.h. */
+static bool is_same_call(const struct osl *osl, ir_ref ref)
+{
+    const struct spell *spell = osl->spell;
+    return ir_get(spell->shader->graph, ref)->op == IR_CALL && osl_same_function(spell, shader_callee(spell->shader, ref));
+}
+
 static enum osl_kind kind_of(const struct osl *osl, ir_ref ref)
 {
     const struct ir_graph *graph = osl->spell->shader->graph;
     const struct ir_node *node = ir_get(graph, ref);
     if (node->op == IR_UNIFORM || node->op == IR_STREAM)
         return kind_of_variable(osl, node->attr);
-    if (node->op == IR_TEX)
+    if (node->op == IR_TEX || (node->op == IR_RESULT && is_same_call(osl, ir_arg(graph, ref, 0))))
         return OSL_COLOR;
     if (gives_vector(node->op) || (node->num_args == 0 && node->op != IR_CONST))
         return OSL_VECTOR;
@@ -56,6 +63,8 @@ static enum osl_kind wanted_kind(const struct osl *osl, ir_ref user)
     const struct ir_node *node = ir_get(graph, user);
     if (node->op >= IR_LEAF)
         return OSL_COLOR;
+    if (node->op == IR_DOT) /* "dot(opacity, color(…))" */
+        return (enum osl_kind)(osl->kinds[ir_arg(graph, user, 0)] == OSL_COLOR ? OSL_COLOR : osl->kinds[ir_arg(graph, user, 1)]);
     return is_triple(graph, user) && !gives_vector(node->op) ? (enum osl_kind)osl->kinds[user] : OSL_ANY;
 }
 
@@ -79,5 +88,6 @@ void osl_find_kinds(struct osl *osl)
 const char *osl_node_type(const struct spell *spell, ir_ref ref)
 {
     const struct osl *osl = spell->target_data;
-    return is_triple(spell->shader->graph, ref) && osl->kinds[ref] == OSL_COLOR ? "color" : NULL;
+    bool is_color = is_triple(spell->shader->graph, ref) ? osl->kinds[ref] == OSL_COLOR : is_same_call(osl, ref);
+    return is_color ? "color" : NULL;
 }

@@ -111,12 +111,12 @@ static bool is_parameter(const struct osl *osl, const struct shader_variable *va
     return (variable->block == BLOCK_PUBLIC_UNIFORMS || variable->block == BLOCK_TEXTURES) && osl_is_read(osl, variable);
 }
 
-enum { MIN_SAVED = 24 }; /* characters; for less, a name is not worth its line */
+enum { MIN_USES = 3 }; /* what two parameters share is no longer than a line about it */
 
 static bool is_worth_it(const struct osl_macro *macro)
 {
     size_t text = strlen(macro->text), name = strlen(macro->name);
-    return macro->uses * text >= macro->uses * name + strlen("#define  \n") + name + text + MIN_SAVED;
+    return macro->uses >= MIN_USES && macro->uses * text > macro->uses * name + strlen("#define  \n") + name + text;
 }
 
 /* Pages and ranges that many parameters share have a name, defined above the shader. */
@@ -156,13 +156,16 @@ static void write_shared(struct osl *osl, const char *text, unsigned *count)
 
 /* ---- The rest ---- */
 
-/* A label that only says the name again, "Base Color" of base_color, is what user interfaces make of the name themselves. */
+/*
+ * A label that only says the name again, "Base Color" of base_color, is what user interfaces make of the name themselves; the underscore
+ * behind a word of the language does not count.
+ */
 static bool says_name(const char *label, const char *name)
 {
     for (; *label && *name; label++, name++)
         if ((*label == ' ' ? '_' : *label | 0x20) != (*name == '_' ? '_' : *name | 0x20))
             return false;
-    return *label == *name;
+    return !*label && (!*name || strcmp(name, "_") == 0);
 }
 
 static void write_label(struct spell *spell, const char *name, const char *label, unsigned *count)

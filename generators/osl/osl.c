@@ -71,9 +71,9 @@ static const struct closure_rows closures = {
 static const struct {
     const char *name, *text;
 } structs[] = {
-    {"vector2", "struct vector2 {\n    float x;\n    float y;\n};\n"},
-    {"vector4", "struct vector4 {\n    float x;\n    float y;\n    float z;\n    float w;\n};\n"},
-    {"ivector2", "struct ivector2 {\n    int x;\n    int y;\n};\n"},
+    {"vector2", "struct vector2 {\n    float x, y;\n};\n"},
+    {"vector4", "struct vector4 {\n    float x, y, z, w;\n};\n"},
+    {"ivector2", "struct ivector2 {\n    int x, y;\n};\n"},
 };
 
 static bool is_word(const char *at, const char *begin, size_t len)
@@ -141,7 +141,7 @@ static void write_shader(struct osl *osl)
     osl_write_streams(osl);
     spell_statements(spell, &spell->stage->statements, 1);
     if (spell->stage_id == STAGE_VERTEX)
-        spell_text(spell, "    N = calculatenormal(P);\n");
+        spell_text(spell, "    N = normalize(calculatenormal(P));\n");
     spell_text(spell, "}\n");
 }
 
@@ -163,6 +163,7 @@ static void write_stage(struct spell *spell, enum shader_stage_id stage)
     spell->lang_names.global = osl_global_name;
     osl_index_helpers(&osl);
     osl_name_interface(&osl);
+    osl_name_same_functions(spell);
     osl_find_kinds(&osl);
     text_init(&shader, spell->scratch);
     spell->out = &shader;

@@ -39,6 +39,8 @@ const struct lang_pieces *osl_form(void *user_data, const struct lang_use *use);
 bool osl_write_value(const struct lang_style *style, ir_type_id type, const union ir_word *words, struct text *out);
 
 /* functions.c: those of the library that a shader's text needs */
+const char *osl_same_function(const struct spell *spell, uint32_t id); /* that stdosl.h has for one; NULL: none */
+void osl_name_same_functions(struct spell *spell);
 void osl_write_functions(struct osl *osl, const char *shader, struct text *out);
 char osl_type_letter(ir_type_id type); /* as in helpers.def */
 bool osl_mentions(const char *text, const char *word);

@@ -142,31 +142,55 @@ static const char *type_name(const struct osl *osl, const struct shader_variable
     return lang_syntax_type(osl->spell->target->syntax, variable->type);
 }
 
+/* "0.5", "1": as people write what a parameter is at first. */
+static void write_number(struct spell *spell, union ir_word word)
+{
+    struct text number;
+    text_init(&number, spell->scratch);
+    lang_print_value(spell->style, NULL, IR_TYPE_FLOAT, &word, LANG_PREC_COMMA, &number);
+    bool is_whole = number.len > 2 && memcmp(number.data + number.len - 2, ".0", 2) == 0;
+    text_mem(spell->out, number.data, number.len - (is_whole ? 2 : 0));
+}
+
+/* "a, b, c" */
+static void write_numbers(struct spell *spell, const union ir_word *words, unsigned count)
+{
+    for (unsigned i = 0; i < count; i++) {
+        spell_text(spell, i ? ", " : "");
+        write_number(spell, words[i]);
+    }
+}
+
+/* "color(0.8, 0.2, 0.1)"; or a number, which fills all three. */
+static void write_triple(struct osl *osl, const struct shader_variable *variable, const union ir_word *words)
+{
+    struct spell *spell = osl->spell;
+    if (words[0].u == words[1].u && words[0].u == words[2].u) {
+        write_number(spell, words[0]);
+        return;
+    }
+    SPELL(spell, type_name(osl, variable), "(");
+    write_numbers(spell, words, 3);
+    spell_text(spell, ")");
+}
+
 static void write_default(struct osl *osl, const struct shader_variable *variable)
 {
     struct spell *spell = osl->spell;
     struct ir_value value = variable->value;
-    if (variable->type == IR_TYPE_SAMPLER) {
-        text_json_string(spell->out, text_of(osl, variable->file), strlen(text_of(osl, variable->file)));
-        return;
-    }
-    if (ir_type_is_closure(variable->type)) {
-        spell_text(spell, "0");
-        return;
-    }
     if (!variable->has_default)
         value = (struct ir_value){.type = variable->type};
-    bool is_struct = array_length(variable) != 0;
-    if (variable->type == IR_TYPE_VEC3) {
-        struct text vector;
-        text_init(&vector, spell->scratch);
-        lang_print_value(spell->style, NULL, value.type, value.w, LANG_PREC_COMMA, &vector);
-        SPELL(spell, type_name(osl, variable), text_cstr(&vector) + strlen("vector"));
-    } else if (is_struct) { /* {x, y} */
-        for (unsigned i = 0; i < array_length(variable); i++) {
-            spell_text(spell, i ? ", " : "{");
-            lang_print_value(spell->style, NULL, IR_TYPE_FLOAT, &value.w[i], LANG_PREC_COMMA, spell->out);
-        }
+    if (variable->type == IR_TYPE_SAMPLER) {
+        text_json_string(spell->out, text_of(osl, variable->file), strlen(text_of(osl, variable->file)));
+    } else if (ir_type_is_closure(variable->type)) {
+        spell_text(spell, "0");
+    } else if (variable->type == IR_TYPE_FLOAT) {
+        write_number(spell, value.w[0]);
+    } else if (variable->type == IR_TYPE_VEC3) {
+        write_triple(osl, variable, value.w);
+    } else if (array_length(variable)) {
+        spell_text(spell, "{");
+        write_numbers(spell, value.w, array_length(variable));
         spell_text(spell, "}");
     } else {
         lang_print_value(spell->style, spell->shader->strings, value.type, value.w, LANG_PREC_COMMA, spell->out);

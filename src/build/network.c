@@ -341,17 +341,6 @@ ir_ref build_property_layer(struct builder *b, const struct geomprop *prop)
 
 /* ---- The shader of a node ---- */
 
-/* "normal_in" where the language or another parameter has the name. */
-static str_id parameter_name(struct builder *b, str_id input)
-{
-    if (shader_name_is_free(b->shader, input))
-        return input;
-    struct text name;
-    text_init(&name, b->arena);
-    text_fmt(&name, "%s_in", build_text(b, input));
-    return str_intern(b->shader->strings, name.data, name.len);
-}
-
 /* What comes from another layer is a closure of any kind; of displacements, the offset. */
 static ir_type_id parameter_type(ir_type_id type)
 {
@@ -361,7 +350,7 @@ static ir_type_id parameter_type(ir_type_id type)
 static ir_ref add_parameter(struct builder *b, const struct port *port, str_id file, str_id *out_name)
 {
     ir_type_id type = library_type_ir(b->lib, port->type);
-    struct shader_variable v = {.name = parameter_name(b, port->name), .block = BLOCK_PUBLIC_UNIFORMS, .type = parameter_type(type),
+    struct shader_variable v = {.name = port->name, .block = BLOCK_PUBLIC_UNIFORMS, .type = parameter_type(type),
                                 .doc_type = library_type_name(b->lib, port->type), .definition = port->element};
     if (type == IR_TYPE_SAMPLER) {
         v.file = file;

@@ -184,13 +184,21 @@ static ir_ref call(struct tree *t, const char *name, ir_type_id type, const ir_r
     return ir_build(t->graph, IR_LEAF, type, callee, args, n);
 }
 
+/* The number that a colour has in all of its parts; the colour itself, where there is none. */
+static ir_ref number_of(const struct ir_graph *g, ir_ref color)
+{
+    const struct ir_node *node = ir_get(g, color);
+    bool is_splat = (node->op == IR_CONSTRUCT || node->op == IR_CONVERT) && node->num_args == 1;
+    return is_splat && ir_type_of(g, ir_arg(g, color, 0)) == IR_TYPE_FLOAT ? ir_arg(g, color, 0) : color;
+}
+
 static ir_ref scaled(struct tree *t, ir_ref closure, ir_ref factor)
 {
-    ir_ref args[2] = {closure, factor};
     if (!closure || !factor || ir_const_is(t->graph, factor, 1.0f))
         return closure;
     if (ir_const_is(t->graph, factor, 0.0f))
         return 0;
+    ir_ref args[2] = {closure, number_of(t->graph, factor)};
     return ir_build(t->graph, IR_CLOSURE_SCALE, ir_type_of(t->graph, closure), 0, args, 2);
 }
 
@@ -200,6 +208,21 @@ static ir_ref sum(struct tree *t, ir_ref a, ir_ref b)
     if (!a || !b)
         return a ? a : b;
     return ir_build(t->graph, IR_CLOSURE_ADD, ir_type_of(t->graph, a), 0, args, 2);
+}
+
+/* By what one closure is multiplied in another; 0: it is not in there. */
+static ir_ref factor_over(struct tree *t, ir_ref closure, ir_ref scale)
+{
+    const struct ir_node *node = ir_get(t->graph, scale);
+    ir_ref factor = 0;
+    for (; node->op == IR_CLOSURE_SCALE; node = ir_get(t->graph, scale)) {
+        ir_ref own = ir_arg(t->graph, scale, 1);
+        scale = ir_arg(t->graph, scale, 0);
+        factor = factor ? ir_op2(t->graph, IR_MUL, own, factor) : own;
+        if (scale == closure)
+            return factor;
+    }
+    return 0;
 }
 
 static ir_ref mixed(struct tree *t, ir_ref bg, ir_ref fg, ir_ref mix)
@@ -213,6 +236,9 @@ static ir_ref mixed(struct tree *t, ir_ref bg, ir_ref fg, ir_ref mix)
         return scaled(t, fg, mix);
     if (!fg)
         return scaled(t, bg, closure_one_minus(t->graph, mix));
+    ir_ref factor = factor_over(t, bg, fg);
+    if (factor) /* the closure once, by a mix of 1 and the factor */
+        return scaled(t, bg, ir_op3(t->graph, IR_MIX, ir_const_splat(t->graph, ir_type_of(t->graph, factor), 1.0f), factor, mix));
     return ir_build(t->graph, IR_CLOSURE_MIX, ir_type_of(t->graph, bg), 0, args, 3);
 }
 
@@ -414,8 +440,17 @@ static ir_ref closure_of(struct tree *t, ir_ref root)
 
 /* ---- Effects ---- */
 
+/* Such a shader is given a unit normal: nothing came between it and the surface. */
+static ir_ref with_unit_normal(struct shader *shader, ir_ref root)
+{
+    ir_ref normal = shader_stream(shader, STR_normalWorld, IR_TYPE_VEC3), unit = ir_op1(shader->graph, IR_NORMALIZE, normal);
+    return ir_replace(shader->graph, root, unit, normal, shader->arena);
+}
+
 static void effect(struct tree *t, enum effect_kind kind, uint32_t index, ir_ref value)
 {
+    if (kind == EFFECT_OUTPUT)
+        value = with_unit_normal(t->shader, value);
     shader_effect(t->shader, STAGE_PIXEL, (struct effect){.kind = (uint8_t)kind, .index = index, .value = value});
 }
 
@@ -471,8 +506,9 @@ static void emit_displacement(struct tree *t, ir_ref displacement)
     if (!offset)
         return;
     ir_ref before = shader_stream(t->shader, STR_positionWorld, IR_TYPE_VEC3);
+    ir_ref moved = with_unit_normal(t->shader, ir_op2(t->graph, IR_ADD, before, offset));
     t->shader->displaced = true;
-    shader_effect(t->shader, STAGE_VERTEX, (struct effect){.kind = EFFECT_POSITION, .value = ir_op2(t->graph, IR_ADD, before, offset)});
+    shader_effect(t->shader, STAGE_VERTEX, (struct effect){.kind = EFFECT_POSITION, .value = moved});
 }
 
 static bool emit_value(struct tree *t, ir_ref root)

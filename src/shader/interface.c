@@ -83,15 +83,33 @@ static bool is_speller_name(str_id name)
     }
 }
 
-static bool is_taken(const struct shader *shader, uint32_t scope, str_id name)
+/* A word that the language has for itself. */
+static bool is_reserved(const struct shader *shader, str_id name)
 {
-    return is_speller_name(name) || (shader->names && *find_slot(shader, scope, name))
-        || (shader->style && lang_style_is_reserved(shader->style, str_text(shader->strings, name), str_len(shader->strings, name)));
+    return shader->style && lang_style_is_reserved(shader->style, str_text(shader->strings, name), str_len(shader->strings, name));
 }
 
-bool shader_name_is_free(const struct shader *shader, str_id name)
+static bool is_taken(const struct shader *shader, uint32_t scope, str_id name)
 {
-    return !is_taken(shader, NUM_BLOCKS, name);
+    return is_speller_name(name) || (shader->names && *find_slot(shader, scope, name)) || is_reserved(shader, name);
+}
+
+/* "normal_", where the language has "normal" for itself, and "normal_2" where that is taken; "roughness_2". */
+static str_id variant(struct shader *shader, str_id name, uint32_t number)
+{
+    struct text text;
+    text_init(&text, shader->arena);
+    text_mem(&text, str_text(shader->strings, name), str_len(shader->strings, name));
+    if (text.data[text.len - 1] != '_')
+        text_char(&text, '_');
+    if (number > 1)
+        text_u32(&text, number);
+    return str_intern(shader->strings, text.data, text.len);
+}
+
+bool shader_name_is_free(struct shader *shader, str_id name)
+{
+    return !is_taken(shader, NUM_BLOCKS, is_reserved(shader, name) ? variant(shader, name, 1) : name);
 }
 
 static str_id unique_name(struct shader *shader, uint32_t scope, str_id wanted)
@@ -99,16 +117,9 @@ static str_id unique_name(struct shader *shader, uint32_t scope, str_id wanted)
     const char *text = str_text(shader->strings, wanted);
     size_t base_len;
     const char *base = identifier_from(text, str_len(shader->strings, wanted), shader->arena, &base_len);
-    str_id name = base == text ? wanted : str_intern(shader->strings, base, base_len);
-    for (uint32_t number = 2; is_taken(shader, scope, name); number++) {
-        struct text numbered;
-        text_init(&numbered, shader->arena);
-        text_mem(&numbered, base, base_len);
-        if (base[base_len - 1] != '_')
-            text_char(&numbered, '_');
-        text_u32(&numbered, number);
-        name = str_intern(shader->strings, numbered.data, numbered.len);
-    }
+    str_id first = base == text ? wanted : str_intern(shader->strings, base, base_len), name = first;
+    for (uint32_t number = is_reserved(shader, first) ? 1 : 2; is_taken(shader, scope, name); number++)
+        name = variant(shader, first, number);
     return name;
 }
 

@@ -7,7 +7,7 @@
  * and a load, a local a variable, a store and a load per use.
  */
 /* Characters. A name counts as any other, however long it is: shaders that differ in names alone have the same statements. */
-enum { GOOD_CHARS = 110, MAX_CHARS = 220, MIN_SPLIT_CHARS = 40, MAX_REPEATED_CHARS = 32, NAME_CHARS = 10 };
+enum { GOOD_CHARS = 110, MAX_CHARS = 220, MIN_SPLIT_CHARS = 40, MAX_REPEATED_CHARS = 32, MAX_CLOSURE_CHARS = 64, NAME_CHARS = 10 };
 enum { MIN_USES_OF_COPY = 5 }; /* an access and a load each time, or once, a store, and a load each time */
 enum { COST_OPERATOR = 1, COST_CHOICE = 3, COST_BUILTIN = 4, COST_CALL = 32, COST_LOCAL = 2, MAX_COST_IN_LOOP = 3, MAX_COST_OF_ARM = 24 };
 
@@ -47,6 +47,10 @@ static bool is_source(const struct scheduler *s, struct plan *plan)
     case IR_TEXTURE:
         plan->cost = 2;
         plan->chars = clamp16(NAME_CHARS + 3);
+        return true;
+    case IR_LEAF: /* "transparent_bsdf()" */
+        plan->cost = 1;
+        plan->chars = NAME_CHARS + 2;
         return true;
     case IR_PARAM:
     case IR_LOCAL:
@@ -210,8 +214,8 @@ static void let_wholes(struct scheduler *s, const struct plan *plan)
 static bool is_wanted(const struct plan *plan)
 {
     unsigned flags = plan->flags;
-    bool is_closure_call = plan->op == IR_LEAF && plan->num_args > 0;
-    if (flags & PLAN_STATEMENT || is_closure_call || (flags & PLAN_NEIGHBOURS && flags & (PLAN_IN_ARM | PLAN_MOVED)))
+    bool is_long_closure = plan->op == IR_LEAF && plan->chars > MAX_CLOSURE_CHARS;
+    if (flags & PLAN_STATEMENT || is_long_closure || (flags & PLAN_NEIGHBOURS && flags & (PLAN_IN_ARM | PLAN_MOVED)))
         return true;
     return (plan->uses > 1 || flags & PLAN_MOVED) && !is_cheap(plan);
 }

@@ -224,7 +224,7 @@ void shader_init(struct shader *shader, struct arena *arena, struct strpool *str
 
 /* Adds a variable; the name is made a valid identifier, and unique by a number behind it. Returns its index. */
 uint32_t shader_add_variable(struct shader *shader, const struct shader_variable *variable);
-bool shader_name_is_free(const struct shader *shader, str_id name); /* at file scope, without a change */
+bool shader_name_is_free(struct shader *shader, str_id name); /* at file scope, but for the underscore of reserved words */
 uint32_t shader_find_variable(const struct shader *shader, enum shader_block block, str_id name); /* UINT32_MAX: none */
 
 /* The IR node that reads a variable: UNIFORM, TEXTURE or STREAM by its block. */

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
  * names: unique identifiers without a global counter: the second "roughness" of a function is "roughness_2" whatever else there is, so
- * that a small edit of the input gives a small difference in the output.
+ * that a small edit of the input gives a small difference in the output. A word that the language has for itself gets an underscore.
  */
 #include "base/hash.h"
 #include "spell/spell.h"
@@ -102,6 +102,20 @@ static struct spell_name add_number(struct name_set *names, uint32_t first)
     return (struct spell_name){numbered, end};
 }
 
+/* "normal_" of "normal", which is a word of the language; numbered where that is taken, too. */
+static struct spell_name add_underscore(struct name_set *names, uint32_t reserved)
+{
+    const struct name_entry *base = &names->entries.items[reserved];
+    size_t len = base->len;
+    if (base->text[len - 1] == '_')
+        return add_number(names, reserved);
+    char *longer = arena_alloc(names->arena, len + sizeof "_");
+    text_copy(longer, base->text, len);
+    longer[len++] = '_';
+    longer[len] = '\0';
+    return names_take(names, longer, len) ? (struct spell_name){longer, len} : add_number(names, reserved);
+}
+
 struct spell_name names_unique(struct name_set *names, const char *text, size_t len)
 {
     unsigned slot = (unsigned)((uintptr_t)text ^ (uintptr_t)text >> 6) % NAMES_RECENT;
@@ -117,7 +131,7 @@ struct spell_name names_unique(struct name_set *names, const char *text, size_t 
     names->recent[slot].text = text;
     names->recent[slot].len = (uint32_t)len;
     names->recent[slot].entry = entry;
-    if (is_new && !lang_style_is_reserved(names->style, base, base_len))
-        return (struct spell_name){base, base_len};
-    return add_number(names, entry);
+    if (lang_style_is_reserved(names->style, base, base_len))
+        return add_underscore(names, entry);
+    return is_new ? (struct spell_name){base, base_len} : add_number(names, entry);
 }

@@ -101,6 +101,18 @@ static void write_path(struct spell *spell, unsigned indent, uint32_t origin)
     text_char(spell->out, '\n');
 }
 
+/* "color c": a local that a node gives, or one of those that it does. */
+static void write_typed(struct spell *spell, ir_ref ref, ir_type_id type, struct spell_name name)
+{
+    const char *own_type = spell->target->node_type ? spell->target->node_type(spell, ref) : NULL;
+    if (!own_type) {
+        spell_variable(spell, type, name);
+        return;
+    }
+    SPELL(spell, own_type, " ");
+    spell_name(spell, name);
+}
+
 /* ---- Calls with several results ---- */
 
 struct call_out {
@@ -186,11 +198,24 @@ static ir_ref inout_operand(const struct spell *spell, ir_ref call, unsigned ind
     }
 }
 
+/* "metal" of a call "metal_ior" with a result "ior", which is not named twice. */
+static struct spell_name parts_base(const struct spell *spell, ir_ref call, unsigned outs)
+{
+    struct spell_name base = local_base(spell, call);
+    for (unsigned i = 0; i < outs; i++) {
+        const char *part = describe_out(spell, call, i).part;
+        size_t len = strlen(part);
+        if (base.len > len + 1 && base.text[base.len - len - 1] == '_' && memcmp(base.text + base.len - len, part, len) == 0)
+            return (struct spell_name){base.text, base.len - len - 1};
+    }
+    return base;
+}
+
 /* "float x, y;", and a declaration of its own for each inout argument. */
 static void declare_outs(struct spell *spell, unsigned indent, ir_ref call, unsigned outs)
 {
     const struct ir_node *node = ir_get(spell->shader->graph, call);
-    struct spell_name base = local_base(spell, call);
+    struct spell_name base = outs > 1 ? parts_base(spell, call, outs) : local_base(spell, call);
     struct call_out last = {0};
     for (unsigned i = 0; i < outs; i++) {
         struct call_out out = describe_out(spell, call, i);
@@ -204,7 +229,7 @@ static void declare_outs(struct spell *spell, unsigned indent, ir_ref call, unsi
             if (i > 0)
                 text_mem(spell->out, ";\n", 2);
             open_line(spell, indent, node->origin);
-            spell_variable(spell, out.type, name);
+            write_typed(spell, call, out.type, name);
         }
         if (out.inout) {
             text_mem(spell->out, " = ", 3);
@@ -249,13 +274,7 @@ static void write_let(struct spell *spell, unsigned indent, ir_ref ref)
     open_line(spell, indent, node->origin);
     if (node->op == IR_CONST && !spell->target->syntax->defines_constants)
         spell_text(spell, "const ");
-    const char *own_type = spell->target->node_type ? spell->target->node_type(spell, ref) : NULL;
-    if (own_type) {
-        SPELL(spell, own_type, " ");
-        spell_name(spell, name);
-    } else {
-        spell_variable(spell, node->type, name);
-    }
+    write_typed(spell, ref, node->type, name);
     text_mem(spell->out, " = ", 3);
     spell_expression(spell, ref, LANG_PREC_ASSIGN);
     text_mem(spell->out, ";\n", 2);

@@ -46,7 +46,7 @@ struct target {
     const struct target_network *network; /* NULL: shaders of the target are whole */
     const char *position; /* what the vertex stage writes the position to; NULL: gl_Position */
     const char *stage_suffix[NUM_STAGES]; /* "vert", "frag"; file endings */
-    /* The type of a node's local, where it does not follow from the IR's type; may be NULL, and return it. */
+    /* The type of a node's local, or of each result of a call, where it does not follow from the IR's type; may be NULL, and return it. */
     const char *(*node_type)(const struct spell *spell, ir_ref ref);
     /* Writes one stage. NULL: from base; the C-like targets share spell_stage. */
     void (*stage)(struct spell *spell, enum shader_stage_id stage);

@@ -9,10 +9,10 @@ out vec4 out1;
 void main()
 {
     // NG/first/a
-    float distance_2 = length(vd.texcoord_0);
+    float distance_ = length(vd.texcoord_0);
     // NG/first/b
-    float gap = abs(distance_2 - 0.75);
+    float gap = abs(distance_ - 0.75);
     // NG/first
-    float nearest = min(abs(distance_2 - 0.25), gap);
-    out1 = vec4(nearest, nearest, min(abs(distance_2 - 0.5), gap), 1.0);
+    float nearest = min(abs(distance_ - 0.25), gap);
+    out1 = vec4(nearest, nearest, min(abs(distance_ - 0.5), gap), 1.0);
 }

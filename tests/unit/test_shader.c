@@ -327,7 +327,7 @@ static void test_names(void)
         const char *wanted, *got;
     } cases[] = {
         {"SR_gold_base", "SR_gold_base"}, {"SR_gold_base", "SR_gold_base_2"}, {"a b", "a_b"}, {"2x", "x2x"},
-        {"a__b", "a_b_2"}, {"gl_Position", "xgl_Position"}, {"vec3", "vec3_2"}, {"main", "main_2"}, {"", "x"},
+        {"a__b", "a_b_2"}, {"gl_Position", "xgl_Position"}, {"vec3", "vec3_"}, {"vec3", "vec3_2"}, {"main", "main_2"}, {"", "x"},
         {"caf\xc3\xa9", "caf_"}, {"caf_", "caf_2"}, {"_", "_"},
     };
     struct fixture f;

@@ -154,7 +154,7 @@ static void test_locals(void)
     static const struct {
         const char *first, *second, *got_first, *got_second;
     } cases[] = {
-        {"roughness", "roughness", "roughness", "roughness_2"}, {"mix", "vec3", "mix_2", "vec3_2"}, {"a", "v", "a_2", "v_2"},
+        {"roughness", "roughness", "roughness", "roughness_2"}, {"mix", "vec3", "mix_", "vec3_"}, {"mix", "mix", "mix_", "mix_2"}, {"mix", "mix_", "mix_", "mix_2"}, {"a", "v", "a_2", "v_2"},
         {"2nd", "a  b", "x2nd", "a_b"}, {"x__y", "x_y", "x_y", "x_y_2"}, {"main", "vd", "main_2", "vd_2"},
         {"x_", "x_", "x_", "x_2"}, {"", "", "t", "t_2"}, {"gl_in", "out1", "xgl_in", "out1_2"},
     };

@@ -3,16 +3,13 @@
 
 #include "frame.glsl"
 
-// Gulbrandsen 2014, "Artist Friendly Metallic Fresnel".
+// Gulbrandsen 2014, "Artist Friendly Metallic Fresnel": his r (n + 1)^2 - (n - 1)^2 is 0 at the greatest n and at 1 over it, hence factors.
 void mx_artistic_ior(vec3 reflectivity, vec3 edge_color, out vec3 ior, out vec3 extinction)
 {
-    vec3 r = clamp(reflectivity, 0.0, 0.99);
-    vec3 s = sqrt(r);
-    vec3 n = mix((1.0 + s) / (1.0 - s), (1.0 - r) / (1.0 + r), edge_color);
-    vec3 a = s * (n + 1.0);
-    vec3 b = n - 1.0;
-    ior = n;
-    extinction = sqrt(max((a - b) * (a + b) / (1.0 - r), 0.0)); // a^2 - b^2 would cancel
+    vec3 s = sqrt(clamp(reflectivity, 0.0, 0.99));
+    vec3 greatest = (1.0 + s) / (1.0 - s);
+    ior = mix(greatest, (1.0 - s * s) / (1.0 + s * s), edge_color);
+    extinction = sqrt(max((greatest - ior) * (ior - 1.0 / greatest), 0.0));
 }
 
 // Burley 2012, section 5.4: the aspect ratio stretches one axis and shrinks the other.
