@@ -390,7 +390,7 @@ static const char *find_misuse(const struct check *check)
         has_report = has_report || check->reports.paths[i];
     if (check->reports.paths[SINK_DEPFILE] && !has_report)
         return "a depfile tells what a report depends on: write one too, --json FILE";
-    return NULL;
+    return reports_misuse(&check->reports);
 }
 
 static int run_if_sensible(struct check *check)

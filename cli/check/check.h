@@ -16,6 +16,8 @@ struct check_reports {
 
 /* Fills in the options of reports; returns how many: NUM_SINK_KINDS. */
 size_t reports_args(struct check_reports *reports, struct arg *args);
+/* What is wrong with what was asked for, NULL: nothing. */
+const char *reports_misuse(const struct check_reports *reports);
 
 /* Opens the files. False after telling which cannot be written. */
 bool reports_begin(struct check_reports *reports, struct report *report);

@@ -124,6 +124,14 @@ static int run(struct merge *merge)
     return merge->cli.report.errors || !reports_are_good(&merge->reports) ? EXIT_FAULT : EXIT_DONE;
 }
 
+static int run_if_sensible(struct merge *merge)
+{
+    const char *misuse = reports_misuse(&merge->reports);
+    if (misuse)
+        fprintf(stderr, "mxgen: %s\n", misuse);
+    return misuse ? EXIT_USAGE : run(merge);
+}
+
 int check_merge(const struct command *command, int argc, char **argv)
 {
     struct merge merge = {0};
@@ -133,7 +141,7 @@ int check_merge(const struct command *command, int argc, char **argv)
     size_t num_args = 1 + reports_args(&merge.reports, args + 1);
     int code;
     if (cli_start(&merge.cli, command, args, num_args, CLI_NEEDS_INPUT | CLI_LIBRARY_IS_INPUT, argc, argv, &code))
-        code = run(&merge);
+        code = run_if_sensible(&merge);
     for (size_t i = 0; i < merge.num_parts; ++i) {
         reader_close(&merge.parts[i].reader);
         store_finish(&merge.parts[i].store);

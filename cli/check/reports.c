@@ -24,6 +24,15 @@ size_t reports_args(struct check_reports *reports, struct arg *args)
     return NUM_SINK_KINDS;
 }
 
+const char *reports_misuse(const struct check_reports *reports)
+{
+    for (size_t i = 0; i < NUM_SINK_KINDS; ++i)
+        for (size_t k = 0; k < i && reports->paths[i]; ++k)
+            if (reports->paths[k] && strcmp(reports->paths[k], reports->paths[i]) == 0 && strcmp(reports->paths[i], "/dev/null") != 0)
+                return "two reports would be one file, or one standard output; name a file for each";
+    return NULL;
+}
+
 bool reports_begin(struct check_reports *reports, struct report *report)
 {
     bool good = true, is_stdout_taken = false;

@@ -18,6 +18,10 @@ check 'all reports at once' exits 1 "$mxgen" check show --no-compile -t glsl,ess
 check 'the run had what they must tell' says r.json '[x.get("stage", "passed") for x in d]' \
     "['passed', 'load', 'passed', 'validate', 'passed', 'validate']"
 check 'they tell the same' "$here/reports.py" r.json r.sarif r.xml r.html
+check 'two reports in one file' exits 2 "$mxgen" check show --no-compile --json one.json --sarif one.json
+check 'or on standard output' exits 2 "$mxgen" check show --no-compile --json - --html -
+check 'of a merge, too' exits 2 "$mxgen" check merge r.json --json - --html -
+check 'but for nobody' exits 1 "$mxgen" check show --no-compile --json /dev/null --sarif /dev/null
 check 'with times too' exits 1 "$mxgen" check show --no-compile --stats --json t.json --sarif t.sarif --junit t.xml --html t.html
 check 'which JUnit has' grep -q '<testcase [^>]* time="[0-9.]*"' t.xml
 check 'they still tell the same' "$here/reports.py" t.json t.sarif t.xml t.html
