@@ -35,6 +35,9 @@ bool image_stack(const struct image *parts, uint32_t count, struct image *out);
 /* Whether files of this name hold linear light as floats: EXR, HDR. */
 bool image_is_linear(const char *path);
 
+/* Whether a picture could be written, before it is drawn: its format is known, its folder is there. False: `reason` says why not. */
+bool image_can_write(const char *path, char *reason, size_t capacity);
+
 /*
  * Writes a picture, with its levels (EXR alone has them): floats of linear light, premultiplied, or 8-bit sRGB, not premultiplied. The format follows from the name's
  * ending. The file appears whole or not at all.

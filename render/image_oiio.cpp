@@ -9,6 +9,8 @@
 #include <cstring>
 #include <string>
 #include <strings.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 namespace {
 
@@ -176,6 +178,19 @@ bool write_pixels(OIIO::ImageOutput &output, const std::string &path, const stru
 }
 
 } // namespace
+
+bool image_can_write(const char *path, char *reason, size_t capacity)
+{
+    std::string name(path), folder = name.substr(0, name.rfind('/') + 1);
+    struct stat info;
+    if (!OIIO::ImageOutput::create(name)) {
+        OIIO::geterror();
+        return fail(reason, capacity, "its ending is that of no format; .png, .jpg, .exr and .hdr are some");
+    }
+    if (stat(path, &info) == 0 && S_ISDIR(info.st_mode))
+        return fail(reason, capacity, std::strerror(EISDIR));
+    return access(folder.empty() ? "." : folder.c_str(), W_OK) == 0 || fail(reason, capacity, std::strerror(errno));
+}
 
 bool image_write(const char *path, const struct image *image, char *reason, size_t capacity)
 {

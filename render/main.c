@@ -490,6 +490,16 @@ static int bake(struct job *job)
     return job->cli.report.errors ? EXIT_FAULT : EXIT_DONE;
 }
 
+/* Found out before anything is drawn, which may take long. */
+static bool can_write(struct job *job, const char *path)
+{
+    char reason[256];
+    if (!path || image_can_write(path, reason, sizeof reason))
+        return true;
+    report_error(&job->cli.report, "output-failed", "cannot write '%s': %s", path, reason);
+    return false;
+}
+
 static int run(struct job *job)
 {
     if (job->baked)
@@ -502,14 +512,14 @@ static int run(struct job *job)
     bool is_grid = !strcmp(job->scene, "grid"), is_one = inputs->len == 1 && !files_is_folder(inputs->items[0]) && !job->look;
     if ((!job->output && !is_grid) || ((is_grid || job->frames) && !is_one)) {
         fputs(job->output ? "mxgen: a turntable and a grid are of one document\n"
-                          : "usage: mxgen render FILE -o PICTURE.png\n", stderr);
+                          : "mxgen: where to? say -o PICTURE.png\n", stderr);
         return EXIT_USAGE;
     }
     if (!job->size)
         job->size = is_grid ? "4" : is_one ? "512" : "160";
     if (!parse_size(job) || !parse(job))
         return EXIT_USAGE;
-    if (find_documents(job)) {
+    if (can_write(job, job->output) && can_write(job, job->copy) && find_documents(job)) {
         compile_begin();
         if (is_one)
             render_file(job, job->found.items[0]);

@@ -54,8 +54,11 @@ static bool open_mesh(const struct studio *studio, struct mesh *out, unsigned *o
     if (is_shape(studio->mesh))
         return shape_make(studio->mesh, 1, out) || fail(fault, "render-failed", "cannot make", studio->mesh, "out of memory");
     struct mesh_fault mesh_fault;
-    return mesh_import(studio->mesh, out, out_made, &mesh_fault) ||
-           fail(fault, mesh_fault.id, "cannot use the mesh", studio->mesh, mesh_fault.text);
+    if (mesh_import(studio->mesh, out, out_made, &mesh_fault))
+        return true;
+    return strpbrk(studio->mesh, "./")
+               ? fail(fault, mesh_fault.id, "cannot use the mesh", studio->mesh, mesh_fault.text)
+               : fail(fault, mesh_fault.id, "there is no shape", studio->mesh, "write ball, sphere, plane, cube, cloth, or the name of a file");
 }
 
 bool studio_read_map(const struct studio *studio, struct image *out, struct studio_fault *fault)

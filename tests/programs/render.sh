@@ -125,8 +125,13 @@ check 'a box blur' all_near NG/o_box 0.03
 check 'a gaussian blur' all_near NG/o_gaussian 0.01
 check 'a missing tile of a frame' exits 1 "$render" tiles.mtlx --scene grid --frame 34
 check 'names its file' grep -q "t.1001.0031.ppm" err
-check 'a folder that is missing' exits 1 "$render" plain.mtlx -o missing/ball.png --size 8
-check 'is output-failed' grep -q '\[output-failed\]' err
+# Found out before anything is drawn: the document is not even read
+for place in missing/ball.png ball.xyz . ; do
+    check "a picture that cannot be written: $place" exits 1 "$render" none.mtlx -o "$place" --size 8
+    check 'is output-failed' eval 'grep -q "\[output-failed\]" err && ! grep -q none.mtlx err'
+done
+check 'an ending of no format' eval '! "$render" plain.mtlx -o ball.xyz 2>err; grep -q "ball.xyz.: its ending is that of no format" err'
+check 'a copy, too' exits 1 "$render" none.mtlx -o x.png --copy missing/x.png
 check 'a value that is none' exits 1 "$render" plain.mtlx -o x.png --set SR/base_color=abc
 check 'is bad-value' grep -q '\[bad-value\]' err
 check 'an input that is none' exits 1 "$render" plain.mtlx -o x.png --set SR/none=1
@@ -177,6 +182,8 @@ check 'a mesh without area' exits 1 "$render" plain.mtlx -m flat.obj -o x.png
 check 'is empty-mesh' grep -q '\[empty-mesh\]' err
 check 'a mesh that is missing' exits 1 "$render" plain.mtlx -m none.obj -o x.png
 check 'is bad-mesh' grep -q "none.obj.*\[bad-mesh\]" err
+check 'a shape that is none' exits 1 "$render" plain.mtlx -m bal -o x.png
+check 'says which there are' grep -q "'bal': write ball, .*\[bad-mesh\]" err
 echo 'v x' >junk.gltf
 check 'a mesh that is none' exits 1 "$render" plain.mtlx -m junk.gltf -o x.png
 positions=AACAvwAAgL8AAAAAAACAPwAAgL8AAAAAAAAAAAAAgD8AAAAA
