@@ -7,11 +7,11 @@
  *     1 standard_surface  base_color → 2, output 0
  *     2 image_color3      file: a texture
  *
- * So names do not count, nor what else is in the document. Everything that these elements say counts, unless it is known that no program
- * depends on it: an attribute that nobody thought of here makes two numbers differ, which costs a generation, and never two programs equal.
+ * Nodes are their definitions, with those inputs that are not what they would be unset, in the definition's order; so names and places do
+ * not count. What else these elements say counts, unless it is known that no program depends on it: an attribute that nobody thought of
+ * here makes two numbers differ, which costs a generation, and never two programs equal.
  *
- * What becomes a uniform does not count. That rests on a rule of this room: values of uniforms of floats decide nothing. Where every
- * input of a node is one, whether the document sets it or not, it need not even be there.
+ * What becomes a uniform does not count. That rests on a rule of this room: values of uniforms decide nothing, but those of integers.
  */
 #include "build/build.h"
 
@@ -102,13 +102,15 @@ static const char *space_of(struct walk *w, elem_id element)
     return w->space_meant;
 }
 
-/* Numbers and words decide what becomes of a program, and so do floats that do not parse. */
-static bool is_uniform_value(const struct walk *w, doc_type type, str_id value)
+static bool parse(const struct walk *w, doc_type type, str_id text, struct ir_value *out)
 {
-    struct ir_value parsed;
-    return w->options->interface != INTERFACE_REDUCED && type < DOC_NUM_TYPES && doc_type_components(type)
-           && ir_type_is_float(doc_type_ir(type))
-           && doc_parse_value(type, text_of(w, value), str_len(&w->lib->strings, value), NULL, &parsed);
+    bool has_words = type < DOC_NUM_TYPES && (doc_type_components(type) || type == DOC_TYPE_boolean);
+    return has_words && doc_parse_value(type, text_of(w, text), str_len(&w->lib->strings, text), NULL, out);
+}
+
+static bool is_uniform(const struct walk *w, bool is_public, const struct ir_value *value)
+{
+    return is_public && w->options->interface != INTERFACE_REDUCED && (ir_type_is_float(value->type) || value->type == IR_TYPE_BOOL);
 }
 
 /*
@@ -125,17 +127,29 @@ static void add_file(struct walk *w, elem_id element, str_id file)
         add(w, *text != '\0');
 }
 
-static void add_value(struct walk *w, elem_id element, str_id value, bool is_public)
+/* Numbers that are compiled in, or that may decide what becomes of a program, count however they are written. */
+static void add_number(struct walk *w, const struct ir_value *value)
+{
+    for (unsigned i = 0; i < ir_type_info(value->type)->components; i++)
+        add(w, value->w[i].u);
+}
+
+static bool is_color(doc_type type)
+{
+    return type == DOC_TYPE_color3 || type == DOC_TYPE_color4;
+}
+
+static void add_value(struct walk *w, elem_id element, str_id text, bool is_public)
 {
     doc_type type = type_of(w, element);
-    w->is_unknown |= type == DOC_TYPE_NONE;
+    struct ir_value value;
     if (type == DOC_TYPE_filename)
-        add_file(w, element, value);
-    else if (is_public && is_uniform_value(w, type, value))
-        add(w, UINT64_MAX);
-    else
-        add_text(w, value);
-    if (type == DOC_TYPE_color3 || type == DOC_TYPE_color4 || type == DOC_TYPE_filename) {
+        add_file(w, element, text);
+    else if (!parse(w, type, text, &value))
+        add_text(w, text);
+    else if (!is_uniform(w, is_public, &value))
+        add_number(w, &value);
+    if (is_color(type) || type == DOC_TYPE_filename) {
         const char *space = space_of(w, element);
         add(w, space ? hash_long(0, space, strlen(space)) : 0);
     }
@@ -143,8 +157,11 @@ static void add_value(struct walk *w, elem_id element, str_id value, bool is_pub
 
 /* ---- Attributes ---- */
 
-/* What generation does not look at, or what is found from below: colour spaces and prefixes by values. */
-static bool is_left_out(str_id attr)
+/*
+ * Attributes that nobody reads, as they are no words of ours, or that generation does not look at, or finds in another way: definitions,
+ * and by values colour spaces and prefixes.
+ */
+static bool is_left_out(str_id attr, bool is_node)
 {
     switch (attr) {
     case STR_doc:
@@ -162,8 +179,12 @@ static bool is_left_out(str_id attr)
     case STR_colorspace:
     case STR_fileprefix:
         return true;
+    case STR_type:
+    case STR_nodedef:
+    case STR_version:
+        return is_node;
     default:
-        return false;
+        return attr >= STR_NUM_WORDS;
     }
 }
 
@@ -185,21 +206,25 @@ static bool add_attributes(struct walk *w, elem_id element, bool is_public)
 {
     const struct element *e = doc_element(w->doc, element);
     const struct attribute *attrs = doc_attrs(w->doc, element);
+    unsigned num_says = 0;
     bool is_port = e->kind == KIND_INPUT || e->kind == KIND_OUTPUT, is_connected = false;
     for (uint32_t i = 0; i < e->num_attrs; i++) {
         str_id name = attrs[i].name, value = attrs[i].value;
-        if (is_left_out(name))
-            continue;
-        add_text(w, name);
-        if (is_port && is_connection(name))
+        if (is_port && is_connection(name)) {
             is_connected |= value != 0;
-        else if (is_port && name == STR_value)
-            add_value(w, element, value, is_public);
-        else
-            add_text(w, value);
+            num_says += value && name != STR_output;
+        } else if (!is_left_out(name, !is_port)) {
+            add(w, name);
+            num_says += name == STR_value && value;
+            if (is_port && name == STR_value)
+                add_value(w, element, value, is_public);
+            else
+                add_text(w, value);
+        }
         if (name == STR_unit)
             w->is_unknown |= has_own_units(w->doc);
     }
+    w->is_unknown |= is_port && (num_says > 1 || type_of(w, element) == DOC_TYPE_NONE);
     return is_connected;
 }
 
@@ -243,42 +268,53 @@ static bool gives_numbers(const struct walk *w, elem_id node)
     return true;
 }
 
-/* Inputs and outputs count by name. Tokens, which files are named by, and what does not belong there are left to a generation. */
-static void add_child(struct walk *w, elem_id child, uint8_t flags)
+static void add_input(struct walk *w, elem_id input, uint8_t flags)
 {
-    const struct element *e = doc_element(w->doc, child);
-    w->is_unknown |= (e->kind != KIND_INPUT && e->kind != KIND_OUTPUT) || e->first_child;
-    if (doc_attr_value(w->doc, child, STR_type) == STR_filename) /* what emits may have its profile in the program */
-        w->is_unknown |= !gives_numbers(w, e->parent);
-    add(w, (uint64_t)e->kind + 1);
-    add_text(w, e->name);
-    if (!add_attributes(w, child, flags & IS_PUBLIC) || e->kind != KIND_INPUT)
+    if (type_of(w, input) == DOC_TYPE_filename) /* what emits may have its profile in the program */
+        w->is_unknown |= !gives_numbers(w, doc_element(w->doc, input)->parent);
+    if (!add_attributes(w, input, flags & IS_PUBLIC))
         return;
-    uint32_t number = add_connection(w, child);
-    if (number != UINT32_MAX && flags & IS_ROOT && is_shader(w, child))
+    uint32_t number = add_connection(w, input);
+    if (number != UINT32_MAX && flags & IS_ROOT && is_shader(w, input))
         w->met.items[number].flags |= IS_PUBLIC;
 }
 
-/* ---- Nodes of the interface ---- */
+/* ---- Nodes ---- */
+
+static bool is_closure(const struct walk *w, doc_type type)
+{
+    ir_type_id ir = library_type_ir(w->lib, type);
+    return ir_type_is_closure(ir) || ir_type_is_shader(ir);
+}
+
+static bool is_default(const struct walk *w, const struct port *port, str_id text, const struct ir_value *value)
+{
+    struct ir_value usual;
+    if (!(port->flags & PORT_HAS_VALUE) || !port->value)
+        return false;
+    return text == port->value || (parse(w, port->type, port->value, &usual) && ir_value_equal(value, &usual));
+}
 
 /*
- * An input that is what it would be if the document did not mention it: a uniform of floats, or the default itself. The definition's
- * type is the input's, since they match.
+ * A literal that is what the input would be if the document did not mention it: the default, or one of the uniforms that the complete
+ * interface makes of all inputs; and of closures and shaders, which have none, nothing. The definition's type is the input's, since they match.
  */
-static bool is_as_unset(struct walk *w, elem_id input, const struct port *port)
+static bool is_as_unset(struct walk *w, elem_id input, const struct port *port, bool is_public)
 {
     const struct element *e = doc_element(w->doc, input);
     const struct attribute *attrs = doc_attrs(w->doc, input);
-    str_id value = doc_attr_value(w->doc, input, STR_value);
-    if (w->options->interface != INTERFACE_COMPLETE || port->geomprop || !value || e->first_child)
-        return false;
+    str_id text = doc_attr_value(w->doc, input, STR_value);
+    struct ir_value value;
     for (uint32_t i = 0; i < e->num_attrs; i++)
-        if (!is_left_out(attrs[i].name) && attrs[i].name != STR_type && attrs[i].name != STR_value)
+        if (!is_left_out(attrs[i].name, false) && attrs[i].name != STR_type && attrs[i].name != STR_value)
             return false;
-    if ((port->type == DOC_TYPE_color3 || port->type == DOC_TYPE_color4) && space_of(w, input))
+    if (is_closure(w, port->type))
+        return true;
+    if (port->geomprop || !text || !parse(w, port->type, text, &value) || (is_color(port->type) && space_of(w, input)))
         return false;
-    bool is_choice = port->type == DOC_TYPE_boolean || port->type == DOC_TYPE_integer;
-    return is_choice ? value == port->value : is_uniform_value(w, port->type, value);
+    if (is_public && w->options->interface != INTERFACE_COMPLETE)
+        return false;
+    return is_uniform(w, is_public, &value) || is_default(w, port, text, &value);
 }
 
 /* Most nodes have their inputs in the definition's order: the search goes on where it ended. `n`: there is none of that name. */
@@ -292,31 +328,39 @@ static unsigned find_port(const struct port *ports, unsigned n, unsigned start, 
     return n;
 }
 
-/* Inputs in the order of the definition, so that it does not count either in which order, or whether, documents set them. */
-static void add_public_inputs(struct walk *w, elem_id node, uint8_t flags)
+/* The node's inputs by port. Outputs say nothing that the definition does not; anything else is left to a generation. */
+static elem_id *sort_inputs(struct walk *w, elem_id node, const struct port *ports, unsigned n)
+{
+    elem_id *inputs = ARENA_ARRAY(w->arena, elem_id, n);
+    unsigned port = 0;
+    for (elem_id child = doc_element(w->doc, node)->first_child; child; child = doc_element(w->doc, child)->next) {
+        const struct element *e = doc_element(w->doc, child);
+        bool is_output = e->kind == KIND_OUTPUT && type_of(w, child) != DOC_TYPE_NONE;
+        port = e->kind == KIND_INPUT ? find_port(ports, n, port, e->name) : n;
+        w->is_unknown |= e->first_child || (!is_output && (port == n || inputs[port]));
+        if (w->is_unknown)
+            break;
+        if (!is_output)
+            inputs[port] = child;
+    }
+    return inputs;
+}
+
+static void add_node(struct walk *w, elem_id node, uint8_t flags)
 {
     uint32_t nodedef = library_match(w->lib, node, &w->faults);
     w->is_unknown |= nodedef == LIBRARY_NONE || w->faults.items.len;
     if (w->is_unknown)
         return;
-    const struct nodedef *def = library_nodedef(w->lib, nodedef);
+    unsigned n = library_nodedef(w->lib, nodedef)->num_inputs;
     const struct port *ports = library_ports(w->lib, nodedef, NULL);
-    elem_id *inputs = ARENA_ARRAY(w->arena, elem_id, def->num_inputs);
-    unsigned port = 0;
-    for (elem_id e = doc_element(w->doc, node)->first_child; e; e = doc_element(w->doc, e)->next) {
-        if (doc_element(w->doc, e)->kind != KIND_INPUT) {
-            add_child(w, e, flags);
-            continue;
+    elem_id *inputs = sort_inputs(w, node, ports, n);
+    add(w, nodedef);
+    for (unsigned i = 0; i < n && !w->is_unknown; i++)
+        if (inputs[i] && !is_as_unset(w, inputs[i], &ports[i], flags & IS_PUBLIC)) {
+            add(w, (uint64_t)i + 1);
+            add_input(w, inputs[i], flags);
         }
-        port = find_port(ports, def->num_inputs, port, doc_element(w->doc, e)->name);
-        w->is_unknown |= port == def->num_inputs || inputs[port];
-        if (w->is_unknown)
-            return;
-        inputs[port] = e;
-    }
-    for (unsigned i = 0; i < def->num_inputs && !w->is_unknown; i++)
-        if (inputs[i] && !is_as_unset(w, inputs[i], &ports[i]))
-            add_child(w, inputs[i], flags);
 }
 
 /* ---- Elements ---- */
@@ -333,28 +377,17 @@ static void add_output(struct walk *w, elem_id output)
         w->met.items[number].flags |= IS_PUBLIC;
 }
 
-static void add_inputs(struct walk *w, elem_id node, uint8_t flags)
-{
-    for (elem_id child = doc_element(w->doc, node)->first_child; child && !w->is_unknown; child = doc_element(w->doc, child)->next)
-        add_child(w, child, flags);
-}
-
-/* Inputs of graphs belong to the interface, too. The document itself says nothing that is not asked for from below. */
+/* Inputs of graphs belong to the interface, too. What is around an element says nothing that is not asked for from below. */
 static void add_element(struct walk *w, uint32_t number)
 {
     struct met met = w->met.items[number];
     const struct element *e = doc_element(w->doc, met.element);
-    bool of_graph = e->kind == KIND_INPUT && e->parent && doc_element(w->doc, e->parent)->kind == KIND_NODEGRAPH;
-    add(w, e->kind);
-    if (!e->parent)
-        return;
-    add_text(w, e->category);
-    add(w, number_of(w, e->parent));
+    bool in_graph = e->parent && doc_element(w->doc, e->parent)->kind == KIND_NODEGRAPH, of_graph = e->kind == KIND_INPUT && in_graph;
+    w->is_unknown |= in_graph && doc_attr(w->doc, e->parent, STR_nodedef);
+    add(w, (uint64_t)e->kind << 8 | (of_graph || met.flags & IS_PUBLIC));
     bool is_connected = add_attributes(w, met.element, of_graph || met.flags & IS_PUBLIC);
-    if (e->kind == KIND_NODE && met.flags & IS_PUBLIC)
-        add_public_inputs(w, met.element, met.flags);
-    else if (e->kind == KIND_NODE)
-        add_inputs(w, met.element, met.flags);
+    if (e->kind == KIND_NODE)
+        add_node(w, met.element, met.flags);
     else if (number == 0 && is_connected)
         add_output(w, met.element);
     add(w, 0);
