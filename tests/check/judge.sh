@@ -32,7 +32,7 @@ check 'a budget of 0 is one' exits 1 "$mxgen" check show "${quick[@]}" --max-clo
 check 'what is no number' exits 2 "$mxgen" check show --max-closures many
 check 'has nothing behind it' exits 2 "$mxgen" check show --max-closures 1x
 check 'a budget for no target' exits 2 "$mxgen" check show --max-closures glsl=100,gsls=1
-check 'says which there are' grep -q "no target 'gsls'; known are: glsl" err
+check 'says which there are' grep -q "unknown target 'gsls'; known are: glsl" err
 if [ "$compiles" = yes ]; then
     check 'instructions' exits 1 "$mxgen" check show/deep/near.mtlx --max-instructions 500
     check 'name functions and nodes' grep -Eq 'instructions, where 500 are allowed: .*[:,] mx_[a-z_]+ [0-9]+.*\[over-budget\]' out

@@ -91,6 +91,8 @@ check 'gives nothing' none_in half
 check 'missing file' exits 1 "$mxgen" none.mtlx
 check 'has its id' grep -q '\[file-missing\]' err
 check 'a folder as a file' exits 1 "$mxgen" other
+check 'too little memory' exits 1 "$mxgen" two.mtlx --max-memory 1000
+check 'is told' grep -q 'memory \[failed\]' err
 : >empty.mtlx
 check 'an empty file' exits 1 "$mxgen" empty.mtlx
 check 'has its id too' grep -q '\[file-empty\]' err

@@ -1,14 +1,16 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # Every message's example: what is wrong gives the message, what is right does not; and the table of messages in the documentation.
-# Arguments: the program, the documentation.
+# Arguments: the program, the documentation, the root of the project.
 mxgen=$(realpath "$1")
 documentation=$(realpath "$2")
+root=$(realpath "$3")
 here=$(cd "$(dirname "$0")" && pwd)
 . "$here/common.sh"
 
 # Files that cannot be in an example; elsewhere (tests/diag/elsewhere.txt) they are tested.
-without_example='blur-left-out check-crashed check-failed check-timeout file-too-large graph-depth output-limit render-failed shader-invalid'
+without_example='blur-left-out check-crashed check-failed check-timeout file-too-large graph-depth output-limit render-failed shader-invalid
+failed no-renderer no-device device-lost device-memory size-limit bad-mesh empty-mesh bad-environment bad-shader no-look no-uniform no-picture'
 
 # What mxgen says of an example: ids of all messages, with the notes' too.
 says() { # folder
@@ -34,7 +36,7 @@ mentions() { # output, id
 try() { # id
     "$mxgen" explain "$1" -o examples || return 1
     if [ ! -d "examples/$1" ]; then
-        [[ " $without_example " == *" $1 "* ]] || { echo "no example"; return 1; }
+        [[ " ${without_example//$'\n'/ } " == *" $1 "* ]] || { echo "no example"; return 1; }
         return 0
     fi
     local wrong right
@@ -49,6 +51,12 @@ ids=$("$mxgen" explain | sed 's/ .*//')
 for id in $ids; do
     check "$id" try "$id"
 done
+# What the programs print by themselves is explained as well
+printed=$(cd "$root" && grep -rhoE '(report_(error|warning)\([^"]*|fail(_as)?\([^"]*|\bid = |VK_ERROR_[A-Z_]+, )"[a-z]+(-[a-z]+)*"' cli validate render | grep -oE '"[^"]*"$' | tr -d '"' | sort -u)
+for id in $printed; do
+    check "$id has an explanation" grep -qx "$id" <<<"$ids"
+done
+check 'there are some of these' test "$(wc -w <<<"$printed")" -ge 25
 check "there are some" test "$(wc -w <<<"$ids")" -ge 100
 check 'an unknown id' exits 2 "$mxgen" explain typ-mismatch
 check 'is compared' grep -q "did you mean 'type-mismatch'" err
