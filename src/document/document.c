@@ -19,23 +19,9 @@ enum element_kind doc_kind_of(str_id category)
 
 /* Layers */
 
-static const struct document *layer_of(const struct document *doc, elem_id element)
-{
-    while (element < doc->first_element)
-        doc = doc->base;
-    assert(element - doc->first_element < doc->elements.len);
-    return doc;
-}
-
-const struct element *doc_element(const struct document *doc, elem_id element)
-{
-    doc = layer_of(doc, element);
-    return &doc->elements.items[element - doc->first_element];
-}
-
 const struct attribute *doc_attrs(const struct document *doc, elem_id element)
 {
-    doc = layer_of(doc, element);
+    doc = doc_layer(doc, element);
     const struct element *e = &doc->elements.items[element - doc->first_element];
     return e->num_attrs ? &doc->attrs.items[e->first_attr - doc->first_attr] : NULL;
 }
@@ -238,7 +224,7 @@ elem_id doc_next_in_tree(const struct document *doc, elem_id root, elem_id eleme
 
 const struct attribute *doc_attr(const struct document *doc, elem_id element, str_id name)
 {
-    doc = layer_of(doc, element);
+    doc = doc_layer(doc, element);
     const struct element *e = &doc->elements.items[element - doc->first_element];
     for (uint32_t i = 0; i < e->num_attrs; i++) {
         const struct attribute *attr = &doc->attrs.items[e->first_attr - doc->first_attr + i];
@@ -394,7 +380,7 @@ void doc_index_element(struct document *doc, elem_id element)
 
 elem_id doc_child(const struct document *doc, elem_id parent, str_id name)
 {
-    doc = layer_of(doc, parent);
+    doc = doc_layer(doc, parent);
     if (doc->narrow_names)
         return name ? find_narrow(doc, parent, name) : 0;
     return doc->name_table && name ? doc->name_table[find_slot(doc, parent, name)] : 0;

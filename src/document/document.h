@@ -145,7 +145,19 @@ void doc_index_names(struct document *doc, struct diag_list *diags);
 /* The same for one element that was added, renamed or moved since. */
 void doc_index_element(struct document *doc, elem_id element);
 
-const struct element *doc_element(const struct document *doc, elem_id element);
+/* The layer that an element is of. */
+static inline const struct document *doc_layer(const struct document *doc, elem_id element)
+{
+    while (element < doc->first_element)
+        doc = doc->base;
+    assert(element - doc->first_element < doc->elements.len);
+    return doc;
+}
+static inline const struct element *doc_element(const struct document *doc, elem_id element)
+{
+    doc = doc_layer(doc, element);
+    return &doc->elements.items[element - doc->first_element];
+}
 /* Pointer to the element's num_attrs attributes. */
 const struct attribute *doc_attrs(const struct document *doc, elem_id element);
 const struct attribute *doc_attr(const struct document *doc, elem_id element, str_id name); /* NULL: absent */

@@ -7,10 +7,16 @@
 
 struct _xmlParserCtxt;
 
-/* A place in the text of a source; line and column are known up to `offset`. */
+/* A place in the text of a source: `offset` is in that line. */
 struct xml_position {
-    size_t offset;
-    uint32_t line, column;
+    size_t offset, line_begin;
+    uint32_t line; /* 0: not known yet */
+};
+
+/* A name that libxml2 keeps once, and its id. */
+struct xml_name {
+    const char *text;
+    str_id id;
 };
 
 /* The file being read. Its text is UTF-8 without a byte-order mark, whatever the file had. */
@@ -22,6 +28,7 @@ struct xml_source {
     size_t start; /* where the XML begins, behind text that was skipped */
     VEC(size_t) raw_less; /* offsets of raw '<' in attribute values, where XML_RAW_LESS stands now */
     elem_id root;
+    bool is_ascii;                /* a column is a byte */
     struct xml_position position; /* of the last tag or value seen */
     elem_id current;    /* the innermost open element */
     uint32_t depth;     /* open elements */
@@ -40,6 +47,8 @@ struct xml_file {
     bool open;   /* it is being read now: including it is a cycle */
 };
 
+enum { XML_NUM_NAMES = 128 /* a power of two */ };
+
 struct xml_reader {
     struct document *doc;
     struct mem *mem;
@@ -51,6 +60,7 @@ struct xml_reader {
     void *handle; /* of the file that is open, for files->release */
     bool handle_open;
     struct xml_source *source;
+    struct xml_name names[XML_NUM_NAMES]; /* met last, each where its address says; those of `parser` */
     VEC(elem_id) includes; /* <xi:include> elements of the files being read, innermost last; replaced when the file is parsed */
     VEC(struct xml_file) opened;
     uint32_t include_depth;

@@ -38,12 +38,21 @@ struct start_tag {
     const xmlChar **attrs;      /* name, prefix, URI, value, end of the value */
 };
 
+/* A name from libxml2's dictionary, which has each text at one address for as long as the reader's parser lives. */
+static str_id plain_name(struct xml_reader *reader, const char *name)
+{
+    struct xml_name *known = &reader->names[((uintptr_t)name ^ (uintptr_t)name >> 7) & (XML_NUM_NAMES - 1)];
+    if (known->text != name)
+        *known = (struct xml_name){name, str_intern_z(reader->doc->strings, name)};
+    return known->id;
+}
+
 /* "prefix:name" or "name", interned. */
 static str_id qualified_name(struct xml_reader *reader, const char *prefix, const char *name)
 {
     struct strpool *strings = reader->doc->strings;
     if (!prefix)
-        return str_intern_z(strings, name);
+        return plain_name(reader, name);
     char small[128];
     size_t prefix_len = strlen(prefix), name_len = strlen(name), len = prefix_len + 1 + name_len;
     char *text = len <= sizeof small ? small : arena_alloc(&reader->scratch, len);
@@ -113,7 +122,28 @@ static void add_attr(struct xml_reader *reader, elem_id element, str_id name, st
                  .column = (uint16_t)(place.column < UINT16_MAX ? place.column : UINT16_MAX)});
 }
 
-/* Attributes in the order of the text. The name is kept apart; namespace declarations other than XInclude's are attributes. */
+/* Offset of the value of an attribute where it stands as it is in the input of libxml2; SIZE_MAX where it is a copy. */
+static size_t value_offset(const struct xml_reader *reader, const xmlChar *value)
+{
+    const xmlParserInput *input = reader->parser->input;
+    uintptr_t base = (uintptr_t)input->base, at = (uintptr_t)value;
+    bool is_inside = at > base && at < (uintptr_t)input->end;
+    return is_inside ? reader->source->start + input->consumed + (size_t)(at - base) : SIZE_MAX;
+}
+
+/* The name is kept apart. */
+static void add_plain_attr(const struct start_tag *tag, int index, elem_id element, struct diag_place place, size_t offset)
+{
+    struct xml_reader *reader = tag->reader;
+    const xmlChar **a = tag->attrs + (size_t)index * 5;
+    str_id name = qualified_name(reader, (const char *)a[1], (const char *)a[0]);
+    if (name == STR_name)
+        doc_set_name(reader->doc, element, attr_value(reader, a[3], a[4]));
+    else
+        add_attr(reader, element, name, attr_value(reader, a[3], a[4]), place, offset);
+}
+
+/* Attributes in the order of the text. Namespace declarations other than XInclude's are attributes. */
 static void add_attrs(const struct start_tag *tag, elem_id element, struct diag_place place, size_t at)
 {
     struct xml_reader *reader = tag->reader;
@@ -128,12 +158,7 @@ static void add_attrs(const struct start_tag *tag, elem_id element, struct diag_
                 add_attr(reader, element, qualified_name(reader, prefix ? "xmlns" : NULL, prefix ? prefix : "xmlns"),
                          str_intern_z(reader->doc->strings, uri), place, value);
         } else if (attr < tag->num_attrs) {
-            const xmlChar **a = tag->attrs + (size_t)attr++ * 5;
-            str_id name = qualified_name(reader, (const char *)a[1], (const char *)a[0]);
-            if (name == STR_name)
-                doc_set_name(reader->doc, element, attr_value(reader, a[3], a[4]));
-            else
-                add_attr(reader, element, name, attr_value(reader, a[3], a[4]), place, value);
+            add_plain_attr(tag, attr++, element, place, value);
         } else {
             break;
         }
@@ -168,14 +193,25 @@ static elem_id add_element(const struct start_tag *tag, struct diag_place place)
     return source->root;
 }
 
+/* The offset of the first value, where those of all are known and nothing else stands between them; SIZE_MAX where they are not. */
+static size_t known_values(const struct start_tag *tag)
+{
+    if (tag->num_namespaces || !tag->num_attrs)
+        return SIZE_MAX;
+    for (int i = 0; i < tag->num_attrs; i++)
+        if (value_offset(tag->reader, tag->attrs[(size_t)i * 5 + 3]) == SIZE_MAX)
+            return SIZE_MAX;
+    return value_offset(tag->reader, tag->attrs[3]);
+}
+
 static void start_element(void *arg)
 {
     const struct start_tag *tag = arg;
     struct xml_reader *reader = tag->reader;
     struct xml_source *source = reader->source;
-    size_t at = parser_offset(reader); /* behind the attributes: the tag's start is the last '<', which cannot stand inside one */
+    size_t values = known_values(tag), at = values != SIZE_MAX ? values : parser_offset(reader);
     while (at > source->start && (at == source->size || source->text[at] != '<'))
-        at--;
+        at--; /* from the first value or from behind the attributes: the tag's start is the last '<', which cannot stand inside one */
     struct diag_place place = xml_place(reader, at);
     if (source->depth >= reader->limits.max_depth) {
         diag_add(reader->diags, DIAG_ID_xml_depth, place, (unsigned)reader->limits.max_depth);
@@ -185,7 +221,10 @@ static void start_element(void *arg)
     elem_id element = add_element(tag, place);
     if (!element)
         return;
-    add_attrs(tag, element, place, skip_while(source, at, is_in_name));
+    if (values == SIZE_MAX)
+        add_attrs(tag, element, place, skip_while(source, at, is_in_name));
+    for (int i = 0; i < tag->num_attrs && values != SIZE_MAX; i++)
+        add_plain_attr(tag, i, element, place, value_offset(reader, tag->attrs[(size_t)i * 5 + 3]));
     source->current = element;
     source->depth++;
     if (!is_xinclude(tag))
@@ -349,11 +388,24 @@ static bool prepare_parser(struct xml_reader *reader)
     return true;
 }
 
+static bool is_ascii(const char *text, size_t size)
+{
+    uint64_t all = 0, word;
+    for (; size >= sizeof word; text += sizeof word, size -= sizeof word) {
+        memcpy(&word, text, sizeof word);
+        all |= word;
+    }
+    for (; size; text++, size--)
+        all |= (unsigned char)*text;
+    return (all & 0x8080808080808080u) == 0;
+}
+
 static void parse_once(struct xml_reader *reader)
 {
     struct xml_source *source = reader->source;
+    source->is_ascii = is_ascii(source->text, source->size);
     reader->stopped = reader->raw_less = false;
-    source->position = (struct xml_position){.line = 1, .column = 1};
+    source->position = (struct xml_position){.line = 1};
     source->current = 0;
     source->depth = 0;
     /*

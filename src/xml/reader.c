@@ -5,22 +5,26 @@
 
 /* Places */
 
+static uint32_t count_code_points(const struct xml_source *source, size_t begin, size_t end)
+{
+    uint32_t count = (uint32_t)(end - begin);
+    for (size_t at = begin; at < end && !source->is_ascii; at++)
+        count -= ((unsigned char)source->text[at] & 0xc0) == 0x80; /* continuation bytes of UTF-8 are no code points */
+    return count;
+}
+
 struct diag_place xml_place(struct xml_reader *reader, size_t offset)
 {
     struct xml_source *source = reader->source;
     struct xml_position p = source->position;
     if (offset < p.offset || p.line == 0)
-        p = (struct xml_position){.line = 1, .column = 1};
-    for (; p.offset < offset; p.offset++) {
-        unsigned char byte = (unsigned char)source->text[p.offset];
-        p.column += (byte & 0xc0) != 0x80; /* continuation bytes of UTF-8 are no code points */
-        if (byte == '\n') {
-            p.line++;
-            p.column = 1;
-        }
-    }
+        p = (struct xml_position){.line = 1};
+    for (const char *newline; (newline = memchr(source->text + p.offset, '\n', offset - p.offset)) != NULL; p.line++)
+        p.offset = p.line_begin = (size_t)(newline - source->text) + 1;
+    p.offset = offset;
     source->position = p;
-    return (struct diag_place){.file = doc_file_name(reader->doc, source->file), .line = p.line, .column = p.column};
+    return (struct diag_place){.file = doc_file_name(reader->doc, source->file), .line = p.line,
+                               .column = count_code_points(source, p.line_begin, offset) + 1};
 }
 
 /* Files */
