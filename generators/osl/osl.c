@@ -106,15 +106,6 @@ static void write_declarations(struct osl *osl, const char *above, const char *s
         SPELL(spell, osl->helpers.items[i], "\n");
 }
 
-static void write_structs(struct spell *spell)
-{
-    const struct lang_reach *reach = &spell->stage->reach;
-    for (uint32_t i = 0; i < reach->user_types.len; i++)
-        lang_print_struct(spell->style, &spell->lang_names, spell->shader->unit, reach->user_types.items[i], spell->out);
-    if (reach->user_types.len)
-        spell_text(spell, "\n");
-}
-
 static const char *shader_type(const struct spell *spell)
 {
     static const char *const words[] = {[SHADER_VALUE] = "shader", [SHADER_SURFACE] = "surface", [SHADER_VOLUME] = "volume"};
@@ -156,7 +147,7 @@ static void write_stage(struct spell *spell, enum shader_stage_id stage)
 {
     (void)stage;
     struct osl osl = {.spell = spell};
-    struct text *out = spell->out, shader, above;
+    struct text *out = spell->out, shader, functions, above;
     spell->target_data = &osl;
     spell->lang_names.form = osl_form;
     spell->write_node = spell_typed_node;
@@ -164,16 +155,20 @@ static void write_stage(struct spell *spell, enum shader_stage_id stage)
     osl_index_helpers(&osl);
     osl_name_interface(&osl);
     osl_name_same_functions(spell);
+    osl_name_makers(&osl);
+    spell->lang_names.maker = osl_maker;
     osl_find_kinds(&osl);
     text_init(&shader, spell->scratch);
     spell->out = &shader;
     write_graph_functions(spell);
     write_shader(&osl);
-    text_init(&above, spell->scratch);
-    spell->out = &above;
-    write_structs(spell);
+    text_init(&functions, spell->scratch);
+    spell->out = &functions;
     spell_verbatim_sources(spell);
-    osl_write_functions(&osl, text_cstr(&shader), &above);
+    osl_write_functions(&osl, text_cstr(&shader), &functions);
+    text_init(&above, spell->scratch);
+    osl_write_structs(&osl, text_cstr(&functions), text_cstr(&shader), &above);
+    text_str(&above, text_cstr(&functions));
     spell->out = out;
     spell_text(spell, "// ");
     spell_title(spell);

@@ -15,6 +15,10 @@ struct osl_macro {
     uint32_t uses;
 };
 
+struct osl_maker { /* structs.c: the function that puts a struct together */
+    const char *type, *name;
+};
+
 /* What is known while a file is written. */
 struct osl {
     struct spell *spell;
@@ -22,6 +26,7 @@ struct osl {
     uint8_t *kinds;   /* per node of three components: enum osl_kind */
     uint8_t first_helper[IR_NUM_OPS]; /* the first row of helpers.def for an op, + 1; 0: there is none */
     VEC(struct osl_macro) macros;
+    VEC(struct osl_maker) makers;
     VEC(const char *) helpers; /* functions that the file declares for itself, callees first */
 };
 
@@ -44,6 +49,11 @@ void osl_name_same_functions(struct spell *spell);
 void osl_write_functions(struct osl *osl, const char *shader, struct text *out);
 char osl_type_letter(ir_type_id type); /* as in helpers.def */
 bool osl_mentions(const char *text, const char *word);
+
+/* structs.c: those of the document's functions, with what puts them together where `functions` or the shader calls it */
+void osl_name_makers(struct osl *osl);
+const char *osl_maker(void *user_data, const char *type); /* lang_names.maker */
+void osl_write_structs(const struct osl *osl, const char *functions, const char *shader, struct text *out);
 
 /* textures.c: the form that reads a texture of the graph; NULL: it is one that a function was given. */
 const char *osl_texture_call(struct osl *osl, const struct lang_use *use);

@@ -464,6 +464,8 @@ struct lang_names {
     const char *(*function)(void *user_data, uint32_t id);
     const char *(*global)(void *user_data, uint32_t id);
     const char *(*user_type)(void *user_data, ir_type_id type);
+    /* The function that puts a struct together, by the struct's name in the output; NULL: its constructor. */
+    const char *(*maker)(void *user_data, const char *type);
     /* The form of an op, CONSTRUCT, SWIZZLE and INDEX included, where types decide; NULL: the syntax's own. */
     const struct lang_pieces *(*form)(void *user_data, const struct lang_use *use);
 };

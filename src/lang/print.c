@@ -142,8 +142,13 @@ static void print_list(struct printer *p, lang_ref ref)
 static void print_construct(struct printer *p, const struct lang_node *node)
 {
     bool is_array = ast_is_user_type(node->type) && lang_user_type(p->unit, node->type, NULL)->array_length;
+    bool is_struct = ast_is_user_type(node->type) && !is_array;
+    const char *maker = is_struct ? print_maker(p->names, p->unit, node->type) : NULL;
     if (is_array) {
         print_open_array(p->style, p->names, p->unit, node->type, p->out);
+    } else if (maker) {
+        text_str(p->out, maker);
+        text_char(p->out, '(');
     } else {
         lang_print_type(p->style, p->names, p->unit, node->type, p->out);
         text_char(p->out, '(');

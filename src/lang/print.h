@@ -9,6 +9,8 @@ const char *print_function_name(const struct lang_names *names, const struct lan
 const char *print_global_name(const struct lang_names *names, const struct lang_unit *unit, uint32_t id);
 const char *print_struct_name(const struct lang_names *names, const struct lang_unit *unit, ir_type_id type);
 
+const char *print_maker(const struct lang_names *names, const struct lang_unit *unit, ir_type_id type); /* NULL: none */
+
 /* A type in two parts, which stand around a variable's name: without the lengths of arrays, and these. */
 void print_base_type(const struct lang_style *style, const struct lang_names *names, const struct lang_unit *unit,
                      ir_type_id type, struct text *out);

@@ -22,6 +22,11 @@ const char *print_struct_name(const struct lang_names *names, const struct lang_
     return name ? name : str_text(unit->strings, lang_user_type(unit, type, NULL)->name);
 }
 
+const char *print_maker(const struct lang_names *names, const struct lang_unit *unit, ir_type_id type)
+{
+    return names && names->maker ? names->maker(names->user_data, print_struct_name(names, unit, type)) : NULL;
+}
+
 void print_base_type(const struct lang_style *style, const struct lang_names *names, const struct lang_unit *unit,
                             ir_type_id type, struct text *out)
 {

@@ -88,8 +88,12 @@ static void write_list(struct spell *spell, ir_ref ref)
 static void write_construct(struct spell *spell, ir_ref ref, ir_type_id type)
 {
     const struct ir_user_type *user = user_type(spell, type);
-    bool braces = user && user->array_length && spell->target->syntax->array_braces;
-    if (!braces)
+    bool braces = user && user->array_length && spell->target->syntax->array_braces, is_struct = user && !user->array_length;
+    const struct lang_names *names = &spell->lang_names;
+    const char *maker = is_struct && names->maker ? names->maker(names->user_data, struct_name(spell, user->name)) : NULL;
+    if (maker)
+        spell_text(spell, maker);
+    else if (!braces)
         spell_type(spell, type);
     text_char(spell->out, braces ? '{' : '(');
     write_list(spell, ref);
