@@ -234,21 +234,34 @@ static bool find_kind(const char *id, mxg_diagnostic_kind *out)
     return false;
 }
 
+static void write_example(struct cli *cli, const mxg_diagnostic_kind *kind, const char *folder)
+{
+    const char *const names[] = {"wrong", "right"};
+    for (int i = 0; i < 2 && *kind->example; ++i) {
+        char *path = cli_format("%s/%s/%s", folder, kind->id, names[i]);
+        write_side(cli, kind->example, "-+"[i], path);
+        free(path);
+    }
+}
+
+static void write_examples(struct cli *cli, const char *folder)
+{
+    for (uint32_t i = 0; i < mxg_num_diagnostic_kinds(); ++i) {
+        mxg_diagnostic_kind kind = {sizeof kind};
+        mxg_get_diagnostic_kind(i, &kind);
+        write_example(cli, &kind, folder);
+    }
+}
+
 static bool explain(struct cli *cli, const char *id, const char *folder)
 {
     mxg_diagnostic_kind kind;
     if (!find_kind(id, &kind))
         return false;
-    if (!folder) {
+    if (folder)
+        write_example(cli, &kind, folder);
+    else
         print_kind(&kind);
-        return true;
-    }
-    const char *const names[] = {"wrong", "right"};
-    for (int i = 0; i < 2 && *kind.example; ++i) {
-        char *path = cli_format("%s/%s/%s", folder, id, names[i]);
-        write_side(cli, kind.example, "-+"[i], path);
-        free(path);
-    }
     return true;
 }
 
@@ -258,7 +271,7 @@ int command_explain(const struct command *command, int argc, char **argv)
     const char *folder = NULL;
     bool markdown = false;
     const struct arg args[] = {
-        {"output", 'o', ARG_TEXT, "DIR", "writes the examples of the messages there instead: ID/wrong and ID/right", &folder},
+        {"output", 'o', ARG_TEXT, "DIR", "writes the examples of the messages (default: of all) there instead: ID/wrong and ID/right", &folder},
         {"markdown", 0, ARG_FLAG, NULL, "prints all as one document", &markdown},
     };
     int code;
@@ -266,6 +279,8 @@ int command_explain(const struct command *command, int argc, char **argv)
         bool found = true;
         if (markdown)
             print_markdown();
+        else if (cli.parser.inputs.len == 0 && folder)
+            write_examples(&cli, folder);
         else if (cli.parser.inputs.len == 0)
             print_list();
         for (size_t i = 0; i < cli.parser.inputs.len; ++i) {

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /* mxgen library: packs libraries into images, lists and documents their definitions, expands their templates. */
+#define _POSIX_C_SOURCE 200809L
 #include "cli/files.h"
 #include "cli/library_doc.h"
 
 #include <string.h>
+#include <unistd.h>
 
 static bool write_output(struct cli *cli, const char *path, const void *data, size_t size)
 {
@@ -21,7 +23,9 @@ static void pack(struct cli *cli, const struct library_args *args)
 {
     const void *data;
     size_t size;
-    if (report_status(&cli->report, mxg_library_image(cli->library, &data, &size)))
+    if (!args->output && isatty(STDOUT_FILENO))
+        report_error(&cli->report, "output-failed", "cannot write an image, which is no text, to a terminal; say -o FILE");
+    else if (report_status(&cli->report, mxg_library_image(cli->library, &data, &size)))
         write_output(cli, args->output, data, size);
 }
 

@@ -223,7 +223,7 @@ MXG_API mxg_library *mxg_library_builtin(mxg_context *context);
 
 /*
  * A library of `base` (may be NULL: an empty one) and the given files, folders (every .mtlx below) or library images (.mxlib). Where a
- * definition stands in both, the new one wins. *out_library is set even with MXG_ERROR_DOCUMENT, for its diagnostics. Folders are those
+ * definition stands in both, the new one wins. An image stands on no base, and is the first of the paths. *out_library is set even with MXG_ERROR_DOCUMENT, for its diagnostics. Folders are those
  * of the file system; what lies in them is read through the resolver.
  */
 MXG_API mxg_status mxg_library_load(mxg_context *context, mxg_library *base, const char *const *paths, size_t num_paths,

@@ -58,6 +58,8 @@ for id in $printed; do
 done
 check 'there are some of these' test "$(wc -w <<<"$printed")" -ge 25
 check "there are some" test "$(wc -w <<<"$ids")" -ge 100
+check 'the examples of all' exits 0 "$mxgen" explain -o all
+check 'are those of each' eval 'diff <(ls all) <(ls examples) && diff all/type-mismatch/wrong/example.mtlx examples/type-mismatch/wrong/example.mtlx'
 check 'an unknown id' exits 2 "$mxgen" explain typ-mismatch
 check 'is compared' grep -q "did you mean 'type-mismatch'" err
 "$mxgen" explain --markdown >messages.md
