@@ -205,11 +205,11 @@ static void validate(struct examiner *examiner, const mxg_document *document)
     examiner->document->validate_ms = examine_clock() - begin;
 }
 
-/* Of a generation whose result nobody looks at but for messages: what tells its equals. 0: nothing does, or it must be made. */
+/* Of a generation of which nobody reads more than messages: what tells its equals. 0: nothing does, or it must be made. */
 static uint64_t find_structure(const struct examiner *examiner, const mxg_document *document, const mxg_generate_desc *desc)
 {
     uint64_t structure = 0;
-    if (desc->without_source && !examiner->render && !examiner->no_sharing)
+    if (desc->only_diagnostics && !examiner->no_sharing)
         mxg_document_structure(examiner->cli->context, document, desc, &structure);
     return structure;
 }
@@ -223,6 +223,7 @@ static void generate(struct examiner *examiner, const mxg_document *document, co
     desc.element = element;
     desc.options = examiner->cli->options;
     desc.without_source = examiner->is_brief && !examiner->compile && !examiner->cli->max_output_size; /* nobody would read it */
+    desc.only_diagnostics = desc.without_source && !examiner->render;
     mxg_result *result = NULL;
     channel_mark(&examiner->channel, CHECK_GENERATE, element, shader->target);
     uint64_t structure = find_structure(examiner, document, &desc);

@@ -346,6 +346,11 @@ typedef struct mxg_generate_desc {
      * Nothing but the limit max_output_mib can be violated by writing the source. Networks of OSL have their layers all the same.
      */
     bool without_source;
+    /*
+     * Only whether it can be generated: diagnostics, and files beside the document. There is no source, no variable and no info; what is
+     * left to do then cannot fail. A third of the time.
+     */
+    bool only_diagnostics;
 } mxg_generate_desc;
 #define MXG_GENERATE_DESC_INIT MXG_INIT(mxg_generate_desc)
 

@@ -16,7 +16,8 @@ static void generate(struct generation *g)
     if (g->result->network.arena)
         g->result->has_shader = built && generation_make_network(g);
     else
-        g->result->has_shader = built && generation_emit(g) && (g->desc.without_source || generation_spell(g));
+        g->result->has_shader = built && generation_emit(g) && !g->desc.only_diagnostics && generation_finish(g)
+                                && (g->desc.without_source || generation_spell(g));
     if (!g->result->has_shader)
         drop_source(g->result);
 }

@@ -443,9 +443,13 @@ bool generation_emit(struct generation *g)
     g->result->shader.scatters = g->options[OPTION_integrator].number == 2;
     if (!emit(g))
         generation_report_not_renderable(g, g->result->shader.scatters ? "a path tracer is given surfaces and values only" : gives_nothing);
-    if (!is_good(g))
-        return false;
-    g->result->graph.max_nodes = 0; /* finishing adds a few nodes that it must have */
+    return is_good(g);
+}
+
+/* No messages come of this, and the few nodes that it adds are counted in no limit. */
+bool generation_finish(struct generation *g)
+{
+    g->result->graph.max_nodes = 0;
     struct shader_layout_rules rules = generation_layout_rules(g);
     shader_finish(&g->result->shader, &rules);
     return is_good(g);

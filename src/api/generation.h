@@ -74,7 +74,8 @@ mxg_status generation_run(mxg_context *context, const mxg_document *document, co
 bool generation_start(struct generation *g); /* target, element, options */
 bool generation_build(struct generation *g); /* g->root */
 void generation_start_closures(struct generation *g); /* what the closure room asks for; generation_emit does it itself */
-bool generation_emit(struct generation *g);  /* the stages' effects, and the finished shader */
+bool generation_emit(struct generation *g);  /* the stages' effects: behind these, nothing can fail */
+bool generation_finish(struct generation *g); /* the shader */
 bool generation_spell(struct generation *g); /* source */
 /* Instead of the last two. */
 bool generation_make_network(struct generation *g); /* network.c */

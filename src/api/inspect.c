@@ -75,7 +75,7 @@ static void write_counts(struct text *out, const char *name, uint32_t count)
 
 static void view_statistics(struct generation *g, struct text *out)
 {
-    if (!generation_start(g) || !generation_build(g) || !generation_emit(g) || !generation_spell(g))
+    if (!generation_start(g) || !generation_build(g) || !generation_emit(g) || !generation_finish(g) || !generation_spell(g))
         return;
     const mxg_result *result = g->result;
     const struct shader *shader = &result->shader;

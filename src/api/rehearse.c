@@ -49,7 +49,7 @@ static void record(void *arg)
     rehearsal->recorder->weighed = false;
     g->result->unit.recorder = rehearsal->recorder;
     if (generation_build(g)) /* a model with errors is told when it is used */
-        generation_emit(g);
+        (void)(generation_emit(g) && generation_finish(g));
 }
 
 /* The recorder's memory is not the generation's: its jumps end here. */

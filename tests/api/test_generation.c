@@ -214,6 +214,29 @@ static void test_without_source(struct bench *b)
     mxg_result_destroy(facts);
 }
 
+static void test_only_diagnostics(struct bench *b)
+{
+    static const char *const elements[] = {"M", "nothing"};
+    for (int i = 0; i < 2; i++) {
+        mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
+        desc.target = "glsl";
+        desc.element = elements[i];
+        mxg_result *whole = NULL, *told = NULL;
+        mxg_shader_info info = {sizeof info};
+        mxg_status status = mxg_generate(b->context, b->document, &desc, &whole);
+        desc.only_diagnostics = true;
+        REQUIRE_EQ(mxg_generate(b->context, b->document, &desc, &told), status);
+        REQUIRE_EQ(status, i ? MXG_ERROR_DOCUMENT : MXG_OK);
+        REQUIRE_EQ(mxg_diagnostics_count(mxg_result_diagnostics(told)), mxg_diagnostics_count(mxg_result_diagnostics(whole)));
+        REQUIRE_EQ(mxg_result_num_files(told), mxg_result_num_files(whole));
+        REQUIRE(!mxg_result_source(told, MXG_STAGE_PIXEL, NULL) && !mxg_result_reflection_json(told, NULL));
+        REQUIRE_EQ(mxg_result_num_variables(told), 0);
+        REQUIRE_EQ(mxg_result_info(told, &info), MXG_ERROR_ARGUMENT);
+        mxg_result_destroy(whole);
+        mxg_result_destroy(told);
+    }
+}
+
 static void test_interfaces(struct bench *b)
 {
     mxg_options_set(b->options, "interface", "reduced");
@@ -495,6 +518,7 @@ int main(void)
     test_views(&b);
     test_globs(&b);
     test_without_source(&b);
+    test_only_diagnostics(&b);
     test_interfaces(&b);
     bench_close(&b);
     test_elements();
