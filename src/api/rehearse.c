@@ -46,7 +46,6 @@ static void record(void *arg)
     if (!generation_start(g))
         return;
     rehearsal->recorder->num_globals = 0;
-    rehearsal->recorder->weighed = false;
     g->result->unit.recorder = rehearsal->recorder;
     if (generation_build(g)) /* a model with errors is told when it is used */
         (void)(generation_emit(g) && generation_finish(g));

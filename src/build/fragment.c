@@ -102,8 +102,7 @@ bool build_restore(struct builder *b, const struct frame *frame, ir_ref *results
     for (unsigned i = 0; i < codes[0]; i++)
         results[i] = nodes[codes[i + 1]];
     b->graph->origin = restoring.outer;
-    b->shader->model = (struct shader_model){results[0], (unsigned)(fragment - unit->fragments.items) + 1, nodes, (unsigned)room, pattern.num_inputs,
-                                             restoring.outer, pattern.has_derivative};
+    b->shader->model = (struct shader_model){results[0], (unsigned)(fragment - unit->fragments.items) + 1, nodes, (unsigned)room, pattern.num_inputs, restoring.outer};
     return true;
 }
 
@@ -119,8 +118,8 @@ void build_record(struct builder *b, const struct frame *frame, const ir_ref *re
     struct fragment_host host = host_of(&restoring);
     uint32_t before = b->graph->origin;
     b->graph->origin = frame->inner->origin;
-    unsigned number = fragment_record(&host, &recorder->graph_fragment_of.items[frame->node.nodedef], &pattern, recorder->weighed, results, 1);
+    unsigned number = fragment_record(&host, &recorder->graph_fragment_of.items[frame->node.nodedef], &pattern, results, 1);
     b->shader->model = (struct shader_model){number ? results[0] : 0, number, recorder->nodes.items, recorder->nodes.len,
-                                             pattern.num_inputs, restoring.outer, pattern.has_derivative};
+                                             pattern.num_inputs, restoring.outer};
     b->graph->origin = before;
 }

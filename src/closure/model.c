@@ -179,7 +179,7 @@ static const struct lang_fragment *find(struct shader *shader, const struct lang
     const struct shader_model *model = &shader->model;
     uint16_t follower = lowest->fragments.items[model->fragment - 1].follower;
     const struct lang_fragment *fragment = follower ? &lowest->fragments.items[follower - 1] : NULL;
-    bool is_same = fragment && !(fragment->flags & LANG_FRAGMENT_WEIGHED && model->has_derivative) && has_lights(shader, lowest, fragment);
+    bool is_same = fragment && has_lights(shader, lowest, fragment);
     return is_same && !closure_may_guard(shader, model->nodes + 1, model->num_inputs) ? fragment : NULL;
 }
 

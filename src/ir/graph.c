@@ -104,24 +104,52 @@ void ir_graph_init(struct ir_graph *graph, struct arena *arena, struct strpool *
     grow_table(graph);
 }
 
-static bool function_has_derivative(const struct ir_graph *graph, const struct ir_function *function)
+/* What calls of an IR function have of its body. */
+static unsigned function_flags(const struct ir_graph *graph, const struct ir_function *function)
 {
+    unsigned flags = 0;
     for (uint32_t i = 0; i < function->num_results; i++)
-        if (ir_get(graph, graph->function_results.items[function->first_result + i])->flags & IR_NODE_DERIVATIVE)
-            return true;
-    return false;
+        flags |= ir_get(graph, graph->function_results.items[function->first_result + i])->flags;
+    return flags & (IR_NODE_DERIVATIVE | IR_NODE_PARTIAL);
 }
+
+/* A constant, or never below one; a divisor must not be 0. */
+static bool is_bounded(const struct ir_graph *graph, ir_ref ref, bool is_divisor)
+{
+    const struct ir_node *node = ir_get(graph, ref);
+    if (node->op == IR_MAX || node->op == IR_CLAMP)
+        ref = ir_arg(graph, ref, 1);
+    else if (node->op == IR_ABS)
+        return !is_divisor;
+    return ir_is_const(graph, ref) && !(is_divisor && ir_const_is(graph, ref, 0.0f));
+}
+
+/* What an op is by itself; PARTIAL ops are so unless their operand is bounded. */
+static const uint8_t flags_of_ops[IR_NUM_OPS] = {
+    [IR_CONTEXT] = IR_NODE_LOOP, [IR_SAMPLE] = IR_NODE_LOOP,
+    [IR_DFDX] = IR_NODE_DERIVATIVE, [IR_DFDY] = IR_NODE_DERIVATIVE, [IR_FWIDTH] = IR_NODE_DERIVATIVE,
+    [IR_TEX] = IR_NODE_DERIVATIVE | IR_NODE_DEAR,
+    [IR_TEX_LOD] = IR_NODE_DEAR, [IR_TEX_GRAD] = IR_NODE_DEAR, [IR_TEX_FETCH] = IR_NODE_DEAR,
+    [IR_CALL] = IR_NODE_DEAR, [IR_VERBATIM] = IR_NODE_DEAR, [IR_GRAPH_CALL] = IR_NODE_DEAR,
+    [IR_DIV] = IR_NODE_PARTIAL, [IR_MOD] = IR_NODE_PARTIAL, [IR_POW] = IR_NODE_PARTIAL, [IR_SQRT] = IR_NODE_PARTIAL,
+    [IR_RSQRT] = IR_NODE_PARTIAL, [IR_LOG] = IR_NODE_PARTIAL, [IR_LOG2] = IR_NODE_PARTIAL, [IR_ASIN] = IR_NODE_PARTIAL,
+    [IR_ACOS] = IR_NODE_PARTIAL,
+};
 
 /* Of the node itself; those of its operands are added to them. */
 static unsigned own_flags(const struct ir_graph *graph, struct content c)
 {
-    bool derivative = ir_op_info(c.op)->flags & OP_DERIVATIVE;
-    if (c.op == IR_CALL || c.op == IR_VERBATIM || c.op == IR_LEAF)
-        derivative = graph->callees.items[c.attr].derivative;
-    else if (c.op == IR_GRAPH_CALL)
-        derivative = function_has_derivative(graph, &graph->functions.items[c.attr]);
-    bool closure = ir_type_is_closure(c.type) || ir_type_is_shader(c.type), loop = c.op == IR_CONTEXT || c.op == IR_SAMPLE;
-    return (derivative ? IR_NODE_DERIVATIVE : 0u) | (closure ? IR_NODE_CLOSURE : 0u) | (loop ? IR_NODE_LOOP : 0u);
+    unsigned flags = flags_of_ops[c.op];
+    if (flags & IR_NODE_PARTIAL) {
+        bool divides = c.op == IR_DIV || c.op == IR_MOD;
+        if (is_bounded(graph, c.data[divides], divides))
+            flags = 0;
+    } else if (c.op == IR_CALL || c.op == IR_VERBATIM || c.op == IR_LEAF) {
+        flags |= graph->callees.items[c.attr].derivative ? IR_NODE_DERIVATIVE : 0u;
+    } else if (c.op == IR_GRAPH_CALL) {
+        flags |= function_flags(graph, &graph->functions.items[c.attr]);
+    }
+    return flags | (ir_type_is_closure(c.type) || ir_type_is_shader(c.type) ? IR_NODE_CLOSURE : 0u);
 }
 
 /* Copies the operands to graph->args and returns their flags; they may lie there already, so that growing would move them. */
@@ -139,7 +167,7 @@ static unsigned push_args(struct ir_graph *graph, const ir_ref *args, uint32_t n
         flags |= nodes[from[i]].flags;
     }
     graph->args.len = len + num_args;
-    return flags & (IR_NODE_DERIVATIVE | IR_NODE_LOOP);
+    return flags & IR_NODE_INHERITED;
 }
 
 static void push_words(struct ir_graph *graph, const uint32_t *words, uint32_t num_words)

@@ -150,6 +150,9 @@ enum ir_node_flags {
     IR_NODE_DERIVATIVE = 1, /* it or an operand has OP_DERIVATIVE, or calls something that has */
     IR_NODE_CLOSURE = 2,    /* closure or shader type */
     IR_NODE_LOOP = 4,       /* it or an operand is CONTEXT or SAMPLE: it has a value inside of their loop only */
+    IR_NODE_DEAR = 8,       /* it or an operand is a call or reads a texture */
+    IR_NODE_PARTIAL = 16,   /* it or an operand may be undefined where its own operands are not: a quotient, a root */
+    IR_NODE_INHERITED = IR_NODE_DERIVATIVE | IR_NODE_LOOP | IR_NODE_DEAR | IR_NODE_PARTIAL /* from operands */
 };
 
 /* Where a node comes from: for names, comments and diagnostics. The IR carries it and does not look inside. */

@@ -92,7 +92,6 @@ static void put_node(struct fragment_pattern *pattern, ir_ref ref, unsigned dept
     if (pattern->failed)
         return;
     pattern->inputs[pattern->num_inputs++] = ref;
-    pattern->has_derivative |= (node->flags & IR_NODE_DERIVATIVE) != 0;
     if (ir_is_looked_through((enum ir_op)node->op))
         put_looked_through(pattern, ref, depth);
     else
@@ -104,7 +103,7 @@ void fragment_pattern_begin(struct fragment_pattern *pattern, const struct ir_gr
     pattern->graph = graph;
     pattern->len = pattern->num_inputs = 0;
     pattern->layer = layer;
-    pattern->has_derivative = pattern->failed = false;
+    pattern->failed = false;
 }
 
 void fragment_pattern_add(struct fragment_pattern *pattern, ir_ref argument)
@@ -127,7 +126,6 @@ const struct lang_fragment *fragment_find(const struct lang_unit *layer, uint32_
     for (uint32_t next = pattern->failed ? 0 : first; next;) {
         const struct lang_fragment *fragment = &layer->fragments.items[next - 1];
         if (fragment->hash == hash && fragment->choice == choice && fragment->pattern_len == pattern->len
-            && !(pattern->has_derivative && fragment->flags & LANG_FRAGMENT_WEIGHED)
             && memcmp(layer->codes.items + fragment->first_code, pattern->codes, pattern->len * sizeof *pattern->codes) == 0)
             return fragment;
         next = fragment->next;

@@ -35,7 +35,6 @@ struct fragment_pattern {
     const struct ir_graph *graph;
     const struct lang_unit *layer; /* the library's */
     unsigned len, num_inputs;
-    bool has_derivative;  /* among the inputs */
     bool failed;          /* too large */
     uint16_t codes[FRAGMENT_MAX_PATTERN];
     ir_ref inputs[FRAGMENT_MAX_INPUTS]; /* each node that the pattern tells apart, in order of appearance */
@@ -72,7 +71,7 @@ const uint16_t *fragment_restore(const struct fragment_host *host, const struct 
                                  const ir_ref *inputs, unsigned num_inputs, ir_ref *nodes);
 
 /* fragment_record.c: takes down what became of `pattern`; its number + 1, or 0 where it cannot be. `first` is the chain. */
-unsigned fragment_record(const struct fragment_host *host, uint16_t *first, const struct fragment_pattern *pattern, bool weighed,
+unsigned fragment_record(const struct fragment_host *host, uint16_t *first, const struct fragment_pattern *pattern,
                          const ir_ref *results, unsigned num_results);
 /* What follows on the nodes of a fragment: codes that must be the same where it is restored, results, and codes behind them. */
 struct fragment_follower {

@@ -200,15 +200,15 @@ static bool is_taken(const struct lang_recorder *recorder, uint32_t first, uint3
     return false;
 }
 
-unsigned fragment_record(const struct fragment_host *host, uint16_t *first, const struct fragment_pattern *pattern, bool weighed,
+unsigned fragment_record(const struct fragment_host *host, uint16_t *first, const struct fragment_pattern *pattern,
                          const ir_ref *results, unsigned num_results)
 {
     struct lang_recorder *recorder = host->unit->recorder;
     struct taker t = {.host = host, .graph = host->graph, .recorder = recorder, .inputs = pattern->inputs, .num_inputs = pattern->num_inputs,
                       .layer = pattern->layer};
     struct lang_fragment fragment = {.hash = fragment_hash(pattern), .first_code = recorder->codes.len, .next = *first,
-                                     .pattern_len = (uint16_t)pattern->len, .flags = weighed ? LANG_FRAGMENT_WEIGHED : 0};
-    if (pattern->failed || is_taken(recorder, *first, fragment.hash, host->lang->choice) || (weighed && pattern->has_derivative))
+                                     .pattern_len = (uint16_t)pattern->len};
+    if (pattern->failed || is_taken(recorder, *first, fragment.hash, host->lang->choice))
         return 0;
     for (unsigned i = 0; i < pattern->len; i++)
         put(&t, pattern->codes[i]);
@@ -224,8 +224,7 @@ void fragment_record_follower(const struct fragment_host *host, unsigned leader,
     struct lang_recorder *recorder = host->unit->recorder;
     struct taker t = {.host = host, .graph = host->graph, .recorder = recorder, .inputs = follower->nodes + 1,
                       .num_inputs = follower->num_nodes - 1, .layer = lang_lowest(host->unit)};
-    struct lang_fragment fragment = {.first_code = recorder->codes.len, .pattern_len = (uint16_t)follower->num_key,
-                                     .flags = recorder->weighed ? LANG_FRAGMENT_WEIGHED : 0};
+    struct lang_fragment fragment = {.first_code = recorder->codes.len, .pattern_len = (uint16_t)follower->num_key};
     for (unsigned i = 0; i < follower->num_key; i++)
         put(&t, follower->key[i]);
     take(&t, follower->results, follower->num_results);

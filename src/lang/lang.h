@@ -104,12 +104,9 @@ struct lang_fragment {
     uint16_t pattern_len, num_nodes;
     uint16_t next;       /* of the same function: its number + 1; 0: none */
     uint16_t follower;   /* what is made of these nodes afterwards, a fragment without pattern: its number + 1; 0: none */
-    uint16_t flags;      /* enum lang_fragment_flags */
-    uint16_t unused;
+    uint32_t unused;
     uint32_t choice;     /* of the host that it was made for */
 };
-
-enum lang_fragment_flags { LANG_FRAGMENT_WEIGHED = 1 /* whether branches are cheap was asked: derivatives among the arguments matter */ };
 
 enum lang_global_kind { LANG_GLOBAL_CONST, LANG_GLOBAL_UNIFORM, LANG_GLOBAL_STREAM, LANG_GLOBAL_OPTION };
 
@@ -295,7 +292,6 @@ struct lang_recorder {
     } globals[64];
     unsigned num_globals;
     uint32_t first_new; /* nodes of the use at hand: those that nobody needs are kept, too, since they may give later ones their names; 0: not */
-    bool weighed;      /* in the generation at hand: LANG_FRAGMENT_WEIGHED */
     VEC(ir_ref) nodes; /* of the fragment that was taken down last, as restoring it gives them: [0] is none, then inputs and nodes */
 };
 void lang_recorder_init(struct lang_recorder *recorder, struct arena *arena, const struct lang_unit *lowest, uint32_t num_graphs);

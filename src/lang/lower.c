@@ -456,7 +456,7 @@ static void lower_known_function(struct lower *lo, uint32_t id, const ir_ref *ar
     if (!has_pattern || !recorder)
         return;
     recorder->first_new = first_new;
-    fragment_record(&host, &recorder->fragment_of.items[id], &pattern, lo->weighed, results, lang_num_results(lo->unit, id));
+    fragment_record(&host, &recorder->fragment_of.items[id], &pattern, results, lang_num_results(lo->unit, id));
 }
 
 void lang_lower_call(struct lang_unit *generated, struct ir_graph *graph, const struct lang_host *host, uint32_t id,
@@ -471,6 +471,4 @@ void lang_lower_call(struct lang_unit *generated, struct ir_graph *graph, const 
         lower_inline_expression(&lo, args, results);
     else
         lower_known_function(&lo, id, args, results);
-    if (generated->recorder)
-        generated->recorder->weighed |= lo.weighed;
 }

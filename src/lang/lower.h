@@ -40,7 +40,6 @@ struct lower {
     uint32_t max_graph_nodes; /* a body that makes the graph larger than this is not worth it */
     uint32_t num_calls;       /* that were built, or found in the graph */
     bool failed; /* the function cannot become nodes: the result is of no use */
-    bool weighed; /* whether a branch is cheap was asked */
 };
 
 static inline const struct lang_node *lower_node(const struct lower *lo, lang_ref ref)

@@ -64,10 +64,12 @@ static struct mark mark(const struct lower *lo)
     return (struct mark){lo->graph->nodes.len, lo->num_calls};
 }
 
-/* May the nodes since `begin` be computed although they may not be needed? A call may not, though there be an equal one. */
+/*
+ * May the nodes since `begin` be computed although they may not be needed? A call may not, though there be an equal one, nor a derivative, which
+ * is for all pixels; what is computed from one may.
+ */
 static bool is_cheap(struct lower *lo, struct mark begin)
 {
-    lo->weighed = true;
     const struct ir_graph *graph = lo->graph;
     uint32_t added = graph->nodes.len - begin.nodes;
     if (lo->num_calls != begin.calls)
@@ -75,7 +77,7 @@ static bool is_cheap(struct lower *lo, struct mark begin)
     for (uint32_t i = begin.nodes; i < graph->nodes.len; i++) {
         const struct ir_node *node = ir_get(graph, i);
         bool is_read_or_call = node->op >= IR_TEX && node->op <= IR_RESULT;
-        if (is_read_or_call || node->flags & IR_NODE_DERIVATIVE)
+        if (is_read_or_call || ir_op_info(node->op)->flags & OP_DERIVATIVE)
             return false;
         added -= node->op == IR_CONST;
     }

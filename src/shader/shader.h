@@ -174,7 +174,6 @@ struct shader_model {
     const ir_ref *nodes;   /* of the fragment: none, inputs, and what it restored */
     unsigned num_nodes, num_inputs;
     uint32_t origin;       /* of the node that uses the model */
-    bool has_derivative;   /* among what it is made of */
 };
 
 struct shader {
