@@ -47,18 +47,34 @@ void closure_sample_light(struct shader *shader, const struct closure_host *host
 /* How far it is from the shaded point: lights without a position are far. */
 ir_ref closure_light_distance(struct shader *shader, const struct closure_host *host);
 
+/* What a leaf adds to the colour in one place: a value with its weight. */
+struct closure_part {
+    ir_ref leaf;     /* operands behind the first are its inputs */
+    ir_ref scalar;   /* decides whether the leaf is computed at all */
+    ir_ref value;
+    bool is_guarded; /* a branch is needed where the leaf's weight is 0 */
+};
+
+/* The places: under each light, once, and for each sample of the environment. */
+enum closure_place { PLACE_LIGHT, PLACE_WHOLE, PLACE_SAMPLE, NUM_PLACES };
+
+struct closure_parts {
+    VEC(struct closure_part) parts;
+};
+
 /* How a surface is lit: surface.c. */
 struct closure_lit {
     uint32_t color;             /* index of the mutable variable; UINT32_MAX while there is none */
     ir_ref base;                /* what the colour begins with; 0 = black */
     struct closure_light light; /* the one at hand; 0: none was asked for */
+    struct closure_parts at[NUM_PLACES];
 };
 
 /* model.c: whether a surface may be lit by a fragment, or what lights it be taken down as one. */
 bool closure_is_usual(const struct shader *shader, const struct closure_host *host, const struct closure_lighting *lighting, ir_ref root);
+/* `state` from a fragment, up to the parts, and shader->closures; false where there is none. */
 bool closure_restore_lit(struct shader *shader, const struct closure_host *host, struct closure_lit *state);
-void closure_record_lit(struct shader *shader, const struct closure_host *host, uint32_t first_effect, uint32_t first_closure,
-                        struct closure_lit *state);
+void closure_record_lit(struct shader *shader, const struct closure_host *host, uint32_t first_closure, struct closure_lit *state);
 
 /* displacement.c: how far a displacement shader moves a point; 0: nothing moves. */
 ir_ref closure_offset(struct shader *shader, ir_ref displacement);
@@ -78,16 +94,8 @@ enum shader_alpha closure_alpha(struct shader *shader, ir_ref alpha);
 ir_ref closure_mul(struct ir_graph *graph, ir_ref a, ir_ref b);
 /* product.c: the same, arranged for values that change from turn to turn of a loop. */
 ir_ref closure_product(struct ir_graph *graph, ir_ref value, ir_ref weight);
-/* What a leaf adds to the colour in one place: a value with its weight. */
-struct closure_part {
-    const struct closure_leaf *leaf;
-    ir_ref value;
-    bool is_guarded; /* a branch is needed where the leaf's weight is 0 */
-};
-/* guard.c: finds which need one. in_loop: only what is computed in each turn counts. */
-void closure_find_guarded(struct shader *shader, struct closure_part *parts, uint32_t count, bool in_loop);
-/* Whether such inputs of a shading model can make a branch of its leaves necessary, unlike variables. */
-bool closure_may_guard(struct shader *shader, const ir_ref *inputs, unsigned count);
+/* guard.c: finds which parts need one. in_loop: only what is computed in each turn counts. */
+void closure_find_guarded(struct shader *shader, struct closure_parts *list, bool in_loop);
 ir_ref closure_one_minus(struct ir_graph *graph, ir_ref a);
 /* Two closures of one type, either of which may be 0: none. */
 ir_ref closure_mixed(struct ir_graph *graph, ir_ref bg, ir_ref fg, ir_ref mix);

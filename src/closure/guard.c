@@ -57,19 +57,13 @@ static bool has_partial_input(const struct ir_graph *g, ir_ref leaf)
     return flags & IR_NODE_PARTIAL;
 }
 
-bool closure_may_guard(struct shader *shader, const ir_ref *inputs, unsigned count)
-{
-    unsigned flags = 0;
-    for (unsigned i = 0; i < count; i++)
-        flags |= ir_get(shader->graph, inputs[i])->flags;
-    return flags & (IR_NODE_DEAR | IR_NODE_PARTIAL);
-}
-
-void closure_find_guarded(struct shader *shader, struct closure_part *parts, uint32_t count, bool in_loop)
+void closure_find_guarded(struct shader *shader, struct closure_parts *list, bool in_loop)
 {
     const struct ir_graph *g = shader->graph;
+    struct closure_part *parts = list->parts.items;
+    uint32_t count = list->parts.len;
     guard_dear(shader, parts, count, in_loop);
     for (uint32_t i = 0; i < count; i++)
-        if (!parts[i].is_guarded && !ir_is_const(g, parts[i].leaf->scalar))
-            parts[i].is_guarded = has_partial_input(g, parts[i].leaf->leaf);
+        if (!parts[i].is_guarded && !ir_is_const(g, parts[i].scalar))
+            parts[i].is_guarded = has_partial_input(g, parts[i].leaf);
 }

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
  * How a surface is lit, as a fragment that follows on the one that the surface is itself (lang/fragment.h): leaves are not found and weighted, their
- * functions not called where a shading model's inputs are all variable, its lights the usual ones and nothing is displaced.
+ * functions not called where a shading model's inputs are no constants, its lights the usual ones and nothing is displaced.
  *
- *     key    number of lights, function and type of each
- *     more   1 if lit, closures: the elements of their leaves, effects: kind, with marks whether there is a value and whether it is about
- *            the colour
+ *     key      number of lights, function and type of each
+ *     results  what the colour begins with; of each part the leaf, which is the model's, the scalar and the value
+ *     more     1 if there are lights, number of closures and the elements of their leaves, number of parts and the place of each
  */
 #include "closure/closure_priv.h"
 
 #include "lang/fragment.h"
 
-enum { MAX_LIGHTS = 8, MAX_CLOSURES = 60, MAX_EFFECTS = 250, HAS_VALUE = 256, OF_COLOR = 512 };
+enum { MAX_LIGHTS = 8, MAX_CLOSURES = 60, MAX_PARTS = 100, PART_RESULTS = 3 };
 
 bool closure_is_usual(const struct shader *shader, const struct closure_host *host, const struct closure_lighting *lighting, ir_ref root)
 {
@@ -111,9 +111,9 @@ static struct fragment_host host_of(struct lit *l)
 
 /* ---- Taking down ---- */
 
-struct notes { /* `more` and what it is about */
-    uint16_t codes[3 + MAX_CLOSURES + MAX_EFFECTS];
-    ir_ref results[1 + MAX_EFFECTS];
+struct notes { /* `more` and the results */
+    uint16_t codes[3 + MAX_CLOSURES + MAX_PARTS];
+    ir_ref results[1 + PART_RESULTS * MAX_PARTS];
     unsigned len, num_results;
 };
 
@@ -131,29 +131,45 @@ static bool note_closures(struct notes *notes, const struct shader *shader, uint
     return count <= MAX_CLOSURES;
 }
 
-static bool note_effects(struct notes *notes, const struct effect_list *effects, uint32_t first, uint32_t color)
+/* The model's leaf that a leaf of weight 1 was made of; 0: none. */
+static ir_ref leaf_of_model(const struct shader *shader, ir_ref unit)
 {
-    uint32_t count = effects->len - first;
-    notes->codes[notes->len++] = (uint16_t)count;
-    for (uint32_t i = first; i < effects->len && count <= MAX_EFFECTS; i++) {
-        const struct effect *effect = &effects->items[i];
-        bool is_of_color = effect->kind == EFFECT_VAR || effect->kind == EFFECT_ACCUMULATE;
-        if (effect->text || effect->index != (is_of_color ? color : 0))
-            return false;
-        notes->codes[notes->len++] = (uint16_t)(effect->kind | (effect->value ? HAS_VALUE : 0) | (is_of_color ? OF_COLOR : 0));
-        if (effect->value)
-            notes->results[notes->num_results++] = effect->value;
+    const struct ir_graph *g = shader->graph;
+    const struct ir_node *node = ir_get(g, unit);
+    for (unsigned i = 1; i < shader->model.num_nodes; i++) {
+        ir_ref ref = shader->model.nodes[i];
+        const struct ir_node *other = ir_get(g, ref);
+        if (other->op == IR_LEAF && other->attr == node->attr && other->origin == node->origin && other->num_args == node->num_args
+            && memcmp(ir_args(g, ref) + 1, ir_args(g, unit) + 1, (node->num_args - 1) * sizeof(ir_ref)) == 0)
+            return ref;
     }
-    return count <= MAX_EFFECTS;
+    return 0;
 }
 
-void closure_record_lit(struct shader *shader, const struct closure_host *host, uint32_t first_effect, uint32_t first_closure,
-                        struct closure_lit *state)
+/* False where a part is of no leaf of the model. */
+static bool note_parts(struct notes *notes, const struct shader *shader, const struct closure_lit *state)
 {
-    struct notes notes = {.codes = {shader->lit}, .results = {state->base}, .len = 1, .num_results = 1};
+    unsigned count = 0, first = notes->len++;
+    for (unsigned place = 0; place < NUM_PLACES; place++)
+        for (uint32_t i = 0; i < state->at[place].parts.len; i++) {
+            const struct closure_part *part = &state->at[place].parts.items[i];
+            ir_ref leaf = leaf_of_model(shader, part->leaf);
+            if (!leaf || ++count > MAX_PARTS)
+                return false;
+            notes->codes[notes->len++] = (uint16_t)place;
+            notes->results[notes->num_results++] = leaf;
+            notes->results[notes->num_results++] = part->scalar;
+            notes->results[notes->num_results++] = part->value;
+        }
+    notes->codes[first] = (uint16_t)count;
+    return true;
+}
+
+void closure_record_lit(struct shader *shader, const struct closure_host *host, uint32_t first_closure, struct closure_lit *state)
+{
+    struct notes notes = {.codes = {state->light.intensity != 0}, .results = {state->base}, .len = 1, .num_results = 1};
     uint16_t key[1 + 2 * MAX_LIGHTS];
-    if (!has_key(shader) || !note_closures(&notes, shader, first_closure)
-        || !note_effects(&notes, &shader->stages[STAGE_PIXEL].effects, first_effect, state->color))
+    if (!has_key(shader) || !note_closures(&notes, shader, first_closure) || !note_parts(&notes, shader, state))
         return;
     struct lit l = {shader, host, state};
     struct fragment_host fragment_host = host_of(&l);
@@ -173,30 +189,29 @@ static bool has_lights(const struct shader *shader, const struct lang_unit *lowe
         && memcmp(lowest->codes.items + fragment->first_code, key, num_key * sizeof *key) == 0;
 }
 
-/* A fragment was made with variables for inputs, and has no branches on account of others. */
 static const struct lang_fragment *find(struct shader *shader, const struct lang_unit *lowest)
 {
-    const struct shader_model *model = &shader->model;
-    uint16_t follower = lowest->fragments.items[model->fragment - 1].follower;
+    uint16_t follower = lowest->fragments.items[shader->model.fragment - 1].follower;
     const struct lang_fragment *fragment = follower ? &lowest->fragments.items[follower - 1] : NULL;
-    bool is_same = fragment && has_lights(shader, lowest, fragment);
-    return is_same && !closure_may_guard(shader, model->nodes + 1, model->num_inputs) ? fragment : NULL;
+    return fragment && has_lights(shader, lowest, fragment) ? fragment : NULL;
 }
 
-/* The effects, whose values stand in `nodes` by the numbers in `results`. */
-static void write_effects(struct shader *shader, const uint16_t *results, const uint16_t *more, const ir_ref *nodes, struct closure_lit *state)
+/* The results' nodes stand in `nodes` by the numbers in `results`. */
+static void take_parts(struct lit *l, const uint16_t *results, const uint16_t *more, const ir_ref *nodes)
 {
-    shader->lit |= *more++ != 0;
-    for (unsigned count = *more++; count > 0; count--)
-        vec_push(shader->arena, &shader->closures, origin_of(shader, *more++));
+    struct shader *shader = l->shader;
+    struct closure_lit *state = l->state;
+    state->base = nodes[*results++];
+    if (*more++ && !state->light.direction)
+        closure_sample_light(shader, l->host, &state->light);
     for (unsigned count = *more++; count > 0; count--) {
-        unsigned code = *more++, kind = code & 255;
-        if (kind == EFFECT_VAR)
-            state->color = shader_add_local(shader, STR_color, IR_TYPE_VEC3);
-        struct effect effect = {.kind = (uint8_t)kind, .index = code & OF_COLOR ? state->color : 0};
-        if (code & HAS_VALUE)
-            effect.value = nodes[*results++];
-        shader_effect(shader, STAGE_PIXEL, effect);
+        uint32_t origin = origin_of(shader, *more++);
+        vec_push(shader->arena, &shader->closures, origin);
+    }
+    for (unsigned count = *more++; count > 0; count--, results += PART_RESULTS) {
+        struct closure_parts *list = &state->at[*more++];
+        struct closure_part part = {.leaf = nodes[results[0]], .scalar = nodes[results[1]], .value = nodes[results[2]]};
+        vec_push(shader->arena, &list->parts, part);
     }
 }
 
@@ -215,7 +230,6 @@ bool closure_restore_lit(struct shader *shader, const struct closure_host *host,
     const uint16_t *codes = fragment_restore(&fragment_host, lowest, fragment, model->nodes + 1, model->num_nodes - 1, nodes);
     shader->graph->origin = before;
     unsigned num_results = *codes++;
-    state->base = nodes[codes[0]];
-    write_effects(shader, codes + 1, codes + num_results, nodes, state);
+    take_parts(&l, codes, codes + num_results, nodes);
     return true;
 }

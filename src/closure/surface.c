@@ -61,14 +61,10 @@ static void declare_color(struct emitter *e)
     effect(e, EFFECT_VAR, e->lit.color, e->lit.base ? vec3_of(e, e->lit.base) : ir_const_splat(e->graph, IR_TYPE_VEC3, 0.0f));
 }
 
-struct part_list {
-    VEC(struct closure_part) parts;
-};
-
-static void add_part(struct emitter *e, struct part_list *list, const struct closure_leaf *leaf, ir_ref value)
+static void add_part(struct emitter *e, enum closure_place place, const struct closure_leaf *leaf, ir_ref value)
 {
     if (value)
-        vec_push(e->shader->arena, &list->parts, (struct closure_part){leaf, value, false});
+        vec_push(e->shader->arena, &e->lit.at[place].parts, (struct closure_part){leaf->leaf, leaf->scalar, value, false});
 }
 
 static void accumulate(struct emitter *e, ir_ref factor, ir_ref value)
@@ -80,17 +76,18 @@ static void accumulate(struct emitter *e, ir_ref factor, ir_ref value)
 }
 
 /* color += factor · Σ parts. Leaves that are always computed share one line; the others stand behind their guards. */
-static void accumulate_all(struct emitter *e, struct part_list *list, ir_ref factor, bool in_loop)
+static void accumulate_all(struct emitter *e, enum closure_place place, ir_ref factor)
 {
     struct ir_graph *g = e->graph;
+    struct closure_parts *list = &e->lit.at[place];
     ir_ref always = 0;
-    closure_find_guarded(e->shader, list->parts.items, list->parts.len, in_loop);
+    closure_find_guarded(e->shader, list, place != PLACE_WHOLE);
     for (uint32_t i = 0; i < list->parts.len;) {
         const struct closure_part *first = &list->parts.items[i];
-        ir_ref guard = first->leaf->scalar, sum = 0;
+        ir_ref guard = first->scalar, sum = 0;
         do
             sum = add(e, sum, list->parts.items[i++].value);
-        while (i < list->parts.len && list->parts.items[i].leaf->scalar == guard && list->parts.items[i].is_guarded == first->is_guarded);
+        while (i < list->parts.len && list->parts.items[i].scalar == guard && list->parts.items[i].is_guarded == first->is_guarded);
         if (!first->is_guarded || ir_is_const(g, guard)) {
             always = add(e, always, sum);
             continue;
@@ -124,37 +121,30 @@ static void flatten_under(struct emitter *e, ir_ref bsdf, const ir_ref *directio
     closure_flatten(e->shader, &host, bsdf, out);
 }
 
-static void emit_lights(struct emitter *e, ir_ref bsdf, const struct closure_list *list, bool *emitted)
+static void find_lit_parts(struct emitter *e, ir_ref bsdf, const struct closure_list *list, bool *emitted)
 {
     if (!e->lighting->lights || !any_has(e, list, LEAF_EVAL))
         return;
     struct closure_list lit;
-    declare_color(e);
-    effect(e, EFFECT_LIGHTS, 0, 0);
     closure_sample_light(e->shader, e->host, &e->lit.light);
     if (e->lighting->two_sided) {
         flatten_under(e, bsdf, &e->lit.light.direction, &lit); /* the same leaves: only throughputs differ */
         assert(lit.leaves.len == list->leaves.len);
         list = &lit;
     }
-    struct part_list parts = {0};
     for (uint32_t i = 0; i < list->leaves.len; i++) {
         const struct closure_leaf *leaf = &list->leaves.items[i];
         ir_ref value = weighted(e, leaf, closure_call(e->shader, e->host, leaf->leaf, LEAF_EVAL, &e->lit.light.direction));
-        add_part(e, &parts, leaf, value);
+        add_part(e, PLACE_LIGHT, leaf, value);
         emitted[i] |= value != 0;
     }
-    accumulate_all(e, &parts, e->lit.light.intensity, true);
-    effect(e, EFFECT_END, 0, 0);
-    e->shader->lit = true;
 }
 
 /* What a function gives at once, and what it gives sample by sample. */
-static void emit_environment(struct emitter *e, const struct closure_list *list, bool *emitted)
+static void find_surrounding_parts(struct emitter *e, const struct closure_list *list, bool *emitted)
 {
     if (!e->lighting->environment)
         return;
-    struct part_list whole = {0}, sampled = {0};
     for (uint32_t i = 0; i < list->leaves.len; i++) {
         const struct closure_leaf *leaf = &list->leaves.items[i];
         ir_ref refracted = closure_call(e->shader, e->host, leaf->leaf, LEAF_TRANSMISSION, NULL);
@@ -162,17 +152,28 @@ static void emit_environment(struct emitter *e, const struct closure_list *list,
                             refracted ? closure_mul(e->graph, refracted, leaf->medium) : 0};
         for (unsigned k = 0; k < 2; k++) {
             ir_ref value = weighted(e, leaf, values[k]);
-            add_part(e, value && ir_get(e->graph, value)->flags & IR_NODE_LOOP ? &sampled : &whole, leaf, value);
+            add_part(e, value && ir_get(e->graph, value)->flags & IR_NODE_LOOP ? PLACE_SAMPLE : PLACE_WHOLE, leaf, value);
             emitted[i] |= value != 0;
         }
     }
-    if (!whole.parts.len && !sampled.parts.len)
+}
+
+/* The parts as effects. */
+static void emit_lit(struct emitter *e)
+{
+    bool has_lights = e->lit.light.intensity != 0, has_samples = e->lit.at[PLACE_SAMPLE].parts.len > 0;
+    if (!has_lights && !has_samples && !e->lit.at[PLACE_WHOLE].parts.len)
         return;
     declare_color(e);
-    accumulate_all(e, &whole, 0, false);
-    if (sampled.parts.len) {
+    if (has_lights) {
+        effect(e, EFFECT_LIGHTS, 0, 0);
+        accumulate_all(e, PLACE_LIGHT, e->lit.light.intensity);
+        effect(e, EFFECT_END, 0, 0);
+    }
+    accumulate_all(e, PLACE_WHOLE, 0);
+    if (has_samples) {
         effect(e, EFFECT_SAMPLES, 0, 0);
-        accumulate_all(e, &sampled, 0, true);
+        accumulate_all(e, PLACE_SAMPLE, 0);
         effect(e, EFFECT_END, 0, 0);
     }
     e->shader->lit = true;
@@ -314,8 +315,17 @@ static struct surface surface_of(struct emitter *e, ir_ref root)
     return known[root];
 }
 
+/* Under lights and environment. Returns which leaves do something there. */
+static const bool *find_parts(struct emitter *e, ir_ref bsdf, const struct closure_list *list)
+{
+    bool *emitted = ARENA_ARRAY(e->shader->arena, bool, list->leaves.len);
+    find_lit_parts(e, bsdf, list, emitted);
+    find_surrounding_parts(e, list, emitted);
+    return emitted;
+}
+
 /* Lights, environment and emission; false where it is left to path tracers. */
-static bool emit_parts(struct emitter *e, const struct surface *s)
+static bool light_surface(struct emitter *e, const struct surface *s)
 {
     struct closure_list list;
     if (e->lighting->two_sided) { /* from around, most light comes at the viewer's angle: by mirroring */
@@ -329,9 +339,7 @@ static bool emit_parts(struct emitter *e, const struct surface *s)
         closure_scatter(e->shader, e->host, &list, e->lighting, e->lit.base, s->alpha);
         return false;
     }
-    bool *emitted = ARENA_ARRAY(e->shader->arena, bool, list.leaves.len);
-    emit_lights(e, s->bsdf, &list, emitted);
-    emit_environment(e, &list, emitted);
+    const bool *emitted = find_parts(e, s->bsdf, &list);
     for (uint32_t i = 0; i < list.leaves.len; i++)
         if (emitted[i])
             shader_add_closure(e->shader, list.leaves.items[i].leaf);
@@ -342,14 +350,15 @@ static void emit_surface(struct emitter *e, ir_ref root)
 {
     struct shader *shader = e->shader;
     struct surface s = root ? surface_of(e, root) : (struct surface){0};
-    uint32_t first_effect = shader->stages[STAGE_PIXEL].effects.len, first_closure = shader->closures.len;
+    uint32_t first_closure = shader->closures.len;
     bool is_usual = closure_is_usual(shader, e->host, e->lighting, root);
     if (!is_usual || !closure_restore_lit(shader, e->host, &e->lit)) {
-        if (!emit_parts(e, &s))
+        if (!light_surface(e, &s))
             return;
         if (is_usual && shader->unit->recorder)
-            closure_record_lit(shader, e->host, first_effect, first_closure, &e->lit);
+            closure_record_lit(shader, e->host, first_closure, &e->lit);
     }
+    emit_lit(e);
     finish_surface(e, &s);
 }
 
@@ -364,11 +373,10 @@ static void emit_volume(struct emitter *e, ir_ref root)
     e->lighting = &lighting;
     ir_ref emitted_light = emission(e, volume.edf);
     e->lit.base = emitted_light ? ir_op2(e->graph, IR_MUL, vec3_of(e, emitted_light), volume.path) : 0;
-    bool *emitted = ARENA_ARRAY(e->shader->arena, bool, volume.scattering.leaves.len);
-    emit_lights(e, 0, &volume.scattering, emitted);
-    emit_environment(e, &volume.scattering, emitted);
+    find_parts(e, 0, &volume.scattering);
     for (uint32_t i = 0; i < volume.scattering.leaves.len; i++)
         shader_add_closure(e->shader, volume.scattering.leaves.items[i].leaf);
+    emit_lit(e);
     e->shader->transparent = true;
     e->shader->alpha = ALPHA_BLEND; /* no alpha test: what glows may take nothing from the background */
     write_output(e, final_color(e), volume.alpha);
