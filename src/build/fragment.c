@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Graphs of the image's definitions as fragments (lang/fragment.h): a shading model whose inputs are all variable is restored, without
+ * Graphs of the image's definitions as fragments (lang/fragment.h): a shading model of whose inputs none is constant is restored, without
  * asking its nodes one by one.
  */
 #include "build/build_priv.h"
@@ -31,18 +31,13 @@ bool build_may_restore(const struct builder *b)
 }
 
 /* False where the graph has no fragments. */
-static bool begin(const struct builder *b, const struct frame *frame, struct fragment_pattern *pattern)
+static bool may_have_fragment(const struct builder *b, const struct frame *frame)
 {
     const struct lang_unit *unit = &lowest(b)->unit;
     uint32_t nodedef = frame->node.nodedef;
     bool is_known = b->shader->unit->recorder ? nodedef < lowest(b)->nodedefs.len
                                               : nodedef < unit->graph_fragment_of.len && unit->graph_fragment_of.items[nodedef];
-    if (!is_known || !b->may_restore || b->recorder || frame->has_tokens || b->host.choice == LANG_NONE)
-        return false;
-    fragment_pattern_begin(pattern, b->graph, unit);
-    for (uint32_t i = 0; i < library_nodedef(b->lib, nodedef)->num_inputs; i++)
-        fragment_pattern_add(pattern, frame->args[i]);
-    return !pattern->failed;
+    return is_known && b->may_restore && !b->recorder && !frame->has_tokens && b->host.choice != LANG_NONE;
 }
 
 struct restoring {
@@ -87,22 +82,31 @@ static struct fragment_host host_of(struct restoring *r)
 
 bool build_restore(struct builder *b, const struct frame *frame, ir_ref *results)
 {
-    struct fragment_pattern pattern;
-    if (b->shader->unit->recorder || !begin(b, frame, &pattern))
-        return false;
     const struct lang_unit *unit = &lowest(b)->unit;
-    const struct lang_fragment *fragment = fragment_find(unit, unit->graph_fragment_of.items[frame->node.nodedef], &pattern, b->host.choice);
+    uint32_t nodedef = frame->node.nodedef;
+    unsigned num_args = library_nodedef(b->lib, nodedef)->num_inputs, num_inputs;
+    ir_ref inputs[FRAGMENT_MAX_INPUTS];
+    if (b->shader->unit->recorder || !may_have_fragment(b, frame) || num_args > FRAGMENT_MAX_INPUTS)
+        return false;
+    const struct lang_fragment *fragment = fragment_find_open(unit, unit->graph_fragment_of.items[nodedef], b->graph, b->host.choice, frame->args,
+                                                              num_args, inputs, &num_inputs);
     if (!fragment)
         return false;
     struct restoring restoring = {b, b->graph->origin};
     struct fragment_host host = host_of(&restoring);
-    size_t room = fragment_room(fragment, pattern.num_inputs);
+    size_t room = fragment_room(fragment, num_inputs);
     ir_ref *nodes = arena_alloc(b->arena, room * sizeof *nodes);
-    const uint16_t *codes = fragment_restore(&host, unit, fragment, pattern.inputs, pattern.num_inputs, nodes);
+    bool *known = arena_alloc(b->arena, room * sizeof *known);
+    nodes[0] = known[0] = 0;
+    memcpy(nodes + 1, inputs, num_inputs * sizeof *nodes);
+    fragment_note_known(b->graph, inputs, num_inputs, known + 1);
+    const uint16_t *codes = fragment_restore(&host, unit, fragment, num_inputs, nodes, known);
     for (unsigned i = 0; i < codes[0]; i++)
         results[i] = nodes[codes[i + 1]];
     b->graph->origin = restoring.outer;
-    b->shader->model = (struct shader_model){results[0], (unsigned)(fragment - unit->fragments.items) + 1, nodes, (unsigned)room, pattern.num_inputs, restoring.outer};
+    b->shader->model = (struct shader_model){.root = host.has_folded ? 0 : results[0], .fragment = (unsigned)(fragment - unit->fragments.items) + 1,
+                                             .nodes = nodes, .known = known, .num_nodes = (unsigned)room, .num_inputs = num_inputs,
+                                             .origin = restoring.outer};
     return true;
 }
 
@@ -112,14 +116,20 @@ void build_record(struct builder *b, const struct frame *frame, const ir_ref *re
     struct lang_recorder *recorder = b->shader->unit->recorder;
     const struct nodedef *def = library_nodedef(b->lib, frame->node.nodedef);
     const struct port *outputs = library_ports(b->lib, frame->node.nodedef, NULL) + def->num_inputs;
-    if (!recorder || def->num_outputs != 1 || !ir_type_is_shader(library_type_ir(b->lib, outputs->type)) || !begin(b, frame, &pattern))
+    if (!recorder || !recorder->of_graphs || def->num_outputs != 1 || !ir_type_is_shader(library_type_ir(b->lib, outputs->type))
+        || !may_have_fragment(b, frame))
+        return;
+    fragment_pattern_begin(&pattern, b->graph, &lowest(b)->unit);
+    for (uint32_t i = 0; i < def->num_inputs; i++)
+        fragment_pattern_add(&pattern, frame->args[i]);
+    if (!fragment_is_open(&pattern))
         return;
     struct restoring restoring = {b, frame->inner->origin};
     struct fragment_host host = host_of(&restoring);
     uint32_t before = b->graph->origin;
     b->graph->origin = frame->inner->origin;
     unsigned number = fragment_record(&host, &recorder->graph_fragment_of.items[frame->node.nodedef], &pattern, results, 1);
-    b->shader->model = (struct shader_model){number ? results[0] : 0, number, recorder->nodes.items, recorder->nodes.len,
-                                             pattern.num_inputs, restoring.outer};
+    b->shader->model = (struct shader_model){.root = number ? results[0] : 0, .fragment = number, .nodes = recorder->nodes.items,
+                                             .num_nodes = recorder->nodes.len, .num_inputs = pattern.num_inputs, .origin = restoring.outer};
     b->graph->origin = before;
 }

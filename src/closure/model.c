@@ -226,9 +226,15 @@ bool closure_restore_lit(struct shader *shader, const struct closure_host *host,
     struct fragment_host fragment_host = host_of(&l);
     uint32_t before = shader->graph->origin;
     shader->graph->origin = 0;
-    ir_ref *nodes = arena_alloc(shader->arena, fragment_room(fragment, model->num_nodes - 1) * sizeof *nodes);
-    const uint16_t *codes = fragment_restore(&fragment_host, lowest, fragment, model->nodes + 1, model->num_nodes - 1, nodes);
+    size_t room = fragment_room(fragment, model->num_nodes - 1);
+    ir_ref *nodes = memcpy(arena_alloc(shader->arena, room * sizeof *nodes), model->nodes, model->num_nodes * sizeof *nodes);
+    bool *known = memcpy(arena_alloc(shader->arena, room * sizeof *known), model->known, model->num_nodes * sizeof *known);
+    const uint16_t *codes = fragment_restore(&fragment_host, lowest, fragment, model->num_nodes - 1, nodes, known);
     shader->graph->origin = before;
+    if (fragment_host.has_folded) { /* a leaf may be gone */
+        state->light = (struct closure_light){0};
+        return false;
+    }
     unsigned num_results = *codes++;
     take_parts(&l, codes, codes + num_results, nodes);
     return true;

@@ -133,6 +133,60 @@ const struct lang_fragment *fragment_find(const struct lang_unit *layer, uint32_
     return NULL;
 }
 
+bool fragment_is_open(const struct fragment_pattern *pattern)
+{
+    for (unsigned at = 0; at < pattern->len; at++) {
+        if (pattern->codes[at] == fragment_head(IR_CONST, IR_TYPE_STRING, 0))
+            at += 2; /* its words */
+        else if (pattern->codes[at] >> 9 != IR_CONST || (pattern->codes[at] & 7) != CODE_OPAQUE)
+            return false;
+    }
+    return !pattern->failed;
+}
+
+/* Whether an argument is what its part of an open pattern says; one that is opaque becomes an input. */
+static bool fits_open(const struct lang_unit *layer, const struct ir_graph *graph, ir_ref arg, const uint16_t **codes, ir_ref *inputs,
+                      unsigned *num_inputs)
+{
+    const struct ir_node *node = ir_get(graph, arg);
+    if (node->op == IR_POISON || node->flags & IR_NODE_LOOP)
+        return false;
+    if (node->op != IR_CONST) {
+        inputs[(*num_inputs)++] = arg;
+        return *(*codes)++ == fragment_head(IR_CONST, node->type, CODE_OPAQUE);
+    }
+    uint16_t constant[FRAGMENT_MAX_CONSTANT];
+    unsigned len = node->type == IR_TYPE_STRING ? fragment_write_constant(graph, layer, node, constant) : 0;
+    bool is_same = len && memcmp(*codes, constant, len * sizeof *constant) == 0;
+    *codes += len;
+    return is_same;
+}
+
+const struct lang_fragment *fragment_find_open(const struct lang_unit *layer, uint32_t first, const struct ir_graph *graph, uint32_t choice,
+                                               const ir_ref *args, unsigned num_args, ir_ref *inputs, unsigned *out_num_inputs)
+{
+    for (uint32_t next = first; next; next = layer->fragments.items[next - 1].next) {
+        const struct lang_fragment *fragment = &layer->fragments.items[next - 1];
+        const uint16_t *codes = layer->codes.items + fragment->first_code;
+        bool fits = fragment->choice == choice;
+        *out_num_inputs = 0;
+        for (unsigned i = 0; i < num_args && fits; i++)
+            fits = fits_open(layer, graph, args[i], &codes, inputs, out_num_inputs);
+        if (fits)
+            return fragment;
+    }
+    return NULL;
+}
+
+void fragment_note_known(const struct ir_graph *graph, const ir_ref *inputs, unsigned num_inputs, bool *known)
+{
+    for (unsigned i = 0; i < num_inputs; i++) {
+        known[i] = ir_is_looked_through((enum ir_op)ir_get(graph, inputs[i])->op);
+        for (unsigned k = 0; k < i && !known[i]; k++)
+            known[i] = inputs[k] == inputs[i];
+    }
+}
+
 /* ---- Restoring ---- */
 
 uint32_t fragment_callee(struct lang_unit *unit, struct ir_graph *graph, uint32_t function)
@@ -157,54 +211,85 @@ static inline ir_type_id restore_type(const struct fragment_host *host, unsigned
     return type == FRAGMENT_USER_TYPE ? lower_graph_type(host->unit, host->graph, (ir_type_id)*(*codes)++) : (ir_type_id)type;
 }
 
-/* `nodes` are those that operands count from 1. */
-static ir_ref restore_op(const struct fragment_host *host, unsigned head, const ir_ref *nodes, const uint16_t **codes)
+struct restoring {
+    struct fragment_host *host;
+    const uint16_t *codes; /* what comes next */
+    const ir_ref *nodes;   /* by the numbers that operands have */
+    bool *known;           /* the same of an open fragment: more can be seen of the node than when it was taken down; or NULL */
+    bool is_known;         /* of the node at hand */
+};
+
+/* What a user can see of `ref`, which was built over known operands, is what was taken down if it is new, opaque and of the same op. */
+static bool shows_more(const struct restoring *r, ir_ref ref, enum ir_op op, uint32_t num_before)
 {
+    return ref < num_before || ir_get(r->host->graph, ref)->op != op || ir_is_looked_through(op);
+}
+
+static ir_ref restore_op(struct restoring *r, unsigned head)
+{
+    struct fragment_host *host = r->host;
     enum ir_op op = (enum ir_op)(head >> 9);
-    ir_type_id type = restore_type(host, head, codes);
+    ir_type_id type = restore_type(host, head, &r->codes);
     unsigned count = head & 7;
-    uint32_t attr = fragment_has_attr(op) ? *(*codes)++ : 0;
+    uint32_t attr = fragment_has_attr(op) ? *r->codes++ : 0;
     ir_ref args[FRAGMENT_MAX_OPERANDS];
+    bool any_known = false;
     if (op == IR_CALL)
         attr = fragment_callee(host->unit, host->graph, attr);
     else if (op == IR_LEAF)
         attr = host->leaf(host->user_data, attr);
     if (count == FRAGMENT_MANY)
-        count = *(*codes)++;
+        count = *r->codes++;
     for (unsigned i = 0; i < count; i++)
-        args[i] = nodes[(*codes)[i]];
-    *codes += count;
-    return ir_restore(host->graph, op, type, attr, args, count);
+        args[i] = r->nodes[r->codes[i]];
+    for (unsigned i = 0; r->known && i < count; i++)
+        any_known |= r->known[r->codes[i]];
+    r->codes += count;
+    if (!any_known)
+        return ir_restore(host->graph, op, type, attr, args, count);
+    uint32_t num_before = host->graph->nodes.len;
+    ir_ref result = ir_build(host->graph, op, type, attr, args, count);
+    host->has_folded |= ir_is_const(host->graph, result);
+    r->is_known = shows_more(r, result, op, num_before);
+    return result;
 }
 
-static ir_ref restore_node(const struct fragment_host *host, const ir_ref *nodes, const uint16_t **codes)
+static ir_ref restore_node(struct restoring *r)
 {
-    unsigned head = *(*codes)++;
+    struct fragment_host *host = r->host;
+    unsigned head = *r->codes++;
     if (head >> 9 == IR_POISON) {
-        host->origin(host->user_data, *(*codes)++);
-        head = *(*codes)++;
+        host->origin(host->user_data, *r->codes++);
+        head = *r->codes++;
     }
     enum ir_op op = (enum ir_op)(head >> 9);
+    r->is_known = false;
     if (op == IR_CONST)
-        return restore_constant(host, (ir_type_id)(head >> 3 & 63), codes);
-    if (op == IR_UNIFORM || op == IR_STREAM || op == IR_TEXTURE)
-        return host->lang->global(host->lang->user_data, host->graph, host->unit, *(*codes)++);
+        return restore_constant(host, (ir_type_id)(head >> 3 & 63), &r->codes);
+    if (op != IR_UNIFORM && op != IR_STREAM && op != IR_TEXTURE && op != IR_LOCAL)
+        return restore_op(r, head);
+    uint32_t num_before = host->graph->nodes.len;
+    ir_ref result;
     if (op == IR_LOCAL) {
-        ir_type_id type = restore_type(host, head, codes);
-        return host->named(host->user_data, *(*codes)++, type);
+        ir_type_id type = restore_type(host, head, &r->codes);
+        result = host->named(host->user_data, *r->codes++, type);
+    } else {
+        result = host->lang->global(host->lang->user_data, host->graph, host->unit, *r->codes++);
     }
-    return restore_op(host, head, nodes, codes);
+    r->is_known = result < num_before; /* perhaps an input */
+    return result;
 }
 
-const uint16_t *fragment_restore(const struct fragment_host *host, const struct lang_unit *layer, const struct lang_fragment *fragment,
-                                 const ir_ref *inputs, unsigned num_inputs, ir_ref *nodes)
+const uint16_t *fragment_restore(struct fragment_host *host, const struct lang_unit *layer, const struct lang_fragment *fragment,
+                                 unsigned num_inputs, ir_ref *nodes, bool *known)
 {
-    ir_ref *next = nodes + 1 + num_inputs;
-    const uint16_t *codes = layer->codes.items + fragment->first_code + fragment->pattern_len;
-    nodes[0] = 0;
-    if (num_inputs)
-        memcpy(nodes + 1, inputs, num_inputs * sizeof *nodes);
-    for (unsigned i = fragment->num_nodes; i > 0; i--)
-        *next++ = restore_node(host, nodes, &codes);
-    return codes;
+    unsigned next = 1 + num_inputs, end = next + fragment->num_nodes;
+    struct restoring r = {.host = host, .nodes = nodes, .known = known,
+                          .codes = layer->codes.items + fragment->first_code + fragment->pattern_len};
+    for (; next < end; next++) {
+        nodes[next] = restore_node(&r);
+        if (known)
+            known[next] = r.is_known;
+    }
+    return r.codes;
 }

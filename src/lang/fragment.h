@@ -13,6 +13,10 @@
  *     CALL, LEAF function or family     an argument like any other          and operands as of any op
  *     POISON     an element                                                 the origin of the nodes that follow
  *     LOCAL      a name                                                     what the host knows by it
+ *
+ * Functions are called with few arguments, of which much may be known: what they became is restored for arguments of the very same pattern. Graphs
+ * have many. Their fragments are *open*: taken down with nothing known of any argument but of strings, and right for all that are no constants. Where
+ * more is known, nodes are built again, which may simplify them.
  */
 #ifndef MXG_LANG_FRAGMENT_H
 #define MXG_LANG_FRAGMENT_H
@@ -54,21 +58,33 @@ struct fragment_host {
     uint32_t own, outer; /* origins; elements of the graph have one below the latter */
     ir_ref (*named)(void *user_data, str_id name, ir_type_id type); /* a node that has a name beyond the graph */
     str_id (*name)(void *user_data, ir_ref node); /* the same backwards; 0: it has none */
+    bool has_folded; /* a node of an open fragment became a constant */
 };
 
 /* The fragment with this pattern in the chain that begins at `first`, made for the same options; NULL. */
 const struct lang_fragment *fragment_find(const struct lang_unit *layer, uint32_t first, const struct fragment_pattern *pattern,
                                           uint32_t choice);
 /*
- * Restores the nodes of a fragment over inputs into `nodes`, which has room for fragment_room(): [0] is none, then come the inputs, then the
- * nodes. Returns the codes behind the last: the number of results, and theirs.
+ * The open fragment of the chain for arguments without constants; NULL: there is none for these. `inputs` has room for all arguments and becomes
+ * those that the fragment is made over.
+ */
+const struct lang_fragment *fragment_find_open(const struct lang_unit *layer, uint32_t first, const struct ir_graph *graph, uint32_t choice,
+                                               const ir_ref *args, unsigned num_args, ir_ref *inputs, unsigned *out_num_inputs);
+bool fragment_is_open(const struct fragment_pattern *pattern);
+/* What `known` says of inputs, see fragment_restore. */
+void fragment_note_known(const struct ir_graph *graph, const ir_ref *inputs, unsigned num_inputs, bool *known);
+
+/*
+ * Restores the nodes of a fragment into `nodes`, which has room for fragment_room(), and begins with none and the inputs; the nodes come behind
+ * them. Returns the codes behind the last: the number of results, and theirs. Of an open fragment `known` tells of each node whether more can be
+ * seen of it than when it was taken down; otherwise NULL.
  */
 static inline size_t fragment_room(const struct lang_fragment *fragment, unsigned num_inputs)
 {
     return (size_t)1 + num_inputs + fragment->num_nodes;
 }
-const uint16_t *fragment_restore(const struct fragment_host *host, const struct lang_unit *layer, const struct lang_fragment *fragment,
-                                 const ir_ref *inputs, unsigned num_inputs, ir_ref *nodes);
+const uint16_t *fragment_restore(struct fragment_host *host, const struct lang_unit *layer, const struct lang_fragment *fragment,
+                                 unsigned num_inputs, ir_ref *nodes, bool *known);
 
 /* fragment_record.c: takes down what became of `pattern`; its number + 1, or 0 where it cannot be. `first` is the chain. */
 unsigned fragment_record(const struct fragment_host *host, uint16_t *first, const struct fragment_pattern *pattern,

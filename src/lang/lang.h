@@ -291,6 +291,7 @@ struct lang_recorder {
         uint32_t global;
     } globals[64];
     unsigned num_globals;
+    bool of_graphs; /* these are taken down, otherwise calls of functions */
     uint32_t first_new; /* nodes of the use at hand: those that nobody needs are kept, too, since they may give later ones their names; 0: not */
     VEC(ir_ref) nodes; /* of the fragment that was taken down last, as restoring it gives them: [0] is none, then inputs and nodes */
 };

@@ -426,11 +426,14 @@ static bool begin_pattern(const struct lower *lo, uint32_t id, const ir_ref *arg
     return !pattern->failed;
 }
 
-static void restore(const struct fragment_host *host, const struct lang_unit *layer, const struct lang_fragment *fragment,
+static void restore(struct fragment_host *host, const struct lang_unit *layer, const struct lang_fragment *fragment,
                     const struct fragment_pattern *pattern, ir_ref *results)
 {
     ir_ref nodes[1 + FRAGMENT_MAX_INPUTS + FRAGMENT_MAX_NODES];
-    const uint16_t *codes = fragment_restore(host, layer, fragment, pattern->inputs, pattern->num_inputs, nodes);
+    nodes[0] = 0;
+    if (pattern->num_inputs)
+        memcpy(nodes + 1, pattern->inputs, pattern->num_inputs * sizeof *nodes);
+    const uint16_t *codes = fragment_restore(host, layer, fragment, pattern->num_inputs, nodes, NULL);
     for (unsigned count = *codes++; count > 0; count--)
         *results++ = nodes[*codes++];
 }
@@ -453,7 +456,7 @@ static void lower_known_function(struct lower *lo, uint32_t id, const ir_ref *ar
         poison_whole_results(lo, results);
     else
         (lo->frame->fn->flags & LANG_FN_PLAIN ? lower_plain_function : lower_function)(lo, id, args, results);
-    if (!has_pattern || !recorder)
+    if (!has_pattern || !recorder || recorder->of_graphs)
         return;
     recorder->first_new = first_new;
     fragment_record(&host, &recorder->fragment_of.items[id], &pattern, results, lang_num_results(lo->unit, id));

@@ -172,6 +172,7 @@ struct shader_model {
     ir_ref root;           /* 0: there is none */
     unsigned fragment;     /* its number + 1 */
     const ir_ref *nodes;   /* of the fragment: none, inputs, and what it restored */
+    const bool *known;     /* fragment_restore */
     unsigned num_nodes, num_inputs;
     uint32_t origin;       /* of the node that uses the model */
 };

@@ -6,7 +6,7 @@ here=$(cd "$(dirname "$0")" && pwd)
 root=$here/../..
 . "$here/common.sh"
 
-# Models whose inputs are all variable, as the image was made for; of some of them images, a normal map and constants.
+# Models whose inputs are all variable; images, their channels and products, a normal map, what is connected twice; constants, for which none was taken down.
 {
     echo '<materialx version="1.39">'
     for model in standard_surface open_pbr_surface gltf_pbr UsdPreviewSurface disney_principled; do
@@ -28,6 +28,30 @@ root=$here/../..
   <input name="roughness" type="float" nodename="grey"/>
   <input name="transmission" type="float" nodename="grey"/>
 </gltf_pbr>
+<separate3 name="channels" type="multioutput"><input name="in" type="color3" nodename="color"/></separate3>
+<multiply name="darker" type="color3">
+  <input name="in1" type="color3" nodename="color"/>
+  <input name="in2" type="float" nodename="grey"/>
+</multiply>
+<gltf_pbr name="packed" type="surfaceshader">
+  <input name="base_color" type="color3" nodename="darker"/>
+  <input name="occlusion" type="float" nodename="channels" output="outr"/>
+  <input name="roughness" type="float" nodename="channels" output="outg"/>
+  <input name="metallic" type="float" nodename="channels" output="outb"/>
+  <input name="normal" type="vector3" nodename="bent"/>
+</gltf_pbr>
+<open_pbr_surface name="twice" type="surfaceshader">
+  <input name="base_color" type="color3" nodename="darker"/>
+  <input name="subsurface_color" type="color3" nodename="darker"/>
+  <input name="specular_roughness" type="float" nodename="channels" output="outg"/>
+  <input name="geometry_normal" type="vector3" nodename="bent"/>
+  <input name="geometry_coat_normal" type="vector3" nodename="bent"/>
+</open_pbr_surface>
+<constant name="none" type="float"><input name="value" type="float" value="0"/></constant>
+<standard_surface name="reduced" type="surfaceshader">
+  <input name="coat" type="float" nodename="none"/>
+  <input name="base_color" type="color3" nodename="darker"/>
+</standard_surface>
 </materialx>
 END
 } >models.mtlx
@@ -55,7 +79,7 @@ done
 built() {
     "$mxgen" inspect models.mtlx --statistics --element "$@" | awk '/operations built/ {print $3}'
 }
-for model in standard_surface open_pbr_surface gltf_pbr; do
-    check "$model is restored, with its lights" test $(($(built "all_$model") + 40)) -lt "$(built "all_$model" "${sources[@]}")"
+for model in all_standard_surface all_open_pbr_surface all_gltf_pbr textured packed twice equal; do
+    check "$model is restored, with its lights" test $(($(built "$model") + 40)) -lt "$(built "$model" "${sources[@]}")"
 done
 finish fragments
