@@ -419,12 +419,16 @@ struct lang_style {
     struct arena *arena;
     bool plain_floats; /* floats are written as they are */
     bool from_images; /* functions are taken from there, where they are */
+    bool is_prepared;
     struct text_word types[IR_NUM_TYPES];
     struct lang_pieces *forms[IR_NUM_OPS]; /* each is made when it is first asked for */
     uint64_t reserved[64];                /* a set that holds the hash of each reserved word: what is not there is free */
 };
 
 void lang_style_init(struct lang_style *style, const struct lang_syntax *syntax, struct arena *arena);
+/* The same in two steps, the second before anything is printed: until then it tells reserved words only. */
+void lang_style_begin(struct lang_style *style, const struct lang_syntax *syntax, struct arena *arena);
+void lang_style_prepare(struct lang_style *style);
 const struct lang_pieces *lang_style_split(struct lang_style *style, enum ir_op op);
 void lang_form_split(const struct lang_form *form, struct arena *arena, struct lang_pieces *out); /* out->text NULL for no form */
 static inline const struct lang_pieces *lang_style_form(struct lang_style *style, enum ir_op op)
@@ -438,7 +442,8 @@ static inline unsigned lang_word_hash(const char *name, size_t len) /* below 409
 static inline bool lang_style_is_reserved(const struct lang_style *style, const char *name, size_t len)
 {
     unsigned hash = lang_word_hash(name, len);
-    return style->reserved[hash / 64] >> hash % 64 & 1 && lang_syntax_is_reserved(style->syntax, name, len);
+    bool may_be = !style->is_prepared || style->reserved[hash / 64] >> hash % 64 & 1;
+    return may_be && lang_syntax_is_reserved(style->syntax, name, len);
 }
 
 /* An op at hand, for targets whose spelling depends on types. */
