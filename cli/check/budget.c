@@ -47,6 +47,10 @@ void budget_finish(struct budget *budget)
     store_finish(&budget->judged.store);
     free(budget->given.folder);
     free(budget->judged.folder);
+    for (size_t i = 0; i < NUM_BUDGET_FOLDERS; ++i) {
+        free(budget->folders[i].name);
+        free(budget->folders[i].file);
+    }
 }
 
 /* ---- The file ---- */
@@ -57,39 +61,52 @@ static bool is_same_folder(const char *a, const char *b)
     return stat(*a ? a : ".", &first) != 0 || stat(b, &second) != 0 || (first.st_dev == second.st_dev && first.st_ino == second.st_ino);
 }
 
-/* The folder above, "" being the current one; NULL above the root. `folder` is freed. */
-static char *folder_above(char *folder)
+/* The folder above, "" being the current one; NULL above the root. */
+static char *folder_above(const char *folder)
 {
-    char *slash = strrchr(folder, '/'), *name = slash ? slash + 1 : folder, *above;
+    const char *slash = strrchr(folder, '/'), *name = slash ? slash + 1 : folder;
+    char *above;
     if (*name && strcmp(name, ".") != 0 && strcmp(name, "..") != 0)
         above = cli_format("%.*s", (int)(slash ? (slash > folder ? slash - folder : 1) : 0), folder);
     else
         above = *folder ? cli_format("%s/..", folder) : cli_format("..");
-    bool is_root = *above && is_same_folder(folder, above);
-    free(folder);
-    if (!is_root)
+    if (!*above || !is_same_folder(folder, above))
         return above;
     free(above);
     return NULL;
 }
 
-/* The nearest file in the folder and those above it; NULL where there is none. */
-static char *find_file(const char *folder)
+static struct budget_folder *place_of(struct budget *budget, const char *folder)
 {
-    for (char *at = cli_format("%s", folder); at; at = folder_above(at)) {
-        char *path = *at ? cli_format("%s/" FILE_NAME, at) : cli_format(FILE_NAME);
-        if (files_is_regular(path)) {
-            free(at);
-            return path;
-        }
-        free(path);
-    }
-    return NULL;
+    uint32_t hash = 2166136261u; /* FNV-1a */
+    for (const char *c = folder; *c; ++c)
+        hash = (hash ^ (unsigned char)*c) * 16777619u;
+    return &budget->folders[(hash ^ hash >> 16) % NUM_BUDGET_FOLDERS];
 }
 
-static void load_file(struct budget_file *file)
+/* The nearest file in the folder and those above it, valid until the next call; NULL where there is none. */
+static const char *find_file(struct budget *budget, const char *folder)
 {
-    char *path = find_file(file->folder);
+    struct budget_folder *known = place_of(budget, folder);
+    if (known->name && strcmp(known->name, folder) == 0)
+        return known->file;
+    char *path = *folder ? cli_format("%s/" FILE_NAME, folder) : cli_format(FILE_NAME);
+    if (!files_is_regular(path)) {
+        free(path);
+        char *above = folder_above(folder);
+        const char *found = above ? find_file(budget, above) : NULL;
+        path = found ? cli_format("%s", found) : NULL;
+        free(above);
+    }
+    free(known->name);
+    free(known->file);
+    *known = (struct budget_folder){cli_format("%s", folder), path};
+    return path;
+}
+
+static void load_file(struct budget *budget, struct budget_file *file)
+{
+    const char *path = find_file(budget, file->folder);
     size_t size = 0;
     char *text = path ? files_read(path, &size) : NULL;
     if (path)
@@ -97,11 +114,10 @@ static void load_file(struct budget_file *file)
     if (text)
         budget_read_toml(&file->store, file->path, text, &file->rules, &file->fault);
     free(text);
-    free(path);
 }
 
 /* Documents come folder by folder: `file` is mostly the one already. */
-static const struct budget_file *file_of(struct budget_file *file, const char *document)
+static const struct budget_file *file_of(struct budget *budget, struct budget_file *file, const char *document)
 {
     const char *slash = strrchr(document, '/');
     char *folder = cli_format("%.*s", slash ? (int)(slash - document) + (slash == document) : 0, document);
@@ -112,13 +128,13 @@ static const struct budget_file *file_of(struct budget_file *file, const char *d
     free(file->folder);
     store_finish(&file->store);
     *file = (struct budget_file){.folder = folder};
-    load_file(file);
+    load_file(budget, file);
     return file;
 }
 
 bool budget_has_file(struct budget *budget, const char *document)
 {
-    const struct budget_file *file = file_of(&budget->given, document);
+    const struct budget_file *file = file_of(budget, &budget->given, document);
     return file->rules.len || file->fault.id;
 }
 
@@ -196,7 +212,7 @@ static const char *copy(struct store *store, const char *text)
 
 void budget_judge(struct budget *budget, struct store *store, struct check_document *document)
 {
-    const struct budget_file *file = file_of(&budget->judged, document->file);
+    const struct budget_file *file = file_of(budget, &budget->judged, document->file);
     if (file->path && document->num_files)
         check_add_file(store, document, file->path);
     if (file->fault.id) {

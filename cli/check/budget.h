@@ -19,8 +19,14 @@ struct budget_rules {
     size_t len;
 };
 
+enum { NUM_BUDGET_FOLDERS = 256 };
+
 struct budget {
     struct store store;
+    struct budget_folder {
+        char *name; /* NULL: free */
+        char *file; /* the nearest in it and above it; NULL: there is none */
+    } folders[NUM_BUDGET_FOLDERS]; /* that were looked into lately, each where its hash says: nothing changes during a run */
     struct budget_rules command_line;
     struct budget_file {
         struct store store;

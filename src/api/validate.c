@@ -14,12 +14,14 @@ struct texture_check {
     size_t size;
 };
 
+enum { FIRST_NAMES = 4096 }; /* bytes, most folders have less */
+
 static void list_folder(struct texture_check *c, const char *from, const char *folder)
 {
     if (c->folder && strcmp(c->from, from) == 0 && strcmp(c->folder, folder) == 0)
         return;
-    char *names = NULL;
-    size_t capacity = 0, size;
+    size_t capacity = FIRST_NAMES, size;
+    char *names = arena_alloc(c->arena, capacity);
     while ((size = c->resolver->list_folder(c->resolver->user_data, from, folder, names, capacity)) > capacity)
         names = arena_alloc(c->arena, capacity = size);
     c->from = from;
