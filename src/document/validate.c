@@ -239,6 +239,7 @@ static void check_element(struct validation *v, elem_id element)
     check_type_and_values(v, element);
     if (!is_foreign(v, element)) /* nothing of it counts */
         validate_attributes(v, element);
+    validate_geometry(v, element);
     if (doc_element(v->doc, element)->kind == KIND_NODEDEF)
         check_has_output(v, element);
 }

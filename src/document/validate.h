@@ -23,6 +23,9 @@ struct validation {
 /* validate_attributes.c */
 void validate_attributes(struct validation *v, elem_id element);
 
+/* validate_geometry.c: lists of names and patterns of geometry. */
+void validate_geometry(struct validation *v, elem_id element);
+
 /* validate_links.c: top-level elements that others refer to are there; graphs have no cycles. Connections are library/validate.c's. */
 void validate_links(struct validation *v);
 

@@ -22,6 +22,8 @@ void validate_attributes_of(struct validate *v, elem_id element);
 /* validate_rules.c: what the specification asks beyond that: uniform inputs stay uniform, declarations fit, units have a type of numbers. */
 void validate_uniform(struct validate *v, elem_id node, const struct port *port, const struct binding *binding);
 void validate_declaration(struct validate *v, elem_id element);
+/* Two implementations of one definition for the same target, where nothing says which of them counts. */
+void validate_implementations(struct validate *v, struct arena *scratch);
 void validate_unit(struct validate *v, elem_id node, const struct port *port, elem_id input);
 void validate_unit_type(struct validate *v, elem_id element);
 

@@ -5,6 +5,8 @@
  */
 #include "library/validate.h"
 
+#include <stdlib.h>
+
 static const char *text_of(const struct validate *v, str_id id)
 {
     return str_text(&v->lib->strings, id);
@@ -226,6 +228,53 @@ void validate_declaration(struct validate *v, elem_id element)
     default:
         break;
     }
+}
+
+/* ---- Implementations ---- */
+
+/* "Custom Node Definition Using Node Graphs": what may not be said twice; code and a graph may stand side by side. */
+struct claim {
+    uint32_t nodedef;
+    str_id target, format;
+    bool is_graph;
+    uint32_t graph; /* which may be said twice, by its own attribute and by an <implementation> */
+    elem_id element;
+};
+
+static int compare_claims(const void *left, const void *right)
+{
+    const struct claim *a = left, *b = right;
+    uint32_t first[] = {a->nodedef, a->target, a->format, a->is_graph, a->element};
+    uint32_t second[] = {b->nodedef, b->target, b->format, b->is_graph, b->element};
+    for (size_t i = 0; i < sizeof first / sizeof *first; i++)
+        if (first[i] != second[i])
+            return first[i] < second[i] ? -1 : 1;
+    return 0;
+}
+
+static bool is_competing(const struct claim *a, const struct claim *b)
+{
+    return a->nodedef == b->nodedef && a->target == b->target && a->format == b->format && a->is_graph == b->is_graph
+           && !(a->is_graph && a->graph == b->graph);
+}
+
+void validate_implementations(struct validate *v, struct arena *scratch)
+{
+    uint32_t count = v->lib->impls.len;
+    struct claim *claims = ARENA_ARRAY(scratch, struct claim, count);
+    for (uint32_t i = 0; i < count; i++) {
+        const struct implementation *impl = &v->lib->impls.items[i];
+        claims[i] = (struct claim){impl->nodedef, impl->target, doc_attr_value(v->doc, impl->element, STR_format),
+                                   impl->kind == IMPL_GRAPH, impl->kind == IMPL_GRAPH ? impl->ref : 0, impl->element};
+    }
+    if (count > 1)
+        qsort(claims, count, sizeof *claims, compare_claims);
+    for (uint32_t i = 1; i < count; i++)
+        if (is_competing(&claims[i - 1], &claims[i]))
+            diag_add(v->diags, DIAG_ID_competing_implementations, doc_place(v->doc, claims[i].element),
+                     text_of(v, doc_element(v->doc, claims[i].element)->name),
+                     text_of(v, library_nodedef(v->lib, claims[i].nodedef)->name),
+                     text_of(v, doc_element(v->doc, claims[i - 1].element)->name));
 }
 
 /* "Units": floats and vectors have them, and files of such. */

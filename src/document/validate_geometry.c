@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+/* Names and patterns of geometry (MaterialX Geometry Extensions, "Geometry Representation" and "Geometry Name Expressions"). */
+#include "document/validate.h"
+
+/* One name of a list, [text, end) without the blanks around it. */
+struct geometry_name {
+    const char *text, *end;
+};
+
+/* Behind the name at `text`: a comma inside of braces or brackets is the name's own. */
+static const char *name_end(const char *text)
+{
+    char until = 0;
+    for (; *text && (until || *text != ','); text++) {
+        if (*text == until)
+            until = 0;
+        else if (!until)
+            until = *text == '[' ? ']' : *text == '{' ? '}' : 0;
+    }
+    return text;
+}
+
+static struct geometry_name trimmed(const char *text, const char *end)
+{
+    while (text < end && (*text == ' ' || *text == '\t' || *text == '\n'))
+        text++;
+    while (text < end && (end[-1] == ' ' || end[-1] == '\t' || end[-1] == '\n'))
+        end--;
+    return (struct geometry_name){text, end};
+}
+
+/* NULL: nothing is wrong with what stands between brackets of one kind. */
+static const char *bracket_fault(struct geometry_name name, char open, char close, const char *unclosed, const char *unopened, const char *empty)
+{
+    const char *begin = NULL;
+    for (const char *c = name.text; c < name.end; c++) {
+        if (*c == open && !begin)
+            begin = c;
+        else if (*c == close && !begin)
+            return unopened;
+        else if (*c == close && c == begin + 1)
+            return empty;
+        else if (*c == close)
+            begin = NULL;
+    }
+    return begin ? unclosed : NULL;
+}
+
+static bool has_blank(struct geometry_name name)
+{
+    for (const char *c = name.text; c < name.end; c++)
+        if (*c == ' ' || *c == '\t' || *c == '\n')
+            return true;
+    return false;
+}
+
+/* '//' stands for any depth; more mean nothing, and one at the end says that a name is missing. */
+static const char *slash_fault(struct geometry_name name)
+{
+    for (const char *c = name.text; c + 2 < name.end; c++)
+        if (c[0] == '/' && c[1] == '/' && c[2] == '/')
+            return "has three '/' in a row";
+    size_t len = (size_t)(name.end - name.text);
+    bool ends_in_one = len > 1 && name.end[-1] == '/' && name.end[-2] != '/';
+    return ends_in_one ? "ends with '/'" : NULL;
+}
+
+static const char *fault_of(struct geometry_name name)
+{
+    if (name.text == name.end)
+        return "has nothing between two commas, or at an end";
+    const char *fault = bracket_fault(name, '[', ']', "has a '[' without ']'", "has a ']' without '['", "has nothing between '[' and ']'");
+    if (!fault)
+        fault = bracket_fault(name, '{', '}', "has a '{' without '}'", "has a '}' without '{'", "has nothing between '{' and '}'");
+    if (!fault && has_blank(name))
+        fault = "has a blank inside of a name: commas separate names";
+    return fault ? fault : slash_fault(name);
+}
+
+/* Of a list: the first name that is none. */
+static const char *list_fault(const char *text)
+{
+    for (;; text++) {
+        const char *end = name_end(text), *fault = fault_of(trimmed(text, end));
+        if (fault || !*end)
+            return fault;
+        text = end;
+    }
+}
+
+static bool is_geometry(const struct document *doc, const struct element *e, str_id attr, elem_id element)
+{
+    if (attr == STR_geom || attr == STR_includegeom || attr == STR_excludegeom || attr == STR_viewergeom)
+        return true;
+    str_id type = attr == STR_value && e->kind != KIND_NODE ? doc_attr_value(doc, element, STR_type) : 0;
+    return type == STR_geomname || type == STR_geomnamearray;
+}
+
+void validate_geometry(struct validation *v, elem_id element)
+{
+    const struct element *e = doc_element(v->doc, element);
+    const struct attribute *attrs = doc_attrs(v->doc, element);
+    for (uint32_t i = 0; i < e->num_attrs; i++) {
+        const char *text = str_text(v->doc->strings, attrs[i].value);
+        if (!*text || !is_geometry(v->doc, e, attrs[i].name, element))
+            continue;
+        const char *fault = list_fault(text);
+        if (fault)
+            diag_add(v->diags, DIAG_ID_bad_geometry_name, doc_attr_place(v->doc, element, attrs[i].name), text, fault);
+    }
+}
