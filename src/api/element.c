@@ -15,14 +15,15 @@ static const char *text_of(const struct search *s, str_id id)
 
 static void report_unknown(const struct search *s, const char *path)
 {
-    VEC(const char *) names = {0};
+    struct diag_guess guess;
+    diag_guess_begin(&guess, s->diags, path);
     for (uint32_t i = 0; i < s->document->renderables.len; i++)
-        vec_push(s->diags->arena, &names, s->document->renderable_paths[i]);
+        diag_guess_add(&guess, s->document->renderable_paths[i]);
     for (elem_id e = doc_element(s->doc, s->doc->root)->first_child; e; e = doc_element(s->doc, e)->next)
         if (doc_element(s->doc, e)->name)
-            vec_push(s->diags->arena, &names, text_of(s, doc_element(s->doc, e)->name));
+            diag_guess_add(&guess, text_of(s, doc_element(s->doc, e)->name));
     diag_add(s->diags, DIAG_ID_unknown_element, (struct diag_place){.file = s->document->files.len ? s->document->files.items[0] : NULL},
-             path, diag_suggest(s->diags->arena, path, names.items, names.len));
+             path, diag_guess_text(&guess));
 }
 
 static void report_not_renderable(const struct search *s, elem_id element, const char *reason)

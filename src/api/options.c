@@ -170,8 +170,10 @@ static const char *unknown_key(struct arena *arena, const char *key)
     for (unsigned i = 0; i < NUM_OPTIONS; i++)
         keys[i] = table[i].key;
     struct text text;
+    struct diag_list unheard; /* the message is the options' own */
     text_init(&text, arena);
-    text_fmt(&text, "unknown option '%s'%s", key, diag_suggest(arena, key, keys, NUM_OPTIONS));
+    diag_list_init(&unheard, arena);
+    text_fmt(&text, "unknown option '%s'%s", key, diag_suggest(&unheard, key, keys, NUM_OPTIONS));
     return text_cstr(&text);
 }
 

@@ -52,6 +52,7 @@ struct diag_list {
     void *trace_data;
     VEC(struct diag) items;
     uint32_t num_errors, num_warnings;
+    uint32_t num_guesses; /* that were made: diag_guess_begin */
     uint32_t max_errors;  /* further errors are counted but not kept; 0 = unlimited */
     uint32_t last;        /* index of the last message that is not a note */
     bool muted_notes;     /* the last message was dropped: so are its notes */
@@ -106,9 +107,29 @@ void diag_render_line(const struct diag *diag, const char *line, size_t line_len
 void diag_render_json(const struct diag_list *list, struct text *out);
 
 /*
- * " (did you mean 'x'?)" for the closest of the candidates by edit distance, "" where none is near; the first of equally
- * close ones. Lives in the arena.
+ * What was probably meant by a word that means nothing: " (did you mean 'x'?)" for the candidate that is closest by edit distance, ""
+ * where none is near; the first of equally close ones. It lives in the list's arena. A list gets some suggestions only, so that a document
+ * which is wrong throughout is reported in linear time: where diag_guess_begin returns false, candidates need not be looked for.
+ *
+ *     struct diag_guess guess;
+ *     if (diag_guess_begin(&guess, diags, word))
+ *         for (…)
+ *             diag_guess_add(&guess, name);
+ *     diag_add(diags, …, diag_guess_text(&guess));
  */
-const char *diag_suggest(struct arena *arena, const char *word, const char *const *candidates, size_t num_candidates);
+struct diag_guess {
+    struct diag_list *list;
+    const char *word, *best;
+    size_t len, best_distance;
+    char folded[64];      /* the word without its case */
+    uint64_t places[256]; /* where each byte stands in it */
+};
+bool diag_may_guess(const struct diag_list *list);
+bool diag_guess_begin(struct diag_guess *guess, struct diag_list *list, const char *word);
+void diag_guess_add(struct diag_guess *guess, const char *candidate);
+const char *diag_guess_text(struct diag_guess *guess);
+
+/* The same where the candidates are at hand. */
+const char *diag_suggest(struct diag_list *list, const char *word, const char *const *candidates, size_t num_candidates);
 
 #endif

@@ -139,16 +139,18 @@ static elem_id find_typedef(const struct document *doc, str_id type)
     return found;
 }
 
-static const char *suggest_type(const struct document *doc, const char *type, struct arena *arena)
+static const char *suggest_type(const struct document *doc, const char *type, struct diag_list *diags)
 {
-    VEC(const char *) names = {0};
+    struct diag_guess guess;
+    if (!diag_guess_begin(&guess, diags, type))
+        return "";
     for (doc_type t = DOC_TYPE_NONE + 1; t < DOC_NUM_TYPES; t++)
-        vec_push(arena, &names, str_text(doc->strings, doc_type_name(t)));
+        diag_guess_add(&guess, str_text(doc->strings, doc_type_name(t)));
     for (const struct document *layer = doc; layer; layer = layer->base)
         for (elem_id e = doc_element(layer, layer->root)->first_child; e; e = doc_element(layer, e)->next)
             if (doc_element(layer, e)->kind == KIND_TYPEDEF)
-                vec_push(arena, &names, str_text(doc->strings, doc_element(layer, e)->name));
-    return diag_suggest(arena, type, names.items, names.len);
+                diag_guess_add(&guess, str_text(doc->strings, doc_element(layer, e)->name));
+    return diag_guess_text(&guess);
 }
 
 void doc_report_type(const struct document *doc, elem_id element, struct diag_list *diags)
@@ -158,8 +160,7 @@ void doc_report_type(const struct document *doc, elem_id element, struct diag_li
         diag_add(diags, DIAG_ID_missing_attribute, doc_place(doc, element), str_text(doc->strings, doc_element(doc, element)->category), "type");
         return;
     }
-    const char *suggestion = diags->num_errors > MAX_SUGGESTIONS ? "" : suggest_type(doc, type, diags->arena);
-    diag_add(diags, DIAG_ID_unknown_type, doc_attr_place(doc, element, STR_type), type, suggestion);
+    diag_add(diags, DIAG_ID_unknown_type, doc_attr_place(doc, element, STR_type), type, suggest_type(doc, type, diags));
 }
 
 static bool has_value(str_id attr)

@@ -4,9 +4,6 @@
 
 #include "document/document.h"
 
-/* Errors that get a suggestion: a document that is wrong throughout is reported in linear time. */
-enum { MAX_SUGGESTIONS = 64 };
-
 enum { VALIDATION_REMEMBERED = 256 };
 
 struct validation {
@@ -14,6 +11,7 @@ struct validation {
     struct diag_list *diags;
     struct arena *arena;
     bool is_age_told; /* that there are elements older than the version that the document says */
+    uint8_t *declared; /* per text: an <attributedef> says that it is an attribute; made when the first is asked for */
     struct good_attribute { /* kinds of elements on which an attribute was found to mean something */
         str_id name;
         uint64_t kinds;

@@ -23,14 +23,22 @@ static const char *text_of(const struct validation *v, str_id id)
     return str_text(v->doc->strings, id);
 }
 
-/* Does an <attributedef> declare it? ("Custom Attributes and Inputs") */
-static bool is_declared(const struct validation *v, str_id name)
+static void note_declared(struct validation *v)
 {
+    const struct strpool *strings = v->doc->strings;
+    v->declared = ARENA_ARRAY(v->arena, uint8_t, strings->first + strings->num);
     for (const struct document *doc = v->doc; doc; doc = doc->base)
         for (elem_id e = doc_element(doc, doc->root)->first_child; e; e = doc_element(doc, e)->next)
-            if (doc_element(doc, e)->kind == KIND_ATTRIBUTEDEF && doc_attr_value(doc, e, STR_attrname) == name)
-                return true;
-    return false;
+            if (doc_element(doc, e)->kind == KIND_ATTRIBUTEDEF)
+                v->declared[doc_attr_value(doc, e, STR_attrname)] = 1;
+}
+
+/* Does an <attributedef> declare it? ("Custom Attributes and Inputs") */
+static bool is_declared(struct validation *v, str_id name)
+{
+    if (!v->declared)
+        note_declared(v);
+    return v->declared[name];
 }
 
 /* Those of this kind of element are meant more likely. */
@@ -41,7 +49,7 @@ static const char *suggest(struct validation *v, enum element_kind kind, str_id 
     for (size_t i = 0; i < NUM_ATTRIBUTES; i++)
         if (attributes[i].kinds >> kind & 1)
             names[count++] = attributes[i].name;
-    return diag_suggest(v->arena, text_of(v, name), names, count);
+    return diag_suggest(v->diags, text_of(v, name), names, count);
 }
 
 /* False after telling that it means nothing here. */

@@ -174,7 +174,7 @@ static lang_ref check_struct_member(struct parser *p, lang_ref a, const struct t
     const char *word = parse_token_text(p, name);
     const char *what = parse_say(p, "member of %s", parse_type_text(p, tree_type(p, a)));
     PARSE_ERROR(p, parse_where_token(p, name), lang_unknown, what, word,
-                diag_suggest(p->diags->arena, word, names, user->num_members));
+                diag_suggest(p->diags, word, names, user->num_members));
     return 0;
 }
 

@@ -157,43 +157,40 @@ struct local *lookup_local(struct parser *p, str_id name)
     return NULL;
 }
 
-struct names {
-    struct arena *arena;
-    VEC(const char *) list;
-};
-
-static void suggest_declared(struct parser *p, struct names *names, enum lookup_suggestion what)
+static void suggest_declared(struct parser *p, struct diag_guess *guess, enum lookup_suggestion what)
 {
     for (uint32_t f = 0; f < p->visible.len; f++) {
         const struct lang_unit *layer;
         const struct lang_file *file = lang_file(p->unit, p->visible.items[f], &layer);
         for (uint32_t i = 0; what == LOOKUP_VALUES && i < file->num_globals; i++)
-            vec_push(names->arena, &names->list, parse_text(p, lang_global(p->unit, file->first_global + i, NULL)->name));
+            diag_guess_add(guess, parse_text(p, lang_global(p->unit, file->first_global + i, NULL)->name));
         for (uint32_t i = 0; what == LOOKUP_FUNCTIONS && i < file->num_functions; i++)
-            vec_push(names->arena, &names->list, parse_text(p, lang_function(p->unit, file->first_function + i, NULL)->name));
+            diag_guess_add(guess, parse_text(p, lang_function(p->unit, file->first_function + i, NULL)->name));
     }
 }
 
-static void suggest_types(struct parser *p, struct names *names)
+static void suggest_types(struct parser *p, struct diag_guess *guess)
 {
     for (ir_type_id type = IR_TYPE_VOID; type <= IR_TYPE_SAMPLER; type++)
-        vec_push(names->arena, &names->list, ir_type_text(type));
+        diag_guess_add(guess, ir_type_text(type));
     for (const struct lang_unit *layer = p->unit; layer; layer = layer->base)
         for (uint32_t i = 0; i < layer->user_types.len; i++)
             if (layer->user_types.items[i].name)
-                vec_push(names->arena, &names->list, parse_text(p, layer->user_types.items[i].name));
+                diag_guess_add(guess, parse_text(p, layer->user_types.items[i].name));
 }
 
 const char *lookup_suggest(struct parser *p, const char *word, enum lookup_suggestion what)
 {
-    struct names names = {.arena = p->unit->arena};
-    suggest_declared(p, &names, what);
+    struct diag_guess guess;
+    if (!diag_guess_begin(&guess, p->diags, word))
+        return "";
+    suggest_declared(p, &guess, what);
     for (uint32_t i = 0; what == LOOKUP_VALUES && i < p->locals.len; i++)
-        vec_push(names.arena, &names.list, parse_text(p, p->locals.items[i].name));
+        diag_guess_add(&guess, parse_text(p, p->locals.items[i].name));
     for (int op = 0; what == LOOKUP_FUNCTIONS && op < IR_NUM_OPS; op++)
         if (ir_op_info((enum ir_op)op)->flags & OP_BUILTIN)
-            vec_push(names.arena, &names.list, ir_op_info((enum ir_op)op)->text);
+            diag_guess_add(&guess, ir_op_info((enum ir_op)op)->text);
     if (what != LOOKUP_VALUES)
-        suggest_types(p, &names);
-    return diag_suggest(p->diags->arena, word, names.list.items, names.list.len);
+        suggest_types(p, &guess);
+    return diag_guess_text(&guess);
 }

@@ -97,7 +97,7 @@ static lang_ref parse_input(struct parser *p)
         names[i] = parse_text(p, p->inputs[i].name);
     const char *word = parse_token_text(p, &token);
     PARSE_ERROR(p, parse_where_token(p, &token), lang_unknown, "input", word,
-                diag_suggest(p->diags->arena, word, names, p->num_inputs));
+                diag_suggest(p->diags, word, names, p->num_inputs));
     return 0;
 }
 

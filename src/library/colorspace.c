@@ -83,17 +83,17 @@ static const char *known_spaces(const struct library *lib, struct arena *arena)
     return text_cstr(&out);
 }
 
-static const char *suggest_space(const char *space, struct arena *arena)
+static const char *suggest_space(const char *space, struct diag_list *diags)
 {
     const char *names[sizeof aliases / sizeof *aliases * 2];
     size_t count = 0;
     for (size_t i = 0; i < sizeof aliases / sizeof *aliases; i++)
         for (size_t k = 0; k < 2; k++)
             names[count++] = aliases[i][k];
-    return diag_suggest(arena, space, names, count);
+    return diag_suggest(diags, space, names, count);
 }
 
 void library_report_space(const struct library *lib, const char *space, struct diag_place place, struct diag_list *diags)
 {
-    diag_add(diags, DIAG_ID_unknown_colorspace, place, space, suggest_space(space, diags->arena), known_spaces(lib, diags->arena));
+    diag_add(diags, DIAG_ID_unknown_colorspace, place, space, suggest_space(space, diags), known_spaces(lib, diags->arena));
 }

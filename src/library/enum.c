@@ -50,5 +50,5 @@ void library_check_enum(const struct library *lib, const struct port *port, str_
         return;
     struct words words = {0};
     split(list, diags->arena, &words);
-    diag_add(diags, DIAG_ID_bad_enum_value, place, word, list, diag_suggest(diags->arena, word, words.items, words.len));
+    diag_add(diags, DIAG_ID_bad_enum_value, place, word, list, diag_suggest(diags, word, words.items, words.len));
 }

@@ -31,7 +31,8 @@ static const struct section_info section_infos[] = {
     SECTION(unit.texts),     SECTION(unit.text_bytes),
     SECTION(nodedefs),       SECTION(ports),         SECTION(impls),          SECTION(families),
     SECTION(verbatims),      SECTION(graph_nodes),   SECTION(bindings),       SECTION(geomprops),
-    SECTION(types),          SECTION(refs),          SECTION(node_table),
+    SECTION(types),          SECTION(units),         SECTION(refs),
+    SECTION(node_table),
     SECTION(unit.fragments), SECTION(unit.codes),    SECTION(unit.fragment_of), SECTION(unit.graph_fragment_of),
 };
 enum {

@@ -31,6 +31,12 @@ static bool has_type(struct indexer *ix, elem_id element, doc_type *out_type)
     return false;
 }
 
+/* Under which own index an element stands in the table of its kind. */
+static void set_info(struct indexer *ix, elem_id element, uint32_t own)
+{
+    ix->lib->element_info.items[element - ix->lib->doc.first_element] = own + 1;
+}
+
 /* ---- types ---- */
 
 static ir_type_id struct_type(struct indexer *ix, elem_id element, str_id name)
@@ -59,6 +65,7 @@ static void add_typedef(struct indexer *ix, elem_id element)
     ir_type_id ir = struct_type(ix, element, name);
     vec_push(ix->arena, &ix->lib->types,
              (struct user_type){.name = name, .semantic = attr(ix, element, STR_semantic), .ir = ir, .element = element});
+    set_info(ix, element, ix->lib->types.len - 1);
 }
 
 /* ---- definitions ---- */
@@ -85,6 +92,22 @@ static bool port_exists(const struct library *lib, uint32_t first, str_id name)
     return false;
 }
 
+enum { MAX_PORTS = 1024 }; /* inputs, and outputs, of a definition: they are searched one by one */
+
+static void add_ports_of(struct indexer *ix, elem_id nodedef, enum element_kind kind, uint32_t first)
+{
+    struct library *lib = ix->lib;
+    for (elem_id e = doc_element(&lib->doc, nodedef)->first_child; e; e = doc_element(&lib->doc, e)->next) {
+        if (doc_element(&lib->doc, e)->kind != kind || port_exists(lib, first, doc_element(&lib->doc, e)->name))
+            continue;
+        if (lib->ports.len - first == MAX_PORTS) {
+            diag_add(ix->diags, DIAG_ID_too_many_ports, doc_place(&lib->doc, e), text_of(lib, doc_element(&lib->doc, nodedef)->name), MAX_PORTS);
+            return;
+        }
+        add_port(ix, e, kind == KIND_INPUT);
+    }
+}
+
 /* Own ports first, then inherited ones that are not redeclared (specification, "NodeDef Inheritance"). */
 static uint16_t add_ports(struct indexer *ix, elem_id nodedef, enum element_kind kind)
 {
@@ -92,9 +115,7 @@ static uint16_t add_ports(struct indexer *ix, elem_id nodedef, enum element_kind
     uint32_t first = lib->ports.len;
     elem_id at = nodedef;
     for (unsigned depth = 0; at; depth++) {
-        for (elem_id e = doc_element(&lib->doc, at)->first_child; e; e = doc_element(&lib->doc, e)->next)
-            if (doc_element(&lib->doc, e)->kind == kind && !port_exists(lib, first, doc_element(&lib->doc, e)->name))
-                add_port(ix, e, kind == KIND_INPUT);
+        add_ports_of(ix, at, kind, first);
         str_id inherit = attr(ix, at, STR_inherit);
         if (!inherit)
             break;
@@ -120,14 +141,8 @@ static void link_by_node(struct indexer *ix, uint32_t own)
     uint32_t slot = hash_pair(node, 0) & mask;
     while (lib->node_table.items[slot] && lib->nodedefs.items[lib->node_table.items[slot] - 1].node != node)
         slot = (slot + 1) & mask;
-    if (!lib->node_table.items[slot]) {
-        lib->node_table.items[slot] = own + 1;
-        return;
-    }
-    uint32_t last = lib->node_table.items[slot] - 1;
-    while (lib->nodedefs.items[last].next_same_node != LIBRARY_NONE)
-        last = lib->nodedefs.items[last].next_same_node;
-    lib->nodedefs.items[last].next_same_node = own;
+    lib->nodedefs.items[own].next_same_node = lib->node_table.items[slot] - 1; /* LIBRARY_NONE: 0 - 1 */
+    lib->node_table.items[slot] = own + 1;
 }
 
 static void make_node_table(struct indexer *ix)
@@ -140,13 +155,8 @@ static void make_node_table(struct indexer *ix)
         slots *= 2;
     uint32_t *table = vec_extend(ix->arena, &lib->node_table, slots);
     memset(table, 0, slots * sizeof *table);
-    for (uint32_t i = 0; i < lib->nodedefs.len; i++)
+    for (uint32_t i = lib->nodedefs.len; i-- > 0;) /* from the last, so that the first of a node leads */
         link_by_node(ix, i);
-}
-
-static void set_info(struct indexer *ix, elem_id element, uint32_t own)
-{
-    ix->lib->element_info.items[element - ix->lib->doc.first_element] = own + 1;
 }
 
 static void add_nodedef(struct indexer *ix, elem_id element)
@@ -179,10 +189,13 @@ static void add_nodedef(struct indexer *ix, elem_id element)
 
 static uint32_t default_nodedef(const struct library *lib, str_id node, doc_type type)
 {
+    enum { MAX_TRIED = 1024 }; /* standard nodes have a handful */
+    uint32_t tried = 0;
     for (; lib; lib = lib->base)
-        for (uint32_t i = 0; i < lib->nodedefs.len; i++) {
+        for (uint32_t i = library_first_of_node(lib, node); i != LIBRARY_NONE && tried < MAX_TRIED;
+             i = lib->nodedefs.items[i].next_same_node, tried++) {
             const struct nodedef *def = &lib->nodedefs.items[i];
-            if (def->node == node && def->num_outputs && lib->ports.items[def->first_port + def->num_inputs].type == type)
+            if (def->num_outputs && lib->ports.items[def->first_port + def->num_inputs].type == type)
                 return lib->base_nodedefs + i;
         }
     return LIBRARY_NONE;
@@ -207,6 +220,7 @@ static void add_geomprop(struct indexer *ix, elem_id element)
     if (prop.geomprop)
         prop.nodedef = default_nodedef(lib, prop.geomprop, prop.type);
     vec_push(ix->arena, &lib->geomprops, prop);
+    set_info(ix, element, lib->geomprops.len - 1);
 }
 
 /* ---- implementations ---- */
@@ -225,8 +239,6 @@ static uint32_t input_types(const struct indexer *ix, uint32_t nodedef, struct l
         out[i] = (struct lang_input){ports[i].name, library_type_ir(ix->lib, ports[i].type)};
     return n;
 }
-
-enum { MAX_PORTS = 256 };
 
 static uint32_t parse_expression(struct indexer *ix, uint32_t nodedef, unsigned output, str_id source, uint32_t file,
                                  struct diag_place where, struct diag_list *diags)
@@ -272,7 +284,7 @@ static bool parse_expressions(struct indexer *ix, struct implementation *impl, s
     const struct nodedef *def = library_nodedef(ix->lib, impl->nodedef);
     const struct port *outputs = library_ports(ix->lib, impl->nodedef, NULL) + def->num_inputs;
     uint32_t ids[MAX_PORTS];
-    for (unsigned i = 0; i < def->num_outputs && i < MAX_PORTS; i++) {
+    for (unsigned i = 0; i < def->num_outputs; i++) {
         elem_id child = doc_child_of_kind(doc, impl->element, KIND_OUTPUT, outputs[i].name);
         str_id own = child ? doc_attr_value(doc, child, STR_sourcecode) : 0;
         struct diag_place where = doc_attr_place(doc, own ? child : impl->element, STR_sourcecode);
@@ -361,12 +373,12 @@ static bool find_implementation_function(struct indexer *ix, struct implementati
         return false;
     }
     struct lang_input inputs[MAX_PORTS];
-    ir_type_id types[MAX_PORTS];
+    ir_type_id types[2 * MAX_PORTS];
     uint32_t n = input_types(ix, impl->nodedef, inputs, MAX_PORTS);
     for (uint32_t i = 0; i < n; i++)
         types[i] = inputs[i].type;
     uint32_t function = lang_find_function(&ix->lib->unit, file, name, types, n);
-    for (uint32_t i = n; function == LANG_NONE && i < n + def->num_outputs && i < MAX_PORTS; i++) {
+    for (uint32_t i = n; function == LANG_NONE && i < n + def->num_outputs; i++) {
         types[i] = library_type_ir(lib, ports[i].type);
         function = lang_find_function(&ix->lib->unit, file, name, types, i + 1);
     }
@@ -451,17 +463,23 @@ static void parse_implementation(struct indexer *ix, struct implementation *impl
 static void add_impl(struct indexer *ix, struct implementation impl)
 {
     struct library *lib = ix->lib;
-    uint32_t own = lib->impls.len;
-    impl.next = LIBRARY_NONE;
+    if (impl.nodedef < lib->base_nodedefs)
+        vec_push(ix->arena, &lib->overrides, lib->impls.len);
     vec_push(ix->arena, &lib->impls, impl);
-    if (impl.nodedef < lib->base_nodedefs) {
-        vec_push(ix->arena, &lib->overrides, own);
-        return;
+}
+
+/* From the last, so that the first of a definition leads. */
+static void link_implementations(struct library *lib)
+{
+    for (uint32_t i = lib->impls.len; i-- > 0;) {
+        struct implementation *impl = &lib->impls.items[i];
+        impl->next = LIBRARY_NONE;
+        if (impl->nodedef < lib->base_nodedefs)
+            continue;
+        uint32_t *first = &lib->nodedefs.items[impl->nodedef - lib->base_nodedefs].first_impl;
+        impl->next = *first;
+        *first = lib->base_impls + i;
     }
-    uint32_t *link = &lib->nodedefs.items[impl.nodedef - lib->base_nodedefs].first_impl;
-    while (*link != LIBRARY_NONE)
-        link = &lib->impls.items[*link - lib->base_impls].next;
-    *link = lib->base_impls + own;
 }
 
 static elem_id find_nodegraph(const struct library *lib, str_id name)
@@ -519,10 +537,15 @@ static void add_functional_graph(struct indexer *ix, elem_id element)
     impl.nodedef = library_nodedef_by_name(lib, name);
     if (impl.nodedef == LIBRARY_NONE) {
         diag_add(ix->diags, DIAG_ID_unknown_nodedef, doc_attr_place(&lib->doc, element, STR_nodedef), text_of(lib, name),
-                 library_suggest_nodedef(lib, name, ix->diags->arena));
+                 library_suggest_nodedef(lib, name, ix->diags));
         return;
     }
     add_impl(ix, impl);
+}
+
+static void add_unitdef(struct indexer *ix, elem_id element)
+{
+    library_index_units(ix->lib, element);
 }
 
 /* ---- the layer ---- */
@@ -548,6 +571,9 @@ void library_index(struct library *lib, const struct lang_reader *reader, struct
     for_each(&ix, KIND_GEOMPROPDEF, add_geomprop);
     for_each(&ix, KIND_IMPLEMENTATION, add_implementation);
     for_each(&ix, KIND_NODEGRAPH, add_functional_graph);
+    link_implementations(lib);
+    for_each(&ix, KIND_UNITDEF, add_unitdef);
+    library_sort_units(lib);
 }
 
 /* What a graph's nodes read from its interface is found by number, unless another definition shares the graph. */

@@ -26,15 +26,17 @@ uint32_t library_implemented_nodedef(const struct library *lib, elem_id graph)
 }
 
 /* " (did you mean 'x'?)" among the interface inputs of a graph, which its definition says where it has one. */
-static const char *suggest(const struct library *lib, elem_id graph, uint32_t nodedef, str_id name, struct arena *arena)
+static const char *suggest(const struct library *lib, elem_id graph, uint32_t nodedef, str_id name, struct diag_list *diags)
 {
-    VEC(const char *) names = {0};
+    struct diag_guess guess;
+    if (!diag_guess_begin(&guess, diags, text_of(lib, name)))
+        return "";
     for (int i = 0; nodedef != LIBRARY_NONE && i < library_nodedef(lib, nodedef)->num_inputs; i++)
-        vec_push(arena, &names, text_of(lib, library_ports(lib, nodedef, NULL)[i].name));
+        diag_guess_add(&guess, text_of(lib, library_ports(lib, nodedef, NULL)[i].name));
     for (elem_id e = graph ? doc_element(&lib->doc, graph)->first_child : 0; e; e = doc_element(&lib->doc, e)->next)
         if (doc_element(&lib->doc, e)->kind == KIND_INPUT)
-            vec_push(arena, &names, text_of(lib, doc_element(&lib->doc, e)->name));
-    return diag_suggest(arena, text_of(lib, name), names.items, names.len);
+            diag_guess_add(&guess, text_of(lib, doc_element(&lib->doc, e)->name));
+    return diag_guess_text(&guess);
 }
 
 int library_resolve_interface(const struct library *lib, elem_id asker, uint32_t nodedef, const struct binding *binding,
@@ -48,7 +50,7 @@ int library_resolve_interface(const struct library *lib, elem_id asker, uint32_t
     struct diag_place place = doc_attr_place(&lib->doc, asker, STR_interfacename);
     if (index < 0) {
         diag_add(diags, DIAG_ID_dangling_interfacename, place, text_of(lib, name),
-                 suggest(lib, library_graph_around(lib, asker), nodedef, name, diags->arena));
+                 suggest(lib, library_graph_around(lib, asker), nodedef, name, diags));
         return -1;
     }
     if (port->type != DOC_TYPE_NONE && ports[index].type != port->type) {

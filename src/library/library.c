@@ -52,13 +52,37 @@ const struct verbatim *library_verbatim(const struct library *lib, uint32_t id)
     return &lib->verbatims.items[id - lib->base_verbatims];
 }
 
+const struct library *library_of_element(const struct library *lib, elem_id element)
+{
+    while (element < lib->doc.first_element)
+        lib = lib->base;
+    return lib;
+}
+
+uint32_t library_element_info(const struct library *lib, elem_id element, const struct library **out_layer)
+{
+    lib = library_of_element(lib, element);
+    if (out_layer)
+        *out_layer = lib;
+    uint32_t own = element - lib->doc.first_element;
+    if (lib->narrow_info)
+        return own < lib->doc.elements.len ? (uint32_t)lib->narrow_info[own] - 1 : LIBRARY_NONE;
+    return own < lib->element_info.len ? lib->element_info.items[own] - 1 : LIBRARY_NONE;
+}
+
+/* Of a layer's own top-level element; LIBRARY_NONE: there is no such, or it counts for nothing. */
+static uint32_t own_index(const struct library *layer, enum element_kind kind, str_id name)
+{
+    elem_id element = name ? doc_child_of_kind(&layer->doc, layer->doc.root, kind, name) : 0;
+    return element >= layer->doc.first_element && element ? library_element_info(layer, element, NULL) : LIBRARY_NONE;
+}
+
 const struct geomprop *library_geomprop(const struct library *lib, str_id name)
 {
-    for (; lib; lib = lib->base)
-        for (uint32_t i = 0; i < lib->geomprops.len; i++)
-            if (lib->geomprops.items[i].name == name)
-                return &lib->geomprops.items[i];
-    return NULL;
+    uint32_t own = LIBRARY_NONE;
+    for (; lib && (own = own_index(lib, KIND_GEOMPROPDEF, name)) == LIBRARY_NONE; lib = lib->base)
+        continue;
+    return lib ? &lib->geomprops.items[own] : NULL;
 }
 
 uint32_t library_num_nodedefs(const struct library *lib)
@@ -94,24 +118,6 @@ int library_find_output(const struct library *lib, uint32_t nodedef, str_id name
     return find_port(library_ports(lib, nodedef, NULL), def->num_inputs, def->num_inputs + def->num_outputs, name);
 }
 
-const struct library *library_of_element(const struct library *lib, elem_id element)
-{
-    while (element < lib->doc.first_element)
-        lib = lib->base;
-    return lib;
-}
-
-uint32_t library_element_info(const struct library *lib, elem_id element, const struct library **out_layer)
-{
-    lib = library_of_element(lib, element);
-    if (out_layer)
-        *out_layer = lib;
-    uint32_t own = element - lib->doc.first_element;
-    if (lib->narrow_info)
-        return own < lib->doc.elements.len ? (uint32_t)lib->narrow_info[own] - 1 : LIBRARY_NONE;
-    return own < lib->element_info.len ? lib->element_info.items[own] - 1 : LIBRARY_NONE;
-}
-
 uint32_t library_nodedef_by_name(const struct library *lib, str_id name)
 {
     for (; lib; lib = lib->base) {
@@ -139,11 +145,10 @@ doc_type library_type(const struct library *lib, str_id name)
     doc_type standard = doc_type_of(name);
     if (standard)
         return standard;
-    for (; lib; lib = lib->base)
-        for (uint32_t i = 0; i < lib->types.len; i++)
-            if (lib->types.items[i].name == name)
-                return (doc_type)(DOC_TYPE_FIRST_USER + lib->base_types + i);
-    return DOC_TYPE_NONE;
+    uint32_t own = LIBRARY_NONE;
+    for (; lib && (own = own_index(lib, KIND_TYPEDEF, name)) == LIBRARY_NONE; lib = lib->base)
+        continue;
+    return lib ? (doc_type)(DOC_TYPE_FIRST_USER + lib->base_types + own) : DOC_TYPE_NONE;
 }
 
 str_id library_type_name(const struct library *lib, doc_type type)

@@ -109,6 +109,12 @@ struct geomprop { /* <geompropdef> */
     elem_id element;
 };
 
+struct unit { /* <unit> of a <unitdef> */
+    str_id name, type;
+    float scale; /* to the base unit of its type; 0: it has none that counts */
+    elem_id element;
+};
+
 struct user_type { /* <typedef> that is not a standard type */
     str_id name, semantic;
     ir_type_id ir; /* a struct of the lang unit, or VOID */
@@ -138,9 +144,10 @@ struct library {
     VEC(struct binding) bindings;
     VEC(struct geomprop) geomprops;
     VEC(struct user_type) types;
+    VEC(struct unit) units;     /* by name, then as they stand in the document */
     VEC(uint32_t) refs;
     VEC(uint32_t) node_table;   /* open addressing by node name: first nodedef of that node (own index + 1) */
-    VEC(uint32_t) element_info; /* per own element: 1 + own index of its nodedef, geomprop or graph_node; 0 = none */
+    VEC(uint32_t) element_info; /* per own element: 1 + own index of its nodedef, type, geomprop or graph_node; 0 = none */
     const uint16_t *narrow_info; /* in place of `element_info` in an image layer of few definitions */
     VEC(uint32_t) overrides;    /* impl indices (own) for nodedefs of lower layers */
     struct diag_list *deferred; /* faults of implementations, told when one is used */
@@ -176,6 +183,10 @@ doc_type library_type(const struct library *lib, str_id name);
 str_id library_type_name(const struct library *lib, doc_type type);
 ir_type_id library_type_ir(const struct library *lib, doc_type type);
 
+/* unit.c: enters the units of a <unitdef>; to be sorted once all are in. */
+void library_index_units(struct library *lib, elem_id unitdef);
+void library_sort_units(struct library *lib);
+
 /* index.c: fills a layer from its document: definitions, implementations (sources are read by `reader`), types, geomprops. */
 void library_index(struct library *lib, const struct lang_reader *reader, struct diag_list *diags);
 /* Resolves every functional graph of the layer ahead of time (what an image stores). */
@@ -205,7 +216,7 @@ struct graph_node library_resolve_node(const struct library *lib, elem_id node, 
 struct binding library_resolve_connection(const struct library *lib, elem_id port, doc_type type, struct diag_list *diags);
 
 /* " (did you mean 'x'?)" for the name of a definition. */
-const char *library_suggest_nodedef(const struct library *lib, str_id name, struct arena *arena);
+const char *library_suggest_nodedef(const struct library *lib, str_id name, struct diag_list *diags);
 
 /*
  * The output of a node element that `output` names; without a name the only one or, with a warning, the first of the type. -1 after an
@@ -244,8 +255,8 @@ void library_report_unit(const struct library *lib, str_id type, str_id unit, st
 /* The scale of a unit to its type's base unit; type 0: of any. False: unknown. */
 bool library_unit_scale(const struct library *lib, str_id type, str_id unit, float *out_scale);
 bool library_has_unit_type(const struct library *lib, str_id type);
-const char *library_suggest_unit_type(const struct library *lib, str_id type, struct arena *arena);
-const char *library_suggest_unit(const struct library *lib, str_id unit, struct arena *arena);
+const char *library_suggest_unit_type(const struct library *lib, str_id type, struct diag_list *diags);
+const char *library_suggest_unit(const struct library *lib, str_id unit, struct diag_list *diags);
 
 /* validate.c: checks a document's layer against the definitions below it and its own, and doc_validate's. `scratch` may be freed behind it. */
 void library_validate(const struct library *lib, struct arena *scratch, struct diag_list *diags);

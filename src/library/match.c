@@ -101,17 +101,16 @@ static void report_unknown_inputs(const struct library *lib, uint32_t id, elem_i
 {
     const struct nodedef *def = library_nodedef(lib, id);
     const struct port *ports = library_ports(lib, id, NULL);
-    const char *names[64];
-    size_t n = 0;
-    for (unsigned i = 0; i < def->num_inputs && n < 64; i++)
-        names[n++] = text_of(lib, ports[i].name);
     for (elem_id child = doc_element(&lib->doc, node)->first_child; child; child = doc_element(&lib->doc, child)->next) {
         const struct element *input = doc_element(&lib->doc, child);
         if (input->kind != KIND_INPUT || library_find_input(lib, id, input->name) >= 0)
             continue;
-        const char *name = text_of(lib, input->name);
-        diag_add(diags, DIAG_ID_unknown_input, doc_place(&lib->doc, child), text_of(lib, def->node), name,
-                 diag_suggest(diags->arena, name, names, n));
+        struct diag_guess guess;
+        bool may_guess = diag_guess_begin(&guess, diags, text_of(lib, input->name));
+        for (unsigned i = 0; may_guess && i < def->num_inputs; i++)
+            diag_guess_add(&guess, text_of(lib, ports[i].name));
+        diag_add(diags, DIAG_ID_unknown_input, doc_place(&lib->doc, child), text_of(lib, def->node), text_of(lib, input->name),
+                 diag_guess_text(&guess));
     }
 }
 
@@ -175,23 +174,23 @@ static void report_candidates(const struct library *lib, elem_id node, struct di
 static void report_unknown_node(const struct library *lib, elem_id node, struct diag_list *diags)
 {
     const char *name = text_of(lib, doc_element(&lib->doc, node)->category);
-    VEC(const char *) names = {0};
-    for (const struct library *layer = lib; layer; layer = layer->base)
+    struct diag_guess guess;
+    bool may_guess = diag_guess_begin(&guess, diags, name);
+    for (const struct library *layer = may_guess ? lib : NULL; layer; layer = layer->base)
         for (uint32_t i = 0; i < layer->node_table.len; i++)
             if (layer->node_table.items[i])
-                vec_push(diags->arena, &names,
-                         text_of(lib, layer->nodedefs.items[layer->node_table.items[i] - 1].node));
-    diag_add(diags, DIAG_ID_unknown_node, doc_place(&lib->doc, node), name,
-             diag_suggest(diags->arena, name, names.items, names.len));
+                diag_guess_add(&guess, text_of(lib, layer->nodedefs.items[layer->node_table.items[i] - 1].node));
+    diag_add(diags, DIAG_ID_unknown_node, doc_place(&lib->doc, node), name, diag_guess_text(&guess));
 }
 
-const char *library_suggest_nodedef(const struct library *lib, str_id name, struct arena *arena)
+const char *library_suggest_nodedef(const struct library *lib, str_id name, struct diag_list *diags)
 {
-    VEC(const char *) names = {0};
-    for (const struct library *layer = lib; layer; layer = layer->base)
+    struct diag_guess guess;
+    bool may_guess = diag_guess_begin(&guess, diags, text_of(lib, name));
+    for (const struct library *layer = may_guess ? lib : NULL; layer; layer = layer->base)
         for (uint32_t i = 0; i < layer->nodedefs.len; i++)
-            vec_push(arena, &names, text_of(lib, layer->nodedefs.items[i].name));
-    return diag_suggest(arena, text_of(lib, name), names.items, names.len);
+            diag_guess_add(&guess, text_of(lib, layer->nodedefs.items[i].name));
+    return diag_guess_text(&guess);
 }
 
 static uint32_t match_explicit(const struct library *lib, elem_id node, str_id name, struct diag_list *diags)
@@ -199,7 +198,7 @@ static uint32_t match_explicit(const struct library *lib, elem_id node, str_id n
     uint32_t id = library_nodedef_by_name(lib, name);
     if (id == LIBRARY_NONE) {
         diag_add(diags, DIAG_ID_unknown_nodedef, doc_attr_place(&lib->doc, node, STR_nodedef), text_of(lib, name),
-                 library_suggest_nodedef(lib, name, diags->arena));
+                 library_suggest_nodedef(lib, name, diags));
         return LIBRARY_NONE;
     }
     const struct nodedef *def = library_nodedef(lib, id);

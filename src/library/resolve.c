@@ -35,20 +35,21 @@ static elem_id root_of(const struct library *lib, elem_id element)
 /* "(did you mean …)" among the named children of a scope. */
 static const char *suggest_child(const struct library *lib, elem_id scope, int kind, str_id name, struct diag_list *diags)
 {
-    VEC(const char *) names = {0};
-    for (elem_id e = doc_element(&lib->doc, scope)->first_child; e; e = doc_element(&lib->doc, e)->next) {
+    struct diag_guess guess;
+    bool may_guess = diag_guess_begin(&guess, diags, text_of(lib, name));
+    for (elem_id e = may_guess ? doc_element(&lib->doc, scope)->first_child : 0; e; e = doc_element(&lib->doc, e)->next) {
         const struct element *child = doc_element(&lib->doc, e);
-        if (child->name && child->kind == kind && names.len < 4096)
-            vec_push(diags->arena, &names, text_of(lib, child->name));
+        if (child->name && child->kind == kind)
+            diag_guess_add(&guess, text_of(lib, child->name));
     }
-    return diag_suggest(diags->arena, text_of(lib, name), names.items, names.len);
+    return diag_guess_text(&guess);
 }
 
 /* Connections do not reach into graphs, but authors try. */
 static void report_elsewhere(const struct library *lib, elem_id root, elem_id scope, str_id name, struct diag_list *diags)
 {
     const struct document *doc = &lib->doc;
-    for (elem_id e = doc_element(doc, root)->first_child; e; e = doc_element(doc, e)->next) {
+    for (elem_id e = diag_may_guess(diags) ? doc_element(doc, root)->first_child : 0; e; e = doc_element(doc, e)->next) {
         bool is_other = e != scope && doc_element(doc, e)->kind == KIND_NODEGRAPH;
         elem_id node = is_other ? doc_child_of_kind(doc, e, KIND_NODE, name) : 0;
         if (!node)
@@ -90,11 +91,12 @@ int library_resolve_output(const struct library *lib, elem_id port, elem_id node
     if (!output && def->num_outputs > 1)
         report_assumed(lib, port, name, outputs[index].name, diags);
     if (index < 0) {
-        VEC(const char *) names = {0};
-        for (unsigned i = 0; i < def->num_outputs; i++)
-            vec_push(diags->arena, &names, text_of(lib, outputs[i].name));
+        struct diag_guess guess;
+        bool may_guess = diag_guess_begin(&guess, diags, text_of(lib, output));
+        for (unsigned i = 0; may_guess && i < def->num_outputs; i++)
+            diag_guess_add(&guess, text_of(lib, outputs[i].name));
         diag_add(diags, DIAG_ID_dangling_output, doc_attr_place(&lib->doc, port, STR_output), name, text_of(lib, output),
-                 diag_suggest(diags->arena, text_of(lib, output), names.items, names.len));
+                 diag_guess_text(&guess));
     }
     return index;
 }

@@ -73,7 +73,7 @@ static void check_unit(struct validate *v, elem_id element)
     float scale;
     if (type && !library_has_unit_type(v->lib, type))
         diag_add(v->diags, DIAG_ID_unknown_unittype, doc_attr_place(v->doc, element, STR_unittype), text_of(v, type),
-                 library_suggest_unit_type(v->lib, type, v->diags->arena));
+                 library_suggest_unit_type(v->lib, type, v->diags));
     else if (unit && !library_unit_scale(v->lib, type, unit, &scale))
         library_report_unit(v->lib, type, unit, doc_attr_place(v->doc, element, STR_unit), v->diags);
 }

@@ -166,6 +166,26 @@ static void test_json(void)
                 "]\n");
 }
 
+static const char *suggest(const char *word, const char *const *candidates, size_t count)
+{
+    struct diag_list list;
+    diag_list_init(&list, &arena);
+    return diag_suggest(&list, word, candidates, count);
+}
+
+/* So that a document which is wrong throughout is reported in linear time. */
+static void test_suggestions_end(void)
+{
+    struct diag_list list;
+    const char *candidates[] = {"image"};
+    unsigned given = 0;
+    diag_list_init(&list, &arena);
+    for (unsigned i = 0; i < 1000; i++)
+        given += *diag_suggest(&list, "imge", candidates, 1) != '\0';
+    REQUIRE(given > 0 && given < 100);
+    REQUIRE(!diag_may_guess(&list));
+}
+
 static void test_suggest(void)
 {
     static const char *const nodes[] = {"multiply", "mix", "image", "standard_surface", "noise2d", "noise3d", "Mix"};
@@ -184,14 +204,14 @@ static void test_suggest(void)
         {"", ""},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
-        REQUIRE_STR(diag_suggest(&arena, cases[i].word, nodes, sizeof nodes / sizeof *nodes), cases[i].suggestion);
+        REQUIRE_STR(suggest(cases[i].word, nodes, sizeof nodes / sizeof *nodes), cases[i].suggestion);
     char longest[300];
     memset(longest, 'a', sizeof longest - 1);
     longest[sizeof longest - 1] = '\0';
     const char *candidates[] = {longest};
-    REQUIRE_STR(diag_suggest(&arena, longest + 1, candidates, 1), "");
-    REQUIRE_STR(diag_suggest(&arena, "aaaa", candidates, 1), "");
-    REQUIRE_STR(diag_suggest(&arena, "aaaa", NULL, 0), "");
+    REQUIRE_STR(suggest(longest + 1, candidates, 1), "");
+    REQUIRE_STR(suggest("aaaa", candidates, 1), "");
+    REQUIRE_STR(suggest("aaaa", NULL, 0), "");
 }
 
 int main(void)
@@ -205,6 +225,7 @@ int main(void)
     test_columns();
     test_json();
     test_suggest();
+    test_suggestions_end();
     arena_finish(&arena);
     REQUIRE_EQ(mem.used, 0);
     return test_report("diag");
