@@ -4,7 +4,7 @@
  *
  * Every object has memory of its own, because the last reference to it may go on any thread. Work on an object runs
  * inside object_run, which is where running out of memory ends (base/mem.h); when the work is done the object does not
- * change any more, but for texts that are made when they are first asked for.
+ * change any more, but for texts that are made when they are first asked for, and what nodes of a document were found to match.
  */
 #ifndef MXG_API_API_H
 #define MXG_API_API_H

@@ -121,7 +121,6 @@ struct diag_guess {
     struct diag_list *list;
     const char *word, *best;
     size_t len, best_distance;
-    char folded[64];      /* the word without its case */
     uint64_t places[256]; /* where each byte stands in it */
 };
 bool diag_may_guess(const struct diag_list *list);

@@ -3,20 +3,21 @@
 #include "diag/diag.h"
 
 enum {
-    MAX_WORD = sizeof((struct diag_guess *)0)->folded, /* longer names are not compared */
-    MAX_GUESSES = 64,                                  /* of a list */
+    MAX_WORD = 64,    /* longer names are not compared: a place is a bit */
+    MAX_GUESSES = 64, /* of a list */
 };
 
 /*
  * Edit distance where insertion, deletion, substitution and the swap of neighbours cost 1 ("optimal string alignment"): a row of the table
  * per character of `word`, as the differences between its columns, a bit each. Hyyrö, "A Bit-Vector Algorithm for Computing
- * Levenshtein and Damerau Edit Distances", Nordic Journal of Computing 10, 2003.
+ * Levenshtein and Damerau Edit Distances", Nordic Journal of Computing 10, 2003. A character more changes it by 1 at most, so what cannot
+ * become better than the best is not counted to its end.
  */
 static size_t edit_distance(const struct diag_guess *guess, const char *word, size_t len)
 {
     uint64_t more = UINT64_MAX, less = 0, same = 0, before = 0, last = (uint64_t)1 << (guess->len - 1);
     size_t distance = guess->len;
-    for (size_t i = 0; i < len; i++) {
+    for (size_t i = 0; i < len && distance < guess->best_distance + (len - i); i++) {
         uint64_t places = guess->places[(unsigned char)word[i]], swapped = (~same & places) << 1 & before;
         same = (((places & more) + more) ^ more) | places | less | swapped; /* as far as diagonally before */
         uint64_t grows = less | ~(same | more), shrinks = same & more;      /* from the row above */
@@ -30,11 +31,13 @@ static size_t edit_distance(const struct diag_guess *guess, const char *word, si
     return distance;
 }
 
-/* MaterialX names are mostly lower case; a wrong case is a likely mistake. */
-static void fold_case(char *out, const char *word, size_t len)
+/* MaterialX names are mostly lower case; a wrong case is no difference. */
+static void add_place(struct diag_guess *guess, unsigned char c, size_t place)
 {
-    for (size_t i = 0; i < len; i++)
-        out[i] = (char)(word[i] >= 'A' && word[i] <= 'Z' ? word[i] - 'A' + 'a' : word[i]);
+    unsigned char lower = c | 0x20;
+    guess->places[c] |= (uint64_t)1 << place;
+    if (lower >= 'a' && lower <= 'z')
+        guess->places[c ^ 0x20] |= (uint64_t)1 << place;
 }
 
 bool diag_may_guess(const struct diag_list *list)
@@ -50,20 +53,17 @@ bool diag_guess_begin(struct diag_guess *guess, struct diag_list *list, const ch
         return false;
     list->num_guesses++;
     guess->len = len;
-    fold_case(guess->folded, word, len);
     for (size_t i = 0; i < len; i++)
-        guess->places[(unsigned char)guess->folded[i]] |= (uint64_t)1 << i;
+        add_place(guess, (unsigned char)word[i], i);
     return true;
 }
 
 void diag_guess_add(struct diag_guess *guess, const char *candidate)
 {
-    char folded[MAX_WORD];
     size_t len = strlen(candidate), difference = len > guess->len ? len - guess->len : guess->len - len;
     if (!guess->len || len > MAX_WORD || difference >= guess->best_distance)
         return;
-    fold_case(folded, candidate, len);
-    size_t distance = edit_distance(guess, folded, len);
+    size_t distance = edit_distance(guess, candidate, len);
     if (distance < guess->best_distance && (distance || strcmp(guess->word, candidate) != 0)) {
         guess->best_distance = distance;
         guess->best = candidate;

@@ -149,6 +149,7 @@ struct library {
     VEC(uint32_t) node_table;   /* open addressing by node name: first nodedef of that node (own index + 1) */
     VEC(uint32_t) element_info; /* per own element: 1 + own index of its nodedef, type, geomprop or graph_node; 0 = none */
     const uint16_t *narrow_info; /* in place of `element_info` in an image layer of few definitions */
+    _Atomic uint32_t *matches;  /* per own element: 1 + the definition that it was found to be without a message; 0: not asked. NULL: not kept */
     VEC(uint32_t) overrides;    /* impl indices (own) for nodedefs of lower layers */
     struct diag_list *deferred; /* faults of implementations, told when one is used */
 };
@@ -193,6 +194,9 @@ void library_index(struct library *lib, const struct lang_reader *reader, struct
 void library_resolve_graphs(struct library *lib, struct diag_list *diags);
 
 /* match.c */
+
+/* From now on what nodes of the layer match is kept, so that it is found once for all who ask, on any thread. The tree stands. */
+void library_keep_matches(struct library *lib, struct arena *arena);
 
 /*
  * The definition of a node element: by its `nodedef` attribute, else by name, version, types and target. LIBRARY_NONE after reporting why:

@@ -4,6 +4,8 @@
 
 #include "base/hash.h"
 
+#include <stdatomic.h>
+
 static const char *text_of(const struct library *lib, str_id id)
 {
     return str_text(&lib->strings, id);
@@ -66,14 +68,17 @@ static struct candidate fit_inputs(const struct library *lib, const struct noded
                                    elem_id node)
 {
     struct candidate result = {FIT_EXACT, NULL, 0, 0, 0};
+    unsigned at = 0; /* most nodes have their inputs in the definition's order */
     for (elem_id child = doc_element(&lib->doc, node)->first_child; child; child = doc_element(&lib->doc, child)->next) {
         const struct element *input = doc_element(&lib->doc, child);
         if (input->kind != KIND_INPUT)
             continue;
         const struct port *port = NULL;
-        for (unsigned i = 0; i < def->num_inputs && !port; i++)
-            if (ports[i].name == input->name)
-                port = &ports[i];
+        for (unsigned tried = 0; tried < def->num_inputs && !port; tried++, at++) {
+            at = at < def->num_inputs ? at : 0;
+            if (ports[at].name == input->name)
+                port = &ports[at];
+        }
         str_id type = doc_attr_value(&lib->doc, child, STR_type);
         if (!port)
             result = (struct candidate){FIT_EXTRA_INPUTS, "it has no input '%s'", input->name, 0, 0};
@@ -193,6 +198,26 @@ const char *library_suggest_nodedef(const struct library *lib, str_id name, stru
     return diag_guess_text(&guess);
 }
 
+/* ---- What was found before ---- */
+
+void library_keep_matches(struct library *lib, struct arena *arena)
+{
+    lib->matches = arena_zalloc(arena, mem_array_size(arena->mem, lib->doc.elements.len, sizeof *lib->matches));
+}
+
+static _Atomic uint32_t *match_of(const struct library *lib, elem_id node)
+{
+    return lib->matches && node >= lib->doc.first_element ? &lib->matches[node - lib->doc.first_element] : NULL;
+}
+
+/* Whoever comes first: all find the same. */
+static void keep(const struct library *lib, elem_id node, uint32_t nodedef)
+{
+    _Atomic uint32_t *match = match_of(lib, node);
+    if (match)
+        atomic_store_explicit(match, nodedef + 1, memory_order_relaxed);
+}
+
 static uint32_t match_explicit(const struct library *lib, elem_id node, str_id name, struct diag_list *diags)
 {
     uint32_t id = library_nodedef_by_name(lib, name);
@@ -213,10 +238,12 @@ static uint32_t match_explicit(const struct library *lib, elem_id node, str_id n
     }
     if (c.fit == FIT_EXTRA_INPUTS)
         report_unknown_inputs(lib, id, node, diags);
+    else if (def->node == category)
+        keep(lib, node, id);
     return id;
 }
 
-uint32_t library_match(const struct library *lib, elem_id node, struct diag_list *diags)
+static uint32_t find_match(const struct library *lib, elem_id node, struct diag_list *diags)
 {
     str_id explicit_name = doc_attr_value(&lib->doc, node, STR_nodedef);
     if (explicit_name)
@@ -229,8 +256,10 @@ uint32_t library_match(const struct library *lib, elem_id node, struct diag_list
              own = layer->nodedefs.items[own].next_same_node) {
             known = true;
             struct candidate c = fit(lib, layer->base_nodedefs + own, node, false);
-            if (c.fit == FIT_EXACT)
+            if (c.fit == FIT_EXACT) {
+                keep(lib, node, layer->base_nodedefs + own);
                 return layer->base_nodedefs + own;
+            }
             if (c.fit == FIT_EXTRA_INPUTS && with_extra == LIBRARY_NONE)
                 with_extra = layer->base_nodedefs + own;
         }
@@ -241,4 +270,11 @@ uint32_t library_match(const struct library *lib, elem_id node, struct diag_list
     else
         report_unknown_node(lib, node, diags);
     return with_extra;
+}
+
+uint32_t library_match(const struct library *lib, elem_id node, struct diag_list *diags)
+{
+    _Atomic uint32_t *match = match_of(lib, node);
+    uint32_t known = match ? atomic_load_explicit(match, memory_order_relaxed) : 0;
+    return known ? known - 1 : find_match(lib, node, diags);
 }
