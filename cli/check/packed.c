@@ -60,17 +60,24 @@ static uint32_t choice(struct packer *packer, uint32_t value, uint32_t end)
     return packer->failed ? 0 : value;
 }
 
-/* Its length where it is UTF-8; 0 and *out_is_good false where it is not. */
-static size_t measure_text(const char *text, bool *out_is_good)
+static bool is_ascii(const char *text, size_t size)
 {
-    size_t at = 0;
-    *out_is_good = true;
-    while (text[at] && *out_is_good) {
-        size_t len = (unsigned char)text[at] < 0x80 ? 1 : utf8_length(text + at);
-        *out_is_good = len > 0;
-        at += len;
+    uint64_t all = 0, word;
+    for (; size >= sizeof word; text += sizeof word, size -= sizeof word) {
+        memcpy(&word, text, sizeof word);
+        all |= word;
     }
-    return at;
+    for (; size; text++, size--)
+        all |= (unsigned char)*text;
+    return (all & 0x8080808080808080u) == 0;
+}
+
+static bool is_utf8(const char *text)
+{
+    size_t len = 1;
+    for (; *text && len; text += len)
+        len = utf8_length(text);
+    return len > 0;
 }
 
 static const char *repair(struct packer *packer, const char *text)
@@ -88,9 +95,9 @@ static const char *repair(struct packer *packer, const char *text)
 
 static void put_text(struct packer *packer, const char *value)
 {
-    bool is_good;
-    size_t size = measure_text(value ? value : "", &is_good);
-    if (!is_good) {
+    value = value ? value : "";
+    size_t size = strlen(value);
+    if (!is_ascii(value, size) && !is_utf8(value)) {
         value = repair(packer, value);
         size = strlen(value);
     }

@@ -222,21 +222,26 @@ elem_id doc_next_in_tree(const struct document *doc, elem_id root, elem_id eleme
     return 0;
 }
 
-const struct attribute *doc_attr(const struct document *doc, elem_id element, str_id name)
+static inline const struct attribute *find_attr(const struct document *doc, elem_id element, str_id name)
 {
     doc = doc_layer(doc, element);
     const struct element *e = &doc->elements.items[element - doc->first_element];
-    for (uint32_t i = 0; i < e->num_attrs; i++) {
-        const struct attribute *attr = &doc->attrs.items[e->first_attr - doc->first_attr + i];
-        if (attr->name == name)
-            return attr;
-    }
-    return NULL;
+    if (!e->num_attrs)
+        return NULL;
+    const struct attribute *attr = &doc->attrs.items[e->first_attr - doc->first_attr], *end = attr + e->num_attrs;
+    while (attr < end && attr->name != name)
+        attr++;
+    return attr < end ? attr : NULL;
+}
+
+const struct attribute *doc_attr(const struct document *doc, elem_id element, str_id name)
+{
+    return find_attr(doc, element, name);
 }
 
 str_id doc_attr_value(const struct document *doc, elem_id element, str_id name)
 {
-    const struct attribute *attr = doc_attr(doc, element, name);
+    const struct attribute *attr = find_attr(doc, element, name);
     return attr ? attr->value : STR_EMPTY;
 }
 

@@ -83,7 +83,9 @@ static bool is_foreign(const struct validation *v, elem_id element)
 static bool is_outdated(const struct validation *v, elem_id element)
 {
     static const char *const names[] = {"shaderref", "bindinput", "bindparam", "bindtoken", "materialinherit"};
-    const char *category = is_foreign(v, element) ? text_of(v, doc_element(v->doc, element)->category) : "";
+    if (!is_foreign(v, element))
+        return false;
+    const char *category = text_of(v, doc_element(v->doc, element)->category);
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         if (strcmp(names[i], category) == 0)
             return true;
@@ -194,10 +196,10 @@ static void check_type_and_values(struct validation *v, elem_id element)
 static void check_bindings(struct validation *v, elem_id element)
 {
     const struct element *e = doc_element(v->doc, element);
+    const struct attribute *attrs = doc_attrs(v->doc, element);
     int connections = 0;
-    connections += doc_attr_value(v->doc, element, STR_nodename) != 0;
-    connections += doc_attr_value(v->doc, element, STR_nodegraph) != 0;
-    connections += doc_attr_value(v->doc, element, STR_interfacename) != 0;
+    for (uint32_t i = 0; i < e->num_attrs; i++)
+        connections += attrs[i].value && (attrs[i].name == STR_nodename || attrs[i].name == STR_nodegraph || attrs[i].name == STR_interfacename);
     if (connections > 1)
         diag_add(v->diags, DIAG_ID_several_connections, doc_place(v->doc, element), text_of(v, e->name));
     else if (connections && doc_attr_value(v->doc, element, STR_value))

@@ -11,6 +11,7 @@ struct validate {
     struct diag_list *diags;
     struct resolve_out resolved;
     uint8_t *used; /* per own element: a connection leads there */
+    str_id known_space; /* the colour space that was found good last; 0: none */
 };
 
 /* validate_inputs.c: the value of a node's input against its definition; that it has one, where it must. */

@@ -83,12 +83,14 @@ static void check_space(struct validate *v, elem_id element)
 {
     str_id said = doc_attr_value(v->doc, element, STR_colorspace);
     const char *hub = library_color_hub;
-    if (!said || library_color_transform(v->lib, "srgb_texture", hub, "color3") == LIBRARY_NONE)
+    if (!said || said == v->known_space || library_color_transform(v->lib, "srgb_texture", hub, "color3") == LIBRARY_NONE)
         return;
     const char *space = library_canonical_space(text_of(v, said));
     bool is_known = strcmp(space, "none") == 0 || strcmp(space, hub) == 0
                     || library_color_transform(v->lib, space, hub, "color3") != LIBRARY_NONE;
-    if (!is_known)
+    if (is_known)
+        v->known_space = said;
+    else
         library_report_space(v->lib, space, doc_attr_place(v->doc, element, STR_colorspace), v->diags);
 }
 
