@@ -138,7 +138,8 @@ static bool has_namespaces(const struct document *doc)
 
 void doc_qualify_names(struct document *doc)
 {
-    if (!has_namespaces(doc))
+    doc->is_global = !has_namespaces(doc);
+    if (doc->is_global)
         return;
     struct qualifier q = {.doc = doc};
     text_init(&q.scratch, doc->arena);

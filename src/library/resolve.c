@@ -10,7 +10,8 @@ static const char *text_of(const struct library *lib, str_id id)
 /* A child by name as `from` means it: names inside of a namespace are tried with it first (specification, "Namespaces"). */
 static elem_id find_named(const struct library *lib, elem_id scope, str_id name, elem_id from)
 {
-    str_id space = doc_inherited_attr(&lib->doc, from, STR_namespace);
+    bool is_global = from >= lib->doc.first_element && lib->doc.is_global;
+    str_id space = is_global ? STR_EMPTY : doc_inherited_attr(&lib->doc, from, STR_namespace);
     if (space) {
         char qualified[512];
         size_t space_len = str_len(&lib->strings, space), name_len = str_len(&lib->strings, name);
@@ -188,6 +189,74 @@ static elem_id graph_output(const struct library *lib, elem_id port, elem_id gra
     return assumed;
 }
 
+/* What a port says of its connection. */
+struct said {
+    str_id node, graph, interface, output;
+    bool has_value;
+};
+
+static struct said read_port(const struct document *doc, elem_id port)
+{
+    struct said said = {0};
+    const struct attribute *attrs = doc_attrs(doc, port);
+    for (uint32_t i = 0; i < doc_element(doc, port)->num_attrs; i++) {
+        str_id value = attrs[i].value;
+        switch (attrs[i].name) {
+        case STR_nodename:
+            said.node = value;
+            break;
+        case STR_nodegraph:
+            said.graph = value;
+            break;
+        case STR_interfacename:
+            said.interface = value;
+            break;
+        case STR_output:
+            said.output = value;
+            break;
+        case STR_value:
+            said.has_value = true;
+            break;
+        default:
+            break;
+        }
+    }
+    return said;
+}
+
+/* Of a port that names a node or a graph: the output of the graph, or 0 with *out. */
+static elem_id follow_name(const struct library *lib, elem_id asker, elem_id port, elem_id scope, const struct said *said, doc_type type,
+                           struct binding *out, struct diag_list *diags)
+{
+    const struct document *doc = &lib->doc;
+    elem_id target = said->node ? find_named(lib, scope, said->node, port) : 0;
+    if (!target && said->graph && !(target = find_named(lib, scope, said->graph, port)))
+        target = find_named(lib, root_of(lib, port), said->graph, port);
+    if (target && doc_element(doc, target)->kind == KIND_NODE) {
+        *out = bind_node(lib, asker, port, target, type, diags);
+        return 0;
+    }
+    if (target && doc_element(doc, target)->kind == KIND_NODEGRAPH)
+        return graph_output(lib, port, target, type, diags);
+    str_id missing = said->node ? said->node : said->graph;
+    diag_add(diags, said->node ? DIAG_ID_dangling_nodename : DIAG_ID_dangling_nodegraph,
+             doc_attr_place(doc, port, said->node ? STR_nodename : STR_nodegraph), text_of(lib, missing),
+             suggest_child(lib, scope, said->node ? KIND_NODE : KIND_NODEGRAPH, missing, diags));
+    if (said->node)
+        report_elsewhere(lib, root_of(lib, port), scope, said->node, diags);
+    return 0;
+}
+
+/* The same of one that names an output of the document. */
+static elem_id follow_output(const struct library *lib, elem_id port, str_id output, struct diag_list *diags)
+{
+    elem_id root = root_of(lib, port), target = doc_child_of_kind(&lib->doc, root, KIND_OUTPUT, output);
+    if (!target)
+        diag_add(diags, DIAG_ID_dangling_output, doc_attr_place(&lib->doc, port, STR_output), "the document", text_of(lib, output),
+                 suggest_child(lib, root, KIND_OUTPUT, output, diags));
+    return target;
+}
+
 /* The next port to look at, or 0 with *out telling the end of the chain. */
 static elem_id follow(const struct library *lib, elem_id asker, elem_id port, doc_type type, struct binding *out,
                       struct diag_list *diags)
@@ -197,47 +266,21 @@ static elem_id follow(const struct library *lib, elem_id asker, elem_id port, do
     const struct element *owner = doc_element(doc, element->parent);
     /* The scope of an input of a node is the node's graph; of an interface input, what is around the graph; an output's scope is its graph. */
     elem_id scope = element->kind == KIND_OUTPUT ? element->parent : owner->parent;
+    struct said said = read_port(doc, port);
     *out = bind_error;
-    str_id name = doc_attr_value(doc, port, STR_nodename);
-    str_id graph_name = doc_attr_value(doc, port, STR_nodegraph);
-    if (name || graph_name) {
-        elem_id target = 0;
-        if (name)
-            target = find_named(lib, scope, name, port);
-        if (!target && graph_name && !(target = find_named(lib, scope, graph_name, port)))
-            target = find_named(lib, root_of(lib, port), graph_name, port);
-        if (target && doc_element(doc, target)->kind == KIND_NODE) {
-            *out = bind_node(lib, asker, port, target, type, diags);
-            return 0;
-        }
-        if (target && doc_element(doc, target)->kind == KIND_NODEGRAPH)
-            return graph_output(lib, port, target, type, diags);
-        str_id missing = name ? name : graph_name;
-        diag_add(diags, name ? DIAG_ID_dangling_nodename : DIAG_ID_dangling_nodegraph,
-                 doc_attr_place(doc, port, name ? STR_nodename : STR_nodegraph), text_of(lib, missing),
-                 suggest_child(lib, scope, name ? KIND_NODE : KIND_NODEGRAPH, missing, diags));
-        if (name)
-            report_elsewhere(lib, root_of(lib, port), scope, name, diags);
-        return 0;
-    }
-    str_id interface = doc_attr_value(doc, port, STR_interfacename);
-    if (interface) {
+    if (said.node || said.graph)
+        return follow_name(lib, asker, port, scope, &said, type, out, diags);
+    if (said.interface) {
         const struct element *graph = doc_element(doc, scope);
-        elem_id input = doc_child_of_kind(doc, scope, KIND_INPUT, interface);
+        elem_id input = doc_child_of_kind(doc, scope, KIND_INPUT, said.interface);
         if (input && !(graph->kind == KIND_NODEGRAPH && doc_attr(doc, scope, STR_nodedef)))
             return input;
-        *out = (struct binding){.kind = BIND_INTERFACE, .ref = interface, .element = port};
+        *out = (struct binding){.kind = BIND_INTERFACE, .ref = said.interface, .element = port};
         return 0;
     }
-    str_id output = element->kind == KIND_INPUT ? doc_attr_value(doc, port, STR_output) : 0;
-    if (output) {
-        elem_id target = doc_child_of_kind(doc, root_of(lib, port), KIND_OUTPUT, output);
-        if (!target)
-            diag_add(diags, DIAG_ID_dangling_output, doc_attr_place(doc, port, STR_output), "the document",
-                     text_of(lib, output), suggest_child(lib, root_of(lib, port), KIND_OUTPUT, output, diags));
-        return target;
-    }
-    *out = (struct binding){.kind = doc_attr(doc, port, STR_value) ? BIND_VALUE : BIND_DEFAULT, .element = port};
+    if (said.output && element->kind == KIND_INPUT)
+        return follow_output(lib, port, said.output, diags);
+    *out = (struct binding){.kind = said.has_value ? BIND_VALUE : BIND_DEFAULT, .element = port};
     return 0;
 }
 
