@@ -193,14 +193,6 @@ static bool is_connection(str_id attr)
     return attr == STR_nodename || attr == STR_nodegraph || attr == STR_interfacename || attr == STR_output;
 }
 
-static bool has_own_units(const struct document *doc)
-{
-    for (elem_id e = doc_element(doc, doc->root)->first_child; e; e = doc_element(doc, e)->next)
-        if (doc_element(doc, e)->kind == KIND_UNITDEF || doc_element(doc, e)->kind == KIND_UNITTYPEDEF)
-            return true;
-    return false;
-}
-
 /* True where the element is a port that is connected: what it is connected to says more than the names. */
 static bool add_attributes(struct walk *w, elem_id element, bool is_public)
 {
@@ -222,7 +214,7 @@ static bool add_attributes(struct walk *w, elem_id element, bool is_public)
                 add_text(w, value);
         }
         if (name == STR_unit)
-            w->is_unknown |= has_own_units(w->doc);
+            w->is_unknown |= w->lib->units.len > 0; /* units of the document itself */
     }
     w->is_unknown |= is_port && (num_says > 1 || type_of(w, element) == DOC_TYPE_NONE);
     return is_connected;

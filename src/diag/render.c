@@ -51,23 +51,48 @@ static struct line find_line(const char *source, size_t source_len, uint32_t num
     return (struct line){source, len};
 }
 
-/* Bytes of the first `count` code points, or all of them. */
+static bool begins_code_point(char byte)
+{
+    return (byte & 0xc0) != 0x80;
+}
+
+/* How many of eight bytes begin a code point: those that are not 10xxxxxx. */
+static uint32_t begun_in_word(const char *bytes)
+{
+    const uint64_t lowest = UINT64_C(0x0101010101010101);
+    uint64_t word;
+    memcpy(&word, bytes, sizeof word);
+    return 8 - (uint32_t)((((word >> 7) & ~(word >> 6) & lowest) * lowest) >> 56);
+}
+
+/* Bytes of the first `count` code points, or all of them. A document may be one line of megabytes, with many messages about it. */
 static size_t bytes_of(struct line line, uint32_t count)
 {
     size_t at = 0;
-    for (; count > 0 && at < line.len; count--) {
-        at++;
-        while (at < line.len && (line.text[at] & 0xc0) == 0x80)
-            at++;
-    }
+    for (uint32_t begun; at + 8 <= line.len && (begun = begun_in_word(line.text + at)) <= count; at += 8)
+        count -= begun;
+    for (; at < line.len; at++)
+        if (begins_code_point(line.text[at]) && count-- == 0)
+            break;
     return at;
+}
+
+static struct line first(struct line line, uint32_t count)
+{
+    return (struct line){line.text, bytes_of(line, count)};
+}
+
+static struct line behind(struct line line, uint32_t count)
+{
+    size_t skipped = bytes_of(line, count);
+    return (struct line){line.text + skipped, line.len - skipped};
 }
 
 static uint32_t code_points(struct line line)
 {
     uint32_t count = 0;
     for (size_t i = 0; i < line.len; i++)
-        count += (line.text[i] & 0xc0) != 0x80;
+        count += begins_code_point(line.text[i]);
     return count;
 }
 
@@ -75,28 +100,28 @@ static uint32_t code_points(struct line line)
 static void put_margin(struct text *out, struct line line)
 {
     for (size_t i = 0; i < line.len; i++)
-        if ((line.text[i] & 0xc0) != 0x80)
+        if (begins_code_point(line.text[i]))
             text_char(out, line.text[i] == '\t' ? '\t' : ' ');
 }
 
 static void render_source(const struct diag_place *place, struct line line, bool colour, struct text *out)
 {
-    uint32_t before = place->column - 1, total = code_points(line);
+    uint32_t before = place->column - 1, near = before > LINE_BEFORE ? before - LINE_BEFORE : 0;
+    struct line rest = behind(line, near);
     const char *ellipsis = "";
-    if (before > total || total == 0)
+    if (line.len == 0 || before - near > code_points(first(rest, LINE_SHOWN)))
         return; /* the text is not the one that the message is about, or there is nothing to see */
-    if (total > LINE_SHOWN && before > LINE_BEFORE) {
-        size_t skipped = bytes_of(line, before - LINE_BEFORE);
-        line = (struct line){line.text + skipped, line.len - skipped};
+    if (near && first(line, LINE_SHOWN).len < line.len) {
+        line = rest;
         before = LINE_BEFORE;
         ellipsis = "...";
     }
-    struct line shown = {line.text, bytes_of(line, LINE_SHOWN)};
+    struct line shown = first(line, LINE_SHOWN);
     text_fmt(out, "    %s", ellipsis);
     put_clean(out, shown.text, shown.len);
     text_str(out, shown.len < line.len ? "...\n    " : "\n    ");
     put_margin(out, (struct line){ellipsis, strlen(ellipsis)});
-    put_margin(out, (struct line){shown.text, bytes_of(shown, before)});
+    put_margin(out, first(shown, before));
     paint(out, colour, green);
     text_char(out, '^');
     uint32_t room = code_points(shown) - before;

@@ -33,12 +33,14 @@ static elem_id root_of(const struct library *lib, elem_id element)
     return library_of_element(lib, element)->doc.root;
 }
 
+enum { MAX_SEARCHED = 4096 }; /* elements of a scope, for what makes a message more helpful: each generation of a large document may ask */
+
 /* "(did you mean …)" among the named children of a scope. */
 static const char *suggest_child(const struct library *lib, elem_id scope, int kind, str_id name, struct diag_list *diags)
 {
     struct diag_guess guess;
-    bool may_guess = diag_guess_begin(&guess, diags, text_of(lib, name));
-    for (elem_id e = may_guess ? doc_element(&lib->doc, scope)->first_child : 0; e; e = doc_element(&lib->doc, e)->next) {
+    elem_id e = diag_guess_begin(&guess, diags, text_of(lib, name)) ? doc_element(&lib->doc, scope)->first_child : 0;
+    for (unsigned searched = 0; e && searched < MAX_SEARCHED; e = doc_element(&lib->doc, e)->next, searched++) {
         const struct element *child = doc_element(&lib->doc, e);
         if (child->name && child->kind == kind)
             diag_guess_add(&guess, text_of(lib, child->name));
@@ -50,7 +52,8 @@ static const char *suggest_child(const struct library *lib, elem_id scope, int k
 static void report_elsewhere(const struct library *lib, elem_id root, elem_id scope, str_id name, struct diag_list *diags)
 {
     const struct document *doc = &lib->doc;
-    for (elem_id e = diag_may_guess(diags) ? doc_element(doc, root)->first_child : 0; e; e = doc_element(doc, e)->next) {
+    elem_id e = diag_may_guess(diags) ? doc_element(doc, root)->first_child : 0;
+    for (unsigned searched = 0; e && searched < MAX_SEARCHED; e = doc_element(doc, e)->next, searched++) {
         bool is_other = e != scope && doc_element(doc, e)->kind == KIND_NODEGRAPH;
         elem_id node = is_other ? doc_child_of_kind(doc, e, KIND_NODE, name) : 0;
         if (!node)
