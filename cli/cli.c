@@ -239,18 +239,33 @@ char *cli_file_name(const char *element_path)
     return name;
 }
 
+static char *allocate_text(size_t len)
+{
+    char *text = malloc(len + 1);
+    if (!text) {
+        fputs("mxgen: out of memory\n", stderr);
+        exit(EXIT_FAULT);
+    }
+    return text;
+}
+
+char *cli_copy(const char *text, size_t len)
+{
+    char *copy = memcpy(allocate_text(len), text, len);
+    copy[len] = '\0';
+    return copy;
+}
+
 char *cli_format(const char *format, ...)
 {
     va_list args, again;
     va_start(args, format);
     va_copy(again, args);
     int len = vsnprintf(NULL, 0, format, args);
-    char *text = len < 0 ? NULL : malloc((size_t)len + 1);
-    if (!text) {
-        fputs("mxgen: out of memory\n", stderr);
-        exit(EXIT_FAULT);
-    }
-    vsnprintf(text, (size_t)len + 1, format, again);
+    char *text = allocate_text(len < 0 ? 0 : (size_t)len);
+    *text = '\0';
+    if (len > 0)
+        vsnprintf(text, (size_t)len + 1, format, again);
     va_end(again);
     va_end(args);
     return text;

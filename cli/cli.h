@@ -74,6 +74,9 @@ __attribute__((format(printf, 1, 2)))
 char *
 cli_format(const char *format, ...);
 
+/* A copy of `len` bytes with a NUL behind them, to be freed; ends the program where there is no memory. */
+char *cli_copy(const char *text, size_t len);
+
 /* generate.c, check/check.c, inspect.c, library.c, validate.c, render.c, explain.c */
 int command_generate(const struct command *command, int argc, char **argv);
 int command_check(const struct command *command, int argc, char **argv);

@@ -32,6 +32,7 @@ static void keep_memory(void)
 static bool serve(struct examiner *examiner, int output)
 {
     struct frame task;
+    struct packed record = {0};
     if (!channel_open(&examiner->channel, STDIN_FILENO, output)) {
         fputs("mxgen: this program is started by 'mxgen check'\n", stderr);
         return false;
@@ -40,10 +41,10 @@ static bool serve(struct examiner *examiner, int output)
         examiner->is_brief = task.note & TASK_BRIEF;
         examiner->errors_only = task.note & TASK_ERRORS_ONLY;
         const struct check_document *document = examine(examiner, task.body);
-        size_t size;
-        const char *record = check_pack_document(&examiner->store, document, &size);
-        channel_answer(&examiner->channel, record, size);
+        check_pack_document(&record, &examiner->store, document);
+        channel_answer(&examiner->channel, record.bytes, record.size);
     }
+    free(record.bytes);
     channel_close(&examiner->channel);
     return true;
 }

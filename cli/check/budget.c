@@ -65,12 +65,10 @@ static bool is_same_folder(const char *a, const char *b)
 static char *folder_above(const char *folder)
 {
     const char *slash = strrchr(folder, '/'), *name = slash ? slash + 1 : folder;
-    char *above;
     if (*name && strcmp(name, ".") != 0 && strcmp(name, "..") != 0)
-        above = cli_format("%.*s", (int)(slash ? (slash > folder ? slash - folder : 1) : 0), folder);
-    else
-        above = *folder ? cli_format("%s/..", folder) : cli_format("..");
-    if (!*above || !is_same_folder(folder, above))
+        return cli_copy(folder, slash ? (slash > folder ? (size_t)(slash - folder) : 1) : 0);
+    char *above = *folder ? cli_format("%s/..", folder) : cli_format("..");
+    if (!is_same_folder(folder, above))
         return above;
     free(above);
     return NULL;
@@ -120,14 +118,12 @@ static void load_file(struct budget *budget, struct budget_file *file)
 static const struct budget_file *file_of(struct budget *budget, struct budget_file *file, const char *document)
 {
     const char *slash = strrchr(document, '/');
-    char *folder = cli_format("%.*s", slash ? (int)(slash - document) + (slash == document) : 0, document);
-    if (file->folder && strcmp(file->folder, folder) == 0) {
-        free(folder);
+    size_t len = slash ? (size_t)(slash - document) + (slash == document) : 0;
+    if (file->folder && strncmp(file->folder, document, len) == 0 && !file->folder[len])
         return file;
-    }
     free(file->folder);
     store_finish(&file->store);
-    *file = (struct budget_file){.folder = folder};
+    *file = (struct budget_file){.folder = cli_copy(document, len)};
     load_file(budget, file);
     return file;
 }

@@ -159,7 +159,7 @@ static bool give_next(struct check *check)
     if (!path)
         return false;
     struct slot *slot = slot_of(check, check->last++);
-    *slot = (struct slot){.path = cli_format("%s", path), .index = check->num_found - 1};
+    *slot = (struct slot){.path = cli_copy(path, strlen(path)), .index = check->num_found - 1};
     slot->record = cache_find(&check->cache, path, &slot->key, &slot->size);
     slot->is_done = slot->is_cached = slot->record != NULL;
     if (!slot->is_done)

@@ -212,12 +212,15 @@ static bool expand(struct check_inputs *inputs, const char *path)
 /* The next item of the innermost source; NULL behind the last. */
 static char *next_item(struct input_source *source)
 {
-    if (!source->lines)
-        return source->at < source->num_items ? cli_format("%s%s", source->mark, source->items[source->at++]) : NULL;
+    if (!source->lines && source->at == source->num_items)
+        return NULL;
+    const char *item = source->lines ? NULL : source->items[source->at++];
+    if (item)
+        return *source->mark ? cli_format("%s%s", source->mark, item) : cli_copy(item, strlen(item));
     ssize_t len = getline(&source->line, &source->capacity, source->lines);
     while (len > 0 && (source->line[len - 1] == '\n' || source->line[len - 1] == '\r'))
         source->line[--len] = '\0';
-    return len < 0 ? NULL : cli_format("%s", source->line);
+    return len < 0 ? NULL : cli_copy(source->line, (size_t)len);
 }
 
 const char *inputs_next(struct check_inputs *inputs)
@@ -230,7 +233,7 @@ const char *inputs_next(struct check_inputs *inputs)
         }
         const char *tidy = strncmp(item, "./", 2) == 0 && item[2] ? item + 2 : item;
         if (*tidy && expand(inputs, tidy) && is_new(inputs, tidy)) {
-            char *path = cli_format("%s", tidy);
+            char *path = cli_copy(tidy, strlen(tidy));
             free(item);
             free(inputs->path);
             return inputs->path = path;

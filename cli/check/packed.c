@@ -4,6 +4,7 @@
 
 #include "cli/utf8.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 struct packer {
@@ -13,24 +14,27 @@ struct packer {
     bool reads, failed;
 };
 
-/* The place of `size` bytes, behind which it goes on; NULL: there are not so many. */
-static char *claim(struct packer *packer, size_t size)
+static bool make_room(struct packer *packer, size_t size)
 {
-    if (packer->failed || (packer->reads && packer->size - packer->at < size)) {
+    size_t room = (packer->size + size) * 2 + 4096;
+    char *bytes = packer->reads ? NULL : realloc(packer->bytes, room);
+    if (!bytes)
+        return false;
+    packer->bytes = bytes;
+    packer->size = room;
+    return true;
+}
+
+/* The place of `size` bytes, behind which it goes on; NULL: there are not so many, and never will be. */
+static inline char *claim(struct packer *packer, size_t size)
+{
+    bool is_there = packer->size - packer->at >= size || (!packer->failed && make_room(packer, size));
+    if (packer->failed || !is_there) {
         packer->failed = true;
         return NULL;
     }
-    if (packer->size - packer->at < size) {
-        size_t room = packer->size + size < 2048 ? 4096 : (packer->size + size) * 2;
-        char *bytes = store_alloc(packer->store, room);
-        if (packer->at)
-            memcpy(bytes, packer->bytes, packer->at);
-        packer->bytes = bytes;
-        packer->size = room;
-    }
-    char *place = packer->bytes + packer->at;
     packer->at += size;
-    return place;
+    return packer->bytes + packer->at - size;
 }
 
 static void plain(struct packer *packer, void *value, size_t size)
@@ -221,13 +225,12 @@ static void document(struct packer *packer, struct check_document *document)
     real(packer, &document->render_ms);
 }
 
-char *check_pack_document(struct store *store, const struct check_document *record, size_t *out_size)
+void check_pack_document(struct packed *out, struct store *store, const struct check_document *record)
 {
-    struct packer packer = {.store = store};
+    struct packer packer = {.store = store, .bytes = out->bytes, .size = out->capacity};
     struct check_document copy = *record; /* arrays stay as they are */
     document(&packer, &copy);
-    *out_size = packer.failed ? 0 : packer.at;
-    return packer.bytes;
+    *out = (struct packed){packer.bytes, packer.failed ? 0 : packer.at, packer.size};
 }
 
 struct check_document *check_unpack_document(struct store *store, const char *bytes, size_t size)

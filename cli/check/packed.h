@@ -8,8 +8,14 @@
 
 #include "cli/check/record.h"
 
-/* The bytes, in the store. */
-char *check_pack_document(struct store *store, const struct check_document *document, size_t *out_size);
+/* Room for one record after the other. */
+struct packed {
+    char *bytes;
+    size_t size, capacity;
+};
+
+/* Writes the record in place of the one before; the store is for what it needs on the way. Bytes are to be freed in the end. */
+void check_pack_document(struct packed *out, struct store *store, const struct check_document *document);
 
 /* NULL where the bytes are no record. Its texts are those in the bytes, which must live as long. */
 struct check_document *check_unpack_document(struct store *store, const char *bytes, size_t size);

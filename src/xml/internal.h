@@ -47,7 +47,14 @@ struct xml_file {
     bool open;   /* it is being read now: including it is a cycle */
 };
 
-enum { XML_NUM_NAMES = 128 /* a power of two */ };
+/* A short value, by its length and its first and last bytes. */
+struct xml_word {
+    uint64_t bytes;
+    uint32_t len;
+    str_id id;
+};
+
+enum { XML_NUM_NAMES = 128, XML_NUM_WORDS = 128 /* powers of two */ };
 
 struct xml_reader {
     struct document *doc;
@@ -61,6 +68,7 @@ struct xml_reader {
     bool handle_open;
     struct xml_source *source;
     struct xml_name names[XML_NUM_NAMES]; /* met last, each where its address says; those of `parser` */
+    struct xml_word words[XML_NUM_WORDS]; /* met last, each where its hash says */
     VEC(elem_id) includes; /* <xi:include> elements of the files being read, innermost last; replaced when the file is parsed */
     VEC(struct xml_file) opened;
     uint32_t include_depth;

@@ -62,12 +62,28 @@ static str_id qualified_name(struct xml_reader *reader, const char *prefix, cons
     return str_intern(strings, text, len);
 }
 
+/* Types, names of ports and round numbers stand in a document over and over: a value of up to eight bytes is looked for here first. */
+static str_id intern_value(struct xml_reader *reader, const char *text, size_t len)
+{
+    struct strpool *strings = reader->doc->strings;
+    if (len < 4 || len > 8)
+        return str_intern(strings, text, len);
+    uint32_t first, last;
+    memcpy(&first, text, sizeof first);
+    memcpy(&last, text + len - sizeof last, sizeof last);
+    uint64_t bytes = (uint64_t)first << 32 | last;
+    struct xml_word *known = &reader->words[(bytes * 0x9e3779b97f4a7c15u >> 32) & (XML_NUM_WORDS - 1)];
+    if (known->bytes != bytes || known->len != len)
+        *known = (struct xml_word){bytes, (uint32_t)len, str_intern(strings, text, len)};
+    return known->id;
+}
+
 static str_id attr_value(struct xml_reader *reader, const xmlChar *value, const xmlChar *end)
 {
     const char *text = (const char *)value;
     size_t len = (size_t)(end - value);
     if (!reader->source->raw_less.len || !memchr(text, XML_RAW_LESS, len))
-        return str_intern(reader->doc->strings, text, len);
+        return intern_value(reader, text, len);
     char *copy = arena_strndup(&reader->scratch, text, len);
     for (char *p = copy; (p = memchr(p, XML_RAW_LESS, (size_t)(copy + len - p))) != NULL;)
         *p = '<';

@@ -8,6 +8,7 @@
 #include "cli/check/protocol.h"
 
 #include <signal.h>
+#include <stdlib.h>
 #include <string.h>
 #include <time.h>
 #include <unistd.h>
@@ -15,15 +16,16 @@
 static void answer(struct channel *channel, const char *path)
 {
     struct store store = {0};
-    size_t size;
-    const char *record = check_pack_document(&store, &(struct check_document){.file = path}, &size);
+    struct packed record = {0};
+    check_pack_document(&record, &store, &(struct check_document){.file = path});
     if (strstr(path, "dies"))
         raise(SIGKILL);
     while (strstr(path, "hangs"))
         pause();
     if (strstr(path, "slow"))
         nanosleep(&(struct timespec){.tv_nsec = 200000000}, NULL);
-    channel_answer(channel, record, strstr(path, "lies") ? size / 2 : size);
+    channel_answer(channel, record.bytes, strstr(path, "lies") ? record.size / 2 : record.size);
+    free(record.bytes);
     store_finish(&store);
 }
 

@@ -37,36 +37,40 @@ static char *json_of(const struct check_document *document)
 static void test_arrives(void)
 {
     struct store store = {0};
-    size_t size;
-    const char *bytes = check_pack_document(&store, make_document(), &size);
-    struct check_document *read = check_unpack_document(&store, bytes, size);
+    struct packed packed = {0};
+    check_pack_document(&packed, &store, make_document());
+    check_pack_document(&packed, &store, make_document()); /* in place of the first */
+    struct check_document *read = check_unpack_document(&store, packed.bytes, packed.size);
     REQUIRE(read != NULL);
     char *before = json_of(make_document()), *after = read ? json_of(read) : NULL;
     REQUIRE_STR(after, before);
     REQUIRE_STR(read ? read->messages[1].rendered : NULL, "");
     free(before);
     free(after);
+    free(packed.bytes);
     store_finish(&store);
 }
 
 static void test_no_utf8(void)
 {
     struct store store = {0};
-    size_t size;
-    const char *bytes = check_pack_document(&store, &(struct check_document){.file = "a\xff\xc3\xa4.mtlx"}, &size);
-    const struct check_document *read = check_unpack_document(&store, bytes, size);
+    struct packed packed = {0};
+    check_pack_document(&packed, &store, &(struct check_document){.file = "a\xff\xc3\xa4.mtlx"});
+    const struct check_document *read = check_unpack_document(&store, packed.bytes, packed.size);
     REQUIRE_STR(read ? read->file : NULL, "a\xef\xbf\xbd\xc3\xa4.mtlx");
+    free(packed.bytes);
     store_finish(&store);
 }
 
 static void test_no_record(void)
 {
     struct store store = {0};
-    size_t size;
-    char *bytes = check_pack_document(&store, make_document(), &size);
+    struct packed packed = {0};
+    check_pack_document(&packed, &store, make_document());
+    char *bytes = packed.bytes;
+    size_t size = packed.size;
     for (size_t len = 0; len < size; ++len)
         REQUIRE(!check_unpack_document(&store, bytes, len));
-    REQUIRE(!check_unpack_document(&store, bytes, size + 1));
     for (size_t at = 0; at < size; ++at) { /* any byte another: a record or none, and nothing beyond the bytes is read */
         char was = bytes[at];
         bytes[at] = (char)~was;
@@ -74,6 +78,7 @@ static void test_no_record(void)
         free(read ? json_of(read) : NULL);
         bytes[at] = was;
     }
+    free(bytes);
     store_finish(&store);
 }
 
