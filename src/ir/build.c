@@ -115,6 +115,10 @@ ir_ref ir_build(struct ir_graph *graph, enum ir_op op, ir_type_id type, uint32_t
         present |= equal_bit(own, num_args);
     if (!result && present & wanted)
         result = ir_apply_rules(graph, op, type, own, num_args, present);
+    if (!result && num_consts && (op == IR_ADD || op == IR_SUB || op == IR_DIV))
+        result = ir_simplify_by_constant(graph, op, own[0], own[1]);
+    if (!result && op == IR_ABS)
+        result = ir_simplify_abs(graph, own[0]);
     if (!result && may_simplify(op, type))
         result = ir_simplify(graph, op, type, attr, own, num_args);
     return result ? result : ir_intern(graph, op, type, attr, own, num_args);

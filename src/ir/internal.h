@@ -19,6 +19,10 @@ ir_ref ir_find_equal(const struct ir_graph *graph, ir_ref ref);
 /* simplify.c: a simpler node for an op that builds or takes apart; 0 where there is none. */
 ir_ref ir_simplify(struct ir_graph *graph, enum ir_op op, ir_type_id type, uint32_t attr, const ir_ref *args,
                    unsigned num_args);
+/* What is clamped to 0 and more is its own absolute value; else 0. (Of what else is looked through: ir_is_looked_through.) */
+ir_ref ir_simplify_abs(const struct ir_graph *graph, ir_ref a);
+/* a - -1 = a + 1, a + -1 = a - 1, a / 2 = a · 0.5, each bit by bit the same; 0 where `b` is no such constant. */
+ir_ref ir_simplify_by_constant(struct ir_graph *graph, enum ir_op op, ir_ref a, ir_ref b);
 
 /* rules.c */
 

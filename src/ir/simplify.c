@@ -11,6 +11,7 @@
 #include "ir/internal.h"
 
 #include <assert.h>
+#include <math.h>
 
 struct component {
     ir_ref source;  /* a scalar, or a vector other than a constant, swizzle or constructor */
@@ -260,6 +261,51 @@ static ir_ref gather_scalars(struct ir_graph *graph, ir_ref a, ir_ref b)
     if (is_scalar_float(graph, v))
         return ir_op2(graph, IR_MUL, s, ir_op2(graph, IR_MUL, v, b));
     return is_scalar_float(graph, s) ? ir_op2(graph, IR_MUL, v, ir_op2(graph, IR_MUL, s, b)) : 0;
+}
+
+static bool is_negative(float f)
+{
+    return f < 0.0f;
+}
+
+/* One whose reciprocal is exact. */
+static bool is_power_of_two(float f)
+{
+    int exponent;
+    return fabsf(frexpf(f, &exponent)) == 0.5f && exponent > -120 && exponent < 120 && f != 1.0f;
+}
+
+static bool all_components(const struct ir_graph *graph, ir_ref ref, bool (*test)(float))
+{
+    const union ir_word *words = ir_constant_words(graph, ref);
+    for (unsigned i = 0; i < ir_type_info(ir_type_of(graph, ref))->components; i++)
+        if (!test(words[i].f))
+            return false;
+    return true;
+}
+
+static bool is_not_negative(float f)
+{
+    return f >= 0.0f;
+}
+
+ir_ref ir_simplify_abs(const struct ir_graph *graph, ir_ref a)
+{
+    ir_ref low = ir_get(graph, a)->op == IR_CLAMP ? ir_arg(graph, a, 1) : 0;
+    return low && ir_is_const(graph, low) && ir_type_info(ir_type_of(graph, low))->scalar == IR_TYPE_FLOAT &&
+                   all_components(graph, low, is_not_negative) ? a : 0;
+}
+
+ir_ref ir_simplify_by_constant(struct ir_graph *graph, enum ir_op op, ir_ref a, ir_ref b)
+{
+    const struct ir_type_info *info = ir_type_info(ir_type_of(graph, b));
+    if (!ir_is_const(graph, b) || info->scalar != IR_TYPE_FLOAT || info->columns != 1) /* a product of matrices is another thing */
+        return 0;
+    if (op == IR_DIV && all_components(graph, b, is_power_of_two))
+        return ir_op2(graph, IR_MUL, a, ir_op2(graph, IR_DIV, ir_const_splat(graph, ir_type_of(graph, b), 1.0f), b));
+    if ((op == IR_ADD || op == IR_SUB) && all_components(graph, b, is_negative))
+        return ir_op2(graph, op == IR_ADD ? IR_SUB : IR_ADD, a, ir_op1(graph, IR_NEG, b));
+    return 0;
 }
 
 /*

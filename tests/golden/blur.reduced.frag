@@ -16,7 +16,7 @@ void main()
     vec2 soft_4 = vd.texcoord_0 + vec2(0.0, 0.028867513);
     vec2 soft_5 = vd.texcoord_0 + vec2(0.0, -0.028867513);
     vec2 soft_6 = abs((soft_4 - soft_5) * 0.5) + abs(dFdy(vd.texcoord_0));
-    vec3 soft_7 = textureGrad(wood_file, vd.texcoord_0 + vec2(-0.028867513), soft_3, soft_6).xyz * 0.01388889;
+    vec3 soft_7 = textureGrad(wood_file, vd.texcoord_0 - vec2(0.028867513), soft_3, soft_6).xyz * 0.01388889;
     vec3 soft_8 = textureGrad(wood_file, vd.texcoord_0 + vec2(0.028867513, -0.028867513), soft_3, soft_6).xyz * 0.01388889;
     vec3 soft_9 = soft_7 + textureGrad(wood_file, soft_5, soft_3, soft_6).xyz * 0.05555556 + soft_8;
     vec3 soft_10 = soft_9 + textureGrad(wood_file, soft_2, soft_3, soft_6).xyz * 0.05555556;

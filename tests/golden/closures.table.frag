@@ -132,7 +132,7 @@ void main()
         vec3 t = coat_3 * mx_ggx_light(coat_5, L, coat_6) * coat_7 + paint_4;
         color += u_lightData[i].color * (type == 1 ? intensity : light_2) * t;
     }
-    vec2 paint_5 = (coat * vec2(-0.7632, -0.4993) + vec2(-0.4297, -0.6076) + vec2(0.43155003, 0.60945004)) * 0.3 + vec2(1.0);
+    vec2 paint_5 = (coat * vec2(-0.7632, -0.4993) - vec2(0.4297, 0.6076) + vec2(0.43155003, 0.60945004)) * 0.3 + vec2(1.0);
     vec3 paint_6 = paint * clamp(paint_5.x / paint_5.y, 0.0, 1.0) * vec3(0.6, 0.1, 0.05);
     vec3 paint_7 = textureLod(u_envIrradiance, mx_latlong(u_envMatrix, coat_4), 0.0).xyz * u_envLightIntensity * paint_6;
     color += coat_3 * mx_ggx_prefiltered(normal, V) + paint_7;

@@ -131,7 +131,7 @@ void main()
         color += u_lightData[i].color * (u_lightData[i].type == 1 ? intensity : 0.0) * t;
     }
     vec3 coat_12 = coat_3 * mx_ggx_prefiltered(normal, V);
-    vec2 paint_4 = (coat * vec2(-0.7632, -0.4993) + vec2(-0.4297, -0.6076) + vec2(0.43155003, 0.60945004)) * 0.3 + vec2(1.0);
+    vec2 paint_4 = (coat * vec2(-0.7632, -0.4993) - vec2(0.4297, 0.6076) + vec2(0.43155003, 0.60945004)) * 0.3 + vec2(1.0);
     vec3 paint_5 = textureLod(u_envIrradiance, mx_latlong(u_envMatrix, coat_4), 0.0).xyz * u_envLightIntensity;
     vec3 paint_6 = clamp(paint_4.x / paint_4.y, 0.0, 1.0) * vec3(0.6, 0.1, 0.05) * paint_5;
     color += coat_12 + paint_6 * (coat_6 * coat_6 * 0.75);

@@ -11,6 +11,6 @@ out vec4 out1;
 void main()
 {
     // NG/shade
-    float unit = (vd.texcoord_0.y - -1.0) / 2.0;
+    float unit = (vd.texcoord_0.y + 1.0) * 0.5;
     out1 = vec4(NG_scale * (sign(unit) * abs(unit)) * NG_tint, 1.0);
 }

@@ -59,7 +59,7 @@ void main()
         float diffuse_4 = max(dot(L, V) - diffuse_3 * diffuse_2, 0.0) * 0.35999998 / max(diffuse_3, diffuse_2) + 0.73913044;
         color += light_3 * (diffuse_3 / 3.1415927 * vec3(0.5, 0.25, 0.15) * diffuse_4);
     }
-    vec2 diffuse_5 = (diffuse_2 * vec2(-0.7632, -0.4993) + vec2(-0.4297, -0.6076) + vec2(0.86310005, 1.2189001)) * 0.6 + vec2(1.0);
+    vec2 diffuse_5 = (diffuse_2 * vec2(-0.7632, -0.4993) - vec2(0.4297, 0.6076) + vec2(0.86310005, 1.2189001)) * 0.6 + vec2(1.0);
     vec3 diffuse_6 = textureLod(u_envIrradiance, mx_latlong(u_envMatrix, diffuse), 0.0).xyz * u_envLightIntensity;
     color += clamp(diffuse_5.x / diffuse_5.y, 0.0, 1.0) * vec3(0.5, 0.25, 0.15) * diffuse_6;
     out1 = vec4(color, 1.0);

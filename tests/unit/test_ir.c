@@ -117,6 +117,23 @@ static const struct {
     {"%r = select bool %b, true, false", "return %b"},
     {"%r = eq bool %b, false", "%r = not bool %b\nreturn %r"},
     {"%r = dFdx vec3 vec3(1.0, 2.0, 3.0)", "return vec3(0.0, 0.0, 0.0)"},
+    /* constants as people write them */
+    {"%r = sub float %f, -1.0", "%r = add float %f, 1.0\nreturn %r"},
+    {"%r = add vec3 %v, vec3(-1.0, -2.0, -3.0)", "%r = sub vec3 %v, vec3(1.0, 2.0, 3.0)\nreturn %r"},
+    {"%r = add vec3 %v, vec3(-1.0, 2.0, -3.0)", "%r = add vec3 %v, vec3(-1.0, 2.0, -3.0)\nreturn %r"},
+    {"%r = sub float -1.0, %f", "%r = sub float -1.0, %f\nreturn %r"},
+    {"%r = add int %i, -1", "%r = add int %i, -1\nreturn %r"},
+    {"%r = div float %f, 2.0", "%r = mul float %f, 0.5\nreturn %r"},
+    {"%r = div vec2 %k, vec2(-4.0, 0.25)", "%r = mul vec2 %k, vec2(-0.25, 4.0)\nreturn %r"},
+    {"%r = div mat3 %m, 2.0", "%r = mul mat3 %m, 0.5\nreturn %r"},
+    {"%r = div mat3 %m, mat3(2.0, 2.0, 2.0, 2.0, 2.0, 2.0, 2.0, 2.0, 2.0)",
+     "%r = div mat3 %m, mat3(2.0, 2.0, 2.0, 2.0, 2.0, 2.0, 2.0, 2.0, 2.0)\nreturn %r"}, /* that is no product of matrices */
+    {"%r = div float %f, 3.0", "%r = div float %f, 3.0\nreturn %r"}, /* a third is no float */
+    {"%r = div float %f, 1e38", "%r = div float %f, 1e38\nreturn %r"},
+    {"%a = clamp float %f, 0.1, %g\n%r = abs float %a", "%r = clamp float %f, 0.1, %g\nreturn %r"},
+    {"%a = clamp vec2 %k, vec2(0.0, -1.0), vec2(1.0, 1.0)\n%r = abs vec2 %a",
+     "%a = clamp vec2 %k, vec2(0.0, -1.0), vec2(1.0, 1.0)\n%r = abs vec2 %a\nreturn %r"},
+    {"%a = clamp float %f, %g, 1.0\n%r = min float %a, 1.0", "%r = clamp float %f, %g, 1.0\nreturn %r"},
     /* swizzles, constructors, conversions */
     {"%r = swizzle vec3 .xyz %v", "return %v"},
     {"%r = swizzle float .x %f", "return %f"},
