@@ -12,6 +12,12 @@ static inline const struct lang_node *ast_node(const struct lang_unit *layer, la
     return &layer->nodes.items[ref];
 }
 
+/* The step statement of a loop; 0: it has none. */
+static inline lang_ref ast_step(const struct lang_unit *layer, const struct lang_node *loop)
+{
+    return loop->kind == LANG_FOR ? ast_node(layer, loop->c)->b : 0;
+}
+
 static inline const struct lang_slot *ast_slot(const struct lang_unit *layer, const struct lang_function *fn,
                                                 uint32_t slot)
 {

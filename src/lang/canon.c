@@ -70,8 +70,11 @@ static lang_ref copy_node(struct copier *c, lang_ref ref)
         c->is_used[node.a] = true;
         break;
     case LANG_OP:
+        node.a = copy_list(c, node.a);
+        break;
     case LANG_BLOCK:
         node.a = copy_list(c, node.a);
+        node.b = copy_list(c, node.b);
         break;
     case LANG_CALL:
         copy_call(c, &node);
@@ -82,7 +85,7 @@ static lang_ref copy_node(struct copier *c, lang_ref ref)
     case LANG_ASSIGN:
         node.a = copy_node(c, node.a);
         node.b = copy_node(c, node.b);
-        node.d = 0;
+        node.c = 0;
         break;
     case LANG_EXPR:
     case LANG_RETURN:
@@ -98,8 +101,7 @@ static lang_ref copy_node(struct copier *c, lang_ref ref)
     case LANG_DO:
         node.a = copy_list(c, node.a);
         node.b = copy_node(c, node.b);
-        node.c = copy_list(c, node.c);
-        node.d = copy_node(c, node.d);
+        node.c = copy_node(c, node.c);
         break;
     default:
         break;

@@ -56,8 +56,8 @@ static void use_tree(struct uses *uses, lang_ref ref)
         uses->num_nodes++;
         use_node(uses, &node);
         unsigned fields = lang_child_fields[node.kind];
-        const uint32_t refs[4] = {node.a, node.b, node.c, node.d};
-        for (unsigned i = 0; i < 4; i++)
+        const uint32_t refs[3] = {node.a, node.b, node.c};
+        for (unsigned i = 0; i < 3; i++)
             if (fields >> i & 1)
                 use_tree(uses, refs[i]);
     }

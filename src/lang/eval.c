@@ -396,6 +396,7 @@ static enum flow run_if(struct eval *ev, const struct lang_node *node)
 static enum flow run_loop(struct eval *ev, const struct lang_node *node)
 {
     bool test_first = node->kind != LANG_DO;
+    lang_ref step = ast_step(ev->frame.layer, node);
     if (node->kind == LANG_FOR && node->a && run_one(ev, node->a) == FLOW_FAIL)
         return FLOW_FAIL;
     for (;;) {
@@ -405,12 +406,12 @@ static enum flow run_loop(struct eval *ev, const struct lang_node *node)
         if (!condition.u || ev->steps_left == 0)
             return condition.u ? FLOW_FAIL : FLOW_NEXT;
         ev->steps_left--;
-        enum flow flow = node->d ? run_one(ev, node->d) : FLOW_NEXT;
+        enum flow flow = node->c ? run_one(ev, node->c) : FLOW_NEXT;
         if (flow == FLOW_FAIL || flow == FLOW_RETURN)
             return flow;
         if (flow == FLOW_BREAK)
             return FLOW_NEXT;
-        if (node->kind == LANG_FOR && node->c && run_one(ev, node->c) == FLOW_FAIL)
+        if (step && run_one(ev, step) == FLOW_FAIL)
             return FLOW_FAIL;
         test_first = true;
     }

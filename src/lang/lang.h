@@ -36,10 +36,10 @@ enum lang_kind {
     LANG_ASSIGN,   /* a: target expression (VAR, SWIZZLE, INDEX, MEMBER of one); b: value; op: IR_NUM_OPS for =, else the operator of `op=` */
     LANG_EXPR,     /* a: a call for its effect */
     LANG_IF,       /* a: condition; b: then block; c: else block or 0 */
-    LANG_FOR,      /* a: init statement or 0; b: condition or 0; c: step statement or 0; d: body block */
-    LANG_WHILE,    /* b: condition; d: body block */
-    LANG_DO,       /* b: condition; d: body block */
-    LANG_BLOCK,    /* a: first statement, chained by next */
+    LANG_FOR,      /* a: init statement or 0; b: condition or 0; c: body block, which has the step */
+    LANG_WHILE,    /* b: condition; c: body block */
+    LANG_DO,       /* b: condition; c: body block */
+    LANG_BLOCK,    /* a: first statement, chained by next; b: of the body of a FOR, its step statement or 0 */
     LANG_RETURN,   /* a: value or 0 */
     LANG_BREAK,
     LANG_CONTINUE,
@@ -47,7 +47,7 @@ enum lang_kind {
 };
 
 /* Which of a node's fields are its children, by kind; `next`, where it is set, is a sibling. ast.c */
-enum lang_child_field { LANG_CHILD_A = 1, LANG_CHILD_B = 2, LANG_CHILD_C = 4, LANG_CHILD_D = 8 };
+enum lang_child_field { LANG_CHILD_A = 1, LANG_CHILD_B = 2, LANG_CHILD_C = 4 };
 extern const uint8_t lang_child_fields[LANG_NUM_KINDS];
 
 struct lang_node {
@@ -55,7 +55,7 @@ struct lang_node {
     uint8_t op;
     ir_type_id type; /* of an expression */
     lang_ref next;   /* next sibling: operand, argument or statement */
-    uint32_t a, b, c, d;
+    uint32_t a, b, c;
 };
 
 enum lang_param_mode { LANG_IN, LANG_OUT, LANG_INOUT };

@@ -252,7 +252,7 @@ static lang_ref loop_node(struct parser *p, enum lang_kind kind, lang_ref condit
 {
     lang_ref ref = tree_new(p, kind, IR_NUM_OPS, IR_TYPE_VOID, place);
     tree_node(p, ref)->b = condition;
-    tree_node(p, ref)->d = body;
+    tree_node(p, ref)->c = body;
     return ref;
 }
 
@@ -279,7 +279,8 @@ static struct tree_chain parse_for(struct parser *p, uint32_t place)
     close_scope(p, scope);
     if (!good)
         return none;
-    tree_node(p, loop)->c = step;
+    if (tree_node(p, loop)->c)
+        tree_node(p, tree_node(p, loop)->c)->b = step;
     if (init.first == init.last) {
         tree_node(p, loop)->a = init.first;
         return chain_of(loop);

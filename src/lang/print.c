@@ -513,13 +513,14 @@ static void print_for(struct printer *p, const struct lang_node *node)
         print_expression(p, node_at(p, node->b), LANG_PREC_COMMA);
     }
     text_char(p->out, ';');
-    if (node->c) {
+    lang_ref step = node_at(p, node->c)->b;
+    if (step) {
         text_char(p->out, ' ');
-        print_simple(p, node_at(p, node->c));
+        print_simple(p, node_at(p, step));
     }
     text_char(p->out, ')');
-    bool braces = needs_braces(p, node->d);
-    print_governed(p, node->d, braces);
+    bool braces = needs_braces(p, node->c);
+    print_governed(p, node->c, braces);
     if (braces)
         text_char(p->out, '\n');
     p->num_visible = mark;
@@ -530,8 +531,8 @@ static void print_while(struct printer *p, const struct lang_node *node)
     text_str(p->out, "while (");
     print_expression(p, node_at(p, node->b), LANG_PREC_COMMA);
     text_char(p->out, ')');
-    bool braces = needs_braces(p, node->d);
-    print_governed(p, node->d, braces);
+    bool braces = needs_braces(p, node->c);
+    print_governed(p, node->c, braces);
     if (braces)
         text_char(p->out, '\n');
 }
@@ -539,7 +540,7 @@ static void print_while(struct printer *p, const struct lang_node *node)
 static void print_do(struct printer *p, const struct lang_node *node)
 {
     text_str(p->out, "do");
-    print_governed(p, node->d, true);
+    print_governed(p, node->c, true);
     text_str(p->out, " while (");
     print_expression(p, node_at(p, node->b), LANG_PREC_COMMA);
     text_str(p->out, ");\n");

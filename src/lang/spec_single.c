@@ -115,7 +115,7 @@ static void forward_statement(struct forwarder *f, lang_ref ref)
     case LANG_FOR:
     case LANG_WHILE:
     case LANG_DO:
-        forward_block(f, node.d);
+        forward_block(f, node.c);
         break;
     default:
         break;

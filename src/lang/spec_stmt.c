@@ -57,10 +57,10 @@ static void forget_assigned(struct spec *s, lang_ref statement)
     case LANG_FOR:
     case LANG_WHILE:
     case LANG_DO:
-        forget_assigned(s, node->kind == LANG_FOR ? node->c : 0);
+        forget_assigned(s, ast_step(s->layer, node));
         if (node->b)
             forget_outputs(s, node->b);
-        forget_assigned(s, node->d);
+        forget_assigned(s, node->c);
         break;
     default:
         break;
@@ -184,8 +184,8 @@ static bool spec_if(struct spec *s, struct lang_node node, struct chain *out)
 
 static void forget_round(struct spec *s, const struct lang_node *loop)
 {
-    forget_assigned(s, loop->kind == LANG_FOR ? loop->c : 0);
-    forget_assigned(s, loop->d);
+    forget_assigned(s, ast_step(s->layer, loop));
+    forget_assigned(s, loop->c);
     if (loop->b)
         forget_outputs(s, loop->b);
 }
@@ -212,19 +212,18 @@ static void spec_loop(struct spec *s, const struct lang_node *source, struct cha
             return;
         }
     }
-    spec_body(s, node.d, &body);
+    spec_body(s, node.c, &body);
     if (node.kind != LANG_WHILE) /* `continue` leads here with less known than the end of the body has */
         forget_round(s, source);
     if (node.kind == LANG_DO)
         node.b = spec_expression(s, node.b);
-    if (node.kind == LANG_FOR && node.c)
-        spec_statements(s, node.c, &step);
+    if (ast_step(s->layer, source))
+        spec_statements(s, ast_step(s->layer, source), &step);
     forget_round(s, source);
-    if (node.kind == LANG_FOR) {
+    if (node.kind == LANG_FOR)
         node.a = init.first;
-        node.c = step.first;
-    }
-    node.d = add_block(s, body.first);
+    node.c = add_block(s, body.first);
+    spec_node(s, node.c)->b = step.first;
     spec_append(s, out, spec_add(s, node));
 }
 

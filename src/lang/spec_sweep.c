@@ -172,13 +172,12 @@ static void read_statement(struct spec *s, lang_ref ref)
     case LANG_CONTINUE:
         break;
     default: /* loops */
-        if (node->kind == LANG_FOR) {
+        if (node->kind == LANG_FOR)
             read_statement(s, node->a);
-            read_statement(s, node->c);
-        }
         if (node->b)
             read_expression(s, node->b);
-        read_statement(s, node->d);
+        read_statement(s, node->c);
+        read_statement(s, ast_step(s->unit, node));
     }
 }
 
@@ -236,7 +235,7 @@ static lang_ref overwriting(const struct spec *s, uint32_t slot, uint32_t list)
 {
     lang_ref ref = s->slots[slot].mention;
     const struct lang_node *next = ast_node(s->unit, ref);
-    bool overwrites = next->kind == LANG_ASSIGN && next->op == IR_NUM_OPS && next->d == list
+    bool overwrites = next->kind == LANG_ASSIGN && next->op == IR_NUM_OPS && next->c == list
                       && ast_node(s->unit, next->a)->kind == LANG_VAR && !names_slot(s, next->b, slot);
     return overwrites ? ref : 0;
 }
@@ -279,7 +278,7 @@ static bool sweep_declare(struct spec *s, lang_ref ref, uint32_t list)
 static bool sweep_assign(struct spec *s, lang_ref ref, unsigned loops, uint32_t list)
 {
     struct lang_node node = *spec_node(s, ref);
-    spec_node(s, ref)->d = list;
+    spec_node(s, ref)->c = list;
     uint32_t slot = ast_target_slot(s->unit, node.a);
     bool is_local = slot >= s->fn.num_params || ast_slot(s->layer, &s->fn, slot)->mode == LANG_IN;
     bool is_lost = is_local && loops == 0 && spec_node(s, node.a)->kind == LANG_VAR && overwriting(s, slot, list);
@@ -331,10 +330,10 @@ static bool is_idle(const struct spec *s, const struct lang_node *loop)
 {
     if (loop->b && has_live_effects(s, loop->b))
         return false;
-    if (loop->kind != LANG_FOR || !loop->c)
+    if (!ast_step(s->unit, loop))
         return true;
     const struct lang_node *init = loop->a ? ast_node(s->unit, loop->a) : NULL;
-    const struct lang_node *step = ast_node(s->unit, loop->c);
+    const struct lang_node *step = ast_node(s->unit, ast_step(s->unit, loop));
     return init && init->kind == LANG_DECLARE && step->kind == LANG_ASSIGN && !step->next
            && ast_target_slot(s->unit, step->a) == init->a && !has_live_effects(s, step->b);
 }
@@ -344,13 +343,15 @@ static bool sweep_loop(struct spec *s, lang_ref ref, unsigned loops)
     struct lang_node node = *spec_node(s, ref);
     if (loops == 0)
         read_statement(s, ref);
-    bool has_body = sweep_block(s, node.d, loops + 1);
+    bool has_body = sweep_block(s, node.c, loops + 1);
     if (!has_body && is_idle(s, &node))
         return false;
     s->flags &= (uint16_t)~LANG_FN_STRAIGHT;
     s->statement = ref;
-    if (node.kind == LANG_FOR)
-        spec_node(s, ref)->c = sweep_list(s, node.c, loops + 1);
+    if (node.kind == LANG_FOR) {
+        lang_ref step = sweep_list(s, ast_step(s->unit, &node), loops + 1);
+        spec_node(s, node.c)->b = step;
+    }
     if (node.b)
         use_expression(s, node.b);
     if (node.kind == LANG_FOR)

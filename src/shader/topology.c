@@ -89,8 +89,6 @@ static void add_tree(struct hasher *h, const struct lang_unit *layer, lang_ref r
             vec_push(h->arena, &stack, node->b);
         if (fields & LANG_CHILD_C && node->c)
             vec_push(h->arena, &stack, node->c);
-        if (fields & LANG_CHILD_D && node->d)
-            vec_push(h->arena, &stack, node->d);
     }
 }
 

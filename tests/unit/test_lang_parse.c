@@ -93,18 +93,18 @@ static void check_tree(const struct lang_unit *unit, uint32_t id, lang_ref ref, 
         if (!REQUIRE(ref < unit->nodes.len))
             return;
         const struct lang_node *node = &unit->nodes.items[ref];
-        const lang_ref fields[4] = {node->a, node->b, node->c, node->d};
-        unsigned first = 0, last = 3;
+        const lang_ref fields[] = {node->a, node->b, node->c};
+        unsigned first = 0, last = 2;
         switch ((enum lang_kind)node->kind) {
         case LANG_CONST:
             REQUIRE(node->a + ir_type_info(node->type)->components <= unit->words.len);
-            first = 4;
+            first = 3;
             break;
         case LANG_VAR: case LANG_INPUT:
             REQUIRE(node->a < lang_function(unit, id, NULL)->num_slots);
-            first = 4;
+            first = 3;
             break;
-        case LANG_GLOBAL: first = 4; break;
+        case LANG_GLOBAL: first = 3; break;
         case LANG_OP: last = 0; break;
         case LANG_CALL:
             REQUIRE(node->a < id);
