@@ -75,6 +75,7 @@ static void record(void *arg)
     if (!generation_start(g))
         return;
     rehearsal->recorder->num_globals = 0;
+    rehearsal->recorder->version_ids.len = 0;
     rehearsal->recorder->of_graphs = rehearsal->is_open;
     g->result->unit.recorder = rehearsal->recorder;
     if (generation_build(g)) /* a model with errors is told when it is used */

@@ -13,6 +13,7 @@ struct copier {
     struct lang_unit *to;
     const struct lang_unit *made; /* the layer of the versions */
     VEC(lang_ref) calls;          /* of the function, arguments before the call that they are for */
+    const uint32_t *ids;          /* of versions in `to`; NULL: they are named by what they are versions of */
     uint8_t *is_used;             /* by slot */
     uint32_t *runs;               /* open addressing: 1 + a function, of each distinct run of slots */
     uint32_t runs_mask;
@@ -40,10 +41,12 @@ static bool has_outputs(const struct copier *c, uint32_t function)
     return false;
 }
 
-/* Versions are named by what they are versions of. */
 static uint32_t given_function(const struct copier *c, uint32_t id)
 {
-    return id >= c->made->base_functions ? c->made->versions.items[id - c->made->base_functions].origin : id;
+    if (id < c->made->base_functions)
+        return id;
+    id -= c->made->base_functions;
+    return c->ids ? c->ids[id] : c->made->versions.items[id].origin;
 }
 
 static void copy_call(struct copier *c, struct lang_node *node)
@@ -172,7 +175,7 @@ static uint32_t copy_slots(struct copier *c, const struct lang_function *fn)
     return first;
 }
 
-static struct lang_function copy_function(struct copier *c, uint32_t id, uint32_t version)
+static struct lang_function copy_version(struct copier *c, uint32_t version)
 {
     struct lang_function fn = *lang_function(c->made, version, &c->from);
     c->calls.len = 0;
@@ -182,6 +185,23 @@ static struct lang_function copy_function(struct copier *c, uint32_t id, uint32_
     fn.first_slot = fn.num_slots ? copy_slots(c, &fn) : 0;
     fn.first_callee = copy_refs(c, c->from, fn.first_callee, fn.num_callees, true);
     fn.first_global = copy_refs(c, c->from, fn.first_global, fn.num_globals, false);
+    if (ast_is_plain(c->to, &fn))
+        fn.flags |= LANG_FN_PLAIN;
+    return fn;
+}
+
+uint32_t lang_copy_version(struct lang_unit *to, const struct lang_unit *made, uint32_t version, const uint32_t *ids)
+{
+    uint32_t none = 0;
+    struct copier c = {.to = to, .made = made, .ids = ids, .runs = &none};
+    struct lang_function fn = copy_version(&c, version);
+    vec_push(to->arena, &to->functions, fn);
+    return to->base_functions + to->functions.len - 1;
+}
+
+static struct lang_function copy_function(struct copier *c, uint32_t id, uint32_t version)
+{
+    struct lang_function fn = copy_version(c, version);
     fn.num_calls = c->calls.len;
     fn.first_call = c->to->refs.len;
     for (uint32_t i = 0; i < c->calls.len; i++)
@@ -189,8 +209,6 @@ static struct lang_function copy_function(struct copier *c, uint32_t id, uint32_
     fn.flags |= lang_function(c->made, id, NULL)->flags & LANG_FN_STRINGS;
     if (is_final(c, &fn))
         fn.flags |= LANG_FN_FINAL;
-    if (ast_is_plain(c->to, &fn))
-        fn.flags |= LANG_FN_PLAIN;
     return fn;
 }
 

@@ -2,9 +2,27 @@
 /* Takes down fragments: what the results of a use need, above what the pattern names. */
 #include "lang/fragment.h"
 
+/* Vectors of the library's that grow while it is in use. */
+#define COPY_VECTOR(arena, to, from)                                                                            \
+    (memset((to), 0, sizeof *(to)),                                                                              \
+     (from)->len ? (void)memcpy(vec_extend(arena, to, (from)->len), (from)->items, (from)->len * sizeof *(from)->items) : (void)0)
+
+static void copy_library(struct lang_recorder *recorder, const struct lang_unit *lowest)
+{
+    struct lang_unit *copy = &recorder->library;
+    copy->arena = recorder->arena;
+    copy->strings = lowest->strings;
+    COPY_VECTOR(recorder->arena, &copy->nodes, &lowest->nodes);
+    COPY_VECTOR(recorder->arena, &copy->slots, &lowest->slots);
+    COPY_VECTOR(recorder->arena, &copy->functions, &lowest->functions);
+    COPY_VECTOR(recorder->arena, &copy->words, &lowest->words);
+    COPY_VECTOR(recorder->arena, &copy->refs, &lowest->refs);
+}
+
 void lang_recorder_init(struct lang_recorder *recorder, struct arena *arena, const struct lang_unit *lowest, uint32_t num_graphs)
 {
     *recorder = (struct lang_recorder){.arena = arena};
+    copy_library(recorder, lowest);
     uint32_t count = lowest->functions.len;
     if (count)
         memset(vec_extend(arena, &recorder->fragment_of, count), 0, count * sizeof *recorder->fragment_of.items);

@@ -97,6 +97,15 @@ struct lang_version { /* what a function of a generation's layer is (plan.c) */
     uint32_t dropped[2]; /* bit i is set where parameter i of that is gone */
 };
 
+/* A version that was made when the library was packed: known.c. They are the last functions of a unit. */
+struct lang_known {
+    uint32_t function;   /* id of what it is a version of */
+    uint32_t choice;     /* of the host that it was made for */
+    uint32_t first_fact; /* in unit->known_facts: what was known of each parameter; then of each call the callee, its version and the same */
+    uint32_t num_calls;
+    uint32_t dropped[2]; /* as in struct lang_version */
+};
+
 /* What a call of a function became for arguments of one pattern: fragment.c. */
 struct lang_fragment {
     uint32_t hash;       /* of the pattern */
@@ -166,6 +175,8 @@ struct lang_unit {
     VEC(uint16_t) codes;
     VEC(uint16_t) fragment_of;       /* by function: number + 1 of its first fragment; 0: none */
     VEC(uint16_t) graph_fragment_of; /* the same by a number that the owner of graphs gives */
+    VEC(struct lang_known) known;
+    VEC(uint32_t) known_facts;
     VEC(uint32_t) texts;   /* where the text of each function begins, and where the last one's ends (texts.c) */
     VEC(char) text_bytes;
     /* Of a generation's layer: */
@@ -187,6 +198,15 @@ static inline const struct lang_function *lang_function(const struct lang_unit *
     if (out_unit)
         *out_unit = unit;
     return &unit->functions.items[id - unit->base_functions];
+}
+
+/* NULL where the function is no such version. */
+static inline const struct lang_known *lang_known(const struct lang_unit *unit, uint32_t id)
+{
+    while (id < unit->base_functions)
+        unit = unit->base;
+    uint32_t first = unit->base_functions + unit->functions.len - unit->known.len;
+    return id >= first ? &unit->known.items[id - first] : NULL;
 }
 
 static inline const struct lang_global *lang_global(const struct lang_unit *unit, uint32_t id,
@@ -293,6 +313,10 @@ struct lang_recorder {
     unsigned num_globals;
     bool of_graphs; /* these are taken down, otherwise calls of functions */
     uint32_t first_new; /* nodes of the use at hand: those that nobody needs are kept, too, since they may give later ones their names; 0: not */
+    struct lang_unit library;   /* the lowest, to which versions are added; nothing else is there to be used */
+    VEC(uint32_t) version_ids;  /* by number in the generation's layer: what a version is called there; LANG_NONE: it is not */
+    uint32_t first_fact, first_word; /* of the version at hand */
+    bool is_known;              /* it can be taken down */
     VEC(ir_ref) nodes; /* of the fragment that was taken down last, as restoring it gives them: [0] is none, then inputs and nodes */
 };
 void lang_recorder_init(struct lang_recorder *recorder, struct arena *arena, const struct lang_unit *lowest, uint32_t num_graphs);
@@ -319,6 +343,8 @@ bool lang_param_dropped(const struct lang_unit *generated, uint32_t version, uin
  * For a library, once everything that is parsed for it has been; no generation may use it yet.
  */
 void lang_make_canonical(struct lang_unit *unit);
+/* Adds a version to another unit. `ids`: what versions that it calls are called there, by their numbers in their own layer. Returns its id. */
+uint32_t lang_copy_version(struct lang_unit *to, const struct lang_unit *made, uint32_t version, const uint32_t *ids);
 
 /* eval.c */
 

@@ -18,16 +18,16 @@ static lang_ref remaining_arguments(struct spec *s, uint32_t given, uint32_t ver
 }
 
 /* Is every parameter of a wrapper handed on once, as what it is, and is nothing else computed? */
-static bool hands_on(const struct spec *s, const struct lang_function *wrapper, const struct lang_node *inner)
+static bool hands_on(const struct spec *s, const struct lang_unit *layer, const struct lang_function *wrapper, const struct lang_node *inner)
 {
     uint32_t handed = 0, index = 0;
     uint64_t seen = 0;
-    for (lang_ref ref = inner->b; ref; ref = ast_node(s->unit, ref)->next, index++) {
-        const struct lang_node *arg = ast_node(s->unit, ref);
+    for (lang_ref ref = inner->b; ref; ref = ast_node(layer, ref)->next, index++) {
+        const struct lang_node *arg = ast_node(layer, ref);
         if (arg->kind == LANG_CONST)
             continue;
         if (arg->kind != LANG_VAR || arg->a >= wrapper->num_params || arg->a >= SPEC_MAX_PARAMS || seen >> arg->a & 1
-            || ast_slot(s->unit, wrapper, arg->a)->mode != ast_param_mode(s->unit, inner->a, index))
+            || ast_slot(layer, wrapper, arg->a)->mode != ast_param_mode(s->unit, inner->a, index))
             return false;
         seen |= 1ull << arg->a;
         handed++;
@@ -35,15 +35,21 @@ static bool hands_on(const struct spec *s, const struct lang_function *wrapper, 
     return handed == wrapper->num_params;
 }
 
-static lang_ref call_inner(struct spec *s, const struct lang_node *call, struct lang_node inner)
+/* A constant of the layer's, in the generation's. */
+static lang_ref copy_constant(struct spec *s, const struct lang_unit *layer, const struct lang_node *constant)
+{
+    struct ir_value value = ast_value(constant->type, ast_words(layer, constant));
+    return spec_constant(s, &value);
+}
+
+static lang_ref call_inner(struct spec *s, const struct lang_unit *layer, const struct lang_node *call, struct lang_node inner)
 {
     lang_ref args[SPEC_MAX_PARAMS];
     struct chain chain = {0};
     ast_list(s->unit, call->b, args, SPEC_MAX_PARAMS);
-    for (lang_ref ref = inner.b; ref; ref = spec_node(s, ref)->next) {
-        struct lang_node node = *spec_node(s, ref);
-        node.c = 0;
-        lang_ref arg = node.kind == LANG_VAR ? args[node.a] : spec_add(s, node);
+    for (lang_ref ref = inner.b; ref; ref = ast_node(layer, ref)->next) {
+        const struct lang_node node = *ast_node(layer, ref);
+        lang_ref arg = node.kind == LANG_VAR ? args[node.a] : copy_constant(s, layer, &node);
         spec_node(s, arg)->next = 0;
         spec_append(s, &chain, arg);
     }
@@ -60,14 +66,13 @@ static lang_ref skip_wrapper(struct spec *s, const struct lang_node *call)
     const struct lang_unit *layer;
     struct lang_function wrapper = *lang_function(s->unit, call->a, &layer);
     lang_ref returned = ast_returned(layer, &wrapper);
-    if (layer != s->unit || !returned)
+    bool is_version = layer == s->unit || lang_known(layer, call->a);
+    if (!is_version || !returned)
         return 0;
-    struct lang_node inner = *spec_node(s, returned);
-    if (inner.kind == LANG_CONST && wrapper.num_params == 0) {
-        inner.c = 0;
-        return spec_add(s, inner);
-    }
-    return inner.kind == LANG_CALL && hands_on(s, &wrapper, &inner) ? call_inner(s, call, inner) : 0;
+    const struct lang_node inner = *ast_node(layer, returned);
+    if (inner.kind == LANG_CONST && wrapper.num_params == 0)
+        return copy_constant(s, layer, &inner);
+    return inner.kind == LANG_CALL && hands_on(s, layer, &wrapper, &inner) ? call_inner(s, layer, call, inner) : 0;
 }
 
 static void resolve(struct spec *s, lang_ref ref)

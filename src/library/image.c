@@ -34,6 +34,7 @@ static const struct section_info section_infos[] = {
     SECTION(types),          SECTION(units),         SECTION(refs),
     SECTION(node_table),
     SECTION(unit.fragments), SECTION(unit.codes),    SECTION(unit.fragment_of), SECTION(unit.graph_fragment_of),
+    SECTION(unit.known),     SECTION(unit.known_facts),
 };
 enum {
     NUM_VECS = sizeof section_infos / sizeof *section_infos,
@@ -186,12 +187,20 @@ static void put_strings(const struct strpool *pool, struct text *out, struct hea
     put_table(out, header, SECTION_STR_TABLE, pool->table, pool->table_mask + 1, pool->num);
 }
 
+/* With the functions that were added to the library's. */
 static void add_fragments(struct lang_unit *unit, const struct lang_recorder *recorder)
 {
     memcpy(&unit->fragments, &recorder->fragments, sizeof unit->fragments);
     memcpy(&unit->codes, &recorder->codes, sizeof unit->codes);
     memcpy(&unit->fragment_of, &recorder->fragment_of, sizeof unit->fragment_of);
     memcpy(&unit->graph_fragment_of, &recorder->graph_fragment_of, sizeof unit->graph_fragment_of);
+    memcpy(&unit->nodes, &recorder->library.nodes, sizeof unit->nodes);
+    memcpy(&unit->slots, &recorder->library.slots, sizeof unit->slots);
+    memcpy(&unit->functions, &recorder->library.functions, sizeof unit->functions);
+    memcpy(&unit->words, &recorder->library.words, sizeof unit->words);
+    memcpy(&unit->refs, &recorder->library.refs, sizeof unit->refs);
+    memcpy(&unit->known, &recorder->library.known, sizeof unit->known);
+    memcpy(&unit->known_facts, &recorder->library.known_facts, sizeof unit->known_facts);
 }
 
 void library_write_image(const struct library *lib, const struct lang_recorder *recorder, const struct lang_syntax *syntax,

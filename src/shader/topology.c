@@ -4,7 +4,7 @@
  * topology can share a program.
  *
  * Nodes, functions and variables are numbered in the order in which the statements meet them, so that nothing depends on how the graph
- * came about. Portable functions of a library stand for themselves by name and size; specialisations are hashed node by node.
+ * came about. Portable functions of a library stand for themselves by name and size; versions of them are hashed node by node.
  */
 #include "base/hash.h"
 #include "shader/shader.h"
@@ -99,7 +99,7 @@ static void add_portable_functions(struct hasher *h, const struct lang_reach *re
         const struct lang_function *fn = lang_function(h->shader->unit, reach->functions.items[i], &layer);
         h->function_numbers[reach->functions.items[i]] = i + 1;
         add(h, (uint64_t)fn->return_type << 32 | (uint64_t)fn->num_params << 16 | fn->num_slots);
-        if (layer == h->shader->unit && layer->base)
+        if ((layer == h->shader->unit && layer->base) || lang_known(layer, reach->functions.items[i]))
             add_tree(h, layer, fn->body);
         add_text(h, fn->name);
         add(h, fn->num_nodes);
