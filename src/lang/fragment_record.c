@@ -19,6 +19,22 @@ static void copy_library(struct lang_recorder *recorder, const struct lang_unit 
     COPY_VECTOR(recorder->arena, &copy->refs, &lowest->refs);
 }
 
+void lang_recorder_give(const struct lang_recorder *recorder, struct lang_unit *unit)
+{
+    const struct lang_unit *library = &recorder->library;
+    memcpy(&unit->fragments, &recorder->fragments, sizeof unit->fragments);
+    memcpy(&unit->codes, &recorder->codes, sizeof unit->codes);
+    memcpy(&unit->fragment_of, &recorder->fragment_of, sizeof unit->fragment_of);
+    memcpy(&unit->graph_fragment_of, &recorder->graph_fragment_of, sizeof unit->graph_fragment_of);
+    memcpy(&unit->nodes, &library->nodes, sizeof unit->nodes);
+    memcpy(&unit->slots, &library->slots, sizeof unit->slots);
+    memcpy(&unit->functions, &library->functions, sizeof unit->functions);
+    memcpy(&unit->words, &library->words, sizeof unit->words);
+    memcpy(&unit->refs, &library->refs, sizeof unit->refs);
+    memcpy(&unit->known, &library->known, sizeof unit->known);
+    memcpy(&unit->known_facts, &library->known_facts, sizeof unit->known_facts);
+}
+
 void lang_recorder_init(struct lang_recorder *recorder, struct arena *arena, const struct lang_unit *lowest, uint32_t num_graphs)
 {
     *recorder = (struct lang_recorder){.arena = arena};

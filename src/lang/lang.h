@@ -319,6 +319,8 @@ struct lang_recorder {
     bool is_known;              /* it can be taken down */
     VEC(ir_ref) nodes; /* of the fragment that was taken down last, as restoring it gives them: [0] is none, then inputs and nodes */
 };
+/* Everything that was taken down goes to the library, of which nobody has begun a layer yet. */
+void lang_recorder_give(const struct lang_recorder *recorder, struct lang_unit *unit);
 void lang_recorder_init(struct lang_recorder *recorder, struct arena *arena, const struct lang_unit *lowest, uint32_t num_graphs);
 
 /*

@@ -187,22 +187,6 @@ static void put_strings(const struct strpool *pool, struct text *out, struct hea
     put_table(out, header, SECTION_STR_TABLE, pool->table, pool->table_mask + 1, pool->num);
 }
 
-/* With the functions that were added to the library's. */
-static void add_fragments(struct lang_unit *unit, const struct lang_recorder *recorder)
-{
-    memcpy(&unit->fragments, &recorder->fragments, sizeof unit->fragments);
-    memcpy(&unit->codes, &recorder->codes, sizeof unit->codes);
-    memcpy(&unit->fragment_of, &recorder->fragment_of, sizeof unit->fragment_of);
-    memcpy(&unit->graph_fragment_of, &recorder->graph_fragment_of, sizeof unit->graph_fragment_of);
-    memcpy(&unit->nodes, &recorder->library.nodes, sizeof unit->nodes);
-    memcpy(&unit->slots, &recorder->library.slots, sizeof unit->slots);
-    memcpy(&unit->functions, &recorder->library.functions, sizeof unit->functions);
-    memcpy(&unit->words, &recorder->library.words, sizeof unit->words);
-    memcpy(&unit->refs, &recorder->library.refs, sizeof unit->refs);
-    memcpy(&unit->known, &recorder->library.known, sizeof unit->known);
-    memcpy(&unit->known_facts, &recorder->library.known_facts, sizeof unit->known_facts);
-}
-
 void library_write_image(const struct library *lib, const struct lang_recorder *recorder, const struct lang_syntax *syntax,
                          struct text *out)
 {
@@ -219,7 +203,7 @@ void library_write_image(const struct library *lib, const struct lang_recorder *
     memcpy(header.magic, magic, sizeof magic);
     struct library packed = *lib;
     share_attributes(&packed.doc, out->arena);
-    add_fragments(&packed.unit, recorder);
+    lang_recorder_give(recorder, &packed.unit);
     if (syntax)
         lang_make_texts(&packed.unit, syntax, out->arena);
     size_t start = out->len;

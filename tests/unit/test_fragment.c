@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
  * Fragments: a call of a library's function is restored where it was taken down for arguments of the same pattern, and only there. Behind
- * the recording the constant 2.5 in the trees becomes 3.5: so the result tells where it comes from.
+ * the recording the constant 2.5 in the trees becomes 3.5: so the result tells where it comes from. And versions of functions, which are taken down
+ * in the same rehearsals.
  */
 #include "lang/lang.h"
 
@@ -76,9 +77,7 @@ static const char *record(struct fixture *f, const ir_ref *args)
     lang_recorder_init(&f->recorder, &f->arena, &f->library, 0);
     f->generated.recorder = &f->recorder;
     const char *text = call(f, args);
-    memcpy(&f->library.fragments, &f->recorder.fragments, sizeof f->library.fragments);
-    memcpy(&f->library.codes, &f->recorder.codes, sizeof f->library.codes);
-    memcpy(&f->library.fragment_of, &f->recorder.fragment_of, sizeof f->library.fragment_of);
+    lang_recorder_give(&f->recorder, &f->library);
     for (uint32_t i = 0; i < f->library.words.len; i++)
         if (f->library.words.items[i].f == 2.5f)
             f->library.words.items[i].f = 3.5f;
@@ -214,6 +213,70 @@ static void test_foreign_strings(void)
     teardown(&f);
 }
 
+/* ---- Versions of functions ---- */
+
+static const char nested[] =
+    "float g(float x, float k, float unused) { for (int i = 0; i < 4; ++i) { x += sin(x * k) * k; } return x; }\n"
+    "float f(float x) { for (int i = 0; i < 3; ++i) { x += g(x, 2.5, x); } return x; }\n";
+
+/* What a plan makes of calls of a function, by name, with nothing known; of f first. Returns f's version. */
+static uint32_t plan(struct fixture *f, unsigned num_calls, const char *const *names, const union ir_word *const (*args)[3])
+{
+    f->generated.host = f->host;
+    uint32_t first = 0;
+    for (unsigned i = 0; i < num_calls; i++) {
+        uint32_t id = lang_find_function(&f->library, f->file, str_find(&f->strings, names[i], 1), NULL, 0);
+        uint32_t call = lang_plan_call(&f->generated, id, args[i]);
+        first = i ? first : call;
+    }
+    lang_plan_finish(&f->generated);
+    return lang_plan_version(&f->generated, first);
+}
+
+static const char *text_of(struct fixture *f, uint32_t function)
+{
+    struct text text;
+    struct lang_style style;
+    struct lang_names names = {0};
+    text_init(&text, &f->arena);
+    lang_style_init(&style, &lang_syntax_portable, &f->arena);
+    lang_print_function(&style, &names, &f->generated, function, &text);
+    return text_cstr(&text);
+}
+
+static void test_known_versions(void)
+{
+    static const union ir_word three = {.f = 3.0f};
+    static const union ir_word *const args[][3] = {{NULL}, {NULL, &three, NULL}};
+    static const char *const names[] = {"f", "g"};
+    struct fixture f;
+    setup(&f, nested);
+    lang_recorder_init(&f.recorder, &f.arena, &f.library, 0);
+    f.generated.recorder = &f.recorder;
+    uint32_t made = plan(&f, 1, names, args);
+    REQUIRE(made >= f.generated.base_functions);
+    const char *text = text_of(&f, made);
+    REQUIRE_EQ(f.recorder.library.known.len, 2);
+    lang_recorder_give(&f.recorder, &f.library);
+    /* The same calls get the version that is there. */
+    begin(&f);
+    uint32_t known = plan(&f, 1, names, args);
+    REQUIRE(known < f.generated.base_functions && lang_known(&f.generated, known));
+    REQUIRE_STR(text_of(&f, known), text);
+    REQUIRE(strstr(text, "g(x)")); /* what is the same in all calls went */
+    REQUIRE_EQ(f.generated.functions.len, 0);
+    /* Where g is called otherwise, too, both change. */
+    begin(&f);
+    uint32_t other = plan(&f, 2, names, args);
+    REQUIRE(other >= f.generated.base_functions);
+    REQUIRE(strstr(text_of(&f, other), "g(x, 2.5)"));
+    /* Another choice, other versions. */
+    begin(&f);
+    f.host.choice = 7;
+    REQUIRE(plan(&f, 1, names, args) >= f.generated.base_functions);
+    teardown(&f);
+}
+
 int main(void)
 {
     test_same_pattern();
@@ -222,5 +285,6 @@ int main(void)
     test_derivatives();
     test_same_nodes();
     test_foreign_strings();
+    test_known_versions();
     return test_report("fragment");
 }
