@@ -81,6 +81,8 @@ struct xml_reader {
 
 /* The place `offset` bytes into the current source; cheap where it lies behind the last one asked for. */
 struct diag_place xml_place(struct xml_reader *reader, size_t offset);
+/* The column of that, and the line in source->position. */
+uint32_t xml_column(struct xml_source *source, size_t offset);
 
 /* text.c: from the bytes of a file to UTF-8 text that libxml2 can parse. false: an error was reported. */
 bool xml_prepare_text(struct xml_reader *reader, const char *data, size_t size);

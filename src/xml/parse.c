@@ -131,11 +131,10 @@ static size_t next_value(const struct xml_source *source, size_t *at, bool *out_
 static void add_attr(struct xml_reader *reader, elem_id element, str_id name, str_id value, struct diag_place element_place,
                      size_t offset)
 {
-    struct diag_place place = xml_place(reader, offset);
-    uint32_t lines = place.line - element_place.line;
+    uint32_t column = xml_column(reader->source, offset), lines = reader->source->position.line - element_place.line;
     doc_add_attr(reader->doc, element, (struct attribute){.name = name, .value = value,
                  .line_delta = (uint16_t)(lines < UINT16_MAX ? lines : UINT16_MAX),
-                 .column = (uint16_t)(place.column < UINT16_MAX ? place.column : UINT16_MAX)});
+                 .column = (uint16_t)(column < UINT16_MAX ? column : UINT16_MAX)});
 }
 
 /* Offset of the value of an attribute where it stands as it is in the input of libxml2; SIZE_MAX where it is a copy. */
@@ -226,7 +225,9 @@ static void start_element(void *arg)
     struct xml_reader *reader = tag->reader;
     struct xml_source *source = reader->source;
     size_t values = known_values(tag), at = values != SIZE_MAX ? values : parser_offset(reader);
-    while (at > source->start && (at == source->size || source->text[at] != '<'))
+    const char *text = source->text;
+    at -= at == source->size;
+    while (at > source->start && text[at] != '<')
         at--; /* from the first value or from behind the attributes: the tag's start is the last '<', which cannot stand inside one */
     struct diag_place place = xml_place(reader, at);
     if (source->depth >= reader->limits.max_depth) {
