@@ -82,7 +82,8 @@ static void check_texture(struct texture_check *c, elem_id element)
     str_id value = doc_attr_value(c->doc, element, STR_value), prefix = doc_inherited_attr(c->doc, element, STR_fileprefix);
     struct text path;
     text_init(&path, c->arena);
-    text_fmt(&path, "%s%s", str_text(c->doc->strings, prefix), str_text(c->doc->strings, value));
+    text_str(&path, str_text(c->doc->strings, prefix));
+    text_str(&path, str_text(c->doc->strings, value));
     const char *text = text_cstr(&path), *slash = strrchr(text, '/'), *name = slash ? slash + 1 : text;
     struct diag_place place = doc_attr_place(c->doc, element, STR_value);
     if (!*name || strpbrk(text, "[{") || strstr(text, "://"))

@@ -51,9 +51,15 @@ static const char *text_of(const struct validation *v, str_id id)
     return str_text(v->doc->strings, id);
 }
 
+static bool is_digit(char c)
+{
+    return c >= '0' && c <= '9';
+}
+
 static bool is_letter(char c)
 {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+    unsigned letter = ((unsigned char)c | 0x20u) - 'a'; /* of either case; what lies before 'a' is large */
+    return letter < 26 || c == '_';
 }
 
 /* Letters, digits and '_', no digit first ("MaterialX Names"); a namespace may stand before. */
@@ -62,7 +68,7 @@ static bool is_name(const char *text)
     for (; *text; text++) {
         if (!is_letter(*text))
             return false;
-        while (is_letter(*text) || (*text >= '0' && *text <= '9'))
+        while (is_letter(*text) || is_digit(*text))
             text++;
         if (!*text)
             return true;

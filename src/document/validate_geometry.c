@@ -101,9 +101,9 @@ void validate_geometry(struct validation *v, elem_id element)
     const struct element *e = doc_element(v->doc, element);
     const struct attribute *attrs = doc_attrs(v->doc, element);
     for (uint32_t i = 0; i < e->num_attrs; i++) {
-        const char *text = str_text(v->doc->strings, attrs[i].value);
-        if (!*text || !is_geometry(v->doc, e, attrs[i].name, element))
+        if (!attrs[i].value || !is_geometry(v->doc, e, attrs[i].name, element))
             continue;
+        const char *text = str_text(v->doc->strings, attrs[i].value);
         const char *fault = list_fault(text);
         if (fault)
             diag_add(v->diags, DIAG_ID_bad_geometry_name, doc_attr_place(v->doc, element, attrs[i].name), text, fault);

@@ -43,11 +43,13 @@ static void check_range(struct validate *v, elem_id element, const struct port *
 static bool must_be_given(const struct validate *v, uint32_t nodedef, const struct port *port)
 {
     const struct library *layer;
-    library_ports(v->lib, nodedef, &layer);
     if (port->type == DOC_TYPE_filename)
         return !port->value && strcmp(text_of(v, port->name), "file") == 0;
+    if (port->flags & PORT_HAS_VALUE || port->geomprop)
+        return false;
+    library_ports(v->lib, nodedef, &layer);
     bool is_of_image = !layer->doc.arena;
-    return !(port->flags & PORT_HAS_VALUE) && !port->geomprop && !is_of_image;
+    return !is_of_image;
 }
 
 void validate_input(struct validate *v, elem_id node, uint32_t nodedef, const struct port *port, const struct binding *binding)
