@@ -2,6 +2,7 @@
 /* mxgen explain: cause, example and cure of every message. */
 #include "cli/cli.h"
 #include "cli/files.h"
+#include "cli/utf8.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -40,6 +41,18 @@ static void put(FILE *out, const char *text, size_t len)
         fputc(text[i] == '\'' ? '"' : text[i], out);
 }
 
+/* For people: bytes that are no UTF-8, which an example is about, by their number. */
+static void put_shown(FILE *out, const char *text, size_t len)
+{
+    for (size_t i = 0, part; i < len; i += part ? part : 1) {
+        part = utf8_length(text + i);
+        if (part)
+            put(out, text + i, part);
+        else
+            fprintf(out, "\\x%02X", (unsigned)(unsigned char)text[i]);
+    }
+}
+
 /* What the wrong and the right side have as arguments differs, or is worth telling. */
 static void print_example(const char *example, const char *indent, FILE *out)
 {
@@ -51,7 +64,7 @@ static void print_example(const char *example, const char *indent, FILE *out)
             fprintf(out, "%s== ", indent);
         else
             fprintf(out, "%s%c ", indent, line.side);
-        put(out, line.text, line.len);
+        put_shown(out, line.text, line.len);
         fputc('\n', out);
     }
 }
