@@ -437,10 +437,22 @@ static bool emit(struct generation *g)
     return closure_emit(shader, &g->closure_host, &g->lighting, g->root);
 }
 
+enum { NODES_PER_NODE = 64, MORE_NODES = 1 << 16 }; /* emitting adds fewer by far */
+
+/* How a surface is lit has no messages, as long as there is no lack of nodes. */
+static bool has_nothing_to_tell(const struct generation *g)
+{
+    const struct ir_graph *graph = &g->result->graph;
+    bool has_room = (uint64_t)graph->nodes.len * NODES_PER_NODE + MORE_NODES < graph->max_nodes;
+    return has_room && !(g->result->target->caps & CAP_CLOSURES) && closure_is_surface(&g->result->shader, g->root);
+}
+
 bool generation_emit(struct generation *g)
 {
     generation_start_closures(g);
     g->result->shader.scatters = g->options[OPTION_integrator].number == 2;
+    if (g->desc.only_diagnostics && has_nothing_to_tell(g))
+        return is_good(g);
     if (!emit(g))
         generation_report_not_renderable(g, g->result->shader.scatters ? "a path tracer is given surfaces and values only" : gives_nothing);
     return is_good(g);

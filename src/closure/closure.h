@@ -84,7 +84,10 @@ struct closure_lighting {
  */
 bool closure_emit(struct shader *shader, const struct closure_host *host, const struct closure_lighting *lighting, ir_ref root);
 
-/* The same for targets with closures, which get the tree (host->rows). False, too, where a leaf has no row. */
+/* Whether the root is lit as a surface: then closure_emit does not fail. */
+bool closure_is_surface(const struct shader *shader, ir_ref root);
+
+/* closure_emit for targets with closures, which get the tree (host->rows). False, too, where a leaf has no row. */
 bool closure_emit_tree(struct shader *shader, const struct closure_host *host, ir_ref root);
 
 /*

@@ -419,6 +419,17 @@ static bool emit_value(struct emitter *e, ir_ref root)
     return true;
 }
 
+bool closure_is_surface(const struct shader *shader, ir_ref root)
+{
+    const struct ir_graph *g = shader->graph;
+    if (root && ir_get(g, root)->op == IR_MATERIAL && ir_arg(g, root, 3))
+        return false;
+    if (root && ir_get(g, root)->op == IR_MATERIAL)
+        root = ir_arg(g, root, 0);
+    ir_type_id type = root ? ir_type_of(g, root) : IR_TYPE_SURFACE;
+    return type == IR_TYPE_SURFACE || type == IR_TYPE_BSDF || type == IR_TYPE_EDF;
+}
+
 bool closure_emit(struct shader *shader, const struct closure_host *host, const struct closure_lighting *lighting, ir_ref root)
 {
     struct emitter e = {.shader = shader, .graph = shader->graph, .host = host, .lighting = lighting, .lit = {.color = UINT32_MAX}};

@@ -64,6 +64,32 @@ static void test_max_nodes(void)
     free(text);
 }
 
+/* What only tells diagnostics knows of the limit, although it does less. */
+static void test_max_nodes_of_diagnostics(void)
+{
+    static const char text[] = "<materialx version=\"1.39\"><standard_surface name=\"S\" type=\"surfaceshader\"/></materialx>";
+    mxg_context_desc desc = MXG_CONTEXT_DESC_INIT;
+    bool was_limited = false, was_made = false;
+    for (desc.max_nodes = 100; desc.max_nodes < 3000; desc.max_nodes += 100) {
+        mxg_context *context = NULL;
+        REQUIRE_EQ(mxg_context_create(&desc, &context), MXG_OK);
+        mxg_document *document = parse(context, text, MXG_OK);
+        mxg_generate_desc job = MXG_GENERATE_DESC_INIT;
+        job.target = "glsl";
+        mxg_result *whole = NULL, *told = NULL;
+        mxg_status status = mxg_generate(context, document, &job, &whole);
+        job.only_diagnostics = true;
+        REQUIRE_EQ(mxg_generate(context, document, &job, &told), status);
+        was_limited |= status != MXG_OK;
+        was_made |= status == MXG_OK;
+        mxg_result_destroy(whole);
+        mxg_result_destroy(told);
+        mxg_document_destroy(document);
+        mxg_context_destroy(context);
+    }
+    REQUIRE(was_limited && was_made);
+}
+
 static void test_max_elements(void)
 {
     char *text = chain(50); /* the root, a graph, 51 nodes with two inputs each but the first, an output */
@@ -265,6 +291,7 @@ int main(int argc, char **argv)
     if (argc != 2)
         return 2;
     test_max_nodes();
+    test_max_nodes_of_diagnostics();
     test_max_elements();
     test_max_output();
     test_max_file();
