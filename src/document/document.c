@@ -76,6 +76,7 @@ elem_id doc_add_element(struct document *doc, elem_id parent, str_id category, s
                               .kind = (uint16_t)doc_kind_of(category)});
     vec_push(doc->arena, &doc->links, (struct doc_link){0});
     doc->has_templates |= category == STR_template;
+    doc->has_attributedefs |= category == STR_attributedef;
     elem_id element = doc->first_element + index;
     if (parent)
         link_last(doc, parent, element);
@@ -130,6 +131,7 @@ void doc_set_category(struct document *doc, elem_id element, str_id category)
 {
     own(doc, element)->category = category;
     own(doc, element)->kind = (uint16_t)doc_kind_of(category);
+    doc->has_attributedefs |= category == STR_attributedef;
 }
 
 void doc_set_name(struct document *doc, elem_id element, str_id name)

@@ -87,6 +87,7 @@ struct document {
     elem_id root;
     uint32_t max_elements; /* own ones, for what multiplies input (doc_is_full); 0 = no limit */
     bool has_templates;    /* a <template> was added since the last expansion */
+    bool has_attributedefs; /* an <attributedef> was added, wherever it is now */
     bool is_global;        /* no namespace is in it, as doc_qualify_names found */
     VEC(struct element) elements; /* own ones */
     VEC(struct attribute) attrs;

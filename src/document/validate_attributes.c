@@ -38,7 +38,7 @@ static void note_declared(struct validation *v)
     const struct strpool *strings = v->doc->strings;
     v->declared = ARENA_ARRAY(v->arena, uint8_t, strings->first + strings->num);
     for (const struct document *doc = v->doc; doc; doc = doc->base)
-        for (elem_id e = doc_element(doc, doc->root)->first_child; e; e = doc_element(doc, e)->next)
+        for (elem_id e = doc->has_attributedefs ? doc_element(doc, doc->root)->first_child : 0; e; e = doc_element(doc, e)->next)
             if (doc_element(doc, e)->kind == KIND_ATTRIBUTEDEF)
                 v->declared[doc_attr_value(doc, e, STR_attrname)] = 1;
 }

@@ -53,7 +53,7 @@ struct header {
     uint64_t size;        /* of the whole image */
     uint32_t first_element, first_attr, first_file, root, name_mask;
     uint32_t num_strings, string_mask;
-    uint32_t unused;
+    uint32_t has_attributedefs;
     struct {
         uint32_t offset, len;
     } sections[NUM_SECTIONS];
@@ -70,7 +70,7 @@ static uint64_t checksum(const void *image, size_t size)
 static uint64_t fingerprint(void)
 {
     uint64_t h = HASH_STABLE_SEED;
-    uint32_t facts[NUM_VECS + 4] = {4 /* bumped when meanings change but sizes do not */, STR_NUM_WORDS, IR_NUM_OPS, NUM_ELEMENT_KINDS};
+    uint32_t facts[NUM_VECS + 4] = {5 /* bumped when meanings change but sizes do not */, STR_NUM_WORDS, IR_NUM_OPS, NUM_ELEMENT_KINDS};
     for (unsigned i = 0; i < NUM_VECS; i++)
         facts[i + 4] = (uint32_t)section_infos[i].item_size;
     return hash_stable(h, facts, sizeof facts);
@@ -197,6 +197,7 @@ void library_write_image(const struct library *lib, const struct lang_recorder *
         .first_file = lib->doc.first_file,
         .root = lib->doc.root,
         .name_mask = lib->doc.name_mask,
+        .has_attributedefs = lib->doc.has_attributedefs,
         .num_strings = lib->strings.num,
         .string_mask = lib->strings.table_mask,
     };
@@ -257,6 +258,7 @@ static void map_names(struct document *doc, const struct header *header, char *b
 {
     void *table = base + header->sections[SECTION_NAME_TABLE].offset;
     doc->name_mask = header->name_mask;
+    doc->has_attributedefs = header->has_attributedefs;
     if (header->sections[SECTION_NAME_TABLE].len == 0)
         return;
     if (is_narrow(header->first_element + doc->elements.len))
