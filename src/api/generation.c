@@ -173,6 +173,13 @@ static bool is_cancelled(struct generation *g)
 void generation_report_not_renderable(struct generation *g, const char *why)
 {
     const struct document *doc = &g->document->layer.doc;
+    struct text unknown;
+    text_init(&unknown, &g->scratch);
+    if (g->result->shader.unknown_closure) {
+        text_fmt(&unknown, "%s has no closure for '%s', and functions cannot stand for one", g->result->target->name,
+                 str_text(doc->strings, g->result->shader.unknown_closure));
+        why = text_cstr(&unknown);
+    }
     diag_add(diags_of(g), DIAG_ID_not_renderable, doc_place(doc, g->element),
              str_text(doc->strings, doc_element(doc, g->element)->name), why);
 }

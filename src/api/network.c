@@ -121,8 +121,10 @@ static bool make_node(struct generation *g, struct spell_options *options, struc
 {
     mxg_result *result = g->result;
     struct shader *shader = new_shader(g, node);
-    if (!emit_node(g, shader, node))
+    if (!emit_node(g, shader, node)) {
+        result->shader.unknown_closure = shader->unknown_closure;
         return false;
+    }
     drop_unread(shader, node);
     struct text source;
     struct spell_mark *marks;

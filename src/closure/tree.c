@@ -23,7 +23,6 @@ struct tree {
     ir_ref thin; /* whether the surface is a shell without an inside; 0: it is none */
     ir_ref turned; /* of the leaf at hand: whether it reflects back to where the light came from; 0: it does not */
     enum side { BOTH_SIDES, REFLECTED, TRANSMITTED } side; /* what is wanted of the leaf at hand */
-    bool unknown; /* some leaf has no row */
 };
 
 /* ---- Arguments ---- */
@@ -355,7 +354,7 @@ static ir_ref leaf_call(struct tree *t, ir_ref leaf)
     else if (node.type == IR_TYPE_VDF)
         result = medium(t, leaf);
     else
-        t->unknown = true;
+        t->shader->unknown_closure = t->graph->callees.items[node.attr].name;
     return scaled(t, result, ir_arg(t->graph, leaf, 0));
 }
 
@@ -549,7 +548,7 @@ bool closure_emit_tree(struct shader *shader, const struct closure_host *host, i
         return emit_value(&t, front);
     shader->kind = type == IR_TYPE_VOLUME || type == IR_TYPE_VDF ? SHADER_VOLUME : SHADER_SURFACE;
     emit_sides(&t, front, back);
-    return !t.unknown;
+    return !shader->unknown_closure;
 }
 
 static bool emit_result(struct tree *t, const struct closure_result *result)
@@ -572,7 +571,7 @@ static bool emit_result(struct tree *t, const struct closure_result *result)
         effect(t, EFFECT_OUTPUT, out, value);
     else
         t->shader->variables.items[out].stages = 1 << STAGE_PIXEL;
-    return !t->unknown;
+    return !t->shader->unknown_closure;
 }
 
 bool closure_emit_node(struct shader *shader, const struct closure_host *host, const struct closure_result *results, unsigned n)

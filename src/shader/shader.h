@@ -214,6 +214,7 @@ struct shader {
     bool scatters;                 /* it is no program but a function of path tracers: there is no vertex stage */
     bool in_blocks;                /* uniforms stand in blocks: each reading costs an access beside the load */
     uint32_t *local_of;            /* the speller's: by node, 0 between the lists of statements; from shader_finish */
+    str_id unknown_closure;        /* the function of a leaf that the target has no closure for; 0: there is none */
     bool numbered;                 /* sets, bindings and locations are given */
 };
 

@@ -102,6 +102,20 @@ if [ -r locked.mtlx ]; then
 else
     check 'an unreadable file' exits 1 "$mxgen" locked.mtlx
 fi
+cat >leaf.mtlx <<'X'
+<materialx version="1.39">
+  <nodedef name="ND_matte" node="matte"><input name="weight" type="float" value="1"/><output name="out" type="BSDF"/></nodedef>
+  <implementation name="IM_matte" nodedef="ND_matte" file="matte.glsl" function="matte"/>
+  <matte name="m" type="BSDF"/>
+  <surface name="S" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="m"/></surface>
+</materialx>
+X
+echo 'vec3 matte_eval(vec3 N, vec3 L) { return vec3(0.3 * max(dot(N, L), 0.0)); }' >matte.glsl
+check "a leaf of one's own" exits 0 "$mxgen" leaf.mtlx -o leaf
+check 'is none for OSL' exits 1 "$mxgen" leaf.mtlx -t osl -o leaf
+check 'which says so' grep -q "osl has no closure for 'matte'.*\[not-renderable\]" err
+check 'in networks, too' exits 1 "$mxgen" leaf.mtlx -t osl --osl-network -o leaf
+check 'which say the same' grep -q "osl has no closure for 'matte'.*\[not-renderable\]" err
 check 'unknown element' exits 1 "$mxgen" two.mtlx --element B
 check 'has its id too' grep -q '\[unknown-element\]' err
 check '-q keeps errors' exits 1 "$mxgen" bad.mtlx -q -o bad
