@@ -172,8 +172,25 @@ static void share_attributes(struct document *doc, struct arena *arena)
 
 /* ---- Writing ---- */
 
+/* Every string of a document is looked for in the image, which has few of them: half of the slots are free, so that few are compared. */
+static uint32_t make_string_table(const struct strpool *pool, struct arena *arena, uint32_t **out_table)
+{
+    uint32_t slots = 64;
+    while (slots < 2 * pool->num)
+        slots *= 2;
+    *out_table = ARENA_ARRAY(arena, uint32_t, slots);
+    for (str_id id = 1; id < pool->num; id++) {
+        uint32_t slot = hash_bytes(str_text(pool, id), str_len(pool, id)) & (slots - 1);
+        while ((*out_table)[slot])
+            slot = (slot + 1) & (slots - 1);
+        (*out_table)[slot] = id;
+    }
+    return slots - 1;
+}
+
 static void put_strings(const struct strpool *pool, struct text *out, struct header *header)
 {
+    uint32_t *table, mask = make_string_table(pool, out->arena, &table);
     struct text bytes;
     text_init(&bytes, out->arena);
     uint32_t *offsets = ARENA_ARRAY(out->arena, uint32_t, pool->num + 1);
@@ -184,7 +201,8 @@ static void put_strings(const struct strpool *pool, struct text *out, struct hea
     offsets[pool->num] = (uint32_t)bytes.len;
     put_section(out, header, SECTION_STR_OFFSETS, offsets, pool->num + 1, sizeof *offsets);
     put_section(out, header, SECTION_STR_BYTES, bytes.data, (uint32_t)bytes.len, 1);
-    put_table(out, header, SECTION_STR_TABLE, pool->table, pool->table_mask + 1, pool->num);
+    put_table(out, header, SECTION_STR_TABLE, table, mask + 1, pool->num);
+    header->string_mask = mask;
 }
 
 void library_write_image(const struct library *lib, const struct lang_recorder *recorder, const struct lang_syntax *syntax,
@@ -199,7 +217,6 @@ void library_write_image(const struct library *lib, const struct lang_recorder *
         .name_mask = lib->doc.name_mask,
         .has_attributedefs = lib->doc.has_attributedefs,
         .num_strings = lib->strings.num,
-        .string_mask = lib->strings.table_mask,
     };
     memcpy(header.magic, magic, sizeof magic);
     struct library packed = *lib;
