@@ -51,6 +51,14 @@ static void add(struct walk *w, uint64_t word)
     w->hash = hash_mix(w->hash, word);
 }
 
+/* What follows: no text and no number looks like one of these, so that words mean one thing only. */
+enum mark { MARK_ELEMENT, MARK_INPUT, MARK_UNIFORM, MARK_NUMBER, MARK_TEXT, MARK_FILE, MARK_NO_FILE, MARK_SPACE, MARK_CONNECTION, MARK_END };
+
+static void mark(struct walk *w, enum mark what, uint32_t more)
+{
+    add(w, (uint64_t)1 << 62 | (uint64_t)what << 48 | more);
+}
+
 /* Texts that the library knows have one id in all documents that stand on it. */
 static void add_text(struct walk *w, str_id id)
 {
@@ -121,16 +129,17 @@ static void add_file(struct walk *w, elem_id element, str_id file)
 {
     const char *text = text_of(w, file), *prefix = text_of(w, doc_inherited_attr(w->doc, element, STR_fileprefix));
     w->is_unknown |= strpbrk(text, "<[") || strpbrk(prefix, "<[");
+    mark(w, *text ? MARK_FILE : MARK_NO_FILE, 0);
     if (strchr(text, '{'))
         add_text(w, file);
-    else
-        add(w, *text != '\0');
 }
 
 /* Numbers that are compiled in, or that may decide what becomes of a program, count however they are written. */
 static void add_number(struct walk *w, const struct ir_value *value)
 {
-    for (unsigned i = 0; i < ir_type_info(value->type)->components; i++)
+    unsigned n = ir_type_info(value->type)->components;
+    mark(w, MARK_NUMBER, n);
+    for (unsigned i = 0; i < n; i++)
         add(w, value->w[i].u);
 }
 
@@ -143,15 +152,20 @@ static void add_value(struct walk *w, elem_id element, str_id text, bool is_publ
 {
     doc_type type = type_of(w, element);
     struct ir_value value;
-    if (type == DOC_TYPE_filename)
+    const char *space = is_color(type) || type == DOC_TYPE_filename ? space_of(w, element) : NULL;
+    if (type == DOC_TYPE_filename) {
         add_file(w, element, text);
-    else if (!parse(w, type, text, &value))
+    } else if (!parse(w, type, text, &value)) {
+        mark(w, MARK_TEXT, 0);
         add_text(w, text);
-    else if (!is_uniform(w, is_public, &value))
+    } else if (is_uniform(w, is_public, &value)) {
+        mark(w, MARK_UNIFORM, 0);
+    } else {
         add_number(w, &value);
-    if (is_color(type) || type == DOC_TYPE_filename) {
-        const char *space = space_of(w, element);
-        add(w, space ? hash_long(0, space, strlen(space)) : 0);
+    }
+    if (space) {
+        mark(w, MARK_SPACE, 0);
+        add(w, hash_long(0, space, strlen(space)));
     }
 }
 
@@ -216,6 +230,7 @@ static bool add_attributes(struct walk *w, elem_id element, bool is_public)
         if (name == STR_unit)
             w->is_unknown |= w->lib->units.len > 0; /* units of the document itself */
     }
+    mark(w, MARK_END, 0);
     w->is_unknown |= is_port && (num_says > 1 || type_of(w, element) == DOC_TYPE_NONE);
     return is_connected;
 }
@@ -234,7 +249,8 @@ static uint32_t add_connection(struct walk *w, elem_id port)
     if (w->is_unknown || (is_end && binding.element == port))
         return UINT32_MAX;
     uint32_t number = number_of(w, is_end ? binding.element : binding.ref);
-    add(w, (uint64_t)binding.kind << 48 | (uint64_t)binding.output << 32 | number);
+    mark(w, MARK_CONNECTION, (uint32_t)binding.kind << 8 | binding.output);
+    add(w, number);
     return is_end ? UINT32_MAX : number;
 }
 
@@ -289,7 +305,7 @@ static bool is_default(const struct walk *w, const struct port *port, str_id tex
 
 /*
  * A literal that is what the input would be if the document did not mention it: the default, or one of the uniforms that the complete
- * interface makes of all inputs; and of closures and shaders, which have none, nothing. The definition's type is the input's, since they match.
+ * interface makes of all inputs; and of closures and shaders, which have none, nothing.
  */
 static bool is_as_unset(struct walk *w, elem_id input, const struct port *port, bool is_public)
 {
@@ -297,6 +313,8 @@ static bool is_as_unset(struct walk *w, elem_id input, const struct port *port, 
     const struct attribute *attrs = doc_attrs(w->doc, input);
     str_id text = doc_attr_value(w->doc, input, STR_value);
     struct ir_value value;
+    if (type_of(w, input) != port->type)
+        return false;
     for (uint32_t i = 0; i < e->num_attrs; i++)
         if (!is_left_out(attrs[i].name, false) && attrs[i].name != STR_type && attrs[i].name != STR_value)
             return false;
@@ -350,7 +368,7 @@ static void add_node(struct walk *w, elem_id node, uint8_t flags)
     add(w, nodedef);
     for (unsigned i = 0; i < n && !w->is_unknown; i++)
         if (inputs[i] && !is_as_unset(w, inputs[i], &ports[i], flags & IS_PUBLIC)) {
-            add(w, (uint64_t)i + 1);
+            mark(w, MARK_INPUT, i);
             add_input(w, inputs[i], flags);
         }
 }
@@ -376,13 +394,13 @@ static void add_element(struct walk *w, uint32_t number)
     const struct element *e = doc_element(w->doc, met.element);
     bool in_graph = e->parent && doc_element(w->doc, e->parent)->kind == KIND_NODEGRAPH, of_graph = e->kind == KIND_INPUT && in_graph;
     w->is_unknown |= in_graph && doc_attr(w->doc, e->parent, STR_nodedef);
-    add(w, (uint64_t)e->kind << 8 | (of_graph || met.flags & IS_PUBLIC));
+    mark(w, MARK_ELEMENT, (uint32_t)e->kind << 8 | (of_graph || met.flags & IS_PUBLIC));
     bool is_connected = add_attributes(w, met.element, of_graph || met.flags & IS_PUBLIC);
     if (e->kind == KIND_NODE)
         add_node(w, met.element, met.flags);
     else if (number == 0 && is_connected)
         add_output(w, met.element);
-    add(w, 0);
+    mark(w, MARK_END, 0);
 }
 
 /* Definitions of the document's own, and graphs that implement one, are left to a generation. */

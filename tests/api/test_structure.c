@@ -52,11 +52,13 @@ static const struct change {
     {SAME, "  </standard_surface>", "<input name=\"transmission_scatter\" type=\"color3\" value=\"1, 1, 0\" colorspace=\"lin_rec709\"/></standard_surface>"},
     {OTHER, "  </standard_surface>", "<input name=\"transmission_scatter\" type=\"color3\" value=\"1, 1, 0\" colorspace=\"acescg\"/></standard_surface>"},
     {OTHER, "value=\"1, 0.9, 0.8\"", "value=\"1, 0.9\""},
+    {UNTOLD, "name=\"coat\" type=\"float\"", "name=\"coat\""},
     {UNTOLD, "name=\"coat\"", "name=\"coatt\""},
     /* values that are compiled in */
     {OTHER, "<input name=\"steps\" type=\"integer\" value=\"3\"/>", "<input name=\"steps\" type=\"integer\" value=\"4\"/>"},
     {OTHER, "name=\"amplitude\" type=\"float\" value=\"0.5\"", "name=\"amplitude\" type=\"float\" value=\"0.25\""},
     {OTHER, "\"0, 0, 0\"", "\"1, 0, 0\""},
+    {OTHER, "\"0, 0, 0\"", "\"\""},
     {SAME, "\"0, 0, 0\"", "\"0.0,0.0,  0\""},
     {SAME, "<input name=\"default\" type=\"color3\" value=\"0, 0, 0\"/>", ""},
     {SAME, "name=\"amplitude\" type=\"float\" value=\"0.5\"", "name=\"amplitude\" type=\"float\" value=\"5e-1\""},

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
  * Elements of equal structure, in all documents of some folders, have shaders of equal topology, interface, counts and diagnostics; with
- * neutral names and without comments, of equal text. And of every element it is told without the shader what is told with it. Arguments:
- * the folders; of those that are not there the test says so.
+ * neutral names and without comments, of equal text. So have variants of them, in which an attribute has the value of another, a digit is
+ * another or an element is left out. And of every element it is told without the shader what is told with it. Arguments: the folders; of
+ * those that are not there the test says so.
  */
 #define _XOPEN_SOURCE 700
 #include "tests/api/fixture.h"
@@ -13,9 +14,11 @@
 static const struct request {
     const char *target, *interface;
     bool has_values; /* in the source: uniforms' values stand in it */
+    bool has_variants;
 } requests[] = {
-    {"glsl", "complete", true}, {"glsl", "authored", true},  {"glsl", "reduced", true}, {"vulkan", "complete", false},
-    {"vulkan", "reduced", false}, {"osl", "complete", true}, {"osl", "reduced", true},
+    {"glsl", "complete", true, true},    {"glsl", "authored", true, false},    {"glsl", "reduced", true, false},
+    {"vulkan", "complete", false, true}, {"vulkan", "reduced", false, true}, {"osl", "complete", true, true},
+    {"osl", "reduced", true, false},
 };
 enum { NUM_REQUESTS = sizeof requests / sizeof *requests };
 
@@ -168,11 +171,96 @@ static void compare(uint64_t structure, char *facts, const char *path, const cha
     free(facts);
 }
 
+/* ---- Variants ---- */
+
+enum { MAX_VARIED = 1 << 16, NUM_VARIANTS = 12, NUM_VARIED_ELEMENTS = 3 }; /* bytes of a document, variants of each, elements of those */
+
+static uint64_t random_state = 1;
+
+/* Knuth's linear congruential generator (MMIX), its high bits. */
+static size_t pick(size_t n)
+{
+    random_state = random_state * 6364136223846793005u + 1442695040888963407u;
+    return (size_t)(random_state >> 33) % n;
+}
+
+static char *read_text(const char *path, size_t *out_len)
+{
+    FILE *file = fopen(path, "rb");
+    char *text = malloc(MAX_VARIED + 1);
+    *out_len = file ? fread(text, 1, MAX_VARIED, file) : 0;
+    text[*out_len] = '\0';
+    if (file)
+        fclose(file);
+    return text;
+}
+
+/* The text between quotes of an attribute from `at` on; false: there is none. */
+static bool find_attribute(const char *text, size_t at, const char *name, size_t *out_begin, size_t *out_end)
+{
+    char start[32];
+    snprintf(start, sizeof start, " %s=\"", name);
+    const char *found = strstr(text + at, start), *end = found ? strchr(found + strlen(start), '"') : NULL;
+    if (!end)
+        return false;
+    *out_begin = (size_t)(found - text) + strlen(start);
+    *out_end = (size_t)(end - text);
+    return true;
+}
+
+static char *splice(const char *text, size_t begin, size_t end, const char *other, size_t len)
+{
+    size_t size = strlen(text);
+    char *out = malloc(size + len + 1);
+    memcpy(out, text, begin);
+    memcpy(out + begin, other, len);
+    memcpy(out + begin + len, text + end, size - end + 1);
+    return out;
+}
+
+/* To be freed; NULL: nothing could be changed there. */
+static char *vary(const char *text, size_t len)
+{
+    static const char *const names[] = {"value", "value", "value", "nodename", "output", "colorspace", "type", "interfacename", "nodegraph"};
+    const char *name = names[pick(sizeof names / sizeof *names)];
+    size_t begin, end, other, other_end;
+    if (pick(4) == 0) {
+        const char *input = strstr(text + pick(len), "<input "), *close = input ? strstr(input, "/>") : NULL;
+        return close ? splice(text, (size_t)(input - text), (size_t)(close - text) + 2, "", 0) : NULL;
+    }
+    if (!find_attribute(text, pick(len), name, &begin, &end))
+        return NULL;
+    if (pick(2) && find_attribute(text, pick(len), name, &other, &other_end))
+        return splice(text, begin, end, text + other, other_end - other);
+    size_t digit = begin + strcspn(text + begin, "0123456789\"");
+    char changed = (char)('0' + pick(10));
+    return digit < end ? splice(text, digit, digit + 1, &changed, 1) : NULL;
+}
+
+static void examine(const mxg_document *document, const char *path, unsigned at, uint32_t limit);
+
+static void examine_variants(const char *path, unsigned at)
+{
+    size_t len;
+    char *text = read_text(path, &len);
+    for (int i = 0; i < NUM_VARIANTS && len && len < MAX_VARIED; i++) {
+        char *variant = vary(text, len);
+        mxg_document *document = NULL;
+        if (variant)
+            mxg_document_parse(corpus.context, corpus.library, path, variant, strlen(variant), &document);
+        if (document)
+            examine(document, path, at, NUM_VARIED_ELEMENTS);
+        mxg_document_destroy(document);
+        free(variant);
+    }
+    free(text);
+}
+
 /* ---- The whole ---- */
 
-static void examine(const mxg_document *document, const char *path, unsigned at)
+static void examine(const mxg_document *document, const char *path, unsigned at, uint32_t limit)
 {
-    for (uint32_t i = 0; i < mxg_document_num_renderables(document); i++) {
+    for (uint32_t i = 0; i < mxg_document_num_renderables(document) && i < limit; i++) {
         mxg_renderable renderable = {sizeof renderable};
         mxg_document_renderable(document, i, &renderable);
         mxg_generate_desc desc = {sizeof desc, requests[at].target, renderable.path, corpus.options[at], requests[at].has_values};
@@ -198,8 +286,10 @@ static void examine_all(unsigned at)
     for (size_t i = 0; i < corpus.num_paths; i++) {
         mxg_document *document = NULL;
         mxg_document_load(corpus.context, corpus.library, corpus.paths[i], &document);
-        examine(document, corpus.paths[i], at);
+        examine(document, corpus.paths[i], at, UINT32_MAX);
         mxg_document_destroy(document);
+        if (requests[at].has_variants)
+            examine_variants(corpus.paths[i], at);
     }
     forget();
     mxg_options_destroy(corpus.options[at]);
