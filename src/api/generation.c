@@ -142,7 +142,7 @@ static void name_shader(struct generation *g)
     shader->path = str_intern(shader->strings, path.data, path.len);
     shader->value_type = value_type(g);
     shader->style = arena_alloc(shader->arena, sizeof *shader->style);
-    lang_style_begin(shader->style, g->result->target->syntax, shader->arena);
+    lang_style_init(shader->style, g->result->target->syntax, shader->arena);
     shader->max_lights = (uint32_t)g->options[OPTION_max_lights].number;
 }
 

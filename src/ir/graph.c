@@ -177,21 +177,16 @@ static void push_words(struct ir_graph *graph, const uint32_t *words, uint32_t n
         to[i].u = words[i];
 }
 
-static ir_ref add(struct ir_graph *graph, struct content c, uint32_t *slot)
+/* May a node be added? The limit is told once, by what the graph gives instead. */
+static bool has_room(struct ir_graph *graph, enum ir_op op)
 {
-    if (graph->max_nodes && graph->nodes.len > graph->max_nodes && c.op != IR_POISON) {
-        graph->overflow = true;
-        return ir_poison(graph, c.type);
-    }
-    struct ir_node node = {.op = (uint8_t)c.op, .type = c.type, .attr = c.attr, .origin = graph->origin};
-    if (c.op == IR_CONST) {
-        node.attr = graph->words.len;
-        push_words(graph, c.data, c.count);
-    } else {
-        node.num_args = c.count;
-        node.first_arg = graph->args.len;
-        node.flags = (uint8_t)(own_flags(graph, c) | push_args(graph, c.data, c.count));
-    }
+    bool is_full = graph->max_nodes && graph->nodes.len > graph->max_nodes && op != IR_POISON;
+    graph->overflow |= is_full;
+    return !is_full;
+}
+
+static inline ir_ref add(struct ir_graph *graph, struct ir_node node, uint32_t *slot)
+{
     ir_ref ref = graph->nodes.len;
     vec_push(graph->arena, &graph->nodes, node);
     *slot = ref;
@@ -200,21 +195,33 @@ static ir_ref add(struct ir_graph *graph, struct content c, uint32_t *slot)
     return ref;
 }
 
-static inline ir_ref find_or_add(struct ir_graph *graph, struct content c)
-{
-    uint32_t *slot = find_slot(graph, c);
-    return *slot ? *slot : add(graph, c, slot);
-}
-
 ir_ref ir_intern(struct ir_graph *graph, enum ir_op op, ir_type_id type, uint32_t attr, const ir_ref *args,
                  unsigned num_args)
 {
-    return find_or_add(graph, (struct content){op, type, attr, num_args, args});
+    assert(op != IR_CONST);
+    struct content c = {op, type, attr, num_args, args};
+    uint32_t *slot = find_slot(graph, c);
+    if (*slot)
+        return *slot;
+    if (!has_room(graph, op))
+        return ir_poison(graph, type);
+    struct ir_node node = {.op = (uint8_t)op, .type = type, .attr = attr, .origin = graph->origin, .num_args = num_args,
+                           .first_arg = graph->args.len};
+    node.flags = (uint8_t)(own_flags(graph, c) | push_args(graph, args, num_args));
+    return add(graph, node, slot);
 }
 
 ir_ref ir_intern_const(struct ir_graph *graph, ir_type_id type, const union ir_word *words)
 {
-    return find_or_add(graph, (struct content){IR_CONST, type, 0, ir_type_info(type)->components, &words->u});
+    struct content c = {IR_CONST, type, 0, ir_type_info(type)->components, &words->u};
+    uint32_t *slot = find_slot(graph, c);
+    if (*slot)
+        return *slot;
+    if (!has_room(graph, IR_CONST))
+        return ir_poison(graph, type);
+    struct ir_node node = {.op = IR_CONST, .type = type, .attr = graph->words.len, .origin = graph->origin};
+    push_words(graph, c.data, c.count);
+    return add(graph, node, slot);
 }
 
 uint32_t ir_add_origin(struct ir_graph *graph, str_id name, uint32_t element, uint32_t parent)

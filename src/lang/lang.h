@@ -447,33 +447,17 @@ struct lang_style {
     struct arena *arena;
     bool plain_floats; /* floats are written as they are */
     bool from_images; /* functions are taken from there, where they are */
-    bool is_prepared;
     struct text_word types[IR_NUM_TYPES];
     struct lang_pieces *forms[IR_NUM_OPS]; /* each is made when it is first asked for */
-    uint64_t reserved[64];                /* a set that holds the hash of each reserved word: what is not there is free */
 };
 
 void lang_style_init(struct lang_style *style, const struct lang_syntax *syntax, struct arena *arena);
-/* The same in two steps, the second before anything is printed: until then it tells reserved words only. */
-void lang_style_begin(struct lang_style *style, const struct lang_syntax *syntax, struct arena *arena);
-void lang_style_prepare(struct lang_style *style);
 const struct lang_pieces *lang_style_split(struct lang_style *style, enum ir_op op);
 void lang_form_split(const struct lang_form *form, struct arena *arena, struct lang_pieces *out); /* out->text NULL for no form */
 static inline const struct lang_pieces *lang_style_form(struct lang_style *style, enum ir_op op)
 {
     return style->forms[op] ? style->forms[op] : lang_style_split(style, op);
 }
-static inline unsigned lang_word_hash(const char *name, size_t len) /* below 4096; of no empty name */
-{
-    return ((unsigned char)name[0] * 67u + (unsigned char)name[len / 2] * 13u + (unsigned char)name[len - 1] * 5u + (unsigned)len) & 4095;
-}
-static inline bool lang_style_is_reserved(const struct lang_style *style, const char *name, size_t len)
-{
-    unsigned hash = lang_word_hash(name, len);
-    bool may_be = !style->is_prepared || style->reserved[hash / 64] >> hash % 64 & 1;
-    return may_be && lang_syntax_is_reserved(style->syntax, name, len);
-}
-
 /* An op at hand, for targets whose spelling depends on types. */
 struct lang_use {
     enum ir_op op;

@@ -77,7 +77,7 @@ static bool is_taken(const struct printer *p, const char *name, size_t len, str_
     for (uint32_t i = 0; i < num_outer(p) && p->initials & initial(name); i++)
         if (is_same(outer_name(p, i), name))
             return true;
-    return lang_style_is_reserved(p->style, name, len);
+    return lang_syntax_is_reserved(p->style->syntax, name, len);
 }
 
 /* "x_", "x_2", "x_3"… for x; "x_2" at once for x_, since "__" is reserved in GLSL. */

@@ -4,35 +4,14 @@
 
 #include <assert.h>
 
-void lang_style_prepare(struct lang_style *style)
-{
-    const struct lang_syntax *syntax = style->syntax;
-    while (!syntax->reserved && syntax->base)
-        syntax = syntax->base;
-    for (size_t len = 1; syntax->reserved && len <= syntax->max_reserved; len++) {
-        const char *word = syntax->reserved[len].text;
-        for (uint32_t i = 0; i < syntax->reserved[len].count; i++, word += len) {
-            unsigned hash = lang_word_hash(word, len);
-            style->reserved[hash / 64] |= (uint64_t)1 << hash % 64;
-        }
-    }
-    for (ir_type_id type = 0; type < IR_NUM_TYPES; type++) {
-        const char *name = lang_syntax_type(style->syntax, type);
-        style->types[type] = text_word_of(style->arena, name, strlen(name));
-    }
-    style->is_prepared = true;
-}
-
-void lang_style_begin(struct lang_style *style, const struct lang_syntax *syntax, struct arena *arena)
-{
-    *style = (struct lang_style){.syntax = syntax, .arena = arena, .from_images = syntax->in_images};
-    style->plain_floats = !syntax->write_value && !syntax->float_literals_need_suffix;
-}
-
 void lang_style_init(struct lang_style *style, const struct lang_syntax *syntax, struct arena *arena)
 {
-    lang_style_begin(style, syntax, arena);
-    lang_style_prepare(style);
+    *style = (struct lang_style){.syntax = syntax, .arena = arena, .from_images = syntax->in_images};
+    for (ir_type_id type = 0; type < IR_NUM_TYPES; type++) {
+        const char *name = lang_syntax_type(syntax, type);
+        style->types[type] = text_word_of(arena, name, strlen(name));
+    }
+    style->plain_floats = !syntax->write_value && !syntax->float_literals_need_suffix;
 }
 
 /* Precedence an operand needs, by what stands around it in the form. */

@@ -86,7 +86,7 @@ static bool is_speller_name(str_id name)
 /* A word that the language has for itself. */
 static bool is_reserved(const struct shader *shader, str_id name)
 {
-    return shader->style && lang_style_is_reserved(shader->style, str_text(shader->strings, name), str_len(shader->strings, name));
+    return shader->style && lang_syntax_is_reserved(shader->style->syntax, str_text(shader->strings, name), str_len(shader->strings, name));
 }
 
 static bool is_taken(const struct shader *shader, uint32_t scope, str_id name)

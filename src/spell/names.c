@@ -131,7 +131,7 @@ struct spell_name names_unique(struct name_set *names, const char *text, size_t 
     names->recent[slot].text = text;
     names->recent[slot].len = (uint32_t)len;
     names->recent[slot].entry = entry;
-    if (lang_style_is_reserved(names->style, base, base_len))
+    if (lang_syntax_is_reserved(names->style->syntax, base, base_len))
         return add_underscore(names, entry);
     return is_new ? (struct spell_name){base, base_len} : add_number(names, entry);
 }

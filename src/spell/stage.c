@@ -247,8 +247,6 @@ static void init(struct spell *spell)
     spell->style = shader->style && has_neighbours ? shader->style : arena_alloc(arena, sizeof *spell->style);
     if (spell->style != shader->style)
         lang_style_init(spell->style, has_neighbours ? spell->target->syntax : syntax_of_one(spell), arena);
-    if (!spell->style->is_prepared)
-        lang_style_prepare(spell->style);
     names_init(&spell->names, arena, spell->style, spell->stage_id == STAGE_VERTEX);
     if (spell->options->comments && spell->options->path && !spell->options->neutral_names) {
         names_init(&spell->paths, arena, spell->style, true);
