@@ -159,14 +159,15 @@ vec3 mx_burley_diffuse_bsdf_environment(vec3 color, float roughness, vec3 N, vec
 
 // ---- translucent_bsdf -----------------------------------------------------------------------------------------------
 
-vec3 mx_translucent_bsdf_eval(vec3 color, vec3 N, vec3 L)
+// Light goes through to the side that is not seen.
+vec3 mx_translucent_bsdf_eval(vec3 color, vec3 N, vec3 V, vec3 L)
 {
-    return color * (max(-dot(N, L), 0.0) / MX_PI);
+    return color * (max(-dot(mx_facing(N, V), L), 0.0) / MX_PI);
 }
 
-vec3 mx_translucent_bsdf_environment(vec3 color, vec3 N)
+vec3 mx_translucent_bsdf_environment(vec3 color, vec3 N, vec3 V)
 {
-    return color * mx_environment_irradiance(-N);
+    return color * mx_environment_irradiance(-mx_facing(N, V));
 }
 
 vec3 mx_translucent_bsdf_albedo(vec3 color, vec3 N, vec3 V)
@@ -176,14 +177,14 @@ vec3 mx_translucent_bsdf_albedo(vec3 color, vec3 N, vec3 V)
 
 void mx_translucent_bsdf_sample(vec3 color, vec3 N, vec3 V, vec3 xi, out vec3 L, out vec3 weight, out float pdf)
 {
-    L = mx_any_frame(-N) * mx_sample_cosine(xi.xy);
-    pdf = mx_cosine_pdf(-N, L);
+    L = mx_any_frame(-mx_facing(N, V)) * mx_sample_cosine(xi.xy);
+    pdf = mx_cosine_pdf(-mx_facing(N, V), L);
     weight = color;
 }
 
 float mx_translucent_bsdf_pdf(vec3 color, vec3 N, vec3 V, vec3 L)
 {
-    return mx_cosine_pdf(-N, L);
+    return mx_cosine_pdf(-mx_facing(N, V), L);
 }
 
 // ---- subsurface_bsdf ------------------------------------------------------------------------------------------------
