@@ -97,6 +97,13 @@ ir_ref closure_product(struct ir_graph *graph, ir_ref value, ir_ref weight);
 /* guard.c: finds which parts need one. in_loop: only what is computed in each turn counts. */
 void closure_find_guarded(struct shader *shader, struct closure_parts *list, bool in_loop);
 ir_ref closure_one_minus(struct ir_graph *graph, ir_ref a);
+
+/* fresnel.c: an interface by Schlick's colours, as a conductor (`extinction`), or as a dielectric; 0: it has no such input. */
+struct closure_interface {
+    ir_ref color0, color90, exponent, ior, extinction;
+};
+/* By how much more it reflects at a cosine than head-on. */
+ir_ref closure_fresnel_rise(struct ir_graph *graph, const struct closure_interface *of, ir_ref cosine);
 /* Two closures of one type, either of which may be 0: none. */
 ir_ref closure_mixed(struct ir_graph *graph, ir_ref bg, ir_ref fg, ir_ref mix);
 

@@ -277,6 +277,22 @@ static ir_ref side_call(struct tree *t, ir_ref leaf, const struct closure_row *r
     return call(t, row->closure, ir_type_of(t->graph, leaf), args.refs, args.count);
 }
 
+/*
+ * Facets that mirror about the view direction are met head-on, whatever the angle to the surface is: they are to reflect as much more as they
+ * would at that angle.
+ */
+static ir_ref turned_factor(struct tree *t, ir_ref leaf)
+{
+    struct ir_graph *g = t->graph;
+    ir_ref cosine = ir_op1(g, IR_ABS, ir_op2(g, IR_DOT, input(t, leaf, "normal", 6), closure_view(t->shader, t->host)));
+    struct closure_interface interface = {
+        .color0 = input(t, leaf, "color0", 6), .color90 = input(t, leaf, "color90", 7), .exponent = input(t, leaf, "exponent", 8),
+        .ior = input(t, leaf, "ior", 3), .extinction = input(t, leaf, "extinction", 10)};
+    ir_ref more = closure_fresnel_rise(g, &interface, ir_op2(g, IR_MIN, cosine, ir_const_float(g, 1.0f)));
+    ir_ref one = ir_const_splat(g, ir_type_of(g, more), 1.0f);
+    return ir_build(g, IR_SELECT, ir_type_of(g, more), 0, (ir_ref[]){t->turned, more, one}, 3);
+}
+
 /* Through a shell without an inside light goes on as it came, in the colour that the leaf has for transmission. */
 static ir_ref straight(struct tree *t, ir_ref leaf, const char *word)
 {
@@ -308,6 +324,11 @@ static ir_ref row_call(struct tree *t, ir_ref leaf, const struct closure_row *ro
     t->turned = is_false(t, turned) ? 0 : turned;
     ir_ref whole = t->turned && transmits ? 0 : side_call(t, leaf, row, BOTH_SIDES);
     ir_ref reflected = reflects && (!whole || thin) ? side_call(t, leaf, row, REFLECTED) : 0;
+    if (t->turned) {
+        ir_ref factor = turned_factor(t, leaf);
+        whole = scaled(t, whole, factor);
+        reflected = scaled(t, reflected, factor);
+    }
     t->turned = 0;
     if (!whole)
         whole = sum(t, reflected, side_call(t, leaf, row, TRANSMITTED));
@@ -525,7 +546,11 @@ static ir_ref view(struct shader *shader)
 {
     str_id name = str_intern_z(shader->strings, "u_incident");
     ir_ref incident = shader_read(shader, shader_private_uniform(shader, name, IR_TYPE_VEC3, 0));
-    return ir_op1(shader->graph, IR_NEG, ir_op1(shader->graph, IR_NORMALIZE, incident));
+    uint32_t before = shader->graph->origin;
+    shader->graph->origin = ir_add_origin(shader->graph, STR_V, 0, 0);
+    ir_ref view = ir_op1(shader->graph, IR_NEG, ir_op1(shader->graph, IR_NORMALIZE, incident));
+    shader->graph->origin = before;
+    return view;
 }
 
 bool closure_emit_tree(struct shader *shader, const struct closure_host *host, ir_ref root)

@@ -1,0 +1,136 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Closures of OSL, rendered: balls under an even sky by OSL's testrender and by mxgen's path tracer, whose means agree within 3 percent. Rows of
+furnace.tsv: a material of furnace.mtlx or a document of the examples; the ratio of the means where the models differ; what makes both alike
+(then the ratio is 1, which proves the reason); the reason. Some are rendered as shader groups, too. Arguments: mxgen, the folder of examples
+('' or absent: none), and perhaps names. Skipped (77) without oslc and testrender, or a Vulkan device."""
+import math
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+import radiance
+
+MXGEN, EXAMPLES, *NAMES = sys.argv[1:]
+HERE = pathlib.Path(__file__).resolve().parent
+SKY, SIZE, TOLERANCE = 0.5, 32, 0.03
+DISTANCE, FIELD = 4.0, math.radians(30)
+NETWORKS = {"varnished", "StandardSurface/standard_surface_gold.mtlx", "OpenPbr/open_pbr_default.mtlx"}
+counts = {"passed": 0, "failed": 0, "skipped": 0}
+
+
+def check(what, fault):
+    counts["failed" if fault else "passed"] += 1
+    if fault:
+        print(f"failed: {what}: {fault}")
+
+
+def skip(reason):
+    counts["skipped"] += 1
+    print(f"skip: {reason}")
+
+
+def finish():
+    print("osl-furnace: {passed} passed, {failed} failed, {skipped} skipped".format(**counts))
+    sys.exit(1 if counts["failed"] else 77 if not counts["passed"] else 0)
+
+
+def ball_mean(path):
+    """What the ball sends of the sky's light, in each colour: over the disc that it covers, but for its rim."""
+    rows = radiance.read(path)
+    radius = math.tan(math.asin(1 / DISTANCE)) / math.tan(FIELD / 2) * len(rows) / 2
+    inside = [pixel for y, row in enumerate(rows) for x, pixel in enumerate(row)
+              if math.hypot(x + 0.5 - len(rows) / 2, y + 0.5 - len(rows) / 2) < 0.93 * radius]
+    return [sum(pixel[c] for pixel in inside) / (SKY * len(inside)) for c in range(3)]
+
+
+def run(*command, folder=None):
+    """Its complaint; testrender has some that leave its exit code 0."""
+    done = subprocess.run([str(word) for word in command], capture_output=True, text=True, cwd=folder)
+    said = (done.stdout + done.stderr).strip()
+    return said[:300] or f"exit code {done.returncode}" if done.returncode or "ERROR" in said else None
+
+
+def scene(layers):
+    slope = math.degrees(2 * math.atan(2 * math.tan(FIELD / 2)))  # testrender's field of view is that of half the picture
+    return f"""<World>
+<Camera eye="0, 0, {DISTANCE}" dir="0, 0, -1" fov="{slope}"/>
+<ShaderGroup>{layers}</ShaderGroup>
+<Sphere center="0, 0, 0" radius="1" resolution="256"/>
+<ShaderGroup><Shader type="surface" name="sky" layer="sky"/></ShaderGroup>
+<Background resolution="32"/>
+</World>
+"""
+
+
+def by_osl(document, options, folder):
+    fault = run(MXGEN, document, "--target", "osl", "-q", "-o", folder, *options)
+    groups = [path for path in folder.glob("*.oslgroup") if ".displacement." not in path.name]
+    (folder / "sky.osl").write_text(f"surface sky()\n{{\n    Ci = background() * {SKY};\n}}\n")
+    for path in sorted(folder.glob("*.osl")):
+        fault = fault or run("oslc", "-q", path.name, folder=folder)
+    if fault:
+        return fault
+    if groups:
+        layers = f"<![CDATA[\n{groups[0].read_text()}]]>"
+    else:
+        whole = next(path for path in folder.glob("*.osl") if path.name != "sky.osl" and ".displacement." not in path.name)
+        name = re.search(r"^surface (\w+)\(", whole.read_text(), re.MULTILINE).group(1)
+        layers = f'<Shader type="surface" name="{name}" layer="{name}"/>'
+    (folder / "scene.xml").write_text(scene(layers))
+    fault = run("testrender", "-t", "1", "-r", SIZE, SIZE, "-aa", "8", "scene.xml", "osl.hdr", folder=folder)
+    return fault or ball_mean(folder / "osl.hdr")
+
+
+def traced(document, options, folder):
+    radiance.write_constant(folder / "sky.hdr", SKY)
+    fault = run(MXGEN, "render", document, "-q", "-m", "sphere", "--camera", f"0,0,{DISTANCE:g},30", "--lights", "none", "--environment",
+                folder / "sky.hdr", "--path-trace", "--paths", "64", "--size", SIZE, "-o", folder / "traced.hdr", *options)
+    return fault or ball_mean(folder / "traced.hdr")
+
+
+def in_folder(render, document, options):
+    with tempfile.TemporaryDirectory() as folder:
+        return render(document, options, pathlib.Path(folder))
+
+
+def agree(what, mean, reference, expected):
+    if isinstance(mean, str) or isinstance(reference, str):
+        return check(what, mean if isinstance(mean, str) else reference)
+    ratio = max((a / b for a, b in zip(mean, reference)), key=lambda one: abs(math.log(one)))
+    print(f"{what}: by OSL {' '.join(f'{c:.3f}' for c in mean)}, traced {' '.join(f'{c:.3f}' for c in reference)}: {ratio:.3f}", flush=True)
+    return check(what, None if abs(ratio / expected - 1) < TOLERANCE else f"the ratio is {ratio:.3f}, not {expected}")
+
+
+def compare(what, document, options, expected):
+    reference = in_folder(traced, document, options)
+    if isinstance(reference, str) and "no-device" in reference:
+        skip("osl-furnace: there is no Vulkan device")
+        finish()
+    agree(what, in_folder(by_osl, document, options), reference, expected)
+    if what in NETWORKS:
+        agree(f"{what}, as a network", in_folder(by_osl, document, [*options, "--osl-network"]), reference, expected)
+
+
+if not shutil.which("oslc") or not shutil.which("testrender"):
+    skip("osl-furnace: oslc or testrender is not installed")
+    finish()
+for line in (HERE / "furnace.tsv").read_text(encoding="utf-8").splitlines()[1:]:
+    name, ratio, alike, _ = (line.split("\t") + ["", "", ""])[:4]
+    if NAMES and name not in NAMES:
+        continue
+    is_example = name.endswith(".mtlx")
+    document = pathlib.Path(EXAMPLES) / name if is_example else HERE / "furnace.mtlx"
+    if is_example and not (EXAMPLES and document.exists()):
+        skip(f"osl-furnace: there is no {document}")
+        continue
+    element = [] if is_example else ["--element", name]
+    compare(name, document, element, float(ratio or 1))
+    if alike.startswith("--"):
+        compare(f"{name}, alike", document, element + alike.split(), 1)
+    elif alike:
+        compare(f"{name}, alike", HERE / "furnace.mtlx", ["--element", alike], 1)
+finish()
