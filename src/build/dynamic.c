@@ -133,6 +133,17 @@ static ir_ref build_bitangent(const struct call *c)
     return build_axis(c, STR_bitangentObject, STR_bitangentWorld, true);
 }
 
+/* What hosts bind where the geometry has no such property. */
+static void tell_default(const struct call *c, uint32_t index)
+{
+    struct shader_variable *variable = &c->b->shader->variables.items[index];
+    struct ir_value value;
+    if (!variable->has_default && build_initial(c->b, arg(c, STR_default), &value) && value.type == variable->type) {
+        variable->has_default = true;
+        variable->value = value;
+    }
+}
+
 static ir_ref geomprop_uniform(const struct call *c, str_id name)
 {
     struct text full;
@@ -140,6 +151,8 @@ static ir_ref geomprop_uniform(const struct call *c, str_id name)
     text_fmt(&full, "u_geomprop_%s", build_text(c->b, name));
     str_id id = str_intern(c->b->shader->strings, full.data, full.len);
     uint32_t variable = shader_private_uniform(c->b->shader, id, c->type, 0);
+    if (c->type == IR_TYPE_BOOL)
+        tell_default(c, variable);
     return ir_build(c->b->graph, c->type == IR_TYPE_SAMPLER ? IR_TEXTURE : IR_UNIFORM, c->type, variable, NULL, 0);
 }
 
@@ -155,7 +168,14 @@ static ir_ref build_geompropvalue(const struct call *c)
         return arg(c, STR_default);
     if (c->type == IR_TYPE_BOOL || c->type == IR_TYPE_SAMPLER)
         return geomprop_uniform(c, name.w[0].u);
-    return named_stream(c, "geomprop_", name.w[0].u, 0, c->type);
+    ir_ref stream = named_stream(c, "geomprop_", name.w[0].u, 0, c->type);
+    uint32_t attribute;
+    if (ir_get(c->b->graph, stream)->op == IR_STREAM) {
+        tell_default(c, ir_get(c->b->graph, stream)->attr);
+        if (shader_attribute(c->b->shader, ir_get(c->b->graph, stream)->attr, &attribute))
+            tell_default(c, attribute);
+    }
+    return stream;
 }
 
 static ir_ref blur(const struct call *c)

@@ -371,6 +371,17 @@ static ir_ref attribute(struct shader *shader, const struct stream_row *row, con
     return shader_read(shader, index);
 }
 
+bool shader_attribute(const struct shader *shader, uint32_t stream, uint32_t *out_index)
+{
+    str_id semantic = shader->variables.items[stream].semantic;
+    for (uint32_t i = 0; i < shader->variables.len; i++)
+        if (shader->variables.items[i].block == BLOCK_APP_DATA && shader->variables.items[i].semantic == semantic) {
+            *out_index = i;
+            return true;
+        }
+    return false;
+}
+
 static ir_ref transform(struct shader *shader, str_id matrix, ir_ref vector, float w)
 {
     struct ir_graph *graph = shader->graph;

@@ -246,6 +246,8 @@ uint32_t shader_private_uniform(struct shader *shader, str_id name, ir_type_id t
  * may be asked for as VEC3 and color_N as FLOAT or VEC3; geomprop_* is of any type that is asked for. 0: there is no such stream.
  */
 ir_ref shader_stream(struct shader *shader, str_id name, ir_type_id type);
+/* The vertex attribute that a stream of that index is as it is; false: it is computed. */
+bool shader_attribute(const struct shader *shader, uint32_t stream, uint32_t *out_index);
 /* The same seen from inside the vertex stage: the expression itself (for displacement). */
 ir_ref shader_vertex_stream(struct shader *shader, str_id name, ir_type_id type);
 

@@ -149,7 +149,8 @@ static const char knobs[] =
     "    <convert name=\"m\" type=\"float\"><input name=\"in\" type=\"integer\" interfacename=\"mode\"/></convert>\n"
     "    <multiply name=\"s\" type=\"float\"><input name=\"in1\" type=\"float\" nodename=\"m\"/>"
     "<input name=\"in2\" type=\"float\" interfacename=\"width\"/></multiply>\n"
-    "    <geompropvalue name=\"id\" type=\"integer\"><input name=\"geomprop\" type=\"string\" value=\"id\"/></geompropvalue>\n"
+    "    <geompropvalue name=\"id\" type=\"integer\"><input name=\"geomprop\" type=\"string\" value=\"id\"/>"
+    "<input name=\"default\" type=\"integer\" value=\"3\"/></geompropvalue>\n"
     "    <convert name=\"i\" type=\"float\"><input name=\"in\" type=\"integer\" nodename=\"id\"/></convert>\n"
     "    <add name=\"t\" type=\"float\"><input name=\"in1\" type=\"float\" nodename=\"s\"/>"
     "<input name=\"in2\" type=\"float\" nodename=\"i\"/></add>\n"
@@ -184,13 +185,18 @@ static void test_user_interface(void)
     REQUIRE(mode.advanced && !width.advanced);
     REQUIRE_STR(mode.enum_names, "low,middle,high");
     REQUIRE_STR(mode.uistep, "1");
-    unsigned num_flat = 0;
+    unsigned num_flat = 0, num_given = 0;
     for (uint32_t i = 0; i < mxg_result_num_variables(result); i++) {
         mxg_variable variable = MXG_INIT(mxg_variable);
         REQUIRE_EQ(mxg_result_variable(result, i, &variable), MXG_OK);
         num_flat += variable.flat && variable.block == MXG_BLOCK_VERTEX_DATA;
+        num_given += strcmp(variable.semantic, "geomprop:id") == 0 && variable.num_values == 1 && variable.values[0] == 3.0f;
     }
     REQUIRE_EQ(num_flat, 1); /* an integer */
+    REQUIRE_EQ(num_given, 2); /* what it is where the geometry has none: of the attribute, and between the stages */
+    mxg_result_destroy(result);
+    result = generate(&b, "osl", "G", MXG_OK);
+    REQUIRE(strstr(mxg_result_source(result, MXG_STAGE_PIXEL, NULL), "id = 3 [[ int lockgeom = 0 ]]"));
     mxg_result_destroy(result);
     bench_close(&b);
 }
