@@ -287,27 +287,22 @@ ir_ref build_geomprop(struct builder *b, str_id name, doc_type type, struct diag
     return value;
 }
 
-static ir_ref zero(struct builder *b, doc_type type)
+static ir_ref zero(struct builder *b, ir_type_id type)
 {
-    ir_type_id ir = library_type_ir(b->lib, type);
-    if (ir == IR_TYPE_STRING)
-        return ir_const_string(b->graph, 0);
-    if (ir < IR_NUM_TYPES && ir_type_info(ir)->components) {
-        struct ir_value value = {.type = ir};
-        return ir_const(b->graph, &value);
-    }
-    return 0;
+    struct ir_value value = {.type = type};
+    return ir_const(b->graph, &value);
 }
 
 ir_ref build_default(struct builder *b, const struct port *port)
 {
     if (port->geomprop)
         return build_geomprop(b, port->geomprop, port->type, doc_attr_place(doc_of(b), port->element, STR_defaultgeomprop));
-    if (library_type_ir(b->lib, port->type) == IR_TYPE_STRING)
+    ir_type_id type = library_type_ir(b->lib, port->type);
+    if (type == IR_TYPE_STRING)
         return ir_const_string(b->graph, port->value);
-    if ((port->flags & PORT_HAS_VALUE) && port->value && zero(b, port->type))
-        return constant(b, port, port->value, port->element);
-    return zero(b, port->type);
+    if (type >= IR_NUM_TYPES || !ir_type_info(type)->components) /* of no value */
+        return 0;
+    return port->flags & PORT_HAS_VALUE && port->value ? constant(b, port, port->value, port->element) : zero(b, type);
 }
 
 bool build_port_value(struct builder *b, const struct port *port, struct ir_value *out)

@@ -180,10 +180,12 @@ const struct lang_fragment *fragment_find_open(const struct lang_unit *layer, ui
 
 void fragment_note_known(const struct ir_graph *graph, const ir_ref *inputs, unsigned num_inputs, bool *known)
 {
+    ir_ref newest = 0; /* nothing is equal to what is newer than all before */
     for (unsigned i = 0; i < num_inputs; i++) {
         known[i] = ir_is_looked_through((enum ir_op)ir_get(graph, inputs[i])->op);
-        for (unsigned k = 0; k < i && !known[i]; k++)
+        for (unsigned k = 0; k < i && inputs[i] <= newest && !known[i]; k++)
             known[i] = inputs[k] == inputs[i];
+        newest = inputs[i] > newest ? inputs[i] : newest;
     }
 }
 
