@@ -156,6 +156,8 @@ static bool parse(struct job *job)
     }
     if (!is_set(&job->cli, "texture-modes")) /* samplers here have neither borders of any colour nor cubic filters */
         mxg_options_set(job->cli.options, "texture-modes", "shared");
+    if (!is_set(&job->cli, "sample-filter")) /* there is nothing to be like */
+        mxg_options_set(job->cli.options, "sample-filter", "narrow");
     bool is_sane = job->paths && job->paths <= UINT32_MAX && job->bounces && job->bounces <= MAX_BOUNCES;
     if (job->path_trace && (!job->painter.is_studio || job->frames || !is_sane)) {
         fputs("mxgen: paths are traced in the studio, at least one through each pixel, with 1 to 64 bounces, and for no turntable\n", stderr);
@@ -537,7 +539,7 @@ int main(int argc, char **argv)
 {
     static const struct command command = {"render", "render FILE|FOLDER... -o PICTURE.png [options]",
                                            "Draws materials, without a display: one, or a sheet of many.", NULL};
-    struct job job = {.scene = "studio", .background = "backdrop", .missing_texture = "error", .samples = 16, .paths = 256, .bounces = 32, .frame = SCENE_FRAME,
+    struct job job = {.scene = "studio", .background = "backdrop", .missing_texture = "error", .samples = 32, .paths = 256, .bounces = 32, .frame = SCENE_FRAME,
                       .painter.studio = STUDIO_DEFAULTS};
     const struct arg args[] = {
         {"output", 'o', ARG_TEXT, "FILE", "the picture to write; the ending chooses the format", &job.output},
@@ -553,7 +555,7 @@ int main(int argc, char **argv)
          "a latitude-longitude map or a baked folder (default: a sky with three lights); none, prefiltered or importance", &job.environments},
         {"bake-environment", 0, ARG_TEXT, "FILE", "prefilters a map ('sky': the built-in one) into the folder of -o", &job.baked},
         {"background", 0, ARG_TEXT, "NAME", "backdrop, environment, or none: transparent (default: backdrop)", &job.background},
-        {"samples", 0, ARG_SIZE, "N", "samples of the environment for each lobe (default: 16)", &job.samples},
+        {"samples", 0, ARG_SIZE, "N", "samples of the environment for each lobe (default: 32)", &job.samples},
         {"set", 0, ARG_LIST, "PATH=VALUE", "another value for an input, or file for a texture", &job.settings},
         {"missing-texture", 0, ARG_TEXT, "error|checker", "what to do without a texture: fail, or draw a checker in its place",
          &job.missing_texture},

@@ -94,6 +94,7 @@ static void set_build_options(struct generation *g)
         .short_names = !(g->result->target->caps & CAP_STAGES),
         .environment = o[OPTION_environment].number,
         .albedo = o[OPTION_albedo].number,
+        .sample_filter = o[OPTION_sample_filter].number,
         .texture_modes = g->result->target->caps & CAP_STAGES ? o[OPTION_texture_modes].number : TEXTURE_MODES_BUT_BORDERS,
         .missing_colors = g->result->target->caps & CAP_MISSING_COLORS,
         .indexed_tangents = !(g->result->target->caps & CAP_STAGES),

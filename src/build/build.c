@@ -16,7 +16,8 @@ static const struct known_option {
 } known_options[] = {{"option_environment", offsetof(struct build_options, environment)},
                      {"option_albedo", offsetof(struct build_options, albedo)},
                      {"option_texture_modes", offsetof(struct build_options, texture_modes)},
-                     {"option_integrator", offsetof(struct build_options, integrator)}};
+                     {"option_integrator", offsetof(struct build_options, integrator)},
+                     {"option_sample_filter", offsetof(struct build_options, sample_filter)}};
 enum { NUM_KNOWN_OPTIONS = sizeof known_options / sizeof *known_options };
 
 static const int *option_value(const struct build_options *options, const struct known_option *known)
@@ -36,7 +37,7 @@ static const int *find_option(const struct build_options *options, const char *n
 /* All of them as one number. */
 static uint32_t choice_of(const struct build_options *options)
 {
-    enum { BITS = 8 };
+    enum { BITS = 6 };
     static_assert(NUM_KNOWN_OPTIONS * BITS <= 32, "one number does not suffice");
     uint32_t choice = 0;
     for (size_t i = 0; i < NUM_KNOWN_OPTIONS; i++) {

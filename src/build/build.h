@@ -30,6 +30,7 @@ struct build_options {
     bool short_names;      /* inputs have their own names, without that of their node */
     int environment;       /* values of option_environment… */
     int albedo;
+    int sample_filter;
     int texture_modes;
     bool missing_colors;   /* texture() gives another colour where there is no image, which may be a variable */
     bool indexed_tangents; /* tangents follow the coordinates of their index; else, as in MaterialX, the first */

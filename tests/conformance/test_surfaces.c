@@ -2,11 +2,12 @@
 /*
  * Materials drawn and compared with what MaterialX's own GLSL draws of them (README.md, "Surfaces").
  *
- *     test_surfaces DEVIATIONS FOLDER [DOCUMENTS [NAME...]]
+ *     test_surfaces [KEY=VALUE...] DEVIATIONS FOLDER [DOCUMENTS [NAME...]]
  *
- * Images are those of FOLDER/expected/surfaces/index.tsv (of materials NAME… only), documents are relative to FOLDER. MaterialX's own
- * ("example") are relative to DOCUMENTS, and left out where there is no such folder. Reference images may hold the middle pixels of
- * larger cells only; the shader is drawn whole in any case.
+ * KEY=VALUE is an option of generation, to see what a variant of the shaders would be. Images are those of
+ * FOLDER/expected/surfaces/index.tsv (of materials NAME… only), documents are relative to FOLDER. MaterialX's own ("example") are relative
+ * to DOCUMENTS, and left out where there is no such folder. Reference images may hold the middle pixels of larger cells only; the shader is
+ * drawn whole in any case.
  */
 #define _POSIX_C_SOURCE 200809L
 #include "deviations.h"
@@ -42,6 +43,7 @@ struct run {
     char **names;
     size_t num_names;
     mxg_context *context;
+    mxg_options *options;
     mxg_library *library;
     struct gpu gpu;
     struct scene scenes[NUM_IMAGE_KINDS];
@@ -152,6 +154,7 @@ static bool draw(struct run *run, const char *path, const char *element, enum im
     mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
     desc.target = "vulkan";
     desc.element = element;
+    desc.options = run->options;
     bool good = mxg_document_load(run->context, run->library, path, &document) == MXG_OK &&
                 mxg_generate(run->context, document, &desc, &result) == MXG_OK;
     if (good) {
@@ -224,12 +227,17 @@ static bool make_scene(struct scene *scene, enum image_kind kind)
     return true;
 }
 
-/* "material, image, mean error in percent, rms error in percent, reason" */
-static bool start(struct run *run, const char *deviations)
+/* Deviations: "material, image, mean error in percent, rms error in percent, reason" */
+static bool start(struct run *run, const char *deviations, char **settings, size_t num_settings)
 {
     compile_begin();
     bool good = mxg_context_create(NULL, &run->context) == MXG_OK && (run->library = mxg_library_builtin(run->context)) != NULL &&
-                deviations_read(&run->deviations, deviations, 2);
+                mxg_options_create(run->context, &run->options) == MXG_OK && deviations_read(&run->deviations, deviations, 2);
+    for (size_t i = 0; good && i < num_settings; ++i) {
+        char *value = strchr(settings[i], '=');
+        *value = '\0';
+        good = mxg_options_set(run->options, settings[i], value + 1) == MXG_OK;
+    }
     for (int kind = 0; kind < NUM_IMAGE_KINDS; ++kind)
         good = good && make_scene(&run->scenes[kind], (enum image_kind)kind);
     return good;
@@ -241,6 +249,7 @@ static void stop(struct run *run)
     for (int kind = 0; kind < NUM_IMAGE_KINDS; ++kind)
         scene_finish(&run->scenes[kind]);
     gpu_close(&run->gpu);
+    mxg_options_destroy(run->options);
     mxg_library_unref(run->library);
     mxg_context_destroy(run->context);
     compile_end();
@@ -265,8 +274,13 @@ static void check_all(struct run *run)
 
 int main(int argc, char **argv)
 {
+    char **settings = argv + 1;
+    while (argc > 1 && strchr(argv[1], '=')) {
+        ++argv;
+        --argc;
+    }
     if (argc < 3) {
-        fprintf(stderr, "usage: %s DEVIATIONS FOLDER [DOCUMENTS [NAME...]]\n", argv[0]);
+        fprintf(stderr, "usage: %s [KEY=VALUE...] DEVIATIONS FOLDER [DOCUMENTS [NAME...]]\n", argv[0]);
         return 2;
     }
     struct run run = {.folder = argv[2], .documents = argc > 3 ? argv[3] : ""};
@@ -278,7 +292,7 @@ int main(int argc, char **argv)
     if (!gpu_open(&run.gpu)) {
         printf("skip: there is no Vulkan device: %s\n", run.gpu.reason);
         code = EXIT_SKIPPED;
-    } else if (start(&run, argv[1])) {
+    } else if (start(&run, argv[1], settings, (size_t)(argv + 1 - settings))) {
         check_all(&run);
         printf("surfaces: %zu images agree (mean within %.2f %%, rms within %.2f %%), %zu deviate as listed, %zu failed\n", run.agree,
                100.0 * run.worst.mean, 100.0 * run.worst.rms, run.deviate, run.failed);

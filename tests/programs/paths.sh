@@ -17,9 +17,9 @@ compare() {
     local name=$1 expected=$2 document=$3 lights=${6:-none}
     rm -f drawn.exr traced.exr
     # shellcheck disable=SC2086 # arguments, divided by spaces
-    check "$name is drawn" exits 0 "$render" "$document" -q -m sphere --lights "$lights" --size 32 --samples 256 ${4:-} -o drawn.exr
+    check "$name is drawn" exits 0 "$render" "$document" -q -m sphere --lights "$lights" --size 64 --samples 256 ${4:-} -o drawn.exr
     # shellcheck disable=SC2086
-    check "$name is traced" exits 0 "$render" "$document" -q -m sphere --lights "$lights" --path-trace --paths 64 --size 32 ${5:-} -o traced.exr
+    check "$name is traced" exits 0 "$render" "$document" -q -m sphere --lights "$lights" --path-trace --paths 64 --size 64 ${5:-} -o traced.exr
     check "$name agrees" near "$("$mean_ratio" drawn.exr traced.exr)" "$expected"
 }
 
@@ -71,6 +71,7 @@ leaf zeltner '<sheen_bsdf name="bsdf" type="BSDF"><input name="mode" type="strin
 leaf burley '<burley_diffuse_bsdf name="bsdf" type="BSDF"><input name="roughness" type="float" value="1"/></burley_diffuse_bsdf>' '--integrator path'
 leaf rough '<oren_nayar_diffuse_bsdf name="bsdf" type="BSDF"><input name="roughness" type="float" value="1"/></oren_nayar_diffuse_bsdf>' \
     '--integrator path'
+leaf smooth '<oren_nayar_diffuse_bsdf name="bsdf" type="BSDF"/>' '--integrator path --interface complete' # that it is, the device alone knows
 leaf film '<dielectric_bsdf name="coat" type="BSDF"><input name="thinfilm_thickness" type="float" value="420"/><input name="thinfilm_ior" type="float"
     value="2"/></dielectric_bsdf><oren_nayar_diffuse_bsdf name="base" type="BSDF"><input name="color" type="color3" value="0.8, 0.8, 0.8"/>
   </oren_nayar_diffuse_bsdf><layer name="bsdf" type="BSDF"><input name="top" type="BSDF" nodename="coat"/><input name="base" type="BSDF"
@@ -80,6 +81,20 @@ leaf hair '<chiang_hair_bsdf name="bsdf" type="BSDF"/>' '--integrator path' '--a
 # A smooth solid, into which light goes and which it leaves.
 leaf solid '<dielectric_bsdf name="bsdf" type="BSDF"><input name="roughness" type="vector2" value="0, 0"/><input name="scatter_mode"
     type="string" value="RT"/></dielectric_bsdf>' '' '--as-drawn'
+
+# Light that meets glass of one lobe that reflects over one that refracts comes out again: a ball of it is not seen in light from everywhere.
+{ printf '#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 4 +X 8\n'; for i in {1..32}; do printf '\200\200\200\201'; done; } >white.hdr
+cat >furnace.mtlx <<'XML'
+<?xml version="1.0"?>
+<materialx version="1.39">
+  <standard_surface name="S" type="surfaceshader"><input name="base" type="float" value="0"/><input name="transmission" type="float" value="1"/>
+    <input name="specular_roughness" type="float" value="0"/></standard_surface>
+  <uniform_edf name="edf" type="EDF"/>
+  <surface name="G" type="surfaceshader"><input name="edf" type="EDF" nodename="edf"/></surface>
+</materialx>
+XML
+compare glass 1 furnace.mtlx '-e G' '-e S --environment white.hdr'
+compare 'glass, drawn with the same laws,' 1 furnace.mtlx '-e S --environment white.hdr --integrator path' '-e S --environment white.hdr'
 
 # A surface that moves: bumps, by their light, and a ball that shrinks, by its size.
 compare displaced 1 "$here/../../examples/displaced.mtlx" '' '--bounces 1'

@@ -87,16 +87,16 @@ float mx_oren_nayar_diffuse_bsdf_pdf(vec3 color, float roughness, vec3 N, bool e
 
 vec3 mx_oren_nayar_diffuse_bsdf_environment(vec3 color, float roughness, vec3 N, bool energy_compensation, vec3 V, int sample_index)
 {
-    if (option_integrator == 1 && option_environment == 2 && roughness > 0.0)
-    {
-        vec3 L, weight;
-        float pdf;
-        mx_oren_nayar_diffuse_bsdf_sample(color, roughness, N, energy_compensation, V, mx_lobe_random(sample_index), L,
-                                          weight, pdf);
-        return mx_lobe_light(L, weight, pdf);
-    }
-    return mx_oren_nayar_diffuse_bsdf_albedo(color, roughness, N, energy_compensation, V)
-         * mx_environment_irradiance(mx_facing(N, V));
+    vec3 even = mx_oren_nayar_diffuse_bsdf_albedo(color, roughness, N, energy_compensation, V)
+              * mx_environment_irradiance(mx_facing(N, V));
+    if (option_integrator == 0 || option_environment != 2)
+        return even;
+    if (roughness <= 0.0) // the mean is exact: a single sample brings it
+        return sample_index == 0 ? even : vec3(0.0);
+    vec3 L, weight;
+    float pdf;
+    mx_oren_nayar_diffuse_bsdf_sample(color, roughness, N, energy_compensation, V, mx_lobe_random(sample_index), L, weight, pdf);
+    return mx_lobe_light(L, weight, pdf);
 }
 
 // ---- burley_diffuse_bsdf --------------------------------------------------------------------------------------------

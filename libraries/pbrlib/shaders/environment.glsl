@@ -5,6 +5,10 @@
 
 const int option_environment = 2; // 0 none, 1 prefiltered, 2 importance sampling
 
+// Over how much of the map a sample is a mean: a power of two of its texels, 2^-7.3 of them being the solid angle that the sample stands for.
+// Filters overlap, so that few samples leave no pattern: wide ones (0) have five times the angle, nearly as MaterialX's, narrow ones (1) twice.
+const int option_sample_filter = 0;
+
 uniform mat4 u_envMatrix;
 uniform sampler2D u_envRadiance;
 uniform sampler2D u_envIrradiance;
@@ -51,6 +55,6 @@ vec3 mx_lobe_random(int i)
 vec3 mx_lobe_light(vec3 L, vec3 weight, float pdf)
 {
     float count = float(u_envRadianceSamples);
-    float level = exp2(2.0 * float(u_envRadianceMips) - 5.0) / max(pdf * count, MX_EPSILON);
+    float level = exp2(2.0 * float(u_envRadianceMips) - 5.0 - 1.3 * float(option_sample_filter)) / max(pdf * count, MX_EPSILON);
     return weight * (u_envLightIntensity / count) * mx_filtered_light(u_envMatrix, L, level);
 }

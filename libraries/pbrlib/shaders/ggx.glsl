@@ -19,6 +19,15 @@ float mx_ggx_masking(float cosine, float area)
     return sqrt(mix(cosine * cosine, 1.0, area));
 }
 
+// What an interface does with light: a sum of these.
+const int MX_REFLECTS = 1;
+const int MX_REFRACTS = 2;
+
+int mx_ggx_mode(string scatter_mode)
+{
+    return scatter_mode == "R" ? MX_REFLECTS : scatter_mode == "T" ? MX_REFRACTS : MX_REFLECTS + MX_REFRACTS;
+}
+
 // Roughness that the formulas can bear.
 vec2 mx_ggx_alpha(vec2 roughness)
 {
@@ -53,7 +62,8 @@ mx_GgxLobe mx_ggx_lobe_at(mat3 frame, vec2 alpha, vec3 v)
     float weight = step * (v.z + masking);
     return mx_GgxLobe(frame, vec3(alpha, 1.0), area, v, masking, normalize(v * vec3(alpha, 1.0)), step,
                       option_environment == 2 ? weight * u_envLightIntensity : 0.0,
-                      option_environment == 2 ? weight * area * exp2(2.0 * float(u_envRadianceMips) - 2.3485) : 0.0, // 2 pi / 32
+                      option_environment == 2
+                          ? weight * area * exp2(2.0 * float(u_envRadianceMips) - 2.3485 - 1.3 * float(option_sample_filter)) : 0.0,
                       option_environment == 2 ? u_envMatrix : mat4(1.0));
 }
 
@@ -320,14 +330,16 @@ vec3 mx_ggx_environment(vec2 roughness, vec3 N, vec3 X, vec3 V, string model, ve
 }
 
 // What it refracts.
-vec3 mx_ggx_refraction(vec2 roughness, vec3 N, vec3 X, vec3 V, float ior, string model, vec3 n, vec3 k, vec3 f90, float exponent,
-                       float film, float film_ior)
+vec3 mx_ggx_refraction(vec2 roughness, vec3 N, vec3 X, vec3 V, float ior, int mode, string model, vec3 n, vec3 k, vec3 f90,
+                       float exponent, float film, float film_ior)
 {
     if (option_environment == 0)
         return vec3(0.0);
     if (option_environment == 1)
         return mx_ggx_prefiltered(roughness, N, V, ior, model, n, k, f90, exponent, film, film_ior);
     mx_GgxLobe lobe = mx_ggx_lobe(roughness, mx_facing(N, V), X, V);
+    if (option_integrator == 1 && mode == MX_REFRACTS) // as if nothing were reflected
+        return mx_ggx_gather_schlick(lobe, 1.0, ior, vec3(0.0), vec3(0.0), vec3(0.0), 5.0);
     return film > 0.0 ? mx_ggx_gather_film(lobe, film > 0.0 ? 1.0 : 0.0, ior, model != "schlick", n, k, f90, exponent, film, film_ior)
                       : mx_ggx_gather(lobe, film > 0.0 ? 0.0 : 1.0, ior, model, n, k, f90, exponent);
 }

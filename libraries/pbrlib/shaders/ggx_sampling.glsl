@@ -1,16 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The GGX lobe for path tracing: it reflects and refracts at normals that are visible from V (Heitz 2018, "Sampling the GGX
-// Distribution of Visible Normals"). Interfaces as in fresnel.glsl; `mode` is the sum of these:
+// Distribution of Visible Normals"). Interfaces as in fresnel.glsl, modes as in ggx.glsl.
 
 #include "ggx.glsl"
-
-const int MX_REFLECTS = 1;
-const int MX_REFRACTS = 2;
-
-int mx_ggx_mode(string scatter_mode)
-{
-    return scatter_mode == "R" ? MX_REFLECTS : scatter_mode == "T" ? MX_REFRACTS : MX_REFLECTS + MX_REFRACTS;
-}
 
 // Share of the samples that reflect.
 float mx_ggx_share(vec3 fresnel, int mode)
@@ -41,10 +33,13 @@ float mx_refraction_jacobian(vec3 v, vec3 l, vec3 h, float eta)
     return eta * eta * abs(cos_l) / (sum * sum);
 }
 
+// What only refracts lies below what reflects (as in standard_surface), and what that reflects is missing in what the layer lets through: it
+// is not taken twice, as it is by MaterialX's rasters.
+
 // Refracted light (Walter et al. 2007, equation 21), as a part of energy: radiance grows by the square of the index, and shrinks again
 // where it leaves the medium; both are left out.
-vec3 mx_ggx_refracted(vec2 roughness, vec3 N, vec3 X, vec3 V, vec3 L, float eta, string model, vec3 n, vec3 k, vec3 f90, float exponent,
-                      float film, float film_ior)
+vec3 mx_ggx_refracted(vec2 roughness, vec3 N, vec3 X, vec3 V, vec3 L, float eta, int mode, string model, vec3 n, vec3 k, vec3 f90,
+                      float exponent, float film, float film_ior)
 {
     vec2 alpha = mx_ggx_alpha(roughness);
     mat3 frame = mx_frame(mx_facing(N, V), X);
@@ -54,7 +49,8 @@ vec3 mx_ggx_refracted(vec2 roughness, vec3 N, vec3 X, vec3 V, vec3 L, float eta,
     float cos_h = dot(v, h);
     if (l.z >= 0.0 || cos_h <= 0.0 || dot(l, h) >= 0.0)
         return vec3(0.0);
-    return (1.0 - mx_fresnel(min(cos_h, 1.0), model, n, k, f90, exponent, film, film_ior))
+    vec3 f = mx_fresnel(min(cos_h, 1.0), model, n, k, f90, exponent, film, film_ior);
+    return (mode == MX_REFRACTS ? vec3(1.0) : 1.0 - f)
          * (mx_ggx_distribution(h / vec3(alpha, 1.0), alpha.x * alpha.y) * mx_ggx_masked(v, alpha) * mx_ggx_masked(-l, alpha) * -l.z
             * cos_h * mx_refraction_jacobian(v, l, h, eta));
 }
@@ -105,7 +101,7 @@ void mx_ggx_scatter(vec2 roughness, vec3 N, vec3 X, vec3 V, vec3 xi, float eta, 
     }
     else
     {
-        weight = (1.0 - f) * (mx_ggx_masked(-l, alpha) * -l.z / (1.0 - share));
+        weight = (mode == MX_REFRACTS ? vec3(1.0) : 1.0 - f) * (mx_ggx_masked(-l, alpha) * -l.z / (1.0 - share));
         pdf = (1.0 - share) * cos_h * mx_refraction_jacobian(v, l, h, eta);
     }
     pdf *= density * mx_ggx_distribution(h / vec3(alpha, 1.0), alpha.x * alpha.y);

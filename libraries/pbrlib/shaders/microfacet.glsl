@@ -48,8 +48,8 @@ vec3 mx_dielectric_bsdf_transmission(vec3 tint, float ior, vec2 roughness, bool 
 {
     if (scatter_mode == "R")
         return vec3(0.0);
-    return mx_refraction_tint(max(tint, 0.0)) * mx_ggx_refraction(roughness, N, X, V, ior, "dielectric", vec3(ior), vec3(0.0), vec3(1.0),
-                                                                  0.0, film, film_ior);
+    return mx_refraction_tint(max(tint, 0.0)) * mx_ggx_refraction(roughness, N, X, V, ior, mx_ggx_mode(scatter_mode), "dielectric", vec3(ior),
+                                                                  vec3(0.0), vec3(1.0), 0.0, film, film_ior);
 }
 
 vec3 mx_dielectric_bsdf_throughput(vec3 tint, float ior, vec2 roughness, bool retroreflective, float film, float film_ior, vec3 N, vec3 X,
@@ -76,8 +76,8 @@ vec3 mx_dielectric_bsdf_refraction(vec3 tint, float ior, vec2 roughness, bool re
     if (scatter_mode == "R")
         return vec3(0.0);
     float eta = mx_index_ahead(ior, N, V);
-    return max(tint, 0.0) * mx_ggx_refracted(roughness, N, X, V, L, eta, "dielectric", vec3(eta), vec3(0.0), vec3(1.0), 0.0, film,
-                                             film_ior);
+    return max(tint, 0.0) * mx_ggx_refracted(roughness, N, X, V, L, eta, mx_ggx_mode(scatter_mode), "dielectric", vec3(eta), vec3(0.0),
+                                             vec3(1.0), 0.0, film, film_ior);
 }
 
 void mx_dielectric_bsdf_sample(vec3 tint, float ior, vec2 roughness, bool retroreflective, float film, float film_ior, vec3 N, vec3 X,
@@ -168,7 +168,7 @@ vec3 mx_generalized_schlick_bsdf_transmission(vec3 color0, vec3 color82, vec3 co
 {
     if (scatter_mode == "R")
         return vec3(0.0);
-    return mx_ggx_refraction(roughness, N, X, V, mx_schlick_index(color0), "schlick", max(color0, 0.0),
+    return mx_ggx_refraction(roughness, N, X, V, mx_schlick_index(color0), mx_ggx_mode(scatter_mode), "schlick", max(color0, 0.0),
                              mx_schlick_bend(color0, color82, color90, exponent), max(color90, 0.0), exponent, film, film_ior);
 }
 
@@ -197,7 +197,7 @@ vec3 mx_generalized_schlick_bsdf_refraction(vec3 color0, vec3 color82, vec3 colo
 {
     if (scatter_mode == "R")
         return vec3(0.0);
-    return mx_ggx_refracted(roughness, N, X, V, L, mx_schlick_index(color0), "schlick", max(color0, 0.0),
+    return mx_ggx_refracted(roughness, N, X, V, L, mx_schlick_index(color0), mx_ggx_mode(scatter_mode), "schlick", max(color0, 0.0),
                             mx_schlick_bend(color0, color82, color90, exponent), max(color90, 0.0), exponent, film, film_ior);
 }
 
