@@ -111,7 +111,7 @@ void osl_name_interface(struct osl *osl)
         else if (osl->arrays[i])
             name = value_name(spell, name);
         else if (is_stream(variable))
-            name = names_unique(&spell->names, name, strlen(name)).text;
+            name = names_unique(&spell->names, primitive_name(name), strlen(primitive_name(name))).text;
         spell->variables[spell->shader->interface.items[i]] = (struct spell_name){name, strlen(name)};
     }
 }

@@ -460,7 +460,25 @@ static ir_ref closure_of(struct tree *t, ir_ref root)
 
 /* ---- Effects ---- */
 
-/* Such a shader is given a unit normal: nothing came between it and the surface. */
+static ir_ref incident(struct shader *shader)
+{
+    str_id name = str_intern_z(shader->strings, "u_incident");
+    return shader_read(shader, shader_private_uniform(shader, name, IR_TYPE_VEC3, 0));
+}
+
+/* The way from the eye is given to such a shader. */
+static ir_ref with_incident(struct shader *shader, ir_ref root)
+{
+    uint32_t eye = shader_find_variable(shader, BLOCK_PRIVATE_UNIFORMS, STR_u_viewPosition);
+    if (eye == UINT32_MAX)
+        return root;
+    ir_ref point = shader_stream(shader, STR_positionWorld, IR_TYPE_VEC3), from = shader_read(shader, eye), way = incident(shader);
+    root = ir_replace(shader->graph, root, ir_op2(shader->graph, IR_SUB, point, from), way, shader->arena);
+    ir_ref back = ir_op1(shader->graph, IR_NEG, way);
+    return ir_replace(shader->graph, root, ir_op2(shader->graph, IR_SUB, from, point), back, shader->arena);
+}
+
+/* It is given a unit normal, too: nothing came between it and the surface. */
 static ir_ref with_unit_normal(struct shader *shader, ir_ref root)
 {
     ir_ref normal = shader_stream(shader, STR_normalWorld, IR_TYPE_VEC3), unit = ir_op1(shader->graph, IR_NORMALIZE, normal);
@@ -470,7 +488,7 @@ static ir_ref with_unit_normal(struct shader *shader, ir_ref root)
 static void effect(struct tree *t, enum effect_kind kind, uint32_t index, ir_ref value)
 {
     if (kind == EFFECT_OUTPUT)
-        value = with_unit_normal(t->shader, value);
+        value = with_unit_normal(t->shader, with_incident(t->shader, value));
     shader_effect(t->shader, STAGE_PIXEL, (struct effect){.kind = (uint8_t)kind, .index = index, .value = value});
 }
 
@@ -544,12 +562,13 @@ static bool emit_value(struct tree *t, ir_ref root)
 /* What is shaded is seen along a ray, which such languages know. */
 static ir_ref view(struct shader *shader)
 {
-    str_id name = str_intern_z(shader->strings, "u_incident");
-    ir_ref incident = shader_read(shader, shader_private_uniform(shader, name, IR_TYPE_VEC3, 0));
-    uint32_t before = shader->graph->origin;
-    shader->graph->origin = ir_add_origin(shader->graph, STR_V, 0, 0);
-    ir_ref view = ir_op1(shader->graph, IR_NEG, ir_op1(shader->graph, IR_NORMALIZE, incident));
-    shader->graph->origin = before;
+    struct ir_graph *g = shader->graph;
+    uint32_t before = g->origin;
+    g->origin = ir_add_origin(g, str_intern_z(shader->strings, "incident"), 0, 0);
+    ir_ref way = ir_op1(g, IR_NORMALIZE, incident(shader));
+    g->origin = ir_add_origin(g, STR_V, 0, 0);
+    ir_ref view = ir_op1(g, IR_NEG, way);
+    g->origin = before;
     return view;
 }
 

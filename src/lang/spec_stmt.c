@@ -101,12 +101,23 @@ static lang_ref fold_assignment(struct spec *s, const struct lang_node *node, la
     return spec_fold(s, &op, args, 2);
 }
 
+/* x = x: what is left of x = pow(x, p) where p is 1. */
+static bool is_idle(struct spec *s, const struct lang_node *assignment)
+{
+    const struct lang_node *target = spec_node(s, assignment->a), *value = spec_node(s, assignment->b);
+    return assignment->op == IR_NUM_OPS && target->kind == LANG_VAR && value->kind == LANG_VAR && target->a == value->a;
+}
+
 static void spec_assign(struct spec *s, struct lang_node node, struct chain *out)
 {
     uint32_t slot = ast_target_slot(s->layer, node.a);
     bool is_whole = ast_node(s->layer, node.a)->kind == LANG_VAR;
     node.b = spec_expression(s, node.b);
     node.a = spec_target(s, node.a);
+    if (is_idle(s, &node)) {
+        s->changed = true;
+        return;
+    }
     if (is_whole && node.op != IR_NUM_OPS) {
         lang_ref folded = fold_assignment(s, &node, node.b, slot);
         if (folded) {
