@@ -31,12 +31,19 @@ static const struct shader_variable *variable_at(const mxg_result *result, uint3
     return &result->shader.variables.items[result->shader.interface.items[index]];
 }
 
+/* Ranges of a node's input hold for the input of a graph that goes there; what it is called does not: it is no "left operand". */
+static bool is_inherited(const struct document *doc, elem_id input, str_id attr)
+{
+    bool is_of_graph = input && doc_element(doc, doc_element(doc, input)->parent)->kind == KIND_NODEGRAPH;
+    return !is_of_graph || (attr != STR_doc && attr != STR_uiname && attr != STR_uifolder && attr != STR_uiadvanced);
+}
+
 /* An attribute of the document's own element, else of the definition's. */
 static const char *ui_text(const mxg_result *result, const struct shader_variable *variable, str_id attr)
 {
     const struct document *doc = &result->document->layer.doc;
     str_id value = variable->element ? doc_attr_value(doc, variable->element, attr) : 0;
-    if (!value && variable->definition)
+    if (!value && variable->definition && is_inherited(doc, variable->element, attr))
         value = doc_attr_value(doc, variable->definition, attr);
     return text_of(result, value);
 }

@@ -171,6 +171,7 @@ static void test_user_interface(void)
     REQUIRE_EQ(mxg_result_variable(result, index, &width), MXG_OK);
     REQUIRE_STR(width.unit, "meter");
     REQUIRE_STR(width.unittype, "distance");
+    REQUIRE_STR(width.doc, ""); /* not "Right operand." */
     const struct {
         const char *key, *value;
     } fields[] = {{"name", mode.uiname},       {"folder", mode.uifolder},     {"min", mode.uimin},   {"max", mode.uimax},
