@@ -3,7 +3,7 @@
  * What a path tracer asks of a surface: light that it emits, opacity, one direction to go on in, and what it makes of light.
  *
  *     out1 = vec4(emission, opacity)
- *     pick = random.w · Σ pᵢ                       pᵢ = the mean of wᵢ · (1 + albedoᵢ) / 2,  Pᵢ = pᵢ / Σ pᵢ
+ *     pick = random.w · Σ pᵢ                       pᵢ = the mean of wᵢ · (1 + 9 albedoᵢ) / 10,  Pᵢ = pᵢ / Σ pᵢ
  *     for each leaf:  if (0 <= pick < pᵢ) { L, f cos / pdf, pdf = sample(random.xyz);  weight = wᵢ · f cos / pdf / Pᵢ;  density = Pᵢ · pdf }
  *                     pick -= pᵢ
  *     out2 = vec4(L, is it inside)      out3 = vec4(weight, density)      out4 = vec4(medium, 0)
@@ -12,7 +12,7 @@
  *
  * One leaf is picked, and its sample weighs what that leaf alone gives there, over the chance to pick it: the expectation is the sum of all
  * leaves (Pharr, Jakob, Humphreys, "Physically Based Rendering", section 2.2.3, on a discrete choice). Densities of the other leaves do
- * not enter, so lobes may be as sharp as they like, mirrors included; and weights stay below 2 Σ pᵢ, since a leaf's own sample is near its
+ * not enter, so lobes may be as sharp as they like, mirrors included; and weights stay near Σ pᵢ, since a leaf's own sample is near its
  * albedo.
  *
  * Directions that lights draw are weighed against those by the balance heuristic (Veach and Guibas 1995, "Optimally Combining Sampling
@@ -74,22 +74,31 @@ static ir_ref weight_of(struct scatter *s, const struct closure_leaf *leaf)
     return ir_convert(s->graph, IR_TYPE_VEC3, weight);
 }
 
-/* The chance to pick a leaf, times the sum of all. An albedo tells of reflection only; what refracts must have its chance, too. */
+static bool has(const struct scatter *s, const struct closure_leaf *leaf, enum leaf_function which)
+{
+    return s->host->leaf_functions(s->host->user_data, ir_get(s->graph, leaf->leaf)->attr)[which] != LANG_NONE;
+}
+
+static bool refracts(struct scatter *s, const struct closure_leaf *leaf)
+{
+    ir_ref any = closure_view(s->shader, s->host);
+    ir_ref refraction = has(s, leaf, LEAF_REFRACTION) ? closure_call(s->shader, s->host, leaf->leaf, LEAF_REFRACTION, &any) : 0;
+    return refraction && !ir_const_is(s->graph, refraction, 0.0f);
+}
+
+/*
+ * The chance to pick a leaf, times the sum of all: what it makes of light, so that paths keep their weight. An albedo tells of reflection only;
+ * what refracts loses nothing. The tenth is for albedos that are fits.
+ */
 static ir_ref share_of(struct scatter *s, const struct closure_leaf *leaf)
 {
     struct ir_graph *g = s->graph;
     ir_ref albedo = closure_call(s->shader, s->host, leaf->leaf, LEAF_ALBEDO, NULL), light = weight_of(s, leaf);
-    if (albedo) {
-        ir_ref half = grey(s, 0.5f);
-        albedo = op2(s, IR_ADD, half, op2(s, IR_MUL, half, ir_convert(g, IR_TYPE_VEC3, albedo)));
-        light = op2(s, IR_MUL, light, albedo);
+    if (albedo && !refracts(s, leaf)) {
+        albedo = op2(s, IR_MUL, grey(s, 0.9f), ir_convert(g, IR_TYPE_VEC3, albedo));
+        light = op2(s, IR_MUL, light, op2(s, IR_ADD, grey(s, 0.1f), albedo));
     }
     return op2(s, IR_MAX, mean_of(s, light), number(s, 0.0f));
-}
-
-static bool has(const struct scatter *s, const struct closure_leaf *leaf, enum leaf_function which)
-{
-    return s->host->leaf_functions(s->host->user_data, ir_get(s->graph, leaf->leaf)->attr)[which] != LANG_NONE;
 }
 
 /* Light from L comes from the side that is seen. */

@@ -81,6 +81,8 @@ leaf hair '<chiang_hair_bsdf name="bsdf" type="BSDF"/>' '--integrator path' '--a
 # A smooth solid, into which light goes and which it leaves.
 leaf solid '<dielectric_bsdf name="bsdf" type="BSDF"><input name="roughness" type="vector2" value="0, 0"/><input name="scatter_mode"
     type="string" value="RT"/></dielectric_bsdf>' '' '--as-drawn'
+leaf inner '<dielectric_bsdf name="bsdf" type="BSDF"><input name="roughness" type="vector2" value="0, 0"/><input name="scatter_mode"
+    type="string" value="RT"/></dielectric_bsdf>' '--integrator path' # what is reflected inside of it, too
 
 # Light that meets glass of one lobe that reflects over one that refracts comes out again: a ball of it is not seen in light from everywhere.
 { printf '#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 4 +X 8\n'; for i in {1..32}; do printf '\200\200\200\201'; done; } >white.hdr

@@ -311,6 +311,30 @@ vec3 mx_ggx_gather_film(mx_GgxLobe lobe, float limit, float refract_ior, bool is
     return lobe.weight * sum;
 }
 
+// What goes through a solid sphere with `--integrator path`: wherever it meets the other side as much is reflected as on its way in, f, since
+// the angle is the same. What leaves at first and after one turn, 1 : f, stands for all. A raster lets all leave at once, as MaterialX does.
+vec3 mx_ggx_gather_solid(mx_GgxLobe lobe, float ior, int mode, string model, vec3 n, vec3 k, vec3 f90, float exponent, float film,
+                         float film_ior)
+{
+    vec2 around = vec2(1.0, 0.0);
+    vec3 sum = vec3(0.0);
+    for (float xi = 0.5 * lobe.step; xi < 1.0; xi += lobe.step)
+    {
+        vec3 cap = mx_ggx_cap(around, xi * (1.0 + lobe.cap.z), lobe.cap);
+        vec3 h = cap * lobe.stretch;
+        float s = dot(cap, cap) / dot(h, h);
+        h = normalize(h);
+        vec4 light = mx_ggx_sample_at(lobe, h, s * s * lobe.level, ior);
+        vec3 inside = refract(-lobe.v, h, 1.0 / ior);
+        vec3 turned = reflect(-lobe.v, normalize(inside * dot(inside, h) - 0.5 * h)); // the way is its own mirror image where it turns
+        vec3 f = mx_fresnel(light.w, model, n, k, f90, exponent, film, film_ior);
+        sum += (mode == MX_REFRACTS ? vec3(1.0) : 1.0 - f)
+             * mix(light.xyz, 0.5 / lobe.v.z * mx_filtered_light(lobe.map, lobe.frame * turned, s * s * lobe.level), f / (1.0 + f));
+        around = MX_GOLDEN_TURN * around;
+    }
+    return lobe.weight * sum;
+}
+
 // What the lobe reflects of all directions.
 vec3 mx_ggx_environment(vec2 roughness, vec3 N, vec3 X, vec3 V, string model, vec3 n, vec3 k, vec3 f90, float exponent, float film,
                         float film_ior)
@@ -338,8 +362,8 @@ vec3 mx_ggx_refraction(vec2 roughness, vec3 N, vec3 X, vec3 V, float ior, int mo
     if (option_environment == 1)
         return mx_ggx_prefiltered(roughness, N, V, ior, model, n, k, f90, exponent, film, film_ior);
     mx_GgxLobe lobe = mx_ggx_lobe(roughness, mx_facing(N, V), X, V);
-    if (option_integrator == 1 && mode == MX_REFRACTS) // as if nothing were reflected
-        return mx_ggx_gather_schlick(lobe, 1.0, ior, vec3(0.0), vec3(0.0), vec3(0.0), 5.0);
+    if (option_integrator == 1)
+        return mx_ggx_gather_solid(lobe, ior, mode, model, n, k, f90, exponent, film, film_ior);
     return film > 0.0 ? mx_ggx_gather_film(lobe, film > 0.0 ? 1.0 : 0.0, ior, model != "schlick", n, k, f90, exponent, film, film_ior)
                       : mx_ggx_gather(lobe, film > 0.0 ? 0.0 : 1.0, ior, model, n, k, f90, exponent);
 }
