@@ -191,6 +191,19 @@ static void print_kind(const mxg_diagnostic_kind *kind)
     }
 }
 
+static void print_section(const mxg_diagnostic_kind *kind)
+{
+    printf("\n## %s\n\n", kind->id);
+    print_wrapped(kind->cause, stdout);
+    fputs("\n*What to do:* ", stdout);
+    print_wrapped(kind->cure, stdout);
+    if (!*kind->example)
+        return;
+    fputs("\n```diff\n", stdout);
+    print_example(kind->example, "", stdout);
+    fputs("```\n", stdout);
+}
+
 static void print_markdown(void)
 {
     fputs("# Messages\n\n"
@@ -206,15 +219,7 @@ static void print_markdown(void)
     for (uint32_t i = 0; i < mxg_num_diagnostic_kinds(); ++i) {
         mxg_diagnostic_kind kind = {sizeof kind};
         mxg_get_diagnostic_kind(i, &kind);
-        printf("\n## %s\n\n", kind.id);
-        print_wrapped(kind.cause, stdout);
-        fputs("\n*What to do:* ", stdout);
-        print_wrapped(kind.cure, stdout);
-        if (!*kind.example)
-            continue;
-        fputs("\n```diff\n", stdout);
-        print_example(kind.example, "", stdout);
-        fputs("```\n", stdout);
+        print_section(&kind);
     }
 }
 
@@ -266,13 +271,15 @@ static void write_examples(struct cli *cli, const char *folder)
     }
 }
 
-static bool explain(struct cli *cli, const char *id, const char *folder)
+static bool explain(struct cli *cli, const char *id, const char *folder, bool markdown)
 {
     mxg_diagnostic_kind kind;
     if (!find_kind(id, &kind))
         return false;
     if (folder)
         write_example(cli, &kind, folder);
+    else if (markdown)
+        print_section(&kind);
     else
         print_kind(&kind);
     return true;
@@ -285,21 +292,21 @@ int command_explain(const struct command *command, int argc, char **argv)
     bool markdown = false;
     const struct arg args[] = {
         {"output", 'o', ARG_TEXT, "DIR", "writes the examples of the messages (default: of all) there instead: ID/wrong and ID/right", &folder},
-        {"markdown", 0, ARG_FLAG, NULL, "prints all as one document", &markdown},
+        {"markdown", 0, ARG_FLAG, NULL, "prints Markdown: of all messages a document with a table of them", &markdown},
     };
     int code;
     if (cli_start(&cli, command, args, sizeof args / sizeof *args, CLI_LIBRARY_IS_INPUT, argc, argv, &code)) {
         bool found = true;
-        if (markdown)
+        if (cli.parser.inputs.len == 0 && markdown)
             print_markdown();
         else if (cli.parser.inputs.len == 0 && folder)
             write_examples(&cli, folder);
         else if (cli.parser.inputs.len == 0)
             print_list();
         for (size_t i = 0; i < cli.parser.inputs.len; ++i) {
-            if (i && !folder)
+            if (i && !folder && !markdown)
                 putchar('\n');
-            found = explain(&cli, cli.parser.inputs.items[i], folder) && found;
+            found = explain(&cli, cli.parser.inputs.items[i], folder, markdown) && found;
         }
         code = !found ? EXIT_USAGE : cli.report.errors ? EXIT_FAULT : EXIT_DONE;
     }

@@ -5,6 +5,7 @@
 #include "cli/cli.h"
 #include "cli/files.h"
 
+#include <errno.h>
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
@@ -109,6 +110,8 @@ static void load_file(struct budget *budget, struct budget_file *file)
     char *text = path ? files_read(path, &size) : NULL;
     if (path)
         file->path = store_text(&file->store, path, strlen(path));
+    if (path && !text)
+        budget_refuse_toml(&file->store, file->path, strerror(errno), &file->fault);
     if (text)
         budget_read_toml(&file->store, file->path, text, &file->rules, &file->fault);
     free(text);

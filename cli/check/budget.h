@@ -47,6 +47,8 @@ bool budget_has_file(struct budget *budget, const char *document);
 /* Fails what is over its budget, with a message that names what it is made of. */
 void budget_judge(struct budget *budget, struct store *store, struct check_document *document);
 
+/* toml.c: the fault of a file that cannot be read. */
+void budget_refuse_toml(struct store *store, const char *path, const char *reason, struct check_message *fault);
 /* toml.c: reads rules from the text of a file; *fault gets the first error, in the store. */
 void budget_read_toml(struct store *store, const char *path, const char *text, struct budget_rules *out, struct check_message *fault);
 

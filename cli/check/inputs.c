@@ -176,12 +176,17 @@ static void push_list(struct check_inputs *inputs, const char *name)
         fail(inputs, "the list", name);
 }
 
-/* False where nothing matches. */
+/* False where it is none. */
 static bool push_pattern(struct check_inputs *inputs, const char *pattern)
 {
     glob_t found;
-    if (!strpbrk(pattern, "*?[") || glob(pattern, 0, NULL, &found) != 0)
+    if (!strpbrk(pattern, "*?["))
         return false;
+    if (glob(pattern, 0, NULL, &found) != 0) {
+        fprintf(stderr, "error: no file matches '%s' [file-missing]\n", pattern);
+        inputs->failed = true;
+        return true;
+    }
     struct input_source *source = push(inputs);
     source->owned = allocate((found.gl_pathc + 1) * sizeof *source->owned);
     for (; source->num_items < found.gl_pathc; ++source->num_items)

@@ -120,6 +120,12 @@ static void print_comparison(FILE *out, const struct check_totals *totals)
 
 /* ---- Summary ---- */
 
+/* "1 document", "2 documents" */
+static void print_count(FILE *out, const char *before, uint64_t count, const char *what)
+{
+    fprintf(out, "%s%" PRIu64 " %s%s", before, count, what, count == 1 ? "" : "s");
+}
+
 static void print_failures(FILE *out, const struct check_totals *totals)
 {
     uint64_t passed = totals->failed[CHECK_PASSED], failed = totals->documents - passed;
@@ -131,7 +137,9 @@ static void print_failures(FILE *out, const struct check_totals *totals)
         fprintf(out, "%s%s %" PRIu64, separator, check_stage_name((enum check_stage)stage), totals->failed[stage]);
         separator = ", ";
     }
-    fprintf(out, "%s, %" PRIu64 " errors, %" PRIu64 " warnings\n", failed ? ")" : "", totals->errors, totals->warnings);
+    print_count(out, failed ? "), " : ", ", totals->errors, "error");
+    print_count(out, ", ", totals->warnings, "warning");
+    fputc('\n', out);
 }
 
 static void print_times(FILE *out, const struct check_totals *totals)
@@ -162,13 +170,15 @@ static void end(struct sink *sink, const struct check_totals *totals)
     free(state);
     for (size_t i = 0; i < totals->num_uncompiled; ++i)
         fprintf(sink->out, "note: shaders for '%s' were not compiled: no compiler for it is installed\n", totals->uncompiled[i]);
-    fprintf(sink->out, "%" PRIu64 " documents, %" PRIu64 " elements, %" PRIu64 " shaders", totals->documents,
-            totals->elements, totals->shaders);
+    print_count(sink->out, "", totals->documents, "document");
+    print_count(sink->out, ", ", totals->elements, "element");
+    print_count(sink->out, ", ", totals->shaders, "shader");
     if (totals->empty)
-        fprintf(sink->out, "; %" PRIu64 " documents have no element to generate", totals->empty);
+        print_count(sink->out, "; ", totals->empty, "document");
+    fputs(totals->empty ? " without an element to generate" : "", sink->out);
     if (totals->cached)
-        fprintf(sink->out, "; %" PRIu64 " documents unchanged since they were checked", totals->cached);
-    fputc('\n', sink->out);
+        print_count(sink->out, "; ", totals->cached, "document");
+    fputs(totals->cached ? " unchanged since last checked\n" : "\n", sink->out);
     if (sink->run->is_compared)
         print_comparison(sink->out, totals);
     print_failures(sink->out, totals);

@@ -31,7 +31,8 @@ static void fail(struct toml *toml, const char *what)
 {
     if (toml->fault->id)
         return;
-    char *rendered = cli_format("%s:%u: error: %s [budget-invalid]\n", toml->path, toml->line, what);
+    char *rendered = toml->line ? cli_format("%s:%u: error: %s [budget-invalid]\n", toml->path, toml->line, what)
+                                : cli_format("%s: error: %s [budget-invalid]\n", toml->path, what);
     *toml->fault = (struct check_message){.id = "budget-invalid",
                                           .text = store_text(toml->store, what, strlen(what)),
                                           .file = toml->path,
@@ -117,6 +118,14 @@ static void read_line(struct toml *toml, char *text)
         read_table(toml, text + 1);
     else if (*text && toml->is_ours)
         read_key(toml, text);
+}
+
+void budget_refuse_toml(struct store *store, const char *path, const char *reason, struct check_message *fault)
+{
+    struct toml toml = {.store = store, .path = path, .fault = fault};
+    char *what = cli_format("cannot be read: %s", reason);
+    fail(&toml, what);
+    free(what);
 }
 
 void budget_read_toml(struct store *store, const char *path, const char *text, struct budget_rules *out, struct check_message *fault)

@@ -23,6 +23,9 @@ check 'is all below, in order' says tree.json '[x["file"] for x in d]' "['tree/a
 check 'and numbered' says tree.json '[x["index"] for x in d]' '[0, 1, 2, 3]'
 check 'a pattern' exits 0 "$mxgen" check 'tree/*.mtlx' "${quick[@]}" --json pattern.json
 check 'is what matches' says pattern.json '[x["file"] for x in d]' "['tree/a.mtlx', 'tree/b.mtlx']"
+check 'a pattern that nothing matches' exits 1 "$mxgen" check 'tree/none*.mtlx' tree/a.mtlx "${quick[@]}"
+check 'is told' grep -q "no file matches 'tree/none\*.mtlx' \[file-missing\]" err
+check 'and counted as none' grep -q '^1 document, 1 element, 1 shader$' out
 printf 'tree/b.mtlx\r\n\n./tree/a.mtlx\ntree/sub\n' >list
 check 'a list' exits 0 "$mxgen" check @list "${quick[@]}" --json list.json
 check 'is in its own order' says list.json '[x["file"] for x in d]' "['tree/b.mtlx', 'tree/a.mtlx', 'tree/sub/c.mtlx', 'tree/sub/deep/d.mtlx']"

@@ -71,6 +71,9 @@ for fault in 'max-closure = 1' 'max-closures = many' 'max-closures = 1__0' 'max-
     check "a fault in a file: $fault" exits 1 "$mxgen" check show/deep/deeper "${quick[@]}"
     check 'is told with its line' grep -q '^show/deep/deeper/mxgen.toml:3: error: .*\[budget-invalid\]' out
 done
+ln -sf /proc/self/mem show/deep/deeper/mxgen.toml # which nobody can read from its beginning
+check 'a file that cannot be read' exits 1 "$mxgen" check show/deep/deeper "${quick[@]}"
+check 'is told, too' grep -q '^show/deep/deeper/mxgen.toml: error: cannot be read: .*\[budget-invalid\]' out
 rm show/mxgen.toml show/deep/deeper/mxgen.toml
 
 # Baselines
@@ -147,7 +150,7 @@ open(sys.argv[1], "wb").write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(
     paint look/wood/oak.png 200 60 20
     check 'a picture with an image' look 0 first.json
     check 'is kept' look 0 second.json
-    check 'in the cache' grep -q '1 documents unchanged' out
+    check 'in the cache' grep -q '1 document unchanged' out
     check 'its depfile names the image' grep -q '^ look/wood/oak.png' look.d
     check 'with any report' exits 0 "$mxgen" check look --no-compile --render --junit look.xml --depfile look2.d
     check 'its depfile does' grep -q '^ look/wood/oak.png' look2.d

@@ -132,6 +132,6 @@ with tempfile.TemporaryDirectory() as work:
         check("<article" in (place / "report.html").read_text(encoding="utf-8"), "the gallery is there")
     check(len(actions.reports) == 2 and actions.reports[0]["runs"][0]["results"], "SARIF is uploaded though the job failed")
     check(actions.restored == [False] * 8 + [True] * 8, "the second run has caches")
-    unchanged = sum(int(count) for text, _, _ in jobs["check"] for count in re.findall(r"(\d+) documents unchanged", text))
+    unchanged = sum(int(count) for text, _, _ in jobs["check"] for count in re.findall(r"(\d+) documents? unchanged", text))
     check(unchanged == 20, f"and checks nothing again: {unchanged}")
 finish("check-workflow")

@@ -62,6 +62,7 @@ check 'the examples of all' exits 0 "$mxgen" explain -o all
 check 'are those of each' eval 'diff <(ls all) <(ls examples) && diff all/type-mismatch/wrong/example.mtlx examples/type-mismatch/wrong/example.mtlx'
 check 'an unknown id' exits 2 "$mxgen" explain typ-mismatch
 check 'is compared' grep -q "did you mean 'type-mismatch'" err
+check 'one as Markdown' eval '"$mxgen" explain cycle --markdown | sed -n 2p | grep -qx "## cycle"'
 "$mxgen" explain --markdown >messages.md
 check 'docs/messages.md is what mxgen explain --markdown prints' diff messages.md "$documentation"
 
