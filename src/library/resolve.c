@@ -267,8 +267,11 @@ static elem_id follow(const struct library *lib, elem_id asker, elem_id port, do
     const struct document *doc = &lib->doc;
     const struct element *element = doc_element(doc, port);
     const struct element *owner = doc_element(doc, element->parent);
-    /* The scope of an input of a node is the node's graph; of an interface input, what is around the graph; an output's scope is its graph. */
-    elem_id scope = element->kind == KIND_OUTPUT ? element->parent : owner->parent;
+    /*
+     * The scope of an input of a node is the node's graph; of an interface input, what is around the graph; an output's scope is its graph.
+     * There is nothing around a document, should a port stand at its top by mistake.
+     */
+    elem_id scope = element->kind == KIND_OUTPUT || !owner->parent ? element->parent : owner->parent;
     struct said said = read_port(doc, port);
     *out = bind_error;
     if (said.node || said.graph)
