@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/* bench-generate FILE TARGET N [KEY=VALUE...]: loads library and document, then generates N times. */
+/*
+ * bench-generate FILE TARGET N [KEY=VALUE...]: loads library and document, then generates N times.
+ */
 #include <mxgen/mxgen.h>
 
 #include <stdio.h>

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/* bench-peak PROGRAM [ARGUMENT...]: prints its peak memory in KiB and its processor time in milliseconds. */
+/*
+ * bench-peak PROGRAM [ARGUMENT...]: prints its peak memory in KiB and its processor time in milliseconds.
+ */
 #define _DEFAULT_SOURCE
 #include <fcntl.h>
 #include <stdio.h>

@@ -131,7 +131,8 @@ static size_t edit_distance(const char *a, const char *b)
 
 const char *args_closest(const char *word, const char *const *candidates, size_t num_candidates)
 {
-    size_t best_distance = strlen(word) / 3 + 2; /* a third of the letters may be wrong, and one more */
+    /* a third of the letters may be wrong, and one more */
+    size_t best_distance = strlen(word) / 3 + 2;
     const char *best = NULL;
     for (size_t i = 0; i < num_candidates; ++i) {
         size_t distance = edit_distance(word, candidates[i]);
@@ -193,7 +194,9 @@ static bool store(const struct arg *arg, const struct written *option, const cha
     return true;
 }
 
-/* Whether the option is a flag, with or without "no-". `known` is a generation option where `arg` is NULL. */
+/*
+ * Whether the option is a flag, with or without "no-". `known` is a generation option where `arg` is NULL.
+ */
 static bool parse_flag(struct arg_parser *parser, const struct arg *arg, const mxg_option *known,
                        const struct written *option, bool on)
 {

@@ -225,7 +225,9 @@ mxg_document *cli_load(struct cli *cli, const char *path)
 
 char *cli_file_name(const char *element_path)
 {
-    /* File systems take 255 bytes: of a longer name the end is replaced by a hash of the whole, so that names stay different. */
+    /*
+     * File systems take 255 bytes: of a longer name the end is replaced by a hash of the whole, so that names stay different.
+     */
     enum { MAX_NAME = 200 };
     uint32_t hash = 2166136261u; /* FNV-1a */
     for (const char *c = element_path; *c; ++c)

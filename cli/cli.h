@@ -55,7 +55,9 @@ void cli_finish(struct cli *cli);
  * print errors only. The items are to be freed. */
 void cli_forward(struct cli *cli, struct arg_list *args);
 
-/* Loads a document ("-": of standard input) and prints its diagnostics; NULL where errors leave nothing of it that can be rendered. */
+/*
+ * Loads a document ("-": of standard input) and prints its diagnostics; NULL where errors leave nothing of it that can be rendered.
+ */
 mxg_document *cli_load(struct cli *cli, const char *path);
 
 /* The target by its name, or by MaterialX's; prints that there is none, and which there are. */
@@ -74,7 +76,9 @@ __attribute__((format(printf, 1, 2)))
 char *
 cli_format(const char *format, ...);
 
-/* A copy of `len` bytes with a NUL behind them, to be freed; ends the program where there is no memory. */
+/*
+ * A copy of `len` bytes with a NUL behind them, to be freed; ends the program where there is no memory.
+ */
 char *cli_copy(const char *text, size_t len);
 
 /* generate.c, check/check.c, inspect.c, library.c, validate.c, render.c, explain.c */

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Files of the programs. The library opens none but through its resolver; what is written is written here. */
+/*
+ * Files of the programs. The library opens none but through its resolver; what is written is written here.
+ */
 #ifndef MXG_CLI_FILES_H
 #define MXG_CLI_FILES_H
 
@@ -22,7 +24,9 @@ struct files_stream {
     char *path, *temporary; /* no temporary: written directly */
 };
 
-/* Opens `path`, "-" being standard output. Returns NULL, or why it failed; the stream is then empty. */
+/*
+ * Opens `path`, "-" being standard output. Returns NULL, or why it failed; the stream is then empty.
+ */
 const char *files_begin(struct files_stream *stream, const char *path);
 /* Gives the file its name, or with `keep` false takes it away. Returns NULL, or why it failed. */
 const char *files_end(struct files_stream *stream, bool keep);

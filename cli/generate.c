@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/* mxgen FILE...: shaders of the renderable elements of documents, as files or on standard output. */
+/*
+ * mxgen FILE...: shaders of the renderable elements of documents, as files or on standard output.
+ */
 #include "cli/cli.h"
 #include "cli/files.h"
 
@@ -49,7 +51,9 @@ static bool is_written(const struct generate *gen, const char *folder, const cha
     return found;
 }
 
-/* The lists of a network's layers, and the shaders that they are of, of which other elements may have some, too. */
+/*
+ * The lists of a network's layers, and the shaders that they are of, of which other elements may have some, too.
+ */
 static void write_network(struct generate *gen, const char *folder, const char *element, const mxg_result *result)
 {
     static const char *const suffixes[MXG_NUM_STAGES] = {"displacement.oslgroup", "oslgroup"};
@@ -113,7 +117,8 @@ static void generate_element(struct generate *gen, const mxg_document *document,
     if (result)
         report_list(&gen->cli.report, mxg_result_diagnostics(result));
     if (report_status(&gen->cli.report, status)) {
-        mxg_shader_info info = {offsetof(mxg_shader_info, topology)}; /* the path; the hash would have to be made */
+        /* the path; the hash would have to be made */
+        mxg_shader_info info = {offsetof(mxg_shader_info, topology)};
         mxg_result_info(result, &info);
         write_result(gen, folder, info.path, result);
         for (uint32_t i = 0; i < mxg_result_num_files(result); ++i)

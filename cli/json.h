@@ -16,11 +16,14 @@ struct json_writer {
     bool comma; /* an item stands before the next one */
 };
 
-/* Items of an object are written by json_key and a value; '{' and '[' begin what '}' and ']' end. */
+/*
+ * Items of an object are written by json_key and a value; '{' and '[' begin what '}' and ']' end.
+ */
 void json_begin(struct json_writer *json, char bracket);
 void json_end(struct json_writer *json, char bracket);
 void json_key(struct json_writer *json, const char *key);
-void json_string(struct json_writer *json, const char *text); /* bytes that are no UTF-8 become U+FFFD */
+/* bytes that are no UTF-8 become U+FFFD */
+void json_string(struct json_writer *json, const char *text);
 void json_number(struct json_writer *json, double value);     /* with at most three decimals */
 void json_count(struct json_writer *json, uint64_t value);
 void json_bool(struct json_writer *json, bool value);

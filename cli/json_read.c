@@ -6,7 +6,9 @@
 
 #define MAX_DEPTH 64
 
-/* A text with a NUL behind it, so that no look ahead needs the end. It is ours: strings are decoded where they stand. */
+/*
+ * A text with a NUL behind it, so that no look ahead needs the end. It is ours: strings are decoded where they stand.
+ */
 struct reader {
     struct store *store;
     char *at;

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/* mxgen library: packs libraries into images, lists and documents their definitions, expands their templates. */
+/*
+ * mxgen library: packs libraries into images, lists and documents their definitions, expands their templates.
+ */
 #define _POSIX_C_SOURCE 200809L
 #include "cli/files.h"
 #include "cli/library_doc.h"

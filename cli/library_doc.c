@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/* mxgen library doc: writes the reference of every node of a library, as a page of HTML and as Markdown. */
+/*
+ * mxgen library doc: writes the reference of every node of a library, as a page of HTML and as Markdown.
+ */
 #define _POSIX_C_SOURCE 200809L
 #include "cli/library_doc.h"
 #include "cli/manual/manual.h"

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/* mxgen: the command line. The first argument may name a command; without one, shaders are generated. */
+/*
+ * mxgen: the command line. The first argument may name a command; without one, shaders are generated.
+ */
 #define _POSIX_C_SOURCE 200809L
 #include "cli/cli.h"
 #include "cli/files.h"
@@ -47,7 +49,9 @@ static const struct command *find_command(const char *name)
     return NULL;
 }
 
-/* A first word which is neither an option nor a file, nor looks like one, was meant as a command. */
+/*
+ * A first word which is neither an option nor a file, nor looks like one, was meant as a command.
+ */
 static bool is_unknown_command(const char *word)
 {
     return word[0] != '-' && !strpbrk(word, "./") && access(word, F_OK) != 0;

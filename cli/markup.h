@@ -5,7 +5,9 @@
 
 #include <stdio.h>
 
-/* With <, >, & and quotes escaped. What XML 1.0 has no place for (control characters, bytes that are no UTF-8) becomes '?'. */
+/*
+ * With <, >, & and quotes escaped. What XML 1.0 has no place for (control characters, bytes that are no UTF-8) becomes '?'.
+ */
 void markup_text(FILE *out, const char *text);
 
 /* Style and script of the pages that we write, lines that end with NULL (page.c.in). */

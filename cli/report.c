@@ -38,7 +38,9 @@ void report_source(struct report *report, const char *file, char *source, size_t
         memcpy(report->source_name, file, len);
 }
 
-/* Makes `source` the text of the file, or NULL where it cannot be read (a file of the built-in library). */
+/*
+ * Makes `source` the text of the file, or NULL where it cannot be read (a file of the built-in library).
+ */
 static void load_source(struct report *report, const char *file)
 {
     if (report->source_name && strcmp(report->source_name, file) == 0)
@@ -62,7 +64,9 @@ static bool reserve(struct report *report, size_t size)
     return text != NULL;
 }
 
-/* A line of the source, from 1, without its end; NULL where there is none. Each line is looked for once. */
+/*
+ * A line of the source, from 1, without its end; NULL where there is none. Each line is looked for once.
+ */
 static const char *find_line(struct report *report, uint32_t number, size_t *out_len)
 {
     const char *end = report->source + report->source_size;

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Diagnostics on a terminal: what the library found is printed as compilers do, with the source line read again. */
+/*
+ * Diagnostics on a terminal: what the library found is printed as compilers do, with the source line read again.
+ */
 #ifndef MXG_CLI_REPORT_H
 #define MXG_CLI_REPORT_H
 
@@ -31,7 +33,9 @@ void report_finish(struct report *report);
 /* A message with its notes and source lines, as it is printed; lives until the next one. */
 const char *report_render(struct report *report, const mxg_diagnostics *list, uint32_t index);
 
-/* The text of a file that messages are about, where it is no file to be read; it is freed by the report. */
+/*
+ * The text of a file that messages are about, where it is no file to be read; it is freed by the report.
+ */
 void report_source(struct report *report, const char *file, char *source, size_t size);
 
 /* What follows is about another document: its errors are counted anew. */
@@ -52,7 +56,9 @@ __attribute__((format(printf, 3, 4)))
 #endif
 void report_warning(struct report *report, const char *id, const char *format, ...);
 
-/* What a status says beyond diagnostics: out of memory, cancelled, internal. Returns whether it is MXG_OK. */
+/*
+ * What a status says beyond diagnostics: out of memory, cancelled, internal. Returns whether it is MXG_OK.
+ */
 bool report_status(struct report *report, mxg_status status);
 
 #endif

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Memory of one piece of work of a program, freed in one call. A program ends where there is none. */
+/*
+ * Memory of one piece of work of a program, freed in one call. A program ends where there is none.
+ */
 #ifndef MXG_CLI_STORE_H
 #define MXG_CLI_STORE_H
 
@@ -15,7 +17,9 @@ void *store_alloc(struct store *store, size_t size);
 /* A copy with a NUL behind it. */
 char *store_text(struct store *store, const char *text, size_t len);
 
-/* Room for one more item behind `len` items: the array itself, or a copy twice as large. `items` is NULL at first. */
+/*
+ * Room for one more item behind `len` items: the array itself, or a copy twice as large. `items` is NULL at first.
+ */
 void *store_grow(struct store *store, void *items, size_t len, size_t item_size);
 
 /* Room for `len` items, which store_grow can go on with. */

@@ -39,7 +39,8 @@ static bool write_network(const mxg_result *result, const char *folder)
         if (mxg_result_part(result, i, &part) != MXG_OK || !write_part(&part, folder))
             return false;
     }
-    puts(mxg_result_source(result, MXG_STAGE_PIXEL, NULL)); /* that of the vertex stage moves the surface, if anything does */
+    /* that of the vertex stage moves the surface, if anything does */
+    puts(mxg_result_source(result, MXG_STAGE_PIXEL, NULL));
     return true;
 }
 

@@ -7,7 +7,9 @@
 
 enum { FIT_TERMS = 4, FIT_PARAMETERS = FIT_TERMS * FIT_TERMS };
 
-/* Polynomial dot((1, u, u², u³), M · (1, v, v², v³)), what all functions are made of; parameters row by row. */
+/*
+ * Polynomial dot((1, u, u², u³), M · (1, v, v², v³)), what all functions are made of; parameters row by row.
+ */
 double fit_form(const double parameters[FIT_PARAMETERS], double u, double v);
 
 /* "const mat4 NAME = …" for a function, times `scale`. */

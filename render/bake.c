@@ -90,7 +90,9 @@ static double distribution(double cosine, double alpha)
     return alpha * alpha / (PI * k * k);
 }
 
-/* A direction seen along the normal, in its frame, how much it counts, and the level that holds its part of the light. */
+/*
+ * A direction seen along the normal, in its frame, how much it counts, and the level that holds its part of the light.
+ */
 struct lobe_sample {
     double direction[3], weight, level;
 };
@@ -132,7 +134,9 @@ static void look_up(const struct image *levels, uint32_t num_levels, double leve
         out[c] = low[c] + t * (high[c] - low[c]);
 }
 
-/* The roughness squared that a level is for, as shaders choose it: MaterialX, mx_latlong_lod_to_alpha. */
+/*
+ * The roughness squared that a level is for, as shaders choose it: MaterialX, mx_latlong_lod_to_alpha.
+ */
 static double level_alpha(uint32_t level, uint32_t num_levels)
 {
     double t = (double)level / (num_levels - 1);
@@ -197,7 +201,9 @@ static double lambda(double cosine, double alpha)
     return (sqrt(1 + alpha * alpha * tangent2) - 1) / 2;
 }
 
-/* With normals drawn by their distribution a sample weighs G2 (v·h) / ((n·v)(n·h)), and Schlick's curve splits it. */
+/*
+ * With normals drawn by their distribution a sample weighs G2 (v·h) / ((n·v)(n·h)), and Schlick's curve splits it.
+ */
 void bake_albedo(double cosine, double alpha, double *out_a, double *out_b)
 {
     const double v[3] = {sqrt(fmax(1 - cosine * cosine, 0)), 0, cosine};

@@ -274,7 +274,9 @@ static struct draw_texture environment_texture(const struct image *image)
                                  .has_mips = true};
 }
 
-/* The directional albedo of GGX: the scene's, or made now. Its image is NULL where there is no memory. */
+/*
+ * The directional albedo of GGX: the scene's, or made now. Its image is NULL where there is no memory.
+ */
 static struct draw_texture albedo_texture(struct bind *bind)
 {
     const struct image *image = &bind->scene->albedo;

@@ -11,7 +11,9 @@
 
 #include <mxgen/mxgen.h>
 
-/* A value for an input of the document: "SR_gold/base_color" = "1, 0, 0", or a file for a texture. */
+/*
+ * A value for an input of the document: "SR_gold/base_color" = "1, 0, 0", or a file for a texture.
+ */
 struct bind_value {
     const char *path, *text;
 };
@@ -34,7 +36,9 @@ struct bind {
     char reason[512];    /* why it failed */
 };
 
-/* Fills bind->draw but for its code and size. False: see bind->reason. bind_finish must follow in any case. */
+/*
+ * Fills bind->draw but for its code and size. False: see bind->reason. bind_finish must follow in any case.
+ */
 bool bind_shader(struct bind *bind);
 /* Again what depends on the camera and other uniforms of the scene. */
 bool bind_scene(struct bind *bind);

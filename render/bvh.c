@@ -61,7 +61,9 @@ static int compare_z(const void *a, const void *b)
     return compare_axis(a, b, 2);
 }
 
-/* Half of the triangles to each side of the longest axis: the tree's depth is the logarithm of their number. */
+/*
+ * Half of the triangles to each side of the longest axis: the tree's depth is the logarithm of their number.
+ */
 static void split(struct bvh *bvh, uint32_t node, struct item *items, uint32_t first, uint32_t count)
 {
     static int (*const compare[3])(const void *, const void *) = {compare_x, compare_y, compare_z};
@@ -138,7 +140,9 @@ static int compare_corners(const void *a, const void *b)
     return 0;
 }
 
-/* Corners at one vertex: of one place and normal, whatever their texture coordinates. N' = N + g' - g, as a drawn surface has it. */
+/*
+ * Corners at one vertex: of one place and normal, whatever their texture coordinates. N' = N + g' - g, as a drawn surface has it.
+ */
 static void bend(const struct bvh *bvh, struct bvh_corner **group, uint32_t count)
 {
     double before[3] = {0}, after[3] = {0}, normal[3];

@@ -14,7 +14,8 @@ struct bvh_node {
 
 struct bvh_corner {
     float position[3], s, normal[3], t, tangent[4];
-    float rest[4], moved[4]; /* the position before the surface was displaced, and the normal afterwards */
+    /* the position before the surface was displaced, and the normal afterwards */
+    float rest[4], moved[4];
 };
 
 struct bvh {
@@ -25,7 +26,9 @@ struct bvh {
 
 /* False: out of memory. bvh_finish must follow in any case. */
 bool bvh_build(const struct mesh *mesh, struct bvh *out);
-/* Moves the corners to `positions` (four floats each), and bends their normals as the triangles around them turn. */
+/*
+ * Moves the corners to `positions` (four floats each), and bends their normals as the triangles around them turn.
+ */
 bool bvh_move(struct bvh *bvh, const float *positions);
 void bvh_finish(struct bvh *bvh);
 

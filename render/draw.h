@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/* One draw: a program, its inputs as plain data, a picture of floats. Knows nothing of MaterialX. */
+/*
+ * One draw: a program, its inputs as plain data, a picture of floats. Knows nothing of MaterialX.
+ */
 #ifndef MXG_RENDER_DRAW_H
 #define MXG_RENDER_DRAW_H
 

@@ -173,7 +173,8 @@ bool environment_make_test_texture(struct image *out)
     float *texel = out->pixels;
     for (int y = 0; texel && y < SIZE; ++y) {
         for (int x = 0; x < SIZE; ++x, texel += 4) {
-            double u = 2.0 * PI * (x + 0.5) / SIZE, v = 2.0 * PI * (SIZE - y - 0.5) / SIZE; /* rows from the top */
+            /* rows from the top */
+            double u = 2.0 * PI * (x + 0.5) / SIZE, v = 2.0 * PI * (SIZE - y - 0.5) / SIZE;
             texel[0] = (float)(0.5 + 0.4 * sin(u) * cos(v));
             texel[1] = (float)(0.45 + 0.35 * cos(u + 2.0 * v));
             texel[2] = (float)(0.55 + 0.25 * sin(2.0 * u - v + 0.7) + 0.15 * cos(v));

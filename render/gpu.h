@@ -38,7 +38,9 @@ struct gpu_image {
     uint32_t layers; /* 0: it is no array */
 };
 
-/* Opens the first device that can draw, a real one before the processor. gpu_close must follow in any case. */
+/*
+ * Opens the first device that can draw, a real one before the processor. gpu_close must follow in any case.
+ */
 bool gpu_open(struct gpu *gpu);
 void gpu_close(struct gpu *gpu);
 
@@ -55,7 +57,9 @@ bool gpu_create_image(struct gpu *gpu, VkFormat format, uint32_t width, uint32_t
                       VkImageUsageFlags usage, VkImageAspectFlags aspect, struct gpu_image *out);
 void gpu_destroy_image(struct gpu *gpu, struct gpu_image *image);
 
-/* A texture with box-filtered mip levels, ready to be sampled. bottom_first: the picture's last row becomes v = 0. */
+/*
+ * A texture with box-filtered mip levels, ready to be sampled. bottom_first: the picture's last row becomes v = 0.
+ */
 bool gpu_upload_texture(struct gpu *gpu, const struct image *image, bool bottom_first, struct gpu_image *out);
 
 /* Commands from begin to end run at once. NULL on failure. */

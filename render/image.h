@@ -12,13 +12,21 @@
 extern "C" {
 #endif
 
-/* Four channels, rows from the top. Grey is spread over red, green and blue; a missing alpha is 1. */
+/*
+ * Four channels, rows from the top. Grey is spread over red, green and blue; a missing alpha is 1.
+ */
 struct image {
     uint32_t width, height;
     bool is_float;   /* float, else uint8_t of a whole */
     void *pixels;    /* malloc; NULL: no image */
-    uint32_t layers; /* that many pictures of this size, one after another, for a texture array; 0: one, for a plain texture */
-    uint32_t levels; /* that stand behind each other, each half the size of the one before, of a plain texture; 0: one */
+    /*
+     * that many pictures of this size, one after another, for a texture array; 0: one, for a plain texture
+     */
+    uint32_t layers;
+    /*
+     * that stand behind each other, each half the size of the one before, of a plain texture; 0: one
+     */
+    uint32_t levels;
 };
 
 /*
@@ -29,13 +37,17 @@ bool image_read(const char *path, const char *layer, struct image *out, char *re
 /* The first part with the mip levels that the file has. */
 bool image_read_levels(const char *path, struct image *out, char *reason, size_t capacity);
 
-/* layers.c: the pictures as layers of one, each at the size of the largest. False: there is no memory. */
+/*
+ * layers.c: the pictures as layers of one, each at the size of the largest. False: there is no memory.
+ */
 bool image_stack(const struct image *parts, uint32_t count, struct image *out);
 
 /* Whether files of this name hold linear light as floats: EXR, HDR. */
 bool image_is_linear(const char *path);
 
-/* Whether a picture could be written, before it is drawn: its format is known, its folder is there. False: `reason` says why not. */
+/*
+ * Whether a picture could be written, before it is drawn: its format is known, its folder is there. False: `reason` says why not.
+ */
 bool image_can_write(const char *path, char *reason, size_t capacity);
 
 /*

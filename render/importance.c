@@ -25,7 +25,9 @@ static double around(const struct image *map, int64_t x, int64_t y)
     return sum;
 }
 
-/* Into sums from 0 to 1, of which the first is 0; even steps where there is nothing. Returns what the last was. */
+/*
+ * Into sums from 0 to 1, of which the first is 0; even steps where there is nothing. Returns what the last was.
+ */
 static double accumulate(float *sums, const double *shares, uint32_t count)
 {
     double total = 0, sum = 0;

@@ -4,7 +4,9 @@
 #include <ctype.h>
 #include <string.h>
 
-/* Rows from the top, five pixels each with the leftmost in bit 4; the last glyph is for what is not in the list. */
+/*
+ * Rows from the top, five pixels each with the leftmost in bit 4; the last glyph is for what is not in the list.
+ */
 static const char known[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./: ";
 static const uint8_t glyphs[sizeof known][LABEL_HEIGHT] = {
     {14, 17, 17, 31, 17, 17, 17}, {30, 17, 17, 30, 17, 17, 30}, {14, 17, 16, 16, 16, 17, 14}, {30, 17, 17, 17, 17, 17, 30},

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Pictures of several files as the layers of one image, as texture arrays need them: of one size and format. */
+/*
+ * Pictures of several files as the layers of one image, as texture arrays need them: of one size and format.
+ */
 #include "render/image.h"
 
 static float texel(const struct image *image, uint32_t x, uint32_t y, unsigned channel)

@@ -154,7 +154,8 @@ static bool parse(struct job *job)
         fprintf(stderr, "mxgen: a turntable has at most %d pictures\n", MAX_FRAMES);
         return false;
     }
-    if (!is_set(&job->cli, "texture-modes")) /* samplers here have neither borders of any colour nor cubic filters */
+    /* samplers here have neither borders of any colour nor cubic filters */
+    if (!is_set(&job->cli, "texture-modes"))
         mxg_options_set(job->cli.options, "texture-modes", "shared");
     if (!is_set(&job->cli, "sample-filter")) /* there is nothing to be like */
         mxg_options_set(job->cli.options, "sample-filter", "narrow");
@@ -401,7 +402,9 @@ static void print_values(const char *element, unsigned components, const struct 
     putchar('\n');
 }
 
-/* A line for each element: its path, then the values of the 16 pixels row by row from the bottom. */
+/*
+ * A line for each element: its path, then the values of the 16 pixels row by row from the bottom.
+ */
 static void draw_grid(struct job *job, const mxg_document *document, const char *path)
 {
     for (uint32_t i = 0; i < mxg_document_num_renderables(document); ++i) {
@@ -572,7 +575,9 @@ int main(int argc, char **argv)
     int code;
     if (cli_start(&job.cli, &command, args, sizeof args / sizeof *args, CLI_GENERATES, argc, argv, &code)) {
         job.painter.cli = &job.cli;
-        /* llvmpipe's optimiser takes minutes for large shaders; without it pictures are the same, and seconds are enough. */
+        /*
+         * llvmpipe's optimiser takes minutes for large shaders; without it pictures are the same, and seconds are enough.
+         */
         if (!job.path_trace)
             setenv("GALLIVM_PERF", "nopt", 0);
         code = run(&job);

@@ -129,7 +129,9 @@ static bool make_texcoords(struct mesh *mesh)
     return true;
 }
 
-/* Lengyel 2001, "Computing Tangent Space Basis Vectors for an Arbitrary Mesh": dP/ds of each triangle. */
+/*
+ * Lengyel 2001, "Computing Tangent Space Basis Vectors for an Arbitrary Mesh": dP/ds of each triangle.
+ */
 static void face_tangent(const struct mesh *mesh, uint32_t first, double out[3])
 {
     const struct vertex *v[3] = {corner(mesh, first), corner(mesh, first + 1), corner(mesh, first + 2)};

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Triangles with what shaders read at their corners. Meshes are made by formulas (shapes.c) or read from files (import.c). */
+/*
+ * Triangles with what shaders read at their corners. Meshes are made by formulas (shapes.c) or read from files (import.c).
+ */
 #ifndef MXG_RENDER_MESH_H
 #define MXG_RENDER_MESH_H
 
@@ -40,7 +42,9 @@ void mesh_fit(struct mesh *mesh);
 /* Cuts each triangle into four until there are `wanted` of them. False: out of memory. */
 bool mesh_subdivide(struct mesh *mesh, uint32_t wanted);
 
-/* Indices of the triangles from the farthest to the nearest to `eye`, in the mesh's space; malloc, NULL: out of memory. */
+/*
+ * Indices of the triangles from the farthest to the nearest to `eye`, in the mesh's space; malloc, NULL: out of memory.
+ */
 uint32_t *mesh_sorted(const struct mesh *mesh, const double eye[3]);
 
 /* shapes.c: the shape of that name; `detail` multiplies its number of cells each way. */

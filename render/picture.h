@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/* From an element of a document to a picture: generates, binds, draws, averages, and puts it over its background. */
+/*
+ * From an element of a document to a picture: generates, binds, draws, averages, and puts it over its background.
+ */
 #ifndef MXG_RENDER_PICTURE_H
 #define MXG_RENDER_PICTURE_H
 

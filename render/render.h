@@ -20,7 +20,9 @@ struct render {
  */
 bool render_open(struct render *render, struct gpu *gpu, struct bind *bind, uint32_t width, uint32_t height);
 
-/* Draws the scene as it is now: RGBA, first row on top, cleared to 0. `out_pixels` has room for width * height * 4. */
+/*
+ * Draws the scene as it is now: RGBA, first row on top, cleared to 0. `out_pixels` has room for width * height * 4.
+ */
 bool render_frame(struct render *render, float *out_pixels);
 
 void render_close(struct render *render);

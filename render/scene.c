@@ -286,7 +286,9 @@ static bool make_quad(const struct quad *quad, struct mesh *mesh)
     return true;
 }
 
-/* The projection that puts the quad 0 <= s, t <= 1 over the whole picture, in front of the camera or not. */
+/*
+ * The projection that puts the quad 0 <= s, t <= 1 over the whole picture, in front of the camera or not.
+ */
 static struct matrix quad_projection(const struct scene *scene, const double position[3][3])
 {
     double origin[3], ds[3], dt[3], normal[3];

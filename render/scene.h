@@ -26,13 +26,19 @@ struct scene {
     struct image texture;              /* what every texture of the document shows; may have none */
 };
 
-/* A unit sphere in daylight with three lights, seen by a camera of the given aspect ratio: what shading is compared on. */
+/*
+ * A unit sphere in daylight with three lights, seen by a camera of the given aspect ratio: what shading is compared on.
+ */
 bool scene_init_sphere(struct scene *scene, double aspect);
 
-/* A quad over the whole picture, 4x4 cells, whose attributes are linear; what values of nodes are sampled on. */
+/*
+ * A quad over the whole picture, 4x4 cells, whose attributes are linear; what values of nodes are sampled on.
+ */
 bool scene_init_grid(struct scene *scene);
 
-/* A quad over the whole picture, (s, t) from (0, 0) to (1, 1), with a texture instead of those of the document. */
+/*
+ * A quad over the whole picture, (s, t) from (0, 0) to (1, 1), with a texture instead of those of the document.
+ */
 bool scene_init_plane(struct scene *scene);
 
 void scene_finish(struct scene *scene);
@@ -44,7 +50,9 @@ void scene_set_camera(struct scene *scene, const double eye[3], const double tar
  * attribute. */
 bool scene_attribute(const struct scene *scene, const char *name, uint32_t vertex, float out[4]);
 
-/* Private uniform "u_worldMatrix"…; returns how many components it wrote, 0 where the scene has none. */
+/*
+ * Private uniform "u_worldMatrix"…; returns how many components it wrote, 0 where the scene has none.
+ */
 unsigned scene_uniform(const struct scene *scene, const char *name, float out[16]);
 
 /* Member "direction"… of light `index` below num_lights; returns how many components it wrote, 0 where a light has
@@ -65,7 +73,9 @@ void environment_radiance(const double d[3], float out[3]);
 void environment_direction(const struct image *map, uint32_t x, uint32_t y, double out[3]);
 /* The map's radiance from direction d (unit), between texels. */
 void environment_lookup(const struct image *map, const double d[3], double out[3]);
-/* Reads a latitude-longitude map of linear values; 8-bit pictures are taken as sRGB. On failure false, with why. */
+/*
+ * Reads a latitude-longitude map of linear values; 8-bit pictures are taken as sRGB. On failure false, with why.
+ */
 bool environment_read(const char *path, struct image *out, char *reason, size_t capacity);
 /* The cosine-weighted average of a map around each direction. */
 bool environment_irradiance(const struct image *radiance, struct image *out);

@@ -81,7 +81,9 @@ static void on_cube_bottom(double u, double v, double out[3])
     set(out, HALF_CUBE * (2 * u - 1), -HALF_CUBE, HALF_CUBE * (2 * v - 1));
 }
 
-/* A square laid over a ball: by the distance r from its middle it follows the ball, then hangs down in folds. */
+/*
+ * A square laid over a ball: by the distance r from its middle it follows the ball, then hangs down in folds.
+ */
 #define CLOTH_HALF 1.05  /* half of the square's side */
 #define CLOTH_RADIUS 0.52 /* of the ball */
 #define CLOTH_BEND 1.25  /* angle at which it leaves the ball */

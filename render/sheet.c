@@ -28,7 +28,8 @@ static uint32_t cell_height(const struct sheet *sheet)
 bool sheet_init(struct sheet *sheet, uint32_t count, uint32_t width, uint32_t height)
 {
     *sheet = (struct sheet){.width = width, .height = height, .count = count};
-    sheet->columns = (uint32_t)ceil(sqrt(1.4 * count * height / width)); /* somewhat wider than high */
+    /* somewhat wider than high */
+    sheet->columns = (uint32_t)ceil(sqrt(1.4 * count * height / width));
     if (sheet->columns > count)
         sheet->columns = count;
     uint32_t rows = (count + sheet->columns - 1) / sheet->columns;

@@ -79,7 +79,9 @@ static bool is_folder(const char *path)
     return stat(path, &info) == 0 && S_ISDIR(info.st_mode);
 }
 
-/* The maps as the shader wants them: baked before, baked now, or with mip levels that are plain averages. */
+/*
+ * The maps as the shader wants them: baked before, baked now, or with mip levels that are plain averages.
+ */
 static bool open_environment(const struct studio *studio, struct scene *scene, struct studio_fault *fault)
 {
     char reason[256] = "out of memory";

@@ -7,9 +7,14 @@
 
 struct studio {
     const char *mesh;                 /* a shape's name, or a file */
-    double azimuth, elevation;        /* of the camera, in degrees; from the front, to the right and upwards */
-    double distance, fov;             /* distance 0: the mesh fills the picture; degrees across the shorter side */
-    const char *environment;          /* file of a latitude-longitude map, or folder of baked ones; NULL: the built-in sky, and lights */
+    /* of the camera, in degrees; from the front, to the right and upwards */
+    double azimuth, elevation;
+    /* distance 0: the mesh fills the picture; degrees across the shorter side */
+    double distance, fov;
+    /*
+     * file of a latitude-longitude map, or folder of baked ones; NULL: the built-in sky, and lights
+     */
+    const char *environment;
     bool prefiltered;                 /* shaders read maps that are filtered for their roughness */
 };
 
@@ -23,7 +28,9 @@ struct studio_fault {
 /* "AZIMUTH,ELEVATION[,DISTANCE[,FOV]]"; false where it is not. */
 bool studio_parse_camera(struct studio *studio, const char *text);
 
-/* Makes the scene. *out_made: parts that the mesh's file lacks. scene_finish must follow in any case. */
+/*
+ * Makes the scene. *out_made: parts that the mesh's file lacks. scene_finish must follow in any case.
+ */
 bool studio_open(const struct studio *studio, double aspect, struct scene *scene, unsigned *out_made, struct studio_fault *fault);
 
 /* Puts the camera where `studio` says, `turn` degrees further around. */

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/* The files of a document's texture as one image: the frame at hand, its layer, its tiles; the default colour where there is none. */
+/*
+ * The files of a document's texture as one image: the frame at hand, its layer, its tiles; the default colour where there is none.
+ */
 #include "render/bind.h"
 
 #include <stdio.h>

@@ -71,7 +71,9 @@ static void append(struct source *source, const char *text)
     }
 }
 
-/* Vertex data by name, from what is known of a hit. The studio's mesh stands in the world as it is. */
+/*
+ * Vertex data by name, from what is known of a hit. The studio's mesh stands in the world as it is.
+ */
 static const struct {
     const char *name, *value;
     bool is_family;
@@ -112,7 +114,8 @@ static void append_fill(struct source *source, const mxg_result *result)
         if (variable.block != MXG_BLOCK_VERTEX_DATA)
             continue;
         char line[256];
-        snprintf(line, sizeof line, "    vd.%s = %s(0);\n", variable.name, variable.type); /* of what no mesh has */
+        /* of what no mesh has */
+        snprintf(line, sizeof line, "    vd.%s = %s(0);\n", variable.name, variable.type);
         for (size_t k = 0; k < sizeof hit_values / sizeof *hit_values; ++k) {
             const char *name = hit_values[k].name;
             if (hit_values[k].is_family ? strncmp(variable.name, name, strlen(name)) == 0 : strcmp(variable.name, name) == 0)

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/* The reference: paths through the scene, scattered by the closures of a shader that was generated for `--integrator scatter`. */
+/*
+ * The reference: paths through the scene, scattered by the closures of a shader that was generated for `--integrator scatter`.
+ */
 #ifndef MXG_RENDER_TRACE_H
 #define MXG_RENDER_TRACE_H
 
@@ -12,7 +14,8 @@ struct trace_options {
     uint32_t paths;   /* through each pixel */
     uint32_t bounces; /* how often a path may turn */
     bool dark;        /* there is no light from around */
-    bool as_drawn;    /* once, without shadows; what goes into a solid leaves it at the other side, whole */
+    /* once, without shadows; what goes into a solid leaves it at the other side, whole */
+    bool as_drawn;
     void (*progress)(void *user_data, uint32_t done, uint32_t of); /* may be NULL */
     void *progress_data;
 };

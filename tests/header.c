@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/* The public header stands alone, and says the same to C and C++ (header.cpp includes this file). */
+/*
+ * The public header stands alone, and says the same to C and C++ (header.cpp includes this file).
+ */
 #include <mxgen/mxgen.h>
 
 #include <stdio.h>

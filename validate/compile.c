@@ -55,7 +55,9 @@ bool compile_knows_target(const char *target)
 
 /* ---- Messages ---- */
 
-/* One line of a log, "ERROR: 0:12: 'x' : undeclared identifier"; the first number is the source string. */
+/*
+ * One line of a log, "ERROR: 0:12: 'x' : undeclared identifier"; the first number is the source string.
+ */
 static void add_log_line(struct compiled *out, mxg_stage stage, const char *text, size_t len)
 {
     static const char error[] = "ERROR: ", warning[] = "WARNING: ";
@@ -133,7 +135,9 @@ static glslang_shader_t *parse_stage(const struct dialect *dialect, mxg_stage st
 
 #define SPIRV_MAGIC 0x07230203u
 
-/* Only of shaders that are written for SPIR-V: glslang has no valid form for a loose uniform that is a bool. */
+/*
+ * Only of shaders that are written for SPIR-V: glslang has no valid form for a loose uniform that is a bool.
+ */
 static void validate_spirv(mxg_stage stage, struct compiled *out)
 {
     const struct compiled_stage *code = &out->stages[stage];
@@ -151,7 +155,8 @@ static void generate_spirv(const struct dialect *dialect, glslang_program_t *pro
                            struct compiled *out)
 {
     struct compiled_stage *code = &out->stages[stage];
-    glslang_spv_options_t options = {.disable_optimizer = true, .generate_debug_info = true}; /* lines, for spirv_count */
+    /* lines, for spirv_count */
+    glslang_spv_options_t options = {.disable_optimizer = true, .generate_debug_info = true};
     glslang_program_SPIRV_generate_with_options(program, glslang_stages[stage], &options);
     add_log(out, stage, glslang_program_SPIRV_get_messages(program));
     const unsigned *words = glslang_program_SPIRV_get_ptr(program);

@@ -18,7 +18,8 @@ struct compile_message {
 struct compiled_stage {
     uint32_t *words; /* SPIR-V as glslang writes it, not optimised; NULL where it failed */
     size_t num_words;
-    uint32_t body_instructions; /* inside of functions: what an optimiser or driver has to go through */
+    /* inside of functions: what an optimiser or driver has to go through */
+    uint32_t body_instructions;
 };
 
 struct compiled {
@@ -32,17 +33,25 @@ struct compiled {
 void compile_begin(void);
 void compile_end(void);
 
-/* Whether shaders of the target can be compiled here: "glsl", "vulkan", "essl"; "osl" where there is an oslc. */
+/*
+ * Whether shaders of the target can be compiled here: "glsl", "vulkan", "essl"; "osl" where there is an oslc.
+ */
 bool compile_knows_target(const char *target);
 
-/* Compiles and links the stages of a program. True without errors. compiled_finish must follow in both cases. */
+/*
+ * Compiles and links the stages of a program. True without errors. compiled_finish must follow in both cases.
+ */
 bool compile_program(const char *target, const char *const sources[MXG_NUM_STAGES], struct compiled *out);
 void compiled_finish(struct compiled *compiled);
 
-/* compiled.c: the same of what was generated, the stages of a shader, or the shaders of a network each by itself. */
+/*
+ * compiled.c: the same of what was generated, the stages of a shader, or the shaders of a network each by itself.
+ */
 bool compile_result(const char *target, const mxg_result *result, struct compiled *out);
 
-/* The same for the source of a compute shader for Vulkan; code and messages stand in the place of the pixel stage. */
+/*
+ * The same for the source of a compute shader for Vulkan; code and messages stand in the place of the pixel stage.
+ */
 bool compile_compute(const char *source, struct compiled *out);
 
 /* compiled.c: adds a message, for what compiles. */

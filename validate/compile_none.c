@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/* In place of compile.c where glslang is not installed: there is no compiler for any target but OSL. */
+/*
+ * In place of compile.c where glslang is not installed: there is no compiler for any target but OSL.
+ */
 #include "validate/oslc.h"
 
 #include <string.h>

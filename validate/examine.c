@@ -205,7 +205,9 @@ static void validate(struct examiner *examiner, const mxg_document *document)
     examiner->document->validate_ms = examine_clock() - begin;
 }
 
-/* Of a generation of which nobody reads more than messages: what tells its equals. 0: nothing does, or it must be made. */
+/*
+ * Of a generation of which nobody reads more than messages: what tells its equals. 0: nothing does, or it must be made.
+ */
 static uint64_t find_structure(const struct examiner *examiner, const mxg_document *document, const mxg_generate_desc *desc)
 {
     uint64_t structure = 0;
@@ -222,7 +224,8 @@ static void generate(struct examiner *examiner, const mxg_document *document, co
     desc.target = shader->target;
     desc.element = element;
     desc.options = examiner->cli->options;
-    desc.without_source = examiner->is_brief && !examiner->compile && !examiner->cli->max_output_size; /* nobody would read it */
+    /* nobody would read it */
+    desc.without_source = examiner->is_brief && !examiner->compile && !examiner->cli->max_output_size;
     desc.only_diagnostics = desc.without_source && !examiner->render;
     mxg_result *result = NULL;
     channel_mark(&examiner->channel, CHECK_GENERATE, element, shader->target);

@@ -44,7 +44,9 @@ static void free_args(struct arg_list *args)
     free(args->items);
 }
 
-/* What the renderer prints goes to a file. Returns 0, its exit code, or -1 where it cannot be started or died. */
+/*
+ * What the renderer prints goes to a file. Returns 0, its exit code, or -1 where it cannot be started or died.
+ */
 static int run(struct examiner *examiner, const char *element)
 {
     struct arg_list args = {0};

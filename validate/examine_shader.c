@@ -25,7 +25,9 @@ static uint64_t loose_size(const mxg_variable *variable)
     return 4u * (uint64_t)components * (variable->array_length ? variable->array_length : 1);
 }
 
-/* Blocks end behind their last member, of the lights one is counted; what stands in no block is added up. */
+/*
+ * Blocks end behind their last member, of the lights one is counted; what stands in no block is added up.
+ */
 static void add_uniform(const mxg_variable *variable, uint64_t *size)
 {
     uint64_t end = (uint64_t)variable->offset + variable->byte_size;
@@ -107,7 +109,9 @@ struct listing {
     size_t name_len;
 };
 
-/* "vec3 mx_rotate(vec3 v)" stands above the bracket that its body begins with; the shader itself has a line of parameters there. */
+/*
+ * "vec3 mx_rotate(vec3 v)" stands above the bracket that its body begins with; the shader itself has a line of parameters there.
+ */
 static void enter_function(struct listing *at)
 {
     size_t end = strcspn(at->before, "(\n"), begin = end;
@@ -118,7 +122,9 @@ static void enter_function(struct listing *at)
     at->name_len = has_name ? end - begin : strlen(at->name);
 }
 
-/* Functions as a whole, lines of main by the node that they were written for, and what stands around them. */
+/*
+ * Functions as a whole, lines of main by the node that they were written for, and what stands around them.
+ */
 static void add_source_parts(struct examiner *examiner, const mxg_result *result, mxg_stage stage, const char *source,
                              struct check_shader *shader)
 {

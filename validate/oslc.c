@@ -79,7 +79,9 @@ static int run(const struct work *work)
 
 /* ---- What it says ---- */
 
-/* "shader.osl:12: error: text"; lines without a place go on from the one before and are left out. */
+/*
+ * "shader.osl:12: error: text"; lines without a place go on from the one before and are left out.
+ */
 static void read_line(struct compiled *out, mxg_stage stage, const char *text)
 {
     static const char *const severities[] = {": error: ", ": warning: "};

@@ -8,8 +8,10 @@
 
 /* Instructions of a function; of the entry point, those of one line. */
 struct spirv_part {
-    const char *function; /* its name and '(' with the types of its parameters, in the words; "" where it has none */
-    uint32_t line;        /* of the source, in the entry point; 0 elsewhere and where it is unknown */
+    /* its name and '(' with the types of its parameters, in the words; "" where it has none */
+    const char *function;
+    /* of the source, in the entry point; 0 elsewhere and where it is unknown */
+    uint32_t line;
     uint32_t instructions;
 };
 

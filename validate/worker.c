@@ -13,7 +13,9 @@
 #include <string.h>
 #include <unistd.h>
 
-/* What compilers print must not mix with the frames: standard output becomes another name of stderr. */
+/*
+ * What compilers print must not mix with the frames: standard output becomes another name of stderr.
+ */
 static int take_output(void)
 {
     int fd = dup(STDOUT_FILENO);
@@ -21,7 +23,9 @@ static int take_output(void)
     return fd;
 }
 
-/* One document follows another: what the first needed the next one needs again, and the system need not clear it anew. */
+/*
+ * One document follows another: what the first needed the next one needs again, and the system need not clear it anew.
+ */
 static void keep_memory(void)
 {
     mallopt(M_MMAP_THRESHOLD, 4 << 20);

@@ -11,7 +11,8 @@
 struct baseline {
     struct report_reader reader;
     bool is_open;
-    struct baseline_entry *entries; /* of each document, by the hash of its name: memory of 24 bytes each */
+    /* of each document, by the hash of its name: memory of 24 bytes each */
+    struct baseline_entry *entries;
     size_t num_entries, capacity;
 };
 
@@ -22,7 +23,9 @@ void baseline_close(struct baseline *baseline);
 /* Notes in the document, with memory of the store, what differs. */
 void baseline_compare(struct baseline *baseline, struct store *store, struct check_document *document);
 
-/* Names the documents of the baseline that were not compared, in its order; returns how many there are. */
+/*
+ * Names the documents of the baseline that were not compared, in its order; returns how many there are.
+ */
 uint64_t baseline_list_gone(struct baseline *baseline, FILE *out);
 
 #endif

@@ -83,7 +83,9 @@ static struct budget_folder *place_of(struct budget *budget, const char *folder)
     return &budget->folders[(hash ^ hash >> 16) % NUM_BUDGET_FOLDERS];
 }
 
-/* The nearest file in the folder and those above it, valid until the next call; NULL where there is none. */
+/*
+ * The nearest file in the folder and those above it, valid until the next call; NULL where there is none.
+ */
 static const char *find_file(struct budget *budget, const char *folder)
 {
     struct budget_folder *known = place_of(budget, folder);

@@ -26,7 +26,8 @@ struct budget {
     struct budget_folder {
         char *name; /* NULL: free */
         char *file; /* the nearest in it and above it; NULL: there is none */
-    } folders[NUM_BUDGET_FOLDERS]; /* that were looked into lately, each where its hash says: nothing changes during a run */
+    /* that were looked into lately, each where its hash says: nothing changes during a run */
+    } folders[NUM_BUDGET_FOLDERS];
     struct budget_rules command_line;
     struct budget_file {
         struct store store;
@@ -34,7 +35,8 @@ struct budget {
         const char *path; /* NULL: there is none */
         struct budget_rules rules;
         struct check_message fault; /* id: NULL where there is none */
-    } given, judged; /* those of the folders of the last document that was given out, and that was judged */
+    /* those of the folders of the last document that was given out, and that was judged */
+    } given, judged;
 };
 
 /* Takes "2000" or "glsl=2000,essl=1500". False after telling what is wrong. */

@@ -66,7 +66,9 @@ static bool is_folder_name(const char *path)
     return len && path[len - 1] == '/';
 }
 
-/* The hash of a file that may have been asked for before in this run; "" where it cannot be read. */
+/*
+ * The hash of a file that may have been asked for before in this run; "" where it cannot be read.
+ */
 static const char *remembered_hash(struct cache *cache, const char *path)
 {
     struct sha256 sha;

@@ -31,7 +31,9 @@ struct cache {
 void cache_init(struct cache *cache, const char *folder, const struct arg_list *args, const mxg_library *library);
 void cache_finish(struct cache *cache);
 
-/* The key of a document as it is now, and the record of it; NULL where there is none. To be freed. */
+/*
+ * The key of a document as it is now, and the record of it; NULL where there is none. To be freed.
+ */
 char *cache_find(struct cache *cache, const char *path, struct cache_key *out_key, size_t *out_size);
 
 /* Keeps a record, if it follows from files alone and these are still what they were. */

@@ -53,7 +53,8 @@ struct check {
     const char *cache_folder, *shard;
     uint64_t num_found; /* documents, those of other shards too */
 
-    struct slot *slots; /* a ring: documents are given out at most this far ahead of the one told next */
+    /* a ring: documents are given out at most this far ahead of the one told next */
+    struct slot *slots;
     size_t num_slots;
     uint64_t first, last; /* documents in the ring: told next, and behind the one given out last */
 };
@@ -88,7 +89,9 @@ static void forget_times(struct check_document *document)
             document->elements[i].shaders[k].generate_ms = document->elements[i].shaders[k].compile_ms = 0.0;
 }
 
-/* The record as it was made, before anything is judged: what the cache keeps. NULL: there is none. */
+/*
+ * The record as it was made, before anything is judged: what the cache keeps. NULL: there is none.
+ */
 static struct check_document *read_record(struct check *check, struct store *store, const struct slot *slot)
 {
     if (!slot->record)

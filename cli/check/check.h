@@ -25,7 +25,9 @@ bool reports_begin(struct check_reports *reports, struct report *report);
 /* Tells all reports of a document. Documents come in order. */
 void reports_document(struct check_reports *reports, const struct check_document *document);
 
-/* Whether the run passes: all documents do, or with a baseline, nothing fails that did not fail before. */
+/*
+ * Whether the run passes: all documents do, or with a baseline, nothing fails that did not fail before.
+ */
 bool reports_are_good(const struct check_reports *reports);
 
 /* Finishes the files, or takes them away. False after telling which could not be written. */

@@ -24,7 +24,9 @@ struct check_inputs {
 void inputs_init(struct check_inputs *inputs, const struct arg_list *paths, const struct arg_list *files_from);
 void inputs_finish(struct check_inputs *inputs);
 
-/* The next document's path, valid until the next call; NULL at the end. What does not exist is given out as it is. */
+/*
+ * The next document's path, valid until the next call; NULL at the end. What does not exist is given out as it is.
+ */
 const char *inputs_next(struct check_inputs *inputs);
 
 #endif

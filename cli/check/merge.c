@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/* mxgen check merge: the JSON reports of shards become one run, told in any format. Documents go by their index. */
+/*
+ * mxgen check merge: the JSON reports of shards become one run, told in any format. Documents go by their index.
+ */
 #include "cli/check/check.h"
 #include "cli/check/report_reader.h"
 

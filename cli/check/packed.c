@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Both ways follow one description: each function below writes the member that it is given, or reads it. */
+/*
+ * Both ways follow one description: each function below writes the member that it is given, or reads it.
+ */
 #include "cli/check/packed.h"
 
 #include "cli/utf8.h"
@@ -25,7 +27,9 @@ static bool make_room(struct packer *packer, size_t size)
     return true;
 }
 
-/* The place of `size` bytes, behind which it goes on; NULL: there are not so many, and never will be. */
+/*
+ * The place of `size` bytes, behind which it goes on; NULL: there are not so many, and never will be.
+ */
 static inline char *claim(struct packer *packer, size_t size)
 {
     bool is_there = packer->size - packer->at >= size || (!packer->failed && make_room(packer, size));

@@ -14,7 +14,9 @@ struct packed {
     size_t size, capacity;
 };
 
-/* Writes the record in place of the one before; the store is for what it needs on the way. Bytes are to be freed in the end. */
+/*
+ * Writes the record in place of the one before; the store is for what it needs on the way. Bytes are to be freed in the end.
+ */
 void check_pack_document(struct packed *out, struct store *store, const struct check_document *document);
 
 /* NULL where the bytes are no record. Its texts are those in the bytes, which must live as long. */

@@ -8,7 +8,8 @@
 
 enum { CELLS = 16, SIGNATURE_BYTES = CELLS * CELLS * 3 };
 
-static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/"; /* RFC 4648, section 4 */
+/* RFC 4648, section 4 */
+static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
 char *picture_base64(struct store *store, const void *data, size_t size)
 {

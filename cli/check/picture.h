@@ -10,7 +10,9 @@
 
 #include <stdint.h>
 
-/* What an observer just notices: M. Mahy et al., Evaluation of uniform color spaces, Color Research & Application 19 (1994). */
+/*
+ * What an observer just notices: M. Mahy et al., Evaluation of uniform color spaces, Color Research & Application 19 (1994).
+ */
 #define PICTURE_NOTICEABLE 2.3
 
 char *picture_base64(struct store *store, const void *data, size_t size);
@@ -18,7 +20,9 @@ char *picture_base64(struct store *store, const void *data, size_t size);
 /* The signature of a picture in the form PPM (P6, 8 bits); NULL where it is none. */
 char *picture_sign(struct store *store, const char *ppm, size_t size);
 
-/* The largest difference of two cells, as CIE 1976 delta E; negative where one of them is no signature. */
+/*
+ * The largest difference of two cells, as CIE 1976 delta E; negative where one of them is no signature.
+ */
 double picture_difference(const char *a, const char *b);
 
 #endif

@@ -183,7 +183,9 @@ static struct pool_worker *find_worker(const struct pool *pool)
     return found;
 }
 
-/* Gives what waits to workers. A pipe holds what is on its way to one: nobody waits for the other. */
+/*
+ * Gives what waits to workers. A pipe holds what is on its way to one: nobody waits for the other.
+ */
 static bool hand_out(struct pool *pool)
 {
     size_t num_given = 0;

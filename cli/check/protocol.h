@@ -20,7 +20,9 @@ enum task_note {
     TASK_ERRORS_ONLY = 2, /* nobody reads how other messages than errors are printed */
 };
 
-/* A task is the path of a document; an answer is a record (packed.h), and its note how many microseconds it took. */
+/*
+ * A task is the path of a document; an answer is a record (packed.h), and its note how many microseconds it took.
+ */
 struct frame {
     uint32_t note, size;
     char *body; /* with a NUL behind it; valid until the stream is read again */

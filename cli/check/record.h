@@ -56,7 +56,9 @@ struct check_message {
     const char *rendered;          /* as a compiler shows it, with notes and the source line */
 };
 
-/* What a shader has so much for: a function or node with its instructions, a node with its bytes of uniforms, a texture. */
+/*
+ * What a shader has so much for: a function or node with its instructions, a node with its bytes of uniforms, a texture.
+ */
 struct check_part {
     enum measure measure;
     const char *name;
@@ -118,9 +120,11 @@ struct check_document {
     size_t num_messages;
     const char **files; /* that were read, itself first */
     size_t num_files;
-    const char **folders; /* of textures and of what is missing, with a '/' behind: the names in them matter */
+    /* of textures and of what is missing, with a '/' behind: the names in them matter */
+    const char **folders;
     size_t num_folders;
-    const char **images; /* that the pictures show, whether they are there or not: what is in them matters */
+    /* that the pictures show, whether they are there or not: what is in them matters */
+    const char **images;
     size_t num_images;
     struct check_element *elements;
     size_t num_elements;
@@ -138,7 +142,9 @@ bool check_is_same_message(const struct check_message *a, const struct check_mes
 /* Appends a message; returns its index. */
 uint32_t check_add_message(struct store *store, struct check_document *document, const struct check_message *message);
 
-/* Appends the folders that a file may lie in: beside the one that names it, and in the working directory. */
+/*
+ * Appends the folders that a file may lie in: beside the one that names it, and in the working directory.
+ */
 void check_add_place(struct store *store, struct check_document *document, const char *from, const char *file);
 
 /* Appends a file, or an image, once; the name is copied. */

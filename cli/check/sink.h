@@ -15,8 +15,10 @@ enum { MAX_TARGETS = 16 };
 /* Sums over all documents. */
 struct check_totals {
     uint64_t documents, empty /* no elements */, elements, shaders, errors, warnings, cached;
-    uint64_t failed[NUM_CHECK_STAGES]; /* documents, by the stage; at CHECK_PASSED those that passed */
-    uint64_t changes[NUM_CHECK_CHANGES]; /* since a baseline: documents with such a change; CHANGE_GONE: those that are not there too */
+    /* documents, by the stage; at CHECK_PASSED those that passed */
+    uint64_t failed[NUM_CHECK_STAGES];
+    /* since a baseline: documents with such a change; CHANGE_GONE: those that are not there too */
+    uint64_t changes[NUM_CHECK_CHANGES];
     const char *uncompiled[MAX_TARGETS]; /* targets that there is no compiler for */
     size_t num_uncompiled;
     double load_ms, validate_ms, generate_ms, compile_ms, render_ms; /* of all workers */
@@ -32,7 +34,8 @@ struct check_run {
     uint64_t shard, num_shards; /* from 1; 0: this is all */
     const char *outputs[8]; /* the reports that are written to files */
     size_t num_outputs;
-    struct arg_list inputs; /* files that were read for the run as a whole: libraries, lists, the baseline */
+    /* files that were read for the run as a whole: libraries, lists, the baseline */
+    struct arg_list inputs;
 };
 
 struct sink {

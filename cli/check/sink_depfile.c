@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/* --depfile: "reports: files", for make and ninja, so that the check runs again when something it read has changed. */
+/*
+ * --depfile: "reports: files", for make and ninja, so that the check runs again when something it read has changed.
+ */
 #include "cli/check/sink.h"
 
 static void begin(struct sink *sink)

@@ -80,7 +80,9 @@ static void end(struct sink *sink, const struct check_totals *totals)
     fputc('\n', sink->out);
 }
 
-/* A baseline: the same without pictures, of which signatures are enough, and without what came of a comparison. */
+/*
+ * A baseline: the same without pictures, of which signatures are enough, and without what came of a comparison.
+ */
 static void write_plain(struct sink *sink, const struct check_document *document)
 {
     struct check_document plain = *document;

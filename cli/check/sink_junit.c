@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/* --junit: a suite for each document, a case for itself and for each element and target, as CI servers show them. */
+/*
+ * --junit: a suite for each document, a case for itself and for each element and target, as CI servers show them.
+ */
 #include "cli/check/sink.h"
 #include "cli/markup.h"
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/* --sarif: the messages, for code review tools. OASIS SARIF 2.1.0; section numbers below are its own. */
+/*
+ * --sarif: the messages, for code review tools. OASIS SARIF 2.1.0; section numbers below are its own.
+ */
 #include "cli/check/sink.h"
 
 #include <ctype.h>

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/* For people: what failed and why, and a summary at the end. With --stats also what is slow and what is large. */
+/*
+ * For people: what failed and why, and a summary at the end. With --stats also what is slow and what is large.
+ */
 #include "cli/check/sink.h"
 
 #include <inttypes.h>
@@ -57,7 +59,9 @@ static void print_top(FILE *out, struct top *top, const char *title, const char 
     }
 }
 
-/* Time is that of the document; size that of a shader: instructions, or bytes where nothing was compiled. */
+/*
+ * Time is that of the document; size that of a shader: instructions, or bytes where nothing was compiled.
+ */
 static void rank_document(struct text_state *state, const struct check_document *document)
 {
     double total = document->load_ms + document->validate_ms + document->render_ms;

@@ -57,7 +57,8 @@ static void read_table(struct toml *toml, char *text)
 {
     size_t len = strlen(TABLE);
     text += strspn(text, " \t");
-    toml->is_ours = strncmp(text, TABLE, len) == 0 && strchr("]. \t", text[len]); /* or at its end */
+    /* or at its end */
+    toml->is_ours = strncmp(text, TABLE, len) == 0 && strchr("]. \t", text[len]);
     if (!toml->is_ours)
         return;
     char *name = text + len + (text[len] == '.'), *end = name + strcspn(name, "] \t"), *bracket = end + strspn(end, " \t");

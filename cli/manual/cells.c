@@ -42,7 +42,9 @@ static bool is_identity(const double *numbers, size_t count)
     return order > 0;
 }
 
-/* Numbers without needless digits, one for all components where they are equal: so the variants of a node agree. */
+/*
+ * Numbers without needless digits, one for all components where they are equal: so the variants of a node agree.
+ */
 static const char *shorten(struct manual *manual, const char *value)
 {
     double numbers[MAX_COMPONENTS];

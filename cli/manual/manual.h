@@ -20,7 +20,9 @@ struct manual_texts {
     size_t len;
 };
 
-/* An input or output of an edition; a cell has the texts in which the variants differ, in their order. */
+/*
+ * An input or output of an edition; a cell has the texts in which the variants differ, in their order.
+ */
 struct manual_port {
     const char *name, *folder; /* of the user interface; "" */
     bool is_output, uniform;
@@ -38,7 +40,8 @@ struct manual_edition {
     const char *version; /* "" */
     const struct manual_variant *variants;
     size_t num_variants;
-    struct manual_port *ports; /* of an edition behind the first: those that differ from it, unless they are all */
+    /* of an edition behind the first: those that differ from it, unless they are all */
+    struct manual_port *ports;
     size_t num_ports;
     struct manual_texts missing; /* inputs of the first edition that this one lacks */
 };

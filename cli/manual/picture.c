@@ -79,7 +79,9 @@ static bool is_texture(const mxg_port *port)
     return strcmp(port->type, "filename") == 0;
 }
 
-/* Its inputs can stay unconnected, and a pattern has one that varies. Only the plane has a texture. */
+/*
+ * Its inputs can stay unconnected, and a pattern has one that varies. Only the plane has a texture.
+ */
 static bool is_worth_showing(const struct manual *manual, struct shown *shown)
 {
     static const char *const dependent[] = {"BSDF", "EDF", "VDF", "surfaceshader", "volumeshader", NULL};

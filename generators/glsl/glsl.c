@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Desktop OpenGL: loose uniforms with initial values, as hosts of MaterialX bind them. The portable language is its subset. */
+/*
+ * Desktop OpenGL: loose uniforms with initial values, as hosts of MaterialX bind them. The portable language is its subset.
+ */
 #include "generators/glsl/glsl.h"
 
 static const struct lang_words reserved[] = {
@@ -18,7 +20,8 @@ const struct lang_syntax glsl_syntax = {
     .forms = forms,
     .reserved = reserved,
     .max_reserved = sizeof reserved / sizeof *reserved - 1,
-    .param_in = "const ", /* becomes a SPIR-V value; other parameters are variables, copied at every call */
+    /* becomes a SPIR-V value; other parameters are variables, copied at every call */
+    .param_in = "const ",
     .param_in_assigned = "",
     .wide_constants = true,
     .in_images = true,

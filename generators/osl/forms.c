@@ -164,7 +164,9 @@ static ir_type_id scalar_of(ir_type_id type)
     return is_vector(type) ? ir_type_info(type)->scalar : type;
 }
 
-/* A form of the operands themselves ("$0", where `named`) or of parameters a, b…; of those with parts, of one. */
+/*
+ * A form of the operands themselves ("$0", where `named`) or of parameters a, b…; of those with parts, of one.
+ */
 static void write_part(const char *form, const struct lang_use *use, unsigned component, bool named, struct text *out)
 {
     for (const char *p = form; *p; p++) {
@@ -198,7 +200,9 @@ static void write_component_function(const char *name, const struct lang_use *us
     text_str(out, ");\n}\n");
 }
 
-/* "vector2($0.x + $1.x, $0.y + $1.y)": a pair of names and numbers needs no function; NULL: there is more to it. */
+/*
+ * "vector2($0.x + $1.x, $0.y + $1.y)": a pair of names and numbers needs no function; NULL: there is more to it.
+ */
 static const struct lang_pieces *pair_form(struct osl *osl, const struct lang_use *use, const struct lang_pieces *scalar)
 {
     uint32_t all = (1u << use->num_operands) - 1;
@@ -276,7 +280,9 @@ static const struct lang_pieces *swizzle_form(struct osl *osl, const struct lang
     return call_form(osl, text_cstr(&name), 1, NULL);
 }
 
-/* The parts of all operands in a row: of "$0", "$1"… where they are `named`, else of the parameters a, b… */
+/*
+ * The parts of all operands in a row: of "$0", "$1"… where they are `named`, else of the parameters a, b…
+ */
 static void write_parts(const struct osl *osl, const struct lang_use *use, bool named, struct text *out)
 {
     unsigned left = components(use->type), wanted = use->num_operands == 1 ? 1 : left;
@@ -289,7 +295,8 @@ static void write_parts(const struct osl *osl, const struct lang_use *use, bool 
                 text_fmt(out, ".%c", (named && is_color_operand(osl, use, i) ? "rgba" : parts)[k]);
         }
     }
-    for (; wanted == 1 && left && components(use->operands[0]) == 1; left--) /* one scalar fills all */
+    /* one scalar fills all */
+    for (; wanted == 1 && left && components(use->operands[0]) == 1; left--)
         text_str(out, named ? ", $0" : ", a");
 }
 
@@ -401,13 +408,16 @@ static const struct lang_pieces *turned_sum_form(struct osl *osl, const struct l
     return call_form(osl, row->name, 2, "10");
 }
 
-/* A row vector times a matrix in OSL is ours times a column vector; products of matrices turn around. */
+/*
+ * A row vector times a matrix in OSL is ours times a column vector; products of matrices turn around.
+ */
 static const struct lang_pieces *product_form(struct osl *osl, const struct lang_use *use)
 {
     ir_type_id a = use->operands[0], b = use->operands[1];
     if (ir_type_is_matrix(a) && ir_type_is_matrix(b))
         return form_of(osl, "$1 * $0", LANG_PREC_POSTFIX);
-    bool is_color = use->node && osl->kinds[use->node] == OSL_COLOR; /* transform() gives a vector */
+    /* transform() gives a vector */
+    bool is_color = use->node && osl->kinds[use->node] == OSL_COLOR;
     if (a == IR_TYPE_MAT3 && b == IR_TYPE_VEC3)
         return form_of(osl, is_color                     ? "color(transform($0, vector($1)))"
                             : is_no_vector(osl, use, 1) ? "transform($0, vector($1))"
@@ -426,7 +436,9 @@ static const struct lang_pieces *product_form(struct osl *osl, const struct lang
     return NULL;
 }
 
-/* The type that an operand must be cast to, lest a call mixes colours and vectors; NULL: it may stay. */
+/*
+ * The type that an operand must be cast to, lest a call mixes colours and vectors; NULL: it may stay.
+ */
 static const char *cast_of(const struct osl *osl, const struct lang_use *use, unsigned index)
 {
     enum osl_kind have = operand_kind(osl, use, index);

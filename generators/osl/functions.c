@@ -50,7 +50,9 @@ void osl_name_same_functions(struct spell *spell)
     }
 }
 
-/* "float mx_noise_float(vector p) {…}" by what OSL has; false: the function is the library's alone. */
+/*
+ * "float mx_noise_float(vector p) {…}" by what OSL has; false: the function is the library's alone.
+ */
 static bool write_native(const struct spell *spell, uint32_t id, struct text *out)
 {
     const struct lang_unit *layer;
@@ -102,7 +104,9 @@ static void add_arrays(const struct spell *spell, struct text *function)
     *function = whole;
 }
 
-/* What is called later stands earlier, so it is from the last function to the first that one sees what is needed. */
+/*
+ * What is called later stands earlier, so it is from the last function to the first that one sees what is needed.
+ */
 void osl_write_functions(struct osl *osl, const char *shader, struct text *out)
 {
     struct spell *spell = osl->spell;

@@ -32,7 +32,8 @@ static struct modes modes_of(const struct spell *spell, const struct shader_vari
         .swrap = translate(wraps, 4, str_text(strings, texture->sampling.uaddressmode), "periodic"),
         .twrap = translate(wraps, 4, str_text(strings, texture->sampling.vaddressmode), "periodic"),
         .interp = translate(filters, 3, str_text(strings, texture->sampling.filtertype), "smartcubic"),
-        .layer = strchr(layer, '$') ? "" : layer, /* it becomes part of a form, where that is an operand */
+        /* it becomes part of a form, where that is an operand */
+        .layer = strchr(layer, '$') ? "" : layer,
     };
 }
 

@@ -67,7 +67,9 @@ extern "C" {
 #define MXG_VERSION_MINOR 1
 #define MXG_VERSION_PATCH 0
 
-/* The version of the library at run time, as major * 1000000 + minor * 1000 + patch, and as text "0.1.0". */
+/*
+ * The version of the library at run time, as major * 1000000 + minor * 1000 + patch, and as text "0.1.0".
+ */
 MXG_API uint32_t mxg_version(void);
 MXG_API const char *mxg_version_string(void);
 
@@ -76,7 +78,8 @@ MXG_API const char *mxg_version_string(void);
 typedef enum mxg_status {
     MXG_OK = 0,
     MXG_ERROR_DOCUMENT = 1,  /* the document, library or request has errors: read the diagnostics */
-    MXG_ERROR_ARGUMENT = 2,  /* NULL where an object must be, an index out of range, a struct of unknown size */
+    /* NULL where an object must be, an index out of range, a struct of unknown size */
+    MXG_ERROR_ARGUMENT = 2,
     MXG_ERROR_MEMORY = 3,    /* the allocator failed, or the context's memory limit was reached */
     MXG_ERROR_CANCELLED = 4, /* the cancel callback said so */
     MXG_ERROR_INTERNAL = 5,  /* a bug of mxgen */
@@ -102,7 +105,8 @@ typedef void *(*mxg_realloc_fn)(void *user_data, void *block, size_t old_size, s
 
 /* A file's bytes, borrowed from the host between open and release. */
 typedef struct mxg_blob {
-    const char *name; /* canonical name: what messages show and what includes in it are relative to */
+    /* canonical name: what messages show and what includes in it are relative to */
+    const char *name;
     const char *data;
     size_t size;
     void *handle;     /* the host's own */
@@ -130,10 +134,13 @@ typedef struct mxg_context_desc {
     size_t size; /* sizeof(mxg_context_desc) */
     mxg_realloc_fn realloc; /* NULL: the C library's */
     void *realloc_user_data;
-    const mxg_resolver *resolver; /* copied; NULL: files relative to the referring file, then to the working directory */
-    bool (*cancel)(void *user_data); /* asked now and then by mxg_generate and mxg_inspect; true stops them. NULL: never */
+    /* copied; NULL: files relative to the referring file, then to the working directory */
+    const mxg_resolver *resolver;
+    /* asked now and then by mxg_generate and mxg_inspect; true stops them. NULL: never */
+    bool (*cancel)(void *user_data);
     void *cancel_user_data;
-    size_t max_memory;        /* bytes of the context, its objects and the files it reads without a resolver; 0 = unlimited */
+    /* bytes of the context, its objects and the files it reads without a resolver; 0 = unlimited */
+    size_t max_memory;
     uint32_t max_file_mib;    /* 0 = 256 */
     uint32_t max_elements;    /* 0 = 16,000,000 */
     uint32_t max_nodes;       /* IR operations of a generation; 0 = 64,000,000 */
@@ -180,10 +187,13 @@ typedef struct mxg_diagnostic {
     uint32_t parent;      /* for a note: index of its message; else the own index */
 } mxg_diagnostic;
 
-/* Diagnostics of whatever can have them; each list is in order of discovery, notes behind their message. */
+/*
+ * Diagnostics of whatever can have them; each list is in order of discovery, notes behind their message.
+ */
 typedef struct mxg_diagnostics mxg_diagnostics;
 MXG_API uint32_t mxg_diagnostics_count(const mxg_diagnostics *list);
-MXG_API uint32_t mxg_diagnostics_errors(const mxg_diagnostics *list); /* how many errors, those not kept included */
+/* how many errors, those not kept included */
+MXG_API uint32_t mxg_diagnostics_errors(const mxg_diagnostics *list);
 MXG_API uint32_t mxg_diagnostics_warnings(const mxg_diagnostics *list);
 MXG_API mxg_status mxg_diagnostics_get(const mxg_diagnostics *list, uint32_t index, mxg_diagnostic *out);
 /*
@@ -231,11 +241,15 @@ MXG_API mxg_status mxg_library_load(mxg_context *context, mxg_library *base, con
 MXG_API mxg_library *mxg_library_ref(mxg_library *library); /* atomic; returns its argument */
 MXG_API void mxg_library_unref(mxg_library *library);
 
-/* Files that were read for it and for what it stands on: for depfiles and watchers. The built-in library has none. */
+/*
+ * Files that were read for it and for what it stands on: for depfiles and watchers. The built-in library has none.
+ */
 MXG_API uint32_t mxg_library_num_files(const mxg_library *library);
 MXG_API const char *mxg_library_file(const mxg_library *library, uint32_t index);
 
-/* The library image, for mxg_library_load and for embedding; it lives as long as the library. Only of libraries on no base. */
+/*
+ * The library image, for mxg_library_load and for embedding; it lives as long as the library. Only of libraries on no base.
+ */
 MXG_API mxg_status mxg_library_image(mxg_library *library, const void **out_data, size_t *out_size);
 /* The library as a plain MaterialX document: templates expanded. */
 MXG_API mxg_status mxg_library_expand(mxg_library *library, const char **out_text, size_t *out_size);
@@ -250,13 +264,16 @@ typedef struct mxg_nodedef {
 
 typedef struct mxg_port {
     size_t size; /* in */
-    const char *name, *type, *value, *defaultgeomprop, *enum_names, *unit, *doc; /* "" where absent */
+    /* "" where absent */
+    const char *name, *type, *value, *defaultgeomprop, *enum_names, *unit, *doc;
     bool uniform;
     bool advanced; /* uiadvanced */
-    const char *enum_values, *unittype, *uiname, *uifolder, *uimin, *uimax, *uisoftmin, *uisoftmax, *uistep; /* "" where absent */
+    /* "" where absent */
+    const char *enum_values, *unittype, *uiname, *uifolder, *uimin, *uimax, *uisoftmin, *uisoftmax, *uistep;
 } mxg_port;
 
-MXG_API uint32_t mxg_library_num_nodedefs(const mxg_library *library); /* those of its base included */
+/* those of its base included */
+MXG_API uint32_t mxg_library_num_nodedefs(const mxg_library *library);
 MXG_API mxg_status mxg_library_nodedef(const mxg_library *library, uint32_t index, mxg_nodedef *out);
 /* Port `index` of a definition: inputs first, then outputs. */
 MXG_API mxg_status mxg_library_port(const mxg_library *library, uint32_t nodedef, uint32_t index, mxg_port *out);
@@ -279,7 +296,9 @@ MXG_API void mxg_document_destroy(mxg_document *document);
 MXG_API uint32_t mxg_document_num_files(const mxg_document *document);
 MXG_API const char *mxg_document_file(const mxg_document *document, uint32_t index);
 
-/* Elements that can be generated: materials; without any, outputs of graphs and shaders that nothing uses. In document order. */
+/*
+ * Elements that can be generated: materials; without any, outputs of graphs and shaders that nothing uses. In document order.
+ */
 typedef struct mxg_renderable {
     size_t size; /* in */
     const char *path; /* "Gold", "NG_marble1/out" */
@@ -288,10 +307,14 @@ typedef struct mxg_renderable {
 } mxg_renderable;
 MXG_API uint32_t mxg_document_num_renderables(const mxg_document *document);
 MXG_API mxg_status mxg_document_renderable(const mxg_document *document, uint32_t index, mxg_renderable *out);
-/* Those that a look, or a group of looks, assigns; MXG_ERROR_ARGUMENT behind the last, and where `look` is the path of anything else. */
+/*
+ * Those that a look, or a group of looks, assigns; MXG_ERROR_ARGUMENT behind the last, and where `look` is the path of anything else.
+ */
 MXG_API mxg_status mxg_document_look_material(const mxg_document *document, const char *look, uint32_t index, mxg_renderable *out);
 
-/* Checks the whole document against its library without generating: every node, connection and value. */
+/*
+ * Checks the whole document against its library without generating: every node, connection and value.
+ */
 MXG_API mxg_status mxg_document_validate(mxg_context *context, const mxg_document *document, mxg_result **out_result);
 
 /* ---- Targets and options ---- */
@@ -299,7 +322,10 @@ MXG_API mxg_status mxg_document_validate(mxg_context *context, const mxg_documen
 typedef struct mxg_target {
     size_t size; /* in */
     const char *name, *materialx_name, *brief;
-    const char *stage_suffix[2]; /* file endings of vertex and pixel stage (OSL: of displacement and shader); NULL: no such stage */
+    /*
+     * file endings of vertex and pixel stage (OSL: of displacement and shader); NULL: no such stage
+     */
+    const char *stage_suffix[2];
 } mxg_target;
 MXG_API uint32_t mxg_num_targets(void);
 MXG_API mxg_status mxg_get_target(uint32_t index, mxg_target *out);
@@ -315,7 +341,9 @@ typedef struct mxg_option {
     const char *initial;  /* the default, as text */
     const char *doc;
 } mxg_option;
-/* Every option of generation: hosts build their interface, and the command line its flags, from it. */
+/*
+ * Every option of generation: hosts build their interface, and the command line its flags, from it.
+ */
 MXG_API uint32_t mxg_num_options(void);
 MXG_API mxg_status mxg_get_option(uint32_t index, mxg_option *out);
 
@@ -354,7 +382,9 @@ typedef struct mxg_generate_desc {
 } mxg_generate_desc;
 #define MXG_GENERATE_DESC_INIT MXG_INIT(mxg_generate_desc)
 
-/* *out_result is set whenever memory allows. With MXG_ERROR_DOCUMENT it has diagnostics and no source. */
+/*
+ * *out_result is set whenever memory allows. With MXG_ERROR_DOCUMENT it has diagnostics and no source.
+ */
 MXG_API mxg_status mxg_generate(mxg_context *context, const mxg_document *document, const mxg_generate_desc *desc,
                                 mxg_result **out_result);
 MXG_API void mxg_result_destroy(mxg_result *result);
@@ -370,7 +400,9 @@ MXG_API void mxg_result_destroy(mxg_result *result);
 MXG_API mxg_status mxg_document_structure(mxg_context *context, const mxg_document *document, const mxg_generate_desc *desc,
                                           uint64_t *out_structure);
 
-/* The source of a stage; NULL where there is none: of a vertex stage of OSL where nothing is displaced. */
+/*
+ * The source of a stage; NULL where there is none: of a vertex stage of OSL where nothing is displaced.
+ */
 MXG_API const char *mxg_result_source(const mxg_result *result, mxg_stage stage, size_t *out_size);
 /*
  * With the option `osl-network` the sources above are lists of layers, values and connections, as OSL's ShaderGroupBegin takes them, and these
@@ -396,7 +428,9 @@ MXG_API bool mxg_result_source_place(const mxg_result *result, mxg_stage stage, 
  */
 MXG_API size_t mxg_result_source_path(const mxg_result *result, mxg_stage stage, uint32_t line, char *buffer, size_t capacity);
 
-/* The path of the node that closure `index` was evaluated for, in the same way; there are num_closures of mxg_shader_info. */
+/*
+ * The path of the node that closure `index` was evaluated for, in the same way; there are num_closures of mxg_shader_info.
+ */
 MXG_API size_t mxg_result_closure_path(const mxg_result *result, uint32_t index, char *buffer, size_t capacity);
 
 /* Files beside those of the document that the shader depends on: photometric profiles. */
@@ -429,18 +463,23 @@ typedef struct mxg_variable {
     const char *file, *uaddressmode, *vaddressmode, *filtertype;
     /* user interface, from the definition: "" where absent */
     const char *uiname, *uifolder, *uimin, *uimax, *uisoftmin, *uisoftmax, *doc;
-    /* textures: the layer of the file, by name; the frames of a sequence; the tiles of an image, whose files are layers of an array */
+    /*
+     * textures: the layer of the file, by name; the frames of a sequence; the tiles of an image, whose files are layers of an array
+     */
     const char *layer, *framerange, *frameendaction;
     int32_t frameoffset;
     uint32_t num_tiles;
     const char *unittype;
-    const char *uistep, *enum_names, *enum_values; /* user interface; names and values are separated by commas */
+    /* user interface; names and values are separated by commas */
+    const char *uistep, *enum_names, *enum_values;
     bool advanced;          /* uiadvanced */
     bool flat;              /* not interpolated between vertices */
 } mxg_variable;
 MXG_API uint32_t mxg_result_num_variables(const mxg_result *result);
 MXG_API mxg_status mxg_result_variable(const mxg_result *result, uint32_t index, mxg_variable *out);
-/* A tile of a texture: what texture coordinates from (u, v) to (u + 1, v + 1) show, and which is layer `tile` of the array. */
+/*
+ * A tile of a texture: what texture coordinates from (u, v) to (u + 1, v + 1) show, and which is layer `tile` of the array.
+ */
 typedef struct mxg_tile {
     size_t size; /* in */
     const char *file;
@@ -474,7 +513,10 @@ typedef enum mxg_alpha { MXG_ALPHA_OPAQUE, MXG_ALPHA_MASK, MXG_ALPHA_BLEND, MXG_
 typedef struct mxg_shader_info {
     size_t size; /* in */
     const char *name, *path, *target;
-    uint64_t topology; /* equal for shaders that differ in names and uniform values alone; made when `size` reaches this far */
+    /*
+     * equal for shaders that differ in names and uniform values alone; made when `size` reaches this far
+     */
+    uint64_t topology;
     uint32_t num_closures, num_textures, num_lights;
     bool transparent, lit;
     bool displaced; /* the vertex stage moves the surface: give it small triangles */
@@ -496,7 +538,9 @@ typedef enum mxg_view {
     MXG_VIEW_STATISTICS,
     MXG_VIEW_MAX_ENUM = 0x7fffffff
 } mxg_view;
-/* A text for people; *out_result holds it as mxg_result_text. desc says element, target and options where the view needs them. */
+/*
+ * A text for people; *out_result holds it as mxg_result_text. desc says element, target and options where the view needs them.
+ */
 MXG_API mxg_status mxg_inspect(mxg_context *context, const mxg_document *document, mxg_view view,
                                const mxg_generate_desc *desc, mxg_result **out_result);
 MXG_API const char *mxg_result_text(const mxg_result *result, size_t *out_size);

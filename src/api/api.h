@@ -35,7 +35,8 @@ enum { OBJECT_MAX_TEXTS = 2 };
 
 struct object {
     struct mxg_context *context;
-    struct object *below;  /* what it stands on and keeps alive: the library of a document, the document of a result */
+    /* what it stands on and keeps alive: the library of a document, the document of a result */
+    struct object *below;
     atomic_uint refs;
     size_t size;           /* of the block that begins here */
     size_t counted;        /* bytes that the context counts for it */
@@ -45,23 +46,32 @@ struct object {
     _Atomic(struct made_text *) texts[OBJECT_MAX_TEXTS];
 };
 
-/* A zeroed block of `size` bytes that begins with a struct object; it holds a reference of `below`, which may be NULL. NULL: no memory. */
+/*
+ * A zeroed block of `size` bytes that begins with a struct object; it holds a reference of `below`, which may be NULL. NULL: no memory.
+ */
 void *object_new(struct mxg_context *context, size_t size, struct object *below);
 void object_init(struct object *object, struct mxg_context *context, size_t size);
 void object_ref(struct object *object);
 void object_unref(struct object *object); /* NULL is allowed */
-void object_empty(struct object *object); /* frees all that it holds but the block: of an object that stands in another's */
+/* frees all that it holds but the block: of an object that stands in another's */
+void object_empty(struct object *object);
 
-/* Tells the context what the object holds now, and the object what of the context's limit is left to it. */
+/*
+ * Tells the context what the object holds now, and the object what of the context's limit is left to it.
+ */
 void object_settle(struct object *object);
 
 /* Runs work(arg) with the object's trap set: MXG_OK, or MXG_ERROR_MEMORY when it ran out. */
 mxg_status object_run(struct object *object, void (*work)(void *arg), void *arg);
 
-/* Runs work(arg, scratch) with memory of its own, which is freed behind it: MXG_OK, or MXG_ERROR_MEMORY when it ran out. */
+/*
+ * Runs work(arg, scratch) with memory of its own, which is freed behind it: MXG_OK, or MXG_ERROR_MEMORY when it ran out.
+ */
 mxg_status context_run(struct mxg_context *context, void (*work)(void *arg, struct arena *scratch), void *arg);
 
-/* Text `index` of the object, written by `write` when it is asked for first; any thread may ask. NULL: no memory. */
+/*
+ * Text `index` of the object, written by `write` when it is asked for first; any thread may ask. NULL: no memory.
+ */
 const struct made_text *object_text(const struct object *object, unsigned index,
                                     void (*write)(const struct object *object, struct text *out));
 
@@ -73,9 +83,13 @@ static inline mxg_status object_status(const struct object *object)
 
 /* ---- Structs of the interface: structs.c ---- */
 
-/* Copies a struct that the caller filled; false where it is of no known size, or sets what this version does not know. */
+/*
+ * Copies a struct that the caller filled; false where it is of no known size, or sets what this version does not know.
+ */
 bool struct_read(void *out, size_t out_size, const void *in);
-/* Copies `from` as far as the caller's struct reaches and zeroes what lies beyond; both begin with their size. */
+/*
+ * Copies `from` as far as the caller's struct reaches and zeroes what lies beyond; both begin with their size.
+ */
 mxg_status struct_write(void *out, const void *from, size_t from_size);
 
 /* ---- The objects ---- */
@@ -132,11 +146,15 @@ struct lang_reader file_source_for_lang(struct file_source *source);
 /* The bytes of a file, which live until the object does; false after a diagnostic. */
 bool file_source_read(struct file_source *source, const char *path, const char **out_data, size_t *out_size, struct diag_list *diags);
 
-/* Files through stdio: what a context without resolver has. Its reason is stdio_no_memory itself where that was the reason. */
+/*
+ * Files through stdio: what a context without resolver has. Its reason is stdio_no_memory itself where that was the reason.
+ */
 mxg_resolver stdio_resolver(struct mxg_context *context);
 extern const char stdio_no_memory[];
 
-/* sandbox.c: what the caller names opens its folder to what documents refer to. False: no memory. */
+/*
+ * sandbox.c: what the caller names opens its folder to what documents refer to. False: no memory.
+ */
 bool sandbox_admit_file(struct mxg_context *context, const char *file);
 bool sandbox_admit_folder(struct mxg_context *context, const char *folder);
 /* Why a file that a document refers to is not opened; NULL: it may be. */
@@ -145,7 +163,9 @@ void sandbox_finish(struct mxg_context *context);
 
 /* folder.c: is the path a folder? And every file below it whose name ends with `suffix`, sorted. */
 bool folder_exists(const char *path);
-/* The names in a folder, each with its NUL, and the bytes that all need; those that do not fit are left out. NULL, or why not. */
+/*
+ * The names in a folder, each with its NUL, and the bytes that all need; those that do not fit are left out. NULL, or why not.
+ */
 const char *folder_names(const char *folder, char *names, size_t capacity, size_t *out_size);
 struct path_list {
     const char **items;

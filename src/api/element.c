@@ -125,7 +125,9 @@ static bool assigns(const struct search *s, elem_id look, elem_id material, unsi
     return false;
 }
 
-/* A look stands for its material, where it has only one; a group for its default look, or for all. */
+/*
+ * A look stands for its material, where it has only one; a group for its default look, or for all.
+ */
 static elem_id find_in_look(const struct search *s, elem_id look)
 {
     struct choices materials = {0};
@@ -202,7 +204,9 @@ static elem_id find_own(const struct search *s, const char *path, size_t len)
     return element > s->doc->root ? element : 0;
 }
 
-/* "node/out": *out_output is the name of a node's output, whether the document declares it or not. */
+/*
+ * "node/out": *out_output is the name of a node's output, whether the document declares it or not.
+ */
 static elem_id find_path(const struct search *s, const char *path, str_id *out_output)
 {
     elem_id element = find_own(s, path, strlen(path)), parent = element ? doc_element(s->doc, element)->parent : 0;
@@ -221,7 +225,8 @@ static elem_id find_path(const struct search *s, const char *path, str_id *out_o
 static elem_id find_asked(const struct search *s, const char *path, str_id *out_output)
 {
     elem_id found = find_path(s, path, out_output);
-    for (uint32_t i = 0; i < s->document->renderables.len && !found; i++) /* faulty names may hold a '/' */
+    /* faulty names may hold a '/' */
+    for (uint32_t i = 0; i < s->document->renderables.len && !found; i++)
         if (strcmp(s->document->renderable_paths[i], path) == 0)
             found = s->document->renderables.items[i];
     if (!found)

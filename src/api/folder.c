@@ -52,7 +52,9 @@ const char *folder_names(const char *folder, char *names, size_t capacity, size_
     return NULL;
 }
 
-/* The names in a folder as paths: a jump out of memory must not cross the open folder, so they are counted first. */
+/*
+ * The names in a folder as paths: a jump out of memory must not cross the open folder, so they are counted first.
+ */
 static const char *list_one(struct arena *arena, const char *folder, struct path_list *out)
 {
     size_t size = 0, capacity = 0;

@@ -63,7 +63,9 @@ static void put(struct out *out, const char *text, size_t len)
     out->len += len;
 }
 
-/* "{frame}" or "{04frame}": what stands behind it, and how many digits it has at least; NULL: something else. */
+/*
+ * "{frame}" or "{04frame}": what stands behind it, and how many digits it has at least; NULL: something else.
+ */
 static const char *read_token(const char *p, int *out_digits)
 {
     const char *name = p + 1 + strspn(p + 1, "0123456789");

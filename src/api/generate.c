@@ -50,11 +50,14 @@ const char *mxg_result_source(const mxg_result *result, mxg_stage stage, size_t 
     return known ? result->stages[stage].text : NULL;
 }
 
-/* Where a line (from 1) begins; the end of the source where it has fewer. Lines are mostly asked for in order. */
+/*
+ * Where a line (from 1) begins; the end of the source where it has fewer. Lines are mostly asked for in order.
+ */
 static size_t start_of_line(const mxg_result *result, mxg_stage stage, uint32_t line)
 {
     const struct stage_source *source = &result->stages[stage];
-    _Atomic uint64_t *hint = (_Atomic uint64_t *)(uintptr_t)&result->line_hints[stage]; /* the result stays what it is */
+    /* the result stays what it is */
+    _Atomic uint64_t *hint = (_Atomic uint64_t *)(uintptr_t)&result->line_hints[stage];
     uint64_t known = atomic_load_explicit(hint, memory_order_relaxed);
     uint32_t at = (uint32_t)(known >> 32);
     bool is_behind = at && at <= line;

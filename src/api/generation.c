@@ -122,7 +122,9 @@ static void init_layers(struct generation *g)
     shader_init(&result->shader, arena, &result->strings, &result->graph, &result->unit);
 }
 
-/* The type that the document gives what is generated; 0: a node has several outputs, and the definition's is not asked for. */
+/*
+ * The type that the document gives what is generated; 0: a node has several outputs, and the definition's is not asked for.
+ */
 static str_id value_type(const struct generation *g)
 {
     return doc_attr_value(&g->document->layer.doc, g->element, STR_type);
@@ -300,7 +302,9 @@ static bool add_defined_light(struct generation *g, uint32_t nodedef, int32_t ty
     return true;
 }
 
-/* A light of the document: a <light> with its EDF. Its inputs are those of the shader's interface. */
+/*
+ * A light of the document: a <light> with its EDF. Its inputs are those of the shader's interface.
+ */
 static bool add_light_element(struct generation *g, const char *path, int32_t type)
 {
     const struct document *doc = &g->document->layer.doc;
@@ -364,7 +368,9 @@ static bool has_light(const struct shader *shader, int32_t type)
     return false;
 }
 
-/* "directional_light=1"; without a number, the next one. Lights of the default that the library lacks are not bound. */
+/*
+ * "directional_light=1"; without a number, the next one. Lights of the default that the library lacks are not bound.
+ */
 static void bind_light(struct generation *g, const char *item, int32_t next_type)
 {
     size_t len = strcspn(item, "="), number_len = item[len] ? strlen(item + len + 1) : 0;
@@ -477,7 +483,9 @@ bool generation_finish(struct generation *g)
 
 /* ---- Spell ---- */
 
-/* Nodes of the document by their path; those inside of definitions by the path of the node that uses these. NULL: of no element. */
+/*
+ * Nodes of the document by their path; those inside of definitions by the path of the node that uses these. NULL: of no element.
+ */
 static const char *origin_path(void *user_data, uint32_t origin)
 {
     mxg_result *result = user_data;
@@ -522,7 +530,9 @@ static bool spell_one(struct generation *g, const struct spell_options *options,
     return !is_cancelled(g);
 }
 
-/* A vertex stage may have nothing to do: of what path tracers call, and in OSL where nothing moves. */
+/*
+ * A vertex stage may have nothing to do: of what path tracers call, and in OSL where nothing moves.
+ */
 static bool has_stage(const mxg_result *result, int stage)
 {
     const struct shader *shader = &result->shader;
@@ -581,7 +591,8 @@ mxg_status generation_run(mxg_context *context, const mxg_document *document, co
         *out_result = NULL;
     if (!context || !document || !out_result || (desc && !struct_read(&g->desc, sizeof g->desc, desc)))
         return MXG_ERROR_ARGUMENT;
-    struct object *below = (struct object *)(uintptr_t)&document->object; /* only its references are counted */
+    /* only its references are counted */
+    struct object *below = (struct object *)(uintptr_t)&document->object;
     mxg_result *result = object_new(context, sizeof *result, below);
     if (!result)
         return MXG_ERROR_MEMORY;

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/* A generation step by step, for generate.c, which takes all of them, and inspect.c, which stops on the way. */
+/*
+ * A generation step by step, for generate.c, which takes all of them, and inspect.c, which stops on the way.
+ */
 #ifndef MXG_API_GENERATION_H
 #define MXG_API_GENERATION_H
 
@@ -30,7 +32,8 @@ struct mxg_result {
     struct ir_graph graph;
     struct shader shader;
     struct stage_source stages[NUM_STAGES];
-    _Atomic uint64_t line_hints[NUM_STAGES]; /* a line that was asked for lately and where it begins: the next one is near */
+    /* a line that was asked for lately and where it begins: the next one is near */
+    _Atomic uint64_t line_hints[NUM_STAGES];
     struct network network;  /* option osl-network: in the place of stages are lists of layers */
     struct network_group groups[2];
     uint32_t num_groups;     /* 0: it is no network */
@@ -73,8 +76,10 @@ mxg_status generation_run(mxg_context *context, const mxg_document *document, co
 /* The steps in order; each is false after a diagnostic. */
 bool generation_start(struct generation *g); /* target, element, options */
 bool generation_build(struct generation *g); /* g->root */
-void generation_start_closures(struct generation *g); /* what the closure room asks for; generation_emit does it itself */
-bool generation_emit(struct generation *g);  /* the stages' effects: behind these, nothing can fail */
+/* what the closure room asks for; generation_emit does it itself */
+void generation_start_closures(struct generation *g);
+/* the stages' effects: behind these, nothing can fail */
+bool generation_emit(struct generation *g);
 bool generation_finish(struct generation *g); /* the shader */
 bool generation_spell(struct generation *g); /* source */
 /* Instead of the last two. */
@@ -94,7 +99,9 @@ struct frame_sequence {
 /* Writes the file of a frame as mxg_result_texture_file does. */
 size_t frame_file(const char *file, const struct frame_sequence *sequence, int32_t frame, char *out, size_t capacity);
 
-/* reflect.c: what the document says about a variable for a user interface; user_data is the mxg_result. */
+/*
+ * reflect.c: what the document says about a variable for a user interface; user_data is the mxg_result.
+ */
 void result_ui(void *user_data, const struct shader_variable *variable, struct shader_ui *out);
 
 /* globs.c: warns of globs in the options that match nothing. */

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Globs of the options "uniform" and "constant" that match no input of the document: most likely misspelt. */
+/*
+ * Globs of the options "uniform" and "constant" that match no input of the document: most likely misspelt.
+ */
 #include "api/generation.h"
 
 struct search {

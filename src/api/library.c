@@ -86,7 +86,9 @@ static void read_path(struct load *load, const char *path)
         read_file(load, found.items[i]);
 }
 
-/* Who loads a library wants to know of every fault at once; in a document they are told when the implementation is needed. */
+/*
+ * Who loads a library wants to know of every fault at once; in a document they are told when the implementation is needed.
+ */
 static void tell_deferred(mxg_library *library)
 {
     const struct diag_list *deferred = library->layer.deferred;

@@ -9,7 +9,8 @@ static void init_mem(struct mem *mem, struct mxg_context *context)
     if (!context->max_memory)
         return;
     size_t used = atomic_load(&context->used);
-    mem->limit = used < context->max_memory ? context->max_memory - used : 1; /* 0 would be no limit */
+    /* 0 would be no limit */
+    mem->limit = used < context->max_memory ? context->max_memory - used : 1;
 }
 
 void object_init(struct object *object, struct mxg_context *context, size_t size)
@@ -42,13 +43,15 @@ static void allocate(void *arg)
 void object_settle(struct object *object)
 {
     struct mxg_context *context = object->context;
-    size_t now = object->mem.used + object->size, more = now - object->counted; /* wraps where it is less */
+    /* wraps where it is less */
+    size_t now = object->mem.used + object->size, more = now - object->counted;
     size_t others = atomic_fetch_add(&context->used, more) + more - object->mem.used;
     object->counted = now;
     if (!context->max_memory)
         return;
     size_t left = others < context->max_memory ? context->max_memory - others : 1;
-    object->mem.limit = left > object->mem.used ? left : object->mem.used + 1; /* 0 would be no limit */
+    /* 0 would be no limit */
+    object->mem.limit = left > object->mem.used ? left : object->mem.used + 1;
 }
 
 void *object_new(struct mxg_context *context, size_t size, struct object *below)
@@ -163,7 +166,8 @@ static void write_text(void *arg)
 const struct made_text *object_text(const struct object *object, unsigned index,
                                     void (*write)(const struct object *object, struct text *out))
 {
-    struct object *owner = (struct object *)(uintptr_t)object; /* objects are never const themselves */
+    /* objects are never const themselves */
+    struct object *owner = (struct object *)(uintptr_t)object;
     struct made_text *found = atomic_load(&owner->texts[index]);
     if (found)
         return found;

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/* What a host needs to know of a shader: variables, compiled inputs, facts; and the same as JSON. */
+/*
+ * What a host needs to know of a shader: variables, compiled inputs, facts; and the same as JSON.
+ */
 #include "api/generation.h"
 
 static const char *text_of(const mxg_result *result, str_id id)
@@ -31,7 +33,9 @@ static const struct shader_variable *variable_at(const mxg_result *result, uint3
     return &result->shader.variables.items[result->shader.interface.items[index]];
 }
 
-/* Ranges of a node's input hold for the input of a graph that goes there; what it is called does not: it is no "left operand". */
+/*
+ * Ranges of a node's input hold for the input of a graph that goes there; what it is called does not: it is no "left operand".
+ */
 static bool is_inherited(const struct document *doc, elem_id input, str_id attr)
 {
     bool is_of_graph = input && doc_element(doc, doc_element(doc, input)->parent)->kind == KIND_NODEGRAPH;
@@ -236,7 +240,8 @@ mxg_status mxg_result_info(const mxg_result *result, mxg_shader_info *out)
         .displaced = shader->displaced,
         .lit = shader->lit,
     };
-    if (out && out->size > offsetof(mxg_shader_info, topology)) { /* the only part that costs something */
+    /* the only part that costs something */
+    if (out && out->size > offsetof(mxg_shader_info, topology)) {
         const struct made_text *topology = object_text(&result->object, TEXT_TOPOLOGY, write_topology);
         if (!topology)
             return MXG_ERROR_MEMORY;

@@ -19,7 +19,9 @@ static bool is_model(const struct library *lib, const struct nodedef *def)
     return false;
 }
 
-/* Nodes of which nothing is known, for inputs that are normals and the like, and what connects these inputs to them. */
+/*
+ * Nodes of which nothing is known, for inputs that are normals and the like, and what connects these inputs to them.
+ */
 static void write_properties(const struct library *lib, const struct nodedef *def, unsigned model, struct text *nodes, struct text *inputs)
 {
     const struct port *ports = lib->ports.items + def->first_port;

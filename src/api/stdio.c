@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/* The resolver of contexts that were given none: files relative to the referring file, then to the working directory. */
+/*
+ * The resolver of contexts that were given none: files relative to the referring file, then to the working directory.
+ */
 #include "api/api.h"
 
 #include <errno.h>
@@ -9,7 +11,9 @@ enum { FIRST_READ = 32 << 10 };
 
 const char stdio_no_memory[] = "out of memory";
 
-/* A block from the context's allocator that knows its size. It holds one file: text, then its name. */
+/*
+ * A block from the context's allocator that knows its size. It holds one file: text, then its name.
+ */
 struct block {
     size_t size;
     size_t len; /* bytes of text */
@@ -112,11 +116,14 @@ static enum outcome open_at(struct mxg_context *context, const char *name, mxg_b
     return OPENED;
 }
 
-/* A file that is there but cannot be read is not looked for elsewhere: it is the one that was meant. */
+/*
+ * A file that is there but cannot be read is not looked for elsewhere: it is the one that was meant.
+ */
 static bool open_file(void *user_data, const char *from, const char *ref, mxg_blob *out_blob, const char **out_reason)
 {
     struct mxg_context *context = user_data;
-    bool one_place = !strchr(from, '/') || is_absolute(ref); /* beside the referring file is the working directory */
+    /* beside the referring file is the working directory */
+    bool one_place = !strchr(from, '/') || is_absolute(ref);
     enum outcome outcome = MISSING;
     for (int i = one_place; i < 2 && outcome == MISSING; i++) {
         struct block *name = join(context, i == 0 ? from : "", ref);

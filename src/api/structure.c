@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/* What a program will be, before it is generated: the structure of an element (build/structure.c), for a target with options. */
+/*
+ * What a program will be, before it is generated: the structure of an element (build/structure.c), for a target with options.
+ */
 #include "api/api.h"
 
 #include "base/hash.h"

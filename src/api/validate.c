@@ -2,14 +2,17 @@
 /* Checks of a whole document against its library, and of the files that it names. */
 #include "api/generation.h"
 
-/* ---- Textures: whether their files are there, as far as the host tells what lies in a folder ---- */
+/*
+ * ---- Textures: whether their files are there, as far as the host tells what lies in a folder ----
+ */
 
 struct texture_check {
     const struct document *doc;
     const mxg_resolver *resolver;
     struct arena *arena;
     struct diag_list *diags;
-    const char *from, *folder; /* whose names these are: textures of a document often lie in one folder */
+    /* whose names these are: textures of a document often lie in one folder */
+    const char *from, *folder;
     const char *names;
     size_t size;
 };
@@ -57,7 +60,9 @@ static void find_tiles(const struct texture_check *c, const char *pattern, bool 
     }
 }
 
-/* The tiles of the rows that have any, up to the last one of each: a row that ends early is usual, one with a hole is not. */
+/*
+ * The tiles of the rows that have any, up to the last one of each: a row that ends early is usual, one with a hole is not.
+ */
 static void check_tiles(struct texture_check *c, const char *path, const char *pattern, struct diag_place place)
 {
     bool is_there[NUM_TILES];

@@ -126,7 +126,9 @@ static void add_chunk(struct arena *arena)
     arena->end = (char *)chunk + size;
 }
 
-/* Blocks from this size on stand alone, so that vectors grow by realloc and nothing is left behind. */
+/*
+ * Blocks from this size on stand alone, so that vectors grow by realloc and nothing is left behind.
+ */
 static bool is_large(size_t size)
 {
     return size > ARENA_SMALL;

@@ -19,7 +19,9 @@
 #include <stdint.h>
 #include <string.h>
 
-/* As realloc, with both sizes told: new_size 0 frees and returns NULL. NULL for another size means failure. */
+/*
+ * As realloc, with both sizes told: new_size 0 frees and returns NULL. NULL for another size means failure.
+ */
 typedef void *mem_realloc_fn(void *user_data, void *block, size_t old_size, size_t new_size);
 
 struct mem {
@@ -40,7 +42,9 @@ void *mem_realloc(struct mem *mem, void *block, size_t old_size, size_t new_size
 /* Jumps to the trap. */
 _Noreturn void mem_fail(struct mem *mem);
 
-/* Runs work(arg) with a trap of its own, so that no jump leaves it; the trap before is set again. false: memory ran out. */
+/*
+ * Runs work(arg) with a trap of its own, so that no jump leaves it; the trap before is set again. false: memory ran out.
+ */
 bool mem_try(struct mem *mem, void (*work)(void *arg), void *arg);
 
 struct arena_chunk;
@@ -55,7 +59,8 @@ struct arena {
 void arena_init(struct arena *arena, struct mem *mem);
 void arena_finish(struct arena *arena); /* frees everything; the arena may be used again */
 
-enum { ARENA_ALIGNMENT = 16, ARENA_SMALL = 4096 }; /* larger blocks stand alone, so that vectors grow by realloc */
+/* larger blocks stand alone, so that vectors grow by realloc */
+enum { ARENA_ALIGNMENT = 16, ARENA_SMALL = 4096 };
 void *arena_alloc_other(struct arena *arena, size_t size); /* what arena_alloc does not do itself */
 
 /* Uninitialised memory aligned for any object; size 0 gives a valid pointer. */
@@ -70,7 +75,9 @@ static inline void *arena_alloc(struct arena *arena, size_t size)
 }
 void *arena_zalloc(struct arena *arena, size_t size);
 
-/* Grows a block in place where it is the newest or stands alone, else by copying. block may be NULL. */
+/*
+ * Grows a block in place where it is the newest or stands alone, else by copying. block may be NULL.
+ */
 void *arena_grow(struct arena *arena, void *block, size_t old_size, size_t new_size);
 
 char *arena_strndup(struct arena *arena, const char *text, size_t len);

@@ -4,7 +4,9 @@
 #include <math.h>
 #include <string.h>
 
-/* Powers of ten that a double holds exactly: their products and quotients with integers below 2^53 round once. */
+/*
+ * Powers of ten that a double holds exactly: their products and quotients with integers below 2^53 round once.
+ */
 static const double exact_pow10[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
                                      1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
 
@@ -96,7 +98,9 @@ static size_t print_fixed(char *out, const char *digits, size_t num_digits, int 
     return n;
 }
 
-/* A number of at least 1e-5, below 2^24: with a point, and at least one digit on both sides of it. */
+/*
+ * A number of at least 1e-5, below 2^24: with a point, and at least one digit on both sides of it.
+ */
 static size_t print_moderate(char *out, float value)
 {
     unsigned places;

@@ -9,7 +9,9 @@
 
 enum { NUM_FLOAT_MAX = 32 }; /* bytes that num_print_float may write */
 
-/* Shortest decimal that reads back to the same float; see text_float. Returns its length; no NUL is written. */
+/*
+ * Shortest decimal that reads back to the same float; see text_float. Returns its length; no NUL is written.
+ */
 size_t num_print_float(char *out, float value);
 
 /*

@@ -49,7 +49,9 @@ struct strpool {
 /* An empty growing layer on `base`; with no base it holds the words of words.def. */
 void strpool_init(struct strpool *pool, struct arena *arena, const struct strpool *base);
 
-/* The id of a text, which is added where no layer has it. The bytes are copied; they must hold no NUL. */
+/*
+ * The id of a text, which is added where no layer has it. The bytes are copied; they must hold no NUL.
+ */
 str_id str_intern(struct strpool *pool, const char *text, size_t len);
 str_id str_intern_z(struct strpool *pool, const char *text);
 

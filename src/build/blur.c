@@ -18,8 +18,10 @@ static const struct kernel {
     const char *name;
     float node, side, middle; /* the outer node, in sizes; the weights */
 } kernels[] = {
-    {"box", 0.38729833f, 5.0f / 18.0f, 8.0f / 18.0f},     /* Gauss-Legendre: sqrt(3/5) of half the size */
-    {"gaussian", 0.28867513f, 1.0f / 6.0f, 4.0f / 6.0f},  /* Gauss-Hermite: sqrt(3) standard deviations, of which a size has six */
+    /* Gauss-Legendre: sqrt(3/5) of half the size */
+    {"box", 0.38729833f, 5.0f / 18.0f, 8.0f / 18.0f},
+    /* Gauss-Hermite: sqrt(3) standard deviations, of which a size has six */
+    {"gaussian", 0.28867513f, 1.0f / 6.0f, 4.0f / 6.0f},
 };
 
 struct blur {
@@ -76,7 +78,9 @@ static void move_texcoord(struct blur *blur, ir_ref ref)
     }
 }
 
-/* Half of what coordinates change by between the outer nodes along an axis, added to what they change by on the screen. */
+/*
+ * Half of what coordinates change by between the outer nodes along an axis, added to what they change by on the screen.
+ */
 static ir_ref footprint(struct blur *blur, ir_ref uv, enum ir_op derivative, int before, int behind)
 {
     struct ir_graph *g = blur->b->graph;

@@ -49,7 +49,9 @@ static uint32_t choice_of(const struct build_options *options)
     return choice;
 }
 
-/* How functions of the library see the host: uniforms and streams become interface variables, options constants. */
+/*
+ * How functions of the library see the host: uniforms and streams become interface variables, options constants.
+ */
 static ir_ref make_global(struct builder *b, struct ir_graph *graph, const struct lang_unit *unit, uint32_t global_id)
 {
     const struct lang_unit *layer;
@@ -84,7 +86,9 @@ static ir_ref global_node(void *user_data, struct ir_graph *graph, const struct 
     return b->globals[global_id];
 }
 
-/* Functions of at most this many tree nodes are lowered into the shader's graph instead of being called. */
+/*
+ * Functions of at most this many tree nodes are lowered into the shader's graph instead of being called.
+ */
 enum { INLINE_NODES = 14 };
 
 struct builder *build_start(const struct library *lib, const struct build_options *options, struct shader *shader,

@@ -18,10 +18,12 @@ enum build_interface { INTERFACE_COMPLETE, INTERFACE_AUTHORED, INTERFACE_REDUCED
 enum { TEXTURE_MODES_BUT_BORDERS = 3 }; /* libraries/stdlib/image.glsl tells them all */
 
 struct build_options {
-    const str_id *targets; /* MaterialX names of the target and those it inherits: "essl", "genglsl" */
+    /* MaterialX names of the target and those it inherits: "essl", "genglsl" */
+    const str_id *targets;
     unsigned num_targets;
     enum build_interface interface;
-    const char *const *uniform_globs, *const *constant_globs; /* element paths that stay variable, or do not */
+    /* element paths that stay variable, or do not */
+    const char *const *uniform_globs, *const *constant_globs;
     unsigned num_uniform_globs, num_constant_globs;
     str_id colorspace;     /* working space: "lin_rec709" */
     str_id distance_unit, angle_unit;
@@ -32,8 +34,10 @@ struct build_options {
     int albedo;
     int sample_filter;
     int texture_modes;
-    bool missing_colors;   /* texture() gives another colour where there is no image, which may be a variable */
-    bool indexed_tangents; /* tangents follow the coordinates of their index; else, as in MaterialX, the first */
+    /* texture() gives another colour where there is no image, which may be a variable */
+    bool missing_colors;
+    /* tangents follow the coordinates of their index; else, as in MaterialX, the first */
+    bool indexed_tangents;
     bool tiles;            /* images of several tiles are texture arrays */
     const struct lang_reader *reader; /* of photometric files; may be NULL */
     /* As mxg_resolver.list_folder, to find tiles; may be NULL. */
@@ -64,7 +68,9 @@ void build_record_network(struct builder *builder, struct network *network);
 struct network_input build_network_input(struct builder *builder, ir_ref value);
 /* A layer that gives a value which is no layer's; UINT32_MAX: there is none of its type. */
 uint32_t build_constant_layer(struct builder *builder, ir_ref value, str_id doc_type);
-/* With a builder of its own: the results of a node of a network over parameters, whose names are noted, and the names of its outputs. */
+/*
+ * With a builder of its own: the results of a node of a network over parameters, whose names are noted, and the names of its outputs.
+ */
 void build_network_node(struct builder *builder, struct network_node *node, ir_ref *results);
 str_id build_network_output(struct builder *builder, const struct network_node *node, uint32_t index, str_id *out_type);
 
@@ -86,7 +92,9 @@ bool build_glob_matches(const char *glob, const char *path);
 uint32_t build_light_function(struct builder *builder, uint32_t nodedef);
 /* What an input of a definition is when nothing is said; false: no number is known. */
 bool build_port_value(struct builder *builder, const struct port *port, struct ir_value *out);
-/* The LIGHT_SHADER that a definition made of nodes gives for its inputs; 0 after an error. `where` is told in messages. */
+/*
+ * The LIGHT_SHADER that a definition made of nodes gives for its inputs; 0 after an error. `where` is told in messages.
+ */
 ir_ref build_light_shader(struct builder *builder, uint32_t nodedef, elem_id where, const ir_ref *args);
 
 struct structure_options {

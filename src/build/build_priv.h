@@ -11,7 +11,8 @@ struct instance {
     elem_id graph;         /* the nodegraph; 0: the document itself */
     elem_id first;         /* elements [first, first + num_slots) belong to it */
     uint32_t num_slots;
-    uint32_t *slots;       /* per element: enum slot_state or SLOT_RESULTS + index of its first result */
+    /* per element: enum slot_state or SLOT_RESULTS + index of its first result */
+    uint32_t *slots;
     uint32_t nodedef;      /* what the graph implements */
     const ir_ref *args;    /* one per input of the definition; 0: an absent closure */
     uint32_t origin;
@@ -32,11 +33,14 @@ struct frame {
     ir_ref *args;
     bool has_tokens;         /* it is no equal of another use, whatever its arguments */
     uint32_t memo_key;
-    uint32_t outline;        /* memo of the function that `inner` becomes; LIBRARY_NONE: it is built into the graph */
+    /* memo of the function that `inner` becomes; LIBRARY_NONE: it is built into the graph */
+    uint32_t outline;
     uint32_t function;       /* of the graph; only with `outline` */
 };
 
-/* Results of functional graphs by definition and arguments: equal uses are built once. And functions made of them (outline.c). */
+/*
+ * Results of functional graphs by definition and arguments: equal uses are built once. And functions made of them (outline.c).
+ */
 struct memo {
     uint32_t hash, impl;
     const ir_ref *args;
@@ -98,24 +102,34 @@ ir_ref build_result(struct builder *b, struct instance *scope, elem_id node, uns
  */
 void build_apply(struct builder *b, uint32_t nodedef, elem_id where, const ir_ref *args, ir_ref *results);
 
-/* The memo of a graph used with these arguments, made when it is new. It moves when another is made. */
+/*
+ * The memo of a graph used with these arguments, made when it is new. It moves when another is made.
+ */
 struct memo *build_memo(struct builder *b, uint32_t impl, const ir_ref *args, uint32_t n);
 
-/* outline.c: the memo of the function that a graph is by now, or LIBRARY_NONE where it is built in place. */
+/*
+ * outline.c: the memo of the function that a graph is by now, or LIBRARY_NONE where it is built in place.
+ */
 uint32_t build_outlined(struct builder *b, const struct frame *frame);
 /* Gives frame->inner parameters for arguments. */
 void build_begin_function(struct builder *b, struct frame *frame);
 /* One ref per output of the definition. */
 void build_call_function(struct builder *b, const struct frame *frame, uint32_t function, ir_ref *results);
 
-/* fragment.c: whether graphs of the image are what they were when it was packed, as far as options and layers say. */
+/*
+ * fragment.c: whether graphs of the image are what they were when it was packed, as far as options and layers say.
+ */
 bool build_may_restore(const struct builder *b);
-/* The results of frame's graph where it was taken down for such arguments; false: it must be built. */
+/*
+ * The results of frame's graph where it was taken down for such arguments; false: it must be built.
+ */
 bool build_restore(struct builder *b, const struct frame *frame, ir_ref *results);
 /* Takes down what frame's graph became, where that is asked for. */
 void build_record(struct builder *b, const struct frame *frame, const ir_ref *results);
 
-/* trace.c: adds notes that tell which nodes use the graph that is being built; a struct diag_list's `trace`. */
+/*
+ * trace.c: adds notes that tell which nodes use the graph that is being built; a struct diag_list's `trace`.
+ */
 void build_trace(void *builder, struct diag_list *list);
 
 /* input.c */
@@ -123,16 +137,22 @@ void build_trace(void *builder, struct diag_list *list);
 /* The value of a binding whose node, if it has one, was asked for. `node` owns the input. */
 ir_ref build_input(struct builder *b, struct instance *scope, elem_id node, const struct port *port,
                    const struct binding *binding);
-/* What an input is when nothing is said: default value, geometric property, or nothing (0 for closures). */
+/*
+ * What an input is when nothing is said: default value, geometric property, or nothing (0 for closures).
+ */
 ir_ref build_default(struct builder *b, const struct port *port);
 /* The value of a geometric property by name: defaultgeomprop. */
 ir_ref build_geomprop(struct builder *b, str_id name, doc_type type, struct diag_place place);
-/* A constant, or what a uniform is at first, for what is settled when the shader is made; false: it is neither. */
+/*
+ * A constant, or what a uniform is at first, for what is settled when the shader is made; false: it is neither.
+ */
 bool build_initial(const struct builder *b, ir_ref value, struct ir_value *out);
 /* The path of an input: "SR_gold/base_color". */
 str_id build_input_path(struct builder *b, elem_id node, str_id input, elem_id element);
 
-/* color.c: from `space` to the working space, by the library's transform nodes; value of a color3 or color4. */
+/*
+ * color.c: from `space` to the working space, by the library's transform nodes; value of a color3 or color4.
+ */
 ir_ref build_color_transform(struct builder *b, ir_ref value, doc_type type, str_id space, struct diag_place place);
 /* Told where an option names a space that nothing converts to, or a unit that nobody knows. */
 void build_check_colorspace(struct builder *b);
@@ -152,10 +172,14 @@ ir_ref build_texture(struct builder *b, struct shader_variable variable, elem_id
 bool build_note_textures(struct builder *b, const struct frame *frame);
 /* lang_host.texture: reads the tile at hand. */
 ir_ref build_read_tiles(void *user_data, enum ir_op op, const ir_ref *args);
-/* Tells of tiles that are read in what was built for a node from `first_node` on and could not become nodes. */
+/*
+ * Tells of tiles that are read in what was built for a node from `first_node` on and could not become nodes.
+ */
 void build_check_tiles(struct builder *b, const struct frame *frame, uint32_t first_node);
 
-/* tiles.c: finds the tiles that the file's name stands for; false: it is one image, or an error was reported. */
+/*
+ * tiles.c: finds the tiles that the file's name stands for; false: it is one image, or an error was reported.
+ */
 bool build_find_tiles(struct builder *b, elem_id element, struct shader_variable *texture);
 /* The layer at texture coordinates, as a float, and whether there is a tile. */
 ir_ref build_tile_layer(struct builder *b, const struct shader_variable *texture, ir_ref uv, ir_ref *out_inside);
@@ -177,10 +201,14 @@ void build_call(struct builder *b, const struct implementation *impl, const ir_r
 /* blur.c: `in`, averaged over texture coordinates. `node` is who asks. */
 ir_ref build_blur(struct builder *b, ir_ref in, ir_ref size, ir_ref filtertype, elem_id node);
 
-/* profile.c: emission by the photometric file that a texture names; evenly where it cannot be read. */
+/*
+ * profile.c: emission by the photometric file that a texture names; evenly where it cannot be read.
+ */
 ir_ref build_measured_edf(struct builder *b, ir_ref color, ir_ref normal, ir_ref file, elem_id node);
 
-/* network.c, where there is a recorder. build_node: notes a layer for results that are no plain values; they become sources that stand for it. */
+/*
+ * network.c, where there is a recorder. build_node: notes a layer for results that are no plain values; they become sources that stand for it.
+ */
 void build_record_node(struct builder *b, const struct frame *frame, ir_ref *results);
 /* A geometric property that no node gives, by a node that reads it. */
 ir_ref build_property_layer(struct builder *b, const struct geomprop *prop);

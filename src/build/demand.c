@@ -197,7 +197,9 @@ static void build_args(struct builder *b, struct frame *frame)
         frame->args[i] = build_input(b, frame->scope, frame->node.element, &ports[i], &frame->bindings[i]);
 }
 
-/* Image nodes read a file that is given in a colour space: what they return is converted (specification, "Color Spaces"). */
+/*
+ * Image nodes read a file that is given in a colour space: what they return is converted (specification, "Color Spaces").
+ */
 static void convert_colors(struct builder *b, const struct frame *frame, ir_ref *results)
 {
     const struct nodedef *def = library_nodedef(b->lib, frame->node.nodedef);

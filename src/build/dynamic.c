@@ -29,7 +29,8 @@ static ir_ref build_op(const struct call *c, enum ir_op op, const ir_ref *args, 
 
 static ir_ref not_constant(const struct call *c, str_id input)
 {
-    if (ir_get(c->b->graph, arg(c, input))->op == IR_POISON) /* it has been told what is wrong with it */
+    /* it has been told what is wrong with it */
+    if (ir_get(c->b->graph, arg(c, input))->op == IR_POISON)
         return ir_poison(c->b->graph, c->type);
     diag_add(c->b->diags, DIAG_ID_input_must_be_constant, doc_place(&c->b->lib->doc, c->frame->node.element),
              build_text(c->b, input), build_text(c->b, c->def->node));
@@ -156,7 +157,9 @@ static ir_ref geomprop_uniform(const struct call *c, str_id name)
     return ir_build(c->b->graph, c->type == IR_TYPE_SAMPLER ? IR_TEXTURE : IR_UNIFORM, c->type, variable, NULL, 0);
 }
 
-/* Booleans cannot be interpolated and strings not be streamed: hosts give them per object (as MaterialX 1.39 does). */
+/*
+ * Booleans cannot be interpolated and strings not be streamed: hosts give them per object (as MaterialX 1.39 does).
+ */
 static ir_ref build_geompropvalue(const struct call *c)
 {
     struct ir_value name;
@@ -270,7 +273,9 @@ static ir_ref build_volumematerial(const struct call *c)
     return build_op(c, IR_MATERIAL, args, 4);
 }
 
-/* The inputs that may be shown follow the one that says which. Any value can be the root of a shader. */
+/*
+ * The inputs that may be shown follow the one that says which. Any value can be the root of a shader.
+ */
 static ir_ref build_osl_set_ci(const struct call *c)
 {
     struct ir_value mode;

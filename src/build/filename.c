@@ -23,7 +23,9 @@ bool build_has_tokens(const struct builder *b, elem_id node)
     return false;
 }
 
-/* The definition that a graph implements, used by a node or generated itself; 0: it is a part of the document's own graph. */
+/*
+ * The definition that a graph implements, used by a node or generated itself; 0: it is a part of the document's own graph.
+ */
 static elem_id definition_of(const struct builder *b, const struct instance *scope, elem_id graph)
 {
     if (doc_element(doc_of(b), graph)->kind != KIND_NODEGRAPH)

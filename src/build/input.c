@@ -43,7 +43,9 @@ static bool parse(struct builder *b, doc_type type, str_id text, const struct po
     return value && doc_parse_value(type, build_text(b, value), str_len(b->shader->strings, value), NULL, out);
 }
 
-/* The constant that attribute `value` of an element says; poison and a diagnostic where it does not parse. */
+/*
+ * The constant that attribute `value` of an element says; poison and a diagnostic where it does not parse.
+ */
 static ir_ref constant(struct builder *b, const struct port *port, str_id text, elem_id element)
 {
     ir_type_id ir = library_type_ir(b->lib, port->type);
@@ -62,7 +64,9 @@ static ir_ref constant(struct builder *b, const struct port *port, str_id text, 
 
 /* ---- interface ---- */
 
-/* Goes back to what stands in front of the names of an owner's inputs; true where that is to be written. */
+/*
+ * Goes back to what stands in front of the names of an owner's inputs; true where that is to be written.
+ */
 static bool begin_text(struct builder *b, struct build_prefix *prefix, elem_id owner)
 {
     bool is_known = prefix->text.arena && prefix->owner == owner;
@@ -131,7 +135,9 @@ static bool any_glob(const char *const *globs, unsigned n, const char *path)
     return false;
 }
 
-/* True for inputs of the shader nodes and of the document's graphs: those that the interface mode is about. */
+/*
+ * True for inputs of the shader nodes and of the document's graphs: those that the interface mode is about.
+ */
 static bool is_public(const struct builder *b, elem_id node)
 {
     if (doc_element(doc_of(b), node)->kind == KIND_NODEGRAPH)
@@ -154,7 +160,9 @@ static bool stays_variable(const struct builder *b, elem_id node, bool authored,
     return o->interface == INTERFACE_COMPLETE || authored;
 }
 
-/* "SR_gold_base_color": the path's last two names; or "base_color", as long as there is one of it. */
+/*
+ * "SR_gold_base_color": the path's last two names; or "base_color", as long as there is one of it.
+ */
 static str_id variable_name(struct builder *b, elem_id node, str_id input)
 {
     if (b->options->short_names && shader_name_is_free(b->shader, input))
@@ -198,7 +206,9 @@ static ir_ref add_uniform(struct builder *b, struct shader_variable v, ir_ref in
     return ir_build(b->graph, IR_UNIFORM, v.type, index, NULL, 0);
 }
 
-/* A literal or default of an input of a node of the document: uniform or constant as the interface says. */
+/*
+ * A literal or default of an input of a node of the document: uniform or constant as the interface says.
+ */
 static ir_ref publish(struct builder *b, elem_id node, const struct port *port, elem_id element, str_id input, ir_ref value,
                       bool authored)
 {
@@ -246,7 +256,9 @@ static ir_ref geomprop_arg(struct builder *b, const struct geomprop *prop, const
     return build_default(b, port);
 }
 
-/* A property that a node gives is that node with the property's space and index; any other is a stream of its name. */
+/*
+ * A property that a node gives is that node with the property's space and index; any other is a stream of its name.
+ */
 static ir_ref make_geomprop(struct builder *b, const struct geomprop *prop)
 {
     if (prop->nodedef == LIBRARY_NONE && b->recorder)
@@ -352,12 +364,15 @@ static elem_id graph_around(const struct builder *b, elem_id element)
     return element;
 }
 
-/* A functional graph that is not used as a node, but is itself generated, has the defaults of its definition. */
+/*
+ * A functional graph that is not used as a node, but is itself generated, has the defaults of its definition.
+ */
 static ir_ref interface_arg(struct builder *b, struct instance *scope, const struct port *port, const struct binding *binding)
 {
     elem_id alone = scope->graph ? 0 : graph_around(b, binding->element);
     uint32_t nodedef = alone ? library_implemented_nodedef(b->lib, alone) : scope->nodedef;
-    if (nodedef == LIBRARY_NONE && element_attr(b, alone, STR_nodedef)) /* reported when the document was read */
+    /* reported when the document was read */
+    if (nodedef == LIBRARY_NONE && element_attr(b, alone, STR_nodedef))
         return unset(b, scope, doc_element(doc_of(b), binding->element)->parent, port, binding->element, true);
     int index = library_resolve_interface(b->lib, binding->element, nodedef, binding, port, b->diags);
     if (index < 0)
@@ -380,7 +395,8 @@ static ir_ref end_of_chain(struct builder *b, struct instance *scope, elem_id no
     if (slot && *slot >= SLOT_RESULTS)
         return b->results.items[*slot - SLOT_RESULTS];
     bool says_value = binding->kind == BIND_VALUE;
-    if (says_value && port->geomprop && owner == node) { /* MaterialX's generators all do so, and materials depend on it */
+    /* MaterialX's generators all do so, and materials depend on it */
+    if (says_value && port->geomprop && owner == node) {
         diag_add(b->diags, DIAG_ID_geomprop_literal, doc_attr_place(doc_of(b), element, STR_value), build_text(b, port->name),
                  build_text(b, port->geomprop));
         says_value = false;

@@ -54,7 +54,9 @@ static bool is_settled(const struct builder *b, const struct implementation *imp
     return type == IR_TYPE_STRING || is_read_by_code;
 }
 
-/* Languages that find tiles by themselves read them in another way: of other files no more than that is settled. */
+/*
+ * Languages that find tiles by themselves read them in another way: of other files no more than that is settled.
+ */
 static str_id settled_file(struct builder *b, const struct implementation *impl, str_id file)
 {
     const char *name = build_text(b, file);
@@ -108,7 +110,9 @@ static void add_word(struct text *name, const char *word)
         text_fmt(name, "x%u", (unsigned)hash_stable(0, word, strlen(word)));
 }
 
-/* "ND_dielectric_bsdf_scatter_mode_T": of the definition "ND_dielectric_bsdf" where the mode is not the usual one. */
+/*
+ * "ND_dielectric_bsdf_scatter_mode_T": of the definition "ND_dielectric_bsdf" where the mode is not the usual one.
+ */
 static str_id node_name(struct builder *b, const struct nodedef *def, const struct port *ports, const struct ir_value *fixed)
 {
     struct text name;
@@ -224,7 +228,9 @@ static void write_path(const struct builder *b, uint32_t origin, char between, s
     text_str(out, build_text(b, o->name));
 }
 
-/* A node that no element stands for, a conversion, has its own name behind that of the node that needs it. */
+/*
+ * A node that no element stands for, a conversion, has its own name behind that of the node that needs it.
+ */
 static str_id path_of(struct builder *b, const struct frame *frame, char between)
 {
     struct text path;
@@ -235,7 +241,9 @@ static str_id path_of(struct builder *b, const struct frame *frame, char between
     return str_intern(b->shader->strings, path.data, path.len);
 }
 
-/* A source of which nothing is known; its variable gives the first output's layer a name that is unique. */
+/*
+ * A source of which nothing is known; its variable gives the first output's layer a name that is unique.
+ */
 static ir_ref add_source(struct builder *b, str_id name, ir_type_id type, uint32_t layer, unsigned output)
 {
     struct recorder *r = b->recorder;

@@ -191,7 +191,9 @@ static void call_verbatim(struct builder *b, const struct implementation *impl, 
         results[i] = function ? ir_build(b->graph, IR_RESULT, library_type_ir(b->lib, outputs[i].type), i + 1, &call, 1) : call;
 }
 
-/* A light's function wants the shaded point, which only the loop over lights has: elsewhere such a node is a light without emission. */
+/*
+ * A light's function wants the shaded point, which only the loop over lights has: elsewhere such a node is a light without emission.
+ */
 static ir_ref dark_light(struct builder *b)
 {
     ir_ref args[3] = {0, ir_const_float(b->graph, 1.0f), ir_const_float(b->graph, 0.0f)};

@@ -7,13 +7,15 @@
 
 #include "base/num.h"
 
-enum { STEP = 2, LENGTH = 180 / STEP + 1, MAX_ANGLES = 4096 }; /* degrees between entries, and how many there are */
+/* degrees between entries, and how many there are */
+enum { STEP = 2, LENGTH = 180 / STEP + 1, MAX_ANGLES = 4096 };
 
 struct measurement {
     const char *at, *end;
     const char *fault;  /* NULL: none */
     unsigned num_vertical, num_horizontal;
-    float *vertical, *horizontal, *candela; /* candela: all vertical angles of the first horizontal one, then of the next … */
+    /* candela: all vertical angles of the first horizontal one, then of the next … */
+    float *vertical, *horizontal, *candela;
 };
 
 /* ---- Reading ---- */
@@ -70,7 +72,8 @@ static bool ascends(const float *numbers, unsigned count)
 
 static void read_measurement(struct measurement *m, struct arena *arena)
 {
-    enum { BEFORE_ANGLES = 3, BEHIND_TYPE = 7 }; /* lamps, lumens, factor; units, three sizes, two of the ballast, watts */
+    /* lamps, lumens, factor; units, three sizes, two of the ballast, watts */
+    enum { BEFORE_ANGLES = 3, BEHIND_TYPE = 7 };
     bool has_tilt = false;
     skip_keywords(m, &has_tilt);
     if (has_tilt) {
@@ -191,7 +194,9 @@ static ir_ref look_up(struct builder *b, const float table[LENGTH], ir_ref norma
     return ir_op3(g, IR_MIX, values[0], values[1], ir_op2(g, IR_SUB, at, below));
 }
 
-/* The even emission, if the library has it, scaled by the profile of the file that the texture `file` names. */
+/*
+ * The even emission, if the library has it, scaled by the profile of the file that the texture `file` names.
+ */
 ir_ref build_measured_edf(struct builder *b, ir_ref color, ir_ref normal, ir_ref file, elem_id node)
 {
     str_id even = str_find(b->shader->strings, "ND_uniform_edf", strlen("ND_uniform_edf"));

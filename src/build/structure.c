@@ -17,7 +17,8 @@
 
 #include "base/hash.h"
 
-enum { IS_PUBLIC = 1, IS_ROOT = 2 }; /* its inputs are the shader's interface; those of shaders connected to it, too */
+/* its inputs are the shader's interface; those of shaders connected to it, too */
+enum { IS_PUBLIC = 1, IS_ROOT = 2 };
 
 struct met {
     elem_id element;
@@ -51,7 +52,9 @@ static void add(struct walk *w, uint64_t word)
     w->hash = hash_mix(w->hash, word);
 }
 
-/* What follows: no text and no number looks like one of these, so that words mean one thing only. */
+/*
+ * What follows: no text and no number looks like one of these, so that words mean one thing only.
+ */
 enum mark { MARK_ELEMENT, MARK_INPUT, MARK_UNIFORM, MARK_NUMBER, MARK_TEXT, MARK_FILE, MARK_NO_FILE, MARK_SPACE, MARK_CONNECTION, MARK_END };
 
 static void mark(struct walk *w, enum mark what, uint32_t more)
@@ -134,7 +137,9 @@ static void add_file(struct walk *w, elem_id element, str_id file)
         add_text(w, file);
 }
 
-/* Numbers that are compiled in, or that may decide what becomes of a program, count however they are written. */
+/*
+ * Numbers that are compiled in, or that may decide what becomes of a program, count however they are written.
+ */
 static void add_number(struct walk *w, const struct ir_value *value)
 {
     unsigned n = ir_type_info(value->type)->components;
@@ -207,7 +212,9 @@ static bool is_connection(str_id attr)
     return attr == STR_nodename || attr == STR_nodegraph || attr == STR_interfacename || attr == STR_output;
 }
 
-/* True where the element is a port that is connected: what it is connected to says more than the names. */
+/*
+ * True where the element is a port that is connected: what it is connected to says more than the names.
+ */
 static bool add_attributes(struct walk *w, elem_id element, bool is_public)
 {
     const struct element *e = doc_element(w->doc, element);
@@ -237,7 +244,9 @@ static bool add_attributes(struct walk *w, elem_id element, bool is_public)
 
 /* ---- Ports ---- */
 
-/* What stands behind a port is added by its number. The number of a node is returned; UINT32_MAX: it is none, or a fault. */
+/*
+ * What stands behind a port is added by its number. The number of a node is returned; UINT32_MAX: it is none, or a fault.
+ */
 static uint32_t add_connection(struct walk *w, elem_id port)
 {
     doc_type type = type_of(w, port);
@@ -327,7 +336,9 @@ static bool is_as_unset(struct walk *w, elem_id input, const struct port *port, 
     return is_uniform(w, is_public, &value) || is_default(w, port, text, &value);
 }
 
-/* Most nodes have their inputs in the definition's order: the search goes on where it ended. `n`: there is none of that name. */
+/*
+ * Most nodes have their inputs in the definition's order: the search goes on where it ended. `n`: there is none of that name.
+ */
 static unsigned find_port(const struct port *ports, unsigned n, unsigned start, str_id name)
 {
     for (unsigned tried = 0; tried < n; tried++) {
@@ -338,7 +349,9 @@ static unsigned find_port(const struct port *ports, unsigned n, unsigned start, 
     return n;
 }
 
-/* The node's inputs by port. Outputs say nothing that the definition does not; anything else is left to a generation. */
+/*
+ * The node's inputs by port. Outputs say nothing that the definition does not; anything else is left to a generation.
+ */
 static elem_id *sort_inputs(struct walk *w, elem_id node, const struct port *ports, unsigned n)
 {
     elem_id *inputs = ARENA_ARRAY(w->arena, elem_id, n);
@@ -387,7 +400,9 @@ static void add_output(struct walk *w, elem_id output)
         w->met.items[number].flags |= IS_PUBLIC;
 }
 
-/* Inputs of graphs belong to the interface, too. What is around an element says nothing that is not asked for from below. */
+/*
+ * Inputs of graphs belong to the interface, too. What is around an element says nothing that is not asked for from below.
+ */
 static void add_element(struct walk *w, uint32_t number)
 {
     struct met met = w->met.items[number];

@@ -24,7 +24,8 @@ ir_ref build_texture(struct builder *b, struct shader_variable variable, elem_id
 /* ---- What nodes say of their textures ---- */
 
 static const struct sampling_input {
-    const char *name; /* of inputs that belong to one file, without what stands behind "file" in its name */
+    /* of inputs that belong to one file, without what stands behind "file" in its name */
+    const char *name;
     size_t at;
 } sampling_inputs[] = {
     {"uaddressmode", offsetof(struct shader_sampling, uaddressmode)},
@@ -43,7 +44,9 @@ static bool belongs(const char *input, const char *name, const char *file)
     return strncmp(input, name, len) == 0 && (input[len] == '\0' || strcmp(input + len, suffix) == 0);
 }
 
-/* The string that an input says; 0: none, or not known. UsdUVTexture's "black" is "constant" with the default. */
+/*
+ * The string that an input says; 0: none, or not known. UsdUVTexture's "black" is "constant" with the default.
+ */
 static str_id said(const struct builder *b, ir_ref arg)
 {
     struct ir_value value;

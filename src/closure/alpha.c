@@ -2,7 +2,9 @@
 /* What an alpha can be, found in the graph: a cut-out needs a test and no blending. */
 #include "closure/closure_priv.h"
 
-/* Whether an operation over values that are 0 or 1 gives such a value. `is_binary` is known of all nodes below `ref`. */
+/*
+ * Whether an operation over values that are 0 or 1 gives such a value. `is_binary` is known of all nodes below `ref`.
+ */
 static bool keeps_binary(const struct ir_graph *g, ir_ref ref, const bool *is_binary)
 {
     const struct ir_node *node = ir_get(g, ref);

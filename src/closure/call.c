@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Calls of a leaf's functions: the node's inputs in order, then what the function wants to know of the shaded point. */
+/*
+ * Calls of a leaf's functions: the node's inputs in order, then what the function wants to know of the shaded point.
+ */
 #include "closure/closure_priv.h"
 
 static ir_ref stream(struct shader *shader, str_id name)

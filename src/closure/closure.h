@@ -8,7 +8,9 @@
 
 #include "shader/shader.h"
 
-/* A leaf's functions (lang ids; LANG_NONE: absent), in the order of enum family_member of library/library.h. */
+/*
+ * A leaf's functions (lang ids; LANG_NONE: absent), in the order of enum family_member of library/library.h.
+ */
 enum leaf_function { LEAF_EVAL, LEAF_ENVIRONMENT, LEAF_TRANSMISSION, LEAF_THROUGHPUT, LEAF_EMISSION, LEAF_FACTOR,
                      LEAF_ABSORPTION, LEAF_SCATTERING, LEAF_ANISOTROPY, LEAF_ALBEDO, LEAF_REFRACTION, LEAF_SAMPLE, LEAF_PDF,
                      NUM_LEAF_FUNCTIONS };
@@ -50,15 +52,21 @@ struct closure_host {
     const char *(*leaf_input)(void *user_data, uint32_t callee, unsigned index);
     const struct closure_rows *rows; /* the target's; NULL: it has no closures */
     const struct lang_host *lang;
-    const ir_ref *way_in; /* direction from which light comes through layers, which take from it there, too; NULL: only on its way out */
+    /*
+     * direction from which light comes through layers, which take from it there, too; NULL: only on its way out
+     */
+    const ir_ref *way_in;
 };
 
-/* A leaf of the flattened tree. Its weight is scalar · color; scalar decides whether the leaf is evaluated at all. */
+/*
+ * A leaf of the flattened tree. Its weight is scalar · color; scalar decides whether the leaf is evaluated at all.
+ */
 struct closure_leaf {
     ir_ref leaf;   /* LEAF node with weight 1 */
     ir_ref scalar; /* float */
     ir_ref color;  /* vec3; 0 = white */
-    ir_ref medium; /* vec3: what a volume behind lets through of the light that the leaf refracts; 0 = all */
+    /* vec3: what a volume behind lets through of the light that the leaf refracts; 0 = all */
+    ir_ref medium;
 };
 
 struct closure_list {
@@ -87,7 +95,9 @@ bool closure_emit(struct shader *shader, const struct closure_host *host, const 
 /* Whether the root is lit as a surface: then closure_emit does not fail. */
 bool closure_is_surface(const struct shader *shader, ir_ref root);
 
-/* closure_emit for targets with closures, which get the tree (host->rows). False, too, where a leaf has no row. */
+/*
+ * closure_emit for targets with closures, which get the tree (host->rows). False, too, where a leaf has no row.
+ */
 bool closure_emit_tree(struct shader *shader, const struct closure_host *host, ir_ref root);
 
 /*

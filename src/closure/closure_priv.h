@@ -32,7 +32,8 @@ void closure_scatter(struct shader *shader, const struct closure_host *host, con
 /* volume.c: a volume as what stands behind the shaded point. */
 struct closure_volume {
     struct closure_list scattering; /* leaves that scatter light, with weights that count `path` */
-    ir_ref vdf, edf;                /* what it was made of, each 0 where absent; edf: light that is emitted per unit length */
+    /* what it was made of, each 0 where absent; edf: light that is emitted per unit length */
+    ir_ref vdf, edf;
     ir_ref path;                    /* vec3: length over which light is gathered */
     ir_ref alpha;
 };
@@ -98,7 +99,9 @@ ir_ref closure_product(struct ir_graph *graph, ir_ref value, ir_ref weight);
 void closure_find_guarded(struct shader *shader, struct closure_parts *list, bool in_loop);
 ir_ref closure_one_minus(struct ir_graph *graph, ir_ref a);
 
-/* fresnel.c: an interface by Schlick's colours, as a conductor (`extinction`), or as a dielectric; 0: it has no such input. */
+/*
+ * fresnel.c: an interface by Schlick's colours, as a conductor (`extinction`), or as a dielectric; 0: it has no such input.
+ */
 struct closure_interface {
     ir_ref color0, color90, exponent, ior, extinction;
 };

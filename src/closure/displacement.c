@@ -101,7 +101,9 @@ static void move_vertices(struct shader *shader, ir_ref point)
                                                         .value = ir_build(g, IR_MUL, IR_TYPE_VEC4, 0, args, 2)});
 }
 
-/* A path tracer asks for the offset of each vertex before it moves the mesh, and knows the normals then. */
+/*
+ * A path tracer asks for the offset of each vertex before it moves the mesh, and knows the normals then.
+ */
 static void tell_offset(struct shader *shader, ir_ref offset)
 {
     struct ir_graph *g = shader->graph;

@@ -177,7 +177,8 @@ static ir_ref combined(struct ir_graph *g, struct weight w)
 
 static ir_ref sum_of_weights(struct ir_graph *g, struct weight a, struct weight b)
 {
-    ir_ref first = combined(g, a), second = combined(g, b); /* nodes are made in an order that C does not leave open */
+    /* nodes are made in an order that C does not leave open */
+    ir_ref first = combined(g, a), second = combined(g, b);
     return ir_op2(g, IR_ADD, first, second);
 }
 
@@ -235,7 +236,8 @@ static void spread(struct flattener *f, ir_ref ref)
     uint8_t op = ir_get(g, ref)->op;
     ir_ref a = ir_arg(g, ref, 0), b = ir_arg(g, ref, 1);
     if (op == IR_LAYER) {
-        if (b && ir_type_of(g, b) == IR_TYPE_VDF) /* a volume behind changes what is refracted only */
+        /* a volume behind changes what is refracted only */
+        if (b && ir_type_of(g, b) == IR_TYPE_VDF)
             w.medium = closure_mul(g, w.medium, medium_of(f, b));
         else if (b)
             add_scaled(f, b, w, through_of(f, a));
@@ -319,7 +321,8 @@ void closure_flatten(struct shader *shader, const struct closure_host *host, ir_
     for (ir_ref ref = num_nodes; ref-- > 1;) {
         if (!f.weights[ref].scalar)
             continue;
-        shader->graph->origin = ir_get(f.graph, ref)->origin; /* weights are named after the operator that makes them */
+        /* weights are named after the operator that makes them */
+        shader->graph->origin = ir_get(f.graph, ref)->origin;
         if (is_operator(ir_get(f.graph, ref)))
             spread(&f, ref);
         else if (ir_get(f.graph, ref)->op == IR_LEAF)

@@ -23,7 +23,9 @@ static ir_ref schlick_rise(struct ir_graph *g, ir_ref frontal, ir_ref edge, ir_r
     return ir_op2(g, IR_DIV, ir_op3(g, IR_MIX, frontal, edge, rise), frontal);
 }
 
-/* Of a dielectric: F = ((d - c) / (d + c))^2 (1 + ((c (d + c) - 1) / (c (d - c) + 1))^2) / 2 with d^2 = n^2 - 1 + c^2 (Cook 1982). */
+/*
+ * Of a dielectric: F = ((d - c) / (d + c))^2 (1 + ((c (d + c) - 1) / (c (d - c) + 1))^2) / 2 with d^2 = n^2 - 1 + c^2 (Cook 1982).
+ */
 static ir_ref dielectric_rise(struct ir_graph *g, ir_ref n, ir_ref cosine)
 {
     ir_ref one = ir_const_float(g, 1.0f);

@@ -21,7 +21,9 @@ static bool claim(uint16_t *owner, uint16_t by)
     return is_new;
 }
 
-/* Operands come before their node, so one pass down finds who owns each node; those that are dear, or stand on such, are asked. */
+/*
+ * Operands come before their node, so one pass down finds who owns each node; those that are dear, or stand on such, are asked.
+ */
 static void guard_dear(struct shader *shader, struct closure_part *parts, uint32_t count, bool in_loop)
 {
     const struct ir_graph *g = shader->graph;

@@ -9,7 +9,8 @@
 
 enum { VARIES = 1, IS_VECTOR = 2, NUM_KINDS = 4, MAX_FACTORS = 16 };
 
-struct factors { /* by kind, each kind in the order of the nodes, so that equal products are equal nodes */
+/* by kind, each kind in the order of the nodes, so that equal products are equal nodes */
+struct factors {
     ir_ref items[NUM_KINDS][MAX_FACTORS];
     unsigned counts[NUM_KINDS], count;
 };

@@ -26,7 +26,8 @@ struct scatter {
     struct ir_graph *graph;
     const struct closure_host *host;
     const struct closure_list *list;
-    ir_ref *shares;                                                   /* p of each leaf; 0: it is never picked */
+    /* p of each leaf; 0: it is never picked */
+    ir_ref *shares;
     uint32_t pick, direction, is_inside, weight, density, medium;     /* locals */
     ir_ref total;
 };
@@ -162,7 +163,9 @@ static void sample_leaves(struct scatter *s)
             sample(s, &s->list->leaves.items[i], s->shares[i]);
 }
 
-/* What all leaves make of light from a direction; solid_angle 0: of a light that no sample finds. */
+/*
+ * What all leaves make of light from a direction; solid_angle 0: of a light that no sample finds.
+ */
 static ir_ref response(struct scatter *s, ir_ref direction, ir_ref solid_angle)
 {
     struct ir_graph *g = s->graph;

@@ -75,7 +75,9 @@ static void accumulate(struct emitter *e, ir_ref factor, ir_ref value)
     e->graph->origin = before;
 }
 
-/* color += factor · Σ parts. Leaves that are always computed share one line; the others stand behind their guards. */
+/*
+ * color += factor · Σ parts. Leaves that are always computed share one line; the others stand behind their guards.
+ */
 static void accumulate_all(struct emitter *e, enum closure_place place, ir_ref factor)
 {
     struct ir_graph *g = e->graph;
@@ -128,7 +130,8 @@ static void find_lit_parts(struct emitter *e, ir_ref bsdf, const struct closure_
     struct closure_list lit;
     closure_sample_light(e->shader, e->host, &e->lit.light);
     if (e->lighting->two_sided) {
-        flatten_under(e, bsdf, &e->lit.light.direction, &lit); /* the same leaves: only throughputs differ */
+        /* the same leaves: only throughputs differ */
+        flatten_under(e, bsdf, &e->lit.light.direction, &lit);
         assert(lit.leaves.len == list->leaves.len);
         list = &lit;
     }
@@ -282,7 +285,9 @@ static struct surface mixed(struct emitter *e, struct surface bg, struct surface
     return s;
 }
 
-/* What it transmits lets what is behind show through (MaterialX PBR specification, <surface_unlit>). */
+/*
+ * What it transmits lets what is behind show through (MaterialX PBR specification, <surface_unlit>).
+ */
 static struct surface unlit_surface(struct emitter *e, ir_ref emitted, ir_ref transmitted, ir_ref opacity)
 {
     struct ir_graph *g = e->graph;
@@ -328,7 +333,8 @@ static const bool *find_parts(struct emitter *e, ir_ref bsdf, const struct closu
 static bool light_surface(struct emitter *e, const struct surface *s)
 {
     struct closure_list list;
-    if (e->lighting->two_sided) { /* from around, most light comes at the viewer's angle: by mirroring */
+    /* from around, most light comes at the viewer's angle: by mirroring */
+    if (e->lighting->two_sided) {
         ir_ref view = closure_view(e->shader, e->host);
         flatten_under(e, s->bsdf, &view, &list);
     } else {
@@ -378,7 +384,8 @@ static void emit_volume(struct emitter *e, ir_ref root)
         shader_add_closure(e->shader, volume.scattering.leaves.items[i].leaf);
     emit_lit(e);
     e->shader->transparent = true;
-    e->shader->alpha = ALPHA_BLEND; /* no alpha test: what glows may take nothing from the background */
+    /* no alpha test: what glows may take nothing from the background */
+    e->shader->alpha = ALPHA_BLEND;
     write_output(e, final_color(e), volume.alpha);
 }
 

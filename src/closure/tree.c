@@ -21,7 +21,8 @@ struct tree {
     struct leaf_inputs *inputs;
     ir_ref *of; /* per node of closure or shader type: what became of it; 0: nothing */
     ir_ref thin; /* whether the surface is a shell without an inside; 0: it is none */
-    ir_ref turned; /* of the leaf at hand: whether it reflects back to where the light came from; 0: it does not */
+    /* of the leaf at hand: whether it reflects back to where the light came from; 0: it does not */
+    ir_ref turned;
     enum side { BOTH_SIDES, REFLECTED, TRANSMITTED } side; /* what is wanted of the leaf at hand */
 };
 
@@ -62,7 +63,9 @@ static bool scatters(const struct tree *t, ir_ref leaf, enum side side)
     return !is_string(t, input(t, leaf, "scatter_mode", 12), side == REFLECTED ? "T" : "R");
 }
 
-/* A tint that counts on the side that it is for; black where the leaf does not scatter there, or something else is wanted. */
+/*
+ * A tint that counts on the side that it is for; black where the leaf does not scatter there, or something else is wanted.
+ */
 static ir_ref scattered(struct tree *t, ir_ref leaf, ir_ref tint, enum side side)
 {
     bool counts = scatters(t, leaf, side) && (t->side == BOTH_SIDES || t->side == side);
@@ -254,7 +257,9 @@ static ir_ref transparent(struct tree *t)
     return call(t, t->host->rows->transparent, IR_TYPE_BSDF, NULL, 0);
 }
 
-/* Does an option of a row say anything? Its first input is 0, false or the usual word where it does not. */
+/*
+ * Does an option of a row say anything? Its first input is 0, false or the usual word where it does not.
+ */
 static bool is_wanted(const struct tree *t, ir_ref leaf, const struct closure_option *option)
 {
     ir_ref value = input(t, leaf, option->input, strlen(option->input));
@@ -293,7 +298,9 @@ static ir_ref turned_factor(struct tree *t, ir_ref leaf)
     return ir_build(g, IR_SELECT, ir_type_of(g, more), 0, (ir_ref[]){t->turned, more, one}, 3);
 }
 
-/* Through a shell without an inside light goes on as it came, in the colour that the leaf has for transmission. */
+/*
+ * Through a shell without an inside light goes on as it came, in the colour that the leaf has for transmission.
+ */
 static ir_ref straight(struct tree *t, ir_ref leaf, const char *word)
 {
     ir_ref tint = argument(t, leaf, word, strcspn(word, " "));
@@ -315,7 +322,9 @@ static bool is_false(const struct tree *t, ir_ref value)
     return !value || (ir_get_const(t->graph, value, &constant) && constant.w[0].u == 0);
 }
 
-/* One closure; of leaves that transmit one for each side, where the sides differ in more than in tints. */
+/*
+ * One closure; of leaves that transmit one for each side, where the sides differ in more than in tints.
+ */
 static ir_ref row_call(struct tree *t, ir_ref leaf, const struct closure_row *row)
 {
     const char *word = transmitted_word(row);

@@ -14,7 +14,9 @@
  */
 #include "closure/closure_priv.h"
 
-/* Below this optical depth (1 - exp(-τ)) / τ is 1: within 0.05 %, where the difference from 1 would be lost to rounding. */
+/*
+ * Below this optical depth (1 - exp(-τ)) / τ is 1: within 0.05 %, where the difference from 1 would be lost to rounding.
+ */
 static const float thin = 1e-3f;
 
 struct parts { /* each 0 where absent */
@@ -74,7 +76,8 @@ void closure_volume(struct shader *shader, const struct closure_host *host, ir_r
     uint32_t before = g->origin;
     g->origin = ir_add_origin(g, STR_depth, 0, 0);
     ir_ref diameter = shader_read(shader, shader_private_uniform(shader, STR_u_volumeDepth, IR_TYPE_FLOAT, 0));
-    ir_ref view = closure_view(shader, host), normal = closure_normal(shader, host); /* in an order that is not the compiler's */
+    /* in an order that is not the compiler's */
+    ir_ref view = closure_view(shader, host), normal = closure_normal(shader, host);
     ir_ref facing = ir_op2(g, IR_DOT, normal, view);
     ir_ref depth = ir_op2(g, IR_MUL, diameter, ir_op2(g, IR_MAX, facing, ir_const_float(g, 0.0f)));
     g->origin = ir_add_origin(g, STR_optical_depth, 0, 0);

@@ -24,7 +24,9 @@ enum diag_id {
     DIAG_NUM_IDS
 };
 
-/* A place in a source file. Lines and columns count from 1, columns in code points; line 0: the file as a whole. */
+/*
+ * A place in a source file. Lines and columns count from 1, columns in code points; line 0: the file as a whole.
+ */
 struct diag_place {
     const char *file; /* as the user named it; NULL: no file */
     uint32_t line, column;
@@ -39,7 +41,9 @@ struct diag {
     uint32_t parent; /* for notes: index of the message they belong to; else its own index */
 };
 
-/* What the author wants to hear of warnings and remarks: by -W. Errors and notes are what they are. */
+/*
+ * What the author wants to hear of warnings and remarks: by -W. Errors and notes are what they are.
+ */
 struct diag_policy {
     uint8_t severities[DIAG_NUM_IDS]; /* enum diag_severity */
 };
@@ -47,7 +51,9 @@ struct diag_policy {
 struct diag_list {
     struct arena *arena; /* owns messages and file names */
     const struct diag_policy *policy; /* NULL: the catalogue's severities */
-    /* Called behind each message, not notes: adds notes that tell how the work came there. May be NULL. */
+    /*
+     * Called behind each message, not notes: adds notes that tell how the work came there. May be NULL.
+     */
     void (*trace)(void *user_data, struct diag_list *list);
     void *trace_data;
     VEC(struct diag) items;

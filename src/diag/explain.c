@@ -8,7 +8,9 @@ static const struct diag_explanation explanations[DIAG_NUM_IDS] = {
 #undef EXPLAIN
 };
 
-/* Each id once, and none left out: the compiler refuses two of one name, and names what is missing. */
+/*
+ * Each id once, and none left out: the compiler refuses two of one name, and names what is missing.
+ */
 enum {
 #define EXPLAIN(id, cause, cure, example) explanation_of_##id,
 #include "diag/explain.def"

@@ -65,7 +65,9 @@ static uint32_t begun_in_word(const char *bytes)
     return 8 - (uint32_t)((((word >> 7) & ~(word >> 6) & lowest) * lowest) >> 56);
 }
 
-/* Bytes of the first `count` code points, or all of them. A document may be one line of megabytes, with many messages about it. */
+/*
+ * Bytes of the first `count` code points, or all of them. A document may be one line of megabytes, with many messages about it.
+ */
 static size_t bytes_of(struct line line, uint32_t count)
 {
     size_t at = 0;

@@ -19,7 +19,8 @@ static size_t edit_distance(const struct diag_guess *guess, const char *word, si
     size_t distance = guess->len;
     for (size_t i = 0; i < len && distance < guess->best_distance + (len - i); i++) {
         uint64_t places = guess->places[(unsigned char)word[i]], swapped = (~same & places) << 1 & before;
-        same = (((places & more) + more) ^ more) | places | less | swapped; /* as far as diagonally before */
+        /* as far as diagonally before */
+        same = (((places & more) + more) ^ more) | places | less | swapped;
         uint64_t grows = less | ~(same | more), shrinks = same & more;      /* from the row above */
         distance += (grows & last) != 0;
         distance -= (shrinks & last) != 0;
@@ -47,7 +48,8 @@ bool diag_may_guess(const struct diag_list *list)
 
 bool diag_guess_begin(struct diag_guess *guess, struct diag_list *list, const char *word)
 {
-    size_t len = strlen(word), mistakes = len / 3; /* one per three letters, and one in a shorter word */
+    /* one per three letters, and one in a shorter word */
+    size_t len = strlen(word), mistakes = len / 3;
     *guess = (struct diag_guess){.list = list, .word = word, .best_distance = mistakes ? mistakes + 1 : 2};
     if (len < 2 || len > MAX_WORD || !diag_may_guess(list))
         return false;

@@ -15,7 +15,8 @@
 
 /* types.c, value.c */
 
-typedef uint16_t doc_type; /* 0 = none; standard types; types of typedef elements from DOC_TYPE_FIRST_USER */
+/* 0 = none; standard types; types of typedef elements from DOC_TYPE_FIRST_USER */
+typedef uint16_t doc_type;
 enum {
     DOC_TYPE_NONE,
 #define DOC_TYPE(ID, ir, components) DOC_TYPE_##ID,
@@ -30,7 +31,8 @@ enum {
 /* The standard type of a type name, 0 for others (user types are the library's business). */
 doc_type doc_type_of(str_id name);
 str_id doc_type_name(doc_type type); /* of a standard type */
-ir_type_id doc_type_ir(doc_type type); /* of a standard type; IR_TYPE_VOID for arrays and multioutput */
+/* of a standard type; IR_TYPE_VOID for arrays and multioutput */
+ir_type_id doc_type_ir(doc_type type);
 unsigned doc_type_components(doc_type type); /* numbers in a value: 3 for color3; 0: not a number */
 
 /*
@@ -40,7 +42,9 @@ unsigned doc_type_components(doc_type type); /* numbers in a value: 3 for color3
  */
 bool doc_parse_value(doc_type type, const char *text, size_t len, struct strpool *strings, struct ir_value *out);
 
-/* Whether a text is a value of the type; arrays too. Types without a form of their own (strings, file names, shaders): always. */
+/*
+ * Whether a text is a value of the type; arrays too. Types without a form of their own (strings, file names, shaders): always.
+ */
 bool doc_value_is_valid(doc_type type, const char *text, size_t len);
 /* What is wrong with a value that is not valid, to be said behind it. */
 const char *doc_value_fault(doc_type type, const char *text, size_t len, struct arena *arena);
@@ -117,17 +121,23 @@ void doc_remove_attr(struct document *doc, elem_id element, str_id name);
 void doc_set_category(struct document *doc, elem_id element, str_id category); /* kind follows */
 void doc_set_name(struct document *doc, elem_id element, str_id name);
 void doc_set_place(struct document *doc, elem_id element, uint16_t file, uint32_t line, uint16_t column);
-void doc_remove_element(struct document *doc, elem_id element); /* unlinks it from its parent, which becomes 0 */
-void doc_move_element(struct document *doc, elem_id element, elem_id new_parent); /* to the end of its children */
+/* unlinks it from its parent, which becomes 0 */
+void doc_remove_element(struct document *doc, elem_id element);
+/* to the end of its children */
+void doc_move_element(struct document *doc, elem_id element, elem_id new_parent);
 void doc_move_before(struct document *doc, elem_id element, elem_id sibling);
 static inline bool doc_is_full(const struct document *doc)
 {
     return doc->max_elements && doc->elements.len >= doc->max_elements;
 }
-/* The number of a file name, which is added where this layer does not have it. 0: more than 65,535 files. */
+/*
+ * The number of a file name, which is added where this layer does not have it. 0: more than 65,535 files.
+ */
 uint16_t doc_add_file(struct document *doc, str_id name);
 
-/* A point to go back to: what was added after the mark goes, and `root`, which must be childless then, is as it was. */
+/*
+ * A point to go back to: what was added after the mark goes, and `root`, which must be childless then, is as it was.
+ */
 struct doc_mark {
     uint32_t num_elements, num_attrs;
     struct element root;
@@ -136,7 +146,9 @@ struct doc_mark {
 struct doc_mark doc_mark(const struct document *doc, elem_id root);
 void doc_rollback(struct document *doc, elem_id root, const struct doc_mark *mark);
 
-/* The element behind `element` in document order inside the subtree of `root`; 0: that was the last. Starts with root itself. */
+/*
+ * The element behind `element` in document order inside the subtree of `root`; 0: that was the last. Starts with root itself.
+ */
 elem_id doc_next_in_tree(const struct document *doc, elem_id root, elem_id element);
 
 /*
@@ -162,8 +174,10 @@ static inline const struct element *doc_element(const struct document *doc, elem
 }
 /* Pointer to the element's num_attrs attributes. */
 const struct attribute *doc_attrs(const struct document *doc, elem_id element);
-const struct attribute *doc_attr(const struct document *doc, elem_id element, str_id name); /* NULL: absent */
-str_id doc_attr_value(const struct document *doc, elem_id element, str_id name);            /* 0: absent or empty */
+/* NULL: absent */
+const struct attribute *doc_attr(const struct document *doc, elem_id element, str_id name);
+/* 0: absent or empty */
+str_id doc_attr_value(const struct document *doc, elem_id element, str_id name);
 bool doc_attr_is_true(const struct document *doc, elem_id element, str_id name);
 /*
  * The same, looked for in the element and then in its ancestors (colorspace, fileprefix, geomprefix). The nearest one counts, an
@@ -203,12 +217,16 @@ void doc_upgrade(struct document *doc, elem_id root, elem_id end, struct diag_li
  */
 void doc_qualify_names(struct document *doc);
 
-/* write.c: the tree as MaterialX XML, two spaces per level: `mxgen library expand`, later `format`. */
+/*
+ * write.c: the tree as MaterialX XML, two spaces per level: `mxgen library expand`, later `format`.
+ */
 void doc_write(const struct document *doc, elem_id root, struct text *out);
 
 /* validate.c: checks that need no library: names, attributes, values that parse, structure. */
 void doc_validate(const struct document *doc, struct diag_list *diags);
-/* What of it concerns how the children of an element stand: their place, their required attributes, and that none is connected twice. */
+/*
+ * What of it concerns how the children of an element stand: their place, their required attributes, and that none is connected twice.
+ */
 void doc_check_children(const struct document *doc, elem_id parent, struct diag_list *diags);
 
 /* Tells that the type which an element says is none, or that it says none. */

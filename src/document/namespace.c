@@ -97,7 +97,9 @@ static void qualify_category(struct qualifier *q, elem_id element)
             doc_set_category(doc, element, qualified);
 }
 
-/* References of an element and of all below it. Names of nodes are looked for at the top level only by what stands there. */
+/*
+ * References of an element and of all below it. Names of nodes are looked for at the top level only by what stands there.
+ */
 static void qualify_references(struct qualifier *q, elem_id top)
 {
     struct document *doc = q->doc;

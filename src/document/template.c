@@ -112,7 +112,9 @@ static enum token_result print_token(const struct expansion *x, struct slice tok
     return TOKEN_OF_OTHERS;
 }
 
-/* Length of a token behind its '@': name or name.constant, with an '@' behind it. 0: just an at sign. */
+/*
+ * Length of a token behind its '@': name or name.constant, with an '@' behind it. 0: just an at sign.
+ */
 static size_t token_length(const char *text, size_t len)
 {
     size_t n = 0;
@@ -122,7 +124,9 @@ static size_t token_length(const char *text, size_t len)
     return n < len && text[n] == '@' ? n : 0;
 }
 
-/* A text with the row's words in it. `nested`: it stands in a template of its own, which knows the tokens left over. */
+/*
+ * A text with the row's words in it. `nested`: it stands in a template of its own, which knows the tokens left over.
+ */
 static str_id substitute(struct expansion *x, str_id value, bool nested)
 {
     const char *text = str_text(x->doc->strings, value);
@@ -150,7 +154,9 @@ static str_id substitute(struct expansion *x, str_id value, bool nested)
     return str_intern(x->doc->strings, out->data, out->len);
 }
 
-/* A variable of an inner template must not hide one of the outer, which has been replaced already. */
+/*
+ * A variable of an inner template must not hide one of the outer, which has been replaced already.
+ */
 static void check_hiding(struct expansion *x, elem_id inner)
 {
     struct slice rest = attr_slice(x->doc, inner, STR_vars);
@@ -265,7 +271,8 @@ void doc_expand_templates(struct document *doc, struct diag_list *diags)
         return;
     struct text scratch;
     text_init(&scratch, doc->arena);
-    for (uint32_t i = 0; i < doc->elements.len && !doc_is_full(doc); i++) { /* copies of inner templates come up later */
+    /* copies of inner templates come up later */
+    for (uint32_t i = 0; i < doc->elements.len && !doc_is_full(doc); i++) {
         struct expansion x = {.doc = doc, .diags = diags, .template = doc->first_element + i, .scratch = &scratch};
         if (doc->elements.items[i].kind != KIND_TEMPLATE || !is_outermost(doc, x.template))
             continue;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "document/document.h"
 
-/* The words of the types stand in the order of types.def, so a type and its word differ by a constant. */
+/*
+ * The words of the types stand in the order of types.def, so a type and its word differ by a constant.
+ */
 enum { WORD_OF_FIRST_TYPE = STR_boolean, NUM_TABLE_TYPES = DOC_TYPE_material - DOC_TYPE_boolean };
 
 #define DOC_TYPE(ID, ir, components) \

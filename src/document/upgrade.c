@@ -227,7 +227,9 @@ static void replace_in_value(struct upgrade *u, elem_id element, const char *old
     upgrade_note(u, element, "'%s' is now '%s'", old, new);
 }
 
-/* 1.36: every geometry is "/", not "*"; tile tokens stand in angle brackets; inheritance is an attribute. */
+/*
+ * 1.36: every geometry is "/", not "*"; tile tokens stand in angle brackets; inheritance is an attribute.
+ */
 static void upgrade_values_and_inheritance(struct upgrade *u)
 {
     struct document *doc = u->doc;
@@ -322,7 +324,9 @@ static str_id name_beside(struct upgrade *u, elem_id scope, str_id name)
     return id;
 }
 
-/* 1.38: nodes and interface inputs of a graph share one scope; a node called like an input gets another name. */
+/*
+ * 1.38: nodes and interface inputs of a graph share one scope; a node called like an input gets another name.
+ */
 static void rename_clashing_nodes(struct upgrade *u)
 {
     struct document *doc = u->doc;
@@ -417,7 +421,9 @@ static void replace_object_normalmap(struct upgrade *u, elem_id node)
     upgrade_note(u, node, "<normalmap> in object space is now <normalize> of in * 2 - 1");
 }
 
-/* An input of the cross product; without a value it is the geometry's vector, as it was for the normal map. */
+/*
+ * An input of the cross product; without a value it is the geometry's vector, as it was for the normal map.
+ */
 static void add_cross_input(struct upgrade *u, elem_id node, const char *name, elem_id cross, const char *in)
 {
     elem_id source = upgrade_child(u, node, name);
@@ -493,7 +499,9 @@ static const struct {
     {39, NULL, upgrade_nodes},
 };
 
-/* The minor version of 1.x; CURRENT_MINOR where there is nothing to upgrade, which may be reported. */
+/*
+ * The minor version of 1.x; CURRENT_MINOR where there is nothing to upgrade, which may be reported.
+ */
 static int read_version(struct document *doc, elem_id root, struct diag_list *diags)
 {
     str_id version = doc_attr_value(doc, root, STR_version);
@@ -531,7 +539,9 @@ void doc_upgrade(struct document *doc, elem_id root, elem_id end, struct diag_li
     int minor = read_version(doc, root, diags);
     struct upgrade u = {.doc = doc, .diags = diags, .root = root, .end = end,
                         .first_added = doc->first_element + doc->elements.len};
-    /* What 1.38 and 1.39 took out is still written in documents that say so; ignored, it would change what they show. */
+    /*
+     * What 1.38 and 1.39 took out is still written in documents that say so; ignored, it would change what they show.
+     */
     u.outdated = minor >= CURRENT_MINOR;
     if (u.outdated && !is_outdated(doc, root, end))
         return;

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/* What the files of the version upgrade share. One step per version, each from tables and a few functions. */
+/*
+ * What the files of the version upgrade share. One step per version, each from tables and a few functions.
+ */
 #ifndef MXG_DOCUMENT_UPGRADE_H
 #define MXG_DOCUMENT_UPGRADE_H
 
@@ -15,7 +17,9 @@ struct upgrade {
     bool outdated; /* the document says that it is of this version: changes are warnings */
 };
 
-/* The elements that the upgrade changes, in the tree; those added on the way are not visited. 0: no more. */
+/*
+ * The elements that the upgrade changes, in the tree; those added on the way are not visited. 0: no more.
+ */
 elem_id upgrade_first(struct upgrade *u);
 elem_id upgrade_next(const struct upgrade *u, elem_id element);
 
@@ -45,12 +49,17 @@ void upgrade_set_category(struct upgrade *u, elem_id node, const char *category)
 void upgrade_remove_input(struct upgrade *u, elem_id node, const char *name);
 
 /* Ports: inputs and outputs. */
-elem_id upgrade_scope(const struct upgrade *u, elem_id port);    /* the graph whose nodes its nodename means */
-elem_id upgrade_upstream(const struct upgrade *u, elem_id port); /* the node of its nodename; 0: none */
-str_id upgrade_upstream_type(const struct upgrade *u, elem_id port); /* of whatever it is connected to; 0: unknown */
+/* the graph whose nodes its nodename means */
+elem_id upgrade_scope(const struct upgrade *u, elem_id port);
+/* the node of its nodename; 0: none */
+elem_id upgrade_upstream(const struct upgrade *u, elem_id port);
+/* of whatever it is connected to; 0: unknown */
+str_id upgrade_upstream_type(const struct upgrade *u, elem_id port);
 bool upgrade_is_connected(const struct upgrade *u, elem_id port);
 void upgrade_connect(struct upgrade *u, elem_id port, elem_id node, const char *output);
-/* An input `name` of `node` with all that `source` says; NULL type: the source's. Nothing where source is 0. */
+/*
+ * An input `name` of `node` with all that `source` says; NULL type: the source's. Nothing where source is 0.
+ */
 void upgrade_copy_input(struct upgrade *u, elem_id source, elem_id node, const char *name, const char *type);
 
 /* upgrade_materials.c */

@@ -2,7 +2,9 @@
 /* Nodes of the physically based library: what 1.38 and 1.39 changed in how closures are layered. */
 #include "document/upgrade.h"
 
-/* Before 1.38 a BSDF had its base as an input; now <layer> puts one on the other. It gets the name that others refer to. */
+/*
+ * Before 1.38 a BSDF had its base as an input; now <layer> puts one on the other. It gets the name that others refer to.
+ */
 static void split_layer(struct upgrade *u, elem_id top)
 {
     struct document *doc = u->doc;

@@ -37,7 +37,9 @@ static elem_id find_definition(const struct document *doc, elem_id root, str_id 
     return 0;
 }
 
-/* The definition of the shader that a shaderref means, in the document or in its library; 0: unknown. */
+/*
+ * The definition of the shader that a shaderref means, in the document or in its library; 0: unknown.
+ */
 static elem_id shader_definition(const struct upgrade *u, elem_id shader_ref)
 {
     const struct document *doc = u->doc;
@@ -197,7 +199,9 @@ void upgrade_material_overrides(struct upgrade *u)
     }
 }
 
-/* 1.37: definitions of shaders that came from <shader> say nothing that the shader's own definition does not say. */
+/*
+ * 1.37: definitions of shaders that came from <shader> say nothing that the shader's own definition does not say.
+ */
 void upgrade_legacy_nodedefs(struct upgrade *u)
 {
     struct document *doc = u->doc;
@@ -269,7 +273,8 @@ static void convert_material(struct upgrade *u, elem_id material)
     struct document *doc = u->doc;
     bool volume = false;
     elem_id next = doc_element(doc, material)->first_child;
-    for (elem_id e; (e = next) != 0 && doc_element(doc, e)->kind != KIND_INPUT;) { /* up to the inputs that it gets here */
+    /* up to the inputs that it gets here */
+    for (elem_id e; (e = next) != 0 && doc_element(doc, e)->kind != KIND_INPUT;) {
         next = doc_element(doc, e)->next;
         str_id type = is_shader_ref(u, e) ? convert_shader_ref(u, e, material) : STR_EMPTY;
         if (!type) {

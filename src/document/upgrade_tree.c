@@ -92,7 +92,8 @@ str_id upgrade_free_name(struct upgrade *u, elem_id scope, const char *name)
 {
     struct text text;
     text_init(&text, u->doc->arena);
-    for (uint32_t number = 1;; number++) { /* name, name2 … name9, and then numbers that nothing else has */
+    /* name, name2 … name9, and then numbers that nothing else has */
+    for (uint32_t number = 1;; number++) {
         text.len = 0;
         text_str(&text, name);
         if (number > 1)

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Checks of one element at a time: place, name, attributes, type, value. References are checked in validate_links.c. */
+/*
+ * Checks of one element at a time: place, name, attributes, type, value. References are checked in validate_links.c.
+ */
 #include "document/validate.h"
 
 #define IN(KIND) ((uint64_t)1 << KIND_##KIND)
 #define IN_INTERFACE (IN(NODEDEF) | IN(NODEGRAPH) | IN(NODE))
 
-/* What MaterialX 1.39 says of each kind of element: where it may stand, whether it needs a name, which attributes it needs. */
+/*
+ * What MaterialX 1.39 says of each kind of element: where it may stand, whether it needs a name, which attributes it needs.
+ */
 static const struct {
     uint64_t parents;
     bool named;
@@ -58,7 +62,8 @@ static bool is_digit(char c)
 
 static bool is_letter(char c)
 {
-    unsigned letter = ((unsigned char)c | 0x20u) - 'a'; /* of either case; what lies before 'a' is large */
+    /* of either case; what lies before 'a' is large */
+    unsigned letter = ((unsigned char)c | 0x20u) - 'a';
     return letter < 26 || c == '_';
 }
 
@@ -85,7 +90,9 @@ static bool is_foreign(const struct validation *v, elem_id element)
     return e->kind == KIND_NODE && e->parent && doc_element(v->doc, e->parent)->kind == KIND_NODE;
 }
 
-/* Materials had elements of their own before 1.38, which the upgrade knows where the version says so. */
+/*
+ * Materials had elements of their own before 1.38, which the upgrade knows where the version says so.
+ */
 static bool is_outdated(const struct validation *v, elem_id element)
 {
     static const char *const names[] = {"shaderref", "bindinput", "bindparam", "bindtoken", "materialinherit"};
@@ -223,7 +230,9 @@ static void check_has_output(struct validation *v, elem_id element)
         diag_add(v->diags, DIAG_ID_no_output, doc_place(v->doc, element), text_of(v, e->category), text_of(v, e->name));
 }
 
-/* Most ports: in one pass, that there is nothing to say of their place, attributes and connection. */
+/*
+ * Most ports: in one pass, that there is nothing to say of their place, attributes and connection.
+ */
 static bool is_port_in_order(const struct document *doc, elem_id element)
 {
     const struct element *e = doc_element(doc, element);

@@ -70,7 +70,8 @@ static bool check_attribute(struct validation *v, elem_id element, str_id name)
     uint64_t kinds = 0;
     for (size_t i = 0; i < NUM_ATTRIBUTES && !kinds; i++)
         kinds = strcmp(attributes[i].name, text) == 0 ? attributes[i].kinds : 0;
-    if (kinds >> e->kind & 1 || strchr(text, ':') || is_declared(v, name)) /* a prefix is another program's */
+    /* a prefix is another program's */
+    if (kinds >> e->kind & 1 || strchr(text, ':') || is_declared(v, name))
         return true;
     struct diag_place place = doc_attr_place(v->doc, element, name);
     if (kinds)
@@ -80,7 +81,9 @@ static bool check_attribute(struct validation *v, elem_id element, str_id name)
     return false;
 }
 
-/* Documents use the same attributes on the same kinds over and over: what was found good is remembered. */
+/*
+ * Documents use the same attributes on the same kinds over and over: what was found good is remembered.
+ */
 void validate_attributes(struct validation *v, elem_id element)
 {
     const struct element *e = doc_element(v->doc, element);

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Names and patterns of geometry (MaterialX Geometry Extensions, "Geometry Representation" and "Geometry Name Expressions"). */
+/*
+ * Names and patterns of geometry (MaterialX Geometry Extensions, "Geometry Representation" and "Geometry Name Expressions").
+ */
 #include "document/validate.h"
 
 /* One name of a list, [text, end) without the blanks around it. */

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Values as documents write them: "0.5", "1, 0, 0", "true" (MaterialX 1.39, "MaterialX Data Types"). */
+/*
+ * Values as documents write them: "0.5", "1, 0, 0", "true" (MaterialX 1.39, "MaterialX Data Types").
+ */
 #include "base/num.h"
 #include "document/document.h"
 
@@ -15,7 +17,9 @@ static size_t skip_spaces(const char *text, size_t len, size_t at)
     return at;
 }
 
-/* Between two numbers: a comma with or without spaces; spaces alone, which MaterialX reads too. 0: no separator. */
+/*
+ * Between two numbers: a comma with or without spaces; spaces alone, which MaterialX reads too. 0: no separator.
+ */
 static size_t skip_separator(const char *text, size_t len, size_t at)
 {
     size_t start = at;
@@ -37,7 +41,9 @@ static size_t parse_number(bool integer, const char *text, size_t len, union ir_
     return read;
 }
 
-/* Reads numbers up to the end of the text; returns how many, or -1 where what stands at *out_fault is none. */
+/*
+ * Reads numbers up to the end of the text; returns how many, or -1 where what stands at *out_fault is none.
+ */
 static int64_t find_numbers(bool integer, const char *text, size_t len, union ir_word *out, size_t max_kept, size_t *out_fault)
 {
     size_t at = skip_spaces(text, len, 0), count = 0;

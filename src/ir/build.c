@@ -47,7 +47,9 @@ static void sort_operands(const struct ir_graph *graph, enum ir_op op, ir_ref *a
     args[1] = first;
 }
 
-/* Arithmetic, choices and functions are simplified where they are of vectors; what builds and takes apart, wherever it is. */
+/*
+ * Arithmetic, choices and functions are simplified where they are of vectors; what builds and takes apart, wherever it is.
+ */
 static bool may_simplify(enum ir_op op, ir_type_id type)
 {
     if (op > IR_SELECT && op <= IR_INDEX)
@@ -131,7 +133,9 @@ ir_ref ir_restore(struct ir_graph *graph, enum ir_op op, ir_type_id type, uint32
     return ir_intern(graph, op, type, attr, args, num_args);
 }
 
-/* Rules have these within their patterns (a test compares); the others are what simplify.c asks for. */
+/*
+ * Rules have these within their patterns (a test compares); the others are what simplify.c asks for.
+ */
 bool ir_is_looked_through(enum ir_op op)
 {
     static const bool looked_through[IR_NUM_OPS] = {

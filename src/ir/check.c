@@ -5,7 +5,9 @@
  */
 #include "ir/internal.h"
 
-/* Operand types of closures and shaders, one letter each: c closure, s shader, n float or vector, b bool, x anything. */
+/*
+ * Operand types of closures and shaders, one letter each: c closure, s shader, n float or vector, b bool, x anything.
+ */
 static const struct operands {
     uint8_t op;
     const char *classes;

@@ -9,7 +9,10 @@
 struct frame {
     ir_ref at, end;    /* next node, and where to stop */
     uint8_t *needed;   /* per node */
-    uint32_t *places;  /* per node: its value in ->words; of a call of a function its results in ->results; 0 = unknown */
+    /*
+     * per node: its value in ->words; of a call of a function its results in ->results; 0 = unknown
+     */
+    uint32_t *places;
     ir_ref call;       /* the node of the frame below that waits for this one; 0 in the lowest */
 };
 

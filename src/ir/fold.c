@@ -187,7 +187,9 @@ static bool eval_refract(const struct ir_value *args, struct ir_value *out)
     return true;
 }
 
-/* matrix·matrix, matrix·vector (a column) and vector·matrix (a row): result[c][r] = Σ a[k][r] · b[c][k]. */
+/*
+ * matrix·matrix, matrix·vector (a column) and vector·matrix (a row): result[c][r] = Σ a[k][r] · b[c][k].
+ */
 static bool eval_linear_mul(const struct ir_value *args, struct ir_value *out)
 {
     bool row = !ir_type_is_matrix(args[0].type);
@@ -247,7 +249,9 @@ static double invert(double m[16], double inverse[16], unsigned n)
     return determinant;
 }
 
-/* The inverse of the transpose is the transpose of the inverse, so that columns may be taken for rows. */
+/*
+ * The inverse of the transpose is the transpose of the inverse, so that columns may be taken for rows.
+ */
 static double invert_value(const struct ir_value *value, double inverse[16])
 {
     double m[16];

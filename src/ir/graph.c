@@ -6,7 +6,8 @@
 
 #include <assert.h>
 
-enum { FIRST_SLOTS = 1024, FIRST_NODES = FIRST_SLOTS / 4 * 3 }; /* a shading model has some hundred nodes */
+/* a shading model has some hundred nodes */
+enum { FIRST_SLOTS = 1024, FIRST_NODES = FIRST_SLOTS / 4 * 3 };
 
 /* What makes a node the node it is: all of struct ir_node but its flags and origin. */
 struct content {
@@ -97,7 +98,8 @@ void ir_graph_init(struct ir_graph *graph, struct arena *arena, struct strpool *
     *graph = (struct ir_graph){.arena = arena, .strings = strings};
     vec_reserve(arena, &graph->nodes, FIRST_NODES);
     vec_reserve(arena, &graph->args, 2 * FIRST_NODES);
-    vec_push(arena, &graph->nodes, (struct ir_node){.op = IR_POISON}); /* 0 is no node; it must not look like a constant */
+    /* 0 is no node; it must not look like a constant */
+    vec_push(arena, &graph->nodes, (struct ir_node){.op = IR_POISON});
     vec_push(arena, &graph->args, 0); /* so that there is something to point to */
     vec_push(arena, &graph->words, (union ir_word){.u = 0});
     vec_push(arena, &graph->origins, (struct ir_origin){0});
@@ -152,7 +154,9 @@ static unsigned own_flags(const struct ir_graph *graph, struct content c)
     return flags | (ir_type_is_closure(c.type) || ir_type_is_shader(c.type) ? IR_NODE_CLOSURE : 0u);
 }
 
-/* Copies the operands to graph->args and returns their flags; they may lie there already, so that growing would move them. */
+/*
+ * Copies the operands to graph->args and returns their flags; they may lie there already, so that growing would move them.
+ */
 static unsigned push_args(struct ir_graph *graph, const ir_ref *args, uint32_t num_args)
 {
     uint32_t len = graph->args.len;

@@ -19,9 +19,13 @@ ir_ref ir_find_equal(const struct ir_graph *graph, ir_ref ref);
 /* simplify.c: a simpler node for an op that builds or takes apart; 0 where there is none. */
 ir_ref ir_simplify(struct ir_graph *graph, enum ir_op op, ir_type_id type, uint32_t attr, const ir_ref *args,
                    unsigned num_args);
-/* What is clamped to 0 and more is its own absolute value; else 0. (Of what else is looked through: ir_is_looked_through.) */
+/*
+ * What is clamped to 0 and more is its own absolute value; else 0. (Of what else is looked through: ir_is_looked_through.)
+ */
 ir_ref ir_simplify_abs(const struct ir_graph *graph, ir_ref a);
-/* a - -1 = a + 1, a + -1 = a - 1, a / 2 = a · 0.5, each bit by bit the same; 0 where `b` is no such constant. */
+/*
+ * a - -1 = a + 1, a + -1 = a - 1, a / 2 = a · 0.5, each bit by bit the same; 0 where `b` is no such constant.
+ */
 ir_ref ir_simplify_by_constant(struct ir_graph *graph, enum ir_op op, ir_ref a, ir_ref b);
 
 /* rules.c */
@@ -31,7 +35,8 @@ ir_ref ir_simplify_by_constant(struct ir_graph *graph, enum ir_op op, ir_ref a, 
  * are variables, constants, or ops of such; a replacement is anything that is cheaper.
  */
 enum rule_token {
-    RULE_A = 200, RULE_B, RULE_C, RULE_D, /* any node; the same one where the variable stands twice */
+    /* any node; the same one where the variable stands twice */
+    RULE_A = 200, RULE_B, RULE_C, RULE_D,
     RULE_K,                               /* any constant */
     RULE_ZERO, RULE_ONE, RULE_TWO, RULE_HALF, RULE_MINUS_ONE, RULE_IDENTITY, RULE_TRUE, RULE_FALSE,
     RULE_END
@@ -41,8 +46,12 @@ enum { RULE_LENGTH = 10 };
 
 struct rule {
     const char *name;
-    uint64_t needs; /* what must be present among a node's operands for the rule to be worth trying */
-    bool exact; /* holds for every input; otherwise where all values are finite, and up to rounding and the sign of 0 */
+    /* what must be present among a node's operands for the rule to be worth trying */
+    uint64_t needs;
+    /*
+     * holds for every input; otherwise where all values are finite, and up to rounding and the sign of 0
+     */
+    bool exact;
     uint8_t pattern[RULE_LENGTH], replacement[RULE_LENGTH]; /* ended by RULE_END */
 };
 
@@ -62,7 +71,9 @@ enum { IR_OP_BITS = 32 };
 #define IR_EQUAL_BIT ((uint64_t)1 << 63)
 uint64_t ir_constant_bits(const struct ir_graph *graph, const struct ir_node *node);
 
-/* What the first rule that fits makes of an op with these bits present among its operands; 0 where none does. */
+/*
+ * What the first rule that fits makes of an op with these bits present among its operands; 0 where none does.
+ */
 ir_ref ir_apply_rules(struct ir_graph *graph, enum ir_op op, ir_type_id type, const ir_ref *args, unsigned num_args,
                       uint64_t present);
 

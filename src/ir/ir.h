@@ -21,7 +21,9 @@ enum ir_type {
 #include "ir/types.def"
 #undef IR_TYPE
     IR_NUM_TYPES,
-    /* From here on: structs and arrays of one graph or function unit, IR_TYPE_FIRST_USER + index in its ir_user_types. */
+    /*
+     * From here on: structs and arrays of one graph or function unit, IR_TYPE_FIRST_USER + index in its ir_user_types.
+     */
     IR_TYPE_FIRST_USER = 64
 };
 typedef uint16_t ir_type_id;
@@ -38,7 +40,8 @@ static inline const struct ir_type_info *ir_type_info(ir_type_id type) /* of a b
 }
 const char *ir_type_text(ir_type_id type);
 static inline bool ir_type_is_closure(ir_type_id type) { return type >= IR_TYPE_BSDF && type <= IR_TYPE_VDF; }
-static inline bool ir_type_is_shader(ir_type_id type) /* surface, volume, displacement, light shaders and material */
+/* surface, volume, displacement, light shaders and material */
+static inline bool ir_type_is_shader(ir_type_id type)
 {
     return type >= IR_TYPE_SURFACE && type <= IR_TYPE_MATERIAL;
 }
@@ -64,7 +67,9 @@ struct ir_user_type {
     uint32_t known_as;     /* of a graph's: the type of the language that it was made of; 0: none */
 };
 
-/* values.c, fold.c: constants and their arithmetic, shared by the builder and by the language's evaluator */
+/*
+ * values.c, fold.c: constants and their arithmetic, shared by the builder and by the language's evaluator
+ */
 
 union ir_word {
     float f;
@@ -149,20 +154,27 @@ struct ir_node {
 enum ir_node_flags {
     IR_NODE_DERIVATIVE = 1, /* it or an operand has OP_DERIVATIVE, or calls something that has */
     IR_NODE_CLOSURE = 2,    /* closure or shader type */
-    IR_NODE_LOOP = 4,       /* it or an operand is CONTEXT or SAMPLE: it has a value inside of their loop only */
+    /* it or an operand is CONTEXT or SAMPLE: it has a value inside of their loop only */
+    IR_NODE_LOOP = 4,
     IR_NODE_DEAR = 8,       /* it or an operand is a call or reads a texture */
-    IR_NODE_PARTIAL = 16,   /* it or an operand may be undefined where its own operands are not: a quotient, a root */
-    IR_NODE_INHERITED = IR_NODE_DERIVATIVE | IR_NODE_LOOP | IR_NODE_DEAR | IR_NODE_PARTIAL /* from operands */
+    /* it or an operand may be undefined where its own operands are not: a quotient, a root */
+    IR_NODE_PARTIAL = 16,
+    /* from operands */
+    IR_NODE_INHERITED = IR_NODE_DERIVATIVE | IR_NODE_LOOP | IR_NODE_DEAR | IR_NODE_PARTIAL
 };
 
-/* Where a node comes from: for names, comments and diagnostics. The IR carries it and does not look inside. */
+/*
+ * Where a node comes from: for names, comments and diagnostics. The IR carries it and does not look inside.
+ */
 struct ir_origin {
     str_id name;      /* a readable name for a local variable: "metal_ior" */
     uint32_t element; /* element of the document or library; 0 = none */
     uint32_t parent;  /* the origin of the instantiating node; 0 = none */
 };
 
-/* A callee of CALL, VERBATIM or LEAF nodes. `id` is the owner's (a function id, a family id…): equal ids are equal callees. */
+/*
+ * A callee of CALL, VERBATIM or LEAF nodes. `id` is the owner's (a function id, a family id…): equal ids are equal callees.
+ */
 struct ir_callee {
     uint64_t id;
     str_id name;
@@ -185,7 +197,8 @@ struct ir_graph {
     struct strpool *strings; /* may be NULL where no strings are built */
     VEC(struct ir_node) nodes; /* [0] is unused */
     VEC(ir_ref) args;          /* [0] is unused */
-    VEC(union ir_word) words;  /* [0] is unused; constant pool: as many as the type has components */
+    /* [0] is unused; constant pool: as many as the type has components */
+    VEC(union ir_word) words;
     VEC(struct ir_origin) origins; /* [0] is nothing */
     VEC(struct ir_callee) callees;
     VEC(struct ir_function) functions;
@@ -214,7 +227,9 @@ static inline const ir_ref *ir_args(const struct ir_graph *graph, ir_ref ref)
 static inline ir_ref ir_arg(const struct ir_graph *graph, ir_ref ref, unsigned i) { return ir_args(graph, ref)[i]; }
 static inline ir_type_id ir_type_of(const struct ir_graph *graph, ir_ref ref) { return graph->nodes.items[ref].type; }
 
-/* build.c: the only way to make nodes. Folds, canonicalises commutative operands, applies rules.def, hash-conses. */
+/*
+ * build.c: the only way to make nodes. Folds, canonicalises commutative operands, applies rules.def, hash-conses.
+ */
 
 /*
  * Any op with its result type given. Operands must exist and fit; asserts otherwise. They may lie in the graph itself.
@@ -235,12 +250,14 @@ ir_ref ir_op2(struct ir_graph *graph, enum ir_op op, ir_ref a, ir_ref b);
 ir_ref ir_op3(struct ir_graph *graph, enum ir_op op, ir_ref a, ir_ref b, ir_ref c);
 
 ir_ref ir_const(struct ir_graph *graph, const struct ir_value *value);
-ir_ref ir_const_words(struct ir_graph *graph, ir_type_id type, const union ir_word *words); /* the same of a value's components */
+/* the same of a value's components */
+ir_ref ir_const_words(struct ir_graph *graph, ir_type_id type, const union ir_word *words);
 ir_ref ir_const_float(struct ir_graph *graph, float f);
 ir_ref ir_const_int(struct ir_graph *graph, int32_t i);
 ir_ref ir_const_bool(struct ir_graph *graph, bool b);
 ir_ref ir_const_string(struct ir_graph *graph, str_id s);
-ir_ref ir_const_splat(struct ir_graph *graph, ir_type_id type, float f); /* vectors; the diagonal of matrices */
+/* vectors; the diagonal of matrices */
+ir_ref ir_const_splat(struct ir_graph *graph, ir_type_id type, float f);
 ir_ref ir_poison(struct ir_graph *graph, ir_type_id type);
 
 ir_ref ir_swizzle(struct ir_graph *graph, ir_ref a, const uint8_t *components, unsigned count);
@@ -254,7 +271,9 @@ ir_ref ir_construct(struct ir_graph *graph, ir_type_id type, const ir_ref *args,
 ir_ref ir_convert(struct ir_graph *graph, ir_type_id type, ir_ref a);
 
 bool ir_is_const(const struct ir_graph *graph, ir_ref ref);
-/* The components of a constant of a built-in type, until the next node is built; NULL for anything else. */
+/*
+ * The components of a constant of a built-in type, until the next node is built; NULL for anything else.
+ */
 static inline const union ir_word *ir_constant_words(const struct ir_graph *graph, ir_ref ref)
 {
     const struct ir_node *node = ir_get(graph, ref);
@@ -265,17 +284,23 @@ bool ir_get_const(const struct ir_graph *graph, ir_ref ref, struct ir_value *out
 bool ir_const_is(const struct ir_graph *graph, ir_ref ref, float f); /* all components equal f */
 
 uint32_t ir_add_origin(struct ir_graph *graph, str_id name, uint32_t element, uint32_t parent);
-uint32_t ir_add_callee(struct ir_graph *graph, struct ir_callee callee); /* the same index for the same id */
+/* the same index for the same id */
+uint32_t ir_add_callee(struct ir_graph *graph, struct ir_callee callee);
 uint32_t ir_add_struct(struct ir_graph *graph, str_id name, const struct ir_member *members, unsigned num_members);
-uint32_t ir_add_array(struct ir_graph *graph, ir_type_id element, uint32_t length); /* both return a type id */
+/* both return a type id */
+uint32_t ir_add_array(struct ir_graph *graph, ir_type_id element, uint32_t length);
 /* A new IR function; its results are set when its body stands. */
 uint32_t ir_add_function(struct ir_graph *graph, str_id name, const ir_type_id *param_types, unsigned num_params);
 ir_ref ir_param(struct ir_graph *graph, uint32_t function, unsigned index);
 void ir_set_results(struct ir_graph *graph, uint32_t function, const ir_ref *results, unsigned num_results);
 
-/* mark.c: which nodes the roots need. Returns one byte per node: 0 or 1; bodies of called IR functions included. */
+/*
+ * mark.c: which nodes the roots need. Returns one byte per node: 0 or 1; bodies of called IR functions included.
+ */
 uint8_t *ir_mark(const struct ir_graph *graph, const ir_ref *roots, uint32_t num_roots, struct arena *arena);
-/* How often each marked node is used as an operand of marked nodes (and as a root), saturating at 255. */
+/*
+ * How often each marked node is used as an operand of marked nodes (and as a root), saturating at 255.
+ */
 uint8_t *ir_count_uses(const struct ir_graph *graph, const uint8_t *marked, const ir_ref *roots, uint32_t num_roots,
                        struct arena *arena);
 
@@ -291,14 +316,18 @@ void ir_print(const struct ir_graph *graph, const ir_ref *roots, uint32_t num_ro
 const char *ir_parse(struct ir_graph *graph, const char *text, size_t len, ir_ref **out_roots, uint32_t *out_num_roots,
                      uint32_t *out_line);
 
-/* check.c: NULL, or the first violated invariant, with the node's index. For tests and debug builds. */
+/*
+ * check.c: NULL, or the first violated invariant, with the node's index. For tests and debug builds.
+ */
 const char *ir_check(const struct ir_graph *graph, ir_ref *out_node);
 
 /* eval.c: values of pure graphs, for tests and folding of whole graphs. */
 
 struct ir_eval_env {
     void *user_data;
-    /* The value of a source (UNIFORM, STREAM, PARAM, LOCAL, CONTEXT) or of a CALL's result; false: unknown. */
+    /*
+     * The value of a source (UNIFORM, STREAM, PARAM, LOCAL, CONTEXT) or of a CALL's result; false: unknown.
+     */
     bool (*source)(void *user_data, const struct ir_graph *graph, ir_ref ref, struct ir_value *out);
     bool (*call)(void *user_data, const struct ir_graph *graph, ir_ref call, const struct ir_value *args, uint32_t result,
                  struct ir_value *out);

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/* mark: what the roots need. Operands are older than their users, so one walk from the newest node to the oldest does. */
+/*
+ * mark: what the roots need. Operands are older than their users, so one walk from the newest node to the oldest does.
+ */
 #include "ir/ir.h"
 
 static void mark_results(const struct ir_graph *graph, const struct ir_function *function, uint8_t *marked)

@@ -123,7 +123,9 @@ static bool read_hex64(struct parser *p, uint64_t *out)
     return true;
 }
 
-/* The character after a backslash, which is '"', '\' or u00XX, as text_json_string writes. 0 where it is none. */
+/*
+ * The character after a backslash, which is '"', '\' or u00XX, as text_json_string writes. 0 where it is none.
+ */
 static char read_escape(struct parser *p)
 {
     if (p->at == p->end)
@@ -236,7 +238,9 @@ static bool read_scalar(struct parser *p, ir_type_id scalar, union ir_word *out)
     }
 }
 
-/* What kind of number begins here: digits alone are an int, with a 'u' behind a uint, anything else is a float. */
+/*
+ * What kind of number begins here: digits alone are an int, with a 'u' behind a uint, anything else is a float.
+ */
 static ir_type_id number_type(const struct parser *p)
 {
     const char *c = p->at;

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/* print: the text form of a graph (docs/ir.md): declarations, then the nodes that the roots need in order. */
+/*
+ * print: the text form of a graph (docs/ir.md): declarations, then the nodes that the roots need in order.
+ */
 #include "ir/ir.h"
 
 #include <math.h>

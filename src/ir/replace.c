@@ -78,7 +78,9 @@ static uint8_t *mark_operands(const struct replacement *r, const ir_ref *roots, 
     return marked;
 }
 
-/* What the roots reach, over `to`; parameters of `function` become those of `copy`. Returns a ref per old node. */
+/*
+ * What the roots reach, over `to`; parameters of `function` become those of `copy`. Returns a ref per old node.
+ */
 static ir_ref *copy_over(struct replacement *r, const ir_ref *roots, uint32_t num_roots, uint32_t function, uint32_t copy, ir_ref to)
 {
     const uint8_t *needed = mark_operands(r, roots, num_roots);
@@ -143,7 +145,8 @@ static void copy_functions(struct replacement *r, const uint8_t *needed)
             readers[n].last = results[k] > readers[n].last ? results[k] : readers[n].last;
         n++;
     }
-    if (r->num_functions + n > MAX_FUNCTIONS) /* a PARAM numbers no more: their bodies are left as they are */
+    /* a PARAM numbers no more: their bodies are left as they are */
+    if (r->num_functions + n > MAX_FUNCTIONS)
         return;
     if (n)
         qsort(readers, n, sizeof *readers, compare);

@@ -43,7 +43,8 @@ const struct rule_list ir_rules[IR_NUM_OPS] = {
 
 static float token_value(unsigned token)
 {
-    static const float values[] = {0.0f, 1.0f, 2.0f, 0.5f, -1.0f, 1.0f, 1.0f, 0.0f}; /* in the order of the tokens */
+    /* in the order of the tokens */
+    static const float values[] = {0.0f, 1.0f, 2.0f, 0.5f, -1.0f, 1.0f, 1.0f, 0.0f};
     return values[token - RULE_ZERO];
 }
 
@@ -59,7 +60,8 @@ static bool has_word(const struct match *m, unsigned token, ir_type_id scalar, u
     float value = token_value(token);
     switch (scalar) {
     case IR_TYPE_FLOAT:
-        return w.f == value && (w.u == 0 || value != 0.0f || !m->exact); /* x - -0 is not x: only +0 is exact */
+        /* x - -0 is not x: only +0 is exact */
+        return w.f == value && (w.u == 0 || value != 0.0f || !m->exact);
     case IR_TYPE_INT:
         return (float)w.i == value;
     case IR_TYPE_UINT:

@@ -137,7 +137,8 @@ static ir_ref simplify_swizzle(struct ir_graph *graph, ir_type_id type, uint32_t
             return join(graph, type, list, count);
         words[i] = graph->words.items[node->attr];
     }
-    return ir_intern_const(graph, type, words); /* of a constructor with a variable that was not asked for */
+    /* of a constructor with a variable that was not asked for */
+    return ir_intern_const(graph, type, words);
 }
 
 /* The struct that all members are of, in their order; 0 where they are not one's. */
@@ -185,7 +186,9 @@ static ir_ref simplify_convert(struct ir_graph *graph, ir_type_id type, ir_ref a
     return ir_swizzle(graph, a, leading, ir_type_info(type)->components);
 }
 
-/* The index-th part of a constructor of a struct, array or matrix of columns; 0 where `a` is none. */
+/*
+ * The index-th part of a constructor of a struct, array or matrix of columns; 0 where `a` is none.
+ */
 static ir_ref part_of(const struct ir_graph *graph, ir_ref a, uint32_t index)
 {
     const struct ir_node *node = ir_get(graph, a);
@@ -255,7 +258,8 @@ static ir_ref gather_scalars(struct ir_graph *graph, ir_ref a, ir_ref b)
     const struct ir_node *node = ir_get(graph, a);
     if (graph->exact || node->op != IR_MUL || !is_vector(node->type) || !is_scalar_float(graph, b))
         return 0;
-    if (ir_get(graph, b)->flags & IR_NODE_LOOP) /* v · s may stand in front of the loop, or be what several have in common */
+    /* v · s may stand in front of the loop, or be what several have in common */
+    if (ir_get(graph, b)->flags & IR_NODE_LOOP)
         return 0;
     ir_ref v = ir_arg(graph, a, 0), s = ir_arg(graph, a, 1);
     if (is_scalar_float(graph, v))
@@ -299,7 +303,8 @@ ir_ref ir_simplify_abs(const struct ir_graph *graph, ir_ref a)
 ir_ref ir_simplify_by_constant(struct ir_graph *graph, enum ir_op op, ir_ref a, ir_ref b)
 {
     const struct ir_type_info *info = ir_type_info(ir_type_of(graph, b));
-    if (!ir_is_const(graph, b) || info->scalar != IR_TYPE_FLOAT || info->columns != 1) /* a product of matrices is another thing */
+    /* a product of matrices is another thing */
+    if (!ir_is_const(graph, b) || info->scalar != IR_TYPE_FLOAT || info->columns != 1)
         return 0;
     if (op == IR_DIV && all_components(graph, b, is_power_of_two))
         return ir_op2(graph, IR_MUL, a, ir_op2(graph, IR_DIV, ir_const_splat(graph, ir_type_of(graph, b), 1.0f), b));

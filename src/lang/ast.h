@@ -49,14 +49,18 @@ static inline uint32_t ast_type_words(const struct lang_unit *unit, ir_type_id t
     return ast_is_user_type(type) ? ast_user_type_words(unit, type) : ir_type_info(type)->components;
 }
 
-/* Values of built-in type in one of a type: 1 for a vector, the sum over the members of a struct. */
+/*
+ * Values of built-in type in one of a type: 1 for a vector, the sum over the members of a struct.
+ */
 uint32_t ast_user_type_leaves(const struct lang_unit *unit, ir_type_id type);
 static inline uint32_t ast_type_leaves(const struct lang_unit *unit, ir_type_id type)
 {
     return ast_is_user_type(type) ? ast_user_type_leaves(unit, type) : type != IR_TYPE_VOID;
 }
 
-/* Where member `index` of a struct begins, counted by `size_of` (one of the two above), and its type. */
+/*
+ * Where member `index` of a struct begins, counted by `size_of` (one of the two above), and its type.
+ */
 uint32_t ast_member_offset(const struct lang_unit *unit, ir_type_id type, uint32_t index,
                             uint32_t (*size_of)(const struct lang_unit *, ir_type_id), ir_type_id *out_type);
 

@@ -13,9 +13,11 @@ struct copier {
     struct lang_unit *to;
     const struct lang_unit *made; /* the layer of the versions */
     VEC(lang_ref) calls;          /* of the function, arguments before the call that they are for */
-    const uint32_t *ids;          /* of versions in `to`; NULL: they are named by what they are versions of */
+    /* of versions in `to`; NULL: they are named by what they are versions of */
+    const uint32_t *ids;
     uint8_t *is_used;             /* by slot */
-    uint32_t *runs;               /* open addressing: 1 + a function, of each distinct run of slots */
+    /* open addressing: 1 + a function, of each distinct run of slots */
+    uint32_t *runs;
     uint32_t runs_mask;
     uint32_t num_effects;         /* calls so far that assign to their arguments */
     bool is_simple;               /* no call has arguments with effects, or very many */
@@ -148,7 +150,9 @@ static bool reads_option(const struct copier *c, const struct lang_function *fn)
     return false;
 }
 
-/* A function whose tree is what a generation would make of it, as long as it knows nothing of the arguments and callees. */
+/*
+ * A function whose tree is what a generation would make of it, as long as it knows nothing of the arguments and callees.
+ */
 static bool is_final(const struct copier *c, const struct lang_function *fn)
 {
     if (fn->flags & LANG_FN_EXPRESSION || !c->is_simple || reads_option(c, fn))
@@ -212,7 +216,9 @@ static struct lang_function copy_function(struct copier *c, uint32_t id, uint32_
     return fn;
 }
 
-/* Each function's version where nothing is known and no parameter may go. Inline expressions are always seen through. */
+/*
+ * Each function's version where nothing is known and no parameter may go. Inline expressions are always seen through.
+ */
 static uint32_t *make_versions(struct lang_unit *made, uint32_t first, uint32_t count)
 {
     uint32_t *versions = ARENA_ARRAY(made->arena, uint32_t, count);

@@ -106,7 +106,9 @@ lang_ref check_unary(struct parser *p, enum ir_op op, lang_ref a, uint32_t place
     return op == IR_NUM_OPS ? a : tree_op(p, op, type, 0, &a, 1, place);
 }
 
-/* The type of `a op b` after implicit conversions, which replace the operands; VOID where they do not fit. */
+/*
+ * The type of `a op b` after implicit conversions, which replace the operands; VOID where they do not fit.
+ */
 static ir_type_id binary_type(struct parser *p, enum ir_op op, lang_ref operands[2])
 {
     bool is_shift = op == IR_SHL || op == IR_SHR;
@@ -246,7 +248,8 @@ lang_ref check_index(struct parser *p, lang_ref a, lang_ref index, uint32_t plac
         return 0;
     }
     struct ir_value value;
-    if (check_value(p, index, &value) && value.w[0].u >= length) { /* a negative int is a large uint */
+    /* a negative int is a large uint */
+    if (check_value(p, index, &value) && value.w[0].u >= length) {
         PARSE_TYPE_ERROR(p, tree_place(p, index), "index %d is outside of %s", value.w[0].i,
                          parse_type_text(p, tree_type(p, a)));
         return 0;

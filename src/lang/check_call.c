@@ -102,7 +102,9 @@ static lang_ref no_function(struct parser *p, const struct token *name, str_id i
 
 /* Overloads */
 
-/* The function that takes the arguments with the fewest conversions; *out_ambiguous where two do. */
+/*
+ * The function that takes the arguments with the fewest conversions; *out_ambiguous where two do.
+ */
 static uint32_t find_overload(struct parser *p, str_id name, const lang_ref *args, unsigned num_args, bool *out_ambiguous)
 {
     ir_type_id *types = ARENA_ARRAY(p->unit->arena, ir_type_id, num_args);

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Constructors: GLSL 4.50, 5.4. What they convert and cut is made explicit, so that CONSTRUCT only joins parts. */
+/*
+ * Constructors: GLSL 4.50, 5.4. What they convert and cut is made explicit, so that CONSTRUCT only joins parts.
+ */
 #include "lang/lang_priv.h"
 
 static const uint8_t first_components[4] = {0, 1, 2, 3};

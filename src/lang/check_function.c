@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/* What bodies use: callees, globals, flags. And an order in which callees come before callers, which refuses recursion. */
+/*
+ * What bodies use: callees, globals, flags. And an order in which callees come before callers, which refuses recursion.
+ */
 #include "lang/lang_priv.h"
 
 struct uses {

@@ -218,7 +218,9 @@ static bool eval_op(struct eval *ev, const struct lang_node *node, union ir_word
     }
 }
 
-/* The variable or global that the expression is, or is a part of; NULL for the result of a computation. */
+/*
+ * The variable or global that the expression is, or is a part of; NULL for the result of a computation.
+ */
 static const struct lang_node *place_root(const struct lang_unit *layer, const struct lang_node *node)
 {
     while (node->kind == LANG_OP && (node->op == IR_SWIZZLE || node->op == IR_MEMBER || node->op == IR_INDEX))

@@ -144,7 +144,9 @@ bool fragment_is_open(const struct fragment_pattern *pattern)
     return !pattern->failed;
 }
 
-/* Whether an argument is what its part of an open pattern says; one that is opaque becomes an input. */
+/*
+ * Whether an argument is what its part of an open pattern says; one that is opaque becomes an input.
+ */
 static bool fits_open(const struct lang_unit *layer, const struct ir_graph *graph, ir_ref arg, const uint16_t **codes, ir_ref *inputs,
                       unsigned *num_inputs)
 {
@@ -217,11 +219,16 @@ struct restoring {
     struct fragment_host *host;
     const uint16_t *codes; /* what comes next */
     const ir_ref *nodes;   /* by the numbers that operands have */
-    bool *known;           /* the same of an open fragment: more can be seen of the node than when it was taken down; or NULL */
+    /*
+     * the same of an open fragment: more can be seen of the node than when it was taken down; or NULL
+     */
+    bool *known;
     bool is_known;         /* of the node at hand */
 };
 
-/* What a user can see of `ref`, which was built over known operands, is what was taken down if it is new, opaque and of the same op. */
+/*
+ * What a user can see of `ref`, which was built over known operands, is what was taken down if it is new, opaque and of the same op.
+ */
 static bool shows_more(const struct restoring *r, ir_ref ref, enum ir_op op, uint32_t num_before)
 {
     return ref < num_before || ir_get(r->host->graph, ref)->op != op || ir_is_looked_through(op);

@@ -41,27 +41,35 @@ struct fragment_pattern {
     unsigned len, num_inputs;
     bool failed;          /* too large */
     uint16_t codes[FRAGMENT_MAX_PATTERN];
-    ir_ref inputs[FRAGMENT_MAX_INPUTS]; /* each node that the pattern tells apart, in order of appearance */
+    /* each node that the pattern tells apart, in order of appearance */
+    ir_ref inputs[FRAGMENT_MAX_INPUTS];
 };
 
 void fragment_pattern_begin(struct fragment_pattern *pattern, const struct ir_graph *graph, const struct lang_unit *layer);
 void fragment_pattern_add(struct fragment_pattern *pattern, ir_ref argument); /* 0: absent */
 
-/* Who asks for nodes. Those of functions need the first three; those of graphs have leaves, origins and names, too. */
+/*
+ * Who asks for nodes. Those of functions need the first three; those of graphs have leaves, origins and names, too.
+ */
 struct fragment_host {
     struct lang_unit *unit; /* the generation's */
     struct ir_graph *graph;
     const struct lang_host *lang;
     void *user_data;
-    uint32_t (*leaf)(void *user_data, uint32_t family); /* the graph's number for what a LEAF calls */
-    void (*origin)(void *user_data, uint32_t element);  /* of nodes from here on; 0: `own`; FRAGMENT_OUTER: `outer` */
+    /* the graph's number for what a LEAF calls */
+    uint32_t (*leaf)(void *user_data, uint32_t family);
+    /* of nodes from here on; 0: `own`; FRAGMENT_OUTER: `outer` */
+    void (*origin)(void *user_data, uint32_t element);
     uint32_t own, outer; /* origins; elements of the graph have one below the latter */
-    ir_ref (*named)(void *user_data, str_id name, ir_type_id type); /* a node that has a name beyond the graph */
+    /* a node that has a name beyond the graph */
+    ir_ref (*named)(void *user_data, str_id name, ir_type_id type);
     str_id (*name)(void *user_data, ir_ref node); /* the same backwards; 0: it has none */
     bool has_folded; /* a node of an open fragment became a constant */
 };
 
-/* The fragment with this pattern in the chain that begins at `first`, made for the same options; NULL. */
+/*
+ * The fragment with this pattern in the chain that begins at `first`, made for the same options; NULL.
+ */
 const struct lang_fragment *fragment_find(const struct lang_unit *layer, uint32_t first, const struct fragment_pattern *pattern,
                                           uint32_t choice);
 /*
@@ -86,10 +94,14 @@ static inline size_t fragment_room(const struct lang_fragment *fragment, unsigne
 const uint16_t *fragment_restore(struct fragment_host *host, const struct lang_unit *layer, const struct lang_fragment *fragment,
                                  unsigned num_inputs, ir_ref *nodes, bool *known);
 
-/* fragment_record.c: takes down what became of `pattern`; its number + 1, or 0 where it cannot be. `first` is the chain. */
+/*
+ * fragment_record.c: takes down what became of `pattern`; its number + 1, or 0 where it cannot be. `first` is the chain.
+ */
 unsigned fragment_record(const struct fragment_host *host, uint16_t *first, const struct fragment_pattern *pattern,
                          const ir_ref *results, unsigned num_results);
-/* What follows on the nodes of a fragment: codes that must be the same where it is restored, results, and codes behind them. */
+/*
+ * What follows on the nodes of a fragment: codes that must be the same where it is restored, results, and codes behind them.
+ */
 struct fragment_follower {
     const ir_ref *nodes, *results;
     const uint16_t *key, *more;
@@ -103,7 +115,9 @@ uint32_t fragment_callee(struct lang_unit *unit, struct ir_graph *graph, uint32_
 
 /* ---- Codes ---- */
 
-/* Heads: op, type and number of operands. Of structs and arrays the language's type follows, of more than 6 operands the number. */
+/*
+ * Heads: op, type and number of operands. Of structs and arrays the language's type follows, of more than 6 operands the number.
+ */
 enum { FRAGMENT_MANY = 7, FRAGMENT_USER_TYPE = 63, FRAGMENT_MAX_HEAD = 2, FRAGMENT_MAX_CONSTANT = 1 + 2 * 16 };
 static inline uint16_t fragment_head(enum ir_op op, ir_type_id type, unsigned count)
 {
@@ -112,10 +126,14 @@ static inline uint16_t fragment_head(enum ir_op op, ir_type_id type, unsigned co
 }
 static_assert((unsigned)IR_NUM_OPS <= 128 && (unsigned)IR_NUM_TYPES <= (unsigned)FRAGMENT_USER_TYPE, "heads do not suffice");
 
-/* Writes a head and what follows it of the type; returns how many codes, 0 where the library (`layer`) does not know the type. */
+/*
+ * Writes a head and what follows it of the type; returns how many codes, 0 where the library (`layer`) does not know the type.
+ */
 unsigned fragment_write_head(const struct ir_graph *graph, const struct lang_unit *layer, enum ir_op op, ir_type_id type, unsigned count,
                              uint16_t out[FRAGMENT_MAX_HEAD]);
-/* The same for a constant; of strings that the library does not know, whose numbers are chance, 0. */
+/*
+ * The same for a constant; of strings that the library does not know, whose numbers are chance, 0.
+ */
 unsigned fragment_write_constant(const struct ir_graph *graph, const struct lang_unit *layer, const struct ir_node *node,
                                  uint16_t out[FRAGMENT_MAX_CONSTANT]);
 

@@ -198,7 +198,8 @@ static void take_node(struct taker *t, ir_ref ref)
 
 static void take(struct taker *t, const ir_ref *results, unsigned num_results)
 {
-    memset(&t->recorder->nodes, 0, sizeof t->recorder->nodes); /* those before went with their generation */
+    /* those before went with their generation */
+    memset(&t->recorder->nodes, 0, sizeof t->recorder->nodes);
     vec_push(t->graph->arena, &t->recorder->nodes, 0);
     for (unsigned i = 0; i < t->num_inputs; i++)
         vec_push(t->graph->arena, &t->recorder->nodes, t->inputs[i]);

@@ -31,7 +31,9 @@ static const fact *facts_of(const struct spec *s)
     return plan->facts.items + plan->variants.items[s->variant].first_fact;
 }
 
-/* What a call says: the function, its version, and what is passed. Returns where the next one stands. */
+/*
+ * What a call says: the function, its version, and what is passed. Returns where the next one stands.
+ */
 static const uint32_t *next_call(const struct lang_unit *unit, const uint32_t *call)
 {
     return call + 2 + lang_function(unit, call[0], NULL)->num_params;
@@ -146,7 +148,9 @@ void known_take_calls(struct spec *s)
         recorder->is_known = take_call(s, spec_node(s, s->unit->plan->calls.items[v.first_call + i]), to);
 }
 
-/* Two versions of a function with equal facts, whose calls are the same then, got the same callees. */
+/*
+ * Two versions of a function with equal facts, whose calls are the same then, got the same callees.
+ */
 static bool is_equal(const struct lang_unit *unit, const struct lang_known *a, const struct lang_known *b)
 {
     const struct lang_function *fn = lang_function(unit, a->function, NULL);

@@ -29,24 +29,34 @@ enum lang_kind {
     LANG_VAR,      /* a: slot of a parameter or local of the function */
     LANG_GLOBAL,   /* a: index in unit->globals */
     LANG_INPUT,    /* a: slot of an inline expression's {{input}} */
-    LANG_OP,       /* op: enum ir_op (operators and built-ins; attr in b for SWIZZLE and MEMBER); first operand a, chained by next */
+    /*
+     * op: enum ir_op (operators and built-ins; attr in b for SWIZZLE and MEMBER); first operand a, chained by next
+     */
+    LANG_OP,
     LANG_CALL,     /* a: function id; first argument b, chained by next */
     /* statements */
     LANG_DECLARE,  /* a: slot; b: initialiser or 0 */
-    LANG_ASSIGN,   /* a: target expression (VAR, SWIZZLE, INDEX, MEMBER of one); b: value; op: IR_NUM_OPS for =, else the operator of `op=` */
+    /*
+     * a: target expression (VAR, SWIZZLE, INDEX, MEMBER of one); b: value; op: IR_NUM_OPS for =, else the operator of `op=`
+     */
+    LANG_ASSIGN,
     LANG_EXPR,     /* a: a call for its effect */
     LANG_IF,       /* a: condition; b: then block; c: else block or 0 */
-    LANG_FOR,      /* a: init statement or 0; b: condition or 0; c: body block, which has the step */
+    /* a: init statement or 0; b: condition or 0; c: body block, which has the step */
+    LANG_FOR,
     LANG_WHILE,    /* b: condition; c: body block */
     LANG_DO,       /* b: condition; c: body block */
-    LANG_BLOCK,    /* a: first statement, chained by next; b: of the body of a FOR, its step statement or 0 */
+    /* a: first statement, chained by next; b: of the body of a FOR, its step statement or 0 */
+    LANG_BLOCK,
     LANG_RETURN,   /* a: value or 0 */
     LANG_BREAK,
     LANG_CONTINUE,
     LANG_NUM_KINDS
 };
 
-/* Which of a node's fields are its children, by kind; `next`, where it is set, is a sibling. ast.c */
+/*
+ * Which of a node's fields are its children, by kind; `next`, where it is set, is a sibling. ast.c
+ */
 enum lang_child_field { LANG_CHILD_A = 1, LANG_CHILD_B = 2, LANG_CHILD_C = 4 };
 extern const uint8_t lang_child_fields[LANG_NUM_KINDS];
 
@@ -68,13 +78,19 @@ struct lang_slot { /* a parameter or local variable */
 };
 
 enum lang_function_flags {
-    LANG_FN_DERIVATIVE = 1, /* it or what it calls reads derivatives or textures with implicit level of detail */
+    /* it or what it calls reads derivatives or textures with implicit level of detail */
+    LANG_FN_DERIVATIVE = 1,
     LANG_FN_PURE = 2,       /* it and what it calls read no uniform, stream, option or sampler */
     LANG_FN_STRAIGHT = 4,   /* no loops, nor in what it calls: may be lowered to IR whole */
-    LANG_FN_STRINGS = 8,    /* it has string parameters: to be specialised before it is printed for hardware */
-    LANG_FN_EXPRESSION = 16, /* an inline expression: no name, LANG_INPUT slots, body is RETURN expr */
+    /* it has string parameters: to be specialised before it is printed for hardware */
+    LANG_FN_STRINGS = 8,
+    /* an inline expression: no name, LANG_INPUT slots, body is RETURN expr */
+    LANG_FN_EXPRESSION = 16,
     LANG_FN_FINAL = 32,     /* nothing to specialise, unless arguments or callees are: canon.c */
-    LANG_FN_PLAIN = 64,     /* its variables and what it returns are of built-in types; told of a library's functions: canon.c */
+    /*
+     * its variables and what it returns are of built-in types; told of a library's functions: canon.c
+     */
+    LANG_FN_PLAIN = 64,
 };
 
 struct lang_function {
@@ -87,9 +103,11 @@ struct lang_function {
     uint32_t file;                  /* index in unit->files */
     uint32_t place;
     uint32_t num_nodes;             /* size of the body: for inlining decisions */
-    uint32_t first_callee, num_callees;   /* in unit->refs: function ids called directly, each once */
+    /* in unit->refs: function ids called directly, each once */
+    uint32_t first_callee, num_callees;
     uint32_t first_global, num_globals;   /* in unit->refs: globals read directly, each once */
-    uint32_t first_call, num_calls;       /* in unit->refs, where it is LANG_FN_FINAL: its CALL nodes, arguments first */
+    /* in unit->refs, where it is LANG_FN_FINAL: its CALL nodes, arguments first */
+    uint32_t first_call, num_calls;
 };
 
 struct lang_version { /* what a function of a generation's layer is (plan.c) */
@@ -97,11 +115,16 @@ struct lang_version { /* what a function of a generation's layer is (plan.c) */
     uint32_t dropped[2]; /* bit i is set where parameter i of that is gone */
 };
 
-/* A version that was made when the library was packed: known.c. They are the last functions of a unit. */
+/*
+ * A version that was made when the library was packed: known.c. They are the last functions of a unit.
+ */
 struct lang_known {
     uint32_t function;   /* id of what it is a version of */
     uint32_t choice;     /* of the host that it was made for */
-    uint32_t first_fact; /* in unit->known_facts: what was known of each parameter; then of each call the callee, its version and the same */
+    /*
+     * in unit->known_facts: what was known of each parameter; then of each call the callee, its version and the same
+     */
+    uint32_t first_fact;
     uint32_t num_calls;
     uint32_t dropped[2]; /* as in struct lang_version */
 };
@@ -112,7 +135,10 @@ struct lang_fragment {
     uint32_t first_code; /* in unit->codes: the pattern, the nodes, the results */
     uint16_t pattern_len, num_nodes;
     uint16_t next;       /* of the same function: its number + 1; 0: none */
-    uint16_t follower;   /* what is made of these nodes afterwards, a fragment without pattern: its number + 1; 0: none */
+    /*
+     * what is made of these nodes afterwards, a fragment without pattern: its number + 1; 0: none
+     */
+    uint16_t follower;
     uint32_t unused;
     uint32_t choice;     /* of the host that it was made for */
 };
@@ -123,7 +149,10 @@ struct lang_global {
     str_id name;
     uint8_t kind; /* enum lang_global_kind */
     ir_type_id type;
-    uint32_t words;        /* value of a CONST or OPTION of built-in or array type, in unit->words (arrays: elements in order) */
+    /*
+     * value of a CONST or OPTION of built-in or array type, in unit->words (arrays: elements in order)
+     */
+    uint32_t words;
     uint32_t num_words;
     uint32_t array_length; /* of a uniform array; 0 = none */
     uint32_t file;
@@ -132,7 +161,8 @@ struct lang_global {
 struct lang_file {
     str_id name;         /* as given to the reader */
     uint32_t first_include, num_includes; /* in unit->refs: files included directly */
-    uint32_t first_function, num_functions; /* ids of the functions that the file itself defines are contiguous */
+    /* ids of the functions that the file itself defines are contiguous */
+    uint32_t first_function, num_functions;
     uint32_t first_global, num_globals;
 };
 
@@ -140,16 +170,23 @@ struct lang_unit;
 
 struct lang_host { /* how globals become IR nodes */
     void *user_data;
-    /* The IR node for a uniform or stream (by its name and type); option constants give a constant. */
+    /*
+     * The IR node for a uniform or stream (by its name and type); option constants give a constant.
+     */
     ir_ref (*global)(void *user_data, struct ir_graph *graph, const struct lang_unit *unit, uint32_t global_id);
     /*
      * What a built-in function of textures gives where the texture is not a plain one; 0: it is plain. Functions that are given such a
      * texture, which the portable language has no name for, are lowered whatever their size. May be NULL.
      */
     ir_ref (*texture)(void *user_data, enum ir_op op, const ir_ref *args);
-    uint32_t max_outer_nodes;  /* the same limit for the called function itself and what it calls directly; 0: max_inline_nodes */
-    uint32_t max_inline_nodes; /* functions larger than this are called, not lowered, unless their result folds to constants */
-    uint32_t choice;           /* the values of all options, as a number; LANG_NONE: one that no fragment was made for */
+    /*
+     * the same limit for the called function itself and what it calls directly; 0: max_inline_nodes
+     */
+    uint32_t max_outer_nodes;
+    /* functions larger than this are called, not lowered, unless their result folds to constants */
+    uint32_t max_inline_nodes;
+    /* the values of all options, as a number; LANG_NONE: one that no fragment was made for */
+    uint32_t choice;
 };
 
 /*
@@ -160,7 +197,8 @@ struct lang_unit {
     const struct lang_unit *base;
     struct strpool *strings;
     struct arena *arena; /* NULL in an image layer */
-    uint32_t base_functions, base_files, base_globals, base_user_types; /* how many the layers below have */
+    /* how many the layers below have */
+    uint32_t base_functions, base_files, base_globals, base_user_types;
     VEC(struct lang_node) nodes; /* [0] unused; cap 0 in an image layer */
     VEC(struct lang_slot) slots;
     VEC(struct lang_function) functions;
@@ -177,19 +215,24 @@ struct lang_unit {
     VEC(uint16_t) graph_fragment_of; /* the same by a number that the owner of graphs gives */
     VEC(struct lang_known) known;
     VEC(uint32_t) known_facts;
-    VEC(uint32_t) texts;   /* where the text of each function begins, and where the last one's ends (texts.c) */
+    /* where the text of each function begins, and where the last one's ends (texts.c) */
+    VEC(uint32_t) texts;
     VEC(char) text_bytes;
     /* Of a generation's layer: */
-    struct lang_host host;   /* who knows the options, and the graph that their values are nodes of; from lang_lower_call */
+    /* who knows the options, and the graph that their values are nodes of; from lang_lower_call */
+    struct lang_host host;
     struct ir_graph *graph;
     VEC(struct lang_version) versions; /* by function */
-    struct lang_plan *plan;  /* plan.c: which constants functions take for granted; NULL until the shader stands */
+    /* plan.c: which constants functions take for granted; NULL until the shader stands */
+    struct lang_plan *plan;
     struct lang_recorder *recorder; /* fragment_record.c: takes down what calls become; NULL */
 };
 
 void lang_unit_init(struct lang_unit *unit, struct arena *arena, struct strpool *strings, const struct lang_unit *base);
 
-/* Access by id through the layers. *out_unit (may be NULL) receives the layer, which the function's own indices refer to. */
+/*
+ * Access by id through the layers. *out_unit (may be NULL) receives the layer, which the function's own indices refer to.
+ */
 static inline const struct lang_function *lang_function(const struct lang_unit *unit, uint32_t id,
                                                         const struct lang_unit **out_unit)
 {
@@ -251,14 +294,18 @@ static inline const struct ir_user_type *lang_user_type(const struct lang_unit *
 
 /* parse.c (lex.c, check.c): text to trees */
 
-/* Where source files come from: false with *out_reason set where a file cannot be read. `from` is the including file or "". */
+/*
+ * Where source files come from: false with *out_reason set where a file cannot be read. `from` is the including file or "".
+ */
 struct lang_reader {
     void *user_data;
     bool (*read)(void *user_data, const char *from, const char *ref, const char **out_name, const char **out_text,
                  size_t *out_len, const char **out_reason);
 };
 
-/* Parses a file with its includes, each file once per unit and the layers below. LANG_NONE after errors, which are in diags. */
+/*
+ * Parses a file with its includes, each file once per unit and the layers below. LANG_NONE after errors, which are in diags.
+ */
 uint32_t lang_parse_file(struct lang_unit *unit, const struct lang_reader *reader, const char *from, const char *ref,
                          struct diag_place where, struct diag_list *diags);
 
@@ -312,12 +359,20 @@ struct lang_recorder {
     } globals[64];
     unsigned num_globals;
     bool of_graphs; /* these are taken down, otherwise calls of functions */
-    uint32_t first_new; /* nodes of the use at hand: those that nobody needs are kept, too, since they may give later ones their names; 0: not */
-    struct lang_unit library;   /* the lowest, to which versions are added; nothing else is there to be used */
-    VEC(uint32_t) version_ids;  /* by number in the generation's layer: what a version is called there; LANG_NONE: it is not */
+    /*
+     * nodes of the use at hand: those that nobody needs are kept, too, since they may give later ones their names; 0: not
+     */
+    uint32_t first_new;
+    /* the lowest, to which versions are added; nothing else is there to be used */
+    struct lang_unit library;
+    /* by number in the generation's layer: what a version is called there; LANG_NONE: it is not */
+    VEC(uint32_t) version_ids;
     uint32_t first_fact, first_word; /* of the version at hand */
     bool is_known;              /* it can be taken down */
-    VEC(ir_ref) nodes; /* of the fragment that was taken down last, as restoring it gives them: [0] is none, then inputs and nodes */
+    /*
+     * of the fragment that was taken down last, as restoring it gives them: [0] is none, then inputs and nodes
+     */
+    VEC(ir_ref) nodes;
 };
 /* Everything that was taken down goes to the library, of which nobody has begun a layer yet. */
 void lang_recorder_give(const struct lang_recorder *recorder, struct lang_unit *unit);
@@ -333,7 +388,8 @@ void lang_recorder_init(struct lang_recorder *recorder, struct arena *arena, con
  * gone, and `in` parameters that turn out to be unused: whoever calls a version passes what lang_param_dropped leaves.
  * The version is the function itself where nothing changes.
  */
-uint32_t lang_plan_call(struct lang_unit *generated, uint32_t id, const union ir_word *const *args); /* a constant's words, or NULL */
+/* a constant's words, or NULL */
+uint32_t lang_plan_call(struct lang_unit *generated, uint32_t id, const union ir_word *const *args);
 void lang_plan_finish(struct lang_unit *generated);
 uint32_t lang_plan_version(const struct lang_unit *generated, uint32_t call);
 
@@ -345,7 +401,9 @@ bool lang_param_dropped(const struct lang_unit *generated, uint32_t version, uin
  * For a library, once everything that is parsed for it has been; no generation may use it yet.
  */
 void lang_make_canonical(struct lang_unit *unit);
-/* Adds a version to another unit. `ids`: what versions that it calls are called there, by their numbers in their own layer. Returns its id. */
+/*
+ * Adds a version to another unit. `ids`: what versions that it calls are called there, by their numbers in their own layer. Returns its id.
+ */
 uint32_t lang_copy_version(struct lang_unit *to, const struct lang_unit *made, uint32_t version, const uint32_t *ids);
 
 /* eval.c */
@@ -359,7 +417,9 @@ bool lang_eval_call(const struct lang_unit *unit, uint32_t id, const struct ir_v
 
 /* reach.c */
 
-/* Adds to `functions` (ids, callees before callers, each once) what function `id` needs, itself last, and to `globals` what these read. */
+/*
+ * Adds to `functions` (ids, callees before callers, each once) what function `id` needs, itself last, and to `globals` what these read.
+ */
 struct lang_reach {
     struct arena *arena;
     VEC(uint32_t) functions, globals;
@@ -369,9 +429,12 @@ struct lang_reach {
 };
 void lang_reach_add(struct lang_reach *reach, const struct lang_unit *unit, uint32_t id);
 
-/* print.c: trees as text. One printer for all C-like targets, driven by a table; the IR's expressions use the same forms. */
+/*
+ * print.c: trees as text. One printer for all C-like targets, driven by a table; the IR's expressions use the same forms.
+ */
 
-enum lang_precedence { /* binds tighter as it grows; an operand is parenthesised when its own is lower */
+/* binds tighter as it grows; an operand is parenthesised when its own is lower */
+enum lang_precedence {
     LANG_PREC_COMMA, LANG_PREC_ASSIGN, LANG_PREC_TERNARY, LANG_PREC_LOR, LANG_PREC_LXOR, LANG_PREC_LAND, LANG_PREC_OR,
     LANG_PREC_XOR, LANG_PREC_AND, LANG_PREC_EQUAL, LANG_PREC_COMPARE, LANG_PREC_SHIFT, LANG_PREC_SUM, LANG_PREC_PRODUCT,
     LANG_PREC_UNARY, LANG_PREC_POSTFIX, LANG_PREC_PRIMARY
@@ -399,23 +462,31 @@ struct lang_style;
 
 struct lang_syntax {
     const char *name;                   /* "glsl" */
-    const struct lang_syntax *base;     /* rows absent here come from there; NULL for the portable form itself */
+    /* rows absent here come from there; NULL for the portable form itself */
+    const struct lang_syntax *base;
     const char *const *type_names;      /* [IR_NUM_TYPES], NULL entries: from base */
     const struct lang_form *forms;      /* [IR_NUM_OPS], text NULL: from base */
     const struct lang_words *reserved;  /* by length; identifiers that must be renamed */
     uint32_t max_reserved;              /* the greatest length */
-    const char *param_in;               /* prefix of a parameter that is never assigned: "const " in GLSL, "" elsewhere */
+    /* prefix of a parameter that is never assigned: "const " in GLSL, "" elsewhere */
+    const char *param_in;
     const char *param_in_assigned;      /* prefix of one that is: "" in GLSL */
     const char *param_out, *param_inout; /* "out ", "inout "; OSL: "output " */
-    bool copies_params;                 /* parameters are read-only: one that is assigned is copied to a local first */
+    /* parameters are read-only: one that is assigned is copied to a local first */
+    bool copies_params;
     bool plain_scalars;                 /* neither bool nor uint: their literals are those of int */
-    bool defines_constants;             /* no variables at file scope: "#define X 1.0"; arrays are declared in functions */
+    /* no variables at file scope: "#define X 1.0"; arrays are declared in functions */
+    bool defines_constants;
     bool float_literals_need_suffix;    /* 1.0f */
     bool wide_constants;                /* max(v, vec3(0.0)), where a target has max(v, 0.0), too */
     bool array_braces;                  /* arrays are built as {a, b}, not float[2](a, b) */
-    bool in_images;                     /* library images hold functions as text in it: of one syntax, which others may take over */
-    bool without_neighbours;            /* what a pixel learns of its neighbours is spelled otherwise than in those texts */
-    /* Writes a literal of a type that the language lacks; false: it is written like the others. NULL: there is no such type. */
+    /* library images hold functions as text in it: of one syntax, which others may take over */
+    bool in_images;
+    /* what a pixel learns of its neighbours is spelled otherwise than in those texts */
+    bool without_neighbours;
+    /*
+     * Writes a literal of a type that the language lacks; false: it is written like the others. NULL: there is no such type.
+     */
     bool (*write_value)(const struct lang_style *style, ir_type_id type, const union ir_word *words, struct text *out);
 };
 
@@ -423,7 +494,9 @@ const struct lang_form *lang_syntax_form(const struct lang_syntax *syntax, enum 
 const char *lang_syntax_type(const struct lang_syntax *syntax, ir_type_id type);
 bool lang_syntax_is_reserved(const struct lang_syntax *syntax, const char *name, size_t len);
 
-/* style.c: a syntax made ready to print much in it, with the rows of its bases at hand and its forms taken apart. */
+/*
+ * style.c: a syntax made ready to print much in it, with the rows of its bases at hand and its forms taken apart.
+ */
 
 enum { LANG_MAX_PIECES = 9, LANG_PIECE_TYPE = 255 };
 
@@ -453,7 +526,8 @@ struct lang_style {
 
 void lang_style_init(struct lang_style *style, const struct lang_syntax *syntax, struct arena *arena);
 const struct lang_pieces *lang_style_split(struct lang_style *style, enum ir_op op);
-void lang_form_split(const struct lang_form *form, struct arena *arena, struct lang_pieces *out); /* out->text NULL for no form */
+/* out->text NULL for no form */
+void lang_form_split(const struct lang_form *form, struct arena *arena, struct lang_pieces *out);
 static inline const struct lang_pieces *lang_style_form(struct lang_style *style, enum ir_op op)
 {
     return style->forms[op] ? style->forms[op] : lang_style_split(style, op);
@@ -465,7 +539,8 @@ struct lang_use {
     uint32_t attr;              /* of SWIZZLE and MEMBER, as in struct ir_node */
     const ir_type_id *operands; /* their types */
     unsigned num_operands;
-    uint32_t named;             /* bit i: operand i is a variable, or something else that may be written twice */
+    /* bit i: operand i is a variable, or something else that may be written twice */
+    uint32_t named;
     ir_ref node;                /* of the graph; 0 in a tree */
 };
 
@@ -478,9 +553,13 @@ struct lang_names {
     const char *(*function)(void *user_data, uint32_t id);
     const char *(*global)(void *user_data, uint32_t id);
     const char *(*user_type)(void *user_data, ir_type_id type);
-    /* The function that puts a struct together, by the struct's name in the output; NULL: its constructor. */
+    /*
+     * The function that puts a struct together, by the struct's name in the output; NULL: its constructor.
+     */
     const char *(*maker)(void *user_data, const char *type);
-    /* The form of an op, CONSTRUCT, SWIZZLE and INDEX included, where types decide; NULL: the syntax's own. */
+    /*
+     * The form of an op, CONSTRUCT, SWIZZLE and INDEX included, where types decide; NULL: the syntax's own.
+     */
     const struct lang_pieces *(*form)(void *user_data, const struct lang_use *use);
 };
 
@@ -492,12 +571,16 @@ void lang_print_type(const struct lang_style *style, const struct lang_names *na
 /* "float x[3]": a variable with its type. */
 void lang_print_variable(const struct lang_style *style, const struct lang_names *names, const struct lang_unit *unit,
                          ir_type_id type, const char *name, struct text *out);
-/* vec3(1.0) when equal; `strings` may be NULL where the value is not a string. In parentheses where `least` asks for them: -1.0. */
+/*
+ * vec3(1.0) when equal; `strings` may be NULL where the value is not a string. In parentheses where `least` asks for them: -1.0.
+ */
 void lang_print_value(const struct lang_style *style, const struct strpool *strings, ir_type_id type,
                       const union ir_word *words, enum lang_precedence least, struct text *out);
 void lang_print_function(struct lang_style *style, const struct lang_names *names, const struct lang_unit *unit,
                          uint32_t id, struct text *out);
-/* texts.c: the texts of a unit's functions, in memory of the arena; they are then written as they stand in styles of that syntax. */
+/*
+ * texts.c: the texts of a unit's functions, in memory of the arena; they are then written as they stand in styles of that syntax.
+ */
 void lang_make_texts(struct lang_unit *unit, const struct lang_syntax *syntax, struct arena *arena);
 /* "const float PI = 3.14;", and "struct S {…};", each with its newline. */
 void lang_print_constant(const struct lang_style *style, const struct lang_names *names, const struct lang_unit *unit,

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/* What the files of the language's front half share: tokens, the parser's state, the checks that build typed trees. */
+/*
+ * What the files of the language's front half share: tokens, the parser's state, the checks that build typed trees.
+ */
 #ifndef MXG_LANG_LANG_PRIV_H
 #define MXG_LANG_LANG_PRIV_H
 
@@ -169,15 +171,18 @@ struct parser {
     unsigned include_depth;
     const char *file_name;
     uint32_t file;                     /* id, LANG_NONE outside of files */
-    VEC(uint32_t) visible;             /* files whose declarations are seen, the own one among them */
+    /* files whose declarations are seen, the own one among them */
+    VEC(uint32_t) visible;
     uint32_t first_user_type;          /* user types from here on are this file's */
     struct lexer lexer;
     struct token token;                /* the current one */
     struct token last;                 /* the one before */
     unsigned depth, num_errors;
-    bool panic;                        /* after a syntax error, until parse_recover: nothing is reported */
+    /* after a syntax error, until parse_recover: nothing is reported */
+    bool panic;
     bool stopped;                      /* too many errors */
-    bool reported;                     /* the last message was not suppressed: its notes may follow */
+    /* the last message was not suppressed: its notes may follow */
+    bool reported;
     uint32_t first_node;               /* nodes from here on belong to this parse … */
     VEC(struct tree_origin) origins;   /* … and come from here */
     VEC(lang_ref) operands;            /* stack of operands that wait for their node */
@@ -193,11 +198,16 @@ struct parser {
 
 void parse_advance(struct parser *p);
 bool parse_accept(struct parser *p, enum token_kind kind);
-bool parse_expect(struct parser *p, enum token_kind kind); /* reports and panics where another token stands */
-void parse_unexpected(struct parser *p, const char *expected); /* the same for a whole construct: "an expression" */
+/* reports and panics where another token stands */
+bool parse_expect(struct parser *p, enum token_kind kind);
+/* the same for a whole construct: "an expression" */
+void parse_unexpected(struct parser *p, const char *expected);
 struct token parse_peek(const struct parser *p); /* the token after the current one */
-str_id parse_name(struct parser *p);             /* expects a name and goes past it; 0 after an error */
-/* Skips what an error left behind: past the next ';', or to (at file level past) the '}' that closes the block. */
+/* expects a name and goes past it; 0 after an error */
+str_id parse_name(struct parser *p);
+/*
+ * Skips what an error left behind: past the next ';', or to (at file level past) the '}' that closes the block.
+ */
 void parse_recover(struct parser *p, bool at_file_level);
 bool parse_enter(struct parser *p); /* one level deeper; false, and panic, beyond PARSE_MAX_DEPTH */
 void parse_leave(struct parser *p);
@@ -210,12 +220,16 @@ bool parse_may_report(struct parser *p);
 #if defined(__GNUC__)
 __attribute__((format(printf, 2, 3)))
 #endif
-const char *parse_say(struct parser *p, const char *format, ...); /* text in the diagnostics' arena */
+/* text in the diagnostics' arena */
+const char *parse_say(struct parser *p, const char *format, ...);
 const char *parse_text(const struct parser *p, str_id name);
-const char *parse_token_text(struct parser *p, const struct token *token); /* as shown in messages */
+/* as shown in messages */
+const char *parse_token_text(struct parser *p, const struct token *token);
 const char *parse_type_text(struct parser *p, ir_type_id type);
 
-/* PARSE_ERROR(p, where, id, …): the arguments of the id's format. PARSE_NOTE belongs to the error before it. */
+/*
+ * PARSE_ERROR(p, where, id, …): the arguments of the id's format. PARSE_NOTE belongs to the error before it.
+ */
 #define PARSE_ERROR(p, where, id, ...) \
     (parse_may_report(p) ? diag_add((p)->diags, DIAG_ID_##id, (where), __VA_ARGS__) : (void)0)
 #define PARSE_NOTE(p, where, id, ...) ((p)->reported ? diag_add((p)->diags, DIAG_ID_##id, (where), __VA_ARGS__) : (void)0)
@@ -276,19 +290,24 @@ void tree_append(struct parser *p, struct tree_chain *chain, lang_ref ref); /* 0
 
 /* check.c: types and operators */
 
-unsigned check_rank(ir_type_id scalar);        /* of arithmetic scalars, growing with implicit conversion; 0 for others */
-ir_type_id check_scalar(ir_type_id type);      /* component type; VOID for user types and opaque ones */
+/* of arithmetic scalars, growing with implicit conversion; 0 for others */
+unsigned check_rank(ir_type_id scalar);
+/* component type; VOID for user types and opaque ones */
+ir_type_id check_scalar(ir_type_id type);
 bool check_converts(ir_type_id from, ir_type_id to); /* implicitly, or equal */
-lang_ref check_cast(struct parser *p, lang_ref a, ir_type_id type); /* an explicit CONVERT; constants are folded */
+/* an explicit CONVERT; constants are folded */
+lang_ref check_cast(struct parser *p, lang_ref a, ir_type_id type);
 /* Converted implicitly; 0 and "WHAT is X; Y was expected" where that is impossible. */
 lang_ref check_convert(struct parser *p, lang_ref a, ir_type_id type, const char *what);
-bool check_unify(struct parser *p, lang_ref *args, unsigned num_args, unsigned min_rank); /* to their highest scalar type */
+/* to their highest scalar type */
+bool check_unify(struct parser *p, lang_ref *args, unsigned num_args, unsigned min_rank);
 lang_ref check_unary(struct parser *p, enum ir_op op, lang_ref a, uint32_t place);
 lang_ref check_binary(struct parser *p, enum ir_op op, lang_ref a, lang_ref b, uint32_t place);
 lang_ref check_select(struct parser *p, lang_ref condition, lang_ref a, lang_ref b, uint32_t place);
 lang_ref check_member(struct parser *p, lang_ref a, const struct token *name);
 lang_ref check_index(struct parser *p, lang_ref a, lang_ref index, uint32_t place);
-bool check_assignable(struct parser *p, lang_ref target, const char *doing); /* reports; marks the variable as assigned */
+/* reports; marks the variable as assigned */
+bool check_assignable(struct parser *p, lang_ref target, const char *doing);
 lang_ref check_assign(struct parser *p, enum ir_op op, lang_ref target, lang_ref value, uint32_t place);
 bool check_is_array(const struct parser *p, ir_type_id type, ir_type_id *out_element, uint32_t *out_length);
 
@@ -300,18 +319,24 @@ bool check_is_builtin(const char *name, size_t len);
 
 /* check_const.c */
 
-bool check_value(struct parser *p, lang_ref ref, struct ir_value *out_value); /* of a constant expression */
-/* The words of a constant of built-in or array type go to unit->words; false where it is not constant. */
+/* of a constant expression */
+bool check_value(struct parser *p, lang_ref ref, struct ir_value *out_value);
+/*
+ * The words of a constant of built-in or array type go to unit->words; false where it is not constant.
+ */
 bool check_words(struct parser *p, lang_ref ref, uint32_t *out_words, uint32_t *out_num_words);
 
 /* check_function.c: what a body uses */
 
-bool check_finish_functions(struct parser *p, uint32_t first_function); /* callees, flags, order; false on recursion */
+/* callees, flags, order; false on recursion */
+bool check_finish_functions(struct parser *p, uint32_t first_function);
 
 /* lookup.c: names through files and layers */
 
-ir_type_id lookup_type(const struct lang_unit *unit, const char *name, size_t len); /* VOID where there is none */
-ir_type_id lookup_array(struct lang_unit *unit, ir_type_id element, uint32_t length); /* made where it is new */
+/* VOID where there is none */
+ir_type_id lookup_type(const struct lang_unit *unit, const char *name, size_t len);
+/* made where it is new */
+ir_type_id lookup_array(struct lang_unit *unit, ir_type_id element, uint32_t length);
 uint32_t lookup_global(const struct lang_unit *unit, const uint32_t *files, uint32_t num_files, str_id name);
 /* The next function of a name; start with *cursor = {0, 0}. LANG_NONE at the end. */
 struct lookup_cursor {

@@ -141,12 +141,15 @@ static void read_integer(struct token *token)
         bad(token, "is octal in GLSL; write it without the leading zero");
     else if (num_parse_int(token->text, len, &value) != len)
         bad(token, "is not a number");
-    else if (value > UINT32_MAX) /* GLSL 4.50, 4.1.3: any pattern of 32 bits is allowed, for int too */
+    /* GLSL 4.50, 4.1.3: any pattern of 32 bits is allowed, for int too */
+    else if (value > UINT32_MAX)
         bad(token, "does not fit in 32 bits");
     token->value.u = (uint32_t)value;
 }
 
-/* Letters, digits, points, and signs of exponents: what does not read as a number as a whole is none. */
+/*
+ * Letters, digits, points, and signs of exponents: what does not read as a number as a whole is none.
+ */
 static bool is_of_number(const char *start, const char *at, bool hex)
 {
     if (is_word(*at) || *at == '.')

@@ -71,7 +71,9 @@ const struct lang_slot *lookup_param(const struct lang_unit *unit, uint32_t func
     return &layer->slots.items[f->first_slot + index];
 }
 
-/* Number of implicit conversions that the arguments need; -1 where the function does not take them. */
+/*
+ * Number of implicit conversions that the arguments need; -1 where the function does not take them.
+ */
 static int conversions(const struct lang_unit *unit, uint32_t function, const ir_type_id *types, unsigned num_types)
 {
     int num = 0;

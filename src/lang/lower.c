@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Calls into IR. A call is, in this order of preference: a constant, the nodes of the callee's body, a CALL. */
+/*
+ * Calls into IR. A call is, in this order of preference: a constant, the nodes of the callee's body, a CALL.
+ */
 #include "lang/fragment.h"
 #include "lang/lower.h"
 
@@ -245,7 +247,9 @@ static bool is_worth_trying(struct lower *lo, const struct lang_unit *layer, con
     return known == A_CHOICE_KNOWN || (known == A_NUMBER_KNOWN && is_outer && fn->num_nodes <= LOWER_MAX_TRIED);
 }
 
-/* False where the body cannot become nodes; those that it has made by then are not used by anybody. */
+/*
+ * False where the body cannot become nodes; those that it has made by then are not used by anybody.
+ */
 static bool lower_inline(struct lower *lo, uint32_t id, const ir_ref *in, ir_ref *out)
 {
     struct lower_frame frame = {0}, *caller = lo->frame;

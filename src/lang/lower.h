@@ -13,9 +13,11 @@
 enum {
     LOWER_MAX_LEAVES = 128,       /* of an expression, or of all arguments of a call */
     LOWER_MAX_DEPTH = 40,         /* of calls lowered inside of calls */
-    LOWER_MAX_BRANCH_NODES = 12,  /* that a branch may add where both are computed and one is selected */
+    /* that a branch may add where both are computed and one is selected */
+    LOWER_MAX_BRANCH_NODES = 12,
     LOWER_OUTER_DEPTH = 2,        /* the called function, and those that it calls */
-    LOWER_MAX_TRIED = 200,        /* larger functions may be small with the constants at hand; these are tried … */
+    /* larger functions may be small with the constants at hand; these are tried … */
+    LOWER_MAX_TRIED = 200,
     LOWER_TRIED_NODES = 10,       /* … and given up when they add more than this */
     LOWER_TINY = 8,               /* functions of so few nodes are never worth a call */
 };
@@ -63,7 +65,9 @@ ir_type_id lower_graph_type(const struct lang_unit *unit, struct ir_graph *graph
 /* lower_stmt.c. True where the function has returned. */
 bool lower_statements(struct lower *lo, lang_ref first);
 
-/* lower.c: leaves of the in and inout parameters to leaves of the returned value and the out and inout parameters. */
+/*
+ * lower.c: leaves of the in and inout parameters to leaves of the returned value and the out and inout parameters.
+ */
 void lower_call(struct lower *lo, uint32_t id, const ir_ref *in, ir_ref *out);
 
 #endif

@@ -108,7 +108,9 @@ static void merge(struct lower *lo, ir_ref condition, const ir_ref *yes)
     }
 }
 
-/* What follows a statement of which one branch has returned: it must return as well, or be the end of a void function. */
+/*
+ * What follows a statement of which one branch has returned: it must return as well, or be the end of a void function.
+ */
 static void lower_rest(struct lower *lo, lang_ref rest)
 {
     struct mark begin = mark(lo);
@@ -124,7 +126,8 @@ static bool lower_branches(struct lower *lo, const struct lang_node *node, ir_re
     const ir_ref *before = save_leaves(lo);
     bool yes_returned = lower_body(lo, node->b);
     lo->failed |= !is_cheap(lo, begin);
-    if (yes_returned && !node->c && !lo->failed) { /* `if (c) return x;`: the rest is the other branch */
+    /* `if (c) return x;`: the rest is the other branch */
+    if (yes_returned && !node->c && !lo->failed) {
         const ir_ref *yes = save_leaves(lo);
         restore_leaves(lo, before);
         lower_rest(lo, node->next);

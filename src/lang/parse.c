@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/* The parser's core: tokens, messages, recovery, taking back; and the parsing of inline expressions. */
+/*
+ * The parser's core: tokens, messages, recovery, taking back; and the parsing of inline expressions.
+ */
 #include "lang/lang_priv.h"
 
 #include <stdarg.h>

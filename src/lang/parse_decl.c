@@ -149,7 +149,9 @@ static bool same_members(const struct parser *p, ir_type_id type, uint32_t first
     return true;
 }
 
-/* Structs are found by name in the whole unit: an equal one of another file is the same type, a different one hides it. */
+/*
+ * Structs are found by name in the whole unit: an equal one of another file is the same type, a different one hides it.
+ */
 static void declare_struct(struct parser *p, const struct token *at, str_id name, uint32_t first)
 {
     uint32_t num_members = p->unit->members.len - first;
@@ -194,7 +196,9 @@ static bool same_value(struct parser *p, const struct lang_global *a, const stru
     return a->num_words == b->num_words && a->array_length == b->array_length;
 }
 
-/* A declaration that says the same as one that is visible is that one; constants may repeat only by #define. */
+/*
+ * A declaration that says the same as one that is visible is that one; constants may repeat only by #define.
+ */
 static void declare_global(struct parser *p, const struct token *at, struct lang_global global, bool may_repeat)
 {
     uint32_t known = lookup_global(p->unit, p->visible.items, p->visible.len, global.name);
@@ -377,7 +381,9 @@ static bool check_repeats(struct parser *p, const struct token *at, uint32_t id,
     return false;
 }
 
-/* The own function with this signature: known from a prototype, or new. LANG_NONE where it may not be defined. */
+/*
+ * The own function with this signature: known from a prototype, or new. LANG_NONE where it may not be defined.
+ */
 static uint32_t declare_function(struct parser *p, const struct token *at, str_id name, ir_type_id return_type,
                                  bool is_definition)
 {

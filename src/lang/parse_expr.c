@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Expressions: precedence climbing over the symbol table. Every function returns 0 after an error it has reported. */
+/*
+ * Expressions: precedence climbing over the symbol table. Every function returns 0 after an error it has reported.
+ */
 #include "lang/lang_priv.h"
 
 static lang_ref parse_unary(struct parser *p);
@@ -114,7 +116,9 @@ static lang_ref parse_global(struct parser *p, uint32_t id, const struct token *
 {
     const struct lang_unit *layer;
     const struct lang_global *global = lang_global(p->unit, id, &layer);
-    /* A matrix is printed best by its name; a scalar or vector folds and reads best as its value. */
+    /*
+     * A matrix is printed best by its name; a scalar or vector folds and reads best as its value.
+     */
     bool is_small = global->type < IR_TYPE_FIRST_USER && !ir_type_is_matrix(global->type);
     if (global->kind == LANG_GLOBAL_CONST && is_small) {
         struct ir_value value = {.type = global->type};

@@ -149,7 +149,8 @@ void lang_plan_finish(struct lang_unit *unit)
 {
     struct lang_plan *plan = plan_of(unit);
     for (uint32_t eight = plan->num_ids / 8 + 1; eight-- > 0;)
-        for (uint32_t id = eight * 8 + 8; plan->called[eight] && id-- > eight * 8;) /* callees are added to them on the way */
+        /* callees are added to them on the way */
+        for (uint32_t id = eight * 8 + 8; plan->called[eight] && id-- > eight * 8;)
             for (uint32_t link = first_variant(plan, id); link; link = plan->variants.items[link - 1].next)
                 spec_begin(unit, link - 1);
     for (uint32_t eight = 0; eight <= plan->num_ids / 8; eight++)

@@ -17,7 +17,8 @@ struct printer {
     uint32_t *visible;    /* slots in scope, innermost last */
     uint32_t num_visible;
     bool any_changed;     /* some local's name is not the source's */
-    uint64_t initials;    /* of the names of the functions and globals in use, one bit each: few locals share one */
+    /* of the names of the functions and globals in use, one bit each: few locals share one */
+    uint64_t initials;
     uint64_t ids;         /* of the names that have been in scope, one bit each likewise */
     unsigned indent;
     bool is_typed;        /* the target is asked for forms by type */
@@ -31,7 +32,9 @@ static inline const struct lang_node *node_at(const struct printer *p, lang_ref 
     return ast_node(p->layer, ref);
 }
 
-/* Names. Pruning moves declarations into outer scopes, so that names which were apart may meet: the later one changes. */
+/*
+ * Names. Pruning moves declarations into outer scopes, so that names which were apart may meet: the later one changes.
+ */
 
 static bool is_same(const char *a, const char *b)
 {
@@ -413,7 +416,9 @@ static void print_statements(struct printer *p, lang_ref first)
     }
 }
 
-/* What stands between braces, in a scope of its own. `body` is a block or a single statement; NULL is empty. */
+/*
+ * What stands between braces, in a scope of its own. `body` is a block or a single statement; NULL is empty.
+ */
 static void print_body(struct printer *p, const struct lang_node *body)
 {
     uint32_t mark = p->num_visible;
@@ -435,7 +440,9 @@ static lang_ref only_statement(const struct printer *p, lang_ref body)
     return node->a && !node_at(p, node->a)->next ? node->a : 0;
 }
 
-/* One line needs no braces; what is compound keeps them, which also settles where an `else` belongs. */
+/*
+ * One line needs no braces; what is compound keeps them, which also settles where an `else` belongs.
+ */
 static bool needs_braces(const struct printer *p, lang_ref body)
 {
     lang_ref only = only_statement(p, body);
@@ -444,7 +451,9 @@ static bool needs_braces(const struct printer *p, lang_ref body)
            || kind == LANG_DECLARE;
 }
 
-/* The end of a head like "if (x)" and what it governs. Leaves the line open behind the closing brace. */
+/*
+ * The end of a head like "if (x)" and what it governs. Leaves the line open behind the closing brace.
+ */
 static void print_governed(struct printer *p, lang_ref body, bool braces)
 {
     text_str(p->out, braces ? " {\n" : "\n");

@@ -101,7 +101,9 @@ static void print_scalar(const struct lang_syntax *syntax, ir_type_id type, unio
     }
 }
 
-/* How many scalars a constructor needs to build the value: 1 for a splat or a multiple of the identity. */
+/*
+ * How many scalars a constructor needs to build the value: 1 for a splat or a multiple of the identity.
+ */
 static unsigned count_needed(const struct ir_type_info *info, const union ir_word *w)
 {
     unsigned rows = info->components / info->columns;
@@ -119,12 +121,14 @@ static bool has_sign(ir_type_id type, union ir_word word)
     return type == IR_TYPE_FLOAT ? signbit(word.f) && isfinite(word.f) : type == IR_TYPE_INT && word.i < 0 && word.i != INT32_MIN;
 }
 
-enum { FLOAT_INFINITY = 0x7f800000 }; /* as bits, of which those of numbers that are neither negative nor infinite are less */
+/* as bits, of which those of numbers that are neither negative nor infinite are less */
+enum { FLOAT_INFINITY = 0x7f800000 };
 
 void lang_print_value(const struct lang_style *style, const struct strpool *strings, ir_type_id type,
                       const union ir_word *words, enum lang_precedence least, struct text *out)
 {
-    if (type == IR_TYPE_FLOAT && style->plain_floats && words->u < FLOAT_INFINITY) { /* most values of a shader */
+    /* most values of a shader */
+    if (type == IR_TYPE_FLOAT && style->plain_floats && words->u < FLOAT_INFINITY) {
         text_float(out, words->f);
         return;
     }

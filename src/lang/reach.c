@@ -15,7 +15,9 @@ static bool mark(struct arena *arena, uint8_t **seen, uint32_t *cap, uint32_t in
     return is_new;
 }
 
-/* Members before the struct that holds them. Types nest as deep as their declarations, which cannot be recursive. */
+/*
+ * Members before the struct that holds them. Types nest as deep as their declarations, which cannot be recursive.
+ */
 static void add_type(struct lang_reach *reach, const struct lang_unit *unit, ir_type_id type)
 {
     if (!ast_is_user_type(type)
@@ -52,7 +54,9 @@ static void add_own_needs(struct lang_reach *reach, const struct lang_unit *unit
         add_global(reach, unit, layer->refs.items[fn->first_global + i]);
 }
 
-/* Calls nest as deep as the author's functions call each other, which has no bound: hence a stack of our own. */
+/*
+ * Calls nest as deep as the author's functions call each other, which has no bound: hence a stack of our own.
+ */
 void lang_reach_add(struct lang_reach *reach, const struct lang_unit *unit, uint32_t id)
 {
     struct visit {

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/* The forward step over calls: evaluated where all arguments are constant, else noted in the plan. */
+/*
+ * The forward step over calls: evaluated where all arguments are constant, else noted in the plan.
+ */
 #include "lang/specialise.h"
 
 enum { MAX_EVAL_STEPS = 20000 };

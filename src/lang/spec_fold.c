@@ -77,7 +77,9 @@ static lang_ref zero(struct spec *s, const struct lang_node *op, lang_ref droppe
     return spec_constant(s, &(struct ir_value){.type = op->type});
 }
 
-/* A product in the sense of linear algebra with a vector of ones is a sum of columns, not an identity. */
+/*
+ * A product in the sense of linear algebra with a vector of ones is a sum of columns, not an identity.
+ */
 static bool is_linear(const struct spec *s, lang_ref a, lang_ref b)
 {
     ir_type_id types[2] = {ast_node(s->unit, a)->type, ast_node(s->unit, b)->type};
@@ -139,7 +141,9 @@ static lang_ref simplify_swizzle(struct spec *s, const struct lang_node *op, lan
     return spreads ? as_result(s, op, inner->a) : 0;
 }
 
-/* vec3(2.0) * v is 2.0 * v: the scalar is shorter, and the op spreads it. Writes the op where that is so. */
+/*
+ * vec3(2.0) * v is 2.0 * v: the scalar is shorter, and the op spreads it. Writes the op where that is so.
+ */
 static lang_ref shorten(struct spec *s, const struct lang_node *op, const lang_ref *args)
 {
     for (unsigned i = 0; i < 2; i++) {

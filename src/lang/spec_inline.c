@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/* The forward step over calls of small functions: `return expression;` with the arguments in the parameters' places. */
+/*
+ * The forward step over calls of small functions: `return expression;` with the arguments in the parameters' places.
+ */
 #include "lang/specialise.h"
 
 enum { MAX_NODES = 14 /* of the function: what is larger stays a function */ };

@@ -224,7 +224,8 @@ static void spec_loop(struct spec *s, const struct lang_node *source, struct cha
         }
     }
     spec_body(s, node.c, &body);
-    if (node.kind != LANG_WHILE) /* `continue` leads here with less known than the end of the body has */
+    /* `continue` leads here with less known than the end of the body has */
+    if (node.kind != LANG_WHILE)
         forget_round(s, source);
     if (node.kind == LANG_DO)
         node.b = spec_expression(s, node.b);

@@ -185,7 +185,9 @@ static void read_statement(struct spec *s, lang_ref ref)
 
 static lang_ref sweep_list(struct spec *s, lang_ref first, unsigned loops);
 
-/* A value that nobody wants but whose computation has effects: the call remains, or else the statement as it is. */
+/*
+ * A value that nobody wants but whose computation has effects: the call remains, or else the statement as it is.
+ */
 static bool becomes_call(struct spec *s, lang_ref ref, lang_ref value)
 {
     if (spec_node(s, value)->kind != LANG_CALL)
@@ -198,7 +200,9 @@ static bool becomes_call(struct spec *s, lang_ref ref, lang_ref value)
     return true;
 }
 
-/* Literals that stand for a variable, and are long, stand for it no more where there are two of them. */
+/*
+ * Literals that stand for a variable, and are long, stand for it no more where there are two of them.
+ */
 static void name_literals(struct spec *s, uint32_t slot)
 {
     uint32_t kept = 0;
@@ -230,7 +234,9 @@ static bool names_slot(const struct spec *s, lang_ref ref, uint32_t slot)
     return false;
 }
 
-/* Is the next thing that happens to a variable that it gets a new value, by the statement this returns? */
+/*
+ * Is the next thing that happens to a variable that it gets a new value, by the statement this returns?
+ */
 static lang_ref overwriting(const struct spec *s, uint32_t slot, uint32_t list)
 {
     lang_ref ref = s->slots[slot].mention;

@@ -33,11 +33,13 @@ struct variant { /* a function with the strings and flags that choose what it is
     uint32_t function;             /* id */
     uint32_t next;                 /* 1 + index of another variant of it; 0 = none */
     uint32_t first_fact;           /* in plan->facts: one per parameter */
-    uint32_t first_call, num_calls; /* in plan->calls: its tree's, arguments before the call that they are for */
+    /* in plan->calls: its tree's, arguments before the call that they are for */
+    uint32_t first_call, num_calls;
     lang_ref body;                 /* its tree's first statement, once the forward step has been */
     uint32_t version;              /* id of the function that it has become */
     bool changed;                  /* its tree is not the source's */
-    bool is_final;                 /* its source's tree is taken as it is, so far; first_call: the variants that it calls */
+    /* its source's tree is taken as it is, so far; first_call: the variants that it calls */
+    bool is_final;
     bool is_known;                 /* the same with the tree of a version that the library has */
     bool keeps_unused;             /* parameters that nobody uses: some argument has effects */
 };
@@ -62,7 +64,8 @@ enum slot_use { SLOT_READ = 1, SLOT_WRITTEN = 2 };
 struct spec_slot { /* of the source */
     lang_ref mention;  /* backward: the first statement behind the current one that names it */
     uint8_t uses;      /* enum slot_use */
-    uint8_t literals;  /* how often its value stands for it, where that is long to write (saturating) */
+    /* how often its value stands for it, where that is long to write (saturating) */
+    uint8_t literals;
     uint8_t reads;     /* single: VAR nodes (saturating at 2) */
     bool is_dropped;   /* a parameter that the version does without */
     lang_ref declared; /* single: its DECLARE in the list at hand, when it may be forwarded */
@@ -75,7 +78,8 @@ struct spec {
     const struct lang_unit *layer; /* of the source */
     struct lang_function fn;       /* the source; a copy, since its own place may move */
     bool changed;
-    lang_ref *known;        /* by slot, forward: an expression of constants which the slot equals here, or 0 */
+    /* by slot, forward: an expression of constants which the slot equals here, or 0 */
+    lang_ref *known;
     struct spec_slot *slots; /* by slot */
     uint32_t cap_slots;
     uint32_t num_effects;  /* calls so far that assign to their arguments */
@@ -83,7 +87,8 @@ struct spec {
     uint32_t num_lists;    /* swept so far */
     VEC(lang_ref) stack;   /* scratch of statements that hold others */
     VEC(lang_ref) vars;    /* nodes of the result that name a slot: VAR and DECLARE */
-    VEC(lang_ref) longs;   /* CONST nodes of the result that stand for a slot and are long to write */
+    /* CONST nodes of the result that stand for a slot and are long to write */
+    VEC(lang_ref) longs;
     VEC(uint32_t) callees, globals; /* of the result, each once */
     uint32_t num_nodes;
     uint16_t flags;        /* enum lang_function_flags of the result */
@@ -102,8 +107,10 @@ bool spec_get(const struct spec *s, lang_ref ref, struct ir_value *out); /* the 
 
 /* spec_expr.c. A result of spec_expression may be of a kind other than the source's. */
 lang_ref spec_expression(struct spec *s, lang_ref ref);
-lang_ref spec_target(struct spec *s, lang_ref ref); /* of an assignment or an out argument: stays what it is */
-bool spec_has_effects(const struct spec *s, lang_ref ref); /* does it call anything that assigns to its arguments? */
+/* of an assignment or an out argument: stays what it is */
+lang_ref spec_target(struct spec *s, lang_ref ref);
+/* does it call anything that assigns to its arguments? */
+bool spec_has_effects(const struct spec *s, lang_ref ref);
 
 /* spec_call.c. Until it is resolved, a call has 1 + the callee's variant in c. */
 lang_ref spec_call(struct spec *s, struct lang_node call);
@@ -112,7 +119,9 @@ bool spec_is_finite(const struct ir_value *value); /* spec_fold.c */
 /* spec_resolve.c: the calls of the variant. */
 void spec_resolve(struct spec *s);
 
-/* spec_inline.c: the expression that a call of a small function stands for; 0 where it stays a call. */
+/*
+ * spec_inline.c: the expression that a call of a small function stands for; 0 where it stays a call.
+ */
 lang_ref spec_inline(struct spec *s, const struct lang_node *call);
 
 /* spec_fold.c: an op over operands of the result: a constant, a simpler expression, or 0. */
@@ -131,16 +140,23 @@ lang_ref spec_single(struct spec *s, lang_ref first);
 void spec_begin(struct lang_unit *unit, uint32_t variant);
 void spec_finish(struct lang_unit *unit, uint32_t variant);
 
-/* known.c: notes what a version of the library that fits the variant calls; false: there is none. */
+/*
+ * known.c: notes what a version of the library that fits the variant calls; false: there is none.
+ */
 bool known_begin(struct spec *s);
 /* That version, when its callees' versions are known, or LANG_NONE. */
 uint32_t known_version(const struct spec *s);
-/* Takes down what a variant calls, before its calls are resolved, and the version that it has become. */
+/*
+ * Takes down what a variant calls, before its calls are resolved, and the version that it has become.
+ */
 void known_take_calls(struct spec *s);
 void known_take_version(struct spec *s);
 
-/* plan.c: tells what a call passes. Returns the variant that is called, which may be moved by further ones. */
-uint32_t plan_note_any(struct lang_unit *unit, uint32_t function); /* makes the plan an open one: no parameter is bound, or dropped */
+/*
+ * plan.c: tells what a call passes. Returns the variant that is called, which may be moved by further ones.
+ */
+/* makes the plan an open one: no parameter is bound, or dropped */
+uint32_t plan_note_any(struct lang_unit *unit, uint32_t function);
 uint32_t plan_note_call(struct lang_unit *unit, uint32_t function, const fact *args, bool args_have_effects);
 
 #endif

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/* A syntax made ready for printing: what would be looked up and taken apart again for each word is looked up once. */
+/*
+ * A syntax made ready for printing: what would be looked up and taken apart again for each word is looked up once.
+ */
 #include "lang/lang.h"
 
 #include <assert.h>
@@ -29,7 +31,9 @@ static enum lang_precedence operand_precedence(const struct lang_form *form, uns
     return LANG_PREC_POSTFIX;
 }
 
-/* Compilers of some languages would fill a vector when the shader runs. Products have an operation of their own for a scalar. */
+/*
+ * Compilers of some languages would fill a vector when the shader runs. Products have an operation of their own for a scalar.
+ */
 static bool spreads_constants(const struct lang_syntax *syntax, enum ir_op op)
 {
     uint8_t rule = ir_op_info(op)->rule;

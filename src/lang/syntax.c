@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/* The portable language's own spelling, which is also GLSL's, and look-ups through a chain of syntax tables. */
+/*
+ * The portable language's own spelling, which is also GLSL's, and look-ups through a chain of syntax tables.
+ */
 #include "lang/lang.h"
 
 #include <assert.h>

@@ -13,7 +13,9 @@ static bool is_worth_text(const struct lang_function *fn, bool is_version)
     return (fn->flags & LANG_FN_FINAL || is_version) && !(fn->flags & LANG_FN_STRINGS) && is_called;
 }
 
-/* Structs are written by name; those that variables and what is returned are of can be told from the function. */
+/*
+ * Structs are written by name; those that variables and what is returned are of can be told from the function.
+ */
 struct type_watch {
     const struct lang_unit *unit;
     const struct lang_function *fn;
@@ -37,7 +39,8 @@ static const char *watch_type(void *user_data, ir_type_id type)
     return NULL;
 }
 
-enum { MAX_TEXT = 1024 }; /* few shaders have longer ones, and the image has room for many shorter */
+/* few shaders have longer ones, and the image has room for many shorter */
+enum { MAX_TEXT = 1024 };
 
 void lang_make_texts(struct lang_unit *unit, const struct lang_syntax *syntax, struct arena *arena)
 {

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Names of colour spaces. A transform is a node of the library (cmlib), `<space>_to_<space>`: the set of spaces is the library's. */
+/*
+ * Names of colour spaces. A transform is a node of the library (cmlib), `<space>_to_<space>`: the set of spaces is the library's.
+ */
 #include "library/library.h"
 
 #include <stdio.h>

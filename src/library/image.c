@@ -121,7 +121,8 @@ static uint32_t max_info(const struct library *lib)
 struct runs {
     struct document *doc;
     const struct attribute *from; /* of the original */
-    uint32_t *table;              /* open addressing: 1 + an element whose attributes are in `doc` */
+    /* open addressing: 1 + an element whose attributes are in `doc` */
+    uint32_t *table;
     uint32_t mask;
 };
 
@@ -153,7 +154,9 @@ static void share_run(struct runs *runs, uint32_t index, struct arena *arena)
     *slot = index + 1;
 }
 
-/* Gives the document elements and attributes of its own, in which equal runs are one. Nothing may be added to it after this. */
+/*
+ * Gives the document elements and attributes of its own, in which equal runs are one. Nothing may be added to it after this.
+ */
 static void share_attributes(struct document *doc, struct arena *arena)
 {
     struct runs runs = {.doc = doc, .from = doc->attrs.items, .mask = 15};
@@ -172,7 +175,9 @@ static void share_attributes(struct document *doc, struct arena *arena)
 
 /* ---- Writing ---- */
 
-/* Every string of a document is looked for in the image, which has few of them: half of the slots are free, so that few are compared. */
+/*
+ * Every string of a document is looked for in the image, which has few of them: half of the slots are free, so that few are compared.
+ */
 static uint32_t make_string_table(const struct strpool *pool, struct arena *arena, uint32_t **out_table)
 {
     uint32_t slots = 64;

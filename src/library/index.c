@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Fills a library layer from its document: types, definitions, geometric properties, implementations. */
+/*
+ * Fills a library layer from its document: types, definitions, geometric properties, implementations.
+ */
 #include "library/library.h"
 
 #include "base/hash.h"
@@ -108,7 +110,9 @@ static void add_ports_of(struct indexer *ix, elem_id nodedef, enum element_kind 
     }
 }
 
-/* Own ports first, then inherited ones that are not redeclared (specification, "NodeDef Inheritance"). */
+/*
+ * Own ports first, then inherited ones that are not redeclared (specification, "NodeDef Inheritance").
+ */
 static uint16_t add_ports(struct indexer *ix, elem_id nodedef, enum element_kind kind)
 {
     struct library *lib = ix->lib;
@@ -141,7 +145,8 @@ static void link_by_node(struct indexer *ix, uint32_t own)
     uint32_t slot = hash_pair(node, 0) & mask;
     while (lib->node_table.items[slot] && lib->nodedefs.items[lib->node_table.items[slot] - 1].node != node)
         slot = (slot + 1) & mask;
-    lib->nodedefs.items[own].next_same_node = lib->node_table.items[slot] - 1; /* LIBRARY_NONE: 0 - 1 */
+    /* LIBRARY_NONE: 0 - 1 */
+    lib->nodedefs.items[own].next_same_node = lib->node_table.items[slot] - 1;
     lib->node_table.items[slot] = own + 1;
 }
 
@@ -155,7 +160,8 @@ static void make_node_table(struct indexer *ix)
         slots *= 2;
     uint32_t *table = vec_extend(ix->arena, &lib->node_table, slots);
     memset(table, 0, slots * sizeof *table);
-    for (uint32_t i = lib->nodedefs.len; i-- > 0;) /* from the last, so that the first of a node leads */
+    /* from the last, so that the first of a node leads */
+    for (uint32_t i = lib->nodedefs.len; i-- > 0;)
         link_by_node(ix, i);
 }
 
@@ -427,7 +433,9 @@ static void refuse_source(struct indexer *ix, const struct implementation *impl,
     diag_add(diags, DIAG_ID_untrusted_source, doc_place(&ix->lib->doc, impl->element), text_of(ix->lib, impl->name), reason);
 }
 
-/* What does not parse is kept as it is for the targets it is written for; a portable implementation must parse. */
+/*
+ * What does not parse is kept as it is for the targets it is written for; a portable implementation must parse.
+ */
 static void parse_implementation(struct indexer *ix, struct implementation *impl)
 {
     struct diag_list faults;
@@ -576,7 +584,9 @@ void library_index(struct library *lib, const struct lang_reader *reader, struct
     library_sort_units(lib);
 }
 
-/* What a graph's nodes read from its interface is found by number, unless another definition shares the graph. */
+/*
+ * What a graph's nodes read from its interface is found by number, unless another definition shares the graph.
+ */
 static void number_interface(const struct library *lib, uint32_t nodedef, struct binding *bindings, uint32_t n)
 {
     for (uint32_t i = 0; i < n; i++) {

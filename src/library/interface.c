@@ -25,7 +25,9 @@ uint32_t library_implemented_nodedef(const struct library *lib, elem_id graph)
     return LIBRARY_NONE;
 }
 
-/* " (did you mean 'x'?)" among the interface inputs of a graph, which its definition says where it has one. */
+/*
+ * " (did you mean 'x'?)" among the interface inputs of a graph, which its definition says where it has one.
+ */
 static const char *suggest(const struct library *lib, elem_id graph, uint32_t nodedef, str_id name, struct diag_list *diags)
 {
     struct diag_guess guess;

@@ -46,7 +46,8 @@ enum impl_kind {
     IMPL_GRAPH,      /* ref: element of the nodegraph */
     IMPL_DYNAMIC,    /* built by C code chosen by the node's name */
     IMPL_VERBATIM,   /* ref: verbatim source */
-    IMPL_BROKEN,     /* its diagnostics were deferred: [ref, ref + count) of the layer's deferred list */
+    /* its diagnostics were deferred: [ref, ref + count) of the layer's deferred list */
+    IMPL_BROKEN,
 };
 
 struct implementation {
@@ -81,14 +82,16 @@ enum binding_kind {
     BIND_DEFAULT,   /* as the definition says */
     BIND_VALUE,     /* attribute `value` of `element` */
     BIND_NODE,      /* output `output` of node `ref` (an element) */
-    BIND_INTERFACE, /* the input named `ref` of the definition that the enclosing graph implements */
+    /* the input named `ref` of the definition that the enclosing graph implements */
+    BIND_INTERFACE,
     BIND_ERROR,     /* reported; poison */
 };
 
 struct binding {
     uint8_t kind;    /* enum binding_kind */
     uint8_t output;  /* BIND_NODE: which output */
-    uint16_t input;  /* BIND_INTERFACE: where the definition has it, as far as that is known ahead */
+    /* BIND_INTERFACE: where the definition has it, as far as that is known ahead */
+    uint16_t input;
     uint32_t ref;
     elem_id element; /* the <input>; 0 where the node has none */
 };
@@ -129,7 +132,8 @@ enum library_trust { /* in the source of implementations */
 
 struct library {
     struct library *base;
-    uint64_t digest; /* of the bytes that the layer and those below it were read from; not of a document's */
+    /* of the bytes that the layer and those below it were read from; not of a document's */
+    uint64_t digest;
     enum library_trust trust;
     struct strpool strings;
     struct document doc;
@@ -140,16 +144,23 @@ struct library {
     VEC(struct implementation) impls;
     VEC(struct family) families;
     VEC(struct verbatim) verbatims;
-    VEC(struct graph_node) graph_nodes; /* nodes of functional graphs, resolved ahead; image layers only */
+    /* nodes of functional graphs, resolved ahead; image layers only */
+    VEC(struct graph_node) graph_nodes;
     VEC(struct binding) bindings;
     VEC(struct geomprop) geomprops;
     VEC(struct user_type) types;
     VEC(struct unit) units;     /* by name, then as they stand in the document */
     VEC(uint32_t) refs;
-    VEC(uint32_t) node_table;   /* open addressing by node name: first nodedef of that node (own index + 1) */
-    VEC(uint32_t) element_info; /* per own element: 1 + own index of its nodedef, type, geomprop or graph_node; 0 = none */
-    const uint16_t *narrow_info; /* in place of `element_info` in an image layer of few definitions */
-    _Atomic uint32_t *matches;  /* per own element: 1 + the definition that it was found to be without a message; 0: not asked. NULL: not kept */
+    /* open addressing by node name: first nodedef of that node (own index + 1) */
+    VEC(uint32_t) node_table;
+    /* per own element: 1 + own index of its nodedef, type, geomprop or graph_node; 0 = none */
+    VEC(uint32_t) element_info;
+    /* in place of `element_info` in an image layer of few definitions */
+    const uint16_t *narrow_info;
+    /*
+     * per own element: 1 + the definition that it was found to be without a message; 0: not asked. NULL: not kept
+     */
+    _Atomic uint32_t *matches;
     VEC(uint32_t) overrides;    /* impl indices (own) for nodedefs of lower layers */
     struct diag_list *deferred; /* faults of implementations, told when one is used */
 };
@@ -164,7 +175,9 @@ const struct family *library_family(const struct library *lib, uint32_t id);
 const struct verbatim *library_verbatim(const struct library *lib, uint32_t id);
 const struct geomprop *library_geomprop(const struct library *lib, str_id name);
 uint32_t library_num_nodedefs(const struct library *lib); /* with lower layers */
-/* The first definition of a node in one layer, by its own index; LIBRARY_NONE. `next_same_node` leads on. */
+/*
+ * The first definition of a node in one layer, by its own index; LIBRARY_NONE. `next_same_node` leads on.
+ */
 uint32_t library_first_of_node(const struct library *layer, str_id node);
 
 /* The ports of a definition: inputs, then outputs. */
@@ -188,14 +201,18 @@ ir_type_id library_type_ir(const struct library *lib, doc_type type);
 void library_index_units(struct library *lib, elem_id unitdef);
 void library_sort_units(struct library *lib);
 
-/* index.c: fills a layer from its document: definitions, implementations (sources are read by `reader`), types, geomprops. */
+/*
+ * index.c: fills a layer from its document: definitions, implementations (sources are read by `reader`), types, geomprops.
+ */
 void library_index(struct library *lib, const struct lang_reader *reader, struct diag_list *diags);
 /* Resolves every functional graph of the layer ahead of time (what an image stores). */
 void library_resolve_graphs(struct library *lib, struct diag_list *diags);
 
 /* match.c */
 
-/* From now on what nodes of the layer match is kept, so that it is found once for all who ask, on any thread. The tree stands. */
+/*
+ * From now on what nodes of the layer match is kept, so that it is found once for all who ask, on any thread. The tree stands.
+ */
 void library_keep_matches(struct library *lib, struct arena *arena);
 
 /*
@@ -206,7 +223,9 @@ uint32_t library_match(const struct library *lib, elem_id node, struct diag_list
 
 /* resolve.c */
 
-/* Finds definition and bindings of a node; bindings are written to `bindings` (room for the definition's inputs). */
+/*
+ * Finds definition and bindings of a node; bindings are written to `bindings` (room for the definition's inputs).
+ */
 struct resolve_out {
     struct arena *arena;
     VEC(struct binding) bindings;
@@ -231,8 +250,11 @@ int library_resolve_output(const struct library *lib, elem_id port, elem_id node
 
 /* interface.c */
 
-elem_id library_graph_around(const struct library *lib, elem_id element); /* the nodegraph, 0: none */
-/* The definition that a graph of this layer implements, by its own word or that of an <implementation>. LIBRARY_NONE. */
+/* the nodegraph, 0: none */
+elem_id library_graph_around(const struct library *lib, elem_id element);
+/*
+ * The definition that a graph of this layer implements, by its own word or that of an <implementation>. LIBRARY_NONE.
+ */
 uint32_t library_implemented_nodedef(const struct library *lib, elem_id graph);
 /*
  * Which input of a graph's definition `asker` takes its value from, a BIND_INTERFACE, for `port`. -1 after reporting that there is none or
@@ -262,10 +284,14 @@ bool library_has_unit_type(const struct library *lib, str_id type);
 const char *library_suggest_unit_type(const struct library *lib, str_id type, struct diag_list *diags);
 const char *library_suggest_unit(const struct library *lib, str_id unit, struct diag_list *diags);
 
-/* validate.c: checks a document's layer against the definitions below it and its own, and doc_validate's. `scratch` may be freed behind it. */
+/*
+ * validate.c: checks a document's layer against the definitions below it and its own, and doc_validate's. `scratch` may be freed behind it.
+ */
 void library_validate(const struct library *lib, struct arena *scratch, struct diag_list *diags);
 
-/* enum.c: a string with an enum accepts its words only; others are reported. Not set, 0, is no word. */
+/*
+ * enum.c: a string with an enum accepts its words only; others are reported. Not set, 0, is no word.
+ */
 void library_check_enum(const struct library *lib, const struct port *port, str_id text, struct diag_place place,
                         struct diag_list *diags);
 
@@ -277,7 +303,9 @@ void library_check_enum(const struct library *lib, const struct port *port, str_
  */
 void library_write_image(const struct library *lib, const struct lang_recorder *recorder, const struct lang_syntax *syntax,
                          struct text *out);
-/* Makes `lib` refer into a mapped image, which must outlive it; NULL or why it was refused. check_bytes: verify the checksum, for files. */
+/*
+ * Makes `lib` refer into a mapped image, which must outlive it; NULL or why it was refused. check_bytes: verify the checksum, for files.
+ */
 const char *library_map_image(struct library *lib, const void *data, size_t size, bool check_bytes);
 
 #endif

@@ -142,7 +142,9 @@ struct misfits {
     uint32_t len, cap;
 };
 
-/* The definitions of the node's name that do not fit it, among those that give its type or the others. */
+/*
+ * The definitions of the node's name that do not fit it, among those that give its type or the others.
+ */
 static void collect_misfits(const struct library *lib, elem_id node, bool of_type, struct arena *arena, struct misfits *misfits)
 {
     str_id category = doc_element(&lib->doc, node)->category;
@@ -157,7 +159,9 @@ static void collect_misfits(const struct library *lib, elem_id node, bool of_typ
 
 enum { MAX_CANDIDATES = 5 }; /* that are shown */
 
-/* Where there are some that give the node's type, only these: what keeps them from fitting is what the author wants to know. */
+/*
+ * Where there are some that give the node's type, only these: what keeps them from fitting is what the author wants to know.
+ */
 static void report_candidates(const struct library *lib, elem_id node, struct diag_list *diags)
 {
     str_id category = doc_element(&lib->doc, node)->category;

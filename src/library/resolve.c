@@ -7,7 +7,9 @@ static const char *text_of(const struct library *lib, str_id id)
     return str_text(&lib->strings, id);
 }
 
-/* A child by name as `from` means it: names inside of a namespace are tried with it first (specification, "Namespaces"). */
+/*
+ * A child by name as `from` means it: names inside of a namespace are tried with it first (specification, "Namespaces").
+ */
 static elem_id find_named(const struct library *lib, elem_id scope, str_id name, elem_id from)
 {
     bool is_global = from >= lib->doc.first_element && lib->doc.is_global;
@@ -33,7 +35,10 @@ static elem_id root_of(const struct library *lib, elem_id element)
     return library_of_element(lib, element)->doc.root;
 }
 
-enum { MAX_SEARCHED = 4096 }; /* elements of a scope, for what makes a message more helpful: each generation of a large document may ask */
+/*
+ * elements of a scope, for what makes a message more helpful: each generation of a large document may ask
+ */
+enum { MAX_SEARCHED = 4096 };
 
 /* "(did you mean …)" among the named children of a scope. */
 static const char *suggest_child(const struct library *lib, elem_id scope, int kind, str_id name, struct diag_list *diags)
@@ -71,7 +76,9 @@ static void report_assumed(const struct library *lib, elem_id port, const char *
     diag_add(diags, DIAG_ID_output_needed, doc_place(&lib->doc, port), of, name, name);
 }
 
-/* Which output of several is meant where the document does not say: the first of the type, else the first, as for MaterialX. */
+/*
+ * Which output of several is meant where the document does not say: the first of the type, else the first, as for MaterialX.
+ */
 static int assume_output(const struct port *outputs, unsigned num_outputs, doc_type type)
 {
     for (unsigned i = 0; i < num_outputs; i++)

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Units (specification, "Units"): scales to the base unit of their type, from <unitdef> elements of any layer. */
+/*
+ * Units (specification, "Units"): scales to the base unit of their type, from <unitdef> elements of any layer.
+ */
 #include "library/library.h"
 
 #include <stdlib.h>

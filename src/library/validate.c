@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Checks of a document against the definitions: every node, every connection, and what nobody uses. */
+/*
+ * Checks of a document against the definitions: every node, every connection, and what nobody uses.
+ */
 #include "library/validate.h"
 
 static const char *text_of(const struct validate *v, str_id id)
@@ -20,7 +22,8 @@ static void check_interface(struct validate *v, const struct port *port, const s
 {
     elem_id graph = library_graph_around(v->lib, binding->element);
     uint32_t nodedef = library_implemented_nodedef(v->lib, graph);
-    bool is_told = graph && nodedef == LIBRARY_NONE && doc_attr_value(v->doc, graph, STR_nodedef); /* unknown-nodedef */
+    /* unknown-nodedef */
+    bool is_told = graph && nodedef == LIBRARY_NONE && doc_attr_value(v->doc, graph, STR_nodedef);
     if (!is_told)
         library_resolve_interface(v->lib, binding->element, nodedef, binding, port, v->diags);
 }
@@ -32,7 +35,9 @@ static void check_binding(struct validate *v, const struct port *port, const str
         check_interface(v, port, binding);
 }
 
-/* A port that no definition describes; of type NONE where its own word is what is wrong, perhaps. */
+/*
+ * A port that no definition describes; of type NONE where its own word is what is wrong, perhaps.
+ */
 static void check_connection(struct validate *v, elem_id element, doc_type type)
 {
     struct port port = {.name = doc_element(v->doc, element)->name, .type = type, .element = element};
@@ -85,7 +90,9 @@ static void check_element(struct validate *v, elem_id element)
 
 /* ---- What nobody uses ---- */
 
-/* Materials, shaders, and what has a look or an output of its own are there to be used from outside. */
+/*
+ * Materials, shaders, and what has a look or an output of its own are there to be used from outside.
+ */
 static bool is_end(const struct validate *v, elem_id node)
 {
     doc_type type = library_type(v->lib, doc_attr_value(v->doc, node, STR_type));

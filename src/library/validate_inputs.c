@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Checks of values: against the definition of the input, and of what an element says of them itself. */
+/*
+ * Checks of values: against the definition of the input, and of what an element says of them itself.
+ */
 #include "library/validate.h"
 
 static const char *text_of(const struct validate *v, str_id id)
@@ -80,7 +82,9 @@ static void check_unit(struct validate *v, elem_id element)
         library_report_unit(v->lib, type, unit, doc_attr_place(v->doc, element, STR_unit), v->diags);
 }
 
-/* A library may have no colour transforms at all: then no space is known, and none can be told to be wrong. */
+/*
+ * A library may have no colour transforms at all: then no space is known, and none can be told to be wrong.
+ */
 static void check_space(struct validate *v, elem_id element)
 {
     str_id said = doc_attr_value(v->doc, element, STR_colorspace);

@@ -81,7 +81,8 @@ void validate_uniform(struct validate *v, elem_id node, const struct port *port,
         if (source && !gives_uniform(v, source, source == binding->ref ? binding->output : 0))
             varies = doc_element(v->doc, source)->name;
     }
-    elem_id input = varies ? child_input(v, node, text_of(v, port->name)) : 0; /* not the output of a graph between */
+    /* not the output of a graph between */
+    elem_id input = varies ? child_input(v, node, text_of(v, port->name)) : 0;
     if (input)
         diag_add(v->diags, DIAG_ID_uniform_connected, doc_place(v->doc, input), text_of(v, port->name),
                  text_of(v, doc_element(v->doc, node)->category), text_of(v, varies));
@@ -156,7 +157,8 @@ static void check_functional_graph(struct validate *v, elem_id graph, uint32_t i
     for (unsigned i = 0; i < def->num_outputs; i++) {
         elem_id output = doc_child_of_kind(v->doc, graph, KIND_OUTPUT, outputs[i].name);
         for (elem_id e = doc_element(v->doc, graph)->first_child; e && !output && def->num_outputs == 1; e = doc_element(v->doc, e)->next)
-            output = doc_element(v->doc, e)->kind == KIND_OUTPUT ? e : 0; /* the only one may have any name */
+            /* the only one may have any name */
+            output = doc_element(v->doc, e)->kind == KIND_OUTPUT ? e : 0;
         if (!output)
             tell(v, graph, "lacks an output of the definition that it implements");
         else if (library_type(v->lib, doc_attr_value(v->doc, output, STR_type)) != outputs[i].type)
@@ -232,7 +234,9 @@ void validate_declaration(struct validate *v, elem_id element)
 
 /* ---- Implementations ---- */
 
-/* "Custom Node Definition Using Node Graphs": what may not be said twice; code and a graph may stand side by side. */
+/*
+ * "Custom Node Definition Using Node Graphs": what may not be said twice; code and a graph may stand side by side.
+ */
 struct claim {
     uint32_t nodedef;
     str_id target, format;
@@ -294,7 +298,9 @@ void validate_unit_type(struct validate *v, elem_id element)
                  text_of(v, name));
 }
 
-/* The node or the definition says of which type a unit is; where both do not, the first that has it is taken. */
+/*
+ * The node or the definition says of which type a unit is; where both do not, the first that has it is taken.
+ */
 void validate_unit(struct validate *v, elem_id node, const struct port *port, elem_id input)
 {
     str_id unit = doc_attr_value(v->doc, input, STR_unit), type = doc_attr_value(v->doc, port->element, STR_unittype);

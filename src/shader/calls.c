@@ -31,7 +31,9 @@ struct calls { /* a vector */
     uint32_t len, cap;
 };
 
-/* Those that the stages need, the newest first: operands and the bodies of functions are older than what needs them. */
+/*
+ * Those that the stages need, the newest first: operands and the bodies of functions are older than what needs them.
+ */
 static struct calls find_calls(const struct shader *shader)
 {
     const struct ir_graph *graph = shader->graph;

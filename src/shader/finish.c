@@ -98,7 +98,9 @@ static void name_neutrally(struct shader *shader)
     }
 }
 
-/* Reads of one or three channels of a texture become reads of that type. In place, as in calls.c. */
+/*
+ * Reads of one or three channels of a texture become reads of that type. In place, as in calls.c.
+ */
 static void narrow_textures(struct shader *shader)
 {
     struct ir_graph *graph = shader->graph;
@@ -125,7 +127,9 @@ static void finish_vertex_stage(struct shader *shader)
     }
 }
 
-/* Languages without a vertex stage have a shader that moves the point, where there is something to move; vertex data are expressions. */
+/*
+ * Languages without a vertex stage have a shader that moves the point, where there is something to move; vertex data are expressions.
+ */
 static void finish_displacement(struct shader *shader)
 {
     struct effect_list *effects = &shader->stages[STAGE_VERTEX].effects;

@@ -17,7 +17,9 @@ static bool is_reserved_prefix(const char *text, size_t len)
     return len >= 3 && memcmp(text, "gl_", 3) == 0;
 }
 
-/* What may stand in an identifier: 1 for letters and digits, 2 for '_', which may not stand twice. */
+/*
+ * What may stand in an identifier: 1 for letters and digits, 2 for '_', which may not stand twice.
+ */
 #define ROW_OF(c) c, c, c, c, c, c, c, c, c, c, c, c, c
 static const uint8_t word_characters[256] = {
     ['0'] = 1, 1, 1, 1, 1, 1, 1, 1, 1, 1,
@@ -26,10 +28,14 @@ static const uint8_t word_characters[256] = {
     ['a'] = ROW_OF(1), ROW_OF(1),
 };
 
-/* Compilers refuse names of more than 1,024 characters; a number may come behind this, and the name of a graph before it. */
+/*
+ * Compilers refuse names of more than 1,024 characters; a number may come behind this, and the name of a graph before it.
+ */
 enum { MAX_LENGTH = 240 };
 
-/* Eight characters at a time, of which each has a byte of a word: its highest bit says whether something is true of it. */
+/*
+ * Eight characters at a time, of which each has a byte of a word: its highest bit says whether something is true of it.
+ */
 #define EACH(byte) ((uint64_t)0x0101010101010101 * (byte))
 
 static inline uint64_t which_are(uint64_t characters, unsigned first, unsigned last)

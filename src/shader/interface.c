@@ -22,7 +22,8 @@ const char *shader_block_name(enum shader_block block)
     return names[block];
 }
 
-enum { FIRST_VARIABLES = 80 }; /* variables are large: a shading model's are not to be moved while they come */
+/* variables are large: a shading model's are not to be moved while they come */
+enum { FIRST_VARIABLES = 80 };
 
 void shader_init(struct shader *shader, struct arena *arena, struct strpool *strings, struct ir_graph *graph,
                  struct lang_unit *unit)
@@ -94,7 +95,9 @@ static bool is_taken(const struct shader *shader, uint32_t scope, str_id name)
     return is_speller_name(name) || (shader->names && *find_slot(shader, scope, name)) || is_reserved(shader, name);
 }
 
-/* "normal_", where the language has "normal" for itself, and "normal_2" where that is taken; "roughness_2". */
+/*
+ * "normal_", where the language has "normal" for itself, and "normal_2" where that is taken; "roughness_2".
+ */
 static str_id variant(struct shader *shader, str_id name, uint32_t number)
 {
     struct text text;
@@ -144,7 +147,9 @@ uint32_t shader_find_variable(const struct shader *shader, enum shader_block blo
     return slot && shader->variables.items[slot - 1].block == block ? slot - 1 : UINT32_MAX;
 }
 
-/* The variable with the type that a stage reads, which is the element's for arrays of built-in types. */
+/*
+ * The variable with the type that a stage reads, which is the element's for arrays of built-in types.
+ */
 ir_ref shader_read(struct shader *shader, uint32_t variable)
 {
     const struct shader_variable *v = &shader->variables.items[variable];
@@ -460,7 +465,8 @@ ir_ref shader_stream(struct shader *shader, str_id name, ir_type_id type)
         variable.semantic = stream_semantic(shader, row, suffix);
         index = bind(shader, &variable);
         uint32_t origin = shader->graph->origin;
-        shader->graph->origin = ir_add_origin(shader->graph, name, 0, 0); /* names the vertex stage's locals */
+        /* names the vertex stage's locals */
+        shader->graph->origin = ir_add_origin(shader->graph, name, 0, 0);
         ir_ref value = vertex_expression(shader, row, suffix, carried);
         shader->graph->origin = origin;
         shader_effect(shader, STAGE_VERTEX, (struct effect){.kind = EFFECT_OUTPUT, .index = index, .value = value});

@@ -7,7 +7,9 @@
 
 #include <assert.h>
 
-/* Bindings of blocks are the same in every shader, so that hosts can share set layouts; textures follow. */
+/*
+ * Bindings of blocks are the same in every shader, so that hosts can share set layouts; textures follow.
+ */
 enum { BINDING_PRIVATE, BINDING_PUBLIC, BINDING_LIGHTS, BINDING_FIRST_TEXTURE };
 
 enum { STD140_ROUND = 16 }; /* arrays, matrix columns and structs are aligned to vec4 */
@@ -17,7 +19,9 @@ static uint32_t round_up(uint32_t n, uint32_t to)
     return (n + to - 1) / to * to;
 }
 
-/* Rules 1 to 3: scalars by their size, vectors of 2 and 4 by theirs, vectors of 3 like 4. Matrices are arrays of columns. */
+/*
+ * Rules 1 to 3: scalars by their size, vectors of 2 and 4 by theirs, vectors of 3 like 4. Matrices are arrays of columns.
+ */
 uint32_t std140_align(ir_type_id type, bool array)
 {
     const struct ir_type_info *info = ir_type_info(type);
@@ -34,7 +38,9 @@ uint32_t std140_size(ir_type_id type, uint16_t array_length)
     return array_length ? array_length * round_up(size, STD140_ROUND) : size;
 }
 
-/* Blocks are gathered first, so that the sort by rank within them moves only the few private variables. */
+/*
+ * Blocks are gathered first, so that the sort by rank within them moves only the few private variables.
+ */
 static void order_interface(struct shader *shader)
 {
     uint32_t starts[NUM_BLOCKS + 1] = {0}, ends[NUM_BLOCKS];

@@ -1,14 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Which nodes become locals: measures them, operands first, and keeps expressions to about a line. */
+/*
+ * Which nodes become locals: measures them, operands first, and keeps expressions to about a line.
+ */
 #include "shader/schedule.h"
 
 /*
  * Expressions are kept to about a line. Costs are those of SPIR-V before any optimiser: reading a block's member takes an access chain
  * and a load, a local a variable, a store and a load per use.
  */
-/* Characters. A name counts as any other, however long it is: shaders that differ in names alone have the same statements. */
+/*
+ * Characters. A name counts as any other, however long it is: shaders that differ in names alone have the same statements.
+ */
 enum { GOOD_CHARS = 110, MAX_CHARS = 220, MIN_SPLIT_CHARS = 40, MAX_REPEATED_CHARS = 32, MAX_CLOSURE_CHARS = 64, NAME_CHARS = 10 };
-enum { MIN_USES_OF_COPY = 5 }; /* an access and a load each time, or once, a store, and a load each time */
+/* an access and a load each time, or once, a store, and a load each time */
+enum { MIN_USES_OF_COPY = 5 };
 enum { COST_OPERATOR = 1, COST_CHOICE = 3, COST_BUILTIN = 4, COST_CALL = 32, COST_LOCAL = 2, MAX_COST_IN_LOOP = 3, MAX_COST_OF_ARM = 24 };
 
 static bool is_splat(ir_type_id type, const union ir_word *words)
@@ -24,7 +29,9 @@ static uint16_t clamp16(uint32_t n)
     return n < UINT16_MAX ? (uint16_t)n : UINT16_MAX;
 }
 
-/* Nodes that never become locals for their own sake: names, and small constants. Fills cost and chars. */
+/*
+ * Nodes that never become locals for their own sake: names, and small constants. Fills cost and chars.
+ */
 static bool is_source(const struct scheduler *s, struct plan *plan)
 {
     const struct ir_node *node = node_of(s, plan);
@@ -64,7 +71,9 @@ static bool is_source(const struct scheduler *s, struct plan *plan)
     }
 }
 
-/* What an operation adds to its operands: cost, characters, and characters for each of them. Calls have names of any length. */
+/*
+ * What an operation adds to its operands: cost, characters, and characters for each of them. Calls have names of any length.
+ */
 static const struct {
     uint8_t cost, chars, chars_each, unused; /* of a size that is an address's scale */
 } measures[IR_NUM_OPS] = {

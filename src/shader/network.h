@@ -33,7 +33,8 @@ struct network_input {
     ir_type_id type;
     str_id doc_type;
     str_id file;
-    str_id path;        /* of the document's input that says the value; 0: no other than the layer's own */
+    /* of the document's input that says the value; 0: no other than the layer's own */
+    str_id path;
     struct ir_value value;
 };
 
@@ -55,26 +56,35 @@ struct network {
 /* What a shader group does with its last layer. */
 enum network_use { NETWORK_SURFACE, NETWORK_VOLUME, NETWORK_DISPLACEMENT, NETWORK_VALUE_OF, NUM_NETWORK_USES };
 
-/* A shader that stands behind the layers of a group and takes what they give; without a name there is none. */
+/*
+ * A shader that stands behind the layers of a group and takes what they give; without a name there is none.
+ */
 struct network_end {
     const char *name, *inputs[2], *source;
 };
 #define NETWORK_END_LAYER "root" /* the name of its layer */
 
-/* A shader group: the layers that its ends need, and behind them the shader of its use, which takes them. */
+/*
+ * A shader group: the layers that its ends need, and behind them the shader of its use, which takes them.
+ */
 struct network_group {
     const struct network *network;
     enum network_use use;
     const bool *needed;          /* per layer */
     const struct network_end *end;
-    struct network_input results[2]; /* what the end takes, front and back of a surface; or the value that the group is for. DEFAULT: none */
+    /*
+     * what the end takes, front and back of a surface; or the value that the group is for. DEFAULT: none
+     */
+    struct network_input results[2];
 };
 
 /* network.c */
 const char *network_use_text(enum network_use use);
 void network_find_needed(struct network_group *group); /* by its results */
-uint64_t network_topology(const struct network_group *groups, uint32_t num_groups); /* of everything but values */
+/* of everything but values */
+uint64_t network_topology(const struct network_group *groups, uint32_t num_groups);
 struct json;
-void network_reflect(struct json *json, const struct network_group *groups, uint32_t num_groups); /* keys of the object at hand */
+/* keys of the object at hand */
+void network_reflect(struct json *json, const struct network_group *groups, uint32_t num_groups);
 
 #endif

@@ -40,7 +40,9 @@ static void need_verbatim(struct scheduler *s, uint32_t callee)
     vec_push(s->arena, &s->stage->verbatim, callee);
 }
 
-/* Must all pixels make it together? An IR function counts as soon as derivatives are in it or in its arguments. */
+/*
+ * Must all pixels make it together? An IR function counts as soon as derivatives are in it or in its arguments.
+ */
 static bool needs_neighbours(const struct ir_graph *graph, const struct ir_node *call)
 {
     return call->op == IR_GRAPH_CALL ? call->flags & IR_NODE_DERIVATIVE : graph->callees.items[call->attr].derivative;
@@ -226,7 +228,8 @@ static inline bool has_arms(const struct plan *plan)
 /* What a node's place says of its operands. That of the absent one stands for nothing. */
 static inline void place_operands(const struct scheduler *s, struct plan *plans, const struct plan *plan)
 {
-    uint32_t uses = plan->op == IR_RESULT ? plan->uses : 1; /* a result is another name of its call */
+    /* a result is another name of its call */
+    uint32_t uses = plan->op == IR_RESULT ? plan->uses : 1;
     uint32_t region = plan->region, first = plan->first;
     uint8_t in_arm = plan->flags & PLAN_IN_ARM;
     const ir_ref *args = args_of(s, plan), *end = args + plan->num_args;
@@ -264,7 +267,9 @@ static void find_places(struct scheduler *s, const struct effect_list *effects)
 
 /* ---- Statements ---- */
 
-/* The nodes that become locals, in the order in which they were reached; they stand before the effects that need them first. */
+/*
+ * The nodes that become locals, in the order in which they were reached; they stand before the effects that need them first.
+ */
 static void find_lets(struct scheduler *s)
 {
     const ir_ref *reached = s->reached.items, *end = reached + s->reached.len;
@@ -281,7 +286,8 @@ static void find_lets(struct scheduler *s)
 /* The effects with the LETs in front of those that need them first. */
 static void write_statements(struct scheduler *s, const struct effect_list *effects, struct effect_list *out)
 {
-    uint32_t *first = ARENA_ARRAY(s->arena, uint32_t, effects->len + 1); /* per effect: where its LETs begin */
+    /* per effect: where its LETs begin */
+    uint32_t *first = ARENA_ARRAY(s->arena, uint32_t, effects->len + 1);
     for (uint32_t i = 0; i < s->lets.len; i++)
         first[plan_of(s, s->lets.items[i])->first + 1]++;
     for (uint32_t i = 1; i <= effects->len; i++)

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Inside the scheduler: what is known of each node (schedule.c), from which its locals are chosen (locals.c). */
+/*
+ * Inside the scheduler: what is known of each node (schedule.c), from which its locals are chosen (locals.c).
+ */
 #ifndef MXG_SHADER_SCHEDULE_H
 #define MXG_SHADER_SCHEDULE_H
 
@@ -34,7 +36,8 @@ struct plan { /* what is known of a reached node, and what of the node itself is
 
 struct region {
     uint32_t parent, header, depth; /* header: the effect that opens it */
-    uint32_t outside; /* the innermost region around it that is in no loop: itself where it is in none */
+    /* the innermost region around it that is in no loop: itself where it is in none */
+    uint32_t outside;
 };
 
 struct visit { /* a node whose operands are being collected */

@@ -50,9 +50,13 @@ struct shader_tile {
 };
 
 struct shader_variable {
-    str_id name;          /* as spelled: "u_viewPosition", "SR_gold_base_color"; unique among what stands at file scope */
+    /* as spelled: "u_viewPosition", "SR_gold_base_color"; unique among what stands at file scope */
+    str_id name;
     uint8_t block;        /* enum shader_block */
-    uint8_t stages;       /* 1 << STAGE_… of each stage that reads it, or writes it; 0: nothing does, it is not declared */
+    /*
+     * 1 << STAGE_… of each stage that reads it, or writes it; 0: nothing does, it is not declared
+     */
+    uint8_t stages;
     uint8_t update;       /* enum shader_update */
     bool has_default;
     bool has_reader;      /* of textures: `sampling` and the default are those of a node */
@@ -65,14 +69,21 @@ struct shader_variable {
     uint32_t element;     /* document element that the variable comes from; 0 = none */
     uint32_t definition;  /* element of the nodedef's input: ui attributes; 0 = none */
     str_id colorspace, unit, unittype;
-    str_id semantic;      /* of private uniforms and streams: "worldMatrix", "position:world", "geomprop:st" … */
+    /* of private uniforms and streams: "worldMatrix", "position:world", "geomprop:st" … */
+    str_id semantic;
     struct ir_value value; /* default; type VOID where there is none */
     /* textures */
-    str_id file;          /* resolved file name, with fileprefix; tokens of geometry and host kept: <UDIM>, {frame} */
+    /* resolved file name, with fileprefix; tokens of geometry and host kept: <UDIM>, {frame} */
+    str_id file;
     struct shader_sampling sampling;
-    uint32_t fallback;    /* variable that the default is, + 1, where the target reads it with the texture; 0: `value` */
-    uint32_t default_from; /* uniform that the default is, + 1: reads are told apart by it and not by its value, which may change */
-    uint32_t first_tile, num_tiles; /* in shader->tiles, which are the layers of a SAMPLER_ARRAY in this order */
+    /* variable that the default is, + 1, where the target reads it with the texture; 0: `value` */
+    uint32_t fallback;
+    /*
+     * uniform that the default is, + 1: reads are told apart by it and not by its value, which may change
+     */
+    uint32_t default_from;
+    /* in shader->tiles, which are the layers of a SAMPLER_ARRAY in this order */
+    uint32_t first_tile, num_tiles;
     /* layout.c */
     uint32_t set, binding, location;
     uint32_t offset, size, array_stride, matrix_stride; /* std140, in bytes */
@@ -81,7 +92,9 @@ struct shader_variable {
 /* What a shader of a target without stages is. */
 enum shader_kind { SHADER_VALUE, SHADER_SURFACE, SHADER_VOLUME };
 
-/* Inputs whose value is compiled in: reported to hosts, which must know that a change needs a new shader. */
+/*
+ * Inputs whose value is compiled in: reported to hosts, which must know that a change needs a new shader.
+ */
 struct shader_compiled_input {
     str_id path, doc_type, value;
     uint32_t element;
@@ -91,21 +104,30 @@ struct shader_compiled_input {
 struct shader_light {
     int32_t type;
     str_id name;                /* of its node, for comments and reflection */
-    uint32_t function;          /* lang function: inputs, P, out direction, out intensity; LANG_NONE: */
-    ir_ref shader;              /* a LIGHT_SHADER over members of LightData: it stands at a position and faces a direction */
+    /* lang function: inputs, P, out direction, out intensity; LANG_NONE: */
+    uint32_t function;
+    /* a LIGHT_SHADER over members of LightData: it stands at a position and faces a direction */
+    ir_ref shader;
     uint32_t position, direction; /* variables; only of a LIGHT_SHADER */
-    uint32_t first_member, num_members; /* its inputs as LightData members: in shader->light_members (variable indices) */
+    /* its inputs as LightData members: in shader->light_members (variable indices) */
+    uint32_t first_member, num_members;
 };
 
-/* Target source that mxgen does not parse: what a VERBATIM node calls. The id of the node's callee is its index. */
+/*
+ * Target source that mxgen does not parse: what a VERBATIM node calls. The id of the node's callee is its index.
+ */
 struct shader_verbatim {
     str_id source;     /* definitions that the call needs: written once, above; 0 = none */
-    str_id function;   /* called with the operands, then an `out` argument for each RESULT; or 0, and then */
+    /* called with the operands, then an `out` argument for each RESULT; or 0, and then */
+    str_id function;
     str_id expression; /* operand i stands where {{i}} is written */
-    uint32_t num_results, first_result; /* types of a function's results, in shader->result_types; RESULT 1 is the first */
+    /* types of a function's results, in shader->result_types; RESULT 1 is the first */
+    uint32_t num_results, first_result;
 };
 
-/* Effects: what a stage does, in order, before scheduling. Structured: IF, LIGHTS and SAMPLES end with END. */
+/*
+ * Effects: what a stage does, in order, before scheduling. Structured: IF, LIGHTS and SAMPLES end with END.
+ */
 enum effect_kind {
     EFFECT_VAR,        /* declares mutable variable `index` with initial value `value` */
     EFFECT_ACCUMULATE, /* variable `index` += value */
@@ -119,8 +141,10 @@ enum effect_kind {
     EFFECT_COMMENT,    /* a line of comment: text */
     EFFECT_DISCARD,    /* alpha test: if (value) discard */
     /* added by schedule.c */
-    EFFECT_LET,        /* local constant for node `value`; of a call with several results, locals for all of them */
-    EFFECT_RESULT,     /* result `index` of an IR function = value; the returned one, 0, comes last */
+    /* local constant for node `value`; of a call with several results, locals for all of them */
+    EFFECT_LET,
+    /* result `index` of an IR function = value; the returned one, 0, comes last */
+    EFFECT_RESULT,
 };
 
 struct effect {
@@ -154,7 +178,8 @@ struct shader_stage {
     bool has_lights;               /* it loops over lights */
 };
 
-struct shader_binding { /* a stream, attribute or private uniform by the name that it was asked for */
+/* a stream, attribute or private uniform by the name that it was asked for */
+struct shader_binding {
     str_id asked;
     uint8_t block;
     ir_type_id scalar; /* streams of one name may differ in this */
@@ -167,7 +192,9 @@ struct shader_buffer {
     uint32_t stride; /* of LightData: from light to light */
 };
 
-/* A surface that was restored as a whole, or taken down: what lights it may follow in the same way (lang/fragment.h). */
+/*
+ * A surface that was restored as a whole, or taken down: what lights it may follow in the same way (lang/fragment.h).
+ */
 struct shader_model {
     ir_ref root;           /* 0: there is none */
     unsigned fragment;     /* its number + 1 */
@@ -181,7 +208,8 @@ struct shader {
     struct arena *arena;
     struct strpool *strings;
     struct ir_graph *graph;
-    struct lang_unit *unit;        /* the generation's unit: specialisations, on the library's units */
+    /* the generation's unit: specialisations, on the library's units */
+    struct lang_unit *unit;
     struct lang_style *style;      /* whose reserved words variables must not have; NULL: none */
     VEC(struct shader_variable) variables;
     VEC(struct shader_tile) tiles;
@@ -192,12 +220,16 @@ struct shader {
     VEC(uint32_t) light_members;
     VEC(struct shader_verbatim) verbatim;
     VEC(ir_type_id) result_types;  /* of verbatim functions */
-    VEC(uint32_t) interface;       /* variables that stages use, block by block, in the order of their layout */
-    uint32_t first_of_block[NUM_BLOCKS + 1]; /* in `interface`: where each block begins, and where the last one ends */
-    uint32_t *names;               /* open addressing: names at file scope to variables, see interface.c */
+    /* variables that stages use, block by block, in the order of their layout */
+    VEC(uint32_t) interface;
+    /* in `interface`: where each block begins, and where the last one ends */
+    uint32_t first_of_block[NUM_BLOCKS + 1];
+    /* open addressing: names at file scope to variables, see interface.c */
+    uint32_t *names;
     uint32_t names_mask;
     VEC(struct shader_binding) bindings;
-    struct shader_buffer buffers[NUM_BLOCKS]; /* of blocks of uniforms; size 0 where there is none */
+    /* of blocks of uniforms; size 0 where there is none */
+    struct shader_buffer buffers[NUM_BLOCKS];
     struct shader_stage stages[NUM_STAGES];
     uint32_t max_lights;           /* elements of u_lightData */
     str_id name;                   /* of the element: "Gold" */
@@ -205,16 +237,22 @@ struct shader {
     str_id path;
     VEC(uint32_t) closures;        /* that are evaluated, by the origins of their leaves */
     uint8_t kind;                  /* enum shader_kind */
-    str_id value_type;             /* of the document: what the element gives, where that is a plain value */
-    bool names_wholes;             /* only variables have parts that can be named: from the rules of layout */
+    /* of the document: what the element gives, where that is a plain value */
+    str_id value_type;
+    /* only variables have parts that can be named: from the rules of layout */
+    bool names_wholes;
     bool transparent;              /* found by analysis: the alpha written may be below 1 */
     uint8_t alpha;                 /* enum shader_alpha */
     bool lit;                      /* reads lights or environment */
     bool displaced;                /* the vertex stage moves the surface */
-    bool scatters;                 /* it is no program but a function of path tracers: there is no vertex stage */
-    bool in_blocks;                /* uniforms stand in blocks: each reading costs an access beside the load */
-    uint32_t *local_of;            /* the speller's: by node, 0 between the lists of statements; from shader_finish */
-    str_id unknown_closure;        /* the function of a leaf that the target has no closure for; 0: there is none */
+    /* it is no program but a function of path tracers: there is no vertex stage */
+    bool scatters;
+    /* uniforms stand in blocks: each reading costs an access beside the load */
+    bool in_blocks;
+    /* the speller's: by node, 0 between the lists of statements; from shader_finish */
+    uint32_t *local_of;
+    /* the function of a leaf that the target has no closure for; 0: there is none */
+    str_id unknown_closure;
     bool numbered;                 /* sets, bindings and locations are given */
 };
 
@@ -223,15 +261,21 @@ void shader_init(struct shader *shader, struct arena *arena, struct strpool *str
 
 /* interface.c */
 
-/* Adds a variable; the name is made a valid identifier, and unique by a number behind it. Returns its index. */
+/*
+ * Adds a variable; the name is made a valid identifier, and unique by a number behind it. Returns its index.
+ */
 uint32_t shader_add_variable(struct shader *shader, const struct shader_variable *variable);
-bool shader_name_is_free(struct shader *shader, str_id name); /* at file scope, but for the underscore of reserved words */
-uint32_t shader_find_variable(const struct shader *shader, enum shader_block block, str_id name); /* UINT32_MAX: none */
+/* at file scope, but for the underscore of reserved words */
+bool shader_name_is_free(struct shader *shader, str_id name);
+/* UINT32_MAX: none */
+uint32_t shader_find_variable(const struct shader *shader, enum shader_block block, str_id name);
 
 /* The IR node that reads a variable: UNIFORM, TEXTURE or STREAM by its block. */
 ir_ref shader_read(struct shader *shader, uint32_t variable);
 
-/* The member of LightData with this name and type, added where there is none; `type` is there from the first call on. */
+/*
+ * The member of LightData with this name and type, added where there is none; `type` is there from the first call on.
+ */
 uint32_t shader_light_member(struct shader *shader, str_id name, ir_type_id type);
 
 /*
@@ -278,19 +322,28 @@ struct shader_layout_rules { /* from the target's table and the options */
 };
 void shader_finish(struct shader *shader, const struct shader_layout_rules *rules);
 
-/* calls.c: gives each portable function the one version that all its calls share. Part of shader_finish. */
+/*
+ * calls.c: gives each portable function the one version that all its calls share. Part of shader_finish.
+ */
 void shader_specialise_calls(struct shader *shader);
 
-/* The variable of a uniform or stream that a portable function reads; UINT32_MAX for constants, and before shader_finish. */
+/*
+ * The variable of a uniform or stream that a portable function reads; UINT32_MAX for constants, and before shader_finish.
+ */
 uint32_t shader_global_variable(const struct shader *shader, uint32_t global_id);
 
-/* topology.c: a hash of everything but names and uniform values, of a finished shader; computed when asked for. */
+/*
+ * topology.c: a hash of everything but names and uniform values, of a finished shader; computed when asked for.
+ */
 uint64_t shader_topology(const struct shader *shader, struct arena *scratch);
 
 /* layout.c: sizes and alignments of std140 (OpenGL 4.5 core, section 7.6.2.2). */
 uint32_t std140_align(ir_type_id type, bool array);
-uint32_t std140_size(ir_type_id type, uint16_t array_length); /* of an array: with the padding behind its last element */
-/* Fills shader->interface and, with the rules, offsets, bindings and locations, from the variables' stages. */
+/* of an array: with the padding behind its last element */
+uint32_t std140_size(ir_type_id type, uint16_t array_length);
+/*
+ * Fills shader->interface and, with the rules, offsets, bindings and locations, from the variables' stages.
+ */
 void shader_layout(struct shader *shader, const struct shader_layout_rules *rules);
 
 /*
@@ -302,7 +355,9 @@ void shader_layout(struct shader *shader, const struct shader_layout_rules *rule
  */
 void shader_schedule(struct shader *shader, enum shader_stage_id stage);
 
-/* Results of a call that it hands out through arguments, beside what it returns; such a call is a statement. */
+/*
+ * Results of a call that it hands out through arguments, beside what it returns; such a call is a statement.
+ */
 unsigned shader_call_outs(const struct shader *shader, ir_ref call);
 /* What a CALL (a lang function) or a VERBATIM node (an index in shader->verbatim) calls. */
 static inline uint32_t shader_callee(const struct shader *shader, ir_ref call)

@@ -16,7 +16,8 @@ struct hasher {
     uint32_t *node_numbers;     /* node to its number, from 1; 0: not met */
     uint32_t num_nodes;
     uint32_t *variable_numbers; /* variable to its place in the interface */
-    uint32_t *function_numbers; /* portable function to its place in the stage's reach; IR functions alike */
+    /* portable function to its place in the stage's reach; IR functions alike */
+    uint32_t *function_numbers;
     uint32_t *graph_function_numbers;
 };
 
@@ -56,7 +57,9 @@ static void add_variables(struct hasher *h)
 
 /* ---- Portable functions ---- */
 
-/* What a node says beside its children. Globals are told apart by name: their ids depend on what else was parsed. */
+/*
+ * What a node says beside its children. Globals are told apart by name: their ids depend on what else was parsed.
+ */
 static void add_tree_node(struct hasher *h, const struct lang_unit *layer, const struct lang_node *node)
 {
     uint64_t own = (uint64_t)node->kind << 56 | (uint64_t)node->op << 48 | (uint64_t)node->type << 32;

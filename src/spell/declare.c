@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/* What stands above the functions: structs, uniforms, textures, and what comes into the stage and goes out. */
+/*
+ * What stands above the functions: structs, uniforms, textures, and what comes into the stage and goes out.
+ */
 #include "spell/spell.h"
 
 /* Loops over the places in the interface of a block's variables. */

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Nodes as expressions. The scheduler bounds their depth (schedule.c), so the recursion here is shallow. */
+/*
+ * Nodes as expressions. The scheduler bounds their depth (schedule.c), so the recursion here is shallow.
+ */
 #include "spell/spell.h"
 
 #include <assert.h>
 
-/* Structs and arrays of the graph have their own ids; a struct is that of the portable functions with its name. */
+/*
+ * Structs and arrays of the graph have their own ids; a struct is that of the portable functions with its name.
+ */
 static const struct ir_user_type *user_type(const struct spell *spell, ir_type_id type)
 {
     return type < IR_TYPE_FIRST_USER ? NULL : &spell->shader->graph->user_types.items[type - IR_TYPE_FIRST_USER];

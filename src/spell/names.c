@@ -6,7 +6,8 @@
 #include "base/hash.h"
 #include "spell/spell.h"
 
-enum { SLOTS = 512, FEW_SLOTS = 64 }; /* at first: those of usual stages are not moved while they come */
+/* at first: those of usual stages are not moved while they come */
+enum { SLOTS = 512, FEW_SLOTS = 64 };
 
 void names_init(struct name_set *names, struct arena *arena, const struct lang_style *style, bool few)
 {

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Inside the speller: the state of one stage's output, and what its files offer each other and the targets' hooks. */
+/*
+ * Inside the speller: the state of one stage's output, and what its files offer each other and the targets' hooks.
+ */
 #ifndef MXG_SPELL_SPELL_H
 #define MXG_SPELL_SPELL_H
 
@@ -10,7 +12,10 @@
 struct name_entry {
     const char *text;
     uint32_t len, hash;
-    uint32_t scope; /* 0: file scope; else the function that uses it, which has passed where it is not the current one */
+    /*
+     * 0: file scope; else the function that uses it, which has passed where it is not the current one
+     */
+    uint32_t scope;
     uint32_t next;  /* the number to try for the next of this name */
 };
 
@@ -36,7 +41,8 @@ struct name_set {
 
 /* `few`: less names are to be expected than a pixel stage has. */
 void names_init(struct name_set *names, struct arena *arena, const struct lang_style *style, bool few);
-void names_open_scope(struct name_set *names); /* a new function: the names of the one before are free again */
+/* a new function: the names of the one before are free again */
+void names_open_scope(struct name_set *names);
 /* Texts given to these two must live as long as the set. */
 /* `text` made an identifier, with a number behind it where that is reserved or taken. */
 struct spell_name names_unique(struct name_set *names, const char *text, size_t len);
@@ -58,14 +64,18 @@ struct spell {
     struct name_set names;
     struct lang_style *style;     /* of the target's syntax */
     struct lang_names lang_names; /* for the portable printer */
-    /* Writes a node that has no local: spell_node, or spell_typed_node where the target has forms of its own by type. */
+    /*
+     * Writes a node that has no local: spell_node, or spell_typed_node where the target has forms of its own by type.
+     */
     void (*write_node)(struct spell *spell, ir_ref ref, const struct ir_node *node, enum lang_precedence least);
-    struct spell_name *variables; /* how each interface variable is read in this stage; NULL: it is not */
+    /* how each interface variable is read in this stage; NULL: it is not */
+    struct spell_name *variables;
     const char **functions;       /* names of portable functions by id, of those that are reached */
     const char **graph_functions; /* names of IR functions by index */
     const char **user_types;      /* names of structs by index, of the unit */
     struct spell_name *locals;    /* names of the stage's mutable variables */
-    uint32_t *local_of;           /* node of a LET to its first name in let_names, + 1; 0: it is an expression */
+    /* node of a LET to its first name in let_names, + 1; 0: it is an expression */
+    uint32_t *local_of;
     VEC(struct spell_name) let_names;
     const char *loop_index; /* in LIGHTS and SAMPLES: the loop's variable */
     struct name_set paths;        /* shown in comments so far */
@@ -79,10 +89,13 @@ struct spell {
 void spell_expression(struct spell *spell, ir_ref ref, enum lang_precedence least);
 void spell_node(struct spell *spell, ir_ref ref, const struct ir_node *node, enum lang_precedence least);
 void spell_typed_node(struct spell *spell, ir_ref ref, const struct ir_node *node, enum lang_precedence least);
-/* "f(a, b": the name and operands of a call, unfinished. Returns how many arguments were written. */
+/*
+ * "f(a, b": the name and operands of a call, unfinished. Returns how many arguments were written.
+ */
 unsigned spell_call_open(struct spell *spell, ir_ref call);
 void spell_type(struct spell *spell, ir_type_id type);
-void spell_variable(struct spell *spell, ir_type_id type, struct spell_name name); /* "float x[3]" */
+/* "float x[3]" */
+void spell_variable(struct spell *spell, ir_type_id type, struct spell_name name);
 
 /* ---- statement.c ---- */
 
@@ -103,7 +116,9 @@ void spell_verbatim_sources(struct spell *spell); /* each once */
 /* The stage of C-like targets: declarations, functions, main. */
 void spell_stage(struct spell *spell, enum shader_stage_id stage);
 
-/* The text of a comment, of a document's words: nothing in it ends the line or joins it with the next one. */
+/*
+ * The text of a comment, of a document's words: nothing in it ends the line or joins it with the next one.
+ */
 void spell_comment(struct spell *spell, const char *text, size_t len);
 static inline void spell_text(struct spell *spell, const char *text) { text_str(spell->out, text); }
 static inline void spell_name(struct spell *spell, struct spell_name name) { text_mem(spell->out, name.text, name.len); }

@@ -40,7 +40,9 @@ static struct overloads overloads_init(const struct spell *spell)
                               .before = ARENA_ARRAY(spell->scratch, uint32_t, n + 1)};
 }
 
-/* The name that an earlier function of the same source name has and that this one may share as an overload; NULL: none. */
+/*
+ * The name that an earlier function of the same source name has and that this one may share as an overload; NULL: none.
+ */
 static const char *overload_of(const struct spell *spell, struct overloads *overloads, uint32_t index, str_id name)
 {
     const uint32_t *ids = spell->stage->reach.functions.items;
@@ -210,7 +212,9 @@ void spell_stage(struct spell *spell, enum shader_stage_id stage)
 
 /* ---- Entry ---- */
 
-/* The target's syntax for a stage that knows no neighbours on the screen: nothing differs from them. */
+/*
+ * The target's syntax for a stage that knows no neighbours on the screen: nothing differs from them.
+ */
 static const struct lang_syntax *syntax_of_one(struct spell *spell)
 {
     static const struct lang_form forms[IR_NUM_OPS] = {

@@ -36,7 +36,9 @@ static struct spell_name input_name(const struct spell *spell, const struct shad
     return slash ? without(path, (size_t)(slash + 1 - path.text)) : path;
 }
 
-/* "metal_ior" of the origin, "direction" of a light, "coat" of an input, "noise" of the function mx_noise, else a letter. */
+/*
+ * "metal_ior" of the origin, "direction" of a light, "coat" of an input, "noise" of the function mx_noise, else a letter.
+ */
 static struct spell_name local_base(const struct spell *spell, ir_ref ref)
 {
     const struct ir_graph *graph = spell->shader->graph;
@@ -184,7 +186,9 @@ static void write_call_arguments(struct spell *spell, ir_ref call, uint32_t firs
     }
 }
 
-/* The operand that belongs to the out parameter `index` of a portable function, which is an inout one. */
+/*
+ * The operand that belongs to the out parameter `index` of a portable function, which is an inout one.
+ */
 static ir_ref inout_operand(const struct spell *spell, ir_ref call, unsigned index)
 {
     const struct lang_unit *layer;

@@ -21,8 +21,10 @@ enum target_caps {
     CAP_IMPLICIT_LOD = 512,   /* texture() in pixel stages */
     CAP_CLOSURES = 1024,      /* the language has closures: keep the tree */
     CAP_STRINGS = 2048,       /* the language has strings */
-    CAP_TEXTURE_ARRAYS = 4096, /* the tiles of an image are layers of one texture; else its host, or texture(), finds them */
-    CAP_TYPED_TEXTURES = 16384, /* texture() gives as many channels as are wanted: one, three or four */
+    /* the tiles of an image are layers of one texture; else its host, or texture(), finds them */
+    CAP_TEXTURE_ARRAYS = 4096,
+    /* texture() gives as many channels as are wanted: one, three or four */
+    CAP_TYPED_TEXTURES = 16384,
     CAP_MISSING_COLORS = 32768, /* texture() is told what to give where there is no image */
     CAP_NAMED_WHOLES = 8192,  /* parts are taken of variables only: v.x, but not (a + b).x */
 };
@@ -40,13 +42,16 @@ struct target {
     const struct target *base;    /* hooks and rows absent here come from there */
     const char *brief;            /* one line for --help and introspection */
     uint32_t caps;
-    const char *const *versions;  /* values of the option `version`, first is the default; "#version" is written with it */
+    /* values of the option `version`, first is the default; "#version" is written with it */
+    const char *const *versions;
     const struct lang_syntax *syntax;
     const struct closure_rows *closures; /* with CAP_CLOSURES: the language's own */
     const struct target_network *network; /* NULL: shaders of the target are whole */
     const char *position; /* what the vertex stage writes the position to; NULL: gl_Position */
     const char *stage_suffix[NUM_STAGES]; /* "vert", "frag"; file endings */
-    /* The type of a node's local, or of each result of a call, where it does not follow from the IR's type; may be NULL, and return it. */
+    /*
+     * The type of a node's local, or of each result of a call, where it does not follow from the IR's type; may be NULL, and return it.
+     */
     const char *(*node_type)(const struct spell *spell, ir_ref ref);
     /* Writes one stage. NULL: from base; the C-like targets share spell_stage. */
     void (*stage)(struct spell *spell, enum shader_stage_id stage);
@@ -61,7 +66,8 @@ bool target_is_a(const struct target *target, const char *materialx_name);
 /* Can the target write an op? */
 enum spell_support {
     SPELL_NO,      /* documents that need it cannot be generated */
-    SPELL_LOWERED, /* gone before spelling: closures become sums, strings are compared at compile time */
+    /* gone before spelling: closures become sums, strings are compared at compile time */
+    SPELL_LOWERED,
     SPELL_YES,
 };
 enum spell_support spell_support(const struct target *target, enum ir_op op);
@@ -72,7 +78,8 @@ struct spell_options {
     const char *generator; /* for the first comment: "mxgen 0.1" */
     const char *interface; /* "complete", "authored", "reduced" */
     const char *colorspace; /* the working space */
-    int metadata;          /* of parameters: 0 none, 1 what user interfaces need, 2 with their documentation */
+    /* of parameters: 0 none, 1 what user interfaces need, 2 with their documentation */
+    int metadata;
     bool uniform_blocks;
     bool neutral_names;
     const char *shader_name; /* no other function or shader has it; NULL: from the element's path */

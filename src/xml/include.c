@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/* XInclude (W3C, 1.1) as MaterialX uses it: whole documents, whose top-level elements take the place of the <xi:include>. */
+/*
+ * XInclude (W3C, 1.1) as MaterialX uses it: whole documents, whose top-level elements take the place of the <xi:include>.
+ */
 #include "xml/internal.h"
 
 static struct xml_file *find_opened(struct xml_reader *reader, str_id name)

@@ -26,7 +26,8 @@ struct xml_source {
     const char *text;
     size_t size;
     size_t start; /* where the XML begins, behind text that was skipped */
-    VEC(size_t) raw_less; /* offsets of raw '<' in attribute values, where XML_RAW_LESS stands now */
+    /* offsets of raw '<' in attribute values, where XML_RAW_LESS stands now */
+    VEC(size_t) raw_less;
     elem_id root;
     bool is_ascii;                /* a column is a byte */
     struct xml_position position; /* of the last tag or value seen */
@@ -67,9 +68,13 @@ struct xml_reader {
     void *handle; /* of the file that is open, for files->release */
     bool handle_open;
     struct xml_source *source;
-    struct xml_name names[XML_NUM_NAMES]; /* met last, each where its address says; those of `parser` */
+    /* met last, each where its address says; those of `parser` */
+    struct xml_name names[XML_NUM_NAMES];
     struct xml_word words[XML_NUM_WORDS]; /* met last, each where its hash says */
-    VEC(elem_id) includes; /* <xi:include> elements of the files being read, innermost last; replaced when the file is parsed */
+    /*
+     * <xi:include> elements of the files being read, innermost last; replaced when the file is parsed
+     */
+    VEC(elem_id) includes;
     VEC(struct xml_file) opened;
     uint32_t include_depth;
     bool stopped;       /* of the current source: no further callback matters */
@@ -79,20 +84,28 @@ struct xml_reader {
     bool out_of_memory; /* inside a callback or in libxml2 */
 };
 
-/* The place `offset` bytes into the current source; cheap where it lies behind the last one asked for. */
+/*
+ * The place `offset` bytes into the current source; cheap where it lies behind the last one asked for.
+ */
 struct diag_place xml_place(struct xml_reader *reader, size_t offset);
 /* The column of that, and the line in source->position. */
 uint32_t xml_column(struct xml_source *source, size_t offset);
 
-/* text.c: from the bytes of a file to UTF-8 text that libxml2 can parse. false: an error was reported. */
+/*
+ * text.c: from the bytes of a file to UTF-8 text that libxml2 can parse. false: an error was reported.
+ */
 bool xml_prepare_text(struct xml_reader *reader, const char *data, size_t size);
-/* Makes the raw '<' in attribute values XML_RAW_LESS, in a copy of the source's text; false where that cannot be. */
+/*
+ * Makes the raw '<' in attribute values XML_RAW_LESS, in a copy of the source's text; false where that cannot be.
+ */
 bool xml_repair_text(struct xml_reader *reader);
 
 /* parse.c: the source's text becomes elements below source->root. false: an error was reported. */
 bool xml_parse_source(struct xml_reader *reader);
 
-/* include.c: replaces the <xi:include> elements of a source, from index `first` of reader->includes, by what they include. */
+/*
+ * include.c: replaces the <xi:include> elements of a source, from index `first` of reader->includes, by what they include.
+ */
 void xml_process_includes(struct xml_reader *reader, const struct xml_source *source, uint32_t first);
 
 /* reader.c */
@@ -101,9 +114,13 @@ void xml_process_includes(struct xml_reader *reader, const struct xml_source *so
  * document's root; upgraded to the current version. 0: no tree.
  */
 elem_id xml_read_text(struct xml_reader *reader, const char *name, uint16_t file, elem_id root, const char *data, size_t size);
-/* Moves a root's children before `sibling`, or to the end of `parent` where that is 0; what it says about its scope goes with them. */
+/*
+ * Moves a root's children before `sibling`, or to the end of `parent` where that is 0; what it says about its scope goes with them.
+ */
 void xml_merge_root(struct document *doc, elem_id root, elem_id parent, elem_id sibling);
-/* Opens the file that `ref` means in the file `from`; xml_close_file releases it. One is open at a time. *out_name after a failure: xml_files. */
+/*
+ * Opens the file that `ref` means in the file `from`; xml_close_file releases it. One is open at a time. *out_name after a failure: xml_files.
+ */
 bool xml_open_file(struct xml_reader *reader, const char *from, const char *ref, const char **out_name, const char **out_data,
                    size_t *out_size, const char **out_reason);
 void xml_close_file(struct xml_reader *reader);

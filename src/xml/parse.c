@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Text to elements by libxml2's SAX2 interface. No jump crosses a frame of libxml2: each callback runs under mem_try. */
+/*
+ * Text to elements by libxml2's SAX2 interface. No jump crosses a frame of libxml2: each callback runs under mem_try.
+ */
 #include "xml/internal.h"
 
 #include <libxml/parser.h>
@@ -38,7 +40,9 @@ struct start_tag {
     const xmlChar **attrs;      /* name, prefix, URI, value, end of the value */
 };
 
-/* A name from libxml2's dictionary, which has each text at one address for as long as the reader's parser lives. */
+/*
+ * A name from libxml2's dictionary, which has each text at one address for as long as the reader's parser lives.
+ */
 static str_id plain_name(struct xml_reader *reader, const char *name)
 {
     struct xml_name *known = &reader->names[((uintptr_t)name ^ (uintptr_t)name >> 7) & (XML_NUM_NAMES - 1)];
@@ -62,7 +66,9 @@ static str_id qualified_name(struct xml_reader *reader, const char *prefix, cons
     return str_intern(strings, text, len);
 }
 
-/* Types, names of ports and round numbers stand in a document over and over: a value of up to eight bytes is looked for here first. */
+/*
+ * Types, names of ports and round numbers stand in a document over and over: a value of up to eight bytes is looked for here first.
+ */
 static str_id intern_value(struct xml_reader *reader, const char *text, size_t len)
 {
     struct strpool *strings = reader->doc->strings;
@@ -137,7 +143,9 @@ static void add_attr(struct xml_reader *reader, elem_id element, str_id name, st
                  .column = (uint16_t)(column < UINT16_MAX ? column : UINT16_MAX)});
 }
 
-/* Offset of the value of an attribute where it stands as it is in the input of libxml2; SIZE_MAX where it is a copy. */
+/*
+ * Offset of the value of an attribute where it stands as it is in the input of libxml2; SIZE_MAX where it is a copy.
+ */
 static size_t value_offset(const struct xml_reader *reader, const xmlChar *value)
 {
     const xmlParserInput *input = reader->parser->input;
@@ -158,7 +166,9 @@ static void add_plain_attr(const struct start_tag *tag, int index, elem_id eleme
         add_attr(reader, element, name, attr_value(reader, a[3], a[4]), place, offset);
 }
 
-/* Attributes in the order of the text. Namespace declarations other than XInclude's are attributes. */
+/*
+ * Attributes in the order of the text. Namespace declarations other than XInclude's are attributes.
+ */
 static void add_attrs(const struct start_tag *tag, elem_id element, struct diag_place place, size_t at)
 {
     struct xml_reader *reader = tag->reader;
@@ -208,7 +218,9 @@ static elem_id add_element(const struct start_tag *tag, struct diag_place place)
     return source->root;
 }
 
-/* The offset of the first value, where those of all are known and nothing else stands between them; SIZE_MAX where they are not. */
+/*
+ * The offset of the first value, where those of all are known and nothing else stands between them; SIZE_MAX where they are not.
+ */
 static size_t known_values(const struct start_tag *tag)
 {
     if (tag->num_namespaces || !tag->num_attrs)
@@ -228,7 +240,10 @@ static void start_element(void *arg)
     const char *text = source->text;
     at -= at == source->size;
     while (at > source->start && text[at] != '<')
-        at--; /* from the first value or from behind the attributes: the tag's start is the last '<', which cannot stand inside one */
+        /*
+         * from the first value or from behind the attributes: the tag's start is the last '<', which cannot stand inside one
+         */
+        at--;
     struct diag_place place = xml_place(reader, at);
     if (source->depth >= reader->limits.max_depth) {
         diag_add(reader->diags, DIAG_ID_xml_depth, place, (unsigned)reader->limits.max_depth);
@@ -429,7 +444,9 @@ static void parse_once(struct xml_reader *reader)
      * NOENT for the right text of character references; no entity can be declared, because a DOCTYPE is refused. IGNORE_ENC because
      * the text is UTF-8 whatever its declaration says.
      */
-    /* What goes wrong while a declared encoding is looked at is told to the thread's handler, which prints unless it is ours. */
+    /*
+     * What goes wrong while a declared encoding is looked at is told to the thread's handler, which prints unless it is ours.
+     */
     xmlStructuredErrorFunc handler = xmlStructuredError;
     void *handler_data = xmlStructuredErrorContext;
     xmlSetStructuredErrorFunc(reader, on_structured_error);

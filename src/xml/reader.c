@@ -9,7 +9,8 @@ static uint32_t count_code_points(const struct xml_source *source, size_t begin,
 {
     uint32_t count = (uint32_t)(end - begin);
     for (size_t at = begin; at < end && !source->is_ascii; at++)
-        count -= ((unsigned char)source->text[at] & 0xc0) == 0x80; /* continuation bytes of UTF-8 are no code points */
+        /* continuation bytes of UTF-8 are no code points */
+        count -= ((unsigned char)source->text[at] & 0xc0) == 0x80;
     return count;
 }
 
@@ -53,7 +54,9 @@ void xml_close_file(struct xml_reader *reader)
 
 static const str_id scope_attrs[] = {STR_colorspace, STR_fileprefix, STR_geomprefix, STR_namespace};
 
-/* What a root says about its scope, said by a child. No namespace means the global one, even inside a document that has one. */
+/*
+ * What a root says about its scope, said by a child. No namespace means the global one, even inside a document that has one.
+ */
 static void carry_scope(struct document *doc, elem_id root, elem_id child, bool into_namespace)
 {
     for (size_t i = 0; i < sizeof scope_attrs / sizeof *scope_attrs; i++) {
@@ -124,7 +127,9 @@ static void set_defaults(struct xml_limits *limits, const struct xml_limits *giv
         limits->max_file_mib = 256;
 }
 
-/* The first file of a document gives it its root; a further one joins its children, as an included one does. */
+/*
+ * The first file of a document gives it its root; a further one joins its children, as an included one does.
+ */
 static void read_data(struct reading *reading, const char *name, uint16_t file)
 {
     struct xml_reader *reader = &reading->reader;

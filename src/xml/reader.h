@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/* From XML text to an element tree. libxml2 is used here and nowhere else, by SAX2, with no network and no external entities. */
+/*
+ * From XML text to an element tree. libxml2 is used here and nowhere else, by SAX2, with no network and no external entities.
+ */
 #ifndef MXG_XML_READER_H
 #define MXG_XML_READER_H
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/* The bytes of a file as UTF-8 text: encodings, byte-order marks, what stands before the XML, raw '<' in attribute values. */
+/*
+ * The bytes of a file as UTF-8 text: encodings, byte-order marks, what stands before the XML, raw '<' in attribute values.
+ */
 #include "xml/internal.h"
 
 static bool has_prefix(const char *text, size_t len, const char *prefix, size_t prefix_len)
@@ -101,7 +103,9 @@ static bool apply_declared_encoding(struct xml_reader *reader)
     return false;
 }
 
-/* libxml2 looks at the first four bytes itself and takes zeros for an encoding of wider units, whatever it was told. */
+/*
+ * libxml2 looks at the first four bytes itself and takes zeros for an encoding of wider units, whatever it was told.
+ */
 static bool check_first_bytes(struct xml_reader *reader)
 {
     const struct xml_source *source = reader->source;

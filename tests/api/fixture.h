@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/* What tests of the public interface share: an allocator that counts and fails, files in memory, a document with a bit of everything. */
+/*
+ * What tests of the public interface share: an allocator that counts and fails, files in memory, a document with a bit of everything.
+ */
 #ifndef MXG_TESTS_API_FIXTURE_H
 #define MXG_TESTS_API_FIXTURE_H
 

@@ -310,7 +310,8 @@ static void test_options(const struct objects *o)
         mxg_option option = {sizeof option};
         REQUIRE_EQ(mxg_get_option(i, &option), MXG_OK);
         REQUIRE(*option.key && *option.doc);
-        REQUIRE_EQ(mxg_options_set(o->options, option.key, option.initial), MXG_OK); /* every default is a value */
+        /* every default is a value */
+        REQUIRE_EQ(mxg_options_set(o->options, option.key, option.initial), MXG_OK);
     }
     REFUSED(mxg_options_set(o->options, "max-lights", "1025"));
     REQUIRE_STR(mxg_options_error(o->options), "'1025' is not a value of option 'max-lights'; expected an integer of 0..1024");

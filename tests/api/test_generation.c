@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/* What a generation gives: source with places, reflection, views; and what a path of an element means. */
+/*
+ * What a generation gives: source with places, reflection, views; and what a path of an element means.
+ */
 #include "tests/api/fixture.h"
 
 struct bench {
@@ -53,7 +55,8 @@ static void test_targets(const struct bench *b)
             for (int stage = 0; stage < MXG_NUM_STAGES; stage++) {
                 size_t size = 0;
                 const char *source = mxg_result_source(result, (mxg_stage)stage, &size);
-                bool is_optional = strcmp(target.name, "osl") == 0 && stage == MXG_STAGE_VERTEX; /* nothing is displaced */
+                /* nothing is displaced */
+                bool is_optional = strcmp(target.name, "osl") == 0 && stage == MXG_STAGE_VERTEX;
                 REQUIRE((source != NULL) == (target.stage_suffix[stage] != NULL && !is_optional));
                 REQUIRE(!source || strlen(source) == size);
             }
@@ -80,14 +83,16 @@ static void test_places(const struct bench *b)
         REQUIRE(file && path && at_line && at_column);
         char node[64];
         size_t len = mxg_result_source_path(result, MXG_STAGE_PIXEL, line, node, sizeof node);
-        REQUIRE(len == strlen(node) && strncmp(node, path, strlen(path)) == 0); /* the same, or inside of it */
+        /* the same, or inside of it */
+        REQUIRE(len == strlen(node) && strncmp(node, path, strlen(path)) == 0);
         inside = inside || strncmp(node, "S/", 2) == 0;
         found = found || (strcmp(path, "G/t") == 0 && at_line == 8 && at_column == 5 && strcmp(file, "main.mtlx") == 0);
     }
     REQUIRE(found && inside);
     char cut[2];
     REQUIRE_EQ(mxg_result_source_path(result, MXG_STAGE_PIXEL, 1, cut, sizeof cut), 0);
-    REQUIRE(!mxg_result_source_place(result, MXG_STAGE_PIXEL, 1, NULL, NULL, NULL, NULL)); /* "#version" */
+    /* "#version" */
+    REQUIRE(!mxg_result_source_place(result, MXG_STAGE_PIXEL, 1, NULL, NULL, NULL, NULL));
     mxg_result_destroy(result);
 }
 
@@ -194,7 +199,8 @@ static void test_user_interface(void)
         num_given += strcmp(variable.semantic, "geomprop:id") == 0 && variable.num_values == 1 && variable.values[0] == 3.0f;
     }
     REQUIRE_EQ(num_flat, 1); /* an integer */
-    REQUIRE_EQ(num_given, 2); /* what it is where the geometry has none: of the attribute, and between the stages */
+    /* what it is where the geometry has none: of the attribute, and between the stages */
+    REQUIRE_EQ(num_given, 2);
     mxg_result_destroy(result);
     result = generate(&b, "osl", "G", MXG_OK);
     REQUIRE(strstr(mxg_result_source(result, MXG_STAGE_PIXEL, NULL), "id = 3 [[ int lockgeom = 0 ]]"));

@@ -92,7 +92,8 @@ static void test_max_nodes_of_diagnostics(void)
 
 static void test_max_elements(void)
 {
-    char *text = chain(50); /* the root, a graph, 51 nodes with two inputs each but the first, an output */
+    /* the root, a graph, 51 nodes with two inputs each but the first, an output */
+    char *text = chain(50);
     uint32_t count = 1 + 1 + 1 + 3 * 50 + 1;
     for (uint32_t limit = count - 1; limit <= count; limit++) {
         mxg_context_desc desc = MXG_CONTEXT_DESC_INIT;

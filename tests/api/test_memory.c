@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Every allocation of a cycle fails once, and memory is limited: a status says so, nothing leaks, and the next cycle works. */
+/*
+ * Every allocation of a cycle fails once, and memory is limited: a status says so, nothing leaks, and the next cycle works.
+ */
 #include "tests/api/fixture.h"
 
 static mxg_status use_result(const mxg_result *result)
@@ -167,7 +169,9 @@ static void test_limit(void)
     require_clean(&heap);
 }
 
-/* Files that mxgen reads itself count too, and running out of memory while reading one is not a missing file. */
+/*
+ * Files that mxgen reads itself count too, and running out of memory while reading one is not a missing file.
+ */
 static void test_own_files(const char *path)
 {
     mxg_status status = MXG_ERROR_MEMORY;

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/* What changes the structure of an element: one change of a document, of the options or of the library at a time. */
+/*
+ * What changes the structure of an element: one change of a document, of the options or of the library at a time.
+ */
 #define _POSIX_C_SOURCE 200809L
 #include "tests/api/fixture.h"
 
@@ -231,7 +233,9 @@ static void test_interfaces(const mxg_document *document)
     }
 }
 
-/* Two reads of one file are told apart by the uniforms that their defaults are, not by what these are at first. */
+/*
+ * Two reads of one file are told apart by the uniforms that their defaults are, not by what these are at first.
+ */
 static void test_defaults(void)
 {
     static const char text[] =

@@ -173,7 +173,8 @@ static void compare(uint64_t structure, char *facts, const char *path, const cha
 
 /* ---- Variants ---- */
 
-enum { MAX_VARIED = 1 << 16, NUM_VARIANTS = 10, NUM_VARIED_ELEMENTS = 3 }; /* bytes of a document, variants of each, elements of those */
+/* bytes of a document, variants of each, elements of those */
+enum { MAX_VARIED = 1 << 16, NUM_VARIANTS = 10, NUM_VARIED_ELEMENTS = 3 };
 
 static uint64_t random_state = 1;
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Files that nodes name: what hosts are told of textures, their tiles, layers and frames; photometric profiles. */
+/*
+ * Files that nodes name: what hosts are told of textures, their tiles, layers and frames; photometric profiles.
+ */
 #include "tests/api/fixture.h"
 
 /* Names in the folder "maps/" of the files' place, in no order. */
@@ -152,7 +154,8 @@ static void test_no_tiles(void)
         const char *option, *value, *warning;
     } cases[] = {
         {IMAGE("none.&lt;UDIM&gt;.png", ""), true, NULL, NULL, "no-tiles"},
-        {IMAGE("none.&lt;UDIM&gt;.png", ""), false, NULL, NULL, NULL}, /* the host does not say, so it knows */
+        /* the host does not say, so it knows */
+        {IMAGE("none.&lt;UDIM&gt;.png", ""), false, NULL, NULL, NULL},
         {IMAGE("wall.&lt;UDIM&gt;.png", ""), true, "tiles", "host", NULL},
         {IMAGE("&lt;UDIM&gt;/wall.png", ""), true, NULL, NULL, "no-tiles"},
         {"<geominfo name=\"a\" geom=\"/a\"><geomprop name=\"uvtileset\" type=\"stringarray\" value=\"u1_v1,u900_v2\"/></geominfo>"
@@ -201,7 +204,8 @@ static void test_blurred_tiles(void)
     for (const char *at = source; (at = strstr(at, "textureGrad(")) != NULL; at++)
         readings++;
     REQUIRE_EQ(readings, 9);
-    REQUIRE(strstr(source, "dFdx(vd.texcoord_0)") && strstr(source, " + abs(i")); /* what the screen asks for, and the kernel */
+    /* what the screen asks for, and the kernel */
+    REQUIRE(strstr(source, "dFdx(vd.texcoord_0)") && strstr(source, " + abs(i"));
     finish(&shot);
 }
 
@@ -301,7 +305,9 @@ static void test_two_ways(void)
     "<measured_edf name=\"light\" type=\"EDF\"><input name=\"file\" type=\"filename\" fileprefix=\"\" value=\"" file "\"/></measured_edf>" \
     "<surface name=\"s\" type=\"surfaceshader\"><input name=\"edf\" type=\"EDF\" nodename=\"light\"/></surface>"
 
-/* Intensities relative to the greatest, every two degrees; what stands behind the last angle is not stored. */
+/*
+ * Intensities relative to the greatest, every two degrees; what stands behind the last angle is not stored.
+ */
 static void test_profile(void)
 {
     struct shot shot;
@@ -309,7 +315,8 @@ static void test_profile(void)
     shoot(&shot, LAMP("lamp.ies"), false, NULL, NULL, MXG_OK);
     REQUIRE_EQ(mxg_diagnostics_count(mxg_result_diagnostics(shot.result)), 0);
     const char *table = strstr(mxg_result_source(shot.result, MXG_STAGE_PIXEL, NULL), "float[47](1.0, 0.9777");
-    REQUIRE(table && strstr(table, ", 0.375") && strstr(table, ", 0.0);")); /* 90 degrees, and behind */
+    /* 90 degrees, and behind */
+    REQUIRE(table && strstr(table, ", 0.375") && strstr(table, ", 0.0);"));
     REQUIRE_EQ(mxg_result_num_files(shot.result), 1);
     REQUIRE_STR(mxg_result_file(shot.result, 0), "lamp.ies");
     REQUIRE(!mxg_result_file(shot.result, 1));

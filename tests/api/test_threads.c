@@ -79,7 +79,9 @@ static bool gives(mxg_context *context, const mxg_document *document, const char
     return good;
 }
 
-/* Documents come in another order for each thread; every other one is loaded anew, over the shared library or the thread's own. */
+/*
+ * Documents come in another order for each thread; every other one is loaded anew, over the shared library or the thread's own.
+ */
 static void *work(void *arg)
 {
     struct worker *worker = arg;

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/* A record that goes from a worker to `mxgen check` arrives as it was; bytes that are no record are none, whatever they are. */
+/*
+ * A record that goes from a worker to `mxgen check` arrives as it was; bytes that are no record are none, whatever they are.
+ */
 #define _POSIX_C_SOURCE 200809L
 #include "cli/check/packed.h"
 #include "unit/test.h"
@@ -71,7 +73,8 @@ static void test_no_record(void)
     size_t size = packed.size;
     for (size_t len = 0; len < size; ++len)
         REQUIRE(!check_unpack_document(&store, bytes, len));
-    for (size_t at = 0; at < size; ++at) { /* any byte another: a record or none, and nothing beyond the bytes is read */
+    /* any byte another: a record or none, and nothing beyond the bytes is read */
+    for (size_t at = 0; at < size; ++at) {
         char was = bytes[at];
         bytes[at] = (char)~was;
         struct check_document *read = check_unpack_document(&store, bytes, size);

@@ -22,7 +22,9 @@ struct deviations {
     size_t len;
 };
 
-/* Reads a file whose lines have `num_numbers` numbers behind the names. False after printing that there is none. */
+/*
+ * Reads a file whose lines have `num_numbers` numbers behind the names. False after printing that there is none.
+ */
 bool deviations_read(struct deviations *list, const char *path, size_t num_numbers);
 void deviations_finish(struct deviations *list);
 

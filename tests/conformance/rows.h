@@ -16,9 +16,11 @@ enum { ROW_PIXELS = 16, ROW_MAX_COMPONENTS = 4 };
 struct row {
     char *name;          /* element path: "g_add_float/v1" */
     unsigned components;
-    bool is_defined;     /* false: the reference is not finite or not stable there; any value is right */
+    /* false: the reference is not finite or not stable there; any value is right */
+    bool is_defined;
     double tolerance;
-    double values[ROW_PIXELS * ROW_MAX_COMPONENTS]; /* pixel by pixel, rows of 4 from the bottom; `components` for each */
+    /* pixel by pixel, rows of 4 from the bottom; `components` for each */
+    double values[ROW_PIXELS * ROW_MAX_COMPONENTS];
 };
 
 struct row_list {
@@ -46,13 +48,17 @@ void row_list_free(struct row_list *list);
 /* "<folder>/cases/<document>.mtlx"; to be freed. */
 char *suite_case_file(const struct suite *suite, size_t index);
 
-/* Compares and counts; differences are printed. `values` as in the row; NULL where there are none, and `problem` tells why. */
+/*
+ * Compares and counts; differences are printed. `values` as in the row; NULL where there are none, and `problem` tells why.
+ */
 void suite_judge(struct suite *suite, const struct row_list *list, const struct row *row, const float *values, const char *problem);
 
 /* Counts a row that this test cannot compute. */
 void suite_skip(struct suite *suite, const struct row_list *list, const struct row *row);
 
-/* Prints the counts. Where all documents were read (`is_whole`) the list of deviations is checked too. What main returns. */
+/*
+ * Prints the counts. Where all documents were read (`is_whole`) the list of deviations is checked too. What main returns.
+ */
 int suite_report(struct suite *suite, const char *name, bool is_whole);
 
 #endif

@@ -92,7 +92,9 @@ static bool source(void *user_data, const struct ir_graph *graph, ir_ref ref, st
     return vertex_data(run, node->attr, out);
 }
 
-/* RESULT 0 is what the function returns, RESULT 1 its first `out` parameter, also where it returns nothing. */
+/*
+ * RESULT 0 is what the function returns, RESULT 1 its first `out` parameter, also where it returns nothing.
+ */
 static bool call(void *user_data, const struct ir_graph *graph, ir_ref ref, const struct ir_value *args, uint32_t result,
                  struct ir_value *out)
 {

@@ -47,7 +47,8 @@ struct run {
     mxg_library *library;
     struct gpu gpu;
     struct scene scenes[NUM_IMAGE_KINDS];
-    struct deviations deviations; /* of materials and images; mean and rms in percent that are allowed instead */
+    /* of materials and images; mean and rms in percent that are allowed instead */
+    struct deviations deviations;
     struct errors worst; /* of all that agree */
     size_t agree, deviate, failed;
 };
@@ -91,7 +92,9 @@ static int compare_numbers(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Errors of the mean, and of the root mean square without the worst pixels, relative to the mean. */
+/*
+ * Errors of the mean, and of the root mean square without the worst pixels, relative to the mean.
+ */
 static struct errors measure(const struct reference *reference, float (*pixels)[4])
 {
     static double squares[SIZE * SIZE];

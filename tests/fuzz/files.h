@@ -23,7 +23,9 @@ struct fuzz_files {
 
 void fuzz_files_split(struct fuzz_files *files, const char *data, size_t size);
 
-/* A context that reads these files with memory of the heap, and the rest as `desc` says. NULL: it cannot be made. */
+/*
+ * A context that reads these files with memory of the heap, and the rest as `desc` says. NULL: it cannot be made.
+ */
 mxg_context *fuzz_files_context(struct fuzz_files *files, struct fuzz_heap *heap, mxg_context_desc desc);
 
 #endif

@@ -28,7 +28,9 @@ struct fuzz_job {
     struct arena arena;
 };
 
-/* Runs work on a job for the input, up to where memory runs out: at `limit` bytes (0: none), or because it is to fail. */
+/*
+ * Runs work on a job for the input, up to where memory runs out: at `limit` bytes (0: none), or because it is to fail.
+ */
 void fuzz_run_job(const char *data, size_t size, struct fuzz_heap *heap, size_t limit, void (*work)(struct fuzz_job *job));
 
 /* A number made of all bytes of the input: for choices. */

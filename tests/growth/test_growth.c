@@ -70,7 +70,9 @@ static struct text graph(enum shape shape, unsigned nodes)
     return text;
 }
 
-/* Each definition uses the one below it twice, with different arguments: inlined it would be 2^depth nodes. */
+/*
+ * Each definition uses the one below it twice, with different arguments: inlined it would be 2^depth nodes.
+ */
 static struct text nested(unsigned depth)
 {
     struct text text = {NULL, 0, 0};
@@ -113,7 +115,9 @@ static void print_first(const mxg_diagnostics *list)
     printf("    %.1000s\n", line);
 }
 
-/* Bytes of source of an element; 0: none. Errors are printed, except for `expected`, which must be among them. */
+/*
+ * Bytes of source of an element; 0: none. Errors are printed, except for `expected`, which must be among them.
+ */
 static size_t generate(const struct text *text, const char *element, const mxg_context_desc *desc, const char *expected)
 {
     mxg_context *context = NULL;

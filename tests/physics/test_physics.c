@@ -223,7 +223,9 @@ static void judge_agreement(struct run *run, const struct leaf *leaf, mxg_docume
     expect_all(run, leaf, "nonsense in samples", pixels, 3, 0.0);
 }
 
-/* Pearson's test: bins of few samples are one; the statistic as a normal deviate (Wilson and Hilferty 1931). */
+/*
+ * Pearson's test: bins of few samples are one; the statistic as a normal deviate (Wilson and Hilferty 1931).
+ */
 static double chi_square_deviate(float (*bins)[4], size_t count, double samples)
 {
     double statistic = 0.0, few_expected = 0.0, few_got = 0.0, freedom = -1.0;

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Baked environments: light is neither lost nor made, a lobe's level shows what the lobe would, files come back as they were. */
+/*
+ * Baked environments: light is neither lost nor made, a lobe's level shows what the lobe would, files come back as they were.
+ */
 #include "unit/test.h"
 
 #include "render/bake.h"
@@ -41,7 +43,9 @@ static void test_constant(void)
     image_finish(&map);
 }
 
-/* Radiance 1 + y: its irradiance over pi is 1 + 2/3 y (Ramamoorthi and Hanrahan 2001, A_1 / A_0 = 2/3). */
+/*
+ * Radiance 1 + y: its irradiance over pi is 1 + 2/3 y (Ramamoorthi and Hanrahan 2001, A_1 / A_0 = 2/3).
+ */
 static void test_gradient(void)
 {
     struct image map = {.width = 128, .height = 64, .is_float = true, .pixels = malloc(128 * 64 * 4 * sizeof(float))}, out;
@@ -61,7 +65,9 @@ static void test_gradient(void)
     image_finish(&out);
 }
 
-/* GGX with height-correlated masking over a uniform grid of directions: Heitz 2014, equations 71, 72 and 99. */
+/*
+ * GGX with height-correlated masking over a uniform grid of directions: Heitz 2014, equations 71, 72 and 99.
+ */
 static void integrate(double cosine, double alpha, double *out_a, double *out_b)
 {
     enum { N = 1200 };
@@ -74,7 +80,8 @@ static void integrate(double cosine, double alpha, double *out_a, double *out_b)
             double len = sqrt(h[0] * h[0] + h[1] * h[1] + h[2] * h[2]), hz = h[2] / len;
             double k = hz * hz * (alpha * alpha - 1) + 1, d = alpha * alpha / (PI * k * k);
             double lv = sqrt(1 + alpha * alpha * (1 / (cosine * cosine) - 1)), ll = sqrt(1 + alpha * alpha * (1 / (z * z) - 1));
-            double value = d * 2 / (lv + ll) / (4 * cosine) * 2 * PI / ((double)N * N); /* f cos, times the solid angle */
+            /* f cos, times the solid angle */
+            double value = d * 2 / (lv + ll) / (4 * cosine) * 2 * PI / ((double)N * N);
             double facing = (v[0] * h[0] + v[2] * h[2]) / len, curve = pow(1 - facing, 5);
             *out_a += (1 - curve) * value;
             *out_b += curve * value;

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/* The judge of shaders must itself be right: it accepts what is valid, and tells stage and line of what is not. */
+/*
+ * The judge of shaders must itself be right: it accepts what is valid, and tells stage and line of what is not.
+ */
 #include "validate/compile.h"
 
 #include "unit/test.h"
@@ -53,13 +55,16 @@ static void refuses(const char *target, const char *vertex, const char *pixel, u
 int main(void)
 {
     compile_begin();
-    /* label, load, multiply, 3 extracts, construct, store, return; a member of a block needs an access chain too */
+    /*
+     * label, load, multiply, 3 extracts, construct, store, return; a member of a block needs an access chain too
+     */
     accepts("glsl", desktop_vertex, desktop_pixel, 9);
     accepts("vulkan", desktop_vertex, vulkan_pixel, 10);
     accepts("essl", es_vertex, es_pixel, 9);
     refuses("glsl", desktop_vertex, broken_pixel, 5, "missing");
     refuses("vulkan", desktop_vertex, broken_pixel, 5, "missing");
-    refuses("vulkan", desktop_vertex, desktop_pixel, 2, "outside a block"); /* loose uniforms are not Vulkan's */
+    /* loose uniforms are not Vulkan's */
+    refuses("vulkan", desktop_vertex, desktop_pixel, 2, "outside a block");
     REQUIRE(compile_knows_target("essl"));
     REQUIRE(!compile_knows_target("msl"));
     compile_end();

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/* A document read from text, with files that exist only in a table, and its diagnostics as one line of text. */
+/*
+ * A document read from text, with files that exist only in a table, and its diagnostics as one line of text.
+ */
 #ifndef MXG_TESTS_DOCUMENT_FIXTURE_H
 #define MXG_TESTS_DOCUMENT_FIXTURE_H
 
@@ -98,7 +100,9 @@ static inline void fixture_close(struct fixture *f)
     REQUIRE_EQ(f->num_open, 0);
 }
 
-/* "3:7 type-mismatch, b.mtlx:1:1 version-missing": remarks left out, the file where it is not the document itself. */
+/*
+ * "3:7 type-mismatch, b.mtlx:1:1 version-missing": remarks left out, the file where it is not the document itself.
+ */
 static inline const char *fixture_messages(struct fixture *f)
 {
     struct text text;

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/* The ground floor: arenas and their failures, string pools in layers, numbers as text, growing text. */
+/*
+ * The ground floor: arenas and their failures, string pools in layers, numbers as text, growing text.
+ */
 #include "base/hash.h"
 #include "base/mem.h"
 #include "base/num.h"
@@ -14,7 +16,9 @@
 
 /* Memory */
 
-/* The C library's allocator, which fails once `left` allocations are done, and checks the sizes that it is told. */
+/*
+ * The C library's allocator, which fails once `left` allocations are done, and checks the sizes that it is told.
+ */
 struct counting {
     size_t left, held;
 };
@@ -200,7 +204,9 @@ static void test_strings(struct arena *arena)
     REQUIRE_STR(str_text(&top, pine), "pine");
 }
 
-/* A layer as a library image has it: offsets into one block of bytes, and ids of 16 bits where they fit. */
+/*
+ * A layer as a library image has it: offsets into one block of bytes, and ids of 16 bits where they fit.
+ */
 static void test_image_layer(struct arena *arena, bool is_narrow)
 {
     struct strpool growing, document;
@@ -297,7 +303,9 @@ static int num_digits(const char *text)
     return digits;
 }
 
-/* What is printed reads back to the same bits, and is as short as the shortest of the C library's forms that does. */
+/*
+ * What is printed reads back to the same bits, and is as short as the shortest of the C library's forms that does.
+ */
 static bool round_trips(float value)
 {
     char shortest[32];
@@ -317,7 +325,8 @@ static void test_round_trips(void)
     bool good = true;
     for (unsigned i = 0; i < 200000; i++) {
         state = state * 6364136223846793005u + 1442695040888963407u;
-        uint32_t bits = i < 1000 ? i : (uint32_t)(state >> 32); /* the smallest denormals, then anything */
+        /* the smallest denormals, then anything */
+        uint32_t bits = i < 1000 ? i : (uint32_t)(state >> 32);
         float value;
         memcpy(&value, &bits, sizeof value);
         if (isfinite(value) && !round_trips(value)) {

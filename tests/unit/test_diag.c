@@ -20,7 +20,9 @@ static const char *render(const struct diag *diag, const char *source, bool colo
     return text_cstr(&text);
 }
 
-/* Ids are distinct, lower-case words with hyphens; formats use what diag.h allows and say something. */
+/*
+ * Ids are distinct, lower-case words with hyphens; formats use what diag.h allows and say something.
+ */
 static void test_catalogue(void)
 {
     static const char *const formats[] = {
@@ -68,7 +70,9 @@ static void test_list(void)
     REQUIRE_EQ(items[4].parent, 4);
 }
 
-/* Errors beyond the limit are counted; they go with their notes, and one note says so. Warnings still come. */
+/*
+ * Errors beyond the limit are counted; they go with their notes, and one note says so. Warnings still come.
+ */
 static void test_limit(void)
 {
     struct diag_list list;
@@ -80,7 +84,8 @@ static void test_limit(void)
     }
     diag_add(&list, DIAG_ID_version_missing, at(1, 1, 0));
     REQUIRE_EQ(list.num_errors, 5);
-    REQUIRE_EQ(list.items.len, 6); /* two errors, each with a note; the note about the rest; the warning */
+    /* two errors, each with a note; the note about the rest; the warning */
+    REQUIRE_EQ(list.items.len, 6);
     REQUIRE_STR(list.items.items[4].message, "more errors than 2; the rest is not shown");
     REQUIRE_EQ(list.items.items[4].parent, 2);
     REQUIRE_EQ(list.items.items[5].id, DIAG_ID_version_missing);
@@ -117,7 +122,9 @@ static void test_text(void)
                                               "               ^\n");
 }
 
-/* Columns are code points; tabs stay tabs under tabs; escapes of the document do not reach the terminal. */
+/*
+ * Columns are code points; tabs stay tabs under tabs; escapes of the document do not reach the terminal.
+ */
 static void test_columns(void)
 {
     struct diag diag = {.id = DIAG_ID_unknown_node, .message = "evil \x1b[2J", .place = at(1, 7, 2)};

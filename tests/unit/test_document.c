@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/* The element tree: types and values, building, names in layers, templates, namespaces, validation. Upgrades: test_upgrade.c. */
+/*
+ * The element tree: types and values, building, names in layers, templates, namespaces, validation. Upgrades: test_upgrade.c.
+ */
 #include "document_fixture.h"
 
 #define ROOT "<materialx version=\"1.39\">"
@@ -117,7 +119,8 @@ static void test_layers(void)
     REQUIRE_STR(doc_place(&top, own).file, "top.mtlx");
     REQUIRE_EQ(doc_child(&top, doc_element(&top, below)->parent, STR_in), below);
     REQUIRE_EQ(doc_child_of_kind(&top, doc_element(&top, below)->parent, KIND_OUTPUT, STR_in), 0);
-    REQUIRE_EQ(doc_inherited_attr(&top, own, STR_fileprefix), STR_EMPTY); /* the nearest counts, empty or not */
+    /* the nearest counts, empty or not */
+    REQUIRE_EQ(doc_inherited_attr(&top, own, STR_fileprefix), STR_EMPTY);
     REQUIRE_STR(str_text(&strings, doc_inherited_attr(&top, doc_find(&top, "y", 1), STR_fileprefix)), "p/");
     struct text path;
     text_init(&path, &f.arena);
@@ -186,7 +189,8 @@ static void test_namespaces(void)
     fixture_read(&f, "<materialx version=\"1.39\" namespace=\"n\"><nodegraph name=\"g\"><add name=\"a\"><input name=\"i\" nodename=\"g\"/>"
                      "</add></nodegraph></materialx>", NULL);
     REQUIRE(doc_find(&f.doc, "n:g/a", 5) && doc_find(&f.doc, "g/a", 3) == doc_find(&f.doc, "n:g/a", 5));
-    REQUIRE_STR(str_text(&f.strings, doc_attr_value(&f.doc, doc_find(&f.doc, "g/a/i", 5), STR_nodename)), "g"); /* a node of the graph */
+    /* a node of the graph */
+    REQUIRE_STR(str_text(&f.strings, doc_attr_value(&f.doc, doc_find(&f.doc, "g/a/i", 5), STR_nodename)), "g");
     fixture_close(&f);
 }
 

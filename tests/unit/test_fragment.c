@@ -71,7 +71,9 @@ static const char *call(struct fixture *f, const ir_ref *args)
     return text_cstr(&text);
 }
 
-/* Takes down a call, gives the fragments to the library, and changes its trees. Returns what the call became. */
+/*
+ * Takes down a call, gives the fragments to the library, and changes its trees. Returns what the call became.
+ */
 static const char *record(struct fixture *f, const ir_ref *args)
 {
     lang_recorder_init(&f->recorder, &f->arena, &f->library, 0);
@@ -107,7 +109,8 @@ static void test_same_pattern(void)
     struct fixture f;
     record_two(&f, two_factors);
     REQUIRE(is_restored(&f, (ir_ref[]){uniform(&f, IR_TYPE_FLOAT, 7), uniform(&f, IR_TYPE_FLOAT, 8)}));
-    ir_ref sine = ir_op1(&f.graph, IR_SIN, uniform(&f, IR_TYPE_FLOAT, 3)); /* no rule looks through a sine */
+    /* no rule looks through a sine */
+    ir_ref sine = ir_op1(&f.graph, IR_SIN, uniform(&f, IR_TYPE_FLOAT, 3));
     REQUIRE(is_restored(&f, (ir_ref[]){sine, uniform(&f, IR_TYPE_FLOAT, 8)}));
     teardown(&f);
 }
@@ -150,7 +153,9 @@ static void test_looked_through(void)
     teardown(&f);
 }
 
-/* What is computed from a derivative weighs as much as anything else: only derivatives in a branch of their own do not. */
+/*
+ * What is computed from a derivative weighs as much as anything else: only derivatives in a branch of their own do not.
+ */
 static void test_derivatives(void)
 {
     struct fixture f;
@@ -219,7 +224,9 @@ static const char nested[] =
     "float g(float x, float k, float unused) { for (int i = 0; i < 4; ++i) { x += sin(x * k) * k; } return x; }\n"
     "float f(float x) { for (int i = 0; i < 3; ++i) { x += g(x, 2.5, x); } return x; }\n";
 
-/* What a plan makes of calls of a function, by name, with nothing known; of f first. Returns f's version. */
+/*
+ * What a plan makes of calls of a function, by name, with nothing known; of f first. Returns f's version.
+ */
 static uint32_t plan(struct fixture *f, unsigned num_calls, const char *const *names, const union ir_word *const (*args)[3])
 {
     f->generated.host = f->host;

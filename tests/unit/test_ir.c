@@ -40,7 +40,9 @@ static const char *print(struct fixture *f, const ir_ref *roots, uint32_t num_ro
     return text_cstr(&text);
 }
 
-/* Parses, prints: with folding, what the builder makes of the text. Prints the error where it is not IR. */
+/*
+ * Parses, prints: with folding, what the builder makes of the text. Prints the error where it is not IR.
+ */
 static const char *reprint(struct fixture *f, const char *text)
 {
     ir_ref *roots;
@@ -66,7 +68,8 @@ static const struct {
     /* folding */
     {"%r = add float 1.0, 2.0", "return 3.0"},
     {"%r = add vec3 vec3(1.0, 2.0, 3.0), 0.5", "return vec3(1.5, 2.5, 3.5)"},
-    {"%r = div float 1.0, 0.0", "%r = div float 1.0, 0.0\nreturn %r"}, /* no target can spell an infinity */
+    /* no target can spell an infinity */
+    {"%r = div float 1.0, 0.0", "%r = div float 1.0, 0.0\nreturn %r"},
     {"%r = div int 1, 0", "%r = div int 1, 0\nreturn %r"},
     {"%r = lt bool 1.0, 2.0", "return true"},
     {"%r = eq bool \"clamp\", \"clamp\"", "return true"},
@@ -93,7 +96,8 @@ static const struct {
      "%r = mul mat3 %m, mat3(1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0)\nreturn %r"},
     {"%r = mul mat3 %m, 1.0", "return %m"},
     {"%r = mul mat3 %f, mat3(1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0)",
-     "%r = mul mat3 %f, mat3(1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0)\nreturn %r"}, /* a matrix is not filled by a scalar */
+     /* a matrix is not filled by a scalar */
+     "%r = mul mat3 %f, mat3(1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0)\nreturn %r"},
     {"%r = sub vec3 0.0, %v", "%r = neg vec3 %v\nreturn %r"},
     {"%r = sub vec3 %v, %v", "return vec3(0.0, 0.0, 0.0)"},
     {"%r = mul int %i, 1", "return %i"},
@@ -127,7 +131,8 @@ static const struct {
     {"%r = div vec2 %k, vec2(-4.0, 0.25)", "%r = mul vec2 %k, vec2(-0.25, 4.0)\nreturn %r"},
     {"%r = div mat3 %m, 2.0", "%r = mul mat3 %m, 0.5\nreturn %r"},
     {"%r = div mat3 %m, mat3(2.0, 2.0, 2.0, 2.0, 2.0, 2.0, 2.0, 2.0, 2.0)",
-     "%r = div mat3 %m, mat3(2.0, 2.0, 2.0, 2.0, 2.0, 2.0, 2.0, 2.0, 2.0)\nreturn %r"}, /* that is no product of matrices */
+     /* that is no product of matrices */
+     "%r = div mat3 %m, mat3(2.0, 2.0, 2.0, 2.0, 2.0, 2.0, 2.0, 2.0, 2.0)\nreturn %r"},
     {"%r = div float %f, 3.0", "%r = div float %f, 3.0\nreturn %r"}, /* a third is no float */
     {"%r = div float %f, 1e38", "%r = div float %f, 1e38\nreturn %r"},
     {"%a = clamp float %f, 0.1, %g\n%r = abs float %a", "%r = clamp float %f, 0.1, %g\nreturn %r"},
@@ -233,7 +238,8 @@ static void test_sharing(void)
 
     ir_ref parts[] = {x, y};
     ir_ref pair = ir_construct(g, IR_TYPE_VEC2, parts, 2);
-    ir_ref wide = ir_build(g, IR_CONSTRUCT, IR_TYPE_VEC2, 0, ir_args(g, pair), 2); /* operands inside of the graph */
+    /* operands inside of the graph */
+    ir_ref wide = ir_build(g, IR_CONSTRUCT, IR_TYPE_VEC2, 0, ir_args(g, pair), 2);
     REQUIRE_EQ(wide, pair);
     teardown(&f);
 }
@@ -263,7 +269,9 @@ static void test_convert(void)
     teardown(&f);
 }
 
-/* Structs and arrays are taken apart where they were put together, and structs put together where they were taken apart. */
+/*
+ * Structs and arrays are taken apart where they were put together, and structs put together where they were taken apart.
+ */
 static void test_user_types(void)
 {
     struct fixture f;
@@ -439,7 +447,9 @@ static void test_marks(void)
 
 static bool source_value(void *user_data, const struct ir_graph *graph, ir_ref ref, struct ir_value *out);
 
-/* Uniform 2 in the place of uniform 1: in the graph, in functions, and in functions that only they call. */
+/*
+ * Uniform 2 in the place of uniform 1: in the graph, in functions, and in functions that only they call.
+ */
 static void test_replace(void)
 {
     static const char text[] = "function \"inner\" float\n%p = param float @0:0\n%n = uniform float @1\n%q = mul float %p, %n\nresults 0 = %q\n"
@@ -463,7 +473,9 @@ static void test_replace(void)
     teardown(&f);
 }
 
-/* Uniform k has the value 10 + k, or is unknown from 8 on; calls give their first argument plus the index of the result. */
+/*
+ * Uniform k has the value 10 + k, or is unknown from 8 on; calls give their first argument plus the index of the result.
+ */
 static bool source_value(void *user_data, const struct ir_graph *graph, ir_ref ref, struct ir_value *out)
 {
     (void)user_data;
@@ -501,7 +513,8 @@ static const struct {
      "function \"g\" float, float\n%x = param float @1:0\n%y = param float @1:1\n"
      "%c = graph_call void @0 %x\n%d = graph_call void @0 %y\n%e = result float @0 %c\n%h = result float @1 %d\n"
      "%i = sub float %e, %h\nresults 1 = %i\n"
-     "%u = uniform float @3\n%v = graph_call float @1 %u, 1.0\nreturn %v", 24.0f}, /* 2·13 - (1 + 1) */
+     /* 2·13 - (1 + 1) */
+     "%u = uniform float @3\n%v = graph_call float @1 %u, 1.0\nreturn %v", 24.0f},
 };
 
 static void test_eval(void)

@@ -22,7 +22,8 @@ static const struct {
     {"sub vec2 1.0, vec2(0.25, 2.0)", "vec2(0.75, -1.0)"},
     {"mul vec2 vec2(2.0, 3.0), vec2(4.0, 5.0)", "vec2(8.0, 15.0)"},
     {"mul mat2 mat2(1.0, 2.0, 3.0, 4.0), 2.0", "mat2(2.0, 4.0, 6.0, 8.0)"},
-    {"mul vec2 mat2(1.0, 2.0, 3.0, 4.0), vec2(5.0, 6.0)", "vec2(23.0, 34.0)"}, /* columns (1 2) and (3 4) */
+    /* columns (1 2) and (3 4) */
+    {"mul vec2 mat2(1.0, 2.0, 3.0, 4.0), vec2(5.0, 6.0)", "vec2(23.0, 34.0)"},
     {"mul vec2 vec2(5.0, 6.0), mat2(1.0, 2.0, 3.0, 4.0)", "vec2(17.0, 39.0)"},
     {"mul mat2 mat2(1.0, 2.0, 3.0, 4.0), mat2(5.0, 6.0, 7.0, 8.0)", "mat2(23.0, 34.0, 31.0, 46.0)"},
     {"mul vec3 mat3(0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0), vec3(7.0, 8.0, 9.0)", "vec3(9.0, 7.0, 8.0)"},
@@ -188,7 +189,8 @@ static const struct {
     {"step vec2 vec2(0.0, 1.0), vec2(0.5, 0.5)", "vec2(1.0, 0.0)"},
     {"smoothstep float 0.0, 2.0, 0.5", "0.15625"},
     {"smoothstep vec2 0.0, 1.0, vec2(-1.0, 2.0)", "vec2(0.0, 1.0)"},
-    {"smoothstep float 1.0, 0.0, 0.25", "0.84375"}, /* edges the wrong way round: as the formula says */
+    /* edges the wrong way round: as the formula says */
+    {"smoothstep float 1.0, 0.0, 0.25", "0.84375"},
     {"smoothstep float 1.0, 1.0, 1.0", "undefined"},
     {"isnan bool nan#2143289344", "true"},
     {"isnan bool inf", "false"},

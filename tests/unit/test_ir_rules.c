@@ -84,7 +84,9 @@ static struct ir_value random_value(ir_type_id type, bool exact)
     return value;
 }
 
-/* One way to give types to a rule: each variable has one of three types, and so have the constants. */
+/*
+ * One way to give types to a rule: each variable has one of three types, and so have the constants.
+ */
 struct typing {
     struct ir_graph *graph;
     const ir_type_id *types;
@@ -141,7 +143,9 @@ static ir_ref build_side(const struct typing *t, const uint8_t **tokens)
     return ir_build(t->graph, (enum ir_op)token, type, 0, args, arity);
 }
 
-/* The right side: constants that stand alone have the root's type, others are scalars; then it is widened. */
+/*
+ * The right side: constants that stand alone have the root's type, others are scalars; then it is widened.
+ */
 static ir_ref build_right(const struct typing *t, const struct rule *rule, ir_type_id type)
 {
     static const float values[] = {0.0f, 1.0f, 2.0f, 0.5f, -1.0f, 1.0f, 1.0f, 0.0f};
@@ -278,7 +282,9 @@ static void test_shape(enum ir_op op, const struct rule *rule)
         printf("    rule %s\n", rule->name);
 }
 
-/* Inner ops have variables and constants as operands: what the matcher can match. Whoever restores nodes knows of them. */
+/*
+ * Inner ops have variables and constants as operands: what the matcher can match. Whoever restores nodes knows of them.
+ */
 static void test_depth(const struct rule *rule)
 {
     const uint8_t *token = rule->pattern + 1;

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/* The back half of the language: printing, reaching, evaluating, specialising and lowering what the parser has read. */
+/*
+ * The back half of the language: printing, reaching, evaluating, specialising and lowering what the parser has read.
+ */
 #include "lang/lang.h"
 
 #include "one_file.h"
@@ -175,7 +177,9 @@ static const char *other_type(void *user_data, ir_type_id type)
     return "Other";
 }
 
-/* What an image holds as text is taken from there, as long as all of its names are those of the source. */
+/*
+ * What an image holds as text is taken from there, as long as all of its names are those of the source.
+ */
 static void test_print_from_image(void)
 {
     struct fixture f;
@@ -201,7 +205,8 @@ static void test_print_from_image(void)
     REQUIRE(strchr(print_function(&f, &shared, NULL, find(&f, "slope")), '@'));
     REQUIRE(strchr(print_function(&f, &lonely, NULL, find(&f, "f")), '@'));
     REQUIRE_STR(print_function(&f, &lonely, NULL, find(&f, "slope")), slope);
-    REQUIRE_STR(print_function(&f, &shared, NULL, find(&f, "tiny")), tiny); /* nobody calls it: it is not held */
+    /* nobody calls it: it is not held */
+    REQUIRE_STR(print_function(&f, &shared, NULL, find(&f, "tiny")), tiny);
     REQUIRE_STR(print_function(&f, &lang_syntax_portable, NULL, find(&f, "f")), tree);
     struct lang_names names = {.function = other_name};
     const char *renamed = print_function(&f, &shared, &names, find(&f, "f"));
@@ -287,7 +292,8 @@ static void test_eval_values(struct fixture *f)
     REQUIRE(evaluate(f, "nested", args, out, 10000) && out[0].w[0].i == 2 + 10 + 17 + 19);
     args[0] = ir_value_int(1);
     REQUIRE(evaluate(f, "once", args, out, 1000) && out[0].w[0].i == 21);
-    args[0] = ir_value_float(1.0f); /* q.a = (2, 1) → swapped (4, 1), q.b = (30, 2); m[1].x = 5, m[0].y = 7 */
+    /* q.a = (2, 1) → swapped (4, 1), q.b = (30, 2); m[1].x = 5, m[0].y = 7 */
+    args[0] = ir_value_float(1.0f);
     REQUIRE(evaluate(f, "parts", args, out, 1000) && is_near(out[0].w[0].f, 4.0 + 100.0 + 30.0 + 2000.0 + 120000.0));
     args[0] = ir_value_float(2.0f);
     args[1] = ir_value_int(3);
@@ -339,7 +345,9 @@ static ir_ref global_node(void *user_data, struct ir_graph *graph, const struct 
     return ir_build(graph, op, global->type, 100 + global_id, NULL, 0);
 }
 
-/* "name=value;…" of scalars: f(loat), i(nt), b(ool), s(tring) by the parameter's type; a vector is filled. */
+/*
+ * "name=value;…" of scalars: f(loat), i(nt), b(ool), s(tring) by the parameter's type; a vector is filled.
+ */
 static void read_binding(struct fixture *f, const char *text, const struct lang_slot *slot, struct ir_value *out)
 {
     const struct ir_type_info *info = ir_type_info(slot->type);
@@ -358,7 +366,9 @@ static void read_binding(struct fixture *f, const char *text, const struct lang_
     }
 }
 
-/* The version for a shader whose only call of a function has the constant arguments that "name=value;…" names. */
+/*
+ * The version for a shader whose only call of a function has the constant arguments that "name=value;…" names.
+ */
 static uint32_t specialise(struct fixture *f, uint32_t id, const char *bindings)
 {
     const struct lang_unit *layer;
@@ -493,7 +503,9 @@ static void test_specialise_calls(void)
                 "float g0(float a)\n{\n    float s = a * a;\n    return s + s;\n}\nfloat f1(float x)\n{\n    return g0(x);\n}\n");
 }
 
-/* A parameter is bound where all calls agree, through callers as well; a flag makes a version of its own. */
+/*
+ * A parameter is bound where all calls agree, through callers as well; a flag makes a version of its own.
+ */
 static void test_plan(void)
 {
     specialises("float g(float x, float k, float c) { float s = sin(x * k); return s * s + c; }\n"
@@ -524,7 +536,9 @@ static void test_dropped_params(void)
 
 /* Lowering */
 
-/* An argument: a number fills the type's components, "" is absent, anything else is a uniform with that number. */
+/*
+ * An argument: a number fills the type's components, "" is absent, anything else is a uniform with that number.
+ */
 static ir_ref argument(struct fixture *f, ir_type_id type, const char *text, uint32_t number)
 {
     float value;

@@ -182,7 +182,8 @@ static void test_everything(void)
         REQUIRE_EQ(function->num_params, 3);
         REQUIRE_EQ(function->num_slots, 6);
         REQUIRE_EQ(function->num_callees, 2);
-        REQUIRE_EQ(function->num_globals, 6); /* CORNERS, option_quality, TO_XYZ, u_image, u_table, normalWorld */
+        /* CORNERS, option_quality, TO_XYZ, u_image, u_table, normalWorld */
+        REQUIRE_EQ(function->num_globals, 6);
         REQUIRE_EQ(function->flags, LANG_FN_DERIVATIVE);
         const struct lang_slot *slots = f.unit.slots.items + function->first_slot;
         REQUIRE(!slots[0].assigned && slots[1].assigned && slots[2].assigned && slots[3].assigned && !slots[4].assigned);
@@ -407,7 +408,8 @@ static void test_expressions(void)
         REQUIRE(function->flags & LANG_FN_EXPRESSION && function->num_slots == 3 && function->return_type == cases[i].type);
         check_tree(&f.unit, id, function->body, 0);
     }
-    REQUIRE_EQ(parse_expression(&f, "twice({{b}})", IR_TYPE_FLOAT, LANG_NONE), LANG_NONE); /* not seen from there */
+    /* not seen from there */
+    REQUIRE_EQ(parse_expression(&f, "twice({{b}})", IR_TYPE_FLOAT, LANG_NONE), LANG_NONE);
     teardown(&f);
 }
 

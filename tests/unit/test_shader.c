@@ -5,7 +5,9 @@
 
 /* ---- std140 ---- */
 
-/* Offsets and sizes worked out by hand from the rules of OpenGL 4.5, 7.6.2.2, for one block that holds these members in order. */
+/*
+ * Offsets and sizes worked out by hand from the rules of OpenGL 4.5, 7.6.2.2, for one block that holds these members in order.
+ */
 static const struct member_case {
     ir_type_id type;
     uint16_t array_length;
@@ -51,7 +53,9 @@ static void test_std140(void)
     fixture_close(&f);
 }
 
-/* int, vec3, vec3, float, vec3, float: MaterialX's members of the directional and the point light. */
+/*
+ * int, vec3, vec3, float, vec3, float: MaterialX's members of the directional and the point light.
+ */
 static void test_light_layout(void)
 {
     struct fixture f;
@@ -212,7 +216,9 @@ static void test_schedule(void)
     part_of_a_local();
 }
 
-/* Every LET stands before what reads it, in a region that is still open there. Checked over a random graph. */
+/*
+ * Every LET stands before what reads it, in a region that is still open there. Checked over a random graph.
+ */
 static bool is_visible(const struct effect_list *list, uint32_t reader, ir_ref value)
 {
     int depth = 0;
@@ -290,7 +296,9 @@ static void test_random_schedules(void)
     }
 }
 
-/* A chain of a million nodes becomes a list of short statements, without recursion; a diamond of depth 1000 is not unfolded. */
+/*
+ * A chain of a million nodes becomes a list of short statements, without recursion; a diamond of depth 1000 is not unfolded.
+ */
 static void test_long_chains(void)
 {
     struct fixture f;

@@ -110,7 +110,8 @@ static void test_closures(void)
                     "<conductor_bsdf name=\"c\" type=\"BSDF\">\n  <input name=\"thinfilm_thickness\" type=\"float\" value=\"500\"/>\n</conductor_bsdf>\n"
                     "<surface name=\"s\" type=\"surfaceshader\">\n  <input name=\"bsdf\" type=\"BSDF\" nodename=\"c\"/>\n</surface>\n");
     require_upgrade("1.38", "<thin_film_bsdf name=\"t\" type=\"BSDF\"/><layer name=\"l\" type=\"BSDF\"><input name=\"top\" nodename=\"t\"/>"
-                            "<input name=\"base\" nodename=\"l\"/></layer>", /* a circle stays one */
+                            /* a circle stays one */
+                            "<input name=\"base\" nodename=\"l\"/></layer>",
                     "<thin_film_bsdf name=\"t\" type=\"BSDF\"/>\n<layer name=\"l\" type=\"BSDF\">\n  <input name=\"top\" nodename=\"t\"/>\n"
                     "  <input name=\"base\" nodename=\"l\"/>\n</layer>\n");
     require_upgrade("1.38", "<subsurface_bsdf name=\"s\" type=\"BSDF\"><input name=\"radius\" type=\"vector3\" nodename=\"r\"/></subsurface_bsdf>",
@@ -173,7 +174,8 @@ static void test_channels(void)
                           "    <input name=\"index\" type=\"integer\" value=\"1\"/>\n  </extract>\n"
                           "  <output name=\"o\" type=\"float\" nodename=\"channels\"/>\n</nodegraph>\n";
     require_upgrade("1.38", port, changed);
-    require_upgrade("1.39", port, changed); /* 1.39 has no channels, but ignoring them would show something else */
+    /* 1.39 has no channels, but ignoring them would show something else */
+    require_upgrade("1.39", port, changed);
     require_upgrade("1.37", "<image name=\"i\" type=\"color2\"/><a name=\"b\" type=\"float\"><input name=\"c\" type=\"float\" nodename=\"i\" channels=\"a\"/></a>",
                     "<image name=\"i\" type=\"vector2\"/>\n"
                     "<extract name=\"channels\" type=\"float\">\n  <input name=\"in\" type=\"vector2\" nodename=\"i\"/>\n"

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/* From XML text to elements: places, encodings, what is tolerated, what is refused, includes, running out of memory. */
+/*
+ * From XML text to elements: places, encodings, what is tolerated, what is refused, includes, running out of memory.
+ */
 #include "document_fixture.h"
 
 #define ROOT "<materialx version=\"1.39\">"
@@ -67,7 +69,8 @@ static void test_tolerated(void)
 {
     REQUIRE_MESSAGES(ROOT "<input file=\"a.<UDIM>.<b>.png\"/></materialx>", NULL, "1:42 xml-raw-less-than, 1:49 xml-raw-less-than");
     REQUIRE_TREE(ROOT "<a b=\"x < y\"/></materialx>", NULL, "<a b=\"x &lt; y\"/>\n");
-    REQUIRE_MESSAGES(ROOT "<a b=\"c/>\n<d e=\"f\"/></materialx>", NULL, "2:1 xml-syntax"); /* a quote is missing */
+    /* a quote is missing */
+    REQUIRE_MESSAGES(ROOT "<a b=\"c/>\n<d e=\"f\"/></materialx>", NULL, "2:1 xml-syntax");
     REQUIRE_MESSAGES(ROOT "<a b=\"<x>\x7f\"/></materialx>", NULL, "1:33 xml-syntax");
     REQUIRE_MESSAGES("\xef\xbb\xbf" ROOT "<a/></materialx>", NULL, "1:1 xml-byte-order-mark");
     REQUIRE_MESSAGES("\n\n<?xml version=\"1.0\"?>\n" ROOT "<a></materialx>", NULL, "1:1 xml-text-before-declaration, 4:42 xml-syntax");
