@@ -28,8 +28,8 @@ int main(int argc, char **argv)
     mxg_options *options;
     mxg_context_create(NULL, &context);
     mxg_library *library = mxg_library_builtin(context);
-    bool good = mxg_document_load(context, library, argv[1], &document) == MXG_OK &&
-                mxg_options_create(context, &options) == MXG_OK;
+    bool good = mxg_document_load(context, library, argv[1], &document) == MXG_OK
+                && mxg_options_create(context, &options) == MXG_OK;
     for (int i = 4; good && i < argc; ++i)
         good = set_option(options, argv[i]);
     mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * bench-peak PROGRAM [ARGUMENT...]: prints its peak memory in KiB and its processor time in milliseconds.
+ * bench-peak PROGRAM [ARGUMENT...]: prints its peak memory in KiB and its processor time in
+ * milliseconds.
  */
 #define _DEFAULT_SOURCE
 #include <fcntl.h>
@@ -25,7 +26,7 @@ int main(int argc, char **argv)
     if (child < 0 || wait4(child, &status, 0, &usage) < 0)
         return 1;
     printf("%ld %ld\n", usage.ru_maxrss,
-           (usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) * 1000 +
-               (usage.ru_utime.tv_usec + usage.ru_stime.tv_usec) / 1000);
+           (usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) * 1000
+               + (usage.ru_utime.tv_usec + usage.ru_stime.tv_usec) / 1000);
     return WIFEXITED(status) ? WEXITSTATUS(status) : 1;
 }

@@ -96,7 +96,8 @@ static const struct arg *find_arg(const struct arg_parser *parser, const struct 
     return NULL;
 }
 
-static bool find_generation_option(const struct arg_parser *parser, const struct written *option, mxg_option *out)
+static bool find_generation_option(const struct arg_parser *parser, const struct written *option,
+                                   mxg_option *out)
 {
     if (!parser->generation || option->is_letter)
         return false;
@@ -180,22 +181,17 @@ static bool store_size(const struct written *option, const char *text, size_t *o
 static bool store(const struct arg *arg, const struct written *option, const char *value)
 {
     switch (arg->kind) {
-    case ARG_FLAG:
-        break;
-    case ARG_TEXT:
-        *(const char **)arg->out = value;
-        break;
-    case ARG_SIZE:
-        return store_size(option, value, arg->out);
-    case ARG_LIST:
-        args_append(arg->out, value);
-        break;
+    case ARG_FLAG: break;
+    case ARG_TEXT: *(const char **)arg->out = value; break;
+    case ARG_SIZE: return store_size(option, value, arg->out);
+    case ARG_LIST: args_append(arg->out, value); break;
     }
     return true;
 }
 
 /*
- * Whether the option is a flag, with or without "no-". `known` is a generation option where `arg` is NULL.
+ * Whether the option is a flag, with or without "no-". `known` is a generation option where `arg`
+ * is NULL.
  */
 static bool parse_flag(struct arg_parser *parser, const struct arg *arg, const mxg_option *known,
                        const struct written *option, bool on)
@@ -207,12 +203,16 @@ static bool parse_flag(struct arg_parser *parser, const struct arg *arg, const m
     if (arg)
         *(bool *)arg->out = on;
     else
-        add_setting(parser, known->key, option->value && on ? option->value : on ? "true" : "false");
+        add_setting(parser, known->key,
+                    option->value && on ? option->value
+                    : on                ? "true"
+                                        : "false");
     return true;
 }
 
 /* One option; *index moves on where its value is the next argument. */
-static bool parse_option(struct arg_parser *parser, struct written option, int argc, char **argv, int *index)
+static bool parse_option(struct arg_parser *parser, struct written option, int argc, char **argv,
+                         int *index)
 {
     mxg_option known = {sizeof known};
     const struct arg *arg = find_arg(parser, &option);
@@ -224,7 +224,8 @@ static bool parse_option(struct arg_parser *parser, struct written option, int a
         if (strip_no(&positive)) {
             arg = find_arg(parser, &positive);
             found = arg ? arg->kind == ARG_FLAG
-                        : find_generation_option(parser, &positive, &known) && known.type == MXG_OPTION_BOOL;
+                        : find_generation_option(parser, &positive, &known)
+                              && known.type == MXG_OPTION_BOOL;
         }
         if (found && !option.value)
             return parse_flag(parser, arg, &known, &positive, false);
@@ -286,14 +287,10 @@ static void print_row(FILE *out, char letter, const char *name, const char *valu
 static const char *option_value_text(const mxg_option *option)
 {
     switch (option->type) {
-    case MXG_OPTION_BOOL:
-        return "";
-    case MXG_OPTION_INT:
-        return "N";
-    case MXG_OPTION_ENUM:
-        return option->values;
-    default:
-        return "TEXT";
+    case MXG_OPTION_BOOL: return "";
+    case MXG_OPTION_INT: return "N";
+    case MXG_OPTION_ENUM: return option->values;
+    default: return "TEXT";
     }
 }
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Arguments of a command: a table of its own options, and the options of generation, which the library describes
- * (mxg_get_option). `--key value`, `--key=value`, `-k value`, `-kvalue`; flags `--key` and `--no-key`; `--` ends the options.
+ * Arguments of a command: a table of its own options, and the options of generation, which the
+ * library describes (mxg_get_option). `--key value`, `--key=value`, `-k value`, `-kvalue`; flags
+ * `--key` and `--no-key`; `--` ends the options.
  */
 #ifndef MXG_CLI_ARGS_H
 #define MXG_CLI_ARGS_H
@@ -52,8 +53,8 @@ void args_finish(struct arg_parser *parser);
 
 void args_append(struct arg_list *list, const char *item);
 
-/* Appends what an option was given, as it is written on a command line; nothing for a text that was not given. The items are to
- * be freed. */
+/* Appends what an option was given, as it is written on a command line; nothing for a text that was
+ * not given. The items are to be freed. */
 void args_forward(const struct arg *arg, struct arg_list *out);
 
 /* The options as a table for --help. */

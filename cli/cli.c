@@ -8,31 +8,47 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define MAX_ARGS 48 /* of a command, the common ones included */
+#define MAX_ARGS 48   /* of a command, the common ones included */
 #define MAX_ERRORS 20 /* of a document, unless said */
 
 /* The options that every command has, written behind the command's own. */
 static size_t add_common_args(struct cli *cli, struct arg *table)
 {
     const struct arg common[] = {
-        {"library", 0, ARG_LIST, "PATH", "adds a library: a folder, file or image", &cli->library_paths},
+        {"library", 0, ARG_LIST, "PATH", "adds a library: a folder, file or image",
+         &cli->library_paths},
         {"no-builtin-library", 0, ARG_FLAG, NULL, "starts without the library that is built in",
          &cli->no_builtin_library},
-        {"max-memory", 0, ARG_SIZE, "BYTES", "gives up beyond that (default: no limit)", &cli->max_memory},
-        {"max-file-size", 0, ARG_SIZE, "MIB", "largest file that is read (default: 256)", &cli->max_file_size},
-        {"max-elements", 0, ARG_SIZE, "N", "largest document (default: 16000000)", &cli->max_elements},
-        {"max-nodes", 0, ARG_SIZE, "N", "largest graph of operations (default: 64000000)", &cli->max_nodes},
-        {"max-output-size", 0, ARG_SIZE, "MIB", "largest shader (default: 256)", &cli->max_output_size},
-        {"max-depth", 0, ARG_SIZE, "N", "deepest nesting of elements (default: 128)", &cli->max_depth},
-        {"max-include-depth", 0, ARG_SIZE, "N", "deepest nesting of includes (default: 16)", &cli->max_include_depth},
-        {"max-includes", 0, ARG_SIZE, "N", "most files that a document includes (default: 4096)", &cli->max_includes},
+        {"max-memory", 0, ARG_SIZE, "BYTES", "gives up beyond that (default: no limit)",
+         &cli->max_memory},
+        {"max-file-size", 0, ARG_SIZE, "MIB", "largest file that is read (default: 256)",
+         &cli->max_file_size},
+        {"max-elements", 0, ARG_SIZE, "N", "largest document (default: 16000000)",
+         &cli->max_elements},
+        {"max-nodes", 0, ARG_SIZE, "N", "largest graph of operations (default: 64000000)",
+         &cli->max_nodes},
+        {"max-output-size", 0, ARG_SIZE, "MIB", "largest shader (default: 256)",
+         &cli->max_output_size},
+        {"max-depth", 0, ARG_SIZE, "N", "deepest nesting of elements (default: 128)",
+         &cli->max_depth},
+        {"max-include-depth", 0, ARG_SIZE, "N", "deepest nesting of includes (default: 16)",
+         &cli->max_include_depth},
+        {"max-includes", 0, ARG_SIZE, "N", "most files that a document includes (default: 4096)",
+         &cli->max_includes},
         {"trust", 0, ARG_FLAG, NULL, "accepts source for one target in documents", &cli->trust},
-        {"sandbox", 0, ARG_FLAG, NULL, "documents may refer to files beside and below them only, and bring no source", &cli->sandbox},
-        {"include-root", 0, ARG_LIST, "DIR", "with --sandbox: documents may refer to files there, too", &cli->include_roots},
-        {"max-errors", 0, ARG_SIZE, "N", "errors told of a document; 0: all (default: 20)", &cli->max_errors},
-        {"warning", 'W', ARG_LIST, "WORD", "-WID, -Wno-ID: tells a warning or not; -Werror[=ID], -Wno-error=ID: as an error", &cli->warnings},
+        {"sandbox", 0, ARG_FLAG, NULL,
+         "documents may refer to files beside and below them only, and bring no source",
+         &cli->sandbox},
+        {"include-root", 0, ARG_LIST, "DIR",
+         "with --sandbox: documents may refer to files there, too", &cli->include_roots},
+        {"max-errors", 0, ARG_SIZE, "N", "errors told of a document; 0: all (default: 20)",
+         &cli->max_errors},
+        {"warning", 'W', ARG_LIST, "WORD",
+         "-WID, -Wno-ID: tells a warning or not; -Werror[=ID], -Wno-error=ID: as an error",
+         &cli->warnings},
         {"quiet", 'q', ARG_FLAG, NULL, "prints errors only", &cli->quiet, .is_own = true},
-        {"verbose", 0, ARG_FLAG, NULL, "prints also how older documents were upgraded", &cli->verbose},
+        {"verbose", 0, ARG_FLAG, NULL, "prints also how older documents were upgraded",
+         &cli->verbose},
         {"version", 0, ARG_FLAG, NULL, "prints the version", &cli->version, .is_own = true},
         {"help", 'h', ARG_FLAG, NULL, "prints this", &cli->help, .is_own = true},
     };
@@ -91,8 +107,8 @@ static bool load_library(struct cli *cli)
         cli->library = base;
         return true;
     }
-    mxg_status status = mxg_library_load(cli->context, base, cli->library_paths.items, cli->library_paths.len,
-                                         &cli->library);
+    mxg_status status = mxg_library_load(cli->context, base, cli->library_paths.items,
+                                         cli->library_paths.len, &cli->library);
     mxg_library_unref(base);
     if (cli->library)
         report_list(&cli->report, mxg_library_diagnostics(cli->library));
@@ -112,8 +128,8 @@ static bool apply_settings(struct cli *cli)
     return true;
 }
 
-bool cli_start(struct cli *cli, const struct command *command, const struct arg *args, size_t num_args, unsigned wants,
-               int argc, char **argv, int *out_exit)
+bool cli_start(struct cli *cli, const struct command *command, const struct arg *args,
+               size_t num_args, unsigned wants, int argc, char **argv, int *out_exit)
 {
     *cli = (struct cli){.max_errors = MAX_ERRORS};
     struct arg table[MAX_ARGS];
@@ -141,7 +157,8 @@ bool cli_start(struct cli *cli, const struct command *command, const struct arg 
         fprintf(stderr, "usage: mxgen %s\n", command->usage);
         return false;
     }
-    if (!create_context(cli) || !report_status(&cli->report, mxg_options_create(cli->context, &cli->options))) {
+    if (!create_context(cli)
+        || !report_status(&cli->report, mxg_options_create(cli->context, &cli->options))) {
         *out_exit = EXIT_FAULT;
         return false;
     }
@@ -160,7 +177,8 @@ void cli_forward(struct cli *cli, struct arg_list *args)
             args_forward(&table[i], args);
     args_append(args, cli_format("--quiet"));
     for (size_t i = 0; i < cli->parser.num_settings; ++i)
-        args_append(args, cli_format("--%s=%s", cli->parser.settings[i].key, cli->parser.settings[i].value));
+        args_append(args, cli_format("--%s=%s", cli->parser.settings[i].key,
+                                     cli->parser.settings[i].value));
 }
 
 void cli_finish(struct cli *cli)
@@ -180,8 +198,8 @@ bool cli_find_target(const char *name, size_t len, mxg_target *out)
     for (uint32_t i = 0; i < mxg_num_targets(); ++i) {
         out->size = sizeof *out;
         mxg_get_target(i, out);
-        if ((strlen(out->name) == len && memcmp(out->name, name, len) == 0) ||
-            (strlen(out->materialx_name) == len && memcmp(out->materialx_name, name, len) == 0))
+        if ((strlen(out->name) == len && memcmp(out->name, name, len) == 0)
+            || (strlen(out->materialx_name) == len && memcmp(out->materialx_name, name, len) == 0))
             return true;
     }
     fprintf(stderr, "mxgen: unknown target '%.*s'; known are", (int)len, name);
@@ -199,10 +217,12 @@ static mxg_status parse_stdin(struct cli *cli, mxg_document **out_document)
     size_t size = 0;
     char *text = files_read("/dev/stdin", &size);
     if (!text) {
-        report_error(&cli->report, "file-unreadable", "cannot read standard input: %s", strerror(errno));
+        report_error(&cli->report, "file-unreadable", "cannot read standard input: %s",
+                     strerror(errno));
         return MXG_ERROR_DOCUMENT;
     }
-    mxg_status status = mxg_document_parse(cli->context, cli->library, CLI_STDIN_NAME, text, size, out_document);
+    mxg_status status =
+        mxg_document_parse(cli->context, cli->library, CLI_STDIN_NAME, text, size, out_document);
     report_source(&cli->report, CLI_STDIN_NAME, text, size);
     return status;
 }
@@ -211,8 +231,9 @@ mxg_document *cli_load(struct cli *cli, const char *path)
 {
     mxg_document *document = NULL;
     report_document(&cli->report);
-    mxg_status status = strcmp(path, "-") == 0 ? parse_stdin(cli, &document)
-                                               : mxg_document_load(cli->context, cli->library, path, &document);
+    mxg_status status = strcmp(path, "-") == 0
+                            ? parse_stdin(cli, &document)
+                            : mxg_document_load(cli->context, cli->library, path, &document);
     if (document)
         report_list(&cli->report, mxg_document_diagnostics(document));
     bool good = report_status(&cli->report, status);
@@ -226,14 +247,16 @@ mxg_document *cli_load(struct cli *cli, const char *path)
 char *cli_file_name(const char *element_path)
 {
     /*
-     * File systems take 255 bytes: of a longer name the end is replaced by a hash of the whole, so that names stay different.
+     * File systems take 255 bytes: of a longer name the end is replaced by a hash of the whole, so
+     * that names stay different.
      */
     enum { MAX_NAME = 200 };
     uint32_t hash = 2166136261u; /* FNV-1a */
     for (const char *c = element_path; *c; ++c)
         hash = (hash ^ (unsigned char)*c) * 16777619u;
-    char *name = strlen(element_path) > MAX_NAME ? cli_format("%.*s-%08x", MAX_NAME, element_path, (unsigned)hash)
-                                                 : cli_format("%s", element_path);
+    char *name = strlen(element_path) > MAX_NAME
+                     ? cli_format("%.*s-%08x", MAX_NAME, element_path, (unsigned)hash)
+                     : cli_format("%s", element_path);
     for (char *c = name; *c; ++c) {
         if (*c == '/')
             *c = '.';

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * What the commands share: their common options, and the objects of the library made from them. Everything stands on
- * mxgen.h.
+ * What the commands share: their common options, and the objects of the library made from them.
+ * Everything stands on mxgen.h.
  *
  * Exit codes: 0 everything asked for was done, 1 errors in the input or while writing, 2 bad usage.
  */
@@ -32,7 +32,8 @@ struct cli {
     struct arg_list warnings; /* words of -W */
     struct arg_list include_roots;
     bool trust, sandbox;
-    size_t max_memory, max_file_size, max_elements, max_nodes, max_output_size, max_errors, max_depth, max_include_depth, max_includes;
+    size_t max_memory, max_file_size, max_elements, max_nodes, max_output_size, max_errors,
+        max_depth, max_include_depth, max_includes;
 
     struct report report;
     mxg_context *context;
@@ -41,22 +42,27 @@ struct cli {
 };
 
 /* What a command wants besides its own table of options. */
-enum cli_wants { CLI_GENERATES = 1, CLI_NEEDS_INPUT = 2, CLI_LIBRARY_IS_INPUT = 4 /* loads none by itself */ };
+enum cli_wants {
+    CLI_GENERATES = 1,
+    CLI_NEEDS_INPUT = 2,
+    CLI_LIBRARY_IS_INPUT = 4 /* loads none by itself */
+};
 
 /*
- * Parses the arguments and makes context, library and options. False: the command ends with *out_exit, after --help or
- * an error. cli_finish must follow in both cases.
+ * Parses the arguments and makes context, library and options. False: the command ends with
+ * *out_exit, after --help or an error. cli_finish must follow in both cases.
  */
-bool cli_start(struct cli *cli, const struct command *command, const struct arg *args, size_t num_args, unsigned wants,
-               int argc, char **argv, int *out_exit);
+bool cli_start(struct cli *cli, const struct command *command, const struct arg *args,
+               size_t num_args, unsigned wants, int argc, char **argv, int *out_exit);
 void cli_finish(struct cli *cli);
 
-/* Appends the arguments that give another of our programs the same library, limits and options of generation, and let it
- * print errors only. The items are to be freed. */
+/* Appends the arguments that give another of our programs the same library, limits and options of
+ * generation, and let it print errors only. The items are to be freed. */
 void cli_forward(struct cli *cli, struct arg_list *args);
 
 /*
- * Loads a document ("-": of standard input) and prints its diagnostics; NULL where errors leave nothing of it that can be rendered.
+ * Loads a document ("-": of standard input) and prints its diagnostics; NULL where errors leave
+ * nothing of it that can be rendered.
  */
 mxg_document *cli_load(struct cli *cli, const char *path);
 
@@ -77,7 +83,8 @@ char *
 cli_format(const char *format, ...);
 
 /*
- * A copy of `len` bytes with a NUL behind them, to be freed; ends the program where there is no memory.
+ * A copy of `len` bytes with a NUL behind them, to be freed; ends the program where there is no
+ * memory.
  */
 char *cli_copy(const char *text, size_t len);
 

@@ -28,7 +28,8 @@ static bool next_line(const char **at, struct line *out)
     size_t len = strcspn(text, "\n");
     *at = text + len + (text[len] == '\n');
     size_t skip = text[0] == '=' || text[1] == '$' ? 3 : 2;
-    *out = (struct line){.side = text[1] == '$' || text[0] == '$' ? '$' : text[0], .of = text[1] == '$' ? text[0] : ' '};
+    *out = (struct line){.side = text[1] == '$' || text[0] == '$' ? '$' : text[0],
+                         .of = text[1] == '$' ? text[0] : ' '};
     out->text = text + (skip < len ? skip : len);
     out->len = len - (skip < len ? skip : len);
     return true;
@@ -104,7 +105,8 @@ static void append(struct example_file *file, const char *text, size_t len)
     file->len += len;
 }
 
-static void write_text(struct cli *cli, const char *folder, const char *name, const char *text, size_t len)
+static void write_text(struct cli *cli, const char *folder, const char *name, const char *text,
+                       size_t len)
 {
     char *path = cli_format("%s/%s", folder, name);
     const char *fault = files_write(path, text, len);
@@ -128,7 +130,8 @@ static void finish_file(struct cli *cli, const char *folder, struct example_file
 static void begin_file(struct example_file *file, const struct line *name)
 {
     static const char begin[] = "<?xml version=\"1.0\"?>\n<materialx version=\"1.39\">\n";
-    *file = (struct example_file){.name = name ? cli_format("%.*s", (int)name->len, name->text) : cli_format("example.mtlx"),
+    *file = (struct example_file){.name = name ? cli_format("%.*s", (int)name->len, name->text)
+                                               : cli_format("example.mtlx"),
                                   .is_whole = name != NULL};
     append(file, begin, name ? 0 : sizeof begin - 1);
 }
@@ -140,7 +143,8 @@ static void write_side(struct cli *cli, const char *example, char side, const ch
     struct line line;
     const char *fault = files_make_folder(folder);
     if (fault) {
-        report_error(&cli->report, "output-failed", "cannot make the folder '%s': %s", folder, fault);
+        report_error(&cli->report, "output-failed", "cannot make the folder '%s': %s", folder,
+                     fault);
         return;
     }
     char *arguments = arguments_of(example, side);
@@ -207,14 +211,17 @@ static void print_section(const mxg_diagnostic_kind *kind)
 static void print_markdown(void)
 {
     fputs("# Messages\n\n"
-          "Everything that mxgen can say, made by `mxgen explain --markdown`. `mxgen explain ID` prints one. Ids never change meaning. Warnings\n"
-          "are switched by `-W`: `-Wno-ID` hides one, `-Werror=ID` makes it an error, `-Werror` all of them, `-Wno-error=ID` all but that one.\n\n"
+          "Everything that mxgen can say, made by `mxgen explain --markdown`. `mxgen explain ID` "
+          "prints one. Ids never change meaning. Warnings\n"
+          "are switched by `-W`: `-Wno-ID` hides one, `-Werror=ID` makes it an error, `-Werror` "
+          "all of them, `-Wno-error=ID` all but that one.\n\n"
           "| id | severity | message |\n| --- | --- | --- |\n",
           stdout);
     for (uint32_t i = 0; i < mxg_num_diagnostic_kinds(); ++i) {
         mxg_diagnostic_kind kind = {sizeof kind};
         mxg_get_diagnostic_kind(i, &kind);
-        printf("| [%s](#%s) | %s | `%s` |\n", kind.id, kind.id, severities[kind.severity], kind.message);
+        printf("| [%s](#%s) | %s | `%s` |\n", kind.id, kind.id, severities[kind.severity],
+               kind.message);
     }
     for (uint32_t i = 0; i < mxg_num_diagnostic_kinds(); ++i) {
         mxg_diagnostic_kind kind = {sizeof kind};
@@ -247,7 +254,10 @@ static bool find_kind(const char *id, mxg_diagnostic_kind *out)
         args_append(&ids, out->id);
     }
     const char *near = args_closest(id, ids.items, ids.len);
-    fprintf(stderr, near ? "mxgen: there is no message '%s' (did you mean '%s'?)\n" : "mxgen: there is no message '%s'\n", id, near);
+    fprintf(stderr,
+            near ? "mxgen: there is no message '%s' (did you mean '%s'?)\n"
+                 : "mxgen: there is no message '%s'\n",
+            id, near);
     free(ids.items);
     return false;
 }
@@ -291,11 +301,16 @@ int command_explain(const struct command *command, int argc, char **argv)
     const char *folder = NULL;
     bool markdown = false;
     const struct arg args[] = {
-        {"output", 'o', ARG_TEXT, "DIR", "writes the examples of the messages (default: of all) there instead: ID/wrong and ID/right", &folder},
-        {"markdown", 0, ARG_FLAG, NULL, "prints Markdown: of all messages a document with a table of them", &markdown},
+        {"output", 'o', ARG_TEXT, "DIR",
+         "writes the examples of the messages (default: of all) there instead: ID/wrong and "
+         "ID/right",
+         &folder},
+        {"markdown", 0, ARG_FLAG, NULL,
+         "prints Markdown: of all messages a document with a table of them", &markdown},
     };
     int code;
-    if (cli_start(&cli, command, args, sizeof args / sizeof *args, CLI_LIBRARY_IS_INPUT, argc, argv, &code)) {
+    if (cli_start(&cli, command, args, sizeof args / sizeof *args, CLI_LIBRARY_IS_INPUT, argc, argv,
+                  &code)) {
         bool found = true;
         if (cli.parser.inputs.len == 0 && markdown)
             print_markdown();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Files of the programs. The library opens none but through its resolver; what is written is written here.
+ * Files of the programs. The library opens none but through its resolver; what is written is
+ * written here.
  */
 #ifndef MXG_CLI_FILES_H
 #define MXG_CLI_FILES_H
@@ -13,8 +14,9 @@
 char *files_read(const char *path, size_t *out_size);
 
 /*
- * Writes a file whole or not at all: the bytes go to a new file beside it, which then takes its name. What is no plain
- * file (a pipe, /dev/stdout) is written directly. Returns NULL, or why it failed.
+ * Writes a file whole or not at all: the bytes go to a new file beside it, which then takes its
+ * name. What is no plain file (a pipe, /dev/stdout) is written directly. Returns NULL, or why it
+ * failed.
  */
 const char *files_write(const char *path, const void *data, size_t size);
 
@@ -25,7 +27,8 @@ struct files_stream {
 };
 
 /*
- * Opens `path`, "-" being standard output. Returns NULL, or why it failed; the stream is then empty.
+ * Opens `path`, "-" being standard output. Returns NULL, or why it failed; the stream is then
+ * empty.
  */
 const char *files_begin(struct files_stream *stream, const char *path);
 /* Gives the file its name, or with `keep` false takes it away. Returns NULL, or why it failed. */

@@ -12,7 +12,8 @@
 
 enum { MAX_DEPTH = 32 }; /* of folders in folders: links may go in circles */
 
-static const char *find_below(const char *folder, const char *ending, int depth, struct arg_list *out)
+static const char *find_below(const char *folder, const char *ending, int depth,
+                              struct arg_list *out)
 {
     DIR *dir = opendir(folder);
     if (!dir)

@@ -5,8 +5,8 @@
 #include "cli/args.h"
 
 /*
- * Appends the files of a folder and the folders below it whose names end so, sorted by name; each is to be freed. What is
- * hidden is left out. Returns NULL, or why it failed.
+ * Appends the files of a folder and the folders below it whose names end so, sorted by name; each
+ * is to be freed. What is hidden is left out. Returns NULL, or why it failed.
  */
 const char *folder_find(const char *folder, const char *ending, struct arg_list *out);
 

@@ -21,8 +21,8 @@ struct generate {
 };
 
 /* Writes one file of an element, "<folder>/<element>.<suffix>", or prints it below its name. */
-static void write_file(struct generate *gen, const char *folder, const char *element, const char *suffix,
-                       const char *text, size_t size)
+static void write_file(struct generate *gen, const char *folder, const char *element,
+                       const char *suffix, const char *text, size_t size)
 {
     char *name = cli_file_name(element);
     if (gen->to_stdout) {
@@ -52,9 +52,11 @@ static bool is_written(const struct generate *gen, const char *folder, const cha
 }
 
 /*
- * The lists of a network's layers, and the shaders that they are of, of which other elements may have some, too.
+ * The lists of a network's layers, and the shaders that they are of, of which other elements may
+ * have some, too.
  */
-static void write_network(struct generate *gen, const char *folder, const char *element, const mxg_result *result)
+static void write_network(struct generate *gen, const char *folder, const char *element,
+                          const mxg_result *result)
 {
     static const char *const suffixes[MXG_NUM_STAGES] = {"displacement.oslgroup", "oslgroup"};
     for (int stage = 0; stage < MXG_NUM_STAGES; ++stage) {
@@ -71,7 +73,8 @@ static void write_network(struct generate *gen, const char *folder, const char *
     }
 }
 
-static void write_stages(struct generate *gen, const char *folder, const char *element, const mxg_result *result)
+static void write_stages(struct generate *gen, const char *folder, const char *element,
+                         const mxg_result *result)
 {
     for (int stage = 0; stage < MXG_NUM_STAGES; ++stage) {
         size_t size = 0;
@@ -82,7 +85,8 @@ static void write_stages(struct generate *gen, const char *folder, const char *e
     }
 }
 
-static void write_result(struct generate *gen, const char *folder, const char *element, const mxg_result *result)
+static void write_result(struct generate *gen, const char *folder, const char *element,
+                         const mxg_result *result)
 {
     if (mxg_result_num_parts(result))
         write_network(gen, folder, element, result);
@@ -128,7 +132,8 @@ static void generate_element(struct generate *gen, const mxg_document *document,
 }
 
 /* A look is asked for its materials. */
-static void generate_asked(struct generate *gen, const mxg_document *document, const char *folder, const char *path)
+static void generate_asked(struct generate *gen, const mxg_document *document, const char *folder,
+                           const char *path)
 {
     mxg_renderable material = {sizeof material};
     uint32_t count = 0;
@@ -138,7 +143,8 @@ static void generate_asked(struct generate *gen, const mxg_document *document, c
         generate_element(gen, document, folder, path);
 }
 
-static void generate_elements(struct generate *gen, const mxg_document *document, const char *folder)
+static void generate_elements(struct generate *gen, const mxg_document *document,
+                              const char *folder)
 {
     for (size_t i = 0; i < gen->elements.len; ++i)
         generate_asked(gen, document, folder, gen->elements.items[i]);
@@ -160,18 +166,20 @@ static char *output_folder(struct generate *gen, const char *input)
     const char *base = strcmp(input, "-") == 0 ? "stdin" : files_base_name(input);
     const char *dot = strrchr(base, '.');
     int len = (int)(dot && dot != base ? (size_t)(dot - base) : strlen(base));
-    char *folder = gen->several ? cli_format("%s/%.*s", gen->folder, len, base) : cli_format("%s", gen->folder);
+    char *folder = gen->several ? cli_format("%s/%.*s", gen->folder, len, base)
+                                : cli_format("%s", gen->folder);
     for (size_t i = 0; i < gen->folders.len; ++i) {
         if (strcmp(gen->folders.items[i], folder) == 0) {
-            report_error(&gen->cli.report, "output-failed", "'%s': another input writes to '%s' already", input,
-                         folder);
+            report_error(&gen->cli.report, "output-failed",
+                         "'%s': another input writes to '%s' already", input, folder);
             free(folder);
             return NULL;
         }
     }
     const char *reason = gen->to_stdout ? NULL : files_make_folder(folder);
     if (reason) {
-        report_error(&gen->cli.report, "output-failed", "cannot make the folder '%s': %s", folder, reason);
+        report_error(&gen->cli.report, "output-failed", "cannot make the folder '%s': %s", folder,
+                     reason);
         free(folder);
         return NULL;
     }
@@ -211,7 +219,8 @@ static void write_depfile(struct generate *gen)
     if (!reason)
         reason = files_end(&stream, true);
     if (reason)
-        report_error(&gen->cli.report, "output-failed", "cannot write '%s': %s", gen->depfile, reason);
+        report_error(&gen->cli.report, "output-failed", "cannot write '%s': %s", gen->depfile,
+                     reason);
 }
 
 static void free_items(struct arg_list *list)
@@ -237,17 +246,23 @@ int command_generate(const struct command *command, int argc, char **argv)
 {
     struct generate gen = {.target = "glsl", .folder = "."};
     const struct arg args[] = {
-        {"target", 't', ARG_TEXT, "T", "the shading language to write (default: glsl)", &gen.target},
-        {"element", 'e', ARG_LIST, "PATH", "an element to generate (default: all that can be rendered)", &gen.elements},
-        {"output", 'o', ARG_TEXT, "DIR", "the folder to write to (default: the current one)", &gen.folder},
+        {"target", 't', ARG_TEXT, "T", "the shading language to write (default: glsl)",
+         &gen.target},
+        {"element", 'e', ARG_LIST, "PATH",
+         "an element to generate (default: all that can be rendered)", &gen.elements},
+        {"output", 'o', ARG_TEXT, "DIR", "the folder to write to (default: the current one)",
+         &gen.folder},
         {"reflect", 0, ARG_FLAG, NULL, "writes the reflection too, as JSON", &gen.reflect},
         {"stdout", 0, ARG_FLAG, NULL, "prints instead of writing files", &gen.to_stdout},
-        {"depfile", 0, ARG_TEXT, "FILE", "writes which files the output depends on, for make and ninja", &gen.depfile},
+        {"depfile", 0, ARG_TEXT, "FILE",
+         "writes which files the output depends on, for make and ninja", &gen.depfile},
     };
     int code;
-    if (cli_start(&gen.cli, command, args, sizeof args / sizeof *args, CLI_GENERATES | CLI_NEEDS_INPUT, argc, argv,
-                  &code))
-        code = cli_find_target(gen.target, strlen(gen.target), &gen.target_info) ? generate_all(&gen) : EXIT_USAGE;
+    if (cli_start(&gen.cli, command, args, sizeof args / sizeof *args,
+                  CLI_GENERATES | CLI_NEEDS_INPUT, argc, argv, &code))
+        code = cli_find_target(gen.target, strlen(gen.target), &gen.target_info)
+                   ? generate_all(&gen)
+                   : EXIT_USAGE;
     cli_finish(&gen.cli);
     free(gen.elements.items);
     free_items(&gen.outputs);

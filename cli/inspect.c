@@ -9,7 +9,8 @@ struct inspect {
     const char *target, *element;
 };
 
-static bool print_view(struct cli *cli, const mxg_document *document, const struct inspect *inspect, mxg_view view)
+static bool print_view(struct cli *cli, const mxg_document *document, const struct inspect *inspect,
+                       mxg_view view)
 {
     mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
     desc.target = inspect->target;
@@ -29,7 +30,8 @@ static bool print_view(struct cli *cli, const mxg_document *document, const stru
 }
 
 /* Every view that was asked for; the elements where none was. */
-static void print_views(struct cli *cli, const mxg_document *document, const struct inspect *inspect)
+static void print_views(struct cli *cli, const mxg_document *document,
+                        const struct inspect *inspect)
 {
     bool any = false, good = true;
     for (int view = 0; view <= MXG_VIEW_STATISTICS && good; ++view) {
@@ -50,16 +52,19 @@ int command_inspect(const struct command *command, int argc, char **argv)
          &inspect.views[MXG_VIEW_ELEMENTS]},
         {"graph", 0, ARG_FLAG, NULL, "nodes and connections", &inspect.views[MXG_VIEW_GRAPH]},
         {"dot", 0, ARG_FLAG, NULL, "the same for Graphviz", &inspect.views[MXG_VIEW_DOT]},
-        {"ir", 0, ARG_FLAG, NULL, "the optimised intermediate representation", &inspect.views[MXG_VIEW_IR]},
-        {"closures", 0, ARG_FLAG, NULL, "closure leaves with their weights", &inspect.views[MXG_VIEW_CLOSURES]},
+        {"ir", 0, ARG_FLAG, NULL, "the optimised intermediate representation",
+         &inspect.views[MXG_VIEW_IR]},
+        {"closures", 0, ARG_FLAG, NULL, "closure leaves with their weights",
+         &inspect.views[MXG_VIEW_CLOSURES]},
         {"statistics", 0, ARG_FLAG, NULL, "counts", &inspect.views[MXG_VIEW_STATISTICS]},
         {"element", 'e', ARG_TEXT, "PATH", "the element to look at", &inspect.element},
-        {"target", 't', ARG_TEXT, "T", "the target to look at it for (default: glsl)", &inspect.target},
+        {"target", 't', ARG_TEXT, "T", "the target to look at it for (default: glsl)",
+         &inspect.target},
     };
     struct cli cli;
     int code;
-    if (cli_start(&cli, command, args, sizeof args / sizeof *args, CLI_NEEDS_INPUT | CLI_GENERATES, argc, argv,
-                  &code)) {
+    if (cli_start(&cli, command, args, sizeof args / sizeof *args, CLI_NEEDS_INPUT | CLI_GENERATES,
+                  argc, argv, &code)) {
         mxg_target target;
         bool good = cli_find_target(inspect.target, strlen(inspect.target), &target);
         for (size_t i = 0; good && i < cli.parser.inputs.len; ++i) {

@@ -24,7 +24,7 @@ void json_end(struct json_writer *json, char bracket);
 void json_key(struct json_writer *json, const char *key);
 /* bytes that are no UTF-8 become U+FFFD */
 void json_string(struct json_writer *json, const char *text);
-void json_number(struct json_writer *json, double value);     /* with at most three decimals */
+void json_number(struct json_writer *json, double value); /* with at most three decimals */
 void json_count(struct json_writer *json, uint64_t value);
 void json_bool(struct json_writer *json, bool value);
 
@@ -35,7 +35,15 @@ void json_put_number(struct json_writer *json, const char *key, double value);
 
 /* ---- Reading ---- */
 
-enum json_kind { JSON_NULL, JSON_FALSE, JSON_TRUE, JSON_NUMBER, JSON_STRING, JSON_ARRAY, JSON_OBJECT };
+enum json_kind {
+    JSON_NULL,
+    JSON_FALSE,
+    JSON_TRUE,
+    JSON_NUMBER,
+    JSON_STRING,
+    JSON_ARRAY,
+    JSON_OBJECT
+};
 
 struct json_value {
     enum json_kind kind;

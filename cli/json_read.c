@@ -7,7 +7,8 @@
 #define MAX_DEPTH 64
 
 /*
- * A text with a NUL behind it, so that no look ahead needs the end. It is ours: strings are decoded where they stand.
+ * A text with a NUL behind it, so that no look ahead needs the end. It is ours: strings are decoded
+ * where they stand.
  */
 struct reader {
     struct store *store;
@@ -68,9 +69,11 @@ static char *read_unicode(struct reader *reader, char *out)
     if (code >= 0xd800 && code < 0xdc00 && reader->at[0] == '\\' && reader->at[1] == 'u') {
         reader->at += 2;
         long low = read_hex(reader);
-        code = low >= 0xdc00 && low < 0xe000 ? 0x10000 + ((code - 0xd800) << 10) + (low - 0xdc00) : -1;
+        code =
+            low >= 0xdc00 && low < 0xe000 ? 0x10000 + ((code - 0xd800) << 10) + (low - 0xdc00) : -1;
     }
-    return code <= 0 || (code >= 0xd800 && code < 0xe000) ? NULL : put_utf8(out, (unsigned long)code);
+    return code <= 0 || (code >= 0xd800 && code < 0xe000) ? NULL
+                                                          : put_utf8(out, (unsigned long)code);
 }
 
 static char *read_escape(struct reader *reader, char *out)
@@ -152,7 +155,8 @@ static struct json_value *read_number(struct reader *reader)
     if (len == 0 || strchr("+.eE", *reader->at))
         return NULL;
     struct json_value *value = new_value(reader, JSON_NUMBER);
-    for (uint64_t count = 0; num_digits < 15 && reader->at[num_digits] >= '0' && reader->at[num_digits] <= '9';) {
+    for (uint64_t count = 0;
+         num_digits < 15 && reader->at[num_digits] >= '0' && reader->at[num_digits] <= '9';) {
         count = count * 10 + (uint64_t)(reader->at[num_digits++] - '0');
         value->number = (double)count;
     }

@@ -29,7 +29,8 @@ void json_end(struct json_writer *json, char bracket)
 static size_t plain_length(const char *text)
 {
     size_t len = 0;
-    for (unsigned char c; c = (unsigned char)text[len], c >= 0x20 && c < 0x80 && c != '"' && c != '\\';)
+    for (unsigned char c;
+         c = (unsigned char)text[len], c >= 0x20 && c < 0x80 && c != '"' && c != '\\';)
         ++len;
     return len;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * mxgen library: packs libraries into images, lists and documents their definitions, expands their templates.
+ * mxgen library: packs libraries into images, lists and documents their definitions, expands their
+ * templates.
  */
 #define _POSIX_C_SOURCE 200809L
 #include "cli/files.h"
@@ -26,7 +27,8 @@ static void pack(struct cli *cli, const struct library_args *args)
     const void *data;
     size_t size;
     if (!args->output && isatty(STDOUT_FILENO))
-        report_error(&cli->report, "output-failed", "cannot write an image, which is no text, to a terminal; say -o FILE");
+        report_error(&cli->report, "output-failed",
+                     "cannot write an image, which is no text, to a terminal; say -o FILE");
     else if (report_status(&cli->report, mxg_library_image(cli->library, &data, &size)))
         write_output(cli, args->output, data, size);
 }
@@ -68,7 +70,10 @@ static const struct action {
     const char *name;
     void (*run)(struct cli *cli, const struct library_args *args);
     bool on_builtin; /* the paths extend the library that is built in */
-} actions[] = {{"pack", pack, false}, {"list", list, false}, {"expand", expand, false}, {"doc", library_doc, true}};
+} actions[] = {{"pack", pack, false},
+               {"list", list, false},
+               {"expand", expand, false},
+               {"doc", library_doc, true}};
 #define NUM_ACTIONS (sizeof actions / sizeof *actions)
 
 static const struct action *find_action(const char *name)
@@ -90,8 +95,8 @@ static bool load(struct cli *cli, const struct action *action)
         cli->library = builtin;
         return true;
     }
-    mxg_status status = mxg_library_load(cli->context, action->on_builtin ? builtin : NULL, inputs->items + 1, inputs->len - 1,
-                                         &cli->library);
+    mxg_status status = mxg_library_load(cli->context, action->on_builtin ? builtin : NULL,
+                                         inputs->items + 1, inputs->len - 1, &cli->library);
     mxg_library_unref(builtin);
     if (cli->library)
         report_list(&cli->report, mxg_library_diagnostics(cli->library));
@@ -102,15 +107,17 @@ int command_library(const struct command *command, int argc, char **argv)
 {
     struct library_args values = {0};
     const struct arg args[] = {
-        {"output", 'o', ARG_TEXT, "PATH", "file to write (default: standard output); of doc the folder", &values.output},
+        {"output", 'o', ARG_TEXT, "PATH",
+         "file to write (default: standard output); of doc the folder", &values.output},
         {"html", 0, ARG_FLAG, NULL, "doc: writes index.html (default: both)", &values.html},
         {"markdown", 0, ARG_FLAG, NULL, "doc: writes index.md", &values.markdown},
-        {"pictures", 0, ARG_FLAG, NULL, "doc: draws patterns, closures and shaders with mxgen-render", &values.pictures},
+        {"pictures", 0, ARG_FLAG, NULL,
+         "doc: draws patterns, closures and shaders with mxgen-render", &values.pictures},
     };
     struct cli cli;
     int code;
-    if (cli_start(&cli, command, args, sizeof args / sizeof *args, CLI_NEEDS_INPUT | CLI_LIBRARY_IS_INPUT, argc, argv,
-                  &code)) {
+    if (cli_start(&cli, command, args, sizeof args / sizeof *args,
+                  CLI_NEEDS_INPUT | CLI_LIBRARY_IS_INPUT, argc, argv, &code)) {
         const struct action *action = find_action(cli.parser.inputs.items[0]);
         if (action && load(&cli, action))
             action->run(&cli, &values);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * mxgen library doc: writes the reference of every node of a library, as a page of HTML and as Markdown.
+ * mxgen library doc: writes the reference of every node of a library, as a page of HTML and as
+ * Markdown.
  */
 #define _POSIX_C_SOURCE 200809L
 #include "cli/library_doc.h"
@@ -11,8 +12,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-static void write_page(const struct manual *manual, struct cli *cli, const char *folder, const char *name,
-                       void (*write)(const struct manual *, FILE *))
+static void write_page(const struct manual *manual, struct cli *cli, const char *folder,
+                       const char *name, void (*write)(const struct manual *, FILE *))
 {
     char *data = NULL, *path = cli_format("%s/%s", folder, name);
     size_t size = 0;
@@ -42,7 +43,8 @@ void library_doc(struct cli *cli, const struct library_args *args)
     const char *folder = args->output ? args->output : ".";
     const char *reason = files_make_folder(folder);
     if (reason) {
-        report_error(&cli->report, "output-failed", "cannot make the folder '%s': %s", folder, reason);
+        report_error(&cli->report, "output-failed", "cannot make the folder '%s': %s", folder,
+                     reason);
         return;
     }
     struct manual manual;

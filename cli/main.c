@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * mxgen: the command line. The first argument may name a command; without one, shaders are generated.
+ * mxgen: the command line. The first argument may name a command; without one, shaders are
+ * generated.
  */
 #define _POSIX_C_SOURCE 200809L
 #include "cli/cli.h"
@@ -12,17 +13,22 @@
 static const struct command commands[] = {
     {"generate", "[generate] FILE... [--target T] [-o DIR] [options]",
      "Writes shaders for the renderable elements of documents.", command_generate},
-    {"check", "check PATH... [--target T,...] [-j N] [--json FILE] [options]  |  check merge REPORT.json... [options]",
-     "Validates, generates and compiles every document in files, folders, patterns and @lists.", command_check},
+    {"check",
+     "check PATH... [--target T,...] [-j N] [--json FILE] [options]  |  check merge REPORT.json... "
+     "[options]",
+     "Validates, generates and compiles every document in files, folders, patterns and @lists.",
+     command_check},
     {"inspect", "inspect FILE [--graph | --dot | --ir | --closures | --statistics] [options]",
-     "Prints what mxgen sees: elements, graph, IR, closures with weights, statistics.", command_inspect},
-    {"validate", "validate FILE...", "Checks documents against the library: every node, connection and value.",
-     command_validate},
-    {"explain", "explain [ID...] [-o DIR | --markdown]", "Tells cause, cure and example of a message; without an id, lists them all.",
-     command_explain},
-    {"render", "render FILE|FOLDER... -o PICTURE.png [options]", "Draws materials, without a display.", command_render},
-    {"library", "library pack|list|expand|doc [PATH...] [-o PATH]", "Packs, lists, expands and documents node libraries.",
-     command_library},
+     "Prints what mxgen sees: elements, graph, IR, closures with weights, statistics.",
+     command_inspect},
+    {"validate", "validate FILE...",
+     "Checks documents against the library: every node, connection and value.", command_validate},
+    {"explain", "explain [ID...] [-o DIR | --markdown]",
+     "Tells cause, cure and example of a message; without an id, lists them all.", command_explain},
+    {"render", "render FILE|FOLDER... -o PICTURE.png [options]",
+     "Draws materials, without a display.", command_render},
+    {"library", "library pack|list|expand|doc [PATH...] [-o PATH]",
+     "Packs, lists, expands and documents node libraries.", command_library},
 };
 #define NUM_COMMANDS (sizeof commands / sizeof *commands)
 
@@ -37,7 +43,8 @@ static void print_overview(void)
         mxg_get_target(i, &target);
         printf("  %-8s %s\n", target.name, target.brief);
     }
-    puts("\n'mxgen COMMAND --help' tells the options of a command. The FILE '-' is standard input.");
+    puts(
+        "\n'mxgen COMMAND --help' tells the options of a command. The FILE '-' is standard input.");
 }
 
 static const struct command *find_command(const char *name)

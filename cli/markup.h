@@ -6,7 +6,8 @@
 #include <stdio.h>
 
 /*
- * With <, >, & and quotes escaped. What XML 1.0 has no place for (control characters, bytes that are no UTF-8) becomes '?'.
+ * With <, >, & and quotes escaped. What XML 1.0 has no place for (control characters, bytes that
+ * are no UTF-8) becomes '?'.
  */
 void markup_text(FILE *out, const char *text);
 

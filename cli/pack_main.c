@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * mxgen-pack: packs the node library while mxgen is being built. It is the compiler without a library of its own.
+ * mxgen-pack: packs the node library while mxgen is being built. It is the compiler without a
+ * library of its own.
  *
- *     mxgen-pack IMAGE DEPFILE ROOT FOLDER...     folders relative to ROOT, so that the image does not depend on where
- * that lies
+ *     mxgen-pack IMAGE DEPFILE ROOT FOLDER...
+ *
+ * Folders are relative to ROOT, so that the image does not depend on where that lies.
  */
 #define _POSIX_C_SOURCE 200809L
 #include "cli/files.h"
@@ -42,7 +44,8 @@ static char *resolve_name(const char *from, const char *ref)
     return name;
 }
 
-static bool open_file(void *user_data, const char *from, const char *ref, mxg_blob *out_blob, const char **out_reason)
+static bool open_file(void *user_data, const char *from, const char *ref, mxg_blob *out_blob,
+                      const char **out_reason)
 {
     const struct recorder *recorder = user_data;
     char *name = resolve_name(from, ref);
@@ -66,7 +69,8 @@ static void release_file(void *user_data, mxg_blob *blob)
 }
 
 /* Loads the folders and writes their image; false after telling why not. */
-static bool pack(struct recorder *recorder, const char *image, const char *const *folders, size_t num_folders)
+static bool pack(struct recorder *recorder, const char *image, const char *const *folders,
+                 size_t num_folders)
 {
     const mxg_resolver resolver = {recorder, open_file, release_file, NULL};
     mxg_context_desc desc = MXG_CONTEXT_DESC_INIT;
@@ -108,7 +112,8 @@ int main(int argc, char **argv)
     }
     size_t room = strlen(folder) + strlen(argv[1]) + 2;
     char *image = malloc(room); /* absolute, since the working directory is the root now */
-    snprintf(image, room, "%s%s%s", argv[1][0] == '/' ? "" : folder, argv[1][0] == '/' ? "" : "/", argv[1]);
+    snprintf(image, room, "%s%s%s", argv[1][0] == '/' ? "" : folder, argv[1][0] == '/' ? "" : "/",
+             argv[1]);
     fprintf(recorder.depfile, "%s:", argv[1]);
     bool good = pack(&recorder, image, (const char *const *)argv + 4, (size_t)argc - 4);
     fputc('\n', recorder.depfile);

@@ -39,7 +39,8 @@ void report_source(struct report *report, const char *file, char *source, size_t
 }
 
 /*
- * Makes `source` the text of the file, or NULL where it cannot be read (a file of the built-in library).
+ * Makes `source` the text of the file, or NULL where it cannot be read (a file of the built-in
+ * library).
  */
 static void load_source(struct report *report, const char *file)
 {
@@ -65,14 +66,16 @@ static bool reserve(struct report *report, size_t size)
 }
 
 /*
- * A line of the source, from 1, without its end; NULL where there is none. Each line is looked for once.
+ * A line of the source, from 1, without its end; NULL where there is none. Each line is looked for
+ * once.
  */
 static const char *find_line(struct report *report, uint32_t number, size_t *out_len)
 {
     const char *end = report->source + report->source_size;
     while (report->source && report->num_lines <= number) {
         const char *last = report->num_lines ? report->lines[report->num_lines - 1] : NULL;
-        const char *newline = last ? memchr(last, '\n', (size_t)(end - last)) : NULL, *next = last ? newline + 1 : report->source;
+        const char *newline = last ? memchr(last, '\n', (size_t)(end - last)) : NULL,
+                   *next = last ? newline + 1 : report->source;
         if (last && !newline)
             break;
         if (report->num_lines == report->capacity_lines) {
@@ -95,17 +98,20 @@ static const char *find_line(struct report *report, uint32_t number, size_t *out
 }
 
 /* Appends one message as it is printed. */
-static void render(struct report *report, const mxg_diagnostics *list, uint32_t index, const mxg_diagnostic *diagnostic)
+static void render(struct report *report, const mxg_diagnostics *list, uint32_t index,
+                   const mxg_diagnostic *diagnostic)
 {
     if (diagnostic->file)
         load_source(report, diagnostic->file);
     size_t size = 0, room = report->capacity - report->len;
     const char *line = diagnostic->file ? find_line(report, diagnostic->line, &size) : NULL;
-    size_t len = mxg_diagnostics_format_line(list, index, line, size, report->colour, room ? report->text + report->len : NULL, room);
+    size_t len = mxg_diagnostics_format_line(list, index, line, size, report->colour,
+                                             room ? report->text + report->len : NULL, room);
     if (!reserve(report, len + 2))
         return;
     if (len >= room)
-        mxg_diagnostics_format_line(list, index, line, size, report->colour, report->text + report->len, report->capacity - report->len);
+        mxg_diagnostics_format_line(list, index, line, size, report->colour,
+                                    report->text + report->len, report->capacity - report->len);
     report->len += len;
     if (len && report->text[report->len - 1] != '\n')
         report->text[report->len++] = '\n';
@@ -116,7 +122,8 @@ const char *report_render(struct report *report, const mxg_diagnostics *list, ui
 {
     mxg_diagnostic part = {sizeof part};
     report->len = 0;
-    for (uint32_t i = index; mxg_diagnostics_get(list, i, &part) == MXG_OK && part.parent == index; ++i)
+    for (uint32_t i = index; mxg_diagnostics_get(list, i, &part) == MXG_OK && part.parent == index;
+         ++i)
         render(report, list, i, &part);
     return report->text ? report->text : "";
 }
@@ -164,7 +171,8 @@ static bool grow_printed(struct report *report)
 static bool is_new(struct report *report, const mxg_diagnostic *diagnostic)
 {
     uint64_t hash = 0xcbf29ce484222325u ^ ((uint64_t)diagnostic->line << 32 | diagnostic->column);
-    hash = hash_text(hash_text(hash_text(hash, diagnostic->id), diagnostic->file), diagnostic->message);
+    hash = hash_text(hash_text(hash_text(hash, diagnostic->id), diagnostic->file),
+                     diagnostic->message);
     hash = hash ? hash : 1;
     if (report->num_printed * 2 >= report->capacity_printed && !grow_printed(report))
         return true;
@@ -224,7 +232,8 @@ void report_list(struct report *report, const mxg_diagnostics *list)
     report->errors += mxg_diagnostics_errors(list);
 }
 
-static void print_own(const struct report *report, const char *level, int colour, const char *id, const char *format, va_list args)
+static void print_own(const struct report *report, const char *level, int colour, const char *id,
+                      const char *format, va_list args)
 {
     if (report->colour)
         fprintf(stderr, "\033[1;%dm%s:\033[0m ", colour, level);

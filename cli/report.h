@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Diagnostics on a terminal: what the library found is printed as compilers do, with the source line read again.
+ * Diagnostics on a terminal: what the library found is printed as compilers do, with the source
+ * line read again.
  */
 #ifndef MXG_CLI_REPORT_H
 #define MXG_CLI_REPORT_H
@@ -13,11 +14,11 @@ struct report {
     bool quiet;   /* errors only */
     bool verbose; /* also what was upgraded in older documents */
     bool colour;
-    uint32_t errors;            /* told so far, repeated ones and those behind the limit too */
-    size_t max_errors;          /* that are printed of a document; 0: all */
-    size_t document_errors;     /* printed of the document at hand */
-    bool is_rest_told;          /* that there are more */
-    uint64_t *printed;          /* hashes of the messages printed, in a table; 0: free */
+    uint32_t errors;        /* told so far, repeated ones and those behind the limit too */
+    size_t max_errors;      /* that are printed of a document; 0: all */
+    size_t document_errors; /* printed of the document at hand */
+    bool is_rest_told;      /* that there are more */
+    uint64_t *printed;      /* hashes of the messages printed, in a table; 0: free */
     size_t num_printed, capacity_printed;
     char *source_name, *source; /* the file read last */
     size_t source_size;
@@ -34,7 +35,8 @@ void report_finish(struct report *report);
 const char *report_render(struct report *report, const mxg_diagnostics *list, uint32_t index);
 
 /*
- * The text of a file that messages are about, where it is no file to be read; it is freed by the report.
+ * The text of a file that messages are about, where it is no file to be read; it is freed by the
+ * report.
  */
 void report_source(struct report *report, const char *file, char *source, size_t size);
 
@@ -57,7 +59,8 @@ __attribute__((format(printf, 3, 4)))
 void report_warning(struct report *report, const char *id, const char *format, ...);
 
 /*
- * What a status says beyond diagnostics: out of memory, cancelled, internal. Returns whether it is MXG_OK.
+ * What a status says beyond diagnostics: out of memory, cancelled, internal. Returns whether it is
+ * MXG_OK.
  */
 bool report_status(struct report *report, mxg_status status);
 

@@ -25,7 +25,8 @@ static void compress(uint32_t state[8], const unsigned char *block)
 {
     uint32_t w[64], s[8];
     for (int t = 0; t < 16; ++t)
-        w[t] = (uint32_t)block[4 * t] << 24 | (uint32_t)block[4 * t + 1] << 16 | (uint32_t)block[4 * t + 2] << 8 | block[4 * t + 3];
+        w[t] = (uint32_t)block[4 * t] << 24 | (uint32_t)block[4 * t + 1] << 16
+               | (uint32_t)block[4 * t + 2] << 8 | block[4 * t + 3];
     for (int t = 16; t < 64; ++t) {
         uint32_t s0 = rotate(w[t - 15], 7) ^ rotate(w[t - 15], 18) ^ w[t - 15] >> 3;
         uint32_t s1 = rotate(w[t - 2], 17) ^ rotate(w[t - 2], 19) ^ w[t - 2] >> 10;
@@ -33,8 +34,10 @@ static void compress(uint32_t state[8], const unsigned char *block)
     }
     memcpy(s, state, sizeof s);
     for (int t = 0; t < 64; ++t) {
-        uint32_t ch = (s[4] & s[5]) ^ (~s[4] & s[6]), maj = (s[0] & s[1]) ^ (s[0] & s[2]) ^ (s[1] & s[2]);
-        uint32_t t1 = s[7] + (rotate(s[4], 6) ^ rotate(s[4], 11) ^ rotate(s[4], 25)) + ch + k[t] + w[t];
+        uint32_t ch = (s[4] & s[5]) ^ (~s[4] & s[6]),
+                 maj = (s[0] & s[1]) ^ (s[0] & s[2]) ^ (s[1] & s[2]);
+        uint32_t t1 =
+            s[7] + (rotate(s[4], 6) ^ rotate(s[4], 11) ^ rotate(s[4], 25)) + ch + k[t] + w[t];
         uint32_t t2 = (rotate(s[0], 2) ^ rotate(s[0], 13) ^ rotate(s[0], 22)) + maj;
         memmove(s + 1, s, 7 * sizeof *s);
         s[4] += t1;
@@ -47,7 +50,8 @@ static void compress(uint32_t state[8], const unsigned char *block)
 void sha256_init(struct sha256 *sha)
 {
     /* 5.3.3: fractional parts of the square roots of the first 8 primes */
-    *sha = (struct sha256){.state = {0x6a09e667, 0xbb67ae85, 0x3c6ef372, 0xa54ff53a, 0x510e527f, 0x9b05688c, 0x1f83d9ab, 0x5be0cd19}};
+    *sha = (struct sha256){.state = {0x6a09e667, 0xbb67ae85, 0x3c6ef372, 0xa54ff53a, 0x510e527f,
+                                     0x9b05688c, 0x1f83d9ab, 0x5be0cd19}};
 }
 
 void sha256_add(struct sha256 *sha, const void *data, size_t size)

@@ -18,7 +18,8 @@ void *store_alloc(struct store *store, size_t size);
 char *store_text(struct store *store, const char *text, size_t len);
 
 /*
- * Room for one more item behind `len` items: the array itself, or a copy twice as large. `items` is NULL at first.
+ * Room for one more item behind `len` items: the array itself, or a copy twice as large. `items` is
+ * NULL at first.
  */
 void *store_grow(struct store *store, void *items, size_t len, size_t item_size);
 

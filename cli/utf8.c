@@ -7,7 +7,10 @@ size_t utf8_length(const char *bytes)
     unsigned char lead = text[0], low = 0x80, high = 0xbf;
     if (lead < 0x80)
         return 1;
-    size_t len = lead >= 0xc2 && lead <= 0xdf ? 2 : lead >= 0xe0 && lead <= 0xef ? 3 : lead >= 0xf0 && lead <= 0xf4 ? 4 : 0;
+    size_t len = lead >= 0xc2 && lead <= 0xdf   ? 2
+                 : lead >= 0xe0 && lead <= 0xef ? 3
+                 : lead >= 0xf0 && lead <= 0xf4 ? 4
+                                                : 0;
     if (lead == 0xe0)
         low = 0xa0;
     else if (lead == 0xed)

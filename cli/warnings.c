@@ -22,7 +22,8 @@ static bool check_id(const char *id, const char *word)
         found = strcmp(kind.id, id) == 0;
         args_append(&ids, kind.id);
         if (found && kind.severity == MXG_SEVERITY_ERROR) {
-            fprintf(stderr, "mxgen: '-W%s': '%s' is an error, which cannot be switched\n", word, id);
+            fprintf(stderr, "mxgen: '-W%s': '%s' is an error, which cannot be switched\n", word,
+                    id);
             free(ids.items);
             return false;
         }

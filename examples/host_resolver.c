@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * A host that has documents elsewhere than in files (here: in a table) gives mxgen a resolver. It names what is referred to, hands out the
- * bytes, and is told when they are no longer needed. Prints the pixel stage of a material whose parts lie in three "files".
+ * A host that has documents elsewhere than in files (here: in a table) gives mxgen a resolver. It
+ * names what is referred to, hands out the bytes, and is told when they are no longer needed.
+ * Prints the pixel stage of a material whose parts lie in three "files".
  */
 #include <mxgen/mxgen.h>
 
@@ -20,18 +21,19 @@ static const struct asset {
      "    <output name='out' type='float' nodename='s'/>"
      "  </nodegraph>"
      "</materialx>"},
-    {"asset:node",
-     "<materialx version='1.39'>"
-     "  <nodedef name='ND_stripes' node='stripes'>"
-     "    <input name='in' type='vector2'/><output name='out' type='float'/>"
-     "  </nodedef>"
-     "  <implementation name='IM_stripes' nodedef='ND_stripes' file='stripes.glsl' function='stripes'/>"
-     "</materialx>"},
+    {"asset:node", "<materialx version='1.39'>"
+                   "  <nodedef name='ND_stripes' node='stripes'>"
+                   "    <input name='in' type='vector2'/><output name='out' type='float'/>"
+                   "  </nodedef>"
+                   "  <implementation name='IM_stripes' nodedef='ND_stripes' file='stripes.glsl' "
+                   "function='stripes'/>"
+                   "</materialx>"},
     {"asset:stripes.glsl", "float stripes(vec2 p) { return step(0.5, fract(10.0 * p.x)); }"},
 };
 
 /* Everything lies in one place, so `from` does not matter. */
-static bool open_asset(void *user_data, const char *from, const char *ref, mxg_blob *out_blob, const char **out_reason)
+static bool open_asset(void *user_data, const char *from, const char *ref, mxg_blob *out_blob,
+                       const char **out_reason)
 {
     int *num_open = user_data;
     (void)from;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * A material as an OSL shader group: writes the shaders of its nodes into a folder, and prints the list of layers that makes a group of them,
- * as ShadingSystem::ShaderGroupBegin takes it. Compiled with oslc, and with the list in a file, testshade takes them, too:
+ * A material as an OSL shader group: writes the shaders of its nodes into a folder, and prints the
+ * list of layers that makes a group of them, as ShadingSystem::ShaderGroupBegin takes it. Compiled
+ * with oslc, and with the list in a file, testshade takes them, too:
  *
  *     osl_network marble.mtlx folder >folder/marble.oslgroup
  *     cd folder && for f in *.osl; do oslc $f; done && testshade --group marble.oslgroup
@@ -54,7 +55,8 @@ int main(int argc, char **argv)
     mxg_document *document = NULL;
     mxg_options *options = NULL;
     mxg_result *result = NULL;
-    if (mxg_context_create(NULL, &context) != MXG_OK || mxg_options_create(context, &options) != MXG_OK)
+    if (mxg_context_create(NULL, &context) != MXG_OK
+        || mxg_options_create(context, &options) != MXG_OK)
         return 1;
     mxg_library *library = mxg_library_builtin(context);
     mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
@@ -63,7 +65,8 @@ int main(int argc, char **argv)
     mxg_options_set(options, "osl-network", "true");
     bool good = mxg_document_load(context, library, argv[1], &document) == MXG_OK;
     print_diagnostics(mxg_document_diagnostics(document));
-    good = good && mxg_generate(context, document, &desc, &result) == MXG_OK && write_network(result, argv[2]);
+    good = good && mxg_generate(context, document, &desc, &result) == MXG_OK
+           && write_network(result, argv[2]);
     print_diagnostics(mxg_result_diagnostics(result));
     mxg_result_destroy(result);
     mxg_options_destroy(options);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Prints what a host must bind for a material: uniforms with their defaults and user interface, textures, vertex attributes.
+ * Prints what a host must bind for a material: uniforms with their defaults and user interface,
+ * textures, vertex attributes.
  *
  *     reflection MATERIAL.mtlx [TARGET]
  */
@@ -9,9 +10,12 @@
 #include <stdio.h>
 
 static const char *const block_names[MXG_NUM_BLOCKS] = {
-    [MXG_BLOCK_PUBLIC_UNIFORMS] = "public uniforms",   [MXG_BLOCK_PRIVATE_UNIFORMS] = "private uniforms",
-    [MXG_BLOCK_LIGHT_DATA] = "light data",             [MXG_BLOCK_TEXTURES] = "textures",
-    [MXG_BLOCK_APP_DATA] = "vertex attributes",        [MXG_BLOCK_VERTEX_DATA] = "vertex to pixel stage",
+    [MXG_BLOCK_PUBLIC_UNIFORMS] = "public uniforms",
+    [MXG_BLOCK_PRIVATE_UNIFORMS] = "private uniforms",
+    [MXG_BLOCK_LIGHT_DATA] = "light data",
+    [MXG_BLOCK_TEXTURES] = "textures",
+    [MXG_BLOCK_APP_DATA] = "vertex attributes",
+    [MXG_BLOCK_VERTEX_DATA] = "vertex to pixel stage",
     [MXG_BLOCK_OUTPUTS] = "outputs",
 };
 
@@ -52,7 +56,8 @@ static void print_compiled(const mxg_result *result)
     for (uint32_t i = 0; i < mxg_result_num_compiled_inputs(result); ++i) {
         mxg_compiled_input input = MXG_INIT(mxg_compiled_input);
         if (mxg_result_compiled_input(result, i, &input) == MXG_OK)
-            printf("%s%s %s = %s\n", i ? "  " : "compiled in, a change needs a new shader\n  ", input.type, input.path, input.value);
+            printf("%s%s %s = %s\n", i ? "  " : "compiled in, a change needs a new shader\n  ",
+                   input.type, input.path, input.value);
     }
 }
 

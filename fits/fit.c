@@ -26,13 +26,14 @@ void fit_print_form(const char *name, const double p[FIT_PARAMETERS], double sca
     printf("const mat4 %s = mat4(", name);
     for (int j = 0; j < FIT_TERMS; ++j)
         for (int i = 0; i < FIT_TERMS; ++i)
-            printf("%.4f%s", scale * p[i * FIT_TERMS + j], i == FIT_TERMS - 1 && j == FIT_TERMS - 1 ? ");\n" : ", ");
+            printf("%.4f%s", scale * p[i * FIT_TERMS + j],
+                   i == FIT_TERMS - 1 && j == FIT_TERMS - 1 ? ");\n" : ", ");
 }
 
 struct system {
     size_t n, m;
     double normal[FIT_PARAMETERS][FIT_PARAMETERS]; /* JᵀJ */
-    double gradient[FIT_PARAMETERS];                   /* Jᵀr */
+    double gradient[FIT_PARAMETERS];               /* Jᵀr */
 };
 
 static double sum_of_squares(const double *values, size_t count)
@@ -44,7 +45,8 @@ static double sum_of_squares(const double *values, size_t count)
 }
 
 /* The Jacobian by central differences; columns of m values. */
-static void differentiate(double *p, size_t n, fit_residuals residuals, size_t m, void *user_data, double *jacobian, double *work)
+static void differentiate(double *p, size_t n, fit_residuals residuals, size_t m, void *user_data,
+                          double *jacobian, double *work)
 {
     for (size_t i = 0; i < n; ++i) {
         double at = p[i], step = 1e-5 * fmax(fabs(at), 1e-2);
@@ -160,9 +162,11 @@ static double largest(const double *values, size_t count)
     return most;
 }
 
-double fit_minimax(double parameters[FIT_PARAMETERS], fit_residuals residuals, size_t m, void *user_data)
+double fit_minimax(double parameters[FIT_PARAMETERS], fit_residuals residuals, size_t m,
+                   void *user_data)
 {
-    double *weights = malloc(2 * m * sizeof(double)), *r = weights + m, p[FIT_PARAMETERS], best = INFINITY;
+    double *weights = malloc(2 * m * sizeof(double)), *r = weights + m, p[FIT_PARAMETERS],
+           best = INFINITY;
     const size_t n = FIT_PARAMETERS;
     struct weighted w = {residuals, user_data, weights, m};
     memcpy(p, parameters, n * sizeof(double));

@@ -8,7 +8,8 @@
 enum { FIT_TERMS = 4, FIT_PARAMETERS = FIT_TERMS * FIT_TERMS };
 
 /*
- * Polynomial dot((1, u, u², u³), M · (1, v, v², v³)), what all functions are made of; parameters row by row.
+ * Polynomial dot((1, u, u², u³), M · (1, v, v², v³)), what all functions are made of; parameters
+ * row by row.
  */
 double fit_form(const double parameters[FIT_PARAMETERS], double u, double v);
 
@@ -19,9 +20,10 @@ void fit_print_form(const char *name, const double parameters[FIT_PARAMETERS], d
 typedef void (*fit_residuals)(const double *parameters, double *residuals, void *user_data);
 
 /*
- * Makes the largest residual small: least squares by Levenberg and Marquardt, in rounds that weigh those points more where much is left (after
- * Lawson 1961). Returns it.
+ * Makes the largest residual small: least squares by Levenberg and Marquardt, in rounds that weigh
+ * those points more where much is left (after Lawson 1961). Returns it.
  */
-double fit_minimax(double parameters[FIT_PARAMETERS], fit_residuals residuals, size_t num_residuals, void *user_data);
+double fit_minimax(double parameters[FIT_PARAMETERS], fit_residuals residuals, size_t num_residuals,
+                   void *user_data);
 
 #endif

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Directional albedo of Conty and Kulla's sheen, for mx_sheen_albedo of libraries/pbrlib/shaders/sheen.glsl. Prints the constants of the
- * function.
+ * Directional albedo of Conty and Kulla's sheen, for mx_sheen_albedo of
+ * libraries/pbrlib/shaders/sheen.glsl. Prints the constants of the function.
  */
 #include "fit.h"
 
@@ -31,7 +31,9 @@ static void measure(struct cell *cell)
 {
     for (int i = 0; i < POINTS; ++i)
         for (int j = 0; j < POINTS; ++j)
-            cell->albedo += response(cell->roughness, cell->cosine, (i + 0.5) / POINTS, pi * (j + 0.5) / POINTS) * 2.0 * pi / (POINTS * POINTS);
+            cell->albedo +=
+                response(cell->roughness, cell->cosine, (i + 0.5) / POINTS, pi * (j + 0.5) / POINTS)
+                * 2.0 * pi / (POINTS * POINTS);
 }
 
 static double albedo(const double *p, const struct cell *cell)
@@ -52,7 +54,8 @@ int main(void)
     double p[FIT_PARAMETERS] = {0.1};
     for (int i = 0; i < CELLS; ++i) {
         double c = (i % STEPS + 0.5) / STEPS, r = (i / STEPS + 0.5) / STEPS;
-        cells[i] = (struct cell){.cosine = LEAST + (1.0 - LEAST) * c, .roughness = LEAST + (1.0 - LEAST) * r};
+        cells[i] = (struct cell){.cosine = LEAST + (1.0 - LEAST) * c,
+                                 .roughness = LEAST + (1.0 - LEAST) * r};
         measure(&cells[i]);
     }
     printf("// within %.4f\n", fit_minimax(p, residuals, CELLS, cells));

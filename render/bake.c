@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Prefiltering for GGX as Karis 2013, "Real Shading in Unreal Engine 4", splits the sum: the light around a reflection, seen
- * along the normal, and the lobe's albedo.
+ * Prefiltering for GGX as Karis 2013, "Real Shading in Unreal Engine 4", splits the sum: the light
+ * around a reflection, seen along the normal, and the lobe's albedo.
  */
 #include "render/bake.h"
 
@@ -13,7 +13,14 @@
 
 #define PI 3.14159265358979323846
 
-enum { MIN_WIDTH = 512, MAX_WIDTH = 2048, MAX_LEVELS = 16, NUM_SAMPLES = 128, ALBEDO_SIZE = 64, ALBEDO_SAMPLES = 1024 };
+enum {
+    MIN_WIDTH = 512,
+    MAX_WIDTH = 2048,
+    MAX_LEVELS = 16,
+    NUM_SAMPLES = 128,
+    ALBEDO_SIZE = 64,
+    ALBEDO_SAMPLES = 1024
+};
 
 /* ---- Levels ---- */
 
@@ -39,8 +46,10 @@ static struct image level_of(const struct image *map, uint32_t level)
     float *pixels = map->pixels;
     for (uint32_t i = 0; i < level; ++i)
         pixels += level_texels(map, i) * 4;
-    return (struct image){.width = image_level_size(map->width, level), .height = image_level_size(map->height, level),
-                          .is_float = true, .pixels = pixels};
+    return (struct image){.width = image_level_size(map->width, level),
+                          .height = image_level_size(map->height, level),
+                          .is_float = true,
+                          .pixels = pixels};
 }
 
 /* The map in the size of level 0, and below it the averages of boxes. */
@@ -61,8 +70,10 @@ static void fill_boxes(const struct image *map, struct image *out)
         struct image from = level_of(out, level - 1), to = level_of(out, level);
         for (size_t i = 0; i < (size_t)to.width * to.height * 4; ++i) {
             size_t c = i % 4, x = i / 4 % to.width, y = i / 4 / to.width;
-            const float *a = (const float *)from.pixels + (y * 2 % from.height * from.width + x * 2 % from.width) * 4 + c;
-            size_t right = from.width > 1 ? 4 : 0, down = from.height > 1 ? (size_t)from.width * 4 : 0;
+            const float *a = (const float *)from.pixels
+                             + (y * 2 % from.height * from.width + x * 2 % from.width) * 4 + c;
+            size_t right = from.width > 1 ? 4 : 0,
+                   down = from.height > 1 ? (size_t)from.width * 4 : 0;
             ((float *)to.pixels)[i] = 0.25f * (a[0] + a[right] + a[down] + a[down + right]);
         }
     }
@@ -91,7 +102,8 @@ static double distribution(double cosine, double alpha)
 }
 
 /*
- * A direction seen along the normal, in its frame, how much it counts, and the level that holds its part of the light.
+ * A direction seen along the normal, in its frame, how much it counts, and the level that holds its
+ * part of the light.
  */
 struct lobe_sample {
     double direction[3], weight, level;
@@ -105,13 +117,16 @@ static uint32_t sample_lobe(double alpha, uint32_t width, struct lobe_sample sam
     for (uint32_t i = 0; i < NUM_SAMPLES; ++i) {
         double xi[2];
         hammersley(i, NUM_SAMPLES, xi);
-        double cosine = sqrt((1 - xi[0]) / (1 + (alpha * alpha - 1) * xi[0])), sine = sqrt(fmax(1 - cosine * cosine, 0));
+        double cosine = sqrt((1 - xi[0]) / (1 + (alpha * alpha - 1) * xi[0])),
+               sine = sqrt(fmax(1 - cosine * cosine, 0));
         double z = 2 * cosine * cosine - 1;
         if (z <= 0)
             continue;
         double around = 2 * PI * xi[1], solid = 4 / (NUM_SAMPLES * distribution(cosine, alpha));
         samples[count++] = (struct lobe_sample){
-            {2 * cosine * sine * cos(around), 2 * cosine * sine * sin(around), z}, z, fmax(0.5 * log2(solid / texel) + 1, 0)};
+            {2 * cosine * sine * cos(around), 2 * cosine * sine * sin(around), z},
+            z,
+            fmax(0.5 * log2(solid / texel) + 1, 0)};
     }
     return count;
 }
@@ -124,7 +139,8 @@ static void frame_around(const double n[3], double x[3], double y[3])
     vector_cross(n, x, y);
 }
 
-static void look_up(const struct image *levels, uint32_t num_levels, double level, const double d[3], double out[3])
+static void look_up(const struct image *levels, uint32_t num_levels, double level,
+                    const double d[3], double out[3])
 {
     double low[3], high[3], t = level - floor(level);
     uint32_t first = level < num_levels - 1 ? (uint32_t)level : num_levels - 1;
@@ -135,7 +151,8 @@ static void look_up(const struct image *levels, uint32_t num_levels, double leve
 }
 
 /*
- * The roughness squared that a level is for, as shaders choose it: MaterialX, mx_latlong_lod_to_alpha.
+ * The roughness squared that a level is for, as shaders choose it: MaterialX,
+ * mx_latlong_lod_to_alpha.
  */
 static double level_alpha(uint32_t level, uint32_t num_levels)
 {
@@ -202,7 +219,8 @@ static double lambda(double cosine, double alpha)
 }
 
 /*
- * With normals drawn by their distribution a sample weighs G2 (v·h) / ((n·v)(n·h)), and Schlick's curve splits it.
+ * With normals drawn by their distribution a sample weighs G2 (v·h) / ((n·v)(n·h)), and Schlick's
+ * curve splits it.
  */
 void bake_albedo(double cosine, double alpha, double *out_a, double *out_b)
 {
@@ -211,7 +229,8 @@ void bake_albedo(double cosine, double alpha, double *out_a, double *out_b)
     for (uint32_t i = 0; i < ALBEDO_SAMPLES; ++i) {
         double xi[2];
         hammersley(i, ALBEDO_SAMPLES, xi);
-        double z = sqrt((1 - xi[0]) / (1 + (alpha * alpha - 1) * xi[0])), r = sqrt(fmax(1 - z * z, 0));
+        double z = sqrt((1 - xi[0]) / (1 + (alpha * alpha - 1) * xi[0])),
+               r = sqrt(fmax(1 - z * z, 0));
         double x = r * cos(2 * PI * xi[1]), facing = v[0] * x + v[2] * z, l = 2 * facing * z - v[2];
         if (l <= 0 || facing <= 0)
             continue;
@@ -224,7 +243,9 @@ void bake_albedo(double cosine, double alpha, double *out_a, double *out_b)
 
 bool bake_albedo_table(struct image *out)
 {
-    *out = (struct image){.width = ALBEDO_SIZE, .height = ALBEDO_SIZE, .is_float = true,
+    *out = (struct image){.width = ALBEDO_SIZE,
+                          .height = ALBEDO_SIZE,
+                          .is_float = true,
                           .pixels = calloc(ALBEDO_SIZE * ALBEDO_SIZE * 4, sizeof(float))};
     float *texel = out->pixels;
     for (uint32_t y = 0; texel && y < ALBEDO_SIZE; ++y)
@@ -243,7 +264,8 @@ bool bake_albedo_table(struct image *out)
 bool bake_environment(const struct image *map, struct baked *out)
 {
     *out = (struct baked){0};
-    return filter(map, &out->radiance) && environment_irradiance(map, &out->irradiance) && bake_albedo_table(&out->albedo);
+    return filter(map, &out->radiance) && environment_irradiance(map, &out->irradiance)
+           && bake_albedo_table(&out->albedo);
 }
 
 struct part {
@@ -261,7 +283,9 @@ bool baked_write(const struct baked *baked, const char *folder, char *reason, si
     bool good = true;
     for (size_t i = 0; good && i < NUM_PARTS; ++i) {
         snprintf(path, sizeof path, "%s/%s", folder, parts[i].name);
-        good = image_write(path, (const struct image *)(const void *)((const char *)baked + parts[i].image), reason, capacity);
+        good = image_write(
+            path, (const struct image *)(const void *)((const char *)baked + parts[i].image),
+            reason, capacity);
     }
     return good;
 }

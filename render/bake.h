@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * What hosts of prefiltered environments bind: made from a map, or read from a folder where it was kept.
+ * What hosts of prefiltered environments bind: made from a map, or read from a folder where it was
+ * kept.
  */
 #ifndef MXG_RENDER_BAKE_H
 #define MXG_RENDER_BAKE_H
@@ -18,7 +19,8 @@ struct baked {
 /* False: out of memory. baked_finish must follow in any case. */
 bool bake_environment(const struct image *map, struct baked *out);
 /*
- * radiance.exr, irradiance.exr and albedo.exr in a folder that is there. On failure false, with why.
+ * radiance.exr, irradiance.exr and albedo.exr in a folder that is there. On failure false, with
+ * why.
  */
 bool baked_write(const struct baked *baked, const char *folder, char *reason, size_t capacity);
 bool baked_read(const char *folder, struct baked *out, char *reason, size_t capacity);

@@ -98,8 +98,9 @@ static void store(unsigned char *at, const mxg_variable *variable, const float *
             float value = values[c * shape->rows + r];
             int32_t integer = (int32_t)value;
             const void *word = shape->is_float ? (const void *)&value : &integer;
-            memcpy(at + (size_t)c * (shape->columns > 1 ? variable->matrix_stride : 0) + r * sizeof(float), word,
-                   sizeof(float));
+            memcpy(at + (size_t)c * (shape->columns > 1 ? variable->matrix_stride : 0)
+                       + r * sizeof(float),
+                   word, sizeof(float));
         }
     }
 }
@@ -109,7 +110,8 @@ static unsigned char *address(struct bind *bind, const mxg_variable *variable)
     return find_block(&bind->draw, variable->set, variable->binding)->data + variable->offset;
 }
 
-/* Numbers of the document's form: separated by commas or spaces; "true" is 1. Returns how many; UINT_MAX-like on junk.
+/* Numbers of the document's form: separated by commas or spaces; "true" is 1. Returns how many;
+ * UINT_MAX-like on junk.
  */
 static unsigned parse_numbers(const char *text, float values[MAX_COMPONENTS])
 {
@@ -146,9 +148,11 @@ static bool store_public(struct bind *bind, const mxg_variable *variable)
     const char *text = user_value(bind, variable);
     const struct shape *shape = find_shape(variable->type);
     if (!shape)
-        return fail(bind, "'%s' has a type that cannot be bound: %s", variable->name, variable->type);
+        return fail(bind, "'%s' has a type that cannot be bound: %s", variable->name,
+                    variable->type);
     if (text && parse_numbers(text, values) != shape->columns * shape->rows)
-        return fail_as(bind, "bad-value", "'%s' is not a value of '%s', which is a %s", text, variable->path, variable->type);
+        return fail_as(bind, "bad-value", "'%s' is not a value of '%s', which is a %s", text,
+                       variable->path, variable->type);
     store(address(bind, variable), variable, values);
     return true;
 }
@@ -158,7 +162,8 @@ static void store_private(struct bind *bind, const mxg_variable *variable)
     float values[MAX_COMPONENTS] = {0};
     if (!scene_uniform(bind->scene, variable->name, values) && variable->num_values)
         memcpy(values, variable->values, sizeof values);
-    if (strcmp(variable->name, "u_numActiveLightSources") == 0 && values[0] > (float)bind->max_lights)
+    if (strcmp(variable->name, "u_numActiveLightSources") == 0
+        && values[0] > (float)bind->max_lights)
         values[0] = (float)bind->max_lights;
     store(address(bind, variable), variable, values);
 }
@@ -176,7 +181,8 @@ static const char *light_member(const char *path, uint32_t *out_light)
 }
 
 /* What the user says of a light's member; NULL. */
-static const struct bind_value *light_value(const struct bind *bind, uint32_t light, const char *member)
+static const struct bind_value *light_value(const struct bind *bind, uint32_t light,
+                                            const char *member)
 {
     const struct bind_value *found = NULL;
     for (size_t i = 0; i < bind->num_values; ++i) {
@@ -190,7 +196,8 @@ static const struct bind_value *light_value(const struct bind *bind, uint32_t li
 
 static bool store_lights(struct bind *bind, const mxg_variable *variable)
 {
-    size_t stride = find_block(&bind->draw, variable->set, variable->binding)->size / bind->max_lights;
+    size_t stride =
+        find_block(&bind->draw, variable->set, variable->binding)->size / bind->max_lights;
     const struct shape *shape = find_shape(variable->type);
     for (uint32_t i = 0; i < SCENE_NUM_LIGHTS && i < bind->max_lights; ++i) {
         float values[MAX_COMPONENTS] = {0};
@@ -198,7 +205,8 @@ static bool store_lights(struct bind *bind, const mxg_variable *variable)
             memcpy(values, variable->values, sizeof values);
         const struct bind_value *said = light_value(bind, i, variable->name);
         if (said && (!shape || parse_numbers(said->text, values) != shape->columns * shape->rows))
-            return fail_as(bind, "bad-value", "'%s' is not a value of '%s', which is a %s", said->text, said->path, variable->type);
+            return fail_as(bind, "bad-value", "'%s' is not a value of '%s', which is a %s",
+                           said->text, said->path, variable->type);
         store(address(bind, variable) + i * stride, variable, values);
     }
     return true;
@@ -206,8 +214,9 @@ static bool store_lights(struct bind *bind, const mxg_variable *variable)
 
 static bool is_uniform(const mxg_variable *variable)
 {
-    return variable->block == MXG_BLOCK_PUBLIC_UNIFORMS || variable->block == MXG_BLOCK_PRIVATE_UNIFORMS ||
-           variable->block == MXG_BLOCK_LIGHT_DATA;
+    return variable->block == MXG_BLOCK_PUBLIC_UNIFORMS
+           || variable->block == MXG_BLOCK_PRIVATE_UNIFORMS
+           || variable->block == MXG_BLOCK_LIGHT_DATA;
 }
 
 static mxg_variable get_variable(const struct bind *bind, uint32_t index)
@@ -275,7 +284,8 @@ static struct draw_texture environment_texture(const struct image *image)
 }
 
 /*
- * The directional albedo of GGX: the scene's, or made now. Its image is NULL where there is no memory.
+ * The directional albedo of GGX: the scene's, or made now. Its image is NULL where there is no
+ * memory.
  */
 static struct draw_texture albedo_texture(struct bind *bind)
 {
@@ -302,10 +312,13 @@ static struct draw_texture test_texture(const struct image *image)
 }
 
 /* A texture of the document: its files, or the user's. Its image is NULL on failure. */
-static struct draw_texture document_texture(struct bind *bind, uint32_t index, const mxg_variable *variable)
+static struct draw_texture document_texture(struct bind *bind, uint32_t index,
+                                            const mxg_variable *variable)
 {
     struct image *image = &bind->images[bind->num_images];
-    bool is_checker = false, good = bind_read_texture(bind, index, variable, user_value(bind, variable), image, &is_checker);
+    bool is_checker = false,
+         good = bind_read_texture(bind, index, variable, user_value(bind, variable), image,
+                                  &is_checker);
     bool is_closest = strcmp(variable->filtertype, "closest") == 0 || is_checker;
     bind->num_images += good;
     return (struct draw_texture){.image = good ? image : NULL,
@@ -348,10 +361,10 @@ static bool bind_textures(struct bind *bind)
 
 static VkFormat attribute_format(const struct shape *shape)
 {
-    static const VkFormat floats[] = {VK_FORMAT_R32_SFLOAT, VK_FORMAT_R32G32_SFLOAT, VK_FORMAT_R32G32B32_SFLOAT,
-                                      VK_FORMAT_R32G32B32A32_SFLOAT};
-    static const VkFormat integers[] = {VK_FORMAT_R32_SINT, VK_FORMAT_R32G32_SINT, VK_FORMAT_R32G32B32_SINT,
-                                        VK_FORMAT_R32G32B32A32_SINT};
+    static const VkFormat floats[] = {VK_FORMAT_R32_SFLOAT, VK_FORMAT_R32G32_SFLOAT,
+                                      VK_FORMAT_R32G32B32_SFLOAT, VK_FORMAT_R32G32B32A32_SFLOAT};
+    static const VkFormat integers[] = {VK_FORMAT_R32_SINT, VK_FORMAT_R32G32_SINT,
+                                        VK_FORMAT_R32G32B32_SINT, VK_FORMAT_R32G32B32A32_SINT};
     return (shape->is_float ? floats : integers)[shape->rows - 1];
 }
 
@@ -359,7 +372,8 @@ static bool bind_attribute(struct bind *bind, const mxg_variable *variable)
 {
     const struct shape *shape = find_shape(variable->type);
     if (!shape || shape->columns != 1 || bind->draw.num_attributes == DRAW_MAX_ATTRIBUTES)
-        return fail(bind, "the attribute '%s' (%s) cannot be bound", variable->name, variable->type);
+        return fail(bind, "the attribute '%s' (%s) cannot be bound", variable->name,
+                    variable->type);
     uint32_t count = bind->scene->mesh.num_vertices;
     float(*data)[4] = calloc(count, sizeof *data);
     if (!data)
@@ -371,7 +385,9 @@ static bool bind_attribute(struct bind *bind, const mxg_variable *variable)
             scene_attribute(bind->scene, variable->name, i, data[i]);
         else
             memcpy(data[i],
-                   (const int32_t[4]){INTEGER_ATTRIBUTE, INTEGER_ATTRIBUTE, INTEGER_ATTRIBUTE, INTEGER_ATTRIBUTE}, 16);
+                   (const int32_t[4]){INTEGER_ATTRIBUTE, INTEGER_ATTRIBUTE, INTEGER_ATTRIBUTE,
+                                      INTEGER_ATTRIBUTE},
+                   16);
     }
     return true;
 }
@@ -390,7 +406,8 @@ static bool is_light_value(const struct bind *bind, const char *path)
 {
     uint32_t light;
     const char *name = light_member(path, &light);
-    for (uint32_t i = 0; name && light < bind->max_lights && i < mxg_result_num_variables(bind->result); ++i) {
+    for (uint32_t i = 0;
+         name && light < bind->max_lights && i < mxg_result_num_variables(bind->result); ++i) {
         mxg_variable variable = get_variable(bind, i);
         if (variable.block == MXG_BLOCK_LIGHT_DATA && strcmp(variable.name, name) == 0)
             return true;
@@ -403,9 +420,12 @@ static bool check_values(struct bind *bind)
 {
     for (size_t i = 0; i < bind->num_values; ++i) {
         uint32_t index;
-        if (!mxg_result_find_variable(bind->result, bind->values[i].path, &index) && !is_light_value(bind, bind->values[i].path))
-            return fail_as(bind, "no-uniform", "the shader has no uniform for '%s': it is unused, compiled in, or misspelled",
-                           bind->values[i].path);
+        if (!mxg_result_find_variable(bind->result, bind->values[i].path, &index)
+            && !is_light_value(bind, bind->values[i].path))
+            return fail_as(
+                bind, "no-uniform",
+                "the shader has no uniform for '%s': it is unused, compiled in, or misspelled",
+                bind->values[i].path);
     }
     return true;
 }
@@ -418,7 +438,8 @@ bool bind_shader(struct bind *bind)
     bind->draw.num_indices = bind->scene->mesh.num_indices;
     bind->draw.blend = info.alpha == MXG_ALPHA_BLEND && !bind->is_opaque;
     bind->max_lights = info.num_lights;
-    return check_values(bind) && make_blocks(bind) && bind_textures(bind) && bind_attributes(bind) && bind_scene(bind);
+    return check_values(bind) && make_blocks(bind) && bind_textures(bind) && bind_attributes(bind)
+           && bind_scene(bind);
 }
 
 /* Triangles that can be seen through come from far to near. */
@@ -431,8 +452,8 @@ static bool bind_order(struct bind *bind)
     struct matrix to_mesh = matrix_inverse(scene->world);
     double eye[3];
     for (size_t r = 0; r < 3; ++r)
-        eye[r] = to_mesh.m[3][r] + to_mesh.m[0][r] * scene->eye[0] + to_mesh.m[1][r] * scene->eye[1] +
-                 to_mesh.m[2][r] * scene->eye[2];
+        eye[r] = to_mesh.m[3][r] + to_mesh.m[0][r] * scene->eye[0] + to_mesh.m[1][r] * scene->eye[1]
+                 + to_mesh.m[2][r] * scene->eye[2];
     free(bind->order);
     bind->draw.indices = bind->order = mesh_sorted(&scene->mesh, eye);
     return bind->order || fail(bind, "out of memory");

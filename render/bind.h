@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Binding as a host does it, from reflection alone: attributes, blocks and textures of a generated shader are filled
- * with the values of a scene, the document's defaults, and what the user sets.
+ * Binding as a host does it, from reflection alone: attributes, blocks and textures of a generated
+ * shader are filled with the values of a scene, the document's defaults, and what the user sets.
  */
 #ifndef MXG_RENDER_BIND_H
 #define MXG_RENDER_BIND_H
@@ -37,17 +37,18 @@ struct bind {
 };
 
 /*
- * Fills bind->draw but for its code and size. False: see bind->reason. bind_finish must follow in any case.
+ * Fills bind->draw but for its code and size. False: see bind->reason. bind_finish must follow in
+ * any case.
  */
 bool bind_shader(struct bind *bind);
 /* Again what depends on the camera and other uniforms of the scene. */
 bool bind_scene(struct bind *bind);
 /*
- * texture_files.c: the image of a texture, to be finished; `file` is the user's, NULL: the document's. *out_checker where a checker
- * stands for a missing file. False: see bind->reason.
+ * texture_files.c: the image of a texture, to be finished; `file` is the user's, NULL: the
+ * document's. *out_checker where a checker stands for a missing file. False: see bind->reason.
  */
-bool bind_read_texture(struct bind *bind, uint32_t index, const mxg_variable *variable, const char *file, struct image *out,
-                       bool *out_checker);
+bool bind_read_texture(struct bind *bind, uint32_t index, const mxg_variable *variable,
+                       const char *file, struct image *out, bool *out_checker);
 void bind_finish(struct bind *bind);
 
 #endif

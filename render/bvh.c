@@ -16,7 +16,8 @@ struct item {
 
 static struct item make_item(const struct mesh *mesh, uint32_t triangle)
 {
-    struct item item = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}, {0}, triangle};
+    struct item item = {
+        {INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}, {0}, triangle};
     for (uint32_t k = 0; k < 3; ++k)
         for (size_t i = 0; i < 3; ++i) {
             float x = mesh->vertices[mesh->indices[triangle * 3 + k]].position[i];
@@ -62,9 +63,11 @@ static int compare_z(const void *a, const void *b)
 }
 
 /*
- * Half of the triangles to each side of the longest axis: the tree's depth is the logarithm of their number.
+ * Half of the triangles to each side of the longest axis: the tree's depth is the logarithm of
+ * their number.
  */
-static void split(struct bvh *bvh, uint32_t node, struct item *items, uint32_t first, uint32_t count)
+static void split(struct bvh *bvh, uint32_t node, struct item *items, uint32_t first,
+                  uint32_t count)
 {
     static int (*const compare[3])(const void *, const void *) = {compare_x, compare_y, compare_z};
     bound(items + first, count, &bvh->nodes[node]);
@@ -75,7 +78,8 @@ static void split(struct bvh *bvh, uint32_t node, struct item *items, uint32_t f
     }
     size_t axis = 0;
     for (size_t i = 1; i < 3; ++i)
-        if (bvh->nodes[node].high[i] - bvh->nodes[node].low[i] > bvh->nodes[node].high[axis] - bvh->nodes[node].low[axis])
+        if (bvh->nodes[node].high[i] - bvh->nodes[node].low[i]
+            > bvh->nodes[node].high[axis] - bvh->nodes[node].low[axis])
             axis = i;
     qsort(items + first, count, sizeof *items, compare[axis]);
     uint32_t children = bvh->num_nodes;
@@ -100,7 +104,8 @@ static struct bvh_corner make_corner(const struct vertex *vertex)
 bool bvh_build(const struct mesh *mesh, struct bvh *out)
 {
     uint32_t count = mesh->num_indices / 3;
-    *out = (struct bvh){malloc(2 * (size_t)count * sizeof *out->nodes), malloc(3 * (size_t)count * sizeof *out->corners), 1, count};
+    *out = (struct bvh){malloc(2 * (size_t)count * sizeof *out->nodes),
+                        malloc(3 * (size_t)count * sizeof *out->corners), 1, count};
     struct item *items = malloc(count * sizeof *items);
     bool good = items && out->nodes && out->corners;
     for (uint32_t i = 0; good && i < count; ++i)
@@ -108,7 +113,8 @@ bool bvh_build(const struct mesh *mesh, struct bvh *out)
     if (good)
         split(out, 0, items, 0, count);
     for (uint32_t i = 0; good && i < 3 * count; ++i)
-        out->corners[i] = make_corner(&mesh->vertices[mesh->indices[items[i / 3].triangle * 3 + i % 3]]);
+        out->corners[i] =
+            make_corner(&mesh->vertices[mesh->indices[items[i / 3].triangle * 3 + i % 3]]);
     free(items);
     return good;
 }
@@ -121,7 +127,8 @@ static void facet_of(const struct bvh_corner *corners, bool at_rest, double out[
     double edges[2][3];
     for (size_t k = 0; k < 2; ++k)
         for (size_t i = 0; i < 3; ++i) {
-            const float *to = at_rest ? corners[k + 1].rest : corners[k + 1].position, *from = at_rest ? corners[0].rest : corners[0].position;
+            const float *to = at_rest ? corners[k + 1].rest : corners[k + 1].position,
+                        *from = at_rest ? corners[0].rest : corners[0].position;
             edges[k][i] = (double)to[i] - (double)from[i];
         }
     vector_cross(edges[0], edges[1], out);
@@ -130,7 +137,8 @@ static void facet_of(const struct bvh_corner *corners, bool at_rest, double out[
 /* By place, then by normal; what differs by rounding alone is equal. */
 static int compare_corners(const void *a, const void *b)
 {
-    const struct bvh_corner *x = *(const struct bvh_corner *const *)a, *y = *(const struct bvh_corner *const *)b;
+    const struct bvh_corner *x = *(const struct bvh_corner *const *)a,
+                            *y = *(const struct bvh_corner *const *)b;
     for (size_t i = 0; i < 6; ++i) {
         const float *u = i < 3 ? x->rest : x->normal, *v = i < 3 ? y->rest : y->normal;
         long p = lrintf(u[i % 3] * 65536.0f), q = lrintf(v[i % 3] * 65536.0f);
@@ -141,7 +149,8 @@ static int compare_corners(const void *a, const void *b)
 }
 
 /*
- * Corners at one vertex: of one place and normal, whatever their texture coordinates. N' = N + g' - g, as a drawn surface has it.
+ * Corners at one vertex: of one place and normal, whatever their texture coordinates. N' = N + g' -
+ * g, as a drawn surface has it.
  */
 static void bend(const struct bvh *bvh, struct bvh_corner **group, uint32_t count)
 {
@@ -176,7 +185,8 @@ static void refit(struct bvh *bvh)
             node->low[i] = INFINITY;
             node->high[i] = -INFINITY;
             for (uint32_t k = 0; k < parts; ++k) {
-                const float *corner = bvh->corners[3 * node->first + (node->count ? k : 0)].position;
+                const float *corner =
+                    bvh->corners[3 * node->first + (node->count ? k : 0)].position;
                 const struct bvh_node *child = node->count ? NULL : &bvh->nodes[node->first + k];
                 node->low[i] = fminf(node->low[i], child ? child->low[i] : corner[i]);
                 node->high[i] = fmaxf(node->high[i], child ? child->high[i] : corner[i]);
@@ -190,7 +200,8 @@ bool bvh_move(struct bvh *bvh, const float *positions)
     uint32_t count = 3 * bvh->num_triangles;
     struct bvh_corner **sorted = malloc(count * sizeof *sorted);
     for (uint32_t i = 0; sorted && i < count; ++i) {
-        memcpy(bvh->corners[i].position, positions + 4 * (size_t)i, sizeof bvh->corners[i].position);
+        memcpy(bvh->corners[i].position, positions + 4 * (size_t)i,
+               sizeof bvh->corners[i].position);
         sorted[i] = &bvh->corners[i];
     }
     if (!sorted)

@@ -27,7 +27,8 @@ struct bvh {
 /* False: out of memory. bvh_finish must follow in any case. */
 bool bvh_build(const struct mesh *mesh, struct bvh *out);
 /*
- * Moves the corners to `positions` (four floats each), and bends their normals as the triangles around them turn.
+ * Moves the corners to `positions` (four floats each), and bends their normals as the triangles
+ * around them turn.
  */
 bool bvh_move(struct bvh *bvh, const float *positions);
 void bvh_finish(struct bvh *bvh);

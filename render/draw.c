@@ -30,11 +30,12 @@ static bool create_targets(struct draw_program *program)
     uint32_t width = program->draw->width, height = program->draw->height;
     return gpu_create_image(gpu, COLOR_FORMAT, width, height, 0, 1,
                             VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
-                            VK_IMAGE_ASPECT_COLOR_BIT, &program->color) &&
-           gpu_create_image(gpu, DEPTH_FORMAT, width, height, 0, 1, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT,
-                            VK_IMAGE_ASPECT_DEPTH_BIT, &program->depth) &&
-           gpu_create_buffer(gpu, VK_BUFFER_USAGE_TRANSFER_DST_BIT, NULL, (size_t)width * height * 4 * sizeof(float),
-                             &program->readback);
+                            VK_IMAGE_ASPECT_COLOR_BIT, &program->color)
+           && gpu_create_image(gpu, DEPTH_FORMAT, width, height, 0, 1,
+                               VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT,
+                               VK_IMAGE_ASPECT_DEPTH_BIT, &program->depth)
+           && gpu_create_buffer(gpu, VK_BUFFER_USAGE_TRANSFER_DST_BIT, NULL,
+                                (size_t)width * height * 4 * sizeof(float), &program->readback);
 }
 
 static bool create_buffers(struct draw_program *program)
@@ -43,8 +44,9 @@ static bool create_buffers(struct draw_program *program)
     bool good = gpu_create_buffer(program->gpu, VK_BUFFER_USAGE_INDEX_BUFFER_BIT, draw->indices,
                                   draw->num_indices * sizeof *draw->indices, &program->indices);
     for (uint32_t i = 0; good && i < draw->num_attributes; ++i)
-        good = gpu_create_buffer(program->gpu, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, draw->attributes[i].data,
-                                 (size_t)draw->num_vertices * 16, &program->attributes[i]);
+        good = gpu_create_buffer(program->gpu, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT,
+                                 draw->attributes[i].data, (size_t)draw->num_vertices * 16,
+                                 &program->attributes[i]);
     return good;
 }
 
@@ -53,7 +55,8 @@ static bool create_layout(struct draw_program *program)
     const VkPipelineLayoutCreateInfo info = {.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
                                              .setLayoutCount = program->inputs.num_sets,
                                              .pSetLayouts = program->inputs.set_layouts};
-    return gpu_check(program->gpu, vkCreatePipelineLayout(program->gpu->device, &info, NULL, &program->layout),
+    return gpu_check(program->gpu,
+                     vkCreatePipelineLayout(program->gpu->device, &info, NULL, &program->layout),
                      "making a pipeline layout");
 }
 
@@ -64,28 +67,32 @@ static bool create_modules(struct draw_program *program)
     bool good = true;
     for (int i = 0; good && i < 2; ++i) {
         const VkShaderModuleCreateInfo info = {.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
-                                               .codeSize = program->draw->code_words[i] * sizeof(uint32_t),
+                                               .codeSize =
+                                                   program->draw->code_words[i] * sizeof(uint32_t),
                                                .pCode = program->draw->code[i]};
-        good = gpu_check(program->gpu, vkCreateShaderModule(program->gpu->device, &info, NULL, &program->modules[i]),
-                         "loading the shader");
+        good =
+            gpu_check(program->gpu,
+                      vkCreateShaderModule(program->gpu->device, &info, NULL, &program->modules[i]),
+                      "loading the shader");
     }
     return good;
 }
 
-static VkPipelineVertexInputStateCreateInfo vertex_input(const struct draw *draw,
-                                                         VkVertexInputBindingDescription *bindings,
-                                                         VkVertexInputAttributeDescription *attributes)
+static VkPipelineVertexInputStateCreateInfo vertex_input(
+    const struct draw *draw, VkVertexInputBindingDescription *bindings,
+    VkVertexInputAttributeDescription *attributes)
 {
     for (uint32_t i = 0; i < draw->num_attributes; ++i) {
         bindings[i] = (VkVertexInputBindingDescription){i, 16, VK_VERTEX_INPUT_RATE_VERTEX};
-        attributes[i] = (VkVertexInputAttributeDescription){draw->attributes[i].location, i, draw->attributes[i].format,
-                                                            0};
+        attributes[i] = (VkVertexInputAttributeDescription){draw->attributes[i].location, i,
+                                                            draw->attributes[i].format, 0};
     }
-    return (VkPipelineVertexInputStateCreateInfo){.sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO,
-                                                  .vertexBindingDescriptionCount = draw->num_attributes,
-                                                  .pVertexBindingDescriptions = bindings,
-                                                  .vertexAttributeDescriptionCount = draw->num_attributes,
-                                                  .pVertexAttributeDescriptions = attributes};
+    return (VkPipelineVertexInputStateCreateInfo){
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO,
+        .vertexBindingDescriptionCount = draw->num_attributes,
+        .pVertexBindingDescriptions = bindings,
+        .vertexAttributeDescriptionCount = draw->num_attributes,
+        .pVertexAttributeDescriptions = attributes};
 }
 
 static VkPipelineColorBlendAttachmentState premultiplied_blending(bool enabled)
@@ -100,12 +107,14 @@ static VkPipelineColorBlendAttachmentState premultiplied_blending(bool enabled)
     };
 }
 
-static VkPipelineShaderStageCreateInfo shader_stage(VkShaderStageFlagBits stage, VkShaderModule module)
+static VkPipelineShaderStageCreateInfo shader_stage(VkShaderStageFlagBits stage,
+                                                    VkShaderModule module)
 {
-    return (VkPipelineShaderStageCreateInfo){.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
-                                             .stage = stage,
-                                             .module = module,
-                                             .pName = "main"};
+    return (VkPipelineShaderStageCreateInfo){
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
+        .stage = stage,
+        .module = module,
+        .pName = "main"};
 }
 
 /* What is the same in every pipeline. */
@@ -136,13 +145,15 @@ static bool create_pipeline(struct draw_program *program)
     VkVertexInputAttributeDescription attributes[DRAW_MAX_ATTRIBUTES];
     const VkPipelineVertexInputStateCreateInfo input = vertex_input(draw, bindings, attributes);
     /* A negative height turns the picture so that clip space has y upwards, as in OpenGL. */
-    const VkViewport viewport = {0, (float)draw->height, (float)draw->width, -(float)draw->height, 0, 1};
+    const VkViewport viewport = {
+        0, (float)draw->height, (float)draw->width, -(float)draw->height, 0, 1};
     const VkRect2D scissor = {{0, 0}, {draw->width, draw->height}};
-    const VkPipelineViewportStateCreateInfo viewports = {.sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO,
-                                                         .viewportCount = 1,
-                                                         .pViewports = &viewport,
-                                                         .scissorCount = 1,
-                                                         .pScissors = &scissor};
+    const VkPipelineViewportStateCreateInfo viewports = {
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO,
+        .viewportCount = 1,
+        .pViewports = &viewport,
+        .scissorCount = 1,
+        .pScissors = &scissor};
     const VkPipelineRasterizationStateCreateInfo raster = {
         .sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO,
         .cullMode = VK_CULL_MODE_NONE,
@@ -158,7 +169,8 @@ static bool create_pipeline(struct draw_program *program)
         .sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO,
         .attachmentCount = 1,
         .pAttachments = &blend};
-    const VkGraphicsPipelineCreateInfo info = {.sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO,
+    const VkGraphicsPipelineCreateInfo info = {.sType =
+                                                   VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO,
                                                .pNext = &rendering,
                                                .stageCount = 2,
                                                .pStages = stages,
@@ -170,7 +182,8 @@ static bool create_pipeline(struct draw_program *program)
                                                .pDepthStencilState = &depth,
                                                .pColorBlendState = &blending,
                                                .layout = program->layout};
-    VkResult result = vkCreateGraphicsPipelines(program->gpu->device, VK_NULL_HANDLE, 1, &info, NULL, &program->pipeline);
+    VkResult result = vkCreateGraphicsPipelines(program->gpu->device, VK_NULL_HANDLE, 1, &info,
+                                                NULL, &program->pipeline);
     return gpu_check(program->gpu, result, "compiling the shader");
 }
 
@@ -178,27 +191,30 @@ static bool create_pipeline(struct draw_program *program)
 
 static void begin_rendering(const struct draw_program *program, VkCommandBuffer commands)
 {
-    gpu_image_barrier(commands, program->color.image, VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, VK_IMAGE_LAYOUT_UNDEFINED,
-                      VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
-    gpu_image_barrier(commands, program->depth.image, VK_IMAGE_ASPECT_DEPTH_BIT, 0, 1, VK_IMAGE_LAYOUT_UNDEFINED,
-                      VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL);
+    gpu_image_barrier(commands, program->color.image, VK_IMAGE_ASPECT_COLOR_BIT, 0, 1,
+                      VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
+    gpu_image_barrier(commands, program->depth.image, VK_IMAGE_ASPECT_DEPTH_BIT, 0, 1,
+                      VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL);
     const VkRenderingAttachmentInfo color = {.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
                                              .imageView = program->color.view,
-                                             .imageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+                                             .imageLayout =
+                                                 VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
                                              .loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR,
                                              .storeOp = VK_ATTACHMENT_STORE_OP_STORE};
     const VkRenderingAttachmentInfo depth = {.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
                                              .imageView = program->depth.view,
-                                             .imageLayout = VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL,
+                                             .imageLayout =
+                                                 VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL,
                                              .loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR,
                                              .storeOp = VK_ATTACHMENT_STORE_OP_DONT_CARE,
                                              .clearValue = {.depthStencil = {.depth = 1.0f}}};
-    const VkRenderingInfo info = {.sType = VK_STRUCTURE_TYPE_RENDERING_INFO,
-                                  .renderArea = {{0, 0}, {program->draw->width, program->draw->height}},
-                                  .layerCount = 1,
-                                  .colorAttachmentCount = 1,
-                                  .pColorAttachments = &color,
-                                  .pDepthAttachment = &depth};
+    const VkRenderingInfo info = {
+        .sType = VK_STRUCTURE_TYPE_RENDERING_INFO,
+        .renderArea = {{0, 0}, {program->draw->width, program->draw->height}},
+        .layerCount = 1,
+        .colorAttachmentCount = 1,
+        .pColorAttachments = &color,
+        .pDepthAttachment = &depth};
     vkCmdBeginRendering(commands, &info);
 }
 
@@ -207,8 +223,8 @@ static void record(const struct draw_program *program, VkCommandBuffer commands)
     const struct draw *draw = program->draw;
     begin_rendering(program, commands);
     if (program->inputs.num_sets)
-        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, program->layout, 0, program->inputs.num_sets,
-                                program->inputs.sets, 0, NULL);
+        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, program->layout, 0,
+                                program->inputs.num_sets, program->inputs.sets, 0, NULL);
     const VkDeviceSize zero = 0;
     for (uint32_t i = 0; i < draw->num_attributes; ++i)
         vkCmdBindVertexBuffers(commands, i, 1, &program->attributes[i].buffer, &zero);
@@ -217,11 +233,12 @@ static void record(const struct draw_program *program, VkCommandBuffer commands)
     vkCmdDrawIndexed(commands, draw->num_indices, 1, 0, 0, 0);
     vkCmdEndRendering(commands);
     gpu_image_barrier(commands, program->color.image, VK_IMAGE_ASPECT_COLOR_BIT, 0, 1,
-                      VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
+                      VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+                      VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
     const VkBufferImageCopy copy = {.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
                                     .imageExtent = {draw->width, draw->height, 1}};
-    vkCmdCopyImageToBuffer(commands, program->color.image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, program->readback.buffer,
-                           1, &copy);
+    vkCmdCopyImageToBuffer(commands, program->color.image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+                           program->readback.buffer, 1, &copy);
 }
 
 bool draw_frame(struct draw_program *program, float *out_pixels)
@@ -248,8 +265,9 @@ struct draw_program *draw_open(struct gpu *gpu, const struct draw *draw)
     }
     program->gpu = gpu;
     program->draw = draw;
-    if (create_targets(program) && create_buffers(program) && inputs_create(program->gpu, draw, &program->inputs) && create_layout(program) &&
-        create_modules(program) && create_pipeline(program))
+    if (create_targets(program) && create_buffers(program)
+        && inputs_create(program->gpu, draw, &program->inputs) && create_layout(program)
+        && create_modules(program) && create_pipeline(program))
         return program;
     draw_close(program);
     return NULL;

@@ -52,7 +52,8 @@ struct draw_program;
 struct draw_program *draw_open(struct gpu *gpu, const struct draw *draw);
 
 /*
- * Draws with what blocks and indices hold now: to RGBA floats, first row on top, cleared to 0. False: see gpu->reason.
+ * Draws with what blocks and indices hold now: to RGBA floats, first row on top, cleared to 0.
+ * False: see gpu->reason.
  */
 bool draw_frame(struct draw_program *program, float *out_pixels);
 

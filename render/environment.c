@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * A clear sky as formulas: smooth, with a bright and not too sharp sun, and different in every direction. Texel (u, v)
- * of a map is the direction of latitude pi(.5 - v) and longitude 2pi(u - .5), where longitude 0 looks along -z.
+ * A clear sky as formulas: smooth, with a bright and not too sharp sun, and different in every
+ * direction. Texel (u, v) of a map is the direction of latitude pi(.5 - v) and longitude 2pi(u -
+ * .5), where longitude 0 looks along -z.
  */
 #include "render/scene.h"
 
@@ -11,7 +12,8 @@
 
 #define PI 3.14159265358979323846
 
-static const double above[3] = {0.35, 0.55, 0.95}, below[3] = {0.22, 0.17, 0.12}, sun[3] = {1.0, 0.86, 0.62};
+static const double above[3] = {0.35, 0.55, 0.95}, below[3] = {0.22, 0.17, 0.12},
+                    sun[3] = {1.0, 0.86, 0.62};
 static const double sun_direction[3] = {0.36, 0.80, 0.48};
 
 static double dot(const double a[3], const double b[3])
@@ -23,8 +25,8 @@ void environment_radiance(const double d[3], float out[3])
 {
     double c = dot(d, sun_direction), height = 1.0 / (1.0 + exp(-6.0 * d[1]));
     for (size_t i = 0; i < 3; ++i)
-        out[i] = (float)(below[i] + (above[i] - below[i]) * height + sun[i] * 12.0 * exp(24.0 * (c - 1.0)) +
-                         0.05 * (1.0 + d[i]));
+        out[i] = (float)(below[i] + (above[i] - below[i]) * height
+                         + sun[i] * 12.0 * exp(24.0 * (c - 1.0)) + 0.05 * (1.0 + d[i]));
 }
 
 /* A smooth stand-in for the cosine-weighted average, not the exact one. */
@@ -32,21 +34,26 @@ static void irradiance_of(const double d[3], float out[3])
 {
     double c = (1.0 + dot(d, sun_direction)) / 2.0;
     for (size_t i = 0; i < 3; ++i)
-        out[i] = (float)(below[i] + (above[i] - below[i]) * (0.5 + 0.35 * d[1]) + sun[i] * 0.9 * c * c +
-                         0.025 * (1.0 + d[i]));
+        out[i] = (float)(below[i] + (above[i] - below[i]) * (0.5 + 0.35 * d[1])
+                         + sun[i] * 0.9 * c * c + 0.025 * (1.0 + d[i]));
 }
 
 void environment_direction(const struct image *map, uint32_t x, uint32_t y, double out[3])
 {
-    double latitude = PI * (0.5 - (y + 0.5) / map->height), longitude = 2.0 * PI * ((x + 0.5) / map->width - 0.5);
+    double latitude = PI * (0.5 - (y + 0.5) / map->height),
+           longitude = 2.0 * PI * ((x + 0.5) / map->width - 0.5);
     out[0] = cos(latitude) * sin(longitude);
     out[1] = sin(latitude);
     out[2] = -cos(latitude) * cos(longitude);
 }
 
-static bool make_map(struct image *out, uint32_t width, uint32_t height, void (*value)(const double d[3], float out[3]))
+static bool make_map(struct image *out, uint32_t width, uint32_t height,
+                     void (*value)(const double d[3], float out[3]))
 {
-    *out = (struct image){.width = width, .height = height, .is_float = true, .pixels = malloc((size_t)width * height * 4 * sizeof(float))};
+    *out = (struct image){.width = width,
+                          .height = height,
+                          .is_float = true,
+                          .pixels = malloc((size_t)width * height * 4 * sizeof(float))};
     float *texel = out->pixels;
     for (uint32_t y = 0; texel && y < height; ++y) {
         for (uint32_t x = 0; x < width; ++x, texel += 4) {
@@ -61,7 +68,8 @@ static bool make_map(struct image *out, uint32_t width, uint32_t height, void (*
 
 bool environment_make(struct image *radiance, struct image *irradiance)
 {
-    return make_map(radiance, 256, 128, environment_radiance) && make_map(irradiance, 64, 32, irradiance_of);
+    return make_map(radiance, 256, 128, environment_radiance)
+           && make_map(irradiance, 64, 32, irradiance_of);
 }
 
 /* ---- Maps ---- */
@@ -79,7 +87,8 @@ void environment_lookup(const struct image *map, const double d[3], double out[3
     double v = (0.5 - asin(fmax(-1, fmin(1, d[1]))) / PI) * map->height - 0.5;
     int64_t x = (int64_t)floor(u), y = (int64_t)floor(v);
     double s = u - floor(u), t = v - floor(v);
-    const float *a = texel_at(map, x, y), *b = texel_at(map, x + 1, y), *c = texel_at(map, x, y + 1), *e = texel_at(map, x + 1, y + 1);
+    const float *a = texel_at(map, x, y), *b = texel_at(map, x + 1, y),
+                *c = texel_at(map, x, y + 1), *e = texel_at(map, x + 1, y + 1);
     for (size_t i = 0; i < 3; ++i)
         out[i] = (1 - t) * ((1 - s) * a[i] + s * b[i]) + t * ((1 - s) * c[i] + s * e[i]);
 }
@@ -87,7 +96,10 @@ void environment_lookup(const struct image *map, const double d[3], double out[3
 /* Averages boxes of texels, so that an integral over the sphere takes few of them. */
 static bool shrink(const struct image *map, uint32_t width, uint32_t height, struct image *out)
 {
-    *out = (struct image){.width = width, .height = height, .is_float = true, .pixels = calloc((size_t)width * height * 4, sizeof(float))};
+    *out = (struct image){.width = width,
+                          .height = height,
+                          .is_float = true,
+                          .pixels = calloc((size_t)width * height * 4, sizeof(float))};
     for (uint32_t y = 0; out->pixels && y < height; ++y) {
         uint32_t y0 = y * map->height / height, y1 = (y + 1) * map->height / height;
         for (uint32_t x = 0; x < width; ++x) {
@@ -96,9 +108,11 @@ static bool shrink(const struct image *map, uint32_t width, uint32_t height, str
             for (uint32_t j = y0; j < y1; ++j)
                 for (uint32_t i = x0; i < x1; ++i)
                     for (size_t c = 0; c < 3; ++c)
-                        sum[c] += ((const float *)map->pixels)[((size_t)j * map->width + i) * 4 + c];
+                        sum[c] +=
+                            ((const float *)map->pixels)[((size_t)j * map->width + i) * 4 + c];
             for (size_t c = 0; c < 3; ++c)
-                ((float *)out->pixels)[((size_t)y * width + x) * 4 + c] = (float)(sum[c] / ((y1 - y0) * (double)(x1 - x0)));
+                ((float *)out->pixels)[((size_t)y * width + x) * 4 + c] =
+                    (float)(sum[c] / ((y1 - y0) * (double)(x1 - x0)));
         }
     }
     return out->pixels != NULL;
@@ -118,7 +132,8 @@ static struct texel_light *make_lights(const struct image *map)
 {
     struct texel_light *lights = malloc((size_t)map->width * map->height * sizeof *lights);
     for (uint32_t y = 0; lights && y < map->height; ++y) {
-        double top = PI * (0.5 - (double)y / map->height), bottom = PI * (0.5 - (y + 1.0) / map->height);
+        double top = PI * (0.5 - (double)y / map->height),
+               bottom = PI * (0.5 - (y + 1.0) / map->height);
         double solid = sin(top) - sin(bottom);
         for (uint32_t x = 0; x < map->width; ++x) {
             struct texel_light *light = &lights[(size_t)y * map->width + x];
@@ -126,7 +141,8 @@ static struct texel_light *make_lights(const struct image *map)
             environment_direction(map, x, y, d);
             for (size_t c = 0; c < 3; ++c) {
                 light->direction[c] = (float)d[c];
-                light->light[c] = ((const float *)map->pixels)[((size_t)y * map->width + x) * 4 + c];
+                light->light[c] =
+                    ((const float *)map->pixels)[((size_t)y * map->width + x) * 4 + c];
             }
             light->solid = (float)solid;
         }
@@ -137,7 +153,8 @@ static struct texel_light *make_lights(const struct image *map)
 bool environment_irradiance(const struct image *radiance, struct image *out)
 {
     struct image small;
-    *out = (struct image){.width = 64, .height = 32, .is_float = true, .pixels = malloc(64 * 32 * 4 * sizeof(float))};
+    *out = (struct image){
+        .width = 64, .height = 32, .is_float = true, .pixels = malloc(64 * 32 * 4 * sizeof(float))};
     bool good = shrink(radiance, least(radiance->width, 128), least(radiance->height, 64), &small);
     struct texel_light *lights = good ? make_lights(&small) : NULL;
     size_t count = (size_t)small.width * small.height;
@@ -169,7 +186,10 @@ bool environment_irradiance(const struct image *radiance, struct image *out)
 bool environment_make_test_texture(struct image *out)
 {
     enum { SIZE = 64 };
-    *out = (struct image){.width = SIZE, .height = SIZE, .is_float = true, .pixels = malloc(SIZE * SIZE * 4 * sizeof(float))};
+    *out = (struct image){.width = SIZE,
+                          .height = SIZE,
+                          .is_float = true,
+                          .pixels = malloc(SIZE * SIZE * 4 * sizeof(float))};
     float *texel = out->pixels;
     for (int y = 0; texel && y < SIZE; ++y) {
         for (int x = 0; x < SIZE; ++x, texel += 4) {

@@ -38,14 +38,16 @@ static bool fail_no_device(struct gpu *gpu)
 {
     gpu->id = "no-device";
     snprintf(gpu->reason, sizeof gpu->reason,
-             "there is no device with Vulkan 1.3; the package mesa-vulkan-drivers brings one that needs no hardware");
+             "there is no device with Vulkan 1.3; the package mesa-vulkan-drivers brings one that "
+             "needs no hardware");
     return false;
 }
 
 static bool create_instance(struct gpu *gpu)
 {
-    const VkApplicationInfo application = {
-        .sType = VK_STRUCTURE_TYPE_APPLICATION_INFO, .pApplicationName = "mxgen-render", .apiVersion = API_VERSION};
+    const VkApplicationInfo application = {.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO,
+                                           .pApplicationName = "mxgen-render",
+                                           .apiVersion = API_VERSION};
     const VkInstanceCreateInfo info = {.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO,
                                        .pApplicationInfo = &application};
     VkResult result = vkCreateInstance(&info, NULL, &gpu->instance);
@@ -106,19 +108,22 @@ static bool create_device(struct gpu *gpu)
                                            .queueFamilyIndex = family,
                                            .queueCount = 1,
                                            .pQueuePriorities = &priority};
-    VkPhysicalDeviceVulkan13Features wanted = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES,
-                                               .dynamicRendering = VK_TRUE};
+    VkPhysicalDeviceVulkan13Features wanted = {
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES,
+        .dynamicRendering = VK_TRUE};
     const VkDeviceCreateInfo info = {.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
                                      .pNext = &wanted,
                                      .queueCreateInfoCount = 1,
                                      .pQueueCreateInfos = &queue};
-    if (!gpu_check(gpu, vkCreateDevice(gpu->physical, &info, NULL, &gpu->device), "opening the device"))
+    if (!gpu_check(gpu, vkCreateDevice(gpu->physical, &info, NULL, &gpu->device),
+                   "opening the device"))
         return false;
     vkGetDeviceQueue(gpu->device, family, 0, &gpu->queue);
     vkGetPhysicalDeviceMemoryProperties(gpu->physical, &gpu->memory);
     const VkCommandPoolCreateInfo pool = {.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
                                           .queueFamilyIndex = family};
-    return gpu_check(gpu, vkCreateCommandPool(gpu->device, &pool, NULL, &gpu->pool), "making a command pool");
+    return gpu_check(gpu, vkCreateCommandPool(gpu->device, &pool, NULL, &gpu->pool),
+                     "making a command pool");
 }
 
 bool gpu_open(struct gpu *gpu)
@@ -139,30 +144,38 @@ void gpu_close(struct gpu *gpu)
 
 /* ---- Memory ---- */
 
-static bool allocate(struct gpu *gpu, VkMemoryRequirements needs, VkMemoryPropertyFlags flags, VkDeviceMemory *out)
+static bool allocate(struct gpu *gpu, VkMemoryRequirements needs, VkMemoryPropertyFlags flags,
+                     VkDeviceMemory *out)
 {
-    VkMemoryAllocateInfo info = {.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, .allocationSize = needs.size};
-    while (info.memoryTypeIndex < gpu->memory.memoryTypeCount &&
-           !((needs.memoryTypeBits >> info.memoryTypeIndex & 1) &&
-             (gpu->memory.memoryTypes[info.memoryTypeIndex].propertyFlags & flags) == flags))
+    VkMemoryAllocateInfo info = {.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO,
+                                 .allocationSize = needs.size};
+    while (info.memoryTypeIndex < gpu->memory.memoryTypeCount
+           && !((needs.memoryTypeBits >> info.memoryTypeIndex & 1)
+                && (gpu->memory.memoryTypes[info.memoryTypeIndex].propertyFlags & flags) == flags))
         ++info.memoryTypeIndex;
     if (info.memoryTypeIndex == gpu->memory.memoryTypeCount)
         return gpu_check(gpu, VK_ERROR_OUT_OF_DEVICE_MEMORY, "finding device memory");
-    return gpu_check(gpu, vkAllocateMemory(gpu->device, &info, NULL, out), "allocating device memory");
+    return gpu_check(gpu, vkAllocateMemory(gpu->device, &info, NULL, out),
+                     "allocating device memory");
 }
 
-bool gpu_create_buffer(struct gpu *gpu, VkBufferUsageFlags usage, const void *data, size_t size, struct gpu_buffer *out)
+bool gpu_create_buffer(struct gpu *gpu, VkBufferUsageFlags usage, const void *data, size_t size,
+                       struct gpu_buffer *out)
 {
     *out = (struct gpu_buffer){.size = size};
-    const VkBufferCreateInfo info = {.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO, .size = size, .usage = usage};
+    const VkBufferCreateInfo info = {
+        .sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO, .size = size, .usage = usage};
     if (!gpu_check(gpu, vkCreateBuffer(gpu->device, &info, NULL, &out->buffer), "making a buffer"))
         return false;
     VkMemoryRequirements needs;
     vkGetBufferMemoryRequirements(gpu->device, out->buffer, &needs);
-    if (!allocate(gpu, needs, VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT,
-                  &out->memory) ||
-        !gpu_check(gpu, vkBindBufferMemory(gpu->device, out->buffer, out->memory, 0), "binding memory") ||
-        !gpu_check(gpu, vkMapMemory(gpu->device, out->memory, 0, VK_WHOLE_SIZE, 0, &out->mapped), "mapping memory"))
+    if (!allocate(gpu, needs,
+                  VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT,
+                  &out->memory)
+        || !gpu_check(gpu, vkBindBufferMemory(gpu->device, out->buffer, out->memory, 0),
+                      "binding memory")
+        || !gpu_check(gpu, vkMapMemory(gpu->device, out->memory, 0, VK_WHOLE_SIZE, 0, &out->mapped),
+                      "mapping memory"))
         return false;
     if (data)
         memcpy(out->mapped, data, size);
@@ -180,10 +193,12 @@ static uint32_t num_layers(const struct gpu_image *image)
     return image->layers ? image->layers : 1;
 }
 
-bool gpu_create_image(struct gpu *gpu, VkFormat format, uint32_t width, uint32_t height, uint32_t layers, uint32_t mips,
-                      VkImageUsageFlags usage, VkImageAspectFlags aspect, struct gpu_image *out)
+bool gpu_create_image(struct gpu *gpu, VkFormat format, uint32_t width, uint32_t height,
+                      uint32_t layers, uint32_t mips, VkImageUsageFlags usage,
+                      VkImageAspectFlags aspect, struct gpu_image *out)
 {
-    *out = (struct gpu_image){.format = format, .width = width, .height = height, .mips = mips, .layers = layers};
+    *out = (struct gpu_image){
+        .format = format, .width = width, .height = height, .mips = mips, .layers = layers};
     const VkImageCreateInfo info = {
         .sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO,
         .imageType = VK_IMAGE_TYPE_2D,
@@ -198,8 +213,9 @@ bool gpu_create_image(struct gpu *gpu, VkFormat format, uint32_t width, uint32_t
         return false;
     VkMemoryRequirements needs;
     vkGetImageMemoryRequirements(gpu->device, out->image, &needs);
-    if (!allocate(gpu, needs, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, &out->memory) ||
-        !gpu_check(gpu, vkBindImageMemory(gpu->device, out->image, out->memory, 0), "binding memory"))
+    if (!allocate(gpu, needs, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, &out->memory)
+        || !gpu_check(gpu, vkBindImageMemory(gpu->device, out->image, out->memory, 0),
+                      "binding memory"))
         return false;
     const VkImageViewCreateInfo view = {
         .sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO,
@@ -208,7 +224,8 @@ bool gpu_create_image(struct gpu *gpu, VkFormat format, uint32_t width, uint32_t
         .format = format,
         .subresourceRange = {aspect, 0, mips, 0, VK_REMAINING_ARRAY_LAYERS},
     };
-    return gpu_check(gpu, vkCreateImageView(gpu->device, &view, NULL, &out->view), "making an image view");
+    return gpu_check(gpu, vkCreateImageView(gpu->device, &view, NULL, &out->view),
+                     "making an image view");
 }
 
 void gpu_destroy_image(struct gpu *gpu, struct gpu_image *image)
@@ -222,7 +239,8 @@ void gpu_destroy_image(struct gpu *gpu, struct gpu_image *image)
 
 VkCommandBuffer gpu_begin(struct gpu *gpu)
 {
-    const VkCommandBufferAllocateInfo info = {.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
+    const VkCommandBufferAllocateInfo info = {.sType =
+                                                  VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
                                               .commandPool = gpu->pool,
                                               .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
                                               .commandBufferCount = 1};
@@ -231,22 +249,25 @@ VkCommandBuffer gpu_begin(struct gpu *gpu)
         return NULL;
     const VkCommandBufferBeginInfo begin = {.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
                                             .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
-    return gpu_check(gpu, vkBeginCommandBuffer(commands, &begin), "recording commands") ? commands : NULL;
+    return gpu_check(gpu, vkBeginCommandBuffer(commands, &begin), "recording commands") ? commands
+                                                                                        : NULL;
 }
 
 bool gpu_end(struct gpu *gpu, VkCommandBuffer commands)
 {
-    const VkSubmitInfo submit = {
-        .sType = VK_STRUCTURE_TYPE_SUBMIT_INFO, .commandBufferCount = 1, .pCommandBuffers = &commands};
-    bool good = gpu_check(gpu, vkEndCommandBuffer(commands), "recording commands") &&
-                gpu_check(gpu, vkQueueSubmit(gpu->queue, 1, &submit, VK_NULL_HANDLE), "submitting commands") &&
-                gpu_check(gpu, vkQueueWaitIdle(gpu->queue), "running commands");
+    const VkSubmitInfo submit = {.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO,
+                                 .commandBufferCount = 1,
+                                 .pCommandBuffers = &commands};
+    bool good = gpu_check(gpu, vkEndCommandBuffer(commands), "recording commands")
+                && gpu_check(gpu, vkQueueSubmit(gpu->queue, 1, &submit, VK_NULL_HANDLE),
+                             "submitting commands")
+                && gpu_check(gpu, vkQueueWaitIdle(gpu->queue), "running commands");
     vkFreeCommandBuffers(gpu->device, gpu->pool, 1, &commands);
     return good;
 }
 
-void gpu_image_barrier(VkCommandBuffer commands, VkImage image, VkImageAspectFlags aspect, uint32_t first_mip,
-                       uint32_t num_mips, VkImageLayout from, VkImageLayout to)
+void gpu_image_barrier(VkCommandBuffer commands, VkImage image, VkImageAspectFlags aspect,
+                       uint32_t first_mip, uint32_t num_mips, VkImageLayout from, VkImageLayout to)
 {
     const VkImageMemoryBarrier barrier = {
         .sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER,
@@ -259,8 +280,8 @@ void gpu_image_barrier(VkCommandBuffer commands, VkImage image, VkImageAspectFla
         .image = image,
         .subresourceRange = {aspect, first_mip, num_mips, 0, VK_REMAINING_ARRAY_LAYERS},
     };
-    vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, 0, 0, NULL,
-                         0, NULL, 1, &barrier);
+    vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT,
+                         VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, 0, 0, NULL, 0, NULL, 1, &barrier);
 }
 
 /* ---- Textures ---- */
@@ -276,7 +297,8 @@ static void make_mips(VkCommandBuffer commands, const struct gpu_image *image)
     uint32_t width = image->width, height = image->height;
     for (uint32_t mip = 1; mip < image->mips; ++mip) {
         gpu_image_barrier(commands, image->image, VK_IMAGE_ASPECT_COLOR_BIT, mip - 1, 1,
-                          VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
+                          VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+                          VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
         const VkImageBlit blit = {
             .srcSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, mip - 1, 0, num_layers(image)},
             .srcOffsets = {{0, 0, 0}, {(int32_t)width, (int32_t)height, 1}},
@@ -290,31 +312,38 @@ static void make_mips(VkCommandBuffer commands, const struct gpu_image *image)
     }
     if (image->mips > 1)
         gpu_image_barrier(commands, image->image, VK_IMAGE_ASPECT_COLOR_BIT, 0, image->mips - 1,
-                          VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+                          VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+                          VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     gpu_image_barrier(commands, image->image, VK_IMAGE_ASPECT_COLOR_BIT, image->mips - 1, 1,
-                      VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+                      VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+                      VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
 }
 
-static bool fill_texture(struct gpu *gpu, const struct gpu_buffer *staging, const struct gpu_image *image, uint32_t levels)
+static bool fill_texture(struct gpu *gpu, const struct gpu_buffer *staging,
+                         const struct gpu_image *image, uint32_t levels)
 {
     VkCommandBuffer commands = gpu_begin(gpu);
     if (!commands)
         return false;
-    gpu_image_barrier(commands, image->image, VK_IMAGE_ASPECT_COLOR_BIT, 0, image->mips, VK_IMAGE_LAYOUT_UNDEFINED,
-                      VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+    gpu_image_barrier(commands, image->image, VK_IMAGE_ASPECT_COLOR_BIT, 0, image->mips,
+                      VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
     VkDeviceSize offset = 0;
     size_t texel = image->format == VK_FORMAT_R8G8B8A8_UNORM ? 4 : 16;
     for (uint32_t level = 0; level < levels; ++level) {
-        uint32_t width = image_level_size(image->width, level), height = image_level_size(image->height, level);
-        const VkBufferImageCopy copy = {.bufferOffset = offset,
-                                        .imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, level, 0, num_layers(image)},
-                                        .imageExtent = {width, height, 1}};
-        vkCmdCopyBufferToImage(commands, staging->buffer, image->image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &copy);
+        uint32_t width = image_level_size(image->width, level),
+                 height = image_level_size(image->height, level);
+        const VkBufferImageCopy copy = {
+            .bufferOffset = offset,
+            .imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, level, 0, num_layers(image)},
+            .imageExtent = {width, height, 1}};
+        vkCmdCopyBufferToImage(commands, staging->buffer, image->image,
+                               VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &copy);
         offset += (VkDeviceSize)texel * width * height;
     }
     if (levels > 1)
         gpu_image_barrier(commands, image->image, VK_IMAGE_ASPECT_COLOR_BIT, 0, image->mips,
-                          VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+                          VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+                          VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     else
         make_mips(commands, image);
     return gpu_end(gpu, commands);
@@ -327,7 +356,8 @@ static void stage(const struct image *image, bool bottom_first, char *to)
     uint32_t levels = image->levels ? image->levels : 1, layers = image->layers ? image->layers : 1;
     for (uint32_t i = 0; i < levels * layers; ++i) {
         uint32_t level = i / layers, height = image_level_size(image->height, level);
-        size_t row = (size_t)image_level_size(image->width, level) * 4 * (image->is_float ? sizeof(float) : 1);
+        size_t row = (size_t)image_level_size(image->width, level) * 4
+                     * (image->is_float ? sizeof(float) : 1);
         for (uint32_t y = 0; y < height; ++y)
             memcpy(to + row * y, from + row * (bottom_first ? height - 1 - y : y), row);
         from += row * height;
@@ -335,25 +365,28 @@ static void stage(const struct image *image, bool bottom_first, char *to)
     }
 }
 
-bool gpu_upload_texture(struct gpu *gpu, const struct image *image, bool bottom_first, struct gpu_image *out)
+bool gpu_upload_texture(struct gpu *gpu, const struct image *image, bool bottom_first,
+                        struct gpu_image *out)
 {
     uint32_t levels = image->levels ? image->levels : 1, layers = image->layers ? image->layers : 1;
     size_t size = 0;
     for (uint32_t level = 0; level < levels; ++level)
-        size += (size_t)image_level_size(image->width, level) * image_level_size(image->height, level) * layers * 4 *
-                (image->is_float ? sizeof(float) : 1);
+        size += (size_t)image_level_size(image->width, level)
+                * image_level_size(image->height, level) * layers * 4
+                * (image->is_float ? sizeof(float) : 1);
     struct gpu_buffer staging;
     bool good = gpu_create_buffer(gpu, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, NULL, size, &staging);
     if (good)
         stage(image, bottom_first, staging.mapped);
     VkFormat format = image->is_float ? VK_FORMAT_R32G32B32A32_SFLOAT : VK_FORMAT_R8G8B8A8_UNORM;
     *out = (struct gpu_image){0};
-    good = good &&
-           gpu_create_image(gpu, format, image->width, image->height, image->layers, image_num_mips(image),
-                            VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT |
-                                VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
-                            VK_IMAGE_ASPECT_COLOR_BIT, out) &&
-           fill_texture(gpu, &staging, out, levels);
+    good = good
+           && gpu_create_image(gpu, format, image->width, image->height, image->layers,
+                               image_num_mips(image),
+                               VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT
+                                   | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
+                               VK_IMAGE_ASPECT_COLOR_BIT, out)
+           && fill_texture(gpu, &staging, out, levels);
     gpu_destroy_buffer(gpu, &staging);
     return good;
 }

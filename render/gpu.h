@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Vulkan 1.3 without a window: a device, its buffers and images, and commands that are waited for. The first failure is
- * kept in `reason`; functions return false from then on.
+ * Vulkan 1.3 without a window: a device, its buffers and images, and commands that are waited for.
+ * The first failure is kept in `reason`; functions return false from then on.
  */
 #ifndef MXG_RENDER_GPU_H
 #define MXG_RENDER_GPU_H
@@ -39,7 +39,8 @@ struct gpu_image {
 };
 
 /*
- * Opens the first device that can draw, a real one before the processor. gpu_close must follow in any case.
+ * Opens the first device that can draw, a real one before the processor. gpu_close must follow in
+ * any case.
  */
 bool gpu_open(struct gpu *gpu);
 void gpu_close(struct gpu *gpu);
@@ -53,20 +54,23 @@ bool gpu_create_buffer(struct gpu *gpu, VkBufferUsageFlags usage, const void *da
 void gpu_destroy_buffer(struct gpu *gpu, struct gpu_buffer *buffer);
 
 /* With layers above 0 it is an array. */
-bool gpu_create_image(struct gpu *gpu, VkFormat format, uint32_t width, uint32_t height, uint32_t layers, uint32_t mips,
-                      VkImageUsageFlags usage, VkImageAspectFlags aspect, struct gpu_image *out);
+bool gpu_create_image(struct gpu *gpu, VkFormat format, uint32_t width, uint32_t height,
+                      uint32_t layers, uint32_t mips, VkImageUsageFlags usage,
+                      VkImageAspectFlags aspect, struct gpu_image *out);
 void gpu_destroy_image(struct gpu *gpu, struct gpu_image *image);
 
 /*
- * A texture with box-filtered mip levels, ready to be sampled. bottom_first: the picture's last row becomes v = 0.
+ * A texture with box-filtered mip levels, ready to be sampled. bottom_first: the picture's last row
+ * becomes v = 0.
  */
-bool gpu_upload_texture(struct gpu *gpu, const struct image *image, bool bottom_first, struct gpu_image *out);
+bool gpu_upload_texture(struct gpu *gpu, const struct image *image, bool bottom_first,
+                        struct gpu_image *out);
 
 /* Commands from begin to end run at once. NULL on failure. */
 VkCommandBuffer gpu_begin(struct gpu *gpu);
 bool gpu_end(struct gpu *gpu, VkCommandBuffer commands);
 
-void gpu_image_barrier(VkCommandBuffer commands, VkImage image, VkImageAspectFlags aspect, uint32_t first_mip,
-                       uint32_t num_mips, VkImageLayout from, VkImageLayout to);
+void gpu_image_barrier(VkCommandBuffer commands, VkImage image, VkImageAspectFlags aspect,
+                       uint32_t first_mip, uint32_t num_mips, VkImageLayout from, VkImageLayout to);
 
 #endif

@@ -17,28 +17,33 @@ extern "C" {
  */
 struct image {
     uint32_t width, height;
-    bool is_float;   /* float, else uint8_t of a whole */
-    void *pixels;    /* malloc; NULL: no image */
+    bool is_float; /* float, else uint8_t of a whole */
+    void *pixels;  /* malloc; NULL: no image */
     /*
-     * that many pictures of this size, one after another, for a texture array; 0: one, for a plain texture
+     * that many pictures of this size, one after another, for a texture array; 0: one, for a plain
+     * texture
      */
     uint32_t layers;
     /*
-     * that stand behind each other, each half the size of the one before, of a plain texture; 0: one
+     * that stand behind each other, each half the size of the one before, of a plain texture; 0:
+     * one
      */
     uint32_t levels;
 };
 
 /*
- * Reads a picture; on failure false, with why in `reason`. Values are those of the file: no colour space is changed. `layer` names a part
- * of a file that has several, or the channels that have it as prefix ("diffuse.R"); "" is the first.
+ * Reads a picture; on failure false, with why in `reason`. Values are those of the file: no colour
+ * space is changed. `layer` names a part of a file that has several, or the channels that have it
+ * as prefix ("diffuse.R"); "" is the first.
  */
-bool image_read(const char *path, const char *layer, struct image *out, char *reason, size_t capacity);
+bool image_read(const char *path, const char *layer, struct image *out, char *reason,
+                size_t capacity);
 /* The first part with the mip levels that the file has. */
 bool image_read_levels(const char *path, struct image *out, char *reason, size_t capacity);
 
 /*
- * layers.c: the pictures as layers of one, each at the size of the largest. False: there is no memory.
+ * layers.c: the pictures as layers of one, each at the size of the largest. False: there is no
+ * memory.
  */
 bool image_stack(const struct image *parts, uint32_t count, struct image *out);
 
@@ -46,13 +51,15 @@ bool image_stack(const struct image *parts, uint32_t count, struct image *out);
 bool image_is_linear(const char *path);
 
 /*
- * Whether a picture could be written, before it is drawn: its format is known, its folder is there. False: `reason` says why not.
+ * Whether a picture could be written, before it is drawn: its format is known, its folder is there.
+ * False: `reason` says why not.
  */
 bool image_can_write(const char *path, char *reason, size_t capacity);
 
 /*
- * Writes a picture, with its levels (EXR alone has them): floats of linear light, premultiplied, or 8-bit sRGB, not premultiplied. The format follows from the name's
- * ending. The file appears whole or not at all.
+ * Writes a picture, with its levels (EXR alone has them): floats of linear light, premultiplied, or
+ * 8-bit sRGB, not premultiplied. The format follows from the name's ending. The file appears whole
+ * or not at all.
  */
 bool image_write(const char *path, const struct image *image, char *reason, size_t capacity);
 
@@ -73,7 +80,8 @@ static inline uint32_t image_num_mips(const struct image *image)
     if (image->levels)
         return image->levels;
     uint32_t mips = 1;
-    for (uint32_t size = image->width > image->height ? image->width : image->height; size > 1; size /= 2)
+    for (uint32_t size = image->width > image->height ? image->width : image->height; size > 1;
+         size /= 2)
         ++mips;
     return mips;
 }

@@ -12,12 +12,14 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-namespace {
+namespace
+{
 
 /* Readers tell more than a line at times: the first is kept. */
 bool fail(char *reason, size_t capacity, const std::string &text)
 {
-    std::snprintf(reason, capacity, "%s", text.empty() ? "unknown error" : text.substr(0, text.find('\n')).c_str());
+    std::snprintf(reason, capacity, "%s",
+                  text.empty() ? "unknown error" : text.substr(0, text.find('\n')).c_str());
     return false;
 }
 
@@ -45,9 +47,12 @@ bool find_layer(OIIO::ImageInput &input, const std::string &layer, Part &out)
     for (int subimage = 0; input.seek_subimage(subimage, 0); ++subimage) {
         const OIIO::ImageSpec &spec = input.spec();
         out = {subimage, 0, spec.nchannels};
-        if (layer.empty() || spec.get_string_attribute("oiio:subimagename") == layer || spec.get_string_attribute("name") == layer)
+        if (layer.empty() || spec.get_string_attribute("oiio:subimagename") == layer
+            || spec.get_string_attribute("name") == layer)
             return true;
-        auto belongs = [&](int channel) { return spec.channelnames[static_cast<size_t>(channel)].rfind(layer + '.', 0) == 0; };
+        auto belongs = [&](int channel) {
+            return spec.channelnames[static_cast<size_t>(channel)].rfind(layer + '.', 0) == 0;
+        };
         while (out.begin < spec.nchannels && !belongs(out.begin))
             ++out.begin;
         for (out.end = out.begin; out.end < spec.nchannels && belongs(out.end);)
@@ -58,11 +63,13 @@ bool find_layer(OIIO::ImageInput &input, const std::string &layer, Part &out)
     return false;
 }
 
-bool read_level(OIIO::ImageInput &input, int level, const Part &part, const struct image &image, size_t first_texel)
+bool read_level(OIIO::ImageInput &input, int level, const Part &part, const struct image &image,
+                size_t first_texel)
 {
-    size_t count = size_t{image_level_size(image.width, static_cast<uint32_t>(level))} *
-                   image_level_size(image.height, static_cast<uint32_t>(level));
-    char *pixels = static_cast<char *>(image.pixels) + first_texel * 4 * (image.is_float ? sizeof(float) : 1);
+    size_t count = size_t{image_level_size(image.width, static_cast<uint32_t>(level))}
+                   * image_level_size(image.height, static_cast<uint32_t>(level));
+    char *pixels =
+        static_cast<char *>(image.pixels) + first_texel * 4 * (image.is_float ? sizeof(float) : 1);
     OIIO::TypeDesc type = image.is_float ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT8;
     int channels = part.end - part.begin;
     if (!input.read_image(part.subimage, level, part.begin, part.end, type, pixels))
@@ -78,14 +85,15 @@ bool read_level(OIIO::ImageInput &input, int level, const Part &part, const stru
 uint32_t count_levels(OIIO::ImageInput &input, uint32_t width, uint32_t height)
 {
     uint32_t levels = 1;
-    while (input.seek_subimage(0, static_cast<int>(levels)) &&
-           input.spec().width == static_cast<int>(image_level_size(width, levels)) &&
-           input.spec().height == static_cast<int>(image_level_size(height, levels)))
+    while (input.seek_subimage(0, static_cast<int>(levels))
+           && input.spec().width == static_cast<int>(image_level_size(width, levels))
+           && input.spec().height == static_cast<int>(image_level_size(height, levels)))
         ++levels;
     return levels;
 }
 
-bool read_levels(const char *path, const char *layer, bool all, struct image *out, char *reason, size_t capacity)
+bool read_levels(const char *path, const char *layer, bool all, struct image *out, char *reason,
+                 size_t capacity)
 {
     *out = {};
     auto input = OIIO::ImageInput::open(path);
@@ -123,7 +131,8 @@ bool read_levels(const char *path, const char *layer, bool all, struct image *ou
 
 } // namespace
 
-bool image_read(const char *path, const char *layer, struct image *out, char *reason, size_t capacity)
+bool image_read(const char *path, const char *layer, struct image *out, char *reason,
+                size_t capacity)
 {
     return read_levels(path, layer, false, out, reason, capacity);
 }
@@ -143,13 +152,15 @@ bool image_is_linear(const char *path)
     return false;
 }
 
-namespace {
+namespace
+{
 
 OIIO::ImageSpec describe(const struct image &image, const OIIO::ImageOutput &output)
 {
     int channels = output.supports("alpha") ? 4 : 3;
     OIIO::TypeDesc type = image.is_float ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT8;
-    OIIO::ImageSpec spec(static_cast<int>(image.width), static_cast<int>(image.height), channels, type);
+    OIIO::ImageSpec spec(static_cast<int>(image.width), static_cast<int>(image.height), channels,
+                         type);
     spec.attribute("oiio:ColorSpace", image.is_float ? "Linear" : "sRGB");
     if (!image.is_float)
         spec.attribute("oiio:UnassociatedAlpha", 1);
@@ -170,8 +181,9 @@ bool write_pixels(OIIO::ImageOutput &output, const std::string &path, const stru
     for (uint32_t level = 0; good && level < (image.levels ? image.levels : 1); ++level) {
         spec.width = spec.full_width = static_cast<int>(image_level_size(image.width, level));
         spec.height = spec.full_height = static_cast<int>(image_level_size(image.height, level));
-        good = output.open(path, spec, level ? OIIO::ImageOutput::AppendMIPLevel : OIIO::ImageOutput::Create) &&
-               output.write_image(spec.format, pixels, static_cast<OIIO::stride_t>(texel));
+        good = output.open(path, spec,
+                           level ? OIIO::ImageOutput::AppendMIPLevel : OIIO::ImageOutput::Create)
+               && output.write_image(spec.format, pixels, static_cast<OIIO::stride_t>(texel));
         pixels += texel * static_cast<size_t>(spec.width) * static_cast<size_t>(spec.height);
     }
     return output.close() && good;
@@ -185,11 +197,13 @@ bool image_can_write(const char *path, char *reason, size_t capacity)
     struct stat info;
     if (!OIIO::ImageOutput::create(name)) {
         OIIO::geterror();
-        return fail(reason, capacity, "its ending is that of no format; .png, .jpg, .exr and .hdr are some");
+        return fail(reason, capacity,
+                    "its ending is that of no format; .png, .jpg, .exr and .hdr are some");
     }
     if (stat(path, &info) == 0 && S_ISDIR(info.st_mode))
         return fail(reason, capacity, std::strerror(EISDIR));
-    return access(folder.empty() ? "." : folder.c_str(), W_OK) == 0 || fail(reason, capacity, std::strerror(errno));
+    return access(folder.empty() ? "." : folder.c_str(), W_OK) == 0
+           || fail(reason, capacity, std::strerror(errno));
 }
 
 bool image_write(const char *path, const struct image *image, char *reason, size_t capacity)

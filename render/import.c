@@ -22,10 +22,12 @@ static bool fail(struct mesh_fault *fault, const char *id, const char *text)
 static const struct aiScene *read_scene(const char *path)
 {
     struct aiPropertyStore *properties = aiCreatePropertyStore();
-    aiSetImportPropertyInteger(properties, AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
+    aiSetImportPropertyInteger(properties, AI_CONFIG_PP_SBP_REMOVE,
+                               aiPrimitiveType_POINT | aiPrimitiveType_LINE);
     aiSetImportPropertyFloat(properties, AI_CONFIG_PP_GSN_MAX_SMOOTHING_ANGLE, CREASE_DEGREES);
     const struct aiScene *scene = aiImportFileExWithProperties(
-        path, aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_PreTransformVertices, NULL, properties);
+        path, aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_PreTransformVertices, NULL,
+        properties);
     aiReleasePropertyStore(properties);
     return scene;
 }
@@ -36,8 +38,9 @@ static unsigned missing_parts(const struct aiScene *scene)
     unsigned missing = 0;
     for (unsigned i = 0; i < scene->mNumMeshes; ++i) {
         const struct aiMesh *mesh = scene->mMeshes[i];
-        missing |= (mesh->mNormals ? 0u : MESH_NORMALS) | (mesh->mTextureCoords[0] ? 0u : MESH_TEXCOORDS) |
-                   (mesh->mTangents && mesh->mTextureCoords[0] ? 0u : MESH_TANGENTS);
+        missing |= (mesh->mNormals ? 0u : MESH_NORMALS)
+                   | (mesh->mTextureCoords[0] ? 0u : MESH_TEXCOORDS)
+                   | (mesh->mTangents && mesh->mTextureCoords[0] ? 0u : MESH_TANGENTS);
     }
     return missing;
 }
@@ -88,7 +91,8 @@ static void copy_scene(const struct aiScene *scene, struct mesh *out)
     out->num_indices = index;
 }
 
-static bool convert(const struct aiScene *scene, unsigned made, struct mesh *out, struct mesh_fault *fault)
+static bool convert(const struct aiScene *scene, unsigned made, struct mesh *out,
+                    struct mesh_fault *fault)
 {
     uint32_t vertices, indices;
     if (!count(scene, &vertices, &indices))
@@ -101,7 +105,8 @@ static bool convert(const struct aiScene *scene, unsigned made, struct mesh *out
     mesh_fit(out);
     if (!(mesh_area(out) > 1e-12))
         return fail(fault, "empty-mesh", "its triangles have no area");
-    return mesh_complete(out, made & ~(unsigned)MESH_NORMALS) || fail(fault, "bad-mesh", "out of memory");
+    return mesh_complete(out, made & ~(unsigned)MESH_NORMALS)
+           || fail(fault, "bad-mesh", "out of memory");
 }
 
 bool mesh_import(const char *path, struct mesh *out, unsigned *out_made, struct mesh_fault *fault)
@@ -110,7 +115,8 @@ bool mesh_import(const char *path, struct mesh *out, unsigned *out_made, struct 
     const struct aiScene *scene = read_scene(path);
     *out_made = scene ? missing_parts(scene) : 0;
     if (*out_made & MESH_NORMALS)
-        scene = aiApplyPostProcessing(scene, aiProcess_GenSmoothNormals | aiProcess_JoinIdenticalVertices);
+        scene = aiApplyPostProcessing(scene,
+                                      aiProcess_GenSmoothNormals | aiProcess_JoinIdenticalVertices);
     if (!scene)
         return fail(fault, "bad-mesh", aiGetErrorString());
     bool good = convert(scene, *out_made, out, fault);

@@ -26,7 +26,8 @@ static double around(const struct image *map, int64_t x, int64_t y)
 }
 
 /*
- * Into sums from 0 to 1, of which the first is 0; even steps where there is nothing. Returns what the last was.
+ * Into sums from 0 to 1, of which the first is 0; even steps where there is nothing. Returns what
+ * the last was.
  */
 static double accumulate(float *sums, const double *shares, uint32_t count)
 {
@@ -46,7 +47,8 @@ float *importance_of_map(const struct image *map, size_t *out_count)
     uint32_t width = map->width, height = map->height;
     *out_count = height + 1 + (size_t)height * (width + 1);
     float *sums = malloc(*out_count * sizeof *sums);
-    double *rows = malloc(height * sizeof *rows), *texels = malloc(width * sizeof *texels), mean = 0;
+    double *rows = malloc(height * sizeof *rows), *texels = malloc(width * sizeof *texels),
+           mean = 0;
     bool good = sums && rows && texels;
     for (uint32_t y = 0; good && y < height; ++y)
         for (uint32_t x = 0; x < width; ++x)
@@ -54,7 +56,8 @@ float *importance_of_map(const struct image *map, size_t *out_count)
     for (uint32_t y = 0; good && y < height; ++y) {
         for (uint32_t x = 0; x < width; ++x)
             texels[x] = around(map, x, y) + FLOOR * mean;
-        rows[y] = accumulate(sums + height + 1 + (size_t)y * (width + 1), texels, width) * sin(PI * (y + 0.5) / height);
+        rows[y] = accumulate(sums + height + 1 + (size_t)y * (width + 1), texels, width)
+                  * sin(PI * (y + 0.5) / height);
     }
     if (good)
         accumulate(sums, rows, height);

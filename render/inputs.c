@@ -13,8 +13,9 @@ static bool create_blocks(struct maker *maker)
 {
     bool good = true;
     for (uint32_t i = 0; good && i < maker->draw->num_blocks; ++i)
-        good = gpu_create_buffer(maker->gpu, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, maker->draw->blocks[i].data,
-                                 maker->draw->blocks[i].size, &maker->inputs->blocks[i]);
+        good = gpu_create_buffer(maker->gpu, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
+                                 maker->draw->blocks[i].data, maker->draw->blocks[i].size,
+                                 &maker->inputs->blocks[i]);
     return good;
 }
 
@@ -35,9 +36,12 @@ static bool create_textures(struct maker *maker)
             .maxLod = texture->has_mips ? VK_LOD_CLAMP_NONE : 0.0f,
             .borderColor = VK_BORDER_COLOR_FLOAT_TRANSPARENT_BLACK,
         };
-        good = gpu_upload_texture(maker->gpu, texture->image, texture->bottom_first, &maker->inputs->textures[i]) &&
-               gpu_check(maker->gpu, vkCreateSampler(maker->gpu->device, &info, NULL, &maker->inputs->samplers[i]),
-                         "making a sampler");
+        good = gpu_upload_texture(maker->gpu, texture->image, texture->bottom_first,
+                                  &maker->inputs->textures[i])
+               && gpu_check(
+                   maker->gpu,
+                   vkCreateSampler(maker->gpu->device, &info, NULL, &maker->inputs->samplers[i]),
+                   "making a sampler");
     }
     return good;
 }
@@ -52,36 +56,46 @@ static bool create_set_layout(struct maker *maker, uint32_t set)
     const VkShaderStageFlags stages = VK_SHADER_STAGE_ALL_GRAPHICS | VK_SHADER_STAGE_COMPUTE_BIT;
     for (uint32_t i = 0; i < draw->num_blocks; ++i) {
         if (draw->blocks[i].set == set)
-            bindings[count++] = (VkDescriptorSetLayoutBinding){draw->blocks[i].binding,
-                                                               VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1, stages, NULL};
+            bindings[count++] = (VkDescriptorSetLayoutBinding){
+                draw->blocks[i].binding, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1, stages, NULL};
     }
     for (uint32_t i = 0; i < draw->num_textures; ++i) {
         if (draw->textures[i].set == set)
             bindings[count++] = (VkDescriptorSetLayoutBinding){
-                draw->textures[i].binding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, stages, NULL};
+                draw->textures[i].binding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, stages,
+                NULL};
     }
     const VkDescriptorSetLayoutCreateInfo info = {
-        .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO, .bindingCount = count, .pBindings = bindings};
-    return gpu_check(maker->gpu, vkCreateDescriptorSetLayout(maker->gpu->device, &info, NULL, &maker->inputs->set_layouts[set]),
+        .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
+        .bindingCount = count,
+        .pBindings = bindings};
+    return gpu_check(maker->gpu,
+                     vkCreateDescriptorSetLayout(maker->gpu->device, &info, NULL,
+                                                 &maker->inputs->set_layouts[set]),
                      "making a descriptor set layout");
 }
 
 static bool allocate_sets(struct maker *maker)
 {
-    const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, DRAW_MAX_BLOCKS},
-                                          {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, DRAW_MAX_TEXTURES}};
+    const VkDescriptorPoolSize sizes[] = {
+        {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, DRAW_MAX_BLOCKS},
+        {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, DRAW_MAX_TEXTURES}};
     const VkDescriptorPoolCreateInfo pool = {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
                                              .maxSets = DRAW_MAX_SETS,
                                              .poolSizeCount = 2,
                                              .pPoolSizes = sizes};
-    if (!gpu_check(maker->gpu, vkCreateDescriptorPool(maker->gpu->device, &pool, NULL, &maker->inputs->descriptor_pool),
+    if (!gpu_check(maker->gpu,
+                   vkCreateDescriptorPool(maker->gpu->device, &pool, NULL,
+                                          &maker->inputs->descriptor_pool),
                    "making a descriptor pool"))
         return false;
-    const VkDescriptorSetAllocateInfo info = {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
+    const VkDescriptorSetAllocateInfo info = {.sType =
+                                                  VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
                                               .descriptorPool = maker->inputs->descriptor_pool,
                                               .descriptorSetCount = maker->inputs->num_sets,
                                               .pSetLayouts = maker->inputs->set_layouts};
-    return gpu_check(maker->gpu, vkAllocateDescriptorSets(maker->gpu->device, &info, maker->inputs->sets),
+    return gpu_check(maker->gpu,
+                     vkAllocateDescriptorSets(maker->gpu->device, &info, maker->inputs->sets),
                      "making descriptor sets");
 }
 
@@ -99,13 +113,15 @@ static void write_sets(struct maker *maker)
         vkUpdateDescriptorSets(maker->gpu->device, 1, &write, 0, NULL);
     }
     for (uint32_t i = 0; i < draw->num_textures; ++i) {
-        const VkDescriptorImageInfo image = {maker->inputs->samplers[i], maker->inputs->textures[i].view,
+        const VkDescriptorImageInfo image = {maker->inputs->samplers[i],
+                                             maker->inputs->textures[i].view,
                                              VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
         const VkWriteDescriptorSet write = {.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
                                             .dstSet = maker->inputs->sets[draw->textures[i].set],
                                             .dstBinding = draw->textures[i].binding,
                                             .descriptorCount = 1,
-                                            .descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+                                            .descriptorType =
+                                                VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
                                             .pImageInfo = &image};
         vkUpdateDescriptorSets(maker->gpu->device, 1, &write, 0, NULL);
     }
@@ -115,9 +131,13 @@ static bool create_descriptors(struct maker *maker)
 {
     const struct draw *draw = maker->draw;
     for (uint32_t i = 0; i < draw->num_blocks; ++i)
-        maker->inputs->num_sets = draw->blocks[i].set >= maker->inputs->num_sets ? draw->blocks[i].set + 1 : maker->inputs->num_sets;
+        maker->inputs->num_sets = draw->blocks[i].set >= maker->inputs->num_sets
+                                      ? draw->blocks[i].set + 1
+                                      : maker->inputs->num_sets;
     for (uint32_t i = 0; i < draw->num_textures; ++i)
-        maker->inputs->num_sets = draw->textures[i].set >= maker->inputs->num_sets ? draw->textures[i].set + 1 : maker->inputs->num_sets;
+        maker->inputs->num_sets = draw->textures[i].set >= maker->inputs->num_sets
+                                      ? draw->textures[i].set + 1
+                                      : maker->inputs->num_sets;
     for (uint32_t set = 0; set < maker->inputs->num_sets; ++set) {
         if (!create_set_layout(maker, set))
             return false;

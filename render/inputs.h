@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Uniform blocks and textures of a program on the device, in descriptor sets that any pipeline can bind.
+ * Uniform blocks and textures of a program on the device, in descriptor sets that any pipeline can
+ * bind.
  */
 #ifndef MXG_RENDER_INPUTS_H
 #define MXG_RENDER_INPUTS_H

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Pictures of several files as the layers of one image, as texture arrays need them: of one size and format.
+ * Pictures of several files as the layers of one image, as texture arrays need them: of one size
+ * and format.
  */
 #include "render/image.h"
 
 static float texel(const struct image *image, uint32_t x, uint32_t y, unsigned channel)
 {
     size_t at = ((size_t)y * image->width + x) * 4 + channel;
-    return image->is_float ? ((const float *)image->pixels)[at] : (float)((const uint8_t *)image->pixels)[at] / 255.0f;
+    return image->is_float ? ((const float *)image->pixels)[at]
+                           : (float)((const uint8_t *)image->pixels)[at] / 255.0f;
 }
 
 struct between { /* two texels of a row or column, and how far it is to the second */
@@ -28,10 +30,14 @@ static float mix(float a, float b, float part)
     return a + (b - a) * part;
 }
 
-static float sample(const struct image *image, const struct between *x, const struct between *y, unsigned channel)
+static float sample(const struct image *image, const struct between *x, const struct between *y,
+                    unsigned channel)
 {
-    return mix(mix(texel(image, x->first, y->first, channel), texel(image, x->second, y->first, channel), x->part),
-               mix(texel(image, x->first, y->second, channel), texel(image, x->second, y->second, channel), x->part), y->part);
+    return mix(mix(texel(image, x->first, y->first, channel),
+                   texel(image, x->second, y->first, channel), x->part),
+               mix(texel(image, x->first, y->second, channel),
+                   texel(image, x->second, y->second, channel), x->part),
+               y->part);
 }
 
 /* Writes a part as layer `layer`, larger by linear interpolation. */
@@ -61,7 +67,8 @@ bool image_stack(const struct image *parts, uint32_t count, struct image *out)
         out->height = parts[i].height > out->height ? parts[i].height : out->height;
         out->is_float |= parts[i].is_float;
     }
-    out->pixels = calloc((size_t)count * out->height, (size_t)out->width * 4 * (out->is_float ? sizeof(float) : 1));
+    out->pixels = calloc((size_t)count * out->height,
+                         (size_t)out->width * 4 * (out->is_float ? sizeof(float) : 1));
     for (uint32_t i = 0; out->pixels && i < count; ++i)
         write_layer(&parts[i], out, i);
     return out->pixels != NULL;

@@ -32,7 +32,8 @@ static const char *const background_names[] = {"backdrop", "environment", "none"
 struct job {
     struct cli cli;
     struct painter painter;
-    const char *output, *copy, *element, *look, *size, *camera, *scene, *background, *missing_texture, *baked;
+    const char *output, *copy, *element, *look, *size, *camera, *scene, *background,
+        *missing_texture, *baked;
     struct arg_list settings, environments;
     size_t samples, frame, frames, paths, bounces;
     bool path_trace, as_drawn;
@@ -51,7 +52,8 @@ static bool parse_size(struct job *job)
     if (*end == 'x')
         height = strtoul(end + 1, &end, 10);
     if (*end || width < 1 || height < 1 || width > UINT16_MAX || height > UINT16_MAX) {
-        fprintf(stderr, "mxgen: '%s' is not a size; write W or WxH, each from 1 to %d\n", job->size, UINT16_MAX);
+        fprintf(stderr, "mxgen: '%s' is not a size; write W or WxH, each from 1 to %d\n", job->size,
+                UINT16_MAX);
         return false;
     }
     job->painter.width = (uint32_t)width;
@@ -66,7 +68,8 @@ static struct bind_value *split_settings(const struct arg_list *settings)
     for (size_t i = 0; values && i < settings->len; ++i) {
         const char *equals = strchr(settings->items[i], '=');
         if (!equals) {
-            fprintf(stderr, "mxgen: '--set %s' has no '='; write --set path=value\n", settings->items[i]);
+            fprintf(stderr, "mxgen: '--set %s' has no '='; write --set path=value\n",
+                    settings->items[i]);
             free(values);
             return NULL;
         }
@@ -126,7 +129,8 @@ static bool apply_interface(struct job *job)
 {
     if (job->settings.len || is_set(&job->cli, "interface"))
         return true;
-    return report_status(&job->cli.report, mxg_options_set(job->cli.options, "interface", "reduced"));
+    return report_status(&job->cli.report,
+                         mxg_options_set(job->cli.options, "interface", "reduced"));
 }
 
 static bool parse(struct job *job)
@@ -135,7 +139,8 @@ static bool parse(struct job *job)
     for (size_t i = 0; i < NUM_SCENES; ++i)
         scene_names[i] = scene_kinds[i].name;
     size_t scene = find_word("scene", job->scene, scene_names);
-    size_t background = scene < NUM_SCENES ? find_word("background", job->background, background_names) : 0;
+    size_t background =
+        scene < NUM_SCENES ? find_word("background", job->background, background_names) : 0;
     if (scene == NUM_SCENES || !background_names[background])
         return false;
     job->scene_kind = (enum scene_kind)scene;
@@ -143,10 +148,15 @@ static bool parse(struct job *job)
     job->painter.exposure = scene_kinds[scene].exposure;
     job->painter.is_studio = scene == SCENE_STUDIO;
     job->painter.checker = strcmp(job->missing_texture, "checker") == 0;
-    if (!job->painter.checker && find_word("missing-texture", job->missing_texture, (const char *const[]){"error", "checker", NULL}) != 0)
+    if (!job->painter.checker
+        && find_word("missing-texture", job->missing_texture,
+                     (const char *const[]){"error", "checker", NULL})
+               != 0)
         return false;
     if (job->camera && !studio_parse_camera(&job->painter.studio, job->camera)) {
-        fprintf(stderr, "mxgen: '%s' is no camera; write AZIMUTH,ELEVATION[,DISTANCE[,FOV]], with an elevation between -90 and 90\n",
+        fprintf(stderr,
+                "mxgen: '%s' is no camera; write AZIMUTH,ELEVATION[,DISTANCE[,FOV]], with an "
+                "elevation between -90 and 90\n",
                 job->camera);
         return false;
     }
@@ -159,9 +169,12 @@ static bool parse(struct job *job)
         mxg_options_set(job->cli.options, "texture-modes", "shared");
     if (!is_set(&job->cli, "sample-filter")) /* there is nothing to be like */
         mxg_options_set(job->cli.options, "sample-filter", "narrow");
-    bool is_sane = job->paths && job->paths <= UINT32_MAX && job->bounces && job->bounces <= MAX_BOUNCES;
+    bool is_sane =
+        job->paths && job->paths <= UINT32_MAX && job->bounces && job->bounces <= MAX_BOUNCES;
     if (job->path_trace && (!job->painter.is_studio || job->frames || !is_sane)) {
-        fputs("mxgen: paths are traced in the studio, at least one through each pixel, with 1 to 64 bounces, and for no turntable\n", stderr);
+        fputs("mxgen: paths are traced in the studio, at least one through each pixel, with 1 to "
+              "64 bounces, and for no turntable\n",
+              stderr);
         return false;
     }
     if (job->path_trace) {
@@ -184,10 +197,13 @@ static bool tell_parts(struct job *job, unsigned made)
     static const struct {
         enum mesh_part part;
         const char *name;
-    } parts[] = {{MESH_NORMALS, "normals"}, {MESH_TEXCOORDS, "texture coordinates"}, {MESH_TANGENTS, "tangents"}};
+    } parts[] = {{MESH_NORMALS, "normals"},
+                 {MESH_TEXCOORDS, "texture coordinates"},
+                 {MESH_TANGENTS, "tangents"}};
     for (size_t i = 0; i < sizeof parts / sizeof *parts; ++i) {
         if ((made & parts[i].part) && !job->cli.quiet)
-            fprintf(stderr, "note: the mesh '%s' has no %s; they were made\n", job->painter.studio.mesh, parts[i].name);
+            fprintf(stderr, "note: the mesh '%s' has no %s; they were made\n",
+                    job->painter.studio.mesh, parts[i].name);
     }
     return true;
 }
@@ -219,7 +235,8 @@ static bool open_gpu(struct job *job)
     }
     uint32_t most = painter->gpu.max_size / painter->oversampling;
     if (painter->width > most || painter->height > most)
-        report_error(&job->cli.report, "size-limit", "a picture of %ux%u is too large: this device draws up to %ux%u",
+        report_error(&job->cli.report, "size-limit",
+                     "a picture of %ux%u is too large: this device draws up to %ux%u",
                      painter->width, painter->height, most, most);
     return painter->width <= most && painter->height <= most;
 }
@@ -277,8 +294,8 @@ static void draw_turntable(struct job *job, const struct subject *subject)
         struct image picture;
         char *name = frame_name(job->output, i);
         tell_progress(job, i, job->frames, name);
-        studio_aim(&painter->studio, (double)painter->width / painter->height, 360.0 * (double)i / (double)job->frames,
-                   &painter->scene);
+        studio_aim(&painter->studio, (double)painter->width / painter->height,
+                   360.0 * (double)i / (double)job->frames, &painter->scene);
         painting_aim(&painting);
         good = painting_draw(&painting, &picture) && picture_write(painter, name, &picture);
         image_finish(&picture);
@@ -301,7 +318,8 @@ struct items {
     size_t len, num_documents;
 };
 
-static void add_item(struct items *list, const mxg_document *document, const char *path, const char *element)
+static void add_item(struct items *list, const mxg_document *document, const char *path,
+                     const char *element)
 {
     struct item *more = realloc(list->items, (list->len + 1) * sizeof *more);
     if (!more)
@@ -311,7 +329,8 @@ static void add_item(struct items *list, const mxg_document *document, const cha
 }
 
 /* The materials of the look that is asked for, or what can be rendered. */
-static void add_elements(struct job *job, struct items *list, const mxg_document *document, const char *path)
+static void add_elements(struct job *job, struct items *list, const mxg_document *document,
+                         const char *path)
 {
     mxg_renderable renderable = {sizeof renderable};
     uint32_t i = 0;
@@ -319,7 +338,8 @@ static void add_elements(struct job *job, struct items *list, const mxg_document
         for (; mxg_document_look_material(document, job->look, i, &renderable) == MXG_OK; ++i)
             add_item(list, document, path, renderable.path);
         if (i == 0)
-            report_error(&job->cli.report, "no-look", "'%s' has no look '%s' that assigns a material", path, job->look);
+            report_error(&job->cli.report, "no-look",
+                         "'%s' has no look '%s' that assigns a material", path, job->look);
         return;
     }
     for (; i < mxg_document_num_renderables(document); ++i) {
@@ -356,7 +376,8 @@ static void free_items(struct items *list)
 static void place(struct job *job, struct sheet *sheet, size_t index, const struct item *item)
 {
     struct image linear, shown = {0};
-    bool good = picture_draw(&job->painter, &item->subject, &linear) && picture_develop(&job->painter, &linear, &shown);
+    bool good = picture_draw(&job->painter, &item->subject, &linear)
+                && picture_develop(&job->painter, &linear, &shown);
     sheet_place(sheet, (uint32_t)index, good ? &shown : NULL, item->name);
     image_finish(&linear);
     image_finish(&shown);
@@ -376,7 +397,8 @@ static void draw_sheet(struct job *job, const struct items *list)
     }
     tell_progress(job, list->len, list->len, "");
     if (!image_write(job->output, &sheet.image, reason, sizeof reason))
-        report_error(&job->cli.report, "output-failed", "cannot write '%s': %s", job->output, reason);
+        report_error(&job->cli.report, "output-failed", "cannot write '%s': %s", job->output,
+                     reason);
     sheet_finish(&sheet);
 }
 
@@ -398,7 +420,8 @@ static void print_values(const char *element, unsigned components, const struct 
     for (uint32_t y = image->height; y-- > 0;)
         for (uint32_t x = 0; x < image->width; ++x)
             for (unsigned c = 0; c < components; ++c)
-                printf(",%.9g", (double)((float *)image->pixels)[4 * ((size_t)y * image->width + x) + c]);
+                printf(",%.9g",
+                       (double)((float *)image->pixels)[4 * ((size_t)y * image->width + x) + c]);
     putchar('\n');
 }
 
@@ -488,8 +511,10 @@ static int bake(struct job *job)
         report_error(&job->cli.report, fault.id, "%s", fault.text);
     else if (!bake_environment(&map, &baked))
         report_status(&job->cli.report, MXG_ERROR_MEMORY);
-    else if ((why = files_make_folder(job->output)) != NULL || !baked_write(&baked, job->output, reason, sizeof reason))
-        report_error(&job->cli.report, "output-failed", "cannot write to '%s': %s", job->output, why ? why : reason);
+    else if ((why = files_make_folder(job->output)) != NULL
+             || !baked_write(&baked, job->output, reason, sizeof reason))
+        report_error(&job->cli.report, "output-failed", "cannot write to '%s': %s", job->output,
+                     why ? why : reason);
     baked_finish(&baked);
     image_finish(&map);
     return job->cli.report.errors ? EXIT_FAULT : EXIT_DONE;
@@ -514,10 +539,12 @@ static int run(struct job *job)
         return EXIT_USAGE;
     }
     const struct arg_list *inputs = &job->cli.parser.inputs;
-    bool is_grid = !strcmp(job->scene, "grid"), is_one = inputs->len == 1 && !files_is_folder(inputs->items[0]) && !job->look;
+    bool is_grid = !strcmp(job->scene, "grid"),
+         is_one = inputs->len == 1 && !files_is_folder(inputs->items[0]) && !job->look;
     if ((!job->output && !is_grid) || ((is_grid || job->frames) && !is_one)) {
         fputs(job->output ? "mxgen: a turntable and a grid are of one document\n"
-                          : "mxgen: where to? say -o PICTURE.png\n", stderr);
+                          : "mxgen: where to? say -o PICTURE.png\n",
+              stderr);
         return EXIT_USAGE;
     }
     if (!job->size)
@@ -540,43 +567,68 @@ static int run(struct job *job)
 
 int main(int argc, char **argv)
 {
-    static const struct command command = {"render", "render FILE|FOLDER... -o PICTURE.png [options]",
-                                           "Draws materials, without a display: one, or a sheet of many.", NULL};
-    struct job job = {.scene = "studio", .background = "backdrop", .missing_texture = "error", .samples = 32, .paths = 256, .bounces = 32, .frame = SCENE_FRAME,
+    static const struct command command = {
+        "render", "render FILE|FOLDER... -o PICTURE.png [options]",
+        "Draws materials, without a display: one, or a sheet of many.", NULL};
+    struct job job = {.scene = "studio",
+                      .background = "backdrop",
+                      .missing_texture = "error",
+                      .samples = 32,
+                      .paths = 256,
+                      .bounces = 32,
+                      .frame = SCENE_FRAME,
                       .painter.studio = STUDIO_DEFAULTS};
     const struct arg args[] = {
-        {"output", 'o', ARG_TEXT, "FILE", "the picture to write; the ending chooses the format", &job.output},
-        {"copy", 0, ARG_TEXT, "FILE", "writes a single picture to this file too, in the format of its ending", &job.copy},
-        {"size", 's', ARG_TEXT, "W[xH]", "its size in pixels (default: 512; 160 for each on a sheet)", &job.size},
-        {"element", 'e', ARG_TEXT, "PATH", "what to draw (default: the first that can be rendered)", &job.element},
+        {"output", 'o', ARG_TEXT, "FILE", "the picture to write; the ending chooses the format",
+         &job.output},
+        {"copy", 0, ARG_TEXT, "FILE",
+         "writes a single picture to this file too, in the format of its ending", &job.copy},
+        {"size", 's', ARG_TEXT, "W[xH]",
+         "its size in pixels (default: 512; 160 for each on a sheet)", &job.size},
+        {"element", 'e', ARG_TEXT, "PATH", "what to draw (default: the first that can be rendered)",
+         &job.element},
         {"look", 0, ARG_TEXT, "NAME", "draws the materials that a look assigns", &job.look},
-        {"mesh", 'm', ARG_TEXT, "NAME|FILE", "ball, sphere, plane, cube, cloth, or a file: OBJ, glTF… (default: ball)",
+        {"mesh", 'm', ARG_TEXT, "NAME|FILE",
+         "ball, sphere, plane, cube, cloth, or a file: OBJ, glTF… (default: ball)",
          &job.painter.studio.mesh},
-        {"camera", 0, ARG_TEXT, "AZ,EL[,DIST[,FOV]]", "degrees around and up, distance, field of view (default: 25,16)",
-         &job.camera},
+        {"camera", 0, ARG_TEXT, "AZ,EL[,DIST[,FOV]]",
+         "degrees around and up, distance, field of view (default: 25,16)", &job.camera},
         {"environment", 0, ARG_LIST, "FILE|MODE",
-         "a latitude-longitude map or a baked folder (default: a sky with three lights); none, prefiltered or importance", &job.environments},
-        {"bake-environment", 0, ARG_TEXT, "FILE", "prefilters a map ('sky': the built-in one) into the folder of -o", &job.baked},
-        {"background", 0, ARG_TEXT, "NAME", "backdrop, environment, or none: transparent (default: backdrop)", &job.background},
-        {"samples", 0, ARG_SIZE, "N", "samples of the environment for each lobe (default: 32)", &job.samples},
-        {"set", 0, ARG_LIST, "PATH=VALUE", "another value for an input, or file for a texture", &job.settings},
-        {"missing-texture", 0, ARG_TEXT, "error|checker", "what to do without a texture: fail, or draw a checker in its place",
+         "a latitude-longitude map or a baked folder (default: a sky with three lights); none, "
+         "prefiltered or importance",
+         &job.environments},
+        {"bake-environment", 0, ARG_TEXT, "FILE",
+         "prefilters a map ('sky': the built-in one) into the folder of -o", &job.baked},
+        {"background", 0, ARG_TEXT, "NAME",
+         "backdrop, environment, or none: transparent (default: backdrop)", &job.background},
+        {"samples", 0, ARG_SIZE, "N", "samples of the environment for each lobe (default: 32)",
+         &job.samples},
+        {"set", 0, ARG_LIST, "PATH=VALUE", "another value for an input, or file for a texture",
+         &job.settings},
+        {"missing-texture", 0, ARG_TEXT, "error|checker",
+         "what to do without a texture: fail, or draw a checker in its place",
          &job.missing_texture},
-        {"frame", 0, ARG_SIZE, "N", "the frame: of images with {frame} in their names too (default: 33)", &job.frame},
+        {"frame", 0, ARG_SIZE, "N",
+         "the frame: of images with {frame} in their names too (default: 33)", &job.frame},
         {"path-trace", 0, ARG_FLAG, NULL, "traces paths: the reference", &job.path_trace},
         {"paths", 0, ARG_SIZE, "N", "paths through each pixel (default: 256)", &job.paths},
         {"bounces", 0, ARG_SIZE, "N", "how often a path may turn (default: 32)", &job.bounces},
-        {"as-drawn", 0, ARG_FLAG, NULL, "paths turn once, as drawn light does, without shadows; for comparisons", &job.as_drawn},
-        {"turntable", 0, ARG_SIZE, "N", "N pictures from around: FILE gets a number before its ending", &job.frames},
+        {"as-drawn", 0, ARG_FLAG, NULL,
+         "paths turn once, as drawn light does, without shadows; for comparisons", &job.as_drawn},
+        {"turntable", 0, ARG_SIZE, "N",
+         "N pictures from around: FILE gets a number before its ending", &job.frames},
         {"scene", 0, ARG_TEXT, "NAME",
-         "studio; sphere; plane, to see a pattern; grid: prints the values of 4x4 pixels for each element (default: studio)",
+         "studio; sphere; plane, to see a pattern; grid: prints the values of 4x4 pixels for each "
+         "element (default: studio)",
          &job.scene},
     };
     int code;
-    if (cli_start(&job.cli, &command, args, sizeof args / sizeof *args, CLI_GENERATES, argc, argv, &code)) {
+    if (cli_start(&job.cli, &command, args, sizeof args / sizeof *args, CLI_GENERATES, argc, argv,
+                  &code)) {
         job.painter.cli = &job.cli;
         /*
-         * llvmpipe's optimiser takes minutes for large shaders; without it pictures are the same, and seconds are enough.
+         * llvmpipe's optimiser takes minutes for large shaders; without it pictures are the same,
+         * and seconds are enough.
          */
         if (!job.path_trace)
             setenv("GALLIVM_PERF", "nopt", 0);

@@ -71,12 +71,14 @@ struct matrix matrix_scale(double x, double y, double z)
 /* Rodrigues: R = cos·1 + (1 - cos)·a aᵀ + sin·[a]× */
 struct matrix matrix_rotation(const double axis[3], double degrees)
 {
-    double a[3] = {axis[0], axis[1], axis[2]}, c = cos(degrees * DEGREE), s = sin(degrees * DEGREE), k = 1 - c;
+    double a[3] = {axis[0], axis[1], axis[2]}, c = cos(degrees * DEGREE), s = sin(degrees * DEGREE),
+           k = 1 - c;
     vector_normalize(a);
-    return (struct matrix){{{c + k * a[0] * a[0], k * a[0] * a[1] + s * a[2], k * a[0] * a[2] - s * a[1], 0},
-                            {k * a[0] * a[1] - s * a[2], c + k * a[1] * a[1], k * a[1] * a[2] + s * a[0], 0},
-                            {k * a[0] * a[2] + s * a[1], k * a[1] * a[2] - s * a[0], c + k * a[2] * a[2], 0},
-                            {0, 0, 0, 1}}};
+    return (struct matrix){
+        {{c + k * a[0] * a[0], k * a[0] * a[1] + s * a[2], k * a[0] * a[2] - s * a[1], 0},
+         {k * a[0] * a[1] - s * a[2], c + k * a[1] * a[1], k * a[1] * a[2] + s * a[0], 0},
+         {k * a[0] * a[2] + s * a[1], k * a[1] * a[2] - s * a[0], c + k * a[2] * a[2], 0},
+         {0, 0, 0, 1}}};
 }
 
 struct matrix matrix_look_at(const double eye[3], const double at[3])
@@ -87,14 +89,16 @@ struct matrix matrix_look_at(const double eye[3], const double at[3])
     vector_cross(up, z, x);
     vector_normalize(x);
     vector_cross(z, x, y);
-    struct matrix rotation = {{{x[0], y[0], z[0], 0}, {x[1], y[1], z[1], 0}, {x[2], y[2], z[2], 0}, {0, 0, 0, 1}}};
+    struct matrix rotation = {
+        {{x[0], y[0], z[0], 0}, {x[1], y[1], z[1], 0}, {x[2], y[2], z[2], 0}, {0, 0, 0, 1}}};
     return matrix_multiply(rotation, matrix_translation(-eye[0], -eye[1], -eye[2]));
 }
 
 struct matrix matrix_perspective(double vertical_degrees, double aspect, double near, double far)
 {
     double f = 1.0 / tan(vertical_degrees * DEGREE / 2), depth = far / (near - far);
-    return (struct matrix){{{f / aspect, 0, 0, 0}, {0, f, 0, 0}, {0, 0, depth, -1}, {0, 0, depth * near, 0}}};
+    return (struct matrix){
+        {{f / aspect, 0, 0, 0}, {0, f, 0, 0}, {0, 0, depth, -1}, {0, 0, depth * near, 0}}};
 }
 
 void vector_normalize(double v[3])

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/* 4x4 matrices for column vectors, stored column by column as shaders have them; in double, rounded when they are
- * bound. */
+/* 4x4 matrices for column vectors, stored column by column as shaders have them; in double, rounded
+ * when they are bound. */
 #ifndef MXG_RENDER_MATRIX_H
 #define MXG_RENDER_MATRIX_H
 

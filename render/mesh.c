@@ -9,8 +9,8 @@
 
 bool mesh_allocate(struct mesh *mesh, uint32_t num_vertices, uint32_t num_indices)
 {
-    *mesh = (struct mesh){calloc(num_vertices, sizeof *mesh->vertices), malloc(num_indices * sizeof *mesh->indices),
-                          num_vertices, num_indices};
+    *mesh = (struct mesh){calloc(num_vertices, sizeof *mesh->vertices),
+                          malloc(num_indices * sizeof *mesh->indices), num_vertices, num_indices};
     return mesh->vertices && mesh->indices;
 }
 
@@ -70,7 +70,8 @@ static void store_unit(const double v[3], const float otherwise[3], float out[3]
 }
 
 /* Adds v of each triangle to its corners. */
-static void add_to_corners(const struct mesh *mesh, uint32_t first, const double v[3], double (*sums)[3])
+static void add_to_corners(const struct mesh *mesh, uint32_t first, const double v[3],
+                           double (*sums)[3])
 {
     for (uint32_t k = 0; k < 3; ++k)
         for (size_t i = 0; i < 3; ++i)
@@ -116,7 +117,9 @@ static bool make_texcoords(struct mesh *mesh)
     for (uint32_t first = 0; first + 2 < mesh->num_indices; first += 3) {
         double n[3];
         face_normal(mesh, first, n);
-        size_t axis = fabs(n[0]) > fabs(n[1]) && fabs(n[0]) > fabs(n[2]) ? 0 : fabs(n[1]) > fabs(n[2]) ? 1 : 2;
+        size_t axis = fabs(n[0]) > fabs(n[1]) && fabs(n[0]) > fabs(n[2]) ? 0
+                      : fabs(n[1]) > fabs(n[2])                          ? 1
+                                                                         : 2;
         size_t across = axis == 0 ? 2 : 0, up = axis == 1 ? 2 : 1;
         double side = (n[axis] < 0) == (axis == 2) ? -1 : 1; /* pictures are not mirrored */
         for (uint32_t k = 0; k < 3; ++k) {
@@ -130,16 +133,20 @@ static bool make_texcoords(struct mesh *mesh)
 }
 
 /*
- * Lengyel 2001, "Computing Tangent Space Basis Vectors for an Arbitrary Mesh": dP/ds of each triangle.
+ * Lengyel 2001, "Computing Tangent Space Basis Vectors for an Arbitrary Mesh": dP/ds of each
+ * triangle.
  */
 static void face_tangent(const struct mesh *mesh, uint32_t first, double out[3])
 {
-    const struct vertex *v[3] = {corner(mesh, first), corner(mesh, first + 1), corner(mesh, first + 2)};
+    const struct vertex *v[3] = {corner(mesh, first), corner(mesh, first + 1),
+                                 corner(mesh, first + 2)};
     double a[3], b[3];
     edge(v[0], v[1], a);
     edge(v[0], v[2], b);
-    double s1 = (double)v[1]->texcoord[0] - v[0]->texcoord[0], t1 = (double)v[1]->texcoord[1] - v[0]->texcoord[1];
-    double s2 = (double)v[2]->texcoord[0] - v[0]->texcoord[0], t2 = (double)v[2]->texcoord[1] - v[0]->texcoord[1];
+    double s1 = (double)v[1]->texcoord[0] - v[0]->texcoord[0],
+           t1 = (double)v[1]->texcoord[1] - v[0]->texcoord[1];
+    double s2 = (double)v[2]->texcoord[0] - v[0]->texcoord[0],
+           t2 = (double)v[2]->texcoord[1] - v[0]->texcoord[1];
     double sign = s1 * t2 - s2 * t1 < 0 ? -1 : 1;
     for (size_t i = 0; i < 3; ++i)
         out[i] = sign * (a[i] * t2 - b[i] * t1);
@@ -167,7 +174,8 @@ static bool make_tangents(struct mesh *mesh)
         struct vertex *vertex = &mesh->vertices[i];
         const double n[3] = {vertex->normal[0], vertex->normal[1], vertex->normal[2]};
         double along = dot(sums[i], n);
-        const double flat[3] = {sums[i][0] - along * n[0], sums[i][1] - along * n[1], sums[i][2] - along * n[2]};
+        const double flat[3] = {sums[i][0] - along * n[0], sums[i][1] - along * n[1],
+                                sums[i][2] - along * n[2]};
         float otherwise[3];
         any_tangent(vertex->normal, otherwise);
         store_unit(flat, otherwise, vertex->tangent);
@@ -185,7 +193,8 @@ bool mesh_complete(struct mesh *mesh, unsigned missing)
     if ((missing & MESH_TANGENTS) && !make_tangents(mesh))
         return false;
     for (uint32_t i = 0; i < mesh->num_vertices; ++i)
-        memcpy(mesh->vertices[i].parameter, mesh->vertices[i].texcoord, sizeof mesh->vertices[i].parameter);
+        memcpy(mesh->vertices[i].parameter, mesh->vertices[i].texcoord,
+               sizeof mesh->vertices[i].parameter);
     return true;
 }
 
@@ -193,7 +202,8 @@ bool mesh_complete(struct mesh *mesh, unsigned missing)
 
 void mesh_fit(struct mesh *mesh)
 {
-    double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY}, radius = 0;
+    double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY},
+           radius = 0;
     for (uint32_t v = 0; v < mesh->num_vertices; ++v)
         for (size_t i = 0; i < 3; ++i) {
             low[i] = fmin(low[i], mesh->vertices[v].position[i]);

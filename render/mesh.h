@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Triangles with what shaders read at their corners. Meshes are made by formulas (shapes.c) or read from files (import.c).
+ * Triangles with what shaders read at their corners. Meshes are made by formulas (shapes.c) or read
+ * from files (import.c).
  */
 #ifndef MXG_RENDER_MESH_H
 #define MXG_RENDER_MESH_H
@@ -28,8 +29,9 @@ bool mesh_allocate(struct mesh *mesh, uint32_t num_vertices, uint32_t num_indice
 void mesh_finish(struct mesh *mesh);
 
 /*
- * Makes the parts of `missing`: normals are averaged over the triangles at a vertex, texture coordinates projected along
- * the axis that a triangle faces, tangents follow the texture coordinates. False: out of memory.
+ * Makes the parts of `missing`: normals are averaged over the triangles at a vertex, texture
+ * coordinates projected along the axis that a triangle faces, tangents follow the texture
+ * coordinates. False: out of memory.
  */
 bool mesh_complete(struct mesh *mesh, unsigned missing);
 
@@ -43,7 +45,8 @@ void mesh_fit(struct mesh *mesh);
 bool mesh_subdivide(struct mesh *mesh, uint32_t wanted);
 
 /*
- * Indices of the triangles from the farthest to the nearest to `eye`, in the mesh's space; malloc, NULL: out of memory.
+ * Indices of the triangles from the farthest to the nearest to `eye`, in the mesh's space; malloc,
+ * NULL: out of memory.
  */
 uint32_t *mesh_sorted(const struct mesh *mesh, const double eye[3]);
 
@@ -52,8 +55,8 @@ const char *const *shape_names(void); /* NULL behind the last */
 bool shape_make(const char *name, unsigned detail, struct mesh *out);
 
 /*
- * import.c: reads a file of OBJ, glTF or another form that Assimp knows. Parts that it made are told in *out_made. On
- * failure false, with an id and a text of what is wrong.
+ * import.c: reads a file of OBJ, glTF or another form that Assimp knows. Parts that it made are
+ * told in *out_made. On failure false, with an id and a text of what is wrong.
  */
 struct mesh_fault {
     const char *id;

@@ -28,7 +28,8 @@ static bool choose_mesh(struct painting *painting)
     mxg_result_info(painting->result, &info);
     if (!info.displaced || !painter->is_studio)
         return true;
-    if (!painter->fine.vertices && !studio_refine(&painter->studio, &painter->scene.mesh, &painter->fine))
+    if (!painter->fine.vertices
+        && !studio_refine(&painter->studio, &painter->scene.mesh, &painter->fine))
         return report_status(&painter->cli->report, MXG_ERROR_MEMORY);
     painting->scene.mesh = painter->fine;
     return true;
@@ -37,24 +38,31 @@ static bool choose_mesh(struct painting *painting)
 static bool fail(struct painting *painting, const struct subject *subject)
 {
     const struct bind *bind = painting->bind;
-    report_error(&painting->painter->cli->report, bind && bind->id ? bind->id : "render-failed", "%s: %s",
-                 subject->element ? subject->element : subject->path, bind ? bind->reason : "out of memory");
+    report_error(&painting->painter->cli->report, bind && bind->id ? bind->id : "render-failed",
+                 "%s: %s", subject->element ? subject->element : subject->path,
+                 bind ? bind->reason : "out of memory");
     return false;
 }
 
 static struct bind bind_of(const struct painting *painting, const struct subject *subject)
 {
     const struct painter *painter = painting->painter;
-    return (struct bind){.result = painting->result, .scene = &painting->scene, .document = subject->path,
-                         .values = painter->values, .num_values = painter->num_values, .checker = painter->checker};
+    return (struct bind){.result = painting->result,
+                         .scene = &painting->scene,
+                         .document = subject->path,
+                         .values = painter->values,
+                         .num_values = painter->num_values,
+                         .checker = painter->checker};
 }
 
-bool painting_open(struct painter *painter, const struct subject *subject, struct painting *painting)
+bool painting_open(struct painter *painter, const struct subject *subject,
+                   struct painting *painting)
 {
     *painting = (struct painting){.painter = painter, .scene = painter->scene};
     if (!generate(painter, subject, &painting->result) || !choose_mesh(painting))
         return false;
-    uint32_t width = painter->width * painter->oversampling, height = painter->height * painter->oversampling;
+    uint32_t width = painter->width * painter->oversampling,
+             height = painter->height * painter->oversampling;
     painting->samples = malloc((size_t)width * height * 4 * sizeof(float));
     painting->bind = calloc(1, sizeof *painting->bind);
     if (!painting->bind || !painting->samples)
@@ -79,8 +87,11 @@ static bool resolve(const struct painter *painter, const float *samples, struct 
 {
     unsigned n = painter->oversampling;
     size_t row = (size_t)painter->width * n;
-    *out = (struct image){.width = painter->width, .height = painter->height, .is_float = true,
-                          .pixels = calloc((size_t)painter->width * painter->height * 4, sizeof(float))};
+    *out = (struct image){.width = painter->width,
+                          .height = painter->height,
+                          .is_float = true,
+                          .pixels =
+                              calloc((size_t)painter->width * painter->height * 4, sizeof(float))};
     float *pixel = out->pixels;
     for (uint32_t y = 0; pixel && y < painter->height; ++y) {
         for (uint32_t x = 0; x < painter->width; ++x, pixel += 4) {
@@ -102,7 +113,8 @@ bool painting_draw(struct painting *painting, struct image *out)
         report_error(&painter->cli->report, painting->bind->id, "%s", painting->bind->reason);
         return false;
     }
-    return resolve(painter, painting->samples, out) || report_status(&painter->cli->report, MXG_ERROR_MEMORY);
+    return resolve(painter, painting->samples, out)
+           || report_status(&painter->cli->report, MXG_ERROR_MEMORY);
 }
 
 void painting_close(struct painting *painting)
@@ -119,16 +131,21 @@ void painting_close(struct painting *painting)
 static bool picture_trace(struct painter *painter, const struct subject *subject, struct image *out)
 {
     struct painting painting = {.painter = painter, .scene = painter->scene};
-    *out = (struct image){.width = painter->width, .height = painter->height, .is_float = true,
-                          .pixels = malloc((size_t)painter->width * painter->height * 4 * sizeof(float))};
+    *out = (struct image){.width = painter->width,
+                          .height = painter->height,
+                          .is_float = true,
+                          .pixels =
+                              malloc((size_t)painter->width * painter->height * 4 * sizeof(float))};
     painting.bind = calloc(1, sizeof *painting.bind);
     bool good = generate(painter, subject, &painting.result) && choose_mesh(&painting);
     if (good && painting.bind && out->pixels) {
         *painting.bind = bind_of(&painting, subject);
-        good = trace_picture(&painter->gpu, painting.bind, painter->width, painter->height, &painter->trace, out->pixels);
+        good = trace_picture(&painter->gpu, painting.bind, painter->width, painter->height,
+                             &painter->trace, out->pixels);
     }
     if (painting.result && !(good && painting.bind && out->pixels))
-        good = mxg_result_source(painting.result, MXG_STAGE_PIXEL, NULL) ? fail(&painting, subject) : false;
+        good = mxg_result_source(painting.result, MXG_STAGE_PIXEL, NULL) ? fail(&painting, subject)
+                                                                         : false;
     if (painting.bind)
         bind_finish(painting.bind);
     free(painting.bind);
@@ -157,7 +174,8 @@ static void background(const struct painter *painter, uint32_t x, uint32_t y, do
         return;
     out[3] = 1;
     if (painter->background == BACKGROUND_ENVIRONMENT) {
-        scene_backdrop(&painter->scene, 2 * (x + 0.5) / painter->width - 1, 1 - 2 * (y + 0.5) / painter->height, out);
+        scene_backdrop(&painter->scene, 2 * (x + 0.5) / painter->width - 1,
+                       1 - 2 * (y + 0.5) / painter->height, out);
         for (size_t c = 0; c < 3; ++c)
             out[c] *= painter->exposure;
         return;
@@ -176,7 +194,9 @@ static uint8_t encode_srgb(double linear)
 
 bool picture_develop(const struct painter *painter, const struct image *linear, struct image *out)
 {
-    *out = (struct image){.width = linear->width, .height = linear->height, .pixels = malloc((size_t)linear->width * linear->height * 4)};
+    *out = (struct image){.width = linear->width,
+                          .height = linear->height,
+                          .pixels = malloc((size_t)linear->width * linear->height * 4)};
     const float *in = linear->pixels;
     uint8_t *pixel = out->pixels;
     for (uint32_t y = 0; pixel && y < linear->height; ++y) {
@@ -185,7 +205,8 @@ bool picture_develop(const struct painter *painter, const struct image *linear, 
             background(painter, x, y, behind);
             double alpha = fmin(in[3], 1) + through * behind[3];
             for (size_t c = 0; c < 3; ++c) /* files of 8 bits are not premultiplied */
-                pixel[c] = encode_srgb((painter->exposure * in[c] + through * behind[c]) / fmax(alpha, 1e-6));
+                pixel[c] = encode_srgb((painter->exposure * in[c] + through * behind[c])
+                                       / fmax(alpha, 1e-6));
             pixel[3] = (uint8_t)(alpha * 255 + 0.5);
         }
     }
@@ -197,7 +218,8 @@ bool picture_write(struct painter *painter, const char *path, const struct image
     char reason[256] = "out of memory";
     struct image shown = {0};
     bool good = image_is_linear(path) ? image_write(path, linear, reason, sizeof reason)
-                                      : picture_develop(painter, linear, &shown) && image_write(path, &shown, reason, sizeof reason);
+                                      : picture_develop(painter, linear, &shown)
+                                            && image_write(path, &shown, reason, sizeof reason);
     if (!good)
         report_error(&painter->cli->report, "output-failed", "cannot write '%s': %s", path, reason);
     image_finish(&shown);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * From an element of a document to a picture: generates, binds, draws, averages, and puts it over its background.
+ * From an element of a document to a picture: generates, binds, draws, averages, and puts it over
+ * its background.
  */
 #ifndef MXG_RENDER_PICTURE_H
 #define MXG_RENDER_PICTURE_H
@@ -22,11 +23,11 @@ struct painter {
     struct mesh fine; /* for shaders that displace it; made when first needed */
     const struct bind_value *values;
     size_t num_values;
-    bool checker;     /* instead of a texture that is missing */
+    bool checker; /* instead of a texture that is missing */
     enum background background;
     double exposure;
     uint32_t width, height;
-    unsigned oversampling; /* samples for each pixel and axis */
+    unsigned oversampling;      /* samples for each pixel and axis */
     struct trace_options trace; /* no paths: pictures are drawn */
 };
 
@@ -47,7 +48,8 @@ struct painting {
 };
 
 /* False after telling why. painting_close must follow in both cases. */
-bool painting_open(struct painter *painter, const struct subject *subject, struct painting *painting);
+bool painting_open(struct painter *painter, const struct subject *subject,
+                   struct painting *painting);
 /* After the painter's camera has moved. */
 void painting_aim(struct painting *painting);
 /* The picture in linear light, premultiplied, over nothing. False after telling why. */
@@ -61,8 +63,8 @@ bool picture_draw(struct painter *painter, const struct subject *subject, struct
 bool picture_develop(const struct painter *painter, const struct image *linear, struct image *out);
 
 /*
- * Writes it: what the file's format keeps in linear light (EXR, HDR) as it was drawn, everything else developed. False
- * after telling why.
+ * Writes it: what the file's format keeps in linear light (EXR, HDR) as it was drawn, everything
+ * else developed. False after telling why.
  */
 bool picture_write(struct painter *painter, const char *path, const struct image *linear);
 

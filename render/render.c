@@ -16,8 +16,9 @@ static bool compile(struct bind *bind, struct compiled *compiled)
         if (message->severity != MXG_SEVERITY_ERROR)
             continue;
         bind->id = "bad-shader";
-        snprintf(bind->reason, sizeof bind->reason, "the shader does not compile: %s, line %u of the %s stage",
-                 message->text, message->line, message->stage == MXG_STAGE_VERTEX ? "vertex" : "pixel");
+        snprintf(bind->reason, sizeof bind->reason,
+                 "the shader does not compile: %s, line %u of the %s stage", message->text,
+                 message->line, message->stage == MXG_STAGE_VERTEX ? "vertex" : "pixel");
         break;
     }
     return false;
@@ -30,7 +31,8 @@ static bool copy_reason(struct render *render)
     return false;
 }
 
-bool render_open(struct render *render, struct gpu *gpu, struct bind *bind, uint32_t width, uint32_t height)
+bool render_open(struct render *render, struct gpu *gpu, struct bind *bind, uint32_t width,
+                 uint32_t height)
 {
     *render = (struct render){.gpu = gpu, .bind = bind};
     if (!compile(bind, &render->compiled) || !bind_shader(bind))
@@ -47,7 +49,8 @@ bool render_open(struct render *render, struct gpu *gpu, struct bind *bind, uint
 
 bool render_frame(struct render *render, float *out_pixels)
 {
-    return bind_scene(render->bind) && (draw_frame(render->program, out_pixels) || copy_reason(render));
+    return bind_scene(render->bind)
+           && (draw_frame(render->program, out_pixels) || copy_reason(render));
 }
 
 void render_close(struct render *render)
@@ -56,7 +59,8 @@ void render_close(struct render *render)
     compiled_finish(&render->compiled);
 }
 
-bool render_result(struct gpu *gpu, struct bind *bind, uint32_t width, uint32_t height, float *out_pixels)
+bool render_result(struct gpu *gpu, struct bind *bind, uint32_t width, uint32_t height,
+                   float *out_pixels)
 {
     struct render render;
     bool good = render_open(&render, gpu, bind, width, height) && render_frame(&render, out_pixels);

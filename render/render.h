@@ -15,19 +15,23 @@ struct render {
 };
 
 /*
- * Prepares to draw bind->result on bind->scene. `bind` has the result, scene, document and values, and outlives `render`.
- * False: see bind->id and bind->reason. render_close must follow in any case, and bind_finish after it.
+ * Prepares to draw bind->result on bind->scene. `bind` has the result, scene, document and values,
+ * and outlives `render`. False: see bind->id and bind->reason. render_close must follow in any
+ * case, and bind_finish after it.
  */
-bool render_open(struct render *render, struct gpu *gpu, struct bind *bind, uint32_t width, uint32_t height);
+bool render_open(struct render *render, struct gpu *gpu, struct bind *bind, uint32_t width,
+                 uint32_t height);
 
 /*
- * Draws the scene as it is now: RGBA, first row on top, cleared to 0. `out_pixels` has room for width * height * 4.
+ * Draws the scene as it is now: RGBA, first row on top, cleared to 0. `out_pixels` has room for
+ * width * height * 4.
  */
 bool render_frame(struct render *render, float *out_pixels);
 
 void render_close(struct render *render);
 
 /* One picture: the three of them. */
-bool render_result(struct gpu *gpu, struct bind *bind, uint32_t width, uint32_t height, float *out_pixels);
+bool render_result(struct gpu *gpu, struct bind *bind, uint32_t width, uint32_t height,
+                   float *out_pixels);
 
 #endif

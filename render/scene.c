@@ -18,9 +18,15 @@ struct linear {
 
 static const struct linear linear_attributes[] = {
     {"i_texcoord_", true, {{1.21, -0.83, 0.31}, {-0.37, 0.29, 1.13}, {0, 0, 0}, {0, 0, 0}}},
-    {"i_color_0", false, {{0.11, 0.67, 0.13}, {0.83, -0.21, -0.47}, {0.29, -0.17, 0.59}, {0.41, 0.37, 0.19}}},
-    {"i_color_", true, {{0.29, -0.17, 0.59}, {0.11, 0.67, 0.13}, {0.83, -0.21, -0.47}, {0.41, 0.37, 0.19}}},
-    {"i_geomprop_", true, {{0.23, 0.71, -0.11}, {-0.43, 0.31, 0.53}, {0.79, -0.61, 0.23}, {0.51, 0.17, -0.37}}},
+    {"i_color_0",
+     false,
+     {{0.11, 0.67, 0.13}, {0.83, -0.21, -0.47}, {0.29, -0.17, 0.59}, {0.41, 0.37, 0.19}}},
+    {"i_color_",
+     true,
+     {{0.29, -0.17, 0.59}, {0.11, 0.67, 0.13}, {0.83, -0.21, -0.47}, {0.41, 0.37, 0.19}}},
+    {"i_geomprop_",
+     true,
+     {{0.23, 0.71, -0.11}, {-0.43, 0.31, 0.53}, {0.79, -0.61, 0.23}, {0.51, 0.17, -0.37}}},
 };
 
 static double linear(const double at[3], double s, double t)
@@ -34,7 +40,9 @@ static const float *frame_attribute(const struct vertex *vertex, const char *nam
     const struct {
         const char *name;
         const float *value;
-    } frame[] = {{"i_position", vertex->position}, {"i_normal", vertex->normal}, {"i_tangent", vertex->tangent}};
+    } frame[] = {{"i_position", vertex->position},
+                 {"i_normal", vertex->normal},
+                 {"i_tangent", vertex->tangent}};
     for (size_t i = 0; i < sizeof frame / sizeof *frame; ++i) {
         if (strcmp(name, frame[i].name) == 0)
             return frame[i].value;
@@ -56,7 +64,8 @@ bool scene_attribute(const struct scene *scene, const char *name, uint32_t index
     }
     for (size_t i = 0; i < sizeof linear_attributes / sizeof *linear_attributes; ++i) {
         const struct linear *a = &linear_attributes[i];
-        if (a->is_family ? strncmp(name, a->name, strlen(a->name)) != 0 : strcmp(name, a->name) != 0)
+        if (a->is_family ? strncmp(name, a->name, strlen(a->name)) != 0
+                         : strcmp(name, a->name) != 0)
             continue;
         for (size_t c = 0; c < 4; ++c)
             out[c] = (float)linear(a->at[c], vertex->parameter[0], vertex->parameter[1]);
@@ -104,7 +113,8 @@ static unsigned matrix_uniform(const struct scene *scene, const char *name, floa
     size_t len = strlen(word);
     if (!strip_end(word, &len, "Matrix"))
         return 0;
-    bool transposed = strip_end(word, &len, "Transpose"), inverted = strip_end(word, &len, "Inverse");
+    bool transposed = strip_end(word, &len, "Transpose"),
+         inverted = strip_end(word, &len, "Inverse");
     for (size_t i = 0; i < sizeof matrices / sizeof *matrices; ++i) {
         if (strlen(matrices[i].name) != len || memcmp(word, matrices[i].name, len) != 0)
             continue;
@@ -241,12 +251,16 @@ static struct matrix half_turn(void)
 
 bool scene_init_sphere(struct scene *scene, double aspect)
 {
-    *scene = (struct scene){.num_lights = SCENE_NUM_LIGHTS, .environment_samples = 64, .frame = SCENE_FRAME, .environment = half_turn()};
+    *scene = (struct scene){.num_lights = SCENE_NUM_LIGHTS,
+                            .environment_samples = 64,
+                            .frame = SCENE_FRAME,
+                            .environment = half_turn()};
     scene_set_camera(scene, (const double[3]){0.5, 0.7, 3.4}, (const double[3]){0.05, -0.03, 0.1});
     scene->projection = matrix_perspective(40.0, aspect, 0.1, 20.0);
     scene->world = matrix_multiply(matrix_translation(0.05, -0.03, 0.1),
                                    matrix_rotation((const double[3]){0.3, 1, 0.2}, 25.0));
-    return environment_make(&scene->radiance, &scene->irradiance) && shape_make("sphere", 1, &scene->mesh);
+    return environment_make(&scene->radiance, &scene->irradiance)
+           && shape_make("sphere", 1, &scene->mesh);
 }
 
 /* A quad by (s, t), each part linear. The tangent is (n.z, 0, -n.x). */
@@ -275,10 +289,13 @@ static bool make_quad(const struct quad *quad, struct mesh *mesh)
     if (!mesh_allocate(mesh, CORNERS + CELLS * CELLS, CELLS * CELLS * 12))
         return false;
     for (uint32_t i = 0; i < CORNERS; ++i)
-        make_vertex(quad, (float)(i % (CELLS + 1)) / CELLS, (float)(i / (CELLS + 1)) / CELLS, &mesh->vertices[i]);
+        make_vertex(quad, (float)(i % (CELLS + 1)) / CELLS, (float)(i / (CELLS + 1)) / CELLS,
+                    &mesh->vertices[i]);
     for (uint32_t i = 0; i < CELLS * CELLS; ++i) {
-        uint32_t corner = i / CELLS * (CELLS + 1) + i % CELLS, centre = CORNERS + i, above = corner + CELLS + 1;
-        make_vertex(quad, ((float)(i % CELLS) + 0.5f) / CELLS, ((float)(i / CELLS) + 0.5f) / CELLS, &mesh->vertices[centre]);
+        uint32_t corner = i / CELLS * (CELLS + 1) + i % CELLS, centre = CORNERS + i,
+                 above = corner + CELLS + 1;
+        make_vertex(quad, ((float)(i % CELLS) + 0.5f) / CELLS, ((float)(i / CELLS) + 0.5f) / CELLS,
+                    &mesh->vertices[centre]);
         const uint32_t fan[12] = {corner,    corner + 1, centre, corner + 1, above + 1, centre,
                                   above + 1, above,      centre, above,      corner,    centre};
         memcpy(mesh->indices + i * 12, fan, sizeof fan);
@@ -287,7 +304,8 @@ static bool make_quad(const struct quad *quad, struct mesh *mesh)
 }
 
 /*
- * The projection that puts the quad 0 <= s, t <= 1 over the whole picture, in front of the camera or not.
+ * The projection that puts the quad 0 <= s, t <= 1 over the whole picture, in front of the camera
+ * or not.
  */
 static struct matrix quad_projection(const struct scene *scene, const double position[3][3])
 {
@@ -317,29 +335,35 @@ bool scene_init_grid(struct scene *scene)
         .normal = {{-0.25, 0.61, 0.07}, {0.35, -0.11, -0.53}, {0.91, 0.08, -0.05}},
         .texcoord = {{0.0313, 0.9371, 0.0129}, {0.0217, 0.0171, 0.9331}},
     };
-    *scene = (struct scene){.environment_samples = 64, .frame = SCENE_FRAME, .environment = half_turn()};
+    *scene =
+        (struct scene){.environment_samples = 64, .frame = SCENE_FRAME, .environment = half_turn()};
     const double axis[3] = {1, 2, 3}, target[3] = {0.4, -0.3, 0.7};
-    scene->world = matrix_multiply(matrix_translation(target[0], target[1], target[2]),
-                                   matrix_multiply(matrix_rotation(axis, 40.0), matrix_scale(1.3, 0.8, 1.6)));
+    scene->world =
+        matrix_multiply(matrix_translation(target[0], target[1], target[2]),
+                        matrix_multiply(matrix_rotation(axis, 40.0), matrix_scale(1.3, 0.8, 1.6)));
     scene_set_camera(scene, (const double[3]){1.1, 0.9, 4.3}, target);
     scene->projection = quad_projection(scene, grid.position);
-    return environment_make(&scene->radiance, &scene->irradiance) && environment_make_test_texture(&scene->texture) &&
-           make_quad(&grid, &scene->mesh);
+    return environment_make(&scene->radiance, &scene->irradiance)
+           && environment_make_test_texture(&scene->texture) && make_quad(&grid, &scene->mesh);
 }
 
 bool scene_init_plane(struct scene *scene)
 {
-    static const struct quad plane = { /* -1 <= x, y <= 1 without any distortion */
+    static const struct quad plane = {
+        /* -1 <= x, y <= 1 without any distortion */
         .position = {{-1, 2, 0}, {-1, 0, 2}, {0, 0, 0}},
         .normal = {{0, 0, 0}, {0, 0, 0}, {1, 0, 0}},
         .texcoord = {{0, 1, 0}, {0, 0, 1}},
     };
-    *scene = (struct scene){.num_lights = SCENE_NUM_LIGHTS, .environment_samples = 64, .frame = SCENE_FRAME, .world = matrix_identity(),
+    *scene = (struct scene){.num_lights = SCENE_NUM_LIGHTS,
+                            .environment_samples = 64,
+                            .frame = SCENE_FRAME,
+                            .world = matrix_identity(),
                             .environment = half_turn()};
     scene_set_camera(scene, (const double[3]){0, 0, 3.4}, (const double[3]){0, 0, 0});
     scene->projection = quad_projection(scene, plane.position);
-    return environment_make(&scene->radiance, &scene->irradiance) && environment_make_test_texture(&scene->texture) &&
-           make_quad(&plane, &scene->mesh);
+    return environment_make(&scene->radiance, &scene->irradiance)
+           && environment_make_test_texture(&scene->texture) && make_quad(&plane, &scene->mesh);
 }
 
 void scene_finish(struct scene *scene)

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * What is drawn, as a host of MaterialX sees it: a mesh with named attributes, a camera, lights, an environment. Values
- * are asked for by the names of the ShaderX convention, so a scene serves every shader that keeps them.
+ * What is drawn, as a host of MaterialX sees it: a mesh with named attributes, a camera, lights, an
+ * environment. Values are asked for by the names of the ShaderX convention, so a scene serves every
+ * shader that keeps them.
  */
 #ifndef MXG_RENDER_SCENE_H
 #define MXG_RENDER_SCENE_H
@@ -20,24 +21,27 @@ struct scene {
     uint32_t num_lights;
     uint32_t environment_samples;
     int32_t frame;
-    struct matrix environment; /* from directions in the world to those in the map */
+    struct matrix environment;         /* from directions in the world to those in the map */
     struct image radiance, irradiance; /* latitude-longitude, first row towards +y */
     struct image albedo;               /* of GGX; only for shaders that look it up */
     struct image texture;              /* what every texture of the document shows; may have none */
 };
 
 /*
- * A unit sphere in daylight with three lights, seen by a camera of the given aspect ratio: what shading is compared on.
+ * A unit sphere in daylight with three lights, seen by a camera of the given aspect ratio: what
+ * shading is compared on.
  */
 bool scene_init_sphere(struct scene *scene, double aspect);
 
 /*
- * A quad over the whole picture, 4x4 cells, whose attributes are linear; what values of nodes are sampled on.
+ * A quad over the whole picture, 4x4 cells, whose attributes are linear; what values of nodes are
+ * sampled on.
  */
 bool scene_init_grid(struct scene *scene);
 
 /*
- * A quad over the whole picture, (s, t) from (0, 0) to (1, 1), with a texture instead of those of the document.
+ * A quad over the whole picture, (s, t) from (0, 0) to (1, 1), with a texture instead of those of
+ * the document.
  */
 bool scene_init_plane(struct scene *scene);
 
@@ -46,17 +50,18 @@ void scene_finish(struct scene *scene);
 /* Where the camera stands, and what it looks at. */
 void scene_set_camera(struct scene *scene, const double eye[3], const double target[3]);
 
-/* Attribute "i_texcoord_0", "i_geomprop_st"… of a vertex; unset components stay. False: the scene has no such
- * attribute. */
+/* Attribute "i_texcoord_0", "i_geomprop_st"… of a vertex; unset components stay. False: the scene
+ * has no such attribute. */
 bool scene_attribute(const struct scene *scene, const char *name, uint32_t vertex, float out[4]);
 
 /*
- * Private uniform "u_worldMatrix"…; returns how many components it wrote, 0 where the scene has none.
+ * Private uniform "u_worldMatrix"…; returns how many components it wrote, 0 where the scene has
+ * none.
  */
 unsigned scene_uniform(const struct scene *scene, const char *name, float out[16]);
 
-/* Member "direction"… of light `index` below num_lights; returns how many components it wrote, 0 where a light has
- * none. */
+/* Member "direction"… of light `index` below num_lights; returns how many components it wrote, 0
+ * where a light has none. */
 unsigned scene_light(uint32_t index, const char *member, float out[3]);
 
 /* Texture "u_envRadiance"…; NULL where the scene has none. */
@@ -74,7 +79,8 @@ void environment_direction(const struct image *map, uint32_t x, uint32_t y, doub
 /* The map's radiance from direction d (unit), between texels. */
 void environment_lookup(const struct image *map, const double d[3], double out[3]);
 /*
- * Reads a latitude-longitude map of linear values; 8-bit pictures are taken as sRGB. On failure false, with why.
+ * Reads a latitude-longitude map of linear values; 8-bit pictures are taken as sRGB. On failure
+ * false, with why.
  */
 bool environment_read(const char *path, struct image *out, char *reason, size_t capacity);
 /* The cosine-weighted average of a map around each direction. */

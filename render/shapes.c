@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Meshes by formulas: each shape is a few patches, each patch a grid over 0 <= u, v <= 1. Normals and tangents follow
- * from the derivatives of the formula, so a patch may be as bent as it likes.
+ * Meshes by formulas: each shape is a few patches, each patch a grid over 0 <= u, v <= 1. Normals
+ * and tangents follow from the derivatives of the formula, so a patch may be as bent as it likes.
  */
 #include "render/matrix.h"
 #include "render/mesh.h"
@@ -82,15 +82,17 @@ static void on_cube_bottom(double u, double v, double out[3])
 }
 
 /*
- * A square laid over a ball: by the distance r from its middle it follows the ball, then hangs down in folds.
+ * A square laid over a ball: by the distance r from its middle it follows the ball, then hangs down
+ * in folds.
  */
-#define CLOTH_HALF 1.05  /* half of the square's side */
+#define CLOTH_HALF 1.05   /* half of the square's side */
 #define CLOTH_RADIUS 0.52 /* of the ball */
-#define CLOTH_BEND 1.25  /* angle at which it leaves the ball */
+#define CLOTH_BEND 1.25   /* angle at which it leaves the ball */
 
 static void on_cloth(double u, double v, double out[3])
 {
-    double x = CLOTH_HALF * (2 * u - 1), z = CLOTH_HALF * (1 - 2 * v), r = hypot(x, z), around = atan2(z, x);
+    double x = CLOTH_HALF * (2 * u - 1), z = CLOTH_HALF * (1 - 2 * v), r = hypot(x, z),
+           around = atan2(z, x);
     double bend = fmin(r / CLOTH_RADIUS, CLOTH_BEND), hang = fmax(r - CLOTH_BEND * CLOTH_RADIUS, 0);
     double fold = sin(8 * around + 0.6) + 0.3 * sin(13 * around - 1.1);
     double away = CLOTH_RADIUS * sin(bend) + hang * (0.2 + 0.28 * fold * hang / (hang + 0.12));
@@ -114,16 +116,19 @@ static void on_ball(double u, double v, double out[3])
 /* The foot's profile: (radius, height), from the middle of its top down to its rim and under it. */
 static void on_foot(double u, double v, double out[3])
 {
-    static const double profile[][2] = {{0, -0.5}, {0, -0.5}, {0.24, -0.5}, {0.32, -0.53}, {0.34, -0.62}, {0.4, -0.72},
-                                        {0.54, -0.76}, {0.58, -0.79}, {0.57, -0.84}, {0.5, -0.86}, {0, -0.86}, {0, -0.86}};
+    static const double profile[][2] = {{0, -0.5},     {0, -0.5},    {0.24, -0.5},  {0.32, -0.53},
+                                        {0.34, -0.62}, {0.4, -0.72}, {0.54, -0.76}, {0.58, -0.79},
+                                        {0.57, -0.84}, {0.5, -0.86}, {0, -0.86},    {0, -0.86}};
     enum { SPANS = sizeof profile / sizeof *profile - 3 };
     double at = (1 - v) * SPANS;
     int span = at >= SPANS ? SPANS - 1 : (int)at;
     double t = at - span, p[2];
     for (size_t i = 0; i < 2; ++i) { /* a uniform cubic B-spline */
-        double a = profile[span][i], b = profile[span + 1][i], c = profile[span + 2][i], d = profile[span + 3][i];
-        p[i] = (pow(1 - t, 3) * a + (3 * t * t * t - 6 * t * t + 4) * b + (-3 * t * t * t + 3 * t * t + 3 * t + 1) * c +
-                t * t * t * d) / 6;
+        double a = profile[span][i], b = profile[span + 1][i], c = profile[span + 2][i],
+               d = profile[span + 3][i];
+        p[i] = (pow(1 - t, 3) * a + (3 * t * t * t - 6 * t * t + 4) * b
+                + (-3 * t * t * t + 3 * t * t + 3 * t + 1) * c + t * t * t * d)
+               / 6;
     }
     set(out, p[0] * sin(2 * PI * u), p[1], p[0] * cos(2 * PI * u));
 }
@@ -133,8 +138,13 @@ static void on_foot(double u, double v, double out[3])
 static const struct shape shapes[] = {
     {"sphere", {{on_sphere, 128, 64}}},
     {"plane", {{on_plane, 16, 16}}},
-    {"cube", {{on_cube_front, 16, 16}, {on_cube_right, 16, 16}, {on_cube_back, 16, 16}, {on_cube_left, 16, 16},
-              {on_cube_top, 16, 16}, {on_cube_bottom, 16, 16}}},
+    {"cube",
+     {{on_cube_front, 16, 16},
+      {on_cube_right, 16, 16},
+      {on_cube_back, 16, 16},
+      {on_cube_left, 16, 16},
+      {on_cube_top, 16, 16},
+      {on_cube_bottom, 16, 16}}},
     {"cloth", {{on_cloth, 192, 192}}},
     {"ball", {{on_ball, 192, 160}, {on_foot, 128, 64}}},
 };
@@ -149,7 +159,8 @@ const char *const *shape_names(void)
 }
 
 /* dP/du or dP/dv, by differences inside of the patch. */
-static void derivative(const struct patch *patch, double u, double v, double du, double dv, double out[3])
+static void derivative(const struct patch *patch, double u, double v, double du, double dv,
+                       double out[3])
 {
     double a[3], b[3];
     patch->point(u - du, v - dv, a);
@@ -181,7 +192,8 @@ static void make_vertex(const struct patch *patch, double u, double v, struct ve
     out->texcoord[1] = out->parameter[1] = (float)v;
 }
 
-static void make_patch(const struct patch *patch, unsigned detail, struct mesh *mesh, uint32_t *vertex, uint32_t *index)
+static void make_patch(const struct patch *patch, unsigned detail, struct mesh *mesh,
+                       uint32_t *vertex, uint32_t *index)
 {
     uint32_t across = patch->across * detail, up = patch->up * detail, first = *vertex;
     for (uint32_t j = 0; j <= up; ++j)
@@ -201,7 +213,8 @@ bool shape_make(const char *name, unsigned detail, struct mesh *out)
     while (strcmp(shape->name, name) != 0)
         ++shape;
     uint32_t vertices = 0, indices = 0;
-    for (const struct patch *p = shape->patches; p < shape->patches + MAX_PATCHES && p->point; ++p) {
+    for (const struct patch *p = shape->patches; p < shape->patches + MAX_PATCHES && p->point;
+         ++p) {
         vertices += (p->across * detail + 1) * (p->up * detail + 1);
         indices += p->across * detail * p->up * detail * 6;
     }

@@ -53,7 +53,8 @@ static void draw_cross(uint8_t *pixels, uint32_t stride, uint32_t width, uint32_
     for (uint32_t y = 0; y < height; ++y) {
         uint32_t x = y * width / height;
         memcpy(pixels + ((size_t)y * stride + x) * 4, (const uint8_t[4]){255, 0, 255, 255}, 4);
-        memcpy(pixels + ((size_t)y * stride + width - 1 - x) * 4, (const uint8_t[4]){255, 0, 255, 255}, 4);
+        memcpy(pixels + ((size_t)y * stride + width - 1 - x) * 4,
+               (const uint8_t[4]){255, 0, 255, 255}, 4);
     }
 }
 
@@ -63,10 +64,12 @@ void sheet_place(struct sheet *sheet, uint32_t index, const struct image *pictur
     uint32_t y = index / sheet->columns * cell_height(sheet) + GAP;
     uint8_t *corner = (uint8_t *)sheet->image.pixels + ((size_t)y * stride + x) * 4;
     for (uint32_t row = 0; picture && row < sheet->height; ++row)
-        memcpy(corner + (size_t)row * stride * 4, (const uint8_t *)picture->pixels + (size_t)row * sheet->width * 4,
+        memcpy(corner + (size_t)row * stride * 4,
+               (const uint8_t *)picture->pixels + (size_t)row * sheet->width * 4,
                (size_t)sheet->width * 4);
     if (!picture)
         draw_cross(corner, stride, sheet->width, sheet->height);
     unsigned scale = label_scale(sheet);
-    label_draw(sheet->image.pixels, stride, x + scale, y + sheet->height + 2 * scale, sheet->width - scale, scale, name);
+    label_draw(sheet->image.pixels, stride, x + scale, y + sheet->height + 2 * scale,
+               sheet->width - scale, scale, name);
 }

@@ -6,7 +6,7 @@
 #include "render/image.h"
 
 struct sheet {
-    struct image image; /* 8 bits */
+    struct image image;     /* 8 bits */
     uint32_t width, height; /* of a picture */
     uint32_t columns, count;
 };
@@ -16,6 +16,7 @@ bool sheet_init(struct sheet *sheet, uint32_t count, uint32_t width, uint32_t he
 void sheet_finish(struct sheet *sheet);
 
 /* Places a picture of 8 bits; NULL: a cross, for one that could not be drawn. */
-void sheet_place(struct sheet *sheet, uint32_t index, const struct image *picture, const char *name);
+void sheet_place(struct sheet *sheet, uint32_t index, const struct image *picture,
+                 const char *name);
 
 #endif

@@ -11,12 +11,13 @@
 #include <sys/stat.h>
 
 #define DEGREE (3.14159265358979323846 / 180.0)
-#define FINE_DETAIL 4            /* times the cells of a shape, each way */
+#define FINE_DETAIL 4             /* times the cells of a shape, each way */
 #define FINE_TRIANGLES (1u << 18) /* of a mesh from a file */
 
 bool studio_parse_camera(struct studio *studio, const char *text)
 {
-    double *const values[] = {&studio->azimuth, &studio->elevation, &studio->distance, &studio->fov};
+    double *const values[] = {&studio->azimuth, &studio->elevation, &studio->distance,
+                              &studio->fov};
     const size_t capacity = sizeof values / sizeof *values;
     size_t count = 0;
     for (char *end; count < capacity; text = end + 1) {
@@ -29,8 +30,9 @@ bool studio_parse_camera(struct studio *studio, const char *text)
         if (count == capacity)
             return false;
     }
-    return count >= 2 && fabs(studio->azimuth) <= 1e6 && fabs(studio->elevation) < 90 && studio->distance >= 0 &&
-           studio->distance <= 1000 && studio->fov >= 1 && studio->fov <= 150;
+    return count >= 2 && fabs(studio->azimuth) <= 1e6 && fabs(studio->elevation) < 90
+           && studio->distance >= 0 && studio->distance <= 1000 && studio->fov >= 1
+           && studio->fov <= 150;
 }
 
 static bool is_shape(const char *name)
@@ -41,32 +43,37 @@ static bool is_shape(const char *name)
     return *names != NULL;
 }
 
-static bool fail(struct studio_fault *fault, const char *id, const char *what, const char *name, const char *why)
+static bool fail(struct studio_fault *fault, const char *id, const char *what, const char *name,
+                 const char *why)
 {
     fault->id = id;
     snprintf(fault->text, sizeof fault->text, "%s '%s': %s", what, name, why);
     return false;
 }
 
-static bool open_mesh(const struct studio *studio, struct mesh *out, unsigned *out_made, struct studio_fault *fault)
+static bool open_mesh(const struct studio *studio, struct mesh *out, unsigned *out_made,
+                      struct studio_fault *fault)
 {
     *out_made = 0;
     if (is_shape(studio->mesh))
-        return shape_make(studio->mesh, 1, out) || fail(fault, "render-failed", "cannot make", studio->mesh, "out of memory");
+        return shape_make(studio->mesh, 1, out)
+               || fail(fault, "render-failed", "cannot make", studio->mesh, "out of memory");
     struct mesh_fault mesh_fault;
     if (mesh_import(studio->mesh, out, out_made, &mesh_fault))
         return true;
     return strpbrk(studio->mesh, "./")
                ? fail(fault, mesh_fault.id, "cannot use the mesh", studio->mesh, mesh_fault.text)
-               : fail(fault, mesh_fault.id, "there is no shape", studio->mesh, "write ball, sphere, plane, cube, cloth, or the name of a file");
+               : fail(fault, mesh_fault.id, "there is no shape", studio->mesh,
+                      "write ball, sphere, plane, cube, cloth, or the name of a file");
 }
 
 bool studio_read_map(const struct studio *studio, struct image *out, struct studio_fault *fault)
 {
     char reason[256];
     if (studio->environment)
-        return environment_read(studio->environment, out, reason, sizeof reason) ||
-               fail(fault, "bad-environment", "cannot use the environment", studio->environment, reason);
+        return environment_read(studio->environment, out, reason, sizeof reason)
+               || fail(fault, "bad-environment", "cannot use the environment", studio->environment,
+                       reason);
     struct image stand_in;
     bool good = environment_make(out, &stand_in);
     image_finish(&stand_in);
@@ -80,9 +87,11 @@ static bool is_folder(const char *path)
 }
 
 /*
- * The maps as the shader wants them: baked before, baked now, or with mip levels that are plain averages.
+ * The maps as the shader wants them: baked before, baked now, or with mip levels that are plain
+ * averages.
  */
-static bool open_environment(const struct studio *studio, struct scene *scene, struct studio_fault *fault)
+static bool open_environment(const struct studio *studio, struct scene *scene,
+                             struct studio_fault *fault)
 {
     char reason[256] = "out of memory";
     struct baked baked = {0};
@@ -93,13 +102,14 @@ static bool open_environment(const struct studio *studio, struct scene *scene, s
     else if (good && studio->prefiltered)
         good = bake_environment(&scene->radiance, &baked);
     else if (good)
-        return environment_irradiance(&scene->radiance, &scene->irradiance) ||
-               fail(fault, "render-failed", "cannot make the", "irradiance", reason);
+        return environment_irradiance(&scene->radiance, &scene->irradiance)
+               || fail(fault, "render-failed", "cannot make the", "irradiance", reason);
     else
         return false;
     if (!good) {
         baked_finish(&baked);
-        return fail(fault, "bad-environment", "cannot use the environment", studio->environment ? studio->environment : "sky", reason);
+        return fail(fault, "bad-environment", "cannot use the environment",
+                    studio->environment ? studio->environment : "sky", reason);
     }
     image_finish(&scene->radiance);
     scene->radiance = baked.radiance;
@@ -110,12 +120,15 @@ static bool open_environment(const struct studio *studio, struct scene *scene, s
     return true;
 }
 
-bool studio_open(const struct studio *studio, double aspect, struct scene *scene, unsigned *out_made, struct studio_fault *fault)
+bool studio_open(const struct studio *studio, double aspect, struct scene *scene,
+                 unsigned *out_made, struct studio_fault *fault)
 {
-    *scene = (struct scene){.num_lights = studio->environment ? 0 : SCENE_NUM_LIGHTS, .world = matrix_identity(),
+    *scene = (struct scene){.num_lights = studio->environment ? 0 : SCENE_NUM_LIGHTS,
+                            .world = matrix_identity(),
                             .environment = matrix_identity()};
     studio_aim(studio, aspect, 0, scene);
-    return open_mesh(studio, &scene->mesh, out_made, fault) && open_environment(studio, scene, fault);
+    return open_mesh(studio, &scene->mesh, out_made, fault)
+           && open_environment(studio, scene, fault);
 }
 
 void studio_aim(const struct studio *studio, double aspect, double turn, struct scene *scene)

@@ -6,7 +6,7 @@
 #include "render/scene.h"
 
 struct studio {
-    const char *mesh;                 /* a shape's name, or a file */
+    const char *mesh; /* a shape's name, or a file */
     /* of the camera, in degrees; from the front, to the right and upwards */
     double azimuth, elevation;
     /* distance 0: the mesh fills the picture; degrees across the shorter side */
@@ -15,10 +15,13 @@ struct studio {
      * file of a latitude-longitude map, or folder of baked ones; NULL: the built-in sky, and lights
      */
     const char *environment;
-    bool prefiltered;                 /* shaders read maps that are filtered for their roughness */
+    bool prefiltered; /* shaders read maps that are filtered for their roughness */
 };
 
-#define STUDIO_DEFAULTS {.mesh = "ball", .azimuth = 25, .elevation = 16, .fov = 30}
+#define STUDIO_DEFAULTS \
+    { \
+        .mesh = "ball", .azimuth = 25, .elevation = 16, .fov = 30 \
+    }
 
 struct studio_fault {
     const char *id;
@@ -29,9 +32,11 @@ struct studio_fault {
 bool studio_parse_camera(struct studio *studio, const char *text);
 
 /*
- * Makes the scene. *out_made: parts that the mesh's file lacks. scene_finish must follow in any case.
+ * Makes the scene. *out_made: parts that the mesh's file lacks. scene_finish must follow in any
+ * case.
  */
-bool studio_open(const struct studio *studio, double aspect, struct scene *scene, unsigned *out_made, struct studio_fault *fault);
+bool studio_open(const struct studio *studio, double aspect, struct scene *scene,
+                 unsigned *out_made, struct studio_fault *fault);
 
 /* Puts the camera where `studio` says, `turn` degrees further around. */
 void studio_aim(const struct studio *studio, double aspect, double turn, struct scene *scene);

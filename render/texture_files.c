@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * The files of a document's texture as one image: the frame at hand, its layer, its tiles; the default colour where there is none.
+ * The files of a document's texture as one image: the frame at hand, its layer, its tiles; the
+ * default colour where there is none.
  */
 #include "render/bind.h"
 
@@ -36,7 +37,8 @@ static bool make_checker(struct image *out)
 static bool fail(struct bind *bind, const char *path, const char *why)
 {
     bind->id = "missing-texture";
-    snprintf(bind->reason, sizeof bind->reason, "cannot read the texture '%.250s': %.200s", path, why);
+    snprintf(bind->reason, sizeof bind->reason, "cannot read the texture '%.250s': %.200s", path,
+             why);
     return false;
 }
 
@@ -55,8 +57,8 @@ static bool read_file(struct bind *bind, const char *file, const char *layer, st
     return *out_checker;
 }
 
-static bool read_tile(struct bind *bind, uint32_t index, const mxg_variable *variable, uint32_t tile, struct image *out,
-                      bool *out_checker)
+static bool read_tile(struct bind *bind, uint32_t index, const mxg_variable *variable,
+                      uint32_t tile, struct image *out, bool *out_checker)
 {
     char file[4096];
     if (mxg_result_texture_file(bind->result, index, tile, bind->scene->frame, file, sizeof file))
@@ -64,8 +66,8 @@ static bool read_tile(struct bind *bind, uint32_t index, const mxg_variable *var
     return make_default(variable, out) || fail(bind, variable->file, "out of memory");
 }
 
-bool bind_read_texture(struct bind *bind, uint32_t index, const mxg_variable *variable, const char *file, struct image *out,
-                       bool *out_checker)
+bool bind_read_texture(struct bind *bind, uint32_t index, const mxg_variable *variable,
+                       const char *file, struct image *out, bool *out_checker)
 {
     if (file)
         return *file ? read_file(bind, file, variable->layer, out, out_checker)

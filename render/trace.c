@@ -105,8 +105,10 @@ static const struct {
 
 static void append_fill(struct source *source, const mxg_result *result)
 {
-    append(source, "vec3 dx_point, dy_point, dx_normal, dy_normal;\nvec2 dx_texcoord, dy_texcoord;\n\n");
-    append(source, "void fill_vertex_data(vec3 point, vec3 normal, vec3 tangent, vec2 texcoord, vec3 view, vec4 random,\n"
+    append(source,
+           "vec3 dx_point, dy_point, dx_normal, dy_normal;\nvec2 dx_texcoord, dy_texcoord;\n\n");
+    append(source, "void fill_vertex_data(vec3 point, vec3 normal, vec3 tangent, vec2 texcoord, "
+                   "vec3 view, vec4 random,\n"
                    "                      vec4 light, vec3 moved)\n{\n");
     for (uint32_t i = 0; i < mxg_result_num_variables(result); ++i) {
         mxg_variable variable = {sizeof variable};
@@ -118,8 +120,10 @@ static void append_fill(struct source *source, const mxg_result *result)
         snprintf(line, sizeof line, "    vd.%s = %s(0);\n", variable.name, variable.type);
         for (size_t k = 0; k < sizeof hit_values / sizeof *hit_values; ++k) {
             const char *name = hit_values[k].name;
-            if (hit_values[k].is_family ? strncmp(variable.name, name, strlen(name)) == 0 : strcmp(variable.name, name) == 0)
-                snprintf(line, sizeof line, "    vd.%s = %s;\n", variable.name, hit_values[k].value);
+            if (hit_values[k].is_family ? strncmp(variable.name, name, strlen(name)) == 0
+                                        : strcmp(variable.name, name) == 0)
+                snprintf(line, sizeof line, "    vd.%s = %s;\n", variable.name,
+                         hit_values[k].value);
         }
         append(source, line);
     }
@@ -143,7 +147,8 @@ static bool compile(struct tracer *tracer)
     free(source.text);
     if (good)
         return true;
-    const char *text = tracer->compiled.num_messages ? tracer->compiled.messages[0].text : "out of memory";
+    const char *text =
+        tracer->compiled.num_messages ? tracer->compiled.messages[0].text : "out of memory";
     fail(tracer, "bad-shader", text);
     return false;
 }
@@ -153,18 +158,25 @@ static bool compile(struct tracer *tracer)
 static bool create_buffers(struct tracer *tracer)
 {
     struct gpu *gpu = tracer->gpu;
-    size_t pixels = (size_t)tracer->width * tracer->height, corners = 3 * (size_t)tracer->bvh.num_triangles;
-    size_t film = (tracer->info.displaced && corners > pixels ? corners : pixels) * 4 * sizeof(float);
+    size_t pixels = (size_t)tracer->width * tracer->height,
+           corners = 3 * (size_t)tracer->bvh.num_triangles;
+    size_t film =
+        (tracer->info.displaced && corners > pixels ? corners : pixels) * 4 * sizeof(float);
     const VkBufferUsageFlags usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
     size_t num_sums;
     float *sums = importance_of_map(&tracer->bind->scene->radiance, &num_sums);
-    bool good = sums ? gpu_create_buffer(gpu, usage, sums, num_sums * sizeof *sums, &tracer->buffers[3])
-                     : fail(tracer, "render-failed", "out of memory");
+    bool good =
+        sums ? gpu_create_buffer(gpu, usage, sums, num_sums * sizeof *sums, &tracer->buffers[3])
+             : fail(tracer, "render-failed", "out of memory");
     free(sums);
-    if (!good || !gpu_create_buffer(gpu, usage, tracer->bvh.nodes, tracer->bvh.num_nodes * sizeof *tracer->bvh.nodes, &tracer->buffers[0]) ||
-        !gpu_create_buffer(gpu, usage, tracer->bvh.corners, 3 * (size_t)tracer->bvh.num_triangles * sizeof *tracer->bvh.corners,
-                           &tracer->buffers[1]) ||
-        !gpu_create_buffer(gpu, usage, NULL, film, &tracer->buffers[2]))
+    if (!good
+        || !gpu_create_buffer(gpu, usage, tracer->bvh.nodes,
+                              tracer->bvh.num_nodes * sizeof *tracer->bvh.nodes,
+                              &tracer->buffers[0])
+        || !gpu_create_buffer(gpu, usage, tracer->bvh.corners,
+                              3 * (size_t)tracer->bvh.num_triangles * sizeof *tracer->bvh.corners,
+                              &tracer->buffers[1])
+        || !gpu_create_buffer(gpu, usage, NULL, film, &tracer->buffers[2]))
         return false;
     memset(tracer->buffers[2].mapped, 0, film);
     const VkSamplerCreateInfo info = {.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO,
@@ -173,8 +185,9 @@ static bool create_buffers(struct tracer *tracer)
                                       .addressModeU = VK_SAMPLER_ADDRESS_MODE_REPEAT,
                                       .addressModeV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
                                       .addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE};
-    return gpu_upload_texture(gpu, &tracer->bind->scene->radiance, false, &tracer->environment) &&
-           gpu_check(gpu, vkCreateSampler(gpu->device, &info, NULL, &tracer->sampler), "making a sampler");
+    return gpu_upload_texture(gpu, &tracer->bind->scene->radiance, false, &tracer->environment)
+           && gpu_check(gpu, vkCreateSampler(gpu->device, &info, NULL, &tracer->sampler),
+                        "making a sampler");
 }
 
 static bool create_set(struct tracer *tracer)
@@ -183,37 +196,50 @@ static bool create_set(struct tracer *tracer)
     VkDescriptorSetLayoutBinding bindings[NUM_BINDINGS];
     for (uint32_t i = 0; i < NUM_BINDINGS; ++i)
         bindings[i] = (VkDescriptorSetLayoutBinding){
-            i, i < NUM_BUFFERS ? VK_DESCRIPTOR_TYPE_STORAGE_BUFFER : VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1,
-            VK_SHADER_STAGE_COMPUTE_BIT, NULL};
-    const VkDescriptorSetLayoutCreateInfo layout = {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
-                                                    .bindingCount = NUM_BINDINGS,
-                                                    .pBindings = bindings};
+            i,
+            i < NUM_BUFFERS ? VK_DESCRIPTOR_TYPE_STORAGE_BUFFER
+                            : VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+            1, VK_SHADER_STAGE_COMPUTE_BIT, NULL};
+    const VkDescriptorSetLayoutCreateInfo layout = {
+        .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
+        .bindingCount = NUM_BINDINGS,
+        .pBindings = bindings};
     const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, NUM_BUFFERS},
                                           {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1}};
-    const VkDescriptorPoolCreateInfo pool = {
-        .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO, .maxSets = 1, .poolSizeCount = 2, .pPoolSizes = sizes};
-    if (!gpu_check(gpu, vkCreateDescriptorSetLayout(gpu->device, &layout, NULL, &tracer->set_layout), "making a set layout") ||
-        !gpu_check(gpu, vkCreateDescriptorPool(gpu->device, &pool, NULL, &tracer->pool), "making a descriptor pool"))
+    const VkDescriptorPoolCreateInfo pool = {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
+                                             .maxSets = 1,
+                                             .poolSizeCount = 2,
+                                             .pPoolSizes = sizes};
+    if (!gpu_check(gpu,
+                   vkCreateDescriptorSetLayout(gpu->device, &layout, NULL, &tracer->set_layout),
+                   "making a set layout")
+        || !gpu_check(gpu, vkCreateDescriptorPool(gpu->device, &pool, NULL, &tracer->pool),
+                      "making a descriptor pool"))
         return false;
-    const VkDescriptorSetAllocateInfo set = {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
+    const VkDescriptorSetAllocateInfo set = {.sType =
+                                                 VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
                                              .descriptorPool = tracer->pool,
                                              .descriptorSetCount = 1,
                                              .pSetLayouts = &tracer->set_layout};
-    return gpu_check(gpu, vkAllocateDescriptorSets(gpu->device, &set, &tracer->set), "making a descriptor set");
+    return gpu_check(gpu, vkAllocateDescriptorSets(gpu->device, &set, &tracer->set),
+                     "making a descriptor set");
 }
 
 static void write_set(struct tracer *tracer)
 {
     for (uint32_t i = 0; i < NUM_BINDINGS; ++i) {
         bool is_buffer = i < NUM_BUFFERS;
-        const VkDescriptorBufferInfo buffer = {is_buffer ? tracer->buffers[i].buffer : VK_NULL_HANDLE, 0, VK_WHOLE_SIZE};
-        const VkDescriptorImageInfo image = {tracer->sampler, tracer->environment.view, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+        const VkDescriptorBufferInfo buffer = {
+            is_buffer ? tracer->buffers[i].buffer : VK_NULL_HANDLE, 0, VK_WHOLE_SIZE};
+        const VkDescriptorImageInfo image = {tracer->sampler, tracer->environment.view,
+                                             VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
         const VkWriteDescriptorSet write = {
             .sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
             .dstSet = tracer->set,
             .dstBinding = i,
             .descriptorCount = 1,
-            .descriptorType = is_buffer ? VK_DESCRIPTOR_TYPE_STORAGE_BUFFER : VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+            .descriptorType = is_buffer ? VK_DESCRIPTOR_TYPE_STORAGE_BUFFER
+                                        : VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
             .pBufferInfo = &buffer,
             .pImageInfo = &image};
         vkUpdateDescriptorSets(tracer->gpu->device, 1, &write, 0, NULL);
@@ -228,7 +254,8 @@ static bool create_pipeline(struct tracer *tracer)
     memcpy(layouts, tracer->inputs.set_layouts, sizeof tracer->inputs.set_layouts);
     layouts[tracer->inputs.num_sets] = tracer->set_layout;
     const VkPushConstantRange camera = {VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(struct camera)};
-    const VkPipelineLayoutCreateInfo layout = {.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
+    const VkPipelineLayoutCreateInfo layout = {.sType =
+                                                   VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
                                                .setLayoutCount = tracer->inputs.num_sets + 1,
                                                .pSetLayouts = layouts,
                                                .pushConstantRangeCount = 1,
@@ -236,16 +263,20 @@ static bool create_pipeline(struct tracer *tracer)
     const VkShaderModuleCreateInfo module = {.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
                                              .codeSize = code->num_words * sizeof(uint32_t),
                                              .pCode = code->words};
-    if (!gpu_check(gpu, vkCreatePipelineLayout(gpu->device, &layout, NULL, &tracer->layout), "making a pipeline layout") ||
-        !gpu_check(gpu, vkCreateShaderModule(gpu->device, &module, NULL, &tracer->module), "loading the shader"))
+    if (!gpu_check(gpu, vkCreatePipelineLayout(gpu->device, &layout, NULL, &tracer->layout),
+                   "making a pipeline layout")
+        || !gpu_check(gpu, vkCreateShaderModule(gpu->device, &module, NULL, &tracer->module),
+                      "loading the shader"))
         return false;
-    const VkComputePipelineCreateInfo info = {.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
-                                              .stage = {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
-                                                        .stage = VK_SHADER_STAGE_COMPUTE_BIT,
-                                                        .module = tracer->module,
-                                                        .pName = "main"},
-                                              .layout = tracer->layout};
-    VkResult result = vkCreateComputePipelines(gpu->device, VK_NULL_HANDLE, 1, &info, NULL, &tracer->pipeline);
+    const VkComputePipelineCreateInfo info = {
+        .sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
+        .stage = {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
+                  .stage = VK_SHADER_STAGE_COMPUTE_BIT,
+                  .module = tracer->module,
+                  .pName = "main"},
+        .layout = tracer->layout};
+    VkResult result =
+        vkCreateComputePipelines(gpu->device, VK_NULL_HANDLE, 1, &info, NULL, &tracer->pipeline);
     return gpu_check(gpu, result, "compiling the shader");
 }
 
@@ -278,11 +309,12 @@ static bool run(struct tracer *tracer, const struct camera *camera, uint32_t wid
         return false;
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, tracer->pipeline);
     if (tracer->inputs.num_sets)
-        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, tracer->layout, 0, tracer->inputs.num_sets,
-                                tracer->inputs.sets, 0, NULL);
-    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, tracer->layout, tracer->inputs.num_sets, 1, &tracer->set, 0,
-                            NULL);
-    vkCmdPushConstants(commands, tracer->layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof *camera, camera);
+        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, tracer->layout, 0,
+                                tracer->inputs.num_sets, tracer->inputs.sets, 0, NULL);
+    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, tracer->layout,
+                            tracer->inputs.num_sets, 1, &tracer->set, 0, NULL);
+    vkCmdPushConstants(commands, tracer->layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof *camera,
+                       camera);
     vkCmdDispatch(commands, (width + GROUP - 1) / GROUP, (height + GROUP - 1) / GROUP, 1);
     return gpu_end(tracer->gpu, commands);
 }
@@ -297,7 +329,8 @@ static bool displace(struct tracer *tracer)
         return false;
     if (!bvh_move(&tracer->bvh, tracer->buffers[2].mapped))
         return fail(tracer, "render-failed", "out of memory");
-    memcpy(tracer->buffers[0].mapped, tracer->bvh.nodes, tracer->bvh.num_nodes * sizeof *tracer->bvh.nodes);
+    memcpy(tracer->buffers[0].mapped, tracer->bvh.nodes,
+           tracer->bvh.num_nodes * sizeof *tracer->bvh.nodes);
     memcpy(tracer->buffers[1].mapped, tracer->bvh.corners, count * sizeof *tracer->bvh.corners);
     memset(tracer->buffers[2].mapped, 0, count * 4 * sizeof(float));
     return true;
@@ -307,8 +340,9 @@ static bool open(struct tracer *tracer)
 {
     if (!bvh_build(&tracer->bind->scene->mesh, &tracer->bvh))
         return fail(tracer, "render-failed", "out of memory");
-    if (!bind_shader(tracer->bind) || !inputs_create(tracer->gpu, &tracer->bind->draw, &tracer->inputs) || !compile(tracer) ||
-        !create_buffers(tracer) || !create_set(tracer))
+    if (!bind_shader(tracer->bind)
+        || !inputs_create(tracer->gpu, &tracer->bind->draw, &tracer->inputs) || !compile(tracer)
+        || !create_buffers(tracer) || !create_set(tracer))
         return false;
     write_set(tracer);
     return create_pipeline(tracer) && (!tracer->info.displaced || displace(tracer));
@@ -331,10 +365,15 @@ static void close(struct tracer *tracer)
     bvh_finish(&tracer->bvh);
 }
 
-bool trace_picture(struct gpu *gpu, struct bind *bind, uint32_t width, uint32_t height, const struct trace_options *options,
-                   float *out_pixels)
+bool trace_picture(struct gpu *gpu, struct bind *bind, uint32_t width, uint32_t height,
+                   const struct trace_options *options, float *out_pixels)
 {
-    struct tracer tracer = {.gpu = gpu, .bind = bind, .options = options, .info = {sizeof tracer.info}, .width = width, .height = height};
+    struct tracer tracer = {.gpu = gpu,
+                            .bind = bind,
+                            .options = options,
+                            .info = {sizeof tracer.info},
+                            .width = width,
+                            .height = height};
     mxg_result_info(bind->result, &tracer.info);
     uint32_t samples = options->paths;
     bool good = open(&tracer);

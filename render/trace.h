@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * The reference: paths through the scene, scattered by the closures of a shader that was generated for `--integrator scatter`.
+ * The reference: paths through the scene, scattered by the closures of a shader that was generated
+ * for `--integrator scatter`.
  */
 #ifndef MXG_RENDER_TRACE_H
 #define MXG_RENDER_TRACE_H
@@ -21,10 +22,10 @@ struct trace_options {
 };
 
 /*
- * Traces paths: RGBA, first row on top. `bind` as for render_open. False: see bind->id and bind->reason. bind_finish must follow in any
- * case.
+ * Traces paths: RGBA, first row on top. `bind` as for render_open. False: see bind->id and
+ * bind->reason. bind_finish must follow in any case.
  */
-bool trace_picture(struct gpu *gpu, struct bind *bind, uint32_t width, uint32_t height, const struct trace_options *options,
-                   float *out_pixels);
+bool trace_picture(struct gpu *gpu, struct bind *bind, uint32_t width, uint32_t height,
+                   const struct trace_options *options, float *out_pixels);
 
 #endif

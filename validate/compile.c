@@ -27,7 +27,8 @@ static const struct dialect dialects[] = {
     {"essl", GLSLANG_CLIENT_OPENGL, GLSLANG_TARGET_OPENGL_450, GLSLANG_ES_PROFILE, false, 310},
 };
 
-static const glslang_stage_t glslang_stages[MXG_NUM_STAGES] = {GLSLANG_STAGE_VERTEX, GLSLANG_STAGE_FRAGMENT};
+static const glslang_stage_t glslang_stages[MXG_NUM_STAGES] = {GLSLANG_STAGE_VERTEX,
+                                                               GLSLANG_STAGE_FRAGMENT};
 
 void compile_begin(void)
 {
@@ -56,7 +57,8 @@ bool compile_knows_target(const char *target)
 /* ---- Messages ---- */
 
 /*
- * One line of a log, "ERROR: 0:12: 'x' : undeclared identifier"; the first number is the source string.
+ * One line of a log, "ERROR: 0:12: 'x' : undeclared identifier"; the first number is the source
+ * string.
  */
 static void add_log_line(struct compiled *out, mxg_stage stage, const char *text, size_t len)
 {
@@ -75,8 +77,8 @@ static void add_log_line(struct compiled *out, mxg_stage stage, const char *text
     }
     if (line == 0 && strstr(text, "compilation errors") == text + strspn(text, "0123456789 "))
         return; /* "2 compilation errors. No code generated." */
-    compiled_add(out, stage, is_error ? MXG_SEVERITY_ERROR : MXG_SEVERITY_WARNING, (uint32_t)line, text,
-                text < end ? (size_t)(end - text) : 0);
+    compiled_add(out, stage, is_error ? MXG_SEVERITY_ERROR : MXG_SEVERITY_WARNING, (uint32_t)line,
+                 text, text < end ? (size_t)(end - text) : 0);
 }
 
 static void add_log(struct compiled *out, mxg_stage stage, const char *log)
@@ -90,7 +92,8 @@ static void add_log(struct compiled *out, mxg_stage stage, const char *log)
 
 /* ---- GLSL ---- */
 
-static glslang_input_t input_of(const struct dialect *dialect, glslang_stage_t stage, const char *source, bool to_spirv)
+static glslang_input_t input_of(const struct dialect *dialect, glslang_stage_t stage,
+                                const char *source, bool to_spirv)
 {
     int messages = GLSLANG_MSG_CASCADING_ERRORS_BIT;
     if (to_spirv)
@@ -112,13 +115,14 @@ static glslang_input_t input_of(const struct dialect *dialect, glslang_stage_t s
     };
 }
 
-static glslang_shader_t *parse_stage(const struct dialect *dialect, mxg_stage stage, const char *source, bool to_spirv,
-                                     struct compiled *out)
+static glslang_shader_t *parse_stage(const struct dialect *dialect, mxg_stage stage,
+                                     const char *source, bool to_spirv, struct compiled *out)
 {
     glslang_input_t input = input_of(dialect, glslang_stages[stage], source, to_spirv);
     glslang_shader_t *shader = glslang_shader_create(&input);
     if (to_spirv && !dialect->is_spirv_source) {
-        glslang_shader_set_options(shader, GLSLANG_SHADER_AUTO_MAP_BINDINGS | GLSLANG_SHADER_AUTO_MAP_LOCATIONS);
+        glslang_shader_set_options(shader, GLSLANG_SHADER_AUTO_MAP_BINDINGS
+                                               | GLSLANG_SHADER_AUTO_MAP_LOCATIONS);
         if (dialect->spirv_version)
             glslang_shader_set_glsl_version(shader, dialect->spirv_version);
     }
@@ -136,7 +140,8 @@ static glslang_shader_t *parse_stage(const struct dialect *dialect, mxg_stage st
 #define SPIRV_MAGIC 0x07230203u
 
 /*
- * Only of shaders that are written for SPIR-V: glslang has no valid form for a loose uniform that is a bool.
+ * Only of shaders that are written for SPIR-V: glslang has no valid form for a loose uniform that
+ * is a bool.
  */
 static void validate_spirv(mxg_stage stage, struct compiled *out)
 {
@@ -151,8 +156,8 @@ static void validate_spirv(mxg_stage stage, struct compiled *out)
     spvContextDestroy(context);
 }
 
-static void generate_spirv(const struct dialect *dialect, glslang_program_t *program, mxg_stage stage,
-                           struct compiled *out)
+static void generate_spirv(const struct dialect *dialect, glslang_program_t *program,
+                           mxg_stage stage, struct compiled *out)
 {
     struct compiled_stage *code = &out->stages[stage];
     /* lines, for spirv_count */
@@ -177,7 +182,8 @@ static void generate_spirv(const struct dialect *dialect, glslang_program_t *pro
         validate_spirv(stage, out);
 }
 
-static bool link_stages(const struct dialect *dialect, glslang_program_t *program, bool to_spirv, struct compiled *out)
+static bool link_stages(const struct dialect *dialect, glslang_program_t *program, bool to_spirv,
+                        struct compiled *out)
 {
     int messages = (int)input_of(dialect, GLSLANG_STAGE_FRAGMENT, NULL, to_spirv).messages;
     bool linked = glslang_program_link(program, messages);
@@ -188,13 +194,14 @@ static bool link_stages(const struct dialect *dialect, glslang_program_t *progra
     static const char unexplained[] = "the stages do not link";
     add_log(out, MXG_STAGE_PIXEL, glslang_program_get_info_log(program));
     if (out->errors == 0)
-        compiled_add(out, MXG_STAGE_PIXEL, MXG_SEVERITY_ERROR, 0, unexplained, sizeof unexplained - 1);
+        compiled_add(out, MXG_STAGE_PIXEL, MXG_SEVERITY_ERROR, 0, unexplained,
+                     sizeof unexplained - 1);
     return false;
 }
 
 /* Parses and links the stages once: as the language itself, or towards SPIR-V. */
-static void compile_once(const struct dialect *dialect, const char *const sources[MXG_NUM_STAGES], bool to_spirv,
-                         struct compiled *out)
+static void compile_once(const struct dialect *dialect, const char *const sources[MXG_NUM_STAGES],
+                         bool to_spirv, struct compiled *out)
 {
     glslang_program_t *program = glslang_program_create();
     glslang_shader_t *shaders[MXG_NUM_STAGES] = {0};
@@ -219,7 +226,8 @@ static void compile_once(const struct dialect *dialect, const char *const source
     }
 }
 
-bool compile_program(const char *target, const char *const sources[MXG_NUM_STAGES], struct compiled *out)
+bool compile_program(const char *target, const char *const sources[MXG_NUM_STAGES],
+                     struct compiled *out)
 {
     *out = (struct compiled){0};
     if (strcmp(target, "osl") == 0)
@@ -255,7 +263,8 @@ bool compile_compute(const char *source, struct compiled *out)
         code->words = malloc(code->num_words * sizeof *code->words);
         good = code->words != NULL;
         if (good)
-            memcpy(code->words, glslang_program_SPIRV_get_ptr(program), code->num_words * sizeof *code->words);
+            memcpy(code->words, glslang_program_SPIRV_get_ptr(program),
+                   code->num_words * sizeof *code->words);
     }
     glslang_program_delete(program);
     glslang_shader_delete(shader);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Compiles shaders with glslang, to be sure that what mxgen writes is what it says: valid GLSL whose stages fit
- * together, and valid SPIR-V. Messages carry the line of the shader; mxg_result_source_place maps it to the document.
+ * Compiles shaders with glslang, to be sure that what mxgen writes is what it says: valid GLSL
+ * whose stages fit together, and valid SPIR-V. Messages carry the line of the shader;
+ * mxg_result_source_place maps it to the document.
  */
 #ifndef MXG_VALIDATE_COMPILE_H
 #define MXG_VALIDATE_COMPILE_H
@@ -34,27 +35,33 @@ void compile_begin(void);
 void compile_end(void);
 
 /*
- * Whether shaders of the target can be compiled here: "glsl", "vulkan", "essl"; "osl" where there is an oslc.
+ * Whether shaders of the target can be compiled here: "glsl", "vulkan", "essl"; "osl" where there
+ * is an oslc.
  */
 bool compile_knows_target(const char *target);
 
 /*
- * Compiles and links the stages of a program. True without errors. compiled_finish must follow in both cases.
+ * Compiles and links the stages of a program. True without errors. compiled_finish must follow in
+ * both cases.
  */
-bool compile_program(const char *target, const char *const sources[MXG_NUM_STAGES], struct compiled *out);
+bool compile_program(const char *target, const char *const sources[MXG_NUM_STAGES],
+                     struct compiled *out);
 void compiled_finish(struct compiled *compiled);
 
 /*
- * compiled.c: the same of what was generated, the stages of a shader, or the shaders of a network each by itself.
+ * compiled.c: the same of what was generated, the stages of a shader, or the shaders of a network
+ * each by itself.
  */
 bool compile_result(const char *target, const mxg_result *result, struct compiled *out);
 
 /*
- * The same for the source of a compute shader for Vulkan; code and messages stand in the place of the pixel stage.
+ * The same for the source of a compute shader for Vulkan; code and messages stand in the place of
+ * the pixel stage.
  */
 bool compile_compute(const char *source, struct compiled *out);
 
 /* compiled.c: adds a message, for what compiles. */
-void compiled_add(struct compiled *compiled, mxg_stage stage, mxg_severity severity, uint32_t line, const char *text, size_t len);
+void compiled_add(struct compiled *compiled, mxg_stage stage, mxg_severity severity, uint32_t line,
+                  const char *text, size_t len);
 
 #endif

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * In place of compile.c where glslang is not installed: there is no compiler for any target but OSL.
+ * In place of compile.c where glslang is not installed: there is no compiler for any target but
+ * OSL.
  */
 #include "validate/oslc.h"
 
@@ -19,7 +20,8 @@ bool compile_knows_target(const char *target)
     return strcmp(target, "osl") == 0 && oslc_is_installed();
 }
 
-bool compile_program(const char *target, const char *const sources[MXG_NUM_STAGES], struct compiled *out)
+bool compile_program(const char *target, const char *const sources[MXG_NUM_STAGES],
+                     struct compiled *out)
 {
     (void)target;
     *out = (struct compiled){0};

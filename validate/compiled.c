@@ -6,7 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-void compiled_add(struct compiled *out, mxg_stage stage, mxg_severity severity, uint32_t line, const char *text, size_t len)
+void compiled_add(struct compiled *out, mxg_stage stage, mxg_severity severity, uint32_t line,
+                  const char *text, size_t len)
 {
     struct compile_message *more = realloc(out->messages, (out->num_messages + 1) * sizeof *more);
     char *copy = malloc(len + 1);
@@ -33,7 +34,8 @@ void compiled_finish(struct compiled *compiled)
 }
 
 /* "ND_image_color3.osl:12: text": no place of the document has such a line. */
-static void add_part_message(struct compiled *out, const char *part, const struct compile_message *message)
+static void add_part_message(struct compiled *out, const char *part,
+                             const struct compile_message *message)
 {
     size_t capacity = strlen(part) + strlen(message->text) + 32;
     char *text = malloc(capacity);
@@ -52,7 +54,8 @@ static void compile_part(const char *target, const mxg_part *part, struct compil
     compile_program(target, sources, &compiled);
     for (size_t i = 0; i < compiled.num_messages; ++i)
         add_part_message(out, part->name, &compiled.messages[i]);
-    out->stages[MXG_STAGE_PIXEL].body_instructions += compiled.stages[MXG_STAGE_PIXEL].body_instructions;
+    out->stages[MXG_STAGE_PIXEL].body_instructions +=
+        compiled.stages[MXG_STAGE_PIXEL].body_instructions;
     compiled_finish(&compiled);
 }
 

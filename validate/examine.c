@@ -33,8 +33,12 @@ static uint32_t hash_text(uint32_t hash, const char *text)
 /* The place of an equal message, or the free one where it belongs. */
 static uint32_t *find_place(const struct examiner *examiner, const struct check_message *message)
 {
-    size_t mask = examiner->capacity - 1, at = hash_text(hash_text(2166136261u ^ message->line, message->id), message->text) & mask;
-    while (examiner->messages[at] && !check_is_same_message(&examiner->document->messages[examiner->messages[at] - 1], message))
+    size_t mask = examiner->capacity - 1,
+           at =
+               hash_text(hash_text(2166136261u ^ message->line, message->id), message->text) & mask;
+    while (examiner->messages[at]
+           && !check_is_same_message(&examiner->document->messages[examiner->messages[at] - 1],
+                                     message))
         at = (at + 1) & mask;
     return &examiner->messages[at];
 }
@@ -53,7 +57,8 @@ static void add_message(struct examiner *examiner, const struct check_message *m
     size_t first = document->num_messages - 1;
     if (document->num_messages * 2 > examiner->capacity) {
         examiner->capacity = examiner->capacity ? examiner->capacity * 2 : 64;
-        examiner->messages = store_alloc(&examiner->store, examiner->capacity * sizeof *examiner->messages);
+        examiner->messages =
+            store_alloc(&examiner->store, examiner->capacity * sizeof *examiner->messages);
         first = 0;
     }
     for (size_t i = first; i < document->num_messages; ++i)
@@ -65,7 +70,8 @@ static void refer(struct examiner *examiner, struct check_shader *shader, uint32
     for (size_t i = 0; i < shader->num_messages; ++i)
         if (shader->messages[i] == index)
             return;
-    shader->messages = store_grow(&examiner->store, shader->messages, shader->num_messages, sizeof index);
+    shader->messages =
+        store_grow(&examiner->store, shader->messages, shader->num_messages, sizeof index);
     shader->messages[shader->num_messages++] = index;
 }
 
@@ -75,7 +81,8 @@ static bool is_beyond_limit(const struct examiner *examiner, const struct check_
     return message->severity == MXG_SEVERITY_ERROR && most && examiner->num_errors >= most;
 }
 
-static void count_error(struct examiner *examiner, const struct check_message *message, uint32_t index)
+static void count_error(struct examiner *examiner, const struct check_message *message,
+                        uint32_t index)
 {
     if (message->severity != MXG_SEVERITY_ERROR)
         return;
@@ -88,12 +95,14 @@ static void tell_rest(struct examiner *examiner, struct check_message *last)
 {
     if (strstr(last->rendered, "the rest is not shown"))
         return;
-    char *text = cli_format("%snote: more errors than %zu; the rest is not shown\n", last->rendered, examiner->cli->max_errors);
+    char *text = cli_format("%snote: more errors than %zu; the rest is not shown\n", last->rendered,
+                            examiner->cli->max_errors);
     last->rendered = copy(examiner, text);
     free(text);
 }
 
-void examine_add(struct examiner *examiner, struct check_shader *shader, struct check_message message)
+void examine_add(struct examiner *examiner, struct check_shader *shader,
+                 struct check_message message)
 {
     message.file = message.file ? message.file : "";
     uint32_t index = find_message(examiner, &message);
@@ -114,7 +123,8 @@ void examine_add(struct examiner *examiner, struct check_shader *shader, struct 
         refer(examiner, shader, index);
 }
 
-static bool is_told(const struct examiner *examiner, const mxg_diagnostic *diagnostic, uint32_t index)
+static bool is_told(const struct examiner *examiner, const mxg_diagnostic *diagnostic,
+                    uint32_t index)
 {
     if (diagnostic->parent != index)
         return false; /* part of the one before */
@@ -123,7 +133,8 @@ static bool is_told(const struct examiner *examiner, const mxg_diagnostic *diagn
 
 static bool is_about_absence(const char *id)
 {
-    static const char *const ids[] = {"missing-texture", "missing-tiles", "include-missing", "missing-source-file"};
+    static const char *const ids[] = {"missing-texture", "missing-tiles", "include-missing",
+                                      "missing-source-file"};
     for (size_t i = 0; i < sizeof ids / sizeof *ids; ++i)
         if (strcmp(id, ids[i]) == 0)
             return true;
@@ -136,11 +147,12 @@ static void add_quoted_place(struct examiner *examiner, const mxg_diagnostic *di
     const char *quote = strchr(diagnostic->message, '\'');
     size_t len = quote ? strcspn(quote + 1, "'") : 0;
     if (len && diagnostic->file)
-        check_add_place(&examiner->store, examiner->document, diagnostic->file, store_text(&examiner->store, quote + 1, len));
+        check_add_place(&examiner->store, examiner->document, diagnostic->file,
+                        store_text(&examiner->store, quote + 1, len));
 }
 
-static void add_diagnostics(struct examiner *examiner, const mxg_diagnostics *list, struct check_shader *shader,
-                            const char *element)
+static void add_diagnostics(struct examiner *examiner, const mxg_diagnostics *list,
+                            struct check_shader *shader, const char *element)
 {
     for (uint32_t i = 0; i < mxg_diagnostics_count(list); ++i) {
         mxg_diagnostic diagnostic = {sizeof diagnostic};
@@ -149,9 +161,14 @@ static void add_diagnostics(struct examiner *examiner, const mxg_diagnostics *li
             continue;
         if (is_about_absence(diagnostic.id))
             add_quoted_place(examiner, &diagnostic);
-        struct check_message message = {.severity = diagnostic.severity, .id = diagnostic.id, .text = diagnostic.message,
-                                        .file = diagnostic.file ? diagnostic.file : "", .line = diagnostic.line,
-                                        .column = diagnostic.column, .length = diagnostic.length, .element = element,
+        struct check_message message = {.severity = diagnostic.severity,
+                                        .id = diagnostic.id,
+                                        .text = diagnostic.message,
+                                        .file = diagnostic.file ? diagnostic.file : "",
+                                        .line = diagnostic.line,
+                                        .column = diagnostic.column,
+                                        .length = diagnostic.length,
+                                        .element = element,
                                         .target = shader ? shader->target : NULL};
         bool is_read = message.severity == MXG_SEVERITY_ERROR || !examiner->errors_only;
         if (is_read && find_message(examiner, &message) == examiner->document->num_messages)
@@ -161,14 +178,20 @@ static void add_diagnostics(struct examiner *examiner, const mxg_diagnostics *li
 }
 
 /* What a status says beyond diagnostics. */
-static void add_status(struct examiner *examiner, mxg_status status, struct check_shader *shader, const char *element)
+static void add_status(struct examiner *examiner, mxg_status status, struct check_shader *shader,
+                       const char *element)
 {
     if (status == MXG_OK || status == MXG_ERROR_DOCUMENT)
         return;
-    char *rendered = cli_format("%s: error: %s [failed]\n", examiner->document->file, mxg_status_string(status));
+    char *rendered =
+        cli_format("%s: error: %s [failed]\n", examiner->document->file, mxg_status_string(status));
     examine_add(examiner, shader,
-                (struct check_message){.id = "failed", .text = mxg_status_string(status), .file = examiner->document->file,
-                                       .element = element, .target = shader ? shader->target : NULL, .rendered = rendered});
+                (struct check_message){.id = "failed",
+                                       .text = mxg_status_string(status),
+                                       .file = examiner->document->file,
+                                       .element = element,
+                                       .target = shader ? shader->target : NULL,
+                                       .rendered = rendered});
     free(rendered);
 }
 
@@ -179,7 +202,8 @@ static mxg_document *load(struct examiner *examiner, const char *path)
     double begin = examine_clock();
     mxg_document *document = NULL;
     channel_mark(&examiner->channel, CHECK_LOAD, "", "");
-    mxg_status status = mxg_document_load(examiner->cli->context, examiner->cli->library, path, &document);
+    mxg_status status =
+        mxg_document_load(examiner->cli->context, examiner->cli->library, path, &document);
     add_diagnostics(examiner, mxg_document_diagnostics(document), NULL, NULL);
     add_status(examiner, status, NULL, NULL);
     if (status != MXG_OK)
@@ -206,9 +230,11 @@ static void validate(struct examiner *examiner, const mxg_document *document)
 }
 
 /*
- * Of a generation of which nobody reads more than messages: what tells its equals. 0: nothing does, or it must be made.
+ * Of a generation of which nobody reads more than messages: what tells its equals. 0: nothing does,
+ * or it must be made.
  */
-static uint64_t find_structure(const struct examiner *examiner, const mxg_document *document, const mxg_generate_desc *desc)
+static uint64_t find_structure(const struct examiner *examiner, const mxg_document *document,
+                               const mxg_generate_desc *desc)
 {
     uint64_t structure = 0;
     if (desc->only_diagnostics && !examiner->no_sharing)
@@ -225,7 +251,8 @@ static void generate(struct examiner *examiner, const mxg_document *document, co
     desc.element = element;
     desc.options = examiner->cli->options;
     /* nobody would read it */
-    desc.without_source = examiner->is_brief && !examiner->compile && !examiner->cli->max_output_size;
+    desc.without_source =
+        examiner->is_brief && !examiner->compile && !examiner->cli->max_output_size;
     desc.only_diagnostics = desc.without_source && !examiner->render;
     mxg_result *result = NULL;
     channel_mark(&examiner->channel, CHECK_GENERATE, element, shader->target);
@@ -248,10 +275,12 @@ static void generate(struct examiner *examiner, const mxg_document *document, co
     mxg_result_destroy(result);
 }
 
-static void examine_element(struct examiner *examiner, const mxg_document *document, struct check_element *element)
+static void examine_element(struct examiner *examiner, const mxg_document *document,
+                            struct check_element *element)
 {
     element->picture = element->signature = "";
-    element->shaders = store_array(&examiner->store, examiner->targets.len, sizeof *element->shaders);
+    element->shaders =
+        store_array(&examiner->store, examiner->targets.len, sizeof *element->shaders);
     for (size_t i = 0; i < examiner->targets.len; ++i) {
         struct check_shader *shader = &element->shaders[element->num_shaders++];
         shader->target = examiner->targets.items[i];
@@ -265,7 +294,8 @@ static void examine_element(struct examiner *examiner, const mxg_document *docum
 const struct check_document *examine(struct examiner *examiner, const char *path)
 {
     store_finish(&examiner->store);
-    struct check_document *record = examiner->document = store_alloc(&examiner->store, sizeof *record);
+    struct check_document *record = examiner->document =
+        store_alloc(&examiner->store, sizeof *record);
     record->file = copy(examiner, path);
     examiner->num_errors = examiner->capacity = 0;
     mxg_document *document = load(examiner, path);

@@ -32,14 +32,16 @@ const struct check_document *examine(struct examiner *examiner, const char *path
 void examiner_finish(struct examiner *examiner);
 
 /* examine_shader.c: what was generated is measured and compiled. */
-void examine_shader(struct examiner *examiner, const mxg_result *result, struct check_shader *shader, const char *element);
+void examine_shader(struct examiner *examiner, const mxg_result *result,
+                    struct check_shader *shader, const char *element);
 
 /* examine_picture.c: which images its picture shows; draws an element. */
 void examine_images(struct examiner *examiner, const mxg_result *result);
 void examine_picture(struct examiner *examiner, struct check_element *element);
 
 /* Adds a message of the current document for a shader; its text is copied. */
-void examine_add(struct examiner *examiner, struct check_shader *shader, struct check_message message);
+void examine_add(struct examiner *examiner, struct check_shader *shader,
+                 struct check_message message);
 
 /* Milliseconds of a clock that only goes forward. */
 double examine_clock(void);

@@ -45,7 +45,8 @@ static void free_args(struct arg_list *args)
 }
 
 /*
- * What the renderer prints goes to a file. Returns 0, its exit code, or -1 where it cannot be started or died.
+ * What the renderer prints goes to a file. Returns 0, its exit code, or -1 where it cannot be
+ * started or died.
  */
 static int run(struct examiner *examiner, const char *element)
 {
@@ -65,11 +66,13 @@ static int run(struct examiner *examiner, const char *element)
     char *log = path_in(examiner, "log");
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, log, O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, log, O_WRONLY | O_CREAT | O_TRUNC,
+                                     0600);
     posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
     pid_t child;
     int status = -1;
-    int reason = posix_spawnp(&child, args.items[0], &actions, NULL, (char *const *)(uintptr_t)args.items, environ);
+    int reason = posix_spawnp(&child, args.items[0], &actions, NULL,
+                              (char *const *)(uintptr_t)args.items, environ);
     while (!reason && waitpid(child, &status, 0) < 0 && errno == EINTR) {
     }
     posix_spawn_file_actions_destroy(&actions);
@@ -89,10 +92,14 @@ static char *read_output(const struct examiner *examiner, const char *name, size
 static void fail(struct examiner *examiner, const struct check_element *element, const char *log)
 {
     const char *why = log && *log ? log : "mxgen-render could not be started, or died\n";
-    char *text = cli_format("'%s' cannot be drawn: %.*s", element->path, (int)strcspn(why, "\n"), why);
+    char *text =
+        cli_format("'%s' cannot be drawn: %.*s", element->path, (int)strcspn(why, "\n"), why);
     char *rendered = cli_format("%s: error: %s [render-failed]\n", examiner->document->file, text);
     examine_add(examiner, NULL,
-                (struct check_message){.id = "render-failed", .text = text, .file = examiner->document->file, .element = element->path,
+                (struct check_message){.id = "render-failed",
+                                       .text = text,
+                                       .file = examiner->document->file,
+                                       .element = element->path,
                                        .rendered = rendered});
     check_fail(&examiner->document->failed, CHECK_RENDER);
     free(rendered);

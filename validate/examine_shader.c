@@ -26,7 +26,8 @@ static uint64_t loose_size(const mxg_variable *variable)
 }
 
 /*
- * Blocks end behind their last member, of the lights one is counted; what stands in no block is added up.
+ * Blocks end behind their last member, of the lights one is counted; what stands in no block is
+ * added up.
  */
 static void add_uniform(const mxg_variable *variable, uint64_t *size)
 {
@@ -39,18 +40,21 @@ static void add_uniform(const mxg_variable *variable, uint64_t *size)
 
 /* ---- Parts ---- */
 
-static void add_part(struct examiner *examiner, struct check_shader *shader, enum measure measure, const char *name, size_t len,
-                     uint64_t count)
+static void add_part(struct examiner *examiner, struct check_shader *shader, enum measure measure,
+                     const char *name, size_t len, uint64_t count)
 {
     for (size_t i = 0; i < shader->num_parts; ++i) {
         struct check_part *part = &shader->parts[i];
-        if (part->measure == measure && strncmp(part->name, name, len) == 0 && part->name[len] == '\0') {
+        if (part->measure == measure && strncmp(part->name, name, len) == 0
+            && part->name[len] == '\0') {
             part->count += count;
             return;
         }
     }
-    shader->parts = store_grow(&examiner->store, shader->parts, shader->num_parts, sizeof *shader->parts);
-    shader->parts[shader->num_parts++] = (struct check_part){measure, store_text(&examiner->store, name, len), count};
+    shader->parts =
+        store_grow(&examiner->store, shader->parts, shader->num_parts, sizeof *shader->parts);
+    shader->parts[shader->num_parts++] =
+        (struct check_part){measure, store_text(&examiner->store, name, len), count};
 }
 
 static int compare_parts(const void *a, const void *b)
@@ -70,7 +74,8 @@ static void rank_parts(struct check_shader *shader)
     if (shader->num_parts)
         qsort(shader->parts, shader->num_parts, sizeof *shader->parts, compare_parts);
     for (size_t i = 0; i < shader->num_parts; ++i) {
-        num_of_measure = i && shader->parts[i].measure == shader->parts[i - 1].measure ? num_of_measure + 1 : 0;
+        num_of_measure =
+            i && shader->parts[i].measure == shader->parts[i - 1].measure ? num_of_measure + 1 : 0;
         if (num_of_measure < MAX_PARTS)
             shader->parts[kept++] = shader->parts[i];
     }
@@ -78,23 +83,27 @@ static void rank_parts(struct check_shader *shader)
 }
 
 /* Textures one by one, uniforms by the node that they belong to. */
-static void add_variable_part(struct examiner *examiner, struct check_shader *shader, const mxg_variable *variable)
+static void add_variable_part(struct examiner *examiner, struct check_shader *shader,
+                              const mxg_variable *variable)
 {
     const char *slash = strrchr(variable->path, '/');
     size_t len = slash ? (size_t)(slash - variable->path) : strlen(variable->path);
     if (variable->block == MXG_BLOCK_TEXTURES) {
         if (*variable->file)
-            check_add_place(&examiner->store, examiner->document, examiner->document->file, variable->file);
+            check_add_place(&examiner->store, examiner->document, examiner->document->file,
+                            variable->file);
         const char *name = *variable->path ? variable->path : variable->name;
         add_part(examiner, shader, MEASURE_SAMPLERS, name, strlen(name), 1);
         if (*variable->path)
             add_part(examiner, shader, MEASURE_TEXTURES, name, strlen(name), 1);
     } else if (variable->block == MXG_BLOCK_PUBLIC_UNIFORMS) {
-        add_part(examiner, shader, MEASURE_UNIFORM_BYTES, variable->path, len, variable->byte_size ? variable->byte_size : loose_size(variable));
+        add_part(examiner, shader, MEASURE_UNIFORM_BYTES, variable->path, len,
+                 variable->byte_size ? variable->byte_size : loose_size(variable));
     }
 }
 
-static void add_closure_parts(struct examiner *examiner, const mxg_result *result, struct check_shader *shader)
+static void add_closure_parts(struct examiner *examiner, const mxg_result *result,
+                              struct check_shader *shader)
 {
     char path[1024];
     for (uint32_t i = 0; i < shader->measures[MEASURE_CLOSURES]; ++i)
@@ -110,7 +119,8 @@ struct listing {
 };
 
 /*
- * "vec3 mx_rotate(vec3 v)" stands above the bracket that its body begins with; the shader itself has a line of parameters there.
+ * "vec3 mx_rotate(vec3 v)" stands above the bracket that its body begins with; the shader itself
+ * has a line of parameters there.
  */
 static void enter_function(struct listing *at)
 {
@@ -123,10 +133,11 @@ static void enter_function(struct listing *at)
 }
 
 /*
- * Functions as a whole, lines of main by the node that they were written for, and what stands around them.
+ * Functions as a whole, lines of main by the node that they were written for, and what stands
+ * around them.
  */
-static void add_source_parts(struct examiner *examiner, const mxg_result *result, mxg_stage stage, const char *source,
-                             struct check_shader *shader)
+static void add_source_parts(struct examiner *examiner, const mxg_result *result, mxg_stage stage,
+                             const char *source, struct check_shader *shader)
 {
     struct listing at = {.before = ""};
     char path[1024];
@@ -137,8 +148,10 @@ static void add_source_parts(struct examiner *examiner, const mxg_result *result
         if (len == 1 && *line == '{')
             enter_function(&at);
         if (at.name)
-            name = mxg_result_source_path(result, stage, number, path, sizeof path) ? path : at.name;
-        add_part(examiner, shader, MEASURE_SOURCE_BYTES, name, name == at.name ? at.name_len : strlen(name), size);
+            name =
+                mxg_result_source_path(result, stage, number, path, sizeof path) ? path : at.name;
+        add_part(examiner, shader, MEASURE_SOURCE_BYTES, name,
+                 name == at.name ? at.name_len : strlen(name), size);
         if (len == 1 && *line == '}')
             at.name = NULL;
         at.before = line;
@@ -146,7 +159,8 @@ static void add_source_parts(struct examiner *examiner, const mxg_result *result
     }
 }
 
-static void measure(struct examiner *examiner, const mxg_result *result, struct check_shader *shader)
+static void measure(struct examiner *examiner, const mxg_result *result,
+                    struct check_shader *shader)
 {
     uint64_t sizes[MXG_NUM_BLOCKS] = {0};
     for (uint32_t i = 0; i < mxg_result_num_variables(result); ++i) {
@@ -158,8 +172,9 @@ static void measure(struct examiner *examiner, const mxg_result *result, struct 
         add_uniform(&variable, &sizes[variable.block]);
         add_variable_part(examiner, shader, &variable);
     }
-    shader->measures[MEASURE_UNIFORM_BYTES] =
-        sizes[MXG_BLOCK_PUBLIC_UNIFORMS] + sizes[MXG_BLOCK_PRIVATE_UNIFORMS] + sizes[MXG_BLOCK_LIGHT_DATA];
+    shader->measures[MEASURE_UNIFORM_BYTES] = sizes[MXG_BLOCK_PUBLIC_UNIFORMS]
+                                              + sizes[MXG_BLOCK_PRIVATE_UNIFORMS]
+                                              + sizes[MXG_BLOCK_LIGHT_DATA];
     for (int stage = 0; stage < MXG_NUM_STAGES; ++stage) {
         size_t size = 0;
         const char *source = mxg_result_source(result, (mxg_stage)stage, &size);
@@ -181,15 +196,16 @@ static void add_spirv_part(struct examiner *examiner, const mxg_result *result, 
     add_part(examiner, shader, MEASURE_INSTRUCTIONS, name, strcspn(name, "("), part->instructions);
 }
 
-static void count_parts(struct examiner *examiner, const mxg_result *result, const struct compiled *compiled,
-                        struct check_shader *shader)
+static void count_parts(struct examiner *examiner, const mxg_result *result,
+                        const struct compiled *compiled, struct check_shader *shader)
 {
     for (int stage = 0; stage < MXG_NUM_STAGES; ++stage) {
         const struct compiled_stage *code = &compiled->stages[stage];
         struct spirv_part *parts = NULL;
         size_t num_parts = 0;
         if (code->words)
-            shader->measures[MEASURE_INSTRUCTIONS] += spirv_count(code->words, code->num_words, &parts, &num_parts);
+            shader->measures[MEASURE_INSTRUCTIONS] +=
+                spirv_count(code->words, code->num_words, &parts, &num_parts);
         for (size_t i = 0; i < num_parts; ++i)
             add_spirv_part(examiner, result, (mxg_stage)stage, &parts[i], shader);
         free(parts);
@@ -208,19 +224,23 @@ static void print_source_line(FILE *out, const char *source, uint32_t line)
 }
 
 /* A message of the compiler stands at the place in the document that its line comes from. */
-static void add_compile_message(struct examiner *examiner, const mxg_result *result, const struct compile_message *message,
-                                struct check_shader *shader, const char *element)
+static void add_compile_message(struct examiner *examiner, const mxg_result *result,
+                                const struct compile_message *message, struct check_shader *shader,
+                                const char *element)
 {
     static const char *const stages[MXG_NUM_STAGES] = {"vertex", "pixel"};
     const char *file = NULL, *path = NULL;
     uint32_t line = 0, column = 0;
-    bool placed = message->line &&
-                  mxg_result_source_place(result, message->stage, message->line, &file, &line, &column, &path) && file;
+    bool placed = message->line
+                  && mxg_result_source_place(result, message->stage, message->line, &file, &line,
+                                             &column, &path)
+                  && file;
     if (!placed)
         file = examiner->document->file;
-    char *text = cli_format("'%s', %s, %s stage, line %u: %s", path && *path ? path : element, shader->target, stages[message->stage],
-                            message->line, message->text);
-    char *place = placed ? cli_format("%s:%u:%u", file, line, column) : cli_format("%s", file), *rendered = NULL;
+    char *text = cli_format("'%s', %s, %s stage, line %u: %s", path && *path ? path : element,
+                            shader->target, stages[message->stage], message->line, message->text);
+    char *place = placed ? cli_format("%s:%u:%u", file, line, column) : cli_format("%s", file),
+         *rendered = NULL;
     size_t size = 0;
     FILE *out = open_memstream(&rendered, &size);
     bool is_error = message->severity == MXG_SEVERITY_ERROR;
@@ -231,15 +251,22 @@ static void add_compile_message(struct examiner *examiner, const mxg_result *res
         fclose(out);
     }
     examine_add(examiner, shader,
-                (struct check_message){.severity = message->severity, .id = "shader-invalid", .text = text, .file = file,
-                                       .line = placed ? line : 0, .column = placed ? column : 0, .element = element,
-                                       .target = shader->target, .rendered = rendered});
+                (struct check_message){.severity = message->severity,
+                                       .id = "shader-invalid",
+                                       .text = text,
+                                       .file = file,
+                                       .line = placed ? line : 0,
+                                       .column = placed ? column : 0,
+                                       .element = element,
+                                       .target = shader->target,
+                                       .rendered = rendered});
     free(rendered);
     free(place);
     free(text);
 }
 
-static void compile(struct examiner *examiner, const mxg_result *result, struct check_shader *shader, const char *element)
+static void compile(struct examiner *examiner, const mxg_result *result,
+                    struct check_shader *shader, const char *element)
 {
     double begin = examine_clock();
     channel_mark(&examiner->channel, CHECK_COMPILE, element, shader->target);
@@ -259,7 +286,8 @@ static void compile(struct examiner *examiner, const mxg_result *result, struct 
     compiled_finish(&compiled);
 }
 
-static void tell_facts(struct examiner *examiner, const mxg_result *result, struct check_shader *shader)
+static void tell_facts(struct examiner *examiner, const mxg_result *result,
+                       struct check_shader *shader)
 {
     mxg_shader_info info = {sizeof info};
     mxg_result_info(result, &info);
@@ -271,7 +299,8 @@ static void tell_facts(struct examiner *examiner, const mxg_result *result, stru
     measure(examiner, result, shader);
 }
 
-void examine_shader(struct examiner *examiner, const mxg_result *result, struct check_shader *shader, const char *element)
+void examine_shader(struct examiner *examiner, const mxg_result *result,
+                    struct check_shader *shader, const char *element)
 {
     if (!examiner->is_brief)
         tell_facts(examiner, result, shader);

@@ -38,7 +38,8 @@ struct work { /* in a folder of its own */
 static bool make_work(struct work *work, const char *source)
 {
     const char *place = getenv("TMPDIR");
-    int written = snprintf(work->folder, sizeof work->folder, "%s/mxgen-XXXXXX", place && *place ? place : "/tmp");
+    int written = snprintf(work->folder, sizeof work->folder, "%s/mxgen-XXXXXX",
+                           place && *place ? place : "/tmp");
     if (written < 0 || (size_t)written >= sizeof work->folder || !mkdtemp(work->folder))
         return false;
     snprintf(work->source, sizeof work->source, "%s/shader.osl", work->folder);
@@ -65,13 +66,20 @@ static int run(const struct work *work)
     posix_spawn_file_actions_t actions;
     if (posix_spawn_file_actions_init(&actions) != 0)
         return -1;
-    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, work->log, O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, work->log,
+                                     O_WRONLY | O_CREAT | O_TRUNC, 0600);
     posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
-    char *argv[] = {(char[]){"oslc"}, (char[]){"-q"}, (char[]){"-O2"}, (char[]){"-o"}, (char *)(uintptr_t)work->object,
-                    (char *)(uintptr_t)work->source, NULL};
+    char *argv[] = {(char[]){"oslc"},
+                    (char[]){"-q"},
+                    (char[]){"-O2"},
+                    (char[]){"-o"},
+                    (char *)(uintptr_t)work->object,
+                    (char *)(uintptr_t)work->source,
+                    NULL};
     pid_t process;
     int status = -1;
-    if (posix_spawnp(&process, argv[0], &actions, NULL, argv, environ) != 0 || waitpid(process, &status, 0) != process)
+    if (posix_spawnp(&process, argv[0], &actions, NULL, argv, environ) != 0
+        || waitpid(process, &status, 0) != process)
         status = -1;
     posix_spawn_file_actions_destroy(&actions);
     return status >= 0 && WIFEXITED(status) ? WEXITSTATUS(status) : -1;
@@ -93,8 +101,8 @@ static void read_line(struct compiled *out, mxg_stage stage, const char *text)
         while (number > text && number[-1] >= '0' && number[-1] <= '9')
             --number;
         const char *message = at + strlen(severities[i]);
-        compiled_add(out, stage, i == 0 ? MXG_SEVERITY_ERROR : MXG_SEVERITY_WARNING, (uint32_t)strtoul(number, NULL, 10),
-                     message, strcspn(message, "\n"));
+        compiled_add(out, stage, i == 0 ? MXG_SEVERITY_ERROR : MXG_SEVERITY_WARNING,
+                     (uint32_t)strtoul(number, NULL, 10), message, strcspn(message, "\n"));
         return;
     }
 }

@@ -9,8 +9,8 @@
 bool oslc_is_installed(void);
 
 /*
- * compile_program for OSL: each stage is a shader of its own, and the number of its instructions goes to body_instructions. Messages of
- * oslc have a line, no column.
+ * compile_program for OSL: each stage is a shader of its own, and the number of its instructions
+ * goes to body_instructions. Messages of oslc have a line, no column.
  */
 bool oslc_compile_program(const char *const sources[MXG_NUM_STAGES], struct compiled *out);
 

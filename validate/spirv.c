@@ -29,7 +29,8 @@ struct counter {
 /* The name of an id, looked for among the names in front of all functions. */
 static const char *find_name(const struct counter *counter, uint32_t id)
 {
-    for (size_t i = HEADER_WORDS; i < counter->num_words && counter->words[i] >> 16; i += counter->words[i] >> 16) {
+    for (size_t i = HEADER_WORDS; i < counter->num_words && counter->words[i] >> 16;
+         i += counter->words[i] >> 16) {
         enum spirv_op op = (enum spirv_op)(counter->words[i] & 0xffff);
         if (op == OP_FUNCTION)
             break;
@@ -41,19 +42,22 @@ static const char *find_name(const struct counter *counter, uint32_t id)
 
 static void add_part(struct counter *counter, uint32_t line)
 {
-    struct spirv_part *more = counter->failed ? NULL : realloc(counter->parts, (counter->num_parts + 1) * sizeof *more);
+    struct spirv_part *more =
+        counter->failed ? NULL : realloc(counter->parts, (counter->num_parts + 1) * sizeof *more);
     if (!more) {
         counter->failed = true;
         return;
     }
     counter->parts = more;
-    counter->parts[counter->num_parts++] = (struct spirv_part){find_name(counter, counter->function), line, 0};
+    counter->parts[counter->num_parts++] =
+        (struct spirv_part){find_name(counter, counter->function), line, 0};
 }
 
 static void count_instruction(struct counter *counter)
 {
     uint32_t line = counter->function == counter->entry_point ? counter->line : 0;
-    const struct spirv_part *last = counter->num_parts ? &counter->parts[counter->num_parts - 1] : NULL;
+    const struct spirv_part *last =
+        counter->num_parts ? &counter->parts[counter->num_parts - 1] : NULL;
     if (line && (!last || last->line != line))
         add_part(counter, line);
     if (counter->num_parts && !counter->failed)
@@ -81,7 +85,8 @@ static void visit(struct counter *counter, const uint32_t *instruction)
     }
 }
 
-uint32_t spirv_count(const uint32_t *words, size_t num_words, struct spirv_part **out_parts, size_t *out_num_parts)
+uint32_t spirv_count(const uint32_t *words, size_t num_words, struct spirv_part **out_parts,
+                     size_t *out_num_parts)
 {
     struct counter counter = {.words = words, .num_words = num_words};
     for (size_t i = HEADER_WORDS; i < num_words && words[i] >> 16; i += words[i] >> 16)

@@ -16,9 +16,11 @@ struct spirv_part {
 };
 
 /*
- * Counts the instructions between OpFunction and OpFunctionEnd, the marks of lines left out: what an optimiser or driver
- * has to go through. *out_parts (may be NULL) gets them in order, to be freed; NULL without memory.
+ * Counts the instructions between OpFunction and OpFunctionEnd, the marks of lines left out: what
+ * an optimiser or driver has to go through. *out_parts (may be NULL) gets them in order, to be
+ * freed; NULL without memory.
  */
-uint32_t spirv_count(const uint32_t *words, size_t num_words, struct spirv_part **out_parts, size_t *out_num_parts);
+uint32_t spirv_count(const uint32_t *words, size_t num_words, struct spirv_part **out_parts,
+                     size_t *out_num_parts);
 
 #endif

@@ -21,7 +21,8 @@ bool structures_have(const struct structures *structures, uint64_t structure)
 
 static bool make_room(struct structures *structures)
 {
-    struct structures old = *structures, grown = {.capacity = old.capacity ? old.capacity * 2 : FIRST_CAPACITY};
+    struct structures old = *structures,
+                      grown = {.capacity = old.capacity ? old.capacity * 2 : FIRST_CAPACITY};
     if (old.capacity == MAX_CAPACITY) {
         memset(old.items, 0, old.capacity * sizeof *old.items);
         structures->len = 0;

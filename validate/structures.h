@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Structures (mxg_document_structure) of elements that were generated without a message: their equals need no generation.
+ * Structures (mxg_document_structure) of elements that were generated without a message: their
+ * equals need no generation.
  */
 #ifndef MXG_VALIDATE_STRUCTURES_H
 #define MXG_VALIDATE_STRUCTURES_H

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * mxgen-check: a worker of `mxgen check`, which starts several of them and gives each one document after the other
- * (cli/check/protocol.h). It is a program of its own so that what goes wrong in a document, or in a compiler, ends
- * nothing but its check, and so that plain generation pays nothing for compilers.
+ * mxgen-check: a worker of `mxgen check`, which starts several of them and gives each one document
+ * after the other (cli/check/protocol.h). It is a program of its own so that what goes wrong in a
+ * document, or in a compiler, ends nothing but its check, and so that plain generation pays nothing
+ * for compilers.
  */
 #define _POSIX_C_SOURCE 200809L
 #include "cli/check/packed.h"
@@ -14,7 +15,8 @@
 #include <unistd.h>
 
 /*
- * What compilers print must not mix with the frames: standard output becomes another name of stderr.
+ * What compilers print must not mix with the frames: standard output becomes another name of
+ * stderr.
  */
 static int take_output(void)
 {
@@ -24,7 +26,8 @@ static int take_output(void)
 }
 
 /*
- * One document follows another: what the first needed the next one needs again, and the system need not clear it anew.
+ * One document follows another: what the first needed the next one needs again, and the system need
+ * not clear it anew.
  */
 static void keep_memory(void)
 {
@@ -55,7 +58,8 @@ static bool serve(struct examiner *examiner, int output)
 
 int main(int argc, char **argv)
 {
-    static const struct command command = {"check", "-check (started by `mxgen check`)", "Checks documents.", NULL};
+    static const struct command command = {"check", "-check (started by `mxgen check`)",
+                                           "Checks documents.", NULL};
     struct cli cli;
     bool no_compile = false;
     struct examiner examiner = {.cli = &cli};
@@ -68,7 +72,8 @@ int main(int argc, char **argv)
         {"no-sharing", 0, ARG_FLAG, NULL, "generates every element", &examiner.no_sharing},
     };
     int code;
-    if (cli_start(&cli, &command, args, sizeof args / sizeof *args, CLI_GENERATES, argc, argv, &code)) {
+    if (cli_start(&cli, &command, args, sizeof args / sizeof *args, CLI_GENERATES, argc, argv,
+                  &code)) {
         examiner.compile = !no_compile;
         cli.report.colour = false;
         code = serve(&examiner, output) ? EXIT_DONE : EXIT_USAGE;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * A baseline is a JSON report that was kept. What of a run differs from it becomes changes in the documents: so that one sees
- * what an edit of a library does to a whole show.
+ * A baseline is a JSON report that was kept. What of a run differs from it becomes changes in the
+ * documents: so that one sees what an edit of a library does to a whole show.
  */
 #ifndef MXG_CLI_CHECK_BASELINE_H
 #define MXG_CLI_CHECK_BASELINE_H
@@ -21,10 +21,12 @@ bool baseline_open(struct baseline *baseline, const char *path);
 void baseline_close(struct baseline *baseline);
 
 /* Notes in the document, with memory of the store, what differs. */
-void baseline_compare(struct baseline *baseline, struct store *store, struct check_document *document);
+void baseline_compare(struct baseline *baseline, struct store *store,
+                      struct check_document *document);
 
 /*
- * Names the documents of the baseline that were not compared, in its order; returns how many there are.
+ * Names the documents of the baseline that were not compared, in its order; returns how many there
+ * are.
  */
 uint64_t baseline_list_gone(struct baseline *baseline, FILE *out);
 

@@ -28,14 +28,16 @@ bool budget_add(struct budget *budget, enum measure measure, const char *text)
         char *end = NULL;
         unsigned long long limit = strtoull(digits, &end, 10);
         if (end != at + len || *digits < '0' || *digits > '9') {
-            fprintf(stderr, "mxgen: '%s' is no budget; write --%s N, or TARGET=N,...\n", text, measure_infos[measure].option);
+            fprintf(stderr, "mxgen: '%s' is no budget; write --%s N, or TARGET=N,...\n", text,
+                    measure_infos[measure].option);
             return false;
         }
         mxg_target known = {.name = ""};
         if (equals && !cli_find_target(at, (size_t)(equals - at), &known))
             return false;
         const char *target = store_text(&budget->store, known.name, strlen(known.name));
-        budget_add_rule(&budget->store, &budget->command_line, (struct budget_rule){measure, target, limit});
+        budget_add_rule(&budget->store, &budget->command_line,
+                        (struct budget_rule){measure, target, limit});
         at += len + (at[len] == ',');
     }
     return true;
@@ -59,7 +61,8 @@ void budget_finish(struct budget *budget)
 static bool is_same_folder(const char *a, const char *b)
 {
     struct stat first, second;
-    return stat(*a ? a : ".", &first) != 0 || stat(b, &second) != 0 || (first.st_dev == second.st_dev && first.st_ino == second.st_ino);
+    return stat(*a ? a : ".", &first) != 0 || stat(b, &second) != 0
+           || (first.st_dev == second.st_dev && first.st_ino == second.st_ino);
 }
 
 /* The folder above, "" being the current one; NULL above the root. */
@@ -84,7 +87,8 @@ static struct budget_folder *place_of(struct budget *budget, const char *folder)
 }
 
 /*
- * The nearest file in the folder and those above it, valid until the next call; NULL where there is none.
+ * The nearest file in the folder and those above it, valid until the next call; NULL where there is
+ * none.
  */
 static const char *find_file(struct budget *budget, const char *folder)
 {
@@ -120,7 +124,8 @@ static void load_file(struct budget *budget, struct budget_file *file)
 }
 
 /* Documents come folder by folder: `file` is mostly the one already. */
-static const struct budget_file *file_of(struct budget *budget, struct budget_file *file, const char *document)
+static const struct budget_file *file_of(struct budget *budget, struct budget_file *file,
+                                         const char *document)
 {
     const char *slash = strrchr(document, '/');
     size_t len = slash ? (size_t)(slash - document) + (slash == document) : 0;
@@ -142,7 +147,8 @@ bool budget_has_file(struct budget *budget, const char *document)
 /* ---- Verdicts ---- */
 
 /* The last rule about a measure for this target, else the last one for all. */
-static const struct budget_rule *find_rule(const struct budget_rules *rules, enum measure measure, const char *target)
+static const struct budget_rule *find_rule(const struct budget_rules *rules, enum measure measure,
+                                           const char *target)
 {
     const struct budget_rule *found = NULL;
     for (size_t i = 0; i < rules->len; ++i) {
@@ -170,13 +176,15 @@ static char *describe_parts(const struct check_shader *shader, enum measure meas
     return text;
 }
 
-static void fail(struct store *store, struct check_document *document, const struct check_element *element,
-                 struct check_shader *shader, const struct budget_rule *rule)
+static void fail(struct store *store, struct check_document *document,
+                 const struct check_element *element, struct check_shader *shader,
+                 const struct budget_rule *rule)
 {
     const struct measure_info *info = &measure_infos[rule->measure];
     char *parts = describe_parts(shader, rule->measure);
-    char *text = cli_format("'%s' for %s has %" PRIu64 " %s, where %" PRIu64 " are allowed%s", element->path, shader->target,
-                            shader->measures[rule->measure], info->noun, rule->limit, parts ? parts : "");
+    char *text = cli_format("'%s' for %s has %" PRIu64 " %s, where %" PRIu64 " are allowed%s",
+                            element->path, shader->target, shader->measures[rule->measure],
+                            info->noun, rule->limit, parts ? parts : "");
     char *rendered = cli_format("%s: error: %s [over-budget]\n", document->file, text);
     struct check_message message = {.id = "over-budget",
                                     .text = store_text(store, text, strlen(text)),
@@ -194,11 +202,13 @@ static void fail(struct store *store, struct check_document *document, const str
     free(parts);
 }
 
-static void judge_shader(const struct budget *budget, const struct budget_file *file, struct store *store,
-                         struct check_document *document, const struct check_element *element, struct check_shader *shader)
+static void judge_shader(const struct budget *budget, const struct budget_file *file,
+                         struct store *store, struct check_document *document,
+                         const struct check_element *element, struct check_shader *shader)
 {
     for (int measure = 0; measure < NUM_MEASURES; ++measure) {
-        const struct budget_rule *rule = find_rule(&budget->command_line, (enum measure)measure, shader->target);
+        const struct budget_rule *rule =
+            find_rule(&budget->command_line, (enum measure)measure, shader->target);
         if (!rule)
             rule = find_rule(&file->rules, (enum measure)measure, shader->target);
         if (rule && shader->measures[measure] > rule->limit)
@@ -226,5 +236,6 @@ void budget_judge(struct budget *budget, struct store *store, struct check_docum
     }
     for (size_t i = 0; i < document->num_elements; ++i)
         for (size_t k = 0; k < document->elements[i].num_shaders; ++k)
-            judge_shader(budget, file, store, document, &document->elements[i], &document->elements[i].shaders[k]);
+            judge_shader(budget, file, store, document, &document->elements[i],
+                         &document->elements[i].shaders[k]);
 }

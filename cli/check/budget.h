@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Budgets: how much a shader may have of what is measured (measures.def), by the command line or by the file mxgen.toml that lies nearest
- * above a document. What the command line says about a measure holds; otherwise what the file says; for a target before what is said for all.
+ * Budgets: how much a shader may have of what is measured (measures.def), by the command line or by
+ * the file mxgen.toml that lies nearest above a document. What the command line says about a
+ * measure holds; otherwise what the file says; for a target before what is said for all.
  */
 #ifndef MXG_CLI_CHECK_BUDGET_H
 #define MXG_CLI_CHECK_BUDGET_H
@@ -26,16 +27,16 @@ struct budget {
     struct budget_folder {
         char *name; /* NULL: free */
         char *file; /* the nearest in it and above it; NULL: there is none */
-    /* that were looked into lately, each where its hash says: nothing changes during a run */
+        /* that were looked into lately, each where its hash says: nothing changes during a run */
     } folders[NUM_BUDGET_FOLDERS];
     struct budget_rules command_line;
     struct budget_file {
         struct store store;
-        char *folder; /* of the documents that it is for; NULL: none was looked for yet */
+        char *folder;     /* of the documents that it is for; NULL: none was looked for yet */
         const char *path; /* NULL: there is none */
         struct budget_rules rules;
         struct check_message fault; /* id: NULL where there is none */
-    /* those of the folders of the last document that was given out, and that was judged */
+        /* those of the folders of the last document that was given out, and that was judged */
     } given, judged;
 };
 
@@ -50,9 +51,11 @@ bool budget_has_file(struct budget *budget, const char *document);
 void budget_judge(struct budget *budget, struct store *store, struct check_document *document);
 
 /* toml.c: the fault of a file that cannot be read. */
-void budget_refuse_toml(struct store *store, const char *path, const char *reason, struct check_message *fault);
+void budget_refuse_toml(struct store *store, const char *path, const char *reason,
+                        struct check_message *fault);
 /* toml.c: reads rules from the text of a file; *fault gets the first error, in the store. */
-void budget_read_toml(struct store *store, const char *path, const char *text, struct budget_rules *out, struct check_message *fault);
+void budget_read_toml(struct store *store, const char *path, const char *text,
+                      struct budget_rules *out, struct check_message *fault);
 
 void budget_add_rule(struct store *store, struct budget_rules *rules, struct budget_rule rule);
 

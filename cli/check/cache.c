@@ -113,7 +113,8 @@ static void add_renderer(struct sha256 *sha)
     free(program);
 }
 
-void cache_init(struct cache *cache, const char *folder, const struct arg_list *args, const mxg_library *library)
+void cache_init(struct cache *cache, const char *folder, const struct arg_list *args,
+                const mxg_library *library)
 {
     *cache = (struct cache){.folder = folder, .begin = time(NULL)};
     if (!folder)
@@ -170,7 +171,8 @@ static void stamp_image(const char *path, char out[SHA256_HEX + 1])
 {
     struct stat info;
     if (stat(path, &info) == 0)
-        snprintf(out, SHA256_HEX + 1, STAMP "%jd %jd.%09ld", (intmax_t)info.st_size, (intmax_t)info.st_mtim.tv_sec, info.st_mtim.tv_nsec);
+        snprintf(out, SHA256_HEX + 1, STAMP "%jd %jd.%09ld", (intmax_t)info.st_size,
+                 (intmax_t)info.st_mtim.tv_sec, info.st_mtim.tv_nsec);
     else
         snprintf(out, SHA256_HEX + 1, STAMP "none");
 }
@@ -184,15 +186,18 @@ static bool is_as_before(struct cache *cache, const char *path, const char *said
     return strcmp(said, stamp) == 0;
 }
 
-/* The first line of an entry is an object: path and hash of each file that was read besides the document, and of the
- * names in each folder of textures; path and stamp of each image that a picture shows. */
+/* The first line of an entry is an object: path and hash of each file that was read besides the
+ * document, and of the names in each folder of textures; path and stamp of each image that a
+ * picture shows. */
 static bool is_current(struct cache *cache, const char *line, size_t len)
 {
     struct store store = {0};
     const struct json_value *files = json_parse(&store, line, len);
     bool good = files && files->kind == JSON_OBJECT;
-    for (const struct json_value *file = good ? files->first : NULL; file && good; file = file->next)
-        good = file->kind == JSON_STRING && *file->text && is_as_before(cache, file->key, file->text);
+    for (const struct json_value *file = good ? files->first : NULL; file && good;
+         file = file->next)
+        good =
+            file->kind == JSON_STRING && *file->text && is_as_before(cache, file->key, file->text);
     store_finish(&store);
     return good;
 }
@@ -243,7 +248,8 @@ static bool follows_from_files(const struct cache *cache, const struct check_doc
     for (size_t i = 0; i < document->num_images; ++i)
         if (files_is_regular(document->images[i]) && may_have_changed(cache, document->images[i]))
             return false;
-    if (document->failed == CHECK_CRASH || document->failed == CHECK_TIMEOUT || document->num_files == 0)
+    if (document->failed == CHECK_CRASH || document->failed == CHECK_TIMEOUT
+        || document->num_files == 0)
         return false;
     for (size_t i = 0; i < document->num_messages; ++i)
         if (is_about_absence(document->messages[i].id))
@@ -251,7 +257,8 @@ static bool follows_from_files(const struct cache *cache, const struct check_doc
     return true;
 }
 
-static char *make_entry(struct cache *cache, const struct check_document *document, size_t *out_size)
+static char *make_entry(struct cache *cache, const struct check_document *document,
+                        size_t *out_size)
 {
     char *text = NULL;
     FILE *out = open_memstream(&text, out_size);
@@ -280,7 +287,8 @@ static char *make_entry(struct cache *cache, const struct check_document *docume
     return text;
 }
 
-void cache_put(struct cache *cache, const struct cache_key *key, const struct check_document *document)
+void cache_put(struct cache *cache, const struct cache_key *key,
+               const struct check_document *document)
 {
     struct cache_key now;
     if (!cache->folder || !key->hex[0] || cache->fault || !follows_from_files(cache, document))

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * mxgen check: documents in, verdicts out. Workers (pool.h) make a record of each document; here they are put in order,
- * judged and reported.
+ * mxgen check: documents in, verdicts out. Workers (pool.h) make a record of each document; here
+ * they are put in order, judged and reported.
  */
 #define _POSIX_C_SOURCE 200809L
 #include "cli/check/baseline.h"
@@ -27,7 +27,7 @@ struct slot {
     uint64_t index; /* among all documents */
     struct cache_key key;
     bool is_cached; /* it was not given out */
-    char *record; /* NULL: not there yet */
+    char *record;   /* NULL: not there yet */
     size_t size;
     bool is_done;
     enum check_stage failed; /* without a record */
@@ -74,9 +74,14 @@ static struct check_document *make_failure(struct store *store, const struct slo
     char *rendered = cli_format("%s: error: %s [%s]\n", slot->path, slot->reason, id);
     document->file = slot->path;
     document->failed = slot->failed;
-    check_add_message(store, document,
-                      &(struct check_message){.id = id, .text = slot->reason, .file = slot->path, .element = "",
-                                              .target = "", .rendered = store_text(store, rendered, strlen(rendered))});
+    check_add_message(
+        store, document,
+        &(struct check_message){.id = id,
+                                .text = slot->reason,
+                                .file = slot->path,
+                                .element = "",
+                                .target = "",
+                                .rendered = store_text(store, rendered, strlen(rendered))});
     free(rendered);
     return document;
 }
@@ -86,18 +91,21 @@ static void forget_times(struct check_document *document)
     document->load_ms = document->validate_ms = document->render_ms = 0.0;
     for (size_t i = 0; i < document->num_elements; ++i)
         for (size_t k = 0; k < document->elements[i].num_shaders; ++k)
-            document->elements[i].shaders[k].generate_ms = document->elements[i].shaders[k].compile_ms = 0.0;
+            document->elements[i].shaders[k].generate_ms =
+                document->elements[i].shaders[k].compile_ms = 0.0;
 }
 
 /*
  * The record as it was made, before anything is judged: what the cache keeps. NULL: there is none.
  */
-static struct check_document *read_record(struct check *check, struct store *store, const struct slot *slot)
+static struct check_document *read_record(struct check *check, struct store *store,
+                                          const struct slot *slot)
 {
     if (!slot->record)
         return NULL;
-    struct check_document *document = slot->is_cached ? check_read_document(store, slot->record, slot->size)
-                                                      : check_unpack_document(store, slot->record, slot->size);
+    struct check_document *document = slot->is_cached
+                                          ? check_read_document(store, slot->record, slot->size)
+                                          : check_unpack_document(store, slot->record, slot->size);
     if (document && slot->is_cached)
         forget_times(document);
     else if (document)
@@ -144,7 +152,9 @@ static const char *next_path(struct check *check)
     const char *path;
     do
         path = inputs_next(&check->inputs);
-    while (path && check->num_found++ % (run->num_shards ? run->num_shards : 1) + 1 != (run->num_shards ? run->shard : 1));
+    while (path
+           && check->num_found++ % (run->num_shards ? run->num_shards : 1) + 1
+                  != (run->num_shards ? run->shard : 1));
     return path;
 }
 
@@ -166,7 +176,8 @@ static bool give_next(struct check *check)
     slot->record = cache_find(&check->cache, path, &slot->key, &slot->size);
     slot->is_done = slot->is_cached = slot->record != NULL;
     if (!slot->is_done)
-        pool_give(&check->pool, (struct pool_task){slot->path, task_note(check, path), (size_t)(check->last - 1)});
+        pool_give(&check->pool, (struct pool_task){slot->path, task_note(check, path),
+                                                   (size_t)(check->last - 1)});
     return true;
 }
 
@@ -224,7 +235,8 @@ static bool find_targets(struct check *check)
 
 static void add_worker_arg(struct check *check, const char *name, const char *value)
 {
-    args_append(&check->worker_args, value ? cli_format("--%s=%s", name, value) : cli_format("%s", name));
+    args_append(&check->worker_args,
+                value ? cli_format("--%s=%s", name, value) : cli_format("%s", name));
 }
 
 /* "2/8" */
@@ -236,7 +248,8 @@ static bool parse_shard(struct check *check)
         return true;
     run->shard = strtoul(check->shard, &end, 10);
     run->num_shards = *end == '/' ? strtoul(end + 1, &end, 10) : 0;
-    if (*end == '\0' && run->shard >= 1 && run->shard <= run->num_shards && run->num_shards <= 1000000)
+    if (*end == '\0' && run->shard >= 1 && run->shard <= run->num_shards
+        && run->num_shards <= 1000000)
         return true;
     fprintf(stderr, "mxgen: '%s' is not a shard; write K/N, from 1/N to N/N\n", check->shard);
     return false;
@@ -245,7 +258,8 @@ static bool parse_shard(struct check *check)
 static bool parse_budgets(struct check *check)
 {
     for (int i = 0; i < NUM_MEASURES; ++i)
-        if (check->budget_args[i] && !budget_add(&check->budget, (enum measure)i, check->budget_args[i]))
+        if (check->budget_args[i]
+            && !budget_add(&check->budget, (enum measure)i, check->budget_args[i]))
             return false;
     return true;
 }
@@ -276,7 +290,8 @@ static bool prepare_baseline(struct check *check)
     check->baseline_path = *path;
     check->reports.run.is_compared = baseline_open(&check->baseline, *path);
     if (!check->reports.run.is_compared)
-        report_error(&check->cli.report, "report-unreadable", "cannot read '%s': %s", *path, check->baseline.reader.fault);
+        report_error(&check->cli.report, "report-unreadable", "cannot read '%s': %s", *path,
+                     check->baseline.reader.fault);
     if (!check->update_baseline)
         *path = NULL;
     return check->reports.run.is_compared;
@@ -319,9 +334,11 @@ static bool prepare(struct check *check)
         return false;
     name_inputs(check);
     const char *const *paths = check->reports.paths;
-    check->needs_measures = check->stats || check->cache_folder || check->budget.command_line.len || run->is_compared ||
-                            paths[SINK_JSON] || paths[SINK_HTML] || paths[SINK_BASELINE];
-    check->needs_errors_only = cli->quiet && !check->needs_measures && !paths[SINK_SARIF] && !paths[SINK_JUNIT];
+    check->needs_measures = check->stats || check->cache_folder || check->budget.command_line.len
+                            || run->is_compared || paths[SINK_JSON] || paths[SINK_HTML]
+                            || paths[SINK_BASELINE];
+    check->needs_errors_only =
+        cli->quiet && !check->needs_measures && !paths[SINK_SARIF] && !paths[SINK_JUNIT];
     check->num_slots = 2 * pool_capacity(check->jobs) + 64;
     check->slots = calloc(check->num_slots, sizeof *check->slots);
     return check->slots && reports_begin(&check->reports, &check->cli.report);
@@ -333,7 +350,9 @@ static bool find_renderer(struct check *check)
     char *program = check->render ? cli_program("mxgen-render") : NULL;
     bool found = !program || files_find_program(program);
     if (!found)
-        report_error(&check->cli.report, "no-renderer", "there is no '%s': it is built where Vulkan and OpenImageIO are installed", program);
+        report_error(&check->cli.report, "no-renderer",
+                     "there is no '%s': it is built where Vulkan and OpenImageIO are installed",
+                     program);
     free(program);
     return found;
 }
@@ -348,13 +367,16 @@ static int run(struct check *check)
     make_worker_args(check);
     inputs_init(&check->inputs, &check->cli.parser.inputs, &check->files_from);
     cache_init(&check->cache, check->cache_folder, &check->worker_args, check->cli.library);
-    pool_init(&check->pool, (char *const *)(uintptr_t)check->worker_args.items, check->jobs, (double)check->time_limit);
+    pool_init(&check->pool, (char *const *)(uintptr_t)check->worker_args.items, check->jobs,
+              (double)check->time_limit);
     check_all(check);
     if (check->reports.run.is_compared && !check->reports.run.num_shards)
-        check->reports.totals.changes[CHANGE_GONE] += baseline_list_gone(&check->baseline, check->reports.text.out);
+        check->reports.totals.changes[CHANGE_GONE] +=
+            baseline_list_gone(&check->baseline, check->reports.text.out);
     reports_end(&check->reports, report, !check->pool.fault);
     if (check->cache.fault)
-        fprintf(stderr, "warning: the cache '%s' cannot be written: %s [output-failed]\n", check->cache_folder, check->cache.fault);
+        fprintf(stderr, "warning: the cache '%s' cannot be written: %s [output-failed]\n",
+                check->cache_folder, check->cache.fault);
     if (totals->documents == 0 && !check->num_found && !check->inputs.failed && !check->pool.fault)
         report_error(report, "nothing-to-check", "no document was found");
     bool good = !report->errors && !check->inputs.failed && reports_are_good(&check->reports);
@@ -401,7 +423,9 @@ static int run_if_sensible(struct check *check)
     const char *misuse = find_misuse(check);
     if (misuse)
         fprintf(stderr, "mxgen: %s\n", misuse);
-    return !misuse && find_targets(check) && parse_shard(check) && parse_budgets(check) ? run(check) : EXIT_USAGE;
+    return !misuse && find_targets(check) && parse_shard(check) && parse_budgets(check)
+               ? run(check)
+               : EXIT_USAGE;
 }
 
 int command_check(const struct command *command, int argc, char **argv)
@@ -410,24 +434,40 @@ int command_check(const struct command *command, int argc, char **argv)
         return check_merge(command, argc - 1, argv + 1);
     struct check check = {.time_limit = 120};
     struct arg args[16 + NUM_SINK_KINDS + NUM_MEASURES] = {
-        {"target", 't', ARG_LIST, "T,...", "targets to generate for (default: glsl)", &check.target_args},
-        {"jobs", 'j', ARG_SIZE, "N", "documents at a time (default: as many as there are cores)", &check.jobs},
-        {"files-from", 0, ARG_LIST, "FILE", "a list of paths, one on each line; '-': standard input", &check.files_from},
+        {"target", 't', ARG_LIST, "T,...", "targets to generate for (default: glsl)",
+         &check.target_args},
+        {"jobs", 'j', ARG_SIZE, "N", "documents at a time (default: as many as there are cores)",
+         &check.jobs},
+        {"files-from", 0, ARG_LIST, "FILE",
+         "a list of paths, one on each line; '-': standard input", &check.files_from},
         {"no-compile", 0, ARG_FLAG, NULL, "generates, and compiles nothing", &check.no_compile},
-        {"no-sharing", 0, ARG_FLAG, NULL, "generates every element, also where one of equal structure was generated without a message", &check.no_sharing},
-        {"render", 0, ARG_FLAG, NULL, "draws every element, for the gallery and to compare with a baseline", &check.render},
-        {"time-limit", 0, ARG_SIZE, "S", "seconds that a step of a document may take, one element for one target; 0: any (default: 120)", &check.time_limit},
-        {"cache", 0, ARG_TEXT, "DIR", "keeps what was found, and checks again only what has changed", &check.cache_folder},
-        {"shard", 0, ARG_TEXT, "K/N", "checks the K-th of N parts; 'check merge' joins their JSON reports", &check.shard},
-        {"update-baseline", 0, ARG_FLAG, NULL, "writes the baseline anew, after the comparison", &check.update_baseline},
-        {"stats", 0, ARG_FLAG, NULL, "tells times, the slowest documents and the largest shaders", &check.stats},
+        {"no-sharing", 0, ARG_FLAG, NULL,
+         "generates every element, also where one of equal structure was generated without a "
+         "message",
+         &check.no_sharing},
+        {"render", 0, ARG_FLAG, NULL,
+         "draws every element, for the gallery and to compare with a baseline", &check.render},
+        {"time-limit", 0, ARG_SIZE, "S",
+         "seconds that a step of a document may take, one element for one target; 0: any (default: "
+         "120)",
+         &check.time_limit},
+        {"cache", 0, ARG_TEXT, "DIR",
+         "keeps what was found, and checks again only what has changed", &check.cache_folder},
+        {"shard", 0, ARG_TEXT, "K/N",
+         "checks the K-th of N parts; 'check merge' joins their JSON reports", &check.shard},
+        {"update-baseline", 0, ARG_FLAG, NULL, "writes the baseline anew, after the comparison",
+         &check.update_baseline},
+        {"stats", 0, ARG_FLAG, NULL, "tells times, the slowest documents and the largest shaders",
+         &check.stats},
     };
     size_t num_args = 0;
     while (args[num_args].name)
         ++num_args;
     num_args += reports_args(&check.reports, args + num_args);
     for (int i = 0; i < NUM_MEASURES; ++i)
-        args[num_args++] = (struct arg){measure_infos[i].option, 0, ARG_TEXT, "N | T=N,...", measure_infos[i].meaning, &check.budget_args[i]};
+        args[num_args++] = (struct arg){
+            measure_infos[i].option, 0, ARG_TEXT, "N | T=N,...", measure_infos[i].meaning,
+            &check.budget_args[i]};
     int code;
     if (cli_start(&check.cli, command, args, num_args, CLI_GENERATES, argc, argv, &code))
         code = run_if_sensible(&check);

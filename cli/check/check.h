@@ -26,7 +26,8 @@ bool reports_begin(struct check_reports *reports, struct report *report);
 void reports_document(struct check_reports *reports, const struct check_document *document);
 
 /*
- * Whether the run passes: all documents do, or with a baseline, nothing fails that did not fail before.
+ * Whether the run passes: all documents do, or with a baseline, nothing fails that did not fail
+ * before.
  */
 bool reports_are_good(const struct check_reports *reports);
 

@@ -54,7 +54,8 @@ static void pop(struct check_inputs *inputs)
     free(source);
 }
 
-void inputs_init(struct check_inputs *inputs, const struct arg_list *paths, const struct arg_list *files_from)
+void inputs_init(struct check_inputs *inputs, const struct arg_list *paths,
+                 const struct arg_list *files_from)
 {
     *inputs = (struct check_inputs){0};
     const struct arg_list *lists[] = {files_from, paths};
@@ -135,7 +136,8 @@ static int compare_texts(const void *a, const void *b)
 /* What cannot be read is not left out in silence. */
 static void fail(struct check_inputs *inputs, const char *what, const char *name)
 {
-    fprintf(stderr, "error: cannot read %s '%s': %s [file-unreadable]\n", what, name, strerror(errno));
+    fprintf(stderr, "error: cannot read %s '%s': %s [file-unreadable]\n", what, name,
+            strerror(errno));
     inputs->failed = true;
 }
 
@@ -151,7 +153,8 @@ static void push_folder(struct check_inputs *inputs, const char *path)
     for (struct dirent *entry; folder && (entry = readdir(folder)) != NULL;) {
         if (entry->d_name[0] == '.')
             continue;
-        char *name = cli_format("%s%s%s", path, len && path[len - 1] == '/' ? "" : "/", entry->d_name);
+        char *name =
+            cli_format("%s%s%s", path, len && path[len - 1] == '/' ? "" : "/", entry->d_name);
         bool is_document = is_document_name(name) && !is_folder(name, true);
         if (is_document || is_folder(name, false))
             args_append(&names, name);
@@ -221,7 +224,8 @@ static char *next_item(struct input_source *source)
         return NULL;
     const char *item = source->lines ? NULL : source->items[source->at++];
     if (item)
-        return *source->mark ? cli_format("%s%s", source->mark, item) : cli_copy(item, strlen(item));
+        return *source->mark ? cli_format("%s%s", source->mark, item)
+                             : cli_copy(item, strlen(item));
     ssize_t len = getline(&source->line, &source->capacity, source->lines);
     while (len > 0 && (source->line[len - 1] == '\n' || source->line[len - 1] == '\r'))
         source->line[--len] = '\0';

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * mxgen check merge: the JSON reports of shards become one run, told in any format. Documents go by their index.
+ * mxgen check merge: the JSON reports of shards become one run, told in any format. Documents go by
+ * their index.
  */
 #include "cli/check/check.h"
 #include "cli/check/report_reader.h"
@@ -49,19 +50,23 @@ static bool read_headers(struct merge *merge)
     uint64_t expected = json_get_count(json_get(merge->parts[0].reader.header, "shard"), "count");
     bool *seen = calloc((size_t)merge->num_parts + 1, sizeof *seen);
     for (size_t i = 0; seen && i < merge->num_parts; ++i) {
-        const struct json_value *header = merge->parts[i].reader.header, *shard = json_get(header, "shard");
+        const struct json_value *header = merge->parts[i].reader.header,
+                                *shard = json_get(header, "shard");
         uint64_t number = json_get_count(shard, "number");
         if (json_get_count(shard, "count") != expected)
-            report_error(&merge->cli.report, "shard-other", "'%s' is not a shard of the same run as '%s'", merge->parts[i].path,
+            report_error(&merge->cli.report, "shard-other",
+                         "'%s' is not a shard of the same run as '%s'", merge->parts[i].path,
                          merge->parts[0].path);
         if (number <= merge->num_parts)
             seen[number] = true;
-        for (const struct json_value *name = json_get(header, "targets")->first; i == 0 && name; name = name->next)
+        for (const struct json_value *name = json_get(header, "targets")->first; i == 0 && name;
+             name = name->next)
             args_append(&merge->targets, name->kind == JSON_STRING ? name->text : "");
     }
     for (uint64_t number = 1; seen && number <= expected && expected; ++number)
         if (number > merge->num_parts || !seen[number])
-            report_error(&merge->cli.report, "shard-missing", "shard %" PRIu64 " of %" PRIu64 " is missing", number, expected);
+            report_error(&merge->cli.report, "shard-missing",
+                         "shard %" PRIu64 " of %" PRIu64 " is missing", number, expected);
     free(seen);
     return merge->cli.report.errors == 0;
 }
@@ -98,7 +103,8 @@ static void tell_all(struct merge *merge)
         advance(merge, &merge->parts[i]);
     for (struct part *part; (part = find_next(merge)) != NULL; advance(merge, part)) {
         if (part->document->index < expected)
-            report_error(&merge->cli.report, "shard-twice", "'%s' has document %" PRIu64 ", '%s', which another part has too",
+            report_error(&merge->cli.report, "shard-twice",
+                         "'%s' has document %" PRIu64 ", '%s', which another part has too",
                          part->path, part->document->index, part->document->file);
         else
             reports_document(&merge->reports, part->document);
@@ -138,11 +144,13 @@ int check_merge(const struct command *command, int argc, char **argv)
 {
     struct merge merge = {0};
     struct arg args[4 + NUM_SINK_KINDS] = {
-        {"stats", 0, ARG_FLAG, NULL, "tells times, the slowest documents and the largest shaders", &merge.stats},
+        {"stats", 0, ARG_FLAG, NULL, "tells times, the slowest documents and the largest shaders",
+         &merge.stats},
     };
     size_t num_args = 1 + reports_args(&merge.reports, args + 1);
     int code;
-    if (cli_start(&merge.cli, command, args, num_args, CLI_NEEDS_INPUT | CLI_LIBRARY_IS_INPUT, argc, argv, &code))
+    if (cli_start(&merge.cli, command, args, num_args, CLI_NEEDS_INPUT | CLI_LIBRARY_IS_INPUT, argc,
+                  argv, &code))
         code = run_if_sensible(&merge);
     for (size_t i = 0; i < merge.num_parts; ++i) {
         reader_close(&merge.parts[i].reader);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Both ways follow one description: each function below writes the member that it is given, or reads it.
+ * Both ways follow one description: each function below writes the member that it is given, or
+ * reads it.
  */
 #include "cli/check/packed.h"
 
@@ -28,11 +29,13 @@ static bool make_room(struct packer *packer, size_t size)
 }
 
 /*
- * The place of `size` bytes, behind which it goes on; NULL: there are not so many, and never will be.
+ * The place of `size` bytes, behind which it goes on; NULL: there are not so many, and never will
+ * be.
  */
 static inline char *claim(struct packer *packer, size_t size)
 {
-    bool is_there = packer->size - packer->at >= size || (!packer->failed && make_room(packer, size));
+    bool is_there =
+        packer->size - packer->at >= size || (!packer->failed && make_room(packer, size));
     if (packer->failed || !is_there) {
         packer->failed = true;
         return NULL;
@@ -192,7 +195,8 @@ static void shader(struct packer *packer, struct check_shader *shader, size_t nu
     shader->parts = array(packer, shader->parts, &shader->num_parts, sizeof *shader->parts);
     for (size_t i = 0; i < shader->num_parts; ++i)
         part(packer, &shader->parts[i]);
-    shader->messages = array(packer, shader->messages, &shader->num_messages, sizeof *shader->messages);
+    shader->messages =
+        array(packer, shader->messages, &shader->num_messages, sizeof *shader->messages);
     for (size_t i = 0; i < shader->num_messages; ++i)
         shader->messages[i] = choice(packer, shader->messages[i], (uint32_t)num_messages);
     real(packer, &shader->generate_ms);
@@ -203,7 +207,8 @@ static void element(struct packer *packer, struct check_element *element, size_t
 {
     text(packer, &element->path);
     text(packer, &element->type);
-    element->shaders = array(packer, element->shaders, &element->num_shaders, sizeof *element->shaders);
+    element->shaders =
+        array(packer, element->shaders, &element->num_shaders, sizeof *element->shaders);
     for (size_t i = 0; i < element->num_shaders; ++i)
         shader(packer, &element->shaders[i], num_messages);
     text(packer, &element->picture);
@@ -215,13 +220,15 @@ static void document(struct packer *packer, struct check_document *document)
 {
     text(packer, &document->file);
     stage(packer, &document->failed);
-    document->messages = array(packer, document->messages, &document->num_messages, sizeof *document->messages);
+    document->messages =
+        array(packer, document->messages, &document->num_messages, sizeof *document->messages);
     for (size_t i = 0; i < document->num_messages; ++i)
         message(packer, &document->messages[i]);
     texts(packer, &document->files, &document->num_files);
     texts(packer, &document->folders, &document->num_folders);
     texts(packer, &document->images, &document->num_images);
-    document->elements = array(packer, document->elements, &document->num_elements, sizeof *document->elements);
+    document->elements =
+        array(packer, document->elements, &document->num_elements, sizeof *document->elements);
     for (size_t i = 0; i < document->num_elements; ++i)
         element(packer, &document->elements[i], document->num_messages);
     real(packer, &document->load_ms);
@@ -229,7 +236,8 @@ static void document(struct packer *packer, struct check_document *document)
     real(packer, &document->render_ms);
 }
 
-void check_pack_document(struct packed *out, struct store *store, const struct check_document *record)
+void check_pack_document(struct packed *out, struct store *store,
+                         const struct check_document *record)
 {
     struct packer packer = {.store = store, .bytes = out->bytes, .size = out->capacity};
     struct check_document copy = *record; /* arrays stay as they are */
@@ -239,7 +247,8 @@ void check_pack_document(struct packed *out, struct store *store, const struct c
 
 struct check_document *check_unpack_document(struct store *store, const char *bytes, size_t size)
 {
-    struct packer packer = {.store = store, .bytes = (char *)(uintptr_t)bytes, .size = size, .reads = true};
+    struct packer packer = {
+        .store = store, .bytes = (char *)(uintptr_t)bytes, .size = size, .reads = true};
     struct check_document *read = store_alloc(store, sizeof *read);
     document(&packer, read);
     return packer.failed || packer.at != size || !*read->file ? NULL : read;

@@ -51,8 +51,9 @@ char *picture_sign(struct store *store, const char *ppm, size_t size)
 {
     unsigned width, height, most;
     int header = 0;
-    if (sscanf(ppm, "P6 %5u %5u %3u%n", &width, &height, &most, &header) != 3 || most != 255 || width < CELLS || height < CELLS ||
-        size < (size_t)header + 1 + (size_t)width * height * 3)
+    if (sscanf(ppm, "P6 %5u %5u %3u%n", &width, &height, &most, &header) != 3 || most != 255
+        || width < CELLS || height < CELLS
+        || size < (size_t)header + 1 + (size_t)width * height * 3)
         return NULL;
     const unsigned char *pixels = (const unsigned char *)ppm + header + 1;
     uint32_t sums[SIGNATURE_BYTES] = {0}, counts[CELLS * CELLS] = {0};
@@ -89,7 +90,8 @@ static void to_lab(const unsigned char *srgb, double lab[3])
         linear[c] = x <= 0.04045 ? x / 12.92 : pow((x + 0.055) / 1.055, 2.4);
     }
     for (int i = 0; i < 3; ++i)
-        f[i] = lab_curve(to_xyz[i][0] * linear[0] + to_xyz[i][1] * linear[1] + to_xyz[i][2] * linear[2]);
+        f[i] = lab_curve(to_xyz[i][0] * linear[0] + to_xyz[i][1] * linear[1]
+                         + to_xyz[i][2] * linear[2]);
     lab[0] = 116.0 * f[1] - 16.0;
     lab[1] = 500.0 * (f[0] - f[1]);
     lab[2] = 200.0 * (f[1] - f[2]);
@@ -105,7 +107,8 @@ double picture_difference(const char *a, const char *b)
         double x[3], y[3];
         to_lab(left + i, x);
         to_lab(right + i, y);
-        double difference = sqrt((x[0] - y[0]) * (x[0] - y[0]) + (x[1] - y[1]) * (x[1] - y[1]) + (x[2] - y[2]) * (x[2] - y[2]));
+        double difference = sqrt((x[0] - y[0]) * (x[0] - y[0]) + (x[1] - y[1]) * (x[1] - y[1])
+                                 + (x[2] - y[2]) * (x[2] - y[2]));
         largest = fmax(largest, difference);
     }
     return largest;

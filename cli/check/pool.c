@@ -17,7 +17,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-enum { MAX_TASKS = 16 /* of a worker */, MAX_TASK_BYTES = 32 << 10 /* on their way to it: what a pipe surely holds */ };
+enum {
+    MAX_TASKS = 16 /* of a worker */,
+    MAX_TASK_BYTES = 32 << 10 /* on their way to it: what a pipe surely holds */
+};
 #define WORK_AHEAD 0.010 /* seconds of work that a worker has to do */
 
 struct pool_worker {
@@ -55,8 +58,8 @@ void pool_init(struct pool *pool, char *const *argv, size_t num_workers, double 
 
 static bool fail(struct pool *pool, const char *what, int reason)
 {
-    snprintf(pool->reason, sizeof pool->reason, "%s '%s'%s%s", what, pool->argv[0], reason ? ": " : "",
-             reason ? strerror(reason) : "");
+    snprintf(pool->reason, sizeof pool->reason, "%s '%s'%s%s", what, pool->argv[0],
+             reason ? ": " : "", reason ? strerror(reason) : "");
     pool->fault = pool->reason;
     return false;
 }
@@ -108,8 +111,9 @@ static bool start(struct pool *pool, struct pool_worker *worker)
 {
     struct ends ends = {-1, -1, -1, -1, -1};
     *worker = (struct pool_worker){0};
-    bool good = open_pipe(&ends.task_input, &ends.task_output) && open_pipe(&ends.answer_input, &ends.answer_output) &&
-                (worker->desk = make_desk(&ends.desk)) != NULL;
+    bool good = open_pipe(&ends.task_input, &ends.task_output)
+                && open_pipe(&ends.answer_input, &ends.answer_output)
+                && (worker->desk = make_desk(&ends.desk)) != NULL;
     const char *what = good ? "cannot start" : "no pipe for";
     int reason = good ? spawn(worker, pool->argv, &ends) : errno;
     close_all((int[]){ends.task_input, ends.answer_output, ends.desk}, 3);
@@ -193,7 +197,8 @@ static bool hand_out(struct pool *pool)
         struct pool_worker *worker = find_worker(pool);
         const struct pool_task *task = &pool->waiting[num_given];
         size_t bytes = strlen(task->path);
-        if (worker->num_tasks && (worker->num_tasks >= depth(pool) || worker->task_bytes + bytes > MAX_TASK_BYTES))
+        if (worker->num_tasks
+            && (worker->num_tasks >= depth(pool) || worker->task_bytes + bytes > MAX_TASK_BYTES))
             break;
         if (!worker->pid && !start(pool, worker))
             return false;
@@ -218,7 +223,8 @@ static struct pool_task take_task(struct pool *pool, struct pool_worker *worker,
     worker->task_bytes -= strlen(task.path);
     --worker->num_tasks;
     --pool->num_open;
-    memmove(worker->queue + index, worker->queue + index + 1, (worker->num_tasks - index) * sizeof task);
+    memmove(worker->queue + index, worker->queue + index + 1,
+            (worker->num_tasks - index) * sizeof task);
     return task;
 }
 
@@ -239,20 +245,24 @@ static bool take_answer(struct pool *pool, struct pool_worker *worker, struct po
     double time = frame.note * 1e-6;
     pool->task_time = pool->task_time > 0.0 ? pool->task_time + (time - pool->task_time) / 8 : time;
     ++worker->num_answered;
-    *out = (struct pool_answer){.ticket = take_task(pool, worker, 0).ticket, .record = copy_body(&frame), .size = frame.size};
+    *out = (struct pool_answer){.ticket = take_task(pool, worker, 0).ticket,
+                                .record = copy_body(&frame),
+                                .size = frame.size};
     return true;
 }
 
 static char *describe_end(const char *mark, int status)
 {
     if (WIFSIGNALED(status))
-        return cli_format("mxgen-check died of signal %d (%s) at: %s", WTERMSIG(status), strsignal(WTERMSIG(status)), mark);
+        return cli_format("mxgen-check died of signal %d (%s) at: %s", WTERMSIG(status),
+                          strsignal(WTERMSIG(status)), mark);
     return cli_format("mxgen-check ended with exit code %d at: %s", WEXITSTATUS(status), mark);
 }
 
 /*
- * The worker's pipe ended: the task that it was at is blamed. Those before it are done, but the answers were not written; they and those
- * behind it wait again. Before it was ready, other workers would not fare better.
+ * The worker's pipe ended: the task that it was at is blamed. Those before it are done, but the
+ * answers were not written; they and those behind it wait again. Before it was ready, other workers
+ * would not fare better.
  */
 static bool answer_end(struct pool *pool, struct pool_worker *worker, struct pool_answer *out)
 {
@@ -260,8 +270,10 @@ static bool answer_end(struct pool *pool, struct pool_worker *worker, struct poo
     size_t at = num_begun && num_begun <= worker->num_tasks ? num_begun - 1 : 0;
     bool is_ready = atomic_load(&worker->desk->is_ready), is_late = worker->is_late;
     char *mark = num_begun ? desk_describe(worker->desk) : cli_format("start");
-    *out = (struct pool_answer){.ticket = take_task(pool, worker, at).ticket, .failed = is_late ? CHECK_TIMEOUT : CHECK_CRASH};
-    memmove(pool->waiting + worker->num_tasks, pool->waiting, pool->num_waiting * sizeof *pool->waiting);
+    *out = (struct pool_answer){.ticket = take_task(pool, worker, at).ticket,
+                                .failed = is_late ? CHECK_TIMEOUT : CHECK_CRASH};
+    memmove(pool->waiting + worker->num_tasks, pool->waiting,
+            pool->num_waiting * sizeof *pool->waiting);
     memcpy(pool->waiting, worker->queue, worker->num_tasks * sizeof *pool->waiting);
     pool->num_waiting += worker->num_tasks;
     int status = stop(worker, false);
@@ -297,12 +309,16 @@ static bool poll_workers(const struct pool *pool, struct pollfd *polls)
     double next = HUGE_VAL;
     for (size_t i = 0; i < pool->num_workers; ++i) {
         const struct pool_worker *worker = &pool->workers[i];
-        polls[i] = (struct pollfd){.fd = worker->num_tasks ? worker->answers.fd : -1, .events = POLLIN};
+        polls[i] =
+            (struct pollfd){.fd = worker->num_tasks ? worker->answers.fd : -1, .events = POLLIN};
         if (worker->num_tasks && !worker->is_late)
             next = fmin(next, deadline(pool, worker));
     }
     double left = (next - now()) * 1e3;
-    int count = poll(polls, (nfds_t)pool->num_workers, left < 0.0 ? 0 : left > 1e6 ? 1000000 : (int)left + 1);
+    int count = poll(polls, (nfds_t)pool->num_workers,
+                     left < 0.0   ? 0
+                     : left > 1e6 ? 1000000
+                                  : (int)left + 1);
     return count > 0;
 }
 

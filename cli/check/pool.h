@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Worker processes, each of which checks one document after the other. One that dies or does not end in time is told of and
- * replaced; what else it had to do is given to others. Workers start when they are needed first.
+ * Worker processes, each of which checks one document after the other. One that dies or does not
+ * end in time is told of and replaced; what else it had to do is given to others. Workers start
+ * when they are needed first.
  *
- * A worker has so many documents to do as it does in a short while: it need not wait for the next one, and documents that take long wait for
- * the worker that has time first.
+ * A worker has so many documents to do as it does in a short while: it need not wait for the next
+ * one, and documents that take long wait for the worker that has time first.
  */
 #ifndef MXG_CLI_CHECK_POOL_H
 #define MXG_CLI_CHECK_POOL_H
@@ -24,11 +25,11 @@ struct pool {
     char *const *argv; /* of a worker; the first is the program */
     struct pool_worker *workers;
     size_t num_workers;
-    struct pool_task *waiting; /* for a worker; the first is given next */
+    struct pool_task *waiting;    /* for a worker; the first is given next */
     size_t num_waiting, num_open; /* tasks that are not answered, those that wait too */
-    double task_time;  /* of the last tasks, in seconds; 0: not known */
-    double time_limit; /* seconds for a step of a document */
-    const char *fault; /* workers cannot be started: why; nothing more can be done */
+    double task_time;             /* of the last tasks, in seconds; 0: not known */
+    double time_limit;            /* seconds for a step of a document */
+    const char *fault;            /* workers cannot be started: why; nothing more can be done */
     char reason[256];
 };
 

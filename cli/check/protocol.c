@@ -12,7 +12,10 @@
 #include <unistd.h>
 
 enum { FIRST_CAPACITY = 64 << 10, READ_SIZE = 32 << 10 };
-enum { MAX_WAIT = 10000000 /* nanoseconds that an answer may lie about */, MAX_LYING = 256 << 10 /* bytes of answers */ };
+enum {
+    MAX_WAIT = 10000000 /* nanoseconds that an answer may lie about */,
+    MAX_LYING = 256 << 10 /* bytes of answers */
+};
 
 struct frame_header {
     uint32_t note, size;
@@ -85,7 +88,8 @@ void frame_put(struct frame_stream *stream, uint32_t note, const void *body, siz
 bool frame_flush(struct frame_stream *stream)
 {
     while (stream->begin < stream->end) {
-        ssize_t count = write(stream->fd, stream->bytes + stream->begin, stream->end - stream->begin);
+        ssize_t count =
+            write(stream->fd, stream->bytes + stream->begin, stream->end - stream->begin);
         if (count < 0 && errno != EINTR)
             return false;
         stream->begin += count > 0 ? (size_t)count : 0;
@@ -111,8 +115,11 @@ uint64_t desk_clock(void)
 char *desk_describe(const struct desk *desk)
 {
     unsigned stage = atomic_load(&desk->stage);
-    const char *name = stage == CHECK_PASSED || stage >= NUM_CHECK_STAGES ? "start" : check_stage_name((enum check_stage)stage);
-    return *desk->element ? cli_format("%s of '%s' for %s", name, desk->element, desk->target) : cli_format("%s", name);
+    const char *name = stage == CHECK_PASSED || stage >= NUM_CHECK_STAGES
+                           ? "start"
+                           : check_stage_name((enum check_stage)stage);
+    return *desk->element ? cli_format("%s of '%s' for %s", name, desk->element, desk->target)
+                          : cli_format("%s", name);
 }
 
 /* Of a long text the beginning. */
@@ -152,7 +159,8 @@ bool channel_next(struct channel *channel, struct frame *out_task)
     return true;
 }
 
-void channel_mark(struct channel *channel, enum check_stage stage, const char *element, const char *target)
+void channel_mark(struct channel *channel, enum check_stage stage, const char *element,
+                  const char *target)
 {
     struct desk *desk = channel->desk;
     uint64_t now = desk_clock();
@@ -167,11 +175,12 @@ void channel_mark(struct channel *channel, enum check_stage stage, const char *e
 void channel_answer(struct channel *channel, const void *record, size_t size)
 {
     uint64_t now = desk_clock(), microseconds = (now - channel->task_begin) / 1000;
-    frame_put(&channel->answers, microseconds < UINT32_MAX ? (uint32_t)microseconds : UINT32_MAX, record,
-              size < UINT32_MAX ? size : 0); /* nothing is no record */
+    frame_put(&channel->answers, microseconds < UINT32_MAX ? (uint32_t)microseconds : UINT32_MAX,
+              record, size < UINT32_MAX ? size : 0); /* nothing is no record */
     if (!channel->oldest_answer)
         channel->oldest_answer = now;
-    if (now - channel->oldest_answer > MAX_WAIT || channel->answers.end - channel->answers.begin > MAX_LYING)
+    if (now - channel->oldest_answer > MAX_WAIT
+        || channel->answers.end - channel->answers.begin > MAX_LYING)
         flush(channel);
 }
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * How `mxgen check` and its workers (mxgen-check) talk, which are always of one build: frames on a pipe each way, a header
- * and a body. Several tasks may be on their way, and the answers to several come at once: each wakes nobody by itself. What a worker is at
- * stands in memory that both share, its desk: that costs no call of the system and is still there when the worker is not. A worker ends
- * when its input does.
+ * How `mxgen check` and its workers (mxgen-check) talk, which are always of one build: frames on a
+ * pipe each way, a header and a body. Several tasks may be on their way, and the answers to several
+ * come at once: each wakes nobody by itself. What a worker is at stands in memory that both share,
+ * its desk: that costs no call of the system and is still there when the worker is not. A worker
+ * ends when its input does.
  */
 #ifndef MXG_CLI_CHECK_PROTOCOL_H
 #define MXG_CLI_CHECK_PROTOCOL_H
@@ -21,7 +22,8 @@ enum task_note {
 };
 
 /*
- * A task is the path of a document; an answer is a record (packed.h), and its note how many microseconds it took.
+ * A task is the path of a document; an answer is a record (packed.h), and its note how many
+ * microseconds it took.
  */
 struct frame {
     uint32_t note, size;
@@ -77,7 +79,8 @@ bool channel_open(struct channel *channel, int input, int output);
 /* The next task; false at the end. */
 bool channel_next(struct channel *channel, struct frame *out_task);
 /* Tells what begins, should it be the last. */
-void channel_mark(struct channel *channel, enum check_stage stage, const char *element, const char *target);
+void channel_mark(struct channel *channel, enum check_stage stage, const char *element,
+                  const char *target);
 /* The answer to the task. Written when the worker has no more to do, or after a while. */
 void channel_answer(struct channel *channel, const void *record, size_t size);
 void channel_close(struct channel *channel);

@@ -41,13 +41,15 @@ void check_fail(enum check_stage *failed, enum check_stage stage)
 
 bool check_is_same_message(const struct check_message *a, const struct check_message *b)
 {
-    return a->line == b->line && a->column == b->column && strcmp(a->id, b->id) == 0 && strcmp(a->text, b->text) == 0 &&
-           strcmp(a->file, b->file) == 0;
+    return a->line == b->line && a->column == b->column && strcmp(a->id, b->id) == 0
+           && strcmp(a->text, b->text) == 0 && strcmp(a->file, b->file) == 0;
 }
 
-uint32_t check_add_message(struct store *store, struct check_document *document, const struct check_message *message)
+uint32_t check_add_message(struct store *store, struct check_document *document,
+                           const struct check_message *message)
 {
-    document->messages = store_grow(store, document->messages, document->num_messages, sizeof *message);
+    document->messages =
+        store_grow(store, document->messages, document->num_messages, sizeof *message);
     document->messages[document->num_messages] = *message;
     return (uint32_t)document->num_messages++;
 }
@@ -64,7 +66,8 @@ static void add_folder(struct store *store, struct check_document *document, con
 {
     if (has_text(document->folders, document->num_folders, folder))
         return;
-    document->folders = store_grow(store, document->folders, document->num_folders, sizeof *document->folders);
+    document->folders =
+        store_grow(store, document->folders, document->num_folders, sizeof *document->folders);
     document->folders[document->num_folders++] = folder;
 }
 
@@ -72,7 +75,8 @@ void check_add_file(struct store *store, struct check_document *document, const 
 {
     if (has_text(document->files, document->num_files, path))
         return;
-    document->files = store_grow(store, document->files, document->num_files, sizeof *document->files);
+    document->files =
+        store_grow(store, document->files, document->num_files, sizeof *document->files);
     document->files[document->num_files++] = store_text(store, path, strlen(path));
 }
 
@@ -80,7 +84,8 @@ void check_add_image(struct store *store, struct check_document *document, const
 {
     if (has_text(document->images, document->num_images, path))
         return;
-    document->images = store_grow(store, document->images, document->num_images, sizeof *document->images);
+    document->images =
+        store_grow(store, document->images, document->num_images, sizeof *document->images);
     document->images[document->num_images++] = store_text(store, path, strlen(path));
 }
 
@@ -91,7 +96,8 @@ static size_t folder_length(const char *path)
     return slash ? (size_t)(slash - path) + 1 : 0;
 }
 
-void check_add_place(struct store *store, struct check_document *document, const char *from, const char *file)
+void check_add_place(struct store *store, struct check_document *document, const char *from,
+                     const char *file)
 {
     size_t len = folder_length(file), from_len = file[0] == '/' ? 0 : folder_length(from);
     char *folder = store_alloc(store, from_len + len + 3);
@@ -148,7 +154,8 @@ static void write_parts(struct json_writer *json, const struct check_shader *sha
     json_end(json, '}');
 }
 
-static void write_shader(struct json_writer *json, const struct check_shader *shader, bool with_times)
+static void write_shader(struct json_writer *json, const struct check_shader *shader,
+                         bool with_times)
 {
     json_begin(json, '{');
     json_put_string(json, "target", shader->target);
@@ -171,7 +178,8 @@ static void write_shader(struct json_writer *json, const struct check_shader *sh
     json_end(json, '}');
 }
 
-static void write_element(struct json_writer *json, const struct check_element *element, bool with_times)
+static void write_element(struct json_writer *json, const struct check_element *element,
+                          bool with_times)
 {
     json_begin(json, '{');
     json_put_string(json, "path", element->path);
@@ -186,7 +194,8 @@ static void write_element(struct json_writer *json, const struct check_element *
     json_end(json, '}');
 }
 
-static void write_texts(struct json_writer *json, const char *key, const char *const *texts, size_t count)
+static void write_texts(struct json_writer *json, const char *key, const char *const *texts,
+                        size_t count)
 {
     json_key(json, key);
     json_begin(json, '[');
@@ -265,7 +274,8 @@ static enum check_stage read_outcome(const struct json_value *value)
 {
     if (strcmp(json_get_text(value, "status"), "failed") != 0)
         return CHECK_PASSED;
-    enum check_stage stage = (enum check_stage)find_name(json_get_text(value, "stage"), stage_names, NUM_CHECK_STAGES);
+    enum check_stage stage =
+        (enum check_stage)find_name(json_get_text(value, "stage"), stage_names, NUM_CHECK_STAGES);
     return stage ? stage : CHECK_LOAD;
 }
 
@@ -289,20 +299,24 @@ static void read_message(struct check_message *out, const struct json_value *val
     out->rendered = json_get_text(value, "rendered");
 }
 
-static void read_parts(struct store *store, struct check_shader *out, const struct json_value *parts)
+static void read_parts(struct store *store, struct check_shader *out,
+                       const struct json_value *parts)
 {
     for (int measure = 0; measure < NUM_MEASURES; ++measure) {
-        for (const struct json_value *item = json_get(parts, measure_infos[measure].key)->first; item; item = item->next) {
+        for (const struct json_value *item = json_get(parts, measure_infos[measure].key)->first;
+             item; item = item->next) {
             if (!item->key)
                 continue;
             out->parts = store_grow(store, out->parts, out->num_parts, sizeof *out->parts);
-            out->parts[out->num_parts++] = (struct check_part){(enum measure)measure, item->key, item->number > 0.0 ? (uint64_t)item->number : 0};
+            out->parts[out->num_parts++] = (struct check_part){
+                (enum measure)measure, item->key, item->number > 0.0 ? (uint64_t)item->number : 0};
         }
     }
 }
 
 /* Only indices of messages that are there. */
-static void read_indices(struct store *store, struct check_shader *out, const struct json_value *indices, size_t num_messages)
+static void read_indices(struct store *store, struct check_shader *out,
+                         const struct json_value *indices, size_t num_messages)
 {
     out->messages = store_array(store, count_items(indices), sizeof *out->messages);
     for (const struct json_value *item = indices->first; item; item = item->next)
@@ -310,7 +324,8 @@ static void read_indices(struct store *store, struct check_shader *out, const st
             out->messages[out->num_messages++] = (uint32_t)item->number;
 }
 
-static void read_shader(struct store *store, struct check_shader *out, const struct json_value *value, size_t num_messages)
+static void read_shader(struct store *store, struct check_shader *out,
+                        const struct json_value *value, size_t num_messages)
 {
     out->target = json_get_text(value, "target");
     out->failed = read_outcome(value);
@@ -324,7 +339,8 @@ static void read_shader(struct store *store, struct check_shader *out, const str
     out->compile_ms = json_get_number(value, "compileMs");
 }
 
-static void read_element(struct store *store, struct check_element *out, const struct json_value *value, size_t num_messages)
+static void read_element(struct store *store, struct check_element *out,
+                         const struct json_value *value, size_t num_messages)
 {
     const struct json_value *shaders = json_get(value, "shaders");
     out->path = json_get_text(value, "path");
@@ -336,7 +352,8 @@ static void read_element(struct store *store, struct check_element *out, const s
         read_shader(store, &out->shaders[out->num_shaders++], item, num_messages);
 }
 
-static const char **read_texts(struct store *store, const struct json_value *array, size_t *out_count)
+static const char **read_texts(struct store *store, const struct json_value *array,
+                               size_t *out_count)
 {
     const char **texts = store_array(store, count_items(array), sizeof *texts);
     for (const struct json_value *item = array->first; item; item = item->next)
@@ -344,13 +361,16 @@ static const char **read_texts(struct store *store, const struct json_value *arr
     return texts;
 }
 
-static void read_changes(struct store *store, struct check_document *out, const struct json_value *changes)
+static void read_changes(struct store *store, struct check_document *out,
+                         const struct json_value *changes)
 {
     out->changes = store_array(store, count_items(changes), sizeof *out->changes);
     for (const struct json_value *item = changes->first; item; item = item->next)
-        out->changes[out->num_changes++] = (struct check_change){
-            (enum check_change_kind)find_name(json_get_text(item, "kind"), change_names, NUM_CHECK_CHANGES),
-            json_get_text(item, "element"), json_get_text(item, "target"), json_get_text(item, "text")};
+        out->changes[out->num_changes++] =
+            (struct check_change){(enum check_change_kind)find_name(
+                                      json_get_text(item, "kind"), change_names, NUM_CHECK_CHANGES),
+                                  json_get_text(item, "element"), json_get_text(item, "target"),
+                                  json_get_text(item, "text")};
 }
 
 struct check_document *check_read_document(struct store *store, const char *text, size_t len)
@@ -359,7 +379,8 @@ struct check_document *check_read_document(struct store *store, const char *text
     if (!value || !*json_get_text(value, "file"))
         return NULL;
     struct check_document *document = store_alloc(store, sizeof *document);
-    const struct json_value *messages = json_get(value, "messages"), *elements = json_get(value, "elements");
+    const struct json_value *messages = json_get(value, "messages"),
+                            *elements = json_get(value, "elements");
     document->index = json_get_count(value, "index");
     document->file = json_get_text(value, "file");
     document->failed = read_outcome(value);
@@ -371,7 +392,8 @@ struct check_document *check_read_document(struct store *store, const char *text
     document->images = read_texts(store, json_get(value, "images"), &document->num_images);
     document->elements = store_array(store, count_items(elements), sizeof *document->elements);
     for (const struct json_value *item = elements->first; item; item = item->next)
-        read_element(store, &document->elements[document->num_elements++], item, document->num_messages);
+        read_element(store, &document->elements[document->num_elements++], item,
+                     document->num_messages);
     read_changes(store, document, json_get(value, "changes"));
     document->load_ms = json_get_number(value, "loadMs");
     document->validate_ms = json_get_number(value, "validateMs");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * What came of a document: the one thing that workers make, the cache keeps, and every report is written from. Its text
- * form is one JSON object (docs/check.md).
+ * What came of a document: the one thing that workers make, the cache keeps, and every report is
+ * written from. Its text form is one JSON object (docs/check.md).
  */
 #ifndef MXG_CLI_CHECK_RECORD_H
 #define MXG_CLI_CHECK_RECORD_H
@@ -14,22 +14,22 @@
 #define CHECK_FORMAT_VERSION 1 /* of records and reports in JSON */
 
 /* Where something failed first, in order. */
-#define CHECK_STAGES(X)                                                                                                \
-    X(PASSED, "passed")     /* nowhere */                                                                              \
-    X(LOAD, "load")         /* it is no document, or a part of it is missing */                                        \
-    X(VALIDATE, "validate") /* against the library */                                                                  \
-    X(GENERATE, "generate")                                                                                            \
-    X(COMPILE, "compile")                                                                                              \
-    X(RENDER, "render")                                                                                                \
-    X(BUDGET, "budget")                                                                                                \
-    X(CRASH, "crash")     /* the program that checked it died */                                                       \
+#define CHECK_STAGES(X) \
+    X(PASSED, "passed")     /* nowhere */ \
+    X(LOAD, "load")         /* it is no document, or a part of it is missing */ \
+    X(VALIDATE, "validate") /* against the library */ \
+    X(GENERATE, "generate") \
+    X(COMPILE, "compile") \
+    X(RENDER, "render") \
+    X(BUDGET, "budget") \
+    X(CRASH, "crash")     /* the program that checked it died */ \
     X(TIMEOUT, "timeout") /* or did not end */
 
 enum check_stage {
 #define STAGE(name, text) CHECK_##name,
     CHECK_STAGES(STAGE)
 #undef STAGE
-    NUM_CHECK_STAGES
+        NUM_CHECK_STAGES
 };
 
 /* "passed", "load" … */
@@ -57,7 +57,8 @@ struct check_message {
 };
 
 /*
- * What a shader has so much for: a function or node with its instructions, a node with its bytes of uniforms, a texture.
+ * What a shader has so much for: a function or node with its instructions, a node with its bytes of
+ * uniforms, a texture.
  */
 struct check_part {
     enum measure measure;
@@ -88,20 +89,20 @@ struct check_element {
 };
 
 /* What differs from a baseline. */
-#define CHECK_CHANGES(X)                                                                                               \
-    X(FAILS, "fails") /* newly */                                                                                      \
-    X(FIXED, "fixed")                                                                                                  \
-    X(TOPOLOGY, "topology")                                                                                            \
-    X(SIZE, "size")                                                                                                    \
-    X(PICTURE, "picture")                                                                                              \
-    X(NEW, "new")                                                                                                      \
+#define CHECK_CHANGES(X) \
+    X(FAILS, "fails") /* newly */ \
+    X(FIXED, "fixed") \
+    X(TOPOLOGY, "topology") \
+    X(SIZE, "size") \
+    X(PICTURE, "picture") \
+    X(NEW, "new") \
     X(GONE, "gone")
 
 enum check_change_kind {
 #define CHANGE(name, text) CHANGE_##name,
     CHECK_CHANGES(CHANGE)
 #undef CHANGE
-    NUM_CHECK_CHANGES
+        NUM_CHECK_CHANGES
 };
 
 const char *check_change_name(enum check_change_kind kind);
@@ -140,12 +141,15 @@ void check_fail(enum check_stage *failed, enum check_stage stage);
 bool check_is_same_message(const struct check_message *a, const struct check_message *b);
 
 /* Appends a message; returns its index. */
-uint32_t check_add_message(struct store *store, struct check_document *document, const struct check_message *message);
+uint32_t check_add_message(struct store *store, struct check_document *document,
+                           const struct check_message *message);
 
 /*
- * Appends the folders that a file may lie in: beside the one that names it, and in the working directory.
+ * Appends the folders that a file may lie in: beside the one that names it, and in the working
+ * directory.
  */
-void check_add_place(struct store *store, struct check_document *document, const char *from, const char *file);
+void check_add_place(struct store *store, struct check_document *document, const char *from,
+                     const char *file);
 
 /* Appends a file, or an image, once; the name is copied. */
 void check_add_file(struct store *store, struct check_document *document, const char *path);

@@ -69,7 +69,8 @@ static bool read_header(struct report_reader *reader)
 {
     static const char key[] = "\"documents\":[";
     reader->size = 0;
-    while (reader->size < sizeof key || memcmp(reader->text + reader->size - (sizeof key - 1), key, sizeof key - 1) != 0) {
+    while (reader->size < sizeof key
+           || memcmp(reader->text + reader->size - (sizeof key - 1), key, sizeof key - 1) != 0) {
         int c = next_char(reader);
         if (c == EOF || reader->fault || reader->size > 1u << 20)
             return false;

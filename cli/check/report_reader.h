@@ -9,9 +9,9 @@ struct report_reader {
     FILE *in;
     char *text; /* of the document at hand */
     size_t size, capacity;
-    struct store store; /* of the header */
+    struct store store;              /* of the header */
     const struct json_value *header; /* what stands before the documents */
-    const char *fault; /* it cannot be read, or is no report: why */
+    const char *fault;               /* it cannot be read, or is no report: why */
 };
 
 /* False: reader->fault says why. reader_close must follow in both cases. */

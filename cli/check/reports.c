@@ -8,7 +8,8 @@ const struct sink_kind *const sink_kinds[NUM_SINK_KINDS] = {
     [SINK_HTML] = &sink_html, [SINK_DEPFILE] = &sink_depfile, [SINK_BASELINE] = &sink_baseline,
 };
 
-static void begin_sink(struct sink *sink, const struct sink_kind *kind, const struct check_run *run, FILE *out)
+static void begin_sink(struct sink *sink, const struct sink_kind *kind, const struct check_run *run,
+                       FILE *out)
 {
     sink->kind = kind;
     sink->run = run;
@@ -20,7 +21,8 @@ static void begin_sink(struct sink *sink, const struct sink_kind *kind, const st
 size_t reports_args(struct check_reports *reports, struct arg *args)
 {
     for (size_t i = 0; i < NUM_SINK_KINDS; ++i)
-        args[i] = (struct arg){sink_kinds[i]->option, 0, ARG_TEXT, "FILE", sink_kinds[i]->help, &reports->paths[i]};
+        args[i] = (struct arg){sink_kinds[i]->option, 0, ARG_TEXT, "FILE", sink_kinds[i]->help,
+                               &reports->paths[i]};
     return NUM_SINK_KINDS;
 }
 
@@ -28,8 +30,10 @@ const char *reports_misuse(const struct check_reports *reports)
 {
     for (size_t i = 0; i < NUM_SINK_KINDS; ++i)
         for (size_t k = 0; k < i && reports->paths[i]; ++k)
-            if (reports->paths[k] && strcmp(reports->paths[k], reports->paths[i]) == 0 && strcmp(reports->paths[i], "/dev/null") != 0)
-                return "two reports would be one file, or one standard output; name a file for each";
+            if (reports->paths[k] && strcmp(reports->paths[k], reports->paths[i]) == 0
+                && strcmp(reports->paths[i], "/dev/null") != 0)
+                return "two reports would be one file, or one standard output; name a file for "
+                       "each";
     return NULL;
 }
 
@@ -57,7 +61,8 @@ bool reports_begin(struct check_reports *reports, struct report *report)
 
 /* ---- Sums ---- */
 
-static void add_uncompiled(struct check_totals *totals, const char *target, const struct check_run *run)
+static void add_uncompiled(struct check_totals *totals, const char *target,
+                           const struct check_run *run)
 {
     for (size_t i = 0; i < totals->num_uncompiled; ++i)
         if (strcmp(totals->uncompiled[i], target) == 0)
@@ -67,7 +72,8 @@ static void add_uncompiled(struct check_totals *totals, const char *target, cons
             totals->uncompiled[totals->num_uncompiled++] = run->targets[i];
 }
 
-static void add_shader(struct check_totals *totals, const struct check_shader *shader, const struct check_run *run)
+static void add_shader(struct check_totals *totals, const struct check_shader *shader,
+                       const struct check_run *run)
 {
     ++totals->shaders;
     totals->generate_ms += shader->generate_ms;
@@ -85,7 +91,8 @@ static void add_changes(struct check_totals *totals, const struct check_document
         totals->changes[i] += has[i];
 }
 
-static void add_document(struct check_totals *totals, const struct check_document *document, const struct check_run *run)
+static void add_document(struct check_totals *totals, const struct check_document *document,
+                         const struct check_run *run)
 {
     ++totals->documents;
     ++totals->failed[document->failed];
@@ -125,7 +132,8 @@ void reports_document(struct check_reports *reports, const struct check_document
 bool reports_are_good(const struct check_reports *reports)
 {
     const struct check_totals *totals = &reports->totals;
-    return reports->run.is_compared ? totals->changes[CHANGE_FAILS] == 0 : totals->failed[CHECK_PASSED] == totals->documents;
+    return reports->run.is_compared ? totals->changes[CHANGE_FAILS] == 0
+                                    : totals->failed[CHECK_PASSED] == totals->documents;
 }
 
 bool reports_end(struct check_reports *reports, struct report *report, bool keep)
@@ -138,7 +146,8 @@ bool reports_end(struct check_reports *reports, struct report *report, bool keep
         sink->kind->end(sink, &reports->totals);
         const char *reason = files_end(&sink->stream, keep);
         if (reason)
-            report_error(report, "output-failed", "cannot write '%s': %s", reports->paths[i], reason);
+            report_error(report, "output-failed", "cannot write '%s': %s", reports->paths[i],
+                         reason);
         good = good && !reason;
     }
     if (keep)

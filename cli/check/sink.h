@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Reports. Each kind is told of the documents one by one, in order, writes what it has to say at once and keeps nothing
- * of them: memory does not grow with their number.
+ * Reports. Each kind is told of the documents one by one, in order, writes what it has to say at
+ * once and keeps nothing of them: memory does not grow with their number.
  */
 #ifndef MXG_CLI_CHECK_SINK_H
 #define MXG_CLI_CHECK_SINK_H
@@ -29,10 +29,10 @@ struct check_run {
     const char *const *targets;
     size_t num_targets;
     bool quiet, verbose, compiles;
-    bool is_compared; /* with a baseline */
-    bool with_times;  /* reports tell times, which differ from run to run */
+    bool is_compared;           /* with a baseline */
+    bool with_times;            /* reports tell times, which differ from run to run */
     uint64_t shard, num_shards; /* from 1; 0: this is all */
-    const char *outputs[8]; /* the reports that are written to files */
+    const char *outputs[8];     /* the reports that are written to files */
     size_t num_outputs;
     /* files that were read for the run as a whole: libraries, lists, the baseline */
     struct arg_list inputs;
@@ -48,7 +48,7 @@ struct sink {
 };
 
 struct sink_kind {
-    const char *option, *help; /* "--json FILE" */
+    const char *option, *help;        /* "--json FILE" */
     void (*begin)(struct sink *sink); /* NULL: nothing to do */
     void (*document)(struct sink *sink, const struct check_document *document);
     void (*end)(struct sink *sink, const struct check_totals *totals);
@@ -57,6 +57,7 @@ struct sink_kind {
 /* All kinds that write files; text is always written. What a depfile is about comes before it. */
 enum { SINK_JSON, SINK_SARIF, SINK_JUNIT, SINK_HTML, SINK_DEPFILE, SINK_BASELINE, NUM_SINK_KINDS };
 extern const struct sink_kind *const sink_kinds[NUM_SINK_KINDS];
-extern const struct sink_kind sink_text, sink_json, sink_sarif, sink_junit, sink_html, sink_depfile, sink_baseline;
+extern const struct sink_kind sink_text, sink_json, sink_sarif, sink_junit, sink_html, sink_depfile,
+    sink_baseline;
 
 #endif

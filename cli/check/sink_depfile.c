@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * --depfile: "reports: files", for make and ninja, so that the check runs again when something it read has changed.
+ * --depfile: "reports: files", for make and ninja, so that the check runs again when something it
+ * read has changed.
  */
 #include "cli/check/sink.h"
 
@@ -38,5 +39,6 @@ static void end(struct sink *sink, const struct check_totals *totals)
     putc('\n', sink->out);
 }
 
-const struct sink_kind sink_depfile = {"depfile", "writes which files the reports depend on, for make and ninja", begin,
-                                       write_document, end};
+const struct sink_kind sink_depfile = {
+    "depfile", "writes which files the reports depend on, for make and ninja", begin,
+    write_document, end};

@@ -51,7 +51,8 @@ static void put_changes(struct json_writer *json, const struct check_totals *tot
     json_key(json, "changes");
     json_begin(json, '{');
     for (int kind = 0; kind < NUM_CHECK_CHANGES; ++kind)
-        json_put_count(json, check_change_name((enum check_change_kind)kind), totals->changes[kind]);
+        json_put_count(json, check_change_name((enum check_change_kind)kind),
+                       totals->changes[kind]);
     json_end(json, '}');
 }
 
@@ -81,7 +82,8 @@ static void end(struct sink *sink, const struct check_totals *totals)
 }
 
 /*
- * A baseline: the same without pictures, of which signatures are enough, and without what came of a comparison.
+ * A baseline: the same without pictures, of which signatures are enough, and without what came of a
+ * comparison.
  */
 static void write_plain(struct sink *sink, const struct check_document *document)
 {
@@ -97,6 +99,8 @@ static void write_plain(struct sink *sink, const struct check_document *document
     store_finish(&store);
 }
 
-const struct sink_kind sink_baseline = {"baseline", "compares with this report of an earlier run; writes it where there is none", begin,
-                                        write_plain, end};
-const struct sink_kind sink_json = {"json", "writes all that was found as JSON", begin, write_document, end};
+const struct sink_kind sink_baseline = {
+    "baseline", "compares with this report of an earlier run; writes it where there is none", begin,
+    write_plain, end};
+const struct sink_kind sink_json = {"json", "writes all that was found as JSON", begin,
+                                    write_document, end};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * --junit: a suite for each document, a case for itself and for each element and target, as CI servers show them.
+ * --junit: a suite for each document, a case for itself and for each element and target, as CI
+ * servers show them.
  */
 #include "cli/check/sink.h"
 #include "cli/markup.h"
@@ -9,12 +10,14 @@
 
 static void begin(struct sink *sink)
 {
-    fputs("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"mxgen check\">\n", sink->out);
+    fputs("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"mxgen check\">\n",
+          sink->out);
 }
 
 static bool is_document_stage(enum check_stage stage)
 {
-    return stage == CHECK_LOAD || stage == CHECK_VALIDATE || stage == CHECK_CRASH || stage == CHECK_TIMEOUT;
+    return stage == CHECK_LOAD || stage == CHECK_VALIDATE || stage == CHECK_CRASH
+           || stage == CHECK_TIMEOUT;
 }
 
 static bool is_error(const struct check_message *message)
@@ -29,7 +32,8 @@ static void write_failure(FILE *out, enum check_stage stage, const struct check_
     fputs("\">", out);
 }
 
-static void begin_case(struct sink *sink, const struct check_document *document, const char *element, const char *target, double ms)
+static void begin_case(struct sink *sink, const struct check_document *document,
+                       const char *element, const char *target, double ms)
 {
     fputs("<testcase classname=\"", sink->out);
     markup_text(sink->out, document->file);
@@ -58,17 +62,21 @@ static void write_document_case(struct sink *sink, const struct check_document *
     fputs("</failure></testcase>\n", sink->out);
 }
 
-static void write_shader_case(struct sink *sink, const struct check_document *document, const struct check_element *element,
+static void write_shader_case(struct sink *sink, const struct check_document *document,
+                              const struct check_element *element,
                               const struct check_shader *shader)
 {
     const struct check_message *first = NULL;
-    begin_case(sink, document, element->path, shader->target, shader->generate_ms + shader->compile_ms);
+    begin_case(sink, document, element->path, shader->target,
+               shader->generate_ms + shader->compile_ms);
     if (!shader->failed) {
         fputs("/>\n", sink->out);
         return;
     }
     for (size_t i = 0; i < shader->num_messages && !first; ++i)
-        first = is_error(&document->messages[shader->messages[i]]) ? &document->messages[shader->messages[i]] : NULL;
+        first = is_error(&document->messages[shader->messages[i]])
+                    ? &document->messages[shader->messages[i]]
+                    : NULL;
     write_failure(sink->out, shader->failed, first);
     for (size_t i = 0; i < shader->num_messages; ++i)
         if (is_error(&document->messages[shader->messages[i]]))
@@ -86,11 +94,13 @@ static void write_document(struct sink *sink, const struct check_document *docum
     }
     fputs("<testsuite name=\"", sink->out);
     markup_text(sink->out, document->file);
-    fprintf(sink->out, "\" tests=\"%zu\" failures=\"%zu\" errors=\"0\" skipped=\"0\">\n", tests, failures);
+    fprintf(sink->out, "\" tests=\"%zu\" failures=\"%zu\" errors=\"0\" skipped=\"0\">\n", tests,
+            failures);
     write_document_case(sink, document);
     for (size_t i = 0; i < document->num_elements; ++i)
         for (size_t k = 0; k < document->elements[i].num_shaders; ++k)
-            write_shader_case(sink, document, &document->elements[i], &document->elements[i].shaders[k]);
+            write_shader_case(sink, document, &document->elements[i],
+                              &document->elements[i].shaders[k]);
     fputs("</testsuite>\n", sink->out);
 }
 
@@ -100,5 +110,6 @@ static void end(struct sink *sink, const struct check_totals *totals)
     fputs("</testsuites>\n", sink->out);
 }
 
-const struct sink_kind sink_junit = {"junit", "writes a test case for each element and target, as JUnit's XML", begin,
-                                     write_document, end};
+const struct sink_kind sink_junit = {
+    "junit", "writes a test case for each element and target, as JUnit's XML", begin,
+    write_document, end};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * --sarif: the messages, for code review tools. OASIS SARIF 2.1.0; section numbers below are its own.
+ * --sarif: the messages, for code review tools. OASIS SARIF 2.1.0; section numbers below are its
+ * own.
  */
 #include "cli/check/sink.h"
 
@@ -49,7 +50,8 @@ static char *uri_of(struct store *store, const char *path)
 }
 
 /* Section 3.27.12; the end of a region is the column behind it (3.30.8). */
-static void put_location(struct json_writer *json, struct store *store, const struct check_message *message)
+static void put_location(struct json_writer *json, struct store *store,
+                         const struct check_message *message)
 {
     json_key(json, "locations");
     json_begin(json, '[');
@@ -65,7 +67,8 @@ static void put_location(struct json_writer *json, struct store *store, const st
         json_begin(json, '{');
         json_put_count(json, "startLine", message->line);
         json_put_count(json, "startColumn", message->column);
-        json_put_count(json, "endColumn", message->column && message->length ? message->column + message->length : 0);
+        json_put_count(json, "endColumn",
+                       message->column && message->length ? message->column + message->length : 0);
         json_end(json, '}');
     }
     json_end(json, '}');
@@ -148,4 +151,5 @@ static void end(struct sink *sink, const struct check_totals *totals)
     free(state);
 }
 
-const struct sink_kind sink_sarif = {"sarif", "writes the messages as SARIF 2.1.0", begin, write_document, end};
+const struct sink_kind sink_sarif = {"sarif", "writes the messages as SARIF 2.1.0", begin,
+                                     write_document, end};

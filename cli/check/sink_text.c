@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * For people: what failed and why, and a summary at the end. With --stats also what is slow and what is large.
+ * For people: what failed and why, and a summary at the end. With --stats also what is slow and
+ * what is large.
  */
 #include "cli/check/sink.h"
 
@@ -30,7 +31,8 @@ static void begin(struct sink *sink)
 
 /* ---- Rankings ---- */
 
-static void rank(struct top *top, double value, const char *file, const char *element, const char *target)
+static void rank(struct top *top, double value, const char *file, const char *element,
+                 const char *target)
 {
     size_t at = top->len;
     while (at > 0 && top->rows[at - 1].value < value)
@@ -60,7 +62,8 @@ static void print_top(FILE *out, struct top *top, const char *title, const char 
 }
 
 /*
- * Time is that of the document; size that of a shader: instructions, or bytes where nothing was compiled.
+ * Time is that of the document; size that of a shader: instructions, or bytes where nothing was
+ * compiled.
  */
 static void rank_document(struct text_state *state, const struct check_document *document)
 {
@@ -70,8 +73,8 @@ static void rank_document(struct text_state *state, const struct check_document 
         for (size_t k = 0; k < element->num_shaders; ++k) {
             const struct check_shader *shader = &element->shaders[k];
             total += shader->generate_ms + shader->compile_ms;
-            rank(&state->largest, (double)shader->measures[MEASURE_SOURCE_BYTES] / 1e3, document->file, element->path,
-                 shader->target);
+            rank(&state->largest, (double)shader->measures[MEASURE_SOURCE_BYTES] / 1e3,
+                 document->file, element->path, shader->target);
         }
     }
     rank(&state->slowest, total, document->file, "", "");
@@ -118,7 +121,8 @@ static void print_comparison(FILE *out, const struct check_totals *totals)
 {
     fputs("since the baseline:", out);
     for (int kind = 0; kind < NUM_CHECK_CHANGES; ++kind)
-        fprintf(out, "%s %s %" PRIu64, kind ? "," : "", check_change_name((enum check_change_kind)kind), totals->changes[kind]);
+        fprintf(out, "%s %s %" PRIu64, kind ? "," : "",
+                check_change_name((enum check_change_kind)kind), totals->changes[kind]);
     fputs(" (documents)\n", out);
 }
 
@@ -138,7 +142,8 @@ static void print_failures(FILE *out, const struct check_totals *totals)
     for (int stage = CHECK_PASSED + 1; stage < NUM_CHECK_STAGES; ++stage) {
         if (!totals->failed[stage])
             continue;
-        fprintf(out, "%s%s %" PRIu64, separator, check_stage_name((enum check_stage)stage), totals->failed[stage]);
+        fprintf(out, "%s%s %" PRIu64, separator, check_stage_name((enum check_stage)stage),
+                totals->failed[stage]);
         separator = ", ";
     }
     print_count(out, failed ? "), " : ", ", totals->errors, "error");
@@ -151,15 +156,19 @@ static void print_times(FILE *out, const struct check_totals *totals)
     const struct {
         const char *what;
         double ms;
-    } rows[] = {{"load", totals->load_ms},       {"validate", totals->validate_ms}, {"generate", totals->generate_ms},
-                {"compile", totals->compile_ms}, {"render", totals->render_ms}};
+    } rows[] = {{"load", totals->load_ms},
+                {"validate", totals->validate_ms},
+                {"generate", totals->generate_ms},
+                {"compile", totals->compile_ms},
+                {"render", totals->render_ms}};
     double sum = 0.0;
     for (size_t i = 0; i < sizeof rows / sizeof *rows; ++i)
         sum += rows[i].ms;
     fputs("time:", out);
     for (size_t i = 0; i < sizeof rows / sizeof *rows && sum > 0.0; ++i)
         if (rows[i].ms > 0.0)
-            fprintf(out, "%s %s %.2f s (%.0f %%)", i ? "," : "", rows[i].what, rows[i].ms / 1e3, 100.0 * rows[i].ms / sum);
+            fprintf(out, "%s %s %.2f s (%.0f %%)", i ? "," : "", rows[i].what, rows[i].ms / 1e3,
+                    100.0 * rows[i].ms / sum);
     fputc('\n', out);
 }
 
@@ -173,7 +182,9 @@ static void end(struct sink *sink, const struct check_totals *totals)
     }
     free(state);
     for (size_t i = 0; i < totals->num_uncompiled; ++i)
-        fprintf(sink->out, "note: shaders for '%s' were not compiled: no compiler for it is installed\n", totals->uncompiled[i]);
+        fprintf(sink->out,
+                "note: shaders for '%s' were not compiled: no compiler for it is installed\n",
+                totals->uncompiled[i]);
     print_count(sink->out, "", totals->documents, "document");
     print_count(sink->out, ", ", totals->elements, "element");
     print_count(sink->out, ", ", totals->shaders, "shader");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * mxgen.toml. Of TOML 1.0 it reads comments, tables and keys with whole numbers, which is all that a budget is made of:
+ * mxgen.toml. Of TOML 1.0 it reads comments, tables and keys with whole numbers, which is all that
+ * a budget is made of:
  *
  *     [budget]
  *     max-instructions = 3_000
@@ -31,15 +32,17 @@ static void fail(struct toml *toml, const char *what)
 {
     if (toml->fault->id)
         return;
-    char *rendered = toml->line ? cli_format("%s:%u: error: %s [budget-invalid]\n", toml->path, toml->line, what)
-                                : cli_format("%s: error: %s [budget-invalid]\n", toml->path, what);
-    *toml->fault = (struct check_message){.id = "budget-invalid",
-                                          .text = store_text(toml->store, what, strlen(what)),
-                                          .file = toml->path,
-                                          .line = toml->line,
-                                          .element = "",
-                                          .target = "",
-                                          .rendered = store_text(toml->store, rendered, strlen(rendered))};
+    char *rendered =
+        toml->line ? cli_format("%s:%u: error: %s [budget-invalid]\n", toml->path, toml->line, what)
+                   : cli_format("%s: error: %s [budget-invalid]\n", toml->path, what);
+    *toml->fault =
+        (struct check_message){.id = "budget-invalid",
+                               .text = store_text(toml->store, what, strlen(what)),
+                               .file = toml->path,
+                               .line = toml->line,
+                               .element = "",
+                               .target = "",
+                               .rendered = store_text(toml->store, rendered, strlen(rendered))};
     free(rendered);
 }
 
@@ -61,8 +64,10 @@ static void read_table(struct toml *toml, char *text)
     toml->is_ours = strncmp(text, TABLE, len) == 0 && strchr("]. \t", text[len]);
     if (!toml->is_ours)
         return;
-    char *name = text + len + (text[len] == '.'), *end = name + strcspn(name, "] \t"), *bracket = end + strspn(end, " \t");
-    if (*bracket != ']' || bracket[1 + strspn(bracket + 1, " \t")] || (text[len] != '.' && end != name)) {
+    char *name = text + len + (text[len] == '.'), *end = name + strcspn(name, "] \t"),
+         *bracket = end + strspn(end, " \t");
+    if (*bracket != ']' || bracket[1 + strspn(bracket + 1, " \t")]
+        || (text[len] != '.' && end != name)) {
         fail(toml, "a table is a name in brackets: [" TABLE "] or [" TABLE ".TARGET]");
         return;
     }
@@ -77,7 +82,8 @@ static bool read_number(const char *text, uint64_t *out)
     *out = 0;
     for (const char *c = text; *c; ++c) {
         bool is_digit = *c >= '0' && *c <= '9';
-        if ((!is_digit && (*c != '_' || c == text || c[-1] == '_' || !c[1])) || *out > UINT64_MAX / 10 - 1)
+        if ((!is_digit && (*c != '_' || c == text || c[-1] == '_' || !c[1]))
+            || *out > UINT64_MAX / 10 - 1)
             return false;
         if (is_digit)
             *out = *out * 10 + (uint64_t)(*c - '0');
@@ -101,7 +107,8 @@ static void read_key(struct toml *toml, char *text)
         if (strcmp(text, measure_infos[measure].option) != 0)
             continue;
         if (read_number(value, &limit))
-            budget_add_rule(toml->store, toml->rules, (struct budget_rule){(enum measure)measure, toml->target, limit});
+            budget_add_rule(toml->store, toml->rules,
+                            (struct budget_rule){(enum measure)measure, toml->target, limit});
         else
             fail(toml, "a budget is a whole number");
         return;
@@ -121,7 +128,8 @@ static void read_line(struct toml *toml, char *text)
         read_key(toml, text);
 }
 
-void budget_refuse_toml(struct store *store, const char *path, const char *reason, struct check_message *fault)
+void budget_refuse_toml(struct store *store, const char *path, const char *reason,
+                        struct check_message *fault)
 {
     struct toml toml = {.store = store, .path = path, .fault = fault};
     char *what = cli_format("cannot be read: %s", reason);
@@ -129,7 +137,8 @@ void budget_refuse_toml(struct store *store, const char *path, const char *reaso
     free(what);
 }
 
-void budget_read_toml(struct store *store, const char *path, const char *text, struct budget_rules *out, struct check_message *fault)
+void budget_read_toml(struct store *store, const char *path, const char *text,
+                      struct budget_rules *out, struct check_message *fault)
 {
     struct toml toml = {.store = store, .path = path, .target = "", .rules = out, .fault = fault};
     while (*text) {

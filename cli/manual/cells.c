@@ -43,7 +43,8 @@ static bool is_identity(const double *numbers, size_t count)
 }
 
 /*
- * Numbers without needless digits, one for all components where they are equal: so the variants of a node agree.
+ * Numbers without needless digits, one for all components where they are equal: so the variants of
+ * a node agree.
  */
 static const char *shorten(struct manual *manual, const char *value)
 {
@@ -86,7 +87,9 @@ static const char *range(struct manual *manual, const char *min, const char *max
 {
     if (*min && *max)
         return join(manual, shorten(manual, min), " to ", shorten(manual, max));
-    return *min ? join(manual, "from ", "", shorten(manual, min)) : *max ? join(manual, "up to ", "", shorten(manual, max)) : "";
+    return *min   ? join(manual, "from ", "", shorten(manual, min))
+           : *max ? join(manual, "up to ", "", shorten(manual, max))
+                  : "";
 }
 
 static size_t count_items(const char *list)
@@ -116,7 +119,8 @@ static const char *choices(struct manual *manual, const mxg_port *port)
     while (*names) {
         const char *name = next_item(manual, &names);
         const char *value = paired ? next_item(manual, &values) : "";
-        text = join(manual, text, ", ", strcmp(name, value) == 0 ? name : join(manual, name, " = ", value));
+        text = join(manual, text, ", ",
+                    strcmp(name, value) == 0 ? name : join(manual, name, " = ", value));
     }
     return text;
 }
@@ -128,21 +132,19 @@ static const char *values_of(struct manual *manual, const mxg_port *port)
     if (*soft)
         text = join(manual, text, ", ", join(manual, "usually ", "", soft));
     text = join(manual, text, "; ", choices(manual, port));
-    const char *unit = *port->unit ? port->unit : *port->unittype ? join(manual, port->unittype, " ", "unit") : "";
+    const char *unit = *port->unit       ? port->unit
+                       : *port->unittype ? join(manual, port->unittype, " ", "unit")
+                                         : "";
     return *unit ? join(manual, text, "; ", join(manual, "in ", "", unit)) : text;
 }
 
 const char *manual_cell(struct manual *manual, const mxg_port *port, enum manual_column column)
 {
     switch (column) {
-    case MANUAL_TYPE:
-        return port->type;
-    case MANUAL_DEFAULT:
-        return default_of(manual, port);
-    case MANUAL_VALUES:
-        return values_of(manual, port);
+    case MANUAL_TYPE: return port->type;
+    case MANUAL_DEFAULT: return default_of(manual, port);
+    case MANUAL_VALUES: return values_of(manual, port);
     case MANUAL_MEANING:
-    default:
-        return port->doc;
+    default: return port->doc;
     }
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * The reference as one page of HTML that needs nothing but itself and the pictures beside it. It is well-formed XML too,
- * so that any XML tool can read it.
+ * The reference as one page of HTML that needs nothing but itself and the pictures beside it. It is
+ * well-formed XML too, so that any XML tool can read it.
  */
 #include "cli/manual/manual.h"
 #include "cli/markup.h"
@@ -17,7 +17,8 @@ static void put_element(FILE *out, const char *tag, const char *text)
 
 /* ---- Tables ---- */
 
-static void put_cell(FILE *out, const struct manual_texts *texts, const char *tag, const char *class)
+static void put_cell(FILE *out, const struct manual_texts *texts, const char *tag,
+                     const char *class)
 {
     fprintf(out, "<td class=\"%s\">", class);
     for (size_t i = 0; i < texts->len; ++i) {
@@ -32,7 +33,8 @@ static void put_row(FILE *out, const struct manual_port *port)
     fprintf(out, "<tr%s><th scope=\"row\">", port->is_output ? " class=\"output\"" : "");
     put_element(out, "code", port->name);
     if (port->uniform)
-        fputs(" <small title=\"May not be connected to something that varies\">uniform</small>", out);
+        fputs(" <small title=\"May not be connected to something that varies\">uniform</small>",
+              out);
     fputs("</th>", out);
     put_cell(out, &port->cells[MANUAL_TYPE], "i", "type");
     put_cell(out, &port->cells[MANUAL_DEFAULT], "code", "default");
@@ -45,8 +47,10 @@ static void put_table(FILE *out, const struct manual_edition *edition)
 {
     if (edition->num_ports == 0)
         return;
-    fputs("<table><thead><tr><th>Input</th><th>Type</th><th>Default</th><th>Values</th><th>Meaning</th></tr></thead>\n"
-          "<tbody>\n", out);
+    fputs("<table><thead><tr><th>Input</th><th>Type</th><th>Default</th><th>Values</"
+          "th><th>Meaning</th></tr></thead>\n"
+          "<tbody>\n",
+          out);
     const char *folder = "";
     for (size_t i = 0; i < edition->num_ports; ++i) {
         const struct manual_port *port = &edition->ports[i];
@@ -83,7 +87,8 @@ static void put_signatures(FILE *out, const struct manual_edition *edition)
 }
 
 /* An older version: what it has otherwise. */
-static void put_older(FILE *out, const struct manual_edition *edition, const struct manual_edition *first)
+static void put_older(FILE *out, const struct manual_edition *edition,
+                      const struct manual_edition *first)
 {
     fputs("<details><summary>Version ", out);
     markup_text(out, edition->version);
@@ -171,7 +176,9 @@ static bool begins_group(const struct manual *manual, size_t i)
 static void put_navigation(const struct manual *manual, FILE *out)
 {
     fputs("<nav>\n<h1><a href=\"#top\">Nodes</a></h1>\n"
-          "<input type=\"search\" placeholder=\"Search  /\" aria-label=\"Search\" hidden=\"hidden\"/>\n<div>\n", out);
+          "<input type=\"search\" placeholder=\"Search  /\" aria-label=\"Search\" "
+          "hidden=\"hidden\"/>\n<div>\n",
+          out);
     for (size_t i = 0; i < manual->num_nodes; ++i) {
         if (begins_group(manual, i)) {
             fputs(i ? "</ul></section>\n<section>" : "<section>", out);
@@ -203,17 +210,25 @@ void manual_write_html(const struct manual *manual, FILE *out)
 {
     fputs("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
           "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n"
-          "<meta name=\"color-scheme\" content=\"light dark\"/>\n<title>Node reference</title>\n<style>\n", out);
+          "<meta name=\"color-scheme\" content=\"light dark\"/>\n<title>Node "
+          "reference</title>\n<style>\n",
+          out);
     markup_lines(out, manual_style);
     fputs("</style>\n</head>\n<body id=\"top\">\n", out);
     put_navigation(manual, out);
-    fprintf(out, "<main>\n<header>\n<p><strong>%zu</strong> nodes with <strong>%zu</strong> signatures, "
-                 "written by mxgen %s.</p>\n", manual->num_nodes, manual->num_variants, mxg_version_string());
-    fputs("<p>An input without a value of its own takes the default. A default that is a name, as <code>Nworld</code>, is a "
-          "property of the geometry. One number stands for equal components; where variants of a node differ, "
-          "all types and defaults are listed.</p>\n</header>\n", out);
+    fprintf(out,
+            "<main>\n<header>\n<p><strong>%zu</strong> nodes with <strong>%zu</strong> signatures, "
+            "written by mxgen %s.</p>\n",
+            manual->num_nodes, manual->num_variants, mxg_version_string());
+    fputs("<p>An input without a value of its own takes the default. A default that is a name, as "
+          "<code>Nworld</code>, is a "
+          "property of the geometry. One number stands for equal components; where variants of a "
+          "node differ, "
+          "all types and defaults are listed.</p>\n</header>\n",
+          out);
     put_nodes(manual, out);
-    fputs("<p id=\"none\" hidden=\"hidden\">Nothing has these words.</p>\n</main>\n<script>\n", out);
+    fputs("<p id=\"none\" hidden=\"hidden\">Nothing has these words.</p>\n</main>\n<script>\n",
+          out);
     markup_lines(out, manual_script);
     fputs("</script>\n</body>\n</html>\n", out);
 }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * The reference of a library: its definitions as mxgen.h tells them, put together for readers. All definitions of a node
- * in a group become one entry, in which each input stands once with what its variants have in common.
+ * The reference of a library: its definitions as mxgen.h tells them, put together for readers. All
+ * definitions of a node in a group become one entry, in which each input stands once with what its
+ * variants have in common.
  */
 #ifndef MXG_CLI_MANUAL_MANUAL_H
 #define MXG_CLI_MANUAL_MANUAL_H
@@ -13,7 +14,13 @@
 #include <stdio.h>
 
 /* What a port says, and the columns of its row. */
-enum manual_column { MANUAL_TYPE, MANUAL_DEFAULT, MANUAL_VALUES, MANUAL_MEANING, MANUAL_NUM_COLUMNS };
+enum manual_column {
+    MANUAL_TYPE,
+    MANUAL_DEFAULT,
+    MANUAL_VALUES,
+    MANUAL_MEANING,
+    MANUAL_NUM_COLUMNS
+};
 
 struct manual_texts {
     const char **items;
@@ -21,7 +28,8 @@ struct manual_texts {
 };
 
 /*
- * An input or output of an edition; a cell has the texts in which the variants differ, in their order.
+ * An input or output of an edition; a cell has the texts in which the variants differ, in their
+ * order.
  */
 struct manual_port {
     const char *name, *folder; /* of the user interface; "" */
@@ -30,7 +38,7 @@ struct manual_port {
 };
 
 struct manual_variant {
-    uint32_t index;        /* in the library */
+    uint32_t index; /* in the library */
     mxg_nodedef def;
     const char *signature; /* "(fg: color3, bg: color3, mix: float) → color3" */
 };
@@ -51,8 +59,8 @@ struct manual_node {
     const char *name, *group, *text, *file;
     struct manual_edition *editions; /* the default one first */
     size_t num_editions, num_variants;
-    struct manual_texts targets;     /* that have an implementation of every variant */
-    const char *picture;          /* file beside the pages; NULL */
+    struct manual_texts targets; /* that have an implementation of every variant */
+    const char *picture;         /* file beside the pages; NULL */
 };
 
 struct manual {
@@ -80,8 +88,8 @@ void manual_write_html(const struct manual *manual, FILE *out);
 void manual_write_markdown(const struct manual *manual, FILE *out);
 
 /*
- * picture.c: draws what can be pictured into `folder`/pictures, each picture beside the document it shows. False after
- * telling that a picture could not be made.
+ * picture.c: draws what can be pictured into `folder`/pictures, each picture beside the document it
+ * shows. False after telling that a picture could not be made.
  */
 bool manual_draw(struct manual *manual, struct cli *cli, const char *folder);
 

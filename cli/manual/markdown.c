@@ -65,7 +65,8 @@ static void put_signatures(FILE *out, const struct manual_edition *edition)
     putc('\n', out);
 }
 
-static void put_older(FILE *out, const struct manual_edition *edition, const struct manual_edition *first)
+static void put_older(FILE *out, const struct manual_edition *edition,
+                      const struct manual_edition *first)
 {
     bool same = edition->num_ports == 0 && edition->missing.len == 0;
     fputs("Version ", out);
@@ -88,7 +89,10 @@ static void put_facts(const struct manual *manual, FILE *out, const struct manua
         fputs(", version ", out);
         put(out, node->editions[0].version);
     }
-    fputs(node->targets.len == manual->num_targets ? ", all targets" : node->targets.len ? ", only " : ", not implemented", out);
+    fputs(node->targets.len == manual->num_targets ? ", all targets"
+          : node->targets.len                      ? ", only "
+                                                   : ", not implemented",
+          out);
     for (size_t i = 0; node->targets.len < manual->num_targets && i < node->targets.len; ++i) {
         fputs(i ? ", " : "", out);
         put(out, node->targets.items[i]);
@@ -116,8 +120,10 @@ static void put_node(const struct manual *manual, FILE *out, const struct manual
 
 void manual_write_markdown(const struct manual *manual, FILE *out)
 {
-    fprintf(out, "# Node reference\n\n%zu nodes with %zu signatures, written by mxgen %s. A default that is a name, as `Nworld`, is "
-                 "a property of the geometry.\nOne number stands for equal components.\n\n",
+    fprintf(out,
+            "# Node reference\n\n%zu nodes with %zu signatures, written by mxgen %s. A default "
+            "that is a name, as `Nworld`, is "
+            "a property of the geometry.\nOne number stands for equal components.\n\n",
             manual->num_nodes, manual->num_variants, mxg_version_string());
     const char *group = "";
     for (size_t i = 0; i < manual->num_nodes; ++i) {

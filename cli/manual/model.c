@@ -71,7 +71,8 @@ static bool are_same(const struct manual_texts *a, const struct manual_texts *b)
 
 /* ---- Ports ---- */
 
-static struct manual_port *find_port(const struct manual_edition *edition, const char *name, bool is_output)
+static struct manual_port *find_port(const struct manual_edition *edition, const char *name,
+                                     bool is_output)
 {
     for (size_t i = 0; i < edition->num_ports; ++i)
         if (edition->ports[i].is_output == is_output && strcmp(edition->ports[i].name, name) == 0)
@@ -79,19 +80,23 @@ static struct manual_port *find_port(const struct manual_edition *edition, const
     return NULL;
 }
 
-static void add_port(struct manual *manual, struct manual_edition *edition, const mxg_port *port, bool is_output)
+static void add_port(struct manual *manual, struct manual_edition *edition, const mxg_port *port,
+                     bool is_output)
 {
     struct manual_port *row = find_port(edition, port->name, is_output);
     if (!row) {
         row = &edition->ports[edition->num_ports++];
-        *row = (struct manual_port){
-            .name = port->name, .folder = port->uifolder, .is_output = is_output, .uniform = port->uniform};
+        *row = (struct manual_port){.name = port->name,
+                                    .folder = port->uifolder,
+                                    .is_output = is_output,
+                                    .uniform = port->uniform};
         for (unsigned column = 0; column < MANUAL_NUM_COLUMNS; ++column)
             row->cells[column] = make_texts(manual, edition->num_variants);
     }
     for (unsigned column = 0; column < MANUAL_NUM_COLUMNS; ++column)
         if (!is_output || column != MANUAL_DEFAULT)
-            add_distinct(&row->cells[column], manual_cell(manual, port, (enum manual_column)column));
+            add_distinct(&row->cells[column],
+                         manual_cell(manual, port, (enum manual_column)column));
 }
 
 /* Inputs, then outputs, each kind in the order in which the variants first have them. */
@@ -105,7 +110,8 @@ static void add_ports(struct manual *manual, struct manual_edition *edition)
         for (size_t i = 0; i < edition->num_variants; ++i) {
             const struct manual_variant *variant = &edition->variants[i];
             uint32_t num_inputs = variant->def.num_inputs;
-            uint32_t begin = is_output ? num_inputs : 0, end = is_output ? num_inputs + variant->def.num_outputs : num_inputs;
+            uint32_t begin = is_output ? num_inputs : 0,
+                     end = is_output ? num_inputs + variant->def.num_outputs : num_inputs;
             for (; begin < end; ++begin) {
                 mxg_port port = {sizeof port};
                 if (mxg_library_port(manual->library, variant->index, begin, &port) == MXG_OK)
@@ -124,7 +130,8 @@ static bool is_same_port(const struct manual_port *a, const struct manual_port *
 }
 
 /* An edition behind the first keeps the ports in which it differs. */
-static void keep_differences(struct manual *manual, struct manual_edition *edition, const struct manual_edition *first)
+static void keep_differences(struct manual *manual, struct manual_edition *edition,
+                             const struct manual_edition *first)
 {
     edition->missing = make_texts(manual, first->num_ports);
     for (size_t i = 0; i < first->num_ports; ++i)
@@ -132,7 +139,8 @@ static void keep_differences(struct manual *manual, struct manual_edition *editi
             add_distinct(&edition->missing, first->ports[i].name);
     size_t kept = 0;
     for (size_t i = 0; i < edition->num_ports; ++i) {
-        const struct manual_port *port = &edition->ports[i], *other = find_port(first, port->name, port->is_output);
+        const struct manual_port *port = &edition->ports[i],
+                                 *other = find_port(first, port->name, port->is_output);
         if (!other || !is_same_port(port, other))
             edition->ports[kept++] = *port;
     }
@@ -141,7 +149,8 @@ static void keep_differences(struct manual *manual, struct manual_edition *editi
 
 static const char *signature(struct manual *manual, const struct manual_variant *variant)
 {
-    uint32_t num_inputs = variant->def.num_inputs, num_ports = num_inputs + variant->def.num_outputs;
+    uint32_t num_inputs = variant->def.num_inputs,
+             num_ports = num_inputs + variant->def.num_outputs;
     char *text = cli_format("(");
     for (uint32_t i = 0; i < num_ports; ++i) {
         mxg_port port = {sizeof port};
@@ -149,7 +158,8 @@ static const char *signature(struct manual *manual, const struct manual_variant 
             continue;
         const char *between = i == num_inputs ? ") \xe2\x86\x92 " : i ? ", " : "";
         bool named = i < num_inputs || variant->def.num_outputs > 1;
-        char *longer = cli_format("%s%s%s%s%s", text, between, named ? port.name : "", named ? ": " : "", port.type);
+        char *longer = cli_format("%s%s%s%s%s", text, between, named ? port.name : "",
+                                  named ? ": " : "", port.type);
         free(text);
         text = longer;
     }
@@ -204,7 +214,8 @@ static size_t count_edition(const struct manual_variant *variants, size_t num)
 
 /* ---- Entries ---- */
 
-static void add_targets(struct manual *manual, struct manual_node *node, const struct manual_variant *variants)
+static void add_targets(struct manual *manual, struct manual_node *node,
+                        const struct manual_variant *variants)
 {
     node->targets = make_texts(manual, manual->num_targets);
     for (uint32_t t = 0; t < manual->num_targets; ++t) {
@@ -232,7 +243,11 @@ static void add_node(struct manual *manual, const struct manual_variant *variant
     const mxg_nodedef *def = &variants[0].def;
     const char *id = unique_id(manual, def);
     struct manual_node *node = &manual->nodes[manual->num_nodes++];
-    *node = (struct manual_node){.id = id, .name = def->node, .group = def->group, .text = def->doc, .file = def->file,
+    *node = (struct manual_node){.id = id,
+                                 .name = def->node,
+                                 .group = def->group,
+                                 .text = def->doc,
+                                 .file = def->file,
                                  .num_variants = num};
     node->editions = manual_alloc(manual, num * sizeof *node->editions);
     for (size_t i = 0; i < num;) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Pictures of nodes: a document for each, which mxgen-render draws on its ball. Patterns that vary over a surface are
- * pictured, and closures and shaders that stand on no others.
+ * Pictures of nodes: a document for each, which mxgen-render draws on its ball. Patterns that vary
+ * over a surface are pictured, and closures and shaders that stand on no others.
  */
 #define _POSIX_C_SOURCE 200809L
 #include "cli/manual/manual.h"
@@ -23,10 +23,12 @@ static const struct shown_type {
     const char *name;
     const char *input; /* of <surface>, for closures */
     bool is_pattern;
-} shown_types[] = { /* the first one that a node has is shown */
-    {"float", NULL, true}, {"color3", NULL, true}, {"color4", NULL, true}, {"vector2", NULL, true},
-    {"vector3", NULL, true}, {"vector4", NULL, true},
-    {"BSDF", "bsdf", false}, {"EDF", "edf", false}, {"surfaceshader", NULL, false}, {"material", NULL, false},
+} shown_types[] = {
+    /* the first one that a node has is shown */
+    {"float", NULL, true},     {"color3", NULL, true},  {"color4", NULL, true},
+    {"vector2", NULL, true},   {"vector3", NULL, true}, {"vector4", NULL, true},
+    {"BSDF", "bsdf", false},   {"EDF", "edf", false},   {"surfaceshader", NULL, false},
+    {"material", NULL, false},
 };
 enum { NUM_SHOWN_TYPES = sizeof shown_types / sizeof *shown_types };
 
@@ -84,8 +86,10 @@ static bool is_texture(const mxg_port *port)
  */
 static bool is_worth_showing(const struct manual *manual, struct shown *shown)
 {
-    static const char *const dependent[] = {"BSDF", "EDF", "VDF", "surfaceshader", "volumeshader", NULL};
-    bool varies = !shown->type->is_pattern || strcmp(shown->node->group, "geometric") == 0, textured = false;
+    static const char *const dependent[] = {"BSDF",          "EDF",          "VDF",
+                                            "surfaceshader", "volumeshader", NULL};
+    bool varies = !shown->type->is_pattern || strcmp(shown->node->group, "geometric") == 0,
+         textured = false;
     shown->on_plane = strcmp(shown->type->name, "vector2") == 0;
     for (uint32_t i = 0; i < shown->variant->def.num_inputs; ++i) {
         mxg_port port = {sizeof port};
@@ -100,7 +104,8 @@ static bool is_worth_showing(const struct manual *manual, struct shown *shown)
 }
 
 /* The first output of this type; false: none. */
-static bool choose_output(const struct manual *manual, const struct manual_variant *variant, const char *type, struct shown *shown)
+static bool choose_output(const struct manual *manual, const struct manual_variant *variant,
+                          const char *type, struct shown *shown)
 {
     for (uint32_t i = 0; i < variant->def.num_outputs; ++i) {
         mxg_port port = {sizeof port};
@@ -118,7 +123,8 @@ static bool choose(const struct manual *manual, const struct manual_node *node, 
     const struct manual_edition *edition = &node->editions[0];
     for (size_t t = strncmp(node->group, "texture", 7) == 0; t < NUM_SHOWN_TYPES; ++t) {
         for (size_t i = 0; i < edition->num_variants; ++i) {
-            *shown = (struct shown){.node = node, .variant = &edition->variants[i], .type = &shown_types[t]};
+            *shown = (struct shown){
+                .node = node, .variant = &edition->variants[i], .type = &shown_types[t]};
             if (choose_output(manual, shown->variant, shown->type->name, shown))
                 return is_worth_showing(manual, shown);
         }
@@ -142,15 +148,18 @@ static const struct example *find_example(const struct shown *shown, const mxg_p
 static void put_coordinates(FILE *out, const mxg_port *port, int scale)
 {
     const char *source = strcmp(port->type, "vector2") == 0 ? "texcoord" : "position";
-    fprintf(out, "    <%s name=\"coordinates\" type=\"%s\"/>\n"
-                 "    <multiply name=\"scaled\" type=\"%s\">\n"
-                 "      <input name=\"in1\" type=\"%s\" nodename=\"coordinates\"/>\n"
-                 "      <input name=\"in2\" type=\"float\" value=\"%d\"/>\n"
-                 "    </multiply>\n", source, port->type, port->type, port->type, scale);
+    fprintf(out,
+            "    <%s name=\"coordinates\" type=\"%s\"/>\n"
+            "    <multiply name=\"scaled\" type=\"%s\">\n"
+            "      <input name=\"in1\" type=\"%s\" nodename=\"coordinates\"/>\n"
+            "      <input name=\"in2\" type=\"float\" value=\"%d\"/>\n"
+            "    </multiply>\n",
+            source, port->type, port->type, port->type, scale);
 }
 
 /* The inputs of the shown node that have examples; with `before` the nodes that they come from. */
-static void put_inputs(const struct manual *manual, FILE *out, const struct shown *shown, bool before)
+static void put_inputs(const struct manual *manual, FILE *out, const struct shown *shown,
+                       bool before)
 {
     for (uint32_t i = 0; i < shown->variant->def.num_inputs; ++i) {
         mxg_port port = {sizeof port};
@@ -162,7 +171,8 @@ static void put_inputs(const struct manual *manual, FILE *out, const struct show
             put_coordinates(out, &port, example->scale);
         else if (!before)
             fprintf(out, "      <input name=\"%s\" type=\"%s\" %s=\"%s\"/>\n", port.name, port.type,
-                    example->scale ? "nodename" : "value", example->scale ? "scaled" : example->value);
+                    example->scale ? "nodename" : "value",
+                    example->scale ? "scaled" : example->value);
     }
 }
 
@@ -170,7 +180,8 @@ static void put_shown(const struct manual *manual, FILE *out, const struct shown
 {
     put_inputs(manual, out, shown, true);
     fprintf(out, "    <%s name=\"shown\" type=\"%s\" nodedef=\"%s\">\n", shown->node->name,
-            shown->variant->def.num_outputs > 1 ? "multioutput" : shown->type->name, shown->variant->def.name);
+            shown->variant->def.num_outputs > 1 ? "multioutput" : shown->type->name,
+            shown->variant->def.name);
     put_inputs(manual, out, shown, false);
     fprintf(out, "    </%s>\n", shown->node->name);
 }
@@ -181,14 +192,17 @@ static void put_pattern(const struct manual *manual, FILE *out, const struct sho
     bool is_vector = strcmp(shown->type->name, "vector3") == 0;
     fputs("  <nodegraph name=\"graph\">\n", out);
     put_shown(manual, out, shown);
-    char *output = shown->variant->def.num_outputs > 1 ? cli_format(" output=\"%s\"", shown->output) : cli_format("%s", "");
+    char *output = shown->variant->def.num_outputs > 1 ? cli_format(" output=\"%s\"", shown->output)
+                                                       : cli_format("%s", "");
     if (is_vector)
-        fprintf(out, "    <range name=\"visible\" type=\"vector3\">\n"
-                     "      <input name=\"in\" type=\"vector3\" nodename=\"shown\"%s/>\n"
-                     "      <input name=\"inlow\" type=\"vector3\" value=\"-1, -1, -1\"/>\n"
-                     "    </range>\n", output);
-    fprintf(out, "    <output name=\"out\" type=\"%s\" nodename=\"%s\"%s/>\n  </nodegraph>\n", shown->type->name,
-            is_vector ? "visible" : "shown", is_vector ? "" : output);
+        fprintf(out,
+                "    <range name=\"visible\" type=\"vector3\">\n"
+                "      <input name=\"in\" type=\"vector3\" nodename=\"shown\"%s/>\n"
+                "      <input name=\"inlow\" type=\"vector3\" value=\"-1, -1, -1\"/>\n"
+                "    </range>\n",
+                output);
+    fprintf(out, "    <output name=\"out\" type=\"%s\" nodename=\"%s\"%s/>\n  </nodegraph>\n",
+            shown->type->name, is_vector ? "visible" : "shown", is_vector ? "" : output);
     free(output);
 }
 
@@ -198,16 +212,21 @@ static void put_material(const struct manual *manual, FILE *out, const struct sh
     const char *input = shown->type->input;
     put_shown(manual, out, shown);
     if (input)
-        fprintf(out, "    <surface name=\"surface\" type=\"surfaceshader\">\n"
-                     "      <input name=\"%s\" type=\"%s\" nodename=\"shown\"/>\n"
-                     "    </surface>\n", input, shown->type->name);
+        fprintf(out,
+                "    <surface name=\"surface\" type=\"surfaceshader\">\n"
+                "      <input name=\"%s\" type=\"%s\" nodename=\"shown\"/>\n"
+                "    </surface>\n",
+                input, shown->type->name);
     if (strcmp(shown->type->name, "material") != 0)
-        fprintf(out, "    <surfacematerial name=\"material\" type=\"material\">\n"
-                     "      <input name=\"surfaceshader\" type=\"surfaceshader\" nodename=\"%s\"/>\n"
-                     "    </surfacematerial>\n", input ? "surface" : "shown");
+        fprintf(out,
+                "    <surfacematerial name=\"material\" type=\"material\">\n"
+                "      <input name=\"surfaceshader\" type=\"surfaceshader\" nodename=\"%s\"/>\n"
+                "    </surfacematerial>\n",
+                input ? "surface" : "shown");
 }
 
-static bool write_document(const struct manual *manual, struct cli *cli, const struct shown *shown, const char *path)
+static bool write_document(const struct manual *manual, struct cli *cli, const struct shown *shown,
+                           const char *path)
 {
     char *data = NULL;
     size_t size = 0;
@@ -232,7 +251,8 @@ static bool run(struct cli *cli, char **argv, int *out_status)
     pid_t process;
     int reason = posix_spawnp(&process, argv[0], NULL, NULL, argv, environ);
     if (reason) {
-        report_error(&cli->report, "no-renderer", "cannot start '%s': %s", argv[0], strerror(reason));
+        report_error(&cli->report, "no-renderer", "cannot start '%s': %s", argv[0],
+                     strerror(reason));
         return false;
     }
     while (waitpid(process, out_status, 0) < 0)
@@ -249,27 +269,31 @@ static char **renderer_arguments(const struct cli *cli, char *program)
     if (!argv)
         return NULL;
     size_t n = 0;
-    const char *const fixed[] = {program, NULL, "-q", "--size", PICTURE_SIZE, "--scene", NULL, "-o", NULL};
+    const char *const fixed[] = {program,   NULL, "-q", "--size", PICTURE_SIZE,
+                                 "--scene", NULL, "-o", NULL};
     for (; n < sizeof fixed / sizeof *fixed; ++n)
         argv[n] = (char *)(uintptr_t)fixed[n];
     if (cli->no_builtin_library)
-        argv[n++] = (char *)(uintptr_t)"--no-builtin-library";
+        argv[n++] = (char *)(uintptr_t) "--no-builtin-library";
     for (size_t i = 1; i < inputs->len; ++i) {
-        argv[n++] = (char *)(uintptr_t)"--library";
+        argv[n++] = (char *)(uintptr_t) "--library";
         argv[n++] = (char *)(uintptr_t)inputs->items[i];
     }
     return argv;
 }
 enum { ARGUMENT_DOCUMENT = 1, ARGUMENT_SCENE = 6, ARGUMENT_PICTURE = 8 };
 
-static bool draw_node(struct manual *manual, struct cli *cli, struct manual_node *node, const char *folder, char **argv)
+static bool draw_node(struct manual *manual, struct cli *cli, struct manual_node *node,
+                      const char *folder, char **argv)
 {
     struct shown shown;
     if (!choose(manual, node, &shown))
         return true;
     const char *picture = manual_keep(manual, cli_format("pictures/%s.png", node->id));
-    argv[ARGUMENT_DOCUMENT] = (char *)(uintptr_t)manual_keep(manual, cli_format("%s/pictures/%s.mtlx", folder, node->id));
-    argv[ARGUMENT_PICTURE] = (char *)(uintptr_t)manual_keep(manual, cli_format("%s/%s", folder, picture));
+    argv[ARGUMENT_DOCUMENT] =
+        (char *)(uintptr_t)manual_keep(manual, cli_format("%s/pictures/%s.mtlx", folder, node->id));
+    argv[ARGUMENT_PICTURE] =
+        (char *)(uintptr_t)manual_keep(manual, cli_format("%s/%s", folder, picture));
     argv[ARGUMENT_SCENE] = (char *)(uintptr_t)(shown.on_plane ? "plane" : "sphere");
     int status = 0;
     if (!write_document(manual, cli, &shown, argv[ARGUMENT_DOCUMENT]) || !run(cli, argv, &status))
@@ -288,7 +312,8 @@ bool manual_draw(struct manual *manual, struct cli *cli, const char *folder)
     char **argv = renderer_arguments(cli, program);
     const char *reason = files_make_folder(pictures);
     if (reason)
-        report_error(&cli->report, "output-failed", "cannot make the folder '%s': %s", pictures, reason);
+        report_error(&cli->report, "output-failed", "cannot make the folder '%s': %s", pictures,
+                     reason);
     bool good = argv && !reason, any = false;
     /* Where the first one fails there is no device, and none can be drawn. */
     for (size_t i = 0; (good || any) && i < manual->num_nodes; ++i) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Desktop OpenGL: loose uniforms with initial values, as hosts of MaterialX bind them. The portable language is its subset.
+ * Desktop OpenGL: loose uniforms with initial values, as hosts of MaterialX bind them. The portable
+ * language is its subset.
  */
 #include "generators/glsl/glsl.h"
 
@@ -29,7 +30,8 @@ const struct lang_syntax glsl_syntax = {
     .param_inout = "inout ",
 };
 
-static const char *const versions[] = {"450", "330", "400", "410", "420", "430", "440", "460", NULL};
+static const char *const versions[] = {"450", "330", "400", "410", "420",
+                                       "430", "440", "460", NULL};
 
 const struct target target_glsl = {
     .name = "glsl",

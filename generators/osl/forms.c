@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * How OSL writes what depends on types: its vectors have three components, so those of two and four are structs, and operations on them
- * are functions that the file declares for itself (helpers.def; by component where it says nothing). Operators of structs are OSL's
- * overloads: `a + b` calls __operator__add__.
+ * How OSL writes what depends on types: its vectors have three components, so those of two and four
+ * are structs, and operations on them are functions that the file declares for itself (helpers.def;
+ * by component where it says nothing). Operators of structs are OSL's overloads: `a + b` calls
+ * __operator__add__.
  */
 #include "generators/osl/osl.h"
 
@@ -34,19 +35,22 @@ static const char *type_name(ir_type_id type)
 char osl_type_letter(ir_type_id type)
 {
     static const char letters[IR_NUM_TYPES] = {
-        [IR_TYPE_BOOL] = 'b', [IR_TYPE_INT] = 'i', [IR_TYPE_UINT] = 'u', [IR_TYPE_FLOAT] = 'f', [IR_TYPE_IVEC2] = 'I',
-        [IR_TYPE_VEC2] = '2', [IR_TYPE_VEC3] = '3', [IR_TYPE_VEC4] = '4', [IR_TYPE_MAT2] = 'm', [IR_TYPE_MAT3] = 'M',
-        [IR_TYPE_MAT4] = 'N', [IR_TYPE_SAMPLER] = 's', [IR_TYPE_STRING] = 't',
+        [IR_TYPE_BOOL] = 'b',   [IR_TYPE_INT] = 'i',  [IR_TYPE_UINT] = 'u', [IR_TYPE_FLOAT] = 'f',
+        [IR_TYPE_IVEC2] = 'I',  [IR_TYPE_VEC2] = '2', [IR_TYPE_VEC3] = '3', [IR_TYPE_VEC4] = '4',
+        [IR_TYPE_MAT2] = 'm',   [IR_TYPE_MAT3] = 'M', [IR_TYPE_MAT4] = 'N', [IR_TYPE_SAMPLER] = 's',
+        [IR_TYPE_STRING] = 't',
     };
     return type < IR_NUM_TYPES && letters[type] ? letters[type] : '?';
 }
 
 /* ---- Forms made here: they live as long as the file is written ---- */
 
-static const struct lang_pieces *form_of(struct osl *osl, const char *text, enum lang_precedence precedence)
+static const struct lang_pieces *form_of(struct osl *osl, const char *text,
+                                         enum lang_precedence precedence)
 {
     struct lang_pieces *form = ARENA_NEW(osl->spell->scratch, struct lang_pieces);
-    lang_form_split(&(struct lang_form){text, (uint8_t)precedence, false}, osl->spell->scratch, form);
+    lang_form_split(&(struct lang_form){text, (uint8_t)precedence, false}, osl->spell->scratch,
+                    form);
     return form;
 }
 
@@ -56,7 +60,8 @@ static const struct lang_pieces *usual_form(const struct osl *osl, enum ir_op op
 }
 
 /* "name($0, $1)". `order` gives the operands, as digits; NULL: as they come. */
-static const struct lang_pieces *call_form(struct osl *osl, const char *name, unsigned num_operands, const char *order)
+static const struct lang_pieces *call_form(struct osl *osl, const char *name, unsigned num_operands,
+                                           const char *order)
 {
     struct text text;
     text_init(&text, osl->spell->scratch);
@@ -119,7 +124,8 @@ static const struct helper_row *find_helper(const struct osl *osl, const struct 
     return NULL;
 }
 
-static const struct lang_pieces *helper_form(struct osl *osl, const struct helper_row *row, const struct lang_use *use)
+static const struct lang_pieces *helper_form(struct osl *osl, const struct helper_row *row,
+                                             const struct lang_use *use)
 {
     osl_add_helper(osl, row->text);
     if (strncmp(row->name, "__operator__", 12) == 0)
@@ -132,20 +138,13 @@ static const struct lang_pieces *helper_form(struct osl *osl, const struct helpe
 static const char *operator_word(enum ir_op op)
 {
     switch (op) {
-    case IR_NEG:
-        return "__operator__neg__";
-    case IR_ADD:
-        return "__operator__add__";
-    case IR_SUB:
-        return "__operator__sub__";
-    case IR_MUL:
-        return "__operator__mul__";
-    case IR_DIV:
-        return "__operator__div__";
-    case IR_REM:
-        return "__operator__mod__";
-    default:
-        return NULL;
+    case IR_NEG: return "__operator__neg__";
+    case IR_ADD: return "__operator__add__";
+    case IR_SUB: return "__operator__sub__";
+    case IR_MUL: return "__operator__mul__";
+    case IR_DIV: return "__operator__div__";
+    case IR_REM: return "__operator__mod__";
+    default: return NULL;
     }
 }
 
@@ -165,9 +164,11 @@ static ir_type_id scalar_of(ir_type_id type)
 }
 
 /*
- * A form of the operands themselves ("$0", where `named`) or of parameters a, b…; of those with parts, of one.
+ * A form of the operands themselves ("$0", where `named`) or of parameters a, b…; of those with
+ * parts, of one.
  */
-static void write_part(const char *form, const struct lang_use *use, unsigned component, bool named, struct text *out)
+static void write_part(const char *form, const struct lang_use *use, unsigned component, bool named,
+                       struct text *out)
 {
     for (const char *p = form; *p; p++) {
         if (*p != '$') {
@@ -187,7 +188,8 @@ static void write_part(const char *form, const struct lang_use *use, unsigned co
 }
 
 /* "vector2 min(vector2 a, float b)\n{\n    return vector2(min(a.x, b), min(a.y, b));\n}\n" */
-static void write_component_function(const char *name, const struct lang_use *use, const struct lang_pieces *scalar, struct text *out)
+static void write_component_function(const char *name, const struct lang_use *use,
+                                     const struct lang_pieces *scalar, struct text *out)
 {
     text_fmt(out, "%s %s(", type_name(use->type), name);
     for (unsigned i = 0; i < use->num_operands; i++)
@@ -201,9 +203,11 @@ static void write_component_function(const char *name, const struct lang_use *us
 }
 
 /*
- * "vector2($0.x + $1.x, $0.y + $1.y)": a pair of names and numbers needs no function; NULL: there is more to it.
+ * "vector2($0.x + $1.x, $0.y + $1.y)": a pair of names and numbers needs no function; NULL: there
+ * is more to it.
  */
-static const struct lang_pieces *pair_form(struct osl *osl, const struct lang_use *use, const struct lang_pieces *scalar)
+static const struct lang_pieces *pair_form(struct osl *osl, const struct lang_use *use,
+                                           const struct lang_pieces *scalar)
 {
     uint32_t all = (1u << use->num_operands) - 1;
     if (use->type != IR_TYPE_VEC2 || (use->named & all) != all || 2 * scalar->num > LANG_MAX_PIECES)
@@ -235,7 +239,8 @@ static const struct lang_pieces *component_form(struct osl *osl, const struct la
     const struct lang_pieces *pair = pair_form(osl, use, scalar);
     if (pair)
         return pair;
-    const char *word = operator_word(use->op), *name = word ? word : function_name(osl, use->op, scalar);
+    const char *word = operator_word(use->op),
+               *name = word ? word : function_name(osl, use->op, scalar);
     struct text text;
     text_init(&text, osl->spell->scratch);
     write_component_function(name, use, scalar, &text);
@@ -248,7 +253,8 @@ static const struct lang_pieces *component_form(struct osl *osl, const struct la
 
 static bool is_color_operand(const struct osl *osl, const struct lang_use *use, unsigned index)
 {
-    return use->node && osl->kinds[ir_arg(osl->spell->shader->graph, use->node, index)] == OSL_COLOR;
+    return use->node
+           && osl->kinds[ir_arg(osl->spell->shader->graph, use->node, index)] == OSL_COLOR;
 }
 
 /* "$0.x", "vector2($0.y, $0.x)"; of something that is no variable, by a function. */
@@ -259,7 +265,8 @@ static const struct lang_pieces *swizzle_form(struct osl *osl, const struct lang
     struct text text, name;
     text_init(&text, osl->spell->scratch);
     text_init(&name, osl->spell->scratch);
-    const char *letters = named && is_color_operand(osl, use, 0) ? "rgba" : parts, *whole = named ? "$0" : "v";
+    const char *letters = named && is_color_operand(osl, use, 0) ? "rgba" : parts,
+               *whole = named ? "$0" : "v";
     if (count > 1)
         text_fmt(&text, "%s(", type_name(use->type));
     for (unsigned i = 0; i < count; i++) {
@@ -273,17 +280,19 @@ static const struct lang_pieces *swizzle_form(struct osl *osl, const struct lang
         return form_of(osl, text_cstr(&text), LANG_PREC_POSTFIX);
     struct text function;
     text_init(&function, osl->spell->scratch);
-    text_fmt(&function, "%s %s_of(%s v)\n{\n    return %s;\n}\n", type_name(use->type), text_cstr(&name),
-             type_name(use->operands[0]), text_cstr(&text));
+    text_fmt(&function, "%s %s_of(%s v)\n{\n    return %s;\n}\n", type_name(use->type),
+             text_cstr(&name), type_name(use->operands[0]), text_cstr(&text));
     osl_add_helper(osl, text_cstr(&function));
     text_str(&name, "_of");
     return call_form(osl, text_cstr(&name), 1, NULL);
 }
 
 /*
- * The parts of all operands in a row: of "$0", "$1"… where they are `named`, else of the parameters a, b…
+ * The parts of all operands in a row: of "$0", "$1"… where they are `named`, else of the parameters
+ * a, b…
  */
-static void write_parts(const struct osl *osl, const struct lang_use *use, bool named, struct text *out)
+static void write_parts(const struct osl *osl, const struct lang_use *use, bool named,
+                        struct text *out)
 {
     unsigned left = components(use->type), wanted = use->num_operands == 1 ? 1 : left;
     for (unsigned i = 0; i < use->num_operands; i++) {
@@ -311,10 +320,12 @@ static bool all_named(const struct lang_use *use)
 static const struct lang_pieces *construct_form(struct osl *osl, const struct lang_use *use)
 {
     if (use->type == IR_TYPE_MAT3 && use->num_operands == 9)
-        return form_of(osl, "matrix($0, $1, $2, 0, $3, $4, $5, 0, $6, $7, $8, 0, 0, 0, 0, 1)", LANG_PREC_POSTFIX);
+        return form_of(osl, "matrix($0, $1, $2, 0, $3, $4, $5, 0, $6, $7, $8, 0, 0, 0, 0, 1)",
+                       LANG_PREC_POSTFIX);
     if (!is_vector(use->type))
         return NULL;
-    bool scalars = use->num_operands == components(use->type) || (use->type == IR_TYPE_VEC3 && use->num_operands == 1);
+    bool scalars = use->num_operands == components(use->type)
+                   || (use->type == IR_TYPE_VEC3 && use->num_operands == 1);
     for (unsigned i = 0; i < use->num_operands; i++)
         scalars &= components(use->operands[i]) == 1;
     if (scalars)
@@ -344,7 +355,8 @@ static const struct lang_pieces *convert_form(struct osl *osl, const struct lang
 {
     ir_type_id from = use->operands[0], to = use->type;
     if (to == IR_TYPE_BOOL)
-        return form_of(osl, from == IR_TYPE_BOOL ? "$0" : "$0 != 0", from == IR_TYPE_BOOL ? LANG_PREC_ASSIGN : LANG_PREC_EQUAL);
+        return form_of(osl, from == IR_TYPE_BOOL ? "$0" : "$0 != 0",
+                       from == IR_TYPE_BOOL ? LANG_PREC_ASSIGN : LANG_PREC_EQUAL);
     if (components(from) == 1 && strcmp(type_name(from), type_name(to)) == 0)
         return form_of(osl, "$0", LANG_PREC_ASSIGN); /* between int, uint and bool */
     if (from == IR_TYPE_MAT3 && to == IR_TYPE_MAT4)
@@ -357,7 +369,8 @@ static const struct lang_pieces *convert_form(struct osl *osl, const struct lang
     }
     if (is_vector(from) && is_vector(to)) /* ivec2 and vec2 */
         return component_form(osl, use);
-    return is_struct(to) || (to == IR_TYPE_VEC3 && from != IR_TYPE_FLOAT) ? construct_form(osl, use) : NULL;
+    return is_struct(to) || (to == IR_TYPE_VEC3 && from != IR_TYPE_FLOAT) ? construct_form(osl, use)
+                                                                          : NULL;
 }
 
 static const struct lang_pieces *index_form(struct osl *osl, const struct lang_use *use)
@@ -385,7 +398,8 @@ static enum osl_kind operand_kind(const struct osl *osl, const struct lang_use *
         return OSL_ANY;
     ir_ref operand = ir_arg(osl->spell->shader->graph, use->node, index);
     bool is_local = osl->spell->local_of[operand]; /* declared as vector or color */
-    return is_local && osl->kinds[operand] == OSL_POINT ? OSL_VECTOR : (enum osl_kind)osl->kinds[operand];
+    return is_local && osl->kinds[operand] == OSL_POINT ? OSL_VECTOR
+                                                        : (enum osl_kind)osl->kinds[operand];
 }
 
 static bool is_no_vector(const struct osl *osl, const struct lang_use *use, unsigned index)
@@ -397,7 +411,8 @@ static bool is_no_vector(const struct osl *osl, const struct lang_use *use, unsi
 /* Sums of a number and a matrix have the matrix first. */
 static const struct lang_pieces *turned_sum_form(struct osl *osl, const struct lang_use *use)
 {
-    if (use->op != IR_ADD || use->operands[0] != IR_TYPE_FLOAT || !ir_type_is_matrix(use->operands[1]))
+    if (use->op != IR_ADD || use->operands[0] != IR_TYPE_FLOAT
+        || !ir_type_is_matrix(use->operands[1]))
         return NULL;
     struct lang_use turned = *use;
     turned.operands = (ir_type_id[]){use->operands[1], use->operands[0]};
@@ -409,7 +424,8 @@ static const struct lang_pieces *turned_sum_form(struct osl *osl, const struct l
 }
 
 /*
- * A row vector times a matrix in OSL is ours times a column vector; products of matrices turn around.
+ * A row vector times a matrix in OSL is ours times a column vector; products of matrices turn
+ * around.
  */
 static const struct lang_pieces *product_form(struct osl *osl, const struct lang_use *use)
 {
@@ -419,13 +435,17 @@ static const struct lang_pieces *product_form(struct osl *osl, const struct lang
     /* transform() gives a vector */
     bool is_color = use->node && osl->kinds[use->node] == OSL_COLOR;
     if (a == IR_TYPE_MAT3 && b == IR_TYPE_VEC3)
-        return form_of(osl, is_color                     ? "color(transform($0, vector($1)))"
-                            : is_no_vector(osl, use, 1) ? "transform($0, vector($1))"
-                                                        : "transform($0, $1)", LANG_PREC_POSTFIX);
+        return form_of(osl,
+                       is_color                    ? "color(transform($0, vector($1)))"
+                       : is_no_vector(osl, use, 1) ? "transform($0, vector($1))"
+                                                   : "transform($0, $1)",
+                       LANG_PREC_POSTFIX);
     if (a == IR_TYPE_VEC3 && b == IR_TYPE_MAT3)
-        return form_of(osl, is_color                     ? "color(transform(transpose($1), vector($0)))"
-                            : is_no_vector(osl, use, 0) ? "transform(transpose($1), vector($0))"
-                                                        : "transform(transpose($1), $0)", LANG_PREC_POSTFIX);
+        return form_of(osl,
+                       is_color                    ? "color(transform(transpose($1), vector($0)))"
+                       : is_no_vector(osl, use, 0) ? "transform(transpose($1), vector($0))"
+                                                   : "transform(transpose($1), $0)",
+                       LANG_PREC_POSTFIX);
     if (a == IR_TYPE_VEC4 && b == IR_TYPE_MAT4) {
         ir_type_id turned[2] = {b, a};
         struct lang_use transform = *use;
@@ -437,7 +457,8 @@ static const struct lang_pieces *product_form(struct osl *osl, const struct lang
 }
 
 /*
- * The type that an operand must be cast to, lest a call mixes colours and vectors; NULL: it may stay.
+ * The type that an operand must be cast to, lest a call mixes colours and vectors; NULL: it may
+ * stay.
  */
 static const char *cast_of(const struct osl *osl, const struct lang_use *use, unsigned index)
 {
@@ -503,7 +524,8 @@ const struct lang_pieces *osl_form(void *user_data, const struct lang_use *use)
     const struct lang_pieces *color = makes ? color_form(osl, use) : NULL;
     if (color || use->op == IR_CONST)
         return color;
-    const struct lang_pieces *product = use->op == IR_MUL ? product_form(osl, use) : turned_sum_form(osl, use);
+    const struct lang_pieces *product =
+        use->op == IR_MUL ? product_form(osl, use) : turned_sum_form(osl, use);
     if (product)
         return product;
     if (use->op == IR_SWIZZLE)
@@ -514,7 +536,8 @@ const struct lang_pieces *osl_form(void *user_data, const struct lang_use *use)
         return NULL;
     const char *texture = use->op == IR_TEX ? osl_texture_call(osl, use) : NULL;
     if (texture)
-        return form_of(osl, texture, use->type == IR_TYPE_VEC4 ? LANG_PREC_POSTFIX : LANG_PREC_UNARY);
+        return form_of(osl, texture,
+                       use->type == IR_TYPE_VEC4 ? LANG_PREC_POSTFIX : LANG_PREC_UNARY);
     const struct helper_row *row = find_helper(osl, use);
     if (row)
         return helper_form(osl, row, use);
@@ -529,7 +552,8 @@ const struct lang_pieces *osl_form(void *user_data, const struct lang_use *use)
 }
 
 /* Structs and small matrices, in which every part is written. */
-bool osl_write_value(const struct lang_style *style, ir_type_id type, const union ir_word *words, struct text *out)
+bool osl_write_value(const struct lang_style *style, ir_type_id type, const union ir_word *words,
+                     struct text *out)
 {
     if (!is_struct(type) && type != IR_TYPE_MAT3)
         return false;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * The library's functions above the shader: those that OSL has of itself (natives.def) call it, and what only these would have needed
- * is left out.
+ * The library's functions above the shader: those that OSL has of itself (natives.def) call it, and
+ * what only these would have needed is left out.
  */
 #include "generators/osl/osl.h"
 
@@ -19,7 +19,8 @@ static const struct {
 #include "generators/osl/natives.def"
 };
 
-static bool has_types(const struct lang_unit *layer, const struct lang_function *fn, const char *types)
+static bool has_types(const struct lang_unit *layer, const struct lang_function *fn,
+                      const char *types)
 {
     if (fn->num_params != strlen(types))
         return false;
@@ -61,16 +62,18 @@ static bool write_native(const struct spell *spell, uint32_t id, struct text *ou
     for (size_t i = 0; i < sizeof natives / sizeof *natives; i++) {
         if (strcmp(natives[i].function, name) != 0 || !has_types(layer, fn, natives[i].types))
             continue;
-        text_fmt(out, "%s %s(%s)\n{\n    %s\n    return n;\n}\n", natives[i].type, spell->functions[id], natives[i].params,
-                 natives[i].body);
+        text_fmt(out, "%s %s(%s)\n{\n    %s\n    return n;\n}\n", natives[i].type,
+                 spell->functions[id], natives[i].params, natives[i].body);
         return true;
     }
     return false;
 }
 
-static bool is_needed_constant(const struct spell *spell, uint32_t global, const char *const *functions, uint32_t num_functions)
+static bool is_needed_constant(const struct spell *spell, uint32_t global,
+                               const char *const *functions, uint32_t num_functions)
 {
-    const char *name = str_text(spell->shader->strings, lang_global(spell->shader->unit, global, NULL)->name);
+    const char *name =
+        str_text(spell->shader->strings, lang_global(spell->shader->unit, global, NULL)->name);
     bool needed = false;
     for (uint32_t i = 0; i < num_functions; i++)
         needed |= osl_mentions(functions[i], name);
@@ -100,12 +103,14 @@ static void add_arrays(const struct spell *spell, struct text *function)
         return;
     struct text whole;
     text_init(&whole, spell->scratch);
-    text_fmt(&whole, "%.*s\n{\n%s%s", (int)(body - text_cstr(function)), text_cstr(function), text_cstr(&arrays), body + strlen("\n{\n"));
+    text_fmt(&whole, "%.*s\n{\n%s%s", (int)(body - text_cstr(function)), text_cstr(function),
+             text_cstr(&arrays), body + strlen("\n{\n"));
     *function = whole;
 }
 
 /*
- * What is called later stands earlier, so it is from the last function to the first that one sees what is needed.
+ * What is called later stands earlier, so it is from the last function to the first that one sees
+ * what is needed.
  */
 void osl_write_functions(struct osl *osl, const char *shader, struct text *out)
 {
@@ -131,8 +136,10 @@ void osl_write_functions(struct osl *osl, const char *shader, struct text *out)
     }
     spell->out = out;
     for (uint32_t i = 0; i < reach->globals.len; i++)
-        if (!is_array(spell, reach->globals.items[i]) && is_needed_constant(spell, reach->globals.items[i], kept.items, kept.len))
-            lang_print_constant(spell->style, &spell->lang_names, spell->shader->unit, reach->globals.items[i], out);
+        if (!is_array(spell, reach->globals.items[i])
+            && is_needed_constant(spell, reach->globals.items[i], kept.items, kept.len))
+            lang_print_constant(spell->style, &spell->lang_names, spell->shader->unit,
+                                reach->globals.items[i], out);
     for (uint32_t i = kept.len; i-- > 0;)
         SPELL(spell, kept.items[i], "\n");
     spell->out = before;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Which of the graph's vec3 are colours. OSL tells colours, vectors and points apart, and warns of calls that mix them. One pass upwards:
- * what comes from a colour is one. One pass downwards: what could be anything, a literal for the most part, is what it is used for.
+ * Which of the graph's vec3 are colours. OSL tells colours, vectors and points apart, and warns of
+ * calls that mix them. One pass upwards: what comes from a colour is one. One pass downwards: what
+ * could be anything, a literal for the most part, is what it is used for.
  */
 #include "generators/osl/osl.h"
 
@@ -13,8 +14,9 @@ static bool is_triple(const struct ir_graph *graph, ir_ref ref)
 /* These give a direction, or what functions of the library return, whatever goes in. */
 static bool gives_vector(enum ir_op op)
 {
-    return op == IR_NORMALIZE || op == IR_CROSS || op == IR_REFLECT || op == IR_REFRACT || op == IR_FACEFORWARD || op == IR_CALL
-           || op == IR_GRAPH_CALL || op == IR_VERBATIM || op == IR_RESULT || op == IR_SWIZZLE || op == IR_INDEX || op == IR_MEMBER;
+    return op == IR_NORMALIZE || op == IR_CROSS || op == IR_REFLECT || op == IR_REFRACT
+           || op == IR_FACEFORWARD || op == IR_CALL || op == IR_GRAPH_CALL || op == IR_VERBATIM
+           || op == IR_RESULT || op == IR_SWIZZLE || op == IR_INDEX || op == IR_MEMBER;
 }
 
 static enum osl_kind kind_of_variable(const struct osl *osl, uint32_t index)
@@ -23,14 +25,17 @@ static enum osl_kind kind_of_variable(const struct osl *osl, uint32_t index)
     const char *spelled = osl->spell->variables[index].text; /* NULL: nothing reads it */
     if (spelled && strcmp(spelled, "P") == 0)
         return OSL_POINT;
-    return strcmp(str_text(osl->spell->shader->strings, variable->doc_type), "color3") == 0 ? OSL_COLOR : OSL_VECTOR;
+    return strcmp(str_text(osl->spell->shader->strings, variable->doc_type), "color3") == 0
+               ? OSL_COLOR
+               : OSL_VECTOR;
 }
 
 /* A call of the library's function, in whose place stands one of stdosl.h. */
 static bool is_same_call(const struct osl *osl, ir_ref ref)
 {
     const struct spell *spell = osl->spell;
-    return ir_get(spell->shader->graph, ref)->op == IR_CALL && osl_same_function(spell, shader_callee(spell->shader, ref));
+    return ir_get(spell->shader->graph, ref)->op == IR_CALL
+           && osl_same_function(spell, shader_callee(spell->shader, ref));
 }
 
 static enum osl_kind kind_of(const struct osl *osl, ir_ref ref)
@@ -64,8 +69,11 @@ static enum osl_kind wanted_kind(const struct osl *osl, ir_ref user)
     if (node->op >= IR_LEAF)
         return OSL_COLOR;
     if (node->op == IR_DOT) /* "dot(opacity, color(…))" */
-        return (enum osl_kind)(osl->kinds[ir_arg(graph, user, 0)] == OSL_COLOR ? OSL_COLOR : osl->kinds[ir_arg(graph, user, 1)]);
-    return is_triple(graph, user) && !gives_vector(node->op) ? (enum osl_kind)osl->kinds[user] : OSL_ANY;
+        return (enum osl_kind)(osl->kinds[ir_arg(graph, user, 0)] == OSL_COLOR
+                                   ? OSL_COLOR
+                                   : osl->kinds[ir_arg(graph, user, 1)]);
+    return is_triple(graph, user) && !gives_vector(node->op) ? (enum osl_kind)osl->kinds[user]
+                                                             : OSL_ANY;
 }
 
 void osl_find_kinds(struct osl *osl)
@@ -88,6 +96,7 @@ void osl_find_kinds(struct osl *osl)
 const char *osl_node_type(const struct spell *spell, ir_ref ref)
 {
     const struct osl *osl = spell->target_data;
-    bool is_color = is_triple(spell->shader->graph, ref) ? osl->kinds[ref] == OSL_COLOR : is_same_call(osl, ref);
+    bool is_color = is_triple(spell->shader->graph, ref) ? osl->kinds[ref] == OSL_COLOR
+                                                         : is_same_call(osl, ref);
     return is_color ? "color" : NULL;
 }

@@ -48,16 +48,19 @@ static void add_limit(struct text *piece, const char *name, const char *limit, i
 {
     if (!limit || !*limit)
         return;
-    text_fmt(piece, "%s%s %s = ", piece->len ? ", " : "", type == IR_TYPE_INT ? "int" : "float", name);
+    text_fmt(piece, "%s%s %s = ", piece->len ? ", " : "", type == IR_TYPE_INT ? "int" : "float",
+             name);
     size_t len = strlen(limit);
-    while (strchr(limit, '.') && len > 1 && (limit[len - 1] == '0' || limit[len - 1] == '.') && limit[len - 2] != '-')
+    while (strchr(limit, '.') && len > 1 && (limit[len - 1] == '0' || limit[len - 1] == '.')
+           && limit[len - 2] != '-')
         if (limit[--len] == '.') /* "1.0" is 1 */
             break;
     text_mem(piece, limit, len);
 }
 
 /* "float min = 0, float max = 1"; "": it has no limits. */
-static const char *range_text(const struct spell *spell, const struct shader_variable *variable, const struct shader_ui *ui)
+static const char *range_text(const struct spell *spell, const struct shader_variable *variable,
+                              const struct shader_ui *ui)
 {
     struct text piece;
     text_init(&piece, spell->scratch);
@@ -99,7 +102,8 @@ static const char *page_name(const struct spell *spell, const char *page)
     return identifier_from(name, strlen(name), spell->scratch, &len);
 }
 
-static void find_ui(const struct spell *spell, const struct shader_variable *variable, struct shader_ui *ui)
+static void find_ui(const struct spell *spell, const struct shader_variable *variable,
+                    struct shader_ui *ui)
 {
     *ui = (struct shader_ui){0};
     if (spell->options->ui)
@@ -108,7 +112,8 @@ static void find_ui(const struct spell *spell, const struct shader_variable *var
 
 static bool is_parameter(const struct osl *osl, const struct shader_variable *variable)
 {
-    return (variable->block == BLOCK_PUBLIC_UNIFORMS || variable->block == BLOCK_TEXTURES) && osl_is_read(osl, variable);
+    return (variable->block == BLOCK_PUBLIC_UNIFORMS || variable->block == BLOCK_TEXTURES)
+           && osl_is_read(osl, variable);
 }
 
 enum { MIN_USES = 3 }; /* what two parameters share is no longer than a line about it */
@@ -116,7 +121,8 @@ enum { MIN_USES = 3 }; /* what two parameters share is no longer than a line abo
 static bool is_worth_it(const struct osl_macro *macro)
 {
     size_t text = strlen(macro->text), name = strlen(macro->name);
-    return macro->uses >= MIN_USES && macro->uses * text > macro->uses * name + strlen("#define  \n") + name + text;
+    return macro->uses >= MIN_USES
+           && macro->uses * text > macro->uses * name + strlen("#define  \n") + name + text;
 }
 
 /* Pages and ranges that many parameters share have a name, defined above the shader. */
@@ -129,9 +135,11 @@ void osl_write_macros(struct osl *osl)
         if (!is_parameter(osl, variable))
             continue;
         find_ui(spell, variable, &ui);
-        count_piece(osl, hint_text(spell, "page", ui.folder), page_name(spell, ui.folder ? ui.folder : ""));
+        count_piece(osl, hint_text(spell, "page", ui.folder),
+                    page_name(spell, ui.folder ? ui.folder : ""));
         const char *range = range_text(spell, variable, &ui);
-        count_piece(osl, range, strcmp(range, "float min = 0, float max = 1") == 0 ? "UNIT" : "RANGE");
+        count_piece(osl, range,
+                    strcmp(range, "float min = 0, float max = 1") == 0 ? "UNIT" : "RANGE");
     }
     uint32_t kept = 0;
     for (uint32_t i = 0; i < osl->macros.len; i++) {
@@ -157,8 +165,8 @@ static void write_shared(struct osl *osl, const char *text, unsigned *count)
 /* ---- The rest ---- */
 
 /*
- * A label that only says the name again, "Base Color" of base_color, is what user interfaces make of the name themselves; the underscore
- * behind a word of the language does not count.
+ * A label that only says the name again, "Base Color" of base_color, is what user interfaces make
+ * of the name themselves; the underscore behind a word of the language does not count.
  */
 static bool says_name(const char *label, const char *name)
 {
@@ -177,14 +185,17 @@ static void write_label(struct spell *spell, const char *name, const char *label
 /* Of colours and images; those in the working space need no word. */
 static const char *colorspace_of(const struct osl *osl, const struct shader_variable *variable)
 {
-    const char *space = text_of(osl, variable->colorspace), *type = text_of(osl, variable->doc_type);
-    bool has_space = strcmp(type, "color3") == 0 || strcmp(type, "color4") == 0 || variable->type == IR_TYPE_SAMPLER;
+    const char *space = text_of(osl, variable->colorspace),
+               *type = text_of(osl, variable->doc_type);
+    bool has_space = strcmp(type, "color3") == 0 || strcmp(type, "color4") == 0
+                     || variable->type == IR_TYPE_SAMPLER;
     const char *working = osl->spell->options->colorspace;
     return has_space && !(working && strcmp(space, working) == 0) ? space : NULL;
 }
 
 /* "a:0|b:1" of the words "a, b" and the values "0, 1", which count from 0 where there are none. */
-static void write_choices(struct spell *spell, const char *names, const char *values, unsigned *count)
+static void write_choices(struct spell *spell, const char *names, const char *values,
+                          unsigned *count)
 {
     write_piece(spell, "string widget = \"mapper\", string options = \"", count);
     for (unsigned i = 0; *names; i++) {
@@ -204,15 +215,18 @@ static void write_choices(struct spell *spell, const char *names, const char *va
     spell_text(spell, "\"");
 }
 
-static void write_widget(struct spell *spell, const struct shader_variable *variable, const struct shader_ui *ui, unsigned *count)
+static void write_widget(struct spell *spell, const struct shader_variable *variable,
+                         const struct shader_ui *ui, unsigned *count)
 {
     bool has_choices = variable->type == IR_TYPE_INT && ui->enum_names && *ui->enum_names;
     if (has_choices)
         write_choices(spell, ui->enum_names, ui->enum_values ? ui->enum_values : "", count);
     else
-        write_hint(spell, "widget", variable->type == IR_TYPE_BOOL      ? "checkBox"
-                                    : variable->type == IR_TYPE_SAMPLER ? "filename"
-                                                                        : NULL, count);
+        write_hint(spell, "widget",
+                   variable->type == IR_TYPE_BOOL      ? "checkBox"
+                   : variable->type == IR_TYPE_SAMPLER ? "filename"
+                                                       : NULL,
+                   count);
 }
 
 void osl_write_metadata(struct osl *osl, const struct shader_variable *variable)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Shader groups as the text that hosts give to ShadingSystem::ShaderGroupBegin, and testshade takes: values, layer, connections, layer by layer.
+ * Shader groups as the text that hosts give to ShadingSystem::ShaderGroupBegin, and testshade
+ * takes: values, layer, connections, layer by layer.
  *
  *     param float amplitude 0.5 ;
  *     shader ND_noise2d_float NG_marble_noise ;
@@ -42,7 +43,8 @@ static bool is_struct(ir_type_id type)
     return type == IR_TYPE_VEC2 || type == IR_TYPE_VEC4;
 }
 
-static void write_value(const struct network_group *group, const struct network_input *input, const char *name, struct text *out)
+static void write_value(const struct network_group *group, const struct network_input *input,
+                        const char *name, struct text *out)
 {
     const struct ir_value *value = &input->value;
     unsigned count = ir_type_info(value->type)->components;
@@ -53,8 +55,10 @@ static void write_value(const struct network_group *group, const struct network_
     }
     if (is_struct(value->type))
         return;
-    bool is_color = value->type == IR_TYPE_VEC3 && strcmp(text_of(group, input->doc_type), "color3") == 0;
-    text_fmt(out, "param %s %s", is_color ? "color" : lang_syntax_type(&osl_syntax, value->type), name);
+    bool is_color =
+        value->type == IR_TYPE_VEC3 && strcmp(text_of(group, input->doc_type), "color3") == 0;
+    text_fmt(out, "param %s %s", is_color ? "color" : lang_syntax_type(&osl_syntax, value->type),
+             name);
     if (value->type == IR_TYPE_MAT3)
         write_matrix33(value, out);
     else
@@ -62,7 +66,8 @@ static void write_value(const struct network_group *group, const struct network_
     text_str(out, " ;\n");
 }
 
-static void write_parameter(const struct network_group *group, const struct network_input *input, const char *name, struct text *out)
+static void write_parameter(const struct network_group *group, const struct network_input *input,
+                            const char *name, struct text *out)
 {
     if (input->kind == NETWORK_VALUE)
         write_value(group, input, name, out);
@@ -74,17 +79,19 @@ static void write_parameter(const struct network_group *group, const struct netw
     text_str(out, " ;\n");
 }
 
-static void write_connection(const struct network_group *group, const struct network_input *input, const char *layer, const char *name,
-                             struct text *out)
+static void write_connection(const struct network_group *group, const struct network_input *input,
+                             const char *layer, const char *name, struct text *out)
 {
     if (input->kind != NETWORK_LAYER)
         return;
     const struct network_layer *from = &group->network->layers.items[input->layer];
     const struct network_node *node = &group->network->nodes.items[from->node];
-    text_fmt(out, "connect %s.%s %s.%s ;\n", text_of(group, from->name), text_of(group, node->outputs[input->output]), layer, name);
+    text_fmt(out, "connect %s.%s %s.%s ;\n", text_of(group, from->name),
+             text_of(group, node->outputs[input->output]), layer, name);
 }
 
-static void write_layer(const struct network_group *group, const struct network_layer *layer, struct text *out)
+static void write_layer(const struct network_group *group, const struct network_layer *layer,
+                        struct text *out)
 {
     const struct network_node *node = &group->network->nodes.items[layer->node];
     const struct network_input *inputs = group->network->inputs.items + layer->first_input;
@@ -94,7 +101,8 @@ static void write_layer(const struct network_group *group, const struct network_
     text_fmt(out, "shader %s %s ;\n", text_of(group, node->name), text_of(group, layer->name));
     for (uint32_t i = 0; i < node->num_inputs; i++)
         if (node->inputs[i])
-            write_connection(group, &inputs[i], text_of(group, layer->name), text_of(group, node->inputs[i]), out);
+            write_connection(group, &inputs[i], text_of(group, layer->name),
+                             text_of(group, node->inputs[i]), out);
 }
 
 static void write_group(const struct network_group *group, struct text *out)
@@ -110,15 +118,24 @@ static void write_group(const struct network_group *group, struct text *out)
 }
 
 const struct target_network osl_network = {
-    .ends = {
-        [NETWORK_SURFACE] = {"mx_surface_root", {"surfaceshader", "backsurfaceshader"},
-            "surface mx_surface_root(closure color surfaceshader = 0, closure color backsurfaceshader = 0)\n{\n"
-            "    Ci = surfaceshader;\n    if (backfacing() && isconnected(backsurfaceshader))\n        Ci = backsurfaceshader;\n}\n"},
-        [NETWORK_VOLUME] = {"mx_volume_root", {"volumeshader"},
-            "volume mx_volume_root(closure color volumeshader = 0)\n{\n    Ci = volumeshader;\n}\n"},
-        [NETWORK_DISPLACEMENT] = {"mx_displacement_root", {"displacementshader"},
-            "displacement mx_displacement_root(vector displacementshader = 0)\n{\n"
-            "    P += displacementshader;\n    N = calculatenormal(P);\n}\n"},
-    },
+    .ends =
+        {
+            [NETWORK_SURFACE] =
+                {"mx_surface_root",
+                 {"surfaceshader", "backsurfaceshader"},
+                 "surface mx_surface_root(closure color surfaceshader = 0, closure color "
+                 "backsurfaceshader = 0)\n{\n"
+                 "    Ci = surfaceshader;\n    if (backfacing() && "
+                 "isconnected(backsurfaceshader))\n        Ci = backsurfaceshader;\n}\n"},
+            [NETWORK_VOLUME] = {"mx_volume_root",
+                                {"volumeshader"},
+                                "volume mx_volume_root(closure color volumeshader = 0)\n{\n    Ci "
+                                "= volumeshader;\n}\n"},
+            [NETWORK_DISPLACEMENT] =
+                {"mx_displacement_root",
+                 {"displacementshader"},
+                 "displacement mx_displacement_root(vector displacementshader = 0)\n{\n"
+                 "    P += displacementshader;\n    N = calculatenormal(P);\n}\n"},
+        },
     .write = write_group,
 };

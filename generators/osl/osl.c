@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Open Shading Language 1.14 and later: one shader per file, closures for what scatters light (docs/osl.md).
+ * Open Shading Language 1.14 and later: one shader per file, closures for what scatters light
+ * (docs/osl.md).
  */
 #include "generators/osl/osl.h"
 
@@ -13,19 +14,26 @@ static const struct lang_words reserved[] = {
 
 static const struct lang_form forms[IR_NUM_OPS] = {
     [IR_LXOR] = {"$0 != $1", LANG_PREC_EQUAL, true},
-    CALL(ATAN2, "atan2($0, $1)"), CALL(RSQRT, "inversesqrt($0)"), CALL(INVERSE, "(1 / $0)"),
-    CALL(DFDX, "Dx($0)"), CALL(DFDY, "Dy($0)"),
-    CALL(LAYER, "layer($0, $1)"), CALL(CLOSURE_MIX, "mix($0, $1, $2)"),
+    CALL(ATAN2, "atan2($0, $1)"),
+    CALL(RSQRT, "inversesqrt($0)"),
+    CALL(INVERSE, "(1 / $0)"),
+    CALL(DFDX, "Dx($0)"),
+    CALL(DFDY, "Dy($0)"),
+    CALL(LAYER, "layer($0, $1)"),
+    CALL(CLOSURE_MIX, "mix($0, $1, $2)"),
     [IR_CLOSURE_ADD] = {"$0 + $1", LANG_PREC_SUM, true},
     [IR_CLOSURE_SCALE] = {"$0 * $1", LANG_PREC_PRODUCT, true},
 };
 
 static const char *const type_names[IR_NUM_TYPES] = {
-    [IR_TYPE_BOOL] = "int", [IR_TYPE_INT] = "int", [IR_TYPE_UINT] = "int", [IR_TYPE_FLOAT] = "float",
-    [IR_TYPE_IVEC2] = "ivector2", [IR_TYPE_VEC2] = "vector2", [IR_TYPE_VEC3] = "vector", [IR_TYPE_VEC4] = "vector4",
-    [IR_TYPE_MAT2] = "matrix", [IR_TYPE_MAT3] = "matrix", [IR_TYPE_MAT4] = "matrix",
-    [IR_TYPE_STRING] = "string", [IR_TYPE_SAMPLER] = "string",
-    [IR_TYPE_BSDF] = "closure color", [IR_TYPE_EDF] = "closure color", [IR_TYPE_VDF] = "closure color",
+    [IR_TYPE_BOOL] = "int",          [IR_TYPE_INT] = "int",
+    [IR_TYPE_UINT] = "int",          [IR_TYPE_FLOAT] = "float",
+    [IR_TYPE_IVEC2] = "ivector2",    [IR_TYPE_VEC2] = "vector2",
+    [IR_TYPE_VEC3] = "vector",       [IR_TYPE_VEC4] = "vector4",
+    [IR_TYPE_MAT2] = "matrix",       [IR_TYPE_MAT3] = "matrix",
+    [IR_TYPE_MAT4] = "matrix",       [IR_TYPE_STRING] = "string",
+    [IR_TYPE_SAMPLER] = "string",    [IR_TYPE_BSDF] = "closure color",
+    [IR_TYPE_EDF] = "closure color", [IR_TYPE_VDF] = "closure color",
 };
 
 const struct lang_syntax osl_syntax = {
@@ -49,8 +57,11 @@ const struct lang_syntax osl_syntax = {
 /* ---- Closures (stdosl.h of OSL 1.14) ---- */
 
 static const struct closure_option film[] = {
-    {"thinfilm_thickness", NULL, "'thinfilm_thickness' thinfilm_thickness 'thinfilm_ior' thinfilm_ior"}, {0}};
-static const struct closure_option energy[] = {{"energy_compensation", NULL, "'energy_compensation' energy_compensation"}, {0}};
+    {"thinfilm_thickness", NULL,
+     "'thinfilm_thickness' thinfilm_thickness 'thinfilm_ior' thinfilm_ior"},
+    {0}};
+static const struct closure_option energy[] = {
+    {"energy_compensation", NULL, "'energy_compensation' energy_compensation"}, {0}};
 static const struct closure_option zeltner[] = {{"mode", "zeltner", "'mode' 1"}, {0}};
 
 static const struct closure_row closure_rows[] = {
@@ -108,7 +119,8 @@ static void write_declarations(struct osl *osl, const char *above, const char *s
 
 static const char *shader_type(const struct spell *spell)
 {
-    static const char *const words[] = {[SHADER_VALUE] = "shader", [SHADER_SURFACE] = "surface", [SHADER_VOLUME] = "volume"};
+    static const char *const words[] = {
+        [SHADER_VALUE] = "shader", [SHADER_SURFACE] = "surface", [SHADER_VOLUME] = "volume"};
     return spell->stage_id == STAGE_VERTEX ? "displacement" : words[spell->shader->kind];
 }
 
@@ -117,7 +129,8 @@ static const char *shader_name(struct spell *spell)
 {
     if (spell->options->shader_name)
         return spell->options->shader_name;
-    const char *path = str_text(spell->shader->strings, spell->options->neutral_names ? 0 : spell->shader->path);
+    const char *path =
+        str_text(spell->shader->strings, spell->options->neutral_names ? 0 : spell->shader->path);
     return *path ? names_unique(&spell->names, path, strlen(path)).text : "neutral";
 }
 
@@ -184,8 +197,8 @@ const struct target target_osl = {
     .name = "osl",
     .materialx_name = "genosl",
     .brief = "Open Shading Language 1.14 and later",
-    .caps = CAP_OVERLOADS | CAP_BITWISE | CAP_IMPLICIT_LOD | CAP_CLOSURES | CAP_STRINGS | CAP_NAMED_WHOLES | CAP_TYPED_TEXTURES
-            | CAP_MISSING_COLORS,
+    .caps = CAP_OVERLOADS | CAP_BITWISE | CAP_IMPLICIT_LOD | CAP_CLOSURES | CAP_STRINGS
+            | CAP_NAMED_WHOLES | CAP_TYPED_TEXTURES | CAP_MISSING_COLORS,
     .closures = &closures,
     .network = &osl_network,
     .syntax = &osl_syntax,

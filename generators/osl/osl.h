@@ -24,7 +24,7 @@ struct osl {
     struct spell *spell;
     /* by interface variable: the parameter that a stream of several numbers comes as */
     const char **arrays;
-    uint8_t *kinds;   /* per node of three components: enum osl_kind */
+    uint8_t *kinds; /* per node of three components: enum osl_kind */
     /* the first row of helpers.def for an op, + 1; 0: there is none */
     uint8_t first_helper[IR_NUM_OPS];
     VEC(struct osl_macro) macros;
@@ -46,7 +46,8 @@ void osl_index_helpers(struct osl *osl);
 void osl_add_helper(struct osl *osl, const char *text); /* unless it is there */
 /* forms.c: lang_names.form; `user_data` is the spell, whose target_data the osl. */
 const struct lang_pieces *osl_form(void *user_data, const struct lang_use *use);
-bool osl_write_value(const struct lang_style *style, ir_type_id type, const union ir_word *words, struct text *out);
+bool osl_write_value(const struct lang_style *style, ir_type_id type, const union ir_word *words,
+                     struct text *out);
 
 /* functions.c: those of the library that a shader's text needs */
 /* that stdosl.h has for one; NULL: none */
@@ -57,14 +58,17 @@ char osl_type_letter(ir_type_id type); /* as in helpers.def */
 bool osl_mentions(const char *text, const char *word);
 
 /*
- * structs.c: those of the document's functions, with what puts them together where `functions` or the shader calls it
+ * structs.c: those of the document's functions, with what puts them together where `functions` or
+ * the shader calls it
  */
 void osl_name_makers(struct osl *osl);
 const char *osl_maker(void *user_data, const char *type); /* lang_names.maker */
-void osl_write_structs(const struct osl *osl, const char *functions, const char *shader, struct text *out);
+void osl_write_structs(const struct osl *osl, const char *functions, const char *shader,
+                       struct text *out);
 
 /*
- * textures.c: the form that reads a texture of the graph; NULL: it is one that a function was given.
+ * textures.c: the form that reads a texture of the graph; NULL: it is one that a function was
+ * given.
  */
 const char *osl_texture_call(struct osl *osl, const struct lang_use *use);
 

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * What stands between the parentheses of a shader, and the locals at its beginning: parameters with metadata, streams, outputs.
+ * What stands between the parentheses of a shader, and the locals at its beginning: parameters with
+ * metadata, streams, outputs.
  *
- * A stream that OSL knows is an expression; any other is a parameter with lockgeom=0, which renderers fill from the primitive's variable
- * of that name. Those of two and four components are arrays there, since renderers do not fill structs.
+ * A stream that OSL knows is an expression; any other is a parameter with lockgeom=0, which
+ * renderers fill from the primitive's variable of that name. Those of two and four components are
+ * arrays there, since renderers do not fill structs.
  */
 #include "generators/osl/osl.h"
 
@@ -43,9 +45,11 @@ static const char *text_of(const struct osl *osl, str_id id)
 static const char *expression_of(const struct osl *osl, const struct shader_variable *variable)
 {
     if (variable->block == BLOCK_VERTEX_DATA)
-        return find_row(stream_rows, sizeof stream_rows / sizeof *stream_rows, text_of(osl, variable->name));
+        return find_row(stream_rows, sizeof stream_rows / sizeof *stream_rows,
+                        text_of(osl, variable->name));
     if (variable->block == BLOCK_PRIVATE_UNIFORMS)
-        return find_row(uniform_rows, sizeof uniform_rows / sizeof *uniform_rows, text_of(osl, variable->semantic));
+        return find_row(uniform_rows, sizeof uniform_rows / sizeof *uniform_rows,
+                        text_of(osl, variable->semantic));
     return NULL;
 }
 
@@ -57,14 +61,17 @@ bool osl_is_read(const struct osl *osl, const struct shader_variable *variable)
 /* "st" of the stream "geomprop_st": the name of the primitive's variable. */
 static const char *primitive_name(const char *stream)
 {
-    return strncmp(stream, "geomprop_", 9) == 0 ? stream + 9 : strncmp(stream, "u_geomprop_", 11) == 0 ? stream + 11
-           : strncmp(stream, "u_", 2) == 0 ? stream + 2 : stream;
+    return strncmp(stream, "geomprop_", 9) == 0      ? stream + 9
+           : strncmp(stream, "u_geomprop_", 11) == 0 ? stream + 11
+           : strncmp(stream, "u_", 2) == 0           ? stream + 2
+                                                     : stream;
 }
 
 /* The closure that surfaces and volumes end in is a variable of OSL. */
 static bool is_result(const struct osl *osl, const struct shader_variable *variable)
 {
-    return variable->block == BLOCK_OUTPUTS && ir_type_is_closure(variable->type) && osl->spell->shader->kind != SHADER_VALUE;
+    return variable->block == BLOCK_OUTPUTS && ir_type_is_closure(variable->type)
+           && osl->spell->shader->kind != SHADER_VALUE;
 }
 
 static unsigned array_length(const struct shader_variable *variable)
@@ -101,7 +108,9 @@ void osl_name_interface(struct osl *osl)
         const char *name = text_of(osl, variable->name);
         const char *expression = expression_of(osl, variable);
         if (is_stream(variable) && !expression && array_length(variable))
-            osl->arrays[i] = names_unique(&spell->names, primitive_name(name), strlen(primitive_name(name))).text;
+            osl->arrays[i] =
+                names_unique(&spell->names, primitive_name(name), strlen(primitive_name(name)))
+                    .text;
         else if (is_stream(variable) && !expression)
             name = primitive_name(name);
         if (is_result(osl, variable))
@@ -111,8 +120,10 @@ void osl_name_interface(struct osl *osl)
         else if (osl->arrays[i])
             name = value_name(spell, name);
         else if (is_stream(variable))
-            name = names_unique(&spell->names, primitive_name(name), strlen(primitive_name(name))).text;
-        spell->variables[spell->shader->interface.items[i]] = (struct spell_name){name, strlen(name)};
+            name = names_unique(&spell->names, primitive_name(name), strlen(primitive_name(name)))
+                       .text;
+        spell->variables[spell->shader->interface.items[i]] =
+            (struct spell_name){name, strlen(name)};
     }
 }
 
@@ -162,7 +173,8 @@ static void write_numbers(struct spell *spell, const union ir_word *words, unsig
 }
 
 /* "color(0.8, 0.2, 0.1)"; or a number, which fills all three. */
-static void write_triple(struct osl *osl, const struct shader_variable *variable, const union ir_word *words)
+static void write_triple(struct osl *osl, const struct shader_variable *variable,
+                         const union ir_word *words)
 {
     struct spell *spell = osl->spell;
     if (words[0].u == words[1].u && words[0].u == words[2].u) {
@@ -181,7 +193,8 @@ static void write_default(struct osl *osl, const struct shader_variable *variabl
     if (!variable->has_default)
         value = (struct ir_value){.type = variable->type};
     if (variable->type == IR_TYPE_SAMPLER) {
-        text_json_string(spell->out, text_of(osl, variable->file), strlen(text_of(osl, variable->file)));
+        text_json_string(spell->out, text_of(osl, variable->file),
+                         strlen(text_of(osl, variable->file)));
     } else if (ir_type_is_closure(variable->type)) {
         spell_text(spell, "0");
     } else if (variable->type == IR_TYPE_FLOAT) {
@@ -193,7 +206,8 @@ static void write_default(struct osl *osl, const struct shader_variable *variabl
         write_numbers(spell, value.w, array_length(variable));
         spell_text(spell, "}");
     } else {
-        lang_print_value(spell->style, spell->shader->strings, value.type, value.w, LANG_PREC_COMMA, spell->out);
+        lang_print_value(spell->style, spell->shader->strings, value.type, value.w, LANG_PREC_COMMA,
+                         spell->out);
     }
 }
 
@@ -229,7 +243,8 @@ static void write_stream_parameters(struct osl *osl, unsigned *count)
             spell_number(spell, array_length(variable));
             spell_text(spell, "] = ");
         } else {
-            SPELL(spell, type_name(osl, variable), " ", spell->variables[spell->shader->interface.items[i]].text, " = ");
+            SPELL(spell, type_name(osl, variable), " ",
+                  spell->variables[spell->shader->interface.items[i]].text, " = ");
         }
         write_default(osl, variable);
         spell_text(spell, " [[ int lockgeom = 0 ]]");
@@ -241,7 +256,8 @@ static void write_outputs(struct osl *osl, unsigned *count)
     struct spell *spell = osl->spell;
     for (uint32_t i = 0; i < spell->shader->interface.len; i++) {
         const struct shader_variable *variable = osl_interface_variable(osl, i);
-        if (variable->block != BLOCK_OUTPUTS || !osl_is_read(osl, variable) || is_result(osl, variable))
+        if (variable->block != BLOCK_OUTPUTS || !osl_is_read(osl, variable)
+            || is_result(osl, variable))
             continue;
         next_parameter(spell, count);
         SPELL(spell, "output ", type_name(osl, variable), " ", text_of(osl, variable->name), " = ");
@@ -264,7 +280,8 @@ void osl_write_streams(struct osl *osl)
     struct spell *spell = osl->spell;
     for (uint32_t i = 0; i < spell->shader->interface.len; i++) {
         const struct shader_variable *variable = osl_interface_variable(osl, i);
-        const char *expression = expression_of(osl, variable), *name = spell->variables[spell->shader->interface.items[i]].text;
+        const char *expression = expression_of(osl, variable),
+                   *name = spell->variables[spell->shader->interface.items[i]].text;
         bool is_local = expression ? !is_global(expression) : array_length(variable) > 0;
         if (!is_stream(variable) || !osl_is_read(osl, variable) || !is_local)
             continue;

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * The structs of a shader's functions. Constructors of oslc (1.15.6) lose what stands for a member that is a struct itself, unless it is a
- * constructor or call: such structs have a function that puts them together member by member.
+ * The structs of a shader's functions. Constructors of oslc (1.15.6) lose what stands for a member
+ * that is a struct itself, unless it is a constructor or call: such structs have a function that
+ * puts them together member by member.
  */
 #include "generators/osl/osl.h"
 
-static const struct ir_member *members_of(const struct spell *spell, ir_type_id type, uint32_t *out_count)
+static const struct ir_member *members_of(const struct spell *spell, ir_type_id type,
+                                          uint32_t *out_count)
 {
     const struct lang_unit *layer;
     const struct ir_user_type *user = lang_user_type(spell->shader->unit, type, &layer);
@@ -61,7 +63,8 @@ static const char *member_name(const struct spell *spell, const struct ir_member
 }
 
 /* "made", or what no member is called. */
-static const char *local_name(const struct spell *spell, const struct ir_member *members, uint32_t count)
+static const char *local_name(const struct spell *spell, const struct ir_member *members,
+                              uint32_t count)
 {
     struct text name;
     text_init(&name, spell->scratch);
@@ -76,23 +79,28 @@ static const char *local_name(const struct spell *spell, const struct ir_member 
 }
 
 /* "Outer make_Outer(vector2 a, float b) { Outer made; made.a = a; … return made; }" */
-static void write_maker(const struct spell *spell, ir_type_id type, const char *maker, struct text *out)
+static void write_maker(const struct spell *spell, ir_type_id type, const char *maker,
+                        struct text *out)
 {
     uint32_t count;
     const struct ir_member *members = members_of(spell, type, &count);
-    const char *made = local_name(spell, members, count), *name = spell->user_types[type - IR_TYPE_FIRST_USER];
+    const char *made = local_name(spell, members, count),
+               *name = spell->user_types[type - IR_TYPE_FIRST_USER];
     text_fmt(out, "\n%s %s(", name, maker);
     for (uint32_t i = 0; i < count; i++) {
         text_str(out, i ? ", " : "");
-        lang_print_variable(spell->style, &spell->lang_names, spell->shader->unit, members[i].type, member_name(spell, &members[i]), out);
+        lang_print_variable(spell->style, &spell->lang_names, spell->shader->unit, members[i].type,
+                            member_name(spell, &members[i]), out);
     }
     text_fmt(out, ")\n{\n    %s %s;\n", name, made);
     for (uint32_t i = 0; i < count; i++)
-        text_fmt(out, "    %s.%s = %s;\n", made, member_name(spell, &members[i]), member_name(spell, &members[i]));
+        text_fmt(out, "    %s.%s = %s;\n", made, member_name(spell, &members[i]),
+                 member_name(spell, &members[i]));
     text_fmt(out, "    return %s;\n}\n", made);
 }
 
-void osl_write_structs(const struct osl *osl, const char *functions, const char *shader, struct text *out)
+void osl_write_structs(const struct osl *osl, const char *functions, const char *shader,
+                       struct text *out)
 {
     struct spell *spell = osl->spell;
     const struct lang_reach *reach = &spell->stage->reach;

@@ -1,17 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Reads of textures with what the node says about them: address modes, filter, and the colour where there is no image.
+ * Reads of textures with what the node says about them: address modes, filter, and the colour where
+ * there is no image.
  *
  *     color c = (color)texture(file, uv.x, 1 - uv.y, "swrap", "clamp", "twrap", "periodic");
  */
 #include "generators/osl/osl.h"
 
 /* Beyond the border of `constant` the shader itself has the default. */
-static const char *const wraps[][2] = {{"constant", "clamp"}, {"clamp", "clamp"}, {"periodic", "periodic"}, {"mirror", "mirror"}};
+static const char *const wraps[][2] = {
+    {"constant", "clamp"}, {"clamp", "clamp"}, {"periodic", "periodic"}, {"mirror", "mirror"}};
 /* "linear" is what texture() does unless it is told: it filters better than that. */
-static const char *const filters[][2] = {{"closest", "closest"}, {"linear", "smartcubic"}, {"cubic", "cubic"}};
+static const char *const filters[][2] = {
+    {"closest", "closest"}, {"linear", "smartcubic"}, {"cubic", "cubic"}};
 
-static const char *translate(const char *const (*words)[2], size_t count, const char *word, const char *otherwise)
+static const char *translate(const char *const (*words)[2], size_t count, const char *word,
+                             const char *otherwise)
 {
     for (size_t i = 0; i < count; i++)
         if (strcmp(words[i][0], word) == 0)
@@ -31,15 +35,16 @@ static struct modes modes_of(const struct spell *spell, const struct shader_vari
     return (struct modes){
         .swrap = translate(wraps, 4, str_text(strings, texture->sampling.uaddressmode), "periodic"),
         .twrap = translate(wraps, 4, str_text(strings, texture->sampling.vaddressmode), "periodic"),
-        .interp = translate(filters, 3, str_text(strings, texture->sampling.filtertype), "smartcubic"),
+        .interp =
+            translate(filters, 3, str_text(strings, texture->sampling.filtertype), "smartcubic"),
         /* it becomes part of a form, where that is an operand */
         .layer = strchr(layer, '$') ? "" : layer,
     };
 }
 
 /*
- * Images have their first row on top, texture coordinates at the bottom. texture() finds the tile of <UDIM> by the whole part of its
- * coordinates, so only the rest is turned round.
+ * Images have their first row on top, texture coordinates at the bottom. texture() finds the tile
+ * of <UDIM> by the whole part of its coordinates, so only the rest is turned round.
  */
 static bool has_tiles(const struct spell *spell, const struct shader_variable *texture)
 {
@@ -48,7 +53,8 @@ static bool has_tiles(const struct spell *spell, const struct shader_variable *t
 }
 
 /* A channel of the parameter that the default is; it has `n`. */
-static void write_part_of(const struct spell *spell, uint32_t parameter, unsigned n, unsigned channel, struct text *out)
+static void write_part_of(const struct spell *spell, uint32_t parameter, unsigned n,
+                          unsigned channel, struct text *out)
 {
     bool is_struct = n == 2 || n == 4;
     text_str(out, spell->variables[parameter].text);
@@ -59,7 +65,8 @@ static void write_part_of(const struct spell *spell, uint32_t parameter, unsigne
 }
 
 /* What stands for a missing image: the node's default, as four channels. */
-static void write_missing(const struct spell *spell, const struct shader_variable *texture, unsigned count, struct text *out)
+static void write_missing(const struct spell *spell, const struct shader_variable *texture,
+                          unsigned count, struct text *out)
 {
     const struct ir_value *value = &texture->value;
     bool is_number = texture->has_default && value->type < IR_NUM_TYPES;
@@ -85,7 +92,8 @@ static bool is_color(const struct spell *spell, uint32_t parameter)
 }
 
 /* One or three channels are what OSL's texture() gives by itself. */
-static void write_call(const struct spell *spell, const struct shader_variable *texture, ir_type_id type, struct text *out)
+static void write_call(const struct spell *spell, const struct shader_variable *texture,
+                       ir_type_id type, struct text *out)
 {
     struct modes modes = modes_of(spell, texture);
     text_fmt(out, "(%s)texture($0, $1.x, %s1 - $1.y", type == IR_TYPE_FLOAT ? "float" : "color",
@@ -111,18 +119,22 @@ static void write_call(const struct spell *spell, const struct shader_variable *
 }
 
 static const char whole_texel[] =
-    "vector4 texel(string file, float s, float t, string swrap, string twrap, string interp, string layer, vector4 missing)\n"
+    "vector4 texel(string file, float s, float t, string swrap, string twrap, string interp, "
+    "string layer, vector4 missing)\n"
     "{\n    float alpha;\n"
-    "    color c = texture(file, s, t, \"swrap\", swrap, \"twrap\", twrap, \"interp\", interp, \"subimage\", layer, \"alpha\", alpha,\n"
-    "                      \"missingcolor\", color(missing.x, missing.y, missing.z), \"missingalpha\", missing.w);\n"
+    "    color c = texture(file, s, t, \"swrap\", swrap, \"twrap\", twrap, \"interp\", interp, "
+    "\"subimage\", layer, \"alpha\", alpha,\n"
+    "                      \"missingcolor\", color(missing.x, missing.y, missing.z), "
+    "\"missingalpha\", missing.w);\n"
     "    return vector4(c[0], c[1], c[2], alpha);\n}\n";
 
 static void write_whole(struct osl *osl, const struct shader_variable *texture, struct text *out)
 {
     struct modes modes = modes_of(osl->spell, texture);
     osl_add_helper(osl, whole_texel);
-    text_fmt(out, "texel($0, $1.x, %s1 - $1.y, \"%s\", \"%s\", \"%s\", ", has_tiles(osl->spell, texture) ? "2 * floor($1.y) + " : "",
-             modes.swrap, modes.twrap, modes.interp);
+    text_fmt(out, "texel($0, $1.x, %s1 - $1.y, \"%s\", \"%s\", \"%s\", ",
+             has_tiles(osl->spell, texture) ? "2 * floor($1.y) + " : "", modes.swrap, modes.twrap,
+             modes.interp);
     text_json_string(out, modes.layer, strlen(modes.layer));
     text_str(out, ", vector4(");
     write_missing(osl->spell, texture, 4, out);
@@ -132,7 +144,8 @@ static void write_whole(struct osl *osl, const struct shader_variable *texture, 
 const char *osl_texture_call(struct osl *osl, const struct lang_use *use)
 {
     const struct spell *spell = osl->spell;
-    const struct ir_node *texture = use->node ? ir_get(spell->shader->graph, ir_arg(spell->shader->graph, use->node, 0)) : NULL;
+    const struct ir_node *texture =
+        use->node ? ir_get(spell->shader->graph, ir_arg(spell->shader->graph, use->node, 0)) : NULL;
     if (!texture || texture->op != IR_TEXTURE)
         return NULL;
     const struct shader_variable *variable = &spell->shader->variables.items[texture->attr];

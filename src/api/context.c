@@ -20,20 +20,13 @@ const char *mxg_version_string(void)
 const char *mxg_status_string(mxg_status status)
 {
     switch (status) {
-    case MXG_OK:
-        return "ok";
-    case MXG_ERROR_DOCUMENT:
-        return "the document has errors";
-    case MXG_ERROR_ARGUMENT:
-        return "bad argument";
-    case MXG_ERROR_MEMORY:
-        return "out of memory";
-    case MXG_ERROR_CANCELLED:
-        return "cancelled";
-    case MXG_ERROR_INTERNAL:
-        return "internal error";
-    default:
-        return "unknown status";
+    case MXG_OK: return "ok";
+    case MXG_ERROR_DOCUMENT: return "the document has errors";
+    case MXG_ERROR_ARGUMENT: return "bad argument";
+    case MXG_ERROR_MEMORY: return "out of memory";
+    case MXG_ERROR_CANCELLED: return "cancelled";
+    case MXG_ERROR_INTERNAL: return "internal error";
+    default: return "unknown status";
     }
 }
 
@@ -74,7 +67,8 @@ mxg_status mxg_context_create(const mxg_context_desc *desc, mxg_context **out_co
     struct mem mem;
     mem_init(&mem, d.realloc, d.realloc_user_data);
     size_t size = sizeof(mxg_context);
-    mxg_context *context = d.max_memory && d.max_memory < size ? NULL : mem.realloc(mem.user_data, NULL, 0, size);
+    mxg_context *context =
+        d.max_memory && d.max_memory < size ? NULL : mem.realloc(mem.user_data, NULL, 0, size);
     if (!context)
         return MXG_ERROR_MEMORY;
     memset(context, 0, size);
@@ -93,7 +87,9 @@ mxg_status mxg_context_create(const mxg_context_desc *desc, mxg_context **out_co
     context->max_output_mib = or_default(d.max_output_mib, 256);
     context->max_errors = or_default(d.max_errors, 20);
     context->sandbox = d.sandbox;
-    context->trust = d.trust ? LIBRARY_TRUST_ALL : d.sandbox ? LIBRARY_TRUST_GRAPHS : LIBRARY_TRUST_PORTABLE;
+    context->trust = d.trust     ? LIBRARY_TRUST_ALL
+                     : d.sandbox ? LIBRARY_TRUST_GRAPHS
+                                 : LIBRARY_TRUST_PORTABLE;
     for (size_t i = 0; i < d.num_include_roots; i++) {
         if (!sandbox_admit_folder(context, d.include_roots[i])) {
             mxg_context_destroy(context);

@@ -16,8 +16,10 @@ uint32_t mxg_diagnostics_warnings(const mxg_diagnostics *list)
     return list ? list->list.num_warnings : 0;
 }
 
-static const mxg_severity severities[] = {[DIAG_ERROR] = MXG_SEVERITY_ERROR, [DIAG_WARNING] = MXG_SEVERITY_WARNING,
-                                          [DIAG_NOTE] = MXG_SEVERITY_NOTE, [DIAG_REMARK] = MXG_SEVERITY_NOTE};
+static const mxg_severity severities[] = {[DIAG_ERROR] = MXG_SEVERITY_ERROR,
+                                          [DIAG_WARNING] = MXG_SEVERITY_WARNING,
+                                          [DIAG_NOTE] = MXG_SEVERITY_NOTE,
+                                          [DIAG_REMARK] = MXG_SEVERITY_NOTE};
 
 mxg_status mxg_diagnostics_get(const mxg_diagnostics *list, uint32_t index, mxg_diagnostic *out)
 {
@@ -59,7 +61,8 @@ mxg_status mxg_get_diagnostic_kind(uint32_t index, mxg_diagnostic_kind *out)
 }
 
 struct format_job {
-    void (*render)(const struct diag *diag, const char *source, size_t source_len, bool colour, struct text *out);
+    void (*render)(const struct diag *diag, const char *source, size_t source_len, bool colour,
+                   struct text *out);
     const struct diag *diag;
     const char *source;
     size_t source_size;
@@ -74,7 +77,8 @@ static void run_job(void *arg)
 }
 
 /* The text is made in memory of its own: other threads may read the same list. */
-static size_t format(const mxg_diagnostics *list, uint32_t index, struct format_job *job, char *buffer, size_t capacity)
+static size_t format(const mxg_diagnostics *list, uint32_t index, struct format_job *job,
+                     char *buffer, size_t capacity)
 {
     if (capacity)
         *buffer = '\0';
@@ -98,17 +102,19 @@ static size_t format(const mxg_diagnostics *list, uint32_t index, struct format_
     return len;
 }
 
-size_t mxg_diagnostics_format(const mxg_diagnostics *list, uint32_t index, const char *source, size_t source_size,
-                              bool colour, char *buffer, size_t capacity)
+size_t mxg_diagnostics_format(const mxg_diagnostics *list, uint32_t index, const char *source,
+                              size_t source_size, bool colour, char *buffer, size_t capacity)
 {
-    struct format_job job = {.render = diag_render_text, .source = source, .source_size = source_size, .colour = colour};
+    struct format_job job = {
+        .render = diag_render_text, .source = source, .source_size = source_size, .colour = colour};
     return format(list, index, &job, buffer, capacity);
 }
 
-size_t mxg_diagnostics_format_line(const mxg_diagnostics *list, uint32_t index, const char *line, size_t line_size,
-                                   bool colour, char *buffer, size_t capacity)
+size_t mxg_diagnostics_format_line(const mxg_diagnostics *list, uint32_t index, const char *line,
+                                   size_t line_size, bool colour, char *buffer, size_t capacity)
 {
-    struct format_job job = {.render = diag_render_line, .source = line, .source_size = line_size, .colour = colour};
+    struct format_job job = {
+        .render = diag_render_line, .source = line, .source_size = line_size, .colour = colour};
     return format(list, index, &job, buffer, capacity);
 }
 

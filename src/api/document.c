@@ -35,11 +35,13 @@ static void read_layer(void *arg)
     document->files.len = load->files.names.len;
 }
 
-static mxg_status load_document(mxg_context *context, mxg_library *library, struct load *load, mxg_document **out_document)
+static mxg_status load_document(mxg_context *context, mxg_library *library, struct load *load,
+                                mxg_document **out_document)
 {
     if (out_document)
         *out_document = NULL;
-    if (!context || !library || !load->name || !out_document || object_status(&library->object) != MXG_OK)
+    if (!context || !library || !load->name || !out_document
+        || object_status(&library->object) != MXG_OK)
         return MXG_ERROR_ARGUMENT;
     load->document = object_new(context, sizeof *load->document, &library->object);
     if (!load->document)
@@ -61,17 +63,20 @@ static mxg_status load_document(mxg_context *context, mxg_library *library, stru
     return object_status(object);
 }
 
-mxg_status mxg_document_load(mxg_context *context, mxg_library *library, const char *path, mxg_document **out_document)
+mxg_status mxg_document_load(mxg_context *context, mxg_library *library, const char *path,
+                             mxg_document **out_document)
 {
     return load_document(context, library, &(struct load){.name = path}, out_document);
 }
 
-mxg_status mxg_document_parse(mxg_context *context, mxg_library *library, const char *name, const char *data,
-                              size_t size, mxg_document **out_document)
+mxg_status mxg_document_parse(mxg_context *context, mxg_library *library, const char *name,
+                              const char *data, size_t size, mxg_document **out_document)
 {
     if (!data && size)
         name = NULL; /* refused */
-    return load_document(context, library, &(struct load){.name = name, .data = data ? data : "", .size = size}, out_document);
+    return load_document(context, library,
+                         &(struct load){.name = name, .data = data ? data : "", .size = size},
+                         out_document);
 }
 
 void mxg_document_destroy(mxg_document *document)
@@ -94,7 +99,8 @@ uint32_t mxg_document_num_renderables(const mxg_document *document)
     return document ? document->renderables.len : 0;
 }
 
-mxg_status mxg_document_renderable(const mxg_document *document, uint32_t index, mxg_renderable *out)
+mxg_status mxg_document_renderable(const mxg_document *document, uint32_t index,
+                                   mxg_renderable *out)
 {
     if (index >= mxg_document_num_renderables(document))
         return MXG_ERROR_ARGUMENT;

@@ -19,23 +19,28 @@ static void report_unknown(const struct search *s, const char *path)
     diag_guess_begin(&guess, s->diags, path);
     for (uint32_t i = 0; i < s->document->renderables.len; i++)
         diag_guess_add(&guess, s->document->renderable_paths[i]);
-    for (elem_id e = doc_element(s->doc, s->doc->root)->first_child; e; e = doc_element(s->doc, e)->next)
+    for (elem_id e = doc_element(s->doc, s->doc->root)->first_child; e;
+         e = doc_element(s->doc, e)->next)
         if (doc_element(s->doc, e)->name)
             diag_guess_add(&guess, text_of(s, doc_element(s->doc, e)->name));
-    diag_add(s->diags, DIAG_ID_unknown_element, (struct diag_place){.file = s->document->files.len ? s->document->files.items[0] : NULL},
-             path, diag_guess_text(&guess));
+    diag_add(
+        s->diags, DIAG_ID_unknown_element,
+        (struct diag_place){.file = s->document->files.len ? s->document->files.items[0] : NULL},
+        path, diag_guess_text(&guess));
 }
 
 static void report_not_renderable(const struct search *s, elem_id element, const char *reason)
 {
-    diag_add(s->diags, DIAG_ID_not_renderable, doc_place(s->doc, element), text_of(s, doc_element(s->doc, element)->name), reason);
+    diag_add(s->diags, DIAG_ID_not_renderable, doc_place(s->doc, element),
+             text_of(s, doc_element(s->doc, element)->name), reason);
 }
 
 static void report_kind(const struct search *s, elem_id element)
 {
     struct text reason;
     text_init(&reason, s->diags->arena);
-    text_fmt(&reason, "it is a <%s>; give an output, a node, a material or a look", text_of(s, doc_element(s->doc, element)->category));
+    text_fmt(&reason, "it is a <%s>; give an output, a node, a material or a look",
+             text_of(s, doc_element(s->doc, element)->category));
     report_not_renderable(s, element, text_cstr(&reason));
 }
 
@@ -50,8 +55,8 @@ static void list_choice(const struct search *s, struct text *list, elem_id eleme
 
 static void report_ambiguous(const struct search *s, elem_id element, struct text *list)
 {
-    diag_add(s->diags, DIAG_ID_ambiguous_output, doc_place(s->doc, element), text_of(s, doc_element(s->doc, element)->name),
-             text_cstr(list));
+    diag_add(s->diags, DIAG_ID_ambiguous_output, doc_place(s->doc, element),
+             text_of(s, doc_element(s->doc, element)->name), text_cstr(list));
 }
 
 struct choices {
@@ -85,22 +90,27 @@ static elem_id only_choice(const struct search *s, elem_id element, const struct
 /* The material that a <materialassign> names; 0: there is none. */
 static elem_id assigned_material(const struct search *s, elem_id assign)
 {
-    return doc_child_of_kind(s->doc, s->doc->root, KIND_NODE, doc_attr_value(s->doc, assign, STR_material));
+    return doc_child_of_kind(s->doc, s->doc->root, KIND_NODE,
+                             doc_attr_value(s->doc, assign, STR_material));
 }
 
 /* Looks inherit from looks. */
 static bool look_assigns(const struct search *s, elem_id look, elem_id material)
 {
     for (unsigned depth = 0; look && depth < 100; depth++) {
-        for (elem_id e = doc_element(s->doc, look)->first_child; e; e = doc_element(s->doc, e)->next)
-            if (doc_element(s->doc, e)->kind == KIND_MATERIALASSIGN && assigned_material(s, e) == material)
+        for (elem_id e = doc_element(s->doc, look)->first_child; e;
+             e = doc_element(s->doc, e)->next)
+            if (doc_element(s->doc, e)->kind == KIND_MATERIALASSIGN
+                && assigned_material(s, e) == material)
                 return true;
-        look = doc_child_of_kind(s->doc, s->doc->root, KIND_LOOK, doc_attr_value(s->doc, look, STR_inherit));
+        look = doc_child_of_kind(s->doc, s->doc->root, KIND_LOOK,
+                                 doc_attr_value(s->doc, look, STR_inherit));
     }
     return false;
 }
 
-static elem_id find_top(const struct search *s, enum element_kind kind, const char *name, size_t len)
+static elem_id find_top(const struct search *s, enum element_kind kind, const char *name,
+                        size_t len)
 {
     str_id id = str_find(s->doc->strings, name, len);
     return id ? doc_child_of_kind(s->doc, s->doc->root, kind, id) : 0;
@@ -112,7 +122,8 @@ static bool assigns(const struct search *s, elem_id look, elem_id material, unsi
     enum { MAX_GROUPS = 16 };
     if (doc_element(s->doc, look)->kind == KIND_LOOK)
         return look_assigns(s, look, material);
-    for (const char *name = str_text(s->doc->strings, doc_attr_value(s->doc, look, STR_looks)); *name && depth < MAX_GROUPS;) {
+    for (const char *name = str_text(s->doc->strings, doc_attr_value(s->doc, look, STR_looks));
+         *name && depth < MAX_GROUPS;) {
         name += strspn(name, ", ");
         size_t len = strcspn(name, ", ");
         elem_id part = find_top(s, KIND_LOOK, name, len);
@@ -131,7 +142,8 @@ static bool assigns(const struct search *s, elem_id look, elem_id material, unsi
 static elem_id find_in_look(const struct search *s, elem_id look)
 {
     struct choices materials = {0};
-    elem_id usual = doc_child_of_kind(s->doc, s->doc->root, KIND_LOOK, doc_attr_value(s->doc, look, STR_default));
+    elem_id usual = doc_child_of_kind(s->doc, s->doc->root, KIND_LOOK,
+                                      doc_attr_value(s->doc, look, STR_default));
     for (uint32_t i = 0; i < s->document->renderables.len; i++)
         if (assigns(s, usual ? usual : look, s->document->renderables.items[i], 0))
             add_choice(s, &materials, s->document->renderables.items[i]);
@@ -177,21 +189,17 @@ static elem_id find_meant(const struct search *s, elem_id element)
 {
     switch (doc_element(s->doc, element)->kind) {
     case KIND_NODE:
-    case KIND_OUTPUT:
-        return element;
-    case KIND_NODEGRAPH:
-        return find_in_graph(s, element);
+    case KIND_OUTPUT: return element;
+    case KIND_NODEGRAPH: return find_in_graph(s, element);
     case KIND_LOOK:
-    case KIND_LOOKGROUP:
-        return find_in_look(s, element);
+    case KIND_LOOKGROUP: return find_in_look(s, element);
     case KIND_MATERIALASSIGN: {
         elem_id material = assigned_material(s, element);
         if (material)
             return material;
         break;
     }
-    default:
-        break;
+    default: break;
     }
     report_kind(s, element);
     return 0;
@@ -209,8 +217,10 @@ static elem_id find_own(const struct search *s, const char *path, size_t len)
  */
 static elem_id find_path(const struct search *s, const char *path, str_id *out_output)
 {
-    elem_id element = find_own(s, path, strlen(path)), parent = element ? doc_element(s->doc, element)->parent : 0;
-    if (parent && doc_element(s->doc, element)->kind == KIND_OUTPUT && doc_element(s->doc, parent)->kind == KIND_NODE) {
+    elem_id element = find_own(s, path, strlen(path)),
+            parent = element ? doc_element(s->doc, element)->parent : 0;
+    if (parent && doc_element(s->doc, element)->kind == KIND_OUTPUT
+        && doc_element(s->doc, parent)->kind == KIND_NODE) {
         *out_output = doc_element(s->doc, element)->name;
         return parent;
     }
@@ -234,8 +244,8 @@ static elem_id find_asked(const struct search *s, const char *path, str_id *out_
     return found ? find_meant(s, found) : 0;
 }
 
-elem_id document_find_element(const struct mxg_document *document, const char *path, struct diag_list *diags, str_id *out_output,
-                              unsigned *out_index)
+elem_id document_find_element(const struct mxg_document *document, const char *path,
+                              struct diag_list *diags, str_id *out_output, unsigned *out_index)
 {
     struct search s = {document, &document->layer.doc, diags};
     *out_output = STR_EMPTY;
@@ -247,12 +257,14 @@ elem_id document_find_element(const struct mxg_document *document, const char *p
         element = document->renderables.items[0];
     else
         diag_add(diags, DIAG_ID_nothing_to_render, doc_place(s.doc, s.doc->root));
-    if (element && doc_element(s.doc, element)->kind == KIND_NODE && !find_output(&s, element, *out_output, out_index))
+    if (element && doc_element(s.doc, element)->kind == KIND_NODE
+        && !find_output(&s, element, *out_output, out_index))
         return 0;
     return element;
 }
 
-mxg_status mxg_document_look_material(const mxg_document *document, const char *look, uint32_t index, mxg_renderable *out)
+mxg_status mxg_document_look_material(const mxg_document *document, const char *look,
+                                      uint32_t index, mxg_renderable *out)
 {
     if (!document || !look)
         return MXG_ERROR_ARGUMENT;

@@ -37,12 +37,14 @@ static const char *remember(struct file_source *source, const char *name)
 }
 
 /* The file counts in the context's memory while it is open, where the resolver is ours. */
-static bool open_file(struct file_source *source, const char *from, const char *ref, const char **out_reason)
+static bool open_file(struct file_source *source, const char *from, const char *ref,
+                      const char **out_reason)
 {
     const char *reason = NULL;
     source->blob = (mxg_blob){0};
     object_settle(source->object);
-    source->is_open = source->resolver->open(source->resolver->user_data, from, ref, &source->blob, &reason);
+    source->is_open =
+        source->resolver->open(source->resolver->user_data, from, ref, &source->blob, &reason);
     object_settle(source->object);
     if (!source->is_open && reason == stdio_no_memory)
         mem_fail(&source->object->mem);
@@ -51,12 +53,15 @@ static bool open_file(struct file_source *source, const char *from, const char *
     if (source->is_open && source->digest)
         source->digest = hash_long(source->digest, source->blob.data, source->blob.size);
     if (!source->is_open)
-        *out_reason = reason ? reason : source->blob.name ? "it cannot be read" : "it was not found";
+        *out_reason = reason              ? reason
+                      : source->blob.name ? "it cannot be read"
+                                          : "it was not found";
     return source->is_open;
 }
 
-static bool open_for_xml(void *user_data, const char *from, const char *ref, const char **out_name, const char **out_data,
-                         size_t *out_size, void **out_handle, const char **out_reason)
+static bool open_for_xml(void *user_data, const char *from, const char *ref, const char **out_name,
+                         const char **out_data, size_t *out_size, void **out_handle,
+                         const char **out_reason)
 {
     struct file_source *source = user_data;
     if (!open_file(source, from, ref, out_reason)) {
@@ -78,12 +83,13 @@ static void release_for_xml(void *user_data, void *handle)
 
 struct xml_files file_source_for_xml(struct file_source *source)
 {
-    return (struct xml_files){.user_data = source, .open = open_for_xml, .release = release_for_xml};
+    return (struct xml_files){
+        .user_data = source, .open = open_for_xml, .release = release_for_xml};
 }
 
 /* Sources include each other, so their texts are copied instead of being held open. */
-static bool read_for_lang(void *user_data, const char *from, const char *ref, const char **out_name, const char **out_text,
-                          size_t *out_len, const char **out_reason)
+static bool read_for_lang(void *user_data, const char *from, const char *ref, const char **out_name,
+                          const char **out_text, size_t *out_len, const char **out_reason)
 {
     struct file_source *source = user_data;
     if (!open_file(source, from, ref, out_reason))
@@ -100,8 +106,8 @@ struct lang_reader file_source_for_lang(struct file_source *source)
     return (struct lang_reader){.user_data = source, .read = read_for_lang};
 }
 
-bool file_source_read(struct file_source *source, const char *path, const char **out_data, size_t *out_size,
-                      struct diag_list *diags)
+bool file_source_read(struct file_source *source, const char *path, const char **out_data,
+                      size_t *out_size, struct diag_list *diags)
 {
     const char *reason;
     if (!open_file(source, "", path, &reason)) {

@@ -53,7 +53,8 @@ const char *folder_names(const char *folder, char *names, size_t capacity, size_
 }
 
 /*
- * The names in a folder as paths: a jump out of memory must not cross the open folder, so they are counted first.
+ * The names in a folder as paths: a jump out of memory must not cross the open folder, so they are
+ * counted first.
  */
 static const char *list_one(struct arena *arena, const char *folder, struct path_list *out)
 {
@@ -70,7 +71,8 @@ static const char *list_one(struct arena *arena, const char *folder, struct path
     return NULL;
 }
 
-const char *folder_list(struct arena *arena, const char *path, const char *suffix, struct path_list *out)
+const char *folder_list(struct arena *arena, const char *path, const char *suffix,
+                        struct path_list *out)
 {
     VEC(const char *) folders = {0};
     vec_push(arena, &folders, path);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Files of image sequences (specification, "Filename Substitutions", and "Texture Node Notes" on frame ranges).
+ * Files of image sequences (specification, "Filename Substitutions", and "Texture Node Notes" on
+ * frame ranges).
  *
  *     {frame} {04frame}    the frame, and with zeros in front to four digits
  */
@@ -20,7 +21,8 @@ static bool read_range(const char *text, int64_t *out_first, int64_t *out_last)
     end += strspn(end, " ");
     const char *last = *end == '-' ? end + 1 : "";
     *out_last = strtol(last, &end, 10);
-    return end != last && *out_first <= *out_last && *out_first >= INT32_MIN && *out_last <= INT32_MAX;
+    return end != last && *out_first <= *out_last && *out_first >= INT32_MIN
+           && *out_last <= INT32_MAX;
 }
 
 static int64_t modulo(int64_t a, int64_t b)
@@ -55,7 +57,8 @@ struct out { /* a text of which the first `capacity` bytes are kept */
 
 static void put(struct out *out, const char *text, size_t len)
 {
-    size_t room = out->capacity > out->len + 1 ? out->capacity - out->len - 1 : 0, kept = len < room ? len : room;
+    size_t room = out->capacity > out->len + 1 ? out->capacity - out->len - 1 : 0,
+           kept = len < room ? len : room;
     if (kept) {
         memcpy(out->data + out->len, text, kept);
         out->data[out->len + kept] = '\0';
@@ -64,7 +67,8 @@ static void put(struct out *out, const char *text, size_t len)
 }
 
 /*
- * "{frame}" or "{04frame}": what stands behind it, and how many digits it has at least; NULL: something else.
+ * "{frame}" or "{04frame}": what stands behind it, and how many digits it has at least; NULL:
+ * something else.
  */
 static const char *read_token(const char *p, int *out_digits)
 {
@@ -74,7 +78,8 @@ static const char *read_token(const char *p, int *out_digits)
     return is_frame ? name + 6 : NULL;
 }
 
-size_t frame_file(const char *file, const struct frame_sequence *sequence, int32_t frame, char *data, size_t capacity)
+size_t frame_file(const char *file, const struct frame_sequence *sequence, int32_t frame,
+                  char *data, size_t capacity)
 {
     struct out out = {data, data ? capacity : 0, 0};
     int64_t number = frame;
@@ -85,7 +90,8 @@ size_t frame_file(const char *file, const struct frame_sequence *sequence, int32
         int width = 0;
         const char *end = *file == '{' ? read_token(file, &width) : NULL;
         if (end) {
-            put(&out, digits, (size_t)snprintf(digits, sizeof digits, "%0*lld", width, (long long)number));
+            put(&out, digits,
+                (size_t)snprintf(digits, sizeof digits, "%0*lld", width, (long long)number));
             file = end;
         } else {
             size_t plain = 1 + strcspn(file + 1, "{");

@@ -16,14 +16,15 @@ static void generate(struct generation *g)
     if (g->result->network.arena)
         g->result->has_shader = built && generation_make_network(g);
     else
-        g->result->has_shader = built && generation_emit(g) && !g->desc.only_diagnostics && generation_finish(g)
+        g->result->has_shader = built && generation_emit(g) && !g->desc.only_diagnostics
+                                && generation_finish(g)
                                 && (g->desc.without_source || generation_spell(g));
     if (!g->result->has_shader)
         drop_source(g->result);
 }
 
-mxg_status mxg_generate(mxg_context *context, const mxg_document *document, const mxg_generate_desc *desc,
-                        mxg_result **out_result)
+mxg_status mxg_generate(mxg_context *context, const mxg_document *document,
+                        const mxg_generate_desc *desc, mxg_result **out_result)
 {
     if (out_result)
         *out_result = NULL;
@@ -51,7 +52,8 @@ const char *mxg_result_source(const mxg_result *result, mxg_stage stage, size_t 
 }
 
 /*
- * Where a line (from 1) begins; the end of the source where it has fewer. Lines are mostly asked for in order.
+ * Where a line (from 1) begins; the end of the source where it has fewer. Lines are mostly asked
+ * for in order.
  */
 static size_t start_of_line(const mxg_result *result, mxg_stage stage, uint32_t line)
 {
@@ -61,7 +63,8 @@ static size_t start_of_line(const mxg_result *result, mxg_stage stage, uint32_t 
     uint64_t known = atomic_load_explicit(hint, memory_order_relaxed);
     uint32_t at = (uint32_t)(known >> 32);
     bool is_behind = at && at <= line;
-    const char *start = source->text + (is_behind ? (uint32_t)known : 0), *end = source->text + source->size;
+    const char *start = source->text + (is_behind ? (uint32_t)known : 0),
+               *end = source->text + source->size;
     for (at = is_behind ? at : 1; at < line && start < end; at++) {
         const char *newline = memchr(start, '\n', (size_t)(end - start));
         start = newline ? newline + 1 : end;
@@ -99,10 +102,12 @@ static elem_id document_element(const mxg_result *result, uint32_t origin)
     return origin ? origins[origin].element : 0;
 }
 
-bool mxg_result_source_place(const mxg_result *result, mxg_stage stage, uint32_t line, const char **out_file,
-                             uint32_t *out_line, uint32_t *out_column, const char **out_path)
+bool mxg_result_source_place(const mxg_result *result, mxg_stage stage, uint32_t line,
+                             const char **out_file, uint32_t *out_line, uint32_t *out_column,
+                             const char **out_path)
 {
-    uint32_t origin = result && (unsigned)stage < NUM_STAGES ? origin_of_line(result, stage, line) : 0;
+    uint32_t origin =
+        result && (unsigned)stage < NUM_STAGES ? origin_of_line(result, stage, line) : 0;
     elem_id element = origin ? document_element(result, origin) : 0;
     if (!element)
         return false;
@@ -141,7 +146,8 @@ static void collect_names(const mxg_result *result, uint32_t origin, struct name
         elem_id element = origins[origin].element;
         if (element)
             add_name(out, doc, element);
-        for (; element && !origins[origin].parent && doc_element(doc, element)->parent != doc->root;)
+        for (;
+             element && !origins[origin].parent && doc_element(doc, element)->parent != doc->root;)
             if ((element = doc_element(doc, element)->parent) != 0)
                 add_name(out, doc, element);
     }
@@ -156,22 +162,26 @@ static size_t write_path(const mxg_result *result, uint32_t origin, char *buffer
     collect_names(result, origin, &names);
     while (names.len--) {
         const char *name = names.items[names.len];
-        int n = snprintf(len < capacity ? buffer + len : NULL, len < capacity ? capacity - len : 0, "%s%s", len ? "/" : "", name);
+        int n = snprintf(len < capacity ? buffer + len : NULL, len < capacity ? capacity - len : 0,
+                         "%s%s", len ? "/" : "", name);
         len += n > 0 ? (size_t)n : 0;
     }
     return len;
 }
 
-size_t mxg_result_source_path(const mxg_result *result, mxg_stage stage, uint32_t line, char *buffer, size_t capacity)
+size_t mxg_result_source_path(const mxg_result *result, mxg_stage stage, uint32_t line,
+                              char *buffer, size_t capacity)
 {
     bool is_there = result && (unsigned)stage < NUM_STAGES && result->has_shader;
     return write_path(result, is_there ? origin_of_line(result, stage, line) : 0, buffer, capacity);
 }
 
-size_t mxg_result_closure_path(const mxg_result *result, uint32_t index, char *buffer, size_t capacity)
+size_t mxg_result_closure_path(const mxg_result *result, uint32_t index, char *buffer,
+                               size_t capacity)
 {
     bool is_there = result && result->has_shader && index < result->shader.closures.len;
-    return write_path(result, is_there ? result->shader.closures.items[index] : 0, buffer, capacity);
+    return write_path(result, is_there ? result->shader.closures.items[index] : 0, buffer,
+                      capacity);
 }
 
 uint32_t mxg_num_targets(void)
@@ -187,7 +197,10 @@ mxg_status mxg_get_target(uint32_t index, mxg_target *out)
     if (index >= mxg_num_targets())
         return MXG_ERROR_ARGUMENT;
     const struct target *target = targets[index];
-    mxg_target full = {.name = target->name, .materialx_name = target->materialx_name, .brief = target->brief,
-                       .stage_suffix = {target->stage_suffix[STAGE_VERTEX], target->stage_suffix[STAGE_PIXEL]}};
+    mxg_target full = {
+        .name = target->name,
+        .materialx_name = target->materialx_name,
+        .brief = target->brief,
+        .stage_suffix = {target->stage_suffix[STAGE_VERTEX], target->stage_suffix[STAGE_PIXEL]}};
     return struct_write(out, &full, sizeof full);
 }

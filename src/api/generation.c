@@ -45,7 +45,8 @@ static bool check_version(struct generation *g)
         text_fmt(&list, "%s%s", list.len ? ", " : "", *known);
     }
     if (version)
-        diag_add(diags_of(g), DIAG_ID_bad_option, nowhere, version, "target-version", list.len ? text_cstr(&list) : "no version");
+        diag_add(diags_of(g), DIAG_ID_bad_option, nowhere, version, "target-version",
+                 list.len ? text_cstr(&list) : "no version");
     return !version;
 }
 
@@ -53,7 +54,8 @@ static bool check_network(struct generation *g)
 {
     bool is_possible = g->result->target->network || !g->options[OPTION_osl_network].number;
     if (!is_possible)
-        diag_add(diags_of(g), DIAG_ID_bad_option, nowhere, "true", "osl-network", "false: only 'osl' has networks");
+        diag_add(diags_of(g), DIAG_ID_bad_option, nowhere, "true", "osl-network",
+                 "false: only 'osl' has networks");
     return is_possible;
 }
 
@@ -95,7 +97,8 @@ static void set_build_options(struct generation *g)
         .environment = o[OPTION_environment].number,
         .albedo = o[OPTION_albedo].number,
         .sample_filter = o[OPTION_sample_filter].number,
-        .texture_modes = g->result->target->caps & CAP_STAGES ? o[OPTION_texture_modes].number : TEXTURE_MODES_BUT_BORDERS,
+        .texture_modes = g->result->target->caps & CAP_STAGES ? o[OPTION_texture_modes].number
+                                                              : TEXTURE_MODES_BUT_BORDERS,
         .missing_colors = g->result->target->caps & CAP_MISSING_COLORS,
         .indexed_tangents = !(g->result->target->caps & CAP_STAGES),
         .tiles = o[OPTION_tiles].number == 0 && g->result->target->caps & CAP_TEXTURE_ARRAYS,
@@ -123,7 +126,8 @@ static void init_layers(struct generation *g)
 }
 
 /*
- * The type that the document gives what is generated; 0: a node has several outputs, and the definition's is not asked for.
+ * The type that the document gives what is generated; 0: a node has several outputs, and the
+ * definition's is not asked for.
  */
 static str_id value_type(const struct generation *g)
 {
@@ -151,9 +155,11 @@ static void name_shader(struct generation *g)
 
 bool generation_start(struct generation *g)
 {
-    g->options = g->desc.options ? options_values(g->desc.options) : options_default(&g->result->object.arena);
+    g->options = g->desc.options ? options_values(g->desc.options)
+                                 : options_default(&g->result->object.arena);
     bool good = find_target(g) && check_version(g) && check_network(g);
-    g->element = document_find_element(g->document, g->desc.element, diags_of(g), &g->output_name, &g->output);
+    g->element = document_find_element(g->document, g->desc.element, diags_of(g), &g->output_name,
+                                       &g->output);
     if (!good || !g->element)
         return false;
     generation_check_globs(g);
@@ -179,7 +185,8 @@ void generation_report_not_renderable(struct generation *g, const char *why)
     struct text unknown;
     text_init(&unknown, &g->scratch);
     if (g->result->shader.unknown_closure) {
-        text_fmt(&unknown, "%s has no closure for '%s', and functions cannot stand for one", g->result->target->name,
+        text_fmt(&unknown, "%s has no closure for '%s', and functions cannot stand for one",
+                 g->result->target->name,
                  str_text(doc->strings, g->result->shader.unknown_closure));
         why = text_cstr(&unknown);
     }
@@ -202,7 +209,8 @@ static bool is_good(struct generation *g)
 
 bool generation_build(struct generation *g)
 {
-    g->builder = build_start(&g->document->layer, &g->build_options, &g->result->shader, diags_of(g));
+    g->builder =
+        build_start(&g->document->layer, &g->build_options, &g->result->shader, diags_of(g));
     if (g->options[OPTION_osl_network].number)
         build_record_network(g->builder, &g->result->network);
     g->root = build_element(g->builder, g->element, g->output);
@@ -217,7 +225,8 @@ bool generation_build(struct generation *g)
 
 static bool gives_light(const struct library *layer, const struct nodedef *def)
 {
-    return def->num_outputs == 1 && layer->ports.items[def->first_port + def->num_inputs].type == DOC_TYPE_lightshader;
+    return def->num_outputs == 1
+           && layer->ports.items[def->first_port + def->num_inputs].type == DOC_TYPE_lightshader;
 }
 
 /* The definition of a light shader by the name of its node. */
@@ -226,7 +235,8 @@ static uint32_t find_light(const struct generation *g, const char *node, size_t 
     const struct library *lib = &g->document->layer;
     str_id name = str_find(&g->result->strings, node, len);
     for (const struct library *layer = name ? lib : NULL; layer; layer = layer->base)
-        for (uint32_t i = library_first_of_node(layer, name); i != LIBRARY_NONE; i = layer->nodedefs.items[i].next_same_node)
+        for (uint32_t i = library_first_of_node(layer, name); i != LIBRARY_NONE;
+             i = layer->nodedefs.items[i].next_same_node)
             if (gives_light(layer, &layer->nodedefs.items[i]))
                 return layer->base_nodedefs + i;
     return LIBRARY_NONE;
@@ -239,12 +249,16 @@ static struct shader_light start_light(struct generation *g, uint32_t nodedef, i
     const struct library *lib = &g->document->layer;
     const struct nodedef *def = library_nodedef(lib, nodedef);
     const struct port *ports = library_ports(lib, nodedef, NULL);
-    struct shader_light light = {.type = type, .name = def->node, .function = LANG_NONE, .first_member = shader->light_members.len};
+    struct shader_light light = {.type = type,
+                                 .name = def->node,
+                                 .function = LANG_NONE,
+                                 .first_member = shader->light_members.len};
     for (uint32_t i = 0; i < def->num_inputs; i++) {
         ir_type_id ir_type = library_type_ir(lib, ports[i].type);
         if (ir_type_is_closure(ir_type)) /* of the node `light`: nothing is connected to it */
             continue;
-        vec_push(shader->arena, &shader->light_members, shader_light_member(shader, ports[i].name, ir_type));
+        vec_push(shader->arena, &shader->light_members,
+                 shader_light_member(shader, ports[i].name, ir_type));
         light.num_members++;
     }
     return light;
@@ -255,10 +269,12 @@ static void tell_defaults(struct generation *g, uint32_t nodedef, const struct s
 {
     const struct library *lib = &g->document->layer;
     const struct port *ports = library_ports(lib, nodedef, NULL);
-    for (uint32_t i = 0, m = light->first_member; m < light->first_member + light->num_members; i++) {
+    for (uint32_t i = 0, m = light->first_member; m < light->first_member + light->num_members;
+         i++) {
         if (ir_type_is_closure(library_type_ir(lib, ports[i].type)))
             continue;
-        struct shader_variable *member = &g->result->shader.variables.items[g->result->shader.light_members.items[m++]];
+        struct shader_variable *member =
+            &g->result->shader.variables.items[g->result->shader.light_members.items[m++]];
         if (!member->has_default)
             member->has_default = build_port_value(g->builder, &ports[i], &member->value);
     }
@@ -273,7 +289,8 @@ static void place_light(struct generation *g, struct shader_light *light)
 
 static ir_ref read_member(struct generation *g, uint32_t variable)
 {
-    return ir_build(&g->result->graph, IR_CONTEXT, g->result->shader.variables.items[variable].type, variable, NULL, 0);
+    return ir_build(&g->result->graph, IR_CONTEXT, g->result->shader.variables.items[variable].type,
+                    variable, NULL, 0);
 }
 
 /* A light shader by its definition: a function, or nodes over the members. */
@@ -311,9 +328,11 @@ static bool add_light_element(struct generation *g, const char *path, int32_t ty
     elem_id element = doc_find(doc, path, strlen(path));
     if (!element || doc_attr_value(doc, element, STR_type) != STR_lightshader)
         return false;
-    struct shader_light light = {.type = type, .name = doc_element(doc, element)->name, .function = LANG_NONE};
+    struct shader_light light = {
+        .type = type, .name = doc_element(doc, element)->name, .function = LANG_NONE};
     light.shader = build_element(g->builder, element, 0);
-    if (!light.shader || ir_get(&g->result->graph, light.shader)->op != IR_LIGHT_SHADER || !ir_arg(&g->result->graph, light.shader, 0))
+    if (!light.shader || ir_get(&g->result->graph, light.shader)->op != IR_LIGHT_SHADER
+        || !ir_arg(&g->result->graph, light.shader, 0))
         return false;
     place_light(g, &light);
     vec_push(g->result->shader.arena, &g->result->shader.lights, light);
@@ -356,7 +375,10 @@ static const char *light_hint(struct generation *g, const char *item, size_t len
         return text_cstr(&hint);
     }
     const char *node = str_text(doc->strings, doc_element(doc, element)->category);
-    text_fmt(&hint, strcmp(node, "light") == 0 ? "; the node has no EDF" : "; bind '%s', and let the host set its members", node);
+    text_fmt(&hint,
+             strcmp(node, "light") == 0 ? "; the node has no EDF"
+                                        : "; bind '%s', and let the host set its members",
+             node);
     return text_cstr(&hint);
 }
 
@@ -369,26 +391,32 @@ static bool has_light(const struct shader *shader, int32_t type)
 }
 
 /*
- * "directional_light=1"; without a number, the next one. Lights of the default that the library lacks are not bound.
+ * "directional_light=1"; without a number, the next one. Lights of the default that the library
+ * lacks are not bound.
  */
 static void bind_light(struct generation *g, const char *item, int32_t next_type)
 {
     size_t len = strcspn(item, "="), number_len = item[len] ? strlen(item + len + 1) : 0;
     int64_t type = next_type;
-    if (item[len] && (number_len == 0 || num_parse_int(item + len + 1, number_len, &type) != number_len
-                      || type < INT32_MIN || type > INT32_MAX)) {
+    if (item[len]
+        && (number_len == 0 || num_parse_int(item + len + 1, number_len, &type) != number_len
+            || type < INT32_MIN || type > INT32_MAX)) {
         diag_add(diags_of(g), DIAG_ID_bad_option, nowhere, item, "lights", "'node=number'");
         return;
     }
     if (has_light(&g->result->shader, (int32_t)type)) {
-        diag_add(diags_of(g), DIAG_ID_bad_option, nowhere, item, "lights", "a number that no other light has");
+        diag_add(diags_of(g), DIAG_ID_bad_option, nowhere, item, "lights",
+                 "a number that no other light has");
         return;
     }
     uint32_t nodedef = find_light(g, item, len);
-    bool is_bound = nodedef != LIBRARY_NONE ? add_defined_light(g, nodedef, (int32_t)type)
-                                            : add_light_element(g, arena_strndup(&g->scratch, item, len), (int32_t)type);
+    bool is_bound =
+        nodedef != LIBRARY_NONE
+            ? add_defined_light(g, nodedef, (int32_t)type)
+            : add_light_element(g, arena_strndup(&g->scratch, item, len), (int32_t)type);
     if (!is_bound && g->options[OPTION_lights].is_set)
-        diag_add(diags_of(g), DIAG_ID_unknown_light, nowhere, arena_strndup(&g->scratch, item, len), light_hint(g, item, len));
+        diag_add(diags_of(g), DIAG_ID_unknown_light, nowhere, arena_strndup(&g->scratch, item, len),
+                 light_hint(g, item, len));
 }
 
 static void bind_lights(struct generation *g)
@@ -403,7 +431,8 @@ static void bind_lights(struct generation *g)
 
 static const uint32_t *leaf_functions(void *user_data, uint32_t callee)
 {
-    _Static_assert((int)LEAF_EVAL == FAMILY_EVAL && (int)LEAF_FACTOR == FAMILY_FACTOR && (int)LEAF_PDF == FAMILY_PDF,
+    _Static_assert((int)LEAF_EVAL == FAMILY_EVAL && (int)LEAF_FACTOR == FAMILY_FACTOR
+                       && (int)LEAF_PDF == FAMILY_PDF,
                    "leaf functions are the first members of a family");
     return build_leaf_family(user_data, callee)->functions;
 }
@@ -413,10 +442,15 @@ static const char *leaf_input(void *user_data, uint32_t callee, unsigned index)
     return build_leaf_input(user_data, callee, index);
 }
 
-struct closure_host generation_closure_host(const struct generation *g, struct builder *builder, struct closure_point *point)
+struct closure_host generation_closure_host(const struct generation *g, struct builder *builder,
+                                            struct closure_point *point)
 {
-    return (struct closure_host){.user_data = builder, .point = point, .leaf_functions = leaf_functions, .leaf_input = leaf_input,
-                                 .rows = g->result->target->closures, .lang = build_lang_host(builder)};
+    return (struct closure_host){.user_data = builder,
+                                 .point = point,
+                                 .leaf_functions = leaf_functions,
+                                 .leaf_input = leaf_input,
+                                 .rows = g->result->target->closures,
+                                 .lang = build_lang_host(builder)};
 }
 
 void generation_start_closures(struct generation *g)
@@ -434,7 +468,8 @@ struct shader_layout_rules generation_layout_rules(const struct generation *g)
 {
     uint32_t caps = g->result->target->caps;
     return (struct shader_layout_rules){
-        .blocks = (caps & CAP_UNIFORM_BLOCKS) || ((caps & CAP_BLOCK_OPTION) && g->options[OPTION_uniform_blocks].number),
+        .blocks = (caps & CAP_UNIFORM_BLOCKS)
+                  || ((caps & CAP_BLOCK_OPTION) && g->options[OPTION_uniform_blocks].number),
         .bindings = caps & CAP_BINDINGS,
         .neutral_names = g->options[OPTION_names].number != 0,
         .one_stage = !(caps & CAP_STAGES),
@@ -458,7 +493,8 @@ static bool has_nothing_to_tell(const struct generation *g)
 {
     const struct ir_graph *graph = &g->result->graph;
     bool has_room = (uint64_t)graph->nodes.len * NODES_PER_NODE + MORE_NODES < graph->max_nodes;
-    return has_room && !(g->result->target->caps & CAP_CLOSURES) && closure_is_surface(&g->result->shader, g->root);
+    return has_room && !(g->result->target->caps & CAP_CLOSURES)
+           && closure_is_surface(&g->result->shader, g->root);
 }
 
 bool generation_emit(struct generation *g)
@@ -468,7 +504,9 @@ bool generation_emit(struct generation *g)
     if (g->desc.only_diagnostics && has_nothing_to_tell(g))
         return is_good(g);
     if (!emit(g))
-        generation_report_not_renderable(g, g->result->shader.scatters ? "a path tracer is given surfaces and values only" : gives_nothing);
+        generation_report_not_renderable(g, g->result->shader.scatters
+                                                ? "a path tracer is given surfaces and values only"
+                                                : gives_nothing);
     return is_good(g);
 }
 
@@ -484,7 +522,8 @@ bool generation_finish(struct generation *g)
 /* ---- Spell ---- */
 
 /*
- * Nodes of the document by their path; those inside of definitions by the path of the node that uses these. NULL: of no element.
+ * Nodes of the document by their path; those inside of definitions by the path of the node that
+ * uses these. NULL: of no element.
  */
 static const char *origin_path(void *user_data, uint32_t origin)
 {
@@ -507,7 +546,8 @@ static const char *origin_path(void *user_data, uint32_t origin)
 
 enum { USUAL_SOURCE = 24 << 10 };
 
-static bool spell_one(struct generation *g, const struct spell_options *options, enum shader_stage_id stage)
+static bool spell_one(struct generation *g, const struct spell_options *options,
+                      enum shader_stage_id stage)
 {
     mxg_result *result = g->result;
     struct text source;
@@ -515,10 +555,12 @@ static bool spell_one(struct generation *g, const struct spell_options *options,
     struct stage_source *out = &result->stages[stage];
     text_init(&source, &result->object.arena);
     text_reserve(&source, USUAL_SOURCE); /* so that it is not moved while it grows */
-    spell_shader_stage(result->target, options, &result->shader, stage, &g->scratch, &source, &marks, &out->num_marks);
+    spell_shader_stage(result->target, options, &result->shader, stage, &g->scratch, &source,
+                       &marks, &out->num_marks);
     uint32_t limit = result->object.context->max_output_mib;
     if (source.len > (uint64_t)limit << 20) {
-        diag_add(diags_of(g), DIAG_ID_output_limit, doc_place(&g->document->layer.doc, g->element), (unsigned)limit);
+        diag_add(diags_of(g), DIAG_ID_output_limit, doc_place(&g->document->layer.doc, g->element),
+                 (unsigned)limit);
         return false;
     }
     struct spell_mark *kept = arena_alloc(&result->object.arena, out->num_marks * sizeof *kept);
@@ -536,7 +578,8 @@ static bool spell_one(struct generation *g, const struct spell_options *options,
 static bool has_stage(const mxg_result *result, int stage)
 {
     const struct shader *shader = &result->shader;
-    bool is_idle = stage == STAGE_VERTEX && (shader->scatters || shader->stages[stage].statements.len == 0);
+    bool is_idle =
+        stage == STAGE_VERTEX && (shader->scatters || shader->stages[stage].statements.len == 0);
     return result->target->stage_suffix[stage] && !is_idle;
 }
 
@@ -562,7 +605,8 @@ bool generation_spell(struct generation *g)
 {
     mxg_result *result = g->result;
     struct spell_options options = generation_spell_options(g);
-    result->origin_paths = ARENA_ARRAY(&result->object.arena, const char *, result->graph.origins.len);
+    result->origin_paths =
+        ARENA_ARRAY(&result->object.arena, const char *, result->graph.origins.len);
     for (int stage = 0; stage < NUM_STAGES; stage++)
         if (has_stage(result, stage) && !spell_one(g, &options, (enum shader_stage_id)stage))
             return false;
@@ -582,14 +626,16 @@ static void run_steps(void *arg)
     run->steps(&run->generation);
 }
 
-mxg_status generation_run(mxg_context *context, const mxg_document *document, const mxg_generate_desc *desc,
-                          void (*steps)(struct generation *), void *user_data, mxg_result **out_result)
+mxg_status generation_run(mxg_context *context, const mxg_document *document,
+                          const mxg_generate_desc *desc, void (*steps)(struct generation *),
+                          void *user_data, mxg_result **out_result)
 {
     struct run run = {.steps = steps};
     struct generation *g = &run.generation;
     if (out_result)
         *out_result = NULL;
-    if (!context || !document || !out_result || (desc && !struct_read(&g->desc, sizeof g->desc, desc)))
+    if (!context || !document || !out_result
+        || (desc && !struct_read(&g->desc, sizeof g->desc, desc)))
         return MXG_ERROR_ARGUMENT;
     /* only its references are counted */
     struct object *below = (struct object *)(uintptr_t)&document->object;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * A generation step by step, for generate.c, which takes all of them, and inspect.c, which stops on the way.
+ * A generation step by step, for generate.c, which takes all of them, and inspect.c, which stops on
+ * the way.
  */
 #ifndef MXG_API_GENERATION_H
 #define MXG_API_GENERATION_H
@@ -8,7 +9,9 @@
 #include "api/api.h"
 #include "closure/closure.h"
 
-#define GENERATOR_NAME "mxgen 0.1" /* in comments and reflection: without the patch number, which changes no output */
+#define GENERATOR_NAME \
+    "mxgen 0.1" /* in comments and reflection: without the patch number, which changes no output \
+                 */
 
 struct stage_source {
     const char *text; /* NULL: the target has no such stage */
@@ -27,21 +30,21 @@ struct mxg_result {
     struct object object; /* stands on the document */
     const mxg_document *document;
     const struct target *target;
-    struct strpool strings;  /* these stand on the document's */
+    struct strpool strings; /* these stand on the document's */
     struct lang_unit unit;
     struct ir_graph graph;
     struct shader shader;
     struct stage_source stages[NUM_STAGES];
     /* a line that was asked for lately and where it begins: the next one is near */
     _Atomic uint64_t line_hints[NUM_STAGES];
-    struct network network;  /* option osl-network: in the place of stages are lists of layers */
+    struct network network; /* option osl-network: in the place of stages are lists of layers */
     struct network_group groups[2];
-    uint32_t num_groups;     /* 0: it is no network */
+    uint32_t num_groups; /* 0: it is no network */
     VEC(struct network_part) parts;
-    VEC(const char *) files; /* read for it */
+    VEC(const char *) files;   /* read for it */
     const char **origin_paths; /* of origins of graph, made when asked for during generation */
-    bool has_shader;         /* generation ended well */
-    const char *text;        /* of an inspection; NULL */
+    bool has_shader;           /* generation ended well */
+    const char *text;          /* of an inspection; NULL */
     size_t text_size;
 };
 
@@ -51,7 +54,7 @@ struct generation {
     mxg_generate_desc desc;
     const struct option_value *options;
     elem_id element;
-    str_id output_name;      /* of a node, where the path says one; and its index */
+    str_id output_name; /* of a node, where the path says one; and its index */
     unsigned output;
     struct builder *builder;
     struct build_options build_options;
@@ -63,15 +66,16 @@ struct generation {
     struct file_source files; /* what a generation reads beside the document */
     struct lang_reader reader;
     bool cancelled;
-    void *user_data;         /* of the caller's steps */
+    void *user_data; /* of the caller's steps */
 };
 
 /*
- * Makes a result by `steps`, which runs with the result's trap. `desc` may be NULL where nothing is generated; MXG_ERROR_ARGUMENT where
- * it is needed or bad.
+ * Makes a result by `steps`, which runs with the result's trap. `desc` may be NULL where nothing is
+ * generated; MXG_ERROR_ARGUMENT where it is needed or bad.
  */
-mxg_status generation_run(mxg_context *context, const mxg_document *document, const mxg_generate_desc *desc,
-                          void (*steps)(struct generation *), void *user_data, mxg_result **out_result);
+mxg_status generation_run(mxg_context *context, const mxg_document *document,
+                          const mxg_generate_desc *desc, void (*steps)(struct generation *),
+                          void *user_data, mxg_result **out_result);
 
 /* The steps in order; each is false after a diagnostic. */
 bool generation_start(struct generation *g); /* target, element, options */
@@ -81,12 +85,13 @@ void generation_start_closures(struct generation *g);
 /* the stages' effects: behind these, nothing can fail */
 bool generation_emit(struct generation *g);
 bool generation_finish(struct generation *g); /* the shader */
-bool generation_spell(struct generation *g); /* source */
+bool generation_spell(struct generation *g);  /* source */
 /* Instead of the last two. */
 bool generation_make_network(struct generation *g); /* network.c */
 
 /* What network.c shares with them. */
-struct closure_host generation_closure_host(const struct generation *g, struct builder *builder, struct closure_point *point);
+struct closure_host generation_closure_host(const struct generation *g, struct builder *builder,
+                                            struct closure_point *point);
 struct shader_layout_rules generation_layout_rules(const struct generation *g);
 struct spell_options generation_spell_options(const struct generation *g);
 void generation_report_not_renderable(struct generation *g, const char *why);
@@ -97,10 +102,12 @@ struct frame_sequence {
     int32_t offset;
 };
 /* Writes the file of a frame as mxg_result_texture_file does. */
-size_t frame_file(const char *file, const struct frame_sequence *sequence, int32_t frame, char *out, size_t capacity);
+size_t frame_file(const char *file, const struct frame_sequence *sequence, int32_t frame, char *out,
+                  size_t capacity);
 
 /*
- * reflect.c: what the document says about a variable for a user interface; user_data is the mxg_result.
+ * reflect.c: what the document says about a variable for a user interface; user_data is the
+ * mxg_result.
  */
 void result_ui(void *user_data, const struct shader_variable *variable, struct shader_ui *out);
 

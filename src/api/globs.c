@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Globs of the options "uniform" and "constant" that match no input of the document: most likely misspelt.
+ * Globs of the options "uniform" and "constant" that match no input of the document: most likely
+ * misspelt.
  */
 #include "api/generation.h"
 
 struct search {
     const struct library *lib;
     const char *glob;
-    struct text path; /* of the element at hand */
+    struct text path;         /* of the element at hand */
     struct diag_list ignored; /* faults of nodes are told when these are built */
 };
 
@@ -26,11 +27,13 @@ static bool element_matches(struct search *s, elem_id element)
     doc_path(doc, element, '/', &s->path);
     size_t len = s->path.len;
     for (elem_id e = doc_element(doc, element)->first_child; e; e = doc_element(doc, e)->next)
-        if (doc_element(doc, e)->kind == KIND_INPUT && input_matches(s, len, doc_element(doc, e)->name))
+        if (doc_element(doc, e)->kind == KIND_INPUT
+            && input_matches(s, len, doc_element(doc, e)->name))
             return true;
     bool is_node = doc_element(doc, element)->kind == KIND_NODE;
     uint32_t nodedef = is_node ? library_match(s->lib, element, &s->ignored) : LIBRARY_NONE;
-    uint32_t num_inputs = nodedef != LIBRARY_NONE ? library_nodedef(s->lib, nodedef)->num_inputs : 0;
+    uint32_t num_inputs =
+        nodedef != LIBRARY_NONE ? library_nodedef(s->lib, nodedef)->num_inputs : 0;
     const struct port *ports = num_inputs ? library_ports(s->lib, nodedef, NULL) : NULL;
     for (uint32_t i = 0; i < num_inputs; i++)
         if (input_matches(s, len, ports[i].name))
@@ -59,6 +62,7 @@ void generation_check_globs(struct generation *g)
         const struct option_value *value = &g->options[options[i]];
         for (uint32_t k = 0; k < value->list.len; k++)
             if (!glob_matches(g, value->list.items[k], &g->scratch))
-                diag_add(&g->result->object.diagnostics.list, DIAG_ID_glob_no_match, (struct diag_place){0}, value->list.items[k]);
+                diag_add(&g->result->object.diagnostics.list, DIAG_ID_glob_no_match,
+                         (struct diag_place){0}, value->list.items[k]);
     }
 }

@@ -19,7 +19,8 @@ static const char *text_of(const struct graph_view *view, str_id id)
 static bool is_shown(const struct graph_view *view, elem_id element)
 {
     const struct element *e = doc_element(view->doc, element);
-    bool in_graph = e->parent == view->doc->root || (e->parent && doc_element(view->doc, e->parent)->kind == KIND_NODEGRAPH);
+    bool in_graph = e->parent == view->doc->root
+                    || (e->parent && doc_element(view->doc, e->parent)->kind == KIND_NODEGRAPH);
     return in_graph && (e->kind == KIND_NODE || e->kind == KIND_OUTPUT)
            && (!view->wanted || view->wanted[element - view->doc->first_element]);
 }
@@ -35,10 +36,14 @@ static const char *output_name(const struct graph_view *view, const struct bindi
     struct diag_list ignored;
     diag_list_init(&ignored, &view->g->scratch);
     uint32_t id = doc_attr_value(view->doc, binding->ref, STR_type) == STR_multioutput
-                      ? library_match(view->layer, binding->ref, &ignored) : LIBRARY_NONE;
+                      ? library_match(view->layer, binding->ref, &ignored)
+                      : LIBRARY_NONE;
     if (id == LIBRARY_NONE)
         return NULL;
-    return text_of(view, library_ports(view->layer, id, NULL)[library_nodedef(view->layer, id)->num_inputs + binding->output].name);
+    return text_of(
+        view, library_ports(view->layer, id,
+                            NULL)[library_nodedef(view->layer, id)->num_inputs + binding->output]
+                  .name);
 }
 
 /* A node with its definition and bindings, which are good until the next one is resolved. */
@@ -72,7 +77,8 @@ static void write_binding(struct graph_view *view, const char *name, const struc
     } else if (binding->kind == BIND_INTERFACE) {
         text_fmt(view->out, "interface %s", text_of(view, binding->ref));
     } else if (binding->kind == BIND_VALUE) {
-        text_fmt(view->out, "%s", text_of(view, doc_attr_value(view->doc, binding->element, STR_value)));
+        text_fmt(view->out, "%s",
+                 text_of(view, doc_attr_value(view->doc, binding->element, STR_value)));
     } else {
         text_str(view->out, "?");
     }
@@ -92,7 +98,8 @@ static void write_node(struct graph_view *view, elem_id node)
     const struct port *ports = library_ports(view->layer, resolved.nodedef, NULL);
     text_fmt(view->out, " (%s)\n", text_of(view, def->name));
     for (unsigned i = 0; i < def->num_inputs; i++)
-        write_binding(view, text_of(view, ports[i].name), &view->resolved.bindings.items[resolved.first_binding + i]);
+        write_binding(view, text_of(view, ports[i].name),
+                      &view->resolved.bindings.items[resolved.first_binding + i]);
 }
 
 static void write_output(struct graph_view *view, elem_id output)
@@ -105,10 +112,12 @@ static void write_output(struct graph_view *view, elem_id output)
 
 /* ---- Graphviz ---- */
 
-static void write_edge(struct graph_view *view, elem_id to, const char *input, const struct binding *binding)
+static void write_edge(struct graph_view *view, elem_id to, const char *input,
+                       const struct binding *binding)
 {
     if (binding->kind == BIND_NODE)
-        text_fmt(view->out, "    n%u -> n%u [label=\"%s\"]\n", (unsigned)binding->ref, (unsigned)to, input);
+        text_fmt(view->out, "    n%u -> n%u [label=\"%s\"]\n", (unsigned)binding->ref, (unsigned)to,
+                 input);
 }
 
 static void draw_node(struct graph_view *view, elem_id node)
@@ -121,7 +130,8 @@ static void draw_node(struct graph_view *view, elem_id node)
         return;
     const struct port *ports = library_ports(view->layer, resolved.nodedef, NULL);
     for (unsigned i = 0; i < library_nodedef(view->layer, resolved.nodedef)->num_inputs; i++)
-        write_edge(view, node, text_of(view, ports[i].name), &view->resolved.bindings.items[resolved.first_binding + i]);
+        write_edge(view, node, text_of(view, ports[i].name),
+                   &view->resolved.bindings.items[resolved.first_binding + i]);
 }
 
 static void draw_output(struct graph_view *view, elem_id output)
@@ -163,12 +173,16 @@ static void mark_upstream(struct graph_view *view, elem_id root)
 
 static bool start_view(struct graph_view *view, struct generation *g, struct text *out)
 {
-    *view = (struct graph_view){.g = g, .layer = &g->document->layer, .doc = &g->document->layer.doc, .out = out,
+    *view = (struct graph_view){.g = g,
+                                .layer = &g->document->layer,
+                                .doc = &g->document->layer.doc,
+                                .out = out,
                                 .resolved = {.arena = &g->scratch}};
     if (!g->desc.element)
         return true;
     struct diag_list *diags = &g->result->object.diagnostics.list;
-    elem_id element = document_find_element(g->document, g->desc.element, diags, &g->output_name, &g->output);
+    elem_id element =
+        document_find_element(g->document, g->desc.element, diags, &g->output_name, &g->output);
     if (element)
         mark_upstream(view, element);
     return element != 0;

@@ -27,11 +27,13 @@ static void write_element(struct generation *g, elem_id element, unsigned depth,
         text_fmt(out, " %s", str_text(doc->strings, e->name));
     if (type)
         text_fmt(out, " : %s", str_text(doc->strings, type));
-    static const str_id shown[] = {STR_value, STR_nodename, STR_nodegraph, STR_output, STR_interfacename, STR_nodedef};
+    static const str_id shown[] = {STR_value,  STR_nodename,      STR_nodegraph,
+                                   STR_output, STR_interfacename, STR_nodedef};
     for (size_t i = 0; i < sizeof shown / sizeof *shown; i++) {
         str_id value = doc_attr_value(doc, element, shown[i]);
         if (value)
-            text_fmt(out, " %s=\"%s\"", str_text(doc->strings, shown[i]), str_text(doc->strings, value));
+            text_fmt(out, " %s=\"%s\"", str_text(doc->strings, shown[i]),
+                     str_text(doc->strings, value));
     }
     text_str(out, is_renderable(g->document, element) ? "  [renderable]\n" : "\n");
 }
@@ -75,7 +77,8 @@ static void write_counts(struct text *out, const char *name, uint32_t count)
 
 static void view_statistics(struct generation *g, struct text *out)
 {
-    if (!generation_start(g) || !generation_build(g) || !generation_emit(g) || !generation_finish(g) || !generation_spell(g))
+    if (!generation_start(g) || !generation_build(g) || !generation_emit(g) || !generation_finish(g)
+        || !generation_spell(g))
         return;
     const mxg_result *result = g->result;
     const struct shader *shader = &result->shader;
@@ -89,7 +92,8 @@ static void view_statistics(struct generation *g, struct text *out)
     write_counts(out, "pixel statements", pixel->statements.len);
     write_counts(out, "pixel source bytes", (uint32_t)result->stages[STAGE_PIXEL].size);
     write_counts(out, "vertex source bytes", (uint32_t)result->stages[STAGE_VERTEX].size);
-    text_fmt(out, "%-24s %s\n%-24s %s\n", "transparent", shader->transparent ? "yes" : "no", "lit", shader->lit ? "yes" : "no");
+    text_fmt(out, "%-24s %s\n%-24s %s\n", "transparent", shader->transparent ? "yes" : "no", "lit",
+             shader->lit ? "yes" : "no");
 }
 
 /* ---- The views ---- */
@@ -115,14 +119,16 @@ static void inspect(struct generation *g)
     g->result->text_size = out.len;
 }
 
-mxg_status mxg_inspect(mxg_context *context, const mxg_document *document, mxg_view view, const mxg_generate_desc *desc,
-                       mxg_result **out_result)
+mxg_status mxg_inspect(mxg_context *context, const mxg_document *document, mxg_view view,
+                       const mxg_generate_desc *desc, mxg_result **out_result)
 {
     if (out_result)
         *out_result = NULL;
-    if ((unsigned)view >= sizeof views / sizeof *views || (views[view].generates && (!desc || !desc->target)))
+    if ((unsigned)view >= sizeof views / sizeof *views
+        || (views[view].generates && (!desc || !desc->target)))
         return MXG_ERROR_ARGUMENT;
-    return generation_run(context, document, desc, inspect, (void *)(uintptr_t)&views[view], out_result);
+    return generation_run(context, document, desc, inspect, (void *)(uintptr_t)&views[view],
+                          out_result);
 }
 
 const char *mxg_result_text(const mxg_result *result, size_t *out_size)

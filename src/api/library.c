@@ -38,7 +38,8 @@ static bool is_image(const char *path)
 
 static void refuse_image(struct load *load, const char *path, const char *reason)
 {
-    diag_add(&load->library->object.diagnostics.list, DIAG_ID_image_bad, (struct diag_place){.file = path}, path, reason);
+    diag_add(&load->library->object.diagnostics.list, DIAG_ID_image_bad,
+             (struct diag_place){.file = path}, path, reason);
 }
 
 static void map_image(void *arg)
@@ -47,7 +48,8 @@ static void map_image(void *arg)
     mxg_library *library = load->library;
     const char *data;
     size_t size;
-    if (!file_source_read(&load->files, load->paths[0], &data, &size, &library->object.diagnostics.list))
+    if (!file_source_read(&load->files, load->paths[0], &data, &size,
+                          &library->object.diagnostics.list))
         return;
     const char *fault = library_map_image(&library->layer, data, size, true);
     if (fault) {
@@ -64,14 +66,17 @@ static void read_file(struct load *load, const char *path)
     mxg_library *library = load->library;
     if (!sandbox_admit_file(library->object.context, path))
         mem_fail(&library->object.mem);
-    xml_read_file(&library->layer.doc, &files, &library->object.context->xml_limits, path, &library->object.diagnostics.list);
+    xml_read_file(&library->layer.doc, &files, &library->object.context->xml_limits, path,
+                  &library->object.diagnostics.list);
 }
 
 static void read_path(struct load *load, const char *path)
 {
     struct diag_list *diags = &load->library->object.diagnostics.list;
     if (is_image(path)) {
-        refuse_image(load, path, "it stands on no other library: name it first, without the one that is built in (--no-builtin-library)");
+        refuse_image(load, path,
+                     "it stands on no other library: name it first, without the one that is built "
+                     "in (--no-builtin-library)");
         return;
     }
     if (!folder_exists(path)) {
@@ -87,7 +92,8 @@ static void read_path(struct load *load, const char *path)
 }
 
 /*
- * Who loads a library wants to know of every fault at once; in a document they are told when the implementation is needed.
+ * Who loads a library wants to know of every fault at once; in a document they are told when the
+ * implementation is needed.
  */
 static void tell_deferred(mxg_library *library)
 {
@@ -113,11 +119,14 @@ static void read_paths(void *arg)
 }
 
 /* One layer: what `work` makes of the paths. */
-static mxg_status load_layer(mxg_context *context, mxg_library *base, const char *const *paths, size_t num_paths,
-                             void (*work)(void *), mxg_library **out)
+static mxg_status load_layer(mxg_context *context, mxg_library *base, const char *const *paths,
+                             size_t num_paths, void (*work)(void *), mxg_library **out)
 {
-    struct load load = {.library = object_new(context, sizeof *load.library, base ? &base->object : NULL),
-                        .base = base, .paths = paths, .num_paths = num_paths};
+    struct load load = {.library =
+                            object_new(context, sizeof *load.library, base ? &base->object : NULL),
+                        .base = base,
+                        .paths = paths,
+                        .num_paths = num_paths};
     if (!load.library)
         return MXG_ERROR_MEMORY;
     struct object *object = &load.library->object;
@@ -142,12 +151,13 @@ static bool are_valid(const char *const *paths, size_t num_paths)
     return true;
 }
 
-mxg_status mxg_library_load(mxg_context *context, mxg_library *base, const char *const *paths, size_t num_paths,
-                            mxg_library **out_library)
+mxg_status mxg_library_load(mxg_context *context, mxg_library *base, const char *const *paths,
+                            size_t num_paths, mxg_library **out_library)
 {
     if (out_library)
         *out_library = NULL;
-    if (!context || !out_library || !are_valid(paths, num_paths) || (base && object_status(&base->object) != MXG_OK))
+    if (!context || !out_library || !are_valid(paths, num_paths)
+        || (base && object_status(&base->object) != MXG_OK))
         return MXG_ERROR_ARGUMENT;
     if (base || num_paths == 0 || !is_image(paths[0]))
         return load_layer(context, base, paths, num_paths, read_paths, out_library);
@@ -262,9 +272,11 @@ uint32_t mxg_library_num_nodedefs(const mxg_library *library)
 }
 
 /* `target` NULL: any. */
-static bool serves(const struct library *lib, const struct implementation *impl, const struct target *target)
+static bool serves(const struct library *lib, const struct implementation *impl,
+                   const struct target *target)
 {
-    return impl->kind != IMPL_BROKEN && (!target || !impl->target || target_is_a(target, text_of(lib, impl->target)));
+    return impl->kind != IMPL_BROKEN
+           && (!target || !impl->target || target_is_a(target, text_of(lib, impl->target)));
 }
 
 static bool has_implementation(const struct library *lib, uint32_t id, const struct target *target)
@@ -287,7 +299,8 @@ static bool has_implementation(const struct library *lib, uint32_t id, const str
 bool mxg_library_supports(const mxg_library *library, uint32_t nodedef, const char *target)
 {
     const struct target *found = target ? target_find(target) : NULL;
-    return found && nodedef < mxg_library_num_nodedefs(library) && has_implementation(&library->layer, nodedef, found);
+    return found && nodedef < mxg_library_num_nodedefs(library)
+           && has_implementation(&library->layer, nodedef, found);
 }
 
 mxg_status mxg_library_nodedef(const mxg_library *library, uint32_t index, mxg_nodedef *out)
@@ -312,7 +325,8 @@ mxg_status mxg_library_nodedef(const mxg_library *library, uint32_t index, mxg_n
     return struct_write(out, &full, sizeof full);
 }
 
-mxg_status mxg_library_port(const mxg_library *library, uint32_t nodedef, uint32_t index, mxg_port *out)
+mxg_status mxg_library_port(const mxg_library *library, uint32_t nodedef, uint32_t index,
+                            mxg_port *out)
 {
     if (nodedef >= mxg_library_num_nodedefs(library))
         return MXG_ERROR_ARGUMENT;

@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * The network of an element: which groups there are, the shader of each node that they need, and the lists of layers, which stand in the
- * place of stages.
+ * The network of an element: which groups there are, the shader of each node that they need, and
+ * the lists of layers, which stand in the place of stages.
  */
 #include "api/generation.h"
 
 /* ---- Groups ---- */
 
-static struct network_group *add_group(struct generation *g, enum network_use use, ir_ref front, ir_ref back)
+static struct network_group *add_group(struct generation *g, enum network_use use, ir_ref front,
+                                       ir_ref back)
 {
     mxg_result *result = g->result;
     struct network_group *group = &result->groups[result->num_groups++];
-    *group = (struct network_group){.network = &result->network, .use = use, .end = &result->target->network->ends[use]};
+    *group = (struct network_group){
+        .network = &result->network, .use = use, .end = &result->target->network->ends[use]};
     group->results[0] = build_network_input(g->builder, front);
     group->results[1] = build_network_input(g->builder, back);
     return group;
@@ -110,14 +112,16 @@ static void drop_unread(const struct shader *shader, struct network_node *node)
     str_id *names = ARENA_ARRAY(shader->arena, str_id, node->num_inputs);
     for (uint32_t i = 0; i < node->num_inputs; i++)
         for (uint32_t k = 0; node->inputs[i] && k < shader->interface.len; k++) {
-            const struct shader_variable *variable = &shader->variables.items[shader->interface.items[k]];
+            const struct shader_variable *variable =
+                &shader->variables.items[shader->interface.items[k]];
             if (variable->name == node->inputs[i] && variable->block != BLOCK_OUTPUTS)
                 names[i] = node->inputs[i];
         }
     node->inputs = names;
 }
 
-static bool make_node(struct generation *g, struct spell_options *options, struct network_node *node)
+static bool make_node(struct generation *g, struct spell_options *options,
+                      struct network_node *node)
 {
     mxg_result *result = g->result;
     struct shader *shader = new_shader(g, node);
@@ -131,7 +135,8 @@ static bool make_node(struct generation *g, struct spell_options *options, struc
     uint32_t num_marks;
     options->shader_name = str_text(&result->strings, node->name);
     text_init(&source, &result->object.arena);
-    spell_shader_stage(result->target, options, shader, STAGE_PIXEL, &g->scratch, &source, &marks, &num_marks);
+    spell_shader_stage(result->target, options, shader, STAGE_PIXEL, &g->scratch, &source, &marks,
+                       &num_marks);
     node->source = text_cstr(&source);
     node->size = source.len;
     return true;
@@ -163,13 +168,15 @@ static bool make_parts(struct generation *g)
             continue;
         if (!make_node(g, &options, node))
             return false;
-        add_part(result, &(struct network_part){str_text(&result->strings, node->name), node->source, node->size,
+        add_part(result, &(struct network_part){str_text(&result->strings, node->name),
+                                                node->source, node->size,
                                                 str_text(&result->strings, node->definition_name)});
     }
     for (uint32_t i = 0; i < result->num_groups; i++) {
         const struct network_end *end = result->groups[i].end;
         if (end->name)
-            add_part(result, &(struct network_part){end->name, end->source, strlen(end->source), ""});
+            add_part(result,
+                     &(struct network_part){end->name, end->source, strlen(end->source), ""});
     }
     return true;
 }
@@ -210,6 +217,9 @@ mxg_status mxg_result_part(const mxg_result *result, uint32_t index, mxg_part *o
     if (index >= mxg_result_num_parts(result))
         return MXG_ERROR_ARGUMENT;
     const struct network_part *part = &result->parts.items[index];
-    mxg_part full = {.name = part->name, .source = part->source, .source_size = part->size, .nodedef = part->nodedef};
+    mxg_part full = {.name = part->name,
+                     .source = part->source,
+                     .source_size = part->size,
+                     .nodedef = part->nodedef};
     return struct_write(out, &full, sizeof full);
 }

@@ -133,7 +133,8 @@ static void run_scratch_job(void *arg)
     job->work(job->arg, &job->scratch);
 }
 
-mxg_status context_run(struct mxg_context *context, void (*work)(void *arg, struct arena *scratch), void *arg)
+mxg_status context_run(struct mxg_context *context, void (*work)(void *arg, struct arena *scratch),
+                       void *arg)
 {
     struct mem mem;
     init_mem(&mem, context);

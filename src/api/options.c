@@ -11,7 +11,8 @@ struct mxg_options {
 };
 
 static const mxg_option table[NUM_OPTIONS] = {
-#define OPTION(id, key, type, values, initial, doc) {sizeof(mxg_option), key, MXG_OPTION_##type, values, initial, doc},
+#define OPTION(id, key, type, values, initial, doc) \
+    {sizeof(mxg_option), key, MXG_OPTION_##type, values, initial, doc},
 #include "api/options.def"
 #undef OPTION
 };
@@ -23,7 +24,8 @@ uint32_t mxg_num_options(void)
 
 mxg_status mxg_get_option(uint32_t index, mxg_option *out)
 {
-    return index < NUM_OPTIONS ? struct_write(out, &table[index], sizeof table[index]) : MXG_ERROR_ARGUMENT;
+    return index < NUM_OPTIONS ? struct_write(out, &table[index], sizeof table[index])
+                               : MXG_ERROR_ARGUMENT;
 }
 
 /* ---- Values from text ---- */
@@ -38,7 +40,8 @@ static bool parse_bool(const char *text, struct option_value *out)
 static bool parse_int(const mxg_option *option, const char *text, struct option_value *out)
 {
     int64_t low = 0, high = 0, value = 0;
-    size_t len = strlen(text), low_len = num_parse_int(option->values, strlen(option->values), &low);
+    size_t len = strlen(text),
+           low_len = num_parse_int(option->values, strlen(option->values), &low);
     const char *rest = option->values + low_len + 2;
     num_parse_int(rest, strlen(rest), &high);
     if (len == 0 || num_parse_int(text, len, &value) != len || value < low || value > high)
@@ -47,7 +50,8 @@ static bool parse_int(const mxg_option *option, const char *text, struct option_
     return true;
 }
 
-static bool parse_enum(struct arena *arena, const mxg_option *option, const char *text, struct option_value *out)
+static bool parse_enum(struct arena *arena, const mxg_option *option, const char *text,
+                       struct option_value *out)
 {
     size_t len = strlen(text);
     const char *word = option->values;
@@ -75,21 +79,15 @@ static void parse_list(struct arena *arena, const char *text, struct option_valu
     }
 }
 
-static bool parse(struct arena *arena, const mxg_option *option, const char *text, struct option_value *out)
+static bool parse(struct arena *arena, const mxg_option *option, const char *text,
+                  struct option_value *out)
 {
     switch (option->type) {
-    case MXG_OPTION_BOOL:
-        return parse_bool(text, out);
-    case MXG_OPTION_INT:
-        return parse_int(option, text, out);
-    case MXG_OPTION_ENUM:
-        return parse_enum(arena, option, text, out);
-    case MXG_OPTION_LIST:
-        parse_list(arena, text, out);
-        return true;
-    default:
-        out->text = arena_strndup(arena, text, strlen(text));
-        return true;
+    case MXG_OPTION_BOOL: return parse_bool(text, out);
+    case MXG_OPTION_INT: return parse_int(option, text, out);
+    case MXG_OPTION_ENUM: return parse_enum(arena, option, text, out);
+    case MXG_OPTION_LIST: parse_list(arena, text, out); return true;
+    default: out->text = arena_strndup(arena, text, strlen(text)); return true;
     }
 }
 
@@ -198,7 +196,8 @@ static void set(void *arg)
     }
     struct text text;
     text_init(&text, arena);
-    text_fmt(&text, "'%s' is not a value of option '%s'; expected %s", setting->value, setting->key, expected(arena, &table[i]));
+    text_fmt(&text, "'%s' is not a value of option '%s'; expected %s", setting->value, setting->key,
+             expected(arena, &table[i]));
     options->error = text_cstr(&text);
 }
 

@@ -34,16 +34,21 @@ static const struct shader_variable *variable_at(const mxg_result *result, uint3
 }
 
 /*
- * Ranges of a node's input hold for the input of a graph that goes there; what it is called does not: it is no "left operand".
+ * Ranges of a node's input hold for the input of a graph that goes there; what it is called does
+ * not: it is no "left operand".
  */
 static bool is_inherited(const struct document *doc, elem_id input, str_id attr)
 {
-    bool is_of_graph = input && doc_element(doc, doc_element(doc, input)->parent)->kind == KIND_NODEGRAPH;
-    return !is_of_graph || (attr != STR_doc && attr != STR_uiname && attr != STR_uifolder && attr != STR_uiadvanced);
+    bool is_of_graph =
+        input && doc_element(doc, doc_element(doc, input)->parent)->kind == KIND_NODEGRAPH;
+    return !is_of_graph
+           || (attr != STR_doc && attr != STR_uiname && attr != STR_uifolder
+               && attr != STR_uiadvanced);
 }
 
 /* An attribute of the document's own element, else of the definition's. */
-static const char *ui_text(const mxg_result *result, const struct shader_variable *variable, str_id attr)
+static const char *ui_text(const mxg_result *result, const struct shader_variable *variable,
+                           str_id attr)
 {
     const struct document *doc = &result->document->layer.doc;
     str_id value = variable->element ? doc_attr_value(doc, variable->element, attr) : 0;
@@ -70,7 +75,8 @@ void result_ui(void *user_data, const struct shader_variable *variable, struct s
     };
 }
 
-static void set_user_interface(const mxg_result *result, const struct shader_variable *variable, mxg_variable *out)
+static void set_user_interface(const mxg_result *result, const struct shader_variable *variable,
+                               mxg_variable *out)
 {
     struct shader_ui ui;
     result_ui((void *)(uintptr_t)result, variable, &ui);
@@ -95,13 +101,16 @@ static void set_default(const struct shader_variable *variable, mxg_variable *ou
     out->num_values = info->components;
     for (uint32_t i = 0; i < out->num_values && i < 16; i++) {
         union ir_word word = variable->value.w[i];
-        out->values[i] = info->scalar == IR_TYPE_FLOAT ? word.f : info->scalar == IR_TYPE_INT ? (float)word.i : (float)word.u;
+        out->values[i] = info->scalar == IR_TYPE_FLOAT ? word.f
+                         : info->scalar == IR_TYPE_INT ? (float)word.i
+                                                       : (float)word.u;
     }
 }
 
 mxg_status mxg_result_variable(const mxg_result *result, uint32_t index, mxg_variable *out)
 {
-    _Static_assert((int)MXG_BLOCK_OUTPUTS == BLOCK_OUTPUTS && (int)MXG_NUM_BLOCKS == NUM_BLOCKS, "blocks have the same numbers");
+    _Static_assert((int)MXG_BLOCK_OUTPUTS == BLOCK_OUTPUTS && (int)MXG_NUM_BLOCKS == NUM_BLOCKS,
+                   "blocks have the same numbers");
     if (index >= mxg_result_num_variables(result))
         return MXG_ERROR_ARGUMENT;
     const struct shader_variable *v = variable_at(result, index);
@@ -142,12 +151,14 @@ mxg_status mxg_result_variable(const mxg_result *result, uint32_t index, mxg_var
 
 static const struct shader_tile *tile_at(const mxg_result *result, uint32_t variable, uint32_t tile)
 {
-    if (variable >= mxg_result_num_variables(result) || tile >= variable_at(result, variable)->num_tiles)
+    if (variable >= mxg_result_num_variables(result)
+        || tile >= variable_at(result, variable)->num_tiles)
         return NULL;
     return &result->shader.tiles.items[variable_at(result, variable)->first_tile + tile];
 }
 
-mxg_status mxg_result_tile(const mxg_result *result, uint32_t variable, uint32_t index, mxg_tile *out)
+mxg_status mxg_result_tile(const mxg_result *result, uint32_t variable, uint32_t index,
+                           mxg_tile *out)
 {
     const struct shader_tile *tile = tile_at(result, variable, index);
     if (!tile)
@@ -156,8 +167,8 @@ mxg_status mxg_result_tile(const mxg_result *result, uint32_t variable, uint32_t
     return struct_write(out, &full, sizeof full);
 }
 
-size_t mxg_result_texture_file(const mxg_result *result, uint32_t variable, uint32_t tile, int32_t frame, char *out,
-                               size_t capacity)
+size_t mxg_result_texture_file(const mxg_result *result, uint32_t variable, uint32_t tile,
+                               int32_t frame, char *out, size_t capacity)
 {
     if (out && capacity)
         *out = '\0';
@@ -167,9 +178,11 @@ size_t mxg_result_texture_file(const mxg_result *result, uint32_t variable, uint
     const struct shader_tile *part = tile_at(result, variable, tile);
     if (v->num_tiles && !part)
         return 0;
-    const struct frame_sequence sequence = {text_of(result, v->sampling.framerange), text_of(result, v->sampling.frameendaction),
+    const struct frame_sequence sequence = {text_of(result, v->sampling.framerange),
+                                            text_of(result, v->sampling.frameendaction),
                                             v->sampling.frameoffset};
-    return frame_file(text_of(result, part ? part->file : v->file), &sequence, frame, out, capacity);
+    return frame_file(text_of(result, part ? part->file : v->file), &sequence, frame, out,
+                      capacity);
 }
 
 bool mxg_result_find_variable(const mxg_result *result, const char *path, uint32_t *out_index)
@@ -193,12 +206,14 @@ uint32_t mxg_result_num_compiled_inputs(const mxg_result *result)
     return result && result->has_shader ? result->shader.compiled.len : 0;
 }
 
-mxg_status mxg_result_compiled_input(const mxg_result *result, uint32_t index, mxg_compiled_input *out)
+mxg_status mxg_result_compiled_input(const mxg_result *result, uint32_t index,
+                                     mxg_compiled_input *out)
 {
     if (index >= mxg_result_num_compiled_inputs(result))
         return MXG_ERROR_ARGUMENT;
     const struct shader_compiled_input *input = &result->shader.compiled.items[index];
-    mxg_compiled_input full = {.path = text_of(result, input->path), .type = text_of(result, input->doc_type),
+    mxg_compiled_input full = {.path = text_of(result, input->path),
+                               .type = text_of(result, input->doc_type),
                                .value = text_of(result, input->value)};
     return struct_write(out, &full, sizeof full);
 }
@@ -242,7 +257,8 @@ mxg_status mxg_result_info(const mxg_result *result, mxg_shader_info *out)
     };
     /* the only part that costs something */
     if (out && out->size > offsetof(mxg_shader_info, topology)) {
-        const struct made_text *topology = object_text(&result->object, TEXT_TOPOLOGY, write_topology);
+        const struct made_text *topology =
+            object_text(&result->object, TEXT_TOPOLOGY, write_topology);
         if (!topology)
             return MXG_ERROR_MEMORY;
         memcpy(&full.topology, topology->data, sizeof full.topology);
@@ -268,7 +284,9 @@ static void write_json(const struct object *object, struct text *out)
 
 const char *mxg_result_reflection_json(const mxg_result *result, size_t *out_size)
 {
-    const struct made_text *made = result && result->has_shader ? object_text(&result->object, TEXT_REFLECTION, write_json) : NULL;
+    const struct made_text *made = result && result->has_shader
+                                       ? object_text(&result->object, TEXT_REFLECTION, write_json)
+                                       : NULL;
     if (out_size)
         *out_size = made ? made->size : 0;
     return made ? made->data : NULL;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Before a library is written as an image, each of its shading models is generated with every input variable, and what its functions
- * became is taken down: most materials use a model that way, for them the image has it ready (lang/fragment.h). And once more with nothing known
- * of the normals either: what the model and its lights became then is right for any inputs that are no constants.
+ * Before a library is written as an image, each of its shading models is generated with every input
+ * variable, and what its functions became is taken down: most materials use a model that way, for
+ * them the image has it ready (lang/fragment.h). And once more with nothing known of the normals
+ * either: what the model and its lights became then is right for any inputs that are no constants.
  */
 #include "api/generation.h"
 
@@ -20,27 +21,32 @@ static bool is_model(const struct library *lib, const struct nodedef *def)
 }
 
 /*
- * Nodes of which nothing is known, for inputs that are normals and the like, and what connects these inputs to them.
+ * Nodes of which nothing is known, for inputs that are normals and the like, and what connects
+ * these inputs to them.
  */
-static void write_properties(const struct library *lib, const struct nodedef *def, unsigned model, struct text *nodes, struct text *inputs)
+static void write_properties(const struct library *lib, const struct nodedef *def, unsigned model,
+                             struct text *nodes, struct text *inputs)
 {
     const struct port *ports = lib->ports.items + def->first_port;
     for (uint32_t i = 0; i < def->num_inputs; i++) {
         if (!ports[i].geomprop)
             continue;
         const char *type = str_text(&lib->strings, library_type_name(lib, ports[i].type));
-        text_fmt(nodes, "<geompropvalue name=\"any%u_%u\" type=\"%s\"><input name=\"geomprop\" type=\"string\" value=\"any%u\"/></geompropvalue>\n",
+        text_fmt(nodes,
+                 "<geompropvalue name=\"any%u_%u\" type=\"%s\"><input name=\"geomprop\" "
+                 "type=\"string\" value=\"any%u\"/></geompropvalue>\n",
                  model, i, type, i);
-        text_fmt(inputs, "<input name=\"%s\" type=\"%s\" nodename=\"any%u_%u\"/>", str_text(&lib->strings, ports[i].name), type, model, i);
+        text_fmt(inputs, "<input name=\"%s\" type=\"%s\" nodename=\"any%u_%u\"/>",
+                 str_text(&lib->strings, ports[i].name), type, model, i);
     }
 }
 
-static void write_model(const struct library *lib, const struct nodedef *def, const char *name, unsigned number, const char *inputs,
-                        struct text *out)
+static void write_model(const struct library *lib, const struct nodedef *def, const char *name,
+                        unsigned number, const char *inputs, struct text *out)
 {
     const char *node = str_text(&lib->strings, def->node);
-    text_fmt(out, "<%s name=\"%s%u\" type=\"surfaceshader\" nodedef=\"%s\">%s</%s>\n", node, name, number, str_text(&lib->strings, def->name),
-             inputs, node);
+    text_fmt(out, "<%s name=\"%s%u\" type=\"surfaceshader\" nodedef=\"%s\">%s</%s>\n", node, name,
+             number, str_text(&lib->strings, def->name), inputs, node);
 }
 
 /* A document with two nodes of each. */
@@ -67,7 +73,7 @@ struct rehearsal {
     struct lang_recorder *recorder;
     struct generation *generation;
     bool is_open; /* with unknown properties */
-    bool failed; /* no memory; told when nothing is held any more that a jump would forget */
+    bool failed;  /* no memory; told when nothing is held any more that a jump would forget */
 };
 
 static void record(void *arg)
@@ -92,7 +98,8 @@ static void record_safely(struct generation *g)
     rehearsal->failed = !mem_try(rehearsal->recorder->arena->mem, record, rehearsal);
 }
 
-static void rehearse(mxg_context *context, const mxg_document *document, unsigned index, struct rehearsal *rehearsal)
+static void rehearse(mxg_context *context, const mxg_document *document, unsigned index,
+                     struct rehearsal *rehearsal)
 {
     char name[32];
     snprintf(name, sizeof name, "%s%u", rehearsal->is_open ? "open" : "model", index);
@@ -102,13 +109,15 @@ static void rehearse(mxg_context *context, const mxg_document *document, unsigne
     mxg_result *result = NULL;
     struct mem *mem = rehearsal->recorder->arena->mem;
     jmp_buf *trap = mem->trap;
-    if (generation_run(context, document, &desc, record_safely, rehearsal, &result) == MXG_ERROR_MEMORY)
+    if (generation_run(context, document, &desc, record_safely, rehearsal, &result)
+        == MXG_ERROR_MEMORY)
         rehearsal->failed = true;
     mem->trap = trap; /* a jump of the generation's own passes by the trap of record_safely */
     mxg_result_destroy(result);
 }
 
-void library_rehearse(struct mxg_library *library, struct lang_recorder *recorder, struct arena *arena)
+void library_rehearse(struct mxg_library *library, struct lang_recorder *recorder,
+                      struct arena *arena)
 {
     mxg_context *context = library->object.context;
     mxg_document *document = NULL;
@@ -117,7 +126,8 @@ void library_rehearse(struct mxg_library *library, struct lang_recorder *recorde
     lang_recorder_init(recorder, arena, &library->layer.unit, library->layer.nodedefs.len);
     text_init(&models, arena);
     unsigned count = write_models(&library->layer, &models);
-    mxg_status status = mxg_document_parse(context, library, "models", models.data, models.len, &document);
+    mxg_status status =
+        mxg_document_parse(context, library, "models", models.data, models.len, &document);
     rehearsal.failed = status == MXG_ERROR_MEMORY;
     for (unsigned i = 0; i < 2 * count && document && !rehearsal.failed; i++) {
         rehearsal.is_open = i >= count;

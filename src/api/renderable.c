@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * What of a document can be rendered, as MaterialX chooses it: its materials; in a document without any, the outputs of its graphs
- * and its own, and beyond MaterialX the shaders that nothing uses. An element is used where an input or output is connected to it.
+ * What of a document can be rendered, as MaterialX chooses it: its materials; in a document without
+ * any, the outputs of its graphs and its own, and beyond MaterialX the shaders that nothing uses.
+ * An element is used where an input or output is connected to it.
  */
 #include "api/api.h"
 
@@ -16,7 +17,10 @@ static void mark_connection(struct scan *scan, elem_id port)
     const struct element *e = doc_element(doc, port);
     str_id node = doc_attr_value(doc, port, STR_nodename);
     /* An input's connection is a name beside its node, an output's one beside itself. */
-    elem_id target = node ? doc_child(doc, e->kind == KIND_OUTPUT ? e->parent : doc_element(doc, e->parent)->parent, node) : 0;
+    elem_id target =
+        node ? doc_child(
+            doc, e->kind == KIND_OUTPUT ? e->parent : doc_element(doc, e->parent)->parent, node)
+             : 0;
     if (target >= doc->first_element)
         scan->used[target - doc->first_element] = 1;
 }
@@ -26,7 +30,9 @@ static void mark_used(struct scan *scan)
     const struct document *doc = scan->doc;
     for (uint32_t i = 0; i < doc->elements.len; i++) {
         const struct element *e = &doc->elements.items[i];
-        if (e->parent && (e->kind == KIND_OUTPUT || (e->kind == KIND_INPUT && doc_element(doc, e->parent)->parent)))
+        if (e->parent
+            && (e->kind == KIND_OUTPUT
+                || (e->kind == KIND_INPUT && doc_element(doc, e->parent)->parent)))
             mark_connection(scan, doc->first_element + i);
     }
 }
@@ -42,7 +48,8 @@ static bool has_shader(const struct document *doc, elem_id material)
     for (elem_id e = doc_element(doc, material)->first_child; e; e = doc_element(doc, e)->next) {
         str_id type = doc_attr_value(doc, e, STR_type);
         if ((type == STR_surfaceshader || type == STR_volumeshader)
-            && (doc_attr_value(doc, e, STR_nodename) || doc_attr_value(doc, e, STR_nodegraph) || doc_attr_value(doc, e, STR_output)))
+            && (doc_attr_value(doc, e, STR_nodename) || doc_attr_value(doc, e, STR_nodegraph)
+                || doc_attr_value(doc, e, STR_output)))
             return true;
     }
     return false;
@@ -50,25 +57,29 @@ static bool has_shader(const struct document *doc, elem_id material)
 
 static bool is_material(const struct document *doc, elem_id node)
 {
-    return doc_element(doc, node)->kind == KIND_NODE && doc_attr_value(doc, node, STR_type) == STR_material && has_shader(doc, node);
+    return doc_element(doc, node)->kind == KIND_NODE
+           && doc_attr_value(doc, node, STR_type) == STR_material && has_shader(doc, node);
 }
 
 static bool is_loose_shader(const struct scan *scan, elem_id node)
 {
     str_id type = doc_attr_value(scan->doc, node, STR_type);
-    return doc_element(scan->doc, node)->kind == KIND_NODE && (type == STR_surfaceshader || type == STR_volumeshader)
-           && !is_used(scan, node);
+    return doc_element(scan->doc, node)->kind == KIND_NODE
+           && (type == STR_surfaceshader || type == STR_volumeshader) && !is_used(scan, node);
 }
 
 /* Closures and lights mean nothing by themselves, and text cannot be seen. */
 static bool is_renderable_output(const struct document *doc, elem_id output)
 {
     str_id type = doc_attr_value(doc, output, STR_type);
-    bool connected = doc_attr_value(doc, output, STR_nodename) || doc_attr_value(doc, output, STR_nodegraph);
+    bool connected =
+        doc_attr_value(doc, output, STR_nodename) || doc_attr_value(doc, output, STR_nodegraph);
     doc_type known = doc_type_of(type);
-    bool is_value = (doc_type_components(known) && doc_type_components(known) <= 4) || known == DOC_TYPE_boolean;
+    bool is_value = (doc_type_components(known) && doc_type_components(known) <= 4)
+                    || known == DOC_TYPE_boolean;
     return doc_element(doc, output)->kind == KIND_OUTPUT && connected
-           && (is_value || type == STR_material || type == STR_surfaceshader || type == STR_volumeshader);
+           && (is_value || type == STR_material || type == STR_surfaceshader
+               || type == STR_volumeshader);
 }
 
 static void add(mxg_document *document, elem_id element)

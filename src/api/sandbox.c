@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Which files documents may refer to. In a sandbox these lie in or below the folder of a file that the caller named, or one of the context's
- * include roots. Links are followed before paths are compared.
+ * Which files documents may refer to. In a sandbox these lie in or below the folder of a file that
+ * the caller named, or one of the context's include roots. Links are followed before paths are
+ * compared.
  */
 #define _XOPEN_SOURCE 700
 #include "api/api.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * The resolver of contexts that were given none: files relative to the referring file, then to the working directory.
+ * The resolver of contexts that were given none: files relative to the referring file, then to the
+ * working directory.
  */
 #include "api/api.h"
 
@@ -23,8 +24,10 @@ struct block {
 /* NULL without memory; the old block stays then. */
 static struct block *resize(struct mxg_context *context, struct block *block, size_t capacity)
 {
-    size_t size = sizeof *block + capacity, old_size = block ? block->size : 0, used = atomic_load(&context->used);
-    if (context->max_memory && (used > context->max_memory || size - old_size > context->max_memory - used))
+    size_t size = sizeof *block + capacity, old_size = block ? block->size : 0,
+           used = atomic_load(&context->used);
+    if (context->max_memory
+        && (used > context->max_memory || size - old_size > context->max_memory - used))
         return NULL;
     struct block *resized = context->mem.realloc(context->mem.user_data, block, old_size, size);
     if (resized) {
@@ -73,7 +76,8 @@ static struct block *join(struct mxg_context *context, const char *from, const c
 }
 
 /* Stops behind the size limit: the reader of the file refuses it then. */
-static struct block *read_all(struct mxg_context *context, FILE *file, size_t room, const char **out_reason)
+static struct block *read_all(struct mxg_context *context, FILE *file, size_t room,
+                              const char **out_reason)
 {
     size_t limit = ((size_t)context->xml_limits.max_file_mib + 1) << 20;
     struct block *text = resize(context, NULL, FIRST_READ + room);
@@ -98,7 +102,8 @@ static struct block *read_all(struct mxg_context *context, FILE *file, size_t ro
 
 enum outcome { OPENED, MISSING, UNREADABLE };
 
-static enum outcome open_at(struct mxg_context *context, const char *name, mxg_blob *out_blob, const char **out_reason)
+static enum outcome open_at(struct mxg_context *context, const char *name, mxg_blob *out_blob,
+                            const char **out_reason)
 {
     FILE *file = fopen(name, "rb");
     if (!file) {
@@ -117,9 +122,11 @@ static enum outcome open_at(struct mxg_context *context, const char *name, mxg_b
 }
 
 /*
- * A file that is there but cannot be read is not looked for elsewhere: it is the one that was meant.
+ * A file that is there but cannot be read is not looked for elsewhere: it is the one that was
+ * meant.
  */
-static bool open_file(void *user_data, const char *from, const char *ref, mxg_blob *out_blob, const char **out_reason)
+static bool open_file(void *user_data, const char *from, const char *ref, mxg_blob *out_blob,
+                      const char **out_reason)
 {
     struct mxg_context *context = user_data;
     /* beside the referring file is the working directory */
@@ -145,13 +152,16 @@ static void release_file(void *user_data, mxg_blob *blob)
     release(user_data, blob->handle);
 }
 
-static size_t list_folder(void *user_data, const char *from, const char *folder, char *names, size_t capacity)
+static size_t list_folder(void *user_data, const char *from, const char *folder, char *names,
+                          size_t capacity)
 {
     struct mxg_context *context = user_data;
     size_t size = 0;
     for (int i = 0; i < 2 && !size; i++) {
         struct block *name = join(context, i == 0 ? from : "", folder);
-        if (name && !(*from && context->sandbox && sandbox_fault(context, name->bytes[0] ? name->bytes : ".")))
+        if (name
+            && !(*from && context->sandbox
+                 && sandbox_fault(context, name->bytes[0] ? name->bytes : ".")))
             folder_names(name->bytes[0] ? name->bytes : ".", names, capacity, &size);
         release(context, name);
     }
@@ -160,5 +170,8 @@ static size_t list_folder(void *user_data, const char *from, const char *folder,
 
 mxg_resolver stdio_resolver(struct mxg_context *context)
 {
-    return (mxg_resolver){.user_data = context, .open = open_file, .release = release_file, .list_folder = list_folder};
+    return (mxg_resolver){.user_data = context,
+                          .open = open_file,
+                          .release = release_file,
+                          .list_folder = list_folder};
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Structs that begin with their size, so that later versions may add members: an older caller's is shorter than ours, a newer
- * caller's is longer.
+ * Structs that begin with their size, so that later versions may add members: an older caller's is
+ * shorter than ours, a newer caller's is longer.
  */
 #include "api/api.h"
 

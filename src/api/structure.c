@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * What a program will be, before it is generated: the structure of an element (build/structure.c), for a target with options.
+ * What a program will be, before it is generated: the structure of an element (build/structure.c),
+ * for a target with options.
  */
 #include "api/api.h"
 
@@ -35,13 +36,16 @@ static uint64_t hash_options(uint64_t hash, const struct option_value *values)
 /* Globs choose inputs by name, and networks have values in their code. */
 static bool is_covered(const struct option_value *values)
 {
-    return !values || (!values[OPTION_uniform].list.len && !values[OPTION_constant].list.len && !values[OPTION_osl_network].number);
+    return !values
+           || (!values[OPTION_uniform].list.len && !values[OPTION_constant].list.len
+               && !values[OPTION_osl_network].number);
 }
 
 static void find_structure(void *arg, struct arena *scratch)
 {
     struct question *question = arg;
-    const struct option_value *values = question->desc.options ? options_values(question->desc.options) : NULL;
+    const struct option_value *values =
+        question->desc.options ? options_values(question->desc.options) : NULL;
     const struct library *layer = &question->document->layer;
     str_id output_name;
     unsigned output;
@@ -49,23 +53,27 @@ static void find_structure(void *arg, struct arena *scratch)
         return;
     struct diag_list faults; /* a generation tells them */
     diag_list_init(&faults, scratch);
-    elem_id element = document_find_element(question->document, question->desc.element, &faults, &output_name, &output);
+    elem_id element = document_find_element(question->document, question->desc.element, &faults,
+                                            &output_name, &output);
     if (!element || faults.items.len)
         return;
     struct structure_options options = {
-        .interface = values ? (enum build_interface)values[OPTION_interface].number : INTERFACE_COMPLETE,
+        .interface =
+            values ? (enum build_interface)values[OPTION_interface].number : INTERFACE_COMPLETE,
         .colorspace = values ? values[OPTION_colorspace].text : library_color_hub,
         .seed = hash_options(add_text(layer->base->digest, question->desc.target), values),
     };
     question->answer = build_structure(layer, &options, element, output, scratch);
 }
 
-mxg_status mxg_document_structure(mxg_context *context, const mxg_document *document, const mxg_generate_desc *desc, uint64_t *out_structure)
+mxg_status mxg_document_structure(mxg_context *context, const mxg_document *document,
+                                  const mxg_generate_desc *desc, uint64_t *out_structure)
 {
     struct question question = {.document = document};
     if (out_structure)
         *out_structure = 0;
-    if (!context || !document || !out_structure || !desc || !struct_read(&question.desc, sizeof question.desc, desc) || !question.desc.target)
+    if (!context || !document || !out_structure || !desc
+        || !struct_read(&question.desc, sizeof question.desc, desc) || !question.desc.target)
         return MXG_ERROR_ARGUMENT;
     mxg_status status = context_run(context, find_structure, &question);
     *out_structure = status == MXG_OK ? question.answer : 0;

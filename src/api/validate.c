@@ -25,7 +25,8 @@ static void list_folder(struct texture_check *c, const char *from, const char *f
         return;
     size_t capacity = FIRST_NAMES, size;
     char *names = arena_alloc(c->arena, capacity);
-    while ((size = c->resolver->list_folder(c->resolver->user_data, from, folder, names, capacity)) > capacity)
+    while ((size = c->resolver->list_folder(c->resolver->user_data, from, folder, names, capacity))
+           > capacity)
         names = arena_alloc(c->arena, capacity = size);
     c->from = from;
     c->folder = folder;
@@ -46,24 +47,30 @@ enum { FIRST_TILE = 1001, TILE_ROW = 10, NUM_TILES = 1000 };
 /* Which tiles of "wood.<UDIM>.png" lie in the folder. */
 static void find_tiles(const struct texture_check *c, const char *pattern, bool is_there[NUM_TILES])
 {
-    size_t before = (size_t)(strstr(pattern, "<UDIM>") - pattern), behind = before + strlen("<UDIM>");
+    size_t before = (size_t)(strstr(pattern, "<UDIM>") - pattern),
+           behind = before + strlen("<UDIM>");
     memset(is_there, 0, NUM_TILES * sizeof *is_there);
     for (size_t at = 0; at < c->size; at += strlen(c->names + at) + 1) {
         const char *name = c->names + at;
         if (strncmp(name, pattern, before) != 0)
             continue;
         int number = 0, digits = 0;
-        for (; digits < 4 && name[before + (size_t)digits] >= '0' && name[before + (size_t)digits] <= '9'; digits++)
+        for (; digits < 4 && name[before + (size_t)digits] >= '0'
+               && name[before + (size_t)digits] <= '9';
+             digits++)
             number = number * 10 + name[before + (size_t)digits] - '0';
-        if (digits == 4 && number >= FIRST_TILE && number < FIRST_TILE + NUM_TILES && strcmp(name + before + 4, pattern + behind) == 0)
+        if (digits == 4 && number >= FIRST_TILE && number < FIRST_TILE + NUM_TILES
+            && strcmp(name + before + 4, pattern + behind) == 0)
             is_there[number - FIRST_TILE] = true;
     }
 }
 
 /*
- * The tiles of the rows that have any, up to the last one of each: a row that ends early is usual, one with a hole is not.
+ * The tiles of the rows that have any, up to the last one of each: a row that ends early is usual,
+ * one with a hole is not.
  */
-static void check_tiles(struct texture_check *c, const char *path, const char *pattern, struct diag_place place)
+static void check_tiles(struct texture_check *c, const char *path, const char *pattern,
+                        struct diag_place place)
 {
     bool is_there[NUM_TILES];
     struct text missing;
@@ -84,16 +91,19 @@ static void check_tiles(struct texture_check *c, const char *path, const char *p
 /* Tokens and frames are known when it is drawn; of tiles, generation tells where there are none. */
 static void check_texture(struct texture_check *c, elem_id element)
 {
-    str_id value = doc_attr_value(c->doc, element, STR_value), prefix = doc_inherited_attr(c->doc, element, STR_fileprefix);
+    str_id value = doc_attr_value(c->doc, element, STR_value),
+           prefix = doc_inherited_attr(c->doc, element, STR_fileprefix);
     struct text path;
     text_init(&path, c->arena);
     text_str(&path, str_text(c->doc->strings, prefix));
     text_str(&path, str_text(c->doc->strings, value));
-    const char *text = text_cstr(&path), *slash = strrchr(text, '/'), *name = slash ? slash + 1 : text;
+    const char *text = text_cstr(&path), *slash = strrchr(text, '/'),
+               *name = slash ? slash + 1 : text;
     struct diag_place place = doc_attr_place(c->doc, element, STR_value);
     if (!*name || strpbrk(text, "[{") || strstr(text, "://"))
         return;
-    list_folder(c, place.file ? place.file : "", arena_strndup(c->arena, text, (size_t)(name - text)));
+    list_folder(c, place.file ? place.file : "",
+                arena_strndup(c->arena, text, (size_t)(name - text)));
     if (strstr(name, "<UDIM>"))
         check_tiles(c, text, name, place);
     else if (!strchr(text, '<') && !has_name(c, name, strlen(name)))
@@ -107,7 +117,8 @@ static void check_textures(struct generation *g)
                               .resolver = &g->result->object.context->resolver,
                               .arena = &g->scratch,
                               .diags = &g->result->object.diagnostics.list};
-    for (elem_id e = c.resolver->list_folder ? doc->root : 0; e; e = doc_next_in_tree(doc, doc->root, e))
+    for (elem_id e = c.resolver->list_folder ? doc->root : 0; e;
+         e = doc_next_in_tree(doc, doc->root, e))
         if (doc_attr_value(doc, e, STR_type) == STR_filename && doc_attr_value(doc, e, STR_value))
             check_texture(&c, e);
 }
@@ -118,7 +129,8 @@ static void validate(struct generation *g)
     check_textures(g);
 }
 
-mxg_status mxg_document_validate(mxg_context *context, const mxg_document *document, mxg_result **out_result)
+mxg_status mxg_document_validate(mxg_context *context, const mxg_document *document,
+                                 mxg_result **out_result)
 {
     return generation_run(context, document, NULL, validate, NULL, out_result);
 }

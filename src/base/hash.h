@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Hashes for tables inside one process and one library image. Not stable between versions or byte orders.
+ * Hashes for tables inside one process and one library image. Not stable between versions or byte
+ * orders.
  */
 #ifndef MXG_BASE_HASH_H
 #define MXG_BASE_HASH_H
@@ -65,7 +66,8 @@ static inline uint32_t hash_pair(uint32_t a, uint32_t b)
 }
 
 /*
- * FNV-1a of 64 bits: stable everywhere, for hashes that leave the process (topology hash, image checksum).
+ * FNV-1a of 64 bits: stable everywhere, for hashes that leave the process (topology hash, image
+ * checksum).
  */
 static inline uint64_t hash_stable(uint64_t h, const void *data, size_t size)
 {

@@ -155,7 +155,8 @@ void *arena_zalloc(struct arena *arena, size_t size)
 
 static void *grow_large(struct arena *arena, void *block, size_t new_size)
 {
-    struct arena_chunk *chunk = (struct arena_chunk *)((char *)block - offsetof(struct arena_chunk, data));
+    struct arena_chunk *chunk =
+        (struct arena_chunk *)((char *)block - offsetof(struct arena_chunk, data));
     size_t size = sizeof *chunk + round_up(new_size);
     chunk = mem_realloc(arena->mem, chunk, chunk->size, size);
     chunk->size = size;
@@ -204,7 +205,8 @@ void *vec_more(struct arena *arena, void *items, uint32_t *cap, size_t item_size
         new_cap = 8;
     if (new_cap > UINT32_MAX)
         mem_fail(arena->mem);
-    items = arena_grow(arena, items, *cap * item_size, mem_array_size(arena->mem, (size_t)new_cap, item_size));
+    items = arena_grow(arena, items, *cap * item_size,
+                       mem_array_size(arena->mem, (size_t)new_cap, item_size));
     *cap = (uint32_t)new_cap;
     return items;
 }

@@ -5,10 +5,12 @@
 #include <string.h>
 
 /*
- * Powers of ten that a double holds exactly: their products and quotients with integers below 2^53 round once.
+ * Powers of ten that a double holds exactly: their products and quotients with integers below 2^53
+ * round once.
  */
-static const double exact_pow10[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
-                                     1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
+static const double exact_pow10[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
+                                     1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
+                                     1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
 
 enum { MAX_EXACT_POW10 = 22 };
 
@@ -22,8 +24,8 @@ static double scale_pow10(double value, int exponent)
 }
 
 /*
- * Fewest digits (as an integer) and the exponent of their last one, so that digits * 10^exponent == value > 0. Nine digits tell
- * all floats apart.
+ * Fewest digits (as an integer) and the exponent of their last one, so that digits * 10^exponent ==
+ * value > 0. Nine digits tell all floats apart.
  */
 static uint32_t shortest_digits(float value, int exponent, int *out_exponent)
 {
@@ -37,8 +39,8 @@ static uint32_t shortest_digits(float value, int exponent, int *out_exponent)
 }
 
 /*
- * The same for numbers that need all their digits before the point, since every integer below 2^24 is a float: so many digits of
- * the result are behind the point.
+ * The same for numbers that need all their digits before the point, since every integer below 2^24
+ * is a float: so many digits of the result are behind the point.
  */
 static uint32_t shortest_fraction(float value, unsigned *out_places)
 {
@@ -147,7 +149,9 @@ size_t num_print_float(char *out, float value)
     while (end[-1] == '0')
         end--;
     bool fixed = magnitude >= -5 && magnitude < 9;
-    return n + (fixed ? print_fixed : print_scientific)(out + n, digits, (size_t)(end - digits), magnitude);
+    return n
+           + (fixed ? print_fixed : print_scientific)(out + n, digits, (size_t)(end - digits),
+                                                      magnitude);
 }
 
 static bool is_digit(char c)
@@ -217,7 +221,10 @@ size_t num_parse_float(const char *text, size_t len, float *out_value)
 
 static int digit_value(char c, int base)
 {
-    int v = c >= '0' && c <= '9' ? c - '0' : c >= 'a' && c <= 'f' ? c - 'a' + 10 : c >= 'A' && c <= 'F' ? c - 'A' + 10 : 99;
+    int v = c >= '0' && c <= '9'   ? c - '0'
+            : c >= 'a' && c <= 'f' ? c - 'a' + 10
+            : c >= 'A' && c <= 'F' ? c - 'A' + 10
+                                   : 99;
     return v < base ? v : -1;
 }
 

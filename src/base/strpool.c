@@ -3,13 +3,15 @@
 
 #include "base/hash.h"
 
-static inline bool is_own_text(const struct strpool *pool, str_id id, const char *text, size_t len, uint32_t hash)
+static inline bool is_own_text(const struct strpool *pool, str_id id, const char *text, size_t len,
+                               uint32_t hash)
 {
     const struct str_entry *e = &pool->entries.items[id - pool->first];
     return e->hash == hash && e->len == len && memcmp(e->text, text, len) == 0;
 }
 
-static inline bool is_image_text(const struct strpool *pool, str_id id, const char *text, size_t len)
+static inline bool is_image_text(const struct strpool *pool, str_id id, const char *text,
+                                 size_t len)
 {
     const uint32_t *at = &pool->offsets[id - pool->first];
     return at[1] - at[0] - 1 == len && memcmp(pool->bytes + at[0], text, len) == 0;
@@ -38,7 +40,8 @@ static str_id find_hashed(const struct strpool *pool, const char *text, size_t l
         if (!pool->table)
             continue;
         str_id id;
-        for (uint32_t slot = hash & pool->table_mask; (id = pool->table[slot]); slot = (slot + 1) & pool->table_mask)
+        for (uint32_t slot = hash & pool->table_mask; (id = pool->table[slot]);
+             slot = (slot + 1) & pool->table_mask)
             if (is_own_text(pool, id, text, len, hash))
                 return id;
     }

@@ -2,11 +2,13 @@
 /*
  * Interned strings: one 32-bit id per distinct text, compared by id.
  *
- * Pools form layers. A document's pool stands on its library's: text which the library knows has the library's id,
- * new text gets an id beyond. A lower layer does not change while a higher one exists. The lowest layer
- * begins with the words of words.def, so that STR_type, STR_value… are constants.
+ * Pools form layers. A document's pool stands on its library's: text which the library knows has
+ * the library's id, new text gets an id beyond. A lower layer does not change while a higher one
+ * exists. The lowest layer begins with the words of words.def, so that STR_type, STR_value… are
+ * constants.
  *
- * A layer is either growing (pointers into an arena) or an image (offsets into a mapped block, see library/image.h).
+ * A layer is either growing (pointers into an arena) or an image (offsets into a mapped block, see
+ * library/image.h).
  */
 #ifndef MXG_BASE_STRPOOL_H
 #define MXG_BASE_STRPOOL_H
@@ -50,7 +52,8 @@ struct strpool {
 void strpool_init(struct strpool *pool, struct arena *arena, const struct strpool *base);
 
 /*
- * The id of a text, which is added where no layer has it. The bytes are copied; they must hold no NUL.
+ * The id of a text, which is added where no layer has it. The bytes are copied; they must hold no
+ * NUL.
  */
 str_id str_intern(struct strpool *pool, const char *text, size_t len);
 str_id str_intern_z(struct strpool *pool, const char *text);

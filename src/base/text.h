@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Text that grows: the writer of everything mxgen emits. Appending never fails but by running out of memory (mem.h).
+ * Text that grows: the writer of everything mxgen emits. Appending never fails but by running out
+ * of memory (mem.h).
  */
 #ifndef MXG_BASE_TEXT_H
 #define MXG_BASE_TEXT_H
@@ -45,8 +46,8 @@ static inline void text_mem(struct text *text, const char *bytes, size_t len)
 }
 
 /*
- * A word that is written often. It is copied in whole blocks, which costs less than to find out how long it is: so many bytes
- * may be read at `bytes`.
+ * A word that is written often. It is copied in whole blocks, which costs less than to find out how
+ * long it is: so many bytes may be read at `bytes`.
  */
 enum { TEXT_BLOCK = 16 };
 struct text_word {
@@ -85,7 +86,8 @@ void text_i32(struct text *text, int32_t value);
 void text_hex64(struct text *text, uint64_t value); /* 16 digits */
 
 /*
- * The shortest decimal that reads back to the same float, always with '.' or an exponent; "inf", "-inf", "nan".
+ * The shortest decimal that reads back to the same float, always with '.' or an exponent; "inf",
+ * "-inf", "nan".
  */
 void text_other_float(struct text *text, float value);
 static inline void text_float(struct text *text, float value)

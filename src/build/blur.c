@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * blur: a shader computes its input at one point, but the input is a graph, which can be built again for other texture coordinates:
+ * blur: a shader computes its input at one point, but the input is a graph, which can be built
+ * again for other texture coordinates:
  *
  *     blur(in) = Σ weight[i] weight[j] in(uv + size (node[i], node[j])),  i, j = 0..2
  *
- * The nodes are those of quadrature with three points (Abramowitz and Stegun, "Handbook of Mathematical Functions", 25.4.30 and 25.4.46),
- * exact where the input is a polynomial of degree 5 over the kernel. Textures are read with a footprint as wide as the nodes are apart, so
- * that what lies between is seen in their smaller levels.
+ * The nodes are those of quadrature with three points (Abramowitz and Stegun, "Handbook of
+ * Mathematical Functions", 25.4.30 and 25.4.46), exact where the input is a polynomial of degree 5
+ * over the kernel. Textures are read with a footprint as wide as the nodes are apart, so that what
+ * lies between is seen in their smaller levels.
  *
  * What does not follow texture coordinates is the same everywhere, and stays.
  */
@@ -29,15 +31,16 @@ struct blur {
     const uint8_t *needed;
     ir_ref in;
     ir_ref offsets[TAPS][2];
-    ir_ref *moved;    /* TAPS per node: 0 where it does not follow texture coordinates */
+    ir_ref *moved; /* TAPS per node: 0 where it does not follow texture coordinates */
     uint32_t num_moved;
-    bool is_unknown;  /* it depends on what the caller of a function passes */
+    bool is_unknown; /* it depends on what the caller of a function passes */
 };
 
 static const struct kernel *find_kernel(const struct builder *b, ir_ref filtertype)
 {
     struct ir_value value;
-    bool known = filtertype && ir_get_const(b->graph, filtertype, &value) && value.type == IR_TYPE_STRING;
+    bool known =
+        filtertype && ir_get_const(b->graph, filtertype, &value) && value.type == IR_TYPE_STRING;
     const char *name = known ? build_text(b, value.w[0].u) : "";
     for (size_t i = 0; i < sizeof kernels / sizeof *kernels; i++)
         if (strcmp(name, kernels[i].name) == 0)
@@ -51,7 +54,8 @@ static void set_offsets(struct blur *blur, const struct kernel *kernel, ir_ref s
     for (int tap = 0; tap < TAPS; tap++)
         for (int axis = 0; axis < 2; axis++) {
             int step = (axis == 0 ? tap % POINTS : tap / POINTS) - 1;
-            blur->offsets[tap][axis] = ir_op2(g, IR_MUL, size, ir_const_float(g, (float)step * kernel->node));
+            blur->offsets[tap][axis] =
+                ir_op2(g, IR_MUL, size, ir_const_float(g, (float)step * kernel->node));
         }
 }
 
@@ -64,7 +68,9 @@ static bool is_texcoord(const struct blur *blur, const struct ir_node *node)
 {
     const struct shader *shader = blur->b->shader;
     return node->op == IR_STREAM
-        && strncmp(str_text(shader->strings, shader->variables.items[node->attr].name), "texcoord_", 9) == 0;
+           && strncmp(str_text(shader->strings, shader->variables.items[node->attr].name),
+                      "texcoord_", 9)
+                  == 0;
 }
 
 static void move_texcoord(struct blur *blur, ir_ref ref)
@@ -79,7 +85,8 @@ static void move_texcoord(struct blur *blur, ir_ref ref)
 }
 
 /*
- * Half of what coordinates change by between the outer nodes along an axis, added to what they change by on the screen.
+ * Half of what coordinates change by between the outer nodes along an axis, added to what they
+ * change by on the screen.
  */
 static ir_ref footprint(struct blur *blur, ir_ref uv, enum ir_op derivative, int before, int behind)
 {
@@ -103,7 +110,8 @@ static void move_texture(struct blur *blur, ir_ref ref)
 }
 
 /* The derivative of coordinates that a texture is read with, as wide as the nodes are apart. */
-static ir_ref widened(struct blur *blur, ir_ref gradient, enum ir_op derivative, int before, int behind)
+static ir_ref widened(struct blur *blur, ir_ref gradient, enum ir_op derivative, int before,
+                      int behind)
 {
     struct ir_graph *g = blur->b->graph;
     ir_ref uv = ir_get(g, gradient)->op == derivative ? ir_arg(g, gradient, 0) : 0;
@@ -114,9 +122,11 @@ static ir_ref widened(struct blur *blur, ir_ref gradient, enum ir_op derivative,
 static void move_gradient_texture(struct blur *blur, ir_ref ref)
 {
     struct ir_graph *g = blur->b->graph;
-    ir_ref at = ir_arg(g, ref, 1), dx = widened(blur, ir_arg(g, ref, 2), IR_DFDX, 3, 5), dy = widened(blur, ir_arg(g, ref, 3), IR_DFDY, 1, 7);
+    ir_ref at = ir_arg(g, ref, 1), dx = widened(blur, ir_arg(g, ref, 2), IR_DFDX, 3, 5),
+           dy = widened(blur, ir_arg(g, ref, 3), IR_DFDY, 1, 7);
     for (int tap = 0; tap < TAPS; tap++) {
-        ir_ref moved = moved_of(blur, at)[tap], args[4] = {ir_arg(g, ref, 0), moved ? moved : at, dx, dy};
+        ir_ref moved = moved_of(blur, at)[tap],
+               args[4] = {ir_arg(g, ref, 0), moved ? moved : at, dx, dy};
         moved_of(blur, ref)[tap] = ir_build(g, IR_TEX_GRAD, IR_TYPE_VEC4, 0, args, 4);
     }
 }
@@ -131,7 +141,8 @@ static void move_node(struct blur *blur, ir_ref ref)
             ir_ref arg = ir_arg(g, ref, i), moved = moved_of(blur, arg)[tap];
             args[i] = moved ? moved : arg;
         }
-        moved_of(blur, ref)[tap] = ir_build(g, (enum ir_op)node.op, node.type, node.attr, args, node.num_args);
+        moved_of(blur, ref)[tap] =
+            ir_build(g, (enum ir_op)node.op, node.type, node.attr, args, node.num_args);
     }
 }
 
@@ -165,7 +176,8 @@ static ir_ref sum(struct blur *blur, const struct kernel *kernel)
     struct ir_graph *g = blur->b->graph;
     ir_ref total = 0;
     for (int tap = 0; tap < TAPS; tap++) {
-        float x = tap % POINTS == 1 ? kernel->middle : kernel->side, y = tap / POINTS == 1 ? kernel->middle : kernel->side;
+        float x = tap % POINTS == 1 ? kernel->middle : kernel->side,
+              y = tap / POINTS == 1 ? kernel->middle : kernel->side;
         ir_ref part = ir_op2(g, IR_MUL, moved_of(blur, blur->in)[tap], ir_const_float(g, x * y));
         total = total ? ir_op2(g, IR_ADD, total, part) : part;
     }
@@ -177,7 +189,8 @@ ir_ref build_blur(struct builder *b, ir_ref in, ir_ref size, ir_ref filtertype, 
     if (!in || ir_const_is(b->graph, size, 0.0f))
         return in;
     if (b->recorder && !ir_is_const(b->graph, in)) {
-        diag_add(b->diags, DIAG_ID_blur_left_out, doc_place(&b->lib->doc, node), "a layer of a network cannot ask for its input elsewhere");
+        diag_add(b->diags, DIAG_ID_blur_left_out, doc_place(&b->lib->doc, node),
+                 "a layer of a network cannot ask for its input elsewhere");
         return in;
     }
     const struct kernel *kernel = find_kernel(b, filtertype);
@@ -190,7 +203,8 @@ ir_ref build_blur(struct builder *b, ir_ref in, ir_ref size, ir_ref filtertype, 
             move(&blur, ref);
     if (blur.num_moved > MAX_MOVED || blur.is_unknown) {
         diag_add(b->diags, DIAG_ID_blur_left_out, doc_place(&b->lib->doc, node),
-                 blur.is_unknown ? "it is part of a definition that is used often" : "its input is too large to be computed nine times");
+                 blur.is_unknown ? "it is part of a definition that is used often"
+                                 : "its input is too large to be computed nine times");
         return in;
     }
     return moved_of(&blur, in)[0] ? sum(&blur, kernel) : in;

@@ -20,7 +20,8 @@ static const struct known_option {
                      {"option_sample_filter", offsetof(struct build_options, sample_filter)}};
 enum { NUM_KNOWN_OPTIONS = sizeof known_options / sizeof *known_options };
 
-static const int *option_value(const struct build_options *options, const struct known_option *known)
+static const int *option_value(const struct build_options *options,
+                               const struct known_option *known)
 {
     return (const int *)(const void *)((const char *)options + known->offset);
 }
@@ -50,17 +51,19 @@ static uint32_t choice_of(const struct build_options *options)
 }
 
 /*
- * How functions of the library see the host: uniforms and streams become interface variables, options constants.
+ * How functions of the library see the host: uniforms and streams become interface variables,
+ * options constants.
  */
-static ir_ref make_global(struct builder *b, struct ir_graph *graph, const struct lang_unit *unit, uint32_t global_id)
+static ir_ref make_global(struct builder *b, struct ir_graph *graph, const struct lang_unit *unit,
+                          uint32_t global_id)
 {
     const struct lang_unit *layer;
     const struct lang_global *global = lang_global(unit, global_id, &layer);
     switch ((enum lang_global_kind)global->kind) {
-    case LANG_GLOBAL_STREAM:
-        return shader_stream(b->shader, global->name, global->type);
+    case LANG_GLOBAL_STREAM: return shader_stream(b->shader, global->name, global->type);
     case LANG_GLOBAL_UNIFORM: {
-        uint32_t variable = shader_private_uniform(b->shader, global->name, global->type, (uint16_t)global->array_length);
+        uint32_t variable = shader_private_uniform(b->shader, global->name, global->type,
+                                                   (uint16_t)global->array_length);
         enum ir_op op = global->type == IR_TYPE_SAMPLER ? IR_TEXTURE : IR_UNIFORM;
         return ir_build(graph, op, global->type, variable, NULL, 0);
     }
@@ -70,15 +73,15 @@ static ir_ref make_global(struct builder *b, struct ir_graph *graph, const struc
             return ir_const_int(graph, *option);
         break;
     }
-    case LANG_GLOBAL_CONST:
-        break;
+    case LANG_GLOBAL_CONST: break;
     }
     struct ir_value value = {.type = global->type};
     memcpy(value.w, layer->words.items + global->words, global->num_words * sizeof *value.w);
     return ir_const(graph, &value);
 }
 
-static ir_ref global_node(void *user_data, struct ir_graph *graph, const struct lang_unit *unit, uint32_t global_id)
+static ir_ref global_node(void *user_data, struct ir_graph *graph, const struct lang_unit *unit,
+                          uint32_t global_id)
 {
     struct builder *b = user_data;
     if (!b->globals[global_id])
@@ -87,12 +90,13 @@ static ir_ref global_node(void *user_data, struct ir_graph *graph, const struct 
 }
 
 /*
- * Functions of at most this many tree nodes are lowered into the shader's graph instead of being called.
+ * Functions of at most this many tree nodes are lowered into the shader's graph instead of being
+ * called.
  */
 enum { INLINE_NODES = 14 };
 
-struct builder *build_start(const struct library *lib, const struct build_options *options, struct shader *shader,
-                            struct diag_list *diags)
+struct builder *build_start(const struct library *lib, const struct build_options *options,
+                            struct shader *shader, struct diag_list *diags)
 {
     struct builder *b = ARENA_NEW(shader->arena, struct builder);
     b->lib = lib;
@@ -104,10 +108,14 @@ struct builder *build_start(const struct library *lib, const struct build_option
     diags->trace = build_trace; /* the builder lives as long as the list: both are the result's */
     diags->trace_data = b;
     b->resolved.arena = b->arena;
-    b->globals = ARENA_ARRAY(b->arena, ir_ref, shader->unit->base_globals + shader->unit->globals.len);
+    b->globals =
+        ARENA_ARRAY(b->arena, ir_ref, shader->unit->base_globals + shader->unit->globals.len);
     b->may_restore = build_may_restore(b);
-    b->host = (struct lang_host){.user_data = b, .global = global_node, .texture = build_read_tiles, .max_inline_nodes = INLINE_NODES,
-                                .choice = choice_of(options)};
+    b->host = (struct lang_host){.user_data = b,
+                                 .global = global_node,
+                                 .texture = build_read_tiles,
+                                 .max_inline_nodes = INLINE_NODES,
+                                 .choice = choice_of(options)};
     b->document = ARENA_NEW(b->arena, struct instance);
     b->document->nodedef = LIBRARY_NONE;
     b->document->first = lib->doc.first_element;
@@ -130,9 +138,11 @@ static void publish_nodes(struct builder *b, elem_id node)
     vec_push(b->arena, &b->public_nodes, node);
     struct diag_list ignored; /* told when the node itself is resolved */
     diag_list_init(&ignored, b->arena);
-    for (elem_id e = doc_element(doc_of(b), node)->first_child; e; e = doc_element(doc_of(b), e)->next) {
+    for (elem_id e = doc_element(doc_of(b), node)->first_child; e;
+         e = doc_element(doc_of(b), e)->next) {
         doc_type type = library_type(b->lib, doc_attr_value(doc_of(b), e, STR_type));
-        if (doc_element(doc_of(b), e)->kind != KIND_INPUT || !type || !ir_type_is_shader(library_type_ir(b->lib, type)))
+        if (doc_element(doc_of(b), e)->kind != KIND_INPUT || !type
+            || !ir_type_is_shader(library_type_ir(b->lib, type)))
             continue;
         struct binding binding = library_resolve_connection(b->lib, e, type, &ignored);
         if (binding.kind == BIND_NODE)
@@ -164,7 +174,10 @@ static ir_ref build_output_element(struct builder *b, elem_id output)
             return 0;
     }
     struct port port = {.name = STR_out, .type = type, .element = output};
-    return binding.kind == BIND_ERROR ? 0 : build_input(b, b->document, doc_element(doc_of(b), output)->parent, &port, &binding);
+    return binding.kind == BIND_ERROR
+               ? 0
+               : build_input(b, b->document, doc_element(doc_of(b), output)->parent, &port,
+                             &binding);
 }
 
 ir_ref build_element(struct builder *b, elem_id element, unsigned output)

@@ -18,9 +18,11 @@ str_id build_colorspace(struct builder *b, elem_id element)
 }
 
 /* 0: the library has no such transform. */
-static ir_ref transform(struct builder *b, ir_ref value, doc_type type, const char *from, const char *to)
+static ir_ref transform(struct builder *b, ir_ref value, doc_type type, const char *from,
+                        const char *to)
 {
-    uint32_t nodedef = library_color_transform(b->lib, from, to, build_text(b, library_type_name(b->lib, type)));
+    uint32_t nodedef =
+        library_color_transform(b->lib, from, to, build_text(b, library_type_name(b->lib, type)));
     if (!value || nodedef == LIBRARY_NONE)
         return 0;
     ir_ref results[BUILD_MAX_OUTPUTS];
@@ -30,9 +32,11 @@ static ir_ref transform(struct builder *b, ir_ref value, doc_type type, const ch
 
 void build_check_colorspace(struct builder *b)
 {
-    const char *space = build_text(b, canonical_space(b, b->options->colorspace)), *hub = library_color_hub;
+    const char *space = build_text(b, canonical_space(b, b->options->colorspace)),
+               *hub = library_color_hub;
     ir_ref black = ir_const_splat(b->graph, IR_TYPE_VEC3, 0.0f);
-    b->has_colorspace = strcmp(space, hub) == 0 || strcmp(space, "none") == 0 || transform(b, black, DOC_TYPE_color3, hub, space);
+    b->has_colorspace = strcmp(space, hub) == 0 || strcmp(space, "none") == 0
+                        || transform(b, black, DOC_TYPE_color3, hub, space);
     if (!b->has_colorspace)
         diag_add(b->diags, DIAG_ID_bad_option, (struct diag_place){0}, space, "colorspace",
                  "a linear colour space that the library converts lin_rec709 to");
@@ -41,18 +45,24 @@ void build_check_colorspace(struct builder *b)
 void build_check_distance_unit(struct builder *b)
 {
     const char *unit = build_text(b, b->options->distance_unit);
-    b->has_distance_unit = strcmp(unit, "meter") == 0 || library_unit_type_of(b->lib, b->options->distance_unit) == STR_distance;
+    b->has_distance_unit =
+        strcmp(unit, "meter") == 0
+        || library_unit_type_of(b->lib, b->options->distance_unit) == STR_distance;
     if (!b->has_distance_unit)
         diag_add(b->diags, DIAG_ID_bad_option, (struct diag_place){0}, unit, "distance-unit",
                  "a unit of distance that the library knows, such as meter or centimeter");
 }
 
-ir_ref build_color_transform(struct builder *b, ir_ref value, doc_type type, str_id space, struct diag_place place)
+ir_ref build_color_transform(struct builder *b, ir_ref value, doc_type type, str_id space,
+                             struct diag_place place)
 {
-    const char *from = build_text(b, space), *to = build_text(b, canonical_space(b, b->options->colorspace)), *hub = library_color_hub;
+    const char *from = build_text(b, space),
+               *to = build_text(b, canonical_space(b, b->options->colorspace)),
+               *hub = library_color_hub;
     ir_ref result = strcmp(from, to) == 0 ? value : transform(b, value, type, from, to);
     if (!result)
-        result = transform(b, strcmp(from, hub) == 0 ? value : transform(b, value, type, from, hub), type, hub, to);
+        result = transform(b, strcmp(from, hub) == 0 ? value : transform(b, value, type, from, hub),
+                           type, hub, to);
     if (!result && b->has_colorspace)
         library_report_space(b->lib, from, place, b->diags);
     return result ? result : ir_poison(b->graph, ir_type_of(b->graph, value));
@@ -60,7 +70,8 @@ ir_ref build_color_transform(struct builder *b, ir_ref value, doc_type type, str
 
 /* ---- units ---- */
 
-ir_ref build_unit_conversion(struct builder *b, ir_ref value, elem_id element, const struct port *port)
+ir_ref build_unit_conversion(struct builder *b, ir_ref value, elem_id element,
+                             const struct port *port)
 {
     const struct document *doc = &b->lib->doc;
     str_id unit = doc_attr_value(doc, element, STR_unit);
@@ -78,9 +89,11 @@ ir_ref build_unit_conversion(struct builder *b, ir_ref value, elem_id element, c
     if (target == b->options->distance_unit && !b->has_distance_unit)
         return value;
     float from, to;
-    if (!library_unit_scale(b->lib, type, unit, &from) || !library_unit_scale(b->lib, type, target, &to)) {
+    if (!library_unit_scale(b->lib, type, unit, &from)
+        || !library_unit_scale(b->lib, type, target, &to)) {
         library_report_unit(b->lib, type, unit, doc_attr_place(doc, element, STR_unit), b->diags);
         return value;
     }
-    return from == to ? value : ir_op2(b->graph, IR_MUL, value, ir_const_float(b->graph, from / to));
+    return from == to ? value
+                      : ir_op2(b->graph, IR_MUL, value, ir_const_float(b->graph, from / to));
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * The machine that asks: each frame is a node whose inputs are being asked for. A node is built once per scope; a graph used twice
- * with equal arguments is built once.
+ * The machine that asks: each frame is a node whose inputs are being asked for. A node is built
+ * once per scope; a graph used twice with equal arguments is built once.
  */
 #include "build/build_priv.h"
 
@@ -16,7 +16,8 @@ static uint32_t *slot_of(struct instance *scope, elem_id node)
     return &scope->slots[node - scope->first];
 }
 
-ir_ref build_result(struct builder *b, struct instance *scope, elem_id node, unsigned output, doc_type type)
+ir_ref build_result(struct builder *b, struct instance *scope, elem_id node, unsigned output,
+                    doc_type type)
 {
     uint32_t slot = *slot_of(scope, node);
     if (slot < SLOT_RESULTS)
@@ -40,7 +41,9 @@ static void report_cycle(struct builder *b, const struct instance *scope, elem_i
     struct text path;
     text_init(&path, b->arena);
     uint32_t first = b->frames.len;
-    while (first > 0 && !(b->frames.items[first - 1].scope == scope && b->frames.items[first - 1].node.element == node))
+    while (first > 0
+           && !(b->frames.items[first - 1].scope == scope
+                && b->frames.items[first - 1].node.element == node))
         first--;
     uint32_t shown = 0;
     for (uint32_t i = first ? first - 1 : 0; i < b->frames.len && shown < 64; i++)
@@ -60,7 +63,8 @@ static bool is_recursive(const struct instance *scope, elem_id graph)
     return false;
 }
 
-static void report_recursion(struct builder *b, const struct instance *scope, elem_id graph, elem_id node)
+static void report_recursion(struct builder *b, const struct instance *scope, elem_id graph,
+                             elem_id node)
 {
     struct text path;
     text_init(&path, b->arena);
@@ -70,7 +74,8 @@ static void report_recursion(struct builder *b, const struct instance *scope, el
         if (s->graph == graph)
             break;
     }
-    diag_add(b->diags, DIAG_ID_recursive_definition, doc_place(doc_of(b), node), name_of(b, graph), text_cstr(&path));
+    diag_add(b->diags, DIAG_ID_recursive_definition, doc_place(doc_of(b), node), name_of(b, graph),
+             text_cstr(&path));
 }
 
 static uint32_t hash_args(uint32_t impl, const ir_ref *args, uint32_t n)
@@ -102,10 +107,12 @@ struct memo *build_memo(struct builder *b, uint32_t impl, const ir_ref *args, ui
     uint32_t slot = hash & b->memo_mask;
     for (; b->memo_table[slot]; slot = (slot + 1) & b->memo_mask) {
         struct memo *m = &b->memos.items[b->memo_table[slot] - 1];
-        if (m->hash == hash && m->impl == impl && (n == 0 || memcmp(m->args, args, n * sizeof *args) == 0))
+        if (m->hash == hash && m->impl == impl
+            && (n == 0 || memcmp(m->args, args, n * sizeof *args) == 0))
             return m;
     }
-    vec_push(b->arena, &b->memos, (struct memo){.hash = hash, .impl = impl, .args = args, .num_args = n});
+    vec_push(b->arena, &b->memos,
+             (struct memo){.hash = hash, .impl = impl, .args = args, .num_args = n});
     b->memo_table[slot] = b->memos.len;
     return &vec_last(&b->memos);
 }
@@ -117,7 +124,8 @@ static struct instance *new_instance(struct builder *b, struct instance *parent,
     inner->graph = graph;
     inner->depth = parent->depth + 1;
     elem_id low = UINT32_MAX, high = 0;
-    for (elem_id e = doc_element(doc_of(b), graph)->first_child; e; e = doc_element(doc_of(b), e)->next) {
+    for (elem_id e = doc_element(doc_of(b), graph)->first_child; e;
+         e = doc_element(doc_of(b), e)->next) {
         low = e < low ? e : low;
         high = e > high ? e : high;
     }
@@ -132,7 +140,8 @@ static void resolve(struct builder *b, struct frame *frame, elem_id node)
 {
     const struct library *layer;
     uint32_t own = library_element_info(b->lib, node, &layer);
-    if (own != LIBRARY_NONE && own < layer->graph_nodes.len && layer->graph_nodes.items[own].element == node) {
+    if (own != LIBRARY_NONE && own < layer->graph_nodes.len
+        && layer->graph_nodes.items[own].element == node) {
         frame->node = layer->graph_nodes.items[own];
         frame->bindings = layer->bindings.items + frame->node.first_binding;
         return;
@@ -194,11 +203,13 @@ static void build_args(struct builder *b, struct frame *frame)
     const struct port *ports = library_ports(b->lib, frame->node.nodedef, NULL);
     frame->args = ARENA_ARRAY(b->arena, ir_ref, def->num_inputs);
     for (uint32_t i = 0; i < def->num_inputs; i++)
-        frame->args[i] = build_input(b, frame->scope, frame->node.element, &ports[i], &frame->bindings[i]);
+        frame->args[i] =
+            build_input(b, frame->scope, frame->node.element, &ports[i], &frame->bindings[i]);
 }
 
 /*
- * Image nodes read a file that is given in a colour space: what they return is converted (specification, "Color Spaces").
+ * Image nodes read a file that is given in a colour space: what they return is converted
+ * (specification, "Color Spaces").
  */
 static void convert_colors(struct builder *b, const struct frame *frame, ir_ref *results)
 {
@@ -211,8 +222,9 @@ static void convert_colors(struct builder *b, const struct frame *frame, ir_ref 
         for (uint32_t o = 0; space && o < def->num_outputs; o++) {
             doc_type type = ports[def->num_inputs + o].type;
             if (type == DOC_TYPE_color3 || type == DOC_TYPE_color4)
-                results[o] = build_color_transform(b, results[o], type, space,
-                                                   doc_attr_place(doc_of(b), frame->bindings[i].element, STR_colorspace));
+                results[o] = build_color_transform(
+                    b, results[o], type, space,
+                    doc_attr_place(doc_of(b), frame->bindings[i].element, STR_colorspace));
         }
         return;
     }
@@ -220,15 +232,16 @@ static void convert_colors(struct builder *b, const struct frame *frame, ir_ref 
 
 static void set_origin(struct builder *b, const struct frame *frame)
 {
-    b->graph->origin = ir_add_origin(b->graph, doc_element(doc_of(b), frame->node.element)->name, frame->node.element,
-                                     frame->scope->origin);
+    b->graph->origin = ir_add_origin(b->graph, doc_element(doc_of(b), frame->node.element)->name,
+                                     frame->node.element, frame->scope->origin);
 }
 
 /* The results of a graph for these arguments are known: they are kept for equal uses. */
 static void finish_graph(struct builder *b, struct frame *frame, ir_ref *results)
 {
     convert_colors(b, frame, results);
-    uint32_t first = add_results(b, results, library_nodedef(b->lib, frame->node.nodedef)->num_outputs);
+    uint32_t first =
+        add_results(b, results, library_nodedef(b->lib, frame->node.nodedef)->num_outputs);
     if (!frame->has_tokens)
         b->memos.items[frame->memo_key].first_result = first + 1;
     finish(b, first);
@@ -250,7 +263,8 @@ static void enter_graph(struct builder *b, struct frame *frame)
     elem_id graph = frame->impl->ref;
     if (is_recursive(frame->scope, graph) || frame->scope->depth >= MAX_DEFINITION_DEPTH) {
         if (frame->scope->depth >= MAX_DEFINITION_DEPTH)
-            diag_add(b->diags, DIAG_ID_graph_depth, doc_place(doc_of(b), frame->node.element), MAX_DEFINITION_DEPTH);
+            diag_add(b->diags, DIAG_ID_graph_depth, doc_place(doc_of(b), frame->node.element),
+                     MAX_DEFINITION_DEPTH);
         else
             report_recursion(b, frame->scope, graph, frame->node.element);
         *slot_of(frame->scope, frame->node.element) = SLOT_ERROR;
@@ -265,7 +279,8 @@ static void enter_graph(struct builder *b, struct frame *frame)
     }
     frame->memo_key = (uint32_t)(memo - b->memos.items);
     frame->outline = frame->has_tokens ? LIBRARY_NONE : build_outlined(b, frame);
-    uint32_t function = frame->outline == LIBRARY_NONE ? 0 : b->memos.items[frame->outline].function;
+    uint32_t function =
+        frame->outline == LIBRARY_NONE ? 0 : b->memos.items[frame->outline].function;
     if (function) {
         finish_call(b, frame, function - 1);
         return;
@@ -317,7 +332,8 @@ static void step_inputs(struct builder *b)
 static elem_id inner_output(const struct builder *b, const struct frame *frame, uint32_t i)
 {
     const struct nodedef *def = library_nodedef(b->lib, frame->node.nodedef);
-    const struct port *port = library_ports(b->lib, frame->node.nodedef, NULL) + def->num_inputs + i;
+    const struct port *port =
+        library_ports(b->lib, frame->node.nodedef, NULL) + def->num_inputs + i;
     return doc_child_of_kind(doc_of(b), frame->inner->graph, KIND_OUTPUT, port->name);
 }
 
@@ -357,7 +373,8 @@ static void step_outputs(struct builder *b)
         elem_id output = inner_output(b, frame, frame->next++);
         if (!output)
             continue;
-        struct binding binding = library_resolve_connection(b->lib, output, DOC_TYPE_NONE, &ignored);
+        struct binding binding =
+            library_resolve_connection(b->lib, output, DOC_TYPE_NONE, &ignored);
         if (binding.kind == BIND_NODE && *slot_of(frame->inner, binding.ref) == SLOT_EMPTY) {
             uint32_t before = b->frames.len;
             push(b, frame->inner, binding.ref);
@@ -373,7 +390,8 @@ void build_demand(struct builder *b, struct instance *scope, elem_id node)
     uint32_t bottom = b->frames.len;
     push(b, scope, node);
     for (uint32_t steps = 0; b->frames.len > bottom; steps++) {
-        if ((steps & 1023) == 1023 && b->options->cancel && b->options->cancel(b->options->cancel_user_data))
+        if ((steps & 1023) == 1023 && b->options->cancel
+            && b->options->cancel(b->options->cancel_user_data))
             b->cancelled = true;
         if (b->cancelled || b->graph->overflow) {
             b->frames.len = bottom;
@@ -386,11 +404,13 @@ void build_demand(struct builder *b, struct instance *scope, elem_id node)
     }
 }
 
-void build_apply(struct builder *b, uint32_t nodedef, elem_id where, const ir_ref *args, ir_ref *results)
+void build_apply(struct builder *b, uint32_t nodedef, elem_id where, const ir_ref *args,
+                 ir_ref *results)
 {
     const struct nodedef *def = library_nodedef(b->lib, nodedef);
     const struct port *outputs = library_ports(b->lib, nodedef, NULL) + def->num_inputs;
-    struct frame frame = {.node = {.nodedef = nodedef, .element = where}, .args = (ir_ref *)(uintptr_t)args};
+    struct frame frame = {.node = {.nodedef = nodedef, .element = where},
+                          .args = (ir_ref *)(uintptr_t)args};
     frame.impl = build_choose(b, nodedef, where);
     if (frame.impl && frame.impl->kind != IMPL_GRAPH) {
         build_node(b, &frame, results);

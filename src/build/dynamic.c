@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Nodes that C code builds: named streams, and the closure and shader constructors, whose meaning is an operation of the IR.
+ * Nodes that C code builds: named streams, and the closure and shader constructors, whose meaning
+ * is an operation of the IR.
  */
 #include "build/build_priv.h"
 
@@ -32,12 +33,14 @@ static ir_ref not_constant(const struct call *c, str_id input)
     /* it has been told what is wrong with it */
     if (ir_get(c->b->graph, arg(c, input))->op == IR_POISON)
         return ir_poison(c->b->graph, c->type);
-    diag_add(c->b->diags, DIAG_ID_input_must_be_constant, doc_place(&c->b->lib->doc, c->frame->node.element),
-             build_text(c->b, input), build_text(c->b, c->def->node));
+    diag_add(c->b->diags, DIAG_ID_input_must_be_constant,
+             doc_place(&c->b->lib->doc, c->frame->node.element), build_text(c->b, input),
+             build_text(c->b, c->def->node));
     return ir_poison(c->b->graph, c->type);
 }
 
-static ir_ref named_stream(const struct call *c, const char *prefix, str_id name, uint32_t number, ir_type_id type)
+static ir_ref named_stream(const struct call *c, const char *prefix, str_id name, uint32_t number,
+                           ir_type_id type)
 {
     struct text full;
     text_init(&full, c->b->arena);
@@ -46,7 +49,8 @@ static ir_ref named_stream(const struct call *c, const char *prefix, str_id name
         text_str(&full, build_text(c->b, name));
     else
         text_u32(&full, number);
-    return shader_stream(c->b->shader, str_intern(c->b->shader->strings, full.data, full.len), type);
+    return shader_stream(c->b->shader, str_intern(c->b->shader->strings, full.data, full.len),
+                         type);
 }
 
 /* A stream of more or fewer components than the node's output: cut, or filled with 0. */
@@ -54,7 +58,8 @@ static ir_ref fit_components(const struct call *c, ir_ref value)
 {
     static const uint8_t first[] = {0, 1, 2, 3};
     struct ir_graph *g = c->b->graph;
-    unsigned have = ir_type_info(ir_type_of(g, value))->components, want = ir_type_info(c->type)->components;
+    unsigned have = ir_type_info(ir_type_of(g, value))->components,
+             want = ir_type_info(c->type)->components;
     if (want < have)
         return ir_swizzle(g, value, first, want);
     if (want == have)
@@ -92,35 +97,41 @@ static ir_ref change(const struct call *c, enum ir_op axis, ir_ref value, int pa
 }
 
 /*
- * Along u and v of other texture coordinates than the first there are no tangents: they are found by what the point P and the coordinates do
- * from pixel to pixel, up to a positive factor,
+ * Along u and v of other texture coordinates than the first there are no tangents: they are found
+ * by what the point P and the coordinates do from pixel to pixel, up to a positive factor,
  *
- *     T = (dP/dx · dv/dy - dP/dy · dv/dx) sign D    B = (dP/dy · du/dx - dP/dx · du/dy) sign D    D = du/dx · dv/dy - du/dy · dv/dx
+ *     T = (dP/dx · dv/dy - dP/dy · dv/dx) sign D    B = (dP/dy · du/dx - dP/dx · du/dy) sign D    D
+ * = du/dx · dv/dy - du/dy · dv/dx
  */
 static ir_ref tangent_of(const struct call *c, ir_ref point, ir_ref uv, bool along_v)
 {
     struct ir_graph *g = c->b->graph;
     enum ir_op first = along_v ? IR_DFDY : IR_DFDX, second = along_v ? IR_DFDX : IR_DFDY;
     int across = along_v ? 0 : 1; /* the coordinate that does not change along the tangent */
-    ir_ref sum = ir_op2(g, IR_SUB, ir_op2(g, IR_MUL, change(c, first, point, -1), change(c, second, uv, across)),
-                        ir_op2(g, IR_MUL, change(c, second, point, -1), change(c, first, uv, across)));
-    ir_ref area = ir_op2(g, IR_SUB, ir_op2(g, IR_MUL, change(c, IR_DFDX, uv, 0), change(c, IR_DFDY, uv, 1)),
-                         ir_op2(g, IR_MUL, change(c, IR_DFDY, uv, 0), change(c, IR_DFDX, uv, 1)));
+    ir_ref sum = ir_op2(
+        g, IR_SUB, ir_op2(g, IR_MUL, change(c, first, point, -1), change(c, second, uv, across)),
+        ir_op2(g, IR_MUL, change(c, second, point, -1), change(c, first, uv, across)));
+    ir_ref area =
+        ir_op2(g, IR_SUB, ir_op2(g, IR_MUL, change(c, IR_DFDX, uv, 0), change(c, IR_DFDY, uv, 1)),
+               ir_op2(g, IR_MUL, change(c, IR_DFDY, uv, 0), change(c, IR_DFDX, uv, 1)));
     return ir_op1(g, IR_NORMALIZE, ir_op2(g, IR_MUL, sum, ir_op1(g, IR_SIGN, area)));
 }
 
 static ir_ref build_axis(const struct call *c, str_id object, str_id world, bool along_v)
 {
     struct ir_value index = {.type = IR_TYPE_INT}, space;
-    if (c->b->options->indexed_tangents && (!build_initial(c->b, arg(c, STR_index), &index) || index.w[0].i < 0))
+    if (c->b->options->indexed_tangents
+        && (!build_initial(c->b, arg(c, STR_index), &index) || index.w[0].i < 0))
         return not_constant(c, STR_index);
     if (!ir_get_const(c->b->graph, arg(c, STR_space), &space))
         return not_constant(c, STR_space);
     bool is_world = space.w[0].u == STR_world;
     if (index.w[0].i == 0)
-        return ir_op1(c->b->graph, IR_NORMALIZE, shader_stream(c->b->shader, is_world ? world : object, IR_TYPE_VEC3));
+        return ir_op1(c->b->graph, IR_NORMALIZE,
+                      shader_stream(c->b->shader, is_world ? world : object, IR_TYPE_VEC3));
     ir_ref uv = named_stream(c, "texcoord_", 0, (uint32_t)index.w[0].i, IR_TYPE_VEC2);
-    ir_ref point = shader_stream(c->b->shader, is_world ? STR_positionWorld : STR_positionObject, IR_TYPE_VEC3);
+    ir_ref point = shader_stream(c->b->shader, is_world ? STR_positionWorld : STR_positionObject,
+                                 IR_TYPE_VEC3);
     return tangent_of(c, point, uv, along_v);
 }
 
@@ -139,7 +150,8 @@ static void tell_default(const struct call *c, uint32_t index)
 {
     struct shader_variable *variable = &c->b->shader->variables.items[index];
     struct ir_value value;
-    if (!variable->has_default && build_initial(c->b, arg(c, STR_default), &value) && value.type == variable->type) {
+    if (!variable->has_default && build_initial(c->b, arg(c, STR_default), &value)
+        && value.type == variable->type) {
         variable->has_default = true;
         variable->value = value;
     }
@@ -154,11 +166,13 @@ static ir_ref geomprop_uniform(const struct call *c, str_id name)
     uint32_t variable = shader_private_uniform(c->b->shader, id, c->type, 0);
     if (c->type == IR_TYPE_BOOL)
         tell_default(c, variable);
-    return ir_build(c->b->graph, c->type == IR_TYPE_SAMPLER ? IR_TEXTURE : IR_UNIFORM, c->type, variable, NULL, 0);
+    return ir_build(c->b->graph, c->type == IR_TYPE_SAMPLER ? IR_TEXTURE : IR_UNIFORM, c->type,
+                    variable, NULL, 0);
 }
 
 /*
- * Booleans cannot be interpolated and strings not be streamed: hosts give them per object (as MaterialX 1.39 does).
+ * Booleans cannot be interpolated and strings not be streamed: hosts give them per object (as
+ * MaterialX 1.39 does).
  */
 static ir_ref build_geompropvalue(const struct call *c)
 {
@@ -183,7 +197,8 @@ static ir_ref build_geompropvalue(const struct call *c)
 
 static ir_ref blur(const struct call *c)
 {
-    return build_blur(c->b, arg(c, STR_in), arg(c, STR_size), arg(c, STR_filtertype), c->frame->node.element);
+    return build_blur(c->b, arg(c, STR_in), arg(c, STR_size), arg(c, STR_filtertype),
+                      c->frame->node.element);
 }
 
 /* ---- closures; ref 0 is "no closure" and the neutral element of these ---- */
@@ -224,14 +239,16 @@ static ir_ref build_multiply(const struct call *c)
 
 static ir_ref measured_edf(const struct call *c)
 {
-    return build_measured_edf(c->b, arg(c, STR_color), arg(c, STR_normal), arg(c, STR_file), c->frame->node.element);
+    return build_measured_edf(c->b, arg(c, STR_color), arg(c, STR_normal), arg(c, STR_file),
+                              c->frame->node.element);
 }
 
 /* ---- shaders ---- */
 
 static ir_ref build_surface(const struct call *c)
 {
-    ir_ref args[4] = {arg(c, STR_bsdf), arg(c, STR_edf), arg(c, STR_opacity), arg(c, STR_thin_walled)};
+    ir_ref args[4] = {arg(c, STR_bsdf), arg(c, STR_edf), arg(c, STR_opacity),
+                      arg(c, STR_thin_walled)};
     return build_op(c, IR_SURFACE_SHADER, args, 4);
 }
 
@@ -239,7 +256,8 @@ static ir_ref build_surface_unlit(const struct call *c)
 {
     struct ir_graph *g = c->b->graph;
     ir_ref args[3] = {ir_op2(g, IR_MUL, arg(c, STR_emission_color), arg(c, STR_emission)),
-                      ir_op2(g, IR_MUL, arg(c, STR_transmission_color), arg(c, STR_transmission)), arg(c, STR_opacity)};
+                      ir_op2(g, IR_MUL, arg(c, STR_transmission_color), arg(c, STR_transmission)),
+                      arg(c, STR_opacity)};
     return build_op(c, IR_SURFACE_UNLIT, args, 3);
 }
 
@@ -263,7 +281,8 @@ static ir_ref build_displacement(const struct call *c)
 
 static ir_ref build_surfacematerial(const struct call *c)
 {
-    ir_ref args[4] = {arg(c, STR_surfaceshader), arg(c, STR_backsurfaceshader), arg(c, STR_displacementshader), 0};
+    ir_ref args[4] = {arg(c, STR_surfaceshader), arg(c, STR_backsurfaceshader),
+                      arg(c, STR_displacementshader), 0};
     return build_op(c, IR_MATERIAL, args, 4);
 }
 
@@ -274,7 +293,8 @@ static ir_ref build_volumematerial(const struct call *c)
 }
 
 /*
- * The inputs that may be shown follow the one that says which. Any value can be the root of a shader.
+ * The inputs that may be shown follow the one that says which. Any value can be the root of a
+ * shader.
  */
 static ir_ref build_osl_set_ci(const struct call *c)
 {

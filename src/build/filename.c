@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Names of files: their prefix, and interface tokens in square brackets (specification, "Filename Substitutions"). What stands in angle
- * brackets or braces is the host's.
+ * Names of files: their prefix, and interface tokens in square brackets (specification, "Filename
+ * Substitutions"). What stands in angle brackets or braces is the host's.
  */
 #include "build/build_priv.h"
 
@@ -17,14 +17,16 @@ static elem_id token_of(const struct builder *b, elem_id parent, str_id name)
 
 bool build_has_tokens(const struct builder *b, elem_id node)
 {
-    for (elem_id e = doc_element(doc_of(b), node)->first_child; e; e = doc_element(doc_of(b), e)->next)
+    for (elem_id e = doc_element(doc_of(b), node)->first_child; e;
+         e = doc_element(doc_of(b), e)->next)
         if (doc_element(doc_of(b), e)->kind == KIND_TOKEN)
             return true;
     return false;
 }
 
 /*
- * The definition that a graph implements, used by a node or generated itself; 0: it is a part of the document's own graph.
+ * The definition that a graph implements, used by a node or generated itself; 0: it is a part of
+ * the document's own graph.
  */
 static elem_id definition_of(const struct builder *b, const struct instance *scope, elem_id graph)
 {
@@ -39,10 +41,12 @@ static elem_id definition_of(const struct builder *b, const struct instance *sco
 }
 
 /*
- * The token that an element sees under a name: its own or that of what is around it; in a definition, that of the node that uses it, else
- * the definition's. A token may in turn name another one by `interfacename`. 0: there is none.
+ * The token that an element sees under a name: its own or that of what is around it; in a
+ * definition, that of the node that uses it, else the definition's. A token may in turn name
+ * another one by `interfacename`. 0: there is none.
  */
-static elem_id find_token(const struct builder *b, const struct instance *scope, elem_id at, str_id name)
+static elem_id find_token(const struct builder *b, const struct instance *scope, elem_id at,
+                          str_id name)
 {
     for (; at; at = doc_element(doc_of(b), at)->parent) {
         elem_id token = token_of(b, at, name), definition = definition_of(b, scope, at);
@@ -66,20 +70,24 @@ static elem_id find_token(const struct builder *b, const struct instance *scope,
 }
 
 /* What "[name" stands for; false: nothing, which is told. */
-static bool print_token(struct builder *b, const struct instance *scope, elem_id element, const char *name, size_t len, struct text *out)
+static bool print_token(struct builder *b, const struct instance *scope, elem_id element,
+                        const char *name, size_t len, struct text *out)
 {
     str_id id = str_find(b->shader->strings, name, len);
     elem_id token = id ? find_token(b, scope, element, id) : 0;
     if (token)
         text_str(out, build_text(b, doc_attr_value(doc_of(b), token, STR_value)));
     else
-        diag_add(b->diags, DIAG_ID_unknown_token, doc_attr_place(doc_of(b), element, STR_value), arena_strndup(b->arena, name, len));
+        diag_add(b->diags, DIAG_ID_unknown_token, doc_attr_place(doc_of(b), element, STR_value),
+                 arena_strndup(b->arena, name, len));
     return token != 0;
 }
 
-static void substitute(struct builder *b, const struct instance *scope, elem_id element, const char *from, struct text *out)
+static void substitute(struct builder *b, const struct instance *scope, elem_id element,
+                       const char *from, struct text *out)
 {
-    static const char name_chars[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_";
+    static const char name_chars[] =
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_";
     while (*from) {
         size_t plain = strcspn(from, "[");
         text_mem(out, from, plain);
@@ -96,7 +104,8 @@ static void substitute(struct builder *b, const struct instance *scope, elem_id 
 
 str_id build_file_name(struct builder *b, const struct instance *scope, elem_id element)
 {
-    str_id file = doc_attr_value(doc_of(b), element, STR_value), prefix = doc_inherited_attr(doc_of(b), element, STR_fileprefix);
+    str_id file = doc_attr_value(doc_of(b), element, STR_value),
+           prefix = doc_inherited_attr(doc_of(b), element, STR_fileprefix);
     if (!file || (!prefix && !strchr(build_text(b, file), '[')))
         return file;
     struct text name;

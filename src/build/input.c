@@ -18,7 +18,8 @@ static str_id enum_value(struct builder *b, const struct port *port, str_id text
     str_id values = doc_attr_value(doc_of(b), port->element, STR_enumvalues);
     if (!names || !values)
         return 0;
-    const char *name = build_text(b, names), *value = build_text(b, values), *word = build_text(b, text);
+    const char *name = build_text(b, names), *value = build_text(b, values),
+               *word = build_text(b, text);
     size_t len = strlen(word);
     while (*name) {
         size_t n = strcspn(name, ","), m = strcspn(value, ",");
@@ -34,38 +35,45 @@ static str_id enum_value(struct builder *b, const struct port *port, str_id text
     return 0;
 }
 
-static bool parse(struct builder *b, doc_type type, str_id text, const struct port *port, struct ir_value *out)
+static bool parse(struct builder *b, doc_type type, str_id text, const struct port *port,
+                  struct ir_value *out)
 {
     const char *z = build_text(b, text);
     if (doc_parse_value(type, z, str_len(b->shader->strings, text), b->shader->strings, out))
         return true;
     str_id value = port && (port->flags & PORT_ENUM) ? enum_value(b, port, text) : 0;
-    return value && doc_parse_value(type, build_text(b, value), str_len(b->shader->strings, value), NULL, out);
+    return value
+           && doc_parse_value(type, build_text(b, value), str_len(b->shader->strings, value), NULL,
+                              out);
 }
 
 /*
- * The constant that attribute `value` of an element says; poison and a diagnostic where it does not parse.
+ * The constant that attribute `value` of an element says; poison and a diagnostic where it does not
+ * parse.
  */
 static ir_ref constant(struct builder *b, const struct port *port, str_id text, elem_id element)
 {
     ir_type_id ir = library_type_ir(b->lib, port->type);
     struct ir_value value;
     if (ir == IR_TYPE_STRING) {
-        library_check_enum(b->lib, port, text, doc_attr_place(doc_of(b), element, STR_value), b->diags);
+        library_check_enum(b->lib, port, text, doc_attr_place(doc_of(b), element, STR_value),
+                           b->diags);
         return ir_const_string(b->graph, text);
     }
     if (parse(b, port->type, text, port, &value))
         return ir_const(b->graph, &value);
-    diag_add(b->diags, DIAG_ID_bad_value, doc_attr_place(doc_of(b), element, STR_value), build_text(b, text),
-             build_text(b, library_type_name(b->lib, port->type)),
-             doc_value_fault(port->type, build_text(b, text), str_len(&b->lib->strings, text), b->diags->arena));
+    diag_add(b->diags, DIAG_ID_bad_value, doc_attr_place(doc_of(b), element, STR_value),
+             build_text(b, text), build_text(b, library_type_name(b->lib, port->type)),
+             doc_value_fault(port->type, build_text(b, text), str_len(&b->lib->strings, text),
+                             b->diags->arena));
     return ir_poison(b->graph, ir);
 }
 
 /* ---- interface ---- */
 
 /*
- * Goes back to what stands in front of the names of an owner's inputs; true where that is to be written.
+ * Goes back to what stands in front of the names of an owner's inputs; true where that is to be
+ * written.
  */
 static bool begin_text(struct builder *b, struct build_prefix *prefix, elem_id owner)
 {
@@ -136,7 +144,8 @@ static bool any_glob(const char *const *globs, unsigned n, const char *path)
 }
 
 /*
- * True for inputs of the shader nodes and of the document's graphs: those that the interface mode is about.
+ * True for inputs of the shader nodes and of the document's graphs: those that the interface mode
+ * is about.
  */
 static bool is_public(const struct builder *b, elem_id node)
 {
@@ -151,9 +160,11 @@ static bool is_public(const struct builder *b, elem_id node)
 static bool stays_variable(const struct builder *b, elem_id node, bool authored, str_id path)
 {
     const struct build_options *o = b->options;
-    if (o->num_constant_globs && any_glob(o->constant_globs, o->num_constant_globs, build_text(b, path)))
+    if (o->num_constant_globs
+        && any_glob(o->constant_globs, o->num_constant_globs, build_text(b, path)))
         return false;
-    if (o->num_uniform_globs && any_glob(o->uniform_globs, o->num_uniform_globs, build_text(b, path)))
+    if (o->num_uniform_globs
+        && any_glob(o->uniform_globs, o->num_uniform_globs, build_text(b, path)))
         return true;
     if (o->interface == INTERFACE_REDUCED || !is_public(b, node))
         return false;
@@ -181,8 +192,8 @@ static str_id element_attr(const struct builder *b, elem_id element, str_id name
     return element ? doc_attr_value(doc_of(b), element, name) : 0;
 }
 
-static struct shader_variable describe(struct builder *b, elem_id node, const struct port *port, elem_id element,
-                                       str_id input, str_id path)
+static struct shader_variable describe(struct builder *b, elem_id node, const struct port *port,
+                                       elem_id element, str_id input, str_id path)
 {
     return (struct shader_variable){
         .name = variable_name(b, node, input),
@@ -207,10 +218,11 @@ static ir_ref add_uniform(struct builder *b, struct shader_variable v, ir_ref in
 }
 
 /*
- * A literal or default of an input of a node of the document: uniform or constant as the interface says.
+ * A literal or default of an input of a node of the document: uniform or constant as the interface
+ * says.
  */
-static ir_ref publish(struct builder *b, elem_id node, const struct port *port, elem_id element, str_id input, ir_ref value,
-                      bool authored)
+static ir_ref publish(struct builder *b, elem_id node, const struct port *port, elem_id element,
+                      str_id input, ir_ref value, bool authored)
 {
     ir_type_id type = ir_type_of(b->graph, value);
     bool can_vary = type != IR_TYPE_STRING && ir_is_const(b->graph, value);
@@ -229,7 +241,8 @@ static ir_ref publish(struct builder *b, elem_id node, const struct port *port, 
 bool build_initial(const struct builder *b, ir_ref value, struct ir_value *out)
 {
     const struct ir_node *node = ir_get(b->graph, value);
-    const struct shader_variable *uniform = node->op == IR_UNIFORM ? &b->shader->variables.items[node->attr] : NULL;
+    const struct shader_variable *uniform =
+        node->op == IR_UNIFORM ? &b->shader->variables.items[node->attr] : NULL;
     if (uniform)
         *out = uniform->value;
     return uniform ? uniform->has_default : ir_get_const(b->graph, value, out);
@@ -237,10 +250,11 @@ bool build_initial(const struct builder *b, ir_ref value, struct ir_value *out)
 
 /* ---- textures ---- */
 
-static ir_ref texture(struct builder *b, const struct instance *scope, elem_id node, const struct port *port, elem_id element,
-                      str_id input)
+static ir_ref texture(struct builder *b, const struct instance *scope, elem_id node,
+                      const struct port *port, elem_id element, str_id input)
 {
-    struct shader_variable v = describe(b, node, port, element, input, build_input_path(b, node, input, element));
+    struct shader_variable v =
+        describe(b, node, port, element, input, build_input_path(b, node, input, element));
     v.file = element ? build_file_name(b, scope, element) : port->value;
     return build_texture(b, v, element ? element : node);
 }
@@ -257,7 +271,8 @@ static ir_ref geomprop_arg(struct builder *b, const struct geomprop *prop, const
 }
 
 /*
- * A property that a node gives is that node with the property's space and index; any other is a stream of its name.
+ * A property that a node gives is that node with the property's space and index; any other is a
+ * stream of its name.
  */
 static ir_ref make_geomprop(struct builder *b, const struct geomprop *prop)
 {
@@ -308,13 +323,16 @@ static ir_ref zero(struct builder *b, ir_type_id type)
 ir_ref build_default(struct builder *b, const struct port *port)
 {
     if (port->geomprop)
-        return build_geomprop(b, port->geomprop, port->type, doc_attr_place(doc_of(b), port->element, STR_defaultgeomprop));
+        return build_geomprop(b, port->geomprop, port->type,
+                              doc_attr_place(doc_of(b), port->element, STR_defaultgeomprop));
     ir_type_id type = library_type_ir(b->lib, port->type);
     if (type == IR_TYPE_STRING)
         return ir_const_string(b->graph, port->value);
     if (type >= IR_NUM_TYPES || !ir_type_info(type)->components) /* of no value */
         return 0;
-    return port->flags & PORT_HAS_VALUE && port->value ? constant(b, port, port->value, port->element) : zero(b, type);
+    return port->flags & PORT_HAS_VALUE && port->value
+               ? constant(b, port, port->value, port->element)
+               : zero(b, type);
 }
 
 bool build_port_value(struct builder *b, const struct port *port, struct ir_value *out)
@@ -326,8 +344,8 @@ bool build_port_value(struct builder *b, const struct port *port, struct ir_valu
 /* ---- bindings ---- */
 
 /* The value that an element of the document or a graph says, with its colour space and unit. */
-static ir_ref literal(struct builder *b, const struct instance *scope, elem_id owner, const struct port *port, elem_id element,
-                      bool outermost)
+static ir_ref literal(struct builder *b, const struct instance *scope, elem_id owner,
+                      const struct port *port, elem_id element, bool outermost)
 {
     str_id name = doc_element(doc_of(b), element)->name;
     ir_type_id type = library_type_ir(b->lib, port->type);
@@ -339,22 +357,26 @@ static ir_ref literal(struct builder *b, const struct instance *scope, elem_id o
     if (outermost)
         value = publish(b, owner, port, element, name, value, true);
     if (port->type == DOC_TYPE_color3 || port->type == DOC_TYPE_color4) {
-        str_id space = outermost || doc_attr(doc_of(b), element, STR_colorspace) ? build_colorspace(b, element) : 0;
+        str_id space = outermost || doc_attr(doc_of(b), element, STR_colorspace)
+                           ? build_colorspace(b, element)
+                           : 0;
         if (space)
-            value = build_color_transform(b, value, port->type, space, doc_attr_place(doc_of(b), element, STR_colorspace));
+            value = build_color_transform(b, value, port->type, space,
+                                          doc_attr_place(doc_of(b), element, STR_colorspace));
     }
     return build_unit_conversion(b, value, element, port);
 }
 
-static ir_ref unset(struct builder *b, const struct instance *scope, elem_id owner, const struct port *port, elem_id element,
-                    bool outermost)
+static ir_ref unset(struct builder *b, const struct instance *scope, elem_id owner,
+                    const struct port *port, elem_id element, bool outermost)
 {
     if (library_type_ir(b->lib, port->type) == IR_TYPE_SAMPLER)
         return texture(b, scope, owner, port, element, port->name);
     ir_ref value = build_default(b, port);
     if (!outermost || port->geomprop || !value)
         return value;
-    return publish(b, owner, port, element, element ? doc_element(doc_of(b), element)->name : port->name, value, false);
+    return publish(b, owner, port, element,
+                   element ? doc_element(doc_of(b), element)->name : port->name, value, false);
 }
 
 static elem_id graph_around(const struct builder *b, elem_id element)
@@ -365,16 +387,20 @@ static elem_id graph_around(const struct builder *b, elem_id element)
 }
 
 /*
- * A functional graph that is not used as a node, but is itself generated, has the defaults of its definition.
+ * A functional graph that is not used as a node, but is itself generated, has the defaults of its
+ * definition.
  */
-static ir_ref interface_arg(struct builder *b, struct instance *scope, const struct port *port, const struct binding *binding)
+static ir_ref interface_arg(struct builder *b, struct instance *scope, const struct port *port,
+                            const struct binding *binding)
 {
     elem_id alone = scope->graph ? 0 : graph_around(b, binding->element);
     uint32_t nodedef = alone ? library_implemented_nodedef(b->lib, alone) : scope->nodedef;
     /* reported when the document was read */
     if (nodedef == LIBRARY_NONE && element_attr(b, alone, STR_nodedef))
-        return unset(b, scope, doc_element(doc_of(b), binding->element)->parent, port, binding->element, true);
-    int index = library_resolve_interface(b->lib, binding->element, nodedef, binding, port, b->diags);
+        return unset(b, scope, doc_element(doc_of(b), binding->element)->parent, port,
+                     binding->element, true);
+    int index =
+        library_resolve_interface(b->lib, binding->element, nodedef, binding, port, b->diags);
     if (index < 0)
         return ir_poison(b->graph, library_type_ir(b->lib, port->type));
     const struct port *have = library_ports(b->lib, nodedef, NULL) + index;
@@ -382,26 +408,29 @@ static ir_ref interface_arg(struct builder *b, struct instance *scope, const str
 }
 
 /*
- * A value that ends here. In the document it is made once however many nodes read it, and belongs to the element that says
- * it: perhaps an interface input further up, which is what a host changes.
+ * A value that ends here. In the document it is made once however many nodes read it, and belongs
+ * to the element that says it: perhaps an interface input further up, which is what a host changes.
  */
-static ir_ref end_of_chain(struct builder *b, struct instance *scope, elem_id node, const struct port *port,
-                           const struct binding *binding)
+static ir_ref end_of_chain(struct builder *b, struct instance *scope, elem_id node,
+                           const struct port *port, const struct binding *binding)
 {
     elem_id element = binding->element;
     bool outermost = !scope->graph;
-    elem_id owner = element && doc_element(doc_of(b), element)->kind == KIND_INPUT ? doc_element(doc_of(b), element)->parent : node;
+    elem_id owner = element && doc_element(doc_of(b), element)->kind == KIND_INPUT
+                        ? doc_element(doc_of(b), element)->parent
+                        : node;
     uint32_t *slot = element && outermost ? &scope->slots[element - scope->first] : NULL;
     if (slot && *slot >= SLOT_RESULTS)
         return b->results.items[*slot - SLOT_RESULTS];
     bool says_value = binding->kind == BIND_VALUE;
     /* MaterialX's generators all do so, and materials depend on it */
     if (says_value && port->geomprop && owner == node) {
-        diag_add(b->diags, DIAG_ID_geomprop_literal, doc_attr_place(doc_of(b), element, STR_value), build_text(b, port->name),
-                 build_text(b, port->geomprop));
+        diag_add(b->diags, DIAG_ID_geomprop_literal, doc_attr_place(doc_of(b), element, STR_value),
+                 build_text(b, port->name), build_text(b, port->geomprop));
         says_value = false;
     }
-    ir_ref value = says_value ? literal(b, scope, owner, port, element, outermost) : unset(b, scope, owner, port, element, outermost);
+    ir_ref value = says_value ? literal(b, scope, owner, port, element, outermost)
+                              : unset(b, scope, owner, port, element, outermost);
     if (slot) {
         *slot = SLOT_RESULTS + b->results.len;
         vec_push(b->arena, &b->results, value);
@@ -413,15 +442,11 @@ ir_ref build_input(struct builder *b, struct instance *scope, elem_id node, cons
                    const struct binding *binding)
 {
     switch ((enum binding_kind)binding->kind) {
-    case BIND_NODE:
-        return build_result(b, scope, binding->ref, binding->output, port->type);
-    case BIND_INTERFACE:
-        return interface_arg(b, scope, port, binding);
-    case BIND_ERROR:
-        return ir_poison(b->graph, library_type_ir(b->lib, port->type));
+    case BIND_NODE: return build_result(b, scope, binding->ref, binding->output, port->type);
+    case BIND_INTERFACE: return interface_arg(b, scope, port, binding);
+    case BIND_ERROR: return ir_poison(b->graph, library_type_ir(b->lib, port->type));
     case BIND_VALUE:
-    case BIND_DEFAULT:
-        break;
+    case BIND_DEFAULT: break;
     }
     return end_of_chain(b, scope, node, port, binding);
 }

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Networks: what a node is built to is looked at and put away, and a layer is noted instead, whose outputs are sources of which nothing is
- * known. So graphs are flattened, values, tokens and conversions found, and nodes that come to nothing left out as for any shader:
+ * Networks: what a node is built to is looked at and put away, and a layer is noted instead, whose
+ * outputs are sources of which nothing is known. So graphs are flattened, values, tokens and
+ * conversions found, and nodes that come to nothing left out as for any shader:
  *
- *     multiply(in1, 1)   in1          mix of two constants   a constant          layer(top, nothing)   top
+ *     multiply(in1, 1)  in1      mix of two constants  a constant      layer(top, nothing)  top
  */
 #include "build/build_priv.h"
 
@@ -11,10 +12,10 @@
 
 struct recorder {
     struct network *network;
-    uint32_t *layer_of;   /* by variable of the shader: the layer that it is an output of, + 1 */
+    uint32_t *layer_of; /* by variable of the shader: the layer that it is an output of, + 1 */
     uint32_t num_layers_of;
     VEC(uint8_t) output_of; /* by such a variable, too */
-    ir_ref *source_of;    /* by node that was put away: the layer's output that stands for it */
+    ir_ref *source_of;      /* by node that was put away: the layer's output that stands for it */
     uint32_t num_sources;
 };
 
@@ -47,26 +48,32 @@ static uint32_t layer_of(const struct recorder *r, uint32_t variable)
 /* ---- What of an input is settled with the shader ---- */
 
 /* Texts choose code; nodes of C code read streams by index, and profiles. */
-static bool is_settled(const struct builder *b, const struct implementation *impl, const struct port *port)
+static bool is_settled(const struct builder *b, const struct implementation *impl,
+                       const struct port *port)
 {
     ir_type_id type = library_type_ir(b->lib, port->type);
-    bool is_read_by_code = impl->kind == IMPL_DYNAMIC && (port->name == STR_index || type == IR_TYPE_SAMPLER);
+    bool is_read_by_code =
+        impl->kind == IMPL_DYNAMIC && (port->name == STR_index || type == IR_TYPE_SAMPLER);
     return type == IR_TYPE_STRING || is_read_by_code;
 }
 
 /*
- * Languages that find tiles by themselves read them in another way: of other files no more than that is settled.
+ * Languages that find tiles by themselves read them in another way: of other files no more than
+ * that is settled.
  */
 static str_id settled_file(struct builder *b, const struct implementation *impl, str_id file)
 {
     const char *name = build_text(b, file);
     if (impl->kind == IMPL_DYNAMIC)
         return file;
-    return strstr(name, "<UDIM>") || strstr(name, "<UVTILE>") ? str_intern_z(b->shader->strings, "<UDIM>") : 0;
+    return strstr(name, "<UDIM>") || strstr(name, "<UVTILE>")
+               ? str_intern_z(b->shader->strings, "<UDIM>")
+               : 0;
 }
 
 /* Type VOID: nothing is settled. */
-static struct ir_value settled_value(struct builder *b, const struct implementation *impl, const struct port *port, ir_ref arg)
+static struct ir_value settled_value(struct builder *b, const struct implementation *impl,
+                                     const struct port *port, ir_ref arg)
 {
     struct ir_value value = {.type = IR_TYPE_VOID};
     const struct ir_node *node = ir_get(b->graph, arg);
@@ -111,9 +118,11 @@ static void add_word(struct text *name, const char *word)
 }
 
 /*
- * "ND_dielectric_bsdf_scatter_mode_T": of the definition "ND_dielectric_bsdf" where the mode is not the usual one.
+ * "ND_dielectric_bsdf_scatter_mode_T": of the definition "ND_dielectric_bsdf" where the mode is not
+ * the usual one.
  */
-static str_id node_name(struct builder *b, const struct nodedef *def, const struct port *ports, const struct ir_value *fixed)
+static str_id node_name(struct builder *b, const struct nodedef *def, const struct port *ports,
+                        const struct ir_value *fixed)
 {
     struct text name;
     text_init(&name, b->arena);
@@ -126,7 +135,8 @@ static str_id node_name(struct builder *b, const struct nodedef *def, const stru
         text_init(&number, b->arena);
         text_fmt(&name, "_%s", build_text(b, ports[i].name));
         text_fmt(&number, "%d", fixed[i].w[0].i);
-        add_word(&name, fixed[i].type == IR_TYPE_INT ? text_cstr(&number) : build_text(b, fixed[i].w[0].u));
+        add_word(&name, fixed[i].type == IR_TYPE_INT ? text_cstr(&number)
+                                                     : build_text(b, fixed[i].w[0].u));
     }
     size_t len;
     const char *identifier = identifier_from(text_cstr(&name), name.len, b->arena, &len);
@@ -149,19 +159,26 @@ static uint32_t node_of(struct builder *b, const struct frame *frame)
         const struct network_node *node = &network->nodes.items[n];
         bool is_same = node->definition == frame->node.nodedef;
         for (unsigned i = 0; i < def->num_inputs && is_same; i++)
-            is_same = fixed[i].type == node->fixed[i].type && fixed[i].w[0].u == node->fixed[i].w[0].u;
+            is_same =
+                fixed[i].type == node->fixed[i].type && fixed[i].w[0].u == node->fixed[i].w[0].u;
         if (is_same)
             return n;
     }
     vec_push(b->arena, &network->nodes,
-             (struct network_node){.name = node_name(b, def, ports, fixed), .definition = frame->node.nodedef, .fixed = fixed,
-                                   .num_inputs = def->num_inputs, .num_outputs = def->num_outputs, .ports = names, .definition_name = def->name});
+             (struct network_node){.name = node_name(b, def, ports, fixed),
+                                   .definition = frame->node.nodedef,
+                                   .fixed = fixed,
+                                   .num_inputs = def->num_inputs,
+                                   .num_outputs = def->num_outputs,
+                                   .ports = names,
+                                   .definition_name = def->name});
     return network->nodes.len - 1;
 }
 
 /* ---- Inputs ---- */
 
-static bool uniform_value(void *user_data, const struct ir_graph *graph, ir_ref ref, struct ir_value *out)
+static bool uniform_value(void *user_data, const struct ir_graph *graph, ir_ref ref,
+                          struct ir_value *out)
 {
     (void)graph;
     return build_initial(user_data, ref, out);
@@ -198,15 +215,16 @@ struct network_input build_network_input(struct builder *b, ir_ref arg)
     return input;
 }
 
-static void add_input(struct builder *b, const struct frame *frame, const struct port *port, ir_ref arg)
+static void add_input(struct builder *b, const struct frame *frame, const struct port *port,
+                      ir_ref arg)
 {
     struct network_input input = {.kind = NETWORK_DEFAULT};
     if (!is_settled(b, frame->impl, port))
         input = build_network_input(b, arg);
     input.doc_type = library_type_name(b->lib, port->type);
     struct ir_value usual = default_value(b, port);
-    bool is_usual = input.kind == NETWORK_VALUE && !input.path && !port->geomprop && has_numbers(usual.type)
-                    && ir_value_equal(&input.value, &usual);
+    bool is_usual = input.kind == NETWORK_VALUE && !input.path && !port->geomprop
+                    && has_numbers(usual.type) && ir_value_equal(&input.value, &usual);
     if (is_usual)
         input.kind = NETWORK_DEFAULT;
     vec_push(b->arena, &b->recorder->network->inputs, input);
@@ -229,7 +247,8 @@ static void write_path(const struct builder *b, uint32_t origin, char between, s
 }
 
 /*
- * A node that no element stands for, a conversion, has its own name behind that of the node that needs it.
+ * A node that no element stands for, a conversion, has its own name behind that of the node that
+ * needs it.
  */
 static str_id path_of(struct builder *b, const struct frame *frame, char between)
 {
@@ -237,17 +256,22 @@ static str_id path_of(struct builder *b, const struct frame *frame, char between
     text_init(&path, b->arena);
     write_path(b, b->graph->origin, between, &path);
     if (!frame->scope && b->graph->origins.items[b->graph->origin].element)
-        text_fmt(&path, "%c%s", between, build_text(b, library_nodedef(b->lib, frame->node.nodedef)->node));
+        text_fmt(&path, "%c%s", between,
+                 build_text(b, library_nodedef(b->lib, frame->node.nodedef)->node));
     return str_intern(b->shader->strings, path.data, path.len);
 }
 
 /*
- * A source of which nothing is known; its variable gives the first output's layer a name that is unique.
+ * A source of which nothing is known; its variable gives the first output's layer a name that is
+ * unique.
  */
-static ir_ref add_source(struct builder *b, str_id name, ir_type_id type, uint32_t layer, unsigned output)
+static ir_ref add_source(struct builder *b, str_id name, ir_type_id type, uint32_t layer,
+                         unsigned output)
 {
     struct recorder *r = b->recorder;
-    uint32_t variable = shader_add_variable(b->shader, &(struct shader_variable){.name = name, .block = BLOCK_VERTEX_DATA, .type = type});
+    uint32_t variable = shader_add_variable(
+        b->shader,
+        &(struct shader_variable){.name = name, .block = BLOCK_VERTEX_DATA, .type = type});
     *at(b->arena, &r->layer_of, &r->num_layers_of, variable) = layer + 1;
     while (r->output_of.len <= variable)
         vec_push(b->arena, &r->output_of, 0);
@@ -268,7 +292,8 @@ static bool is_plain(const struct builder *b, const struct frame *frame, ir_ref 
 {
     const struct ir_node *node = ir_get(b->graph, value);
     bool is_source = node->op == IR_STREAM && layer_of(b->recorder, node->attr);
-    return !value || node->op == IR_CONST || node->op == IR_POISON || node->type == IR_TYPE_MATERIAL || is_source || is_argument(b, frame, value);
+    return !value || node->op == IR_CONST || node->op == IR_POISON || node->type == IR_TYPE_MATERIAL
+           || is_source || is_argument(b, frame, value);
 }
 
 static ir_ref known_source(const struct recorder *r, ir_ref value)
@@ -287,7 +312,9 @@ void build_record_node(struct builder *b, const struct frame *frame, ir_ref *res
     uint32_t layer = r->network->layers.len;
     str_id name = is_new ? path_of(b, frame, '_') : 0;
     if (is_new) {
-        struct network_layer made = {.path = path_of(b, frame, '/'), .node = node_of(b, frame), .first_input = r->network->inputs.len};
+        struct network_layer made = {.path = path_of(b, frame, '/'),
+                                     .node = node_of(b, frame),
+                                     .first_input = r->network->inputs.len};
         for (unsigned i = 0; i < def->num_inputs; i++)
             add_input(b, frame, &ports[i], frame->args[i]);
         vec_push(b->arena, &r->network->layers, made);
@@ -300,7 +327,8 @@ void build_record_node(struct builder *b, const struct frame *frame, ir_ref *res
             source = add_source(b, name, ir_type_of(b->graph, results[i]), layer, i);
             *at(b->arena, &r->source_of, &r->num_sources, results[i]) = source;
             if (!r->network->layers.items[layer].name)
-                r->network->layers.items[layer].name = b->shader->variables.items[ir_get(b->graph, source)->attr].name;
+                r->network->layers.items[layer].name =
+                    b->shader->variables.items[ir_get(b->graph, source)->attr].name;
         }
         results[i] = source;
     }
@@ -319,12 +347,14 @@ static uint32_t definition_of(const struct builder *b, const char *node, str_id 
 uint32_t build_constant_layer(struct builder *b, ir_ref value, str_id type)
 {
     struct frame frame = {.node = {.nodedef = definition_of(b, "constant", type)}, .args = &value};
-    if (frame.node.nodedef == LIBRARY_NONE || !(frame.impl = build_choose(b, frame.node.nodedef, 0)))
+    if (frame.node.nodedef == LIBRARY_NONE
+        || !(frame.impl = build_choose(b, frame.node.nodedef, 0)))
         return UINT32_MAX;
     struct network *network = b->recorder->network;
     struct network_layer layer = {.node = node_of(b, &frame), .first_input = network->inputs.len};
     add_input(b, &frame, library_ports(b->lib, frame.node.nodedef, NULL), value);
-    ir_ref source = add_source(b, str_intern_z(b->shader->strings, "constant"), ir_type_of(b->graph, value), network->layers.len, 0);
+    ir_ref source = add_source(b, str_intern_z(b->shader->strings, "constant"),
+                               ir_type_of(b->graph, value), network->layers.len, 0);
     layer.name = layer.path = b->shader->variables.items[ir_get(b->graph, source)->attr].name;
     vec_push(b->arena, &network->layers, layer);
     return network->layers.len - 1;
@@ -339,7 +369,8 @@ ir_ref build_property_layer(struct builder *b, const struct geomprop *prop)
     const struct port *ports = library_ports(b->lib, nodedef, NULL);
     ir_ref *args = ARENA_ARRAY(b->arena, ir_ref, def->num_inputs), results[BUILD_MAX_OUTPUTS];
     for (unsigned i = 0; i < def->num_inputs; i++)
-        args[i] = ports[i].name == STR_geomprop ? ir_const_string(b->graph, prop->name) : build_default(b, &ports[i]);
+        args[i] = ports[i].name == STR_geomprop ? ir_const_string(b->graph, prop->name)
+                                                : build_default(b, &ports[i]);
     uint32_t before = b->graph->origin;
     b->graph->origin = ir_add_origin(b->graph, prop->name, 0, 0);
     build_apply(b, nodedef, prop->element, args, results);
@@ -352,14 +383,20 @@ ir_ref build_property_layer(struct builder *b, const struct geomprop *prop)
 /* What comes from another layer is a closure of any kind; of displacements, the offset. */
 static ir_type_id parameter_type(ir_type_id type)
 {
-    return type == IR_TYPE_DISPLACEMENT ? IR_TYPE_VEC3 : ir_type_is_closure(type) || ir_type_is_shader(type) ? IR_TYPE_BSDF : type;
+    return type == IR_TYPE_DISPLACEMENT                          ? IR_TYPE_VEC3
+           : ir_type_is_closure(type) || ir_type_is_shader(type) ? IR_TYPE_BSDF
+                                                                 : type;
 }
 
-static ir_ref add_parameter(struct builder *b, const struct port *port, str_id file, str_id *out_name)
+static ir_ref add_parameter(struct builder *b, const struct port *port, str_id file,
+                            str_id *out_name)
 {
     ir_type_id type = library_type_ir(b->lib, port->type);
-    struct shader_variable v = {.name = port->name, .block = BLOCK_PUBLIC_UNIFORMS, .type = parameter_type(type),
-                                .doc_type = library_type_name(b->lib, port->type), .definition = port->element};
+    struct shader_variable v = {.name = port->name,
+                                .block = BLOCK_PUBLIC_UNIFORMS,
+                                .type = parameter_type(type),
+                                .doc_type = library_type_name(b->lib, port->type),
+                                .definition = port->element};
     if (type == IR_TYPE_SAMPLER) {
         v.file = file;
         ir_ref texture = build_texture(b, v, port->element);
@@ -373,11 +410,13 @@ static ir_ref add_parameter(struct builder *b, const struct port *port, str_id f
     return ir_build(b->graph, IR_UNIFORM, type, variable, NULL, 0);
 }
 
-static ir_ref argument(struct builder *b, const struct implementation *impl, const struct port *port, const struct ir_value *value,
-                       str_id *out_name)
+static ir_ref argument(struct builder *b, const struct implementation *impl,
+                       const struct port *port, const struct ir_value *value, str_id *out_name)
 {
-    if (value->type == IR_TYPE_VOID || (value->type == IR_TYPE_SAMPLER && impl->kind != IMPL_DYNAMIC))
-        return add_parameter(b, port, value->type == IR_TYPE_VOID ? port->value : value->w[0].u, out_name);
+    if (value->type == IR_TYPE_VOID
+        || (value->type == IR_TYPE_SAMPLER && impl->kind != IMPL_DYNAMIC))
+        return add_parameter(b, port, value->type == IR_TYPE_VOID ? port->value : value->w[0].u,
+                             out_name);
     if (value->type == IR_TYPE_STRING)
         return ir_const_string(b->graph, value->w[0].u);
     if (value->type != IR_TYPE_SAMPLER)
@@ -400,9 +439,11 @@ void build_network_node(struct builder *b, struct network_node *node, ir_ref *re
     build_node(b, &frame, results);
 }
 
-str_id build_network_output(struct builder *b, const struct network_node *node, uint32_t index, str_id *out_type)
+str_id build_network_output(struct builder *b, const struct network_node *node, uint32_t index,
+                            str_id *out_type)
 {
-    const struct port *port = library_ports(b->lib, node->definition, NULL) + node->num_inputs + index;
+    const struct port *port =
+        library_ports(b->lib, node->definition, NULL) + node->num_inputs + index;
     *out_type = library_type_name(b->lib, port->type);
     return port->name;
 }

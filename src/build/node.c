@@ -15,8 +15,8 @@ static unsigned fitness(const struct builder *b, const struct implementation *im
     return 0;
 }
 
-static void consider(const struct builder *b, const struct implementation *impl, const struct implementation **best,
-                     unsigned *best_fitness)
+static void consider(const struct builder *b, const struct implementation *impl,
+                     const struct implementation **best, unsigned *best_fitness)
 {
     unsigned f = fitness(b, impl);
     if (f > *best_fitness) {
@@ -63,33 +63,41 @@ const struct implementation *build_choose(struct builder *b, uint32_t nodedef, e
     }
     if (!impl) {
         const struct nodedef *def = library_nodedef(b->lib, nodedef);
-        diag_add(b->diags, DIAG_ID_missing_implementation, doc_place(&b->lib->doc, node), build_text(b, def->name),
+        diag_add(b->diags, DIAG_ID_missing_implementation, doc_place(&b->lib->doc, node),
+                 build_text(b, def->name),
                  b->options->num_targets ? build_text(b, b->options->targets[0]) : "",
                  "; write it as a <nodegraph> or <implementation> with this 'nodedef'");
-        diag_add(b->diags, DIAG_ID_defined_here, doc_place(&b->lib->doc, def->element), build_text(b, def->name));
+        diag_add(b->diags, DIAG_ID_defined_here, doc_place(&b->lib->doc, def->element),
+                 build_text(b, def->name));
     }
     return impl;
 }
 
 /* ---- building ---- */
 
-static void call_expressions(struct builder *b, const struct implementation *impl, const ir_ref *args, ir_ref *results)
+static void call_expressions(struct builder *b, const struct implementation *impl,
+                             const ir_ref *args, ir_ref *results)
 {
     const struct library *layer = library_of_element(b->lib, impl->element);
     for (uint32_t i = 0; i < impl->count; i++)
-        lang_lower_call(b->shader->unit, b->graph, &b->host, layer->refs.items[impl->ref + i], args, &results[i]);
+        lang_lower_call(b->shader->unit, b->graph, &b->host, layer->refs.items[impl->ref + i], args,
+                        &results[i]);
 }
 
 uint32_t build_leaf_callee(struct builder *b, uint32_t family)
 {
-    return ir_add_callee(b->graph, (struct ir_callee){.id = (uint64_t)1 << 32 | family, .name = library_family(b->lib, family)->name});
+    return ir_add_callee(b->graph,
+                         (struct ir_callee){.id = (uint64_t)1 << 32 | family,
+                                            .name = library_family(b->lib, family)->name});
 }
 
 /*
- * Weight first where the definition has one (else 1), then the inputs in order without closures, then the base of a modifier. So equal
- * lobes under different weights differ in the first operand only.
+ * Weight first where the definition has one (else 1), then the inputs in order without closures,
+ * then the base of a modifier. So equal lobes under different weights differ in the first operand
+ * only.
  */
-static void build_leaf(struct builder *b, const struct implementation *impl, const ir_ref *args, ir_ref *results)
+static void build_leaf(struct builder *b, const struct implementation *impl, const ir_ref *args,
+                       ir_ref *results)
 {
     const struct family *family = library_family(b->lib, impl->ref);
     const struct nodedef *def = library_nodedef(b->lib, impl->nodedef);
@@ -114,7 +122,9 @@ static void build_leaf(struct builder *b, const struct implementation *impl, con
     }
     uint32_t callee = build_leaf_callee(b, impl->ref);
     ir_type_id type = library_type_ir(b->lib, ports[def->num_inputs].type);
-    results[0] = ir_const_is(b->graph, operands[0], 0.0f) ? 0 : ir_build(b->graph, IR_LEAF, type, callee, operands, n);
+    results[0] = ir_const_is(b->graph, operands[0], 0.0f)
+                     ? 0
+                     : ir_build(b->graph, IR_LEAF, type, callee, operands, n);
 }
 
 const struct family *build_leaf_family(struct builder *b, uint32_t callee)
@@ -127,7 +137,8 @@ const char *build_leaf_input(struct builder *b, uint32_t callee, unsigned index)
     uint32_t nodedef = build_leaf_family(b, callee)->nodedef;
     const struct port *ports = library_ports(b->lib, nodedef, NULL);
     for (unsigned i = 0; i < library_nodedef(b->lib, nodedef)->num_inputs; i++) {
-        bool is_operand = ports[i].name != STR_weight && !ir_type_is_closure(library_type_ir(b->lib, ports[i].type));
+        bool is_operand = ports[i].name != STR_weight
+                          && !ir_type_is_closure(library_type_ir(b->lib, ports[i].type));
         if (is_operand && index-- == 0)
             return build_text(b, ports[i].name);
     }
@@ -135,7 +146,8 @@ const char *build_leaf_input(struct builder *b, uint32_t callee, unsigned index)
 }
 
 /* "{{in1}}" becomes "{{0}}": the shader's verbatim expressions know operands by number. */
-static str_id number_inputs(struct builder *b, const struct nodedef *def, const struct port *ports, str_id source)
+static str_id number_inputs(struct builder *b, const struct nodedef *def, const struct port *ports,
+                            str_id source)
 {
     struct text out;
     text_init(&out, b->arena);
@@ -155,7 +167,8 @@ static str_id number_inputs(struct builder *b, const struct nodedef *def, const 
     return str_intern(b->shader->strings, out.data, out.len);
 }
 
-static uint32_t verbatim_of(struct builder *b, const struct implementation *impl, const struct port *outputs, unsigned num_outputs)
+static uint32_t verbatim_of(struct builder *b, const struct implementation *impl,
+                            const struct port *outputs, unsigned num_outputs)
 {
     const struct verbatim *source = library_verbatim(b->lib, impl->ref);
     struct shader_verbatim v = {.first_result = b->shader->result_types.len};
@@ -167,32 +180,39 @@ static uint32_t verbatim_of(struct builder *b, const struct implementation *impl
             vec_push(b->arena, &b->shader->result_types, library_type_ir(b->lib, outputs[i].type));
     } else {
         const struct port *ports = library_ports(b->lib, impl->nodedef, NULL);
-        v.expression = number_inputs(b, library_nodedef(b->lib, impl->nodedef), ports, source->source);
+        v.expression =
+            number_inputs(b, library_nodedef(b->lib, impl->nodedef), ports, source->source);
     }
     for (uint32_t i = 0; i < b->shader->verbatim.len; i++) {
         const struct shader_verbatim *have = &b->shader->verbatim.items[i];
-        if (have->source == v.source && have->function == v.function && have->expression == v.expression)
+        if (have->source == v.source && have->function == v.function
+            && have->expression == v.expression)
             return i;
     }
     vec_push(b->arena, &b->shader->verbatim, v);
     return b->shader->verbatim.len - 1;
 }
 
-static void call_verbatim(struct builder *b, const struct implementation *impl, const ir_ref *args, ir_ref *results)
+static void call_verbatim(struct builder *b, const struct implementation *impl, const ir_ref *args,
+                          ir_ref *results)
 {
     const struct nodedef *def = library_nodedef(b->lib, impl->nodedef);
     const struct port *outputs = library_ports(b->lib, impl->nodedef, NULL) + def->num_inputs;
     uint32_t index = verbatim_of(b, impl, outputs, def->num_outputs);
     bool function = b->shader->verbatim.items[index].function != 0;
-    uint32_t callee = ir_add_callee(b->graph, (struct ir_callee){.id = SHADER_VERBATIM_ID(index), .name = def->name});
+    uint32_t callee = ir_add_callee(
+        b->graph, (struct ir_callee){.id = SHADER_VERBATIM_ID(index), .name = def->name});
     ir_type_id type = function ? IR_TYPE_VOID : library_type_ir(b->lib, outputs[0].type);
     ir_ref call = ir_build(b->graph, IR_VERBATIM, type, callee, args, def->num_inputs);
     for (uint32_t i = 0; i < def->num_outputs; i++)
-        results[i] = function ? ir_build(b->graph, IR_RESULT, library_type_ir(b->lib, outputs[i].type), i + 1, &call, 1) : call;
+        results[i] = function ? ir_build(b->graph, IR_RESULT,
+                                         library_type_ir(b->lib, outputs[i].type), i + 1, &call, 1)
+                              : call;
 }
 
 /*
- * A light's function wants the shaded point, which only the loop over lights has: elsewhere such a node is a light without emission.
+ * A light's function wants the shaded point, which only the loop over lights has: elsewhere such a
+ * node is a light without emission.
  */
 static ir_ref dark_light(struct builder *b)
 {
@@ -204,7 +224,8 @@ static void call(struct builder *b, const struct frame *frame, ir_ref *results)
 {
     const struct implementation *impl = frame->impl;
     const struct nodedef *def = library_nodedef(b->lib, impl->nodedef);
-    if (library_type_ir(b->lib, library_ports(b->lib, impl->nodedef, NULL)[def->num_inputs].type) == IR_TYPE_LIGHT) {
+    if (library_type_ir(b->lib, library_ports(b->lib, impl->nodedef, NULL)[def->num_inputs].type)
+        == IR_TYPE_LIGHT) {
         results[0] = dark_light(b);
         return;
     }
@@ -228,21 +249,16 @@ static void build_by_implementation(struct builder *b, const struct frame *frame
     switch ((enum impl_kind)impl->kind) {
     case IMPL_EXPRESSION:
     case IMPL_FUNCTION:
-    case IMPL_VERBATIM:
-        call(b, frame, results);
-        return;
-    case IMPL_FAMILY:
-        build_leaf(b, impl, frame->args, results);
-        return;
+    case IMPL_VERBATIM: call(b, frame, results); return;
+    case IMPL_FAMILY: build_leaf(b, impl, frame->args, results); return;
     case IMPL_DYNAMIC:
         if (build_dynamic(b, frame, results))
             return;
-        diag_add(b->diags, DIAG_ID_missing_dynamic, doc_place(&b->lib->doc, impl->element), build_text(b, impl->name),
-                 build_text(b, def->node));
+        diag_add(b->diags, DIAG_ID_missing_dynamic, doc_place(&b->lib->doc, impl->element),
+                 build_text(b, impl->name), build_text(b, def->node));
         break;
     case IMPL_GRAPH:
-    case IMPL_BROKEN:
-        break;
+    case IMPL_BROKEN: break;
     }
     for (uint32_t i = 0; i < def->num_outputs; i++)
         results[i] = ir_poison(b->graph, library_type_ir(b->lib, ports[def->num_inputs + i].type));

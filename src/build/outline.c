@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Functional graphs as functions of the shader. A graph is built anew for each use with other arguments, which folds best; but definitions
- * that use others twice, to a depth of n, are 2^n uses. So from its INLINE_USES-th use on a graph is a function, built once:
+ * Functional graphs as functions of the shader. A graph is built anew for each use with other
+ * arguments, which folds best; but definitions that use others twice, to a depth of n, are 2^n
+ * uses. So from its INLINE_USES-th use on a graph is a function, built once:
  *
  *     d2(x) = d1(x) + d1(d1(x)),  d1(x) = d0(x) + d0(d0(x)),  …
  */
@@ -15,8 +16,8 @@ static bool is_number(ir_type_id type)
 }
 
 /*
- * Numbers are parameters. Anything else is part of the function, and so are constants that choose (an index, a switch), because nodes may
- * ask to know them.
+ * Numbers are parameters. Anything else is part of the function, and so are constants that choose
+ * (an index, a switch), because nodes may ask to know them.
  */
 static bool is_parameter(const struct builder *b, ir_ref arg)
 {
@@ -25,7 +26,8 @@ static bool is_parameter(const struct builder *b, ir_ref arg)
     return is_number(type) && !(chooses && ir_is_const(b->graph, arg));
 }
 
-static bool gives_numbers(const struct builder *b, const struct nodedef *def, const struct port *outputs)
+static bool gives_numbers(const struct builder *b, const struct nodedef *def,
+                          const struct port *outputs)
 {
     for (uint32_t i = 0; i < def->num_outputs; i++)
         if (!is_number(library_type_ir(b->lib, outputs[i].type)))
@@ -46,10 +48,12 @@ uint32_t build_outlined(struct builder *b, const struct frame *frame)
 {
     const struct nodedef *def = library_nodedef(b->lib, frame->node.nodedef);
     const struct port *ports = library_ports(b->lib, frame->node.nodedef, NULL);
-    if (b->recorder || !gives_numbers(b, def, ports + def->num_inputs) || b->graph->functions.len >= MAX_FUNCTIONS)
+    if (b->recorder || !gives_numbers(b, def, ports + def->num_inputs)
+        || b->graph->functions.len >= MAX_FUNCTIONS)
         return LIBRARY_NONE;
     /* Complemented, an implementation's number is that of no other memo. */
-    struct memo *memo = build_memo(b, ~frame->impl->ref, fixed_args(b, frame->args, def->num_inputs), def->num_inputs);
+    struct memo *memo = build_memo(b, ~frame->impl->ref,
+                                   fixed_args(b, frame->args, def->num_inputs), def->num_inputs);
     return memo->uses++ < INLINE_USES ? LIBRARY_NONE : (uint32_t)(memo - b->memos.items);
 }
 
@@ -65,13 +69,16 @@ void build_begin_function(struct builder *b, struct frame *frame)
     ir_ref *args = ARENA_ARRAY(b->arena, ir_ref, def->num_inputs);
     n = 0;
     for (uint32_t i = 0; i < def->num_inputs; i++)
-        args[i] = is_parameter(b, frame->args[i]) ? ir_param(b->graph, frame->function, n++) : frame->args[i];
+        args[i] = is_parameter(b, frame->args[i]) ? ir_param(b->graph, frame->function, n++)
+                                                  : frame->args[i];
     frame->inner->args = args;
     /* Its nodes belong to the definition, not to this use. */
-    frame->inner->origin = ir_add_origin(b->graph, doc_element(&b->lib->doc, frame->inner->graph)->name, frame->inner->graph, 0);
+    frame->inner->origin = ir_add_origin(
+        b->graph, doc_element(&b->lib->doc, frame->inner->graph)->name, frame->inner->graph, 0);
 }
 
-void build_call_function(struct builder *b, const struct frame *frame, uint32_t function, ir_ref *results)
+void build_call_function(struct builder *b, const struct frame *frame, uint32_t function,
+                         ir_ref *results)
 {
     const struct nodedef *def = library_nodedef(b->lib, frame->node.nodedef);
     const struct port *outputs = library_ports(b->lib, frame->node.nodedef, NULL) + def->num_inputs;
@@ -80,8 +87,10 @@ void build_call_function(struct builder *b, const struct frame *frame, uint32_t 
     for (uint32_t i = 0; i < def->num_inputs; i++)
         if (is_parameter(b, frame->args[i]))
             args[n++] = frame->args[i];
-    results[0] = ir_build(b->graph, IR_GRAPH_CALL, library_type_ir(b->lib, outputs[0].type), function, args, n);
+    results[0] = ir_build(b->graph, IR_GRAPH_CALL, library_type_ir(b->lib, outputs[0].type),
+                          function, args, n);
     ir_ref call = results[0];
     for (uint32_t i = 1; i < def->num_outputs; i++)
-        results[i] = ir_build(b->graph, IR_RESULT, library_type_ir(b->lib, outputs[i].type), i, &call, 1);
+        results[i] =
+            ir_build(b->graph, IR_RESULT, library_type_ir(b->lib, outputs[i].type), i, &call, 1);
 }

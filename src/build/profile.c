@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * measured_edf: emission by a photometric file (ANSI/IES LM-63, type C). The shader gets a table of intensities by the angle from the normal,
- * relative to the greatest; around the normal, for which the node has no direction, they are averaged.
+ * measured_edf: emission by a photometric file (ANSI/IES LM-63, type C). The shader gets a table of
+ * intensities by the angle from the normal, relative to the greatest; around the normal, for which
+ * the node has no direction, they are averaged.
  */
 #include "build/build_priv.h"
 
@@ -12,7 +13,7 @@ enum { STEP = 2, LENGTH = 180 / STEP + 1, MAX_ANGLES = 4096 };
 
 struct measurement {
     const char *at, *end;
-    const char *fault;  /* NULL: none */
+    const char *fault; /* NULL: none */
     unsigned num_vertical, num_horizontal;
     /* candela: all vertical angles of the first horizontal one, then of the next … */
     float *vertical, *horizontal, *candela;
@@ -89,8 +90,10 @@ static void read_measurement(struct measurement *m, struct arena *arena)
     next_numbers(m, arena, BEHIND_TYPE);
     m->vertical = next_numbers(m, arena, m->num_vertical);
     m->horizontal = next_numbers(m, arena, m->num_horizontal);
-    m->candela = m->fault ? NULL : next_numbers(m, arena, (size_t)m->num_vertical * m->num_horizontal);
-    if (!m->fault && (!ascends(m->vertical, m->num_vertical) || !ascends(m->horizontal, m->num_horizontal)))
+    m->candela =
+        m->fault ? NULL : next_numbers(m, arena, (size_t)m->num_vertical * m->num_horizontal);
+    if (!m->fault
+        && (!ascends(m->vertical, m->num_vertical) || !ascends(m->horizontal, m->num_horizontal)))
         m->fault = "its angles do not ascend";
 }
 
@@ -101,7 +104,8 @@ static float share(const struct measurement *m, unsigned i)
 {
     if (m->num_horizontal == 1)
         return 1.0f;
-    float before = m->horizontal[i > 0 ? i - 1 : i], behind = m->horizontal[i + 1 < m->num_horizontal ? i + 1 : i];
+    float before = m->horizontal[i > 0 ? i - 1 : i],
+          behind = m->horizontal[i + 1 < m->num_horizontal ? i + 1 : i];
     return 0.5f * (behind - before) / (m->horizontal[m->num_horizontal - 1] - m->horizontal[0]);
 }
 
@@ -147,7 +151,9 @@ static bool read_table(struct builder *b, elem_id element, const char *file, flo
     struct diag_place place = doc_attr_place(&b->lib->doc, element, STR_value);
     const char *name, *text, *reason = "there is no reader";
     size_t len;
-    if (!reader || !reader->read(reader->user_data, place.file ? place.file : "", file, &name, &text, &len, &reason)) {
+    if (!reader
+        || !reader->read(reader->user_data, place.file ? place.file : "", file, &name, &text, &len,
+                         &reason)) {
         diag_add(b->diags, DIAG_ID_no_profile, place, file, reason);
         return false;
     }
@@ -179,33 +185,42 @@ static ir_ref look_up(struct builder *b, const float table[LENGTH], ir_ref norma
     unsigned length = used_length(table);
     for (unsigned i = 0; i < length; i++)
         entries[i] = ir_const_float(g, table[i]);
-    ir_ref array = ir_construct(g, (ir_type_id)ir_add_array(g, IR_TYPE_FLOAT, length), entries, length);
-    ir_ref from_viewer = build_geomprop(b, str_intern_z(b->shader->strings, "Vworld"), DOC_TYPE_vector3, (struct diag_place){0});
-    ir_ref cosine = ir_op1(g, IR_NEG, ir_op2(g, IR_DOT, ir_op1(g, IR_NORMALIZE, normal), from_viewer));
+    ir_ref array =
+        ir_construct(g, (ir_type_id)ir_add_array(g, IR_TYPE_FLOAT, length), entries, length);
+    ir_ref from_viewer = build_geomprop(b, str_intern_z(b->shader->strings, "Vworld"),
+                                        DOC_TYPE_vector3, (struct diag_place){0});
+    ir_ref cosine =
+        ir_op1(g, IR_NEG, ir_op2(g, IR_DOT, ir_op1(g, IR_NORMALIZE, normal), from_viewer));
     ir_ref least = ir_const_float(g, -1.0f), most = ir_const_float(g, 1.0f);
-    ir_ref angle = ir_op1(g, IR_DEGREES, ir_op1(g, IR_ACOS, ir_op3(g, IR_CLAMP, cosine, least, most)));
+    ir_ref angle =
+        ir_op1(g, IR_DEGREES, ir_op1(g, IR_ACOS, ir_op3(g, IR_CLAMP, cosine, least, most)));
     ir_ref entry = ir_op2(g, IR_MUL, angle, ir_const_float(g, 1.0f / STEP));
     ir_ref at = ir_op2(g, IR_MIN, entry, ir_const_float(g, (float)(length - 1)));
-    ir_ref whole = ir_op1(g, IR_FLOOR, at), below = ir_op2(g, IR_MIN, whole, ir_const_float(g, (float)(length - 2)));
+    ir_ref whole = ir_op1(g, IR_FLOOR, at),
+           below = ir_op2(g, IR_MIN, whole, ir_const_float(g, (float)(length - 2)));
     ir_ref index = ir_convert(g, IR_TYPE_INT, below);
     ir_ref values[2];
     for (int i = 0; i < 2; i++)
-        values[i] = ir_build(g, IR_INDEX, IR_TYPE_FLOAT, 0, (ir_ref[]){array, ir_op2(g, IR_ADD, index, ir_const_int(g, i))}, 2);
+        values[i] = ir_build(g, IR_INDEX, IR_TYPE_FLOAT, 0,
+                             (ir_ref[]){array, ir_op2(g, IR_ADD, index, ir_const_int(g, i))}, 2);
     return ir_op3(g, IR_MIX, values[0], values[1], ir_op2(g, IR_SUB, at, below));
 }
 
 /*
- * The even emission, if the library has it, scaled by the profile of the file that the texture `file` names.
+ * The even emission, if the library has it, scaled by the profile of the file that the texture
+ * `file` names.
  */
 ir_ref build_measured_edf(struct builder *b, ir_ref color, ir_ref normal, ir_ref file, elem_id node)
 {
     str_id even = str_find(b->shader->strings, "ND_uniform_edf", strlen("ND_uniform_edf"));
     uint32_t nodedef = even ? library_nodedef_by_name(b->lib, even) : LIBRARY_NONE;
     const struct ir_node *source = file ? ir_get(b->graph, file) : NULL;
-    const struct shader_variable *texture = source && source->op == IR_TEXTURE ? &b->shader->variables.items[source->attr] : NULL;
+    const struct shader_variable *texture =
+        source && source->op == IR_TEXTURE ? &b->shader->variables.items[source->attr] : NULL;
     float table[LENGTH];
     if (texture && *build_text(b, texture->file)) {
-        struct shader_compiled_input compiled = {texture->path, texture->doc_type, texture->file, texture->element};
+        struct shader_compiled_input compiled = {texture->path, texture->doc_type, texture->file,
+                                                 texture->element};
         vec_push(b->arena, &b->shader->compiled, compiled);
         if (read_table(b, texture->element, build_text(b, texture->file), table))
             color = ir_op2(b->graph, IR_MUL, color, look_up(b, table, normal));

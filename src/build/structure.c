@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * structure: what a generation would read of an element, as one number, in a small part of the time. The elements that count are numbered
- * as they are met, breadth first, and each adds what it says:
+ * structure: what a generation would read of an element, as one number, in a small part of the
+ * time. The elements that count are numbered as they are met, breadth first, and each adds what it
+ * says:
  *
  *     0 surfacematerial   surfaceshader → 1
  *     1 standard_surface  base_color → 2, output 0
  *     2 image_color3      file: a texture
  *
- * Nodes are their definitions, with those inputs that are not what they would be unset, in the definition's order; so names and places do
- * not count. What else these elements say counts, unless it is known that no program depends on it: an attribute that nobody thought of
- * here makes two numbers differ, which costs a generation, and never two programs equal.
+ * Nodes are their definitions, with those inputs that are not what they would be unset, in the
+ * definition's order; so names and places do not count. What else these elements say counts, unless
+ * it is known that no program depends on it: an attribute that nobody thought of here makes two
+ * numbers differ, which costs a generation, and never two programs equal.
  *
- * What becomes a uniform does not count. That rests on a rule of this room: values of uniforms decide nothing, but those of integers.
+ * What becomes a uniform does not count. That rests on a rule of this room: values of uniforms
+ * decide nothing, but those of integers.
  */
 #include "build/build.h"
 
@@ -33,8 +36,8 @@ struct walk {
     struct diag_list faults;
     bool is_unknown;
     uint64_t hash;
-    VEC(struct met) met;     /* in the order of their numbers */
-    uint32_t *table;         /* by element: its number + 1 */
+    VEC(struct met) met; /* in the order of their numbers */
+    uint32_t *table;     /* by element: its number + 1 */
     uint32_t table_mask;
     str_id space;            /* the colour space that was asked for last */
     const char *space_meant; /* and what it means; NULL: no conversion */
@@ -55,7 +58,18 @@ static void add(struct walk *w, uint64_t word)
 /*
  * What follows: no text and no number looks like one of these, so that words mean one thing only.
  */
-enum mark { MARK_ELEMENT, MARK_INPUT, MARK_UNIFORM, MARK_NUMBER, MARK_TEXT, MARK_FILE, MARK_NO_FILE, MARK_SPACE, MARK_CONNECTION, MARK_END };
+enum mark {
+    MARK_ELEMENT,
+    MARK_INPUT,
+    MARK_UNIFORM,
+    MARK_NUMBER,
+    MARK_TEXT,
+    MARK_FILE,
+    MARK_NO_FILE,
+    MARK_SPACE,
+    MARK_CONNECTION,
+    MARK_END
+};
 
 static void mark(struct walk *w, enum mark what, uint32_t more)
 {
@@ -66,7 +80,9 @@ static void mark(struct walk *w, enum mark what, uint32_t more)
 static void add_text(struct walk *w, str_id id)
 {
     const struct strpool *strings = &w->lib->strings;
-    add(w, id < strings->first ? id : hash_long((uint64_t)1 << 63, str_text(strings, id), str_len(strings, id)));
+    add(w, id < strings->first
+               ? id
+               : hash_long((uint64_t)1 << 63, str_text(strings, id), str_len(strings, id)));
 }
 
 static void grow_table(struct walk *w)
@@ -105,8 +121,10 @@ static const char *space_of(struct walk *w, elem_id element)
 {
     str_id space = doc_inherited_attr(w->doc, element, STR_colorspace);
     if (space != w->space) {
-        const char *working = w->options->colorspace, *text = text_of(w, space), *meant = library_canonical_space(text);
-        bool is_none = !space || space == STR_none || strcmp(text, working) == 0 || strcmp(meant, "none") == 0 || strcmp(meant, working) == 0;
+        const char *working = w->options->colorspace, *text = text_of(w, space),
+                   *meant = library_canonical_space(text);
+        bool is_none = !space || space == STR_none || strcmp(text, working) == 0
+                       || strcmp(meant, "none") == 0 || strcmp(meant, working) == 0;
         w->space = space;
         w->space_meant = is_none ? NULL : meant;
     }
@@ -115,22 +133,26 @@ static const char *space_of(struct walk *w, elem_id element)
 
 static bool parse(const struct walk *w, doc_type type, str_id text, struct ir_value *out)
 {
-    bool has_words = type < DOC_NUM_TYPES && (doc_type_components(type) || type == DOC_TYPE_boolean);
-    return has_words && doc_parse_value(type, text_of(w, text), str_len(&w->lib->strings, text), NULL, out);
+    bool has_words =
+        type < DOC_NUM_TYPES && (doc_type_components(type) || type == DOC_TYPE_boolean);
+    return has_words
+           && doc_parse_value(type, text_of(w, text), str_len(&w->lib->strings, text), NULL, out);
 }
 
 static bool is_uniform(const struct walk *w, bool is_public, const struct ir_value *value)
 {
-    return is_public && w->options->interface != INTERFACE_REDUCED && (ir_type_is_float(value->type) || value->type == IR_TYPE_BOOL);
+    return is_public && w->options->interface != INTERFACE_REDUCED
+           && (ir_type_is_float(value->type) || value->type == IR_TYPE_BOOL);
 }
 
 /*
- * Which file it is does not count, but whether there is one does, and the host's tokens do. Tiles depend on what lies in a folder, and
- * names with tokens on where these are found.
+ * Which file it is does not count, but whether there is one does, and the host's tokens do. Tiles
+ * depend on what lies in a folder, and names with tokens on where these are found.
  */
 static void add_file(struct walk *w, elem_id element, str_id file)
 {
-    const char *text = text_of(w, file), *prefix = text_of(w, doc_inherited_attr(w->doc, element, STR_fileprefix));
+    const char *text = text_of(w, file),
+               *prefix = text_of(w, doc_inherited_attr(w->doc, element, STR_fileprefix));
     w->is_unknown |= strpbrk(text, "<[") || strpbrk(prefix, "<[");
     mark(w, *text ? MARK_FILE : MARK_NO_FILE, 0);
     if (strchr(text, '{'))
@@ -138,7 +160,8 @@ static void add_file(struct walk *w, elem_id element, str_id file)
 }
 
 /*
- * Numbers that are compiled in, or that may decide what becomes of a program, count however they are written.
+ * Numbers that are compiled in, or that may decide what becomes of a program, count however they
+ * are written.
  */
 static void add_number(struct walk *w, const struct ir_value *value)
 {
@@ -177,8 +200,8 @@ static void add_value(struct walk *w, elem_id element, str_id text, bool is_publ
 /* ---- Attributes ---- */
 
 /*
- * Attributes that nobody reads, as they are no words of ours, or that generation does not look at, or finds in another way: definitions,
- * and by values colour spaces and prefixes.
+ * Attributes that nobody reads, as they are no words of ours, or that generation does not look at,
+ * or finds in another way: definitions, and by values colour spaces and prefixes.
  */
 static bool is_left_out(str_id attr, bool is_node)
 {
@@ -196,24 +219,23 @@ static bool is_left_out(str_id attr, bool is_node)
     case STR_uiadvanced:
     case STR_uivisible:
     case STR_colorspace:
-    case STR_fileprefix:
-        return true;
+    case STR_fileprefix: return true;
     case STR_type:
     case STR_nodedef:
-    case STR_version:
-        return is_node;
-    default:
-        return attr >= STR_NUM_WORDS;
+    case STR_version: return is_node;
+    default: return attr >= STR_NUM_WORDS;
     }
 }
 
 static bool is_connection(str_id attr)
 {
-    return attr == STR_nodename || attr == STR_nodegraph || attr == STR_interfacename || attr == STR_output;
+    return attr == STR_nodename || attr == STR_nodegraph || attr == STR_interfacename
+           || attr == STR_output;
 }
 
 /*
- * True where the element is a port that is connected: what it is connected to says more than the names.
+ * True where the element is a port that is connected: what it is connected to says more than the
+ * names.
  */
 static bool add_attributes(struct walk *w, elem_id element, bool is_public)
 {
@@ -245,7 +267,8 @@ static bool add_attributes(struct walk *w, elem_id element, bool is_public)
 /* ---- Ports ---- */
 
 /*
- * What stands behind a port is added by its number. The number of a node is returned; UINT32_MAX: it is none, or a fault.
+ * What stands behind a port is added by its number. The number of a node is returned; UINT32_MAX:
+ * it is none, or a fault.
  */
 static uint32_t add_connection(struct walk *w, elem_id port)
 {
@@ -276,10 +299,12 @@ static bool gives_numbers(const struct walk *w, elem_id node)
         return doc_type_components(type) > 0;
     str_id category = doc_element(w->doc, node)->category;
     for (const struct library *layer = w->lib; layer; layer = layer->base)
-        for (uint32_t i = library_first_of_node(layer, category); i != LIBRARY_NONE; i = layer->nodedefs.items[i].next_same_node) {
+        for (uint32_t i = library_first_of_node(layer, category); i != LIBRARY_NONE;
+             i = layer->nodedefs.items[i].next_same_node) {
             const struct nodedef *def = &layer->nodedefs.items[i];
             for (uint32_t k = 0; k < def->num_outputs; k++)
-                if (!doc_type_components(layer->ports.items[def->first_port + def->num_inputs + k].type))
+                if (!doc_type_components(
+                        layer->ports.items[def->first_port + def->num_inputs + k].type))
                     return false;
         }
     return true;
@@ -304,17 +329,20 @@ static bool is_closure(const struct walk *w, doc_type type)
     return ir_type_is_closure(ir) || ir_type_is_shader(ir);
 }
 
-static bool is_default(const struct walk *w, const struct port *port, str_id text, const struct ir_value *value)
+static bool is_default(const struct walk *w, const struct port *port, str_id text,
+                       const struct ir_value *value)
 {
     struct ir_value usual;
     if (!(port->flags & PORT_HAS_VALUE) || !port->value)
         return false;
-    return text == port->value || (parse(w, port->type, port->value, &usual) && ir_value_equal(value, &usual));
+    return text == port->value
+           || (parse(w, port->type, port->value, &usual) && ir_value_equal(value, &usual));
 }
 
 /*
- * A literal that is what the input would be if the document did not mention it: the default, or one of the uniforms that the complete
- * interface makes of all inputs; and of closures and shaders, which have none, nothing.
+ * A literal that is what the input would be if the document did not mention it: the default, or one
+ * of the uniforms that the complete interface makes of all inputs; and of closures and shaders,
+ * which have none, nothing.
  */
 static bool is_as_unset(struct walk *w, elem_id input, const struct port *port, bool is_public)
 {
@@ -325,11 +353,13 @@ static bool is_as_unset(struct walk *w, elem_id input, const struct port *port, 
     if (type_of(w, input) != port->type)
         return false;
     for (uint32_t i = 0; i < e->num_attrs; i++)
-        if (!is_left_out(attrs[i].name, false) && attrs[i].name != STR_type && attrs[i].name != STR_value)
+        if (!is_left_out(attrs[i].name, false) && attrs[i].name != STR_type
+            && attrs[i].name != STR_value)
             return false;
     if (is_closure(w, port->type))
         return true;
-    if (port->geomprop || !text || !parse(w, port->type, text, &value) || (is_color(port->type) && space_of(w, input)))
+    if (port->geomprop || !text || !parse(w, port->type, text, &value)
+        || (is_color(port->type) && space_of(w, input)))
         return false;
     if (is_public && w->options->interface != INTERFACE_COMPLETE)
         return false;
@@ -337,7 +367,8 @@ static bool is_as_unset(struct walk *w, elem_id input, const struct port *port, 
 }
 
 /*
- * Most nodes have their inputs in the definition's order: the search goes on where it ended. `n`: there is none of that name.
+ * Most nodes have their inputs in the definition's order: the search goes on where it ended. `n`:
+ * there is none of that name.
  */
 static unsigned find_port(const struct port *ports, unsigned n, unsigned start, str_id name)
 {
@@ -350,13 +381,15 @@ static unsigned find_port(const struct port *ports, unsigned n, unsigned start, 
 }
 
 /*
- * The node's inputs by port. Outputs say nothing that the definition does not; anything else is left to a generation.
+ * The node's inputs by port. Outputs say nothing that the definition does not; anything else is
+ * left to a generation.
  */
 static elem_id *sort_inputs(struct walk *w, elem_id node, const struct port *ports, unsigned n)
 {
     elem_id *inputs = ARENA_ARRAY(w->arena, elem_id, n);
     unsigned port = 0;
-    for (elem_id child = doc_element(w->doc, node)->first_child; child; child = doc_element(w->doc, child)->next) {
+    for (elem_id child = doc_element(w->doc, node)->first_child; child;
+         child = doc_element(w->doc, child)->next) {
         const struct element *e = doc_element(w->doc, child);
         bool is_output = e->kind == KIND_OUTPUT && type_of(w, child) != DOC_TYPE_NONE;
         port = e->kind == KIND_INPUT ? find_port(ports, n, port, e->name) : n;
@@ -401,13 +434,15 @@ static void add_output(struct walk *w, elem_id output)
 }
 
 /*
- * Inputs of graphs belong to the interface, too. What is around an element says nothing that is not asked for from below.
+ * Inputs of graphs belong to the interface, too. What is around an element says nothing that is not
+ * asked for from below.
  */
 static void add_element(struct walk *w, uint32_t number)
 {
     struct met met = w->met.items[number];
     const struct element *e = doc_element(w->doc, met.element);
-    bool in_graph = e->parent && doc_element(w->doc, e->parent)->kind == KIND_NODEGRAPH, of_graph = e->kind == KIND_INPUT && in_graph;
+    bool in_graph = e->parent && doc_element(w->doc, e->parent)->kind == KIND_NODEGRAPH,
+         of_graph = e->kind == KIND_INPUT && in_graph;
     w->is_unknown |= in_graph && doc_attr(w->doc, e->parent, STR_nodedef);
     mark(w, MARK_ELEMENT, (uint32_t)e->kind << 8 | (of_graph || met.flags & IS_PUBLIC));
     bool is_connected = add_attributes(w, met.element, of_graph || met.flags & IS_PUBLIC);
@@ -424,11 +459,15 @@ static bool has_definitions(const struct library *layer)
     return layer->nodedefs.len || layer->impls.len || layer->geomprops.len || layer->types.len;
 }
 
-uint64_t build_structure(const struct library *lib, const struct structure_options *options, elem_id element, unsigned output,
-                         struct arena *scratch)
+uint64_t build_structure(const struct library *lib, const struct structure_options *options,
+                         elem_id element, unsigned output, struct arena *scratch)
 {
-    struct walk w = {.lib = lib, .doc = &lib->doc, .options = options, .arena = scratch,
-                     .hash = hash_mix(options->seed, output), .is_unknown = has_definitions(lib)};
+    struct walk w = {.lib = lib,
+                     .doc = &lib->doc,
+                     .options = options,
+                     .arena = scratch,
+                     .hash = hash_mix(options->seed, output),
+                     .is_unknown = has_definitions(lib)};
     diag_list_init(&w.faults, scratch);
     number_of(&w, element);
     if (doc_element(w.doc, element)->kind == KIND_NODE)

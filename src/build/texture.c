@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Textures: the variables that stand for files, and how nodes read them. Hosts make samplers and choose files, so they are told what
- * a node says about both.
+ * Textures: the variables that stand for files, and how nodes read them. Hosts make samplers and
+ * choose files, so they are told what a node says about both.
  *
- * An image of several tiles is a texture array, a layer per tile (tiles.c). Texture coordinates choose the layer by their whole part
- * and the place in it by the rest:
+ * An image of several tiles is a texture array, a layer per tile (tiles.c). Texture coordinates
+ * choose the layer by their whole part and the place in it by the rest:
  *
- *     texture(file, uv) = inside the tiles ? textureGrad(file, vec3(fract(uv), layer), dFdx(uv), dFdy(uv)) : default
+ *     texture(file, uv) = inside the tiles ? textureGrad(file, vec3(fract(uv), layer), dFdx(uv),
+ * dFdy(uv)) : default
  */
 #include "build/build_priv.h"
 
@@ -18,7 +19,8 @@ ir_ref build_texture(struct builder *b, struct shader_variable variable, elem_id
     variable.update = UPDATE_UNIFORM;
     if (build_find_tiles(b, element, &variable))
         variable.type = IR_TYPE_SAMPLER_ARRAY;
-    return ir_build(b->graph, IR_TEXTURE, variable.type, shader_add_variable(b->shader, &variable), NULL, 0);
+    return ir_build(b->graph, IR_TEXTURE, variable.type, shader_add_variable(b->shader, &variable),
+                    NULL, 0);
 }
 
 /* ---- What nodes say of their textures ---- */
@@ -41,22 +43,26 @@ static bool belongs(const char *input, const char *name, const char *file)
 {
     size_t len = strlen(name);
     const char *suffix = strncmp(file, "file", 4) == 0 ? file + 4 : "";
-    return strncmp(input, name, len) == 0 && (input[len] == '\0' || strcmp(input + len, suffix) == 0);
+    return strncmp(input, name, len) == 0
+           && (input[len] == '\0' || strcmp(input + len, suffix) == 0);
 }
 
 /*
- * The string that an input says; 0: none, or not known. UsdUVTexture's "black" is "constant" with the default.
+ * The string that an input says; 0: none, or not known. UsdUVTexture's "black" is "constant" with
+ * the default.
  */
 static str_id said(const struct builder *b, ir_ref arg)
 {
     struct ir_value value;
     if (!arg || !ir_get_const(b->graph, arg, &value) || value.type != IR_TYPE_STRING)
         return 0;
-    return strcmp(build_text(b, value.w[0].u), "black") == 0 ? str_intern_z(b->shader->strings, "constant") : value.w[0].u;
+    return strcmp(build_text(b, value.w[0].u), "black") == 0
+               ? str_intern_z(b->shader->strings, "constant")
+               : value.w[0].u;
 }
 
-static void note_input(const struct builder *b, const struct port *file, const struct port *port, ir_ref arg,
-                       struct shader_variable *texture)
+static void note_input(const struct builder *b, const struct port *file, const struct port *port,
+                       ir_ref arg, struct shader_variable *texture)
 {
     const char *name = build_text(b, port->name);
     struct ir_value value;
@@ -86,12 +92,14 @@ static void leave_out_defaults(struct shader_variable *texture)
 static bool reads_alike(const struct shader_variable *a, const struct shader_variable *b)
 {
     bool has_literal = a->has_default && !a->default_from;
-    return memcmp(&a->sampling, &b->sampling, sizeof a->sampling) == 0 && a->has_default == b->has_default
-        && a->default_from == b->default_from && (!has_literal || memcmp(&a->value, &b->value, sizeof a->value) == 0);
+    return memcmp(&a->sampling, &b->sampling, sizeof a->sampling) == 0
+           && a->has_default == b->has_default && a->default_from == b->default_from
+           && (!has_literal || memcmp(&a->value, &b->value, sizeof a->value) == 0);
 }
 
 /* Two nodes that read one file in different ways have a variable each, with the same path. */
-static uint32_t variable_for(struct builder *b, uint32_t index, const struct shader_variable *wanted)
+static uint32_t variable_for(struct builder *b, uint32_t index,
+                             const struct shader_variable *wanted)
 {
     struct shader_variable *first = &b->shader->variables.items[index];
     if (!first->has_reader) {
@@ -100,13 +108,15 @@ static uint32_t variable_for(struct builder *b, uint32_t index, const struct sha
     }
     for (uint32_t i = index; i < b->shader->variables.len; i++) {
         const struct shader_variable *v = &b->shader->variables.items[i];
-        if (v->block == BLOCK_TEXTURES && v->path == wanted->path && v->file == wanted->file && reads_alike(v, wanted))
+        if (v->block == BLOCK_TEXTURES && v->path == wanted->path && v->file == wanted->file
+            && reads_alike(v, wanted))
             return i;
     }
     return shader_add_variable(b->shader, wanted);
 }
 
-static void note_reader(struct builder *b, const struct nodedef *def, const struct port *ports, ir_ref *args, uint32_t file)
+static void note_reader(struct builder *b, const struct nodedef *def, const struct port *ports,
+                        ir_ref *args, uint32_t file)
 {
     uint32_t index = ir_get(b->graph, args[file])->attr;
     struct shader_variable wanted = b->shader->variables.items[index];
@@ -118,7 +128,8 @@ static void note_reader(struct builder *b, const struct nodedef *def, const stru
     for (uint32_t i = 0; i < def->num_inputs; i++)
         note_input(b, &ports[file], &ports[i], args[i], &wanted);
     leave_out_defaults(&wanted);
-    args[file] = ir_build(b->graph, IR_TEXTURE, wanted.type, variable_for(b, index, &wanted), NULL, 0);
+    args[file] =
+        ir_build(b->graph, IR_TEXTURE, wanted.type, variable_for(b, index, &wanted), NULL, 0);
 }
 
 /* ---- Reading ---- */
@@ -127,7 +138,8 @@ static void note_reader(struct builder *b, const struct nodedef *def, const stru
 static ir_ref as_texel(struct builder *b, ir_ref value)
 {
     ir_ref parts[4] = {value};
-    unsigned have = value ? ir_type_info(ir_type_of(b->graph, value))->components : 0, n = have ? 1 : 0;
+    unsigned have = value ? ir_type_info(ir_type_of(b->graph, value))->components : 0,
+             n = have ? 1 : 0;
     if (have == 4)
         return value;
     for (unsigned i = have; i < 4; i++)
@@ -136,7 +148,8 @@ static ir_ref as_texel(struct builder *b, ir_ref value)
 }
 
 /* Address modes say what lies beyond the one image; where there are tiles, other tiles do. */
-static void begin_tiles(struct builder *b, const struct nodedef *def, const struct port *ports, ir_ref *args)
+static void begin_tiles(struct builder *b, const struct nodedef *def, const struct port *ports,
+                        ir_ref *args)
 {
     b->missing_texel = 0;
     for (uint32_t i = 0; i < def->num_inputs; i++) {
@@ -156,7 +169,8 @@ bool build_note_textures(struct builder *b, const struct frame *frame)
     ir_ref *args = frame->args;
     bool has_tiles = false;
     for (uint32_t i = 0; i < def->num_inputs; i++) {
-        if (ports[i].type != DOC_TYPE_filename || !args[i] || ir_get(b->graph, args[i])->op != IR_TEXTURE)
+        if (ports[i].type != DOC_TYPE_filename || !args[i]
+            || ir_get(b->graph, args[i])->op != IR_TEXTURE)
             continue;
         note_reader(b, def, ports, args, i);
         has_tiles |= ir_type_of(b->graph, args[i]) == IR_TYPE_SAMPLER_ARRAY;
@@ -166,7 +180,8 @@ bool build_note_textures(struct builder *b, const struct frame *frame)
     return has_tiles;
 }
 
-static ir_ref gradient_at(struct builder *b, enum ir_op derivative, const ir_ref *args, enum ir_op op, unsigned index)
+static ir_ref gradient_at(struct builder *b, enum ir_op derivative, const ir_ref *args,
+                          enum ir_op op, unsigned index)
 {
     return op == IR_TEX ? ir_op1(b->graph, derivative, args[1]) : args[index];
 }
@@ -181,12 +196,15 @@ ir_ref build_read_tiles(void *user_data, enum ir_op op, const ir_ref *args)
     if (op == IR_TEX_FETCH)
         return ir_poison(g, IR_TYPE_VEC4); /* build_check_tiles tells */
     ir_ref inside, layer = build_tile_layer(b, texture, args[1], &inside);
-    ir_ref at = ir_construct(g, IR_TYPE_VEC3, (ir_ref[]){ir_op1(g, IR_FRACT, args[1]), layer}, 2), texel;
+    ir_ref at = ir_construct(g, IR_TYPE_VEC3, (ir_ref[]){ir_op1(g, IR_FRACT, args[1]), layer}, 2),
+           texel;
     if (op == IR_TEX_LOD)
         texel = ir_build(g, IR_TEX_LOD, IR_TYPE_VEC4, 0, (ir_ref[]){args[0], at, args[2]}, 3);
     else
         texel = ir_build(g, IR_TEX_GRAD, IR_TYPE_VEC4, 0,
-                         (ir_ref[]){args[0], at, gradient_at(b, IR_DFDX, args, op, 2), gradient_at(b, IR_DFDY, args, op, 3)}, 4);
+                         (ir_ref[]){args[0], at, gradient_at(b, IR_DFDX, args, op, 2),
+                                    gradient_at(b, IR_DFDY, args, op, 3)},
+                         4);
     return ir_build(g, IR_SELECT, IR_TYPE_VEC4, 0, (ir_ref[]){inside, texel, b->missing_texel}, 3);
 }
 

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Images of several files, one for each unit square of texture coordinates (specification, "Filename Substitutions"):
+ * Images of several files, one for each unit square of texture coordinates (specification,
+ * "Filename Substitutions"):
  *
  *     <UDIM>     1001 + u + 10 v           <UVTILE>     u(1 + u)_v(1 + v)
  *
- * The tiles are those that the geometry property 'udimset' or 'uvtileset' lists, else those of which there are files.
+ * The tiles are those that the geometry property 'udimset' or 'uvtileset' lists, else those of
+ * which there are files.
  */
 #include "build/build_priv.h"
 
@@ -49,7 +51,8 @@ static const char *read_tile(const struct tile_token *token, const char *p, stru
 }
 
 /* Is `name` the file of a tile? Frame numbers, in braces, are any. */
-static bool match(const struct tile_token *token, const char *pattern, const char *name, struct shader_tile *out)
+static bool match(const struct tile_token *token, const char *pattern, const char *name,
+                  struct shader_tile *out)
 {
     size_t len = strlen(token->text);
     bool found = false;
@@ -76,11 +79,13 @@ static bool match(const struct tile_token *token, const char *pattern, const cha
     return found && !*name;
 }
 
-static str_id file_of(struct builder *b, const struct tile_token *token, const char *pattern, const struct shader_tile *tile)
+static str_id file_of(struct builder *b, const struct tile_token *token, const char *pattern,
+                      const struct shader_tile *tile)
 {
     struct text name;
     text_init(&name, b->arena);
-    for (const char *at; (at = strstr(pattern, token->text)) != NULL; pattern = at + strlen(token->text)) {
+    for (const char *at; (at = strstr(pattern, token->text)) != NULL;
+         pattern = at + strlen(token->text)) {
         text_mem(&name, pattern, (size_t)(at - pattern));
         if (token->property == STR_udimset)
             text_fmt(&name, "%d", 1001 + tile->u + 10 * tile->v);
@@ -96,7 +101,9 @@ static str_id file_of(struct builder *b, const struct tile_token *token, const c
 static void add_tile(struct builder *b, tile_list *tiles, struct shader_tile tile)
 {
     uint32_t at = tiles->len;
-    while (at && (tiles->items[at - 1].v > tile.v || (tiles->items[at - 1].v == tile.v && tiles->items[at - 1].u > tile.u)))
+    while (at
+           && (tiles->items[at - 1].v > tile.v
+               || (tiles->items[at - 1].v == tile.v && tiles->items[at - 1].u > tile.u)))
         at--;
     if (at && tiles->items[at - 1].u == tile.u && tiles->items[at - 1].v == tile.v)
         return;
@@ -105,7 +112,8 @@ static void add_tile(struct builder *b, tile_list *tiles, struct shader_tile til
     tiles->items[at] = tile;
 }
 
-static void add_listed(struct builder *b, const struct tile_token *token, elem_id property, tile_list *tiles)
+static void add_listed(struct builder *b, const struct tile_token *token, elem_id property,
+                       tile_list *tiles)
 {
     str_id list = doc_attr_value(&b->lib->doc, property, STR_value);
     for (const char *p = build_text(b, list); *p;) {
@@ -115,7 +123,8 @@ static void add_listed(struct builder *b, const struct tile_token *token, elem_i
         if (end && end != p && strchr(", ", *end))
             add_tile(b, tiles, tile);
         else if (*p)
-            diag_add(b->diags, DIAG_ID_bad_tile, doc_attr_place(&b->lib->doc, property, STR_value), p, token->text);
+            diag_add(b->diags, DIAG_ID_bad_tile, doc_attr_place(&b->lib->doc, property, STR_value),
+                     p, token->text);
         p += strcspn(p, ", ");
     }
 }
@@ -124,7 +133,8 @@ static void add_listed(struct builder *b, const struct tile_token *token, elem_i
 static void find_listed(struct builder *b, const struct tile_token *token, tile_list *tiles)
 {
     const struct document *doc = &b->lib->doc;
-    for (elem_id info = doc_element(doc, doc->root)->first_child; info; info = doc_element(doc, info)->next) {
+    for (elem_id info = doc_element(doc, doc->root)->first_child; info;
+         info = doc_element(doc, info)->next) {
         if (doc_element(doc, info)->kind != KIND_GEOMINFO)
             continue;
         elem_id property = doc_child_of_kind(doc, info, KIND_GEOMPROP, token->property);
@@ -133,7 +143,8 @@ static void find_listed(struct builder *b, const struct tile_token *token, tile_
     }
 }
 
-static void find_files(struct builder *b, const struct tile_token *token, elem_id element, const char *file, tile_list *tiles)
+static void find_files(struct builder *b, const struct tile_token *token, elem_id element,
+                       const char *file, tile_list *tiles)
 {
     const char *slash = strrchr(file, '/'), *pattern = slash ? slash + 1 : file;
     const struct build_options *o = b->options;
@@ -143,7 +154,8 @@ static void find_files(struct builder *b, const struct tile_token *token, elem_i
     const char *from = doc_place(&b->lib->doc, element).file;
     char *names = NULL;
     size_t capacity = 0, size;
-    while ((size = o->list_folder(o->list_user_data, from ? from : "", folder, names, capacity)) > capacity)
+    while ((size = o->list_folder(o->list_user_data, from ? from : "", folder, names, capacity))
+           > capacity)
         names = arena_alloc(b->arena, capacity = size);
     for (size_t at = 0; at < size; at += strlen(names + at) + 1) {
         struct shader_tile tile;
@@ -204,16 +216,20 @@ bool build_find_tiles(struct builder *b, elem_id element, struct shader_variable
 /* ---- Layers ---- */
 
 /* The layer of each cell, -1 where there is no tile. */
-static ir_ref layer_table(struct builder *b, const struct shader_tile *tiles, uint32_t n, const struct cells *cells, ir_ref cell)
+static ir_ref layer_table(struct builder *b, const struct shader_tile *tiles, uint32_t n,
+                          const struct cells *cells, ir_ref cell)
 {
     uint32_t length = (uint32_t)(cells->width * cells->height);
     ir_ref *layers = ARENA_ARRAY(b->arena, ir_ref, length);
     for (uint32_t i = 0; i < length; i++)
         layers[i] = ir_const_float(b->graph, -1.0f);
     for (uint32_t i = 0; i < n; i++)
-        layers[(tiles[i].v - cells->v) * cells->width + tiles[i].u - cells->u] = ir_const_float(b->graph, (float)i);
-    ir_ref table = ir_construct(b->graph, (ir_type_id)ir_add_array(b->graph, IR_TYPE_FLOAT, length), layers, length);
-    ir_ref last = ir_const_float(b->graph, (float)(length - 1)), first = ir_const_float(b->graph, 0.0f);
+        layers[(tiles[i].v - cells->v) * cells->width + tiles[i].u - cells->u] =
+            ir_const_float(b->graph, (float)i);
+    ir_ref table = ir_construct(b->graph, (ir_type_id)ir_add_array(b->graph, IR_TYPE_FLOAT, length),
+                                layers, length);
+    ir_ref last = ir_const_float(b->graph, (float)(length - 1)),
+           first = ir_const_float(b->graph, 0.0f);
     ir_ref index = ir_convert(b->graph, IR_TYPE_INT, ir_op3(b->graph, IR_CLAMP, cell, first, last));
     return ir_build(b->graph, IR_INDEX, IR_TYPE_FLOAT, 0, (ir_ref[]){table, index}, 2);
 }
@@ -227,16 +243,20 @@ static ir_ref is_between(struct ir_graph *g, ir_ref x, int32_t length)
     return ir_op2(g, IR_LAND, above, below);
 }
 
-ir_ref build_tile_layer(struct builder *b, const struct shader_variable *texture, ir_ref uv, ir_ref *out_inside)
+ir_ref build_tile_layer(struct builder *b, const struct shader_variable *texture, ir_ref uv,
+                        ir_ref *out_inside)
 {
     struct ir_graph *g = b->graph;
     const struct shader_tile *tiles = b->shader->tiles.items + texture->first_tile;
     struct cells cells = cells_of(tiles, texture->num_tiles);
-    struct ir_value corner = {.type = IR_TYPE_VEC2, .w = {{.f = (float)cells.u}, {.f = (float)cells.v}}};
+    struct ir_value corner = {.type = IR_TYPE_VEC2,
+                              .w = {{.f = (float)cells.u}, {.f = (float)cells.v}}};
     ir_ref square = ir_op1(g, IR_FLOOR, uv), at = ir_op2(g, IR_SUB, square, ir_const(g, &corner));
     ir_ref column = ir_component(g, at, 0), row = ir_component(g, at, 1);
-    ir_ref cell = ir_op2(g, IR_ADD, column, ir_op2(g, IR_MUL, row, ir_const_float(g, (float)cells.width)));
-    ir_ref in_columns = is_between(g, column, cells.width), in_rows = is_between(g, row, cells.height);
+    ir_ref cell =
+        ir_op2(g, IR_ADD, column, ir_op2(g, IR_MUL, row, ir_const_float(g, (float)cells.width)));
+    ir_ref in_columns = is_between(g, column, cells.width),
+           in_rows = is_between(g, row, cells.height);
     *out_inside = ir_op2(g, IR_LAND, in_columns, in_rows);
     if (texture->num_tiles == (uint32_t)(cells.width * cells.height))
         return cell;

@@ -18,7 +18,9 @@ void build_trace(void *user_data, struct diag_list *list)
     const struct builder *b = user_data;
     const struct document *doc = &b->lib->doc;
     const struct instance *scope = current_scope(b);
-    for (unsigned told = 0; scope && scope->node && scope->graph && told < MAX_TOLD; told++, scope = scope->parent)
-        diag_add(list, DIAG_ID_used_by, doc_place(doc, scope->node), build_text(b, doc_element(doc, scope->graph)->name),
+    for (unsigned told = 0; scope && scope->node && scope->graph && told < MAX_TOLD;
+         told++, scope = scope->parent)
+        diag_add(list, DIAG_ID_used_by, doc_place(doc, scope->node),
+                 build_text(b, doc_element(doc, scope->graph)->name),
                  build_text(b, doc_element(doc, scope->node)->name));
 }

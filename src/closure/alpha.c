@@ -3,23 +3,19 @@
 #include "closure/closure_priv.h"
 
 /*
- * Whether an operation over values that are 0 or 1 gives such a value. `is_binary` is known of all nodes below `ref`.
+ * Whether an operation over values that are 0 or 1 gives such a value. `is_binary` is known of all
+ * nodes below `ref`.
  */
 static bool keeps_binary(const struct ir_graph *g, ir_ref ref, const bool *is_binary)
 {
     const struct ir_node *node = ir_get(g, ref);
     const ir_ref *args = ir_args(g, ref);
     switch (node->op) {
-    case IR_CONST:
-        return ir_const_is(g, ref, 0.0f) || ir_const_is(g, ref, 1.0f);
-    case IR_STEP:
-        return true;
-    case IR_CONVERT:
-        return ir_type_of(g, args[0]) == IR_TYPE_BOOL || is_binary[args[0]];
-    case IR_SELECT:
-        return is_binary[args[1]] && is_binary[args[2]];
-    case IR_SUB:
-        return ir_const_is(g, args[0], 1.0f) && is_binary[args[1]];
+    case IR_CONST: return ir_const_is(g, ref, 0.0f) || ir_const_is(g, ref, 1.0f);
+    case IR_STEP: return true;
+    case IR_CONVERT: return ir_type_of(g, args[0]) == IR_TYPE_BOOL || is_binary[args[0]];
+    case IR_SELECT: return is_binary[args[1]] && is_binary[args[2]];
+    case IR_SUB: return ir_const_is(g, args[0], 1.0f) && is_binary[args[1]];
     case IR_MUL:
     case IR_MIN:
     case IR_MAX:
@@ -29,8 +25,7 @@ static bool keeps_binary(const struct ir_graph *g, ir_ref ref, const bool *is_bi
             if (!is_binary[args[i]])
                 return false;
         return true;
-    default:
-        return false;
+    default: return false;
     }
 }
 

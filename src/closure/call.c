@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Calls of a leaf's functions: the node's inputs in order, then what the function wants to know of the shaded point.
+ * Calls of a leaf's functions: the node's inputs in order, then what the function wants to know of
+ * the shaded point.
  */
 #include "closure/closure_priv.h"
 
@@ -18,8 +19,10 @@ static ir_ref view(struct shader *shader)
 {
     if (shader->scatters)
         return stream(shader, STR_viewWorld);
-    ir_ref viewer = shader_read(shader, shader_private_uniform(shader, STR_u_viewPosition, IR_TYPE_VEC3, 0));
-    return ir_op1(shader->graph, IR_NORMALIZE, ir_op2(shader->graph, IR_SUB, viewer, stream(shader, STR_positionWorld)));
+    ir_ref viewer =
+        shader_read(shader, shader_private_uniform(shader, STR_u_viewPosition, IR_TYPE_VEC3, 0));
+    return ir_op1(shader->graph, IR_NORMALIZE,
+                  ir_op2(shader->graph, IR_SUB, viewer, stream(shader, STR_positionWorld)));
 }
 
 static ir_ref position(struct shader *shader)
@@ -38,21 +41,16 @@ static ir_ref known(struct shader *shader, ir_ref *place, str_id name, ir_ref ma
     return *place;
 }
 
-static ir_ref context_value(struct shader *shader, struct closure_point *point, str_id name, const ir_ref *light)
+static ir_ref context_value(struct shader *shader, struct closure_point *point, str_id name,
+                            const ir_ref *light)
 {
     switch (name) {
-    case STR_V:
-        return known(shader, &point->view, name, view);
-    case STR_N:
-        return known(shader, &point->normal, name, normal);
-    case STR_xi:
-        return shader_stream(shader, STR_random, IR_TYPE_VEC3);
-    case STR_P:
-        return known(shader, &point->position, name, position);
-    case STR_sample_index:
-        return ir_build(shader->graph, IR_SAMPLE, IR_TYPE_INT, 0, NULL, 0);
-    default:
-        return name == STR_L && light ? *light : ir_poison(shader->graph, IR_TYPE_VEC3);
+    case STR_V: return known(shader, &point->view, name, view);
+    case STR_N: return known(shader, &point->normal, name, normal);
+    case STR_xi: return shader_stream(shader, STR_random, IR_TYPE_VEC3);
+    case STR_P: return known(shader, &point->position, name, position);
+    case STR_sample_index: return ir_build(shader->graph, IR_SAMPLE, IR_TYPE_INT, 0, NULL, 0);
+    default: return name == STR_L && light ? *light : ir_poison(shader->graph, IR_TYPE_VEC3);
     }
 }
 
@@ -72,13 +70,13 @@ ir_ref closure_position(struct shader *shader, const struct closure_host *host)
 }
 
 /*
- * A leaf's function is composed of calls: what depends on the view only is computed once when the function is seen through, and shared with
- * the leaf's other functions.
+ * A leaf's function is composed of calls: what depends on the view only is computed once when the
+ * function is seen through, and shared with the leaf's other functions.
  */
 enum { MAX_LEAF_NODES = 50 };
 
-bool closure_call_all(struct shader *shader, const struct closure_host *host, ir_ref leaf, enum leaf_function which,
-                      const ir_ref *light, ir_ref *results)
+bool closure_call_all(struct shader *shader, const struct closure_host *host, ir_ref leaf,
+                      enum leaf_function which, const ir_ref *light, ir_ref *results)
 {
     struct ir_graph *g = shader->graph;
     const struct ir_node node = *ir_get(g, leaf);
@@ -93,7 +91,8 @@ bool closure_call_all(struct shader *shader, const struct closure_host *host, ir
     ir_ref *args = ARENA_ARRAY(shader->arena, ir_ref, fn->num_params);
     for (unsigned i = 0; i < fn->num_params; i++) {
         const struct lang_slot *slot = &unit->slots.items[fn->first_slot + i];
-        args[i] = i < num_inputs ? ir_arg(g, leaf, i + 1) : context_value(shader, host->point, slot->name, light);
+        args[i] = i < num_inputs ? ir_arg(g, leaf, i + 1)
+                                 : context_value(shader, host->point, slot->name, light);
     }
     uint32_t before = g->origin;
     g->origin = node.origin;
@@ -104,8 +103,8 @@ bool closure_call_all(struct shader *shader, const struct closure_host *host, ir
     return true;
 }
 
-ir_ref closure_call(struct shader *shader, const struct closure_host *host, ir_ref leaf, enum leaf_function which,
-                    const ir_ref *light)
+ir_ref closure_call(struct shader *shader, const struct closure_host *host, ir_ref leaf,
+                    enum leaf_function which, const ir_ref *light)
 {
     ir_ref result[1];
     return closure_call_all(shader, host, leaf, which, light, result) ? result[0] : 0;

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Derivatives along the screen for path tracers, which have no neighbours. What a quad of pixels does is written out instead:
+ * Derivatives along the screen for path tracers, which have no neighbours. What a quad of pixels
+ * does is written out instead:
  *
- *     dFdx(e) = e over streams that are a pixel further - e         positionWorld + dx_positionWorld, texcoord_0 + dx_texcoord_0, …
+ *     dFdx(e) = e over streams that are a pixel further - e
  *
- * The host says by how much streams change over a pixel (Igehy 1999, "Tracing Ray Differentials"). Derivatives inside of e stay what they
- * are. Functions that are called whole, and IR functions, know none: they are 0 there.
+ * Those streams are positionWorld + dx_positionWorld, texcoord_0 + dx_texcoord_0, …
+ *
+ * The host says by how much streams change over a pixel (Igehy 1999, "Tracing Ray Differentials").
+ * Derivatives inside of e stay what they are. Functions that are called whole, and IR functions,
+ * know none: they are 0 there.
  */
 #include "closure/closure_priv.h"
 
@@ -42,12 +46,14 @@ static ir_ref shifted_stream(struct differ *d, ir_ref ref, unsigned axis)
 {
     const struct ir_node *node = ir_get(d->graph, ref);
     str_id name = d->shader->variables.items[node->attr].name;
-    if (name == STR_random || name == STR_viewWorld || name == STR_lightWorld || ir_type_info(node->type)->scalar != IR_TYPE_FLOAT)
+    if (name == STR_random || name == STR_viewWorld || name == STR_lightWorld
+        || ir_type_info(node->type)->scalar != IR_TYPE_FLOAT)
         return ref;
     struct text text;
     text_init(&text, d->shader->arena);
     text_fmt(&text, "%s%s", axis ? "dy_" : "dx_", str_text(d->shader->strings, name));
-    ir_ref change = shader_stream(d->shader, str_intern(d->shader->strings, text_cstr(&text), text.len), node->type);
+    ir_ref change = shader_stream(
+        d->shader, str_intern(d->shader->strings, text_cstr(&text), text.len), node->type);
     return change ? ir_op2(d->graph, IR_ADD, ref, change) : ref;
 }
 
@@ -62,7 +68,9 @@ static ir_ref rebuilt(struct differ *d, ir_ref ref, const ir_ref *became)
         changed |= args[i] != ir_arg(d->graph, ref, i);
     }
     d->graph->origin = node.origin;
-    return changed ? ir_build(d->graph, (enum ir_op)node.op, node.type, node.attr, args, node.num_args) : ref;
+    return changed
+               ? ir_build(d->graph, (enum ir_op)node.op, node.type, node.attr, args, node.num_args)
+               : ref;
 }
 
 static ir_ref difference(struct differ *d, ir_ref arg, unsigned axis)
@@ -74,7 +82,8 @@ static ir_ref derivative(struct differ *d, enum ir_op op, ir_ref arg)
 {
     if (op != IR_FWIDTH)
         return difference(d, arg, op == IR_DFDY);
-    ir_ref x = ir_op1(d->graph, IR_ABS, difference(d, arg, 0)), y = ir_op1(d->graph, IR_ABS, difference(d, arg, 1));
+    ir_ref x = ir_op1(d->graph, IR_ABS, difference(d, arg, 0)),
+           y = ir_op1(d->graph, IR_ABS, difference(d, arg, 1));
     return ir_op2(d->graph, IR_ADD, x, y);
 }
 
@@ -86,7 +95,7 @@ static void visit(struct differ *d, ir_ref ref)
     for (unsigned axis = 0; axis < 2; axis++) {
         if (!(d->wanted[ref] & 1u << axis))
             continue;
-        d->next[axis][ref] = differs          ? d->here[ref]
+        d->next[axis][ref] = differs           ? d->here[ref]
                              : op == IR_STREAM ? shifted_stream(d, ref, axis)
                                                : rebuilt(d, ref, d->next[axis]);
     }

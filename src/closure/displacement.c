@@ -9,8 +9,9 @@
  *
  * (A path tracer moves its mesh beforehand, and knows N'.)
  *
- * The normals g of the facets go out of the difference, so the surface stays as smooth as it was. What a material reads of the
- * geometry is that of the surface before it moved, except for the normal, which is bent wherever it is read, in functions, too.
+ * The normals g of the facets go out of the difference, so the surface stays as smooth as it was.
+ * What a material reads of the geometry is that of the surface before it moved, except for the
+ * normal, which is bent wherever it is read, in functions, too.
  */
 #include "closure/closure_priv.h"
 
@@ -65,7 +66,8 @@ ir_ref closure_offset(struct shader *shader, ir_ref root)
         else if (node.op == IR_UNIFORM) /* the offset, from another layer of a network */
             known[ref] = ir_build(g, IR_UNIFORM, IR_TYPE_VEC3, node.attr, NULL, 0);
         else if (node.op == IR_SHADER_MIX)
-            known[ref] = mixed(g, known[ir_arg(g, ref, 0)], known[ir_arg(g, ref, 1)], ir_arg(g, ref, 2));
+            known[ref] =
+                mixed(g, known[ir_arg(g, ref, 0)], known[ir_arg(g, ref, 1)], ir_arg(g, ref, 2));
     }
     g->origin = 0;
     return known[root];
@@ -75,7 +77,8 @@ ir_ref closure_offset(struct shader *shader, ir_ref root)
 static ir_ref facet(struct shader *shader, ir_ref point, ir_ref normal)
 {
     struct ir_graph *g = shader->graph;
-    ir_ref dx = ir_op1(g, IR_DFDX, point), dy = ir_op1(g, IR_DFDY, point), across = ir_op2(g, IR_CROSS, dx, dy);
+    ir_ref dx = ir_op1(g, IR_DFDX, point), dy = ir_op1(g, IR_DFDY, point),
+           across = ir_op2(g, IR_CROSS, dx, dy);
     ir_ref unit = ir_op1(g, IR_NORMALIZE, across);
     return ir_op3(g, IR_FACEFORWARD, unit, ir_op1(g, IR_NEG, normal), unit);
 }
@@ -95,32 +98,41 @@ static void move_vertices(struct shader *shader, ir_ref point)
 {
     struct ir_graph *g = shader->graph;
     ir_ref parts[2] = {point, ir_const_float(g, 1.0f)};
-    ir_ref matrix = shader_read(shader, shader_private_uniform(shader, STR_u_viewProjectionMatrix, IR_TYPE_MAT4, 0));
+    ir_ref matrix = shader_read(
+        shader, shader_private_uniform(shader, STR_u_viewProjectionMatrix, IR_TYPE_MAT4, 0));
     ir_ref args[2] = {matrix, ir_construct(g, IR_TYPE_VEC4, parts, 2)};
-    shader_effect(shader, STAGE_VERTEX, (struct effect){.kind = EFFECT_POSITION,
-                                                        .value = ir_build(g, IR_MUL, IR_TYPE_VEC4, 0, args, 2)});
+    shader_effect(shader, STAGE_VERTEX,
+                  (struct effect){.kind = EFFECT_POSITION,
+                                  .value = ir_build(g, IR_MUL, IR_TYPE_VEC4, 0, args, 2)});
 }
 
 /*
- * A path tracer asks for the offset of each vertex before it moves the mesh, and knows the normals then.
+ * A path tracer asks for the offset of each vertex before it moves the mesh, and knows the normals
+ * then.
  */
 static void tell_offset(struct shader *shader, ir_ref offset)
 {
     struct ir_graph *g = shader->graph;
     ir_ref parts[2] = {offset, ir_const_float(g, 0.0f)};
-    uint32_t out = shader_add_variable(shader, &(struct shader_variable){.name = STR_out8, .block = BLOCK_OUTPUTS, .type = IR_TYPE_VEC4});
-    shader_effect(shader, STAGE_PIXEL, (struct effect){.kind = EFFECT_OUTPUT, .index = out,
-                                                       .value = ir_construct(g, IR_TYPE_VEC4, parts, 2)});
+    uint32_t out = shader_add_variable(
+        shader,
+        &(struct shader_variable){.name = STR_out8, .block = BLOCK_OUTPUTS, .type = IR_TYPE_VEC4});
+    shader_effect(shader, STAGE_PIXEL,
+                  (struct effect){.kind = EFFECT_OUTPUT,
+                                  .index = out,
+                                  .value = ir_construct(g, IR_TYPE_VEC4, parts, 2)});
 }
 
 static ir_ref view_from(struct shader *shader, ir_ref point)
 {
     struct ir_graph *g = shader->graph;
-    ir_ref viewer = shader_read(shader, shader_private_uniform(shader, STR_u_viewPosition, IR_TYPE_VEC3, 0));
+    ir_ref viewer =
+        shader_read(shader, shader_private_uniform(shader, STR_u_viewPosition, IR_TYPE_VEC3, 0));
     return ir_op1(g, IR_NORMALIZE, ir_op2(g, IR_SUB, viewer, point));
 }
 
-ir_ref closure_displace(struct shader *shader, const struct closure_host *host, ir_ref surface, ir_ref displacement)
+ir_ref closure_displace(struct shader *shader, const struct closure_host *host, ir_ref surface,
+                        ir_ref displacement)
 {
     struct ir_graph *g = shader->graph;
     ir_ref offset = displacement ? closure_offset(shader, displacement) : 0;
@@ -143,5 +155,7 @@ ir_ref closure_displace(struct shader *shader, const struct closure_host *host, 
         move_vertices(shader, point->position);
     }
     g->origin = 0;
-    return surface ? ir_replace(g, surface, stream(shader, STR_normalWorld), point->normal, shader->arena) : 0;
+    return surface ? ir_replace(g, surface, stream(shader, STR_normalWorld), point->normal,
+                                shader->arena)
+                   : 0;
 }

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * The closure tree as a list. Every operator is linear in its operands' response, so a leaf's total weight is the sum over its uses
- * of the products on the way to the root:
+ * The closure tree as a list. Every operator is linear in its operands' response, so a leaf's total
+ * weight is the sum over its uses of the products on the way to the root:
  *
  *     layer(top, base)     top · w,  base · w · T(top)
  *     mix(bg, fg, m)       bg · w(1-m),  fg · w m
  *     add(a, b)            a · w,  b · w
  *     scale(a, c)          a · w c
  *
- * T, the throughput, is what an operand lets through to what lies beneath. Operands have smaller indices than operators, so one pass
- * upwards finds every throughput that a layer asks for and one pass downwards every weight; nothing recurses.
+ * T, the throughput, is what an operand lets through to what lies beneath. Operands have smaller
+ * indices than operators, so one pass upwards finds every throughput that a layer asks for and one
+ * pass downwards every weight; nothing recurses.
  */
 #include "closure/closure_priv.h"
 
@@ -23,14 +24,15 @@ struct flattener {
     struct ir_graph *graph;
     const struct closure_host *host;
     ir_ref root;
-    struct weight *weights;     /* per node */
-    ir_ref *throughputs;        /* per node; 0: not asked for */
-    uint8_t *wanted;            /* per node: its throughput is needed */
+    struct weight *weights; /* per node */
+    ir_ref *throughputs;    /* per node; 0: not asked for */
+    uint8_t *wanted;        /* per node: its throughput is needed */
 };
 
 static bool is_operator(const struct ir_node *node)
 {
-    return node->op == IR_LAYER || node->op == IR_CLOSURE_MIX || node->op == IR_CLOSURE_ADD || node->op == IR_CLOSURE_SCALE;
+    return node->op == IR_LAYER || node->op == IR_CLOSURE_MIX || node->op == IR_CLOSURE_ADD
+           || node->op == IR_CLOSURE_SCALE;
 }
 
 ir_ref closure_mul(struct ir_graph *g, ir_ref a, ir_ref b)
@@ -56,7 +58,8 @@ ir_ref closure_mixed(struct ir_graph *g, ir_ref bg, ir_ref fg, ir_ref mix)
 static ir_ref modified_base(const struct flattener *f, ir_ref ref)
 {
     const struct ir_node *node = ir_get(f->graph, ref);
-    if (node->op != IR_LEAF || f->host->leaf_functions(f->host->user_data, node->attr)[LEAF_FACTOR] == LANG_NONE)
+    if (node->op != IR_LEAF
+        || f->host->leaf_functions(f->host->user_data, node->attr)[LEAF_FACTOR] == LANG_NONE)
         return 0;
     return ir_arg(f->graph, ref, node->num_args - 1);
 }
@@ -81,7 +84,8 @@ static ir_ref leaf_throughput(struct flattener *f, ir_ref ref)
 
 static ir_ref through_of(const struct flattener *f, ir_ref ref)
 {
-    return ref && f->throughputs[ref] ? f->throughputs[ref] : ir_const_splat(f->graph, IR_TYPE_VEC3, 1.0f);
+    return ref && f->throughputs[ref] ? f->throughputs[ref]
+                                      : ir_const_splat(f->graph, IR_TYPE_VEC3, 1.0f);
 }
 
 static ir_ref operator_throughput(struct flattener *f, ir_ref ref)
@@ -90,8 +94,7 @@ static ir_ref operator_throughput(struct flattener *f, ir_ref ref)
     const struct ir_node node = *ir_get(g, ref);
     ir_ref a = ir_arg(g, ref, 0), b = ir_arg(g, ref, 1);
     switch (node.op) {
-    case IR_LAYER:
-        return ir_op2(g, IR_MUL, through_of(f, a), through_of(f, b));
+    case IR_LAYER: return ir_op2(g, IR_MUL, through_of(f, a), through_of(f, b));
     case IR_CLOSURE_MIX: {
         ir_ref mix = ir_arg(g, ref, 2);
         return ir_op3(g, IR_MIX, through_of(f, a), through_of(f, b), mix);
@@ -102,8 +105,7 @@ static ir_ref operator_throughput(struct flattener *f, ir_ref ref)
         ir_ref rest = ir_op2(g, IR_SUB, sum, ir_const_float(g, 1.0f));
         return ir_op2(g, IR_MAX, rest, ir_const_float(g, 0.0f));
     }
-    default: /* a scaled closure hides as much as before */
-        return through_of(f, a);
+    default: /* a scaled closure hides as much as before */ return through_of(f, a);
     }
 }
 
@@ -151,8 +153,8 @@ static void find_throughputs(struct flattener *f, uint32_t num_nodes)
 }
 
 /*
- * What is let through on the way in is what would be let through to a viewer in that direction. Light that bounces between layers is lost, so
- * the product is a lower bound.
+ * What is let through on the way in is what would be let through to a viewer in that direction.
+ * Light that bounces between layers is lost, so the product is a lower bound.
  */
 static void add_way_in(struct flattener *f, uint32_t num_nodes)
 {
@@ -277,11 +279,13 @@ static void merge_leaf(struct flattener *f, struct closure_list *out, ir_ref lea
         struct closure_leaf *have = &out->leaves.items[i];
         if (have->leaf != leaf || have->medium != w.medium)
             continue;
-        have->color = sum_of_weights(g, (struct weight){.scalar = have->scalar, .color = have->color}, w);
+        have->color =
+            sum_of_weights(g, (struct weight){.scalar = have->scalar, .color = have->color}, w);
         have->scalar = ir_const_float(g, 1.0f);
         return;
     }
-    vec_push(f->shader->arena, &out->leaves, (struct closure_leaf){leaf, w.scalar, w.color, w.medium});
+    vec_push(f->shader->arena, &out->leaves,
+             (struct closure_leaf){leaf, w.scalar, w.color, w.medium});
 }
 
 static void take_leaf(struct flattener *f, ir_ref ref, struct closure_list *out)
@@ -295,12 +299,12 @@ static void take_leaf(struct flattener *f, ir_ref ref, struct closure_list *out)
     }
     ir_ref scalar = closure_mul(g, w.scalar, ir_arg(g, ref, 0));
     if (!ir_const_is(g, scalar, 0.0f))
-        merge_leaf(f, out, unit_leaf(g, ref, f->shader->arena), (struct weight){scalar, w.color, w.medium});
+        merge_leaf(f, out, unit_leaf(g, ref, f->shader->arena),
+                   (struct weight){scalar, w.color, w.medium});
 }
 
-
-
-void closure_flatten(struct shader *shader, const struct closure_host *host, ir_ref root, struct closure_list *out)
+void closure_flatten(struct shader *shader, const struct closure_host *host, ir_ref root,
+                     struct closure_list *out)
 {
     memset(out, 0, sizeof *out);
     if (!root)

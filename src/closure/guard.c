@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Which values need a branch where their weight is 0: those with a call or a texture that no other value has, and those whose inputs may be
- * undefined when nobody asks for them (a colour that is divided by what the weight is made of). All else is cheaper computed than jumped over,
- * and processors that mask branches instead of taking them compute it in any case.
+ * Which values need a branch where their weight is 0: those with a call or a texture that no other
+ * value has, and those whose inputs may be undefined when nobody asks for them (a colour that is
+ * divided by what the weight is made of). All else is cheaper computed than jumped over, and
+ * processors that mask branches instead of taking them compute it in any case.
  */
 #include "closure/closure_priv.h"
 
@@ -10,7 +11,8 @@ enum { SHARED = UINT16_MAX };
 
 static bool is_dear(enum ir_op op)
 {
-    return op == IR_CALL || op == IR_GRAPH_CALL || op == IR_VERBATIM || (op >= IR_TEX && op <= IR_TEX_FETCH && op != IR_TEX_SIZE);
+    return op == IR_CALL || op == IR_GRAPH_CALL || op == IR_VERBATIM
+           || (op >= IR_TEX && op <= IR_TEX_FETCH && op != IR_TEX_SIZE);
 }
 
 /* Returns whether nobody has claimed it before. */
@@ -22,9 +24,11 @@ static bool claim(uint16_t *owner, uint16_t by)
 }
 
 /*
- * Operands come before their node, so one pass down finds who owns each node; those that are dear, or stand on such, are asked.
+ * Operands come before their node, so one pass down finds who owns each node; those that are dear,
+ * or stand on such, are asked.
  */
-static void guard_dear(struct shader *shader, struct closure_part *parts, uint32_t count, bool in_loop)
+static void guard_dear(struct shader *shader, struct closure_part *parts, uint32_t count,
+                       bool in_loop)
 {
     const struct ir_graph *g = shader->graph;
     unsigned wanted = IR_NODE_DEAR | (in_loop ? IR_NODE_LOOP : 0u);

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * The light at hand, inside the loop over lights: which of the bound light shaders it is decides direction and intensity. All are
- * expressions over the members of u_lightData[i]; what they share is computed once.
+ * The light at hand, inside the loop over lights: which of the bound light shaders it is decides
+ * direction and intensity. All are expressions over the members of u_lightData[i]; what they share
+ * is computed once.
  *
- *     L = type == 1 ? L₁ : type == 2 ? L₂ : L₃,  the same for the intensity; a light of unknown type is dark
+ *     L = type == 1 ? L₁ : type == 2 ? L₂ : L₃,  the same for the intensity; a light of unknown
+ * type is dark
  */
 #include "closure/closure_priv.h"
 
@@ -12,11 +14,13 @@ enum { MAX_LIGHT_NODES = 400 };
 
 static ir_ref member(struct shader *shader, uint32_t variable)
 {
-    return ir_build(shader->graph, IR_CONTEXT, shader->variables.items[variable].type, variable, NULL, 0);
+    return ir_build(shader->graph, IR_CONTEXT, shader->variables.items[variable].type, variable,
+                    NULL, 0);
 }
 
 /* Direction and intensity as the function of one light shader gives them. */
-static void call_function(struct shader *shader, const struct closure_host *host, const struct shader_light *light, ir_ref *results)
+static void call_function(struct shader *shader, const struct closure_host *host,
+                          const struct shader_light *light, ir_ref *results)
 {
     struct lang_host see_through = *host->lang;
     see_through.max_inline_nodes = MAX_LIGHT_NODES;
@@ -28,10 +32,12 @@ static void call_function(struct shader *shader, const struct closure_host *host
 }
 
 /* What a light emits along `to_point`; its normal is the direction that it faces. 0: nothing. */
-static ir_ref emission(struct shader *shader, const struct closure_host *host, ir_ref edf, ir_ref facing, ir_ref to_point)
+static ir_ref emission(struct shader *shader, const struct closure_host *host, ir_ref edf,
+                       ir_ref facing, ir_ref to_point)
 {
     struct ir_graph *g = shader->graph;
-    struct closure_point point = {.position = closure_position(shader, host), .normal = facing, .view = to_point};
+    struct closure_point point = {
+        .position = closure_position(shader, host), .normal = facing, .view = to_point};
     struct closure_host at_light = *host;
     at_light.point = &point;
     at_light.way_in = NULL;
@@ -41,7 +47,9 @@ static ir_ref emission(struct shader *shader, const struct closure_host *host, i
     for (uint32_t i = 0; i < list.leaves.len; i++) {
         const struct closure_leaf *leaf = &list.leaves.items[i];
         ir_ref value = closure_call(shader, &at_light, leaf->leaf, LEAF_EMISSION, NULL);
-        value = value ? ir_convert(g, IR_TYPE_VEC3, closure_mul(g, value, closure_mul(g, leaf->color, leaf->scalar))) : 0;
+        value = value ? ir_convert(g, IR_TYPE_VEC3,
+                                   closure_mul(g, value, closure_mul(g, leaf->color, leaf->scalar)))
+                      : 0;
         sum = value && sum ? ir_op2(g, IR_ADD, sum, value) : value ? value : sum;
     }
     return sum;
@@ -52,18 +60,24 @@ static ir_ref emission(struct shader *shader, const struct closure_host *host, i
  *
  *     intensity = edf · intensity · 2^exposure / distance²
  */
-static void sample_emitter(struct shader *shader, const struct closure_host *host, const struct shader_light *light, ir_ref *results)
+static void sample_emitter(struct shader *shader, const struct closure_host *host,
+                           const struct shader_light *light, ir_ref *results)
 {
     struct ir_graph *g = shader->graph;
     ir_ref facing = ir_op1(g, IR_NORMALIZE, member(shader, light->direction));
-    ir_ref away = ir_op2(g, IR_SUB, member(shader, light->position), closure_position(shader, host));
+    ir_ref away =
+        ir_op2(g, IR_SUB, member(shader, light->position), closure_position(shader, host));
     ir_ref distance = ir_op1(g, IR_LENGTH, away), square = ir_op2(g, IR_MUL, distance, distance);
     ir_ref normal = shader_stream(shader, STR_normalWorld, IR_TYPE_VEC3);
-    ir_ref root = ir_replace(g, light->shader, normal, member(shader, light->direction), shader->arena);
+    ir_ref root =
+        ir_replace(g, light->shader, normal, member(shader, light->direction), shader->arena);
     results[0] = ir_op2(g, IR_DIV, away, distance);
-    ir_ref emitted = ir_arg(g, root, 0) ? emission(shader, host, ir_arg(g, root, 0), facing, ir_op1(g, IR_NEG, results[0])) : 0;
+    ir_ref emitted = ir_arg(g, root, 0) ? emission(shader, host, ir_arg(g, root, 0), facing,
+                                                   ir_op1(g, IR_NEG, results[0]))
+                                        : 0;
     ir_ref scale = ir_op2(g, IR_MUL, ir_arg(g, root, 1), ir_op1(g, IR_EXP2, ir_arg(g, root, 2)));
-    results[1] = emitted ? ir_op2(g, IR_MUL, emitted, ir_op2(g, IR_DIV, scale, square)) : ir_const_splat(g, IR_TYPE_VEC3, 0.0f);
+    results[1] = emitted ? ir_op2(g, IR_MUL, emitted, ir_op2(g, IR_DIV, scale, square))
+                         : ir_const_splat(g, IR_TYPE_VEC3, 0.0f);
 }
 
 static uint32_t named(struct shader *shader, str_id name)
@@ -76,10 +90,12 @@ static ir_ref type_of_light(struct shader *shader)
     return member(shader, shader_light_member(shader, STR_type, IR_TYPE_INT));
 }
 
-void closure_sample_light(struct shader *shader, const struct closure_host *host, struct closure_light *out)
+void closure_sample_light(struct shader *shader, const struct closure_host *host,
+                          struct closure_light *out)
 {
     struct ir_graph *g = shader->graph;
-    uint32_t before = g->origin, direction_origin = named(shader, STR_L), intensity_origin = named(shader, STR_light);
+    uint32_t before = g->origin, direction_origin = named(shader, STR_L),
+             intensity_origin = named(shader, STR_light);
     ir_ref type = type_of_light(shader);
     closure_position(shader, host); /* once, outside of the loop */
     *out = (struct closure_light){0, ir_const_splat(g, IR_TYPE_VEC3, 0.0f)};
@@ -93,8 +109,9 @@ void closure_sample_light(struct shader *shader, const struct closure_host *host
             call_function(shader, host, light, results);
         ir_ref is_this = ir_op2(g, IR_EQ, type, ir_const_int(g, light->type));
         g->origin = direction_origin;
-        out->direction = out->direction && out->direction != results[0] ? ir_op3(g, IR_SELECT, is_this, results[0], out->direction)
-                                                                        : results[0];
+        out->direction = out->direction && out->direction != results[0]
+                             ? ir_op3(g, IR_SELECT, is_this, results[0], out->direction)
+                             : results[0];
         g->origin = intensity_origin;
         out->intensity = ir_op3(g, IR_SELECT, is_this, results[1], out->intensity);
     }
@@ -104,7 +121,8 @@ void closure_sample_light(struct shader *shader, const struct closure_host *host
 static ir_ref distance_to(struct shader *shader, const struct closure_host *host, uint32_t position)
 {
     struct ir_graph *g = shader->graph;
-    return ir_op1(g, IR_LENGTH, ir_op2(g, IR_SUB, member(shader, position), closure_position(shader, host)));
+    return ir_op1(g, IR_LENGTH,
+                  ir_op2(g, IR_SUB, member(shader, position), closure_position(shader, host)));
 }
 
 ir_ref closure_light_distance(struct shader *shader, const struct closure_host *host)
@@ -122,7 +140,8 @@ ir_ref closure_light_distance(struct shader *shader, const struct closure_host *
             if (v->name == STR_position && v->type == IR_TYPE_VEC3)
                 this_one = distance_to(shader, host, variable);
         }
-        distance = ir_op3(g, IR_SELECT, ir_op2(g, IR_EQ, type, ir_const_int(g, light->type)), this_one, distance);
+        distance = ir_op3(g, IR_SELECT, ir_op2(g, IR_EQ, type, ir_const_int(g, light->type)),
+                          this_one, distance);
     }
     return distance;
 }

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * How a surface is lit, as a fragment that follows on the one that the surface is itself (lang/fragment.h): leaves are not found and weighted, their
- * functions not called where a shading model's inputs are no constants, its lights the usual ones and nothing is displaced.
+ * How a surface is lit, as a fragment that follows on the one that the surface is itself
+ * (lang/fragment.h): leaves are not found and weighted, their functions not called where a shading
+ * model's inputs are no constants, its lights the usual ones and nothing is displaced.
  *
  *     key      number of lights, function and type of each
- *     results  what the colour begins with; of each part the leaf, which is the model's, the scalar and the value
- *     more     1 if there are lights, number of closures and the elements of their leaves, number of parts and the place of each
+ *     results  what the colour begins with; of each part the leaf, which is the model's, the scalar
+ * and the value more     1 if there are lights, number of closures and the elements of their
+ * leaves, number of parts and the place of each
  */
 #include "closure/closure_priv.h"
 
@@ -13,12 +15,13 @@
 
 enum { MAX_LIGHTS = 8, MAX_CLOSURES = 60, MAX_PARTS = 100, PART_RESULTS = 3 };
 
-bool closure_is_usual(const struct shader *shader, const struct closure_host *host, const struct closure_lighting *lighting, ir_ref root)
+bool closure_is_usual(const struct shader *shader, const struct closure_host *host,
+                      const struct closure_lighting *lighting, ir_ref root)
 {
     const struct closure_point *point = host->point;
     bool is_new = !point->position && !point->normal && !point->view;
-    return root && root == shader->model.root && is_new && lighting->lights && lighting->environment && !lighting->two_sided
-        && !shader->scatters && shader->lights.len <= MAX_LIGHTS;
+    return root && root == shader->model.root && is_new && lighting->lights && lighting->environment
+           && !lighting->two_sided && !shader->scatters && shader->lights.len <= MAX_LIGHTS;
 }
 
 static unsigned lights_key(const struct shader *shader, uint16_t *key)
@@ -36,7 +39,8 @@ static unsigned lights_key(const struct shader *shader, uint16_t *key)
 static bool has_key(const struct shader *shader)
 {
     for (uint32_t i = 0; i < shader->lights.len; i++)
-        if (shader->lights.items[i].function > UINT16_MAX || shader->lights.items[i].type < 0 || shader->lights.items[i].type > UINT16_MAX)
+        if (shader->lights.items[i].function > UINT16_MAX || shader->lights.items[i].type < 0
+            || shader->lights.items[i].type > UINT16_MAX)
             return false;
     return true;
 }
@@ -56,20 +60,13 @@ static ir_ref named(void *user_data, str_id name, ir_type_id type)
     if (!light->direction && (name == STR_L || name == STR_light))
         closure_sample_light(l->shader, l->host, light);
     switch (name) {
-    case STR_V:
-        return closure_view(l->shader, l->host);
-    case STR_N:
-        return closure_normal(l->shader, l->host);
-    case STR_P:
-        return closure_position(l->shader, l->host);
-    case STR_L:
-        return light->direction;
-    case STR_light:
-        return light->intensity;
-    case STR_sample_index:
-        return ir_build(l->shader->graph, IR_SAMPLE, IR_TYPE_INT, 0, NULL, 0);
-    default:
-        return ir_poison(l->shader->graph, type);
+    case STR_V: return closure_view(l->shader, l->host);
+    case STR_N: return closure_normal(l->shader, l->host);
+    case STR_P: return closure_position(l->shader, l->host);
+    case STR_L: return light->direction;
+    case STR_light: return light->intensity;
+    case STR_sample_index: return ir_build(l->shader->graph, IR_SAMPLE, IR_TYPE_INT, 0, NULL, 0);
+    default: return ir_poison(l->shader->graph, type);
     }
 }
 
@@ -105,8 +102,15 @@ static void set_origin(void *user_data, uint32_t element)
 
 static struct fragment_host host_of(struct lit *l)
 {
-    return (struct fragment_host){.unit = l->shader->unit, .graph = l->shader->graph, .lang = l->host->lang, .user_data = l,
-                                  .origin = set_origin, .own = 0, .outer = l->shader->model.origin, .named = named, .name = name_of};
+    return (struct fragment_host){.unit = l->shader->unit,
+                                  .graph = l->shader->graph,
+                                  .lang = l->host->lang,
+                                  .user_data = l,
+                                  .origin = set_origin,
+                                  .own = 0,
+                                  .outer = l->shader->model.origin,
+                                  .named = named,
+                                  .name = name_of};
 }
 
 /* ---- Taking down ---- */
@@ -124,7 +128,8 @@ static bool note_closures(struct notes *notes, const struct shader *shader, uint
     notes->codes[notes->len++] = (uint16_t)count;
     for (uint32_t i = first; i < shader->closures.len && count <= MAX_CLOSURES; i++) {
         const struct ir_origin *origin = &shader->graph->origins.items[shader->closures.items[i]];
-        if (origin->parent != shader->model.origin || !origin->element || origin->element >= FRAGMENT_OUTER)
+        if (origin->parent != shader->model.origin || !origin->element
+            || origin->element >= FRAGMENT_OUTER)
             return false;
         notes->codes[notes->len++] = (uint16_t)origin->element;
     }
@@ -139,15 +144,19 @@ static ir_ref leaf_of_model(const struct shader *shader, ir_ref unit)
     for (unsigned i = 1; i < shader->model.num_nodes; i++) {
         ir_ref ref = shader->model.nodes[i];
         const struct ir_node *other = ir_get(g, ref);
-        if (other->op == IR_LEAF && other->attr == node->attr && other->origin == node->origin && other->num_args == node->num_args
-            && memcmp(ir_args(g, ref) + 1, ir_args(g, unit) + 1, (node->num_args - 1) * sizeof(ir_ref)) == 0)
+        if (other->op == IR_LEAF && other->attr == node->attr && other->origin == node->origin
+            && other->num_args == node->num_args
+            && memcmp(ir_args(g, ref) + 1, ir_args(g, unit) + 1,
+                      (node->num_args - 1) * sizeof(ir_ref))
+                   == 0)
             return ref;
     }
     return 0;
 }
 
 /* False where a part is of no leaf of the model. */
-static bool note_parts(struct notes *notes, const struct shader *shader, const struct closure_lit *state)
+static bool note_parts(struct notes *notes, const struct shader *shader,
+                       const struct closure_lit *state)
 {
     unsigned count = 0, first = notes->len++;
     for (unsigned place = 0; place < NUM_PLACES; place++)
@@ -165,28 +174,39 @@ static bool note_parts(struct notes *notes, const struct shader *shader, const s
     return true;
 }
 
-void closure_record_lit(struct shader *shader, const struct closure_host *host, uint32_t first_closure, struct closure_lit *state)
+void closure_record_lit(struct shader *shader, const struct closure_host *host,
+                        uint32_t first_closure, struct closure_lit *state)
 {
-    struct notes notes = {.codes = {state->light.intensity != 0}, .results = {state->base}, .len = 1, .num_results = 1};
+    struct notes notes = {.codes = {state->light.intensity != 0},
+                          .results = {state->base},
+                          .len = 1,
+                          .num_results = 1};
     uint16_t key[1 + 2 * MAX_LIGHTS];
-    if (!has_key(shader) || !note_closures(&notes, shader, first_closure) || !note_parts(&notes, shader, state))
+    if (!has_key(shader) || !note_closures(&notes, shader, first_closure)
+        || !note_parts(&notes, shader, state))
         return;
     struct lit l = {shader, host, state};
     struct fragment_host fragment_host = host_of(&l);
     fragment_record_follower(&fragment_host, shader->model.fragment,
-                             &(struct fragment_follower){.nodes = shader->model.nodes, .num_nodes = shader->model.num_nodes,
-                                                         .results = notes.results, .num_results = notes.num_results, .key = key,
-                                                         .num_key = lights_key(shader, key), .more = notes.codes, .num_more = notes.len});
+                             &(struct fragment_follower){.nodes = shader->model.nodes,
+                                                         .num_nodes = shader->model.num_nodes,
+                                                         .results = notes.results,
+                                                         .num_results = notes.num_results,
+                                                         .key = key,
+                                                         .num_key = lights_key(shader, key),
+                                                         .more = notes.codes,
+                                                         .num_more = notes.len});
 }
 
 /* ---- Restoring ---- */
 
-static bool has_lights(const struct shader *shader, const struct lang_unit *lowest, const struct lang_fragment *fragment)
+static bool has_lights(const struct shader *shader, const struct lang_unit *lowest,
+                       const struct lang_fragment *fragment)
 {
     uint16_t key[1 + 2 * MAX_LIGHTS];
     unsigned num_key = lights_key(shader, key);
     return has_key(shader) && fragment->pattern_len == num_key
-        && memcmp(lowest->codes.items + fragment->first_code, key, num_key * sizeof *key) == 0;
+           && memcmp(lowest->codes.items + fragment->first_code, key, num_key * sizeof *key) == 0;
 }
 
 static const struct lang_fragment *find(struct shader *shader, const struct lang_unit *lowest)
@@ -197,7 +217,8 @@ static const struct lang_fragment *find(struct shader *shader, const struct lang
 }
 
 /* The results' nodes stand in `nodes` by the numbers in `results`. */
-static void take_parts(struct lit *l, const uint16_t *results, const uint16_t *more, const ir_ref *nodes)
+static void take_parts(struct lit *l, const uint16_t *results, const uint16_t *more,
+                       const ir_ref *nodes)
 {
     struct shader *shader = l->shader;
     struct closure_lit *state = l->state;
@@ -210,12 +231,14 @@ static void take_parts(struct lit *l, const uint16_t *results, const uint16_t *m
     }
     for (unsigned count = *more++; count > 0; count--, results += PART_RESULTS) {
         struct closure_parts *list = &state->at[*more++];
-        struct closure_part part = {.leaf = nodes[results[0]], .scalar = nodes[results[1]], .value = nodes[results[2]]};
+        struct closure_part part = {
+            .leaf = nodes[results[0]], .scalar = nodes[results[1]], .value = nodes[results[2]]};
         vec_push(shader->arena, &list->parts, part);
     }
 }
 
-bool closure_restore_lit(struct shader *shader, const struct closure_host *host, struct closure_lit *state)
+bool closure_restore_lit(struct shader *shader, const struct closure_host *host,
+                         struct closure_lit *state)
 {
     const struct lang_unit *lowest = lang_lowest(shader->unit);
     const struct shader_model *model = &shader->model;
@@ -227,9 +250,12 @@ bool closure_restore_lit(struct shader *shader, const struct closure_host *host,
     uint32_t before = shader->graph->origin;
     shader->graph->origin = 0;
     size_t room = fragment_room(fragment, model->num_nodes - 1);
-    ir_ref *nodes = memcpy(arena_alloc(shader->arena, room * sizeof *nodes), model->nodes, model->num_nodes * sizeof *nodes);
-    bool *known = memcpy(arena_alloc(shader->arena, room * sizeof *known), model->known, model->num_nodes * sizeof *known);
-    const uint16_t *codes = fragment_restore(&fragment_host, lowest, fragment, model->num_nodes - 1, nodes, known);
+    ir_ref *nodes = memcpy(arena_alloc(shader->arena, room * sizeof *nodes), model->nodes,
+                           model->num_nodes * sizeof *nodes);
+    bool *known = memcpy(arena_alloc(shader->arena, room * sizeof *known), model->known,
+                         model->num_nodes * sizeof *known);
+    const uint16_t *codes =
+        fragment_restore(&fragment_host, lowest, fragment, model->num_nodes - 1, nodes, known);
     shader->graph->origin = before;
     if (fragment_host.has_folded) { /* a leaf may be gone */
         state->light = (struct closure_light){0};

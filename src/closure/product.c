@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * A leaf's value times its weight. What is the same in every turn of a loop is multiplied first: as one node it is computed once in front
- * of the loop, and the loop over lights shares it with the environment.
+ * A leaf's value times its weight. What is the same in every turn of a loop is multiplied first: as
+ * one node it is computed once in front of the loop, and the loop over lights shares it with the
+ * environment.
  *
  *     ((c · lobe) · fresnel) · w    →    (c · w) · lobe · fresnel
  */
@@ -17,7 +18,8 @@ struct factors {
 
 static void insert(const struct ir_graph *g, struct factors *f, ir_ref ref)
 {
-    unsigned kind = (ir_get(g, ref)->flags & IR_NODE_LOOP ? VARIES : 0) | (ir_type_of(g, ref) == IR_TYPE_FLOAT ? 0 : IS_VECTOR);
+    unsigned kind = (ir_get(g, ref)->flags & IR_NODE_LOOP ? VARIES : 0)
+                    | (ir_type_of(g, ref) == IR_TYPE_FLOAT ? 0 : IS_VECTOR);
     unsigned at = f->counts[kind]++;
     for (; at > 0 && f->items[kind][at - 1] > ref; at--)
         f->items[kind][at] = f->items[kind][at - 1];
@@ -43,7 +45,8 @@ static bool is_product(const struct ir_graph *g, ir_ref ref)
 static bool is_splat(const struct ir_graph *g, ir_ref ref)
 {
     const struct ir_node *node = ir_get(g, ref);
-    return node->op == IR_CONSTRUCT && node->num_args == 1 && ir_type_of(g, ir_arg(g, ref, 0)) == IR_TYPE_FLOAT;
+    return node->op == IR_CONSTRUCT && node->num_args == 1
+           && ir_type_of(g, ir_arg(g, ref, 0)) == IR_TYPE_FLOAT;
 }
 
 static void gather(const struct ir_graph *g, struct factors *f, ir_ref value)

@@ -1,23 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * What a path tracer asks of a surface: light that it emits, opacity, one direction to go on in, and what it makes of light.
+ * What a path tracer asks of a surface: light that it emits, opacity, one direction to go on in,
+ * and what it makes of light.
  *
  *     out1 = vec4(emission, opacity)
- *     pick = random.w · Σ pᵢ                       pᵢ = the mean of wᵢ · (1 + 9 albedoᵢ) / 10,  Pᵢ = pᵢ / Σ pᵢ
- *     for each leaf:  if (0 <= pick < pᵢ) { L, f cos / pdf, pdf = sample(random.xyz);  weight = wᵢ · f cos / pdf / Pᵢ;  density = Pᵢ · pdf }
- *                     pick -= pᵢ
- *     out2 = vec4(L, is it inside)      out3 = vec4(weight, density)      out4 = vec4(medium, 0)
- *     out5 = vec4(Σ wᵢ · evalᵢ(lightWorld.xyz) / (1 + lightWorld.w · Pᵢ · pdfᵢ(lightWorld.xyz)), 0)
- *     out6, out7: one of the bound lights, see light_up
+ *     pick = random.w · Σ pᵢ                       pᵢ = the mean of wᵢ · (1 + 9 albedoᵢ) / 10,  Pᵢ
+ * = pᵢ / Σ pᵢ for each leaf:  if (0 <= pick < pᵢ) { L, f cos / pdf, pdf = sample(random.xyz);
+ * weight = wᵢ · f cos / pdf / Pᵢ;  density = Pᵢ · pdf } pick -= pᵢ out2 = vec4(L, is it inside)
+ * out3 = vec4(weight, density)      out4 = vec4(medium, 0) out5 = vec4(Σ wᵢ · evalᵢ(lightWorld.xyz)
+ * / (1 + lightWorld.w · Pᵢ · pdfᵢ(lightWorld.xyz)), 0) out6, out7: one of the bound lights, see
+ * light_up
  *
- * One leaf is picked, and its sample weighs what that leaf alone gives there, over the chance to pick it: the expectation is the sum of all
- * leaves (Pharr, Jakob, Humphreys, "Physically Based Rendering", section 2.2.3, on a discrete choice). Densities of the other leaves do
- * not enter, so lobes may be as sharp as they like, mirrors included; and weights stay near Σ pᵢ, since a leaf's own sample is near its
- * albedo.
+ * One leaf is picked, and its sample weighs what that leaf alone gives there, over the chance to
+ * pick it: the expectation is the sum of all leaves (Pharr, Jakob, Humphreys, "Physically Based
+ * Rendering", section 2.2.3, on a discrete choice). Densities of the other leaves do not enter, so
+ * lobes may be as sharp as they like, mirrors included; and weights stay near Σ pᵢ, since a leaf's
+ * own sample is near its albedo.
  *
- * Directions that lights draw are weighed against those by the balance heuristic (Veach and Guibas 1995, "Optimally Combining Sampling
- * Techniques"), for each leaf by itself: lightWorld.w is one over the density of the light's direction, 0 for a light that is a point. Light
- * that goes into a solid meets its other side first, so lights do not shine through it: density is 0 there, and out5 black.
+ * Directions that lights draw are weighed against those by the balance heuristic (Veach and Guibas
+ * 1995, "Optimally Combining Sampling Techniques"), for each leaf by itself: lightWorld.w is one
+ * over the density of the light's direction, 0 for a light that is a point. Light that goes into a
+ * solid meets its other side first, so lights do not shine through it: density is 0 there, and out5
+ * black.
  */
 #include "closure/closure_priv.h"
 
@@ -28,13 +32,14 @@ struct scatter {
     const struct closure_list *list;
     /* p of each leaf; 0: it is never picked */
     ir_ref *shares;
-    uint32_t pick, direction, is_inside, weight, density, medium;     /* locals */
+    uint32_t pick, direction, is_inside, weight, density, medium; /* locals */
     ir_ref total;
 };
 
 static void effect(struct scatter *s, enum effect_kind kind, uint32_t index, ir_ref value)
 {
-    shader_effect(s->shader, STAGE_PIXEL, (struct effect){.kind = (uint8_t)kind, .index = index, .value = value});
+    shader_effect(s->shader, STAGE_PIXEL,
+                  (struct effect){.kind = (uint8_t)kind, .index = index, .value = value});
 }
 
 static uint32_t local(struct scatter *s, str_id name, ir_ref value)
@@ -77,24 +82,29 @@ static ir_ref weight_of(struct scatter *s, const struct closure_leaf *leaf)
 
 static bool has(const struct scatter *s, const struct closure_leaf *leaf, enum leaf_function which)
 {
-    return s->host->leaf_functions(s->host->user_data, ir_get(s->graph, leaf->leaf)->attr)[which] != LANG_NONE;
+    return s->host->leaf_functions(s->host->user_data, ir_get(s->graph, leaf->leaf)->attr)[which]
+           != LANG_NONE;
 }
 
 static bool refracts(struct scatter *s, const struct closure_leaf *leaf)
 {
     ir_ref any = closure_view(s->shader, s->host);
-    ir_ref refraction = has(s, leaf, LEAF_REFRACTION) ? closure_call(s->shader, s->host, leaf->leaf, LEAF_REFRACTION, &any) : 0;
+    ir_ref refraction = has(s, leaf, LEAF_REFRACTION)
+                            ? closure_call(s->shader, s->host, leaf->leaf, LEAF_REFRACTION, &any)
+                            : 0;
     return refraction && !ir_const_is(s->graph, refraction, 0.0f);
 }
 
 /*
- * The chance to pick a leaf, times the sum of all: what it makes of light, so that paths keep their weight. An albedo tells of reflection only;
- * what refracts loses nothing. The tenth is for albedos that are fits.
+ * The chance to pick a leaf, times the sum of all: what it makes of light, so that paths keep their
+ * weight. An albedo tells of reflection only; what refracts loses nothing. The tenth is for albedos
+ * that are fits.
  */
 static ir_ref share_of(struct scatter *s, const struct closure_leaf *leaf)
 {
     struct ir_graph *g = s->graph;
-    ir_ref albedo = closure_call(s->shader, s->host, leaf->leaf, LEAF_ALBEDO, NULL), light = weight_of(s, leaf);
+    ir_ref albedo = closure_call(s->shader, s->host, leaf->leaf, LEAF_ALBEDO, NULL),
+           light = weight_of(s, leaf);
     if (albedo && !refracts(s, leaf)) {
         albedo = op2(s, IR_MUL, grey(s, 0.9f), ir_convert(g, IR_TYPE_VEC3, albedo));
         light = op2(s, IR_MUL, light, op2(s, IR_ADD, grey(s, 0.1f), albedo));
@@ -117,7 +127,8 @@ static void sample(struct scatter *s, const struct closure_leaf *leaf, ir_ref sh
     ir_ref is_it = op2(s, IR_LAND, op2(s, IR_GE, pick, nothing), op2(s, IR_LT, pick, share));
     ir_ref results[3]; /* direction, f cos / pdf, pdf */
     closure_call_all(s->shader, s->host, leaf->leaf, LEAF_SAMPLE, NULL, results);
-    ir_ref weight = op2(s, IR_MUL, op2(s, IR_MUL, weight_of(s, leaf), results[1]), op2(s, IR_DIV, s->total, share));
+    ir_ref weight = op2(s, IR_MUL, op2(s, IR_MUL, weight_of(s, leaf), results[1]),
+                        op2(s, IR_DIV, s->total, share));
     ir_ref density = op2(s, IR_MUL, results[2], op2(s, IR_DIV, share, s->total));
     effect(s, EFFECT_IF, 0, is_it);
     effect(s, EFFECT_ASSIGN, s->direction, results[0]);
@@ -179,7 +190,8 @@ static ir_ref response(struct scatter *s, ir_ref direction, ir_ref solid_angle)
         if (solid_angle) {
             ir_ref density = closure_call(s->shader, s->host, leaf->leaf, LEAF_PDF, &direction);
             density = op2(s, IR_MUL, density, op2(s, IR_DIV, s->shares[i], s->total));
-            value = op2(s, IR_DIV, value, op2(s, IR_ADD, number(s, 1.0f), op2(s, IR_MUL, solid_angle, density)));
+            value = op2(s, IR_DIV, value,
+                        op2(s, IR_ADD, number(s, 1.0f), op2(s, IR_MUL, solid_angle, density)));
         }
         if (has(s, leaf, LEAF_REFRACTION))
             value = ir_op3(g, IR_SELECT, is_in_front(s, direction), value, grey(s, 0.0f));
@@ -190,25 +202,28 @@ static ir_ref response(struct scatter *s, ir_ref direction, ir_ref solid_angle)
 
 static void write_output(struct scatter *s, str_id name, ir_ref rgb, ir_ref a)
 {
-    uint32_t out = shader_add_variable(s->shader, &(struct shader_variable){.name = name, .block = BLOCK_OUTPUTS,
-                                                                            .type = IR_TYPE_VEC4});
+    uint32_t out = shader_add_variable(
+        s->shader,
+        &(struct shader_variable){.name = name, .block = BLOCK_OUTPUTS, .type = IR_TYPE_VEC4});
     ir_ref parts[2] = {rgb, a};
     effect(s, EFFECT_OUTPUT, out, ir_construct(s->graph, IR_TYPE_VEC4, parts, 2));
 }
 
 /*
- * One of the bound lights, picked by what would come of it were nothing in between, in one pass (reservoir sampling: Chao 1982, "A General
- * Purpose Unequal Probability Sampling Plan"):
+ * One of the bound lights, picked by what would come of it were nothing in between, in one pass
+ * (reservoir sampling: Chao 1982, "A General Purpose Unequal Probability Sampling Plan"):
  *
  *     for each light:  c = intensity · Σ wᵢ · evalᵢ,  m = mean(c),  sum += m
- *                      if (chance · sum < m) { keep L, distance, c / m }      what is left of the chance serves the next
- *     out6 = vec4(L, distance)      out7 = vec4(kept · sum, 0)
+ *                      if (chance · sum < m) { keep L, distance, c / m }      what is left of the
+ * chance serves the next out6 = vec4(L, distance)      out7 = vec4(kept · sum, 0)
  */
 static void light_up(struct scatter *s)
 {
     struct ir_graph *g = s->graph;
-    ir_ref nothing = number(s, 0.0f), random = ir_component(g, shader_stream(s->shader, STR_random, IR_TYPE_VEC4), 3);
-    uint32_t chance = local(s, STR_chance, ir_op1(g, IR_FRACT, op2(s, IR_MUL, random, number(s, 4096.0f))));
+    ir_ref nothing = number(s, 0.0f),
+           random = ir_component(g, shader_stream(s->shader, STR_random, IR_TYPE_VEC4), 3);
+    uint32_t chance =
+        local(s, STR_chance, ir_op1(g, IR_FRACT, op2(s, IR_MUL, random, number(s, 4096.0f))));
     uint32_t sum = local(s, STR_sum, nothing), kept = local(s, STR_light, grey(s, 0.0f));
     uint32_t to_light = local(s, STR_L, grey(s, 0.0f)), away = local(s, STR_distance, nothing);
     effect(s, EFFECT_LIGHTS, 0, 0);
@@ -217,7 +232,8 @@ static void light_up(struct scatter *s)
     ir_ref lit = op2(s, IR_MUL, light.intensity, response(s, light.direction, 0));
     ir_ref mean = op2(s, IR_MAX, mean_of(s, lit), nothing);
     effect(s, EFFECT_ACCUMULATE, sum, mean);
-    ir_ref point = op2(s, IR_MUL, read(s, chance), read(s, sum)), is_it = op2(s, IR_LT, point, mean);
+    ir_ref point = op2(s, IR_MUL, read(s, chance), read(s, sum)),
+           is_it = op2(s, IR_LT, point, mean);
     effect(s, EFFECT_IF, 0, is_it);
     effect(s, EFFECT_ASSIGN, to_light, light.direction);
     effect(s, EFFECT_ASSIGN, away, closure_light_distance(s->shader, s->host));
@@ -234,21 +250,25 @@ static void light_up(struct scatter *s)
     s->shader->lit = true;
 }
 
-void closure_scatter(struct shader *shader, const struct closure_host *host, const struct closure_list *list,
-                     const struct closure_lighting *lighting, ir_ref emission, ir_ref alpha)
+void closure_scatter(struct shader *shader, const struct closure_host *host,
+                     const struct closure_list *list, const struct closure_lighting *lighting,
+                     ir_ref emission, ir_ref alpha)
 {
     struct scatter s = {.shader = shader, .graph = shader->graph, .host = host, .list = list};
     ir_ref one = number(&s, 1.0f), nothing = number(&s, 0.0f);
     find_shares(&s);
     sample_leaves(&s);
-    write_output(&s, STR_out1, emission ? ir_convert(s.graph, IR_TYPE_VEC3, emission) : grey(&s, 0.0f), alpha ? alpha : one);
+    write_output(&s, STR_out1,
+                 emission ? ir_convert(s.graph, IR_TYPE_VEC3, emission) : grey(&s, 0.0f),
+                 alpha ? alpha : one);
     write_output(&s, STR_out2, read(&s, s.direction), read(&s, s.is_inside));
     write_output(&s, STR_out3, read(&s, s.weight), read(&s, s.density));
     write_output(&s, STR_out4, read(&s, s.medium), nothing);
     ir_ref light = shader_stream(shader, STR_lightWorld, IR_TYPE_VEC4), direction[3];
     for (unsigned i = 0; i < 3; i++)
         direction[i] = ir_component(s.graph, light, i);
-    ir_ref seen = response(&s, ir_construct(s.graph, IR_TYPE_VEC3, direction, 3), ir_component(s.graph, light, 3));
+    ir_ref seen = response(&s, ir_construct(s.graph, IR_TYPE_VEC3, direction, 3),
+                           ir_component(s.graph, light, 3));
     write_output(&s, STR_out5, seen, nothing);
     if (lighting->lights)
         light_up(&s);

@@ -8,7 +8,8 @@
  *     for each sample of the environment: color += what these functions give for it
  *     out1 = vec4(color · opacity, opacity)
  *
- * A leaf whose weight is not known at compile time may have weight 0: what is dear of it stands behind `if (weight > 0)`.
+ * A leaf whose weight is not known at compile time may have weight 0: what is dear of it stands
+ * behind `if (weight > 0)`.
  */
 #include "closure/closure_priv.h"
 
@@ -24,7 +25,8 @@ struct emitter {
 
 static void effect(struct emitter *e, enum effect_kind kind, uint32_t index, ir_ref value)
 {
-    shader_effect(e->shader, STAGE_PIXEL, (struct effect){.kind = (uint8_t)kind, .index = index, .value = value});
+    shader_effect(e->shader, STAGE_PIXEL,
+                  (struct effect){.kind = (uint8_t)kind, .index = index, .value = value});
 }
 
 static ir_ref add(struct emitter *e, ir_ref a, ir_ref b)
@@ -47,7 +49,8 @@ static ir_ref weighted(struct emitter *e, const struct closure_leaf *leaf, ir_re
         return 0;
     uint32_t before = g->origin;
     g->origin = ir_get(g, leaf->leaf)->origin;
-    ir_ref weight = ir_const_is(g, leaf->scalar, 1.0f) ? leaf->color : closure_mul(g, leaf->color, leaf->scalar);
+    ir_ref weight = ir_const_is(g, leaf->scalar, 1.0f) ? leaf->color
+                                                       : closure_mul(g, leaf->color, leaf->scalar);
     value = closure_product(g, value, weight);
     g->origin = before;
     return value;
@@ -58,13 +61,16 @@ static void declare_color(struct emitter *e)
     if (e->lit.color != UINT32_MAX)
         return;
     e->lit.color = shader_add_local(e->shader, STR_color, IR_TYPE_VEC3);
-    effect(e, EFFECT_VAR, e->lit.color, e->lit.base ? vec3_of(e, e->lit.base) : ir_const_splat(e->graph, IR_TYPE_VEC3, 0.0f));
+    effect(e, EFFECT_VAR, e->lit.color,
+           e->lit.base ? vec3_of(e, e->lit.base) : ir_const_splat(e->graph, IR_TYPE_VEC3, 0.0f));
 }
 
-static void add_part(struct emitter *e, enum closure_place place, const struct closure_leaf *leaf, ir_ref value)
+static void add_part(struct emitter *e, enum closure_place place, const struct closure_leaf *leaf,
+                     ir_ref value)
 {
     if (value)
-        vec_push(e->shader->arena, &e->lit.at[place].parts, (struct closure_part){leaf->leaf, leaf->scalar, value, false});
+        vec_push(e->shader->arena, &e->lit.at[place].parts,
+                 (struct closure_part){leaf->leaf, leaf->scalar, value, false});
 }
 
 static void accumulate(struct emitter *e, ir_ref factor, ir_ref value)
@@ -76,7 +82,8 @@ static void accumulate(struct emitter *e, ir_ref factor, ir_ref value)
 }
 
 /*
- * color += factor · Σ parts. Leaves that are always computed share one line; the others stand behind their guards.
+ * color += factor · Σ parts. Leaves that are always computed share one line; the others stand
+ * behind their guards.
  */
 static void accumulate_all(struct emitter *e, enum closure_place place, ir_ref factor)
 {
@@ -89,7 +96,8 @@ static void accumulate_all(struct emitter *e, enum closure_place place, ir_ref f
         ir_ref guard = first->scalar, sum = 0;
         do
             sum = add(e, sum, list->parts.items[i++].value);
-        while (i < list->parts.len && list->parts.items[i].scalar == guard && list->parts.items[i].is_guarded == first->is_guarded);
+        while (i < list->parts.len && list->parts.items[i].scalar == guard
+               && list->parts.items[i].is_guarded == first->is_guarded);
         if (!first->is_guarded || ir_is_const(g, guard)) {
             always = add(e, always, sum);
             continue;
@@ -102,12 +110,15 @@ static void accumulate_all(struct emitter *e, enum closure_place place, ir_ref f
         accumulate(e, factor, always);
 }
 
-static bool has_function(const struct emitter *e, const struct closure_leaf *leaf, enum leaf_function which)
+static bool has_function(const struct emitter *e, const struct closure_leaf *leaf,
+                         enum leaf_function which)
 {
-    return e->host->leaf_functions(e->host->user_data, ir_get(e->graph, leaf->leaf)->attr)[which] != LANG_NONE;
+    return e->host->leaf_functions(e->host->user_data, ir_get(e->graph, leaf->leaf)->attr)[which]
+           != LANG_NONE;
 }
 
-static bool any_has(const struct emitter *e, const struct closure_list *list, enum leaf_function which)
+static bool any_has(const struct emitter *e, const struct closure_list *list,
+                    enum leaf_function which)
 {
     for (uint32_t i = 0; i < list->leaves.len; i++)
         if (has_function(e, &list->leaves.items[i], which))
@@ -116,14 +127,16 @@ static bool any_has(const struct emitter *e, const struct closure_list *list, en
 }
 
 /* Leaves under light from a direction. */
-static void flatten_under(struct emitter *e, ir_ref bsdf, const ir_ref *direction, struct closure_list *out)
+static void flatten_under(struct emitter *e, ir_ref bsdf, const ir_ref *direction,
+                          struct closure_list *out)
 {
     struct closure_host host = *e->host;
     host.way_in = direction;
     closure_flatten(e->shader, &host, bsdf, out);
 }
 
-static void find_lit_parts(struct emitter *e, ir_ref bsdf, const struct closure_list *list, bool *emitted)
+static void find_lit_parts(struct emitter *e, ir_ref bsdf, const struct closure_list *list,
+                           bool *emitted)
 {
     if (!e->lighting->lights || !any_has(e, list, LEAF_EVAL))
         return;
@@ -137,14 +150,17 @@ static void find_lit_parts(struct emitter *e, ir_ref bsdf, const struct closure_
     }
     for (uint32_t i = 0; i < list->leaves.len; i++) {
         const struct closure_leaf *leaf = &list->leaves.items[i];
-        ir_ref value = weighted(e, leaf, closure_call(e->shader, e->host, leaf->leaf, LEAF_EVAL, &e->lit.light.direction));
+        ir_ref value = weighted(
+            e, leaf,
+            closure_call(e->shader, e->host, leaf->leaf, LEAF_EVAL, &e->lit.light.direction));
         add_part(e, PLACE_LIGHT, leaf, value);
         emitted[i] |= value != 0;
     }
 }
 
 /* What a function gives at once, and what it gives sample by sample. */
-static void find_surrounding_parts(struct emitter *e, const struct closure_list *list, bool *emitted)
+static void find_surrounding_parts(struct emitter *e, const struct closure_list *list,
+                                   bool *emitted)
 {
     if (!e->lighting->environment)
         return;
@@ -155,7 +171,10 @@ static void find_surrounding_parts(struct emitter *e, const struct closure_list 
                             refracted ? closure_mul(e->graph, refracted, leaf->medium) : 0};
         for (unsigned k = 0; k < 2; k++) {
             ir_ref value = weighted(e, leaf, values[k]);
-            add_part(e, value && ir_get(e->graph, value)->flags & IR_NODE_LOOP ? PLACE_SAMPLE : PLACE_WHOLE, leaf, value);
+            add_part(e,
+                     value && ir_get(e->graph, value)->flags & IR_NODE_LOOP ? PLACE_SAMPLE
+                                                                            : PLACE_WHOLE,
+                     leaf, value);
             emitted[i] |= value != 0;
         }
     }
@@ -164,7 +183,8 @@ static void find_surrounding_parts(struct emitter *e, const struct closure_list 
 /* The parts as effects. */
 static void emit_lit(struct emitter *e)
 {
-    bool has_lights = e->lit.light.intensity != 0, has_samples = e->lit.at[PLACE_SAMPLE].parts.len > 0;
+    bool has_lights = e->lit.light.intensity != 0,
+         has_samples = e->lit.at[PLACE_SAMPLE].parts.len > 0;
     if (!has_lights && !has_samples && !e->lit.at[PLACE_WHOLE].parts.len)
         return;
     declare_color(e);
@@ -188,7 +208,8 @@ static ir_ref emission(struct emitter *e, ir_ref edf)
     closure_flatten(e->shader, e->host, edf, &list);
     ir_ref sum = 0;
     for (uint32_t i = 0; i < list.leaves.len; i++) {
-        ir_ref value = closure_call(e->shader, e->host, list.leaves.items[i].leaf, LEAF_EMISSION, NULL);
+        ir_ref value =
+            closure_call(e->shader, e->host, list.leaves.items[i].leaf, LEAF_EMISSION, NULL);
         value = weighted(e, &list.leaves.items[i], value);
         if (value)
             shader_add_closure(e->shader, list.leaves.items[i].leaf);
@@ -205,7 +226,8 @@ static void write_output(struct emitter *e, ir_ref color, ir_ref alpha)
     uint32_t out = shader_find_variable(e->shader, BLOCK_OUTPUTS, STR_out1);
     if (out == UINT32_MAX)
         out = shader_add_variable(e->shader, &(struct shader_variable){.name = STR_out1,
-                                                                       .block = BLOCK_OUTPUTS, .type = IR_TYPE_VEC4});
+                                                                       .block = BLOCK_OUTPUTS,
+                                                                       .type = IR_TYPE_VEC4});
     ir_ref parts[2] = {color, alpha};
     effect(e, EFFECT_OUTPUT, out, ir_construct(g, IR_TYPE_VEC4, parts, 2));
 }
@@ -213,8 +235,7 @@ static void write_output(struct emitter *e, ir_ref color, ir_ref alpha)
 /* Pixels below the host's threshold are not drawn at all. */
 static void alpha_test(struct emitter *e, ir_ref alpha)
 {
-    uint32_t threshold = shader_private_uniform(e->shader, STR_u_alphaThreshold,
-                                                IR_TYPE_FLOAT, 0);
+    uint32_t threshold = shader_private_uniform(e->shader, STR_u_alphaThreshold, IR_TYPE_FLOAT, 0);
     effect(e, EFFECT_DISCARD, 0, ir_op2(e->graph, IR_LT, alpha, shader_read(e->shader, threshold)));
     e->shader->transparent = true;
     e->shader->alpha = (uint8_t)closure_alpha(e->shader, alpha);
@@ -236,9 +257,9 @@ static ir_ref final_color(struct emitter *e)
 
 struct surface { /* parts of a surface, each 0 where absent */
     ir_ref bsdf, edf;
-    ir_ref unlit;        /* colour that no light changes */
-    ir_ref alpha;        /* 0 = 1 */
-    bool premultiplied;  /* the parts are scaled by alpha already */
+    ir_ref unlit;       /* colour that no light changes */
+    ir_ref alpha;       /* 0 = 1 */
+    bool premultiplied; /* the parts are scaled by alpha already */
 };
 
 static void finish_surface(struct emitter *e, const struct surface *s)
@@ -277,23 +298,29 @@ static struct surface mixed(struct emitter *e, struct surface bg, struct surface
     bg = premultiplied(e, bg);
     fg = premultiplied(e, fg);
     ir_ref one = ir_const_float(g, 1.0f), black = ir_const_splat(g, IR_TYPE_VEC3, 0.0f);
-    struct surface s = {.bsdf = closure_mixed(g, bg.bsdf, fg.bsdf, mix), .edf = closure_mixed(g, bg.edf, fg.edf, mix),
+    struct surface s = {.bsdf = closure_mixed(g, bg.bsdf, fg.bsdf, mix),
+                        .edf = closure_mixed(g, bg.edf, fg.edf, mix),
                         .premultiplied = true};
     if (bg.unlit || fg.unlit)
-        s.unlit = ir_op3(g, IR_MIX, bg.unlit ? vec3_of(e, bg.unlit) : black, fg.unlit ? vec3_of(e, fg.unlit) : black, mix);
+        s.unlit = ir_op3(g, IR_MIX, bg.unlit ? vec3_of(e, bg.unlit) : black,
+                         fg.unlit ? vec3_of(e, fg.unlit) : black, mix);
     s.alpha = ir_op3(g, IR_MIX, bg.alpha ? bg.alpha : one, fg.alpha ? fg.alpha : one, mix);
     return s;
 }
 
 /*
- * What it transmits lets what is behind show through (MaterialX PBR specification, <surface_unlit>).
+ * What it transmits lets what is behind show through (MaterialX PBR specification,
+ * <surface_unlit>).
  */
-static struct surface unlit_surface(struct emitter *e, ir_ref emitted, ir_ref transmitted, ir_ref opacity)
+static struct surface unlit_surface(struct emitter *e, ir_ref emitted, ir_ref transmitted,
+                                    ir_ref opacity)
 {
     struct ir_graph *g = e->graph;
-    ir_ref through = ir_op2(g, IR_DOT, vec3_of(e, transmitted), ir_const_splat(g, IR_TYPE_VEC3, 1.0f / 3.0f));
+    ir_ref through =
+        ir_op2(g, IR_DOT, vec3_of(e, transmitted), ir_const_splat(g, IR_TYPE_VEC3, 1.0f / 3.0f));
     return (struct surface){.unlit = ir_op2(g, IR_MUL, emitted, opacity),
-                            .alpha = ir_op2(g, IR_MUL, opacity, closure_one_minus(g, through)), .premultiplied = true};
+                            .alpha = ir_op2(g, IR_MUL, opacity, closure_one_minus(g, through)),
+                            .premultiplied = true};
 }
 
 /* Operands come before their node, so mixes of mixes are found in one pass. */
@@ -301,7 +328,8 @@ static struct surface surface_of(struct emitter *e, ir_ref root)
 {
     struct ir_graph *g = e->graph;
     if (ir_get(g, root)->op == IR_SURFACE_SHADER)
-        return (struct surface){.bsdf = ir_arg(g, root, 0), .edf = ir_arg(g, root, 1), .alpha = ir_arg(g, root, 2)};
+        return (struct surface){
+            .bsdf = ir_arg(g, root, 0), .edf = ir_arg(g, root, 1), .alpha = ir_arg(g, root, 2)};
     struct surface *known = ARENA_ARRAY(e->shader->arena, struct surface, root + 1);
     uint8_t *needed = ir_mark(g, &root, 1, e->shader->arena);
     for (ir_ref ref = 1; ref <= root; ref++) {
@@ -378,7 +406,8 @@ static void emit_volume(struct emitter *e, ir_ref root)
     lighting.two_sided = false; /* nothing is layered inside */
     e->lighting = &lighting;
     ir_ref emitted_light = emission(e, volume.edf);
-    e->lit.base = emitted_light ? ir_op2(e->graph, IR_MUL, vec3_of(e, emitted_light), volume.path) : 0;
+    e->lit.base =
+        emitted_light ? ir_op2(e->graph, IR_MUL, vec3_of(e, emitted_light), volume.path) : 0;
     find_parts(e, 0, &volume.scattering);
     for (uint32_t i = 0; i < volume.scattering.leaves.len; i++)
         shader_add_closure(e->shader, volume.scattering.leaves.items[i].leaf);
@@ -402,25 +431,22 @@ static bool emit_value(struct emitter *e, ir_ref root)
         type = IR_TYPE_FLOAT;
     }
     ir_ref parts[3] = {root, zero, one};
-    uint32_t out = shader_add_variable(e->shader, &(struct shader_variable){.name = STR_out1,
-                                                                            .block = BLOCK_OUTPUTS, .type = IR_TYPE_VEC4});
+    uint32_t out = shader_add_variable(
+        e->shader,
+        &(struct shader_variable){.name = STR_out1, .block = BLOCK_OUTPUTS, .type = IR_TYPE_VEC4});
     switch (type) {
     case IR_TYPE_FLOAT:
         parts[0] = ir_convert(g, IR_TYPE_VEC3, root);
         parts[1] = one;
         root = ir_construct(g, IR_TYPE_VEC4, parts, 2);
         break;
-    case IR_TYPE_VEC2:
-        root = ir_construct(g, IR_TYPE_VEC4, parts, 3);
-        break;
+    case IR_TYPE_VEC2: root = ir_construct(g, IR_TYPE_VEC4, parts, 3); break;
     case IR_TYPE_VEC3:
         parts[1] = one;
         root = ir_construct(g, IR_TYPE_VEC4, parts, 2);
         break;
-    case IR_TYPE_VEC4:
-        break;
-    default:
-        return false;
+    case IR_TYPE_VEC4: break;
+    default: return false;
     }
     effect(e, EFFECT_OUTPUT, out, root);
     return true;
@@ -437,18 +463,24 @@ bool closure_is_surface(const struct shader *shader, ir_ref root)
     return type == IR_TYPE_SURFACE || type == IR_TYPE_BSDF || type == IR_TYPE_EDF;
 }
 
-bool closure_emit(struct shader *shader, const struct closure_host *host, const struct closure_lighting *lighting, ir_ref root)
+bool closure_emit(struct shader *shader, const struct closure_host *host,
+                  const struct closure_lighting *lighting, ir_ref root)
 {
-    struct emitter e = {.shader = shader, .graph = shader->graph, .host = host, .lighting = lighting, .lit = {.color = UINT32_MAX}};
+    struct emitter e = {.shader = shader,
+                        .graph = shader->graph,
+                        .host = host,
+                        .lighting = lighting,
+                        .lit = {.color = UINT32_MAX}};
     if (root && shader->scatters)
         root = closure_differentials(shader, root);
     if (root && ir_get(e.graph, root)->op == IR_MATERIAL)
         root = ir_arg(e.graph, root, 3) ? ir_arg(e.graph, root, 3)
-                                        : closure_displace(shader, host, ir_arg(e.graph, root, 0), ir_arg(e.graph, root, 2));
+                                        : closure_displace(shader, host, ir_arg(e.graph, root, 0),
+                                                           ir_arg(e.graph, root, 2));
     ir_type_id type = root ? ir_type_of(e.graph, root) : IR_TYPE_SURFACE;
     if (type == IR_TYPE_BSDF || type == IR_TYPE_EDF) {
-        ir_ref args[4] = {type == IR_TYPE_BSDF ? root : 0, type == IR_TYPE_EDF ? root : 0, ir_const_float(e.graph, 1.0f),
-                          ir_const_bool(e.graph, false)};
+        ir_ref args[4] = {type == IR_TYPE_BSDF ? root : 0, type == IR_TYPE_EDF ? root : 0,
+                          ir_const_float(e.graph, 1.0f), ir_const_bool(e.graph, false)};
         root = ir_build(e.graph, IR_SURFACE_SHADER, IR_TYPE_SURFACE, 0, args, 4);
         type = IR_TYPE_SURFACE;
     }
@@ -466,7 +498,8 @@ bool closure_emit(struct shader *shader, const struct closure_host *host, const 
 
 /* ---- looking inside ---- */
 
-static void describe_weight(struct shader *shader, const struct closure_leaf *leaf, struct text *out)
+static void describe_weight(struct shader *shader, const struct closure_leaf *leaf,
+                            struct text *out)
 {
     struct ir_value value;
     if (ir_get_const(shader->graph, leaf->scalar, &value))
@@ -477,7 +510,8 @@ static void describe_weight(struct shader *shader, const struct closure_leaf *le
         text_fmt(out, " * %%%u", leaf->color);
 }
 
-static void describe_list(struct shader *shader, const struct closure_host *host, ir_ref root, struct text *out)
+static void describe_list(struct shader *shader, const struct closure_host *host, ir_ref root,
+                          struct text *out)
 {
     struct closure_list list;
     closure_flatten(shader, host, root, &list);
@@ -491,10 +525,15 @@ static void describe_list(struct shader *shader, const struct closure_host *host
     }
 }
 
-void closure_describe(struct shader *shader, const struct closure_host *host, ir_ref root, struct text *out)
+void closure_describe(struct shader *shader, const struct closure_host *host, ir_ref root,
+                      struct text *out)
 {
     struct closure_lighting lighting = {true, true};
-    struct emitter e = {.shader = shader, .graph = shader->graph, .host = host, .lighting = &lighting, .lit = {.color = UINT32_MAX}};
+    struct emitter e = {.shader = shader,
+                        .graph = shader->graph,
+                        .host = host,
+                        .lighting = &lighting,
+                        .lit = {.color = UINT32_MAX}};
     if (root && ir_get(e.graph, root)->op == IR_MATERIAL)
         root = ir_arg(e.graph, root, ir_arg(e.graph, root, 3) ? 3 : 0);
     if (!root)

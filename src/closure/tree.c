@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Closures as the target's own, for languages that have some: the tree stays. Leaves become calls of the target's closures, by the rows
- * that it gives (closure.h), and shaders become one closure:
+ * Closures as the target's own, for languages that have some: the tree stays. Leaves become calls
+ * of the target's closures, by the rows that it gives (closure.h), and shaders become one closure:
  *
  *     surface(bsdf, edf, opacity)   mix(transparent, bsdf + edf, opacity)
  *
@@ -19,7 +19,7 @@ struct tree {
     struct ir_graph *graph;
     const struct closure_host *host;
     struct leaf_inputs *inputs;
-    ir_ref *of; /* per node of closure or shader type: what became of it; 0: nothing */
+    ir_ref *of;  /* per node of closure or shader type: what became of it; 0: nothing */
     ir_ref thin; /* whether the surface is a shell without an inside; 0: it is none */
     /* of the leaf at hand: whether it reflects back to where the light came from; 0: it does not */
     ir_ref turned;
@@ -36,7 +36,8 @@ static void name_inputs(const struct tree *t, const struct ir_node *leaf)
     inputs->callee = leaf->attr;
     inputs->names.len = 0;
     for (unsigned i = 0; i + 1 < leaf->num_args; i++)
-        vec_push(t->shader->arena, &inputs->names, t->host->leaf_input(t->host->user_data, leaf->attr, i));
+        vec_push(t->shader->arena, &inputs->names,
+                 t->host->leaf_input(t->host->user_data, leaf->attr, i));
 }
 
 /* The operand of a leaf by the name of its input; 0: there is none. */
@@ -64,7 +65,8 @@ static bool scatters(const struct tree *t, ir_ref leaf, enum side side)
 }
 
 /*
- * A tint that counts on the side that it is for; black where the leaf does not scatter there, or something else is wanted.
+ * A tint that counts on the side that it is for; black where the leaf does not scatter there, or
+ * something else is wanted.
  */
 static ir_ref scattered(struct tree *t, ir_ref leaf, ir_ref tint, enum side side)
 {
@@ -75,15 +77,18 @@ static ir_ref scattered(struct tree *t, ir_ref leaf, ir_ref tint, enum side side
 /* Facets that mirror about the view direction send light back along it. */
 static ir_ref facing(struct tree *t, ir_ref normal)
 {
-    return t->turned ? ir_build(t->graph, IR_SELECT, IR_TYPE_VEC3, 0, (ir_ref[]){t->turned, closure_view(t->shader, t->host), normal}, 3)
+    return t->turned ? ir_build(t->graph, IR_SELECT, IR_TYPE_VEC3, 0,
+                                (ir_ref[]){t->turned, closure_view(t->shader, t->host), normal}, 3)
                      : normal;
 }
 
 /*
- * Schlick's curve F is bent by color82 at 82 degrees (Hoffman 2019, "Fresnel Equations Considered Harmful"). Closures know no such colour, so
- * the one at 90 degrees is chosen for which the plain curve passes through the same reflectance there:
+ * Schlick's curve F is bent by color82 at 82 degrees (Hoffman 2019, "Fresnel Equations Considered
+ * Harmful"). Closures know no such colour, so the one at 90 degrees is chosen for which the plain
+ * curve passes through the same reflectance there:
  *
- *     F'(82) = color82 · F(82),    color90' = color90 - (1 - color82) · F(82) / q,    q = (6/7)^exponent
+ *     F'(82) = color82 · F(82),    color90' = color90 - (1 - color82) · F(82) / q,    q =
+ * (6/7)^exponent
  */
 static ir_ref bent_edge(struct tree *t, ir_ref leaf, ir_ref color90)
 {
@@ -92,7 +97,8 @@ static ir_ref bent_edge(struct tree *t, ir_ref leaf, ir_ref color90)
     if (ir_const_is(g, color82, 1.0f))
         return color90;
     ir_ref q = ir_op2(g, IR_POW, ir_const_float(g, 6.0f / 7.0f), input(t, leaf, "exponent", 8));
-    ir_ref at82 = ir_op2(g, IR_MUL, closure_one_minus(g, color82), ir_op3(g, IR_MIX, color0, color90, q));
+    ir_ref at82 =
+        ir_op2(g, IR_MUL, closure_one_minus(g, color82), ir_op3(g, IR_MIX, color0, color90, q));
     ir_ref edge = ir_op2(g, IR_SUB, color90, ir_op2(g, IR_DIV, at82, q));
     return ir_op2(g, IR_MAX, edge, ir_const_float(g, 0.0f));
 }
@@ -101,16 +107,17 @@ static ir_ref bent_edge(struct tree *t, ir_ref leaf, ir_ref color90)
 static bool is_componentwise(enum ir_op op)
 {
     uint8_t rule = ir_op_info(op)->rule;
-    return rule == IR_RULE_SAME ? op != IR_NORMALIZE && op != IR_CROSS && op != IR_REFLECT && op != IR_FACEFORWARD
+    return rule == IR_RULE_SAME
+               ? op != IR_NORMALIZE && op != IR_CROSS && op != IR_REFLECT && op != IR_FACEFORWARD
            : rule == IR_RULE_SPLAT ? op != IR_REFRACT
-           : rule == IR_RULE_ARITH || op == IR_SELECT;
+                                   : rule == IR_RULE_ARITH || op == IR_SELECT;
 }
 
 enum { MAX_DEPTH = 12 };
 
 /*
- * A component of a vector, as far down as that goes: languages without vectors of two components are spared them. (Roughness is one, of
- * which closures take the parts.)
+ * A component of a vector, as far down as that goes: languages without vectors of two components
+ * are spared them. (Roughness is one, of which closures take the parts.)
  */
 static ir_ref component(struct ir_graph *g, ir_ref value, unsigned index, unsigned depth)
 {
@@ -128,15 +135,17 @@ static ir_ref component(struct ir_graph *g, ir_ref value, unsigned index, unsign
     }
     uint32_t before = g->origin;
     g->origin = node.origin;
-    ir_ref built = ir_build(g, (enum ir_op)node.op, ir_type_info(node.type)->scalar, node.attr, args, node.num_args);
+    ir_ref built = ir_build(g, (enum ir_op)node.op, ir_type_info(node.type)->scalar, node.attr,
+                            args, node.num_args);
     g->origin = before;
     return built;
 }
 
 /*
- * One word of a row: an input's name, perhaps with a part (".x", ".y"), with a direction in which the light is scattered (".reflected",
- * ".transmitted"), "white" as a tint, or with what becomes of a normal (".facing") and of Schlick's last colour (".bent"); or a constant: a
- * digit, or text in quotes.
+ * One word of a row: an input's name, perhaps with a part (".x", ".y"), with a direction in which
+ * the light is scattered (".reflected",
+ * ".transmitted"), "white" as a tint, or with what becomes of a normal (".facing") and of Schlick's
+ * last colour (".bent"); or a constant: a digit, or text in quotes.
  */
 static ir_ref argument(struct tree *t, ir_ref leaf, const char *word, size_t len)
 {
@@ -147,7 +156,8 @@ static ir_ref argument(struct tree *t, ir_ref leaf, const char *word, size_t len
     const char *dot = memchr(word, '.', len);
     size_t name_len = dot ? (size_t)(dot - word) : len;
     bool is_white = name_len == 5 && memcmp(word, "white", 5) == 0;
-    ir_ref value = is_white ? ir_const_splat(t->graph, IR_TYPE_VEC3, 1.0f) : input(t, leaf, word, name_len);
+    ir_ref value =
+        is_white ? ir_const_splat(t->graph, IR_TYPE_VEC3, 1.0f) : input(t, leaf, word, name_len);
     if (!dot || !value)
         return value;
     if (dot[1] == 'r')
@@ -179,10 +189,12 @@ static void add_words(struct tree *t, ir_ref leaf, const char *words, struct arg
 
 /* ---- Leaves ---- */
 
-static ir_ref call(struct tree *t, const char *name, ir_type_id type, const ir_ref *args, unsigned n)
+static ir_ref call(struct tree *t, const char *name, ir_type_id type, const ir_ref *args,
+                   unsigned n)
 {
     str_id id = str_intern_z(t->shader->strings, name);
-    uint32_t callee = ir_add_callee(t->graph, (struct ir_callee){.id = (uint64_t)3 << 32 | id, .name = id});
+    uint32_t callee =
+        ir_add_callee(t->graph, (struct ir_callee){.id = (uint64_t)3 << 32 | id, .name = id});
     return ir_build(t->graph, IR_LEAF, type, callee, args, n);
 }
 
@@ -191,7 +203,8 @@ static ir_ref number_of(const struct ir_graph *g, ir_ref color)
 {
     const struct ir_node *node = ir_get(g, color);
     bool is_splat = (node->op == IR_CONSTRUCT || node->op == IR_CONVERT) && node->num_args == 1;
-    return is_splat && ir_type_of(g, ir_arg(g, color, 0)) == IR_TYPE_FLOAT ? ir_arg(g, color, 0) : color;
+    return is_splat && ir_type_of(g, ir_arg(g, color, 0)) == IR_TYPE_FLOAT ? ir_arg(g, color, 0)
+                                                                           : color;
 }
 
 static ir_ref scaled(struct tree *t, ir_ref closure, ir_ref factor)
@@ -240,7 +253,10 @@ static ir_ref mixed(struct tree *t, ir_ref bg, ir_ref fg, ir_ref mix)
         return scaled(t, bg, closure_one_minus(t->graph, mix));
     ir_ref factor = factor_over(t, bg, fg);
     if (factor) /* the closure once, by a mix of 1 and the factor */
-        return scaled(t, bg, ir_op3(t->graph, IR_MIX, ir_const_splat(t->graph, ir_type_of(t->graph, factor), 1.0f), factor, mix));
+        return scaled(t, bg,
+                      ir_op3(t->graph, IR_MIX,
+                             ir_const_splat(t->graph, ir_type_of(t->graph, factor), 1.0f), factor,
+                             mix));
     return ir_build(t->graph, IR_CLOSURE_MIX, ir_type_of(t->graph, bg), 0, args, 3);
 }
 
@@ -258,7 +274,8 @@ static ir_ref transparent(struct tree *t)
 }
 
 /*
- * Does an option of a row say anything? Its first input is 0, false or the usual word where it does not.
+ * Does an option of a row say anything? Its first input is 0, false or the usual word where it does
+ * not.
  */
 static bool is_wanted(const struct tree *t, ir_ref leaf, const struct closure_option *option)
 {
@@ -268,7 +285,8 @@ static bool is_wanted(const struct tree *t, ir_ref leaf, const struct closure_op
     struct ir_value constant;
     if (!ir_get_const(t->graph, value, &constant))
         return true;
-    return constant.type == IR_TYPE_STRING ? is_string(t, value, option->unless) : constant.w[0].u != 0;
+    return constant.type == IR_TYPE_STRING ? is_string(t, value, option->unless)
+                                           : constant.w[0].u != 0;
 }
 
 static ir_ref side_call(struct tree *t, ir_ref leaf, const struct closure_row *row, enum side side)
@@ -283,23 +301,29 @@ static ir_ref side_call(struct tree *t, ir_ref leaf, const struct closure_row *r
 }
 
 /*
- * Facets that mirror about the view direction are met head-on, whatever the angle to the surface is: they are to reflect as much more as they
- * would at that angle.
+ * Facets that mirror about the view direction are met head-on, whatever the angle to the surface
+ * is: they are to reflect as much more as they would at that angle.
  */
 static ir_ref turned_factor(struct tree *t, ir_ref leaf)
 {
     struct ir_graph *g = t->graph;
-    ir_ref cosine = ir_op1(g, IR_ABS, ir_op2(g, IR_DOT, input(t, leaf, "normal", 6), closure_view(t->shader, t->host)));
-    struct closure_interface interface = {
-        .color0 = input(t, leaf, "color0", 6), .color90 = input(t, leaf, "color90", 7), .exponent = input(t, leaf, "exponent", 8),
-        .ior = input(t, leaf, "ior", 3), .extinction = input(t, leaf, "extinction", 10)};
-    ir_ref more = closure_fresnel_rise(g, &interface, ir_op2(g, IR_MIN, cosine, ir_const_float(g, 1.0f)));
+    ir_ref cosine =
+        ir_op1(g, IR_ABS,
+               ir_op2(g, IR_DOT, input(t, leaf, "normal", 6), closure_view(t->shader, t->host)));
+    struct closure_interface interface = {.color0 = input(t, leaf, "color0", 6),
+                                          .color90 = input(t, leaf, "color90", 7),
+                                          .exponent = input(t, leaf, "exponent", 8),
+                                          .ior = input(t, leaf, "ior", 3),
+                                          .extinction = input(t, leaf, "extinction", 10)};
+    ir_ref more =
+        closure_fresnel_rise(g, &interface, ir_op2(g, IR_MIN, cosine, ir_const_float(g, 1.0f)));
     ir_ref one = ir_const_splat(g, ir_type_of(g, more), 1.0f);
     return ir_build(g, IR_SELECT, ir_type_of(g, more), 0, (ir_ref[]){t->turned, more, one}, 3);
 }
 
 /*
- * Through a shell without an inside light goes on as it came, in the colour that the leaf has for transmission.
+ * Through a shell without an inside light goes on as it came, in the colour that the leaf has for
+ * transmission.
  */
 static ir_ref straight(struct tree *t, ir_ref leaf, const char *word)
 {
@@ -323,13 +347,16 @@ static bool is_false(const struct tree *t, ir_ref value)
 }
 
 /*
- * One closure; of leaves that transmit one for each side, where the sides differ in more than in tints.
+ * One closure; of leaves that transmit one for each side, where the sides differ in more than in
+ * tints.
  */
 static ir_ref row_call(struct tree *t, ir_ref leaf, const struct closure_row *row)
 {
     const char *word = transmitted_word(row);
-    bool transmits = word && scatters(t, leaf, TRANSMITTED), reflects = !word || scatters(t, leaf, REFLECTED);
-    ir_ref turned = reflects ? input(t, leaf, "retroreflective", 15) : 0, thin = transmits ? t->thin : 0;
+    bool transmits = word && scatters(t, leaf, TRANSMITTED),
+         reflects = !word || scatters(t, leaf, REFLECTED);
+    ir_ref turned = reflects ? input(t, leaf, "retroreflective", 15) : 0,
+           thin = transmits ? t->thin : 0;
     t->turned = is_false(t, turned) ? 0 : turned;
     ir_ref whole = t->turned && transmits ? 0 : side_call(t, leaf, row, BOTH_SIDES);
     ir_ref reflected = reflects && (!whole || thin) ? side_call(t, leaf, row, REFLECTED) : 0;
@@ -342,14 +369,18 @@ static ir_ref row_call(struct tree *t, ir_ref leaf, const struct closure_row *ro
     if (!whole)
         whole = sum(t, reflected, side_call(t, leaf, row, TRANSMITTED));
     t->side = BOTH_SIDES;
-    return thin ? mixed(t, whole, layered(t, reflected, straight(t, leaf, word)), ir_convert(t->graph, IR_TYPE_FLOAT, thin)) : whole;
+    return thin ? mixed(t, whole, layered(t, reflected, straight(t, leaf, word)),
+                        ir_convert(t->graph, IR_TYPE_FLOAT, thin))
+                : whole;
 }
 
 /* Emission and media are what the leaf's own functions give for the view at hand. */
 static ir_ref emission(struct tree *t, ir_ref leaf)
 {
     ir_ref radiance = closure_call(t->shader, t->host, leaf, LEAF_EMISSION, NULL);
-    return radiance && !ir_const_is(t->graph, radiance, 0.0f) ? call(t, t->host->rows->emission, IR_TYPE_EDF, &radiance, 1) : 0;
+    return radiance && !ir_const_is(t->graph, radiance, 0.0f)
+               ? call(t, t->host->rows->emission, IR_TYPE_EDF, &radiance, 1)
+               : 0;
 }
 
 static ir_ref medium(struct tree *t, ir_ref leaf)
@@ -371,7 +402,8 @@ static ir_ref leaf_call(struct tree *t, ir_ref leaf)
     const struct ir_node node = *ir_get(t->graph, leaf);
     const uint32_t *functions = t->host->leaf_functions(t->host->user_data, node.attr);
     if (functions[LEAF_FACTOR] != LANG_NONE)
-        return scaled(t, t->of[ir_arg(t->graph, leaf, node.num_args - 1)], closure_call(t->shader, t->host, leaf, LEAF_FACTOR, NULL));
+        return scaled(t, t->of[ir_arg(t->graph, leaf, node.num_args - 1)],
+                      closure_call(t->shader, t->host, leaf, LEAF_FACTOR, NULL));
     const char *family = str_text(t->shader->strings, t->graph->callees.items[node.attr].name);
     ir_ref result = 0;
     const struct closure_row *row = t->host->rows->rows;
@@ -424,27 +456,18 @@ static ir_ref rewrite(struct tree *t, ir_ref ref)
         return leaf_call(t, ref);
     memcpy(a, ir_args(t->graph, ref), (node->num_args < 4 ? node->num_args : 4) * sizeof *a);
     switch (node->op) {
-    case IR_LAYER:
-        return layered(t, t->of[a[0]], t->of[a[1]]);
+    case IR_LAYER: return layered(t, t->of[a[0]], t->of[a[1]]);
     case IR_CLOSURE_MIX:
-    case IR_SHADER_MIX:
-        return mixed(t, t->of[a[0]], t->of[a[1]], a[2]);
-    case IR_CLOSURE_ADD:
-        return sum(t, t->of[a[0]], t->of[a[1]]);
-    case IR_CLOSURE_SCALE:
-        return scaled(t, t->of[a[0]], a[1]);
-    case IR_SURFACE_SHADER:
-        return seen_through(t, sum(t, t->of[a[0]], t->of[a[1]]), a[2]);
-    case IR_SURFACE_UNLIT:
-        return unlit(t, a[0], a[1], a[2]);
-    case IR_VOLUME_SHADER:
-        return sum(t, t->of[a[0]], t->of[a[1]]);
-    case IR_LIGHT_SHADER:
-        return light(t, t->of[a[0]], a[1], a[2]);
+    case IR_SHADER_MIX: return mixed(t, t->of[a[0]], t->of[a[1]], a[2]);
+    case IR_CLOSURE_ADD: return sum(t, t->of[a[0]], t->of[a[1]]);
+    case IR_CLOSURE_SCALE: return scaled(t, t->of[a[0]], a[1]);
+    case IR_SURFACE_SHADER: return seen_through(t, sum(t, t->of[a[0]], t->of[a[1]]), a[2]);
+    case IR_SURFACE_UNLIT: return unlit(t, a[0], a[1], a[2]);
+    case IR_VOLUME_SHADER: return sum(t, t->of[a[0]], t->of[a[1]]);
+    case IR_LIGHT_SHADER: return light(t, t->of[a[0]], a[1], a[2]);
     case IR_UNIFORM: /* what another layer of a network gives */
         return ir_build(t->graph, IR_UNIFORM, IR_TYPE_BSDF, node->attr, NULL, 0);
-    default:
-        return 0;
+    default: return 0;
     }
 }
 
@@ -453,7 +476,8 @@ static ir_ref closure_of(struct tree *t, ir_ref root)
     if (!root)
         return 0;
     t->of = ARENA_ARRAY(t->shader->arena, ir_ref, root + 1);
-    bool is_thin = ir_get(t->graph, root)->op == IR_SURFACE_SHADER && !is_false(t, ir_arg(t->graph, root, 3));
+    bool is_thin =
+        ir_get(t->graph, root)->op == IR_SURFACE_SHADER && !is_false(t, ir_arg(t->graph, root, 3));
     t->thin = is_thin ? ir_arg(t->graph, root, 3) : 0;
     uint8_t *needed = ir_mark(t->graph, &root, 1, t->shader->arena);
     uint32_t before = t->graph->origin;
@@ -481,16 +505,20 @@ static ir_ref with_incident(struct shader *shader, ir_ref root)
     uint32_t eye = shader_find_variable(shader, BLOCK_PRIVATE_UNIFORMS, STR_u_viewPosition);
     if (eye == UINT32_MAX)
         return root;
-    ir_ref point = shader_stream(shader, STR_positionWorld, IR_TYPE_VEC3), from = shader_read(shader, eye), way = incident(shader);
-    root = ir_replace(shader->graph, root, ir_op2(shader->graph, IR_SUB, point, from), way, shader->arena);
+    ir_ref point = shader_stream(shader, STR_positionWorld, IR_TYPE_VEC3),
+           from = shader_read(shader, eye), way = incident(shader);
+    root = ir_replace(shader->graph, root, ir_op2(shader->graph, IR_SUB, point, from), way,
+                      shader->arena);
     ir_ref back = ir_op1(shader->graph, IR_NEG, way);
-    return ir_replace(shader->graph, root, ir_op2(shader->graph, IR_SUB, from, point), back, shader->arena);
+    return ir_replace(shader->graph, root, ir_op2(shader->graph, IR_SUB, from, point), back,
+                      shader->arena);
 }
 
 /* It is given a unit normal, too: nothing came between it and the surface. */
 static ir_ref with_unit_normal(struct shader *shader, ir_ref root)
 {
-    ir_ref normal = shader_stream(shader, STR_normalWorld, IR_TYPE_VEC3), unit = ir_op1(shader->graph, IR_NORMALIZE, normal);
+    ir_ref normal = shader_stream(shader, STR_normalWorld, IR_TYPE_VEC3),
+           unit = ir_op1(shader->graph, IR_NORMALIZE, normal);
     return ir_replace(shader->graph, root, unit, normal, shader->arena);
 }
 
@@ -498,14 +526,16 @@ static void effect(struct tree *t, enum effect_kind kind, uint32_t index, ir_ref
 {
     if (kind == EFFECT_OUTPUT)
         value = with_unit_normal(t->shader, with_incident(t->shader, value));
-    shader_effect(t->shader, STAGE_PIXEL, (struct effect){.kind = (uint8_t)kind, .index = index, .value = value});
+    shader_effect(t->shader, STAGE_PIXEL,
+                  (struct effect){.kind = (uint8_t)kind, .index = index, .value = value});
 }
 
 static uint32_t output(struct tree *t, const char *name, ir_type_id type, str_id doc_type)
 {
     str_id id = str_intern_z(t->shader->strings, name);
-    return shader_add_variable(t->shader, &(struct shader_variable){.name = id, .block = BLOCK_OUTPUTS, .type = type,
-                                                                    .doc_type = doc_type});
+    return shader_add_variable(
+        t->shader, &(struct shader_variable){
+                       .name = id, .block = BLOCK_OUTPUTS, .type = type, .doc_type = doc_type});
 }
 
 /* No closure at all is black. */
@@ -535,7 +565,8 @@ static void emit_sides(struct tree *t, ir_ref front, ir_ref back)
         return;
     }
     str_id name = str_intern_z(t->shader->strings, "u_backfacing");
-    ir_ref behind = shader_read(t->shader, shader_private_uniform(t->shader, name, IR_TYPE_BOOL, 0));
+    ir_ref behind =
+        shader_read(t->shader, shader_private_uniform(t->shader, name, IR_TYPE_BOOL, 0));
     back = or_black(t, closure_of(t, back));
     add_closures(t, (ir_ref[]){front, back}, 2);
     effect(t, EFFECT_IF, 0, ir_op1(g, IR_NOT, behind));
@@ -555,7 +586,8 @@ static void emit_displacement(struct tree *t, ir_ref displacement)
     ir_ref before = shader_stream(t->shader, STR_positionWorld, IR_TYPE_VEC3);
     ir_ref moved = with_unit_normal(t->shader, ir_op2(t->graph, IR_ADD, before, offset));
     t->shader->displaced = true;
-    shader_effect(t->shader, STAGE_VERTEX, (struct effect){.kind = EFFECT_POSITION, .value = moved});
+    shader_effect(t->shader, STAGE_VERTEX,
+                  (struct effect){.kind = EFFECT_POSITION, .value = moved});
 }
 
 static bool emit_value(struct tree *t, ir_ref root)
@@ -584,8 +616,10 @@ static ir_ref view(struct shader *shader)
 bool closure_emit_tree(struct shader *shader, const struct closure_host *host, ir_ref root)
 {
     host->point->view = view(shader);
-    struct tree t = {.shader = shader, .graph = shader->graph, .host = host, .inputs = &(struct leaf_inputs){0}};
-    ir_ref front = root, back = 0, displacement = root && ir_type_of(t.graph, root) == IR_TYPE_DISPLACEMENT ? root : 0;
+    struct tree t = {
+        .shader = shader, .graph = shader->graph, .host = host, .inputs = &(struct leaf_inputs){0}};
+    ir_ref front = root, back = 0,
+           displacement = root && ir_type_of(t.graph, root) == IR_TYPE_DISPLACEMENT ? root : 0;
     if (root && ir_get(t.graph, root)->op == IR_MATERIAL) {
         front = ir_arg(t.graph, root, 0);
         back = ir_arg(t.graph, root, 1);
@@ -627,10 +661,12 @@ static bool emit_result(struct tree *t, const struct closure_result *result)
     return !t->shader->unknown_closure;
 }
 
-bool closure_emit_node(struct shader *shader, const struct closure_host *host, const struct closure_result *results, unsigned n)
+bool closure_emit_node(struct shader *shader, const struct closure_host *host,
+                       const struct closure_result *results, unsigned n)
 {
     host->point->view = view(shader);
-    struct tree t = {.shader = shader, .graph = shader->graph, .host = host, .inputs = &(struct leaf_inputs){0}};
+    struct tree t = {
+        .shader = shader, .graph = shader->graph, .host = host, .inputs = &(struct leaf_inputs){0}};
     shader->kind = SHADER_VALUE;
     bool good = true;
     const struct effect_list *effects = &shader->stages[STAGE_PIXEL].effects;

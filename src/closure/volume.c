@@ -1,21 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * A volume as a pixel stage can draw it: a homogeneous medium between the shaded point and the other side, as far as it is through a ball
- * of the diameter u_volumeDepth, with light scattered once (MaterialX PBR specification, "Volume Shaders" and <anisotropic_vdf>; Pharr,
- * Jakob, Humphreys, "Physically Based Rendering", chapter 11). Faces that are seen from inside add nothing.
+ * A volume as a pixel stage can draw it: a homogeneous medium between the shaded point and the
+ * other side, as far as it is through a ball of the diameter u_volumeDepth, with light scattered
+ * once (MaterialX PBR specification, "Volume Shaders" and <anisotropic_vdf>; Pharr, Jakob,
+ * Humphreys, "Physically Based Rendering", chapter 11). Faces that are seen from inside add
+ * nothing.
  *
  *     depth = u_volumeDepth · max(N · V, 0)
  *     τ = (σa + σs) · depth               optical depth
  *     alpha = the mean of 1 - exp(-τ)     what the background loses
- *     path = depth · (1 - exp(-τ)) / τ    length over which light is gathered: the integral of exp(-σt · x) over the depth
- *     color = path · (emission + Σ σs · light · phase + σs · environment)
+ *     path = depth · (1 - exp(-τ)) / τ    length over which light is gathered: the integral of
+ * exp(-σt · x) over the depth color = path · (emission + Σ σs · light · phase + σs · environment)
  *
  * Light is not attenuated on its way in.
  */
 #include "closure/closure_priv.h"
 
 /*
- * Below this optical depth (1 - exp(-τ)) / τ is 1: within 0.05 %, where the difference from 1 would be lost to rounding.
+ * Below this optical depth (1 - exp(-τ)) / τ is 1: within 0.05 %, where the difference from 1 would
+ * be lost to rounding.
  */
 static const float thin = 1e-3f;
 
@@ -39,8 +42,9 @@ static struct parts parts_of(struct shader *shader, ir_ref root)
         if (node.op == IR_VOLUME_SHADER)
             known[ref] = (struct parts){a, b};
         else if (node.op == IR_SHADER_MIX)
-            known[ref] = (struct parts){closure_mixed(g, known[a].vdf, known[b].vdf, ir_arg(g, ref, 2)),
-                                        closure_mixed(g, known[a].edf, known[b].edf, ir_arg(g, ref, 2))};
+            known[ref] =
+                (struct parts){closure_mixed(g, known[a].vdf, known[b].vdf, ir_arg(g, ref, 2)),
+                               closure_mixed(g, known[a].edf, known[b].edf, ir_arg(g, ref, 2))};
     }
     return known[root];
 }
@@ -51,7 +55,8 @@ static ir_ref splat(struct ir_graph *g, float value)
 }
 
 /* σa + σs of all leaves. */
-static ir_ref extinction(struct shader *shader, const struct closure_host *host, const struct closure_list *list)
+static ir_ref extinction(struct shader *shader, const struct closure_host *host,
+                         const struct closure_list *list)
 {
     static const enum leaf_function coefficients[] = {LEAF_ABSORPTION, LEAF_SCATTERING};
     struct ir_graph *g = shader->graph;
@@ -61,13 +66,15 @@ static ir_ref extinction(struct shader *shader, const struct closure_host *host,
         for (size_t k = 0; k < sizeof coefficients / sizeof *coefficients; k++) {
             ir_ref value = closure_call(shader, host, leaf->leaf, coefficients[k], NULL);
             if (value)
-                sum = ir_op2(g, IR_ADD, sum, closure_mul(g, value, closure_mul(g, leaf->color, leaf->scalar)));
+                sum = ir_op2(g, IR_ADD, sum,
+                             closure_mul(g, value, closure_mul(g, leaf->color, leaf->scalar)));
         }
     }
     return sum;
 }
 
-void closure_volume(struct shader *shader, const struct closure_host *host, ir_ref root, struct closure_volume *out)
+void closure_volume(struct shader *shader, const struct closure_host *host, ir_ref root,
+                    struct closure_volume *out)
 {
     struct ir_graph *g = shader->graph;
     struct parts parts = parts_of(shader, root);
@@ -75,7 +82,8 @@ void closure_volume(struct shader *shader, const struct closure_host *host, ir_r
     closure_flatten(shader, host, parts.vdf, &out->scattering);
     uint32_t before = g->origin;
     g->origin = ir_add_origin(g, STR_depth, 0, 0);
-    ir_ref diameter = shader_read(shader, shader_private_uniform(shader, STR_u_volumeDepth, IR_TYPE_FLOAT, 0));
+    ir_ref diameter =
+        shader_read(shader, shader_private_uniform(shader, STR_u_volumeDepth, IR_TYPE_FLOAT, 0));
     /* in an order that is not the compiler's */
     ir_ref view = closure_view(shader, host), normal = closure_normal(shader, host);
     ir_ref facing = ir_op2(g, IR_DOT, normal, view);
@@ -86,13 +94,16 @@ void closure_volume(struct shader *shader, const struct closure_host *host, ir_r
     ir_ref lost = ir_op2(g, IR_SUB, splat(g, 1.0f), ir_op1(g, IR_EXP, ir_op1(g, IR_NEG, optical)));
     g->origin = ir_add_origin(g, STR_path, 0, 0);
     ir_ref gathered = ir_op2(g, IR_DIV, lost, ir_op2(g, IR_MAX, optical, splat(g, thin)));
-    gathered = ir_op3(g, IR_MIX, splat(g, 1.0f), gathered, ir_op2(g, IR_STEP, splat(g, thin), optical));
+    gathered =
+        ir_op3(g, IR_MIX, splat(g, 1.0f), gathered, ir_op2(g, IR_STEP, splat(g, thin), optical));
     out->path = ir_op2(g, IR_MUL, gathered, depth);
     g->origin = ir_add_origin(g, STR_alpha, 0, 0);
     out->alpha = ir_op2(g, IR_DOT, lost, splat(g, 1.0f / 3.0f));
     g->origin = before;
     for (uint32_t i = 0; i < out->scattering.leaves.len; i++) {
         struct closure_leaf *leaf = &out->scattering.leaves.items[i];
-        leaf->color = leaf->color ? ir_op2(g, IR_MUL, ir_convert(g, IR_TYPE_VEC3, leaf->color), out->path) : out->path;
+        leaf->color = leaf->color
+                          ? ir_op2(g, IR_MUL, ir_convert(g, IR_TYPE_VEC3, leaf->color), out->path)
+                          : out->path;
     }
 }

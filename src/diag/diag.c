@@ -33,9 +33,11 @@ bool diag_id_find(const char *stable, size_t len, enum diag_id *out_id)
 
 const char *diag_severity_text(enum diag_severity severity)
 {
-    static const char *const texts[] = {
-        [DIAG_ERROR] = "error", [DIAG_WARNING] = "warning", [DIAG_NOTE] = "note", [DIAG_REMARK] = "remark",
-        [DIAG_IGNORED] = "ignored"};
+    static const char *const texts[] = {[DIAG_ERROR] = "error",
+                                        [DIAG_WARNING] = "warning",
+                                        [DIAG_NOTE] = "note",
+                                        [DIAG_REMARK] = "remark",
+                                        [DIAG_IGNORED] = "ignored"};
     return texts[severity];
 }
 
@@ -85,7 +87,8 @@ static enum diag_severity severity_in(const struct diag_list *list, enum diag_id
     return list->policy ? (enum diag_severity)list->policy->severities[id] : catalogue[id].severity;
 }
 
-static void append(struct diag_list *list, enum diag_id id, struct diag_place place, const char *message)
+static void append(struct diag_list *list, enum diag_id id, struct diag_place place,
+                   const char *message)
 {
     enum diag_severity severity = severity_in(list, id);
     bool is_note = severity == DIAG_NOTE && list->items.len > 0;
@@ -93,7 +96,11 @@ static void append(struct diag_list *list, enum diag_id id, struct diag_place pl
         list->last = list->items.len;
     place.file = keep_file(list, place.file);
     vec_push(list->arena, &list->items,
-             (struct diag){.id = id, .severity = severity, .message = message, .place = place, .parent = list->last});
+             (struct diag){.id = id,
+                           .severity = severity,
+                           .message = message,
+                           .place = place,
+                           .parent = list->last});
     if (!is_note && list->trace)
         list->trace(list->trace_data, list);
 }
@@ -105,7 +112,8 @@ static bool is_kept(struct diag_list *list, enum diag_severity severity)
         return !list->muted_notes;
     list->num_errors += severity == DIAG_ERROR;
     list->num_warnings += severity == DIAG_WARNING;
-    bool is_too_many = severity == DIAG_ERROR && list->max_errors && list->num_errors > list->max_errors;
+    bool is_too_many =
+        severity == DIAG_ERROR && list->max_errors && list->num_errors > list->max_errors;
     list->muted_notes = is_too_many || severity == DIAG_IGNORED;
     return !list->muted_notes;
 }
@@ -128,5 +136,6 @@ void diag_add(struct diag_list *list, enum diag_id id, struct diag_place place, 
 void diag_repeat(struct diag_list *list, const struct diag *diag)
 {
     if (is_kept(list, severity_in(list, diag->id)))
-        append(list, diag->id, diag->place, arena_strndup(list->arena, diag->message, strlen(diag->message)));
+        append(list, diag->id, diag->place,
+               arena_strndup(list->arena, diag->message, strlen(diag->message)));
 }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Diagnostics: what mxgen says to the author of a document. A catalogue of messages with stable ids (catalogue.def), a
- * list that collects them, and renderers. Nothing here prints: a list is data until somebody renders it.
+ * Diagnostics: what mxgen says to the author of a document. A catalogue of messages with stable ids
+ * (catalogue.def), a list that collects them, and renderers. Nothing here prints: a list is data
+ * until somebody renders it.
  */
 #ifndef MXG_DIAG_DIAG_H
 #define MXG_DIAG_DIAG_H
@@ -12,8 +13,8 @@
 enum diag_severity {
     DIAG_ERROR,
     DIAG_WARNING,
-    DIAG_NOTE,   /* belongs to the message before it */
-    DIAG_REMARK, /* stands alone; of interest to who asks for it */
+    DIAG_NOTE,    /* belongs to the message before it */
+    DIAG_REMARK,  /* stands alone; of interest to who asks for it */
     DIAG_IGNORED, /* not added at all: what a policy makes of others */
 };
 
@@ -25,7 +26,8 @@ enum diag_id {
 };
 
 /*
- * A place in a source file. Lines and columns count from 1, columns in code points; line 0: the file as a whole.
+ * A place in a source file. Lines and columns count from 1, columns in code points; line 0: the
+ * file as a whole.
  */
 struct diag_place {
     const char *file; /* as the user named it; NULL: no file */
@@ -49,10 +51,11 @@ struct diag_policy {
 };
 
 struct diag_list {
-    struct arena *arena; /* owns messages and file names */
+    struct arena *arena;              /* owns messages and file names */
     const struct diag_policy *policy; /* NULL: the catalogue's severities */
     /*
-     * Called behind each message, not notes: adds notes that tell how the work came there. May be NULL.
+     * Called behind each message, not notes: adds notes that tell how the work came there. May be
+     * NULL.
      */
     void (*trace)(void *user_data, struct diag_list *list);
     void *trace_data;
@@ -67,8 +70,8 @@ struct diag_list {
 void diag_list_init(struct diag_list *list, struct arena *arena);
 
 /*
- * Adds a message; the arguments are those of the id's format. Notes attach to the message before them, and are dropped
- * with it. The place's file name is copied.
+ * Adds a message; the arguments are those of the id's format. Notes attach to the message before
+ * them, and are dropped with it. The place's file name is copied.
  */
 void diag_add(struct diag_list *list, enum diag_id id, struct diag_place place, ...);
 
@@ -76,9 +79,10 @@ void diag_add(struct diag_list *list, enum diag_id id, struct diag_place place, 
 void diag_repeat(struct diag_list *list, const struct diag *diag);
 
 /*
- * A policy from words as -W has them, separated by commas: "error" makes errors of all warnings, "error=ID" of one, "no-error=ID" none
- * of that one; "no-ID" switches one off, "ID" on (a remark becomes a warning). Their order does not count. Returns NULL, or the first
- * word that is none of these or names what is not a warning.
+ * A policy from words as -W has them, separated by commas: "error" makes errors of all warnings,
+ * "error=ID" of one, "no-error=ID" none of that one; "no-ID" switches one off, "ID" on (a remark
+ * becomes a warning). Their order does not count. Returns NULL, or the first word that is none of
+ * these or names what is not a warning.
  */
 const char *diag_policy_parse(struct diag_policy *policy, const char *words);
 
@@ -101,21 +105,26 @@ const struct diag_explanation *diag_explain(enum diag_id id);
  *     file:line:col: error: message [id]
  *         <source line>
  *         ^~~~
- * `source` (the file's text, may be NULL) gives the line, of which a long one is cut around the column. Control characters are
- * replaced, tabs kept. Notes are printed without their id; `colour` adds terminal escapes.
+ * `source` (the file's text, may be NULL) gives the line, of which a long one is cut around the
+ * column. Control characters are replaced, tabs kept. Notes are printed without their id; `colour`
+ * adds terminal escapes.
  */
-void diag_render_text(const struct diag *diag, const char *source, size_t source_len, bool colour, struct text *out);
+void diag_render_text(const struct diag *diag, const char *source, size_t source_len, bool colour,
+                      struct text *out);
 
 /* The same with the source line at hand, without its end; NULL: unknown. */
-void diag_render_line(const struct diag *diag, const char *line, size_t line_len, bool colour, struct text *out);
+void diag_render_line(const struct diag *diag, const char *line, size_t line_len, bool colour,
+                      struct text *out);
 
 /* One JSON object per message, notes nested in their message: an array. */
 void diag_render_json(const struct diag_list *list, struct text *out);
 
 /*
- * What was probably meant by a word that means nothing: " (did you mean 'x'?)" for the candidate that is closest by edit distance, ""
- * where none is near; the first of equally close ones. It lives in the list's arena. A list gets some suggestions only, so that a document
- * which is wrong throughout is reported in linear time: where diag_guess_begin returns false, candidates need not be looked for.
+ * What was probably meant by a word that means nothing: " (did you mean 'x'?)" for the candidate
+ * that is closest by edit distance, "" where none is near; the first of equally close ones. It
+ * lives in the list's arena. A list gets some suggestions only, so that a document which is wrong
+ * throughout is reported in linear time: where diag_guess_begin returns false, candidates need not
+ * be looked for.
  *
  *     struct diag_guess guess;
  *     if (diag_guess_begin(&guess, diags, word))
@@ -135,6 +144,7 @@ void diag_guess_add(struct diag_guess *guess, const char *candidate);
 const char *diag_guess_text(struct diag_guess *guess);
 
 /* The same where the candidates are at hand. */
-const char *diag_suggest(struct diag_list *list, const char *word, const char *const *candidates, size_t num_candidates);
+const char *diag_suggest(struct diag_list *list, const char *word, const char *const *candidates,
+                         size_t num_candidates);
 
 #endif

@@ -52,7 +52,8 @@ static enum diag_severity choose(const struct choices *choices, enum diag_id id)
         return DIAG_IGNORED;
     if (severity == DIAG_REMARK && choices->told[id] == UNSAID)
         return DIAG_REMARK;
-    bool is_error = choices->error[id] == YES || (choices->error[id] == UNSAID && choices->all_errors);
+    bool is_error =
+        choices->error[id] == YES || (choices->error[id] == UNSAID && choices->all_errors);
     return is_error ? DIAG_ERROR : DIAG_WARNING;
 }
 

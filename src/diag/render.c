@@ -7,8 +7,10 @@ enum {
     LINE_BEFORE = 80, /* of these, before the column, where the line is longer */
 };
 
-static const char *const colours[] = {
-    [DIAG_ERROR] = "\x1b[1;31m", [DIAG_WARNING] = "\x1b[1;35m", [DIAG_NOTE] = "\x1b[1;36m", [DIAG_REMARK] = "\x1b[1;34m"};
+static const char *const colours[] = {[DIAG_ERROR] = "\x1b[1;31m",
+                                      [DIAG_WARNING] = "\x1b[1;35m",
+                                      [DIAG_NOTE] = "\x1b[1;36m",
+                                      [DIAG_REMARK] = "\x1b[1;34m"};
 static const char bold[] = "\x1b[1m", green[] = "\x1b[1;32m", plain[] = "\x1b[0m";
 
 static void paint(struct text *out, bool colour, const char *escape)
@@ -66,12 +68,14 @@ static uint32_t begun_in_word(const char *bytes)
 }
 
 /*
- * Bytes of the first `count` code points, or all of them. A document may be one line of megabytes, with many messages about it.
+ * Bytes of the first `count` code points, or all of them. A document may be one line of megabytes,
+ * with many messages about it.
  */
 static size_t bytes_of(struct line line, uint32_t count)
 {
     size_t at = 0;
-    for (uint32_t begun; at + 8 <= line.len && (begun = begun_in_word(line.text + at)) <= count; at += 8)
+    for (uint32_t begun; at + 8 <= line.len && (begun = begun_in_word(line.text + at)) <= count;
+         at += 8)
         count -= begun;
     for (; at < line.len; at++)
         if (begins_code_point(line.text[at]) && count-- == 0)
@@ -106,7 +110,8 @@ static void put_margin(struct text *out, struct line line)
             text_char(out, line.text[i] == '\t' ? '\t' : ' ');
 }
 
-static void render_source(const struct diag_place *place, struct line line, bool colour, struct text *out)
+static void render_source(const struct diag_place *place, struct line line, bool colour,
+                          struct text *out)
 {
     uint32_t before = place->column - 1, near = before > LINE_BEFORE ? before - LINE_BEFORE : 0;
     struct line rest = behind(line, near);
@@ -146,7 +151,8 @@ static void render_place(const struct diag_place *place, struct text *out)
     text_char(out, ' ');
 }
 
-void diag_render_line(const struct diag *diag, const char *line, size_t line_len, bool colour, struct text *out)
+void diag_render_line(const struct diag *diag, const char *line, size_t line_len, bool colour,
+                      struct text *out)
 {
     paint(out, colour, bold);
     render_place(&diag->place, out);
@@ -161,9 +167,11 @@ void diag_render_line(const struct diag *diag, const char *line, size_t line_len
         render_source(&diag->place, (struct line){line, line_len}, colour, out);
 }
 
-void diag_render_text(const struct diag *diag, const char *source, size_t source_len, bool colour, struct text *out)
+void diag_render_text(const struct diag *diag, const char *source, size_t source_len, bool colour,
+                      struct text *out)
 {
-    struct line line = source && diag->place.line ? find_line(source, source_len, diag->place.line) : (struct line){0};
+    struct line line = source && diag->place.line ? find_line(source, source_len, diag->place.line)
+                                                  : (struct line){0};
     diag_render_line(diag, line.text, line.len, colour, out);
 }
 
@@ -187,7 +195,8 @@ static void json_members(const struct diag *diag, struct text *out)
     json_field(out, "file", diag->place.file);
     if (diag->place.line)
         text_fmt(out, ", \"line\": %u, \"column\": %u, \"length\": %u", (unsigned)diag->place.line,
-                 (unsigned)diag->place.column, (unsigned)(diag->place.length ? diag->place.length : 1));
+                 (unsigned)diag->place.column,
+                 (unsigned)(diag->place.length ? diag->place.length : 1));
 }
 
 void diag_render_json(const struct diag_list *list, struct text *out)

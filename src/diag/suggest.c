@@ -8,20 +8,23 @@ enum {
 };
 
 /*
- * Edit distance where insertion, deletion, substitution and the swap of neighbours cost 1 ("optimal string alignment"): a row of the table
- * per character of `word`, as the differences between its columns, a bit each. Hyyrö, "A Bit-Vector Algorithm for Computing
- * Levenshtein and Damerau Edit Distances", Nordic Journal of Computing 10, 2003. A character more changes it by 1 at most, so what cannot
- * become better than the best is not counted to its end.
+ * Edit distance where insertion, deletion, substitution and the swap of neighbours cost 1 ("optimal
+ * string alignment"): a row of the table per character of `word`, as the differences between its
+ * columns, a bit each. Hyyrö, "A Bit-Vector Algorithm for Computing Levenshtein and Damerau Edit
+ * Distances", Nordic Journal of Computing 10, 2003. A character more changes it by 1 at most, so
+ * what cannot become better than the best is not counted to its end.
  */
 static size_t edit_distance(const struct diag_guess *guess, const char *word, size_t len)
 {
-    uint64_t more = UINT64_MAX, less = 0, same = 0, before = 0, last = (uint64_t)1 << (guess->len - 1);
+    uint64_t more = UINT64_MAX, less = 0, same = 0, before = 0,
+             last = (uint64_t)1 << (guess->len - 1);
     size_t distance = guess->len;
     for (size_t i = 0; i < len && distance < guess->best_distance + (len - i); i++) {
-        uint64_t places = guess->places[(unsigned char)word[i]], swapped = (~same & places) << 1 & before;
+        uint64_t places = guess->places[(unsigned char)word[i]],
+                 swapped = (~same & places) << 1 & before;
         /* as far as diagonally before */
         same = (((places & more) + more) ^ more) | places | less | swapped;
-        uint64_t grows = less | ~(same | more), shrinks = same & more;      /* from the row above */
+        uint64_t grows = less | ~(same | more), shrinks = same & more; /* from the row above */
         distance += (grows & last) != 0;
         distance -= (shrinks & last) != 0;
         grows = grows << 1 | 1;
@@ -50,7 +53,8 @@ bool diag_guess_begin(struct diag_guess *guess, struct diag_list *list, const ch
 {
     /* one per three letters, and one in a shorter word */
     size_t len = strlen(word), mistakes = len / 3;
-    *guess = (struct diag_guess){.list = list, .word = word, .best_distance = mistakes ? mistakes + 1 : 2};
+    *guess = (struct diag_guess){
+        .list = list, .word = word, .best_distance = mistakes ? mistakes + 1 : 2};
     if (len < 2 || len > MAX_WORD || !diag_may_guess(list))
         return false;
     list->num_guesses++;
@@ -62,7 +66,8 @@ bool diag_guess_begin(struct diag_guess *guess, struct diag_list *list, const ch
 
 void diag_guess_add(struct diag_guess *guess, const char *candidate)
 {
-    size_t len = strlen(candidate), difference = len > guess->len ? len - guess->len : guess->len - len;
+    size_t len = strlen(candidate),
+           difference = len > guess->len ? len - guess->len : guess->len - len;
     if (!guess->len || len > MAX_WORD || difference >= guess->best_distance)
         return;
     size_t distance = edit_distance(guess, candidate, len);
@@ -82,7 +87,8 @@ const char *diag_guess_text(struct diag_guess *guess)
     return text_cstr(&text);
 }
 
-const char *diag_suggest(struct diag_list *list, const char *word, const char *const *candidates, size_t num_candidates)
+const char *diag_suggest(struct diag_list *list, const char *word, const char *const *candidates,
+                         size_t num_candidates)
 {
     struct diag_guess guess;
     bool may_guess = diag_guess_begin(&guess, list, word);

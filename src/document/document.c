@@ -37,10 +37,15 @@ static struct doc_link *link_of(struct document *doc, elem_id element)
     return &doc->links.items[element - doc->first_element];
 }
 
-void doc_init(struct document *doc, struct arena *arena, struct strpool *strings, const struct document *base)
+void doc_init(struct document *doc, struct arena *arena, struct strpool *strings,
+              const struct document *base)
 {
-    *doc = (struct document){.base = base, .strings = strings, .arena = arena,
-                             .first_element = 1, .first_attr = 0, .first_file = 1};
+    *doc = (struct document){.base = base,
+                             .strings = strings,
+                             .arena = arena,
+                             .first_element = 1,
+                             .first_attr = 0,
+                             .first_file = 1};
     if (base) {
         doc->first_element = base->first_element + base->elements.len;
         doc->first_attr = base->first_attr + base->attrs.len;
@@ -64,14 +69,18 @@ static void link_last(struct document *doc, elem_id parent, elem_id element)
     own(doc, element)->next = 0;
 }
 
-elem_id doc_add_element(struct document *doc, elem_id parent, str_id category, str_id name, uint16_t file, uint32_t line,
-                        uint16_t column)
+elem_id doc_add_element(struct document *doc, elem_id parent, str_id category, str_id name,
+                        uint16_t file, uint32_t line, uint16_t column)
 {
     uint32_t index = doc->elements.len;
     if (index >= UINT32_MAX - doc->first_element)
         mem_fail(doc->arena->mem);
     vec_push(doc->arena, &doc->elements,
-             (struct element){.category = category, .name = name, .line = line, .column = column, .file = file,
+             (struct element){.category = category,
+                              .name = name,
+                              .line = line,
+                              .column = column,
+                              .file = file,
                               .first_attr = doc->first_attr + doc->attrs.len,
                               .kind = (uint16_t)doc_kind_of(category)});
     vec_push(doc->arena, &doc->links, (struct doc_link){0});
@@ -83,7 +92,8 @@ elem_id doc_add_element(struct document *doc, elem_id parent, str_id category, s
     return element;
 }
 
-elem_id doc_add_like(struct document *doc, elem_id parent, str_id category, str_id name, elem_id origin)
+elem_id doc_add_like(struct document *doc, elem_id parent, str_id category, str_id name,
+                     elem_id origin)
 {
     const struct element *like = doc_element(doc, origin);
     return doc_add_element(doc, parent, category, name, like->file, like->line, like->column);
@@ -112,7 +122,9 @@ void doc_set_attr(struct document *doc, elem_id element, str_id name, str_id val
     if (attr)
         doc->attrs.items[attr - doc->attrs.items].value = value;
     else
-        doc_add_attr(doc, element, (struct attribute){.name = name, .value = value, .column = own(doc, element)->column});
+        doc_add_attr(
+            doc, element,
+            (struct attribute){.name = name, .value = value, .column = own(doc, element)->column});
 }
 
 void doc_remove_attr(struct document *doc, elem_id element, str_id name)
@@ -122,7 +134,8 @@ void doc_remove_attr(struct document *doc, elem_id element, str_id name)
         return;
     struct element *e = own(doc, element);
     struct attribute *attr = &doc->attrs.items[found - doc->attrs.items];
-    const struct attribute *end = doc->attrs.items + (e->first_attr - doc->first_attr) + e->num_attrs;
+    const struct attribute *end =
+        doc->attrs.items + (e->first_attr - doc->first_attr) + e->num_attrs;
     memmove(attr, attr + 1, (size_t)(end - attr - 1) * sizeof *attr);
     e->num_attrs--;
 }
@@ -139,7 +152,8 @@ void doc_set_name(struct document *doc, elem_id element, str_id name)
     own(doc, element)->name = name;
 }
 
-void doc_set_place(struct document *doc, elem_id element, uint16_t file, uint32_t line, uint16_t column)
+void doc_set_place(struct document *doc, elem_id element, uint16_t file, uint32_t line,
+                   uint16_t column)
 {
     struct element *e = own(doc, element);
     e->file = file;
@@ -199,7 +213,8 @@ uint16_t doc_add_file(struct document *doc, str_id name)
 
 struct doc_mark doc_mark(const struct document *doc, elem_id root)
 {
-    return (struct doc_mark){doc->elements.len, doc->attrs.len, *doc_element(doc, root), doc->has_templates};
+    return (struct doc_mark){doc->elements.len, doc->attrs.len, *doc_element(doc, root),
+                             doc->has_templates};
 }
 
 void doc_rollback(struct document *doc, elem_id root, const struct doc_mark *mark)
@@ -224,13 +239,15 @@ elem_id doc_next_in_tree(const struct document *doc, elem_id root, elem_id eleme
     return 0;
 }
 
-static inline const struct attribute *find_attr(const struct document *doc, elem_id element, str_id name)
+static inline const struct attribute *find_attr(const struct document *doc, elem_id element,
+                                                str_id name)
 {
     doc = doc_layer(doc, element);
     const struct element *e = &doc->elements.items[element - doc->first_element];
     if (!e->num_attrs)
         return NULL;
-    const struct attribute *attr = &doc->attrs.items[e->first_attr - doc->first_attr], *end = attr + e->num_attrs;
+    const struct attribute *attr = &doc->attrs.items[e->first_attr - doc->first_attr],
+                           *end = attr + e->num_attrs;
     while (attr < end && attr->name != name)
         attr++;
     return attr < end ? attr : NULL;
@@ -274,7 +291,8 @@ const char *doc_file_name(const struct document *doc, uint16_t file)
 struct diag_place doc_place(const struct document *doc, elem_id element)
 {
     const struct element *e = doc_element(doc, element);
-    return (struct diag_place){.file = doc_file_name(doc, e->file), .line = e->line, .column = e->column};
+    return (struct diag_place){
+        .file = doc_file_name(doc, e->file), .line = e->line, .column = e->column};
 }
 
 struct diag_place doc_attr_place(const struct document *doc, elem_id element, str_id attr)
@@ -329,7 +347,8 @@ static bool are_equal(const struct document *doc, elem_id a, elem_id b)
             || !ea->first_child != !eb->first_child || (a != root_a && !ea->next != !eb->next))
             return false;
         for (uint32_t i = 0; i < ea->num_attrs; i++) {
-            const struct attribute *attr = &doc_attrs(doc, a)[i], *other = doc_attr(doc, b, attr->name);
+            const struct attribute *attr = &doc_attrs(doc, a)[i],
+                                   *other = doc_attr(doc, b, attr->name);
             if (!other || other->value != attr->value)
                 return false;
         }
@@ -339,11 +358,12 @@ static bool are_equal(const struct document *doc, elem_id a, elem_id b)
     return a == b;
 }
 
-static void report_duplicate(struct document *doc, elem_id first, elem_id second, struct diag_list *diags)
+static void report_duplicate(struct document *doc, elem_id first, elem_id second,
+                             struct diag_list *diags)
 {
     bool equal = are_equal(doc, first, second);
-    diag_add(diags, equal ? DIAG_ID_repeated_element : DIAG_ID_duplicate_name, doc_place(doc, second),
-             str_text(doc->strings, doc_element(doc, second)->name));
+    diag_add(diags, equal ? DIAG_ID_repeated_element : DIAG_ID_duplicate_name,
+             doc_place(doc, second), str_text(doc->strings, doc_element(doc, second)->name));
     diag_add(diags, DIAG_ID_previous_definition, doc_place(doc, first));
     if (equal)
         doc_remove_element(doc, second);
@@ -393,7 +413,8 @@ elem_id doc_child(const struct document *doc, elem_id parent, str_id name)
     return doc->name_table && name ? doc->name_table[find_slot(doc, parent, name)] : 0;
 }
 
-elem_id doc_child_of_kind(const struct document *doc, elem_id parent, enum element_kind kind, str_id name)
+elem_id doc_child_of_kind(const struct document *doc, elem_id parent, enum element_kind kind,
+                          str_id name)
 {
     elem_id child = doc_child(doc, parent, name);
     return child && doc_element(doc, child)->kind == kind ? child : 0;

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * "MaterialX Namespaces" made static: definitions get the names that others use for them, and references inside a namespace, which
- * say the short name, get the name of what they mean. A name of the namespace comes before a global one.
+ * "MaterialX Namespaces" made static: definitions get the names that others use for them, and
+ * references inside a namespace, which say the short name, get the name of what they mean. A name
+ * of the namespace comes before a global one.
  */
 #include "document/document.h"
 
 /* Attributes whose value names top-level elements, perhaps several with commas. */
 static const str_id references[] = {
-    STR_nodedef, STR_nodegraph, STR_inherit, STR_material, STR_collection, STR_includecollection, STR_look, STR_looks,
-    STR_variantset, STR_geomprop, STR_defaultgeomprop,
+    STR_nodedef,           STR_nodegraph, STR_inherit, STR_material,   STR_collection,
+    STR_includecollection, STR_look,      STR_looks,   STR_variantset, STR_geomprop,
+    STR_defaultgeomprop,
 };
 
 struct qualifier {
@@ -25,7 +27,8 @@ static bool is_qualified(const struct document *doc, str_id name)
 
 static void print_qualified(struct qualifier *q, const char *name, size_t len)
 {
-    text_mem(&q->scratch, str_text(q->doc->strings, q->namespace), str_len(q->doc->strings, q->namespace));
+    text_mem(&q->scratch, str_text(q->doc->strings, q->namespace),
+             str_len(q->doc->strings, q->namespace));
     text_char(&q->scratch, ':');
     text_mem(&q->scratch, name, len);
 }
@@ -79,7 +82,8 @@ static void qualify_reference(struct qualifier *q, elem_id element, str_id attr)
         bool found = qualified && is_top_level(doc, qualified);
         text_mem(&list, text, separator);
         text += separator;
-        text_mem(&list, found ? str_text(doc->strings, qualified) : text, found ? str_len(doc->strings, qualified) : len);
+        text_mem(&list, found ? str_text(doc->strings, qualified) : text,
+                 found ? str_len(doc->strings, qualified) : len);
         text += len;
         changed |= found;
     }
@@ -91,14 +95,16 @@ static void qualify_category(struct qualifier *q, elem_id element)
 {
     struct document *doc = q->doc;
     str_id category = doc_element(doc, element)->category;
-    str_id qualified = find_qualified(q, str_text(doc->strings, category), str_len(doc->strings, category));
+    str_id qualified =
+        find_qualified(q, str_text(doc->strings, category), str_len(doc->strings, category));
     for (uint32_t i = 0; qualified && i < q->nodes.len; i++)
         if (q->nodes.items[i] == qualified)
             doc_set_category(doc, element, qualified);
 }
 
 /*
- * References of an element and of all below it. Names of nodes are looked for at the top level only by what stands there.
+ * References of an element and of all below it. Names of nodes are looked for at the top level only
+ * by what stands there.
  */
 static void qualify_references(struct qualifier *q, elem_id top)
 {
@@ -123,8 +129,11 @@ static void qualify_references(struct qualifier *q, elem_id top)
 
 static void collect_nodes(struct qualifier *q, const struct document *layer)
 {
-    for (elem_id e = doc_element(layer, layer->root)->first_child; e; e = doc_element(layer, e)->next) {
-        str_id node = doc_element(layer, e)->kind == KIND_NODEDEF ? doc_attr_value(layer, e, STR_node) : STR_EMPTY;
+    for (elem_id e = doc_element(layer, layer->root)->first_child; e;
+         e = doc_element(layer, e)->next) {
+        str_id node = doc_element(layer, e)->kind == KIND_NODEDEF
+                          ? doc_attr_value(layer, e, STR_node)
+                          : STR_EMPTY;
         if (node && is_qualified(q->doc, node))
             vec_push(q->doc->arena, &q->nodes, node);
     }

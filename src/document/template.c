@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * <template vars="a b" rows="x y; z w">: its children once per row, with @a@ and @b@ replaced (docs/library.md).
+ * <template vars="a b" rows="x y; z w">: its children once per row, with @a@ and @b@ replaced
+ * (docs/library.md).
  *
- * An outer template is expanded before the templates inside it, which are copied like everything else, so these see its variables.
+ * An outer template is expanded before the templates inside it, which are copied like everything
+ * else, so these see its variables.
  */
 #include "document/document.h"
 
@@ -33,7 +35,8 @@ static void fail(struct expansion *x, str_id attr, const char *format, struct sl
     struct text message;
     text_init(&message, x->doc->arena);
     text_fmt(&message, format, (int)what.len, what.text);
-    diag_add(x->diags, DIAG_ID_template_bad, doc_attr_place(x->doc, x->template, attr), text_cstr(&message));
+    diag_add(x->diags, DIAG_ID_template_bad, doc_attr_place(x->doc, x->template, attr),
+             text_cstr(&message));
     x->failed = true;
 }
 
@@ -55,10 +58,12 @@ static struct slice attr_slice(const struct document *doc, elem_id element, str_
     return (struct slice){str_text(doc->strings, value), str_len(doc->strings, value)};
 }
 
-static void print_components(struct text *out, doc_type type, const char *off_diagonal, const char *diagonal)
+static void print_components(struct text *out, doc_type type, const char *off_diagonal,
+                             const char *diagonal)
 {
     ir_type_id ir = doc_type_ir(type);
-    unsigned count = doc_type_components(type), columns = ir_type_is_matrix(ir) ? ir_type_info(ir)->columns : 1;
+    unsigned count = doc_type_components(type),
+             columns = ir_type_is_matrix(ir) ? ir_type_info(ir)->columns : 1;
     for (unsigned i = 0; i < count; i++) {
         text_str(out, i ? ", " : "");
         text_str(out, columns == 1 || i % (columns + 1) == 0 ? diagonal : off_diagonal);
@@ -95,7 +100,8 @@ static bool print_type_constant(struct text *out, doc_type type, const char *pro
 enum token_result { TOKEN_REPLACED, TOKEN_OF_OTHERS, TOKEN_BAD };
 
 /* Appends what @token@ stands for. */
-static enum token_result print_token(const struct expansion *x, struct slice token, struct text *out)
+static enum token_result print_token(const struct expansion *x, struct slice token,
+                                     struct text *out)
 {
     const char *dot = memchr(token.text, '.', token.len);
     size_t len = dot ? (size_t)(dot - token.text) : token.len;
@@ -107,25 +113,29 @@ static enum token_result print_token(const struct expansion *x, struct slice tok
             return TOKEN_REPLACED;
         }
         doc_type type = doc_type_of(str_find(x->doc->strings, x->row[i].text, x->row[i].len));
-        return print_type_constant(out, type, dot + 1, token.len - len - 1) ? TOKEN_REPLACED : TOKEN_BAD;
+        return print_type_constant(out, type, dot + 1, token.len - len - 1) ? TOKEN_REPLACED
+                                                                            : TOKEN_BAD;
     }
     return TOKEN_OF_OTHERS;
 }
 
 /*
- * Length of a token behind its '@': name or name.constant, with an '@' behind it. 0: just an at sign.
+ * Length of a token behind its '@': name or name.constant, with an '@' behind it. 0: just an at
+ * sign.
  */
 static size_t token_length(const char *text, size_t len)
 {
     size_t n = 0;
-    while (n < len && ((text[n] >= 'a' && text[n] <= 'z') || (text[n] >= 'A' && text[n] <= 'Z')
-                       || (text[n] >= '0' && text[n] <= '9') || text[n] == '_' || text[n] == '.'))
+    while (n < len
+           && ((text[n] >= 'a' && text[n] <= 'z') || (text[n] >= 'A' && text[n] <= 'Z')
+               || (text[n] >= '0' && text[n] <= '9') || text[n] == '_' || text[n] == '.'))
         n++;
     return n < len && text[n] == '@' ? n : 0;
 }
 
 /*
- * A text with the row's words in it. `nested`: it stands in a template of its own, which knows the tokens left over.
+ * A text with the row's words in it. `nested`: it stands in a template of its own, which knows the
+ * tokens left over.
  */
 static str_id substitute(struct expansion *x, str_id value, bool nested)
 {
@@ -221,7 +231,8 @@ static bool read_vars(struct expansion *x)
         x->vars[x->num_vars++] = word;
     }
     if (x->num_vars == 0)
-        fail(x, STR_vars, "it needs vars=\"name …\" and rows=\"word …; word …\"%.*s", (struct slice){"", 0});
+        fail(x, STR_vars, "it needs vars=\"name …\" and rows=\"word …; word …\"%.*s",
+             (struct slice){"", 0});
     return x->num_vars > 0;
 }
 
@@ -252,7 +263,8 @@ static void expand(struct expansion *x)
     if (!read_vars(x))
         return;
     while (!x->failed && !doc_is_full(doc) && read_row(x, &rest))
-        for (elem_id child = doc_element(doc, x->template)->first_child; child; child = doc_element(doc, child)->next)
+        for (elem_id child = doc_element(doc, x->template)->first_child; child;
+             child = doc_element(doc, child)->next)
             copy_tree(x, child);
 }
 
@@ -273,7 +285,8 @@ void doc_expand_templates(struct document *doc, struct diag_list *diags)
     text_init(&scratch, doc->arena);
     /* copies of inner templates come up later */
     for (uint32_t i = 0; i < doc->elements.len && !doc_is_full(doc); i++) {
-        struct expansion x = {.doc = doc, .diags = diags, .template = doc->first_element + i, .scratch = &scratch};
+        struct expansion x = {
+            .doc = doc, .diags = diags, .template = doc->first_element + i, .scratch = &scratch};
         if (doc->elements.items[i].kind != KIND_TEMPLATE || !is_outermost(doc, x.template))
             continue;
         expand(&x);
@@ -281,5 +294,6 @@ void doc_expand_templates(struct document *doc, struct diag_list *diags)
     }
     doc->has_templates = false;
     if (doc_is_full(doc))
-        diag_add(diags, DIAG_ID_too_many_elements, doc_place(doc, doc->root), (unsigned)doc->max_elements);
+        diag_add(diags, DIAG_ID_too_many_elements, doc_place(doc, doc->root),
+                 (unsigned)doc->max_elements);
 }

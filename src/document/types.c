@@ -2,12 +2,14 @@
 #include "document/document.h"
 
 /*
- * The words of the types stand in the order of types.def, so a type and its word differ by a constant.
+ * The words of the types stand in the order of types.def, so a type and its word differ by a
+ * constant.
  */
 enum { WORD_OF_FIRST_TYPE = STR_boolean, NUM_TABLE_TYPES = DOC_TYPE_material - DOC_TYPE_boolean };
 
 #define DOC_TYPE(ID, ir, components) \
-    _Static_assert((int)STR_##ID - (int)WORD_OF_FIRST_TYPE == (int)DOC_TYPE_##ID - (int)DOC_TYPE_boolean, \
+    _Static_assert((int)STR_##ID - (int)WORD_OF_FIRST_TYPE \
+                       == (int)DOC_TYPE_##ID - (int)DOC_TYPE_boolean, \
                    "types.def and words.def differ at " #ID);
 #include "document/types.def"
 #undef DOC_TYPE
@@ -26,7 +28,9 @@ doc_type doc_type_of(str_id name)
 {
     if (name - WORD_OF_FIRST_TYPE < NUM_TABLE_TYPES)
         return (doc_type)(name - WORD_OF_FIRST_TYPE + DOC_TYPE_boolean);
-    return name == STR_material ? DOC_TYPE_material : name == STR_multioutput ? DOC_TYPE_multioutput : DOC_TYPE_NONE;
+    return name == STR_material      ? DOC_TYPE_material
+           : name == STR_multioutput ? DOC_TYPE_multioutput
+                                     : DOC_TYPE_NONE;
 }
 
 str_id doc_type_name(doc_type type)

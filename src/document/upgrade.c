@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Documents of MaterialX 1.22 to 1.38 become 1.39: one step per version in which something changed. Renaming is data (the tables
- * below); what changes the structure of a graph has functions in upgrade_*.c.
+ * Documents of MaterialX 1.22 to 1.38 become 1.39: one step per version in which something changed.
+ * Renaming is data (the tables below); what changes the structure of a graph has functions in
+ * upgrade_*.c.
  */
 #include "document/upgrade.h"
 
@@ -39,11 +40,8 @@ static const struct {
     int minor;
     const char *old, *new;
 } element_renames[] = {
-    {24, "assign", "materialassign"},
-    {34, "opgraph", "nodegraph"},
-    {34, "shader", "nodedef"},
-    {34, "geomattr", "geomprop"},
-    {37, "geomattr", "geomprop"},
+    {24, "assign", "materialassign"}, {34, "opgraph", "nodegraph"}, {34, "shader", "nodedef"},
+    {34, "geomattr", "geomprop"},     {37, "geomattr", "geomprop"},
 };
 
 /* Which nodes of a category a rename is for. */
@@ -106,24 +104,29 @@ static void rename_attrs(struct upgrade *u, elem_id element)
 {
     for (size_t i = 0; i < LENGTH(attr_renames); i++) {
         const char *category = attr_renames[i].category;
-        if (attr_renames[i].minor != u->minor || (category && !upgrade_is_category(u, element, category)))
+        if (attr_renames[i].minor != u->minor
+            || (category && !upgrade_is_category(u, element, category)))
             continue;
-        str_id value = upgrade_attr(u, element, attr_renames[i].old), new = upgrade_word(u, attr_renames[i].new);
+        str_id value = upgrade_attr(u, element, attr_renames[i].old),
+               new = upgrade_word(u, attr_renames[i].new);
         if (!value || (attr_renames[i].only_if_absent && doc_attr(u->doc, element, new)))
             continue;
         doc_set_attr(u->doc, element, new, value);
         doc_remove_attr(u->doc, element, upgrade_word(u, attr_renames[i].old));
-        upgrade_note(u, element, "attribute '%s' is now '%s'", attr_renames[i].old, attr_renames[i].new);
+        upgrade_note(u, element, "attribute '%s' is now '%s'", attr_renames[i].old,
+                     attr_renames[i].new);
     }
 }
 
 static void rename_element(struct upgrade *u, elem_id element)
 {
     for (size_t i = 0; i < LENGTH(element_renames); i++) {
-        if (element_renames[i].minor != u->minor || !upgrade_is_category(u, element, element_renames[i].old))
+        if (element_renames[i].minor != u->minor
+            || !upgrade_is_category(u, element, element_renames[i].old))
             continue;
         doc_set_category(u->doc, element, upgrade_word(u, element_renames[i].new));
-        upgrade_note(u, element, "<%s> is now <%s>", element_renames[i].old, element_renames[i].new);
+        upgrade_note(u, element, "<%s> is now <%s>", element_renames[i].old,
+                     element_renames[i].new);
         return;
     }
 }
@@ -132,15 +135,12 @@ static bool fits(const struct upgrade *u, elem_id node, const struct node_rename
 {
     elem_id in;
     switch (row->condition) {
-    case ALWAYS:
-        return true;
-    case TYPE_IS:
-        return upgrade_is(u, doc_attr_value(u->doc, node, STR_type), row->argument);
+    case ALWAYS: return true;
+    case TYPE_IS: return upgrade_is(u, doc_attr_value(u->doc, node, STR_type), row->argument);
     case IN_TYPE_IS:
         in = upgrade_child(u, node, "in");
         return in && upgrade_is(u, doc_attr_value(u->doc, in, STR_type), row->argument);
-    case HAS_INPUT:
-        return upgrade_child(u, node, row->argument) != 0;
+    case HAS_INPUT: return upgrade_child(u, node, row->argument) != 0;
     case HAS_NO_SPACE:
         return !upgrade_child(u, node, "fromspace") && !upgrade_child(u, node, "tospace");
     }
@@ -163,7 +163,8 @@ static void rename_inputs(struct upgrade *u, elem_id node, const char *pairs)
     for (size_t i = 0; i < count; i++) {
         if (!inputs[i])
             continue;
-        upgrade_note(u, inputs[i], "input '%s' is now '%s'", str_text(u->doc->strings, doc_element(u->doc, inputs[i])->name),
+        upgrade_note(u, inputs[i], "input '%s' is now '%s'",
+                     str_text(u->doc->strings, doc_element(u->doc, inputs[i])->name),
                      str_text(u->doc->strings, names[i]));
         doc_set_name(u->doc, inputs[i], names[i]);
     }
@@ -174,8 +175,10 @@ static void rename_inputs(struct upgrade *u, elem_id node, const char *pairs)
 
 static void rename_node(struct upgrade *u, elem_id node)
 {
-    for (const struct node_rename *row = node_renames; row < node_renames + LENGTH(node_renames); row++) {
-        if (row->minor != u->minor || !upgrade_is_category(u, node, row->old) || !fits(u, node, row))
+    for (const struct node_rename *row = node_renames; row < node_renames + LENGTH(node_renames);
+         row++) {
+        if (row->minor != u->minor || !upgrade_is_category(u, node, row->old)
+            || !fits(u, node, row))
             continue;
         if (strcmp(row->old, row->new) != 0) {
             upgrade_set_category(u, node, row->new);
@@ -213,7 +216,8 @@ static void name_assigned_materials(struct upgrade *u)
 static void replace_in_value(struct upgrade *u, elem_id element, const char *old, const char *new)
 {
     struct document *doc = u->doc;
-    const char *value = str_text(doc->strings, doc_attr_value(doc, element, STR_value)), *found = strstr(value, old);
+    const char *value = str_text(doc->strings, doc_attr_value(doc, element, STR_value)),
+               *found = strstr(value, old);
     if (!found)
         return;
     struct text text;
@@ -228,7 +232,8 @@ static void replace_in_value(struct upgrade *u, elem_id element, const char *old
 }
 
 /*
- * 1.36: every geometry is "/", not "*"; tile tokens stand in angle brackets; inheritance is an attribute.
+ * 1.36: every geometry is "/", not "*"; tile tokens stand in angle brackets; inheritance is an
+ * attribute.
  */
 static void upgrade_values_and_inheritance(struct upgrade *u)
 {
@@ -236,7 +241,8 @@ static void upgrade_values_and_inheritance(struct upgrade *u)
     for (elem_id e = upgrade_first(u); e; e = upgrade_next(u, e)) {
         str_id type = doc_attr_value(doc, e, STR_type);
         elem_id parent = doc_element(doc, e)->parent;
-        bool material = upgrade_is_category(u, e, "materialinherit"), look = upgrade_is_category(u, e, "lookinherit");
+        bool material = upgrade_is_category(u, e, "materialinherit"),
+             look = upgrade_is_category(u, e, "lookinherit");
         if (type == STR_geomname && upgrade_is(u, doc_attr_value(doc, e, STR_value), "*"))
             replace_in_value(u, e, "*", "/");
         if (type == STR_filename) {
@@ -244,9 +250,11 @@ static void upgrade_values_and_inheritance(struct upgrade *u)
             replace_in_value(u, e, "%UVTILE", "<UVTILE>");
         }
         if (parent && (material || look)) {
-            doc_set_attr(doc, parent, STR_inherit, doc_attr_value(doc, e, material ? STR_material : STR_look));
+            doc_set_attr(doc, parent, STR_inherit,
+                         doc_attr_value(doc, e, material ? STR_material : STR_look));
             doc_remove_element(doc, e);
-            upgrade_note(u, e, "<%s> is now the attribute 'inherit'", material ? "materialinherit" : "lookinherit");
+            upgrade_note(u, e, "<%s> is now the attribute 'inherit'",
+                         material ? "materialinherit" : "lookinherit");
         }
     }
     upgrade_material_overrides(u);
@@ -256,7 +264,8 @@ static void upgrade_values_and_inheritance(struct upgrade *u)
 static void move_nodedef_type(struct upgrade *u, elem_id nodedef)
 {
     struct document *doc = u->doc;
-    str_id type = doc_attr_value(doc, nodedef, STR_type), default_input = doc_attr_value(doc, nodedef, STR_defaultinput);
+    str_id type = doc_attr_value(doc, nodedef, STR_type),
+           default_input = doc_attr_value(doc, nodedef, STR_defaultinput);
     doc_remove_attr(doc, nodedef, STR_type);
     doc_remove_attr(doc, nodedef, STR_defaultinput);
     if (type == STR_multioutput || doc_child(doc, nodedef, STR_out))
@@ -264,7 +273,8 @@ static void move_nodedef_type(struct upgrade *u, elem_id nodedef)
     elem_id output = doc_add_like(doc, nodedef, STR_output, STR_out, nodedef);
     doc_add_attr(doc, output, (struct attribute){.name = STR_type, .value = type});
     if (default_input)
-        doc_add_attr(doc, output, (struct attribute){.name = STR_defaultinput, .value = default_input});
+        doc_add_attr(doc, output,
+                     (struct attribute){.name = STR_defaultinput, .value = default_input});
     doc_index_element(doc, output);
     upgrade_note(u, nodedef, "the type of a <nodedef> is that of its <output>");
 }
@@ -325,7 +335,8 @@ static str_id name_beside(struct upgrade *u, elem_id scope, str_id name)
 }
 
 /*
- * 1.38: nodes and interface inputs of a graph share one scope; a node called like an input gets another name.
+ * 1.38: nodes and interface inputs of a graph share one scope; a node called like an input gets
+ * another name.
  */
 static void rename_clashing_nodes(struct upgrade *u)
 {
@@ -333,8 +344,10 @@ static void rename_clashing_nodes(struct upgrade *u)
     str_id *new_names = ARENA_ARRAY(doc->arena, str_id, doc->elements.len);
     for (elem_id e = upgrade_first(u); e; e = upgrade_next(u, e)) {
         str_id interface = doc_attr_value(doc, e, STR_interfacename);
-        elem_id scope = interface ? upgrade_scope(u, e) : 0, node = scope ? doc_child(doc, scope, interface) : 0;
-        if (node && doc_element(doc, node)->kind == KIND_NODE && doc_element(doc, scope)->kind == KIND_NODEGRAPH)
+        elem_id scope = interface ? upgrade_scope(u, e) : 0,
+                node = scope ? doc_child(doc, scope, interface) : 0;
+        if (node && doc_element(doc, node)->kind == KIND_NODE
+            && doc_element(doc, scope)->kind == KIND_NODEGRAPH)
             new_names[node - doc->first_element] = name_beside(u, scope, interface);
     }
     for (elem_id e = upgrade_first(u); e; e = upgrade_next(u, e)) {
@@ -347,7 +360,8 @@ static void rename_clashing_nodes(struct upgrade *u)
         if (!name)
             continue;
         upgrade_note(u, e, "node '%s', called like an input of its graph, is now '%s'",
-                     str_text(doc->strings, doc_element(doc, e)->name), str_text(doc->strings, name));
+                     str_text(doc->strings, doc_element(doc, e)->name),
+                     str_text(doc->strings, name));
         upgrade_set_name(u, e, name);
     }
 }
@@ -369,11 +383,13 @@ static void remove_overridden_values(struct upgrade *u)
 {
     for (elem_id e = upgrade_first(u); e; e = upgrade_next(u, e)) {
         const struct element *element = doc_element(u->doc, e);
-        if (element->kind != KIND_INPUT || !element->parent || doc_element(u->doc, element->parent)->kind != KIND_NODE
+        if (element->kind != KIND_INPUT || !element->parent
+            || doc_element(u->doc, element->parent)->kind != KIND_NODE
             || !doc_attr(u->doc, e, STR_value) || !upgrade_is_connected(u, e))
             continue;
         doc_remove_attr(u->doc, e, STR_value);
-        upgrade_note(u, e, "the value of the connected input '%s' is gone", str_text(u->doc->strings, element->name));
+        upgrade_note(u, e, "the value of the connected input '%s' is gone",
+                     str_text(u->doc->strings, element->name));
     }
 }
 
@@ -398,7 +414,10 @@ static void upgrade_switch(struct upgrade *u, elem_id node)
     elem_id which = upgrade_child(u, node, "which");
     str_id value = which ? doc_attr_value(u->doc, which, STR_value) : STR_EMPTY;
     float number;
-    if (!value || !num_parse_float(str_text(u->doc->strings, value), str_len(u->doc->strings, value), &number) || number < 5.0f)
+    if (!value
+        || !num_parse_float(str_text(u->doc->strings, value), str_len(u->doc->strings, value),
+                            &number)
+        || number < 5.0f)
         return;
     doc_set_attr(u->doc, which, STR_value, upgrade_word(u, "0"));
     upgrade_note(u, which, "'which' beyond the five inputs of <switch> meant the first");
@@ -412,7 +431,8 @@ static void replace_object_normalmap(struct upgrade *u, elem_id node)
     upgrade_copy_input(u, upgrade_child(u, node, "in"), multiply, "in1", NULL);
     upgrade_add_input(u, multiply, "in2", STR_float, upgrade_word(u, "2.0"));
     elem_id subtract = upgrade_add_node(u, node, "normalmap_subtract", "subtract", STR_vector3);
-    upgrade_connect(u, upgrade_add_input(u, subtract, "in1", STR_vector3, STR_EMPTY), multiply, NULL);
+    upgrade_connect(u, upgrade_add_input(u, subtract, "in1", STR_vector3, STR_EMPTY), multiply,
+                    NULL);
     upgrade_add_input(u, subtract, "in2", STR_float, upgrade_word(u, "1.0"));
     while (doc_element(doc, node)->first_child)
         doc_remove_element(doc, doc_element(doc, node)->first_child);
@@ -422,9 +442,11 @@ static void replace_object_normalmap(struct upgrade *u, elem_id node)
 }
 
 /*
- * An input of the cross product; without a value it is the geometry's vector, as it was for the normal map.
+ * An input of the cross product; without a value it is the geometry's vector, as it was for the
+ * normal map.
  */
-static void add_cross_input(struct upgrade *u, elem_id node, const char *name, elem_id cross, const char *in)
+static void add_cross_input(struct upgrade *u, elem_id node, const char *name, elem_id cross,
+                            const char *in)
 {
     elem_id source = upgrade_child(u, node, name);
     if (source) {
@@ -460,8 +482,11 @@ static void upgrade_normalmap(struct upgrade *u, elem_id node)
     add_cross_input(u, node, "normal", cross, "in1");
     add_cross_input(u, node, "tangent", cross, "in2");
     upgrade_connect(u, upgrade_add_input(u, normalize, "in", STR_vector3, STR_EMPTY), cross, NULL);
-    upgrade_connect(u, upgrade_add_input(u, node, "bitangent", STR_vector3, STR_EMPTY), normalize, NULL);
-    upgrade_note(u, node, "<normalmap> has an input 'bitangent', the normalized cross product of normal and tangent");
+    upgrade_connect(u, upgrade_add_input(u, node, "bitangent", STR_vector3, STR_EMPTY), normalize,
+                    NULL);
+    upgrade_note(
+        u, node,
+        "<normalmap> has an input 'bitangent', the normalized cross product of normal and tangent");
 }
 
 static void upgrade_nodes(struct upgrade *u)
@@ -515,7 +540,8 @@ static int read_version(struct document *doc, elem_id root, struct diag_list *di
     const char *dot = memchr(text, '.', len);
     int64_t major = 0, minor = 0;
     if (!dot || num_parse_int(text, (size_t)(dot - text), &major) != (size_t)(dot - text)
-        || num_parse_int(dot + 1, len - (size_t)(dot - text) - 1, &minor) == 0 || major < 1 || minor < 0) {
+        || num_parse_int(dot + 1, len - (size_t)(dot - text) - 1, &minor) == 0 || major < 1
+        || minor < 0) {
         diag_add(diags, DIAG_ID_version_bad, place, text);
         return CURRENT_MINOR;
     }
@@ -537,10 +563,14 @@ static bool is_outdated(const struct document *doc, elem_id root, elem_id end)
 void doc_upgrade(struct document *doc, elem_id root, elem_id end, struct diag_list *diags)
 {
     int minor = read_version(doc, root, diags);
-    struct upgrade u = {.doc = doc, .diags = diags, .root = root, .end = end,
+    struct upgrade u = {.doc = doc,
+                        .diags = diags,
+                        .root = root,
+                        .end = end,
                         .first_added = doc->first_element + doc->elements.len};
     /*
-     * What 1.38 and 1.39 took out is still written in documents that say so; ignored, it would change what they show.
+     * What 1.38 and 1.39 took out is still written in documents that say so; ignored, it would
+     * change what they show.
      */
     u.outdated = minor >= CURRENT_MINOR;
     if (u.outdated && !is_outdated(doc, root, end))

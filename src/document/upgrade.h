@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * What the files of the version upgrade share. One step per version, each from tables and a few functions.
+ * What the files of the version upgrade share. One step per version, each from tables and a few
+ * functions.
  */
 #ifndef MXG_DOCUMENT_UPGRADE_H
 #define MXG_DOCUMENT_UPGRADE_H
@@ -13,12 +14,13 @@ struct upgrade {
     elem_id root, end;   /* the file's own elements … */
     elem_id first_added; /* … and those that the upgrade added */
     elem_id pass_end;
-    int minor; /* of the step that runs: 38 brings 1.37 to 1.38 */
+    int minor;     /* of the step that runs: 38 brings 1.37 to 1.38 */
     bool outdated; /* the document says that it is of this version: changes are warnings */
 };
 
 /*
- * The elements that the upgrade changes, in the tree; those added on the way are not visited. 0: no more.
+ * The elements that the upgrade changes, in the tree; those added on the way are not visited. 0: no
+ * more.
  */
 elem_id upgrade_first(struct upgrade *u);
 elem_id upgrade_next(const struct upgrade *u, elem_id element);
@@ -42,8 +44,10 @@ void upgrade_move(struct upgrade *u, elem_id element, elem_id new_parent);
 /* `name`, or where that is taken in the scope, `name` with a number behind it. */
 str_id upgrade_free_name(struct upgrade *u, elem_id scope, const char *name);
 /* A node with a free name before `before`, in its scope. */
-elem_id upgrade_add_node(struct upgrade *u, elem_id before, const char *name, const char *category, str_id type);
-elem_id upgrade_add_input(struct upgrade *u, elem_id node, const char *name, str_id type, str_id value);
+elem_id upgrade_add_node(struct upgrade *u, elem_id before, const char *name, const char *category,
+                         str_id type);
+elem_id upgrade_add_input(struct upgrade *u, elem_id node, const char *name, str_id type,
+                          str_id value);
 /* Another meaning: the explicit definition goes with the old category. */
 void upgrade_set_category(struct upgrade *u, elem_id node, const char *category);
 void upgrade_remove_input(struct upgrade *u, elem_id node, const char *name);
@@ -58,18 +62,20 @@ str_id upgrade_upstream_type(const struct upgrade *u, elem_id port);
 bool upgrade_is_connected(const struct upgrade *u, elem_id port);
 void upgrade_connect(struct upgrade *u, elem_id port, elem_id node, const char *output);
 /*
- * An input `name` of `node` with all that `source` says; NULL type: the source's. Nothing where source is 0.
+ * An input `name` of `node` with all that `source` says; NULL type: the source's. Nothing where
+ * source is 0.
  */
-void upgrade_copy_input(struct upgrade *u, elem_id source, elem_id node, const char *name, const char *type);
+void upgrade_copy_input(struct upgrade *u, elem_id source, elem_id node, const char *name,
+                        const char *type);
 
 /* upgrade_materials.c */
-void upgrade_opgraphs(struct upgrade *u);          /* 1.34 */
+void upgrade_opgraphs(struct upgrade *u);           /* 1.34 */
 void upgrade_material_overrides(struct upgrade *u); /* 1.36 */
-void upgrade_legacy_nodedefs(struct upgrade *u);   /* 1.37 */
-void upgrade_materials(struct upgrade *u);         /* 1.38 */
+void upgrade_legacy_nodedefs(struct upgrade *u);    /* 1.37 */
+void upgrade_materials(struct upgrade *u);          /* 1.38 */
 
 /* upgrade_closures.c */
-void upgrade_closures(struct upgrade *u);  /* 1.38 */
+void upgrade_closures(struct upgrade *u);   /* 1.38 */
 void upgrade_thin_films(struct upgrade *u); /* 1.39 */
 
 /* upgrade_channels.c */

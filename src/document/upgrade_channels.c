@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Selecting channels. Before 1.39 a port could say channels="bgr", and <swizzle> had a string of channels: letters of either family
- * (rgba, xyzw) and the constants 0 and 1. Both become <extract>, <convert>, <combine> behind <separate>, or a constant.
+ * Selecting channels. Before 1.39 a port could say channels="bgr", and <swizzle> had a string of
+ * channels: letters of either family (rgba, xyzw) and the constants 0 and 1. Both become <extract>,
+ * <convert>, <combine> behind <separate>, or a constant.
  */
 #include "document/upgrade.h"
 
@@ -32,22 +33,23 @@ static unsigned channel_count(str_id type)
     case STR_color4:
     case STR_vector2:
     case STR_vector3:
-    case STR_vector4:
-        return doc_type_components(doc_type_of(type));
-    default:
-        return 0;
+    case STR_vector4: return doc_type_components(doc_type_of(type));
+    default: return 0;
     }
 }
 
 /* A missing or unknown channel is the first one. false: the types have no channels. */
-static bool read_selection(const struct upgrade *u, str_id from, str_id to, str_id channels, struct selection *out)
+static bool read_selection(const struct upgrade *u, str_id from, str_id to, str_id channels,
+                           struct selection *out)
 {
     const char *text = str_text(u->doc->strings, channels);
     size_t len = str_len(u->doc->strings, channels);
-    *out = (struct selection){.from = from, .to = to, .num_from = channel_count(from), .num_to = channel_count(to)};
+    *out = (struct selection){
+        .from = from, .to = to, .num_from = channel_count(from), .num_to = channel_count(to)};
     for (unsigned i = 0; i < out->num_to; i++) {
         unsigned channel = i < len ? channel_of(text[i]) : CHANNEL_BAD;
-        bool missing = channel == CHANNEL_BAD || (channel < CHANNEL_ZERO && channel >= out->num_from);
+        bool missing =
+            channel == CHANNEL_BAD || (channel < CHANNEL_ZERO && channel >= out->num_from);
         out->channels[i] = missing ? 0 : channel;
     }
     return out->num_from && out->num_to;
@@ -74,7 +76,9 @@ static bool is_conversion(const struct selection *s)
 
 static const char *output_of(str_id type, unsigned channel)
 {
-    static const char *const color[] = {"outr", "outg", "outb", "outa"}, *const vector[] = {"outx", "outy", "outz", "outw"};
+    static const char *const color[] = {"outr", "outg", "outb", "outa"}, *const vector[] = {
+                                                                             "outx", "outy", "outz",
+                                                                             "outw"};
     return (type == STR_color3 || type == STR_color4 ? color : vector)[channel];
 }
 
@@ -85,14 +89,16 @@ static const char *combine_input(unsigned channel)
 }
 
 /* Adds the inputs of <combineN>, fed by a float or by the outputs of <separateN>. */
-static void add_combine_inputs(struct upgrade *u, elem_id node, const struct selection *s, elem_id in)
+static void add_combine_inputs(struct upgrade *u, elem_id node, const struct selection *s,
+                               elem_id in)
 {
     char category[] = "separate0";
     category[8] = (char)('0' + s->num_from);
     elem_id separate = 0;
     for (unsigned i = 0; i < s->num_to; i++) {
         if (s->channels[i] >= CHANNEL_ZERO) {
-            upgrade_add_input(u, node, combine_input(i), STR_float, upgrade_word(u, s->channels[i] == CHANNEL_ONE ? "1.0" : "0.0"));
+            upgrade_add_input(u, node, combine_input(i), STR_float,
+                              upgrade_word(u, s->channels[i] == CHANNEL_ONE ? "1.0" : "0.0"));
         } else if (s->num_from == 1) {
             upgrade_copy_input(u, in, node, combine_input(i), "float");
         } else {
@@ -100,8 +106,8 @@ static void add_combine_inputs(struct upgrade *u, elem_id node, const struct sel
                 separate = upgrade_add_node(u, node, "separate", category, STR_multioutput);
                 upgrade_copy_input(u, in, separate, "in", str_text(u->doc->strings, s->from));
             }
-            upgrade_connect(u, upgrade_add_input(u, node, combine_input(i), STR_float, STR_EMPTY), separate,
-                            output_of(s->from, s->channels[i]));
+            upgrade_connect(u, upgrade_add_input(u, node, combine_input(i), STR_float, STR_EMPTY),
+                            separate, output_of(s->from, s->channels[i]));
         }
     }
 }
@@ -111,12 +117,15 @@ static str_id select_value(struct upgrade *u, const struct selection *s, str_id 
 {
     struct strpool *strings = u->doc->strings;
     struct ir_value in = {0};
-    bool known = doc_parse_value(doc_type_of(s->from), str_text(strings, value), str_len(strings, value), NULL, &in);
+    bool known = doc_parse_value(doc_type_of(s->from), str_text(strings, value),
+                                 str_len(strings, value), NULL, &in);
     struct text text;
     text_init(&text, u->doc->arena);
     for (unsigned i = 0; i < s->num_to; i++) {
         unsigned channel = s->channels[i];
-        float component = channel == CHANNEL_ONE ? 1.0f : channel < CHANNEL_ZERO && known ? in.w[channel].f : 0.0f;
+        float component = channel == CHANNEL_ONE            ? 1.0f
+                          : channel < CHANNEL_ZERO && known ? in.w[channel].f
+                                                            : 0.0f;
         text_str(&text, i ? ", " : "");
         text_float(&text, component);
     }
@@ -124,8 +133,8 @@ static str_id select_value(struct upgrade *u, const struct selection *s, str_id 
 }
 
 /*
- * Makes `node` compute a selection from what `in`, an input or output with a binding, says (0: nothing, which is 0). The node has
- * no inputs of its own.
+ * Makes `node` compute a selection from what `in`, an input or output with a binding, says (0:
+ * nothing, which is 0). The node has no inputs of its own.
  */
 static void build_selection(struct upgrade *u, elem_id node, const struct selection *s, elem_id in)
 {
@@ -158,8 +167,9 @@ static str_id guess_type(const struct upgrade *u, str_id channels, str_id to)
         const char *channels;
         str_id type;
     } telling[] = {
-        {"xx", STR_float}, {"xxx", STR_float}, {"xxxx", STR_float}, {"xyz", STR_vector3}, {"x", STR_vector3},
-        {"y", STR_vector3}, {"z", STR_vector3}, {"rgba", STR_color4}, {"a", STR_color4},
+        {"xx", STR_float},    {"xxx", STR_float},   {"xxxx", STR_float},
+        {"xyz", STR_vector3}, {"x", STR_vector3},   {"y", STR_vector3},
+        {"z", STR_vector3},   {"rgba", STR_color4}, {"a", STR_color4},
     };
     for (size_t i = 0; i < sizeof telling / sizeof *telling; i++)
         if (upgrade_is(u, channels, telling[i].channels))
@@ -186,7 +196,8 @@ static void upgrade_port_channels(struct upgrade *u, elem_id port, str_id channe
     upgrade_note(u, port, "channels=\"%s\" is now a node", str_text(doc->strings, channels));
     if (s.num_from == 1 && s.num_to == 1)
         return;
-    elem_id node = upgrade_add_node(u, is_output ? port : doc_element(doc, port)->parent, "channels", "convert", to);
+    elem_id node = upgrade_add_node(u, is_output ? port : doc_element(doc, port)->parent,
+                                    "channels", "convert", to);
     doc_remove_attr(doc, port, STR_value); /* a connection goes before */
     build_selection(u, node, &s, port);
     upgrade_connect(u, port, node, NULL);
@@ -208,15 +219,18 @@ void upgrade_swizzles(struct upgrade *u)
         if (!upgrade_is_node(u, e) || !upgrade_is_category(u, e, "swizzle"))
             continue;
         elem_id in = upgrade_child(u, e, "in"), channels = upgrade_child(u, e, "channels");
-        str_id from = in ? doc_attr_value(doc, in, STR_type) : STR_float, to = doc_attr_value(doc, e, STR_type);
+        str_id from = in ? doc_attr_value(doc, in, STR_type) : STR_float,
+               to = doc_attr_value(doc, e, STR_type);
         struct selection s;
         if ((channels && upgrade_is_connected(u, channels))
-            || !read_selection(u, from, to, channels ? doc_attr_value(doc, channels, STR_value) : STR_EMPTY, &s))
+            || !read_selection(u, from, to,
+                               channels ? doc_attr_value(doc, channels, STR_value) : STR_EMPTY, &s))
             continue; /* no node of 1.39 does this: it is reported as unknown */
         while (doc_element(doc, e)->first_child)
             doc_remove_element(doc, doc_element(doc, e)->first_child);
         build_selection(u, e, &s, in);
-        upgrade_note(u, e, "<swizzle> is now <%s>", str_text(doc->strings, doc_element(doc, e)->category));
+        upgrade_note(u, e, "<swizzle> is now <%s>",
+                     str_text(doc->strings, doc_element(doc, e)->category));
     }
 }
 
@@ -248,15 +262,19 @@ void upgrade_color2_channels(struct upgrade *u)
         if (upgrade_is_node(u, e) && upgrade_is_category(u, e, "swizzle") && takes_color2(u, e)) {
             elem_id channels = upgrade_child(u, e, "channels");
             if (channels)
-                doc_set_attr(doc, channels, STR_value, rename_channels(u, doc_attr_value(doc, channels, STR_value)));
+                doc_set_attr(doc, channels, STR_value,
+                             rename_channels(u, doc_attr_value(doc, channels, STR_value)));
         }
         if (!is_port(u, e))
             continue;
-        str_id channels = doc_attr_value(doc, e, STR_channels), output = doc_attr_value(doc, e, STR_output);
+        str_id channels = doc_attr_value(doc, e, STR_channels),
+               output = doc_attr_value(doc, e, STR_output);
         elem_id upstream = upgrade_upstream(u, e);
         if (channels && upgrade_is(u, upgrade_upstream_type(u, e), "color2"))
             doc_set_attr(doc, e, STR_channels, rename_channels(u, channels));
-        if (output && upstream && upgrade_is_category(u, upstream, "separate2") && takes_color2(u, upstream))
-            doc_set_attr(doc, e, STR_output, upgrade_word(u, upgrade_is(u, output, "outr") ? "outx" : "outy"));
+        if (output && upstream && upgrade_is_category(u, upstream, "separate2")
+            && takes_color2(u, upstream))
+            doc_set_attr(doc, e, STR_output,
+                         upgrade_word(u, upgrade_is(u, output, "outr") ? "outx" : "outy"));
     }
 }

@@ -3,7 +3,8 @@
 #include "document/upgrade.h"
 
 /*
- * Before 1.38 a BSDF had its base as an input; now <layer> puts one on the other. It gets the name that others refer to.
+ * Before 1.38 a BSDF had its base as an input; now <layer> puts one on the other. It gets the name
+ * that others refer to.
  */
 static void split_layer(struct upgrade *u, elem_id top)
 {
@@ -28,7 +29,8 @@ static void split_layer(struct upgrade *u, elem_id top)
     elem_id input = upgrade_add_input(u, layer, "top", STR_BSDF, STR_EMPTY);
     upgrade_connect(u, input, top, NULL);
     upgrade_move(u, base, layer);
-    upgrade_note(u, top, "the input 'base' of <%s> is now a <layer>", str_text(doc->strings, doc_element(doc, top)->category));
+    upgrade_note(u, top, "the input 'base' of <%s> is now a <layer>",
+                 str_text(doc->strings, doc_element(doc, top)->category));
 }
 
 static void set_transmission(struct upgrade *u, elem_id node)
@@ -41,20 +43,25 @@ static void set_transmission(struct upgrade *u, elem_id node)
 /* Conductors have physical parameters now; <artistic_ior> converts the artistic ones. */
 static void add_artistic_ior(struct upgrade *u, elem_id conductor)
 {
-    static const char *const artistic[] = {"reflectivity", "edge_color"}, *const physical[] = {"ior", "extinction"};
+    static const char *const artistic[] = {"reflectivity", "edge_color"}, *const physical[] = {
+                                                                              "ior", "extinction"};
     struct document *doc = u->doc;
     if (!upgrade_child(u, conductor, artistic[0]) && !upgrade_child(u, conductor, artistic[1]))
         return;
-    elem_id converter = upgrade_add_node(u, conductor, "artistic_ior", "artistic_ior", STR_multioutput);
+    elem_id converter =
+        upgrade_add_node(u, conductor, "artistic_ior", "artistic_ior", STR_multioutput);
     for (int i = 0; i < 2; i++) {
-        upgrade_copy_input(u, upgrade_child(u, conductor, artistic[i]), converter, artistic[i], NULL);
+        upgrade_copy_input(u, upgrade_child(u, conductor, artistic[i]), converter, artistic[i],
+                           NULL);
         upgrade_remove_input(u, conductor, artistic[i]);
     }
     for (int i = 0; i < 2; i++) {
-        elem_id output = doc_add_like(doc, converter, STR_output, upgrade_word(u, physical[i]), converter);
+        elem_id output =
+            doc_add_like(doc, converter, STR_output, upgrade_word(u, physical[i]), converter);
         doc_add_attr(doc, output, (struct attribute){.name = STR_type, .value = STR_color3});
         doc_index_element(doc, output);
-        upgrade_connect(u, upgrade_add_input(u, conductor, physical[i], STR_color3, STR_EMPTY), converter, physical[i]);
+        upgrade_connect(u, upgrade_add_input(u, conductor, physical[i], STR_color3, STR_EMPTY),
+                        converter, physical[i]);
     }
     upgrade_note(u, conductor, "'reflectivity' and 'edge_color' are now inputs of <artistic_ior>");
 }
@@ -88,7 +95,8 @@ static void convert_artistic_ior(struct upgrade *u, elem_id input)
 {
     struct document *doc = u->doc;
     elem_id source = upgrade_upstream(u, input), node = doc_element(doc, input)->parent;
-    if (!source || doc_element(doc, input)->kind != KIND_INPUT || doc_attr_value(doc, input, STR_type) != STR_vector3
+    if (!source || doc_element(doc, input)->kind != KIND_INPUT
+        || doc_attr_value(doc, input, STR_type) != STR_vector3
         || !upgrade_is_category(u, source, "artistic_ior"))
         return;
     elem_id convert = upgrade_add_node(u, node, "convert", "convert", STR_vector3);
@@ -118,14 +126,14 @@ void upgrade_closures(struct upgrade *u)
 }
 
 /*
- * 1.39: a thin film is two inputs of the BSDF that it lies on, no longer a layer over it: layers with a film on top go, and the
- * BSDFs below them get the film's inputs.
+ * 1.39: a thin film is two inputs of the BSDF that it lies on, no longer a layer over it: layers
+ * with a film on top go, and the BSDFs below them get the film's inputs.
  */
 struct films {
     struct upgrade *u;
-    elem_id *bypass;  /* by element: what stands for a layer that is gone */
-    bool *visited;    /* a BSDF has one film: the outermost */
-    bool *needed;     /* films that something else refers to */
+    elem_id *bypass; /* by element: what stands for a layer that is gone */
+    bool *visited;   /* a BSDF has one film: the outermost */
+    bool *needed;    /* films that something else refers to */
     VEC(elem_id) stack;
 };
 
@@ -137,7 +145,8 @@ static size_t own_index(const struct films *f, elem_id element)
 static bool takes_film(const struct upgrade *u, elem_id node)
 {
     elem_id mode = upgrade_child(u, node, "scatter_mode");
-    bool can = upgrade_is_category(u, node, "dielectric_bsdf") || upgrade_is_category(u, node, "conductor_bsdf")
+    bool can = upgrade_is_category(u, node, "dielectric_bsdf")
+               || upgrade_is_category(u, node, "conductor_bsdf")
                || upgrade_is_category(u, node, "generalized_schlick_bsdf");
     return can && !(mode && upgrade_is(u, doc_attr_value(u->doc, mode, STR_value), "T"));
 }
@@ -165,9 +174,11 @@ static void apply_film(struct films *f, elem_id film, elem_id base)
         push_upstream(f, node);
         if (!takes_film(u, node))
             continue;
-        upgrade_copy_input(u, upgrade_child(u, film, "thickness"), node, "thinfilm_thickness", NULL);
+        upgrade_copy_input(u, upgrade_child(u, film, "thickness"), node, "thinfilm_thickness",
+                           NULL);
         upgrade_copy_input(u, upgrade_child(u, film, "ior"), node, "thinfilm_ior", NULL);
-        upgrade_note(u, node, "<thin_film_bsdf> is now the inputs 'thinfilm_thickness' and 'thinfilm_ior'");
+        upgrade_note(u, node,
+                     "<thin_film_bsdf> is now the inputs 'thinfilm_thickness' and 'thinfilm_ior'");
     }
 }
 
@@ -224,7 +235,8 @@ void upgrade_thin_films(struct upgrade *u)
         if (doc_element(doc, e)->kind == KIND_INPUT || doc_element(doc, e)->kind == KIND_OUTPUT)
             redirect(&f, e);
     for (elem_id e = upgrade_first(u); e; e = upgrade_next(u, e)) {
-        bool unused_film = upgrade_is_category(u, e, "thin_film_bsdf") && !f.needed[own_index(&f, e)];
+        bool unused_film =
+            upgrade_is_category(u, e, "thin_film_bsdf") && !f.needed[own_index(&f, e)];
         if (f.bypass[own_index(&f, e)] || unused_film)
             doc_remove_element(doc, e);
     }

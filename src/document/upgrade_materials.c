@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Materials before 1.38 were elements: <material> held <shaderref>s, which bound values and graphs to the inputs of a shader, at
- * first through the shader's definition. Now both are nodes.
+ * Materials before 1.38 were elements: <material> held <shaderref>s, which bound values and graphs
+ * to the inputs of a shader, at first through the shader's definition. Now both are nodes.
  */
 #include "document/upgrade.h"
 
@@ -21,7 +21,8 @@ static elem_id find_top_level(const struct upgrade *u, str_id name)
 static str_id nodedef_type(const struct document *doc, elem_id nodedef)
 {
     str_id type = doc_attr_value(doc, nodedef, STR_type);
-    for (elem_id e = doc_element(doc, nodedef)->first_child; e && !type; e = doc_element(doc, e)->next)
+    for (elem_id e = doc_element(doc, nodedef)->first_child; e && !type;
+         e = doc_element(doc, e)->next)
         if (doc_element(doc, e)->kind == KIND_OUTPUT)
             type = doc_attr_value(doc, e, STR_type);
     return type;
@@ -38,12 +39,14 @@ static elem_id find_definition(const struct document *doc, elem_id root, str_id 
 }
 
 /*
- * The definition of the shader that a shaderref means, in the document or in its library; 0: unknown.
+ * The definition of the shader that a shaderref means, in the document or in its library; 0:
+ * unknown.
  */
 static elem_id shader_definition(const struct upgrade *u, elem_id shader_ref)
 {
     const struct document *doc = u->doc;
-    str_id name = doc_attr_value(doc, shader_ref, STR_nodedef), node = doc_attr_value(doc, shader_ref, STR_node);
+    str_id name = doc_attr_value(doc, shader_ref, STR_nodedef),
+           node = doc_attr_value(doc, shader_ref, STR_node);
     str_id type = doc_attr_value(doc, shader_ref, STR_type);
     if (name)
         return find_top_level(u, name);
@@ -103,8 +106,11 @@ static void name_definition(struct upgrade *u, elem_id shader_ref)
 static elem_id add_binding(struct upgrade *u, elem_id shader_ref, elem_id input)
 {
     struct document *doc = u->doc;
-    elem_id binding = doc_add_like(doc, shader_ref, upgrade_word(u, "bindinput"), doc_element(doc, input)->name, input);
-    doc_add_attr(doc, binding, (struct attribute){.name = STR_type, .value = doc_attr_value(doc, input, STR_type)});
+    elem_id binding = doc_add_like(doc, shader_ref, upgrade_word(u, "bindinput"),
+                                   doc_element(doc, input)->name, input);
+    doc_add_attr(
+        doc, binding,
+        (struct attribute){.name = STR_type, .value = doc_attr_value(doc, input, STR_type)});
     doc_index_element(doc, binding);
     return binding;
 }
@@ -114,14 +120,16 @@ static void bind_graphs(struct upgrade *u, elem_id shader_ref)
 {
     struct document *doc = u->doc;
     elem_id nodedef = shader_definition(u, shader_ref);
-    for (elem_id e = nodedef ? doc_element(doc, nodedef)->first_child : 0; e; e = doc_element(doc, e)->next) {
+    for (elem_id e = nodedef ? doc_element(doc, nodedef)->first_child : 0; e;
+         e = doc_element(doc, e)->next) {
         str_id graph = upgrade_attr(u, e, "opgraph"), output = upgrade_attr(u, e, "graphoutput");
         if (!graph || !output || doc_child(doc, shader_ref, doc_element(doc, e)->name))
             continue;
         elem_id binding = add_binding(u, shader_ref, e);
         doc_set_attr(doc, binding, STR_nodegraph, graph);
         doc_set_attr(doc, binding, STR_output, output);
-        upgrade_note(u, e, "a graph is connected where the shader is used, not where it is defined");
+        upgrade_note(u, e,
+                     "a graph is connected where the shader is used, not where it is defined");
     }
 }
 
@@ -149,7 +157,9 @@ static void collect_udims(struct upgrade *u)
     elem_id info = doc_add_like(doc, u->root, STR_geominfo, upgrade_word(u, "udimset_info"), first);
     elem_id set = doc_add_like(doc, info, STR_geomprop, upgrade_word(u, "udimset"), first);
     doc_add_attr(doc, set, (struct attribute){.name = STR_type, .value = STR_stringarray});
-    doc_add_attr(doc, set, (struct attribute){.name = STR_value, .value = str_intern(doc->strings, list.data, list.len)});
+    doc_add_attr(doc, set,
+                 (struct attribute){.name = STR_value,
+                                    .value = str_intern(doc->strings, list.data, list.len)});
     upgrade_note(u, first, "the values of 'udim' are listed by 'udimset'");
 }
 
@@ -158,7 +168,8 @@ void upgrade_opgraphs(struct upgrade *u)
     struct document *doc = u->doc;
     for (elem_id e = upgrade_first(u); e; e = upgrade_next(u, e)) {
         set_shader_type(u, e);
-        if (upgrade_is(u, doc_attr_value(doc, e, STR_type), "opgraphnode") && doc_element(doc, e)->parent)
+        if (upgrade_is(u, doc_attr_value(doc, e, STR_type), "opgraphnode")
+            && doc_element(doc, e)->parent)
             connect_opgraph_node(u, e);
     }
     for (elem_id e = upgrade_first(u); e; e = upgrade_next(u, e)) {
@@ -176,11 +187,13 @@ static void apply_override(struct upgrade *u, elem_id shader_ref, elem_id overri
 {
     struct document *doc = u->doc;
     elem_id nodedef = shader_definition(u, shader_ref);
-    for (elem_id e = nodedef ? doc_element(doc, nodedef)->first_child : 0; e; e = doc_element(doc, e)->next) {
+    for (elem_id e = nodedef ? doc_element(doc, nodedef)->first_child : 0; e;
+         e = doc_element(doc, e)->next) {
         if (upgrade_attr(u, e, "publicname") != doc_element(doc, override)->name
             || doc_child(doc, shader_ref, doc_element(doc, e)->name))
             continue;
-        doc_set_attr(doc, add_binding(u, shader_ref, e), STR_value, doc_attr_value(doc, override, STR_value));
+        doc_set_attr(doc, add_binding(u, shader_ref, e), STR_value,
+                     doc_attr_value(doc, override, STR_value));
     }
 }
 
@@ -189,9 +202,11 @@ void upgrade_material_overrides(struct upgrade *u)
     struct document *doc = u->doc;
     for (elem_id e = upgrade_first(u); e; e = upgrade_next(u, e)) {
         elem_id material = doc_element(doc, e)->parent;
-        if (!material || !upgrade_is_category(u, e, "override") || doc_element(doc, material)->category != STR_material)
+        if (!material || !upgrade_is_category(u, e, "override")
+            || doc_element(doc, material)->category != STR_material)
             continue;
-        for (elem_id ref = doc_element(doc, material)->first_child; ref; ref = doc_element(doc, ref)->next)
+        for (elem_id ref = doc_element(doc, material)->first_child; ref;
+             ref = doc_element(doc, ref)->next)
             if (is_shader_ref(u, ref))
                 apply_override(u, ref, e);
         doc_remove_element(doc, e);
@@ -200,13 +215,15 @@ void upgrade_material_overrides(struct upgrade *u)
 }
 
 /*
- * 1.37: definitions of shaders that came from <shader> say nothing that the shader's own definition does not say.
+ * 1.37: definitions of shaders that came from <shader> say nothing that the shader's own definition
+ * does not say.
  */
 void upgrade_legacy_nodedefs(struct upgrade *u)
 {
     struct document *doc = u->doc;
     for (elem_id e = upgrade_first(u); e; e = upgrade_next(u, e)) {
-        elem_id nodedef = is_shader_ref(u, e) ? find_top_level(u, doc_attr_value(doc, e, STR_nodedef)) : 0;
+        elem_id nodedef =
+            is_shader_ref(u, e) ? find_top_level(u, doc_attr_value(doc, e, STR_nodedef)) : 0;
         if (!nodedef || !upgrade_attr(u, nodedef, "shadertype"))
             continue;
         if (!doc_attr_value(doc, e, STR_node))
@@ -217,7 +234,8 @@ void upgrade_legacy_nodedefs(struct upgrade *u)
         if (doc_element(doc, e)->kind != KIND_NODEDEF || !upgrade_attr(u, e, "shadertype"))
             continue;
         doc_remove_element(doc, e);
-        upgrade_note(u, e, "<shader> is gone; the library defines <%s>", str_text(doc->strings, doc_attr_value(doc, e, STR_node)));
+        upgrade_note(u, e, "<shader> is gone; the library defines <%s>",
+                     str_text(doc->strings, doc_attr_value(doc, e, STR_node)));
     }
 }
 
@@ -254,17 +272,20 @@ static str_id convert_shader_ref(struct upgrade *u, elem_id shader_ref, elem_id 
 {
     struct document *doc = u->doc;
     elem_id nodedef = shader_definition(u, shader_ref);
-    str_id category = shader_category(u, shader_ref, nodedef), type = nodedef ? nodedef_type(doc, nodedef) : STR_EMPTY;
+    str_id category = shader_category(u, shader_ref, nodedef),
+           type = nodedef ? nodedef_type(doc, nodedef) : STR_EMPTY;
     if (!category)
         return 0;
-    str_id name = upgrade_free_name(u, u->root, str_text(doc->strings, doc_element(doc, shader_ref)->name));
+    str_id name =
+        upgrade_free_name(u, u->root, str_text(doc->strings, doc_element(doc, shader_ref)->name));
     doc_move_before(doc, shader_ref, material);
     upgrade_set_name(u, shader_ref, name);
     doc_set_category(doc, shader_ref, category);
     doc_remove_attr(doc, shader_ref, STR_node);
     doc_set_attr(doc, shader_ref, STR_type, type ? type : STR_surfaceshader);
     convert_bindings(u, shader_ref);
-    upgrade_note(u, shader_ref, "<shaderref> is now the node <%s>", str_text(doc->strings, category));
+    upgrade_note(u, shader_ref, "<shaderref> is now the node <%s>",
+                 str_text(doc->strings, category));
     return doc_attr_value(doc, shader_ref, STR_type);
 }
 
@@ -280,14 +301,16 @@ static void convert_material(struct upgrade *u, elem_id material)
         if (!type) {
             doc_remove_element(doc, e);
         } else if (!doc_child(doc, material, type)) {
-            elem_id input = upgrade_add_input(u, material, str_text(doc->strings, type), type, STR_EMPTY);
+            elem_id input =
+                upgrade_add_input(u, material, str_text(doc->strings, type), type, STR_EMPTY);
             doc_set_attr(doc, input, STR_nodename, doc_element(doc, e)->name);
             volume |= type == STR_volumeshader;
         }
     }
     doc_set_category(doc, material, volume ? STR_volumematerial : STR_surfacematerial);
     doc_set_attr(doc, material, STR_type, STR_material);
-    upgrade_note(u, material, "<material> is now the node <%s>", volume ? "volumematerial" : "surfacematerial");
+    upgrade_note(u, material, "<material> is now the node <%s>",
+                 volume ? "volumematerial" : "surfacematerial");
 }
 
 /* A material has the shaders of those it inherits from, beside its own. */
@@ -298,9 +321,11 @@ static void inherit_shaders(struct upgrade *u, elem_id material)
     str_id name = doc_attr_value(doc, material, STR_inherit);
     for (int depth = 0; name && depth < MAX_INHERITANCE; depth++) {
         elem_id from = doc_child(doc, u->root, name);
-        for (elem_id e = from ? doc_element(doc, from)->first_child : 0; e; e = doc_element(doc, e)->next)
+        for (elem_id e = from ? doc_element(doc, from)->first_child : 0; e;
+             e = doc_element(doc, e)->next)
             if (!doc_child(doc, material, doc_element(doc, e)->name))
-                upgrade_copy_input(u, e, material, str_text(doc->strings, doc_element(doc, e)->name), NULL);
+                upgrade_copy_input(u, e, material,
+                                   str_text(doc->strings, doc_element(doc, e)->name), NULL);
         name = from ? doc_attr_value(doc, from, STR_inherit) : STR_EMPTY;
     }
     doc_remove_attr(doc, material, STR_inherit);
@@ -314,6 +339,7 @@ void upgrade_materials(struct upgrade *u)
         if (doc_element(doc, e)->category == STR_material && doc_element(doc, e)->parent == u->root)
             convert_material(u, e);
     for (elem_id e = upgrade_first(u); e; e = upgrade_next(u, e))
-        if (doc_element(doc, e)->category == STR_surfacematerial && doc_attr_value(doc, e, STR_inherit))
+        if (doc_element(doc, e)->category == STR_surfacematerial
+            && doc_attr_value(doc, e, STR_inherit))
             inherit_shaders(u, e);
 }

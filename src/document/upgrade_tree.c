@@ -50,7 +50,8 @@ bool upgrade_is_node(const struct upgrade *u, elem_id element)
     if (e->kind != KIND_NODE || !e->parent)
         return false;
     enum element_kind scope = (enum element_kind)doc_element(u->doc, e->parent)->kind;
-    return scope == KIND_MATERIALX || scope == KIND_NODEGRAPH || upgrade_is_category(u, e->parent, "opgraph");
+    return scope == KIND_MATERIALX || scope == KIND_NODEGRAPH
+           || upgrade_is_category(u, e->parent, "opgraph");
 }
 
 str_id upgrade_attr(const struct upgrade *u, elem_id element, const char *name)
@@ -104,18 +105,21 @@ str_id upgrade_free_name(struct upgrade *u, elem_id scope, const char *name)
     }
 }
 
-elem_id upgrade_add_node(struct upgrade *u, elem_id before, const char *name, const char *category, str_id type)
+elem_id upgrade_add_node(struct upgrade *u, elem_id before, const char *name, const char *category,
+                         str_id type)
 {
     struct document *doc = u->doc;
     elem_id scope = doc_element(doc, before)->parent;
-    elem_id node = doc_add_like(doc, scope, upgrade_word(u, category), upgrade_free_name(u, scope, name), before);
+    elem_id node = doc_add_like(doc, scope, upgrade_word(u, category),
+                                upgrade_free_name(u, scope, name), before);
     doc_move_before(doc, node, before);
     doc_add_attr(doc, node, (struct attribute){.name = STR_type, .value = type});
     doc_index_element(doc, node);
     return node;
 }
 
-elem_id upgrade_add_input(struct upgrade *u, elem_id node, const char *name, str_id type, str_id value)
+elem_id upgrade_add_input(struct upgrade *u, elem_id node, const char *name, str_id type,
+                          str_id value)
 {
     struct document *doc = u->doc;
     elem_id input = doc_add_like(doc, node, STR_input, upgrade_word(u, name), node);
@@ -176,12 +180,14 @@ str_id upgrade_upstream_type(const struct upgrade *u, elem_id port)
         str_id type = doc_attr_value(doc, node, STR_type);
         return type == STR_multioutput || !type ? output_type(u, node, output) : type;
     }
-    str_id graph_name = doc_attr_value(doc, port, STR_nodegraph), interface = doc_attr_value(doc, port, STR_interfacename);
+    str_id graph_name = doc_attr_value(doc, port, STR_nodegraph),
+           interface = doc_attr_value(doc, port, STR_interfacename);
     elem_id source = 0;
     if (graph_name) {
         elem_id graph = doc_child(doc, u->root, graph_name);
         source = graph && output ? doc_child(doc, graph, output) : 0;
-        for (elem_id e = graph && !output ? doc_element(doc, graph)->first_child : 0; e && !source; e = doc_element(doc, e)->next)
+        for (elem_id e = graph && !output ? doc_element(doc, graph)->first_child : 0; e && !source;
+             e = doc_element(doc, e)->next)
             source = doc_element(doc, e)->kind == KIND_OUTPUT ? e : 0;
     } else if (interface && scope) {
         elem_id nodedef = doc_child(doc, u->root, doc_attr_value(doc, scope, STR_nodedef));
@@ -191,7 +197,8 @@ str_id upgrade_upstream_type(const struct upgrade *u, elem_id port)
     return source ? doc_attr_value(doc, source, STR_type) : STR_EMPTY;
 }
 
-static const str_id connection_attrs[] = {STR_nodename, STR_nodegraph, STR_output, STR_interfacename};
+static const str_id connection_attrs[] = {STR_nodename, STR_nodegraph, STR_output,
+                                          STR_interfacename};
 
 bool upgrade_is_connected(const struct upgrade *u, elem_id port)
 {
@@ -211,7 +218,8 @@ void upgrade_connect(struct upgrade *u, elem_id port, elem_id node, const char *
         doc_set_attr(u->doc, port, STR_output, upgrade_word(u, output));
 }
 
-void upgrade_copy_input(struct upgrade *u, elem_id source, elem_id node, const char *name, const char *type)
+void upgrade_copy_input(struct upgrade *u, elem_id source, elem_id node, const char *name,
+                        const char *type)
 {
     struct document *doc = u->doc;
     if (!source)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Checks of one element at a time: place, name, attributes, type, value. References are checked in validate_links.c.
+ * Checks of one element at a time: place, name, attributes, type, value. References are checked in
+ * validate_links.c.
  */
 #include "document/validate.h"
 
@@ -8,7 +9,8 @@
 #define IN_INTERFACE (IN(NODEDEF) | IN(NODEGRAPH) | IN(NODE))
 
 /*
- * What MaterialX 1.39 says of each kind of element: where it may stand, whether it needs a name, which attributes it needs.
+ * What MaterialX 1.39 says of each kind of element: where it may stand, whether it needs a name,
+ * which attributes it needs.
  */
 static const struct {
     uint64_t parents;
@@ -91,11 +93,13 @@ static bool is_foreign(const struct validation *v, elem_id element)
 }
 
 /*
- * Materials had elements of their own before 1.38, which the upgrade knows where the version says so.
+ * Materials had elements of their own before 1.38, which the upgrade knows where the version says
+ * so.
  */
 static bool is_outdated(const struct validation *v, elem_id element)
 {
-    static const char *const names[] = {"shaderref", "bindinput", "bindparam", "bindtoken", "materialinherit"};
+    static const char *const names[] = {"shaderref", "bindinput", "bindparam", "bindtoken",
+                                        "materialinherit"};
     if (!is_foreign(v, element))
         return false;
     const char *category = text_of(v, doc_element(v->doc, element)->category);
@@ -113,19 +117,21 @@ static void check_place(struct validation *v, elem_id element)
         return;
     if (is_outdated(v, element)) {
         if (!v->is_age_told)
-            diag_add(v->diags, DIAG_ID_outdated_element, doc_place(v->doc, element), text_of(v, e->category));
+            diag_add(v->diags, DIAG_ID_outdated_element, doc_place(v->doc, element),
+                     text_of(v, e->category));
         v->is_age_told = true;
         return;
     }
-    diag_add(v->diags, is_foreign(v, element) ? DIAG_ID_foreign_element : DIAG_ID_misplaced_element, doc_place(v->doc, element),
-             text_of(v, e->category), text_of(v, parent->category));
+    diag_add(v->diags, is_foreign(v, element) ? DIAG_ID_foreign_element : DIAG_ID_misplaced_element,
+             doc_place(v->doc, element), text_of(v, e->category), text_of(v, parent->category));
 }
 
 static void check_name(struct validation *v, elem_id element)
 {
     const struct element *e = doc_element(v->doc, element);
     if (!e->name && rules[e->kind].named)
-        diag_add(v->diags, DIAG_ID_name_missing, doc_place(v->doc, element), text_of(v, e->category));
+        diag_add(v->diags, DIAG_ID_name_missing, doc_place(v->doc, element),
+                 text_of(v, e->category));
     if (e->name && !is_name(text_of(v, e->name)))
         diag_add(v->diags, DIAG_ID_bad_name, doc_place(v->doc, element), text_of(v, e->name));
 }
@@ -135,14 +141,17 @@ static void check_required(struct validation *v, elem_id element)
     const struct element *e = doc_element(v->doc, element);
     for (size_t i = 0; i < 3 && rules[e->kind].required[i]; i++)
         if (!doc_attr(v->doc, element, rules[e->kind].required[i]))
-            diag_add(v->diags, DIAG_ID_missing_attribute, doc_place(v->doc, element), text_of(v, e->category),
-                     text_of(v, rules[e->kind].required[i]));
-    if (e->kind == KIND_IMPLEMENTATION && !doc_attr(v->doc, element, STR_nodedef) && !doc_attr(v->doc, element, STR_nodegraph))
-        diag_add(v->diags, DIAG_ID_missing_attribute, doc_place(v->doc, element), text_of(v, e->category), "nodedef");
+            diag_add(v->diags, DIAG_ID_missing_attribute, doc_place(v->doc, element),
+                     text_of(v, e->category), text_of(v, rules[e->kind].required[i]));
+    if (e->kind == KIND_IMPLEMENTATION && !doc_attr(v->doc, element, STR_nodedef)
+        && !doc_attr(v->doc, element, STR_nodegraph))
+        diag_add(v->diags, DIAG_ID_missing_attribute, doc_place(v->doc, element),
+                 text_of(v, e->category), "nodedef");
     /* The outputs of an implementation have the types of the definition's. */
     if (e->kind == KIND_OUTPUT && !doc_attr(v->doc, element, STR_type)
         && doc_element(v->doc, e->parent)->kind != KIND_IMPLEMENTATION)
-        diag_add(v->diags, DIAG_ID_missing_attribute, doc_place(v->doc, element), text_of(v, e->category), "type");
+        diag_add(v->diags, DIAG_ID_missing_attribute, doc_place(v->doc, element),
+                 text_of(v, e->category), "type");
 }
 
 /* The <typedef> of a type in any layer; 0: none. */
@@ -154,7 +163,8 @@ static elem_id find_typedef(const struct document *doc, str_id type)
     return found;
 }
 
-static const char *suggest_type(const struct document *doc, const char *type, struct diag_list *diags)
+static const char *suggest_type(const struct document *doc, const char *type,
+                                struct diag_list *diags)
 {
     struct diag_guess guess;
     if (!diag_guess_begin(&guess, diags, type))
@@ -162,7 +172,8 @@ static const char *suggest_type(const struct document *doc, const char *type, st
     for (doc_type t = DOC_TYPE_NONE + 1; t < DOC_NUM_TYPES; t++)
         diag_guess_add(&guess, str_text(doc->strings, doc_type_name(t)));
     for (const struct document *layer = doc; layer; layer = layer->base)
-        for (elem_id e = doc_element(layer, layer->root)->first_child; e; e = doc_element(layer, e)->next)
+        for (elem_id e = doc_element(layer, layer->root)->first_child; e;
+             e = doc_element(layer, e)->next)
             if (doc_element(layer, e)->kind == KIND_TYPEDEF)
                 diag_guess_add(&guess, str_text(doc->strings, doc_element(layer, e)->name));
     return diag_guess_text(&guess);
@@ -172,23 +183,28 @@ void doc_report_type(const struct document *doc, elem_id element, struct diag_li
 {
     const char *type = str_text(doc->strings, doc_attr_value(doc, element, STR_type));
     if (!*type) {
-        diag_add(diags, DIAG_ID_missing_attribute, doc_place(doc, element), str_text(doc->strings, doc_element(doc, element)->category), "type");
+        diag_add(diags, DIAG_ID_missing_attribute, doc_place(doc, element),
+                 str_text(doc->strings, doc_element(doc, element)->category), "type");
         return;
     }
-    diag_add(diags, DIAG_ID_unknown_type, doc_attr_place(doc, element, STR_type), type, suggest_type(doc, type, diags));
+    diag_add(diags, DIAG_ID_unknown_type, doc_attr_place(doc, element, STR_type), type,
+             suggest_type(doc, type, diags));
 }
 
 static bool has_value(str_id attr)
 {
-    return attr == STR_value || attr == STR_default || attr == STR_uimin || attr == STR_uimax || attr == STR_uisoftmin
-           || attr == STR_uisoftmax || attr == STR_uistep;
+    return attr == STR_value || attr == STR_default || attr == STR_uimin || attr == STR_uimax
+           || attr == STR_uisoftmin || attr == STR_uisoftmax || attr == STR_uistep;
 }
 
-static void check_value(struct validation *v, elem_id element, doc_type type, str_id attr, str_id value)
+static void check_value(struct validation *v, elem_id element, doc_type type, str_id attr,
+                        str_id value)
 {
     if (value && !doc_value_is_valid(type, text_of(v, value), str_len(v->doc->strings, value)))
-        diag_add(v->diags, DIAG_ID_bad_value, doc_attr_place(v->doc, element, attr), text_of(v, value),
-                 text_of(v, doc_type_name(type)), doc_value_fault(type, text_of(v, value), str_len(v->doc->strings, value), v->arena));
+        diag_add(
+            v->diags, DIAG_ID_bad_value, doc_attr_place(v->doc, element, attr), text_of(v, value),
+            text_of(v, doc_type_name(type)),
+            doc_value_fault(type, text_of(v, value), str_len(v->doc->strings, value), v->arena));
 }
 
 static void check_type_and_values(struct validation *v, elem_id element)
@@ -212,11 +228,15 @@ static void check_bindings(struct validation *v, elem_id element)
     const struct attribute *attrs = doc_attrs(v->doc, element);
     int connections = 0;
     for (uint32_t i = 0; i < e->num_attrs; i++)
-        connections += attrs[i].value && (attrs[i].name == STR_nodename || attrs[i].name == STR_nodegraph || attrs[i].name == STR_interfacename);
+        connections += attrs[i].value
+                       && (attrs[i].name == STR_nodename || attrs[i].name == STR_nodegraph
+                           || attrs[i].name == STR_interfacename);
     if (connections > 1)
-        diag_add(v->diags, DIAG_ID_several_connections, doc_place(v->doc, element), text_of(v, e->name));
+        diag_add(v->diags, DIAG_ID_several_connections, doc_place(v->doc, element),
+                 text_of(v, e->name));
     else if (connections && doc_attr_value(v->doc, element, STR_value))
-        diag_add(v->diags, DIAG_ID_value_and_connection, doc_attr_place(v->doc, element, STR_value), text_of(v, e->name));
+        diag_add(v->diags, DIAG_ID_value_and_connection, doc_attr_place(v->doc, element, STR_value),
+                 text_of(v, e->name));
 }
 
 static void check_has_output(struct validation *v, elem_id element)
@@ -227,7 +247,8 @@ static void check_has_output(struct validation *v, elem_id element)
             return;
     bool inherits = doc_attr_value(v->doc, element, STR_inherit) != 0; /* outputs too */
     if (!inherits)
-        diag_add(v->diags, DIAG_ID_no_output, doc_place(v->doc, element), text_of(v, e->category), text_of(v, e->name));
+        diag_add(v->diags, DIAG_ID_no_output, doc_place(v->doc, element), text_of(v, e->category),
+                 text_of(v, e->name));
 }
 
 /*
@@ -245,7 +266,9 @@ static bool is_port_in_order(const struct document *doc, elem_id element)
         str_id name = attrs[i].name;
         has_type |= name == STR_type;
         num_values += name == STR_value && attrs[i].value;
-        num_connections += (name == STR_nodename || name == STR_nodegraph || name == STR_interfacename) && attrs[i].value;
+        num_connections +=
+            (name == STR_nodename || name == STR_nodegraph || name == STR_interfacename)
+            && attrs[i].value;
     }
     return has_type && num_connections + (num_connections ? num_values : 0) <= 1;
 }

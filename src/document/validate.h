@@ -27,7 +27,8 @@ void validate_attributes(struct validation *v, elem_id element);
 void validate_geometry(struct validation *v, elem_id element);
 
 /*
- * validate_links.c: top-level elements that others refer to are there; graphs have no cycles. Connections are library/validate.c's.
+ * validate_links.c: top-level elements that others refer to are there; graphs have no cycles.
+ * Connections are library/validate.c's.
  */
 void validate_links(struct validation *v);
 

@@ -5,8 +5,11 @@
 #define IN(KIND) ((uint64_t)1 << KIND_##KIND)
 #define ANYWHERE UINT64_MAX
 #define PORTS (IN(INPUT) | IN(OUTPUT))
-#define VALUES (IN(INPUT) | IN(TOKEN) | IN(TOKENDEFAULT) | IN(MEMBER) | IN(GEOMPROPDEF) | IN(GEOMPROP) | IN(GEOMATTR) | IN(PROPERTY) | IN(PROPERTYASSIGN))
-#define ON_GEOMETRY (IN(MATERIALASSIGN) | IN(VISIBILITY) | IN(PROPERTYASSIGN) | IN(PROPERTYSETASSIGN))
+#define VALUES \
+    (IN(INPUT) | IN(TOKEN) | IN(TOKENDEFAULT) | IN(MEMBER) | IN(GEOMPROPDEF) | IN(GEOMPROP) \
+     | IN(GEOMATTR) | IN(PROPERTY) | IN(PROPERTYASSIGN))
+#define ON_GEOMETRY \
+    (IN(MATERIALASSIGN) | IN(VISIBILITY) | IN(PROPERTYASSIGN) | IN(PROPERTYSETASSIGN))
 
 static const struct {
     const char *name;
@@ -38,7 +41,8 @@ static void note_declared(struct validation *v)
     const struct strpool *strings = v->doc->strings;
     v->declared = ARENA_ARRAY(v->arena, uint8_t, strings->first + strings->num);
     for (const struct document *doc = v->doc; doc; doc = doc->base)
-        for (elem_id e = doc->has_attributedefs ? doc_element(doc, doc->root)->first_child : 0; e; e = doc_element(doc, e)->next)
+        for (elem_id e = doc->has_attributedefs ? doc_element(doc, doc->root)->first_child : 0; e;
+             e = doc_element(doc, e)->next)
             if (doc_element(doc, e)->kind == KIND_ATTRIBUTEDEF)
                 v->declared[doc_attr_value(doc, e, STR_attrname)] = 1;
 }
@@ -77,12 +81,14 @@ static bool check_attribute(struct validation *v, elem_id element, str_id name)
     if (kinds)
         diag_add(v->diags, DIAG_ID_misplaced_attribute, place, text, text_of(v, e->category));
     else
-        diag_add(v->diags, DIAG_ID_unknown_attribute, place, text, suggest(v, (enum element_kind)e->kind, name));
+        diag_add(v->diags, DIAG_ID_unknown_attribute, place, text,
+                 suggest(v, (enum element_kind)e->kind, name));
     return false;
 }
 
 /*
- * Documents use the same attributes on the same kinds over and over: what was found good is remembered.
+ * Documents use the same attributes on the same kinds over and over: what was found good is
+ * remembered.
  */
 void validate_attributes(struct validation *v, elem_id element)
 {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Names and patterns of geometry (MaterialX Geometry Extensions, "Geometry Representation" and "Geometry Name Expressions").
+ * Names and patterns of geometry (MaterialX Geometry Extensions, "Geometry Representation" and
+ * "Geometry Name Expressions").
  */
 #include "document/validate.h"
 
@@ -32,7 +33,8 @@ static struct geometry_name trimmed(const char *text, const char *end)
 }
 
 /* NULL: nothing is wrong with what stands between brackets of one kind. */
-static const char *bracket_fault(struct geometry_name name, char open, char close, const char *unclosed, const char *unopened, const char *empty)
+static const char *bracket_fault(struct geometry_name name, char open, char close,
+                                 const char *unclosed, const char *unopened, const char *empty)
 {
     const char *begin = NULL;
     for (const char *c = name.text; c < name.end; c++) {
@@ -71,9 +73,11 @@ static const char *fault_of(struct geometry_name name)
 {
     if (name.text == name.end)
         return "has nothing between two commas, or at an end";
-    const char *fault = bracket_fault(name, '[', ']', "has a '[' without ']'", "has a ']' without '['", "has nothing between '[' and ']'");
+    const char *fault = bracket_fault(name, '[', ']', "has a '[' without ']'",
+                                      "has a ']' without '['", "has nothing between '[' and ']'");
     if (!fault)
-        fault = bracket_fault(name, '{', '}', "has a '{' without '}'", "has a '}' without '{'", "has nothing between '{' and '}'");
+        fault = bracket_fault(name, '{', '}', "has a '{' without '}'", "has a '}' without '{'",
+                              "has nothing between '{' and '}'");
     if (!fault && has_blank(name))
         fault = "has a blank inside of a name: commas separate names";
     return fault ? fault : slash_fault(name);
@@ -90,11 +94,14 @@ static const char *list_fault(const char *text)
     }
 }
 
-static bool is_geometry(const struct document *doc, const struct element *e, str_id attr, elem_id element)
+static bool is_geometry(const struct document *doc, const struct element *e, str_id attr,
+                        elem_id element)
 {
-    if (attr == STR_geom || attr == STR_includegeom || attr == STR_excludegeom || attr == STR_viewergeom)
+    if (attr == STR_geom || attr == STR_includegeom || attr == STR_excludegeom
+        || attr == STR_viewergeom)
         return true;
-    str_id type = attr == STR_value && e->kind != KIND_NODE ? doc_attr_value(doc, element, STR_type) : 0;
+    str_id type =
+        attr == STR_value && e->kind != KIND_NODE ? doc_attr_value(doc, element, STR_type) : 0;
     return type == STR_geomname || type == STR_geomnamearray;
 }
 
@@ -108,6 +115,7 @@ void validate_geometry(struct validation *v, elem_id element)
         const char *text = str_text(v->doc->strings, attrs[i].value);
         const char *fault = list_fault(text);
         if (fault)
-            diag_add(v->diags, DIAG_ID_bad_geometry_name, doc_attr_place(v->doc, element, attrs[i].name), text, fault);
+            diag_add(v->diags, DIAG_ID_bad_geometry_name,
+                     doc_attr_place(v->doc, element, attrs[i].name), text, fault);
     }
 }

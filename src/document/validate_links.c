@@ -34,7 +34,8 @@ static const struct {
     {KIND_MATERIALASSIGN, STR_material, KIND_NODE},
 };
 
-static void check_reference(struct validation *v, elem_id element, str_id attr, enum element_kind target)
+static void check_reference(struct validation *v, elem_id element, str_id attr,
+                            enum element_kind target)
 {
     const struct document *doc = v->doc;
     str_id value = doc_attr_value(doc, element, attr);
@@ -44,8 +45,8 @@ static void check_reference(struct validation *v, elem_id element, str_id attr, 
         str_id name = str_find(doc->strings, text, len);
         bool graph_has_material = target == KIND_NODE && find_top_level(doc, KIND_NODEGRAPH, name);
         if ((!name || !find_top_level(doc, target, name)) && !graph_has_material)
-            diag_add(v->diags, DIAG_ID_dangling_reference, doc_attr_place(doc, element, attr), text_of(v, attr),
-                     arena_strndup(v->arena, text, len));
+            diag_add(v->diags, DIAG_ID_dangling_reference, doc_attr_place(doc, element, attr),
+                     text_of(v, attr), arena_strndup(v->arena, text, len));
         text += len;
     }
 }
@@ -61,14 +62,15 @@ static void check_references(struct validation *v, elem_id element)
 }
 
 /*
- * Inheritance: each element of the document is followed once. marks[element] is the element that the walk began at; a walk that
- * comes to its own mark went round.
+ * Inheritance: each element of the document is followed once. marks[element] is the element that
+ * the walk began at; a walk that comes to its own mark went round.
  */
 static void check_inheritance(struct validation *v, elem_id element, elem_id *marks)
 {
     const struct document *doc = v->doc;
     const struct element *start = doc_element(doc, element);
-    bool by_name = start->kind == KIND_NODEDEF || start->kind == KIND_LOOK || start->kind == KIND_TARGETDEF;
+    bool by_name =
+        start->kind == KIND_NODEDEF || start->kind == KIND_LOOK || start->kind == KIND_TARGETDEF;
     elem_id e = element;
     while (by_name && e >= doc->first_element && !marks[e - doc->first_element]) {
         marks[e - doc->first_element] = element;
@@ -77,14 +79,15 @@ static void check_inheritance(struct validation *v, elem_id element, elem_id *ma
             return;
         elem_id next = find_top_level(doc, (enum element_kind)start->kind, base);
         if (!next) {
-            diag_add(v->diags, DIAG_ID_inherit_missing, doc_attr_place(doc, e, STR_inherit), text_of(v, doc_element(doc, e)->name),
-                     text_of(v, base));
+            diag_add(v->diags, DIAG_ID_inherit_missing, doc_attr_place(doc, e, STR_inherit),
+                     text_of(v, doc_element(doc, e)->name), text_of(v, base));
             return;
         }
         e = next;
     }
     if (by_name && e >= doc->first_element && marks[e - doc->first_element] == element)
-        diag_add(v->diags, DIAG_ID_inherit_cycle, doc_attr_place(doc, e, STR_inherit), text_of(v, doc_element(doc, e)->name));
+        diag_add(v->diags, DIAG_ID_inherit_cycle, doc_attr_place(doc, e, STR_inherit),
+                 text_of(v, doc_element(doc, e)->name));
 }
 
 /* Cycles: a depth-first walk along the nodes of a graph, on a stack of its own. */
@@ -143,7 +146,9 @@ static void check_cycles_from(struct walk *w, elem_id start)
         }
         step->input = doc_element(doc, input)->next;
         str_id name = doc_attr_value(doc, input, STR_nodename);
-        elem_id node = name ? doc_child_of_kind(doc, doc_element(doc, step->node)->parent, KIND_NODE, name) : 0;
+        elem_id node =
+            name ? doc_child_of_kind(doc, doc_element(doc, step->node)->parent, KIND_NODE, name)
+                 : 0;
         if (node)
             enter(w, node);
     }

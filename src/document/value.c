@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Values as documents write them: "0.5", "1, 0, 0", "true" (MaterialX 1.39, "MaterialX Data Types").
+ * Values as documents write them: "0.5", "1, 0, 0", "true" (MaterialX 1.39, "MaterialX Data
+ * Types").
  */
 #include "base/num.h"
 #include "document/document.h"
@@ -18,7 +19,8 @@ static size_t skip_spaces(const char *text, size_t len, size_t at)
 }
 
 /*
- * Between two numbers: a comma with or without spaces; spaces alone, which MaterialX reads too. 0: no separator.
+ * Between two numbers: a comma with or without spaces; spaces alone, which MaterialX reads too. 0:
+ * no separator.
  */
 static size_t skip_separator(const char *text, size_t len, size_t at)
 {
@@ -42,9 +44,11 @@ static size_t parse_number(bool integer, const char *text, size_t len, union ir_
 }
 
 /*
- * Reads numbers up to the end of the text; returns how many, or -1 where what stands at *out_fault is none.
+ * Reads numbers up to the end of the text; returns how many, or -1 where what stands at *out_fault
+ * is none.
  */
-static int64_t find_numbers(bool integer, const char *text, size_t len, union ir_word *out, size_t max_kept, size_t *out_fault)
+static int64_t find_numbers(bool integer, const char *text, size_t len, union ir_word *out,
+                            size_t max_kept, size_t *out_fault)
 {
     size_t at = skip_spaces(text, len, 0), count = 0;
     if (at == len)
@@ -68,7 +72,8 @@ static int64_t find_numbers(bool integer, const char *text, size_t len, union ir
     }
 }
 
-static int64_t parse_numbers(bool integer, const char *text, size_t len, union ir_word *out, size_t max_kept)
+static int64_t parse_numbers(bool integer, const char *text, size_t len, union ir_word *out,
+                             size_t max_kept)
 {
     size_t fault;
     return find_numbers(integer, text, len, out, max_kept, &fault);
@@ -83,21 +88,21 @@ static bool parse_bool(const char *text, size_t len, union ir_word *out)
     return out->u || (len - at == 5 && memcmp(text + at, "false", 5) == 0);
 }
 
-bool doc_parse_value(doc_type type, const char *text, size_t len, struct strpool *strings, struct ir_value *out)
+bool doc_parse_value(doc_type type, const char *text, size_t len, struct strpool *strings,
+                     struct ir_value *out)
 {
     out->type = doc_type_ir(type);
     switch (type) {
-    case DOC_TYPE_boolean:
-        return parse_bool(text, len, &out->w[0]);
+    case DOC_TYPE_boolean: return parse_bool(text, len, &out->w[0]);
     case DOC_TYPE_string:
     case DOC_TYPE_geomname:
         out->w[0].u = strings ? str_intern(strings, text, len) : STR_EMPTY;
         return true;
-    default:
-        break;
+    default: break;
     }
     unsigned components = doc_type_components(type);
-    return components && parse_numbers(type == DOC_TYPE_integer, text, len, out->w, 16) == (int64_t)components;
+    return components
+           && parse_numbers(type == DOC_TYPE_integer, text, len, out->w, 16) == (int64_t)components;
 }
 
 bool doc_value_is_valid(doc_type type, const char *text, size_t len)
@@ -131,6 +136,7 @@ const char *doc_value_fault(doc_type type, const char *text, size_t len, struct 
         end++;
     if (end == fault)
         return ": a number is missing behind a comma";
-    text_fmt(&said, ": '%.*s' is no %s", (int)(end - fault), text + fault, integer ? "integer" : "number");
+    text_fmt(&said, ": '%.*s' is no %s", (int)(end - fault), text + fault,
+             integer ? "integer" : "number");
     return text_cstr(&said);
 }

@@ -4,7 +4,8 @@
 static void write_escaped(struct text *out, const char *value, size_t len)
 {
     static const char special[] = "&<>\"\n\r\t";
-    static const char *const entities[] = {"&amp;", "&lt;", "&gt;", "&quot;", "&#10;", "&#13;", "&#9;"};
+    static const char *const entities[] = {"&amp;", "&lt;",  "&gt;", "&quot;",
+                                           "&#10;", "&#13;", "&#9;"};
     for (size_t i = 0; i < len; i++) {
         const char *found = value[i] ? strchr(special, value[i]) : NULL;
         if (found)

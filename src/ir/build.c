@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * build: the one way to make nodes. In order: commutative operands are sorted, constants folded, rules.def applied,
- * constructors and swizzles cancelled, and what remains is hash-consed.
+ * build: the one way to make nodes. In order: commutative operands are sorted, constants folded,
+ * rules.def applied, constructors and swizzles cancelled, and what remains is hash-consed.
  */
 #include "ir/internal.h"
 
@@ -20,8 +20,8 @@ static bool is_finite(const struct ir_value *value)
     return true;
 }
 
-static ir_ref fold(struct ir_graph *graph, enum ir_op op, ir_type_id type, uint32_t attr, const ir_ref *args,
-                   unsigned num_args)
+static ir_ref fold(struct ir_graph *graph, enum ir_op op, ir_type_id type, uint32_t attr,
+                   const ir_ref *args, unsigned num_args)
 {
     struct ir_value values[MAX_FOLD_ARGS], result;
     for (unsigned i = 0; i < num_args; i++)
@@ -32,8 +32,8 @@ static ir_ref fold(struct ir_graph *graph, enum ir_op op, ir_type_id type, uint3
 }
 
 /*
- * Constants go last, so that rules look for them in one place; otherwise the older operand goes first. Products of
- * linear algebra do not commute.
+ * Constants go last, so that rules look for them in one place; otherwise the older operand goes
+ * first. Products of linear algebra do not commute.
  */
 static void sort_operands(const struct ir_graph *graph, enum ir_op op, ir_ref *args)
 {
@@ -48,7 +48,8 @@ static void sort_operands(const struct ir_graph *graph, enum ir_op op, ir_ref *a
 }
 
 /*
- * Arithmetic, choices and functions are simplified where they are of vectors; what builds and takes apart, wherever it is.
+ * Arithmetic, choices and functions are simplified where they are of vectors; what builds and takes
+ * apart, wherever it is.
  */
 static bool may_simplify(enum ir_op op, ir_type_id type)
 {
@@ -76,8 +77,8 @@ static uint64_t equal_bit(const ir_ref *args, unsigned num_args)
 }
 
 /*
- * Whether a node is well formed takes about as long to find out as making it does: builds without optimisation check everything at
- * once, ir_check does so later.
+ * Whether a node is well formed takes about as long to find out as making it does: builds without
+ * optimisation check everything at once, ir_check does so later.
  */
 #ifndef __OPTIMIZE__
 #define IS_WELL_FORMED(...) (!ir_node_problem(__VA_ARGS__))
@@ -86,8 +87,8 @@ static uint64_t equal_bit(const ir_ref *args, unsigned num_args)
     (ir_op_info(op)->arity < 0 || (num_args) == (unsigned)ir_op_info(op)->arity)
 #endif
 
-ir_ref ir_build(struct ir_graph *graph, enum ir_op op, ir_type_id type, uint32_t attr, const ir_ref *args,
-                unsigned num_args)
+ir_ref ir_build(struct ir_graph *graph, enum ir_op op, ir_type_id type, uint32_t attr,
+                const ir_ref *args, unsigned num_args)
 {
     assert(IS_WELL_FORMED(graph, op, type, attr, args, num_args));
     if (graph->no_fold || num_args == 0 || num_args > MAX_FOLD_ARGS)
@@ -106,7 +107,8 @@ ir_ref ir_build(struct ir_graph *graph, enum ir_op op, ir_type_id type, uint32_t
         if (wanted >> IR_OP_BITS)
             present |= ir_constant_bits(graph, from);
     }
-    if (present & IR_OP_BIT(IR_POISON) && flags & OP_PURE && op != IR_SELECT && has_poison(graph, own, num_args))
+    if (present & IR_OP_BIT(IR_POISON) && flags & OP_PURE && op != IR_SELECT
+        && has_poison(graph, own, num_args))
         return ir_poison(graph, type);
     ir_ref result = 0;
     if (num_consts == num_args && flags & OP_PURE)
@@ -126,7 +128,8 @@ ir_ref ir_build(struct ir_graph *graph, enum ir_op op, ir_type_id type, uint32_t
     return result ? result : ir_intern(graph, op, type, attr, own, num_args);
 }
 
-ir_ref ir_restore(struct ir_graph *graph, enum ir_op op, ir_type_id type, uint32_t attr, ir_ref *args, unsigned num_args)
+ir_ref ir_restore(struct ir_graph *graph, enum ir_op op, ir_type_id type, uint32_t attr,
+                  ir_ref *args, unsigned num_args)
 {
     if (op == IR_MUL || ir_op_info(op)->flags & OP_COMMUTES)
         sort_operands(graph, op, args);
@@ -134,21 +137,24 @@ ir_ref ir_restore(struct ir_graph *graph, enum ir_op op, ir_type_id type, uint32
 }
 
 /*
- * Rules have these within their patterns (a test compares); the others are what simplify.c asks for.
+ * Rules have these within their patterns (a test compares); the others are what simplify.c asks
+ * for.
  */
 bool ir_is_looked_through(enum ir_op op)
 {
     static const bool looked_through[IR_NUM_OPS] = {
-        [IR_NEG] = true, [IR_NOT] = true, [IR_SUB] = true, [IR_MUL] = true, [IR_SELECT] = true, [IR_ABS] = true, [IR_SIGN] = true,
-        [IR_FLOOR] = true, [IR_TRUNC] = true, [IR_ROUND] = true, [IR_CEIL] = true, [IR_CLAMP] = true, [IR_NORMALIZE] = true,
-        [IR_TRANSPOSE] = true, [IR_BITNOT] = true, [IR_EQ] = true, [IR_NE] = true, [IR_LT] = true, [IR_LE] = true, [IR_GT] = true,
-        [IR_GE] = true,
-        [IR_POISON] = true, [IR_CONSTRUCT] = true, [IR_SWIZZLE] = true,
+        [IR_NEG] = true,       [IR_NOT] = true,       [IR_SUB] = true,       [IR_MUL] = true,
+        [IR_SELECT] = true,    [IR_ABS] = true,       [IR_SIGN] = true,      [IR_FLOOR] = true,
+        [IR_TRUNC] = true,     [IR_ROUND] = true,     [IR_CEIL] = true,      [IR_CLAMP] = true,
+        [IR_NORMALIZE] = true, [IR_TRANSPOSE] = true, [IR_BITNOT] = true,    [IR_EQ] = true,
+        [IR_NE] = true,        [IR_LT] = true,        [IR_LE] = true,        [IR_GT] = true,
+        [IR_GE] = true,        [IR_POISON] = true,    [IR_CONSTRUCT] = true, [IR_SWIZZLE] = true,
     };
     return looked_through[op];
 }
 
-static ir_ref build_by_rule(struct ir_graph *graph, enum ir_op op, const ir_ref *args, unsigned num_args)
+static ir_ref build_by_rule(struct ir_graph *graph, enum ir_op op, const ir_ref *args,
+                            unsigned num_args)
 {
     ir_type_id types[3];
     for (unsigned i = 0; i < num_args; i++)
@@ -228,7 +234,8 @@ bool ir_get_const(const struct ir_graph *graph, ir_ref ref, struct ir_value *out
     if (node->op != IR_CONST)
         return false;
     out->type = node->type;
-    memcpy(out->w, graph->words.items + node->attr, ir_type_info(node->type)->components * sizeof *out->w);
+    memcpy(out->w, graph->words.items + node->attr,
+           ir_type_info(node->type)->components * sizeof *out->w);
     return true;
 }
 
@@ -240,7 +247,9 @@ bool ir_const_is(const struct ir_graph *graph, ir_ref ref, float f)
     const struct ir_type_info *info = ir_type_info(value.type);
     for (unsigned i = 0; i < info->components; i++) {
         union ir_word w = value.w[i];
-        float component = info->scalar == IR_TYPE_FLOAT ? w.f : info->scalar == IR_TYPE_INT ? (float)w.i : (float)w.u;
+        float component = info->scalar == IR_TYPE_FLOAT ? w.f
+                          : info->scalar == IR_TYPE_INT ? (float)w.i
+                                                        : (float)w.u;
         if (component != f)
             return false;
     }
@@ -271,7 +280,7 @@ static ir_type_id with_scalar(ir_type_id from, ir_type_id scalar)
     if (info->scalar == scalar)
         return from;
     bool fits = info->columns == 1 && info->scalar >= IR_TYPE_BOOL && info->scalar <= IR_TYPE_FLOAT
-             && scalar >= IR_TYPE_BOOL && scalar <= IR_TYPE_FLOAT;
+                && scalar >= IR_TYPE_BOOL && scalar <= IR_TYPE_FLOAT;
     return fits ? ir_type_vector(scalar, info->components) : IR_TYPE_VOID;
 }
 
@@ -280,12 +289,14 @@ ir_ref ir_construct(struct ir_graph *graph, ir_type_id type, const ir_ref *args,
     ir_ref parts[MAX_FOLD_ARGS];
     if (type >= IR_NUM_TYPES)
         return ir_node_problem(graph, IR_CONSTRUCT, type, 0, args, num_args)
-                   ? 0 : ir_build(graph, IR_CONSTRUCT, type, 0, args, num_args);
+                   ? 0
+                   : ir_build(graph, IR_CONSTRUCT, type, 0, args, num_args);
     if (num_args > MAX_FOLD_ARGS)
         return 0;
     for (unsigned i = 0; i < num_args; i++) {
         ir_type_id from = ir_type_of(graph, args[i]);
-        ir_type_id to = from < IR_NUM_TYPES ? with_scalar(from, ir_type_info(type)->scalar) : IR_TYPE_VOID;
+        ir_type_id to =
+            from < IR_NUM_TYPES ? with_scalar(from, ir_type_info(type)->scalar) : IR_TYPE_VOID;
         if (to == IR_TYPE_VOID)
             return 0;
         parts[i] = ir_build(graph, IR_CONVERT, to, 0, &args[i], 1);
@@ -307,7 +318,8 @@ ir_ref ir_convert(struct ir_graph *graph, ir_type_id type, ir_ref a)
         return ir_construct(graph, type, &a, 1);
     if (!ir_type_is_matrix(type)) { /* cut before converting: fewer components to convert */
         if (ir_type_info(from)->components > info->components && ir_type_info(from)->columns == 1)
-            a = ir_build(graph, IR_CONVERT, ir_type_vector(ir_type_info(from)->scalar, info->components), 0, &a, 1);
+            a = ir_build(graph, IR_CONVERT,
+                         ir_type_vector(ir_type_info(from)->scalar, info->components), 0, &a, 1);
     }
     if (ir_node_problem(graph, IR_CONVERT, type, 0, &a, 1))
         return 0;

@@ -1,43 +1,41 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * check: what must hold of every node, and of the graph as a whole. ir_node_problem is the one definition of a
- * well-formed node: the builder asserts it, the parser reports it, and ir_check looks at each node with it.
+ * check: what must hold of every node, and of the graph as a whole. ir_node_problem is the one
+ * definition of a well-formed node: the builder asserts it, the parser reports it, and ir_check
+ * looks at each node with it.
  */
 #include "ir/internal.h"
 
 /*
- * Operand types of closures and shaders, one letter each: c closure, s shader, n float or vector, b bool, x anything.
+ * Operand types of closures and shaders, one letter each: c closure, s shader, n float or vector, b
+ * bool, x anything.
  */
 static const struct operands {
     uint8_t op;
     const char *classes;
 } operand_classes[] = {
-    {IR_LAYER, "cc"},           {IR_CLOSURE_MIX, "ccn"},      {IR_CLOSURE_ADD, "cc"},
-    {IR_CLOSURE_SCALE, "cn"},   {IR_SURFACE_SHADER, "ccnb"},  {IR_SURFACE_UNLIT, "nnn"},
-    {IR_VOLUME_SHADER, "cc"},   {IR_DISPLACEMENT_SHADER, "nn"}, {IR_LIGHT_SHADER, "cnn"},
-    {IR_SHADER_MIX, "ssn"},     {IR_MATERIAL, "ssss"},
+    {IR_LAYER, "cc"},         {IR_CLOSURE_MIX, "ccn"},        {IR_CLOSURE_ADD, "cc"},
+    {IR_CLOSURE_SCALE, "cn"}, {IR_SURFACE_SHADER, "ccnb"},    {IR_SURFACE_UNLIT, "nnn"},
+    {IR_VOLUME_SHADER, "cc"}, {IR_DISPLACEMENT_SHADER, "nn"}, {IR_LIGHT_SHADER, "cnn"},
+    {IR_SHADER_MIX, "ssn"},   {IR_MATERIAL, "ssss"},
 };
 
 static bool is_of_class(ir_type_id type, char class)
 {
     switch (class) {
-    case 'c':
-        return ir_type_is_closure(type);
-    case 's':
-        return ir_type_is_shader(type);
-    case 'n':
-        return ir_type_is_float(type) && !ir_type_is_matrix(type);
-    case 'b':
-        return type == IR_TYPE_BOOL;
-    default:
-        return true;
+    case 'c': return ir_type_is_closure(type);
+    case 's': return ir_type_is_shader(type);
+    case 'n': return ir_type_is_float(type) && !ir_type_is_matrix(type);
+    case 'b': return type == IR_TYPE_BOOL;
+    default: return true;
     }
 }
 
 static bool is_type(const struct ir_graph *graph, ir_type_id type)
 {
     return type < IR_NUM_TYPES
-        || (type >= IR_TYPE_FIRST_USER && type - IR_TYPE_FIRST_USER < (int)graph->user_types.len);
+           || (type >= IR_TYPE_FIRST_USER
+               && type - IR_TYPE_FIRST_USER < (int)graph->user_types.len);
 }
 
 static const struct ir_user_type *user_type(const struct ir_graph *graph, ir_type_id type)
@@ -45,20 +43,22 @@ static const struct ir_user_type *user_type(const struct ir_graph *graph, ir_typ
     return type >= IR_TYPE_FIRST_USER ? &graph->user_types.items[type - IR_TYPE_FIRST_USER] : NULL;
 }
 
-static bool is_user_construct(const struct ir_graph *graph, const struct ir_user_type *type, const ir_ref *args,
-                              unsigned num_args)
+static bool is_user_construct(const struct ir_graph *graph, const struct ir_user_type *type,
+                              const ir_ref *args, unsigned num_args)
 {
     if (num_args != (type->array_length ? type->array_length : type->num_members))
         return false;
     for (unsigned i = 0; i < num_args; i++) {
-        ir_type_id expected = type->array_length ? type->element : graph->members.items[type->first_member + i].type;
+        ir_type_id expected =
+            type->array_length ? type->element : graph->members.items[type->first_member + i].type;
         if (ir_type_of(graph, args[i]) != expected)
             return false;
     }
     return true;
 }
 
-static bool is_construct(const struct ir_graph *graph, ir_type_id type, const ir_ref *args, unsigned num_args)
+static bool is_construct(const struct ir_graph *graph, ir_type_id type, const ir_ref *args,
+                         unsigned num_args)
 {
     const struct ir_user_type *user = user_type(graph, type);
     if (user)
@@ -67,7 +67,8 @@ static bool is_construct(const struct ir_graph *graph, ir_type_id type, const ir
     uint64_t total = 0;
     for (unsigned i = 0; i < num_args; i++) {
         ir_type_id part = ir_type_of(graph, args[i]);
-        if (part >= IR_NUM_TYPES || ir_type_info(part)->scalar != info->scalar || ir_type_info(part)->columns > 1)
+        if (part >= IR_NUM_TYPES || ir_type_info(part)->scalar != info->scalar
+            || ir_type_info(part)->columns > 1)
             return false;
         total += ir_type_info(part)->components;
     }
@@ -84,13 +85,15 @@ static bool is_convert(ir_type_id type, ir_type_id from)
     if (to_info->scalar == from_info->scalar)
         return to_info->components > 0 && to_info->components < from_info->components;
     return to_info->components == from_info->components && to_info->scalar >= IR_TYPE_BOOL
-        && to_info->scalar <= IR_TYPE_FLOAT && from_info->scalar >= IR_TYPE_BOOL && from_info->scalar <= IR_TYPE_FLOAT;
+           && to_info->scalar <= IR_TYPE_FLOAT && from_info->scalar >= IR_TYPE_BOOL
+           && from_info->scalar <= IR_TYPE_FLOAT;
 }
 
 static bool is_swizzle(ir_type_id type, uint32_t attr, ir_type_id from)
 {
     unsigned count = attr >> 8;
-    if (from >= IR_NUM_TYPES || ir_type_info(from)->columns > 1 || count < 1 || count > 4 || (attr & 255) >> (2 * count))
+    if (from >= IR_NUM_TYPES || ir_type_info(from)->columns > 1 || count < 1 || count > 4
+        || (attr & 255) >> (2 * count))
         return false;
     for (unsigned i = 0; i < count; i++)
         if ((attr >> (2 * i) & 3) >= ir_type_info(from)->components)
@@ -101,10 +104,12 @@ static bool is_swizzle(ir_type_id type, uint32_t attr, ir_type_id from)
 static bool is_member(const struct ir_graph *graph, ir_type_id type, uint32_t attr, ir_type_id from)
 {
     const struct ir_user_type *user = user_type(graph, from);
-    return user && attr < user->num_members && graph->members.items[user->first_member + attr].type == type;
+    return user && attr < user->num_members
+           && graph->members.items[user->first_member + attr].type == type;
 }
 
-static bool is_index(const struct ir_graph *graph, ir_type_id type, ir_type_id from, ir_type_id index)
+static bool is_index(const struct ir_graph *graph, ir_type_id type, ir_type_id from,
+                     ir_type_id index)
 {
     if (index != IR_TYPE_INT && index != IR_TYPE_UINT)
         return false;
@@ -137,10 +142,13 @@ static const char *graph_call_problem(const struct ir_graph *graph, ir_type_id t
         if (ir_type_of(graph, args[i]) != graph->param_types.items[function->first_param_type + i])
             return "an argument does not have the parameter's type";
     ir_type_id first = ir_type_of(graph, graph->function_results.items[function->first_result]);
-    return type == IR_TYPE_VOID || type == first ? NULL : "the type is neither void nor that of the first result";
+    return type == IR_TYPE_VOID || type == first
+               ? NULL
+               : "the type is neither void nor that of the first result";
 }
 
-static const char *result_problem(const struct ir_graph *graph, ir_type_id type, uint32_t attr, ir_ref call)
+static const char *result_problem(const struct ir_graph *graph, ir_type_id type, uint32_t attr,
+                                  ir_ref call)
 {
     const struct ir_node *node = ir_get(graph, call);
     if (!is_call(graph, call))
@@ -151,7 +159,8 @@ static const char *result_problem(const struct ir_graph *graph, ir_type_id type,
     if (attr >= function->num_results)
         return "the function has fewer results";
     ir_ref result = graph->function_results.items[function->first_result + attr];
-    return ir_type_of(graph, result) == type ? NULL : "the result does not have the function's type";
+    return ir_type_of(graph, result) == type ? NULL
+                                             : "the result does not have the function's type";
 }
 
 static const char *param_problem(const struct ir_graph *graph, ir_type_id type, uint32_t attr)
@@ -162,40 +171,36 @@ static const char *param_problem(const struct ir_graph *graph, ir_type_id type, 
     const struct ir_function *function = &graph->functions.items[attr >> 16];
     if (index >= function->num_params)
         return "the function has fewer parameters";
-    return graph->param_types.items[function->first_param_type + index] == type ? NULL
-                                                                                  : "the parameter has another type";
+    return graph->param_types.items[function->first_param_type + index] == type
+               ? NULL
+               : "the parameter has another type";
 }
 
 /* Ops whose operands follow no rule of types.c. */
-static const char *special_problem(const struct ir_graph *graph, enum ir_op op, ir_type_id type, uint32_t attr,
-                                   const ir_ref *args, unsigned num_args)
+static const char *special_problem(const struct ir_graph *graph, enum ir_op op, ir_type_id type,
+                                   uint32_t attr, const ir_ref *args, unsigned num_args)
 {
     ir_type_id from = num_args ? ir_type_of(graph, args[0]) : IR_TYPE_VOID;
     switch (op) {
-    case IR_CONST:
-        return "a constant is not built from operands";
-    case IR_PARAM:
-        return param_problem(graph, type, attr);
+    case IR_CONST: return "a constant is not built from operands";
+    case IR_PARAM: return param_problem(graph, type, attr);
     case IR_CONSTRUCT:
         return is_construct(graph, type, args, num_args) ? NULL : "the parts do not make the type";
-    case IR_CONVERT:
-        return is_convert(type, from) ? NULL : "there is no such conversion";
+    case IR_CONVERT: return is_convert(type, from) ? NULL : "there is no such conversion";
     case IR_SWIZZLE:
         return is_swizzle(type, attr, from) ? NULL : "the operand does not have these components";
     case IR_MEMBER:
         return is_member(graph, type, attr, from) ? NULL : "the operand does not have this member";
     case IR_INDEX:
-        return is_index(graph, type, from, ir_type_of(graph, args[1])) ? NULL : "the operand cannot be indexed so";
+        return is_index(graph, type, from, ir_type_of(graph, args[1]))
+                   ? NULL
+                   : "the operand cannot be indexed so";
     case IR_CALL:
     case IR_VERBATIM:
-    case IR_LEAF:
-        return attr < graph->callees.len ? NULL : "there is no such callee";
-    case IR_GRAPH_CALL:
-        return graph_call_problem(graph, type, attr, args, num_args);
-    case IR_RESULT:
-        return result_problem(graph, type, attr, args[0]);
-    default:
-        break;
+    case IR_LEAF: return attr < graph->callees.len ? NULL : "there is no such callee";
+    case IR_GRAPH_CALL: return graph_call_problem(graph, type, attr, args, num_args);
+    case IR_RESULT: return result_problem(graph, type, attr, args[0]);
+    default: break;
     }
     for (size_t i = 0; i < sizeof operand_classes / sizeof *operand_classes; i++)
         for (unsigned k = 0; operand_classes[i].op == op && k < num_args; k++)
@@ -204,8 +209,8 @@ static const char *special_problem(const struct ir_graph *graph, enum ir_op op, 
     return NULL;
 }
 
-const char *ir_node_problem(const struct ir_graph *graph, enum ir_op op, ir_type_id type, uint32_t attr,
-                            const ir_ref *args, unsigned num_args)
+const char *ir_node_problem(const struct ir_graph *graph, enum ir_op op, ir_type_id type,
+                            uint32_t attr, const ir_ref *args, unsigned num_args)
 {
     const struct ir_op_info *info = ir_op_info(op);
     if (info->arity >= 0 && num_args != (unsigned)info->arity)
@@ -234,7 +239,8 @@ static const char *const_problem(const struct ir_graph *graph, const struct ir_n
         return "a constant has a type without values";
     unsigned components = ir_type_info(node->type)->components;
     return node->attr <= graph->words.len && graph->words.len - node->attr >= components
-               ? NULL : "a constant lies outside of the pool";
+               ? NULL
+               : "a constant lies outside of the pool";
 }
 
 static const char *node_problem(const struct ir_graph *graph, ir_ref ref)
@@ -254,9 +260,10 @@ static const char *node_problem(const struct ir_graph *graph, ir_ref ref)
         if ((ir_get(graph, args[i])->flags & IR_NODE_LOOP) && !loop)
             return "the node lacks the loop flag of an operand";
     }
-    const char *problem = node->op == IR_CONST ? const_problem(graph, node)
-                                               : ir_node_problem(graph, (enum ir_op)node->op, node->type, node->attr,
-                                                                 args, node->num_args);
+    const char *problem = node->op == IR_CONST
+                              ? const_problem(graph, node)
+                              : ir_node_problem(graph, (enum ir_op)node->op, node->type, node->attr,
+                                                args, node->num_args);
     if (problem)
         return problem;
     if (node->origin >= graph->origins.len)

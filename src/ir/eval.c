@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * eval: the value of a node, computed in array order over what it needs. An unknown value makes its users unknown, but
- * not a SELECT that does not choose it, so that undefined operations behind a condition do no harm. Calls of IR
- * functions are frames on a stack of ours.
+ * eval: the value of a node, computed in array order over what it needs. An unknown value makes its
+ * users unknown, but not a SELECT that does not choose it, so that undefined operations behind a
+ * condition do no harm. Calls of IR functions are frames on a stack of ours.
  */
 #include "ir/ir.h"
 
 struct frame {
-    ir_ref at, end;    /* next node, and where to stop */
-    uint8_t *needed;   /* per node */
+    ir_ref at, end;  /* next node, and where to stop */
+    uint8_t *needed; /* per node */
     /*
      * per node: its value in ->words; of a call of a function its results in ->results; 0 = unknown
      */
     uint32_t *places;
-    ir_ref call;       /* the node of the frame below that waits for this one; 0 in the lowest */
+    ir_ref call; /* the node of the frame below that waits for this one; 0 in the lowest */
 };
 
 struct evaluator {
@@ -61,7 +61,8 @@ static bool load(const struct evaluator *e, uint32_t place, ir_type_id type, str
 }
 
 /* The value of an operand that has been passed. */
-static bool value_of(const struct evaluator *e, const struct frame *frame, ir_ref ref, struct ir_value *out)
+static bool value_of(const struct evaluator *e, const struct frame *frame, ir_ref ref,
+                     struct ir_value *out)
 {
     if (ir_get_const(e->graph, ref, out))
         return true;
@@ -71,7 +72,8 @@ static bool value_of(const struct evaluator *e, const struct frame *frame, ir_re
     return load(e, place, ir_type_of(e->graph, ref), out);
 }
 
-static bool values_of(const struct evaluator *e, const struct frame *frame, ir_ref ref, struct ir_value *out)
+static bool values_of(const struct evaluator *e, const struct frame *frame, ir_ref ref,
+                      struct ir_value *out)
 {
     for (uint32_t i = 0; i < ir_get(e->graph, ref)->num_args; i++)
         if (!value_of(e, frame, ir_arg(e->graph, ref, i), &out[i]))
@@ -90,14 +92,17 @@ static bool eval_source(const struct evaluator *e, ir_ref ref, struct ir_value *
     return e->env && e->env->source && e->env->source(e->env->user_data, e->graph, ref, out);
 }
 
-static bool eval_call(const struct evaluator *e, ir_ref call, uint32_t result, ir_type_id type, struct ir_value *out)
+static bool eval_call(const struct evaluator *e, ir_ref call, uint32_t result, ir_type_id type,
+                      struct ir_value *out)
 {
     const struct frame *frame = &vec_last(&e->frames);
     if (ir_get(e->graph, call)->op == IR_GRAPH_CALL)
-        return frame->places[call] && load(e, e->results.items[frame->places[call] + result], type, out);
-    struct ir_value *args = ARENA_ARRAY(e->scratch, struct ir_value, ir_get(e->graph, call)->num_args);
+        return frame->places[call]
+               && load(e, e->results.items[frame->places[call] + result], type, out);
+    struct ir_value *args =
+        ARENA_ARRAY(e->scratch, struct ir_value, ir_get(e->graph, call)->num_args);
     return e->env && e->env->call && values_of(e, frame, call, args)
-        && e->env->call(e->env->user_data, e->graph, call, args, result, out);
+           && e->env->call(e->env->user_data, e->graph, call, args, result, out);
 }
 
 /* SELECT, LAND and LOR may be known where an operand is not. */
@@ -126,19 +131,16 @@ static bool eval_node(const struct evaluator *e, ir_ref ref, struct ir_value *ou
     case IR_PARAM:
     case IR_LOCAL:
     case IR_CONTEXT:
-    case IR_SAMPLE:
-        return eval_source(e, ref, out);
-    case IR_CALL:
-        return eval_call(e, ref, 0, node->type, out);
-    case IR_RESULT:
-        return eval_call(e, ir_arg(e->graph, ref, 0), node->attr, node->type, out);
+    case IR_SAMPLE: return eval_source(e, ref, out);
+    case IR_CALL: return eval_call(e, ref, 0, node->type, out);
+    case IR_RESULT: return eval_call(e, ir_arg(e->graph, ref, 0), node->attr, node->type, out);
     case IR_SELECT:
     case IR_LAND:
-    case IR_LOR:
-        return eval_choice(e, ref, out);
+    case IR_LOR: return eval_choice(e, ref, out);
     default:
         return node->num_args <= 16 && values_of(e, &vec_last(&e->frames), ref, args)
-            && ir_eval_op((enum ir_op)node->op, node->type, node->attr, args, node->num_args, out);
+               && ir_eval_op((enum ir_op)node->op, node->type, node->attr, args, node->num_args,
+                             out);
     }
 }
 
@@ -147,12 +149,14 @@ static void return_to_caller(struct evaluator *e)
 {
     const struct frame *frame = &vec_last(&e->frames);
     struct frame *caller = &e->frames.items[e->frames.len - 2];
-    const struct ir_function *function = &e->graph->functions.items[ir_get(e->graph, frame->call)->attr];
+    const struct ir_function *function =
+        &e->graph->functions.items[ir_get(e->graph, frame->call)->attr];
     caller->places[frame->call] = e->results.len;
     for (uint32_t i = 0; i < function->num_results; i++) {
         struct ir_value value;
         ir_ref result = e->graph->function_results.items[function->first_result + i];
-        vec_push(e->scratch, &e->results, value_of(e, frame, result, &value) ? store(e, &value) : 0);
+        vec_push(e->scratch, &e->results,
+                 value_of(e, frame, result, &value) ? store(e, &value) : 0);
     }
     e->frames.len--;
 }
@@ -166,7 +170,8 @@ static void step(struct evaluator *e)
         return;
     if (node->op == IR_GRAPH_CALL) {
         const struct ir_function *function = &e->graph->functions.items[node->attr];
-        push_frame(e, e->graph->function_results.items + function->first_result, function->num_results, ref);
+        push_frame(e, e->graph->function_results.items + function->first_result,
+                   function->num_results, ref);
         return;
     }
     struct ir_value value;
@@ -174,8 +179,8 @@ static void step(struct evaluator *e)
         frame->places[ref] = store(e, &value);
 }
 
-bool ir_eval(const struct ir_graph *graph, ir_ref root, const struct ir_eval_env *env, struct arena *scratch,
-             struct ir_value *out)
+bool ir_eval(const struct ir_graph *graph, ir_ref root, const struct ir_eval_env *env,
+             struct arena *scratch, struct ir_value *out)
 {
     struct evaluator e = {.graph = graph, .env = env, .scratch = scratch};
     vec_push(scratch, &e.words, (union ir_word){.u = 0});

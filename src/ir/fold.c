@@ -2,8 +2,9 @@
 /*
  * fold: the arithmetic of constants.
  *
- * Componentwise ops are one kernel per op and scalar type (kernels.def), applied to each component with scalars
- * spread. Ops over whole vectors, and those that build and take apart, are a function each.
+ * Componentwise ops are one kernel per op and scalar type (kernels.def), applied to each component
+ * with scalars spread. Ops over whole vectors, and those that build and take apart, are a function
+ * each.
  */
 #include "ir/internal.h"
 
@@ -87,7 +88,8 @@ static ir_type_id scalar_of(const struct ir_value *value)
     return ir_type_info(value->type)->scalar;
 }
 
-static bool eval_components(enum ir_op op, const struct ir_value *args, unsigned num_args, struct ir_value *out)
+static bool eval_components(enum ir_op op, const struct ir_value *args, unsigned num_args,
+                            struct ir_value *out)
 {
     ir_type_id scalar = scalar_of(&args[0]);
     if (scalar < IR_TYPE_BOOL || scalar > IR_TYPE_FLOAT || num_args > 3)
@@ -183,12 +185,14 @@ static bool eval_refract(const struct ir_value *args, struct ir_value *out)
     float eta = args[2].w[0].f, cosine = dot(args[1].w, args[0].w, n);
     float k = 1.0f - eta * eta * (1.0f - cosine * cosine);
     for (unsigned i = 0; i < n; i++)
-        out->w[i].f = k < 0.0f ? 0.0f : eta * args[0].w[i].f - (eta * cosine + sqrtf(k)) * args[1].w[i].f;
+        out->w[i].f =
+            k < 0.0f ? 0.0f : eta * args[0].w[i].f - (eta * cosine + sqrtf(k)) * args[1].w[i].f;
     return true;
 }
 
 /*
- * matrix·matrix, matrix·vector (a column) and vector·matrix (a row): result[c][r] = Σ a[k][r] · b[c][k].
+ * matrix·matrix, matrix·vector (a column) and vector·matrix (a row): result[c][r] = Σ a[k][r] ·
+ * b[c][k].
  */
 static bool eval_linear_mul(const struct ir_value *args, struct ir_value *out)
 {
@@ -215,8 +219,8 @@ static bool eval_transpose(const struct ir_value *args, struct ir_value *out)
 }
 
 /*
- * Gauss-Jordan elimination with row pivots, in double: the determinant of the n×n matrix m, which becomes singular (0)
- * where no pivot is left; otherwise `inverse` receives its inverse.
+ * Gauss-Jordan elimination with row pivots, in double: the determinant of the n×n matrix m, which
+ * becomes singular (0) where no pivot is left; otherwise `inverse` receives its inverse.
  */
 static double invert(double m[16], double inverse[16], unsigned n)
 {
@@ -250,7 +254,8 @@ static double invert(double m[16], double inverse[16], unsigned n)
 }
 
 /*
- * The inverse of the transpose is the transpose of the inverse, so that columns may be taken for rows.
+ * The inverse of the transpose is the transpose of the inverse, so that columns may be taken for
+ * rows.
  */
 static double invert_value(const struct ir_value *value, double inverse[16])
 {
@@ -343,12 +348,8 @@ static bool convert_word(ir_type_id from, ir_type_id to, union ir_word w, union 
         return true;
     }
     switch (to) {
-    case IR_TYPE_BOOL:
-        out->u = from == IR_TYPE_FLOAT ? w.f != 0.0f : w.u != 0;
-        return true;
-    case IR_TYPE_FLOAT:
-        out->f = from == IR_TYPE_INT ? (float)w.i : (float)w.u;
-        return true;
+    case IR_TYPE_BOOL: out->u = from == IR_TYPE_FLOAT ? w.f != 0.0f : w.u != 0; return true;
+    case IR_TYPE_FLOAT: out->f = from == IR_TYPE_INT ? (float)w.i : (float)w.u; return true;
     case IR_TYPE_INT:
         if (!(w.f >= -0x1p31f && w.f < 0x1p31f))
             return false;
@@ -359,8 +360,7 @@ static bool convert_word(ir_type_id from, ir_type_id to, union ir_word w, union 
             return false;
         out->u = (uint32_t)w.f;
         return true;
-    default:
-        return false;
+    default: return false;
     }
 }
 
@@ -440,21 +440,17 @@ static bool is_value_type(ir_type_id type)
     return type < IR_NUM_TYPES && ir_type_info(type)->components > 0;
 }
 
-bool ir_eval_op(enum ir_op op, ir_type_id type, uint32_t attr, const struct ir_value *args, unsigned num_args,
-                struct ir_value *out)
+bool ir_eval_op(enum ir_op op, ir_type_id type, uint32_t attr, const struct ir_value *args,
+                unsigned num_args, struct ir_value *out)
 {
     if (!(ir_op_info(op)->flags & OP_PURE) || num_args == 0 || !is_value_type(type))
         return false;
     out->type = type;
     switch (op) {
-    case IR_CONSTRUCT:
-        return eval_construct(args, num_args, out);
-    case IR_CONVERT:
-        return eval_convert(&args[0], out);
-    case IR_SWIZZLE:
-        return eval_swizzle(&args[0], attr, out);
-    case IR_INDEX:
-        return eval_index(args, out);
+    case IR_CONSTRUCT: return eval_construct(args, num_args, out);
+    case IR_CONVERT: return eval_convert(&args[0], out);
+    case IR_SWIZZLE: return eval_swizzle(&args[0], attr, out);
+    case IR_INDEX: return eval_index(args, out);
     case IR_MUL:
         if (ir_is_linear_mul(args[0].type, args[1].type))
             return eval_linear_mul(args, out);

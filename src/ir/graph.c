@@ -13,7 +13,7 @@ enum { FIRST_SLOTS = 1024, FIRST_NODES = FIRST_SLOTS / 4 * 3 };
 struct content {
     enum ir_op op;
     ir_type_id type;
-    uint32_t attr;        /* 0 for a constant, whose attr is a place */
+    uint32_t attr; /* 0 for a constant, whose attr is a place */
     uint32_t count;
     const uint32_t *data; /* the operands, or the words of a constant */
 };
@@ -128,13 +128,16 @@ static bool is_bounded(const struct ir_graph *graph, ir_ref ref, bool is_divisor
 
 /* What an op is by itself; PARTIAL ops are so unless their operand is bounded. */
 static const uint8_t flags_of_ops[IR_NUM_OPS] = {
-    [IR_CONTEXT] = IR_NODE_LOOP, [IR_SAMPLE] = IR_NODE_LOOP,
-    [IR_DFDX] = IR_NODE_DERIVATIVE, [IR_DFDY] = IR_NODE_DERIVATIVE, [IR_FWIDTH] = IR_NODE_DERIVATIVE,
-    [IR_TEX] = IR_NODE_DERIVATIVE | IR_NODE_DEAR,
-    [IR_TEX_LOD] = IR_NODE_DEAR, [IR_TEX_GRAD] = IR_NODE_DEAR, [IR_TEX_FETCH] = IR_NODE_DEAR,
-    [IR_CALL] = IR_NODE_DEAR, [IR_VERBATIM] = IR_NODE_DEAR, [IR_GRAPH_CALL] = IR_NODE_DEAR,
-    [IR_DIV] = IR_NODE_PARTIAL, [IR_MOD] = IR_NODE_PARTIAL, [IR_POW] = IR_NODE_PARTIAL, [IR_SQRT] = IR_NODE_PARTIAL,
-    [IR_RSQRT] = IR_NODE_PARTIAL, [IR_LOG] = IR_NODE_PARTIAL, [IR_LOG2] = IR_NODE_PARTIAL, [IR_ASIN] = IR_NODE_PARTIAL,
+    [IR_CONTEXT] = IR_NODE_LOOP,      [IR_SAMPLE] = IR_NODE_LOOP,
+    [IR_DFDX] = IR_NODE_DERIVATIVE,   [IR_DFDY] = IR_NODE_DERIVATIVE,
+    [IR_FWIDTH] = IR_NODE_DERIVATIVE, [IR_TEX] = IR_NODE_DERIVATIVE | IR_NODE_DEAR,
+    [IR_TEX_LOD] = IR_NODE_DEAR,      [IR_TEX_GRAD] = IR_NODE_DEAR,
+    [IR_TEX_FETCH] = IR_NODE_DEAR,    [IR_CALL] = IR_NODE_DEAR,
+    [IR_VERBATIM] = IR_NODE_DEAR,     [IR_GRAPH_CALL] = IR_NODE_DEAR,
+    [IR_DIV] = IR_NODE_PARTIAL,       [IR_MOD] = IR_NODE_PARTIAL,
+    [IR_POW] = IR_NODE_PARTIAL,       [IR_SQRT] = IR_NODE_PARTIAL,
+    [IR_RSQRT] = IR_NODE_PARTIAL,     [IR_LOG] = IR_NODE_PARTIAL,
+    [IR_LOG2] = IR_NODE_PARTIAL,      [IR_ASIN] = IR_NODE_PARTIAL,
     [IR_ACOS] = IR_NODE_PARTIAL,
 };
 
@@ -155,14 +158,16 @@ static unsigned own_flags(const struct ir_graph *graph, struct content c)
 }
 
 /*
- * Copies the operands to graph->args and returns their flags; they may lie there already, so that growing would move them.
+ * Copies the operands to graph->args and returns their flags; they may lie there already, so that
+ * growing would move them.
  */
 static unsigned push_args(struct ir_graph *graph, const ir_ref *args, uint32_t num_args)
 {
     uint32_t len = graph->args.len;
     uintptr_t offset = (uintptr_t)args - (uintptr_t)graph->args.items;
     vec_reserve(graph->arena, &graph->args, num_args);
-    const ir_ref *from = offset < len * sizeof *args ? graph->args.items + offset / sizeof *args : args;
+    const ir_ref *from =
+        offset < len * sizeof *args ? graph->args.items + offset / sizeof *args : args;
     ir_ref *to = graph->args.items + len;
     const struct ir_node *nodes = graph->nodes.items;
     unsigned flags = 0;
@@ -199,8 +204,8 @@ static inline ir_ref add(struct ir_graph *graph, struct ir_node node, uint32_t *
     return ref;
 }
 
-ir_ref ir_intern(struct ir_graph *graph, enum ir_op op, ir_type_id type, uint32_t attr, const ir_ref *args,
-                 unsigned num_args)
+ir_ref ir_intern(struct ir_graph *graph, enum ir_op op, ir_type_id type, uint32_t attr,
+                 const ir_ref *args, unsigned num_args)
 {
     assert(op != IR_CONST);
     struct content c = {op, type, attr, num_args, args};
@@ -209,7 +214,11 @@ ir_ref ir_intern(struct ir_graph *graph, enum ir_op op, ir_type_id type, uint32_
         return *slot;
     if (!has_room(graph, op))
         return ir_poison(graph, type);
-    struct ir_node node = {.op = (uint8_t)op, .type = type, .attr = attr, .origin = graph->origin, .num_args = num_args,
+    struct ir_node node = {.op = (uint8_t)op,
+                           .type = type,
+                           .attr = attr,
+                           .origin = graph->origin,
+                           .num_args = num_args,
                            .first_arg = graph->args.len};
     node.flags = (uint8_t)(own_flags(graph, c) | push_args(graph, args, num_args));
     return add(graph, node, slot);
@@ -223,7 +232,8 @@ ir_ref ir_intern_const(struct ir_graph *graph, ir_type_id type, const union ir_w
         return *slot;
     if (!has_room(graph, IR_CONST))
         return ir_poison(graph, type);
-    struct ir_node node = {.op = IR_CONST, .type = type, .attr = graph->words.len, .origin = graph->origin};
+    struct ir_node node = {
+        .op = IR_CONST, .type = type, .attr = graph->words.len, .origin = graph->origin};
     push_words(graph, c.data, c.count);
     return add(graph, node, slot);
 }
@@ -238,7 +248,8 @@ uint32_t ir_add_origin(struct ir_graph *graph, str_id name, uint32_t element, ui
 static uint32_t find_callee_slot(const struct ir_graph *graph, uint64_t id)
 {
     uint32_t slot = hash_pair((uint32_t)(id >> 32), (uint32_t)id) & graph->callee_mask;
-    while (graph->callee_table[slot] && graph->callees.items[graph->callee_table[slot] - 1].id != id)
+    while (graph->callee_table[slot]
+           && graph->callees.items[graph->callee_table[slot] - 1].id != id)
         slot = (slot + 1) & graph->callee_mask;
     return slot;
 }
@@ -280,7 +291,8 @@ static bool same_members(const struct ir_member *a, const struct ir_member *b, u
     return true;
 }
 
-uint32_t ir_add_struct(struct ir_graph *graph, str_id name, const struct ir_member *members, unsigned num_members)
+uint32_t ir_add_struct(struct ir_graph *graph, str_id name, const struct ir_member *members,
+                       unsigned num_members)
 {
     assert(num_members > 0 && num_members <= UINT16_MAX);
     for (uint32_t i = 0; i < graph->user_types.len; i++) {
@@ -290,26 +302,32 @@ uint32_t ir_add_struct(struct ir_graph *graph, str_id name, const struct ir_memb
             return IR_TYPE_FIRST_USER + i;
     }
     uint32_t first = graph->members.len;
-    memcpy(vec_extend(graph->arena, &graph->members, num_members), members, num_members * sizeof *members);
-    return add_user_type(graph, (struct ir_user_type){
-                                    .name = name, .num_members = (uint16_t)num_members, .first_member = first});
+    memcpy(vec_extend(graph->arena, &graph->members, num_members), members,
+           num_members * sizeof *members);
+    return add_user_type(graph, (struct ir_user_type){.name = name,
+                                                      .num_members = (uint16_t)num_members,
+                                                      .first_member = first});
 }
 
 uint32_t ir_add_array(struct ir_graph *graph, ir_type_id element, uint32_t length)
 {
     assert(length > 0);
     for (uint32_t i = 0; i < graph->user_types.len; i++)
-        if (graph->user_types.items[i].array_length == length && graph->user_types.items[i].element == element)
+        if (graph->user_types.items[i].array_length == length
+            && graph->user_types.items[i].element == element)
             return IR_TYPE_FIRST_USER + i;
     return add_user_type(graph, (struct ir_user_type){.element = element, .array_length = length});
 }
 
-uint32_t ir_add_function(struct ir_graph *graph, str_id name, const ir_type_id *param_types, unsigned num_params)
+uint32_t ir_add_function(struct ir_graph *graph, str_id name, const ir_type_id *param_types,
+                         unsigned num_params)
 {
     assert(graph->functions.len < 1u << 16 && num_params < 1u << 16);
-    struct ir_function function = {.name = name, .num_params = num_params, .first_param_type = graph->param_types.len};
+    struct ir_function function = {
+        .name = name, .num_params = num_params, .first_param_type = graph->param_types.len};
     if (num_params)
-        memcpy(vec_extend(graph->arena, &graph->param_types, num_params), param_types, num_params * sizeof *param_types);
+        memcpy(vec_extend(graph->arena, &graph->param_types, num_params), param_types,
+               num_params * sizeof *param_types);
     vec_push(graph->arena, &graph->functions, function);
     return graph->functions.len - 1;
 }
@@ -322,11 +340,13 @@ ir_ref ir_param(struct ir_graph *graph, uint32_t function, unsigned index)
     return ir_intern(graph, IR_PARAM, type, function << 16 | index, NULL, 0);
 }
 
-void ir_set_results(struct ir_graph *graph, uint32_t function, const ir_ref *results, unsigned num_results)
+void ir_set_results(struct ir_graph *graph, uint32_t function, const ir_ref *results,
+                    unsigned num_results)
 {
     struct ir_function *f = &graph->functions.items[function];
     assert(f->num_results == 0 && num_results > 0);
     f->num_results = num_results;
     f->first_result = graph->function_results.len;
-    memcpy(vec_extend(graph->arena, &graph->function_results, num_results), results, num_results * sizeof *results);
+    memcpy(vec_extend(graph->arena, &graph->function_results, num_results), results,
+           num_results * sizeof *results);
 }

@@ -2,8 +2,9 @@
 /*
  * The IR: an append-only, hash-consed, topologically ordered graph (docs/ir.md).
  *
- * A node's operands have smaller indices than the node; identical nodes are one node; the builder folds. So topological
- * order is array order, common subexpressions are shared by construction, and nothing recurses. ir_check verifies it.
+ * A node's operands have smaller indices than the node; identical nodes are one node; the builder
+ * folds. So topological order is array order, common subexpressions are shared by construction, and
+ * nothing recurses. ir_check verifies it.
  */
 #ifndef MXG_IR_IR_H
 #define MXG_IR_IR_H
@@ -22,7 +23,8 @@ enum ir_type {
 #undef IR_TYPE
     IR_NUM_TYPES,
     /*
-     * From here on: structs and arrays of one graph or function unit, IR_TYPE_FIRST_USER + index in its ir_user_types.
+     * From here on: structs and arrays of one graph or function unit, IR_TYPE_FIRST_USER + index in
+     * its ir_user_types.
      */
     IR_TYPE_FIRST_USER = 64
 };
@@ -39,13 +41,19 @@ static inline const struct ir_type_info *ir_type_info(ir_type_id type) /* of a b
     return &ir_types[type];
 }
 const char *ir_type_text(ir_type_id type);
-static inline bool ir_type_is_closure(ir_type_id type) { return type >= IR_TYPE_BSDF && type <= IR_TYPE_VDF; }
+static inline bool ir_type_is_closure(ir_type_id type)
+{
+    return type >= IR_TYPE_BSDF && type <= IR_TYPE_VDF;
+}
 /* surface, volume, displacement, light shaders and material */
 static inline bool ir_type_is_shader(ir_type_id type)
 {
     return type >= IR_TYPE_SURFACE && type <= IR_TYPE_MATERIAL;
 }
-static inline bool ir_type_is_matrix(ir_type_id type) { return type >= IR_TYPE_MAT2 && type <= IR_TYPE_MAT4; }
+static inline bool ir_type_is_matrix(ir_type_id type)
+{
+    return type >= IR_TYPE_MAT2 && type <= IR_TYPE_MAT4;
+}
 static inline bool ir_type_is_float(ir_type_id type) /* float, vector or matrix of float */
 {
     return type == IR_TYPE_FLOAT || (type >= IR_TYPE_VEC2 && type <= IR_TYPE_MAT4);
@@ -68,7 +76,8 @@ struct ir_user_type {
 };
 
 /*
- * values.c, fold.c: constants and their arithmetic, shared by the builder and by the language's evaluator
+ * values.c, fold.c: constants and their arithmetic, shared by the builder and by the language's
+ * evaluator
  */
 
 union ir_word {
@@ -95,18 +104,27 @@ enum ir_op {
 };
 
 enum ir_op_flags {
-    OP_PURE = 1,        /* no effect, no hidden input: may be folded */
+    OP_PURE = 1, /* no effect, no hidden input: may be folded */
     OP_COMMUTES = 2,
-    OP_DERIVATIVE = 4,  /* needs its neighbours: must stay in uniform control flow */
-    OP_BUILTIN = 8,     /* a function of the portable language, called by its text */
-    OP_OPERATOR = 16,   /* syntax of the portable language */
-    OP_SIGNED = 32,     /* also over int and its vectors */
-    OP_UNSIGNED = 64,   /* also over uint */
-    OP_MATRIX = 128,    /* over matrices only */
+    OP_DERIVATIVE = 4, /* needs its neighbours: must stay in uniform control flow */
+    OP_BUILTIN = 8,    /* a function of the portable language, called by its text */
+    OP_OPERATOR = 16,  /* syntax of the portable language */
+    OP_SIGNED = 32,    /* also over int and its vectors */
+    OP_UNSIGNED = 64,  /* also over uint */
+    OP_MATRIX = 128,   /* over matrices only */
 };
 
-enum ir_rule { IR_RULE_NONE, IR_RULE_SAME, IR_RULE_ARITH, IR_RULE_SPLAT, IR_RULE_REDUCE, IR_RULE_COMPARE, IR_RULE_LOGIC,
-               IR_RULE_INTEGER, IR_RULE_SELECT };
+enum ir_rule {
+    IR_RULE_NONE,
+    IR_RULE_SAME,
+    IR_RULE_ARITH,
+    IR_RULE_SPLAT,
+    IR_RULE_REDUCE,
+    IR_RULE_COMPARE,
+    IR_RULE_LOGIC,
+    IR_RULE_INTEGER,
+    IR_RULE_SELECT
+};
 
 struct ir_op_info {
     const char *text;
@@ -124,18 +142,19 @@ static inline const struct ir_op_info *ir_op_info(enum ir_op op)
 }
 
 /*
- * The result type of an op over built-in operand types by its rule; VOID where they do not fit or where the rule is NONE
- * and the op is not a built-in function (TEX gives VEC4, STEP the type of x, …).
+ * The result type of an op over built-in operand types by its rule; VOID where they do not fit or
+ * where the rule is NONE and the op is not a built-in function (TEX gives VEC4, STEP the type of x,
+ * …).
  */
 ir_type_id ir_op_result(enum ir_op op, const ir_type_id *args, unsigned num_args);
 
 /*
- * Computes a pure op over constants in float32, with the semantics of GLSL 4.50; false where the result is undefined
- * (integer division by zero, a shift out of range, the logarithm of 0) or the op is not computable. `attr` as in ir_node;
- * `type` the result's. `out` must not be one of `args`.
+ * Computes a pure op over constants in float32, with the semantics of GLSL 4.50; false where the
+ * result is undefined (integer division by zero, a shift out of range, the logarithm of 0) or the
+ * op is not computable. `attr` as in ir_node; `type` the result's. `out` must not be one of `args`.
  */
-bool ir_eval_op(enum ir_op op, ir_type_id type, uint32_t attr, const struct ir_value *args, unsigned num_args,
-                struct ir_value *out);
+bool ir_eval_op(enum ir_op op, ir_type_id type, uint32_t attr, const struct ir_value *args,
+                unsigned num_args, struct ir_value *out);
 
 /* graph.c */
 
@@ -143,12 +162,12 @@ typedef uint32_t ir_ref; /* index of a node; 0 = none */
 
 struct ir_node {
     uint8_t op;
-    uint8_t flags;      /* enum ir_node_flags */
+    uint8_t flags; /* enum ir_node_flags */
     ir_type_id type;
     uint32_t num_args;
     uint32_t first_arg; /* in graph->args */
     uint32_t attr;
-    uint32_t origin;    /* what the node was built for: index in graph->origins; 0 = nothing */
+    uint32_t origin; /* what the node was built for: index in graph->origins; 0 = nothing */
 };
 
 enum ir_node_flags {
@@ -156,7 +175,7 @@ enum ir_node_flags {
     IR_NODE_CLOSURE = 2,    /* closure or shader type */
     /* it or an operand is CONTEXT or SAMPLE: it has a value inside of their loop only */
     IR_NODE_LOOP = 4,
-    IR_NODE_DEAR = 8,       /* it or an operand is a call or reads a texture */
+    IR_NODE_DEAR = 8, /* it or an operand is a call or reads a texture */
     /* it or an operand may be undefined where its own operands are not: a quotient, a root */
     IR_NODE_PARTIAL = 16,
     /* from operands */
@@ -164,7 +183,8 @@ enum ir_node_flags {
 };
 
 /*
- * Where a node comes from: for names, comments and diagnostics. The IR carries it and does not look inside.
+ * Where a node comes from: for names, comments and diagnostics. The IR carries it and does not look
+ * inside.
  */
 struct ir_origin {
     str_id name;      /* a readable name for a local variable: "metal_ior" */
@@ -173,7 +193,8 @@ struct ir_origin {
 };
 
 /*
- * A callee of CALL, VERBATIM or LEAF nodes. `id` is the owner's (a function id, a family id…): equal ids are equal callees.
+ * A callee of CALL, VERBATIM or LEAF nodes. `id` is the owner's (a function id, a family id…):
+ * equal ids are equal callees.
  */
 struct ir_callee {
     uint64_t id;
@@ -183,8 +204,9 @@ struct ir_callee {
 };
 
 /*
- * A function made of IR: a graph used often. Its body is what its results reach; its parameters are PARAM nodes. It is
- * called only after its results are set, so that the body stands before the calls.
+ * A function made of IR: a graph used often. Its body is what its results reach; its parameters are
+ * PARAM nodes. It is called only after its results are set, so that the body stands before the
+ * calls.
  */
 struct ir_function {
     str_id name;
@@ -194,7 +216,7 @@ struct ir_function {
 
 struct ir_graph {
     struct arena *arena;
-    struct strpool *strings; /* may be NULL where no strings are built */
+    struct strpool *strings;   /* may be NULL where no strings are built */
     VEC(struct ir_node) nodes; /* [0] is unused */
     VEC(ir_ref) args;          /* [0] is unused */
     /* [0] is unused; constant pool: as many as the type has components */
@@ -210,38 +232,52 @@ struct ir_graph {
     uint32_t table_mask;
     uint32_t *callee_table; /* the same over callee indices + 1 */
     uint32_t callee_mask;
-    uint32_t origin;   /* given to new nodes */
+    uint32_t origin;    /* given to new nodes */
     uint32_t max_nodes; /* 0 = unlimited; beyond it ->overflow is set and POISON returned */
     bool overflow;
-    bool exact;        /* apply only rules that hold for every input, infinities and NaN included */
-    bool no_fold;      /* build exactly what is asked for: for tests */
+    bool exact;   /* apply only rules that hold for every input, infinities and NaN included */
+    bool no_fold; /* build exactly what is asked for: for tests */
 };
 
 void ir_graph_init(struct ir_graph *graph, struct arena *arena, struct strpool *strings);
 
-static inline const struct ir_node *ir_get(const struct ir_graph *graph, ir_ref ref) { return &graph->nodes.items[ref]; }
+static inline const struct ir_node *ir_get(const struct ir_graph *graph, ir_ref ref)
+{
+    return &graph->nodes.items[ref];
+}
 static inline const ir_ref *ir_args(const struct ir_graph *graph, ir_ref ref)
 {
     return graph->args.items + graph->nodes.items[ref].first_arg;
 }
-static inline ir_ref ir_arg(const struct ir_graph *graph, ir_ref ref, unsigned i) { return ir_args(graph, ref)[i]; }
-static inline ir_type_id ir_type_of(const struct ir_graph *graph, ir_ref ref) { return graph->nodes.items[ref].type; }
+static inline ir_ref ir_arg(const struct ir_graph *graph, ir_ref ref, unsigned i)
+{
+    return ir_args(graph, ref)[i];
+}
+static inline ir_type_id ir_type_of(const struct ir_graph *graph, ir_ref ref)
+{
+    return graph->nodes.items[ref].type;
+}
 
 /*
- * build.c: the only way to make nodes. Folds, canonicalises commutative operands, applies rules.def, hash-conses.
+ * build.c: the only way to make nodes. Folds, canonicalises commutative operands, applies
+ * rules.def, hash-conses.
  */
 
 /*
- * Any op with its result type given. Operands must exist and fit; asserts otherwise. They may lie in the graph itself.
- * Pure ops over POISON are POISON. A constant result that is not a finite number is not folded: no target can spell it.
+ * Any op with its result type given. Operands must exist and fit; asserts otherwise. They may lie
+ * in the graph itself. Pure ops over POISON are POISON. A constant result that is not a finite
+ * number is not folded: no target can spell it.
  */
-ir_ref ir_build(struct ir_graph *graph, enum ir_op op, ir_type_id type, uint32_t attr, const ir_ref *args, unsigned num_args);
+ir_ref ir_build(struct ir_graph *graph, enum ir_op op, ir_type_id type, uint32_t attr,
+                const ir_ref *args, unsigned num_args);
 
 /*
- * The same for a node that ir_build has made before over other nodes of which it saw the same: it puts operands that commute in order and
- * adds the node. What it sees of an operand is its op, and the operands behind it of these: constants, and what is looked through.
+ * The same for a node that ir_build has made before over other nodes of which it saw the same: it
+ * puts operands that commute in order and adds the node. What it sees of an operand is its op, and
+ * the operands behind it of these: constants, and what is looked through.
  */
-ir_ref ir_restore(struct ir_graph *graph, enum ir_op op, ir_type_id type, uint32_t attr, ir_ref *args, unsigned num_args);
+ir_ref ir_restore(struct ir_graph *graph, enum ir_op op, ir_type_id type, uint32_t attr,
+                  ir_ref *args, unsigned num_args);
 bool ir_is_looked_through(enum ir_op op);
 
 /* An op whose rule gives the type; 0 where the operands do not fit. */
@@ -265,14 +301,15 @@ ir_ref ir_component(struct ir_graph *graph, ir_ref a, unsigned index);
 /* Parts of another scalar type are converted; 0 where the parts do not make the type. */
 ir_ref ir_construct(struct ir_graph *graph, ir_type_id type, const ir_ref *args, unsigned num_args);
 /*
- * Between scalars or vectors of equal size, a scalar to any vector (and a matrix's diagonal), a vector to a smaller one,
- * between matrices; 0 where there is no conversion.
+ * Between scalars or vectors of equal size, a scalar to any vector (and a matrix's diagonal), a
+ * vector to a smaller one, between matrices; 0 where there is no conversion.
  */
 ir_ref ir_convert(struct ir_graph *graph, ir_type_id type, ir_ref a);
 
 bool ir_is_const(const struct ir_graph *graph, ir_ref ref);
 /*
- * The components of a constant of a built-in type, until the next node is built; NULL for anything else.
+ * The components of a constant of a built-in type, until the next node is built; NULL for anything
+ * else.
  */
 static inline const union ir_word *ir_constant_words(const struct ir_graph *graph, ir_ref ref)
 {
@@ -286,38 +323,47 @@ bool ir_const_is(const struct ir_graph *graph, ir_ref ref, float f); /* all comp
 uint32_t ir_add_origin(struct ir_graph *graph, str_id name, uint32_t element, uint32_t parent);
 /* the same index for the same id */
 uint32_t ir_add_callee(struct ir_graph *graph, struct ir_callee callee);
-uint32_t ir_add_struct(struct ir_graph *graph, str_id name, const struct ir_member *members, unsigned num_members);
+uint32_t ir_add_struct(struct ir_graph *graph, str_id name, const struct ir_member *members,
+                       unsigned num_members);
 /* both return a type id */
 uint32_t ir_add_array(struct ir_graph *graph, ir_type_id element, uint32_t length);
 /* A new IR function; its results are set when its body stands. */
-uint32_t ir_add_function(struct ir_graph *graph, str_id name, const ir_type_id *param_types, unsigned num_params);
+uint32_t ir_add_function(struct ir_graph *graph, str_id name, const ir_type_id *param_types,
+                         unsigned num_params);
 ir_ref ir_param(struct ir_graph *graph, uint32_t function, unsigned index);
-void ir_set_results(struct ir_graph *graph, uint32_t function, const ir_ref *results, unsigned num_results);
+void ir_set_results(struct ir_graph *graph, uint32_t function, const ir_ref *results,
+                    unsigned num_results);
 
 /*
- * mark.c: which nodes the roots need. Returns one byte per node: 0 or 1; bodies of called IR functions included.
+ * mark.c: which nodes the roots need. Returns one byte per node: 0 or 1; bodies of called IR
+ * functions included.
  */
-uint8_t *ir_mark(const struct ir_graph *graph, const ir_ref *roots, uint32_t num_roots, struct arena *arena);
+uint8_t *ir_mark(const struct ir_graph *graph, const ir_ref *roots, uint32_t num_roots,
+                 struct arena *arena);
 /*
- * How often each marked node is used as an operand of marked nodes (and as a root), saturating at 255.
+ * How often each marked node is used as an operand of marked nodes (and as a root), saturating at
+ * 255.
  */
-uint8_t *ir_count_uses(const struct ir_graph *graph, const uint8_t *marked, const ir_ref *roots, uint32_t num_roots,
-                       struct arena *arena);
+uint8_t *ir_count_uses(const struct ir_graph *graph, const uint8_t *marked, const ir_ref *roots,
+                       uint32_t num_roots, struct arena *arena);
 
 /*
- * replace.c: the node `root` over `to` where it was over `from`, in IR functions, too; what does not change is not copied.
+ * replace.c: the node `root` over `to` where it was over `from`, in IR functions, too; what does
+ * not change is not copied.
  */
 ir_ref ir_replace(struct ir_graph *graph, ir_ref root, ir_ref from, ir_ref to, struct arena *arena);
 
 /* print.c, parse.c: the text form (docs/ir.md); what is printed parses back to an equal graph. */
 
-void ir_print(const struct ir_graph *graph, const ir_ref *roots, uint32_t num_roots, struct text *out);
+void ir_print(const struct ir_graph *graph, const ir_ref *roots, uint32_t num_roots,
+              struct text *out);
 /* NULL, or why the text is not IR, with *out_line counted from 1. Roots named by "return" lines. */
-const char *ir_parse(struct ir_graph *graph, const char *text, size_t len, ir_ref **out_roots, uint32_t *out_num_roots,
-                     uint32_t *out_line);
+const char *ir_parse(struct ir_graph *graph, const char *text, size_t len, ir_ref **out_roots,
+                     uint32_t *out_num_roots, uint32_t *out_line);
 
 /*
- * check.c: NULL, or the first violated invariant, with the node's index. For tests and debug builds.
+ * check.c: NULL, or the first violated invariant, with the node's index. For tests and debug
+ * builds.
  */
 const char *ir_check(const struct ir_graph *graph, ir_ref *out_node);
 
@@ -326,13 +372,14 @@ const char *ir_check(const struct ir_graph *graph, ir_ref *out_node);
 struct ir_eval_env {
     void *user_data;
     /*
-     * The value of a source (UNIFORM, STREAM, PARAM, LOCAL, CONTEXT) or of a CALL's result; false: unknown.
+     * The value of a source (UNIFORM, STREAM, PARAM, LOCAL, CONTEXT) or of a CALL's result; false:
+     * unknown.
      */
     bool (*source)(void *user_data, const struct ir_graph *graph, ir_ref ref, struct ir_value *out);
-    bool (*call)(void *user_data, const struct ir_graph *graph, ir_ref call, const struct ir_value *args, uint32_t result,
-                 struct ir_value *out);
+    bool (*call)(void *user_data, const struct ir_graph *graph, ir_ref call,
+                 const struct ir_value *args, uint32_t result, struct ir_value *out);
 };
-bool ir_eval(const struct ir_graph *graph, ir_ref root, const struct ir_eval_env *env, struct arena *scratch,
-             struct ir_value *out);
+bool ir_eval(const struct ir_graph *graph, ir_ref root, const struct ir_eval_env *env,
+             struct arena *scratch, struct ir_value *out);
 
 #endif

@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * mark: what the roots need. Operands are older than their users, so one walk from the newest node to the oldest does.
+ * mark: what the roots need. Operands are older than their users, so one walk from the newest node
+ * to the oldest does.
  */
 #include "ir/ir.h"
 
-static void mark_results(const struct ir_graph *graph, const struct ir_function *function, uint8_t *marked)
+static void mark_results(const struct ir_graph *graph, const struct ir_function *function,
+                         uint8_t *marked)
 {
     for (uint32_t i = 0; i < function->num_results; i++)
         marked[graph->function_results.items[function->first_result + i]] = 1;
 }
 
-uint8_t *ir_mark(const struct ir_graph *graph, const ir_ref *roots, uint32_t num_roots, struct arena *arena)
+uint8_t *ir_mark(const struct ir_graph *graph, const ir_ref *roots, uint32_t num_roots,
+                 struct arena *arena)
 {
     uint8_t *marked = ARENA_ARRAY(arena, uint8_t, graph->nodes.len);
     for (uint32_t i = 0; i < num_roots; i++)
@@ -35,8 +38,8 @@ static void count_all(uint8_t *uses, const ir_ref *refs, uint32_t num_refs)
         uses[refs[i]] = (uint8_t)(uses[refs[i]] + (uses[refs[i]] < UINT8_MAX));
 }
 
-uint8_t *ir_count_uses(const struct ir_graph *graph, const uint8_t *marked, const ir_ref *roots, uint32_t num_roots,
-                       struct arena *arena)
+uint8_t *ir_count_uses(const struct ir_graph *graph, const uint8_t *marked, const ir_ref *roots,
+                       uint32_t num_roots, struct arena *arena)
 {
     uint8_t *uses = ARENA_ARRAY(arena, uint8_t, graph->nodes.len);
     uint8_t *called = ARENA_ARRAY(arena, uint8_t, graph->functions.len);
@@ -48,7 +51,8 @@ uint8_t *ir_count_uses(const struct ir_graph *graph, const uint8_t *marked, cons
         count_all(uses, ir_args(graph, ref), node->num_args);
         if (node->op == IR_GRAPH_CALL && !called[node->attr]) {
             const struct ir_function *function = &graph->functions.items[node->attr];
-            count_all(uses, graph->function_results.items + function->first_result, function->num_results);
+            count_all(uses, graph->function_results.items + function->first_result,
+                      function->num_results);
             called[node->attr] = 1;
         }
     }

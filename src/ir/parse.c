@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * parse: the text form of a graph (docs/ir.md). One statement per line. Nodes are made by the builder, so the text is
- * folded as anything else, unless graph->no_fold is set.
+ * parse: the text form of a graph (docs/ir.md). One statement per line. Nodes are made by the
+ * builder, so the text is folded as anything else, unless graph->no_fold is set.
  */
 #include "ir/internal.h"
 
@@ -16,7 +16,7 @@ struct parser {
     struct strpool labels;
     VEC(ir_ref) label_refs; /* by id of the label; 0 = not defined */
     VEC(ir_ref) roots;
-    VEC(ir_ref) operands;   /* of the current statement */
+    VEC(ir_ref) operands; /* of the current statement */
 };
 
 static bool fail(struct parser *p, const char *problem)
@@ -124,7 +124,8 @@ static bool read_hex64(struct parser *p, uint64_t *out)
 }
 
 /*
- * The character after a backslash, which is '"', '\' or u00XX, as text_json_string writes. 0 where it is none.
+ * The character after a backslash, which is '"', '\' or u00XX, as text_json_string writes. 0 where
+ * it is none.
  */
 static char read_escape(struct parser *p)
 {
@@ -133,7 +134,8 @@ static char read_escape(struct parser *p)
     char c = *p->at++;
     if (c != 'u')
         return c == '"' || c == '\\' ? c : 0;
-    if (p->end - p->at < 4 || p->at[0] != '0' || p->at[1] != '0' || hex_digit(p->at[2]) < 0 || hex_digit(p->at[3]) < 0)
+    if (p->end - p->at < 4 || p->at[0] != '0' || p->at[1] != '0' || hex_digit(p->at[2]) < 0
+        || hex_digit(p->at[3]) < 0)
         return 0;
     c = (char)(hex_digit(p->at[2]) << 4 | hex_digit(p->at[3]));
     p->at += 4;
@@ -190,7 +192,7 @@ static bool read_float(struct parser *p, union ir_word *out)
     skip_blanks(p);
     if (accept_word(p, "nan"))
         return expect(p, '#', "'#' and the bits were expected after nan") && read_u32(p, &out->u)
-            && (isnan(out->f) || fail(p, "these are not the bits of a NaN"));
+               && (isnan(out->f) || fail(p, "these are not the bits of a NaN"));
     const char *start = p->at;
     bool negative = accept(p, '-');
     if (accept_word(p, "inf")) {
@@ -205,7 +207,8 @@ static bool read_float(struct parser *p, union ir_word *out)
 
 static bool read_integer(struct parser *p, ir_type_id scalar, union ir_word *out)
 {
-    int64_t value, least = scalar == IR_TYPE_INT ? INT32_MIN : 0, most = scalar == IR_TYPE_INT ? INT32_MAX : UINT32_MAX;
+    int64_t value, least = scalar == IR_TYPE_INT ? INT32_MIN : 0,
+                   most = scalar == IR_TYPE_INT ? INT32_MAX : UINT32_MAX;
     skip_blanks(p);
     size_t n = num_parse_int(p->at, (size_t)(p->end - p->at), &value);
     if (n == 0 || value < least || value > most)
@@ -224,22 +227,18 @@ static bool read_bool(struct parser *p, union ir_word *out)
 static bool read_scalar(struct parser *p, ir_type_id scalar, union ir_word *out)
 {
     switch (scalar) {
-    case IR_TYPE_BOOL:
-        return read_bool(p, out);
+    case IR_TYPE_BOOL: return read_bool(p, out);
     case IR_TYPE_INT:
-    case IR_TYPE_UINT:
-        return read_integer(p, scalar, out);
-    case IR_TYPE_STRING:
-        return read_string(p, &out->u);
-    case IR_TYPE_FLOAT:
-        return read_float(p, out);
-    default:
-        return fail(p, "a type without values has no constants");
+    case IR_TYPE_UINT: return read_integer(p, scalar, out);
+    case IR_TYPE_STRING: return read_string(p, &out->u);
+    case IR_TYPE_FLOAT: return read_float(p, out);
+    default: return fail(p, "a type without values has no constants");
     }
 }
 
 /*
- * What kind of number begins here: digits alone are an int, with a 'u' behind a uint, anything else is a float.
+ * What kind of number begins here: digits alone are an int, with a 'u' behind a uint, anything else
+ * is a float.
  */
 static ir_type_id number_type(const struct parser *p)
 {
@@ -274,7 +273,8 @@ static bool read_const(struct parser *p, ir_ref *out)
     }
     const struct ir_type_info *info = ir_type_info(type);
     for (unsigned i = 0; i < info->components; i++)
-        if ((i && !expect(p, ',', "the constant has too few components")) || !read_scalar(p, info->scalar, &words[i]))
+        if ((i && !expect(p, ',', "the constant has too few components"))
+            || !read_scalar(p, info->scalar, &words[i]))
             return false;
     if (has_parts && !expect(p, ')', "the constant has too many components"))
         return false;
@@ -397,10 +397,12 @@ static bool parse_node(struct parser *p)
         return fail(p, "a node of this name stands before");
     if (!read_op(p, &op) || !read_type(p, &type) || !read_attr(p, op, &attr) || !read_operands(p))
         return false;
-    const char *problem = ir_node_problem(p->graph, op, type, attr, p->operands.items, p->operands.len);
+    const char *problem =
+        ir_node_problem(p->graph, op, type, attr, p->operands.items, p->operands.len);
     if (problem)
         return fail(p, problem);
-    p->label_refs.items[index] = ir_build(p->graph, op, type, attr, p->operands.items, p->operands.len);
+    p->label_refs.items[index] =
+        ir_build(p->graph, op, type, attr, p->operands.items, p->operands.len);
     return true;
 }
 
@@ -412,7 +414,8 @@ static bool parse_array(struct parser *p)
         return false;
     if (length == 0)
         return fail(p, "an array has elements");
-    return ir_add_array(p->graph, element, length) == IR_TYPE_FIRST_USER + num_types || fail(p, "the type stands twice");
+    return ir_add_array(p->graph, element, length) == IR_TYPE_FIRST_USER + num_types
+           || fail(p, "the type stands twice");
 }
 
 static bool parse_struct(struct parser *p)
@@ -430,8 +433,9 @@ static bool parse_struct(struct parser *p)
     } while (accept(p, ','));
     if (members.len > UINT16_MAX)
         return fail(p, "the struct has too many members");
-    return ir_add_struct(p->graph, name, members.items, members.len) == IR_TYPE_FIRST_USER + num_types
-        || fail(p, "the type stands twice");
+    return ir_add_struct(p->graph, name, members.items, members.len)
+               == IR_TYPE_FIRST_USER + num_types
+           || fail(p, "the type stands twice");
 }
 
 static bool parse_callee(struct parser *p)
@@ -491,7 +495,7 @@ static bool parse_statement(struct parser *p)
         const char *word;
         bool (*parse)(struct parser *p);
     } statements[] = {
-        {"struct", parse_struct},     {"array", parse_array},   {"callee", parse_callee},
+        {"struct", parse_struct},     {"array", parse_array},     {"callee", parse_callee},
         {"function", parse_function}, {"results", parse_results}, {"return", parse_return},
     };
     if (accept(p, '%'))
@@ -510,8 +514,8 @@ static void skip_comment(struct parser *p)
             p->at++;
 }
 
-const char *ir_parse(struct ir_graph *graph, const char *text, size_t len, ir_ref **out_roots, uint32_t *out_num_roots,
-                     uint32_t *out_line)
+const char *ir_parse(struct ir_graph *graph, const char *text, size_t len, ir_ref **out_roots,
+                     uint32_t *out_num_roots, uint32_t *out_line)
 {
     struct parser p = {.graph = graph, .at = text, .end = text + len};
     strpool_init(&p.labels, graph->arena, NULL);

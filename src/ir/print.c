@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * print: the text form of a graph (docs/ir.md): declarations, then the nodes that the roots need in order.
+ * print: the text form of a graph (docs/ir.md): declarations, then the nodes that the roots need in
+ * order.
  */
 #include "ir/ir.h"
 
@@ -43,21 +44,14 @@ static void print_float(struct printer *p, union ir_word w)
 static void print_word(struct printer *p, ir_type_id scalar, union ir_word w)
 {
     switch (scalar) {
-    case IR_TYPE_BOOL:
-        text_str(p->out, w.u ? "true" : "false");
-        break;
-    case IR_TYPE_INT:
-        text_i32(p->out, w.i);
-        break;
+    case IR_TYPE_BOOL: text_str(p->out, w.u ? "true" : "false"); break;
+    case IR_TYPE_INT: text_i32(p->out, w.i); break;
     case IR_TYPE_UINT:
         text_u32(p->out, w.u);
         text_char(p->out, 'u');
         break;
-    case IR_TYPE_STRING:
-        print_string(p, w.u);
-        break;
-    default:
-        print_float(p, w);
+    case IR_TYPE_STRING: print_string(p, w.u); break;
+    default: print_float(p, w);
     }
 }
 
@@ -129,7 +123,8 @@ static void print_results(struct printer *p, uint32_t index)
     text_str(p->out, "results ");
     text_u32(p->out, index);
     text_str(p->out, " =");
-    print_operands(p, p->graph->function_results.items + function->first_result, function->num_results);
+    print_operands(p, p->graph->function_results.items + function->first_result,
+                   function->num_results);
     text_char(p->out, '\n');
 }
 
@@ -214,7 +209,8 @@ static void print_functions(struct printer *p)
     }
 }
 
-void ir_print(const struct ir_graph *graph, const ir_ref *roots, uint32_t num_roots, struct text *out)
+void ir_print(const struct ir_graph *graph, const ir_ref *roots, uint32_t num_roots,
+              struct text *out)
 {
     struct printer p = {
         .graph = graph,

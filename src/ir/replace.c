@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * A node in the place of another, in all that a root reaches. Where an IR function reads the node, a copy of the function gets it as one
- * more parameter, and whoever calls it passes it on:
+ * A node in the place of another, in all that a root reaches. Where an IR function reads the node,
+ * a copy of the function gets it as one more parameter, and whoever calls it passes it on:
  *
  *     f(x) = x · N,  f(2)    with M for N:    f'(x, n) = x · n,  f'(2, M)
  *
- * A body stands before its calls, so functions in the order of their last result come after those that they call.
+ * A body stands before its calls, so functions in the order of their last result come after those
+ * that they call.
  */
 #include "ir/ir.h"
 
@@ -17,9 +18,9 @@ struct replacement {
     struct ir_graph *graph;
     struct arena *arena;
     ir_ref from, to;
-    uint32_t num_nodes;       /* those that were there */
-    uint8_t *reads;           /* per node: it is over `from` */
-    uint32_t *copied;         /* per function: its copy + 1 */
+    uint32_t num_nodes; /* those that were there */
+    uint8_t *reads;     /* per node: it is over `from` */
+    uint32_t *copied;   /* per function: its copy + 1 */
     uint32_t num_functions;
 };
 
@@ -79,9 +80,11 @@ static uint8_t *mark_operands(const struct replacement *r, const ir_ref *roots, 
 }
 
 /*
- * What the roots reach, over `to`; parameters of `function` become those of `copy`. Returns a ref per old node.
+ * What the roots reach, over `to`; parameters of `function` become those of `copy`. Returns a ref
+ * per old node.
  */
-static ir_ref *copy_over(struct replacement *r, const ir_ref *roots, uint32_t num_roots, uint32_t function, uint32_t copy, ir_ref to)
+static ir_ref *copy_over(struct replacement *r, const ir_ref *roots, uint32_t num_roots,
+                         uint32_t function, uint32_t copy, ir_ref to)
 {
     const uint8_t *needed = mark_operands(r, roots, num_roots);
     ir_ref *copies = ARENA_ARRAY(r->arena, ir_ref, r->num_nodes);
@@ -108,12 +111,15 @@ static void copy_function(struct replacement *r, uint32_t index)
     struct ir_graph *g = r->graph;
     const struct ir_function function = *function_at(r, index);
     ir_type_id *types = ARENA_ARRAY(r->arena, ir_type_id, function.num_params + 1);
-    memcpy(types, g->param_types.items + function.first_param_type, function.num_params * sizeof *types);
+    memcpy(types, g->param_types.items + function.first_param_type,
+           function.num_params * sizeof *types);
     types[function.num_params] = ir_type_of(g, r->from);
     uint32_t copy = ir_add_function(g, function.name, types, function.num_params + 1);
     ir_ref *results = ARENA_ARRAY(r->arena, ir_ref, function.num_results);
-    memcpy(results, g->function_results.items + function.first_result, function.num_results * sizeof *results);
-    const ir_ref *copies = copy_over(r, results, function.num_results, index, copy + 1, ir_param(g, copy, function.num_params));
+    memcpy(results, g->function_results.items + function.first_result,
+           function.num_results * sizeof *results);
+    const ir_ref *copies = copy_over(r, results, function.num_results, index, copy + 1,
+                                     ir_param(g, copy, function.num_params));
     for (uint32_t i = 0; i < function.num_results; i++)
         results[i] = copies[results[i]];
     ir_set_results(g, copy, results, function.num_results);
@@ -156,7 +162,11 @@ static void copy_functions(struct replacement *r, const uint8_t *needed)
 
 ir_ref ir_replace(struct ir_graph *graph, ir_ref root, ir_ref from, ir_ref to, struct arena *arena)
 {
-    struct replacement r = {.graph = graph, .arena = arena, .from = from, .to = to, .num_nodes = graph->nodes.len,
+    struct replacement r = {.graph = graph,
+                            .arena = arena,
+                            .from = from,
+                            .to = to,
+                            .num_nodes = graph->nodes.len,
                             .num_functions = graph->functions.len};
     uint32_t before = graph->origin;
     r.reads = ARENA_ARRAY(arena, uint8_t, r.num_nodes);

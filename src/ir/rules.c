@@ -11,18 +11,31 @@ enum {
 #define OP(ID, text, arity, rule, flags, doc) ID = IR_##ID,
 #include "ir/ops.def"
 #undef OP
-    A = RULE_A, B = RULE_B, C = RULE_C, D = RULE_D, K = RULE_K, ZERO = RULE_ZERO, ONE = RULE_ONE, TWO = RULE_TWO,
-    HALF = RULE_HALF, MINUS_ONE = RULE_MINUS_ONE, IDENTITY = RULE_IDENTITY, TRUE_ = RULE_TRUE, FALSE_ = RULE_FALSE
+    A = RULE_A,
+    B = RULE_B,
+    C = RULE_C,
+    D = RULE_D,
+    K = RULE_K,
+    ZERO = RULE_ZERO,
+    ONE = RULE_ONE,
+    TWO = RULE_TWO,
+    HALF = RULE_HALF,
+    MINUS_ONE = RULE_MINUS_ONE,
+    IDENTITY = RULE_IDENTITY,
+    TRUE_ = RULE_TRUE,
+    FALSE_ = RULE_FALSE
 };
 
 enum { FINITE, EXACT };
 
 /* Also evaluated, and not used, for ops: the shift must be in range. */
-#define CONSTANT_BIT(token) ((uint64_t)1 << ((token) < K ? 0 : IR_OP_BITS + (token) - K))
+#define CONSTANT_BIT(token) ((uint64_t)1 << ((token) < K ? 0 : IR_OP_BITS + (token)-K))
 #define HEAD(token) ((token) < A ? IR_OP_BIT(token) : (token) >= K ? CONSTANT_BIT(token) : 0)
 static_assert(IR_OP_BITS + RULE_FALSE - RULE_K < 63, "the bits do not suffice");
-#define HEADS(root, a, b, c, d, e, f, ...) (HEAD(a) | HEAD(b) | HEAD(c) | HEAD(d) | HEAD(e) | HEAD(f))
-#define NEEDS(...) (HEADS(__VA_ARGS__, A, A, A, A, A, A) ? HEADS(__VA_ARGS__, A, A, A, A, A, A) : IR_EQUAL_BIT)
+#define HEADS(root, a, b, c, d, e, f, ...) \
+    (HEAD(a) | HEAD(b) | HEAD(c) | HEAD(d) | HEAD(e) | HEAD(f))
+#define NEEDS(...) \
+    (HEADS(__VA_ARGS__, A, A, A, A, A, A) ? HEADS(__VA_ARGS__, A, A, A, A, A, A) : IR_EQUAL_BIT)
 
 #define TOKENS(...) __VA_ARGS__, RULE_END
 #define RULE(name, exactness, pattern, replacement) \
@@ -36,7 +49,8 @@ static_assert(IR_OP_BITS + RULE_FALSE - RULE_K < 63, "the bits do not suffice");
 #define RULE(name, exactness, pattern, replacement) | (NEEDS pattern)
 
 const struct rule_list ir_rules[IR_NUM_OPS] = {
-#define RULES(op, ...) [IR_##op] = {rules_of_##op, sizeof rules_of_##op / sizeof *rules_of_##op, 0 __VA_ARGS__},
+#define RULES(op, ...) \
+    [IR_##op] = {rules_of_##op, sizeof rules_of_##op / sizeof *rules_of_##op, 0 __VA_ARGS__},
 #include "ir/rules.def"
 #undef RULES
 };
@@ -62,12 +76,9 @@ static bool has_word(const struct match *m, unsigned token, ir_type_id scalar, u
     case IR_TYPE_FLOAT:
         /* x - -0 is not x: only +0 is exact */
         return w.f == value && (w.u == 0 || value != 0.0f || !m->exact);
-    case IR_TYPE_INT:
-        return (float)w.i == value;
-    case IR_TYPE_UINT:
-        return (float)w.u == value;
-    default:
-        return false;
+    case IR_TYPE_INT: return (float)w.i == value;
+    case IR_TYPE_UINT: return (float)w.u == value;
+    default: return false;
     }
 }
 
@@ -75,7 +86,8 @@ static bool match_constant(const struct match *m, unsigned token, const struct i
 {
     const union ir_word *words = m->graph->words.items + node->attr;
     if (node->type == IR_TYPE_BOOL || token >= RULE_TRUE)
-        return node->type == IR_TYPE_BOOL && token >= RULE_TRUE && words[0].u == (token == RULE_TRUE);
+        return node->type == IR_TYPE_BOOL && token >= RULE_TRUE
+               && words[0].u == (token == RULE_TRUE);
     const struct ir_type_info *info = ir_type_info(node->type);
     bool identity = token == RULE_IDENTITY;
     if (identity ? !m->linear || info->columns == 1 : m->linear && token != RULE_ZERO)
@@ -126,12 +138,9 @@ static bool match(struct match *m, const struct rule *rule, const ir_ref *args, 
 static ir_ref build_op(struct ir_graph *graph, enum ir_op op, const ir_ref *args)
 {
     switch (ir_op_info(op)->arity) {
-    case 1:
-        return ir_op1(graph, op, args[0]);
-    case 2:
-        return ir_op2(graph, op, args[0], args[1]);
-    default:
-        return ir_op3(graph, op, args[0], args[1], args[2]);
+    case 1: return ir_op1(graph, op, args[0]);
+    case 2: return ir_op2(graph, op, args[0], args[1]);
+    default: return ir_op3(graph, op, args[0], args[1], args[2]);
     }
 }
 
@@ -144,7 +153,8 @@ static ir_ref widen(struct ir_graph *graph, ir_type_id type, ir_ref ref)
 }
 
 /* Builds the replacement: prefix form read backwards needs only a stack of operands. */
-static ir_ref replace(struct ir_graph *graph, const struct rule *rule, ir_type_id type, const ir_ref *bound)
+static ir_ref replace(struct ir_graph *graph, const struct rule *rule, ir_type_id type,
+                      const ir_ref *bound)
 {
     const uint8_t *tokens = rule->replacement;
     if (tokens[0] >= RULE_ZERO)
@@ -160,8 +170,9 @@ static ir_ref replace(struct ir_graph *graph, const struct rule *rule, ir_type_i
             ref = build_op(graph, (enum ir_op)token, &stack[top]);
             top += (unsigned)ir_op_info((enum ir_op)token)->arity;
         } else {
-            ref = token < RULE_K ? bound[token - RULE_A]
-                                 : ir_const_splat(graph, ir_type_info(type)->scalar, token_value(token));
+            ref = token < RULE_K
+                      ? bound[token - RULE_A]
+                      : ir_const_splat(graph, ir_type_info(type)->scalar, token_value(token));
         }
         if (!ref) /* the types do not fit: (A vector, B scalar) and the like */
             return 0;
@@ -190,8 +201,8 @@ uint64_t ir_constant_bits(const struct ir_graph *graph, const struct ir_node *no
     return bits;
 }
 
-ir_ref ir_apply_rules(struct ir_graph *graph, enum ir_op op, ir_type_id type, const ir_ref *args, unsigned num_args,
-                      uint64_t present)
+ir_ref ir_apply_rules(struct ir_graph *graph, enum ir_op op, ir_type_id type, const ir_ref *args,
+                      unsigned num_args, uint64_t present)
 {
     const struct rule *rules = ir_rules[op].rules, *end = rules + ir_rules[op].num;
     struct match m = {.graph = graph};
@@ -199,7 +210,8 @@ ir_ref ir_apply_rules(struct ir_graph *graph, enum ir_op op, ir_type_id type, co
         m.linear = ir_is_linear_mul(ir_type_of(graph, args[0]), ir_type_of(graph, args[1]));
     for (const struct rule *rule = rules; rule < end; rule++) {
         m.exact = rule->exact;
-        if ((rule->needs & ~present) || (graph->exact && !rule->exact) || !match(&m, rule, args, num_args))
+        if ((rule->needs & ~present) || (graph->exact && !rule->exact)
+            || !match(&m, rule, args, num_args))
             continue;
         ir_ref result = replace(graph, rule, type, m.bound);
         if (result)

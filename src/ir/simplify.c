@@ -2,11 +2,12 @@
 /*
  * simplify: ops that build and take apart cancel out.
  *
- * Vectors are seen as lists of components, each a scalar node or one component of a vector node. Swizzles and
- * constructors are taken to such lists and put together again in one canonical way:
+ * Vectors are seen as lists of components, each a scalar node or one component of a vector node.
+ * Swizzles and constructors are taken to such lists and put together again in one canonical way:
  *
- *     construct(v.x, v.y, v.z)        →  v              construct(v.x, v.y, s)  →  construct(v.xy, s)
- *     construct(a, b, c).yx           →  construct(b, a)        v.zyx.xy        →  v.zy
+ *     construct(v.x, v.y, v.z)  →  v                    v.zyx.xy                →  v.zy
+ *     construct(a, b, c).yx     →  construct(b, a)      construct(v.x, v.y, s)  →  construct(v.xy,
+ * s)
  */
 #include "ir/internal.h"
 
@@ -20,7 +21,8 @@ struct component {
 
 static bool is_vector(ir_type_id type)
 {
-    return type < IR_NUM_TYPES && ir_type_info(type)->components > 1 && ir_type_info(type)->columns == 1;
+    return type < IR_NUM_TYPES && ir_type_info(type)->components > 1
+           && ir_type_info(type)->columns == 1;
 }
 
 static bool is_float_vector(ir_type_id type)
@@ -37,7 +39,8 @@ static struct component component_of_const(struct ir_graph *graph, ir_ref ref, u
 {
     const struct ir_node *node = ir_get(graph, ref);
     union ir_word word = graph->words.items[node->attr + index];
-    return (struct component){.source = ir_intern_const(graph, ir_type_info(node->type)->scalar, &word)};
+    return (struct component){.source =
+                                  ir_intern_const(graph, ir_type_info(node->type)->scalar, &word)};
 }
 
 /* Component `index` of scalar or vector `ref`, looked up through one swizzle. */
@@ -47,7 +50,8 @@ static struct component component_of_part(struct ir_graph *graph, ir_ref ref, un
     if (node->op == IR_CONST)
         return component_of_const(graph, ref, index);
     if (node->op == IR_SWIZZLE)
-        return (struct component){.source = ir_arg(graph, ref, 0), .index = node->attr >> (2 * index) & 3};
+        return (struct component){.source = ir_arg(graph, ref, 0),
+                                  .index = node->attr >> (2 * index) & 3};
     return (struct component){.source = ref, .index = index};
 }
 
@@ -69,7 +73,8 @@ static struct component component_of(struct ir_graph *graph, ir_ref ref, unsigne
 }
 
 /* How many components, from the first, come from one vector. */
-static unsigned run_length(const struct ir_graph *graph, const struct component *list, unsigned count)
+static unsigned run_length(const struct ir_graph *graph, const struct component *list,
+                           unsigned count)
 {
     unsigned n = 1;
     if (is_vector(ir_type_of(graph, list[0].source)))
@@ -105,7 +110,8 @@ static bool is_splat(const struct ir_graph *graph, const struct component *list,
     return true;
 }
 
-static ir_ref join(struct ir_graph *graph, ir_type_id type, const struct component *list, unsigned count)
+static ir_ref join(struct ir_graph *graph, ir_type_id type, const struct component *list,
+                   unsigned count)
 {
     unsigned length = run_length(graph, list, count);
     if (length == count)
@@ -142,7 +148,8 @@ static ir_ref simplify_swizzle(struct ir_graph *graph, ir_type_id type, uint32_t
 }
 
 /* The struct that all members are of, in their order; 0 where they are not one's. */
-static ir_ref whole_of(const struct ir_graph *graph, ir_type_id type, const ir_ref *members, unsigned count)
+static ir_ref whole_of(const struct ir_graph *graph, ir_type_id type, const ir_ref *members,
+                       unsigned count)
 {
     const struct ir_node *first = ir_get(graph, members[0]);
     ir_ref whole = first->op == IR_MEMBER ? ir_arg(graph, members[0], 0) : 0;
@@ -156,7 +163,8 @@ static ir_ref whole_of(const struct ir_graph *graph, ir_type_id type, const ir_r
     return whole;
 }
 
-static ir_ref simplify_construct(struct ir_graph *graph, ir_type_id type, const ir_ref *args, unsigned num_args)
+static ir_ref simplify_construct(struct ir_graph *graph, ir_type_id type, const ir_ref *args,
+                                 unsigned num_args)
 {
     if (num_args == 1 && ir_type_of(graph, args[0]) == type)
         return args[0];
@@ -296,8 +304,11 @@ static bool is_not_negative(float f)
 ir_ref ir_simplify_abs(const struct ir_graph *graph, ir_ref a)
 {
     ir_ref low = ir_get(graph, a)->op == IR_CLAMP ? ir_arg(graph, a, 1) : 0;
-    return low && ir_is_const(graph, low) && ir_type_info(ir_type_of(graph, low))->scalar == IR_TYPE_FLOAT &&
-                   all_components(graph, low, is_not_negative) ? a : 0;
+    return low && ir_is_const(graph, low)
+                   && ir_type_info(ir_type_of(graph, low))->scalar == IR_TYPE_FLOAT
+                   && all_components(graph, low, is_not_negative)
+               ? a
+               : 0;
 }
 
 ir_ref ir_simplify_by_constant(struct ir_graph *graph, enum ir_op op, ir_ref a, ir_ref b)
@@ -307,21 +318,24 @@ ir_ref ir_simplify_by_constant(struct ir_graph *graph, enum ir_op op, ir_ref a, 
     if (!ir_is_const(graph, b) || info->scalar != IR_TYPE_FLOAT || info->columns != 1)
         return 0;
     if (op == IR_DIV && all_components(graph, b, is_power_of_two))
-        return ir_op2(graph, IR_MUL, a, ir_op2(graph, IR_DIV, ir_const_splat(graph, ir_type_of(graph, b), 1.0f), b));
+        return ir_op2(graph, IR_MUL, a,
+                      ir_op2(graph, IR_DIV, ir_const_splat(graph, ir_type_of(graph, b), 1.0f), b));
     if ((op == IR_ADD || op == IR_SUB) && all_components(graph, b, is_negative))
         return ir_op2(graph, op == IR_ADD ? IR_SUB : IR_ADD, a, ir_op1(graph, IR_NEG, b));
     return 0;
 }
 
 /*
- * vec3(a) op vec3(b) = vec3(a op b), and vec3(a) op v = a op v. A constant stays a vector where that is what the target
- * computes with anyway; in a product it does not.
+ * vec3(a) op vec3(b) = vec3(a op b), and vec3(a) op v = a op v. A constant stays a vector where
+ * that is what the target computes with anyway; in a product it does not.
  */
-static ir_ref simplify_arithmetic(struct ir_graph *graph, enum ir_op op, ir_type_id type, ir_ref a, ir_ref b)
+static ir_ref simplify_arithmetic(struct ir_graph *graph, enum ir_op op, ir_type_id type, ir_ref a,
+                                  ir_ref b)
 {
     if (!is_float_vector(type))
         return 0;
-    ir_ref sa = is_scalar_float(graph, a) ? a : splat_of(graph, a), sb = is_scalar_float(graph, b) ? b : splat_of(graph, b);
+    ir_ref sa = is_scalar_float(graph, a) ? a : splat_of(graph, a),
+           sb = is_scalar_float(graph, b) ? b : splat_of(graph, b);
     ir_ref fill_a = sa ? sa : repeated_of(graph, a), fill_b = sb ? sb : repeated_of(graph, b);
     if (fill_a && fill_b) {
         ir_ref scalar = ir_op2(graph, op, fill_a, fill_b);
@@ -331,16 +345,18 @@ static ir_ref simplify_arithmetic(struct ir_graph *graph, enum ir_op op, ir_type
         return ir_op2(graph, op, ir_convert(graph, type, a), b);
     if (op != IR_MUL && sb == b && ir_is_const(graph, b))
         return ir_op2(graph, op, a, ir_convert(graph, type, b));
-    bool narrow_a = sa && sa != a && (op == IR_MUL || ir_get(graph, a)->op != IR_CONST) && ir_type_of(graph, b) == type;
-    bool narrow_b = sb && sb != b && (op == IR_MUL || ir_get(graph, b)->op != IR_CONST) && ir_type_of(graph, a) == type;
+    bool narrow_a = sa && sa != a && (op == IR_MUL || ir_get(graph, a)->op != IR_CONST)
+                    && ir_type_of(graph, b) == type;
+    bool narrow_b = sb && sb != b && (op == IR_MUL || ir_get(graph, b)->op != IR_CONST)
+                    && ir_type_of(graph, a) == type;
     if (narrow_a || narrow_b)
         return ir_op2(graph, op, narrow_a ? sa : a, narrow_b ? sb : b);
     return op == IR_MUL ? gather_scalars(graph, a, b) : 0;
 }
 
 /* f(vec3(a), vec3(b)) = vec3(f(a, b)) where f works component by component. */
-static ir_ref simplify_componentwise(struct ir_graph *graph, enum ir_op op, ir_type_id type, const ir_ref *args,
-                                     unsigned num_args)
+static ir_ref simplify_componentwise(struct ir_graph *graph, enum ir_op op, ir_type_id type,
+                                     const ir_ref *args, unsigned num_args)
 {
     ir_ref scalars[3];
     if (!is_float_vector(type))
@@ -378,11 +394,13 @@ static ir_ref simplify_select_or_zero(struct ir_graph *graph, ir_ref condition, 
     }
     if (!is_scalar_float(graph, s))
         return 0;
-    return ir_op2(graph, IR_MUL, v, ir_op3(graph, IR_SELECT, condition, s, ir_const_float(graph, 0.0f)));
+    return ir_op2(graph, IR_MUL, v,
+                  ir_op3(graph, IR_SELECT, condition, s, ir_const_float(graph, 0.0f)));
 }
 
 /* c ? v : v s = v (c ? 1 : s): what is chosen is a scalar. */
-static ir_ref simplify_select(struct ir_graph *graph, ir_type_id type, ir_ref condition, ir_ref a, ir_ref b)
+static ir_ref simplify_select(struct ir_graph *graph, ir_type_id type, ir_ref condition, ir_ref a,
+                              ir_ref b)
 {
     if (graph->exact || !is_float_vector(type))
         return 0;
@@ -396,28 +414,23 @@ static ir_ref simplify_select(struct ir_graph *graph, ir_type_id type, ir_ref co
     return ir_op2(graph, IR_MUL, in_b ? a : b, scalar);
 }
 
-ir_ref ir_simplify(struct ir_graph *graph, enum ir_op op, ir_type_id type, uint32_t attr, const ir_ref *args,
-                   unsigned num_args)
+ir_ref ir_simplify(struct ir_graph *graph, enum ir_op op, ir_type_id type, uint32_t attr,
+                   const ir_ref *args, unsigned num_args)
 {
     switch (op) {
     case IR_ADD:
     case IR_SUB:
     case IR_MUL:
-    case IR_DIV:
-        return simplify_arithmetic(graph, op, type, args[0], args[1]);
-    case IR_SELECT:
-        return simplify_select(graph, type, args[0], args[1], args[2]);
-    case IR_SWIZZLE:
-        return simplify_swizzle(graph, type, attr, args[0]);
-    case IR_CONSTRUCT:
-        return simplify_construct(graph, type, args, num_args);
-    case IR_CONVERT:
-        return simplify_convert(graph, type, args[0]);
-    case IR_MEMBER:
-        return part_of(graph, args[0], attr);
-    case IR_INDEX:
-        return simplify_index(graph, args[0], args[1]);
+    case IR_DIV: return simplify_arithmetic(graph, op, type, args[0], args[1]);
+    case IR_SELECT: return simplify_select(graph, type, args[0], args[1], args[2]);
+    case IR_SWIZZLE: return simplify_swizzle(graph, type, attr, args[0]);
+    case IR_CONSTRUCT: return simplify_construct(graph, type, args, num_args);
+    case IR_CONVERT: return simplify_convert(graph, type, args[0]);
+    case IR_MEMBER: return part_of(graph, args[0], attr);
+    case IR_INDEX: return simplify_index(graph, args[0], args[1]);
     default:
-        return op >= IR_RADIANS && op <= IR_SMOOTHSTEP ? simplify_componentwise(graph, op, type, args, num_args) : 0;
+        return op >= IR_RADIANS && op <= IR_SMOOTHSTEP
+                   ? simplify_componentwise(graph, op, type, args, num_args)
+                   : 0;
     }
 }

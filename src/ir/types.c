@@ -3,13 +3,15 @@
 #include "ir/internal.h"
 
 const struct ir_type_info ir_types[IR_NUM_TYPES] = {
-#define IR_TYPE(ID, text, scalar, components, columns) {text, IR_TYPE_##scalar, components, columns},
+#define IR_TYPE(ID, text, scalar, components, columns) \
+    {text, IR_TYPE_##scalar, components, columns},
 #include "ir/types.def"
 #undef IR_TYPE
 };
 
 const struct ir_op_info ir_ops[IR_NUM_OPS] = {
-#define OP(ID, text, arity, rule, flags, doc) {text, arity, IR_RULE_##rule, flags, sizeof text - 1, doc},
+#define OP(ID, text, arity, rule, flags, doc) \
+    {text, arity, IR_RULE_##rule, flags, sizeof text - 1, doc},
 #include "ir/ops.def"
 #undef OP
 };
@@ -21,7 +23,8 @@ const char *ir_type_text(ir_type_id type)
 
 ir_type_id ir_type_vector(ir_type_id scalar, unsigned components)
 {
-    if (components == 1 && scalar < IR_NUM_TYPES && ir_types[scalar].scalar == scalar && ir_types[scalar].components == 1)
+    if (components == 1 && scalar < IR_NUM_TYPES && ir_types[scalar].scalar == scalar
+        && ir_types[scalar].components == 1)
         return scalar;
     if (scalar == IR_TYPE_FLOAT && components >= 2 && components <= 4)
         return (ir_type_id)(IR_TYPE_VEC2 + components - 2);
@@ -60,7 +63,7 @@ static bool in_domain(enum ir_op op, ir_type_id type)
         return false;
     ir_type_id scalar = ir_types[type].scalar;
     return scalar == IR_TYPE_FLOAT || (scalar == IR_TYPE_INT && (flags & OP_SIGNED))
-        || (scalar == IR_TYPE_UINT && (flags & OP_UNSIGNED));
+           || (scalar == IR_TYPE_UINT && (flags & OP_UNSIGNED));
 }
 
 static bool all_equal(const ir_type_id *args, unsigned num_args)
@@ -146,11 +149,13 @@ static ir_type_id result_builtin(enum ir_op op, const ir_type_id *args, unsigned
 {
     if (op == IR_STEP || op == IR_SMOOTHSTEP) { /* edges first: all of x's type, or all scalar */
         ir_type_id x = args[num_args - 1];
-        bool fits = in_domain(op, x) && all_equal(args, num_args - 1) && (args[0] == x || args[0] == IR_TYPE_FLOAT);
+        bool fits = in_domain(op, x) && all_equal(args, num_args - 1)
+                    && (args[0] == x || args[0] == IR_TYPE_FLOAT);
         return fits ? x : IR_TYPE_VOID;
     }
     for (size_t i = 0; i < sizeof signatures / sizeof *signatures; i++)
-        if (signatures[i].op == op && memcmp(signatures[i].args, args, num_args * sizeof *args) == 0)
+        if (signatures[i].op == op
+            && memcmp(signatures[i].args, args, num_args * sizeof *args) == 0)
             return signatures[i].result;
     return IR_TYPE_VOID;
 }
@@ -166,17 +171,14 @@ ir_type_id ir_op_result(enum ir_op op, const ir_type_id *args, unsigned num_args
     case IR_RULE_SAME:
         return all_equal(args, num_args) && in_domain(op, args[0]) ? args[0] : IR_TYPE_VOID;
     case IR_RULE_REDUCE:
-        return all_equal(args, num_args) && in_domain(op, args[0]) ? ir_types[args[0]].scalar : IR_TYPE_VOID;
-    case IR_RULE_ARITH:
-        return result_arith(op, args, num_args);
-    case IR_RULE_SPLAT:
-        return result_splat(op, args, num_args);
-    case IR_RULE_COMPARE:
-        return result_compare(op, args, num_args);
+        return all_equal(args, num_args) && in_domain(op, args[0]) ? ir_types[args[0]].scalar
+                                                                   : IR_TYPE_VOID;
+    case IR_RULE_ARITH: return result_arith(op, args, num_args);
+    case IR_RULE_SPLAT: return result_splat(op, args, num_args);
+    case IR_RULE_COMPARE: return result_compare(op, args, num_args);
     case IR_RULE_LOGIC:
         return all_equal(args, num_args) && args[0] == IR_TYPE_BOOL ? IR_TYPE_BOOL : IR_TYPE_VOID;
-    case IR_RULE_INTEGER:
-        return result_integer(op, args, num_args);
+    case IR_RULE_INTEGER: return result_integer(op, args, num_args);
     case IR_RULE_SELECT:
         return args[0] == IR_TYPE_BOOL && args[1] == args[2] ? args[1] : IR_TYPE_VOID;
     }

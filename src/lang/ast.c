@@ -39,7 +39,8 @@ uint32_t ast_user_type_leaves(const struct lang_unit *unit, ir_type_id type)
 }
 
 uint32_t ast_member_offset(const struct lang_unit *unit, ir_type_id type, uint32_t index,
-                            uint32_t (*size_of)(const struct lang_unit *, ir_type_id), ir_type_id *out_type)
+                           uint32_t (*size_of)(const struct lang_unit *, ir_type_id),
+                           ir_type_id *out_type)
 {
     const struct lang_unit *layer;
     const struct ir_user_type *user = lang_user_type(unit, type, &layer);

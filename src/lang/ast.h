@@ -18,13 +18,14 @@ static inline lang_ref ast_step(const struct lang_unit *layer, const struct lang
     return loop->kind == LANG_FOR ? ast_node(layer, loop->c)->b : 0;
 }
 
-static inline const struct lang_slot *ast_slot(const struct lang_unit *layer, const struct lang_function *fn,
-                                                uint32_t slot)
+static inline const struct lang_slot *ast_slot(const struct lang_unit *layer,
+                                               const struct lang_function *fn, uint32_t slot)
 {
     return &layer->slots.items[fn->first_slot + slot];
 }
 
-static inline const union ir_word *ast_words(const struct lang_unit *layer, const struct lang_node *constant)
+static inline const union ir_word *ast_words(const struct lang_unit *layer,
+                                             const struct lang_node *constant)
 {
     return layer->words.items + constant->a;
 }
@@ -46,7 +47,8 @@ static inline struct ir_value ast_value(ir_type_id type, const union ir_word *wo
 uint32_t ast_user_type_words(const struct lang_unit *unit, ir_type_id type);
 static inline uint32_t ast_type_words(const struct lang_unit *unit, ir_type_id type)
 {
-    return ast_is_user_type(type) ? ast_user_type_words(unit, type) : ir_type_info(type)->components;
+    return ast_is_user_type(type) ? ast_user_type_words(unit, type)
+                                  : ir_type_info(type)->components;
 }
 
 /*
@@ -59,10 +61,12 @@ static inline uint32_t ast_type_leaves(const struct lang_unit *unit, ir_type_id 
 }
 
 /*
- * Where member `index` of a struct begins, counted by `size_of` (one of the two above), and its type.
+ * Where member `index` of a struct begins, counted by `size_of` (one of the two above), and its
+ * type.
  */
 uint32_t ast_member_offset(const struct lang_unit *unit, ir_type_id type, uint32_t index,
-                            uint32_t (*size_of)(const struct lang_unit *, ir_type_id), ir_type_id *out_type);
+                           uint32_t (*size_of)(const struct lang_unit *, ir_type_id),
+                           ir_type_id *out_type);
 
 /* The variable that a target expression (VAR, or SWIZZLE, INDEX, MEMBER of one) belongs to. */
 uint32_t ast_target_slot(const struct lang_unit *layer, lang_ref target);

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * What specialising does to a function where nothing is known of its arguments is the same in every shader. It is done once, when a
- * library is packed: trees are replaced by those of the versions (plan.c), so that a generation can take them as they are.
+ * What specialising does to a function where nothing is known of its arguments is the same in every
+ * shader. It is done once, when a library is packed: trees are replaced by those of the versions
+ * (plan.c), so that a generation can take them as they are.
  *
- * Functions keep their ids and parameters. All arrays that trees refer to are written anew, without what has been dropped.
+ * Functions keep their ids and parameters. All arrays that trees refer to are written anew, without
+ * what has been dropped.
  */
 #include "base/hash.h"
 #include "lang/specialise.h"
@@ -15,21 +17,23 @@ struct copier {
     VEC(lang_ref) calls;          /* of the function, arguments before the call that they are for */
     /* of versions in `to`; NULL: they are named by what they are versions of */
     const uint32_t *ids;
-    uint8_t *is_used;             /* by slot */
+    uint8_t *is_used; /* by slot */
     /* open addressing: 1 + a function, of each distinct run of slots */
     uint32_t *runs;
     uint32_t runs_mask;
-    uint32_t num_effects;         /* calls so far that assign to their arguments */
-    bool is_simple;               /* no call has arguments with effects, or very many */
+    uint32_t num_effects; /* calls so far that assign to their arguments */
+    bool is_simple;       /* no call has arguments with effects, or very many */
 };
 
 static lang_ref copy_list(struct copier *c, lang_ref first);
 
-static uint32_t copy_words(struct copier *c, const struct lang_unit *from, uint32_t first, uint32_t count)
+static uint32_t copy_words(struct copier *c, const struct lang_unit *from, uint32_t first,
+                           uint32_t count)
 {
     uint32_t at = c->to->words.len;
     if (count)
-        memcpy(vec_extend(c->to->arena, &c->to->words, count), from->words.items + first, count * sizeof(union ir_word));
+        memcpy(vec_extend(c->to->arena, &c->to->words, count), from->words.items + first,
+               count * sizeof(union ir_word));
     return at;
 }
 
@@ -55,7 +59,8 @@ static void copy_call(struct copier *c, struct lang_node *node)
 {
     uint32_t num_effects = c->num_effects;
     node->b = copy_list(c, node->b);
-    c->is_simple &= c->num_effects == num_effects && lang_function(c->made, node->a, NULL)->num_params <= SPEC_MAX_PARAMS;
+    c->is_simple &= c->num_effects == num_effects
+                    && lang_function(c->made, node->a, NULL)->num_params <= SPEC_MAX_PARAMS;
     c->num_effects += has_outputs(c, node->a);
     node->a = given_function(c, node->a);
 }
@@ -71,31 +76,21 @@ static lang_ref copy_node(struct copier *c, lang_ref ref)
         node.a = copy_words(c, c->from, node.a, ir_type_info(node.type)->components);
         node.c = 0;
         break;
-    case LANG_VAR:
-        c->is_used[node.a] = true;
-        break;
-    case LANG_OP:
-        node.a = copy_list(c, node.a);
-        break;
+    case LANG_VAR: c->is_used[node.a] = true; break;
+    case LANG_OP: node.a = copy_list(c, node.a); break;
     case LANG_BLOCK:
         node.a = copy_list(c, node.a);
         node.b = copy_list(c, node.b);
         break;
-    case LANG_CALL:
-        copy_call(c, &node);
-        break;
-    case LANG_DECLARE:
-        node.b = copy_node(c, node.b);
-        break;
+    case LANG_CALL: copy_call(c, &node); break;
+    case LANG_DECLARE: node.b = copy_node(c, node.b); break;
     case LANG_ASSIGN:
         node.a = copy_node(c, node.a);
         node.b = copy_node(c, node.b);
         node.c = 0;
         break;
     case LANG_EXPR:
-    case LANG_RETURN:
-        node.a = copy_node(c, node.a);
-        break;
+    case LANG_RETURN: node.a = copy_node(c, node.a); break;
     case LANG_IF:
         node.a = copy_node(c, node.a);
         node.b = copy_node(c, node.b);
@@ -108,8 +103,7 @@ static lang_ref copy_node(struct copier *c, lang_ref ref)
         node.b = copy_node(c, node.b);
         node.c = copy_node(c, node.c);
         break;
-    default:
-        break;
+    default: break;
     }
     lang_ref copy = c->to->nodes.len;
     vec_push(c->to->arena, &c->to->nodes, node);
@@ -132,7 +126,8 @@ static lang_ref copy_list(struct copier *c, lang_ref first)
     return copy;
 }
 
-static uint32_t copy_refs(struct copier *c, const struct lang_unit *from, uint32_t first, uint32_t count, bool are_functions)
+static uint32_t copy_refs(struct copier *c, const struct lang_unit *from, uint32_t first,
+                          uint32_t count, bool are_functions)
 {
     uint32_t at = c->to->refs.len;
     for (uint32_t i = 0; i < count; i++) {
@@ -145,13 +140,15 @@ static uint32_t copy_refs(struct copier *c, const struct lang_unit *from, uint32
 static bool reads_option(const struct copier *c, const struct lang_function *fn)
 {
     for (uint32_t i = 0; i < fn->num_globals; i++)
-        if (lang_global(c->made, c->to->refs.items[fn->first_global + i], NULL)->kind == LANG_GLOBAL_OPTION)
+        if (lang_global(c->made, c->to->refs.items[fn->first_global + i], NULL)->kind
+            == LANG_GLOBAL_OPTION)
             return true;
     return false;
 }
 
 /*
- * A function whose tree is what a generation would make of it, as long as it knows nothing of the arguments and callees.
+ * A function whose tree is what a generation would make of it, as long as it knows nothing of the
+ * arguments and callees.
  */
 static bool is_final(const struct copier *c, const struct lang_function *fn)
 {
@@ -170,12 +167,14 @@ static uint32_t copy_slots(struct copier *c, const struct lang_function *fn)
     uint32_t i = hash_bytes(slots, fn->num_slots * sizeof *slots) & c->runs_mask;
     for (; c->runs[i]; i = (i + 1) & c->runs_mask) {
         const struct lang_function *other = &c->to->functions.items[c->runs[i] - 1];
-        if (other->num_slots == fn->num_slots && memcmp(ast_slot(c->to, other, 0), slots, fn->num_slots * sizeof *slots) == 0)
+        if (other->num_slots == fn->num_slots
+            && memcmp(ast_slot(c->to, other, 0), slots, fn->num_slots * sizeof *slots) == 0)
             return other->first_slot;
     }
     c->runs[i] = c->to->functions.len + 1; /* which this one is going to be */
     uint32_t first = c->to->slots.len;
-    memcpy(vec_extend(c->to->arena, &c->to->slots, fn->num_slots), slots, fn->num_slots * sizeof *slots);
+    memcpy(vec_extend(c->to->arena, &c->to->slots, fn->num_slots), slots,
+           fn->num_slots * sizeof *slots);
     return first;
 }
 
@@ -194,7 +193,8 @@ static struct lang_function copy_version(struct copier *c, uint32_t version)
     return fn;
 }
 
-uint32_t lang_copy_version(struct lang_unit *to, const struct lang_unit *made, uint32_t version, const uint32_t *ids)
+uint32_t lang_copy_version(struct lang_unit *to, const struct lang_unit *made, uint32_t version,
+                           const uint32_t *ids)
 {
     uint32_t none = 0;
     struct copier c = {.to = to, .made = made, .ids = ids, .runs = &none};
@@ -217,7 +217,8 @@ static struct lang_function copy_function(struct copier *c, uint32_t id, uint32_
 }
 
 /*
- * Each function's version where nothing is known and no parameter may go. Inline expressions are always seen through.
+ * Each function's version where nothing is known and no parameter may go. Inline expressions are
+ * always seen through.
  */
 static uint32_t *make_versions(struct lang_unit *made, uint32_t first, uint32_t count)
 {

@@ -37,7 +37,8 @@ bool check_converts(ir_type_id from, ir_type_id to)
     return rank && rank < rank_of(to) && with_rank(from, rank_of(to)) == to;
 }
 
-bool check_is_array(const struct parser *p, ir_type_id type, ir_type_id *out_element, uint32_t *out_length)
+bool check_is_array(const struct parser *p, ir_type_id type, ir_type_id *out_element,
+                    uint32_t *out_length)
 {
     if (type < IR_TYPE_FIRST_USER)
         return false;
@@ -57,7 +58,8 @@ lang_ref check_cast(struct parser *p, lang_ref a, ir_type_id type)
         return a;
     uint32_t place = tree_place(p, a);
     struct ir_value from, to;
-    if (tree_node(p, a)->kind == LANG_CONST && check_value(p, a, &from) && ir_eval_op(IR_CONVERT, type, 0, &from, 1, &to))
+    if (tree_node(p, a)->kind == LANG_CONST && check_value(p, a, &from)
+        && ir_eval_op(IR_CONVERT, type, 0, &from, 1, &to))
         return tree_const(p, &to, place);
     return tree_op(p, IR_CONVERT, type, 0, &a, 1, place);
 }
@@ -67,8 +69,8 @@ lang_ref check_convert(struct parser *p, lang_ref a, ir_type_id type, const char
     ir_type_id from = tree_type(p, a);
     if (check_converts(from, type))
         return check_cast(p, a, type);
-    PARSE_TYPE_ERROR(p, tree_place(p, a), "%s is %s; %s was expected", what, parse_type_text(p, from),
-                     parse_type_text(p, type));
+    PARSE_TYPE_ERROR(p, tree_place(p, a), "%s is %s; %s was expected", what,
+                     parse_type_text(p, from), parse_type_text(p, type));
     return 0;
 }
 
@@ -95,9 +97,10 @@ bool check_unify(struct parser *p, lang_ref *args, unsigned num_args, unsigned m
 lang_ref check_unary(struct parser *p, enum ir_op op, lang_ref a, uint32_t place)
 {
     ir_type_id type = tree_type(p, a);
-    bool fits = op == IR_NOT      ? type == IR_TYPE_BOOL
-                : op == IR_BITNOT ? check_scalar(type) == IR_TYPE_INT || check_scalar(type) == IR_TYPE_UINT
-                                  : rank_of(type) != 0;
+    bool fits = op == IR_NOT ? type == IR_TYPE_BOOL
+                : op == IR_BITNOT
+                    ? check_scalar(type) == IR_TYPE_INT || check_scalar(type) == IR_TYPE_UINT
+                    : rank_of(type) != 0;
     if (!fits) {
         const char *text = op == IR_NOT ? "!" : op == IR_BITNOT ? "~" : op == IR_NEG ? "-" : "+";
         PARSE_TYPE_ERROR(p, place, "'%s' cannot be applied to %s", text, parse_type_text(p, type));
@@ -107,7 +110,8 @@ lang_ref check_unary(struct parser *p, enum ir_op op, lang_ref a, uint32_t place
 }
 
 /*
- * The type of `a op b` after implicit conversions, which replace the operands; VOID where they do not fit.
+ * The type of `a op b` after implicit conversions, which replace the operands; VOID where they do
+ * not fit.
  */
 static ir_type_id binary_type(struct parser *p, enum ir_op op, lang_ref operands[2])
 {
@@ -136,8 +140,8 @@ lang_ref check_binary(struct parser *p, enum ir_op op, lang_ref a, lang_ref b, u
     ir_type_id type = binary_type(p, op, operands);
     if (type != IR_TYPE_VOID)
         return tree_op(p, op, type, 0, operands, 2, place);
-    PARSE_TYPE_ERROR(p, place, "'%s' cannot be applied to %s and %s", symbol_text(op), parse_type_text(p, tree_type(p, a)),
-                     parse_type_text(p, tree_type(p, b)));
+    PARSE_TYPE_ERROR(p, place, "'%s' cannot be applied to %s and %s", symbol_text(op),
+                     parse_type_text(p, tree_type(p, a)), parse_type_text(p, tree_type(p, b)));
     return 0;
 }
 
@@ -150,10 +154,11 @@ lang_ref check_select(struct parser *p, lang_ref condition, lang_ref a, lang_ref
     if (rank_of(tree_type(p, a)) && rank_of(tree_type(p, b)))
         check_unify(p, operands + 1, 2, 0);
     ir_type_id type = tree_type(p, operands[1]);
-    bool is_value = type >= IR_TYPE_FIRST_USER || (type != IR_TYPE_STRING && ir_type_info(type)->components > 0);
+    bool is_value = type >= IR_TYPE_FIRST_USER
+                    || (type != IR_TYPE_STRING && ir_type_info(type)->components > 0);
     if (!is_value || tree_type(p, operands[2]) != type) {
-        PARSE_TYPE_ERROR(p, place, "'?:' cannot choose between %s and %s", parse_type_text(p, tree_type(p, a)),
-                         parse_type_text(p, tree_type(p, b)));
+        PARSE_TYPE_ERROR(p, place, "'?:' cannot choose between %s and %s",
+                         parse_type_text(p, tree_type(p, a)), parse_type_text(p, tree_type(p, b)));
         return 0;
     }
     return tree_op(p, IR_SELECT, type, 0, operands, 3, place);
@@ -212,16 +217,20 @@ lang_ref check_member(struct parser *p, lang_ref a, const struct token *name)
     unsigned size = has_components ? ir_type_info(type)->components : 0;
     unsigned count = size ? read_swizzle(name, size, components) : 0;
     if (!count || ir_type_vector(check_scalar(type), count) == IR_TYPE_VOID) {
-        PARSE_ERROR(p, parse_where_token(p, name), lang_type,
-                    parse_say(p, "%s has no '.%s'", parse_type_text(p, type), parse_token_text(p, name)));
+        PARSE_ERROR(
+            p, parse_where_token(p, name), lang_type,
+            parse_say(p, "%s has no '.%s'", parse_type_text(p, type), parse_token_text(p, name)));
         return 0;
     }
     if (size == 1) /* GLSL 4.20 lets scalars be swizzled; other targets do not */
-        return count == 1 ? a : tree_op(p, IR_CONSTRUCT, ir_type_vector(type, count), 0, &a, 1, parse_place(name));
+        return count == 1 ? a
+                          : tree_op(p, IR_CONSTRUCT, ir_type_vector(type, count), 0, &a, 1,
+                                    parse_place(name));
     return tree_swizzle(p, a, components, count, parse_place(name));
 }
 
-static bool indexed(struct parser *p, ir_type_id type, ir_type_id *out_element, uint32_t *out_length)
+static bool indexed(struct parser *p, ir_type_id type, ir_type_id *out_element,
+                    uint32_t *out_length)
 {
     if (type >= IR_TYPE_FIRST_USER)
         return check_is_array(p, type, out_element, out_length);
@@ -244,7 +253,8 @@ lang_ref check_index(struct parser *p, lang_ref a, lang_ref index, uint32_t plac
     }
     ir_type_id type = tree_type(p, index);
     if (type != IR_TYPE_INT && type != IR_TYPE_UINT) {
-        PARSE_TYPE_ERROR(p, tree_place(p, index), "an index is %s; int was expected", parse_type_text(p, type));
+        PARSE_TYPE_ERROR(p, tree_place(p, index), "an index is %s; int was expected",
+                         parse_type_text(p, type));
         return 0;
     }
     struct ir_value value;
@@ -298,22 +308,28 @@ bool check_assignable(struct parser *p, lang_ref target, const char *doing)
         node = tree_node(p, node->a);
     }
     if (node->kind == LANG_GLOBAL) {
-        static const char *const reasons[] = {
-            [LANG_GLOBAL_CONST] = "it is a constant", [LANG_GLOBAL_UNIFORM] = "it is a uniform",
-            [LANG_GLOBAL_STREAM] = "it is an input of the stage", [LANG_GLOBAL_OPTION] = "it is an option"};
-        return refuse_assignment(p, target, doing, reasons[lang_global(p->unit, node->a, NULL)->kind]);
+        static const char *const reasons[] = {[LANG_GLOBAL_CONST] = "it is a constant",
+                                              [LANG_GLOBAL_UNIFORM] = "it is a uniform",
+                                              [LANG_GLOBAL_STREAM] = "it is an input of the stage",
+                                              [LANG_GLOBAL_OPTION] = "it is an option"};
+        return refuse_assignment(p, target, doing,
+                                 reasons[lang_global(p->unit, node->a, NULL)->kind]);
     }
     if (node->kind != LANG_VAR)
-        return refuse_assignment(p, target, doing, node->kind == LANG_CONST ? "it is a constant" :
-                                 node->kind == LANG_INPUT ? "it is an input" : "it is the result of a call");
+        return refuse_assignment(p, target, doing,
+                                 node->kind == LANG_CONST   ? "it is a constant"
+                                 : node->kind == LANG_INPUT ? "it is an input"
+                                                            : "it is the result of a call");
     const struct local *local = local_of_slot(p, node->a);
     if (local && local->read_only)
-        return refuse_assignment(p, target, doing, parse_say(p, "'%s' is const", parse_text(p, local->name)));
+        return refuse_assignment(p, target, doing,
+                                 parse_say(p, "'%s' is const", parse_text(p, local->name)));
     p->unit->slots.items[p->first_slot + node->a].assigned = 1;
     return true;
 }
 
-lang_ref check_assign(struct parser *p, enum ir_op op, lang_ref target, lang_ref value, uint32_t place)
+lang_ref check_assign(struct parser *p, enum ir_op op, lang_ref target, lang_ref value,
+                      uint32_t place)
 {
     if (!check_assignable(p, target, "assign"))
         return 0;
@@ -324,8 +340,8 @@ lang_ref check_assign(struct parser *p, enum ir_op op, lang_ref target, lang_ref
         lang_ref operands[2] = {target, value};
         bool fits = binary_type(p, op, operands) == type && operands[0] == target;
         if (!fits)
-            PARSE_TYPE_ERROR(p, place, "'%s=' cannot be applied to %s and %s", symbol_text(op), parse_type_text(p, type),
-                             parse_type_text(p, tree_type(p, value)));
+            PARSE_TYPE_ERROR(p, place, "'%s=' cannot be applied to %s and %s", symbol_text(op),
+                             parse_type_text(p, type), parse_type_text(p, tree_type(p, value)));
         value = fits ? operands[1] : 0;
     }
     if (!value)

@@ -20,7 +20,8 @@ bool check_is_builtin(const char *name, size_t len)
 }
 
 /* The op's result over the arguments' types as they are. */
-static ir_type_id builtin_type(struct parser *p, enum ir_op op, const lang_ref *args, unsigned num_args)
+static ir_type_id builtin_type(struct parser *p, enum ir_op op, const lang_ref *args,
+                               unsigned num_args)
 {
     ir_type_id types[4] = {0};
     for (unsigned i = 0; i < num_args; i++)
@@ -28,14 +29,15 @@ static ir_type_id builtin_type(struct parser *p, enum ir_op op, const lang_ref *
     return ir_op_result(op, types, num_args);
 }
 
-static lang_ref call_builtin(struct parser *p, enum ir_op op, lang_ref *args, unsigned num_args, uint32_t place)
+static lang_ref call_builtin(struct parser *p, enum ir_op op, lang_ref *args, unsigned num_args,
+                             uint32_t place)
 {
     if (num_args != (unsigned)ir_op_info(op)->arity)
         return 0;
     /* mix(a, b, bool) of scalars chooses. */
     if (op == IR_MIX && tree_type(p, args[2]) == IR_TYPE_BOOL) {
-        bool fits = check_unify(p, args, 2, 0) && tree_type(p, args[0]) == tree_type(p, args[1]) &&
-                    tree_type(p, args[0]) == check_scalar(tree_type(p, args[0]));
+        bool fits = check_unify(p, args, 2, 0) && tree_type(p, args[0]) == tree_type(p, args[1])
+                    && tree_type(p, args[0]) == check_scalar(tree_type(p, args[0]));
         return fits ? check_select(p, args[2], args[1], args[0], place) : 0;
     }
     /* As they are; else all of the highest scalar type among them; else all of float. */
@@ -65,10 +67,12 @@ static void note_candidate(struct parser *p, uint32_t id)
     const struct lang_function *function = lang_function(p->unit, id, NULL);
     struct text text;
     text_init(&text, p->diags->arena);
-    text_fmt(&text, "%s %s(", parse_type_text(p, function->return_type), parse_text(p, function->name));
+    text_fmt(&text, "%s %s(", parse_type_text(p, function->return_type),
+             parse_text(p, function->name));
     for (unsigned i = 0; i < function->num_params; i++) {
         const struct lang_slot *param = lookup_param(p->unit, id, i);
-        text_fmt(&text, "%s%s%s", i ? ", " : "", modes[param->mode], parse_type_text(p, param->type));
+        text_fmt(&text, "%s%s%s", i ? ", " : "", modes[param->mode],
+                 parse_type_text(p, param->type));
     }
     text_char(&text, ')');
     PARSE_NOTE(p, parse_where_function(p, function), lang_candidate, text_cstr(&text));
@@ -79,23 +83,29 @@ static void note_candidates(struct parser *p, str_id name)
     enum { MAX_SHOWN = 8 };
     struct lookup_cursor cursor = {0};
     for (unsigned n = 0; n < MAX_SHOWN; n++) {
-        uint32_t id = lookup_next_function(p->unit, p->visible.items, p->visible.len, name, &cursor);
+        uint32_t id =
+            lookup_next_function(p->unit, p->visible.items, p->visible.len, name, &cursor);
         if (id == LANG_NONE)
             break;
         note_candidate(p, id);
     }
 }
 
-static lang_ref no_function(struct parser *p, const struct token *name, str_id id, const lang_ref *args, unsigned num_args)
+static lang_ref no_function(struct parser *p, const struct token *name, str_id id,
+                            const lang_ref *args, unsigned num_args)
 {
     const char *word = parse_token_text(p, name);
     struct lookup_cursor cursor = {0};
-    bool known = id && lookup_next_function(p->unit, p->visible.items, p->visible.len, id, &cursor) != LANG_NONE;
+    bool known = id
+                 && lookup_next_function(p->unit, p->visible.items, p->visible.len, id, &cursor)
+                        != LANG_NONE;
     if (!known && !check_is_builtin(name->text, name->len)) {
-        PARSE_ERROR(p, parse_where_token(p, name), lang_unknown, "function", word, lookup_suggest(p, word, LOOKUP_FUNCTIONS));
+        PARSE_ERROR(p, parse_where_token(p, name), lang_unknown, "function", word,
+                    lookup_suggest(p, word, LOOKUP_FUNCTIONS));
         return 0;
     }
-    PARSE_ERROR(p, parse_where_token(p, name), lang_no_function, word, types_text(p, args, num_args));
+    PARSE_ERROR(p, parse_where_token(p, name), lang_no_function, word,
+                types_text(p, args, num_args));
     note_candidates(p, id);
     return 0;
 }
@@ -105,20 +115,24 @@ static lang_ref no_function(struct parser *p, const struct token *name, str_id i
 /*
  * The function that takes the arguments with the fewest conversions; *out_ambiguous where two do.
  */
-static uint32_t find_overload(struct parser *p, str_id name, const lang_ref *args, unsigned num_args, bool *out_ambiguous)
+static uint32_t find_overload(struct parser *p, str_id name, const lang_ref *args,
+                              unsigned num_args, bool *out_ambiguous)
 {
     ir_type_id *types = ARENA_ARRAY(p->unit->arena, ir_type_id, num_args);
     for (unsigned i = 0; i < num_args; i++)
         types[i] = tree_type(p, args[i]);
-    return lookup_overload(p->unit, p->visible.items, p->visible.len, name, types, num_args, out_ambiguous);
+    return lookup_overload(p->unit, p->visible.items, p->visible.len, name, types, num_args,
+                           out_ambiguous);
 }
 
-static lang_ref call_function(struct parser *p, uint32_t id, lang_ref *args, unsigned num_args, uint32_t place)
+static lang_ref call_function(struct parser *p, uint32_t id, lang_ref *args, unsigned num_args,
+                              uint32_t place)
 {
     for (unsigned i = 0; i < num_args; i++) {
         const struct lang_slot *param = lookup_param(p->unit, id, i);
         ir_type_id type = param->type;
-        const char *doing = param->mode == LANG_OUT ? "pass this as an out argument" : "pass this as an inout argument";
+        const char *doing = param->mode == LANG_OUT ? "pass this as an out argument"
+                                                    : "pass this as an inout argument";
         if (param->mode != LANG_IN && !check_assignable(p, args[i], doing))
             return 0;
         args[i] = check_cast(p, args[i], type);
@@ -134,7 +148,8 @@ lang_ref check_call(struct parser *p, const struct token *name, lang_ref *args, 
     bool ambiguous = false;
     uint32_t function = id ? find_overload(p, id, args, num_args, &ambiguous) : LANG_NONE;
     if (ambiguous) {
-        PARSE_ERROR(p, parse_where_token(p, name), lang_ambiguous, parse_text(p, id), types_text(p, args, num_args));
+        PARSE_ERROR(p, parse_where_token(p, name), lang_ambiguous, parse_text(p, id),
+                    types_text(p, args, num_args));
         note_candidates(p, id);
         return 0;
     }

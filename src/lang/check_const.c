@@ -2,7 +2,8 @@
 /* Constant expressions. Their trees are at most PARSE_MAX_DEPTH high, so recursion is bounded. */
 #include "lang/lang_priv.h"
 
-static bool load(const struct lang_unit *unit, ir_type_id type, uint32_t words, struct ir_value *out)
+static bool load(const struct lang_unit *unit, ir_type_id type, uint32_t words,
+                 struct ir_value *out)
 {
     *out = (struct ir_value){.type = type};
     memcpy(out->w, unit->words.items + words, ir_type_info(type)->components * sizeof out->w[0]);
@@ -38,7 +39,8 @@ static bool element_value(struct parser *p, const struct lang_node *node, struct
 {
     const struct lang_node *array = tree_node(p, node->a);
     struct ir_value index;
-    if (array->kind != LANG_GLOBAL || !is_value_type(node->type) || !check_value(p, array->next, &index))
+    if (array->kind != LANG_GLOBAL || !is_value_type(node->type)
+        || !check_value(p, array->next, &index))
         return false;
     const struct lang_unit *layer;
     const struct lang_global *global = lang_global(p->unit, array->a, &layer);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * What bodies use: callees, globals, flags. And an order in which callees come before callers, which refuses recursion.
+ * What bodies use: callees, globals, flags. And an order in which callees come before callers,
+ * which refuses recursion.
  */
 #include "lang/lang_priv.h"
 
@@ -31,9 +32,7 @@ static void use_node(struct uses *uses, const struct lang_node *node)
 {
     struct arena *arena = uses->p->unit->arena;
     switch ((enum lang_kind)node->kind) {
-    case LANG_OP:
-        use_op(uses, (enum ir_op)node->op);
-        break;
+    case LANG_OP: use_op(uses, (enum ir_op)node->op); break;
     case LANG_CALL:
         if (!holds(uses->callees.items, uses->callees.len, node->a))
             vec_push(arena, &uses->callees, node->a);
@@ -42,11 +41,10 @@ static void use_node(struct uses *uses, const struct lang_node *node)
         if (!holds(uses->globals.items, uses->globals.len, node->a))
             vec_push(arena, &uses->globals, node->a);
         break;
-    case LANG_FOR: case LANG_WHILE: case LANG_DO:
-        uses->flags &= (uint16_t)~LANG_FN_STRAIGHT;
-        break;
-    default:
-        break;
+    case LANG_FOR:
+    case LANG_WHILE:
+    case LANG_DO: uses->flags &= (uint16_t)~LANG_FN_STRAIGHT; break;
+    default: break;
     }
 }
 
@@ -95,10 +93,10 @@ static void find_uses(struct uses *uses, struct lang_function *function)
 
 struct order {
     struct parser *p;
-    uint32_t first, num;    /* functions of the file */
-    uint32_t *new_id;       /* of each; LANG_NONE: not placed yet */
-    uint32_t *next_callee;  /* of each: how far its callees are visited */
-    VEC(uint32_t) stack;    /* functions being visited, by index */
+    uint32_t first, num;   /* functions of the file */
+    uint32_t *new_id;      /* of each; LANG_NONE: not placed yet */
+    uint32_t *next_callee; /* of each: how far its callees are visited */
+    VEC(uint32_t) stack;   /* functions being visited, by index */
     uint32_t num_placed;
 };
 
@@ -118,7 +116,8 @@ static void refuse_recursion(struct order *order, uint32_t index)
     for (; i < order->stack.len; i++)
         text_fmt(&path, "'%s' calls ", parse_text(p, ordered(order, order->stack.items[i])->name));
     text_fmt(&path, "'%s'", parse_text(p, ordered(order, index)->name));
-    PARSE_ERROR(p, parse_where_function(p, ordered(order, index)), lang_recursion, text_cstr(&path));
+    PARSE_ERROR(p, parse_where_function(p, ordered(order, index)), lang_recursion,
+                text_cstr(&path));
 }
 
 /* Goes on with the function on top of the stack: into a callee that is not placed, or places it. */
@@ -128,7 +127,8 @@ static bool visit_top(struct order *order)
     uint32_t top = vec_last(&order->stack);
     const struct lang_function *function = ordered(order, top);
     while (order->next_callee[top] < function->num_callees) {
-        uint32_t callee = unit->refs.items[function->first_callee + order->next_callee[top]++] - order->first;
+        uint32_t callee =
+            unit->refs.items[function->first_callee + order->next_callee[top]++] - order->first;
         bool own = callee < order->num; /* of a file below: wraps to a large number */
         if (!own || order->new_id[callee] != LANG_NONE)
             continue;
@@ -159,7 +159,8 @@ static bool find_order(struct order *order)
 
 static uint32_t renamed(const struct order *order, uint32_t id)
 {
-    return id >= order->first && id - order->first < order->num ? order->new_id[id - order->first] : id;
+    return id >= order->first && id - order->first < order->num ? order->new_id[id - order->first]
+                                                                : id;
 }
 
 static void apply_order(struct order *order)
@@ -169,7 +170,8 @@ static void apply_order(struct order *order)
     for (uint32_t i = 0; i < order->num; i++) {
         struct lang_function *function = ordered(order, i);
         for (uint32_t k = 0; k < function->num_callees; k++)
-            unit->refs.items[function->first_callee + k] = renamed(order, unit->refs.items[function->first_callee + k]);
+            unit->refs.items[function->first_callee + k] =
+                renamed(order, unit->refs.items[function->first_callee + k]);
         sorted[order->new_id[i] - order->first] = *function;
     }
     if (order->num)
@@ -197,7 +199,8 @@ static void inherit_flags(const struct lang_unit *unit, struct lang_function *fu
 {
     const uint16_t all_of = LANG_FN_PURE | LANG_FN_STRAIGHT, any_of = LANG_FN_DERIVATIVE;
     for (uint32_t i = 0; i < function->num_callees; i++) {
-        uint16_t flags = lang_function(unit, unit->refs.items[function->first_callee + i], NULL)->flags;
+        uint16_t flags =
+            lang_function(unit, unit->refs.items[function->first_callee + i], NULL)->flags;
         function->flags &= (uint16_t)(flags | ~all_of);
         function->flags |= flags & any_of;
     }
@@ -211,7 +214,8 @@ bool check_finish_functions(struct parser *p, uint32_t first_function)
     for (uint32_t i = 0; i < num; i++) {
         struct lang_function *function = &unit->functions.items[first + i];
         if (!function->body)
-            PARSE_TYPE_ERROR(p, function->place, "'%s' is declared here but nowhere defined", parse_text(p, function->name));
+            PARSE_TYPE_ERROR(p, function->place, "'%s' is declared here but nowhere defined",
+                             parse_text(p, function->name));
         find_uses(&uses, function);
     }
     if (p->num_errors || !order_functions(p, first_function, num))

@@ -2,8 +2,9 @@
 /*
  * The interpreter: a call with constant arguments becomes values.
  *
- * A value of any type is its scalars in a row (structs member by member, arrays element by element), so that a member, an
- * element or a column of a variable is a part of its words. Whatever GLSL leaves undefined ends the evaluation.
+ * A value of any type is its scalars in a row (structs member by member, arrays element by
+ * element), so that a member, an element or a column of a variable is a part of its words. Whatever
+ * GLSL leaves undefined ends the evaluation.
  */
 #include "lang/ast.h"
 
@@ -12,9 +13,9 @@ enum { MAX_CALL_DEPTH = 64, MAX_EXPRESSION_DEPTH = 400, MAX_WORDS = 1 << 16 };
 struct frame { /* an active call */
     const struct lang_unit *layer;
     const struct lang_function *fn;
-    union ir_word *words;     /* of all slots */
-    uint32_t *offsets;        /* by slot, in words */
-    uint8_t *defined;         /* by slot: something has been assigned */
+    union ir_word *words; /* of all slots */
+    uint32_t *offsets;    /* by slot, in words */
+    uint8_t *defined;     /* by slot: something has been assigned */
     union ir_word *result;
 };
 
@@ -54,11 +55,13 @@ static void select_word(struct place *place, uint32_t index)
     place->scattered = false;
 }
 
-static bool find_element(struct eval *ev, const struct lang_node *node, ir_type_id container, struct place *place)
+static bool find_element(struct eval *ev, const struct lang_node *node, ir_type_id container,
+                         struct place *place)
 {
     uint32_t size = ast_type_words(ev->unit, node->type), index;
-    if (size == 0 || !find_index(ev, ast_node(ev->frame.layer, node->a)->next,
-                                 ast_type_words(ev->unit, container) / size, &index))
+    if (size == 0
+        || !find_index(ev, ast_node(ev->frame.layer, node->a)->next,
+                       ast_type_words(ev->unit, container) / size, &index))
         return false;
     if (size == 1)
         select_word(place, index);
@@ -90,11 +93,13 @@ static bool find_place(struct eval *ev, lang_ref ref, struct place *place)
 {
     const struct lang_node *node = ast_node(ev->frame.layer, ref);
     if (node->kind == LANG_VAR) {
-        *place = (struct place){.base = ev->frame.words + ev->frame.offsets[node->a], .type = node->type};
+        *place = (struct place){.base = ev->frame.words + ev->frame.offsets[node->a],
+                                .type = node->type};
         return true;
     }
     if (node->kind == LANG_GLOBAL) { /* only read: the parser lets nobody assign to it */
-        *place = (struct place){.base = (union ir_word *)(uintptr_t)global_words(ev, node), .type = node->type};
+        *place = (struct place){.base = (union ir_word *)(uintptr_t)global_words(ev, node),
+                                .type = node->type};
         return place->base != NULL;
     }
     ir_type_id container = ast_node(ev->frame.layer, node->a)->type;
@@ -102,9 +107,7 @@ static bool find_place(struct eval *ev, lang_ref ref, struct place *place)
         return false;
     ir_type_id type;
     switch (node->op) {
-    case IR_SWIZZLE:
-        find_swizzle(node, place);
-        break;
+    case IR_SWIZZLE: find_swizzle(node, place); break;
     case IR_MEMBER:
         place->base += ast_member_offset(ev->unit, container, node->b, ast_type_words, &type);
         break;
@@ -169,7 +172,8 @@ static bool eval_builtin(struct eval *ev, const struct lang_node *node, union ir
     unsigned count = 0;
     for (lang_ref ref = node->a; ref; ref = ast_node(ev->frame.layer, ref)->next) {
         ir_type_id type = ast_node(ev->frame.layer, ref)->type;
-        if (ast_is_user_type(type) || ir_type_info(type)->components == 0 || count == AST_MAX_OPERANDS)
+        if (ast_is_user_type(type) || ir_type_info(type)->components == 0
+            || count == AST_MAX_OPERANDS)
             return false;
         args[count].type = type;
         if (!eval_expression(ev, ref, args[count++].w))
@@ -203,32 +207,33 @@ static bool eval_select(struct eval *ev, const struct lang_node *node, union ir_
 static bool eval_op(struct eval *ev, const struct lang_node *node, union ir_word *out)
 {
     switch (node->op) {
-    case IR_SELECT:
-        return eval_select(ev, node, out);
+    case IR_SELECT: return eval_select(ev, node, out);
     case IR_LAND:
-    case IR_LOR:
-        return eval_logic(ev, node, out);
+    case IR_LOR: return eval_logic(ev, node, out);
     case IR_MEMBER:
-    case IR_INDEX:
-        return eval_part(ev, node, out);
+    case IR_INDEX: return eval_part(ev, node, out);
     case IR_CONSTRUCT:
-        return ast_is_user_type(node->type) ? eval_aggregate(ev, node->a, out) : eval_builtin(ev, node, out);
-    default:
-        return eval_builtin(ev, node, out);
+        return ast_is_user_type(node->type) ? eval_aggregate(ev, node->a, out)
+                                            : eval_builtin(ev, node, out);
+    default: return eval_builtin(ev, node, out);
     }
 }
 
 /*
- * The variable or global that the expression is, or is a part of; NULL for the result of a computation.
+ * The variable or global that the expression is, or is a part of; NULL for the result of a
+ * computation.
  */
-static const struct lang_node *place_root(const struct lang_unit *layer, const struct lang_node *node)
+static const struct lang_node *place_root(const struct lang_unit *layer,
+                                          const struct lang_node *node)
 {
-    while (node->kind == LANG_OP && (node->op == IR_SWIZZLE || node->op == IR_MEMBER || node->op == IR_INDEX))
+    while (node->kind == LANG_OP
+           && (node->op == IR_SWIZZLE || node->op == IR_MEMBER || node->op == IR_INDEX))
         node = ast_node(layer, node->a);
     return node->kind == LANG_VAR || node->kind == LANG_GLOBAL ? node : NULL;
 }
 
-static bool eval_place(struct eval *ev, lang_ref ref, const struct lang_node *root, union ir_word *out)
+static bool eval_place(struct eval *ev, lang_ref ref, const struct lang_node *root,
+                       union ir_word *out)
 {
     struct place place;
     if ((root->kind == LANG_VAR && !ev->frame.defined[root->a]) || !find_place(ev, ref, &place))
@@ -259,21 +264,24 @@ static bool open_frame(struct eval *ev, uint32_t id, struct frame *frame)
 }
 
 /* Arguments into the callee's frame; where results go into places[], by parameter. */
-static bool eval_arguments(struct eval *ev, lang_ref first, struct frame *callee, struct place *places)
+static bool eval_arguments(struct eval *ev, lang_ref first, struct frame *callee,
+                           struct place *places)
 {
     uint32_t i = 0;
     for (lang_ref ref = first; ref; ref = ast_node(ev->frame.layer, ref)->next, i++) {
         const struct lang_slot *param = ast_slot(callee->layer, callee->fn, i);
         if (param->mode != LANG_IN && !find_place(ev, ref, &places[i]))
             return false;
-        if (param->mode != LANG_OUT && !eval_expression(ev, ref, callee->words + callee->offsets[i]))
+        if (param->mode != LANG_OUT
+            && !eval_expression(ev, ref, callee->words + callee->offsets[i]))
             return false;
         callee->defined[i] = param->mode != LANG_OUT;
     }
     return true;
 }
 
-static bool return_outputs(struct eval *ev, lang_ref first, const struct frame *callee, const struct place *places)
+static bool return_outputs(struct eval *ev, lang_ref first, const struct frame *callee,
+                           const struct place *places)
 {
     uint32_t i = 0;
     for (lang_ref ref = first; ref; ref = ast_node(ev->frame.layer, ref)->next, i++) {
@@ -305,16 +313,16 @@ static bool eval_any(struct eval *ev, lang_ref ref, union ir_word *out)
     const struct lang_node *node = ast_node(ev->frame.layer, ref);
     switch (node->kind) {
     case LANG_CONST:
-        memcpy(out, ast_words(ev->frame.layer, node), ast_type_words(ev->unit, node->type) * sizeof *out);
+        memcpy(out, ast_words(ev->frame.layer, node),
+               ast_type_words(ev->unit, node->type) * sizeof *out);
         return true;
     case LANG_VAR:
     case LANG_INPUT:
-        memcpy(out, ev->frame.words + ev->frame.offsets[node->a], ast_type_words(ev->unit, node->type) * sizeof *out);
+        memcpy(out, ev->frame.words + ev->frame.offsets[node->a],
+               ast_type_words(ev->unit, node->type) * sizeof *out);
         return ev->frame.defined[node->a];
-    case LANG_CALL:
-        return eval_call(ev, node, out);
-    default:
-        break;
+    case LANG_CALL: return eval_call(ev, node, out);
+    default: break;
     }
     const struct lang_node *root = place_root(ev->frame.layer, node);
     return root ? eval_place(ev, ref, root, out) : eval_op(ev, node, out);
@@ -348,7 +356,8 @@ static bool run_declare(struct eval *ev, const struct lang_node *node)
     ev->frame.defined[node->a] = 0;
     if (!node->b)
         return true;
-    union ir_word small[16], *value = temporary(ev, ast_node(ev->frame.layer, node->b)->type, small);
+    union ir_word small[16],
+        *value = temporary(ev, ast_node(ev->frame.layer, node->b)->type, small);
     if (!eval_expression(ev, node->b, value))
         return false;
     uint32_t size = ast_type_words(ev->unit, ast_node(ev->frame.layer, node->b)->type);
@@ -358,11 +367,14 @@ static bool run_declare(struct eval *ev, const struct lang_node *node)
 }
 
 /* x op= y computes `x op y` of the operands' types into x's. */
-static bool apply_operator(struct eval *ev, const struct lang_node *node, const struct place *place, union ir_word *words)
+static bool apply_operator(struct eval *ev, const struct lang_node *node, const struct place *place,
+                           union ir_word *words)
 {
     if (!ev->frame.defined[ast_target_slot(ev->frame.layer, node->a)])
         return false;
-    struct ir_value args[2] = {{.type = place->type}, {.type = ast_node(ev->frame.layer, node->b)->type}}, result;
+    struct ir_value args[2] = {{.type = place->type},
+                               {.type = ast_node(ev->frame.layer, node->b)->type}},
+                    result;
     if (ast_is_user_type(args[0].type) || ast_is_user_type(args[1].type))
         return false;
     load(ev, place, args[0].w);
@@ -375,7 +387,8 @@ static bool apply_operator(struct eval *ev, const struct lang_node *node, const 
 
 static bool run_assign(struct eval *ev, const struct lang_node *node)
 {
-    union ir_word small[16], *value = temporary(ev, ast_node(ev->frame.layer, node->b)->type, small);
+    union ir_word small[16],
+        *value = temporary(ev, ast_node(ev->frame.layer, node->b)->type, small);
     struct place place;
     if (!eval_expression(ev, node->b, value) || !find_place(ev, node->a, &place))
         return false;
@@ -426,7 +439,8 @@ static enum flow run_return(struct eval *ev, const struct lang_node *node)
 
 static enum flow run_call(struct eval *ev, const struct lang_node *node)
 {
-    union ir_word small[16], *unused = temporary(ev, ast_node(ev->frame.layer, node->a)->type, small);
+    union ir_word small[16],
+        *unused = temporary(ev, ast_node(ev->frame.layer, node->a)->type, small);
     return eval_expression(ev, node->a, unused) ? FLOW_NEXT : FLOW_FAIL;
 }
 
@@ -444,26 +458,17 @@ static enum flow run_one(struct eval *ev, lang_ref ref)
 {
     const struct lang_node *node = ast_node(ev->frame.layer, ref);
     switch (node->kind) {
-    case LANG_DECLARE:
-        return run_declare(ev, node) ? FLOW_NEXT : FLOW_FAIL;
-    case LANG_ASSIGN:
-        return run_assign(ev, node) ? FLOW_NEXT : FLOW_FAIL;
-    case LANG_EXPR:
-        return run_call(ev, node);
-    case LANG_IF:
-        return run_if(ev, node);
+    case LANG_DECLARE: return run_declare(ev, node) ? FLOW_NEXT : FLOW_FAIL;
+    case LANG_ASSIGN: return run_assign(ev, node) ? FLOW_NEXT : FLOW_FAIL;
+    case LANG_EXPR: return run_call(ev, node);
+    case LANG_IF: return run_if(ev, node);
     case LANG_FOR:
     case LANG_WHILE:
-    case LANG_DO:
-        return run_loop(ev, node);
-    case LANG_BLOCK:
-        return run_list(ev, node->a);
-    case LANG_RETURN:
-        return run_return(ev, node);
-    case LANG_BREAK:
-        return FLOW_BREAK;
-    default:
-        return FLOW_CONTINUE;
+    case LANG_DO: return run_loop(ev, node);
+    case LANG_BLOCK: return run_list(ev, node->a);
+    case LANG_RETURN: return run_return(ev, node);
+    case LANG_BREAK: return FLOW_BREAK;
+    default: return FLOW_CONTINUE;
     }
 }
 
@@ -485,8 +490,8 @@ static bool is_plain(ir_type_id type)
     return !ast_is_user_type(type) && ir_type_info(type)->components > 0;
 }
 
-bool lang_eval_call(const struct lang_unit *unit, uint32_t id, const struct ir_value *args, struct ir_value *results,
-                    uint32_t max_steps, struct arena *scratch)
+bool lang_eval_call(const struct lang_unit *unit, uint32_t id, const struct ir_value *args,
+                    struct ir_value *results, uint32_t max_steps, struct arena *scratch)
 {
     struct eval ev = {.unit = unit, .scratch = scratch, .steps_left = max_steps};
     struct frame frame;
@@ -498,7 +503,8 @@ bool lang_eval_call(const struct lang_unit *unit, uint32_t id, const struct ir_v
             return false;
         if (param->mode == LANG_OUT)
             continue;
-        memcpy(frame.words + frame.offsets[i], args++->w, ir_type_info(param->type)->components * sizeof *frame.words);
+        memcpy(frame.words + frame.offsets[i], args++->w,
+               ir_type_info(param->type)->components * sizeof *frame.words);
         frame.defined[i] = 1;
     }
     bool returns = frame.fn->return_type != IR_TYPE_VOID;

@@ -10,7 +10,8 @@ static_assert((unsigned)IR_CONST == 0, "heads of constants are types");
 
 /* ---- Codes ---- */
 
-unsigned fragment_write_head(const struct ir_graph *graph, const struct lang_unit *layer, enum ir_op op, ir_type_id type, unsigned count,
+unsigned fragment_write_head(const struct ir_graph *graph, const struct lang_unit *layer,
+                             enum ir_op op, ir_type_id type, unsigned count,
                              uint16_t out[FRAGMENT_MAX_HEAD])
 {
     out[0] = fragment_head(op, type, count);
@@ -18,11 +19,14 @@ unsigned fragment_write_head(const struct ir_graph *graph, const struct lang_uni
         return 1;
     uint32_t known_as = graph->user_types.items[type - IR_TYPE_FIRST_USER].known_as;
     out[1] = (uint16_t)known_as;
-    return known_as && known_as < IR_TYPE_FIRST_USER + layer->user_types.len && known_as <= UINT16_MAX ? 2 : 0;
+    return known_as && known_as < IR_TYPE_FIRST_USER + layer->user_types.len
+                   && known_as <= UINT16_MAX
+               ? 2
+               : 0;
 }
 
-unsigned fragment_write_constant(const struct ir_graph *graph, const struct lang_unit *layer, const struct ir_node *node,
-                                 uint16_t out[FRAGMENT_MAX_CONSTANT])
+unsigned fragment_write_constant(const struct ir_graph *graph, const struct lang_unit *layer,
+                                 const struct ir_node *node, uint16_t out[FRAGMENT_MAX_CONSTANT])
 {
     const union ir_word *words = graph->words.items + node->attr;
     if (node->type == IR_TYPE_STRING && words->u >= layer->strings->num)
@@ -53,10 +57,12 @@ static inline void put_all(struct fragment_pattern *pattern, const uint16_t *cod
         put(pattern, codes[i]);
 }
 
-static void put_head(struct fragment_pattern *pattern, enum ir_op op, ir_type_id type, unsigned count)
+static void put_head(struct fragment_pattern *pattern, enum ir_op op, ir_type_id type,
+                     unsigned count)
 {
     uint16_t codes[FRAGMENT_MAX_HEAD];
-    put_all(pattern, codes, fragment_write_head(pattern->graph, pattern->layer, op, type, count, codes));
+    put_all(pattern, codes,
+            fragment_write_head(pattern->graph, pattern->layer, op, type, count, codes));
 }
 
 static void put_node(struct fragment_pattern *pattern, ir_ref ref, unsigned depth);
@@ -78,7 +84,8 @@ static void put_node(struct fragment_pattern *pattern, ir_ref ref, unsigned dept
     const struct ir_node *node = ir_get(pattern->graph, ref);
     if (node->op == IR_CONST) {
         uint16_t codes[FRAGMENT_MAX_CONSTANT];
-        put_all(pattern, codes, fragment_write_constant(pattern->graph, pattern->layer, node, codes));
+        put_all(pattern, codes,
+                fragment_write_constant(pattern->graph, pattern->layer, node, codes));
         return;
     }
     unsigned num_inputs = pattern->num_inputs;
@@ -95,10 +102,12 @@ static void put_node(struct fragment_pattern *pattern, ir_ref ref, unsigned dept
     if (ir_is_looked_through((enum ir_op)node->op))
         put_looked_through(pattern, ref, depth);
     else
-        put_head(pattern, IR_CONST, node->type, node->flags & IR_NODE_LOOP ? CODE_OPAQUE_IN_LOOP : CODE_OPAQUE);
+        put_head(pattern, IR_CONST, node->type,
+                 node->flags & IR_NODE_LOOP ? CODE_OPAQUE_IN_LOOP : CODE_OPAQUE);
 }
 
-void fragment_pattern_begin(struct fragment_pattern *pattern, const struct ir_graph *graph, const struct lang_unit *layer)
+void fragment_pattern_begin(struct fragment_pattern *pattern, const struct ir_graph *graph,
+                            const struct lang_unit *layer)
 {
     pattern->graph = graph;
     pattern->len = pattern->num_inputs = 0;
@@ -119,14 +128,17 @@ uint32_t fragment_hash(const struct fragment_pattern *pattern)
     return hash_bytes(pattern->codes, pattern->len * sizeof *pattern->codes);
 }
 
-const struct lang_fragment *fragment_find(const struct lang_unit *layer, uint32_t first, const struct fragment_pattern *pattern,
-                                          uint32_t choice)
+const struct lang_fragment *fragment_find(const struct lang_unit *layer, uint32_t first,
+                                          const struct fragment_pattern *pattern, uint32_t choice)
 {
     uint32_t hash = fragment_hash(pattern);
     for (uint32_t next = pattern->failed ? 0 : first; next;) {
         const struct lang_fragment *fragment = &layer->fragments.items[next - 1];
-        if (fragment->hash == hash && fragment->choice == choice && fragment->pattern_len == pattern->len
-            && memcmp(layer->codes.items + fragment->first_code, pattern->codes, pattern->len * sizeof *pattern->codes) == 0)
+        if (fragment->hash == hash && fragment->choice == choice
+            && fragment->pattern_len == pattern->len
+            && memcmp(layer->codes.items + fragment->first_code, pattern->codes,
+                      pattern->len * sizeof *pattern->codes)
+                   == 0)
             return fragment;
         next = fragment->next;
     }
@@ -145,10 +157,11 @@ bool fragment_is_open(const struct fragment_pattern *pattern)
 }
 
 /*
- * Whether an argument is what its part of an open pattern says; one that is opaque becomes an input.
+ * Whether an argument is what its part of an open pattern says; one that is opaque becomes an
+ * input.
  */
-static bool fits_open(const struct lang_unit *layer, const struct ir_graph *graph, ir_ref arg, const uint16_t **codes, ir_ref *inputs,
-                      unsigned *num_inputs)
+static bool fits_open(const struct lang_unit *layer, const struct ir_graph *graph, ir_ref arg,
+                      const uint16_t **codes, ir_ref *inputs, unsigned *num_inputs)
 {
     const struct ir_node *node = ir_get(graph, arg);
     if (node->op == IR_POISON || node->flags & IR_NODE_LOOP)
@@ -158,14 +171,17 @@ static bool fits_open(const struct lang_unit *layer, const struct ir_graph *grap
         return *(*codes)++ == fragment_head(IR_CONST, node->type, CODE_OPAQUE);
     }
     uint16_t constant[FRAGMENT_MAX_CONSTANT];
-    unsigned len = node->type == IR_TYPE_STRING ? fragment_write_constant(graph, layer, node, constant) : 0;
+    unsigned len =
+        node->type == IR_TYPE_STRING ? fragment_write_constant(graph, layer, node, constant) : 0;
     bool is_same = len && memcmp(*codes, constant, len * sizeof *constant) == 0;
     *codes += len;
     return is_same;
 }
 
-const struct lang_fragment *fragment_find_open(const struct lang_unit *layer, uint32_t first, const struct ir_graph *graph, uint32_t choice,
-                                               const ir_ref *args, unsigned num_args, ir_ref *inputs, unsigned *out_num_inputs)
+const struct lang_fragment *fragment_find_open(const struct lang_unit *layer, uint32_t first,
+                                               const struct ir_graph *graph, uint32_t choice,
+                                               const ir_ref *args, unsigned num_args,
+                                               ir_ref *inputs, unsigned *out_num_inputs)
 {
     for (uint32_t next = first; next; next = layer->fragments.items[next - 1].next) {
         const struct lang_fragment *fragment = &layer->fragments.items[next - 1];
@@ -180,7 +196,8 @@ const struct lang_fragment *fragment_find_open(const struct lang_unit *layer, ui
     return NULL;
 }
 
-void fragment_note_known(const struct ir_graph *graph, const ir_ref *inputs, unsigned num_inputs, bool *known)
+void fragment_note_known(const struct ir_graph *graph, const ir_ref *inputs, unsigned num_inputs,
+                         bool *known)
 {
     ir_ref newest = 0; /* nothing is equal to what is newer than all before */
     for (unsigned i = 0; i < num_inputs; i++) {
@@ -196,12 +213,15 @@ void fragment_note_known(const struct ir_graph *graph, const ir_ref *inputs, uns
 uint32_t fragment_callee(struct lang_unit *unit, struct ir_graph *graph, uint32_t function)
 {
     const struct lang_function *fn = lang_function(unit, function, NULL);
-    return ir_add_callee(graph, (struct ir_callee){.id = function, .name = fn->name,
-                                                   .derivative = (fn->flags & LANG_FN_DERIVATIVE) != 0,
-                                                   .pure = (fn->flags & LANG_FN_PURE) != 0});
+    return ir_add_callee(graph,
+                         (struct ir_callee){.id = function,
+                                            .name = fn->name,
+                                            .derivative = (fn->flags & LANG_FN_DERIVATIVE) != 0,
+                                            .pure = (fn->flags & LANG_FN_PURE) != 0});
 }
 
-static ir_ref restore_constant(const struct fragment_host *host, ir_type_id type, const uint16_t **codes)
+static ir_ref restore_constant(const struct fragment_host *host, ir_type_id type,
+                               const uint16_t **codes)
 {
     union ir_word words[16];
     for (unsigned i = 0; i < ir_type_info(type)->components; i++, *codes += 2)
@@ -209,10 +229,13 @@ static ir_ref restore_constant(const struct fragment_host *host, ir_type_id type
     return ir_const_words(host->graph, type, words);
 }
 
-static inline ir_type_id restore_type(const struct fragment_host *host, unsigned head, const uint16_t **codes)
+static inline ir_type_id restore_type(const struct fragment_host *host, unsigned head,
+                                      const uint16_t **codes)
 {
     unsigned type = head >> 3 & 63;
-    return type == FRAGMENT_USER_TYPE ? lower_graph_type(host->unit, host->graph, (ir_type_id)*(*codes)++) : (ir_type_id)type;
+    return type == FRAGMENT_USER_TYPE
+               ? lower_graph_type(host->unit, host->graph, (ir_type_id) * (*codes)++)
+               : (ir_type_id)type;
 }
 
 struct restoring {
@@ -220,14 +243,16 @@ struct restoring {
     const uint16_t *codes; /* what comes next */
     const ir_ref *nodes;   /* by the numbers that operands have */
     /*
-     * the same of an open fragment: more can be seen of the node than when it was taken down; or NULL
+     * the same of an open fragment: more can be seen of the node than when it was taken down; or
+     * NULL
      */
     bool *known;
-    bool is_known;         /* of the node at hand */
+    bool is_known; /* of the node at hand */
 };
 
 /*
- * What a user can see of `ref`, which was built over known operands, is what was taken down if it is new, opaque and of the same op.
+ * What a user can see of `ref`, which was built over known operands, is what was taken down if it
+ * is new, opaque and of the same op.
  */
 static bool shows_more(const struct restoring *r, ir_ref ref, enum ir_op op, uint32_t num_before)
 {
@@ -289,12 +314,16 @@ static ir_ref restore_node(struct restoring *r)
     return result;
 }
 
-const uint16_t *fragment_restore(struct fragment_host *host, const struct lang_unit *layer, const struct lang_fragment *fragment,
-                                 unsigned num_inputs, ir_ref *nodes, bool *known)
+const uint16_t *fragment_restore(struct fragment_host *host, const struct lang_unit *layer,
+                                 const struct lang_fragment *fragment, unsigned num_inputs,
+                                 ir_ref *nodes, bool *known)
 {
     unsigned next = 1 + num_inputs, end = next + fragment->num_nodes;
-    struct restoring r = {.host = host, .nodes = nodes, .known = known,
-                          .codes = layer->codes.items + fragment->first_code + fragment->pattern_len};
+    struct restoring r = {.host = host,
+                          .nodes = nodes,
+                          .known = known,
+                          .codes =
+                              layer->codes.items + fragment->first_code + fragment->pattern_len};
     for (; next < end; next++) {
         nodes[next] = restore_node(&r);
         if (known)

@@ -3,9 +3,11 @@
 #include "lang/fragment.h"
 
 /* Vectors of the library's that grow while it is in use. */
-#define COPY_VECTOR(arena, to, from)                                                                            \
-    (memset((to), 0, sizeof *(to)),                                                                              \
-     (from)->len ? (void)memcpy(vec_extend(arena, to, (from)->len), (from)->items, (from)->len * sizeof *(from)->items) : (void)0)
+#define COPY_VECTOR(arena, to, from) \
+    (memset((to), 0, sizeof *(to)), \
+     (from)->len ? (void)memcpy(vec_extend(arena, to, (from)->len), (from)->items, \
+                                (from)->len * sizeof *(from)->items) \
+                 : (void)0)
 
 static void copy_library(struct lang_recorder *recorder, const struct lang_unit *lowest)
 {
@@ -35,15 +37,18 @@ void lang_recorder_give(const struct lang_recorder *recorder, struct lang_unit *
     memcpy(&unit->known_facts, &library->known_facts, sizeof unit->known_facts);
 }
 
-void lang_recorder_init(struct lang_recorder *recorder, struct arena *arena, const struct lang_unit *lowest, uint32_t num_graphs)
+void lang_recorder_init(struct lang_recorder *recorder, struct arena *arena,
+                        const struct lang_unit *lowest, uint32_t num_graphs)
 {
     *recorder = (struct lang_recorder){.arena = arena};
     copy_library(recorder, lowest);
     uint32_t count = lowest->functions.len;
     if (count)
-        memset(vec_extend(arena, &recorder->fragment_of, count), 0, count * sizeof *recorder->fragment_of.items);
+        memset(vec_extend(arena, &recorder->fragment_of, count), 0,
+               count * sizeof *recorder->fragment_of.items);
     if (num_graphs)
-        memset(vec_extend(arena, &recorder->graph_fragment_of, num_graphs), 0, num_graphs * sizeof *recorder->graph_fragment_of.items);
+        memset(vec_extend(arena, &recorder->graph_fragment_of, num_graphs), 0,
+               num_graphs * sizeof *recorder->graph_fragment_of.items);
 }
 
 void fragment_note_global(struct lang_recorder *recorder, ir_ref node, uint32_t global)
@@ -62,9 +67,9 @@ struct taker {
     const ir_ref *inputs;
     unsigned num_inputs;
     const struct lang_unit *layer; /* the library's */
-    uint16_t *numbers; /* of nodes; 0: has none; NEEDED: has none yet */
+    uint16_t *numbers;             /* of nodes; 0: has none; NEEDED: has none yet */
     unsigned num_nodes;
-    uint32_t origin;   /* that was taken down last */
+    uint32_t origin; /* that was taken down last */
     bool failed;
 };
 enum { NEEDED = UINT16_MAX };
@@ -129,8 +134,10 @@ static void put_global(struct taker *t, ir_ref ref)
 static void put_op(struct taker *t, ir_ref ref)
 {
     const struct ir_node *node = ir_get(t->graph, ref);
-    bool has_attr = fragment_has_attr((enum ir_op)node->op), has_callee = node->op == IR_CALL || node->op == IR_LEAF;
-    t->failed |= node->num_args == 0 || node->num_args > FRAGMENT_MAX_OPERANDS || (node->attr && !has_attr);
+    bool has_attr = fragment_has_attr((enum ir_op)node->op),
+         has_callee = node->op == IR_CALL || node->op == IR_LEAF;
+    t->failed |=
+        node->num_args == 0 || node->num_args > FRAGMENT_MAX_OPERANDS || (node->attr && !has_attr);
     if (has_attr)
         put(t, has_callee ? t->graph->callees.items[node->attr].id & UINT32_MAX : node->attr);
     if (node->num_args >= FRAGMENT_MANY)
@@ -147,7 +154,8 @@ static void put_origin(struct taker *t, const struct ir_node *node)
     const struct ir_origin *origin = &t->graph->origins.items[node->origin];
     bool is_own = node->origin == t->host->own, is_outer = node->origin == t->host->outer;
     uint32_t element = is_own ? 0 : is_outer ? FRAGMENT_OUTER : origin->element;
-    t->failed |= !is_own && !is_outer && (origin->parent != t->host->outer || !element || element == FRAGMENT_OUTER);
+    t->failed |= !is_own && !is_outer
+                 && (origin->parent != t->host->outer || !element || element == FRAGMENT_OUTER);
     if (element == t->origin)
         return;
     t->origin = element;
@@ -181,7 +189,8 @@ static void put_node(struct taker *t, ir_ref ref)
 static void take_node(struct taker *t, ir_ref ref)
 {
     const struct ir_node *node = ir_get(t->graph, ref);
-    bool is_closure = node->flags & IR_NODE_CLOSURE && !t->host->leaf, is_texture = node->type == IR_TYPE_SAMPLER && t->host->leaf;
+    bool is_closure = node->flags & IR_NODE_CLOSURE && !t->host->leaf,
+         is_texture = node->type == IR_TYPE_SAMPLER && t->host->leaf;
     if (is_closure || is_texture || t->num_nodes == FRAGMENT_MAX_NODES) {
         t->failed = true;
         return;
@@ -227,21 +236,30 @@ static unsigned finish(struct taker *t, struct lang_fragment fragment)
     return recorder->fragments.len;
 }
 
-static bool is_taken(const struct lang_recorder *recorder, uint32_t first, uint32_t hash, uint32_t choice)
+static bool is_taken(const struct lang_recorder *recorder, uint32_t first, uint32_t hash,
+                     uint32_t choice)
 {
     for (uint32_t next = first; next; next = recorder->fragments.items[next - 1].next)
-        if (recorder->fragments.items[next - 1].hash == hash && recorder->fragments.items[next - 1].choice == choice)
+        if (recorder->fragments.items[next - 1].hash == hash
+            && recorder->fragments.items[next - 1].choice == choice)
             return true;
     return false;
 }
 
-unsigned fragment_record(const struct fragment_host *host, uint16_t *first, const struct fragment_pattern *pattern,
-                         const ir_ref *results, unsigned num_results)
+unsigned fragment_record(const struct fragment_host *host, uint16_t *first,
+                         const struct fragment_pattern *pattern, const ir_ref *results,
+                         unsigned num_results)
 {
     struct lang_recorder *recorder = host->unit->recorder;
-    struct taker t = {.host = host, .graph = host->graph, .recorder = recorder, .inputs = pattern->inputs, .num_inputs = pattern->num_inputs,
+    struct taker t = {.host = host,
+                      .graph = host->graph,
+                      .recorder = recorder,
+                      .inputs = pattern->inputs,
+                      .num_inputs = pattern->num_inputs,
                       .layer = pattern->layer};
-    struct lang_fragment fragment = {.hash = fragment_hash(pattern), .first_code = recorder->codes.len, .next = *first,
+    struct lang_fragment fragment = {.hash = fragment_hash(pattern),
+                                     .first_code = recorder->codes.len,
+                                     .next = *first,
                                      .pattern_len = (uint16_t)pattern->len};
     if (pattern->failed || is_taken(recorder, *first, fragment.hash, host->lang->choice))
         return 0;
@@ -254,12 +272,18 @@ unsigned fragment_record(const struct fragment_host *host, uint16_t *first, cons
     return number;
 }
 
-void fragment_record_follower(const struct fragment_host *host, unsigned leader, const struct fragment_follower *follower)
+void fragment_record_follower(const struct fragment_host *host, unsigned leader,
+                              const struct fragment_follower *follower)
 {
     struct lang_recorder *recorder = host->unit->recorder;
-    struct taker t = {.host = host, .graph = host->graph, .recorder = recorder, .inputs = follower->nodes + 1,
-                      .num_inputs = follower->num_nodes - 1, .layer = lang_lowest(host->unit)};
-    struct lang_fragment fragment = {.first_code = recorder->codes.len, .pattern_len = (uint16_t)follower->num_key};
+    struct taker t = {.host = host,
+                      .graph = host->graph,
+                      .recorder = recorder,
+                      .inputs = follower->nodes + 1,
+                      .num_inputs = follower->num_nodes - 1,
+                      .layer = lang_lowest(host->unit)};
+    struct lang_fragment fragment = {.first_code = recorder->codes.len,
+                                     .pattern_len = (uint16_t)follower->num_key};
     for (unsigned i = 0; i < follower->num_key; i++)
         put(&t, follower->key[i]);
     take(&t, follower->results, follower->num_results);

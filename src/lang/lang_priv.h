@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * What the files of the language's front half share: tokens, the parser's state, the checks that build typed trees.
+ * What the files of the language's front half share: tokens, the parser's state, the checks that
+ * build typed trees.
  */
 #ifndef MXG_LANG_LANG_PRIV_H
 #define MXG_LANG_LANG_PRIV_H
@@ -10,8 +11,8 @@
 /* lex.c */
 
 /*
- * SYMBOL(ID, text, role, op, precedence): punctuation, longest first. BINARY symbols are operators between operands, SET
- * symbols assign; `op` is the IR's (IR_NUM_OPS for plain '=').
+ * SYMBOL(ID, text, role, op, precedence): punctuation, longest first. BINARY symbols are operators
+ * between operands, SET symbols assign; `op` is the IR's (IR_NUM_OPS for plain '=').
  */
 #define LANG_SYMBOLS(SYMBOL) \
     SYMBOL(SHL_SET, "<<=", SET, IR_SHL, 0) \
@@ -106,8 +107,23 @@ enum token_kind {
     LANG_SYMBOLS(SYMBOL)
 #undef SYMBOL
     /* keywords */
-    TOKEN_CONST, TOKEN_IN, TOKEN_OUT, TOKEN_INOUT, TOKEN_UNIFORM, TOKEN_STRUCT, TOKEN_IF, TOKEN_ELSE, TOKEN_FOR,
-    TOKEN_WHILE, TOKEN_DO, TOKEN_BREAK, TOKEN_CONTINUE, TOKEN_RETURN, TOKEN_TRUE, TOKEN_FALSE, TOKEN_REFUSED,
+    TOKEN_CONST,
+    TOKEN_IN,
+    TOKEN_OUT,
+    TOKEN_INOUT,
+    TOKEN_UNIFORM,
+    TOKEN_STRUCT,
+    TOKEN_IF,
+    TOKEN_ELSE,
+    TOKEN_FOR,
+    TOKEN_WHILE,
+    TOKEN_DO,
+    TOKEN_BREAK,
+    TOKEN_CONTINUE,
+    TOKEN_RETURN,
+    TOKEN_TRUE,
+    TOKEN_FALSE,
+    TOKEN_REFUSED,
     TOKEN_NUM_KINDS
 };
 
@@ -150,42 +166,42 @@ enum {
 
 struct local { /* a parameter or local variable in scope */
     str_id name;
-    ir_type_id type;    /* VOID: its declaration was wrong; uses are not reported */
+    ir_type_id type; /* VOID: its declaration was wrong; uses are not reported */
     uint16_t slot;
     bool read_only;
-    bool has_value;     /* a const whose value is known */
-    uint32_t words;     /* that value, in unit->words */
+    bool has_value; /* a const whose value is known */
+    uint32_t words; /* that value, in unit->words */
     uint32_t place;
 };
 
 struct tree_origin { /* what the parser knows of a node, and nobody else asks for */
-    uint32_t place; /* line << 12 | column in the function's file */
-    uint8_t height; /* as an expression */
+    uint32_t place;  /* line << 12 | column in the function's file */
+    uint8_t height;  /* as an expression */
 };
 
 struct parser {
     struct lang_unit *unit;
     struct diag_list *diags;
-    const struct lang_reader *reader;  /* NULL in an expression */
-    const struct parser *includer;     /* whose #include is being parsed */
+    const struct lang_reader *reader; /* NULL in an expression */
+    const struct parser *includer;    /* whose #include is being parsed */
     unsigned include_depth;
     const char *file_name;
-    uint32_t file;                     /* id, LANG_NONE outside of files */
+    uint32_t file; /* id, LANG_NONE outside of files */
     /* files whose declarations are seen, the own one among them */
     VEC(uint32_t) visible;
-    uint32_t first_user_type;          /* user types from here on are this file's */
+    uint32_t first_user_type; /* user types from here on are this file's */
     struct lexer lexer;
-    struct token token;                /* the current one */
-    struct token last;                 /* the one before */
+    struct token token; /* the current one */
+    struct token last;  /* the one before */
     unsigned depth, num_errors;
     /* after a syntax error, until parse_recover: nothing is reported */
     bool panic;
-    bool stopped;                      /* too many errors */
+    bool stopped; /* too many errors */
     /* the last message was not suppressed: its notes may follow */
     bool reported;
-    uint32_t first_node;               /* nodes from here on belong to this parse … */
-    VEC(struct tree_origin) origins;   /* … and come from here */
-    VEC(lang_ref) operands;            /* stack of operands that wait for their node */
+    uint32_t first_node;             /* nodes from here on belong to this parse … */
+    VEC(struct tree_origin) origins; /* … and come from here */
+    VEC(lang_ref) operands;          /* stack of operands that wait for their node */
     /* the function being parsed */
     ir_type_id return_type;
     unsigned loops;
@@ -206,7 +222,8 @@ struct token parse_peek(const struct parser *p); /* the token after the current 
 /* expects a name and goes past it; 0 after an error */
 str_id parse_name(struct parser *p);
 /*
- * Skips what an error left behind: past the next ';', or to (at file level past) the '}' that closes the block.
+ * Skips what an error left behind: past the next ';', or to (at file level past) the '}' that
+ * closes the block.
  */
 void parse_recover(struct parser *p, bool at_file_level);
 bool parse_enter(struct parser *p); /* one level deeper; false, and panic, beyond PARSE_MAX_DEPTH */
@@ -215,25 +232,30 @@ void parse_leave(struct parser *p);
 uint32_t parse_place(const struct token *token);
 struct diag_place parse_where(const struct parser *p, uint32_t place, uint32_t length);
 struct diag_place parse_where_token(const struct parser *p, const struct token *token);
-struct diag_place parse_where_function(const struct parser *p, const struct lang_function *function);
+struct diag_place parse_where_function(const struct parser *p,
+                                       const struct lang_function *function);
 bool parse_may_report(struct parser *p);
 #if defined(__GNUC__)
 __attribute__((format(printf, 2, 3)))
 #endif
 /* text in the diagnostics' arena */
-const char *parse_say(struct parser *p, const char *format, ...);
+const char *
+parse_say(struct parser *p, const char *format, ...);
 const char *parse_text(const struct parser *p, str_id name);
 /* as shown in messages */
 const char *parse_token_text(struct parser *p, const struct token *token);
 const char *parse_type_text(struct parser *p, ir_type_id type);
 
 /*
- * PARSE_ERROR(p, where, id, …): the arguments of the id's format. PARSE_NOTE belongs to the error before it.
+ * PARSE_ERROR(p, where, id, …): the arguments of the id's format. PARSE_NOTE belongs to the error
+ * before it.
  */
 #define PARSE_ERROR(p, where, id, ...) \
     (parse_may_report(p) ? diag_add((p)->diags, DIAG_ID_##id, (where), __VA_ARGS__) : (void)0)
-#define PARSE_NOTE(p, where, id, ...) ((p)->reported ? diag_add((p)->diags, DIAG_ID_##id, (where), __VA_ARGS__) : (void)0)
-#define PARSE_TYPE_ERROR(p, place, ...) PARSE_ERROR(p, parse_where(p, place, 0), lang_type, parse_say(p, __VA_ARGS__))
+#define PARSE_NOTE(p, where, id, ...) \
+    ((p)->reported ? diag_add((p)->diags, DIAG_ID_##id, (where), __VA_ARGS__) : (void)0)
+#define PARSE_TYPE_ERROR(p, place, ...) \
+    PARSE_ERROR(p, parse_where(p, place, 0), lang_type, parse_say(p, __VA_ARGS__))
 #define PARSE_SYNTAX_ERROR(p, token, ...) \
     PARSE_ERROR(p, parse_where_token(p, token), lang_syntax, parse_say(p, __VA_ARGS__))
 
@@ -244,8 +266,8 @@ struct parse_mark {
 struct parse_mark parse_mark(const struct lang_unit *unit);
 void parse_roll_back(struct lang_unit *unit, const struct parse_mark *mark);
 void parse_init(struct parser *p, struct lang_unit *unit, struct diag_list *diags);
-void parse_begin(struct parser *p, const char *file_name, const char *text, size_t len, uint32_t line, uint32_t column,
-                 bool inputs);
+void parse_begin(struct parser *p, const char *file_name, const char *text, size_t len,
+                 uint32_t line, uint32_t column, bool inputs);
 
 /* parse_decl.c, parse_stmt.c, parse_expr.c */
 
@@ -256,13 +278,13 @@ bool parse_at_type(struct parser *p);      /* does a type begin here? (a struct'
 /* A type without array suffix; VOID, with *out_bad set, after an error. */
 ir_type_id parse_type(struct parser *p, bool may_be_void, bool *out_bad);
 /*
- * `[n]` behind a type or name: the array type, VOID after an error. `[]`: VOID with *out_unsized set; an error where
- * out_unsized is NULL.
+ * `[n]` behind a type or name: the array type, VOID after an error. `[]`: VOID with *out_unsized
+ * set; an error where out_unsized is NULL.
  */
 ir_type_id parse_array_suffix(struct parser *p, ir_type_id element, bool *out_unsized);
 /* After '=': a value converted to the type, or (unsized) an array of it; 0 after errors. */
 lang_ref parse_initialiser(struct parser *p, ir_type_id type, bool unsized);
-lang_ref parse_block(struct parser *p);    /* from '{' to '}'; the scope is the caller's */
+lang_ref parse_block(struct parser *p); /* from '{' to '}'; the scope is the caller's */
 bool parse_returns(const struct parser *p, lang_ref block); /* every path ends in a return */
 lang_ref parse_expression(struct parser *p); /* 0 after an error, which has been reported */
 
@@ -270,18 +292,23 @@ lang_ref parse_expression(struct parser *p); /* 0 after an error, which has been
 
 struct lang_node *tree_node(struct parser *p, lang_ref ref);
 uint32_t tree_place(const struct parser *p, lang_ref ref); /* of a node of this parse */
-lang_ref tree_new(struct parser *p, enum lang_kind kind, enum ir_op op, ir_type_id type, uint32_t place);
+lang_ref tree_new(struct parser *p, enum lang_kind kind, enum ir_op op, ir_type_id type,
+                  uint32_t place);
 lang_ref tree_const(struct parser *p, const struct ir_value *value, uint32_t place);
 /*
- * An op over operands, which are chained; over literals, its value where that is finite. 0 and a message where the tree
- * would be too high.
+ * An op over operands, which are chained; over literals, its value where that is finite. 0 and a
+ * message where the tree would be too high.
  */
-lang_ref tree_op(struct parser *p, enum ir_op op, ir_type_id type, uint32_t attr, const lang_ref *args, unsigned num_args,
-                 uint32_t place);
-lang_ref tree_call(struct parser *p, uint32_t function, ir_type_id type, const lang_ref *args, unsigned num_args,
-                   uint32_t place);
-lang_ref tree_swizzle(struct parser *p, lang_ref a, const uint8_t *components, unsigned count, uint32_t place);
-static inline ir_type_id tree_type(const struct parser *p, lang_ref ref) { return p->unit->nodes.items[ref].type; }
+lang_ref tree_op(struct parser *p, enum ir_op op, ir_type_id type, uint32_t attr,
+                 const lang_ref *args, unsigned num_args, uint32_t place);
+lang_ref tree_call(struct parser *p, uint32_t function, ir_type_id type, const lang_ref *args,
+                   unsigned num_args, uint32_t place);
+lang_ref tree_swizzle(struct parser *p, lang_ref a, const uint8_t *components, unsigned count,
+                      uint32_t place);
+static inline ir_type_id tree_type(const struct parser *p, lang_ref ref)
+{
+    return p->unit->nodes.items[ref].type;
+}
 
 struct tree_chain {
     lang_ref first, last;
@@ -308,13 +335,16 @@ lang_ref check_member(struct parser *p, lang_ref a, const struct token *name);
 lang_ref check_index(struct parser *p, lang_ref a, lang_ref index, uint32_t place);
 /* reports; marks the variable as assigned */
 bool check_assignable(struct parser *p, lang_ref target, const char *doing);
-lang_ref check_assign(struct parser *p, enum ir_op op, lang_ref target, lang_ref value, uint32_t place);
-bool check_is_array(const struct parser *p, ir_type_id type, ir_type_id *out_element, uint32_t *out_length);
+lang_ref check_assign(struct parser *p, enum ir_op op, lang_ref target, lang_ref value,
+                      uint32_t place);
+bool check_is_array(const struct parser *p, ir_type_id type, ir_type_id *out_element,
+                    uint32_t *out_length);
 
 /* check_call.c, check_construct.c */
 
 lang_ref check_call(struct parser *p, const struct token *name, lang_ref *args, unsigned num_args);
-lang_ref check_construct(struct parser *p, ir_type_id type, lang_ref *args, unsigned num_args, uint32_t place);
+lang_ref check_construct(struct parser *p, ir_type_id type, lang_ref *args, unsigned num_args,
+                         uint32_t place);
 bool check_is_builtin(const char *name, size_t len);
 
 /* check_const.c */
@@ -322,7 +352,8 @@ bool check_is_builtin(const char *name, size_t len);
 /* of a constant expression */
 bool check_value(struct parser *p, lang_ref ref, struct ir_value *out_value);
 /*
- * The words of a constant of built-in or array type go to unit->words; false where it is not constant.
+ * The words of a constant of built-in or array type go to unit->words; false where it is not
+ * constant.
  */
 bool check_words(struct parser *p, lang_ref ref, uint32_t *out_words, uint32_t *out_num_words);
 
@@ -337,25 +368,28 @@ bool check_finish_functions(struct parser *p, uint32_t first_function);
 ir_type_id lookup_type(const struct lang_unit *unit, const char *name, size_t len);
 /* made where it is new */
 ir_type_id lookup_array(struct lang_unit *unit, ir_type_id element, uint32_t length);
-uint32_t lookup_global(const struct lang_unit *unit, const uint32_t *files, uint32_t num_files, str_id name);
+uint32_t lookup_global(const struct lang_unit *unit, const uint32_t *files, uint32_t num_files,
+                       str_id name);
 /* The next function of a name; start with *cursor = {0, 0}. LANG_NONE at the end. */
 struct lookup_cursor {
     uint32_t file, function;
 };
-uint32_t lookup_next_function(const struct lang_unit *unit, const uint32_t *files, uint32_t num_files, str_id name,
-                              struct lookup_cursor *cursor);
+uint32_t lookup_next_function(const struct lang_unit *unit, const uint32_t *files,
+                              uint32_t num_files, str_id name, struct lookup_cursor *cursor);
 struct local *lookup_local(struct parser *p, str_id name);
 /*
- * The function that takes arguments of these types with the fewest implicit conversions. LANG_NONE where there is none,
- * and, with *out_ambiguous set, where two do.
+ * The function that takes arguments of these types with the fewest implicit conversions. LANG_NONE
+ * where there is none, and, with *out_ambiguous set, where two do.
  */
-uint32_t lookup_overload(const struct lang_unit *unit, const uint32_t *files, uint32_t num_files, str_id name,
-                         const ir_type_id *types, unsigned num_types, bool *out_ambiguous);
+uint32_t lookup_overload(const struct lang_unit *unit, const uint32_t *files, uint32_t num_files,
+                         str_id name, const ir_type_id *types, unsigned num_types,
+                         bool *out_ambiguous);
 /* The function with exactly these parameter types. */
-uint32_t lookup_exact(const struct lang_unit *unit, const uint32_t *files, uint32_t num_files, str_id name,
-                      const ir_type_id *types, unsigned num_types);
+uint32_t lookup_exact(const struct lang_unit *unit, const uint32_t *files, uint32_t num_files,
+                      str_id name, const ir_type_id *types, unsigned num_types);
 enum lookup_suggestion { LOOKUP_VALUES, LOOKUP_FUNCTIONS, LOOKUP_TYPES };
 const char *lookup_suggest(struct parser *p, const char *word, enum lookup_suggestion what);
-const struct lang_slot *lookup_param(const struct lang_unit *unit, uint32_t function, unsigned index);
+const struct lang_slot *lookup_param(const struct lang_unit *unit, uint32_t function,
+                                     unsigned index);
 
 #endif

@@ -4,7 +4,8 @@
 #include "base/num.h"
 
 static const struct symbol symbols[] = {
-#define SYMBOL(ID, text, role, op, precedence) {text, sizeof text - 1, SYMBOL_##role, op, precedence},
+#define SYMBOL(ID, text, role, op, precedence) \
+    {text, sizeof text - 1, SYMBOL_##role, op, precedence},
     LANG_SYMBOLS(SYMBOL)
 #undef SYMBOL
 };
@@ -27,7 +28,8 @@ const struct symbol *lex_symbol(enum token_kind kind)
 
 void lex_begin(struct lexer *lexer, const char *text, size_t len, uint32_t line, uint32_t column)
 {
-    *lexer = (struct lexer){.at = text, .end = text + len, .line = line, .column = column, .line_begins = true};
+    *lexer = (struct lexer){
+        .at = text, .end = text + len, .line = line, .column = column, .line_begins = true};
 }
 
 static bool is_digit(char c)
@@ -148,7 +150,8 @@ static void read_integer(struct token *token)
 }
 
 /*
- * Letters, digits, points, and signs of exponents: what does not read as a number as a whole is none.
+ * Letters, digits, points, and signs of exponents: what does not read as a number as a whole is
+ * none.
  */
 static bool is_of_number(const char *start, const char *at, bool hex)
 {
@@ -180,7 +183,8 @@ static void lex_word(struct lexer *lexer, struct token *token)
     token->len = (size_t)(at - lexer->at);
     token->kind = TOKEN_NAME;
     for (size_t i = 0; i < sizeof keywords / sizeof keywords[0]; i++)
-        if (strlen(keywords[i].text) == token->len && memcmp(keywords[i].text, token->text, token->len) == 0)
+        if (strlen(keywords[i].text) == token->len
+            && memcmp(keywords[i].text, token->text, token->len) == 0)
             token->kind = keywords[i].kind;
     step_to(lexer, at);
 }
@@ -197,7 +201,8 @@ static void lex_string(struct lexer *lexer, struct token *token)
         step_to(lexer, at + 1);
         return;
     }
-    bad(token, at < lexer->end && *at == '\\' ? "has a backslash: strings have no escapes" : "has no closing quote");
+    bad(token, at < lexer->end && *at == '\\' ? "has a backslash: strings have no escapes"
+                                              : "has no closing quote");
     step_to(lexer, at);
 }
 
@@ -261,7 +266,8 @@ static void lex_token(struct lexer *lexer, struct token *token, bool line_begins
 void lex_next(struct lexer *lexer, struct token *out_token)
 {
     bool closed = skip_blanks(lexer);
-    *out_token = (struct token){.kind = TOKEN_END, .text = lexer->at, .line = lexer->line, .column = lexer->column};
+    *out_token = (struct token){
+        .kind = TOKEN_END, .text = lexer->at, .line = lexer->line, .column = lexer->column};
     if (!closed) {
         out_token->len = 2;
         out_token->columns = 2;

@@ -32,13 +32,15 @@ ir_type_id lookup_array(struct lang_unit *unit, ir_type_id element, uint32_t len
     uint32_t id = IR_TYPE_FIRST_USER + unit->base_user_types + unit->user_types.len;
     if (id > UINT16_MAX)
         return IR_TYPE_VOID;
-    vec_push(unit->arena, &unit->user_types, (struct ir_user_type){.array_length = length, .element = element});
+    vec_push(unit->arena, &unit->user_types,
+             (struct ir_user_type){.array_length = length, .element = element});
     return (ir_type_id)id;
 }
 
 /* Globals and functions */
 
-uint32_t lookup_global(const struct lang_unit *unit, const uint32_t *files, uint32_t num_files, str_id name)
+uint32_t lookup_global(const struct lang_unit *unit, const uint32_t *files, uint32_t num_files,
+                       str_id name)
 {
     for (uint32_t f = 0; f < num_files; f++) {
         const struct lang_unit *layer;
@@ -50,8 +52,8 @@ uint32_t lookup_global(const struct lang_unit *unit, const uint32_t *files, uint
     return LANG_NONE;
 }
 
-uint32_t lookup_next_function(const struct lang_unit *unit, const uint32_t *files, uint32_t num_files, str_id name,
-                              struct lookup_cursor *cursor)
+uint32_t lookup_next_function(const struct lang_unit *unit, const uint32_t *files,
+                              uint32_t num_files, str_id name, struct lookup_cursor *cursor)
 {
     for (; cursor->file < num_files; cursor->file++, cursor->function = 0) {
         const struct lang_unit *layer;
@@ -64,7 +66,8 @@ uint32_t lookup_next_function(const struct lang_unit *unit, const uint32_t *file
     return LANG_NONE;
 }
 
-const struct lang_slot *lookup_param(const struct lang_unit *unit, uint32_t function, unsigned index)
+const struct lang_slot *lookup_param(const struct lang_unit *unit, uint32_t function,
+                                     unsigned index)
 {
     const struct lang_unit *layer;
     const struct lang_function *f = lang_function(unit, function, &layer);
@@ -74,7 +77,8 @@ const struct lang_slot *lookup_param(const struct lang_unit *unit, uint32_t func
 /*
  * Number of implicit conversions that the arguments need; -1 where the function does not take them.
  */
-static int conversions(const struct lang_unit *unit, uint32_t function, const ir_type_id *types, unsigned num_types)
+static int conversions(const struct lang_unit *unit, uint32_t function, const ir_type_id *types,
+                       unsigned num_types)
 {
     int num = 0;
     if (lang_function(unit, function, NULL)->num_params != num_types)
@@ -90,8 +94,9 @@ static int conversions(const struct lang_unit *unit, uint32_t function, const ir
     return num;
 }
 
-uint32_t lookup_overload(const struct lang_unit *unit, const uint32_t *files, uint32_t num_files, str_id name,
-                         const ir_type_id *types, unsigned num_types, bool *out_ambiguous)
+uint32_t lookup_overload(const struct lang_unit *unit, const uint32_t *files, uint32_t num_files,
+                         str_id name, const ir_type_id *types, unsigned num_types,
+                         bool *out_ambiguous)
 {
     struct lookup_cursor cursor = {0};
     uint32_t best = LANG_NONE, id;
@@ -108,8 +113,8 @@ uint32_t lookup_overload(const struct lang_unit *unit, const uint32_t *files, ui
     return *out_ambiguous ? LANG_NONE : best;
 }
 
-uint32_t lookup_exact(const struct lang_unit *unit, const uint32_t *files, uint32_t num_files, str_id name,
-                      const ir_type_id *types, unsigned num_types)
+uint32_t lookup_exact(const struct lang_unit *unit, const uint32_t *files, uint32_t num_files,
+                      str_id name, const ir_type_id *types, unsigned num_types)
 {
     struct lookup_cursor cursor = {0};
     uint32_t id;
@@ -119,20 +124,22 @@ uint32_t lookup_exact(const struct lang_unit *unit, const uint32_t *files, uint3
     return id;
 }
 
-static uint32_t find_in(const struct lang_unit *unit, const uint32_t *files, uint32_t num_files, str_id name,
-                        const ir_type_id *params, unsigned num_params, bool exact)
+static uint32_t find_in(const struct lang_unit *unit, const uint32_t *files, uint32_t num_files,
+                        str_id name, const ir_type_id *params, unsigned num_params, bool exact)
 {
     bool ambiguous;
     if (params)
-        return exact ? lookup_exact(unit, files, num_files, name, params, num_params)
-                     : lookup_overload(unit, files, num_files, name, params, num_params, &ambiguous);
+        return exact
+                   ? lookup_exact(unit, files, num_files, name, params, num_params)
+                   : lookup_overload(unit, files, num_files, name, params, num_params, &ambiguous);
     struct lookup_cursor cursor = {0};
     uint32_t id = lookup_next_function(unit, files, num_files, name, &cursor);
-    return lookup_next_function(unit, files, num_files, name, &cursor) == LANG_NONE ? id : LANG_NONE;
+    return lookup_next_function(unit, files, num_files, name, &cursor) == LANG_NONE ? id
+                                                                                    : LANG_NONE;
 }
 
-uint32_t lang_find_function(const struct lang_unit *unit, uint32_t file, str_id name, const ir_type_id *params,
-                            unsigned num_params)
+uint32_t lang_find_function(const struct lang_unit *unit, uint32_t file, str_id name,
+                            const ir_type_id *params, unsigned num_params)
 {
     if (file == LANG_NONE)
         return LANG_NONE;
@@ -159,15 +166,18 @@ struct local *lookup_local(struct parser *p, str_id name)
     return NULL;
 }
 
-static void suggest_declared(struct parser *p, struct diag_guess *guess, enum lookup_suggestion what)
+static void suggest_declared(struct parser *p, struct diag_guess *guess,
+                             enum lookup_suggestion what)
 {
     for (uint32_t f = 0; f < p->visible.len; f++) {
         const struct lang_unit *layer;
         const struct lang_file *file = lang_file(p->unit, p->visible.items[f], &layer);
         for (uint32_t i = 0; what == LOOKUP_VALUES && i < file->num_globals; i++)
-            diag_guess_add(guess, parse_text(p, lang_global(p->unit, file->first_global + i, NULL)->name));
+            diag_guess_add(guess,
+                           parse_text(p, lang_global(p->unit, file->first_global + i, NULL)->name));
         for (uint32_t i = 0; what == LOOKUP_FUNCTIONS && i < file->num_functions; i++)
-            diag_guess_add(guess, parse_text(p, lang_function(p->unit, file->first_function + i, NULL)->name));
+            diag_guess_add(
+                guess, parse_text(p, lang_function(p->unit, file->first_function + i, NULL)->name));
     }
 }
 

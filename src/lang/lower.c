@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Calls into IR. A call is, in this order of preference: a constant, the nodes of the callee's body, a CALL.
+ * Calls into IR. A call is, in this order of preference: a constant, the nodes of the callee's
+ * body, a CALL.
  */
 #include "lang/fragment.h"
 #include "lang/lower.h"
@@ -18,12 +19,14 @@ unsigned lang_num_results(const struct lang_unit *unit, uint32_t id)
 
 /* Structs and arrays between rows of leaves and single nodes */
 
-static ir_type_id make_graph_type(const struct lang_unit *unit, struct ir_graph *graph, ir_type_id type)
+static ir_type_id make_graph_type(const struct lang_unit *unit, struct ir_graph *graph,
+                                  ir_type_id type)
 {
     const struct lang_unit *layer;
     const struct ir_user_type *user = lang_user_type(unit, type, &layer);
     if (user->array_length)
-        return (ir_type_id)ir_add_array(graph, lower_graph_type(unit, graph, user->element), user->array_length);
+        return (ir_type_id)ir_add_array(graph, lower_graph_type(unit, graph, user->element),
+                                        user->array_length);
     struct ir_member *members = ARENA_ARRAY(graph->arena, struct ir_member, user->num_members);
     for (uint32_t i = 0; i < user->num_members; i++) {
         members[i] = layer->members.items[user->first_member + i];
@@ -51,18 +54,21 @@ static ir_type_id graph_type(struct lower *lo, ir_type_id type)
     return lower_graph_type(lo->unit, lo->graph, type);
 }
 
-static ir_type_id part_type(const struct lower *lo, ir_type_id type, uint32_t index, uint32_t *out_count)
+static ir_type_id part_type(const struct lower *lo, ir_type_id type, uint32_t index,
+                            uint32_t *out_count)
 {
     const struct lang_unit *layer;
     const struct ir_user_type *user = lang_user_type(lo->unit, type, &layer);
     *out_count = user->array_length ? user->array_length : user->num_members;
-    return user->array_length ? user->element : layer->members.items[user->first_member + index].type;
+    return user->array_length ? user->element
+                              : layer->members.items[user->first_member + index].type;
 }
 
 static const ir_ref *join(struct lower *lo, ir_type_id type, const ir_ref *leaves, ir_ref *out);
 static ir_ref *split(struct lower *lo, ir_type_id type, ir_ref node, ir_ref *leaves);
 
-static const ir_ref *join_user_type(struct lower *lo, ir_type_id type, const ir_ref *leaves, ir_ref *out)
+static const ir_ref *join_user_type(struct lower *lo, ir_type_id type, const ir_ref *leaves,
+                                    ir_ref *out)
 {
     uint32_t count;
     part_type(lo, type, 0, &count);
@@ -86,13 +92,16 @@ static ir_ref *split_user_type(struct lower *lo, ir_type_id type, ir_ref node, i
         ir_type_id part = part_type(lo, type, i, &count);
         ir_ref args[2] = {node, is_array ? ir_const_int(lo->graph, (int32_t)i) : 0};
         enum ir_op op = is_array ? IR_INDEX : IR_MEMBER;
-        ir_ref value = node ? ir_build(lo->graph, op, graph_type(lo, part), is_array ? 0 : i, args, is_array ? 2 : 1) : 0;
+        ir_ref value = node ? ir_build(lo->graph, op, graph_type(lo, part), is_array ? 0 : i, args,
+                                       is_array ? 2 : 1)
+                            : 0;
         leaves = split(lo, part, value, leaves);
     }
     return leaves;
 }
 
-static inline const ir_ref *join(struct lower *lo, ir_type_id type, const ir_ref *leaves, ir_ref *out)
+static inline const ir_ref *join(struct lower *lo, ir_type_id type, const ir_ref *leaves,
+                                 ir_ref *out)
 {
     if (ast_is_user_type(type))
         return join_user_type(lo, type, leaves, out);
@@ -146,28 +155,34 @@ struct few { /* room for the frame of a usual function */
 
 static void find_offsets(struct lower *lo, struct lower_frame *frame, struct few *few)
 {
-    static const uint32_t one_each[FEW_SLOTS + 1] = {0,  1,  2,  3,  4,  5,  6,  7,  8,  9,  10, 11, 12, 13, 14, 15, 16,
-                                                     17, 18, 19, 20, 21, 22, 23, 24, 25, 26, 27, 28, 29, 30, 31, 32};
+    static const uint32_t one_each[FEW_SLOTS + 1] = {0,  1,  2,  3,  4,  5,  6,  7,  8,  9,  10,
+                                                     11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21,
+                                                     22, 23, 24, 25, 26, 27, 28, 29, 30, 31, 32};
     uint32_t num_slots = frame->fn->num_slots;
     if (num_slots <= FEW_SLOTS && frame->fn->flags & LANG_FN_PLAIN) {
         frame->offsets = one_each;
         return;
     }
     const struct lang_slot *slots = frame->layer->slots.items + frame->fn->first_slot;
-    uint32_t *offsets = num_slots <= FEW_SLOTS ? few->offsets : ARENA_ARRAY(lo->graph->arena, uint32_t, num_slots + 1);
+    uint32_t *offsets = num_slots <= FEW_SLOTS
+                            ? few->offsets
+                            : ARENA_ARRAY(lo->graph->arena, uint32_t, num_slots + 1);
     offsets[0] = 0;
     for (uint32_t i = 0; i < num_slots; i++)
         offsets[i + 1] = offsets[i] + lower_leaves(lo, slots[i].type);
     frame->offsets = offsets;
 }
 
-static void open_frame(struct lower *lo, struct lower_frame *frame, const ir_ref *in, struct few *few)
+static void open_frame(struct lower *lo, struct lower_frame *frame, const ir_ref *in,
+                       struct few *few)
 {
     find_offsets(lo, frame, few);
     const uint32_t *offsets = frame->offsets;
     const struct lang_slot *slots = frame->layer->slots.items + frame->fn->first_slot;
     frame->num_leaves = offsets[frame->fn->num_slots] + lower_leaves(lo, frame->fn->return_type);
-    frame->leaves = frame->num_leaves <= FEW_LEAVES ? few->leaves : ARENA_ARRAY(lo->graph->arena, ir_ref, frame->num_leaves);
+    frame->leaves = frame->num_leaves <= FEW_LEAVES
+                        ? few->leaves
+                        : ARENA_ARRAY(lo->graph->arena, ir_ref, frame->num_leaves);
     for (uint32_t i = 0, k = 0; i < frame->fn->num_params; i++)
         for (; k < offsets[i + 1]; k++)
             frame->leaves[k] = slots[i].mode == LANG_OUT ? 0 : *in++;
@@ -181,19 +196,21 @@ static void collect_results(const struct lower_frame *frame, ir_ref *out)
     for (uint32_t k = frame->offsets[frame->fn->num_slots]; k < frame->num_leaves; k++)
         *out++ = frame->leaves[k];
     for (uint32_t i = 0; i < frame->fn->num_params; i++)
-        for (uint32_t k = frame->offsets[i]; slots[i].mode != LANG_IN && k < frame->offsets[i + 1]; k++)
+        for (uint32_t k = frame->offsets[i]; slots[i].mode != LANG_IN && k < frame->offsets[i + 1];
+             k++)
             *out++ = frame->leaves[k];
 }
 
 enum known { NOTHING_KNOWN, A_NUMBER_KNOWN, A_CHOICE_KNOWN };
 
 /* What a function is called with: strings, flags and options choose what it is. */
-static enum known known_of(const struct lower *lo, const struct lang_unit *layer, const struct lang_function *fn,
-                           const ir_ref *in)
+static enum known known_of(const struct lower *lo, const struct lang_unit *layer,
+                           const struct lang_function *fn, const ir_ref *in)
 {
     enum known known = NOTHING_KNOWN;
     for (uint32_t i = 0; i < fn->num_globals; i++)
-        if (lang_global(lo->unit, layer->refs.items[fn->first_global + i], NULL)->kind == LANG_GLOBAL_OPTION)
+        if (lang_global(lo->unit, layer->refs.items[fn->first_global + i], NULL)->kind
+            == LANG_GLOBAL_OPTION)
             return A_CHOICE_KNOWN;
     for (uint32_t i = 0; i < fn->num_params; i++) {
         const struct lang_slot *slot = ast_slot(layer, fn, i);
@@ -210,7 +227,8 @@ static enum known known_of(const struct lower *lo, const struct lang_unit *layer
     return known;
 }
 
-static bool has_special_texture(const struct lower *lo, const struct lang_unit *layer, const struct lang_function *fn, const ir_ref *in)
+static bool has_special_texture(const struct lower *lo, const struct lang_unit *layer,
+                                const struct lang_function *fn, const ir_ref *in)
 {
     for (uint32_t i = 0; i < fn->num_params; i++) {
         const struct lang_slot *slot = ast_slot(layer, fn, i);
@@ -222,14 +240,16 @@ static bool has_special_texture(const struct lower *lo, const struct lang_unit *
 }
 
 /*
- * Is a function's body worth more than a call? A larger one may be small with what is known, and is tried: where a choice is known,
- * until it has executed as many nodes as a small function has, where a number is, until it has added many to the graph.
+ * Is a function's body worth more than a call? A larger one may be small with what is known, and is
+ * tried: where a choice is known, until it has executed as many nodes as a small function has,
+ * where a number is, until it has added many to the graph.
  */
-static bool is_worth_trying(struct lower *lo, const struct lang_unit *layer, const struct lang_function *fn, const ir_ref *in,
-                            uint32_t *out_budget)
+static bool is_worth_trying(struct lower *lo, const struct lang_unit *layer,
+                            const struct lang_function *fn, const ir_ref *in, uint32_t *out_budget)
 {
     bool is_outer = lo->depth < LOWER_OUTER_DEPTH;
-    uint32_t limit = is_outer && lo->host->max_outer_nodes ? lo->host->max_outer_nodes : lo->host->max_inline_nodes;
+    uint32_t limit = is_outer && lo->host->max_outer_nodes ? lo->host->max_outer_nodes
+                                                           : lo->host->max_inline_nodes;
     if (limit < LOWER_TINY)
         limit = LOWER_TINY;
     *out_budget = UINT32_MAX;
@@ -242,9 +262,11 @@ static bool is_worth_trying(struct lower *lo, const struct lang_unit *layer, con
     enum known known = known_of(lo, layer, fn, in);
     if (known == A_CHOICE_KNOWN)
         *out_budget = 2 * limit;
-    else if (known == A_NUMBER_KNOWN && is_outer && fn->num_nodes <= LOWER_MAX_TRIED && lo->max_graph_nodes == UINT32_MAX)
+    else if (known == A_NUMBER_KNOWN && is_outer && fn->num_nodes <= LOWER_MAX_TRIED
+             && lo->max_graph_nodes == UINT32_MAX)
         lo->max_graph_nodes = lo->graph->nodes.len + LOWER_TRIED_NODES;
-    return known == A_CHOICE_KNOWN || (known == A_NUMBER_KNOWN && is_outer && fn->num_nodes <= LOWER_MAX_TRIED);
+    return known == A_CHOICE_KNOWN
+           || (known == A_NUMBER_KNOWN && is_outer && fn->num_nodes <= LOWER_MAX_TRIED);
 }
 
 /*
@@ -255,7 +277,8 @@ static bool lower_inline(struct lower *lo, uint32_t id, const ir_ref *in, ir_ref
     struct lower_frame frame = {0}, *caller = lo->frame;
     frame.fn = lang_function(lo->unit, id, &frame.layer);
     uint32_t max_graph_nodes = lo->max_graph_nodes;
-    if (lo->depth == LOWER_MAX_DEPTH || !is_worth_trying(lo, frame.layer, frame.fn, in, &frame.budget))
+    if (lo->depth == LOWER_MAX_DEPTH
+        || !is_worth_trying(lo, frame.layer, frame.fn, in, &frame.budget))
         return false;
     struct few few;
     open_frame(lo, &frame, in, &few);
@@ -275,7 +298,8 @@ static bool lower_inline(struct lower *lo, uint32_t id, const ir_ref *in, ir_ref
 /* A CALL */
 
 /* Operands of a CALL: one node per in and inout parameter; false where one has no value. */
-static bool join_arguments(struct lower *lo, uint32_t id, const ir_ref *in, ir_ref *args, uint32_t *out_count)
+static bool join_arguments(struct lower *lo, uint32_t id, const ir_ref *in, ir_ref *args,
+                           uint32_t *out_count)
 {
     const struct lang_unit *layer;
     const struct lang_function *fn = lang_function(lo->unit, id, &layer);
@@ -319,7 +343,8 @@ static void build_call(struct lower *lo, uint32_t id, const ir_ref *in, ir_ref *
     const struct lang_unit *layer;
     const struct lang_function *fn = lang_function(lo->unit, id, &layer);
     ir_type_id type = graph_type(lo, fn->return_type);
-    ir_ref call = ir_build(lo->graph, IR_CALL, type, fragment_callee(lo->unit, lo->graph, id), args, num_args);
+    ir_ref call = ir_build(lo->graph, IR_CALL, type, fragment_callee(lo->unit, lo->graph, id), args,
+                           num_args);
     bool is_single = fn->return_type != IR_TYPE_VOID && lang_num_results(lo->unit, id) == 1;
     if (fn->return_type != IR_TYPE_VOID) {
         ir_ref value = is_single ? call : ir_build(lo->graph, IR_RESULT, type, 0, &call, 1);
@@ -330,7 +355,8 @@ static void build_call(struct lower *lo, uint32_t id, const ir_ref *in, ir_ref *
         const struct lang_slot *slot = ast_slot(layer, fn, i);
         if (slot->mode == LANG_IN)
             continue;
-        ir_ref value = ir_build(lo->graph, IR_RESULT, graph_type(lo, slot->type), ++number, &call, 1);
+        ir_ref value =
+            ir_build(lo->graph, IR_RESULT, graph_type(lo, slot->type), ++number, &call, 1);
         out = split(lo, slot->type, value, out);
     }
 }
@@ -364,7 +390,8 @@ static bool fits(const struct lower *lo)
     return leaves <= LOWER_MAX_LEAVES;
 }
 
-static const ir_ref *join_result(struct lower *lo, ir_type_id type, const ir_ref *leaves, ir_ref *out)
+static const ir_ref *join_result(struct lower *lo, ir_type_id type, const ir_ref *leaves,
+                                 ir_ref *out)
 {
     leaves = join(lo, type, leaves, out);
     if (!*out)
@@ -410,16 +437,19 @@ static void poison_whole_results(struct lower *lo, ir_ref *results)
         *results++ = ir_poison(lo->graph, graph_type(lo, fn->return_type));
     for (uint32_t i = 0; i < fn->num_params; i++)
         if (ast_slot(lo->frame->layer, fn, i)->mode != LANG_IN)
-            *results++ = ir_poison(lo->graph, graph_type(lo, ast_slot(lo->frame->layer, fn, i)->type));
+            *results++ =
+                ir_poison(lo->graph, graph_type(lo, ast_slot(lo->frame->layer, fn, i)->type));
 }
 
 /* False where the function has no fragments, and none are taken down. */
-static bool begin_pattern(const struct lower *lo, uint32_t id, const ir_ref *args, struct fragment_pattern *pattern)
+static bool begin_pattern(const struct lower *lo, uint32_t id, const ir_ref *args,
+                          struct fragment_pattern *pattern)
 {
     const struct lang_unit *layer = lo->frame->layer;
     const struct lang_function *fn = lo->frame->fn;
     bool has_any = id < layer->fragment_of.len && layer->fragment_of.items[id];
-    if ((!has_any && !lo->unit->recorder) || layer->base || lo->host->choice == LANG_NONE || !(fn->flags & LANG_FN_PLAIN))
+    if ((!has_any && !lo->unit->recorder) || layer->base || lo->host->choice == LANG_NONE
+        || !(fn->flags & LANG_FN_PLAIN))
         return false;
     fragment_pattern_begin(pattern, lo->graph, layer);
     pattern->codes[pattern->len++] = (uint16_t)lo->host->max_outer_nodes;
@@ -430,14 +460,16 @@ static bool begin_pattern(const struct lower *lo, uint32_t id, const ir_ref *arg
     return !pattern->failed;
 }
 
-static void restore(struct fragment_host *host, const struct lang_unit *layer, const struct lang_fragment *fragment,
-                    const struct fragment_pattern *pattern, ir_ref *results)
+static void restore(struct fragment_host *host, const struct lang_unit *layer,
+                    const struct lang_fragment *fragment, const struct fragment_pattern *pattern,
+                    ir_ref *results)
 {
     ir_ref nodes[1 + FRAGMENT_MAX_INPUTS + FRAGMENT_MAX_NODES];
     nodes[0] = 0;
     if (pattern->num_inputs)
         memcpy(nodes + 1, pattern->inputs, pattern->num_inputs * sizeof *nodes);
-    const uint16_t *codes = fragment_restore(host, layer, fragment, pattern->num_inputs, nodes, NULL);
+    const uint16_t *codes =
+        fragment_restore(host, layer, fragment, pattern->num_inputs, nodes, NULL);
     for (unsigned count = *codes++; count > 0; count--)
         *results++ = nodes[*codes++];
 }
@@ -459,18 +491,24 @@ static void lower_known_function(struct lower *lo, uint32_t id, const ir_ref *ar
     else if (!fits(lo))
         poison_whole_results(lo, results);
     else
-        (lo->frame->fn->flags & LANG_FN_PLAIN ? lower_plain_function : lower_function)(lo, id, args, results);
+        (lo->frame->fn->flags & LANG_FN_PLAIN ? lower_plain_function : lower_function)(lo, id, args,
+                                                                                       results);
     if (!has_pattern || !recorder || recorder->of_graphs)
         return;
     recorder->first_new = first_new;
-    fragment_record(&host, &recorder->fragment_of.items[id], &pattern, results, lang_num_results(lo->unit, id));
+    fragment_record(&host, &recorder->fragment_of.items[id], &pattern, results,
+                    lang_num_results(lo->unit, id));
 }
 
-void lang_lower_call(struct lang_unit *generated, struct ir_graph *graph, const struct lang_host *host, uint32_t id,
-                     const ir_ref *args, ir_ref *results)
+void lang_lower_call(struct lang_unit *generated, struct ir_graph *graph,
+                     const struct lang_host *host, uint32_t id, const ir_ref *args, ir_ref *results)
 {
     struct lower_frame frame = {.budget = UINT32_MAX};
-    struct lower lo = {.unit = generated, .graph = graph, .host = host, .frame = &frame, .max_graph_nodes = UINT32_MAX};
+    struct lower lo = {.unit = generated,
+                       .graph = graph,
+                       .host = host,
+                       .frame = &frame,
+                       .max_graph_nodes = UINT32_MAX};
     generated->host = *host;
     generated->graph = graph;
     frame.fn = lang_function(generated, id, &frame.layer);

@@ -39,7 +39,8 @@ ir_ref lower_single(struct lower *lo, const struct lang_node *node)
 
 /* Globals */
 
-static void constant_leaves(struct lower *lo, ir_type_id type, const union ir_word **words, ir_ref **out)
+static void constant_leaves(struct lower *lo, ir_type_id type, const union ir_word **words,
+                            ir_ref **out)
 {
     if (ast_is_user_type(type)) { /* an array: constants are not structs */
         const struct ir_user_type *user = lang_user_type(lo->unit, type, NULL);
@@ -83,8 +84,10 @@ static void lower_operands(struct lower *lo, const struct lang_node *node, ir_re
     }
     if (lo->failed)
         return;
-    bool is_special = node->op >= IR_TEX && node->op <= IR_TEX_FETCH && ir_type_of(lo->graph, args[0]) != IR_TYPE_SAMPLER;
-    *out = is_special && lo->host->texture ? lo->host->texture(lo->host->user_data, node->op, args) : 0;
+    bool is_special = node->op >= IR_TEX && node->op <= IR_TEX_FETCH
+                      && ir_type_of(lo->graph, args[0]) != IR_TYPE_SAMPLER;
+    *out = is_special && lo->host->texture ? lo->host->texture(lo->host->user_data, node->op, args)
+                                           : 0;
     if (!*out)
         *out = ir_build(lo->graph, node->op, node->type, node->b, args, count);
 }
@@ -99,7 +102,8 @@ static bool known_condition(const struct lower *lo, ir_ref condition, bool *out)
 
 static void lower_select(struct lower *lo, const struct lang_node *node, ir_ref *out)
 {
-    const struct lang_node *first = lower_node(lo, node->a), *yes = lower_node(lo, first->next), *no = lower_node(lo, yes->next);
+    const struct lang_node *first = lower_node(lo, node->a), *yes = lower_node(lo, first->next),
+                           *no = lower_node(lo, yes->next);
     ir_ref condition = lower_single(lo, first);
     if (lo->failed)
         return;
@@ -182,16 +186,10 @@ static void lower_part(struct lower *lo, const struct lang_node *node, ir_ref *o
 static void lower_op(struct lower *lo, const struct lang_node *node, ir_ref *out)
 {
     switch (node->op) {
-    case IR_SELECT:
-        lower_select(lo, node, out);
-        break;
+    case IR_SELECT: lower_select(lo, node, out); break;
     case IR_LAND:
-    case IR_LOR:
-        lower_logic(lo, node, out);
-        break;
-    case IR_MEMBER:
-        lower_part(lo, node, out);
-        break;
+    case IR_LOR: lower_logic(lo, node, out); break;
+    case IR_MEMBER: lower_part(lo, node, out); break;
     case IR_INDEX:
         if (ast_is_user_type(lower_node(lo, node->a)->type))
             lower_part(lo, node, out);
@@ -204,8 +202,7 @@ static void lower_op(struct lower *lo, const struct lang_node *node, ir_ref *out
         else
             lower_operands(lo, node, out);
         break;
-    default:
-        lower_operands(lo, node, out);
+    default: lower_operands(lo, node, out);
     }
 }
 
@@ -220,8 +217,8 @@ static ir_ref component(struct lower *lo, ir_ref vector, ir_type_id type, unsign
     return ir_type_info(type)->components == 1 ? vector : ir_component(lo->graph, vector, index);
 }
 
-static ir_ref with_components(struct lower *lo, ir_ref vector, ir_type_id type, uint32_t attr, ir_ref value,
-                              ir_type_id value_type)
+static ir_ref with_components(struct lower *lo, ir_ref vector, ir_type_id type, uint32_t attr,
+                              ir_ref value, ir_type_id value_type)
 {
     ir_ref parts[4];
     unsigned count = ir_type_info(type)->components;
@@ -233,8 +230,8 @@ static ir_ref with_components(struct lower *lo, ir_ref vector, ir_type_id type, 
 }
 
 /* A matrix with one column, or a vector with one component, replaced. */
-static ir_ref with_element(struct lower *lo, ir_ref whole, ir_type_id type, uint32_t index, ir_ref value,
-                           ir_type_id value_type)
+static ir_ref with_element(struct lower *lo, ir_ref whole, ir_type_id type, uint32_t index,
+                           ir_ref value, ir_type_id value_type)
 {
     if (!ir_type_is_matrix(type))
         return with_components(lo, whole, type, 1u << 8 | index, value, value_type);
@@ -243,8 +240,9 @@ static ir_ref with_element(struct lower *lo, ir_ref whole, ir_type_id type, uint
     for (unsigned i = 0; i < count; i++) {
         ir_ref at = ir_const_int(lo->graph, (int32_t)i);
         columns[i] = i == index ? value
-                     : whole    ? ir_build(lo->graph, IR_INDEX, value_type, 0, (ir_ref[]){whole, at}, 2)
-                                : ir_const(lo->graph, &(struct ir_value){.type = value_type});
+                     : whole
+                         ? ir_build(lo->graph, IR_INDEX, value_type, 0, (ir_ref[]){whole, at}, 2)
+                         : ir_const(lo->graph, &(struct ir_value){.type = value_type});
     }
     return ir_construct(lo->graph, type, columns, count);
 }
@@ -285,7 +283,8 @@ void lower_assign(struct lower *lo, lang_ref target, const ir_ref *leaves)
     if (lo->failed)
         return;
     if (node->kind == LANG_VAR)
-        copy_leaves(leaves, lower_leaves(lo, node->type), lo->frame->leaves + lo->frame->offsets[node->a]);
+        copy_leaves(leaves, lower_leaves(lo, node->type),
+                    lo->frame->leaves + lo->frame->offsets[node->a]);
     else if (ast_is_user_type(lower_node(lo, node->a)->type))
         assign_part(lo, node, leaves);
     else
@@ -341,17 +340,10 @@ static void lower_other(struct lower *lo, const struct lang_node *node, ir_ref *
     case LANG_CONST:
         *out = ir_const_words(lo->graph, node->type, ast_words(lo->frame->layer, node));
         break;
-    case LANG_INPUT:
-        *out = lo->inputs[node->a];
-        break;
-    case LANG_GLOBAL:
-        lower_global(lo, node, out);
-        break;
-    case LANG_CALL:
-        lower_nested_call(lo, node, out);
-        break;
-    default:
-        lower_op(lo, node, out);
+    case LANG_INPUT: *out = lo->inputs[node->a]; break;
+    case LANG_GLOBAL: lower_global(lo, node, out); break;
+    case LANG_CALL: lower_nested_call(lo, node, out); break;
+    default: lower_op(lo, node, out);
     }
 }
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Statements, executed with nodes for values. Under a condition that is not known both branches are executed on copies of
- * the variables, and what they disagree on becomes a SELECT; where one of them returns, what follows belongs to the other.
+ * Statements, executed with nodes for values. Under a condition that is not known both branches are
+ * executed on copies of the variables, and what they disagree on becomes a SELECT; where one of
+ * them returns, what follows belongs to the other.
  */
 #include "lang/lower.h"
 
@@ -24,7 +25,8 @@ static void lower_assignment(struct lower *lo, const struct lang_node *node)
         if (lo->failed)
             return;
         ir_ref value = leaves[0] ? leaves[0] : ir_poison(lo->graph, lower_node(lo, node->b)->type);
-        leaves[0] = ir_build(lo->graph, node->op, lower_node(lo, node->a)->type, 0, (ir_ref[]){old, value}, 2);
+        leaves[0] = ir_build(lo->graph, node->op, lower_node(lo, node->a)->type, 0,
+                             (ir_ref[]){old, value}, 2);
     }
     lower_assign(lo, node->a, leaves);
 }
@@ -36,7 +38,8 @@ static bool lower_body(struct lower *lo, lang_ref body)
     if (!body)
         return false;
     lo->frame->nesting++;
-    bool returned = lower_statements(lo, lower_node(lo, body)->kind == LANG_BLOCK ? lower_node(lo, body)->a : body);
+    bool returned = lower_statements(
+        lo, lower_node(lo, body)->kind == LANG_BLOCK ? lower_node(lo, body)->a : body);
     lo->frame->nesting--;
     return returned;
 }
@@ -65,8 +68,8 @@ static struct mark mark(const struct lower *lo)
 }
 
 /*
- * May the nodes since `begin` be computed although they may not be needed? A call may not, though there be an equal one, nor a derivative, which
- * is for all pixels; what is computed from one may.
+ * May the nodes since `begin` be computed although they may not be needed? A call may not, though
+ * there be an equal one, nor a derivative, which is for all pixels; what is computed from one may.
  */
 static bool is_cheap(struct lower *lo, struct mark begin)
 {
@@ -109,7 +112,8 @@ static void merge(struct lower *lo, ir_ref condition, const ir_ref *yes)
 }
 
 /*
- * What follows a statement of which one branch has returned: it must return as well, or be the end of a void function.
+ * What follows a statement of which one branch has returned: it must return as well, or be the end
+ * of a void function.
  */
 static void lower_rest(struct lower *lo, lang_ref rest)
 {
@@ -176,27 +180,20 @@ bool lower_statements(struct lower *lo, lang_ref first)
         node = lower_node(lo, ref);
         ir_ref unused[LOWER_MAX_LEAVES];
         switch (node->kind) {
-        case LANG_DECLARE:
-            lower_declare(lo, node);
-            break;
-        case LANG_ASSIGN:
-            lower_assignment(lo, node);
-            break;
-        case LANG_EXPR:
-            lower_expression(lo, lower_node(lo, node->a), unused);
-            break;
+        case LANG_DECLARE: lower_declare(lo, node); break;
+        case LANG_ASSIGN: lower_assignment(lo, node); break;
+        case LANG_EXPR: lower_expression(lo, lower_node(lo, node->a), unused); break;
         case LANG_BLOCK:
             if (lower_body(lo, ref))
                 return true;
             break;
-        case LANG_IF:
-            return lower_if(lo, node);
+        case LANG_IF: return lower_if(lo, node);
         case LANG_RETURN:
             if (node->a)
-                lower_expression(lo, lower_node(lo, node->a), lo->frame->leaves + lo->frame->offsets[lo->frame->fn->num_slots]);
+                lower_expression(lo, lower_node(lo, node->a),
+                                 lo->frame->leaves + lo->frame->offsets[lo->frame->fn->num_slots]);
             return true;
-        default: /* a loop */
-            lo->failed = true;
+        default: /* a loop */ lo->failed = true;
         }
     }
     return lo->failed;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * The parser's core: tokens, messages, recovery, taking back; and the parsing of inline expressions.
+ * The parser's core: tokens, messages, recovery, taking back; and the parsing of inline
+ * expressions.
  */
 #include "lang/lang_priv.h"
 
@@ -16,7 +17,8 @@ uint32_t parse_place(const struct token *token)
 
 struct diag_place parse_where(const struct parser *p, uint32_t place, uint32_t length)
 {
-    return (struct diag_place){.file = p->file_name, .line = place >> 12, .column = place & 4095, .length = length};
+    return (struct diag_place){
+        .file = p->file_name, .line = place >> 12, .column = place & 4095, .length = length};
 }
 
 struct diag_place parse_where_token(const struct parser *p, const struct token *token)
@@ -111,12 +113,14 @@ void parse_unexpected(struct parser *p, const char *expected)
 {
     const struct symbol *symbol = lex_symbol(p->token.kind);
     if (p->token.kind == TOKEN_REFUSED)
-        PARSE_ERROR(p, parse_where_token(p, &p->token), lang_unsupported, parse_token_text(p, &p->token), "");
+        PARSE_ERROR(p, parse_where_token(p, &p->token), lang_unsupported,
+                    parse_token_text(p, &p->token), "");
     else if (symbol && (symbol->role == SYMBOL_SET || symbol->role == SYMBOL_STEP))
         PARSE_ERROR(p, parse_where_token(p, &p->token), lang_unsupported, symbol->text,
                     " inside of an expression; make it a statement of its own");
     else
-        PARSE_ERROR(p, parse_where_token(p, &p->token), lang_expected, expected, parse_token_text(p, &p->token));
+        PARSE_ERROR(p, parse_where_token(p, &p->token), lang_expected, expected,
+                    parse_token_text(p, &p->token));
     p->panic = true;
 }
 
@@ -197,9 +201,9 @@ void parse_leave(struct parser *p)
 
 struct parse_mark parse_mark(const struct lang_unit *unit)
 {
-    return (struct parse_mark){unit->nodes.len,      unit->slots.len,      unit->functions.len,
-                               unit->globals.len,    unit->files.len,      unit->words.len,
-                               unit->refs.len,       unit->user_types.len, unit->members.len};
+    return (struct parse_mark){unit->nodes.len,   unit->slots.len,      unit->functions.len,
+                               unit->globals.len, unit->files.len,      unit->words.len,
+                               unit->refs.len,    unit->user_types.len, unit->members.len};
 }
 
 void parse_roll_back(struct lang_unit *unit, const struct parse_mark *mark)
@@ -217,11 +221,12 @@ void parse_roll_back(struct lang_unit *unit, const struct parse_mark *mark)
 
 void parse_init(struct parser *p, struct lang_unit *unit, struct diag_list *diags)
 {
-    *p = (struct parser){.unit = unit, .diags = diags, .file = LANG_NONE, .first_node = unit->nodes.len};
+    *p = (struct parser){
+        .unit = unit, .diags = diags, .file = LANG_NONE, .first_node = unit->nodes.len};
 }
 
-void parse_begin(struct parser *p, const char *file_name, const char *text, size_t len, uint32_t line, uint32_t column,
-                 bool inputs)
+void parse_begin(struct parser *p, const char *file_name, const char *text, size_t len,
+                 uint32_t line, uint32_t column, bool inputs)
 {
     p->file_name = file_name;
     lex_begin(&p->lexer, text, len, line, column);
@@ -237,7 +242,8 @@ static void declare_inputs(struct parser *p, const struct lang_input *inputs, un
     p->num_inputs = num_inputs;
     p->first_slot = p->unit->slots.len;
     for (unsigned i = 0; i < num_inputs; i++)
-        vec_push(p->unit->arena, &p->unit->slots, (struct lang_slot){.name = inputs[i].name, .type = inputs[i].type});
+        vec_push(p->unit->arena, &p->unit->slots,
+                 (struct lang_slot){.name = inputs[i].name, .type = inputs[i].type});
 }
 
 static lang_ref parse_whole_expression(struct parser *p, ir_type_id type)
@@ -250,8 +256,9 @@ static lang_ref parse_whole_expression(struct parser *p, ir_type_id type)
     return type == IR_TYPE_VOID ? value : check_convert(p, value, type, "the expression");
 }
 
-uint32_t lang_parse_expression(struct lang_unit *unit, const char *text, size_t len, const struct lang_input *inputs,
-                               unsigned num_inputs, ir_type_id type, uint32_t file, struct diag_place where,
+uint32_t lang_parse_expression(struct lang_unit *unit, const char *text, size_t len,
+                               const struct lang_input *inputs, unsigned num_inputs,
+                               ir_type_id type, uint32_t file, struct diag_place where,
                                struct diag_list *diags)
 {
     struct parse_mark mark = parse_mark(unit);
@@ -264,7 +271,8 @@ uint32_t lang_parse_expression(struct lang_unit *unit, const char *text, size_t 
         for (uint32_t i = 0; i < seen->num_includes; i++)
             vec_push(unit->arena, &p.visible, layer->refs.items[seen->first_include + i]);
     }
-    parse_begin(&p, where.file, text, len, where.line ? where.line : 1, where.column ? where.column : 1, true);
+    parse_begin(&p, where.file, text, len, where.line ? where.line : 1,
+                where.column ? where.column : 1, true);
     declare_inputs(&p, inputs, num_inputs);
     uint32_t place = parse_place(&p.token);
 
@@ -277,9 +285,15 @@ uint32_t lang_parse_expression(struct lang_unit *unit, const char *text, size_t 
     tree_node(&p, result)->a = value;
     lang_ref body = tree_new(&p, LANG_BLOCK, IR_NUM_OPS, IR_TYPE_VOID, place);
     tree_node(&p, body)->a = result;
-    vec_push(unit->arena, &unit->functions, (struct lang_function){
-        .flags = LANG_FN_EXPRESSION, .return_type = tree_type(&p, value), .num_params = (uint16_t)num_inputs,
-        .num_slots = (uint16_t)num_inputs, .first_slot = p.first_slot, .body = body, .file = file, .place = place});
+    vec_push(unit->arena, &unit->functions,
+             (struct lang_function){.flags = LANG_FN_EXPRESSION,
+                                    .return_type = tree_type(&p, value),
+                                    .num_params = (uint16_t)num_inputs,
+                                    .num_slots = (uint16_t)num_inputs,
+                                    .first_slot = p.first_slot,
+                                    .body = body,
+                                    .file = file,
+                                    .place = place});
     check_finish_functions(&p, unit->base_functions + unit->functions.len - 1);
     return unit->base_functions + unit->functions.len - 1;
 }

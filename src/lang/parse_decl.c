@@ -13,7 +13,8 @@ static struct lang_file *own_file(struct parser *p)
 
 static bool is_word(const struct token *token, const char *word)
 {
-    return token->kind == TOKEN_NAME && token->len == strlen(word) && memcmp(token->text, word, token->len) == 0;
+    return token->kind == TOKEN_NAME && token->len == strlen(word)
+           && memcmp(token->text, word, token->len) == 0;
 }
 
 bool parse_at_type(struct parser *p)
@@ -21,8 +22,9 @@ bool parse_at_type(struct parser *p)
     if (p->token.kind != TOKEN_NAME)
         return false;
     struct token next = parse_peek(p);
-    return next.kind == TOKEN_NAME ||
-           (next.kind == TOKEN_OPEN_INDEX && lookup_type(p->unit, p->token.text, p->token.len) != IR_TYPE_VOID);
+    return next.kind == TOKEN_NAME
+           || (next.kind == TOKEN_OPEN_INDEX
+               && lookup_type(p->unit, p->token.text, p->token.len) != IR_TYPE_VOID);
 }
 
 ir_type_id parse_type(struct parser *p, bool may_be_void, bool *out_bad)
@@ -42,7 +44,8 @@ ir_type_id parse_type(struct parser *p, bool may_be_void, bool *out_bad)
     if (is_word(&token, "void"))
         PARSE_TYPE_ERROR(p, parse_place(&token), "nothing but a function can have type void");
     else
-        PARSE_ERROR(p, parse_where_token(p, &token), lang_unknown, "type", word, lookup_suggest(p, word, LOOKUP_TYPES));
+        PARSE_ERROR(p, parse_where_token(p, &token), lang_unknown, "type", word,
+                    lookup_suggest(p, word, LOOKUP_TYPES));
     return IR_TYPE_VOID;
 }
 
@@ -69,12 +72,15 @@ static ir_type_id sized_array(struct parser *p, ir_type_id element, uint32_t pla
         return IR_TYPE_VOID;
     bool integer = constant && (length.type == IR_TYPE_INT || length.type == IR_TYPE_UINT);
     if (!integer || length.w[0].u == 0 || length.w[0].u > PARSE_MAX_ARRAY) {
-        PARSE_TYPE_ERROR(p, size_place, "the length of an array must be a constant int from 1 to %d", PARSE_MAX_ARRAY);
+        PARSE_TYPE_ERROR(p, size_place,
+                         "the length of an array must be a constant int from 1 to %d",
+                         PARSE_MAX_ARRAY);
         return IR_TYPE_VOID;
     }
     ir_type_id type = lookup_array(p->unit, element, length.w[0].u);
     if (type == IR_TYPE_VOID)
-        PARSE_ERROR(p, parse_where(p, place, 0), lang_limit, "there are too many structs and arrays");
+        PARSE_ERROR(p, parse_where(p, place, 0), lang_limit,
+                    "there are too many structs and arrays");
     return type;
 }
 
@@ -91,7 +97,8 @@ ir_type_id parse_array_suffix(struct parser *p, ir_type_id element, bool *out_un
     bool nested = p->token.kind == TOKEN_CLOSE_INDEX && parse_peek(p).kind == TOKEN_OPEN_INDEX;
     bool opaque = element == IR_TYPE_STRING || element == IR_TYPE_SAMPLER;
     if (nested || opaque || check_is_array(p, element, &inner, &length)) {
-        PARSE_TYPE_ERROR(p, place, "there are no arrays of %s", nested ? "arrays" : parse_type_text(p, element));
+        PARSE_TYPE_ERROR(p, place, "there are no arrays of %s",
+                         nested ? "arrays" : parse_type_text(p, element));
         p->panic |= nested;
         type = IR_TYPE_VOID;
     } else if (unsized && out_unsized) {
@@ -126,7 +133,8 @@ static bool parse_member(struct parser *p, uint32_t first)
         if (p->token.kind == TOKEN_OPEN_INDEX)
             type = parse_array_suffix(p, type, NULL);
         if (type == IR_TYPE_STRING || type == IR_TYPE_SAMPLER)
-            PARSE_TYPE_ERROR(p, parse_place(&at), "a member cannot have type %s", parse_type_text(p, type));
+            PARSE_TYPE_ERROR(p, parse_place(&at), "a member cannot have type %s",
+                             parse_type_text(p, type));
         for (uint32_t i = first; i < p->unit->members.len; i++)
             if (p->unit->members.items[i].name == name)
                 PARSE_ERROR(p, parse_where_token(p, &at), duplicate_name, parse_text(p, name));
@@ -142,7 +150,8 @@ static bool same_members(const struct parser *p, ir_type_id type, uint32_t first
     if (user->num_members != p->unit->members.len - first)
         return false;
     for (uint32_t i = 0; i < user->num_members; i++) {
-        struct ir_member a = layer->members.items[user->first_member + i], b = p->unit->members.items[first + i];
+        struct ir_member a = layer->members.items[user->first_member + i],
+                         b = p->unit->members.items[first + i];
         if (a.name != b.name || a.type != b.type)
             return false;
     }
@@ -150,7 +159,8 @@ static bool same_members(const struct parser *p, ir_type_id type, uint32_t first
 }
 
 /*
- * Structs are found by name in the whole unit: an equal one of another file is the same type, a different one hides it.
+ * Structs are found by name in the whole unit: an equal one of another file is the same type, a
+ * different one hides it.
  */
 static void declare_struct(struct parser *p, const struct token *at, str_id name, uint32_t first)
 {
@@ -162,10 +172,12 @@ static void declare_struct(struct parser *p, const struct token *at, str_id name
     else if (known != IR_TYPE_VOID && (known < IR_TYPE_FIRST_USER || known >= p->first_user_type))
         PARSE_ERROR(p, parse_where_token(p, at), duplicate_name, parse_text(p, name));
     else if (num_members == 0 || num_members > MAX_MEMBERS || id > UINT16_MAX)
-        PARSE_ERROR(p, parse_where_token(p, at), lang_limit, parse_say(p, "a struct has 1 to %d members", MAX_MEMBERS));
+        PARSE_ERROR(p, parse_where_token(p, at), lang_limit,
+                    parse_say(p, "a struct has 1 to %d members", MAX_MEMBERS));
     else
-        vec_push(p->unit->arena, &p->unit->user_types, (struct ir_user_type){
-            .name = name, .num_members = (uint16_t)num_members, .first_member = first});
+        vec_push(p->unit->arena, &p->unit->user_types,
+                 (struct ir_user_type){
+                     .name = name, .num_members = (uint16_t)num_members, .first_member = first});
 }
 
 static void parse_struct(struct parser *p)
@@ -197,15 +209,18 @@ static bool same_value(struct parser *p, const struct lang_global *a, const stru
 }
 
 /*
- * A declaration that says the same as one that is visible is that one; constants may repeat only by #define.
+ * A declaration that says the same as one that is visible is that one; constants may repeat only by
+ * #define.
  */
-static void declare_global(struct parser *p, const struct token *at, struct lang_global global, bool may_repeat)
+static void declare_global(struct parser *p, const struct token *at, struct lang_global global,
+                           bool may_repeat)
 {
     uint32_t known = lookup_global(p->unit, p->visible.items, p->visible.len, global.name);
     if (known != LANG_NONE) {
         const struct lang_unit *layer;
         const struct lang_global *other = lang_global(p->unit, known, &layer);
-        bool same = other->kind == global.kind && other->type == global.type && same_value(p, other, layer, &global);
+        bool same = other->kind == global.kind && other->type == global.type
+                    && same_value(p, other, layer, &global);
         if (!may_repeat || !same)
             PARSE_ERROR(p, parse_where_token(p, at), duplicate_name, parse_text(p, global.name));
         return;
@@ -215,12 +230,14 @@ static void declare_global(struct parser *p, const struct token *at, struct lang
     own_file(p)->num_globals++;
 }
 
-static void parse_constant(struct parser *p, const struct token *at, str_id name, ir_type_id type, bool unsized)
+static void parse_constant(struct parser *p, const struct token *at, str_id name, ir_type_id type,
+                           bool unsized)
 {
     static const char option_prefix[] = "option_";
     struct parse_mark mark = parse_mark(p->unit);
     struct lang_global global = {.name = name, .kind = LANG_GLOBAL_CONST};
-    if (at->len > sizeof option_prefix - 1 && memcmp(at->text, option_prefix, sizeof option_prefix - 1) == 0)
+    if (at->len > sizeof option_prefix - 1
+        && memcmp(at->text, option_prefix, sizeof option_prefix - 1) == 0)
         global.kind = LANG_GLOBAL_OPTION;
     if (!parse_expect(p, TOKEN_SET))
         return;
@@ -253,7 +270,8 @@ void parse_define(struct parser *p)
     if (!name || p->token.kind == TOKEN_END) /* a flag without a value says nothing here */
         return;
     if (p->token.kind == TOKEN_OPEN && p->token.text == at.text + at.len) {
-        PARSE_ERROR(p, parse_where_token(p, &at), lang_unsupported, "#define", " with parameters; write a function");
+        PARSE_ERROR(p, parse_where_token(p, &at), lang_unsupported, "#define",
+                    " with parameters; write a function");
         return;
     }
     struct lang_global global = {.name = name, .kind = LANG_GLOBAL_CONST};
@@ -273,14 +291,17 @@ void parse_define(struct parser *p)
     declare_global(p, &at, global, true);
 }
 
-static void parse_host_variable(struct parser *p, const struct token *at, str_id name, enum lang_global_kind kind,
-                                ir_type_id type)
+static void parse_host_variable(struct parser *p, const struct token *at, str_id name,
+                                enum lang_global_kind kind, ir_type_id type)
 {
     uint32_t length = 0;
-    if (type == IR_TYPE_STRING || (kind == LANG_GLOBAL_STREAM && (type == IR_TYPE_SAMPLER || type >= IR_TYPE_FIRST_USER)))
-        PARSE_TYPE_ERROR(p, parse_place(at), "'%s' cannot have type %s", parse_text(p, name), parse_type_text(p, type));
+    if (type == IR_TYPE_STRING
+        || (kind == LANG_GLOBAL_STREAM && (type == IR_TYPE_SAMPLER || type >= IR_TYPE_FIRST_USER)))
+        PARSE_TYPE_ERROR(p, parse_place(at), "'%s' cannot have type %s", parse_text(p, name),
+                         parse_type_text(p, type));
     check_is_array(p, type, &type, &length); /* then `type` is that of its elements */
-    struct lang_global global = {.name = name, .kind = (uint8_t)kind, .type = type, .array_length = length};
+    struct lang_global global = {
+        .name = name, .kind = (uint8_t)kind, .type = type, .array_length = length};
     declare_global(p, at, global, true);
 }
 
@@ -307,7 +328,8 @@ static void parse_globals(struct parser *p)
         else if (unsized)
             PARSE_TYPE_ERROR(p, parse_place(&at), "this array needs a length");
         else
-            parse_host_variable(p, &at, name, keyword == TOKEN_IN ? LANG_GLOBAL_STREAM : LANG_GLOBAL_UNIFORM, type);
+            parse_host_variable(
+                p, &at, name, keyword == TOKEN_IN ? LANG_GLOBAL_STREAM : LANG_GLOBAL_UNIFORM, type);
     } while (parse_accept(p, TOKEN_COMMA));
     parse_expect(p, TOKEN_SEMICOLON);
 }
@@ -319,7 +341,9 @@ static void parse_param(struct parser *p)
 {
     uint32_t slot = p->unit->slots.len - p->first_slot;
     bool read_only = parse_accept(p, TOKEN_CONST);
-    enum lang_param_mode mode = p->token.kind == TOKEN_OUT ? LANG_OUT : p->token.kind == TOKEN_INOUT ? LANG_INOUT : LANG_IN;
+    enum lang_param_mode mode = p->token.kind == TOKEN_OUT     ? LANG_OUT
+                                : p->token.kind == TOKEN_INOUT ? LANG_INOUT
+                                                               : LANG_IN;
     struct token at = p->token;
     if (mode != LANG_IN || at.kind == TOKEN_IN)
         parse_advance(p);
@@ -333,13 +357,19 @@ static void parse_param(struct parser *p)
         type = parse_array_suffix(p, type, NULL);
     bool opaque = type == IR_TYPE_STRING || type == IR_TYPE_SAMPLER;
     if (mode != LANG_IN && (opaque || read_only))
-        PARSE_TYPE_ERROR(p, parse_place(&at), "a %s parameter is always in", opaque ? parse_type_text(p, type) : "const");
+        PARSE_TYPE_ERROR(p, parse_place(&at), "a %s parameter is always in",
+                         opaque ? parse_type_text(p, type) : "const");
     for (uint32_t i = 0; i < p->locals.len; i++)
         if (name && p->locals.items[i].name == name)
             PARSE_ERROR(p, parse_where_token(p, &at), duplicate_name, parse_text(p, name));
-    vec_push(p->unit->arena, &p->unit->slots, (struct lang_slot){.name = name, .type = type, .mode = (uint8_t)mode});
-    vec_push(p->unit->arena, &p->locals, (struct local){.name = name, .type = type, .slot = (uint16_t)slot,
-                                                        .read_only = read_only || opaque, .place = parse_place(&at)});
+    vec_push(p->unit->arena, &p->unit->slots,
+             (struct lang_slot){.name = name, .type = type, .mode = (uint8_t)mode});
+    vec_push(p->unit->arena, &p->locals,
+             (struct local){.name = name,
+                            .type = type,
+                            .slot = (uint16_t)slot,
+                            .read_only = read_only || opaque,
+                            .place = parse_place(&at)});
 }
 
 static bool parse_params(struct parser *p)
@@ -366,7 +396,8 @@ static uint32_t find_declared(struct parser *p, str_id name, unsigned num_params
     return lookup_exact(p->unit, p->visible.items, p->visible.len, name, types, num_params);
 }
 
-static bool check_repeats(struct parser *p, const struct token *at, uint32_t id, ir_type_id return_type, bool is_definition)
+static bool check_repeats(struct parser *p, const struct token *at, uint32_t id,
+                          ir_type_id return_type, bool is_definition)
 {
     const struct lang_function *known = lang_function(p->unit, id, NULL);
     bool same = known->return_type == return_type;
@@ -375,17 +406,20 @@ static bool check_repeats(struct parser *p, const struct token *at, uint32_t id,
     if (same && !(is_definition && known->body))
         return true;
     PARSE_ERROR(p, parse_where_token(p, at), lang_type,
-                parse_say(p, same ? "'%s' is defined already" : "'%s' was declared with another return type or out parameters",
+                parse_say(p,
+                          same ? "'%s' is defined already"
+                               : "'%s' was declared with another return type or out parameters",
                           parse_token_text(p, at)));
     PARSE_NOTE(p, parse_where_function(p, known), defined_here, parse_token_text(p, at));
     return false;
 }
 
 /*
- * The own function with this signature: known from a prototype, or new. LANG_NONE where it may not be defined.
+ * The own function with this signature: known from a prototype, or new. LANG_NONE where it may not
+ * be defined.
  */
-static uint32_t declare_function(struct parser *p, const struct token *at, str_id name, ir_type_id return_type,
-                                 bool is_definition)
+static uint32_t declare_function(struct parser *p, const struct token *at, str_id name,
+                                 ir_type_id return_type, bool is_definition)
 {
     unsigned num_params = p->unit->slots.len - p->first_slot;
     if (num_params > MAX_PARAMS) {
@@ -393,19 +427,27 @@ static uint32_t declare_function(struct parser *p, const struct token *at, str_i
                     parse_say(p, "a function has at most %d parameters", MAX_PARAMS));
         return LANG_NONE;
     }
-    if (check_is_builtin(at->text, at->len) || lookup_type(p->unit, at->text, at->len) != IR_TYPE_VOID)
-        PARSE_TYPE_ERROR(p, parse_place(at), "'%s' is the name of a built-in function or type", parse_token_text(p, at));
+    if (check_is_builtin(at->text, at->len)
+        || lookup_type(p->unit, at->text, at->len) != IR_TYPE_VOID)
+        PARSE_TYPE_ERROR(p, parse_place(at), "'%s' is the name of a built-in function or type",
+                         parse_token_text(p, at));
     uint32_t id = find_declared(p, name, num_params);
     if (id != LANG_NONE)
         return check_repeats(p, at, id, return_type, is_definition) ? id : LANG_NONE;
-    vec_push(p->unit->arena, &p->unit->functions, (struct lang_function){
-        .name = name, .return_type = return_type, .num_params = (uint16_t)num_params, .num_slots = (uint16_t)num_params,
-        .first_slot = p->first_slot, .file = p->file, .place = parse_place(at)});
+    vec_push(p->unit->arena, &p->unit->functions,
+             (struct lang_function){.name = name,
+                                    .return_type = return_type,
+                                    .num_params = (uint16_t)num_params,
+                                    .num_slots = (uint16_t)num_params,
+                                    .first_slot = p->first_slot,
+                                    .file = p->file,
+                                    .place = parse_place(at)});
     own_file(p)->num_functions++;
     return p->unit->base_functions + p->unit->functions.len - 1;
 }
 
-static void parse_function(struct parser *p, const struct token *at, str_id name, ir_type_id return_type)
+static void parse_function(struct parser *p, const struct token *at, str_id name,
+                           ir_type_id return_type)
 {
     if (!parse_params(p))
         return;
@@ -419,7 +461,8 @@ static void parse_function(struct parser *p, const struct token *at, str_id name
     p->loops = 0;
     lang_ref body = parse_block(p);
     if (return_type != IR_TYPE_VOID && body && !parse_returns(p, tree_node(p, body)->a))
-        PARSE_TYPE_ERROR(p, parse_place(at), "'%s' does not return a value on every path", parse_token_text(p, at));
+        PARSE_TYPE_ERROR(p, parse_place(at), "'%s' does not return a value on every path",
+                         parse_token_text(p, at));
     if (id != LANG_NONE) {
         struct lang_function *function = &p->unit->functions.items[id - p->unit->base_functions];
         function->first_slot = p->first_slot;
@@ -441,7 +484,8 @@ static void parse_function_or_global(struct parser *p)
     if (!name)
         return;
     if (p->token.kind != TOKEN_OPEN) {
-        PARSE_TYPE_ERROR(p, parse_place(&at), "'%s' must be const, uniform or in: there are no other global variables",
+        PARSE_TYPE_ERROR(p, parse_place(&at),
+                         "'%s' must be const, uniform or in: there are no other global variables",
                          parse_text(p, name));
         p->panic = true;
         return;
@@ -459,7 +503,9 @@ void parse_declarations(struct parser *p)
         case TOKEN_DIRECTIVE: parse_directive(p); break;
         case TOKEN_SEMICOLON: parse_advance(p); break;
         case TOKEN_STRUCT: parse_struct(p); break;
-        case TOKEN_CONST: case TOKEN_UNIFORM: case TOKEN_IN: parse_globals(p); break;
+        case TOKEN_CONST:
+        case TOKEN_UNIFORM:
+        case TOKEN_IN: parse_globals(p); break;
         case TOKEN_NAME: parse_function_or_global(p); break;
         default: parse_unexpected(p, "a declaration"); break;
         }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Expressions: precedence climbing over the symbol table. Every function returns 0 after an error it has reported.
+ * Expressions: precedence climbing over the symbol table. Every function returns 0 after an error
+ * it has reported.
  */
 #include "lang/lang_priv.h"
 
@@ -41,7 +42,8 @@ static lang_ref parse_call(struct parser *p, const struct token *name, ir_type_i
 }
 
 /* float[3](…) or float[](…) */
-static lang_ref parse_array_constructor(struct parser *p, const struct token *name, ir_type_id element)
+static lang_ref parse_array_constructor(struct parser *p, const struct token *name,
+                                        ir_type_id element)
 {
     bool unsized = false;
     ir_type_id type = parse_array_suffix(p, element, &unsized);
@@ -56,9 +58,11 @@ static lang_ref parse_array_constructor(struct parser *p, const struct token *na
         if (unsized && num_args >= 1 && num_args <= PARSE_MAX_ARRAY)
             type = lookup_array(p->unit, element, num_args);
         if (type == IR_TYPE_VOID)
-            PARSE_TYPE_ERROR(p, parse_place(name), "an array needs 1 to %d elements; here are %u", PARSE_MAX_ARRAY, num_args);
+            PARSE_TYPE_ERROR(p, parse_place(name), "an array needs 1 to %d elements; here are %u",
+                             PARSE_MAX_ARRAY, num_args);
         else
-            result = check_construct(p, type, num_args ? &p->operands.items[first] : NULL, num_args, parse_place(name));
+            result = check_construct(p, type, num_args ? &p->operands.items[first] : NULL, num_args,
+                                     parse_place(name));
     }
     p->operands.len = first;
     return result;
@@ -90,7 +94,8 @@ static lang_ref parse_input(struct parser *p)
     str_id name = str_find(p->unit->strings, token.text, token.len);
     for (unsigned i = 0; i < p->num_inputs; i++)
         if (name && p->inputs[i].name == name) {
-            lang_ref ref = tree_new(p, LANG_INPUT, IR_NUM_OPS, p->inputs[i].type, parse_place(&token));
+            lang_ref ref =
+                tree_new(p, LANG_INPUT, IR_NUM_OPS, p->inputs[i].type, parse_place(&token));
             tree_node(p, ref)->a = i;
             return ref;
         }
@@ -125,7 +130,9 @@ static lang_ref parse_global(struct parser *p, uint32_t id, const struct token *
         memcpy(value.w, layer->words.items + global->words, global->num_words * sizeof value.w[0]);
         return tree_const(p, &value, parse_place(token));
     }
-    ir_type_id type = global->array_length ? lookup_array(p->unit, global->type, global->array_length) : global->type;
+    ir_type_id type = global->array_length
+                          ? lookup_array(p->unit, global->type, global->array_length)
+                          : global->type;
     lang_ref ref = tree_new(p, LANG_GLOBAL, IR_NUM_OPS, type, parse_place(token));
     tree_node(p, ref)->a = id;
     return ref;
@@ -140,7 +147,8 @@ static lang_ref parse_named(struct parser *p)
     if (local && p->token.kind != TOKEN_OPEN)
         return parse_local(p, local, &token);
     if (local) {
-        PARSE_TYPE_ERROR(p, parse_place(&token), "'%s' is a variable; it cannot be called", parse_text(p, name));
+        PARSE_TYPE_ERROR(p, parse_place(&token), "'%s' is a variable; it cannot be called",
+                         parse_text(p, name));
         p->panic = true;
         return 0;
     }
@@ -149,14 +157,16 @@ static lang_ref parse_named(struct parser *p)
         return parse_call(p, &token, type);
     if (type != IR_TYPE_VOID && p->token.kind == TOKEN_OPEN_INDEX)
         return parse_array_constructor(p, &token, type);
-    uint32_t global = name ? lookup_global(p->unit, p->visible.items, p->visible.len, name) : LANG_NONE;
+    uint32_t global =
+        name ? lookup_global(p->unit, p->visible.items, p->visible.len, name) : LANG_NONE;
     if (global != LANG_NONE)
         return parse_global(p, global, &token);
     const char *word = parse_token_text(p, &token);
     if (type != IR_TYPE_VOID)
         PARSE_ERROR(p, parse_where_token(p, &token), lang_expected, "an expression", word);
     else
-        PARSE_ERROR(p, parse_where_token(p, &token), lang_unknown, "name", word, lookup_suggest(p, word, LOOKUP_VALUES));
+        PARSE_ERROR(p, parse_where_token(p, &token), lang_unknown, "name", word,
+                    lookup_suggest(p, word, LOOKUP_VALUES));
     return 0;
 }
 
@@ -164,19 +174,19 @@ static lang_ref parse_primary(struct parser *p)
 {
     lang_ref inner;
     switch (p->token.kind) {
-    case TOKEN_INT: case TOKEN_UINT: case TOKEN_FLOAT: case TOKEN_STRING: case TOKEN_TRUE: case TOKEN_FALSE:
-        return parse_literal(p);
-    case TOKEN_INPUT:
-        return parse_input(p);
-    case TOKEN_NAME:
-        return parse_named(p);
+    case TOKEN_INT:
+    case TOKEN_UINT:
+    case TOKEN_FLOAT:
+    case TOKEN_STRING:
+    case TOKEN_TRUE:
+    case TOKEN_FALSE: return parse_literal(p);
+    case TOKEN_INPUT: return parse_input(p);
+    case TOKEN_NAME: return parse_named(p);
     case TOKEN_OPEN:
         parse_advance(p);
         inner = parse_expression(p);
         return parse_expect(p, TOKEN_CLOSE) ? inner : 0;
-    default:
-        parse_unexpected(p, "an expression");
-        return 0;
+    default: parse_unexpected(p, "an expression"); return 0;
     }
 }
 
@@ -222,22 +232,27 @@ static lang_ref parse_prefix(struct parser *p)
     enum token_kind kind = p->token.kind;
     parse_advance(p);
     lang_ref a = parse_unary(p);
-    enum ir_op op = kind == TOKEN_SUB ? IR_NEG : kind == TOKEN_NOT ? IR_NOT : kind == TOKEN_TILDE ? IR_BITNOT : IR_NUM_OPS;
+    enum ir_op op = kind == TOKEN_SUB     ? IR_NEG
+                    : kind == TOKEN_NOT   ? IR_NOT
+                    : kind == TOKEN_TILDE ? IR_BITNOT
+                                          : IR_NUM_OPS;
     return a ? check_unary(p, op, a, place) : 0;
 }
 
 static lang_ref parse_unary(struct parser *p)
 {
     switch (p->token.kind) {
-    case TOKEN_SUB: case TOKEN_ADD: case TOKEN_NOT: case TOKEN_TILDE: {
+    case TOKEN_SUB:
+    case TOKEN_ADD:
+    case TOKEN_NOT:
+    case TOKEN_TILDE: {
         if (!parse_enter(p))
             return 0;
         lang_ref a = parse_prefix(p);
         parse_leave(p);
         return a;
     }
-    default:
-        return parse_postfix(p);
+    default: return parse_postfix(p);
     }
 }
 
@@ -246,7 +261,8 @@ static lang_ref parse_binary(struct parser *p, unsigned min_precedence)
     lang_ref a = parse_unary(p);
     for (;;) {
         const struct symbol *symbol = lex_symbol(p->token.kind);
-        if (p->panic || !symbol || symbol->role != SYMBOL_BINARY || symbol->precedence < min_precedence)
+        if (p->panic || !symbol || symbol->role != SYMBOL_BINARY
+            || symbol->precedence < min_precedence)
             return p->panic ? 0 : a;
         uint32_t place = parse_place(&p->token);
         parse_advance(p);

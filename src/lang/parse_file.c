@@ -2,8 +2,9 @@
 /* Files, their includes and other directives. */
 #include "lang/lang_priv.h"
 
-static uint32_t parse_file(struct lang_unit *unit, const struct lang_reader *reader, const char *from, const char *ref,
-                           struct diag_place where, struct diag_list *diags, const struct parser *includer);
+static uint32_t parse_file(struct lang_unit *unit, const struct lang_reader *reader,
+                           const char *from, const char *ref, struct diag_place where,
+                           struct diag_list *diags, const struct parser *includer);
 
 /* Directives */
 
@@ -16,7 +17,8 @@ static bool is_word(const struct token *token, const char *word)
 static struct lexer directive_lexer(const struct token *directive)
 {
     struct lexer lexer;
-    lex_begin(&lexer, directive->text + 1, directive->len - 1, directive->line, directive->column + 1);
+    lex_begin(&lexer, directive->text + 1, directive->len - 1, directive->line,
+              directive->column + 1);
     lexer.line_begins = false;
     return lexer;
 }
@@ -117,12 +119,14 @@ static uint32_t find_file(const struct lang_unit *unit, str_id name)
 }
 
 /* Reports an include of a file by itself, or a nesting that is too deep. */
-static bool check_nesting(const struct parser *includer, const char *name, struct diag_place where, struct diag_list *diags)
+static bool check_nesting(const struct parser *includer, const char *name, struct diag_place where,
+                          struct diag_list *diags)
 {
     unsigned depth = 0;
     for (const struct parser *p = includer; p; p = p->includer) {
         if (strcmp(p->file_name, name) == 0) {
-            diag_add(diags, DIAG_ID_include_cycle, where, name, includer == p ? "directly" : includer->file_name);
+            diag_add(diags, DIAG_ID_include_cycle, where, name,
+                     includer == p ? "directly" : includer->file_name);
             return false;
         }
         depth++;
@@ -146,7 +150,9 @@ static bool failed_before(const struct diag_list *diags, const char *name)
 static void begin_file(struct parser *p, str_id name)
 {
     struct lang_unit *unit = p->unit;
-    struct lang_file file = {.name = name, .first_include = unit->refs.len, .num_includes = p->visible.len,
+    struct lang_file file = {.name = name,
+                             .first_include = unit->refs.len,
+                             .num_includes = p->visible.len,
                              .first_function = unit->base_functions + unit->functions.len,
                              .first_global = unit->base_globals + unit->globals.len};
     for (uint32_t i = 0; i < p->visible.len; i++)
@@ -174,15 +180,17 @@ static uint32_t parse_text_of_file(struct parser *p, str_id name, const char *te
     parse_begin(p, p->file_name, text, len, 1, 1, false);
     parse_declarations(p);
     if (p->stopped)
-        diag_add(p->diags, DIAG_ID_too_many_errors, parse_where_token(p, &p->last), (unsigned)PARSE_MAX_ERRORS);
+        diag_add(p->diags, DIAG_ID_too_many_errors, parse_where_token(p, &p->last),
+                 (unsigned)PARSE_MAX_ERRORS);
     if (p->num_errors == 0 && check_finish_functions(p, first_function))
         return p->file;
     parse_roll_back(p->unit, &mark);
     return LANG_NONE;
 }
 
-static uint32_t parse_file(struct lang_unit *unit, const struct lang_reader *reader, const char *from, const char *ref,
-                           struct diag_place where, struct diag_list *diags, const struct parser *includer)
+static uint32_t parse_file(struct lang_unit *unit, const struct lang_reader *reader,
+                           const char *from, const char *ref, struct diag_place where,
+                           struct diag_list *diags, const struct parser *includer)
 {
     const char *read_name = ref, *text = NULL, *reason = "it was not found";
     size_t len = 0;
@@ -206,8 +214,8 @@ static uint32_t parse_file(struct lang_unit *unit, const struct lang_reader *rea
     return parse_text_of_file(&p, name, text, len);
 }
 
-uint32_t lang_parse_file(struct lang_unit *unit, const struct lang_reader *reader, const char *from, const char *ref,
-                         struct diag_place where, struct diag_list *diags)
+uint32_t lang_parse_file(struct lang_unit *unit, const struct lang_reader *reader, const char *from,
+                         const char *ref, struct diag_place where, struct diag_list *diags)
 {
     return parse_file(unit, reader, from, ref, where, diags, NULL);
 }

@@ -60,7 +60,8 @@ lang_ref parse_initialiser(struct parser *p, ir_type_id type, bool unsized)
 {
     ir_type_id element;
     uint32_t length;
-    if ((unsized || check_is_array(p, type, &element, &length)) && parse_accept(p, TOKEN_OPEN_BLOCK))
+    if ((unsized || check_is_array(p, type, &element, &length))
+        && parse_accept(p, TOKEN_OPEN_BLOCK))
         return parse_elements(p, type, unsized);
     lang_ref value = parse_expression(p);
     if (!value || type == IR_TYPE_VOID)
@@ -78,7 +79,8 @@ static bool check_local_type(struct parser *p, ir_type_id type, const struct tok
 {
     if (type != IR_TYPE_STRING && type != IR_TYPE_SAMPLER)
         return true;
-    PARSE_TYPE_ERROR(p, parse_place(at), "a variable cannot have type %s", parse_type_text(p, type));
+    PARSE_TYPE_ERROR(p, parse_place(at), "a variable cannot have type %s",
+                     parse_type_text(p, type));
     return false;
 }
 
@@ -88,29 +90,36 @@ static void check_redeclared(struct parser *p, str_id name, const struct token *
         if (name && p->locals.items[i].name == name) {
             PARSE_ERROR(p, parse_where_token(p, at), duplicate_name, parse_text(p, name));
             if (p->reported)
-                diag_add(p->diags, DIAG_ID_previous_definition, parse_where(p, p->locals.items[i].place, 0));
+                diag_add(p->diags, DIAG_ID_previous_definition,
+                         parse_where(p, p->locals.items[i].place, 0));
             return;
         }
 }
 
 /* A new variable of the function; type VOID where its declaration was wrong. */
-static struct local *declare(struct parser *p, const struct token *name_token, str_id name, ir_type_id type, bool is_const)
+static struct local *declare(struct parser *p, const struct token *name_token, str_id name,
+                             ir_type_id type, bool is_const)
 {
     check_redeclared(p, name, name_token);
     uint32_t slot = p->unit->slots.len - p->first_slot;
     if (slot >= UINT16_MAX) {
-        PARSE_ERROR(p, parse_where_token(p, name_token), lang_limit, "the function has too many variables");
+        PARSE_ERROR(p, parse_where_token(p, name_token), lang_limit,
+                    "the function has too many variables");
         p->panic = true;
     }
     vec_push(p->unit->arena, &p->unit->slots, (struct lang_slot){.name = name, .type = type});
-    vec_push(p->unit->arena, &p->locals, (struct local){
-        .name = name, .type = type, .slot = (uint16_t)slot, .read_only = is_const, .place = parse_place(name_token)});
+    vec_push(p->unit->arena, &p->locals,
+             (struct local){.name = name,
+                            .type = type,
+                            .slot = (uint16_t)slot,
+                            .read_only = is_const,
+                            .place = parse_place(name_token)});
     return &vec_last(&p->locals);
 }
 
 /*
- * NAME [n] = value; the name is in scope behind its initialiser. `unsized`: an array of `type` whose length the
- * initialiser gives.
+ * NAME [n] = value; the name is in scope behind its initialiser. `unsized`: an array of `type`
+ * whose length the initialiser gives.
  */
 static lang_ref parse_declarator(struct parser *p, ir_type_id type, bool unsized, bool is_const)
 {
@@ -133,7 +142,8 @@ static lang_ref parse_declarator(struct parser *p, ir_type_id type, bool unsized
         type = value ? tree_type(p, value) : IR_TYPE_VOID;
     struct local *local = declare(p, &name_token, name, type, is_const);
     uint32_t num_words;
-    local->has_value = value && is_const && type < IR_NUM_TYPES && check_words(p, value, &local->words, &num_words);
+    local->has_value = value && is_const && type < IR_NUM_TYPES
+                       && check_words(p, value, &local->words, &num_words);
     lang_ref ref = tree_new(p, LANG_DECLARE, IR_NUM_OPS, IR_TYPE_VOID, local->place);
     tree_node(p, ref)->a = local->slot;
     tree_node(p, ref)->b = value;
@@ -169,11 +179,13 @@ static lang_ref step_by_one(struct parser *p, enum token_kind kind, lang_ref tar
 static lang_ref parse_effect(struct parser *p, lang_ref value, const struct token *start)
 {
     if (p->token.kind == TOKEN_COMMA)
-        PARSE_ERROR(p, parse_where_token(p, &p->token), lang_unsupported, ",", " operator; write one statement for each");
+        PARSE_ERROR(p, parse_where_token(p, &p->token), lang_unsupported, ",",
+                    " operator; write one statement for each");
     else if (p->token.kind != TOKEN_SEMICOLON && p->token.kind != TOKEN_CLOSE)
         parse_unexpected(p, "';'");
     else if (value && tree_node(p, value)->kind != LANG_CALL)
-        PARSE_SYNTAX_ERROR(p, start, "the statement has no effect: a call or an assignment was expected");
+        PARSE_SYNTAX_ERROR(p, start,
+                           "the statement has no effect: a call or an assignment was expected");
     if (!value || p->panic || tree_node(p, value)->kind != LANG_CALL)
         return 0;
     lang_ref ref = tree_new(p, LANG_EXPR, IR_NUM_OPS, IR_TYPE_VOID, parse_place(start));
@@ -203,7 +215,9 @@ static lang_ref parse_simple(struct parser *p)
         return parse_effect(p, target, &start);
     parse_advance(p);
     lang_ref value = parse_expression(p);
-    return target && value ? check_assign(p, (enum ir_op)symbol->op, target, value, parse_place(&at)) : 0;
+    return target && value
+               ? check_assign(p, (enum ir_op)symbol->op, target, value, parse_place(&at))
+               : 0;
 }
 
 /* Control flow */
@@ -213,7 +227,8 @@ static lang_ref parse_body(struct parser *p)
 {
     struct scope scope = open_scope(p);
     uint32_t place = parse_place(&p->token);
-    lang_ref block = p->token.kind == TOKEN_OPEN_BLOCK ? parse_block(p) : block_of(p, parse_statement(p), place);
+    lang_ref block =
+        p->token.kind == TOKEN_OPEN_BLOCK ? parse_block(p) : block_of(p, parse_statement(p), place);
     close_scope(p, scope);
     return block;
 }
@@ -248,7 +263,8 @@ static lang_ref parse_loop_body(struct parser *p)
     return body;
 }
 
-static lang_ref loop_node(struct parser *p, enum lang_kind kind, lang_ref condition, lang_ref body, uint32_t place)
+static lang_ref loop_node(struct parser *p, enum lang_kind kind, lang_ref condition, lang_ref body,
+                          uint32_t place)
 {
     lang_ref ref = tree_new(p, kind, IR_NUM_OPS, IR_TYPE_VOID, place);
     tree_node(p, ref)->b = condition;
@@ -307,7 +323,8 @@ static lang_ref parse_do(struct parser *p, uint32_t place)
     if (parse_expect(p, TOKEN_OPEN))
         condition = parse_condition(p);
     return parse_expect(p, TOKEN_CLOSE) && parse_expect(p, TOKEN_SEMICOLON)
-               ? loop_node(p, LANG_DO, condition, body, place) : 0;
+               ? loop_node(p, LANG_DO, condition, body, place)
+               : 0;
 }
 
 static lang_ref parse_return(struct parser *p, const struct token *at)
@@ -319,7 +336,8 @@ static lang_ref parse_return(struct parser *p, const struct token *at)
     else if (value)
         value = check_convert(p, value, p->return_type, "the returned value");
     else if (p->token.kind == TOKEN_SEMICOLON && p->last.kind == TOKEN_RETURN && !is_void)
-        PARSE_TYPE_ERROR(p, parse_place(at), "a value of type %s must be returned", parse_type_text(p, p->return_type));
+        PARSE_TYPE_ERROR(p, parse_place(at), "a value of type %s must be returned",
+                         parse_type_text(p, p->return_type));
     parse_expect(p, TOKEN_SEMICOLON);
     lang_ref ref = tree_new(p, LANG_RETURN, IR_NUM_OPS, IR_TYPE_VOID, parse_place(at));
     tree_node(p, ref)->a = value;
@@ -331,7 +349,8 @@ static lang_ref parse_jump(struct parser *p, const struct token *at)
     if (p->loops == 0)
         PARSE_SYNTAX_ERROR(p, at, "'%s' outside of a loop", parse_token_text(p, at));
     parse_expect(p, TOKEN_SEMICOLON);
-    return tree_new(p, at->kind == TOKEN_BREAK ? LANG_BREAK : LANG_CONTINUE, IR_NUM_OPS, IR_TYPE_VOID, parse_place(at));
+    return tree_new(p, at->kind == TOKEN_BREAK ? LANG_BREAK : LANG_CONTINUE, IR_NUM_OPS,
+                    IR_TYPE_VOID, parse_place(at));
 }
 
 static struct tree_chain parse_plain(struct parser *p)
@@ -353,7 +372,8 @@ static struct tree_chain parse_by_keyword(struct parser *p)
     case TOKEN_WHILE: parse_advance(p); return chain_of(parse_while(p, place));
     case TOKEN_DO: parse_advance(p); return chain_of(parse_do(p, place));
     case TOKEN_RETURN: parse_advance(p); return chain_of(parse_return(p, &at));
-    case TOKEN_BREAK: case TOKEN_CONTINUE: parse_advance(p); return chain_of(parse_jump(p, &at));
+    case TOKEN_BREAK:
+    case TOKEN_CONTINUE: parse_advance(p); return chain_of(parse_jump(p, &at));
     case TOKEN_SEMICOLON: parse_advance(p); return chain_of(0);
     case TOKEN_OPEN_BLOCK: return chain_of(parse_body(p));
     default: return parse_plain(p);
@@ -394,8 +414,9 @@ bool parse_returns(const struct parser *p, lang_ref ref)
     const struct lang_node *nodes = p->unit->nodes.items;
     for (; ref; ref = nodes[ref].next) {
         const struct lang_node *node = &nodes[ref];
-        if (node->kind == LANG_RETURN || (node->kind == LANG_BLOCK && parse_returns(p, node->a)) ||
-            (node->kind == LANG_IF && node->c && parse_returns(p, node->b) && parse_returns(p, node->c)))
+        if (node->kind == LANG_RETURN || (node->kind == LANG_BLOCK && parse_returns(p, node->a))
+            || (node->kind == LANG_IF && node->c && parse_returns(p, node->b)
+                && parse_returns(p, node->c)))
             return true;
     }
     return false;

@@ -2,11 +2,13 @@
 /*
  * Whole-shader specialisation: which constants a function may take for granted.
  *
- * A version for each set of constant arguments would be text for each. So calls are made with all their arguments first, and when
- * the shader stands, each function gets one version: a parameter is bound where every call that is left passes the
- * same constant (interprocedural constant propagation). Only strings and flags, which choose what a function *is*, make
- * variants of it. Callees have smaller ids than callers: one pass from the highest id down sees every call of a function before
- * the function, and one from the lowest up has every callee's version before its calls.
+ * A version for each set of constant arguments would be text for each. So calls are made with all
+ * their arguments first, and when the shader stands, each function gets one version: a parameter is
+ * bound where every call that is left passes the same constant (interprocedural constant
+ * propagation). Only strings and flags, which choose what a function *is*, make variants of it.
+ * Callees have smaller ids than callers: one pass from the highest id down sees every call of a
+ * function before the function, and one from the lowest up has every callee's version before its
+ * calls.
  */
 #include "lang/specialise.h"
 
@@ -15,7 +17,8 @@ static struct lang_plan *plan_of(struct lang_unit *unit)
     if (!unit->plan) {
         unit->plan = ARENA_NEW(unit->arena, struct lang_plan);
         unit->plan->num_ids = unit->base_functions + unit->functions.len;
-        unit->plan->first_variant = arena_alloc(unit->arena, mem_array_size(unit->arena->mem, unit->plan->num_ids, sizeof(uint32_t)));
+        unit->plan->first_variant = arena_alloc(
+            unit->arena, mem_array_size(unit->arena->mem, unit->plan->num_ids, sizeof(uint32_t)));
         unit->plan->called = ARENA_ARRAY(unit->arena, uint8_t, unit->plan->num_ids / 8 + 1);
         unit->plan->spec = ARENA_NEW(unit->arena, struct spec);
         unit->plan->spec->unit = unit;
@@ -52,8 +55,8 @@ static bool is_same(const struct lang_unit *unit, ir_type_id type, fact a, fact 
     return memcmp(words + a, words + b, ir_type_info(type)->components * sizeof *words) == 0;
 }
 
-static bool has_keys(const struct lang_unit *unit, const struct variant *variant, const struct lang_slot *params,
-                     uint32_t num_params, const fact *args)
+static bool has_keys(const struct lang_unit *unit, const struct variant *variant,
+                     const struct lang_slot *params, uint32_t num_params, const fact *args)
 {
     const fact *facts = unit->plan->facts.items + variant->first_fact;
     for (uint32_t i = 0; i < num_params; i++)
@@ -89,7 +92,8 @@ static uint32_t note_anything(struct lang_unit *unit, uint32_t function)
     return plan->variants.len - 1;
 }
 
-uint32_t plan_note_call(struct lang_unit *unit, uint32_t function, const fact *args, bool args_have_effects)
+uint32_t plan_note_call(struct lang_unit *unit, uint32_t function, const fact *args,
+                        bool args_have_effects)
 {
     struct lang_plan *plan = unit->plan;
     if (plan->is_open)
@@ -126,7 +130,8 @@ uint32_t lang_plan_call(struct lang_unit *unit, uint32_t id, const union ir_word
     const struct lang_unit *layer;
     const struct lang_function *fn = lang_function(unit, id, &layer);
     fact few[SPEC_MAX_PARAMS];
-    fact *facts = fn->num_params <= SPEC_MAX_PARAMS ? few : ARENA_ARRAY(unit->arena, fact, fn->num_params);
+    fact *facts =
+        fn->num_params <= SPEC_MAX_PARAMS ? few : ARENA_ARRAY(unit->arena, fact, fn->num_params);
     for (uint32_t i = 0; i < fn->num_params; i++) {
         bool is_known = args[i] && i < SPEC_MAX_PARAMS;
         uint32_t count = is_known ? ast_type_words(unit, ast_slot(layer, fn, i)->type) : 0;
@@ -151,11 +156,13 @@ void lang_plan_finish(struct lang_unit *unit)
     for (uint32_t eight = plan->num_ids / 8 + 1; eight-- > 0;)
         /* callees are added to them on the way */
         for (uint32_t id = eight * 8 + 8; plan->called[eight] && id-- > eight * 8;)
-            for (uint32_t link = first_variant(plan, id); link; link = plan->variants.items[link - 1].next)
+            for (uint32_t link = first_variant(plan, id); link;
+                 link = plan->variants.items[link - 1].next)
                 spec_begin(unit, link - 1);
     for (uint32_t eight = 0; eight <= plan->num_ids / 8; eight++)
         for (uint32_t id = eight * 8; plan->called[eight] && id < eight * 8 + 8; id++)
-            for (uint32_t link = first_variant(plan, id); link; link = plan->variants.items[link - 1].next)
+            for (uint32_t link = first_variant(plan, id); link;
+                 link = plan->variants.items[link - 1].next)
                 spec_finish(unit, link - 1);
 }
 
@@ -164,11 +171,13 @@ uint32_t lang_plan_version(const struct lang_unit *unit, uint32_t call)
     return unit->plan->variants.items[call].version;
 }
 
-bool lang_param_dropped(const struct lang_unit *unit, uint32_t version, uint32_t given, unsigned index)
+bool lang_param_dropped(const struct lang_unit *unit, uint32_t version, uint32_t given,
+                        unsigned index)
 {
     if (version == given || index >= SPEC_MAX_PARAMS)
         return false;
-    const uint32_t *dropped = version < unit->base_functions ? lang_known(unit, version)->dropped
-                                                             : unit->versions.items[version - unit->base_functions].dropped;
+    const uint32_t *dropped = version < unit->base_functions
+                                  ? lang_known(unit, version)->dropped
+                                  : unit->versions.items[version - unit->base_functions].dropped;
     return dropped[index / 32] >> index % 32 & 1;
 }

@@ -16,15 +16,16 @@ struct printer {
     struct local *locals; /* by slot */
     uint32_t *visible;    /* slots in scope, innermost last */
     uint32_t num_visible;
-    bool any_changed;     /* some local's name is not the source's */
+    bool any_changed; /* some local's name is not the source's */
     /* of the names of the functions and globals in use, one bit each: few locals share one */
     uint64_t initials;
-    uint64_t ids;         /* of the names that have been in scope, one bit each likewise */
+    uint64_t ids; /* of the names that have been in scope, one bit each likewise */
     unsigned indent;
-    bool is_typed;        /* the target is asked for forms by type */
+    bool is_typed; /* the target is asked for forms by type */
 };
 
-static void print_expression(struct printer *p, const struct lang_node *node, enum lang_precedence least);
+static void print_expression(struct printer *p, const struct lang_node *node,
+                             enum lang_precedence least);
 static void print_statement(struct printer *p, const struct lang_node *node);
 
 static inline const struct lang_node *node_at(const struct printer *p, lang_ref ref)
@@ -33,7 +34,8 @@ static inline const struct lang_node *node_at(const struct printer *p, lang_ref 
 }
 
 /*
- * Names. Pruning moves declarations into outer scopes, so that names which were apart may meet: the later one changes.
+ * Names. Pruning moves declarations into outer scopes, so that names which were apart may meet: the
+ * later one changes.
  */
 
 static bool is_same(const char *a, const char *b)
@@ -52,7 +54,8 @@ static const char *outer_name(const struct printer *p, uint32_t index)
     const uint32_t *refs = p->layer->refs.items;
     if (index < p->fn->num_callees)
         return print_function_name(p->names, p->unit, refs[p->fn->first_callee + index]);
-    return print_global_name(p->names, p->unit, refs[p->fn->first_global + index - p->fn->num_callees]);
+    return print_global_name(p->names, p->unit,
+                             refs[p->fn->first_global + index - p->fn->num_callees]);
 }
 
 static uint64_t initial(const char *name)
@@ -108,7 +111,8 @@ static void bring_into_scope(struct printer *p, uint32_t slot)
         name = text.data;
         len = text.len;
     }
-    p->locals[slot] = (struct local){text_word_of(p->out->arena, name, len + 1), name == own ? id : 0};
+    p->locals[slot] =
+        (struct local){text_word_of(p->out->arena, name, len + 1), name == own ? id : 0};
     p->locals[slot].name.len--; /* the NUL, for comparisons */
     p->any_changed |= name != own;
     p->ids |= 1ull << (id & 63);
@@ -144,7 +148,8 @@ static void print_list(struct printer *p, lang_ref ref)
 
 static void print_construct(struct printer *p, const struct lang_node *node)
 {
-    bool is_array = ast_is_user_type(node->type) && lang_user_type(p->unit, node->type, NULL)->array_length;
+    bool is_array =
+        ast_is_user_type(node->type) && lang_user_type(p->unit, node->type, NULL)->array_length;
     bool is_struct = ast_is_user_type(node->type) && !is_array;
     const char *maker = is_struct ? print_maker(p->names, p->unit, node->type) : NULL;
     if (is_array) {
@@ -175,7 +180,8 @@ static void print_member(struct printer *p, const struct lang_node *node)
     const struct lang_unit *layer;
     const struct ir_user_type *user = lang_user_type(p->unit, whole->type, &layer);
     text_char(p->out, '.');
-    text_str(p->out, str_text(p->unit->strings, layer->members.items[user->first_member + node->b].name));
+    text_str(p->out,
+             str_text(p->unit->strings, layer->members.items[user->first_member + node->b].name));
 }
 
 static void print_type_name(struct printer *p, ir_type_id type)
@@ -185,7 +191,8 @@ static void print_type_name(struct printer *p, ir_type_id type)
 }
 
 /* A constant beside a vector is written as a vector where the style spreads constants (style.c). */
-static inline void print_operand(struct printer *p, const struct lang_node *operand, ir_type_id wide, enum lang_precedence least)
+static inline void print_operand(struct printer *p, const struct lang_node *operand,
+                                 ir_type_id wide, enum lang_precedence least)
 {
     if (!wide || operand->kind != LANG_CONST || operand->type != IR_TYPE_FLOAT) {
         print_expression(p, operand, least);
@@ -215,8 +222,9 @@ static void print_form(struct printer *p, const struct lang_pieces *form, ir_typ
         text_put(p->out, form->rest);
 }
 
-static void print_formed(struct printer *p, const struct lang_pieces *form, const struct lang_node *node,
-                         const struct lang_node *const *operands, enum lang_precedence least)
+static void print_formed(struct printer *p, const struct lang_pieces *form,
+                         const struct lang_node *node, const struct lang_node *const *operands,
+                         enum lang_precedence least)
 {
     bool parenthesised = form->precedence < least;
     if (parenthesised)
@@ -239,16 +247,20 @@ static bool is_named(const struct printer *p, const struct lang_node *node)
 {
     while (node->kind == LANG_OP && node->op == IR_MEMBER)
         node = node_at(p, node->a);
-    bool is_number = node->kind == LANG_CONST && !ast_is_user_type(node->type) && ir_type_info(node->type)->components == 1;
+    bool is_number = node->kind == LANG_CONST && !ast_is_user_type(node->type)
+                     && ir_type_info(node->type)->components == 1;
     return node->kind == LANG_VAR || is_number;
 }
 
 /* The target's own form for the operands' types; NULL: it has none. */
-static const struct lang_pieces *typed_form(struct printer *p, enum ir_op op, uint32_t attr, ir_type_id type,
-                                            const struct lang_node *const *operands, unsigned num_operands)
+static const struct lang_pieces *typed_form(struct printer *p, enum ir_op op, uint32_t attr,
+                                            ir_type_id type,
+                                            const struct lang_node *const *operands,
+                                            unsigned num_operands)
 {
     ir_type_id types[AST_MAX_OPERANDS];
-    struct lang_use use = {.op = op, .type = type, .attr = attr, .operands = types, .num_operands = num_operands};
+    struct lang_use use = {
+        .op = op, .type = type, .attr = attr, .operands = types, .num_operands = num_operands};
     for (unsigned i = 0; i < num_operands; i++) {
         types[i] = operands[i]->type;
         use.named |= (uint32_t)is_named(p, operands[i]) << i;
@@ -269,37 +281,29 @@ static bool print_typed(struct printer *p, const struct lang_node *node, enum la
     return form != NULL;
 }
 
-static void print_op_or_part(struct printer *p, const struct lang_node *node, enum lang_precedence least)
+static void print_op_or_part(struct printer *p, const struct lang_node *node,
+                             enum lang_precedence least)
 {
     if (p->is_typed && print_typed(p, node, least))
         return;
     switch (node->op) {
-    case IR_CONSTRUCT:
-        print_construct(p, node);
-        break;
-    case IR_SWIZZLE:
-        print_swizzle(p, node);
-        break;
-    case IR_MEMBER:
-        print_member(p, node);
-        break;
-    default:
-        print_op(p, node, least);
+    case IR_CONSTRUCT: print_construct(p, node); break;
+    case IR_SWIZZLE: print_swizzle(p, node); break;
+    case IR_MEMBER: print_member(p, node); break;
+    default: print_op(p, node, least);
     }
 }
 
-static void print_expression(struct printer *p, const struct lang_node *node, enum lang_precedence least)
+static void print_expression(struct printer *p, const struct lang_node *node,
+                             enum lang_precedence least)
 {
     switch (node->kind) {
     case LANG_CONST:
-        lang_print_value(p->style, p->unit->strings, node->type, ast_words(p->layer, node), least, p->out);
+        lang_print_value(p->style, p->unit->strings, node->type, ast_words(p->layer, node), least,
+                         p->out);
         break;
-    case LANG_VAR:
-        print_local(p, node->a);
-        break;
-    case LANG_GLOBAL:
-        text_str(p->out, print_global_name(p->names, p->unit, node->a));
-        break;
+    case LANG_VAR: print_local(p, node->a); break;
+    case LANG_GLOBAL: text_str(p->out, print_global_name(p->names, p->unit, node->a)); break;
     case LANG_INPUT:
         text_str(p->out, "{{");
         text_str(p->out, str_text(p->unit->strings, ast_slot(p->layer, p->fn, node->a)->name));
@@ -311,8 +315,7 @@ static void print_expression(struct printer *p, const struct lang_node *node, en
         print_list(p, node->b);
         text_char(p->out, ')');
         break;
-    default:
-        print_op_or_part(p, node, least);
+    default: print_op_or_part(p, node, least);
     }
 }
 
@@ -340,7 +343,8 @@ static void print_declaration(struct printer *p, const struct lang_node *node)
 static bool is_int_one(const struct printer *p, lang_ref ref)
 {
     const struct lang_node *node = node_at(p, ref);
-    return node->kind == LANG_CONST && node->type == IR_TYPE_INT && ast_words(p->layer, node)->i == 1;
+    return node->kind == LANG_CONST && node->type == IR_TYPE_INT
+           && ast_words(p->layer, node)->i == 1;
 }
 
 /* x = x + y, where the target has a + of its own for the types. */
@@ -368,13 +372,15 @@ static void print_assignment(struct printer *p, const struct lang_node *node)
         return;
     }
     print_expression(p, node_at(p, node->a), LANG_PREC_UNARY);
-    const struct lang_pieces *form = node->op == IR_NUM_OPS ? NULL : lang_style_form(p->style, node->op);
+    const struct lang_pieces *form =
+        node->op == IR_NUM_OPS ? NULL : lang_style_form(p->style, node->op);
     text_char(p->out, ' ');
     if (form && form->infix) /* the operator is what stands between "$0 " and " $1" */
         text_mem(p->out, form->text + 3, form->pieces[1].before.len - 2u);
     text_mem(p->out, "= ", 2);
     if (form && !form->infix) { /* no such operator there: x = f(x, y) */
-        print_form(p, form, node_at(p, node->a)->type, (const struct lang_node *[]){node_at(p, node->a), node_at(p, node->b)});
+        print_form(p, form, node_at(p, node->a)->type,
+                   (const struct lang_node *[]){node_at(p, node->a), node_at(p, node->b)});
         return;
     }
     print_expression(p, node_at(p, node->b), LANG_PREC_ASSIGN);
@@ -384,26 +390,16 @@ static void print_assignment(struct printer *p, const struct lang_node *node)
 static void print_simple(struct printer *p, const struct lang_node *node)
 {
     switch (node->kind) {
-    case LANG_DECLARE:
-        print_declaration(p, node);
-        break;
-    case LANG_ASSIGN:
-        print_assignment(p, node);
-        break;
-    case LANG_EXPR:
-        print_expression(p, node_at(p, node->a), LANG_PREC_ASSIGN);
-        break;
+    case LANG_DECLARE: print_declaration(p, node); break;
+    case LANG_ASSIGN: print_assignment(p, node); break;
+    case LANG_EXPR: print_expression(p, node_at(p, node->a), LANG_PREC_ASSIGN); break;
     case LANG_RETURN:
         text_str(p->out, node->a ? "return " : "return");
         if (node->a)
             print_expression(p, node_at(p, node->a), LANG_PREC_ASSIGN);
         break;
-    case LANG_BREAK:
-        text_str(p->out, "break");
-        break;
-    default:
-        assert(node->kind == LANG_CONTINUE);
-        text_str(p->out, "continue");
+    case LANG_BREAK: text_str(p->out, "break"); break;
+    default: assert(node->kind == LANG_CONTINUE); text_str(p->out, "continue");
     }
 }
 
@@ -417,7 +413,8 @@ static void print_statements(struct printer *p, lang_ref first)
 }
 
 /*
- * What stands between braces, in a scope of its own. `body` is a block or a single statement; NULL is empty.
+ * What stands between braces, in a scope of its own. `body` is a block or a single statement; NULL
+ * is empty.
  */
 static void print_body(struct printer *p, const struct lang_node *body)
 {
@@ -441,18 +438,20 @@ static lang_ref only_statement(const struct printer *p, lang_ref body)
 }
 
 /*
- * One line needs no braces; what is compound keeps them, which also settles where an `else` belongs.
+ * One line needs no braces; what is compound keeps them, which also settles where an `else`
+ * belongs.
  */
 static bool needs_braces(const struct printer *p, lang_ref body)
 {
     lang_ref only = only_statement(p, body);
     unsigned kind = only ? node_at(p, only)->kind : LANG_BLOCK;
-    return kind == LANG_BLOCK || kind == LANG_IF || kind == LANG_FOR || kind == LANG_WHILE || kind == LANG_DO
-           || kind == LANG_DECLARE;
+    return kind == LANG_BLOCK || kind == LANG_IF || kind == LANG_FOR || kind == LANG_WHILE
+           || kind == LANG_DO || kind == LANG_DECLARE;
 }
 
 /*
- * The end of a head like "if (x)" and what it governs. Leaves the line open behind the closing brace.
+ * The end of a head like "if (x)" and what it governs. Leaves the line open behind the closing
+ * brace.
  */
 static void print_governed(struct printer *p, lang_ref body, bool braces)
 {
@@ -559,34 +558,24 @@ static void print_statement(struct printer *p, const struct lang_node *node)
 {
     print_indent(p);
     switch (node->kind) {
-    case LANG_IF:
-        print_if(p, node);
-        break;
-    case LANG_FOR:
-        print_for(p, node);
-        break;
-    case LANG_WHILE:
-        print_while(p, node);
-        break;
-    case LANG_DO:
-        print_do(p, node);
-        break;
+    case LANG_IF: print_if(p, node); break;
+    case LANG_FOR: print_for(p, node); break;
+    case LANG_WHILE: print_while(p, node); break;
+    case LANG_DO: print_do(p, node); break;
     case LANG_BLOCK:
         text_str(p->out, "{\n");
         print_body(p, node);
         print_indent(p);
         text_str(p->out, "}\n");
         break;
-    default:
-        print_simple(p, node);
-        text_str(p->out, ";\n");
+    default: print_simple(p, node); text_str(p->out, ";\n");
     }
 }
 
 /* Functions */
 
-static struct printer start(struct lang_style *style, const struct lang_names *names, const struct lang_unit *unit,
-                            uint32_t id, struct text *out)
+static struct printer start(struct lang_style *style, const struct lang_names *names,
+                            const struct lang_unit *unit, uint32_t id, struct text *out)
 {
     struct printer p = {.style = style, .names = names, .unit = unit, .out = out};
     p.is_typed = names && names->form;
@@ -656,8 +645,8 @@ static void print_head(struct printer *p, uint32_t id)
     text_char(p->out, ')');
 }
 
-void lang_print_function(struct lang_style *style, const struct lang_names *names, const struct lang_unit *unit,
-                         uint32_t id, struct text *out)
+void lang_print_function(struct lang_style *style, const struct lang_names *names,
+                         const struct lang_unit *unit, uint32_t id, struct text *out)
 {
     if (print_from_image(style, names, unit, id, out))
         return;

@@ -4,31 +4,37 @@
 
 #include <math.h>
 
-const char *print_function_name(const struct lang_names *names, const struct lang_unit *unit, uint32_t id)
+const char *print_function_name(const struct lang_names *names, const struct lang_unit *unit,
+                                uint32_t id)
 {
     const char *name = names && names->function ? names->function(names->user_data, id) : NULL;
     return name ? name : str_text(unit->strings, lang_function(unit, id, NULL)->name);
 }
 
-const char *print_global_name(const struct lang_names *names, const struct lang_unit *unit, uint32_t id)
+const char *print_global_name(const struct lang_names *names, const struct lang_unit *unit,
+                              uint32_t id)
 {
     const char *name = names && names->global ? names->global(names->user_data, id) : NULL;
     return name ? name : str_text(unit->strings, lang_global(unit, id, NULL)->name);
 }
 
-const char *print_struct_name(const struct lang_names *names, const struct lang_unit *unit, ir_type_id type)
+const char *print_struct_name(const struct lang_names *names, const struct lang_unit *unit,
+                              ir_type_id type)
 {
     const char *name = names && names->user_type ? names->user_type(names->user_data, type) : NULL;
     return name ? name : str_text(unit->strings, lang_user_type(unit, type, NULL)->name);
 }
 
-const char *print_maker(const struct lang_names *names, const struct lang_unit *unit, ir_type_id type)
+const char *print_maker(const struct lang_names *names, const struct lang_unit *unit,
+                        ir_type_id type)
 {
-    return names && names->maker ? names->maker(names->user_data, print_struct_name(names, unit, type)) : NULL;
+    return names && names->maker
+               ? names->maker(names->user_data, print_struct_name(names, unit, type))
+               : NULL;
 }
 
-void print_base_type(const struct lang_style *style, const struct lang_names *names, const struct lang_unit *unit,
-                            ir_type_id type, struct text *out)
+void print_base_type(const struct lang_style *style, const struct lang_names *names,
+                     const struct lang_unit *unit, ir_type_id type, struct text *out)
 {
     while (ast_is_user_type(type) && lang_user_type(unit, type, NULL)->array_length)
         type = lang_user_type(unit, type, NULL)->element;
@@ -51,15 +57,16 @@ void print_lengths(const struct lang_unit *unit, ir_type_id type, struct text *o
     }
 }
 
-void lang_print_type(const struct lang_style *style, const struct lang_names *names, const struct lang_unit *unit,
-                     ir_type_id type, struct text *out)
+void lang_print_type(const struct lang_style *style, const struct lang_names *names,
+                     const struct lang_unit *unit, ir_type_id type, struct text *out)
 {
     print_base_type(style, names, unit, type, out);
     print_lengths(unit, type, out);
 }
 
-void lang_print_variable(const struct lang_style *style, const struct lang_names *names, const struct lang_unit *unit,
-                         ir_type_id type, const char *name, struct text *out)
+void lang_print_variable(const struct lang_style *style, const struct lang_names *names,
+                         const struct lang_unit *unit, ir_type_id type, const char *name,
+                         struct text *out)
 {
     print_base_type(style, names, unit, type, out);
     text_char(out, ' ');
@@ -78,14 +85,13 @@ static void print_float(const struct lang_syntax *syntax, float f, struct text *
         text_char(out, 'f');
 }
 
-static void print_scalar(const struct lang_syntax *syntax, ir_type_id type, union ir_word word, struct text *out)
+static void print_scalar(const struct lang_syntax *syntax, ir_type_id type, union ir_word word,
+                         struct text *out)
 {
     if (syntax->plain_scalars && (type == IR_TYPE_BOOL || type == IR_TYPE_UINT))
         type = IR_TYPE_INT;
     switch (type) {
-    case IR_TYPE_BOOL:
-        text_str(out, word.u ? "true" : "false");
-        break;
+    case IR_TYPE_BOOL: text_str(out, word.u ? "true" : "false"); break;
     case IR_TYPE_INT:
         if (word.i == INT32_MIN) /* its digits alone are out of range */
             text_str(out, "(-2147483647 - 1)");
@@ -96,13 +102,13 @@ static void print_scalar(const struct lang_syntax *syntax, ir_type_id type, unio
         text_u32(out, word.u);
         text_char(out, 'u');
         break;
-    default:
-        print_float(syntax, word.f, out);
+    default: print_float(syntax, word.f, out);
     }
 }
 
 /*
- * How many scalars a constructor needs to build the value: 1 for a splat or a multiple of the identity.
+ * How many scalars a constructor needs to build the value: 1 for a splat or a multiple of the
+ * identity.
  */
 static unsigned count_needed(const struct ir_type_info *info, const union ir_word *w)
 {
@@ -118,14 +124,16 @@ static unsigned count_needed(const struct ir_type_info *info, const union ir_wor
 /* A literal with a sign binds less tightly than other ones. */
 static bool has_sign(ir_type_id type, union ir_word word)
 {
-    return type == IR_TYPE_FLOAT ? signbit(word.f) && isfinite(word.f) : type == IR_TYPE_INT && word.i < 0 && word.i != INT32_MIN;
+    return type == IR_TYPE_FLOAT ? signbit(word.f) && isfinite(word.f)
+                                 : type == IR_TYPE_INT && word.i < 0 && word.i != INT32_MIN;
 }
 
 /* as bits, of which those of numbers that are neither negative nor infinite are less */
 enum { FLOAT_INFINITY = 0x7f800000 };
 
-void lang_print_value(const struct lang_style *style, const struct strpool *strings, ir_type_id type,
-                      const union ir_word *words, enum lang_precedence least, struct text *out)
+void lang_print_value(const struct lang_style *style, const struct strpool *strings,
+                      ir_type_id type, const union ir_word *words, enum lang_precedence least,
+                      struct text *out)
 {
     /* most values of a shader */
     if (type == IR_TYPE_FLOAT && style->plain_floats && words->u < FLOAT_INFINITY) {
@@ -158,7 +166,8 @@ void lang_print_value(const struct lang_style *style, const struct strpool *stri
 }
 
 /* A value of any type but structs from consecutive words; returns the word behind it. */
-static const union ir_word *print_words(const struct lang_style *style, const struct lang_unit *unit, ir_type_id type,
+static const union ir_word *print_words(const struct lang_style *style,
+                                        const struct lang_unit *unit, ir_type_id type,
                                         const union ir_word *words, struct text *out)
 {
     if (!ast_is_user_type(type)) {
@@ -176,16 +185,16 @@ static const union ir_word *print_words(const struct lang_style *style, const st
     return words;
 }
 
-void print_open_array(const struct lang_style *style, const struct lang_names *names, const struct lang_unit *unit,
-                      ir_type_id type, struct text *out)
+void print_open_array(const struct lang_style *style, const struct lang_names *names,
+                      const struct lang_unit *unit, ir_type_id type, struct text *out)
 {
     if (!style->syntax->array_braces)
         lang_print_type(style, names, unit, type, out);
     text_char(out, style->syntax->array_braces ? '{' : '(');
 }
 
-void lang_print_constant(const struct lang_style *style, const struct lang_names *names, const struct lang_unit *unit,
-                         uint32_t global_id, struct text *out)
+void lang_print_constant(const struct lang_style *style, const struct lang_names *names,
+                         const struct lang_unit *unit, uint32_t global_id, struct text *out)
 {
     const struct lang_unit *layer;
     const struct lang_global *global = lang_global(unit, global_id, &layer);
@@ -202,8 +211,8 @@ void lang_print_constant(const struct lang_style *style, const struct lang_names
     text_str(out, defines ? "\n" : ";\n");
 }
 
-void lang_print_struct(const struct lang_style *style, const struct lang_names *names, const struct lang_unit *unit,
-                       ir_type_id type, struct text *out)
+void lang_print_struct(const struct lang_style *style, const struct lang_names *names,
+                       const struct lang_unit *unit, ir_type_id type, struct text *out)
 {
     const struct lang_unit *layer;
     const struct ir_user_type *user = lang_user_type(unit, type, &layer);
@@ -213,7 +222,8 @@ void lang_print_struct(const struct lang_style *style, const struct lang_names *
     for (uint32_t i = 0; i < user->num_members; i++) {
         const struct ir_member *member = &layer->members.items[user->first_member + i];
         text_str(out, "    ");
-        lang_print_variable(style, names, unit, member->type, str_text(unit->strings, member->name), out);
+        lang_print_variable(style, names, unit, member->type, str_text(unit->strings, member->name),
+                            out);
         text_str(out, ";\n");
     }
     text_str(out, "};\n");

@@ -16,12 +16,14 @@ static bool mark(struct arena *arena, uint8_t **seen, uint32_t *cap, uint32_t in
 }
 
 /*
- * Members before the struct that holds them. Types nest as deep as their declarations, which cannot be recursive.
+ * Members before the struct that holds them. Types nest as deep as their declarations, which cannot
+ * be recursive.
  */
 static void add_type(struct lang_reach *reach, const struct lang_unit *unit, ir_type_id type)
 {
     if (!ast_is_user_type(type)
-        || !mark(reach->arena, &reach->seen_types, &reach->cap_types, (uint32_t)type - IR_TYPE_FIRST_USER))
+        || !mark(reach->arena, &reach->seen_types, &reach->cap_types,
+                 (uint32_t)type - IR_TYPE_FIRST_USER))
         return;
     const struct lang_unit *layer;
     const struct ir_user_type *user = lang_user_type(unit, type, &layer);
@@ -42,8 +44,8 @@ static void add_global(struct lang_reach *reach, const struct lang_unit *unit, u
     vec_push(reach->arena, &reach->globals, id);
 }
 
-static void add_own_needs(struct lang_reach *reach, const struct lang_unit *unit, const struct lang_unit *layer,
-                          const struct lang_function *fn)
+static void add_own_needs(struct lang_reach *reach, const struct lang_unit *unit,
+                          const struct lang_unit *layer, const struct lang_function *fn)
 {
     if (!(fn->flags & LANG_FN_PLAIN)) {
         add_type(reach, unit, fn->return_type);
@@ -55,7 +57,8 @@ static void add_own_needs(struct lang_reach *reach, const struct lang_unit *unit
 }
 
 /*
- * Calls nest as deep as the author's functions call each other, which has no bound: hence a stack of our own.
+ * Calls nest as deep as the author's functions call each other, which has no bound: hence a stack
+ * of our own.
  */
 void lang_reach_add(struct lang_reach *reach, const struct lang_unit *unit, uint32_t id)
 {

@@ -119,7 +119,8 @@ static lang_ref spec_global(struct spec *s, struct lang_node node)
 }
 
 /* The operands of a part of the source, rebuilt and chained. */
-static unsigned spec_operands(struct spec *s, lang_ref first, struct chain *chain, lang_ref *out, unsigned max)
+static unsigned spec_operands(struct spec *s, lang_ref first, struct chain *chain, lang_ref *out,
+                              unsigned max)
 {
     unsigned count = 0;
     for (lang_ref ref = first; ref; ref = ast_node(s->layer, ref)->next, count++) {
@@ -166,7 +167,8 @@ static lang_ref spec_logic(struct spec *s, struct lang_node node)
 }
 
 /* An element of a constant table, known by its index. */
-static lang_ref element_of_global(struct spec *s, const struct lang_node *node, uint32_t global_id, uint32_t index)
+static lang_ref element_of_global(struct spec *s, const struct lang_node *node, uint32_t global_id,
+                                  uint32_t index)
 {
     const struct lang_unit *layer;
     const struct lang_global *global = lang_global(s->unit, global_id, &layer);
@@ -238,17 +240,11 @@ lang_ref spec_expression(struct spec *s, lang_ref ref)
 {
     struct lang_node node = *ast_node(s->layer, ref);
     switch (node.kind) {
-    case LANG_CONST:
-        return add_constant(s, node.type, s->layer->words.items + node.a);
-    case LANG_VAR:
-        return spec_variable(s, node);
-    case LANG_GLOBAL:
-        return spec_global(s, node);
-    case LANG_OP:
-        return spec_op(s, node);
-    case LANG_CALL:
-        return spec_call(s, node);
-    default:
-        return spec_add(s, node);
+    case LANG_CONST: return add_constant(s, node.type, s->layer->words.items + node.a);
+    case LANG_VAR: return spec_variable(s, node);
+    case LANG_GLOBAL: return spec_global(s, node);
+    case LANG_OP: return spec_op(s, node);
+    case LANG_CALL: return spec_call(s, node);
+    default: return spec_add(s, node);
     }
 }

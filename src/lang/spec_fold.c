@@ -14,7 +14,8 @@ bool spec_is_finite(const struct ir_value *value)
     return true;
 }
 
-static lang_ref fold_constants(struct spec *s, const struct lang_node *op, const lang_ref *args, unsigned num_args)
+static lang_ref fold_constants(struct spec *s, const struct lang_node *op, const lang_ref *args,
+                               unsigned num_args)
 {
     for (unsigned i = 0; i < num_args; i++)
         if (spec_node(s, args[i])->kind != LANG_CONST)
@@ -55,7 +56,8 @@ static bool is_splat(const struct ir_value *value)
 static bool is_false_or_true(const struct spec *s, lang_ref ref, bool wanted)
 {
     const struct lang_node *node = ast_node(s->unit, ref);
-    return node->kind == LANG_CONST && node->type == IR_TYPE_BOOL && (ast_words(s->unit, node)->u != 0) == wanted;
+    return node->kind == LANG_CONST && node->type == IR_TYPE_BOOL
+           && (ast_words(s->unit, node)->u != 0) == wanted;
 }
 
 /* An operand as the result of an op, spread where the op would have spread it. */
@@ -67,7 +69,8 @@ static lang_ref as_result(struct spec *s, const struct lang_node *op, lang_ref r
     spec_node(s, ref)->next = 0;
     if (fits)
         return ref;
-    return spec_add(s, (struct lang_node){.kind = LANG_OP, .op = IR_CONSTRUCT, .type = op->type, .a = ref});
+    return spec_add(
+        s, (struct lang_node){.kind = LANG_OP, .op = IR_CONSTRUCT, .type = op->type, .a = ref});
 }
 
 static lang_ref zero(struct spec *s, const struct lang_node *op, lang_ref dropped)
@@ -78,7 +81,8 @@ static lang_ref zero(struct spec *s, const struct lang_node *op, lang_ref droppe
 }
 
 /*
- * A product in the sense of linear algebra with a vector of ones is a sum of columns, not an identity.
+ * A product in the sense of linear algebra with a vector of ones is a sum of columns, not an
+ * identity.
  */
 static bool is_linear(const struct spec *s, lang_ref a, lang_ref b)
 {
@@ -106,7 +110,9 @@ static lang_ref simplify_sub(struct spec *s, const struct lang_node *op, lang_re
         return as_result(s, op, a);
     if (!is_number(s, a, 0) || spec_node(s, b)->type != op->type)
         return 0;
-    return spec_add(s, (struct lang_node){.kind = LANG_OP, .op = IR_NEG, .type = op->type, .a = as_result(s, op, b)});
+    return spec_add(s,
+                    (struct lang_node){
+                        .kind = LANG_OP, .op = IR_NEG, .type = op->type, .a = as_result(s, op, b)});
 }
 
 static lang_ref simplify_logic(struct spec *s, const struct lang_node *op, lang_ref a, lang_ref b)
@@ -116,8 +122,11 @@ static lang_ref simplify_logic(struct spec *s, const struct lang_node *op, lang_
         return as_result(s, op, b);
     if (is_false_or_true(s, b, neutral))
         return as_result(s, op, a);
-    bool decided = is_false_or_true(s, a, !neutral) || (is_false_or_true(s, b, !neutral) && !spec_has_effects(s, a));
-    return decided ? spec_constant(s, &(struct ir_value){.type = IR_TYPE_BOOL, .w = {{.u = !neutral}}}) : 0;
+    bool decided = is_false_or_true(s, a, !neutral)
+                   || (is_false_or_true(s, b, !neutral) && !spec_has_effects(s, a));
+    return decided
+               ? spec_constant(s, &(struct ir_value){.type = IR_TYPE_BOOL, .w = {{.u = !neutral}}})
+               : 0;
 }
 
 static lang_ref simplify_mix(struct spec *s, const struct lang_node *op, const lang_ref *args)
@@ -133,8 +142,8 @@ static lang_ref simplify_mix(struct spec *s, const struct lang_node *op, const l
 static lang_ref simplify_swizzle(struct spec *s, const struct lang_node *op, lang_ref a)
 {
     const struct lang_node *inner = spec_node(s, a);
-    if (inner->kind != LANG_OP || inner->op != IR_CONSTRUCT || ast_is_user_type(inner->type) || !inner->a
-        || ir_type_is_matrix(inner->type))
+    if (inner->kind != LANG_OP || inner->op != IR_CONSTRUCT || ast_is_user_type(inner->type)
+        || !inner->a || ir_type_is_matrix(inner->type))
         return 0;
     const struct lang_node *part = spec_node(s, inner->a);
     bool spreads = !part->next && part->type == ir_type_info(inner->type)->scalar;
@@ -142,13 +151,15 @@ static lang_ref simplify_swizzle(struct spec *s, const struct lang_node *op, lan
 }
 
 /*
- * vec3(2.0) * v is 2.0 * v: the scalar is shorter, and the op spreads it. Writes the op where that is so.
+ * vec3(2.0) * v is 2.0 * v: the scalar is shorter, and the op spreads it. Writes the op where that
+ * is so.
  */
 static lang_ref shorten(struct spec *s, const struct lang_node *op, const lang_ref *args)
 {
     for (unsigned i = 0; i < 2; i++) {
         struct ir_value value;
-        if (spec_node(s, args[1 - i])->type != op->type || !spec_get(s, args[i], &value) || !is_splat(&value))
+        if (spec_node(s, args[1 - i])->type != op->type || !spec_get(s, args[i], &value)
+            || !is_splat(&value))
             continue;
         value.type = ir_type_info(value.type)->scalar;
         lang_ref parts[2] = {args[0], args[1]};
@@ -165,34 +176,28 @@ static lang_ref shorten(struct spec *s, const struct lang_node *op, const lang_r
 static lang_ref simplify(struct spec *s, const struct lang_node *op, const lang_ref *args)
 {
     switch (op->op) {
-    case IR_MUL:
-        return simplify_mul(s, op, args[0], args[1]);
+    case IR_MUL: return simplify_mul(s, op, args[0], args[1]);
     case IR_ADD:
         return is_number(s, args[0], 0)   ? as_result(s, op, args[1])
                : is_number(s, args[1], 0) ? as_result(s, op, args[0])
                                           : 0;
-    case IR_SUB:
-        return simplify_sub(s, op, args[0], args[1]);
+    case IR_SUB: return simplify_sub(s, op, args[0], args[1]);
     case IR_DIV:
-    case IR_POW:
-        return is_number(s, args[1], 1) ? as_result(s, op, args[0]) : 0;
+    case IR_POW: return is_number(s, args[1], 1) ? as_result(s, op, args[0]) : 0;
     case IR_LAND:
-    case IR_LOR:
-        return simplify_logic(s, op, args[0], args[1]);
-    case IR_MIX:
-        return simplify_mix(s, op, args);
-    case IR_CONVERT:
-        return spec_node(s, args[0])->type == op->type ? as_result(s, op, args[0]) : 0;
-    case IR_SWIZZLE:
-        return simplify_swizzle(s, op, args[0]);
-    default:
-        return 0;
+    case IR_LOR: return simplify_logic(s, op, args[0], args[1]);
+    case IR_MIX: return simplify_mix(s, op, args);
+    case IR_CONVERT: return spec_node(s, args[0])->type == op->type ? as_result(s, op, args[0]) : 0;
+    case IR_SWIZZLE: return simplify_swizzle(s, op, args[0]);
+    default: return 0;
     }
 }
 
-lang_ref spec_fold(struct spec *s, const struct lang_node *op, const lang_ref *args, unsigned num_args)
+lang_ref spec_fold(struct spec *s, const struct lang_node *op, const lang_ref *args,
+                   unsigned num_args)
 {
-    if (!(ir_op_info(op->op)->flags & OP_PURE) || num_args > AST_MAX_OPERANDS || ast_is_user_type(op->type))
+    if (!(ir_op_info(op->op)->flags & OP_PURE) || num_args > AST_MAX_OPERANDS
+        || ast_is_user_type(op->type))
         return 0;
     lang_ref folded = fold_constants(s, op, args, num_args);
     if (!folded)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * The forward step over calls of small functions: `return expression;` with the arguments in the parameters' places.
+ * The forward step over calls of small functions: `return expression;` with the arguments in the
+ * parameters' places.
  */
 #include "lang/specialise.h"
 
@@ -47,7 +48,8 @@ static lang_ref copy(struct inlining *in, lang_ref ref)
     }
     *first = chain.first;
     lang_ref folded = node.kind == LANG_OP && node.op != IR_MEMBER && node.op != IR_INDEX
-                          ? spec_fold(in->s, &node, operands, count) : 0;
+                          ? spec_fold(in->s, &node, operands, count)
+                          : 0;
     return folded ? folded : spec_add(in->s, node);
 }
 
@@ -55,13 +57,15 @@ static lang_ref copy(struct inlining *in, lang_ref ref)
 static bool is_trivial(const struct spec *s, lang_ref ref)
 {
     const struct lang_node *node = ast_node(s->unit, ref);
-    while (node->kind == LANG_OP && (node->op == IR_SWIZZLE || node->op == IR_MEMBER || node->op == IR_NEG))
+    while (node->kind == LANG_OP
+           && (node->op == IR_SWIZZLE || node->op == IR_MEMBER || node->op == IR_NEG))
         node = ast_node(s->unit, node->a);
     return node->kind == LANG_VAR || node->kind == LANG_CONST || node->kind == LANG_GLOBAL;
 }
 
 /* Counts the uses of parameters; false where the expression calls something that assigns. */
-static bool count_uses(const struct lang_unit *layer, const struct spec *s, lang_ref ref, uint8_t *uses)
+static bool count_uses(const struct lang_unit *layer, const struct spec *s, lang_ref ref,
+                       uint8_t *uses)
 {
     const struct lang_node *node = ast_node(layer, ref);
     if (node->kind == LANG_VAR)
@@ -81,7 +85,8 @@ lang_ref spec_inline(struct spec *s, const struct lang_node *call)
     const struct lang_unit *layer;
     const struct lang_function fn = *lang_function(s->unit, call->a, &layer);
     lang_ref returned = ast_returned(layer, &fn);
-    if (!returned || fn.num_nodes > MAX_NODES || fn.num_params > AST_MAX_OPERANDS || (fn.flags & LANG_FN_EXPRESSION))
+    if (!returned || fn.num_nodes > MAX_NODES || fn.num_params > AST_MAX_OPERANDS
+        || (fn.flags & LANG_FN_EXPRESSION))
         return 0;
     uint8_t uses[AST_MAX_OPERANDS] = {0};
     lang_ref args[AST_MAX_OPERANDS];

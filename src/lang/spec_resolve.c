@@ -3,7 +3,8 @@
 #include "lang/specialise.h"
 
 /* Arguments that the version of the callee still takes. */
-static lang_ref remaining_arguments(struct spec *s, uint32_t given, uint32_t version, lang_ref first)
+static lang_ref remaining_arguments(struct spec *s, uint32_t given, uint32_t version,
+                                    lang_ref first)
 {
     struct chain chain = {0};
     unsigned i = 0;
@@ -18,7 +19,8 @@ static lang_ref remaining_arguments(struct spec *s, uint32_t given, uint32_t ver
 }
 
 /* Is every parameter of a wrapper handed on once, as what it is, and is nothing else computed? */
-static bool hands_on(const struct spec *s, const struct lang_unit *layer, const struct lang_function *wrapper, const struct lang_node *inner)
+static bool hands_on(const struct spec *s, const struct lang_unit *layer,
+                     const struct lang_function *wrapper, const struct lang_node *inner)
 {
     uint32_t handed = 0, index = 0;
     uint64_t seen = 0;
@@ -26,7 +28,8 @@ static bool hands_on(const struct spec *s, const struct lang_unit *layer, const 
         const struct lang_node *arg = ast_node(layer, ref);
         if (arg->kind == LANG_CONST)
             continue;
-        if (arg->kind != LANG_VAR || arg->a >= wrapper->num_params || arg->a >= SPEC_MAX_PARAMS || seen >> arg->a & 1
+        if (arg->kind != LANG_VAR || arg->a >= wrapper->num_params || arg->a >= SPEC_MAX_PARAMS
+            || seen >> arg->a & 1
             || ast_slot(layer, wrapper, arg->a)->mode != ast_param_mode(s->unit, inner->a, index))
             return false;
         seen |= 1ull << arg->a;
@@ -36,13 +39,15 @@ static bool hands_on(const struct spec *s, const struct lang_unit *layer, const 
 }
 
 /* A constant of the layer's, in the generation's. */
-static lang_ref copy_constant(struct spec *s, const struct lang_unit *layer, const struct lang_node *constant)
+static lang_ref copy_constant(struct spec *s, const struct lang_unit *layer,
+                              const struct lang_node *constant)
 {
     struct ir_value value = ast_value(constant->type, ast_words(layer, constant));
     return spec_constant(s, &value);
 }
 
-static lang_ref call_inner(struct spec *s, const struct lang_unit *layer, const struct lang_node *call, struct lang_node inner)
+static lang_ref call_inner(struct spec *s, const struct lang_unit *layer,
+                           const struct lang_node *call, struct lang_node inner)
 {
     lang_ref args[SPEC_MAX_PARAMS];
     struct chain chain = {0};
@@ -58,8 +63,9 @@ static lang_ref call_inner(struct spec *s, const struct lang_unit *layer, const 
 }
 
 /*
- * A version that was left with `return constant;` or `return g(its parameters, constants);` is not worth a name: the
- * constant, or the call of g, stands in its place. `call` has the version's arguments. 0 where it is none of these.
+ * A version that was left with `return constant;` or `return g(its parameters, constants);` is not
+ * worth a name: the constant, or the call of g, stands in its place. `call` has the version's
+ * arguments. 0 where it is none of these.
  */
 static lang_ref skip_wrapper(struct spec *s, const struct lang_node *call)
 {
@@ -72,7 +78,9 @@ static lang_ref skip_wrapper(struct spec *s, const struct lang_node *call)
     const struct lang_node inner = *ast_node(layer, returned);
     if (inner.kind == LANG_CONST && wrapper.num_params == 0)
         return copy_constant(s, layer, &inner);
-    return inner.kind == LANG_CALL && hands_on(s, layer, &wrapper, &inner) ? call_inner(s, layer, call, inner) : 0;
+    return inner.kind == LANG_CALL && hands_on(s, layer, &wrapper, &inner)
+               ? call_inner(s, layer, call, inner)
+               : 0;
 }
 
 static void resolve(struct spec *s, lang_ref ref)

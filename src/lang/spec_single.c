@@ -4,7 +4,8 @@
  *
  *     float d = dot(e, e);  return 1.0 / d;      →      return 1.0 / dot(e, e);
  *
- * It is forwarded where it is declared and read in one list of statements, and nothing that it is made of is assigned anywhere.
+ * It is forwarded where it is declared and read in one list of statements, and nothing that it is
+ * made of is assigned anywhere.
  */
 #include "lang/specialise.h"
 
@@ -12,8 +13,8 @@ enum { MAX_NODES = 24 /* of a value that is forwarded: lines stay readable */ };
 
 struct forwarder {
     struct spec *s;
-    uint16_t *reads;       /* by slot: VAR nodes; 2 = more than one */
-    lang_ref *declared;    /* by slot: its DECLARE in the list at hand, when it may be forwarded */
+    uint16_t *reads;    /* by slot: VAR nodes; 2 = more than one */
+    lang_ref *declared; /* by slot: its DECLARE in the list at hand, when it may be forwarded */
     bool any;
 };
 
@@ -29,7 +30,8 @@ static unsigned movable_size(const struct forwarder *f, lang_ref ref)
     if (node->kind == LANG_VAR)
         return f->s->slots[node->a].uses & SLOT_WRITTEN ? MAX_NODES + 1 : 1;
     unsigned size = 1;
-    for (lang_ref child = children_of(node); child && size <= MAX_NODES; child = spec_node(f->s, child)->next)
+    for (lang_ref child = children_of(node); child && size <= MAX_NODES;
+         child = spec_node(f->s, child)->next)
         size += movable_size(f, child);
     return size;
 }
@@ -40,7 +42,8 @@ static bool has_derivative(const struct forwarder *f, lang_ref ref)
     const struct lang_node *node = spec_node(f->s, ref);
     if (node->kind == LANG_OP && ir_op_info(node->op)->flags & OP_DERIVATIVE)
         return true;
-    if (node->kind == LANG_CALL && lang_function(f->s->unit, node->a, NULL)->flags & LANG_FN_DERIVATIVE)
+    if (node->kind == LANG_CALL
+        && lang_function(f->s->unit, node->a, NULL)->flags & LANG_FN_DERIVATIVE)
         return true;
     for (lang_ref child = children_of(node); child; child = spec_node(f->s, child)->next)
         if (has_derivative(f, child))
@@ -52,9 +55,11 @@ static void consider(struct forwarder *f, lang_ref statement)
 {
     const struct lang_node *node = spec_node(f->s, statement);
     uint32_t slot = node->a;
-    if (!node->b || f->reads[slot] != 1 || f->s->slots[slot].uses & SLOT_WRITTEN || ast_is_user_type(spec_node(f->s, node->b)->type))
+    if (!node->b || f->reads[slot] != 1 || f->s->slots[slot].uses & SLOT_WRITTEN
+        || ast_is_user_type(spec_node(f->s, node->b)->type))
         return;
-    if (!spec_has_effects(f->s, node->b) && movable_size(f, node->b) <= MAX_NODES && !has_derivative(f, node->b))
+    if (!spec_has_effects(f->s, node->b) && movable_size(f, node->b) <= MAX_NODES
+        && !has_derivative(f, node->b))
         f->declared[slot] = statement;
 }
 
@@ -96,9 +101,7 @@ static void forward_statement(struct forwarder *f, lang_ref ref)
             replace(f, node.b);
         consider(f, ref);
         break;
-    case LANG_ASSIGN:
-        replace(f, node.b);
-        break;
+    case LANG_ASSIGN: replace(f, node.b); break;
     case LANG_EXPR:
     case LANG_RETURN:
         if (node.a)
@@ -109,16 +112,11 @@ static void forward_statement(struct forwarder *f, lang_ref ref)
         forward_block(f, node.b);
         forward_block(f, node.c);
         break;
-    case LANG_BLOCK:
-        forward_block(f, ref);
-        break;
+    case LANG_BLOCK: forward_block(f, ref); break;
     case LANG_FOR:
     case LANG_WHILE:
-    case LANG_DO:
-        forward_block(f, node.c);
-        break;
-    default:
-        break;
+    case LANG_DO: forward_block(f, node.c); break;
+    default: break;
     }
 }
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * The forward step over statements. What is known of a variable follows control: branches are taken with what was known
- * before them and keep what both agree on; a loop begins, and is left, with nothing known of what it assigns.
+ * The forward step over statements. What is known of a variable follows control: branches are taken
+ * with what was known before them and keep what both agree on; a loop begins, and is left, with
+ * nothing known of what it assigns.
  */
 #include "lang/specialise.h"
 
@@ -42,9 +43,7 @@ static void forget_assigned(struct spec *s, lang_ref statement)
         if (node->b)
             forget_outputs(s, node->b);
         break;
-    case LANG_EXPR:
-        forget_outputs(s, node->a);
-        break;
+    case LANG_EXPR: forget_outputs(s, node->a); break;
     case LANG_BLOCK:
         for (lang_ref ref = node->a; ref; ref = ast_node(s->layer, ref)->next)
             forget_assigned(s, ref);
@@ -62,8 +61,7 @@ static void forget_assigned(struct spec *s, lang_ref statement)
             forget_outputs(s, node->b);
         forget_assigned(s, node->c);
         break;
-    default:
-        break;
+    default: break;
     }
 }
 
@@ -90,10 +88,12 @@ static void spec_declare(struct spec *s, struct lang_node node, struct chain *ou
 }
 
 /* x op= y with both sides known, as x = value; 0 where they are not. */
-static lang_ref fold_assignment(struct spec *s, const struct lang_node *node, lang_ref value, uint32_t slot)
+static lang_ref fold_assignment(struct spec *s, const struct lang_node *node, lang_ref value,
+                                uint32_t slot)
 {
     lang_ref args[2] = {s->known[slot], value};
-    if (!args[0] || spec_node(s, args[0])->kind != LANG_CONST || spec_node(s, value)->kind != LANG_CONST)
+    if (!args[0] || spec_node(s, args[0])->kind != LANG_CONST
+        || spec_node(s, value)->kind != LANG_CONST)
         return 0;
     for (unsigned i = 0; i < 2; i++) /* the originals stay where they are */
         args[i] = spec_add(s, *spec_node(s, args[i]));
@@ -104,8 +104,10 @@ static lang_ref fold_assignment(struct spec *s, const struct lang_node *node, la
 /* x = x: what is left of x = pow(x, p) where p is 1. */
 static bool is_idle(struct spec *s, const struct lang_node *assignment)
 {
-    const struct lang_node *target = spec_node(s, assignment->a), *value = spec_node(s, assignment->b);
-    return assignment->op == IR_NUM_OPS && target->kind == LANG_VAR && value->kind == LANG_VAR && target->a == value->a;
+    const struct lang_node *target = spec_node(s, assignment->a),
+                           *value = spec_node(s, assignment->b);
+    return assignment->op == IR_NUM_OPS && target->kind == LANG_VAR && value->kind == LANG_VAR
+           && target->a == value->a;
 }
 
 static void spec_assign(struct spec *s, struct lang_node node, struct chain *out)
@@ -243,32 +245,23 @@ static bool spec_statement(struct spec *s, lang_ref ref, struct chain *out)
 {
     struct lang_node node = *ast_node(s->layer, ref);
     switch (node.kind) {
-    case LANG_DECLARE:
-        spec_declare(s, node, out);
-        return true;
-    case LANG_ASSIGN:
-        spec_assign(s, node, out);
-        return true;
+    case LANG_DECLARE: spec_declare(s, node, out); return true;
+    case LANG_ASSIGN: spec_assign(s, node, out); return true;
     case LANG_EXPR:
         node.a = spec_expression(s, node.a);
         if (spec_node(s, node.a)->kind == LANG_CALL) /* else it was evaluated */
             spec_append(s, out, spec_add(s, node));
         return true;
-    case LANG_IF:
-        return spec_if(s, node, out);
+    case LANG_IF: return spec_if(s, node, out);
     case LANG_FOR:
     case LANG_WHILE:
-    case LANG_DO:
-        spec_loop(s, &node, out);
-        return true;
-    case LANG_BLOCK:
-        return spec_statements(s, node.a, out);
+    case LANG_DO: spec_loop(s, &node, out); return true;
+    case LANG_BLOCK: return spec_statements(s, node.a, out);
     case LANG_RETURN:
         if (node.a)
             node.a = spec_expression(s, node.a);
         break;
-    default: /* break, continue */
-        break;
+    default: /* break, continue */ break;
     }
     spec_append(s, out, spec_add(s, node));
     return false;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * The backward step: statements are visited last to first, so that all uses of a variable are known where it is assigned.
- * The language has no effects but assignments, by statements and by `out` arguments: what assigns only to variables
- * that nobody reads later is dropped. In a loop "later" includes the whole loop, whose reads are collected first.
+ * The backward step: statements are visited last to first, so that all uses of a variable are known
+ * where it is assigned. The language has no effects but assignments, by statements and by `out`
+ * arguments: what assigns only to variables that nobody reads later is dropped. In a loop "later"
+ * includes the whole loop, whose reads are collected first.
  */
 #include "lang/specialise.h"
 
@@ -81,9 +82,7 @@ static void use_expression(struct spec *s, lang_ref ref)
         s->slots[node.a].mention = s->statement;
         vec_push(s->unit->arena, &s->vars, ref);
         break;
-    case LANG_GLOBAL:
-        use_global(s, &node);
-        break;
+    case LANG_GLOBAL: use_global(s, &node); break;
     case LANG_CALL:
         use_callee(s, node.a);
         use_arguments(s, &node);
@@ -111,7 +110,8 @@ static bool has_live_effects(const struct spec *s, lang_ref ref)
     uint32_t i = 0;
     if (node->kind == LANG_CALL) {
         for (lang_ref arg = node->b; arg; arg = ast_node(s->unit, arg)->next, i++)
-            if (ast_param_mode(s->unit, node->a, i) == LANG_IN ? has_live_effects(s, arg) : is_live(s, arg))
+            if (ast_param_mode(s->unit, node->a, i) == LANG_IN ? has_live_effects(s, arg)
+                                                               : is_live(s, arg))
                 return true;
     } else if (node->kind == LANG_OP) {
         for (lang_ref arg = node->a; arg; arg = ast_node(s->unit, arg)->next)
@@ -134,7 +134,8 @@ static void read_expression(struct spec *s, lang_ref ref)
     } else if (node->kind == LANG_CALL) {
         uint32_t i = 0;
         for (lang_ref arg = node->b; arg; arg = spec_node(s, arg)->next, i++)
-            if (ast_param_mode(s->unit, node->a, i) != LANG_OUT || spec_node(s, arg)->kind != LANG_VAR)
+            if (ast_param_mode(s->unit, node->a, i) != LANG_OUT
+                || spec_node(s, arg)->kind != LANG_VAR)
                 read_expression(s, arg);
     }
 }
@@ -169,8 +170,7 @@ static void read_statement(struct spec *s, lang_ref ref)
             read_statement(s, inner);
         break;
     case LANG_BREAK:
-    case LANG_CONTINUE:
-        break;
+    case LANG_CONTINUE: break;
     default: /* loops */
         if (node->kind == LANG_FOR)
             read_statement(s, node->a);
@@ -186,7 +186,8 @@ static void read_statement(struct spec *s, lang_ref ref)
 static lang_ref sweep_list(struct spec *s, lang_ref first, unsigned loops);
 
 /*
- * A value that nobody wants but whose computation has effects: the call remains, or else the statement as it is.
+ * A value that nobody wants but whose computation has effects: the call remains, or else the
+ * statement as it is.
  */
 static bool becomes_call(struct spec *s, lang_ref ref, lang_ref value)
 {
@@ -201,7 +202,8 @@ static bool becomes_call(struct spec *s, lang_ref ref, lang_ref value)
 }
 
 /*
- * Literals that stand for a variable, and are long, stand for it no more where there are two of them.
+ * Literals that stand for a variable, and are long, stand for it no more where there are two of
+ * them.
  */
 static void name_literals(struct spec *s, uint32_t slot)
 {
@@ -235,14 +237,16 @@ static bool names_slot(const struct spec *s, lang_ref ref, uint32_t slot)
 }
 
 /*
- * Is the next thing that happens to a variable that it gets a new value, by the statement this returns?
+ * Is the next thing that happens to a variable that it gets a new value, by the statement this
+ * returns?
  */
 static lang_ref overwriting(const struct spec *s, uint32_t slot, uint32_t list)
 {
     lang_ref ref = s->slots[slot].mention;
     const struct lang_node *next = ast_node(s->unit, ref);
     bool overwrites = next->kind == LANG_ASSIGN && next->op == IR_NUM_OPS && next->c == list
-                      && ast_node(s->unit, next->a)->kind == LANG_VAR && !names_slot(s, next->b, slot);
+                      && ast_node(s->unit, next->a)->kind == LANG_VAR
+                      && !names_slot(s, next->b, slot);
     return overwrites ? ref : 0;
 }
 
@@ -287,7 +291,8 @@ static bool sweep_assign(struct spec *s, lang_ref ref, unsigned loops, uint32_t 
     spec_node(s, ref)->c = list;
     uint32_t slot = ast_target_slot(s->unit, node.a);
     bool is_local = slot >= s->fn.num_params || ast_slot(s->layer, &s->fn, slot)->mode == LANG_IN;
-    bool is_lost = is_local && loops == 0 && spec_node(s, node.a)->kind == LANG_VAR && overwriting(s, slot, list);
+    bool is_lost = is_local && loops == 0 && spec_node(s, node.a)->kind == LANG_VAR
+                   && overwriting(s, slot, list);
     if (is_lost || !is_live(s, node.a)) {
         if (!has_live_effects(s, node.b) && !has_live_effects(s, node.a))
             return false;
@@ -302,8 +307,9 @@ static bool sweep_assign(struct spec *s, lang_ref ref, unsigned loops, uint32_t 
 static void invert_condition(struct spec *s, lang_ref ref)
 {
     struct lang_node node = *spec_node(s, ref);
-    lang_ref not = spec_add(s, (struct lang_node){.kind = LANG_OP, .op = IR_NOT, .type = IR_TYPE_BOOL, .a = node.a});
-    spec_node(s, ref)->a = not;
+    lang_ref not = spec_add(
+        s, (struct lang_node){.kind = LANG_OP, .op = IR_NOT, .type = IR_TYPE_BOOL, .a = node.a});
+    spec_node(s, ref)->a = not ;
     spec_node(s, ref)->b = node.c;
     spec_node(s, ref)->c = 0;
 }
@@ -369,24 +375,20 @@ static bool sweep_statement(struct spec *s, lang_ref ref, unsigned loops, uint32
 {
     struct lang_node node = *spec_node(s, ref);
     switch (node.kind) {
-    case LANG_DECLARE:
-        return sweep_declare(s, ref, list);
-    case LANG_ASSIGN:
-        return sweep_assign(s, ref, loops, list);
+    case LANG_DECLARE: return sweep_declare(s, ref, list);
+    case LANG_ASSIGN: return sweep_assign(s, ref, loops, list);
     case LANG_EXPR:
         if (!has_live_effects(s, node.a))
             return false;
         use_expression(s, node.a);
         return true;
-    case LANG_IF:
-        return sweep_if(s, ref, loops);
+    case LANG_IF: return sweep_if(s, ref, loops);
     case LANG_RETURN:
         if (node.a)
             use_expression(s, node.a);
         return true;
     case LANG_BREAK:
-    case LANG_CONTINUE:
-        return true;
+    case LANG_CONTINUE: return true;
     default:
         assert(node.kind == LANG_FOR || node.kind == LANG_WHILE || node.kind == LANG_DO);
         return sweep_loop(s, ref, loops);

@@ -41,7 +41,9 @@ static void bind(struct spec *s, struct chain *out)
         value.a = s->unit->plan->facts.items[variant_of(s)->first_fact + i] - 1;
         s->changed = true;
         s->known[i] = spec_add(s, value);
-        spec_append(s, out, spec_add(s, (struct lang_node){.kind = LANG_DECLARE, .a = i, .b = s->known[i]}));
+        spec_append(
+            s, out,
+            spec_add(s, (struct lang_node){.kind = LANG_DECLARE, .a = i, .b = s->known[i]}));
     }
 }
 
@@ -57,7 +59,8 @@ static void note_call(struct spec *s, const struct lang_node *call)
         if (arg->kind != LANG_CONST)
             continue;
         uint32_t count = ir_type_info(arg->type)->components;
-        memcpy(vec_extend(unit->arena, &unit->words, count), ast_words(s->layer, arg), count * sizeof(union ir_word));
+        memcpy(vec_extend(unit->arena, &unit->words, count), ast_words(s->layer, arg),
+               count * sizeof(union ir_word));
     }
     uint32_t called = plan_note_call(unit, call->a, args, false);
     vec_push(unit->arena, &unit->plan->calls, called);

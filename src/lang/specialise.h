@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * The partial evaluator. What a function is called with is gathered first, callers before callees, and each variant of a
- * function is then made once (plan.c):
+ * The partial evaluator. What a function is called with is gathered first, callers before callees,
+ * and each variant of a function is then made once (plan.c):
  *
- *   forward  (spec_stmt.c, spec_expr.c)  the source tree is rebuilt in the generated unit with known values in place of
- *                                        variables; what they decide is folded and never-taken branches are not built
- *   resolve  (spec_resolve.c)            calls become calls of the callees' versions, or what is simpler
- *   backward (spec_sweep.c)              statements without a use are unlinked, uses of slots counted
- *   single   (spec_single.c)             variables that are read once become their values
- *   finish   (specialise.c)              slots get their new numbers and the function its description
+ *   forward  (spec_stmt.c, spec_expr.c)  the source tree is rebuilt in the generated unit with
+ * known values in place of variables; what they decide is folded and never-taken branches are not
+ * built resolve  (spec_resolve.c)            calls become calls of the callees' versions, or what
+ * is simpler backward (spec_sweep.c)              statements without a use are unlinked, uses of
+ * slots counted single   (spec_single.c)             variables that are read once become their
+ * values finish   (specialise.c)              slots get their new numbers and the function its
+ * description
  *
  * Until the last step, the new tree speaks of the source's slots.
  */
@@ -22,26 +23,26 @@ enum {
 };
 
 /*
- * What is known of a parameter: FACT_UNSEEN, FACT_VARIES, or 1 + index of its value in the generated unit's words. The same tells
- * what is passed to it.
+ * What is known of a parameter: FACT_UNSEEN, FACT_VARIES, or 1 + index of its value in the
+ * generated unit's words. The same tells what is passed to it.
  */
 typedef uint32_t fact;
 enum { FACT_UNSEEN = 0 };
 #define FACT_VARIES UINT32_MAX
 
-struct variant { /* a function with the strings and flags that choose what it is */
-    uint32_t function;             /* id */
-    uint32_t next;                 /* 1 + index of another variant of it; 0 = none */
-    uint32_t first_fact;           /* in plan->facts: one per parameter */
+struct variant {         /* a function with the strings and flags that choose what it is */
+    uint32_t function;   /* id */
+    uint32_t next;       /* 1 + index of another variant of it; 0 = none */
+    uint32_t first_fact; /* in plan->facts: one per parameter */
     /* in plan->calls: its tree's, arguments before the call that they are for */
     uint32_t first_call, num_calls;
-    lang_ref body;                 /* its tree's first statement, once the forward step has been */
-    uint32_t version;              /* id of the function that it has become */
-    bool changed;                  /* its tree is not the source's */
+    lang_ref body;    /* its tree's first statement, once the forward step has been */
+    uint32_t version; /* id of the function that it has become */
+    bool changed;     /* its tree is not the source's */
     /* its source's tree is taken as it is, so far; first_call: the variants that it calls */
     bool is_final;
-    bool is_known;                 /* the same with the tree of a version that the library has */
-    bool keeps_unused;             /* parameters that nobody uses: some argument has effects */
+    bool is_known;     /* the same with the tree of a version that the library has */
+    bool keeps_unused; /* parameters that nobody uses: some argument has effects */
 };
 
 struct lang_plan {
@@ -61,9 +62,9 @@ struct chain { /* siblings */
 
 enum slot_use { SLOT_READ = 1, SLOT_WRITTEN = 2 };
 
-struct spec_slot { /* of the source */
-    lang_ref mention;  /* backward: the first statement behind the current one that names it */
-    uint8_t uses;      /* enum slot_use */
+struct spec_slot {    /* of the source */
+    lang_ref mention; /* backward: the first statement behind the current one that names it */
+    uint8_t uses;     /* enum slot_use */
     /* how often its value stands for it, where that is long to write (saturating) */
     uint8_t literals;
     uint8_t reads;     /* single: VAR nodes (saturating at 2) */
@@ -82,16 +83,16 @@ struct spec {
     lang_ref *known;
     struct spec_slot *slots; /* by slot */
     uint32_t cap_slots;
-    uint32_t num_effects;  /* calls so far that assign to their arguments */
-    lang_ref statement;    /* being swept */
-    uint32_t num_lists;    /* swept so far */
-    VEC(lang_ref) stack;   /* scratch of statements that hold others */
-    VEC(lang_ref) vars;    /* nodes of the result that name a slot: VAR and DECLARE */
+    uint32_t num_effects; /* calls so far that assign to their arguments */
+    lang_ref statement;   /* being swept */
+    uint32_t num_lists;   /* swept so far */
+    VEC(lang_ref) stack;  /* scratch of statements that hold others */
+    VEC(lang_ref) vars;   /* nodes of the result that name a slot: VAR and DECLARE */
     /* CONST nodes of the result that stand for a slot and are long to write */
     VEC(lang_ref) longs;
     VEC(uint32_t) callees, globals; /* of the result, each once */
     uint32_t num_nodes;
-    uint16_t flags;        /* enum lang_function_flags of the result */
+    uint16_t flags; /* enum lang_function_flags of the result */
 };
 
 /* What a generated unit's nodes say. */
@@ -120,12 +121,14 @@ bool spec_is_finite(const struct ir_value *value); /* spec_fold.c */
 void spec_resolve(struct spec *s);
 
 /*
- * spec_inline.c: the expression that a call of a small function stands for; 0 where it stays a call.
+ * spec_inline.c: the expression that a call of a small function stands for; 0 where it stays a
+ * call.
  */
 lang_ref spec_inline(struct spec *s, const struct lang_node *call);
 
 /* spec_fold.c: an op over operands of the result: a constant, a simpler expression, or 0. */
-lang_ref spec_fold(struct spec *s, const struct lang_node *op, const lang_ref *args, unsigned num_args);
+lang_ref spec_fold(struct spec *s, const struct lang_node *op, const lang_ref *args,
+                   unsigned num_args);
 
 /* spec_stmt.c. False where control does not reach what follows. */
 bool spec_statements(struct spec *s, lang_ref first, struct chain *out);
@@ -147,16 +150,19 @@ bool known_begin(struct spec *s);
 /* That version, when its callees' versions are known, or LANG_NONE. */
 uint32_t known_version(const struct spec *s);
 /*
- * Takes down what a variant calls, before its calls are resolved, and the version that it has become.
+ * Takes down what a variant calls, before its calls are resolved, and the version that it has
+ * become.
  */
 void known_take_calls(struct spec *s);
 void known_take_version(struct spec *s);
 
 /*
- * plan.c: tells what a call passes. Returns the variant that is called, which may be moved by further ones.
+ * plan.c: tells what a call passes. Returns the variant that is called, which may be moved by
+ * further ones.
  */
 /* makes the plan an open one: no parameter is bound, or dropped */
 uint32_t plan_note_any(struct lang_unit *unit, uint32_t function);
-uint32_t plan_note_call(struct lang_unit *unit, uint32_t function, const fact *args, bool args_have_effects);
+uint32_t plan_note_call(struct lang_unit *unit, uint32_t function, const fact *args,
+                        bool args_have_effects);
 
 #endif

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * A syntax made ready for printing: what would be looked up and taken apart again for each word is looked up once.
+ * A syntax made ready for printing: what would be looked up and taken apart again for each word is
+ * looked up once.
  */
 #include "lang/lang.h"
 
 #include <assert.h>
 
-void lang_style_init(struct lang_style *style, const struct lang_syntax *syntax, struct arena *arena)
+void lang_style_init(struct lang_style *style, const struct lang_syntax *syntax,
+                     struct arena *arena)
 {
-    *style = (struct lang_style){.syntax = syntax, .arena = arena, .from_images = syntax->in_images};
+    *style =
+        (struct lang_style){.syntax = syntax, .arena = arena, .from_images = syntax->in_images};
     for (ir_type_id type = 0; type < IR_NUM_TYPES; type++) {
         const char *name = lang_syntax_type(syntax, type);
         style->types[type] = text_word_of(arena, name, strlen(name));
@@ -17,7 +20,8 @@ void lang_style_init(struct lang_style *style, const struct lang_syntax *syntax,
 }
 
 /* Precedence an operand needs, by what stands around it in the form. */
-static enum lang_precedence operand_precedence(const struct lang_form *form, unsigned index, char before, char after)
+static enum lang_precedence operand_precedence(const struct lang_form *form, unsigned index,
+                                               char before, char after)
 {
     enum lang_precedence own = (enum lang_precedence)form->precedence;
     if (form->infix)
@@ -32,7 +36,8 @@ static enum lang_precedence operand_precedence(const struct lang_form *form, uns
 }
 
 /*
- * Compilers of some languages would fill a vector when the shader runs. Products have an operation of their own for a scalar.
+ * Compilers of some languages would fill a vector when the shader runs. Products have an operation
+ * of their own for a scalar.
  */
 static bool spreads_constants(const struct lang_syntax *syntax, enum ir_op op)
 {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * The portable language's own spelling, which is also GLSL's, and look-ups through a chain of syntax tables.
+ * The portable language's own spelling, which is also GLSL's, and look-ups through a chain of
+ * syntax tables.
  */
 #include "lang/lang.h"
 
@@ -13,6 +14,8 @@
 #define CALL3(op, text) [IR_##op] = {text "($0, $1, $2)", LANG_PREC_POSTFIX, false}
 #define CALL4(op, text) [IR_##op] = {text "($0, $1, $2, $3)", LANG_PREC_POSTFIX, false}
 
+/* Related operations stand on one line. */
+// clang-format off
 static const struct lang_form forms[IR_NUM_OPS] = {
     PREFIX(NEG, "-"), PREFIX(NOT, "!"), PREFIX(BITNOT, "~"),
     INFIX(ADD, "+", SUM), INFIX(SUB, "-", SUM),
@@ -46,6 +49,7 @@ static const struct lang_form forms[IR_NUM_OPS] = {
     CALL2(TEX, "texture"), CALL3(TEX_LOD, "textureLod"), CALL4(TEX_GRAD, "textureGrad"),
     CALL2(TEX_SIZE, "textureSize"), CALL3(TEX_FETCH, "texelFetch"),
 };
+// clang-format on
 
 static const char *const type_names[IR_NUM_TYPES] = {
 #define IR_TYPE(ID, text, scalar, components, columns) text,
@@ -53,6 +57,7 @@ static const char *const type_names[IR_NUM_TYPES] = {
 #undef IR_TYPE
 };
 
+// clang-format off
 static const struct lang_words keywords[] = {
     LANG_WORDS(2, "do" "if" "in"),
     LANG_WORDS(3, "for" "int" "out"),
@@ -63,6 +68,7 @@ static const struct lang_words keywords[] = {
     LANG_WORDS(8, "continue"),
     LANG_WORDS(9, "sampler2D"),
 };
+// clang-format on
 
 const struct lang_syntax lang_syntax_portable = {
     .name = "portable",
@@ -109,7 +115,8 @@ bool lang_syntax_is_reserved(const struct lang_syntax *syntax, const char *name,
     for (uint32_t low = 0, high = words->count; low < high;) {
         uint32_t middle = (low + high) / 2;
         const char *word = words->text + middle * len;
-        int order = name[0] != word[0] ? (unsigned char)name[0] - (unsigned char)word[0] : memcmp(name, word, len);
+        int order = name[0] != word[0] ? (unsigned char)name[0] - (unsigned char)word[0]
+                                       : memcmp(name, word, len);
         if (order == 0)
             return true;
         if (order < 0)

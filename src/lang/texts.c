@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Most functions of a shader are those of the library as they stand there. Their text in a syntax that several targets share is written
- * once, when the library is packed, and copied from its image, as long as everything that the text names has its own name in the shader.
+ * Most functions of a shader are those of the library as they stand there. Their text in a syntax
+ * that several targets share is written once, when the library is packed, and copied from its
+ * image, as long as everything that the text names has its own name in the shader.
  */
 #include "lang/lower.h"
 #include "lang/print.h"
@@ -14,7 +15,8 @@ static bool is_worth_text(const struct lang_function *fn, bool is_version)
 }
 
 /*
- * Structs are written by name; those that variables and what is returned are of can be told from the function.
+ * Structs are written by name; those that variables and what is returned are of can be told from
+ * the function.
  */
 struct type_watch {
     const struct lang_unit *unit;
@@ -66,15 +68,17 @@ void lang_make_texts(struct lang_unit *unit, const struct lang_syntax *syntax, s
         memcpy(vec_extend(arena, &unit->text_bytes, text.len), text.data, text.len);
 }
 
-static bool has_own_type(const struct lang_names *names, const struct lang_unit *unit, ir_type_id type)
+static bool has_own_type(const struct lang_names *names, const struct lang_unit *unit,
+                         ir_type_id type)
 {
     type = without_lengths(unit, type);
     return !ast_is_user_type(type)
-           || print_struct_name(names, unit, type) == str_text(unit->strings, lang_user_type(unit, type, NULL)->name);
+           || print_struct_name(names, unit, type)
+                  == str_text(unit->strings, lang_user_type(unit, type, NULL)->name);
 }
 
-static bool has_own_types(const struct lang_names *names, const struct lang_unit *unit, const struct lang_unit *layer,
-                          const struct lang_function *fn)
+static bool has_own_types(const struct lang_names *names, const struct lang_unit *unit,
+                          const struct lang_unit *layer, const struct lang_function *fn)
 {
     if (fn->flags & LANG_FN_PLAIN)
         return true;
@@ -85,32 +89,37 @@ static bool has_own_types(const struct lang_names *names, const struct lang_unit
 }
 
 /* Names of the source are compared by address: they are the pool's. */
-static bool has_own_names(const struct lang_names *names, const struct lang_unit *unit, const struct lang_unit *layer,
-                          const struct lang_function *fn, uint32_t id)
+static bool has_own_names(const struct lang_names *names, const struct lang_unit *unit,
+                          const struct lang_unit *layer, const struct lang_function *fn,
+                          uint32_t id)
 {
     const struct strpool *strings = unit->strings;
     if (print_function_name(names, unit, id) != str_text(strings, fn->name))
         return false;
     const uint32_t *refs = layer->refs.items + fn->first_callee;
     for (uint32_t i = 0; i < fn->num_callees; i++)
-        if (print_function_name(names, unit, refs[i]) != str_text(strings, lang_function(unit, refs[i], NULL)->name))
+        if (print_function_name(names, unit, refs[i])
+            != str_text(strings, lang_function(unit, refs[i], NULL)->name))
             return false;
     refs = layer->refs.items + fn->first_global;
     for (uint32_t i = 0; i < fn->num_globals; i++)
-        if (print_global_name(names, unit, refs[i]) != str_text(strings, lang_global(unit, refs[i], NULL)->name))
+        if (print_global_name(names, unit, refs[i])
+            != str_text(strings, lang_global(unit, refs[i], NULL)->name))
             return false;
     return true;
 }
 
-bool print_from_image(const struct lang_style *style, const struct lang_names *names, const struct lang_unit *unit, uint32_t id,
-                 struct text *out)
+bool print_from_image(const struct lang_style *style, const struct lang_names *names,
+                      const struct lang_unit *unit, uint32_t id, struct text *out)
 {
     const struct lang_unit *layer;
     const struct lang_function *fn = lang_function(unit, id, &layer);
-    if (!style->from_images || layer->texts.len == 0 || (fn->flags & LANG_FN_DERIVATIVE && style->syntax->without_neighbours))
+    if (!style->from_images || layer->texts.len == 0
+        || (fn->flags & LANG_FN_DERIVATIVE && style->syntax->without_neighbours))
         return false;
     const uint32_t *at = &layer->texts.items[id - layer->base_functions];
-    if (at[0] == at[1] || !has_own_names(names, unit, layer, fn, id) || !has_own_types(names, unit, layer, fn))
+    if (at[0] == at[1] || !has_own_names(names, unit, layer, fn, id)
+        || !has_own_types(names, unit, layer, fn))
         return false;
     text_mem(out, layer->text_bytes.items + at[0], at[1] - at[0]);
     return true;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lang/lang.h"
 
-void lang_unit_init(struct lang_unit *unit, struct arena *arena, struct strpool *strings, const struct lang_unit *base)
+void lang_unit_init(struct lang_unit *unit, struct arena *arena, struct strpool *strings,
+                    const struct lang_unit *base)
 {
     *unit = (struct lang_unit){.base = base, .arena = arena, .strings = strings};
     if (base) {

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Names of colour spaces. A transform is a node of the library (cmlib), `<space>_to_<space>`: the set of spaces is the library's.
+ * Names of colour spaces. A transform is a node of the library (cmlib), `<space>_to_<space>`: the
+ * set of spaces is the library's.
  */
 #include "library/library.h"
 
 #include <stdio.h>
 
 /*
- * Other names of colour spaces: an alias of the specification ("Color Spaces and Color Management Systems"), those of old
- * documents, those that the ASWF's Color Interop Forum recommends, and those of OpenColorIO's configuration for ACES.
+ * Other names of colour spaces: an alias of the specification ("Color Spaces and Color Management
+ * Systems"), those of old documents, those that the ASWF's Color Interop Forum recommends, and
+ * those of OpenColorIO's configuration for ACES.
  */
 static const char *const aliases[][2] = {
     {"lin_ap1", "acescg"},
@@ -58,11 +60,13 @@ const char *library_canonical_space(const char *space)
     return space;
 }
 
-uint32_t library_color_transform(const struct library *lib, const char *from, const char *to, const char *type)
+uint32_t library_color_transform(const struct library *lib, const char *from, const char *to,
+                                 const char *type)
 {
     char name[256];
     int len = snprintf(name, sizeof name, "ND_%s_to_%s_%s", from, to, type);
-    str_id id = len > 0 && (size_t)len < sizeof name ? str_find(&lib->strings, name, (size_t)len) : 0;
+    str_id id =
+        len > 0 && (size_t)len < sizeof name ? str_find(&lib->strings, name, (size_t)len) : 0;
     return id ? library_nodedef_by_name(lib, id) : LIBRARY_NONE;
 }
 
@@ -95,7 +99,9 @@ static const char *suggest_space(const char *space, struct diag_list *diags)
     return diag_suggest(diags, space, names, count);
 }
 
-void library_report_space(const struct library *lib, const char *space, struct diag_place place, struct diag_list *diags)
+void library_report_space(const struct library *lib, const char *space, struct diag_place place,
+                          struct diag_list *diags)
 {
-    diag_add(diags, DIAG_ID_unknown_colorspace, place, space, suggest_space(space, diags), known_spaces(lib, diags->arena));
+    diag_add(diags, DIAG_ID_unknown_colorspace, place, space, suggest_space(space, diags),
+             known_spaces(lib, diags->arena));
 }

@@ -40,15 +40,17 @@ static bool has(const char *list, const char *word, size_t len)
     return false;
 }
 
-void library_check_enum(const struct library *lib, const struct port *port, str_id text, struct diag_place place,
-                        struct diag_list *diags)
+void library_check_enum(const struct library *lib, const struct port *port, str_id text,
+                        struct diag_place place, struct diag_list *diags)
 {
     if (!(port->flags & PORT_ENUM) || !text)
         return;
-    const char *list = text_of(lib, doc_attr_value(&lib->doc, port->element, STR_enum)), *word = text_of(lib, text);
+    const char *list = text_of(lib, doc_attr_value(&lib->doc, port->element, STR_enum)),
+               *word = text_of(lib, text);
     if (has(list, word, strlen(word)))
         return;
     struct words words = {0};
     split(list, diags->arena, &words);
-    diag_add(diags, DIAG_ID_bad_enum_value, place, word, list, diag_suggest(diags, word, words.items, words.len));
+    diag_add(diags, DIAG_ID_bad_enum_value, place, word, list,
+             diag_suggest(diags, word, words.items, words.len));
 }

@@ -4,8 +4,9 @@
  *
  *     header | section 0 | section 1 | …     each section aligned to 16 bytes
  *
- * Records refer to each other by index only, so mapping is setting one pointer per section. The layout belongs to one
- * build on one kind of machine; the header's fingerprint says which, and another is refused, not converted.
+ * Records refer to each other by index only, so mapping is setting one pointer per section. The
+ * layout belongs to one build on one kind of machine; the header's fingerprint says which, and
+ * another is refused, not converted.
  */
 #include "library/library.h"
 
@@ -23,18 +24,43 @@ struct section_info {
     size_t item_size;
 };
 
-#define SECTION(field) {offsetof(struct library, field), sizeof *((struct library *)NULL)->field.items}
+#define SECTION(field) \
+    { \
+        offsetof(struct library, field), sizeof *((struct library *)NULL)->field.items \
+    }
 static const struct section_info section_infos[] = {
-    SECTION(doc.elements),   SECTION(doc.attrs),     SECTION(doc.files),      SECTION(unit.nodes),
-    SECTION(unit.slots),     SECTION(unit.functions), SECTION(unit.globals),  SECTION(unit.files),
-    SECTION(unit.words),     SECTION(unit.refs),     SECTION(unit.user_types), SECTION(unit.members),
-    SECTION(unit.texts),     SECTION(unit.text_bytes),
-    SECTION(nodedefs),       SECTION(ports),         SECTION(impls),          SECTION(families),
-    SECTION(verbatims),      SECTION(graph_nodes),   SECTION(bindings),       SECTION(geomprops),
-    SECTION(types),          SECTION(units),         SECTION(refs),
+    SECTION(doc.elements),
+    SECTION(doc.attrs),
+    SECTION(doc.files),
+    SECTION(unit.nodes),
+    SECTION(unit.slots),
+    SECTION(unit.functions),
+    SECTION(unit.globals),
+    SECTION(unit.files),
+    SECTION(unit.words),
+    SECTION(unit.refs),
+    SECTION(unit.user_types),
+    SECTION(unit.members),
+    SECTION(unit.texts),
+    SECTION(unit.text_bytes),
+    SECTION(nodedefs),
+    SECTION(ports),
+    SECTION(impls),
+    SECTION(families),
+    SECTION(verbatims),
+    SECTION(graph_nodes),
+    SECTION(bindings),
+    SECTION(geomprops),
+    SECTION(types),
+    SECTION(units),
+    SECTION(refs),
     SECTION(node_table),
-    SECTION(unit.fragments), SECTION(unit.codes),    SECTION(unit.fragment_of), SECTION(unit.graph_fragment_of),
-    SECTION(unit.known),     SECTION(unit.known_facts),
+    SECTION(unit.fragments),
+    SECTION(unit.codes),
+    SECTION(unit.fragment_of),
+    SECTION(unit.graph_fragment_of),
+    SECTION(unit.known),
+    SECTION(unit.known_facts),
 };
 enum {
     NUM_VECS = sizeof section_infos / sizeof *section_infos,
@@ -70,7 +96,8 @@ static uint64_t checksum(const void *image, size_t size)
 static uint64_t fingerprint(void)
 {
     uint64_t h = HASH_STABLE_SEED;
-    uint32_t facts[NUM_VECS + 4] = {5 /* bumped when meanings change but sizes do not */, STR_NUM_WORDS, IR_NUM_OPS, NUM_ELEMENT_KINDS};
+    uint32_t facts[NUM_VECS + 4] = {5 /* bumped when meanings change but sizes do not */,
+                                    STR_NUM_WORDS, IR_NUM_OPS, NUM_ELEMENT_KINDS};
     for (unsigned i = 0; i < NUM_VECS; i++)
         facts[i + 4] = (uint32_t)section_infos[i].item_size;
     return hash_stable(h, facts, sizeof facts);
@@ -83,8 +110,8 @@ static uint32_t begin_section(struct text *out)
     return (uint32_t)out->len;
 }
 
-static void put_section(struct text *out, struct header *header, unsigned section, const void *items, uint32_t len,
-                        size_t item_size)
+static void put_section(struct text *out, struct header *header, unsigned section,
+                        const void *items, uint32_t len, size_t item_size)
 {
     header->sections[section].offset = begin_section(out);
     header->sections[section].len = len;
@@ -97,7 +124,8 @@ static bool is_narrow(uint32_t max_id)
     return max_id <= UINT16_MAX;
 }
 
-static void put_table(struct text *out, struct header *header, unsigned section, const uint32_t *ids, uint32_t len, uint32_t max_id)
+static void put_table(struct text *out, struct header *header, unsigned section,
+                      const uint32_t *ids, uint32_t len, uint32_t max_id)
 {
     if (!is_narrow(max_id)) {
         put_section(out, header, section, ids, len, sizeof *ids);
@@ -112,7 +140,8 @@ static void put_table(struct text *out, struct header *header, unsigned section,
 /* What an element_info says at most. */
 static uint32_t max_info(const struct library *lib)
 {
-    uint32_t most = lib->nodedefs.len > lib->graph_nodes.len ? lib->nodedefs.len : lib->graph_nodes.len;
+    uint32_t most =
+        lib->nodedefs.len > lib->graph_nodes.len ? lib->nodedefs.len : lib->graph_nodes.len;
     return most > lib->geomprops.len ? most : lib->geomprops.len;
 }
 
@@ -132,7 +161,8 @@ static uint32_t *find_run(const struct runs *runs, const struct attribute *attrs
     uint32_t i = hash_bytes(attrs, n * sizeof *attrs) & runs->mask;
     for (; runs->table[i]; i = (i + 1) & runs->mask) {
         const struct element *e = &runs->doc->elements.items[runs->table[i] - 1];
-        const struct attribute *have = runs->doc->attrs.items + (e->first_attr - runs->doc->first_attr);
+        const struct attribute *have =
+            runs->doc->attrs.items + (e->first_attr - runs->doc->first_attr);
         if (e->num_attrs == n && memcmp(have, attrs, n * sizeof *attrs) == 0)
             break;
     }
@@ -155,7 +185,8 @@ static void share_run(struct runs *runs, uint32_t index, struct arena *arena)
 }
 
 /*
- * Gives the document elements and attributes of its own, in which equal runs are one. Nothing may be added to it after this.
+ * Gives the document elements and attributes of its own, in which equal runs are one. Nothing may
+ * be added to it after this.
  */
 static void share_attributes(struct document *doc, struct arena *arena)
 {
@@ -167,7 +198,8 @@ static void share_attributes(struct document *doc, struct arena *arena)
     runs.table = ARENA_ARRAY(arena, uint32_t, runs.mask + 1);
     memset(&doc->elements, 0, sizeof doc->elements);
     memset(&doc->attrs, 0, sizeof doc->attrs);
-    memcpy(vec_extend(arena, &doc->elements, num_elements), elements, num_elements * sizeof *elements);
+    memcpy(vec_extend(arena, &doc->elements, num_elements), elements,
+           num_elements * sizeof *elements);
     for (uint32_t i = 0; i < num_elements; i++)
         if (doc->elements.items[i].num_attrs)
             share_run(&runs, i, arena);
@@ -176,9 +208,11 @@ static void share_attributes(struct document *doc, struct arena *arena)
 /* ---- Writing ---- */
 
 /*
- * Every string of a document is looked for in the image, which has few of them: half of the slots are free, so that few are compared.
+ * Every string of a document is looked for in the image, which has few of them: half of the slots
+ * are free, so that few are compared.
  */
-static uint32_t make_string_table(const struct strpool *pool, struct arena *arena, uint32_t **out_table)
+static uint32_t make_string_table(const struct strpool *pool, struct arena *arena,
+                                  uint32_t **out_table)
 {
     uint32_t slots = 64;
     while (slots < 2 * pool->num)
@@ -210,8 +244,8 @@ static void put_strings(const struct strpool *pool, struct text *out, struct hea
     header->string_mask = mask;
 }
 
-void library_write_image(const struct library *lib, const struct lang_recorder *recorder, const struct lang_syntax *syntax,
-                         struct text *out)
+void library_write_image(const struct library *lib, const struct lang_recorder *recorder,
+                         const struct lang_syntax *syntax, struct text *out)
 {
     struct header header = {
         .fingerprint = fingerprint(),
@@ -235,9 +269,11 @@ void library_write_image(const struct library *lib, const struct lang_recorder *
         const struct any_vec *vec = (const void *)((const char *)&packed + section_infos[i].offset);
         put_section(out, &header, i, vec->items, vec->len, section_infos[i].item_size);
     }
-    put_table(out, &header, SECTION_NAME_TABLE, lib->doc.name_table, lib->doc.name_table ? lib->doc.name_mask + 1 : 0,
+    put_table(out, &header, SECTION_NAME_TABLE, lib->doc.name_table,
+              lib->doc.name_table ? lib->doc.name_mask + 1 : 0,
               lib->doc.first_element + lib->doc.elements.len);
-    put_table(out, &header, SECTION_ELEMENT_INFO, lib->element_info.items, lib->element_info.len, max_info(lib));
+    put_table(out, &header, SECTION_ELEMENT_INFO, lib->element_info.items, lib->element_info.len,
+              max_info(lib));
     put_strings(&lib->strings, out, &header);
     begin_section(out);
     header.size = out->len - start;
@@ -246,7 +282,8 @@ void library_write_image(const struct library *lib, const struct lang_recorder *
     memcpy(out->data + start, &header, sizeof header);
 }
 
-static const char *check_header(const struct header *header, const void *data, size_t size, bool check_bytes)
+static const char *check_header(const struct header *header, const void *data, size_t size,
+                                bool check_bytes)
 {
     if (size < sizeof *header || memcmp(header->magic, magic, sizeof magic) != 0)
         return "it does not begin like one";
@@ -304,7 +341,8 @@ static void map_element_info(struct library *lib, const struct header *header, c
 const char *library_map_image(struct library *lib, const void *data, size_t size, bool check_bytes)
 {
     const struct header *header = data;
-    const char *fault = (uintptr_t)data % ALIGNMENT ? "it is not aligned" : check_header(header, data, size, check_bytes);
+    const char *fault = (uintptr_t)data % ALIGNMENT ? "it is not aligned"
+                                                    : check_header(header, data, size, check_bytes);
     if (fault)
         return fault;
     /* The records are never written through these pointers: a mapped layer does not change. */

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Fills a library layer from its document: types, definitions, geometric properties, implementations.
+ * Fills a library layer from its document: types, definitions, geometric properties,
+ * implementations.
  */
 #include "library/library.h"
 
@@ -45,7 +46,8 @@ static ir_type_id struct_type(struct indexer *ix, elem_id element, str_id name)
 {
     struct library *lib = ix->lib;
     uint32_t first = lib->unit.members.len;
-    for (elem_id e = doc_element(&lib->doc, element)->first_child; e; e = doc_element(&lib->doc, e)->next) {
+    for (elem_id e = doc_element(&lib->doc, element)->first_child; e;
+         e = doc_element(&lib->doc, e)->next) {
         doc_type type;
         if (doc_element(&lib->doc, e)->kind != KIND_MEMBER || !has_type(ix, e, &type))
             continue;
@@ -55,8 +57,11 @@ static ir_type_id struct_type(struct indexer *ix, elem_id element, str_id name)
     if (lib->unit.members.len == first)
         return IR_TYPE_VOID;
     vec_push(ix->arena, &lib->unit.user_types,
-             (struct ir_user_type){.name = name, .num_members = (uint16_t)(lib->unit.members.len - first), .first_member = first});
-    return (ir_type_id)(IR_TYPE_FIRST_USER + lib->unit.base_user_types + lib->unit.user_types.len - 1);
+             (struct ir_user_type){.name = name,
+                                   .num_members = (uint16_t)(lib->unit.members.len - first),
+                                   .first_member = first});
+    return (ir_type_id)(IR_TYPE_FIRST_USER + lib->unit.base_user_types + lib->unit.user_types.len
+                        - 1);
 }
 
 static void add_typedef(struct indexer *ix, elem_id element)
@@ -66,7 +71,10 @@ static void add_typedef(struct indexer *ix, elem_id element)
         return;
     ir_type_id ir = struct_type(ix, element, name);
     vec_push(ix->arena, &ix->lib->types,
-             (struct user_type){.name = name, .semantic = attr(ix, element, STR_semantic), .ir = ir, .element = element});
+             (struct user_type){.name = name,
+                                .semantic = attr(ix, element, STR_semantic),
+                                .ir = ir,
+                                .element = element});
     set_info(ix, element, ix->lib->types.len - 1);
 }
 
@@ -80,7 +88,8 @@ static void add_port(struct indexer *ix, elem_id element, bool input)
         return;
     const struct attribute *value = doc_attr(doc, element, input ? STR_value : STR_default);
     port.value = value ? value->value : 0;
-    port.flags = (uint16_t)((value ? PORT_HAS_VALUE : 0) | (doc_attr_is_true(doc, element, STR_uniform) ? PORT_UNIFORM : 0)
+    port.flags = (uint16_t)((value ? PORT_HAS_VALUE : 0)
+                            | (doc_attr_is_true(doc, element, STR_uniform) ? PORT_UNIFORM : 0)
                             | (attr(ix, element, STR_enum) ? PORT_ENUM : 0));
     port.geomprop = attr(ix, element, input ? STR_defaultgeomprop : STR_defaultinput);
     vec_push(ix->arena, &ix->lib->ports, port);
@@ -96,14 +105,18 @@ static bool port_exists(const struct library *lib, uint32_t first, str_id name)
 
 enum { MAX_PORTS = 1024 }; /* inputs, and outputs, of a definition: they are searched one by one */
 
-static void add_ports_of(struct indexer *ix, elem_id nodedef, enum element_kind kind, uint32_t first)
+static void add_ports_of(struct indexer *ix, elem_id nodedef, enum element_kind kind,
+                         uint32_t first)
 {
     struct library *lib = ix->lib;
-    for (elem_id e = doc_element(&lib->doc, nodedef)->first_child; e; e = doc_element(&lib->doc, e)->next) {
-        if (doc_element(&lib->doc, e)->kind != kind || port_exists(lib, first, doc_element(&lib->doc, e)->name))
+    for (elem_id e = doc_element(&lib->doc, nodedef)->first_child; e;
+         e = doc_element(&lib->doc, e)->next) {
+        if (doc_element(&lib->doc, e)->kind != kind
+            || port_exists(lib, first, doc_element(&lib->doc, e)->name))
             continue;
         if (lib->ports.len - first == MAX_PORTS) {
-            diag_add(ix->diags, DIAG_ID_too_many_ports, doc_place(&lib->doc, e), text_of(lib, doc_element(&lib->doc, nodedef)->name), MAX_PORTS);
+            diag_add(ix->diags, DIAG_ID_too_many_ports, doc_place(&lib->doc, e),
+                     text_of(lib, doc_element(&lib->doc, nodedef)->name), MAX_PORTS);
             return;
         }
         add_port(ix, e, kind == KIND_INPUT);
@@ -111,7 +124,8 @@ static void add_ports_of(struct indexer *ix, elem_id nodedef, enum element_kind 
 }
 
 /*
- * Own ports first, then inherited ones that are not redeclared (specification, "NodeDef Inheritance").
+ * Own ports first, then inherited ones that are not redeclared (specification, "NodeDef
+ * Inheritance").
  */
 static uint16_t add_ports(struct indexer *ix, elem_id nodedef, enum element_kind kind)
 {
@@ -128,8 +142,8 @@ static uint16_t add_ports(struct indexer *ix, elem_id nodedef, enum element_kind
             parent = doc_child_of_kind(&layer->doc, layer->doc.root, KIND_NODEDEF, inherit);
         if (!parent || depth > 100) {
             diag_add(ix->diags, parent ? DIAG_ID_inherit_cycle : DIAG_ID_inherit_missing,
-                     doc_attr_place(&lib->doc, at, STR_inherit), text_of(lib, doc_element(&lib->doc, at)->name),
-                     text_of(lib, inherit));
+                     doc_attr_place(&lib->doc, at, STR_inherit),
+                     text_of(lib, doc_element(&lib->doc, at)->name), text_of(lib, inherit));
             break;
         }
         at = parent;
@@ -143,7 +157,8 @@ static void link_by_node(struct indexer *ix, uint32_t own)
     uint32_t mask = lib->node_table.len - 1;
     str_id node = lib->nodedefs.items[own].node;
     uint32_t slot = hash_pair(node, 0) & mask;
-    while (lib->node_table.items[slot] && lib->nodedefs.items[lib->node_table.items[slot] - 1].node != node)
+    while (lib->node_table.items[slot]
+           && lib->nodedefs.items[lib->node_table.items[slot] - 1].node != node)
         slot = (slot + 1) & mask;
     /* LIBRARY_NONE: 0 - 1 */
     lib->nodedefs.items[own].next_same_node = lib->node_table.items[slot] - 1;
@@ -180,7 +195,8 @@ static void add_nodedef(struct indexer *ix, elem_id element)
         .next_same_node = LIBRARY_NONE,
     };
     if (!def.node && (def.node = attr(ix, element, STR_nodename)) != 0)
-        diag_add(ix->diags, DIAG_ID_nodedef_nodename, doc_attr_place(&lib->doc, element, STR_nodename));
+        diag_add(ix->diags, DIAG_ID_nodedef_nodename,
+                 doc_attr_place(&lib->doc, element, STR_nodename));
     if (!def.node)
         return; /* definitions of options and the like */
     def.num_inputs = add_ports(ix, element, KIND_INPUT);
@@ -201,7 +217,8 @@ static uint32_t default_nodedef(const struct library *lib, str_id node, doc_type
         for (uint32_t i = library_first_of_node(lib, node); i != LIBRARY_NONE && tried < MAX_TRIED;
              i = lib->nodedefs.items[i].next_same_node, tried++) {
             const struct nodedef *def = &lib->nodedefs.items[i];
-            if (def->num_outputs && lib->ports.items[def->first_port + def->num_inputs].type == type)
+            if (def->num_outputs
+                && lib->ports.items[def->first_port + def->num_inputs].type == type)
                 return lib->base_nodedefs + i;
         }
     return LIBRARY_NONE;
@@ -221,7 +238,9 @@ static void add_geomprop(struct indexer *ix, elem_id element)
         return;
     str_id index = attr(ix, element, STR_index);
     struct ir_value value;
-    if (index && doc_parse_value(DOC_TYPE_integer, text_of(lib, index), str_len(&lib->strings, index), NULL, &value))
+    if (index
+        && doc_parse_value(DOC_TYPE_integer, text_of(lib, index), str_len(&lib->strings, index),
+                           NULL, &value))
         prop.index = (uint16_t)value.w[0].i;
     if (prop.geomprop)
         prop.nodedef = default_nodedef(lib, prop.geomprop, prop.type);
@@ -236,7 +255,8 @@ static bool is_closure(doc_type type)
     return type == DOC_TYPE_BSDF || type == DOC_TYPE_EDF || type == DOC_TYPE_VDF;
 }
 
-static uint32_t input_types(const struct indexer *ix, uint32_t nodedef, struct lang_input *out, uint32_t max)
+static uint32_t input_types(const struct indexer *ix, uint32_t nodedef, struct lang_input *out,
+                            uint32_t max)
 {
     const struct nodedef *def = library_nodedef(ix->lib, nodedef);
     const struct port *ports = library_ports(ix->lib, nodedef, NULL);
@@ -246,14 +266,16 @@ static uint32_t input_types(const struct indexer *ix, uint32_t nodedef, struct l
     return n;
 }
 
-static uint32_t parse_expression(struct indexer *ix, uint32_t nodedef, unsigned output, str_id source, uint32_t file,
-                                 struct diag_place where, struct diag_list *diags)
+static uint32_t parse_expression(struct indexer *ix, uint32_t nodedef, unsigned output,
+                                 str_id source, uint32_t file, struct diag_place where,
+                                 struct diag_list *diags)
 {
     struct lang_input inputs[MAX_PORTS];
     uint32_t n = input_types(ix, nodedef, inputs, MAX_PORTS);
     const struct nodedef *def = library_nodedef(ix->lib, nodedef);
     const struct port *out = library_ports(ix->lib, nodedef, NULL) + def->num_inputs + output;
-    return lang_parse_expression(&ix->lib->unit, text_of(ix->lib, source), str_len(&ix->lib->strings, source), inputs, n,
+    return lang_parse_expression(&ix->lib->unit, text_of(ix->lib, source),
+                                 str_len(&ix->lib->strings, source), inputs, n,
                                  library_type_ir(ix->lib, out->type), file, where, diags);
 }
 
@@ -264,12 +286,16 @@ static bool ends_with(const char *text, const char *end)
 }
 
 /* The text of a source file, interned; 0 after a diagnostic. */
-static str_id read_source(struct indexer *ix, elem_id element, str_id file, const char *from, struct diag_list *diags)
+static str_id read_source(struct indexer *ix, elem_id element, str_id file, const char *from,
+                          struct diag_list *diags)
 {
     const char *name, *text, *reason = "no reader";
     size_t len;
-    if (!ix->reader || !ix->reader->read(ix->reader->user_data, from, text_of(ix->lib, file), &name, &text, &len, &reason)) {
-        diag_add(diags, DIAG_ID_missing_source_file, doc_attr_place(&ix->lib->doc, element, STR_file), text_of(ix->lib, file),
+    if (!ix->reader
+        || !ix->reader->read(ix->reader->user_data, from, text_of(ix->lib, file), &name, &text,
+                             &len, &reason)) {
+        diag_add(diags, DIAG_ID_missing_source_file,
+                 doc_attr_place(&ix->lib->doc, element, STR_file), text_of(ix->lib, file),
                  text_of(ix->lib, doc_element(&ix->lib->doc, element)->name), reason);
         return 0;
     }
@@ -283,8 +309,8 @@ static const char *file_of(const struct indexer *ix, elem_id element)
 }
 
 /* One inline expression per output: of the <implementation> itself, or of its <output> children. */
-static bool parse_expressions(struct indexer *ix, struct implementation *impl, str_id source, uint32_t file,
-                              struct diag_list *diags)
+static bool parse_expressions(struct indexer *ix, struct implementation *impl, str_id source,
+                              uint32_t file, struct diag_list *diags)
 {
     const struct document *doc = &ix->lib->doc;
     const struct nodedef *def = library_nodedef(ix->lib, impl->nodedef);
@@ -295,7 +321,8 @@ static bool parse_expressions(struct indexer *ix, struct implementation *impl, s
         str_id own = child ? doc_attr_value(doc, child, STR_sourcecode) : 0;
         struct diag_place where = doc_attr_place(doc, own ? child : impl->element, STR_sourcecode);
         if (!own && (def->num_outputs > 1 || !source)) {
-            diag_add(diags, DIAG_ID_function_signature, where, "sourcecode", text_of(ix->lib, def->name),
+            diag_add(diags, DIAG_ID_function_signature, where, "sourcecode",
+                     text_of(ix->lib, def->name),
                      "each output needs an <output> child with its own sourcecode");
             return false;
         }
@@ -312,10 +339,19 @@ static bool parse_expressions(struct indexer *ix, struct implementation *impl, s
 }
 
 static const char *const family_suffixes[NUM_FAMILY_MEMBERS] = {
-    [FAMILY_EVAL] = "_eval", [FAMILY_ENVIRONMENT] = "_environment", [FAMILY_TRANSMISSION] = "_transmission",
-    [FAMILY_THROUGHPUT] = "_throughput", [FAMILY_EMISSION] = "_emission", [FAMILY_FACTOR] = "_factor",
-    [FAMILY_ABSORPTION] = "_absorption", [FAMILY_ALBEDO] = "_albedo", [FAMILY_REFRACTION] = "_refraction",
-    [FAMILY_SAMPLE] = "_sample", [FAMILY_PDF] = "_pdf", [FAMILY_SCATTERING] = "_scattering", [FAMILY_ANISOTROPY] = "_anisotropy",
+    [FAMILY_EVAL] = "_eval",
+    [FAMILY_ENVIRONMENT] = "_environment",
+    [FAMILY_TRANSMISSION] = "_transmission",
+    [FAMILY_THROUGHPUT] = "_throughput",
+    [FAMILY_EMISSION] = "_emission",
+    [FAMILY_FACTOR] = "_factor",
+    [FAMILY_ABSORPTION] = "_absorption",
+    [FAMILY_ALBEDO] = "_albedo",
+    [FAMILY_REFRACTION] = "_refraction",
+    [FAMILY_SAMPLE] = "_sample",
+    [FAMILY_PDF] = "_pdf",
+    [FAMILY_SCATTERING] = "_scattering",
+    [FAMILY_ANISOTROPY] = "_anisotropy",
 };
 
 static bool find_family(struct indexer *ix, struct implementation *impl, str_id name, uint32_t file)
@@ -341,7 +377,8 @@ static bool find_family(struct indexer *ix, struct implementation *impl, str_id 
     return any;
 }
 
-static const char *check_signature(const struct indexer *ix, const struct implementation *impl, uint32_t function)
+static const char *check_signature(const struct indexer *ix, const struct implementation *impl,
+                                   uint32_t function)
 {
     const struct lang_unit *unit;
     const struct lang_function *fn = lang_function(&ix->lib->unit, function, &unit);
@@ -365,8 +402,8 @@ static const char *check_signature(const struct indexer *ix, const struct implem
     return NULL;
 }
 
-static bool find_implementation_function(struct indexer *ix, struct implementation *impl, str_id name, uint32_t file,
-                                         struct diag_list *diags)
+static bool find_implementation_function(struct indexer *ix, struct implementation *impl,
+                                         str_id name, uint32_t file, struct diag_list *diags)
 {
     const struct library *lib = ix->lib;
     const struct nodedef *def = library_nodedef(lib, impl->nodedef);
@@ -375,7 +412,8 @@ static bool find_implementation_function(struct indexer *ix, struct implementati
     if (is_closure(ports[def->num_inputs].type)) {
         if (find_family(ix, impl, name, file))
             return true;
-        diag_add(diags, DIAG_ID_missing_function, where, "the file", text_of(lib, name), " with a suffix such as '_eval'");
+        diag_add(diags, DIAG_ID_missing_function, where, "the file", text_of(lib, name),
+                 " with a suffix such as '_eval'");
         return false;
     }
     struct lang_input inputs[MAX_PORTS];
@@ -396,7 +434,8 @@ static bool find_implementation_function(struct indexer *ix, struct implementati
     }
     const char *fault = check_signature(ix, impl, function);
     if (fault) {
-        diag_add(diags, DIAG_ID_function_signature, where, text_of(lib, name), text_of(lib, def->name), fault);
+        diag_add(diags, DIAG_ID_function_signature, where, text_of(lib, name),
+                 text_of(lib, def->name), fault);
         return false;
     }
     impl->kind = IMPL_FUNCTION;
@@ -428,13 +467,16 @@ static bool parse_source(struct indexer *ix, struct implementation *impl, struct
     return parse_expressions(ix, impl, source, file, diags);
 }
 
-static void refuse_source(struct indexer *ix, const struct implementation *impl, const char *reason, struct diag_list *diags)
+static void refuse_source(struct indexer *ix, const struct implementation *impl, const char *reason,
+                          struct diag_list *diags)
 {
-    diag_add(diags, DIAG_ID_untrusted_source, doc_place(&ix->lib->doc, impl->element), text_of(ix->lib, impl->name), reason);
+    diag_add(diags, DIAG_ID_untrusted_source, doc_place(&ix->lib->doc, impl->element),
+             text_of(ix->lib, impl->name), reason);
 }
 
 /*
- * What does not parse is kept as it is for the targets it is written for; a portable implementation must parse.
+ * What does not parse is kept as it is for the targets it is written for; a portable implementation
+ * must parse.
  */
 static void parse_implementation(struct indexer *ix, struct implementation *impl)
 {
@@ -450,14 +492,17 @@ static void parse_implementation(struct indexer *ix, struct implementation *impl
     if (impl->target && ix->lib->trust == LIBRARY_TRUST_ALL) {
         struct diag_list unread;
         diag_list_init(&unread, ix->arena);
-        str_id source = file_name ? read_source(ix, impl->element, file_name, file_of(ix, impl->element), &unread)
+        str_id source = file_name ? read_source(ix, impl->element, file_name,
+                                                file_of(ix, impl->element), &unread)
                                   : attr(ix, impl->element, STR_sourcecode);
         if (source) {
             impl->kind = IMPL_VERBATIM;
             impl->ref = ix->lib->base_verbatims + ix->lib->verbatims.len;
             vec_push(ix->arena, &ix->lib->verbatims,
-                     (struct verbatim){source, file_name && !ends_with(text_of(ix->lib, file_name), ".inline")
-                                                   ? attr(ix, impl->element, STR_function) : 0});
+                     (struct verbatim){
+                         source, file_name && !ends_with(text_of(ix->lib, file_name), ".inline")
+                                     ? attr(ix, impl->element, STR_function)
+                                     : 0});
             return;
         }
     }
@@ -502,14 +547,16 @@ static void add_implementation(struct indexer *ix, elem_id element)
 {
     struct library *lib = ix->lib;
     const struct element *e = doc_element(&lib->doc, element);
-    struct implementation impl = {.name = e->name, .target = attr(ix, element, STR_target), .element = element};
+    struct implementation impl = {
+        .name = e->name, .target = attr(ix, element, STR_target), .element = element};
     str_id nodedef = attr(ix, element, STR_nodedef);
     if (!nodedef)
         return; /* of nothing, as validation tells */
     impl.nodedef = library_nodedef_by_name(lib, nodedef);
     if (impl.nodedef == LIBRARY_NONE) {
-        diag_add(ix->diags, DIAG_ID_implementation_unknown_nodedef, doc_attr_place(&lib->doc, element, STR_nodedef),
-                 text_of(lib, e->name), text_of(lib, nodedef));
+        diag_add(ix->diags, DIAG_ID_implementation_unknown_nodedef,
+                 doc_attr_place(&lib->doc, element, STR_nodedef), text_of(lib, e->name),
+                 text_of(lib, nodedef));
         return;
     }
     if (!library_nodedef(lib, impl.nodedef)->num_outputs)
@@ -522,8 +569,8 @@ static void add_implementation(struct indexer *ix, elem_id element)
         impl.kind = IMPL_GRAPH;
         impl.ref = find_nodegraph(lib, graph);
         if (!impl.ref)
-            diag_add(ix->diags, DIAG_ID_dangling_nodegraph, doc_attr_place(&lib->doc, element, STR_nodegraph),
-                     text_of(lib, graph), "");
+            diag_add(ix->diags, DIAG_ID_dangling_nodegraph,
+                     doc_attr_place(&lib->doc, element, STR_nodegraph), text_of(lib, graph), "");
         if (!impl.ref)
             return;
     } else if (attr(ix, element, STR_file) || attr(ix, element, STR_sourcecode) || outputs) {
@@ -540,11 +587,15 @@ static void add_functional_graph(struct indexer *ix, elem_id element)
     str_id name = attr(ix, element, STR_nodedef);
     if (!name)
         return;
-    struct implementation impl = {.name = doc_element(&lib->doc, element)->name, .target = attr(ix, element, STR_target),
-                                  .element = element, .kind = IMPL_GRAPH, .ref = element};
+    struct implementation impl = {.name = doc_element(&lib->doc, element)->name,
+                                  .target = attr(ix, element, STR_target),
+                                  .element = element,
+                                  .kind = IMPL_GRAPH,
+                                  .ref = element};
     impl.nodedef = library_nodedef_by_name(lib, name);
     if (impl.nodedef == LIBRARY_NONE) {
-        diag_add(ix->diags, DIAG_ID_unknown_nodedef, doc_attr_place(&lib->doc, element, STR_nodedef), text_of(lib, name),
+        diag_add(ix->diags, DIAG_ID_unknown_nodedef,
+                 doc_attr_place(&lib->doc, element, STR_nodedef), text_of(lib, name),
                  library_suggest_nodedef(lib, name, ix->diags));
         return;
     }
@@ -558,7 +609,8 @@ static void add_unitdef(struct indexer *ix, elem_id element)
 
 /* ---- the layer ---- */
 
-static void for_each(struct indexer *ix, enum element_kind kind, void (*add)(struct indexer *, elem_id))
+static void for_each(struct indexer *ix, enum element_kind kind,
+                     void (*add)(struct indexer *, elem_id))
 {
     const struct document *doc = &ix->lib->doc;
     for (elem_id e = doc_element(doc, doc->root)->first_child; e; e = doc_element(doc, e)->next)
@@ -585,25 +637,33 @@ void library_index(struct library *lib, const struct lang_reader *reader, struct
 }
 
 /*
- * What a graph's nodes read from its interface is found by number, unless another definition shares the graph.
+ * What a graph's nodes read from its interface is found by number, unless another definition shares
+ * the graph.
  */
-static void number_interface(const struct library *lib, uint32_t nodedef, struct binding *bindings, uint32_t n)
+static void number_interface(const struct library *lib, uint32_t nodedef, struct binding *bindings,
+                             uint32_t n)
 {
     for (uint32_t i = 0; i < n; i++) {
-        int input = bindings[i].kind == BIND_INTERFACE ? library_find_input(lib, nodedef, bindings[i].ref) : -1;
+        int input = bindings[i].kind == BIND_INTERFACE
+                        ? library_find_input(lib, nodedef, bindings[i].ref)
+                        : -1;
         bindings[i].input = input > 0 ? (uint16_t)input : 0;
     }
 }
 
-static void resolve_graph(struct library *lib, const struct implementation *impl, struct resolve_out *out, struct diag_list *diags)
+static void resolve_graph(struct library *lib, const struct implementation *impl,
+                          struct resolve_out *out, struct diag_list *diags)
 {
     elem_id graph = impl->ref;
-    for (elem_id e = doc_element(&lib->doc, graph)->first_child; e; e = doc_element(&lib->doc, e)->next) {
-        if (doc_element(&lib->doc, e)->kind != KIND_NODE || lib->element_info.items[e - lib->doc.first_element])
+    for (elem_id e = doc_element(&lib->doc, graph)->first_child; e;
+         e = doc_element(&lib->doc, e)->next) {
+        if (doc_element(&lib->doc, e)->kind != KIND_NODE
+            || lib->element_info.items[e - lib->doc.first_element])
             continue;
         uint32_t first = out->bindings.len;
         struct graph_node node = library_resolve_node(lib, e, out, diags);
-        number_interface(lib, impl->nodedef, out->bindings.items + first, out->bindings.len - first);
+        number_interface(lib, impl->nodedef, out->bindings.items + first,
+                         out->bindings.len - first);
         vec_push(out->arena, &lib->graph_nodes, node);
         lib->element_info.items[e - lib->doc.first_element] = lib->graph_nodes.len;
     }
@@ -613,7 +673,8 @@ void library_resolve_graphs(struct library *lib, struct diag_list *diags)
 {
     struct resolve_out out = {.arena = lib->doc.arena};
     for (uint32_t i = 0; i < lib->impls.len; i++)
-        if (lib->impls.items[i].kind == IMPL_GRAPH && lib->impls.items[i].ref >= lib->doc.first_element)
+        if (lib->impls.items[i].kind == IMPL_GRAPH
+            && lib->impls.items[i].ref >= lib->doc.first_element)
             resolve_graph(lib, &lib->impls.items[i], &out, diags);
     lib->bindings.items = out.bindings.items;
     lib->bindings.len = out.bindings.len;

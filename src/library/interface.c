@@ -26,27 +26,32 @@ uint32_t library_implemented_nodedef(const struct library *lib, elem_id graph)
 }
 
 /*
- * " (did you mean 'x'?)" among the interface inputs of a graph, which its definition says where it has one.
+ * " (did you mean 'x'?)" among the interface inputs of a graph, which its definition says where it
+ * has one.
  */
-static const char *suggest(const struct library *lib, elem_id graph, uint32_t nodedef, str_id name, struct diag_list *diags)
+static const char *suggest(const struct library *lib, elem_id graph, uint32_t nodedef, str_id name,
+                           struct diag_list *diags)
 {
     struct diag_guess guess;
     if (!diag_guess_begin(&guess, diags, text_of(lib, name)))
         return "";
     for (int i = 0; nodedef != LIBRARY_NONE && i < library_nodedef(lib, nodedef)->num_inputs; i++)
         diag_guess_add(&guess, text_of(lib, library_ports(lib, nodedef, NULL)[i].name));
-    for (elem_id e = graph ? doc_element(&lib->doc, graph)->first_child : 0; e; e = doc_element(&lib->doc, e)->next)
+    for (elem_id e = graph ? doc_element(&lib->doc, graph)->first_child : 0; e;
+         e = doc_element(&lib->doc, e)->next)
         if (doc_element(&lib->doc, e)->kind == KIND_INPUT)
             diag_guess_add(&guess, text_of(lib, doc_element(&lib->doc, e)->name));
     return diag_guess_text(&guess);
 }
 
-int library_resolve_interface(const struct library *lib, elem_id asker, uint32_t nodedef, const struct binding *binding,
-                              const struct port *port, struct diag_list *diags)
+int library_resolve_interface(const struct library *lib, elem_id asker, uint32_t nodedef,
+                              const struct binding *binding, const struct port *port,
+                              struct diag_list *diags)
 {
     str_id name = binding->ref;
     const struct port *ports = nodedef != LIBRARY_NONE ? library_ports(lib, nodedef, NULL) : NULL;
-    int index = ports && binding->input < library_nodedef(lib, nodedef)->num_inputs ? binding->input : -1;
+    int index =
+        ports && binding->input < library_nodedef(lib, nodedef)->num_inputs ? binding->input : -1;
     if (ports && (index < 0 || ports[index].name != name))
         index = library_find_input(lib, nodedef, name);
     struct diag_place place = doc_attr_place(&lib->doc, asker, STR_interfacename);
@@ -56,7 +61,8 @@ int library_resolve_interface(const struct library *lib, elem_id asker, uint32_t
         return -1;
     }
     if (port->type != DOC_TYPE_NONE && ports[index].type != port->type) {
-        diag_add(diags, DIAG_ID_type_mismatch, place, text_of(lib, port->name), text_of(lib, library_type_name(lib, port->type)),
+        diag_add(diags, DIAG_ID_type_mismatch, place, text_of(lib, port->name),
+                 text_of(lib, library_type_name(lib, port->type)),
                  text_of(lib, library_type_name(lib, ports[index].type)));
         return -1;
     }

@@ -29,7 +29,8 @@ const struct nodedef *library_nodedef(const struct library *lib, uint32_t id)
     return &lib->nodedefs.items[id - lib->base_nodedefs];
 }
 
-const struct implementation *library_impl(const struct library *lib, uint32_t id, const struct library **out_layer)
+const struct implementation *library_impl(const struct library *lib, uint32_t id,
+                                          const struct library **out_layer)
 {
     while (id < lib->base_impls)
         lib = lib->base;
@@ -59,7 +60,8 @@ const struct library *library_of_element(const struct library *lib, elem_id elem
     return lib;
 }
 
-uint32_t library_element_info(const struct library *lib, elem_id element, const struct library **out_layer)
+uint32_t library_element_info(const struct library *lib, elem_id element,
+                              const struct library **out_layer)
 {
     lib = library_of_element(lib, element);
     if (out_layer)
@@ -74,7 +76,9 @@ uint32_t library_element_info(const struct library *lib, elem_id element, const 
 static uint32_t own_index(const struct library *layer, enum element_kind kind, str_id name)
 {
     elem_id element = name ? doc_child_of_kind(&layer->doc, layer->doc.root, kind, name) : 0;
-    return element >= layer->doc.first_element && element ? library_element_info(layer, element, NULL) : LIBRARY_NONE;
+    return element >= layer->doc.first_element && element
+               ? library_element_info(layer, element, NULL)
+               : LIBRARY_NONE;
 }
 
 const struct geomprop *library_geomprop(const struct library *lib, str_id name)
@@ -90,7 +94,8 @@ uint32_t library_num_nodedefs(const struct library *lib)
     return lib->base_nodedefs + lib->nodedefs.len;
 }
 
-const struct port *library_ports(const struct library *lib, uint32_t nodedef, const struct library **out_layer)
+const struct port *library_ports(const struct library *lib, uint32_t nodedef,
+                                 const struct library **out_layer)
 {
     while (nodedef < lib->base_nodedefs)
         lib = lib->base;
@@ -109,13 +114,15 @@ static int find_port(const struct port *ports, int first, int end, str_id name)
 
 int library_find_input(const struct library *lib, uint32_t nodedef, str_id name)
 {
-    return find_port(library_ports(lib, nodedef, NULL), 0, library_nodedef(lib, nodedef)->num_inputs, name);
+    return find_port(library_ports(lib, nodedef, NULL), 0,
+                     library_nodedef(lib, nodedef)->num_inputs, name);
 }
 
 int library_find_output(const struct library *lib, uint32_t nodedef, str_id name)
 {
     const struct nodedef *def = library_nodedef(lib, nodedef);
-    return find_port(library_ports(lib, nodedef, NULL), def->num_inputs, def->num_inputs + def->num_outputs, name);
+    return find_port(library_ports(lib, nodedef, NULL), def->num_inputs,
+                     def->num_inputs + def->num_outputs, name);
 }
 
 uint32_t library_nodedef_by_name(const struct library *lib, str_id name)

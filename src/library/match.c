@@ -16,7 +16,8 @@ uint32_t library_first_of_node(const struct library *layer, str_id node)
     if (!layer->node_table.len)
         return LIBRARY_NONE;
     uint32_t mask = layer->node_table.len - 1;
-    for (uint32_t slot = hash_pair(node, 0) & mask; layer->node_table.items[slot]; slot = (slot + 1) & mask) {
+    for (uint32_t slot = hash_pair(node, 0) & mask; layer->node_table.items[slot];
+         slot = (slot + 1) & mask) {
         uint32_t own = layer->node_table.items[slot] - 1;
         if (layer->nodedefs.items[own].node == node)
             return own;
@@ -37,18 +38,20 @@ static struct candidate misfit(const char *reason, str_id a, str_id b, str_id c)
     return (struct candidate){FIT_NOT, reason, a, b, c};
 }
 
-static struct candidate fit_version(const struct library *lib, const struct nodedef *def, elem_id node)
+static struct candidate fit_version(const struct library *lib, const struct nodedef *def,
+                                    elem_id node)
 {
     str_id version = doc_attr_value(&lib->doc, node, STR_version);
     if (version && version != def->version)
         return misfit("its version is '%s', the node asks for '%s'", def->version, version, 0);
     if (!version && def->version && !def->is_default_version)
-        return misfit("version '%s' is not the default one; ask for it with version=\"%s\"", def->version, def->version, 0);
+        return misfit("version '%s' is not the default one; ask for it with version=\"%s\"",
+                      def->version, def->version, 0);
     return (struct candidate){FIT_EXACT, NULL, 0, 0, 0};
 }
 
-static struct candidate fit_outputs(const struct library *lib, const struct nodedef *def, const struct port *ports,
-                                    elem_id node)
+static struct candidate fit_outputs(const struct library *lib, const struct nodedef *def,
+                                    const struct port *ports, elem_id node)
 {
     str_id type = doc_attr_value(&lib->doc, node, STR_type);
     if (def->num_outputs == 0)
@@ -64,12 +67,13 @@ static struct candidate fit_outputs(const struct library *lib, const struct node
     return misfit("its output is %s, the node says %s", has, type, 0);
 }
 
-static struct candidate fit_inputs(const struct library *lib, const struct nodedef *def, const struct port *ports,
-                                   elem_id node)
+static struct candidate fit_inputs(const struct library *lib, const struct nodedef *def,
+                                   const struct port *ports, elem_id node)
 {
     struct candidate result = {FIT_EXACT, NULL, 0, 0, 0};
     unsigned at = 0; /* most nodes have their inputs in the definition's order */
-    for (elem_id child = doc_element(&lib->doc, node)->first_child; child; child = doc_element(&lib->doc, child)->next) {
+    for (elem_id child = doc_element(&lib->doc, node)->first_child; child;
+         child = doc_element(&lib->doc, child)->next) {
         const struct element *input = doc_element(&lib->doc, child);
         if (input->kind != KIND_INPUT)
             continue;
@@ -81,9 +85,11 @@ static struct candidate fit_inputs(const struct library *lib, const struct noded
         }
         str_id type = doc_attr_value(&lib->doc, child, STR_type);
         if (!port)
-            result = (struct candidate){FIT_EXTRA_INPUTS, "it has no input '%s'", input->name, 0, 0};
+            result =
+                (struct candidate){FIT_EXTRA_INPUTS, "it has no input '%s'", input->name, 0, 0};
         else if (type && library_type(lib, type) != port->type)
-            return misfit("its input '%s' is %s, the node's is %s", input->name, library_type_name(lib, port->type), type);
+            return misfit("its input '%s' is %s, the node's is %s", input->name,
+                          library_type_name(lib, port->type), type);
     }
     return result;
 }
@@ -102,11 +108,13 @@ static struct candidate fit(const struct library *lib, uint32_t id, elem_id node
     return c.fit == FIT_NOT ? c : inputs;
 }
 
-static void report_unknown_inputs(const struct library *lib, uint32_t id, elem_id node, struct diag_list *diags)
+static void report_unknown_inputs(const struct library *lib, uint32_t id, elem_id node,
+                                  struct diag_list *diags)
 {
     const struct nodedef *def = library_nodedef(lib, id);
     const struct port *ports = library_ports(lib, id, NULL);
-    for (elem_id child = doc_element(&lib->doc, node)->first_child; child; child = doc_element(&lib->doc, child)->next) {
+    for (elem_id child = doc_element(&lib->doc, node)->first_child; child;
+         child = doc_element(&lib->doc, child)->next) {
         const struct element *input = doc_element(&lib->doc, child);
         if (input->kind != KIND_INPUT || library_find_input(lib, id, input->name) >= 0)
             continue;
@@ -114,13 +122,13 @@ static void report_unknown_inputs(const struct library *lib, uint32_t id, elem_i
         bool may_guess = diag_guess_begin(&guess, diags, text_of(lib, input->name));
         for (unsigned i = 0; may_guess && i < def->num_inputs; i++)
             diag_guess_add(&guess, text_of(lib, ports[i].name));
-        diag_add(diags, DIAG_ID_unknown_input, doc_place(&lib->doc, child), text_of(lib, def->node), text_of(lib, input->name),
-                 diag_guess_text(&guess));
+        diag_add(diags, DIAG_ID_unknown_input, doc_place(&lib->doc, child), text_of(lib, def->node),
+                 text_of(lib, input->name), diag_guess_text(&guess));
     }
 }
 
-static void report_candidate(const struct library *lib, const struct nodedef *def, const struct candidate *c,
-                             struct diag_list *diags)
+static void report_candidate(const struct library *lib, const struct nodedef *def,
+                             const struct candidate *c, struct diag_list *diags)
 {
     const char *args[3] = {text_of(lib, c->a), text_of(lib, c->b), text_of(lib, c->c)};
     struct text reason;
@@ -134,7 +142,8 @@ static void report_candidate(const struct library *lib, const struct nodedef *de
             text_char(&reason, *p);
         }
     }
-    diag_add(diags, DIAG_ID_nodedef_candidate, doc_place(&lib->doc, def->element), text_of(lib, def->name), text_cstr(&reason));
+    diag_add(diags, DIAG_ID_nodedef_candidate, doc_place(&lib->doc, def->element),
+             text_of(lib, def->name), text_cstr(&reason));
 }
 
 struct misfits {
@@ -143,15 +152,20 @@ struct misfits {
 };
 
 /*
- * The definitions of the node's name that do not fit it, among those that give its type or the others.
+ * The definitions of the node's name that do not fit it, among those that give its type or the
+ * others.
  */
-static void collect_misfits(const struct library *lib, elem_id node, bool of_type, struct arena *arena, struct misfits *misfits)
+static void collect_misfits(const struct library *lib, elem_id node, bool of_type,
+                            struct arena *arena, struct misfits *misfits)
 {
     str_id category = doc_element(&lib->doc, node)->category;
     for (const struct library *layer = lib; layer; layer = layer->base)
-        for (uint32_t own = library_first_of_node(layer, category); own != LIBRARY_NONE; own = layer->nodedefs.items[own].next_same_node) {
+        for (uint32_t own = library_first_of_node(layer, category); own != LIBRARY_NONE;
+             own = layer->nodedefs.items[own].next_same_node) {
             uint32_t id = layer->base_nodedefs + own;
-            bool gives = fit_outputs(lib, library_nodedef(lib, id), library_ports(lib, id, NULL), node).fit != FIT_NOT;
+            bool gives =
+                fit_outputs(lib, library_nodedef(lib, id), library_ports(lib, id, NULL), node).fit
+                != FIT_NOT;
             if (gives == of_type && fit(lib, id, node, false).fit == FIT_NOT)
                 vec_push(arena, misfits, id);
         }
@@ -160,12 +174,14 @@ static void collect_misfits(const struct library *lib, elem_id node, bool of_typ
 enum { MAX_CANDIDATES = 5 }; /* that are shown */
 
 /*
- * Where there are some that give the node's type, only these: what keeps them from fitting is what the author wants to know.
+ * Where there are some that give the node's type, only these: what keeps them from fitting is what
+ * the author wants to know.
  */
 static void report_candidates(const struct library *lib, elem_id node, struct diag_list *diags)
 {
     str_id category = doc_element(&lib->doc, node)->category;
-    diag_add(diags, DIAG_ID_no_matching_nodedef, doc_place(&lib->doc, node), text_of(lib, category));
+    diag_add(diags, DIAG_ID_no_matching_nodedef, doc_place(&lib->doc, node),
+             text_of(lib, category));
     struct misfits misfits = {0};
     collect_misfits(lib, node, true, diags->arena, &misfits);
     uint32_t of_type = misfits.len;
@@ -177,7 +193,8 @@ static void report_candidates(const struct library *lib, elem_id node, struct di
         report_candidate(lib, library_nodedef(lib, misfits.items[i]), &c, diags);
     }
     if (shown < misfits.len)
-        diag_add(diags, DIAG_ID_more_candidates, doc_place(&lib->doc, node), misfits.len - shown, text_of(lib, category));
+        diag_add(diags, DIAG_ID_more_candidates, doc_place(&lib->doc, node), misfits.len - shown,
+                 text_of(lib, category));
 }
 
 static void report_unknown_node(const struct library *lib, elem_id node, struct diag_list *diags)
@@ -188,8 +205,11 @@ static void report_unknown_node(const struct library *lib, elem_id node, struct 
     for (const struct library *layer = may_guess ? lib : NULL; layer; layer = layer->base)
         for (uint32_t i = 0; i < layer->node_table.len; i++)
             if (layer->node_table.items[i])
-                diag_guess_add(&guess, text_of(lib, layer->nodedefs.items[layer->node_table.items[i] - 1].node));
-    diag_add(diags, DIAG_ID_unknown_node, doc_place(&lib->doc, node), name, diag_guess_text(&guess));
+                diag_guess_add(
+                    &guess,
+                    text_of(lib, layer->nodedefs.items[layer->node_table.items[i] - 1].node));
+    diag_add(diags, DIAG_ID_unknown_node, doc_place(&lib->doc, node), name,
+             diag_guess_text(&guess));
 }
 
 const char *library_suggest_nodedef(const struct library *lib, str_id name, struct diag_list *diags)
@@ -206,12 +226,15 @@ const char *library_suggest_nodedef(const struct library *lib, str_id name, stru
 
 void library_keep_matches(struct library *lib, struct arena *arena)
 {
-    lib->matches = arena_zalloc(arena, mem_array_size(arena->mem, lib->doc.elements.len, sizeof *lib->matches));
+    lib->matches = arena_zalloc(
+        arena, mem_array_size(arena->mem, lib->doc.elements.len, sizeof *lib->matches));
 }
 
 static _Atomic uint32_t *match_of(const struct library *lib, elem_id node)
 {
-    return lib->matches && node >= lib->doc.first_element ? &lib->matches[node - lib->doc.first_element] : NULL;
+    return lib->matches && node >= lib->doc.first_element
+               ? &lib->matches[node - lib->doc.first_element]
+               : NULL;
 }
 
 /* Whoever comes first: all find the same. */
@@ -222,19 +245,20 @@ static void keep(const struct library *lib, elem_id node, uint32_t nodedef)
         atomic_store_explicit(match, nodedef + 1, memory_order_relaxed);
 }
 
-static uint32_t match_explicit(const struct library *lib, elem_id node, str_id name, struct diag_list *diags)
+static uint32_t match_explicit(const struct library *lib, elem_id node, str_id name,
+                               struct diag_list *diags)
 {
     uint32_t id = library_nodedef_by_name(lib, name);
     if (id == LIBRARY_NONE) {
-        diag_add(diags, DIAG_ID_unknown_nodedef, doc_attr_place(&lib->doc, node, STR_nodedef), text_of(lib, name),
-                 library_suggest_nodedef(lib, name, diags));
+        diag_add(diags, DIAG_ID_unknown_nodedef, doc_attr_place(&lib->doc, node, STR_nodedef),
+                 text_of(lib, name), library_suggest_nodedef(lib, name, diags));
         return LIBRARY_NONE;
     }
     const struct nodedef *def = library_nodedef(lib, id);
     str_id category = doc_element(&lib->doc, node)->category;
     if (def->node != category)
-        diag_add(diags, DIAG_ID_nodedef_of_other_node, doc_attr_place(&lib->doc, node, STR_nodedef), text_of(lib, name),
-                 text_of(lib, def->node), text_of(lib, category));
+        diag_add(diags, DIAG_ID_nodedef_of_other_node, doc_attr_place(&lib->doc, node, STR_nodedef),
+                 text_of(lib, name), text_of(lib, def->node), text_of(lib, category));
     struct candidate c = fit(lib, id, node, true);
     if (c.fit == FIT_NOT) {
         report_candidates(lib, node, diags);

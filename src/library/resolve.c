@@ -8,7 +8,8 @@ static const char *text_of(const struct library *lib, str_id id)
 }
 
 /*
- * A child by name as `from` means it: names inside of a namespace are tried with it first (specification, "Namespaces").
+ * A child by name as `from` means it: names inside of a namespace are tried with it first
+ * (specification, "Namespaces").
  */
 static elem_id find_named(const struct library *lib, elem_id scope, str_id name, elem_id from)
 {
@@ -36,16 +37,21 @@ static elem_id root_of(const struct library *lib, elem_id element)
 }
 
 /*
- * elements of a scope, for what makes a message more helpful: each generation of a large document may ask
+ * elements of a scope, for what makes a message more helpful: each generation of a large document
+ * may ask
  */
 enum { MAX_SEARCHED = 4096 };
 
 /* "(did you mean …)" among the named children of a scope. */
-static const char *suggest_child(const struct library *lib, elem_id scope, int kind, str_id name, struct diag_list *diags)
+static const char *suggest_child(const struct library *lib, elem_id scope, int kind, str_id name,
+                                 struct diag_list *diags)
 {
     struct diag_guess guess;
-    elem_id e = diag_guess_begin(&guess, diags, text_of(lib, name)) ? doc_element(&lib->doc, scope)->first_child : 0;
-    for (unsigned searched = 0; e && searched < MAX_SEARCHED; e = doc_element(&lib->doc, e)->next, searched++) {
+    elem_id e = diag_guess_begin(&guess, diags, text_of(lib, name))
+                    ? doc_element(&lib->doc, scope)->first_child
+                    : 0;
+    for (unsigned searched = 0; e && searched < MAX_SEARCHED;
+         e = doc_element(&lib->doc, e)->next, searched++) {
         const struct element *child = doc_element(&lib->doc, e);
         if (child->name && child->kind == kind)
             diag_guess_add(&guess, text_of(lib, child->name));
@@ -54,30 +60,35 @@ static const char *suggest_child(const struct library *lib, elem_id scope, int k
 }
 
 /* Connections do not reach into graphs, but authors try. */
-static void report_elsewhere(const struct library *lib, elem_id root, elem_id scope, str_id name, struct diag_list *diags)
+static void report_elsewhere(const struct library *lib, elem_id root, elem_id scope, str_id name,
+                             struct diag_list *diags)
 {
     const struct document *doc = &lib->doc;
     elem_id e = diag_may_guess(diags) ? doc_element(doc, root)->first_child : 0;
-    for (unsigned searched = 0; e && searched < MAX_SEARCHED; e = doc_element(doc, e)->next, searched++) {
+    for (unsigned searched = 0; e && searched < MAX_SEARCHED;
+         e = doc_element(doc, e)->next, searched++) {
         bool is_other = e != scope && doc_element(doc, e)->kind == KIND_NODEGRAPH;
         elem_id node = is_other ? doc_child_of_kind(doc, e, KIND_NODE, name) : 0;
         if (!node)
             continue;
-        diag_add(diags, DIAG_ID_in_other_graph, doc_place(doc, node), text_of(lib, doc_element(doc, e)->name));
+        diag_add(diags, DIAG_ID_in_other_graph, doc_place(doc, node),
+                 text_of(lib, doc_element(doc, e)->name));
         return;
     }
 }
 
 static const struct binding bind_error = {.kind = BIND_ERROR};
 
-static void report_assumed(const struct library *lib, elem_id port, const char *of, str_id output, struct diag_list *diags)
+static void report_assumed(const struct library *lib, elem_id port, const char *of, str_id output,
+                           struct diag_list *diags)
 {
     const char *name = text_of(lib, output);
     diag_add(diags, DIAG_ID_output_needed, doc_place(&lib->doc, port), of, name, name);
 }
 
 /*
- * Which output of several is meant where the document does not say: the first of the type, else the first, as for MaterialX.
+ * Which output of several is meant where the document does not say: the first of the type, else the
+ * first, as for MaterialX.
  */
 static int assume_output(const struct port *outputs, unsigned num_outputs, doc_type type)
 {
@@ -87,8 +98,8 @@ static int assume_output(const struct port *outputs, unsigned num_outputs, doc_t
     return 0;
 }
 
-int library_resolve_output(const struct library *lib, elem_id port, elem_id node, str_id output, doc_type type,
-                           struct diag_list *diags)
+int library_resolve_output(const struct library *lib, elem_id port, elem_id node, str_id output,
+                           doc_type type, struct diag_list *diags)
 {
     if (!output && doc_attr_value(&lib->doc, node, STR_type) != STR_multioutput)
         return 0;
@@ -98,7 +109,8 @@ int library_resolve_output(const struct library *lib, elem_id port, elem_id node
     const struct nodedef *def = library_nodedef(lib, id);
     const struct port *outputs = library_ports(lib, id, NULL) + def->num_inputs;
     const char *name = text_of(lib, doc_element(&lib->doc, node)->name);
-    int index = output ? library_find_output(lib, id, output) : assume_output(outputs, def->num_outputs, type);
+    int index = output ? library_find_output(lib, id, output)
+                       : assume_output(outputs, def->num_outputs, type);
     if (!output && def->num_outputs > 1)
         report_assumed(lib, port, name, outputs[index].name, diags);
     if (index < 0) {
@@ -106,13 +118,14 @@ int library_resolve_output(const struct library *lib, elem_id port, elem_id node
         bool may_guess = diag_guess_begin(&guess, diags, text_of(lib, output));
         for (unsigned i = 0; may_guess && i < def->num_outputs; i++)
             diag_guess_add(&guess, text_of(lib, outputs[i].name));
-        diag_add(diags, DIAG_ID_dangling_output, doc_attr_place(&lib->doc, port, STR_output), name, text_of(lib, output),
-                 diag_guess_text(&guess));
+        diag_add(diags, DIAG_ID_dangling_output, doc_attr_place(&lib->doc, port, STR_output), name,
+                 text_of(lib, output), diag_guess_text(&guess));
     }
     return index;
 }
 
-static str_id output_type(const struct library *lib, elem_id node, int output, struct diag_list *diags)
+static str_id output_type(const struct library *lib, elem_id node, int output,
+                          struct diag_list *diags)
 {
     str_id type = doc_attr_value(&lib->doc, node, STR_type);
     if (type && type != STR_multioutput)
@@ -121,7 +134,8 @@ static str_id output_type(const struct library *lib, elem_id node, int output, s
     if (id == LIBRARY_NONE)
         return 0;
     const struct nodedef *def = library_nodedef(lib, id);
-    return library_type_name(lib, library_ports(lib, id, NULL)[def->num_inputs + (uint32_t)output].type);
+    return library_type_name(lib,
+                             library_ports(lib, id, NULL)[def->num_inputs + (uint32_t)output].type);
 }
 
 /* Where a port says what it is connected to. */
@@ -143,21 +157,25 @@ static bool is_convertible(const struct library *lib, str_id from, str_id to, st
     return id && library_nodedef_by_name(lib, id) != LIBRARY_NONE;
 }
 
-static void report_type(const struct library *lib, elem_id port, doc_type want, str_id have, elem_id at,
-                        struct diag_list *diags)
+static void report_type(const struct library *lib, elem_id port, doc_type want, str_id have,
+                        elem_id at, struct diag_list *diags)
 {
     str_id wanted = library_type_name(lib, want);
-    diag_add(diags, DIAG_ID_type_mismatch, connection_place(&lib->doc, port), text_of(lib, doc_element(&lib->doc, port)->name),
-             text_of(lib, wanted), text_of(lib, have));
-    diag_add(diags, DIAG_ID_connected_here, doc_place(&lib->doc, at), text_of(lib, doc_element(&lib->doc, at)->name));
+    diag_add(diags, DIAG_ID_type_mismatch, connection_place(&lib->doc, port),
+             text_of(lib, doc_element(&lib->doc, port)->name), text_of(lib, wanted),
+             text_of(lib, have));
+    diag_add(diags, DIAG_ID_connected_here, doc_place(&lib->doc, at),
+             text_of(lib, doc_element(&lib->doc, at)->name));
     if (is_convertible(lib, have, wanted, diags->arena))
-        diag_add(diags, DIAG_ID_convert_between, doc_place(&lib->doc, port), text_of(lib, wanted), text_of(lib, have));
+        diag_add(diags, DIAG_ID_convert_between, doc_place(&lib->doc, port), text_of(lib, wanted),
+                 text_of(lib, have));
 }
 
-static struct binding bind_node(const struct library *lib, elem_id asker, elem_id port, elem_id node, doc_type type,
-                                struct diag_list *diags)
+static struct binding bind_node(const struct library *lib, elem_id asker, elem_id port,
+                                elem_id node, doc_type type, struct diag_list *diags)
 {
-    int output = library_resolve_output(lib, port, node, doc_attr_value(&lib->doc, port, STR_output), type, diags);
+    int output = library_resolve_output(lib, port, node,
+                                        doc_attr_value(&lib->doc, port, STR_output), type, diags);
     str_id have = output >= 0 ? output_type(lib, node, output, diags) : 0;
     if (!have)
         return bind_error;
@@ -165,11 +183,13 @@ static struct binding bind_node(const struct library *lib, elem_id asker, elem_i
         report_type(lib, asker, type, have, node, diags);
         return bind_error;
     }
-    return (struct binding){.kind = BIND_NODE, .output = (uint8_t)output, .ref = node, .element = port};
+    return (struct binding){
+        .kind = BIND_NODE, .output = (uint8_t)output, .ref = node, .element = port};
 }
 
 /* The <output> of a graph that `port` means by its `output` attribute, or by its type. */
-static elem_id graph_output(const struct library *lib, elem_id port, elem_id graph, doc_type type, struct diag_list *diags)
+static elem_id graph_output(const struct library *lib, elem_id port, elem_id graph, doc_type type,
+                            struct diag_list *diags)
 {
     str_id name = doc_attr_value(&lib->doc, port, STR_output);
     if (name) {
@@ -183,7 +203,8 @@ static elem_id graph_output(const struct library *lib, elem_id port, elem_id gra
     const char *graph_name = text_of(lib, doc_element(&lib->doc, graph)->name);
     elem_id first = 0, fitting = 0;
     unsigned count = 0;
-    for (elem_id e = doc_element(&lib->doc, graph)->first_child; e; e = doc_element(&lib->doc, e)->next) {
+    for (elem_id e = doc_element(&lib->doc, graph)->first_child; e;
+         e = doc_element(&lib->doc, e)->next) {
         if (doc_element(&lib->doc, e)->kind != KIND_OUTPUT)
             continue;
         count++;
@@ -212,31 +233,21 @@ static struct said read_port(const struct document *doc, elem_id port)
     for (uint32_t i = 0; i < doc_element(doc, port)->num_attrs; i++) {
         str_id value = attrs[i].value;
         switch (attrs[i].name) {
-        case STR_nodename:
-            said.node = value;
-            break;
-        case STR_nodegraph:
-            said.graph = value;
-            break;
-        case STR_interfacename:
-            said.interface = value;
-            break;
-        case STR_output:
-            said.output = value;
-            break;
-        case STR_value:
-            said.has_value = true;
-            break;
-        default:
-            break;
+        case STR_nodename: said.node = value; break;
+        case STR_nodegraph: said.graph = value; break;
+        case STR_interfacename: said.interface = value; break;
+        case STR_output: said.output = value; break;
+        case STR_value: said.has_value = true; break;
+        default: break;
         }
     }
     return said;
 }
 
 /* Of a port that names a node or a graph: the output of the graph, or 0 with *out. */
-static elem_id follow_name(const struct library *lib, elem_id asker, elem_id port, elem_id scope, const struct said *said, doc_type type,
-                           struct binding *out, struct diag_list *diags)
+static elem_id follow_name(const struct library *lib, elem_id asker, elem_id port, elem_id scope,
+                           const struct said *said, doc_type type, struct binding *out,
+                           struct diag_list *diags)
 {
     const struct document *doc = &lib->doc;
     elem_id target = said->node ? find_named(lib, scope, said->node, port) : 0;
@@ -250,7 +261,8 @@ static elem_id follow_name(const struct library *lib, elem_id asker, elem_id por
         return graph_output(lib, port, target, type, diags);
     str_id missing = said->node ? said->node : said->graph;
     diag_add(diags, said->node ? DIAG_ID_dangling_nodename : DIAG_ID_dangling_nodegraph,
-             doc_attr_place(doc, port, said->node ? STR_nodename : STR_nodegraph), text_of(lib, missing),
+             doc_attr_place(doc, port, said->node ? STR_nodename : STR_nodegraph),
+             text_of(lib, missing),
              suggest_child(lib, scope, said->node ? KIND_NODE : KIND_NODEGRAPH, missing, diags));
     if (said->node)
         report_elsewhere(lib, root_of(lib, port), scope, said->node, diags);
@@ -258,27 +270,32 @@ static elem_id follow_name(const struct library *lib, elem_id asker, elem_id por
 }
 
 /* The same of one that names an output of the document. */
-static elem_id follow_output(const struct library *lib, elem_id port, str_id output, struct diag_list *diags)
+static elem_id follow_output(const struct library *lib, elem_id port, str_id output,
+                             struct diag_list *diags)
 {
-    elem_id root = root_of(lib, port), target = doc_child_of_kind(&lib->doc, root, KIND_OUTPUT, output);
+    elem_id root = root_of(lib, port),
+            target = doc_child_of_kind(&lib->doc, root, KIND_OUTPUT, output);
     if (!target)
-        diag_add(diags, DIAG_ID_dangling_output, doc_attr_place(&lib->doc, port, STR_output), "the document", text_of(lib, output),
+        diag_add(diags, DIAG_ID_dangling_output, doc_attr_place(&lib->doc, port, STR_output),
+                 "the document", text_of(lib, output),
                  suggest_child(lib, root, KIND_OUTPUT, output, diags));
     return target;
 }
 
 /* The next port to look at, or 0 with *out telling the end of the chain. */
-static elem_id follow(const struct library *lib, elem_id asker, elem_id port, doc_type type, struct binding *out,
-                      struct diag_list *diags)
+static elem_id follow(const struct library *lib, elem_id asker, elem_id port, doc_type type,
+                      struct binding *out, struct diag_list *diags)
 {
     const struct document *doc = &lib->doc;
     const struct element *element = doc_element(doc, port);
     const struct element *owner = doc_element(doc, element->parent);
     /*
-     * The scope of an input of a node is the node's graph; of an interface input, what is around the graph; an output's scope is its graph.
-     * There is nothing around a document, should a port stand at its top by mistake.
+     * The scope of an input of a node is the node's graph; of an interface input, what is around
+     * the graph; an output's scope is its graph. There is nothing around a document, should a port
+     * stand at its top by mistake.
      */
-    elem_id scope = element->kind == KIND_OUTPUT || !owner->parent ? element->parent : owner->parent;
+    elem_id scope =
+        element->kind == KIND_OUTPUT || !owner->parent ? element->parent : owner->parent;
     struct said said = read_port(doc, port);
     *out = bind_error;
     if (said.node || said.graph)
@@ -297,7 +314,8 @@ static elem_id follow(const struct library *lib, elem_id asker, elem_id port, do
     return 0;
 }
 
-struct binding library_resolve_connection(const struct library *lib, elem_id port, doc_type type, struct diag_list *diags)
+struct binding library_resolve_connection(const struct library *lib, elem_id port, doc_type type,
+                                          struct diag_list *diags)
 {
     struct binding result = bind_error;
     elem_id asker = port;
@@ -314,14 +332,17 @@ struct binding library_resolve_connection(const struct library *lib, elem_id por
         port = next;
     }
     if (port)
-        diag_add(diags, DIAG_ID_cycle, doc_place(&lib->doc, asker), text_of(lib, doc_element(&lib->doc, port)->name));
+        diag_add(diags, DIAG_ID_cycle, doc_place(&lib->doc, asker),
+                 text_of(lib, doc_element(&lib->doc, port)->name));
     return result;
 }
 
-struct graph_node library_resolve_node(const struct library *lib, elem_id node, struct resolve_out *out,
-                                       struct diag_list *diags)
+struct graph_node library_resolve_node(const struct library *lib, elem_id node,
+                                       struct resolve_out *out, struct diag_list *diags)
 {
-    struct graph_node result = {.element = node, .nodedef = library_match(lib, node, diags), .first_binding = out->bindings.len};
+    struct graph_node result = {.element = node,
+                                .nodedef = library_match(lib, node, diags),
+                                .first_binding = out->bindings.len};
     if (result.nodedef == LIBRARY_NONE)
         return result;
     const struct nodedef *def = library_nodedef(lib, result.nodedef);
@@ -330,7 +351,8 @@ struct graph_node library_resolve_node(const struct library *lib, elem_id node, 
     for (unsigned i = 0; i < def->num_inputs; i++)
         bindings[i] = (struct binding){.kind = BIND_DEFAULT};
     unsigned port = 0; /* most nodes have their inputs in the definition's order */
-    for (elem_id e = doc_element(&lib->doc, node)->first_child; e; e = doc_element(&lib->doc, e)->next) {
+    for (elem_id e = doc_element(&lib->doc, node)->first_child; e;
+         e = doc_element(&lib->doc, e)->next) {
         const struct element *input = doc_element(&lib->doc, e);
         if (input->kind != KIND_INPUT)
             continue;

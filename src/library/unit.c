@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Units (specification, "Units"): scales to the base unit of their type, from <unitdef> elements of any layer.
+ * Units (specification, "Units"): scales to the base unit of their type, from <unitdef> elements of
+ * any layer.
  */
 #include "library/library.h"
 
@@ -22,9 +23,12 @@ static int compare(const void *left, const void *right)
 static void add_unit(struct library *lib, elem_id element, str_id type)
 {
     str_id scale = doc_attr_value(&lib->doc, element, STR_scale);
-    struct unit unit = {.name = doc_element(&lib->doc, element)->name, .type = type, .element = element};
+    struct unit unit = {
+        .name = doc_element(&lib->doc, element)->name, .type = type, .element = element};
     struct ir_value value;
-    if (scale && doc_parse_value(DOC_TYPE_float, text_of(lib, scale), str_len(&lib->strings, scale), NULL, &value))
+    if (scale
+        && doc_parse_value(DOC_TYPE_float, text_of(lib, scale), str_len(&lib->strings, scale), NULL,
+                           &value))
         unit.scale = value.w[0].f;
     vec_push(lib->doc.arena, &lib->units, unit);
 }
@@ -59,11 +63,13 @@ static const struct unit *first_unit(const struct library *layer, str_id name)
 }
 
 /* One of this name and type (0: any) that has a scale, unless any will do. NULL: there is none. */
-static const struct unit *find_unit(const struct library *lib, str_id type, str_id name, bool needs_scale)
+static const struct unit *find_unit(const struct library *lib, str_id type, str_id name,
+                                    bool needs_scale)
 {
     for (const struct library *layer = lib; layer; layer = layer->base) {
         const struct unit *end = layer->units.items + layer->units.len;
-        for (const struct unit *unit = first_unit(layer, name); unit < end && unit->name == name; unit++)
+        for (const struct unit *unit = first_unit(layer, name); unit < end && unit->name == name;
+             unit++)
             if ((!type || unit->type == type) && (unit->scale != 0.0f || !needs_scale))
                 return unit;
     }
@@ -84,13 +90,16 @@ str_id library_unit_type_of(const struct library *lib, str_id unit)
     return found ? found->type : 0;
 }
 
-void library_report_unit(const struct library *lib, str_id type, str_id unit, struct diag_place place, struct diag_list *diags)
+void library_report_unit(const struct library *lib, str_id type, str_id unit,
+                         struct diag_place place, struct diag_list *diags)
 {
     str_id other = library_unit_type_of(lib, unit);
     if (other && library_has_unit_type(lib, type))
-        diag_add(diags, DIAG_ID_unit_of_other_type, place, text_of(lib, unit), text_of(lib, other), text_of(lib, type));
+        diag_add(diags, DIAG_ID_unit_of_other_type, place, text_of(lib, unit), text_of(lib, other),
+                 text_of(lib, type));
     else
-        diag_add(diags, DIAG_ID_unknown_unit, place, text_of(lib, unit), library_suggest_unit(lib, unit, diags));
+        diag_add(diags, DIAG_ID_unknown_unit, place, text_of(lib, unit),
+                 library_suggest_unit(lib, unit, diags));
 }
 
 bool library_has_unit_type(const struct library *lib, str_id type)
@@ -101,7 +110,8 @@ bool library_has_unit_type(const struct library *lib, str_id type)
     return false;
 }
 
-const char *library_suggest_unit_type(const struct library *lib, str_id type, struct diag_list *diags)
+const char *library_suggest_unit_type(const struct library *lib, str_id type,
+                                      struct diag_list *diags)
 {
     struct diag_guess guess;
     bool may_guess = diag_guess_begin(&guess, diags, text_of(lib, type));

@@ -18,7 +18,8 @@ static void note_use(struct validate *v, const struct binding *binding)
 
 /* ---- Connections ---- */
 
-static void check_interface(struct validate *v, const struct port *port, const struct binding *binding)
+static void check_interface(struct validate *v, const struct port *port,
+                            const struct binding *binding)
 {
     elem_id graph = library_graph_around(v->lib, binding->element);
     uint32_t nodedef = library_implemented_nodedef(v->lib, graph);
@@ -28,7 +29,8 @@ static void check_interface(struct validate *v, const struct port *port, const s
         library_resolve_interface(v->lib, binding->element, nodedef, binding, port, v->diags);
 }
 
-static void check_binding(struct validate *v, const struct port *port, const struct binding *binding)
+static void check_binding(struct validate *v, const struct port *port,
+                          const struct binding *binding)
 {
     note_use(v, binding);
     if (binding->kind == BIND_INTERFACE)
@@ -40,7 +42,8 @@ static void check_binding(struct validate *v, const struct port *port, const str
  */
 static void check_connection(struct validate *v, elem_id element, doc_type type)
 {
-    struct port port = {.name = doc_element(v->doc, element)->name, .type = type, .element = element};
+    struct port port = {
+        .name = doc_element(v->doc, element)->name, .type = type, .element = element};
     struct binding binding = library_resolve_connection(v->lib, element, port.type, v->diags);
     check_binding(v, &port, &binding);
 }
@@ -53,7 +56,8 @@ static void check_node(struct validate *v, elem_id node)
     uint32_t nodedef = library_resolve_node(v->lib, node, &v->resolved, v->diags).nodedef;
     for (elem_id e = doc_element(v->doc, node)->first_child; e; e = doc_element(v->doc, e)->next) {
         const struct element *child = doc_element(v->doc, e);
-        bool is_defined = nodedef != LIBRARY_NONE && library_find_input(v->lib, nodedef, child->name) >= 0;
+        bool is_defined =
+            nodedef != LIBRARY_NONE && library_find_input(v->lib, nodedef, child->name) >= 0;
         if (child->kind == KIND_INPUT && !is_defined)
             check_connection(v, e, DOC_TYPE_NONE);
     }
@@ -78,12 +82,15 @@ static void check_element(struct validate *v, elem_id element)
 {
     const struct element *e = doc_element(v->doc, element);
     enum element_kind kind = (enum element_kind)e->kind;
-    enum element_kind parent = e->parent ? (enum element_kind)doc_element(v->doc, e->parent)->kind : KIND_NODE;
+    enum element_kind parent =
+        e->parent ? (enum element_kind)doc_element(v->doc, e->parent)->kind : KIND_NODE;
     bool is_in_graph = parent == KIND_MATERIALX || parent == KIND_NODEGRAPH;
     if (is_in_graph && kind == KIND_NODE)
         check_node(v, element);
-    else if (is_in_graph && (kind == KIND_OUTPUT || (kind == KIND_INPUT && is_connected(v->doc, element))))
-        check_connection(v, element, library_type(v->lib, doc_attr_value(v->doc, element, STR_type)));
+    else if (is_in_graph
+             && (kind == KIND_OUTPUT || (kind == KIND_INPUT && is_connected(v->doc, element))))
+        check_connection(v, element,
+                         library_type(v->lib, doc_attr_value(v->doc, element, STR_type)));
     validate_attributes_of(v, element);
     validate_declaration(v, element);
 }
@@ -91,23 +98,29 @@ static void check_element(struct validate *v, elem_id element)
 /* ---- What nobody uses ---- */
 
 /*
- * Materials, shaders, and what has a look or an output of its own are there to be used from outside.
+ * Materials, shaders, and what has a look or an output of its own are there to be used from
+ * outside.
  */
 static bool is_end(const struct validate *v, elem_id node)
 {
     doc_type type = library_type(v->lib, doc_attr_value(v->doc, node, STR_type));
     bool is_top_level = doc_element(v->doc, node)->parent == v->doc->root;
-    return type == DOC_TYPE_material || (is_top_level && ir_type_is_shader(library_type_ir(v->lib, type)));
+    return type == DOC_TYPE_material
+           || (is_top_level && ir_type_is_shader(library_type_ir(v->lib, type)));
 }
 
 static void check_use(struct validate *v)
 {
     for (elem_id e = v->doc->root; e; e = doc_next_in_tree(v->doc, v->doc->root, e)) {
         const struct element *element = doc_element(v->doc, e);
-        bool is_used = element->kind != KIND_NODE || !element->name || v->used[e - v->doc->first_element] || is_end(v, e);
-        enum element_kind parent = element->parent ? (enum element_kind)doc_element(v->doc, element->parent)->kind : KIND_NODE;
+        bool is_used = element->kind != KIND_NODE || !element->name
+                       || v->used[e - v->doc->first_element] || is_end(v, e);
+        enum element_kind parent =
+            element->parent ? (enum element_kind)doc_element(v->doc, element->parent)->kind
+                            : KIND_NODE;
         if (!is_used && (parent == KIND_MATERIALX || parent == KIND_NODEGRAPH))
-            diag_add(v->diags, DIAG_ID_unused_node, doc_place(v->doc, e), text_of(v, element->name));
+            diag_add(v->diags, DIAG_ID_unused_node, doc_place(v->doc, e),
+                     text_of(v, element->name));
     }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Checks of values: against the definition of the input, and of what an element says of them itself.
+ * Checks of values: against the definition of the input, and of what an element says of them
+ * itself.
  */
 #include "library/validate.h"
 
@@ -11,7 +12,8 @@ static const char *text_of(const struct validate *v, str_id id)
 
 static bool parse(const struct validate *v, doc_type type, str_id text, struct ir_value *out)
 {
-    return text && doc_type_components(type) && doc_parse_value(type, text_of(v, text), str_len(&v->lib->strings, text), NULL, out);
+    return text && doc_type_components(type)
+           && doc_parse_value(type, text_of(v, text), str_len(&v->lib->strings, text), NULL, out);
 }
 
 /* Is a component of `a` above that of `b`? */
@@ -27,20 +29,23 @@ static bool is_above(doc_type type, const struct ir_value *a, const struct ir_va
 
 static void check_range(struct validate *v, elem_id element, const struct port *port, str_id text)
 {
-    str_id low = doc_attr_value(v->doc, port->element, STR_uimin), high = doc_attr_value(v->doc, port->element, STR_uimax);
+    str_id low = doc_attr_value(v->doc, port->element, STR_uimin),
+           high = doc_attr_value(v->doc, port->element, STR_uimax);
     struct ir_value value, least, most;
     if ((!low && !high) || !parse(v, port->type, text, &value))
         return;
     bool is_below = parse(v, port->type, low, &least) && is_above(port->type, &least, &value);
     bool is_beyond = parse(v, port->type, high, &most) && is_above(port->type, &value, &most);
     if (is_below || is_beyond)
-        diag_add(v->diags, DIAG_ID_out_of_range, doc_attr_place(v->doc, element, STR_value), text_of(v, text),
-                 text_of(v, port->name), low ? text_of(v, low) : "any", high ? text_of(v, high) : "any");
+        diag_add(v->diags, DIAG_ID_out_of_range, doc_attr_place(v->doc, element, STR_value),
+                 text_of(v, text), text_of(v, port->name), low ? text_of(v, low) : "any",
+                 high ? text_of(v, high) : "any");
 }
 
 /*
- * "Node Definition Elements": an input without a value must be given one. A closure that is not connected is none, which the
- * definitions of our own library say by an empty value; an image without a file is hardly meant.
+ * "Node Definition Elements": an input without a value must be given one. A closure that is not
+ * connected is none, which the definitions of our own library say by an empty value; an image
+ * without a file is hardly meant.
  */
 static bool must_be_given(const struct validate *v, uint32_t nodedef, const struct port *port)
 {
@@ -54,17 +59,21 @@ static bool must_be_given(const struct validate *v, uint32_t nodedef, const stru
     return !is_of_image;
 }
 
-void validate_input(struct validate *v, elem_id node, uint32_t nodedef, const struct port *port, const struct binding *binding)
+void validate_input(struct validate *v, elem_id node, uint32_t nodedef, const struct port *port,
+                    const struct binding *binding)
 {
-    str_id text = binding->kind == BIND_VALUE ? doc_attr_value(v->doc, binding->element, STR_value) : 0;
-    bool is_empty = binding->kind == BIND_DEFAULT || (binding->kind == BIND_VALUE && !text && port->type == DOC_TYPE_filename);
+    str_id text =
+        binding->kind == BIND_VALUE ? doc_attr_value(v->doc, binding->element, STR_value) : 0;
+    bool is_empty = binding->kind == BIND_DEFAULT
+                    || (binding->kind == BIND_VALUE && !text && port->type == DOC_TYPE_filename);
     if (is_empty && must_be_given(v, nodedef, port))
-        diag_add(v->diags, DIAG_ID_unconnected_input, doc_place(v->doc, node), text_of(v, doc_element(v->doc, node)->category),
-                 text_of(v, port->name));
+        diag_add(v->diags, DIAG_ID_unconnected_input, doc_place(v->doc, node),
+                 text_of(v, doc_element(v->doc, node)->category), text_of(v, port->name));
     if (!text || binding->element < v->doc->first_element)
         return;
     if (port->type == DOC_TYPE_string)
-        library_check_enum(v->lib, port, text, doc_attr_place(v->doc, binding->element, STR_value), v->diags);
+        library_check_enum(v->lib, port, text, doc_attr_place(v->doc, binding->element, STR_value),
+                           v->diags);
     check_range(v, binding->element, port, text);
     validate_unit(v, node, port, binding->element);
 }
@@ -73,23 +82,27 @@ void validate_input(struct validate *v, elem_id node, uint32_t nodedef, const st
 
 static void check_unit(struct validate *v, elem_id element)
 {
-    str_id unit = doc_attr_value(v->doc, element, STR_unit), type = doc_attr_value(v->doc, element, STR_unittype);
+    str_id unit = doc_attr_value(v->doc, element, STR_unit),
+           type = doc_attr_value(v->doc, element, STR_unittype);
     float scale;
     if (type && !library_has_unit_type(v->lib, type))
-        diag_add(v->diags, DIAG_ID_unknown_unittype, doc_attr_place(v->doc, element, STR_unittype), text_of(v, type),
-                 library_suggest_unit_type(v->lib, type, v->diags));
+        diag_add(v->diags, DIAG_ID_unknown_unittype, doc_attr_place(v->doc, element, STR_unittype),
+                 text_of(v, type), library_suggest_unit_type(v->lib, type, v->diags));
     else if (unit && !library_unit_scale(v->lib, type, unit, &scale))
-        library_report_unit(v->lib, type, unit, doc_attr_place(v->doc, element, STR_unit), v->diags);
+        library_report_unit(v->lib, type, unit, doc_attr_place(v->doc, element, STR_unit),
+                            v->diags);
 }
 
 /*
- * A library may have no colour transforms at all: then no space is known, and none can be told to be wrong.
+ * A library may have no colour transforms at all: then no space is known, and none can be told to
+ * be wrong.
  */
 static void check_space(struct validate *v, elem_id element)
 {
     str_id said = doc_attr_value(v->doc, element, STR_colorspace);
     const char *hub = library_color_hub;
-    if (!said || said == v->known_space || library_color_transform(v->lib, "srgb_texture", hub, "color3") == LIBRARY_NONE)
+    if (!said || said == v->known_space
+        || library_color_transform(v->lib, "srgb_texture", hub, "color3") == LIBRARY_NONE)
         return;
     const char *space = library_canonical_space(text_of(v, said));
     bool is_known = strcmp(space, "none") == 0 || strcmp(space, hub) == 0
@@ -97,17 +110,20 @@ static void check_space(struct validate *v, elem_id element)
     if (is_known)
         v->known_space = said;
     else
-        library_report_space(v->lib, space, doc_attr_place(v->doc, element, STR_colorspace), v->diags);
+        library_report_space(v->lib, space, doc_attr_place(v->doc, element, STR_colorspace),
+                             v->diags);
 }
 
 static void check_bounds(struct validate *v, elem_id element, str_id low, str_id high)
 {
     doc_type type = doc_type_of(doc_attr_value(v->doc, element, STR_type));
-    str_id low_text = doc_attr_value(v->doc, element, low), high_text = doc_attr_value(v->doc, element, high);
+    str_id low_text = doc_attr_value(v->doc, element, low),
+           high_text = doc_attr_value(v->doc, element, high);
     struct ir_value least, most;
-    if (parse(v, type, low_text, &least) && parse(v, type, high_text, &most) && is_above(type, &least, &most))
-        diag_add(v->diags, DIAG_ID_bad_range, doc_attr_place(v->doc, element, low), text_of(v, low), text_of(v, low_text),
-                 text_of(v, high), text_of(v, high_text));
+    if (parse(v, type, low_text, &least) && parse(v, type, high_text, &most)
+        && is_above(type, &least, &most))
+        diag_add(v->diags, DIAG_ID_bad_range, doc_attr_place(v->doc, element, low), text_of(v, low),
+                 text_of(v, low_text), text_of(v, high), text_of(v, high_text));
 }
 
 static uint32_t count_words(const char *list)
@@ -121,14 +137,18 @@ static uint32_t count_words(const char *list)
 /* Values of several numbers take as many places in the list. */
 static void check_enum_values(struct validate *v, elem_id element)
 {
-    str_id words = doc_attr_value(v->doc, element, STR_enum), values = doc_attr_value(v->doc, element, STR_enumvalues);
+    str_id words = doc_attr_value(v->doc, element, STR_enum),
+           values = doc_attr_value(v->doc, element, STR_enumvalues);
     if (!words || !values)
         return;
-    uint32_t components = doc_type_components(doc_type_of(doc_attr_value(v->doc, element, STR_type)));
-    uint32_t num_words = count_words(text_of(v, words)), num_values = count_words(text_of(v, values));
+    uint32_t components =
+        doc_type_components(doc_type_of(doc_attr_value(v->doc, element, STR_type)));
+    uint32_t num_words = count_words(text_of(v, words)),
+             num_values = count_words(text_of(v, values));
     components = components ? components : 1;
     if (num_words * components != num_values)
-        diag_add(v->diags, DIAG_ID_bad_enum, doc_attr_place(v->doc, element, STR_enumvalues), num_words, num_values / components);
+        diag_add(v->diags, DIAG_ID_bad_enum, doc_attr_place(v->doc, element, STR_enumvalues),
+                 num_words, num_values / components);
 }
 
 static bool is_version(const char *text)
@@ -157,10 +177,8 @@ static bool has_more_to_say(const struct document *doc, elem_id element)
         case STR_colorspace:
         case STR_uimin:
         case STR_uisoftmin:
-        case STR_enum:
-            return true;
-        default:
-            break;
+        case STR_enum: return true;
+        default: break;
         }
     }
     return false;
@@ -173,7 +191,8 @@ void validate_attributes_of(struct validate *v, elem_id element)
         return;
     str_id version = e->kind == KIND_NODEDEF ? doc_attr_value(v->doc, element, STR_version) : 0;
     if (version && !is_version(text_of(v, version)))
-        diag_add(v->diags, DIAG_ID_bad_nodedef_version, doc_attr_place(v->doc, element, STR_version), text_of(v, version));
+        diag_add(v->diags, DIAG_ID_bad_nodedef_version,
+                 doc_attr_place(v->doc, element, STR_version), text_of(v, version));
     check_unit(v, element);
     validate_unit_type(v, element);
     check_space(v, element);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Rules of the MaterialX specification that generation does not need: it takes what was probably meant, other programs may not. Section
- * names are those of its main document.
+ * Rules of the MaterialX specification that generation does not need: it takes what was probably
+ * meant, other programs may not. Section names are those of its main document.
  */
 #include "library/validate.h"
 
@@ -36,10 +36,13 @@ static elem_id child_input(const struct validate *v, elem_id node, const char *n
 /* Through <dot>, which passes its input on. 0: none. */
 static elem_id source_of_dots(struct validate *v, elem_id node)
 {
-    for (unsigned depth = 0; node && strcmp(text_of(v, doc_element(v->doc, node)->category), "dot") == 0; depth++) {
+    for (unsigned depth = 0;
+         node && strcmp(text_of(v, doc_element(v->doc, node)->category), "dot") == 0; depth++) {
         elem_id in = child_input(v, node, "in");
         str_id name = in ? doc_attr_value(v->doc, in, STR_nodename) : 0;
-        node = name && depth < 64 ? doc_child_of_kind(v->doc, doc_element(v->doc, node)->parent, KIND_NODE, name) : 0;
+        node = name && depth < 64
+                   ? doc_child_of_kind(v->doc, doc_element(v->doc, node)->parent, KIND_NODE, name)
+                   : 0;
     }
     return node;
 }
@@ -69,7 +72,8 @@ static bool is_uniform_interface(const struct validate *v, const struct binding 
     return port->flags & PORT_UNIFORM || is_uniform_type(port->type);
 }
 
-void validate_uniform(struct validate *v, elem_id node, const struct port *port, const struct binding *binding)
+void validate_uniform(struct validate *v, elem_id node, const struct port *port,
+                      const struct binding *binding)
 {
     if (!(port->flags & PORT_UNIFORM || is_uniform_type(port->type)))
         return;
@@ -84,8 +88,9 @@ void validate_uniform(struct validate *v, elem_id node, const struct port *port,
     /* not the output of a graph between */
     elem_id input = varies ? child_input(v, node, text_of(v, port->name)) : 0;
     if (input)
-        diag_add(v->diags, DIAG_ID_uniform_connected, doc_place(v->doc, input), text_of(v, port->name),
-                 text_of(v, doc_element(v->doc, node)->category), text_of(v, varies));
+        diag_add(v->diags, DIAG_ID_uniform_connected, doc_place(v->doc, input),
+                 text_of(v, port->name), text_of(v, doc_element(v->doc, node)->category),
+                 text_of(v, varies));
 }
 
 /* ---- Declarations ---- */
@@ -93,7 +98,8 @@ void validate_uniform(struct validate *v, elem_id node, const struct port *port,
 static void tell(struct validate *v, elem_id element, const char *what)
 {
     const struct element *e = doc_element(v->doc, element);
-    diag_add(v->diags, DIAG_ID_bad_definition, doc_place(v->doc, element), text_of(v, e->category), text_of(v, e->name), what);
+    diag_add(v->diags, DIAG_ID_bad_definition, doc_place(v->doc, element), text_of(v, e->category),
+             text_of(v, e->name), what);
 }
 
 static bool has(const struct validate *v, elem_id element, str_id attr)
@@ -103,14 +109,16 @@ static bool has(const struct validate *v, elem_id element, str_id attr)
 
 static bool is_connected(const struct validate *v, elem_id port)
 {
-    return has(v, port, STR_nodename) || has(v, port, STR_nodegraph) || has(v, port, STR_interfacename);
+    return has(v, port, STR_nodename) || has(v, port, STR_nodegraph)
+           || has(v, port, STR_interfacename);
 }
 
 /* "NodeDef Input Elements" */
 static void check_declared_input(struct validate *v, elem_id input)
 {
     doc_type type = library_type(v->lib, doc_attr_value(v->doc, input, STR_type));
-    bool is_uniform = doc_attr_is_true(v->doc, input, STR_uniform), takes_geometry = has(v, input, STR_defaultgeomprop);
+    bool is_uniform = doc_attr_is_true(v->doc, input, STR_uniform),
+         takes_geometry = has(v, input, STR_defaultgeomprop);
     if (is_uniform_type(type) && !is_uniform)
         tell(v, input, "takes strings, files or lists, which do not vary: say uniform=\"true\"");
     if (takes_geometry && is_uniform)
@@ -128,7 +136,8 @@ static void check_declared_output(struct validate *v, elem_id nodedef, elem_id o
     elem_id input = name ? doc_child_of_kind(v->doc, nodedef, KIND_INPUT, name) : 0;
     if (is_connected(v, output))
         tell(v, output, "is of a definition, where nothing is connected");
-    if (input && doc_attr_value(v->doc, input, STR_type) != doc_attr_value(v->doc, output, STR_type))
+    if (input
+        && doc_attr_value(v->doc, input, STR_type) != doc_attr_value(v->doc, output, STR_type))
         tell(v, output, "has a defaultinput of another type");
     else if (name && !input && !has(v, nodedef, STR_inherit))
         tell(v, output, "has a defaultinput that is no input");
@@ -136,7 +145,8 @@ static void check_declared_output(struct validate *v, elem_id nodedef, elem_id o
 
 static void check_nodedef(struct validate *v, elem_id nodedef)
 {
-    for (elem_id e = doc_element(v->doc, nodedef)->first_child; e; e = doc_element(v->doc, e)->next) {
+    for (elem_id e = doc_element(v->doc, nodedef)->first_child; e;
+         e = doc_element(v->doc, e)->next) {
         if (doc_element(v->doc, e)->kind == KIND_INPUT)
             check_declared_input(v, e);
         else if (doc_element(v->doc, e)->kind == KIND_OUTPUT)
@@ -156,7 +166,8 @@ static void check_functional_graph(struct validate *v, elem_id graph, uint32_t i
         }
     for (unsigned i = 0; i < def->num_outputs; i++) {
         elem_id output = doc_child_of_kind(v->doc, graph, KIND_OUTPUT, outputs[i].name);
-        for (elem_id e = doc_element(v->doc, graph)->first_child; e && !output && def->num_outputs == 1; e = doc_element(v->doc, e)->next)
+        for (elem_id e = doc_element(v->doc, graph)->first_child;
+             e && !output && def->num_outputs == 1; e = doc_element(v->doc, e)->next)
             /* the only one may have any name */
             output = doc_element(v->doc, e)->kind == KIND_OUTPUT ? e : 0;
         if (!output)
@@ -172,7 +183,8 @@ static void check_graph(struct validate *v, elem_id graph)
     if (nodedef != LIBRARY_NONE)
         check_functional_graph(v, graph, nodedef);
     for (elem_id e = doc_element(v->doc, graph)->first_child; e; e = doc_element(v->doc, e)->next)
-        if (doc_element(v->doc, e)->kind == KIND_OUTPUT && !is_connected(v, e) && !has(v, e, STR_value))
+        if (doc_element(v->doc, e)->kind == KIND_OUTPUT && !is_connected(v, e)
+            && !has(v, e, STR_value))
             tell(v, e, "is connected to nothing");
 }
 
@@ -180,21 +192,25 @@ static void check_graph(struct validate *v, elem_id graph)
 static void check_geompropdef(struct validate *v, elem_id element)
 {
     doc_type type = library_type(v->lib, doc_attr_value(v->doc, element, STR_type));
-    bool is_uniform = doc_attr_is_true(v->doc, element, STR_uniform), is_standard = has(v, element, STR_geomprop);
+    bool is_uniform = doc_attr_is_true(v->doc, element, STR_uniform),
+         is_standard = has(v, element, STR_geomprop);
     bool is_placed = has(v, element, STR_space) || has(v, element, STR_index);
     if (is_uniform_type(type) && !is_uniform)
         tell(v, element, "has strings or files, which do not vary: say uniform=\"true\"");
     if (is_uniform && (is_standard || is_placed))
         tell(v, element, "is uniform, so it has no geomprop, space or index");
     else if (is_placed && !is_standard)
-        tell(v, element, "has a space or index, which only standard properties have: say which by geomprop");
+        tell(v, element,
+             "has a space or index, which only standard properties have: say which by geomprop");
 }
 
 static void check_unit_scale(struct validate *v, elem_id unit)
 {
     struct ir_value scale;
     str_id text = doc_attr_value(v->doc, unit, STR_scale);
-    bool is_number = text && doc_parse_value(DOC_TYPE_float, text_of(v, text), str_len(&v->lib->strings, text), NULL, &scale);
+    bool is_number = text
+                     && doc_parse_value(DOC_TYPE_float, text_of(v, text),
+                                        str_len(&v->lib->strings, text), NULL, &scale);
     if (text && (!is_number || !(scale.w[0].f > 0.0f)))
         tell(v, unit, "needs a scale above 0");
 }
@@ -203,15 +219,9 @@ void validate_declaration(struct validate *v, elem_id element)
 {
     const struct element *e = doc_element(v->doc, element);
     switch (e->kind) {
-    case KIND_NODEDEF:
-        check_nodedef(v, element);
-        break;
-    case KIND_NODEGRAPH:
-        check_graph(v, element);
-        break;
-    case KIND_GEOMPROPDEF:
-        check_geompropdef(v, element);
-        break;
+    case KIND_NODEDEF: check_nodedef(v, element); break;
+    case KIND_NODEGRAPH: check_graph(v, element); break;
+    case KIND_GEOMPROPDEF: check_geompropdef(v, element); break;
     case KIND_IMPLEMENTATION:
         if (has(v, element, STR_file) && has(v, element, STR_sourcecode))
             tell(v, element, "has a file and sourcecode: one of them counts");
@@ -220,22 +230,20 @@ void validate_declaration(struct validate *v, elem_id element)
         if (doc_type_of(e->name))
             tell(v, element, "has the name of a type of MaterialX");
         break;
-    case KIND_UNIT:
-        check_unit_scale(v, element);
-        break;
+    case KIND_UNIT: check_unit_scale(v, element); break;
     case KIND_INPUT:
         if (doc_element(v->doc, e->parent)->kind == KIND_VARIANT && is_connected(v, element))
             tell(v, element, "is of a variant, which has values only");
         break;
-    default:
-        break;
+    default: break;
     }
 }
 
 /* ---- Implementations ---- */
 
 /*
- * "Custom Node Definition Using Node Graphs": what may not be said twice; code and a graph may stand side by side.
+ * "Custom Node Definition Using Node Graphs": what may not be said twice; code and a graph may
+ * stand side by side.
  */
 struct claim {
     uint32_t nodedef;
@@ -258,8 +266,8 @@ static int compare_claims(const void *left, const void *right)
 
 static bool is_competing(const struct claim *a, const struct claim *b)
 {
-    return a->nodedef == b->nodedef && a->target == b->target && a->format == b->format && a->is_graph == b->is_graph
-           && !(a->is_graph && a->graph == b->graph);
+    return a->nodedef == b->nodedef && a->target == b->target && a->format == b->format
+           && a->is_graph == b->is_graph && !(a->is_graph && a->graph == b->graph);
 }
 
 void validate_implementations(struct validate *v, struct arena *scratch)
@@ -268,14 +276,19 @@ void validate_implementations(struct validate *v, struct arena *scratch)
     struct claim *claims = ARENA_ARRAY(scratch, struct claim, count);
     for (uint32_t i = 0; i < count; i++) {
         const struct implementation *impl = &v->lib->impls.items[i];
-        claims[i] = (struct claim){impl->nodedef, impl->target, doc_attr_value(v->doc, impl->element, STR_format),
-                                   impl->kind == IMPL_GRAPH, impl->kind == IMPL_GRAPH ? impl->ref : 0, impl->element};
+        claims[i] = (struct claim){impl->nodedef,
+                                   impl->target,
+                                   doc_attr_value(v->doc, impl->element, STR_format),
+                                   impl->kind == IMPL_GRAPH,
+                                   impl->kind == IMPL_GRAPH ? impl->ref : 0,
+                                   impl->element};
     }
     if (count > 1)
         qsort(claims, count, sizeof *claims, compare_claims);
     for (uint32_t i = 1; i < count; i++)
         if (is_competing(&claims[i - 1], &claims[i]))
-            diag_add(v->diags, DIAG_ID_competing_implementations, doc_place(v->doc, claims[i].element),
+            diag_add(v->diags, DIAG_ID_competing_implementations,
+                     doc_place(v->doc, claims[i].element),
                      text_of(v, doc_element(v->doc, claims[i].element)->name),
                      text_of(v, library_nodedef(v->lib, claims[i].nodedef)->name),
                      text_of(v, doc_element(v->doc, claims[i - 1].element)->name));
@@ -284,8 +297,8 @@ void validate_implementations(struct validate *v, struct arena *scratch)
 /* "Units": floats and vectors have them, and files of such. */
 static bool can_have_unit(doc_type type)
 {
-    return type == DOC_TYPE_float || type == DOC_TYPE_vector2 || type == DOC_TYPE_vector3 || type == DOC_TYPE_vector4
-           || type == DOC_TYPE_filename || type == DOC_TYPE_floatarray
+    return type == DOC_TYPE_float || type == DOC_TYPE_vector2 || type == DOC_TYPE_vector3
+           || type == DOC_TYPE_vector4 || type == DOC_TYPE_filename || type == DOC_TYPE_floatarray
            || (type >= DOC_TYPE_vector2array && type <= DOC_TYPE_vector4array);
 }
 
@@ -293,23 +306,28 @@ void validate_unit_type(struct validate *v, elem_id element)
 {
     str_id name = doc_attr_value(v->doc, element, STR_type);
     doc_type type = library_type(v->lib, name);
-    if (type && !can_have_unit(type) && (has(v, element, STR_unit) || has(v, element, STR_unittype)))
-        diag_add(v->diags, DIAG_ID_unit_misplaced, doc_place(v->doc, element), text_of(v, doc_element(v->doc, element)->name),
-                 text_of(v, name));
+    if (type && !can_have_unit(type)
+        && (has(v, element, STR_unit) || has(v, element, STR_unittype)))
+        diag_add(v->diags, DIAG_ID_unit_misplaced, doc_place(v->doc, element),
+                 text_of(v, doc_element(v->doc, element)->name), text_of(v, name));
 }
 
 /*
- * The node or the definition says of which type a unit is; where both do not, the first that has it is taken.
+ * The node or the definition says of which type a unit is; where both do not, the first that has it
+ * is taken.
  */
 void validate_unit(struct validate *v, elem_id node, const struct port *port, elem_id input)
 {
-    str_id unit = doc_attr_value(v->doc, input, STR_unit), type = doc_attr_value(v->doc, port->element, STR_unittype);
+    str_id unit = doc_attr_value(v->doc, input, STR_unit),
+           type = doc_attr_value(v->doc, port->element, STR_unittype);
     float scale;
-    if (!unit || has(v, input, STR_unittype) || !can_have_unit(port->type) || !library_unit_type_of(v->lib, unit))
+    if (!unit || has(v, input, STR_unittype) || !can_have_unit(port->type)
+        || !library_unit_type_of(v->lib, unit))
         return; /* which is told, or good, by itself */
     if (!type)
-        diag_add(v->diags, DIAG_ID_unit_without_type, doc_attr_place(v->doc, input, STR_unit), text_of(v, unit),
-                 text_of(v, doc_element(v->doc, node)->category), text_of(v, library_unit_type_of(v->lib, unit)));
+        diag_add(v->diags, DIAG_ID_unit_without_type, doc_attr_place(v->doc, input, STR_unit),
+                 text_of(v, unit), text_of(v, doc_element(v->doc, node)->category),
+                 text_of(v, library_unit_type_of(v->lib, unit)));
     else if (!library_unit_scale(v->lib, type, unit, &scale))
         library_report_unit(v->lib, type, unit, doc_attr_place(v->doc, input, STR_unit), v->diags);
 }

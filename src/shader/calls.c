@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * The shader stands: every call that is left is known. Each portable function now gets the one version that its calls share
- * (lang/plan.c), and the calls lose the arguments that the version takes for granted.
+ * The shader stands: every call that is left is known. Each portable function now gets the one
+ * version that its calls share (lang/plan.c), and the calls lose the arguments that the version
+ * takes for granted.
  */
 #include "shader/shader.h"
 
@@ -32,7 +33,8 @@ struct calls { /* a vector */
 };
 
 /*
- * Those that the stages need, the newest first: operands and the bodies of functions are older than what needs them.
+ * Those that the stages need, the newest first: operands and the bodies of functions are older than
+ * what needs them.
  */
 static struct calls find_calls(const struct shader *shader)
 {
@@ -56,7 +58,8 @@ static struct calls find_calls(const struct shader *shader)
 }
 
 /* `in` and `inout` parameters have an operand each, in order. */
-static bool has_operand(const struct lang_unit *layer, const struct lang_function *fn, uint32_t param)
+static bool has_operand(const struct lang_unit *layer, const struct lang_function *fn,
+                        uint32_t param)
 {
     return layer->slots.items[fn->first_slot + param].mode != LANG_OUT;
 }
@@ -115,5 +118,6 @@ void shader_specialise_calls(struct shader *shader)
         calls.items[i].planned = tell_plan(shader, calls.items[i].node);
     lang_plan_finish(shader->unit);
     for (uint32_t i = calls.len; i-- > 0;)
-        call_version(shader, calls.items[i].node, lang_plan_version(shader->unit, calls.items[i].planned));
+        call_version(shader, calls.items[i].node,
+                     lang_plan_version(shader->unit, calls.items[i].planned));
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * finish: from what builders asked for to what can be spelled. The pixel stage comes first, since it decides what the vertex stage
- * must hand on.
+ * finish: from what builders asked for to what can be spelled. The pixel stage comes first, since
+ * it decides what the vertex stage must hand on.
  */
 #include "shader/shader.h"
 
@@ -16,11 +16,13 @@ static void complete_loops(struct shader *shader, enum shader_stage_id id)
     for (uint32_t i = 0; i < stage->effects.len; i++) {
         stage->has_lights |= stage->effects.items[i].kind == EFFECT_LIGHTS;
         if (stage->effects.items[i].kind == EFFECT_SAMPLES)
-            mark_read(shader, shader_private_uniform(shader, STR_u_envRadianceSamples, IR_TYPE_INT, 0), id);
+            mark_read(shader,
+                      shader_private_uniform(shader, STR_u_envRadianceSamples, IR_TYPE_INT, 0), id);
     }
     if (!stage->has_lights)
         return;
-    mark_read(shader, shader_private_uniform(shader, STR_u_numActiveLightSources, IR_TYPE_INT, 0), id);
+    mark_read(shader, shader_private_uniform(shader, STR_u_numActiveLightSources, IR_TYPE_INT, 0),
+              id);
     mark_read(shader, shader_light_member(shader, STR_type, IR_TYPE_INT), id);
     for (uint32_t i = 0; i < shader->light_members.len; i++)
         mark_read(shader, shader->light_members.items[i], id);
@@ -33,8 +35,12 @@ static void add_globals(struct shader *shader, enum shader_stage_id id)
     for (uint32_t i = 0; i < reach->globals.len; i++) {
         const struct lang_global *global = lang_global(shader->unit, reach->globals.items[i], NULL);
         if (global->kind == LANG_GLOBAL_UNIFORM)
-            mark_read(shader, shader_private_uniform(shader, global->name, global->type, (uint16_t)global->array_length), id);
-        else if (global->kind == LANG_GLOBAL_STREAM && shader_stream(shader, global->name, global->type))
+            mark_read(shader,
+                      shader_private_uniform(shader, global->name, global->type,
+                                             (uint16_t)global->array_length),
+                      id);
+        else if (global->kind == LANG_GLOBAL_STREAM
+                 && shader_stream(shader, global->name, global->type))
             mark_read(shader, shader_global_variable(shader, reach->globals.items[i]), id);
     }
 }
@@ -77,9 +83,11 @@ static void complete_vertex_stage(struct shader *shader)
     struct ir_graph *graph = shader->graph;
     ir_ref world = shader_vertex_stream(shader, STR_positionWorld, IR_TYPE_VOID);
     ir_ref homogeneous = ir_arg(graph, world, 0); /* the stream is this, cut to xyz */
-    ir_ref matrix = shader_read(shader, shader_private_uniform(shader, STR_u_viewProjectionMatrix, IR_TYPE_MAT4, 0));
+    ir_ref matrix = shader_read(
+        shader, shader_private_uniform(shader, STR_u_viewProjectionMatrix, IR_TYPE_MAT4, 0));
     ir_ref position = ir_build(graph, IR_MUL, IR_TYPE_VEC4, 0, (ir_ref[]){matrix, homogeneous}, 2);
-    shader_effect(shader, STAGE_VERTEX, (struct effect){.kind = EFFECT_POSITION, .value = position});
+    shader_effect(shader, STAGE_VERTEX,
+                  (struct effect){.kind = EFFECT_POSITION, .value = position});
 }
 
 static void name_neutrally(struct shader *shader)
@@ -106,7 +114,8 @@ static void narrow_textures(struct shader *shader)
     struct ir_graph *graph = shader->graph;
     for (ir_ref ref = 1; ref < graph->nodes.len; ref++) {
         struct ir_node *node = &graph->nodes.items[ref];
-        const struct ir_node *texel = node->op == IR_SWIZZLE ? ir_get(graph, ir_arg(graph, ref, 0)) : NULL;
+        const struct ir_node *texel =
+            node->op == IR_SWIZZLE ? ir_get(graph, ir_arg(graph, ref, 0)) : NULL;
         bool is_first = node->attr == 0x100 || node->attr == (0x300 | 0x24); /* x, xyz */
         if (!texel || texel->op != IR_TEX || !is_first)
             continue;
@@ -128,7 +137,8 @@ static void finish_vertex_stage(struct shader *shader)
 }
 
 /*
- * Languages without a vertex stage have a shader that moves the point, where there is something to move; vertex data are expressions.
+ * Languages without a vertex stage have a shader that moves the point, where there is something to
+ * move; vertex data are expressions.
  */
 static void finish_displacement(struct shader *shader)
 {

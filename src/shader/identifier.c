@@ -22,19 +22,19 @@ static bool is_reserved_prefix(const char *text, size_t len)
  */
 #define ROW_OF(c) c, c, c, c, c, c, c, c, c, c, c, c, c
 static const uint8_t word_characters[256] = {
-    ['0'] = 1, 1, 1, 1, 1, 1, 1, 1, 1, 1,
-    ['A'] = ROW_OF(1), ROW_OF(1),
-    ['_'] = 2,
+    ['0'] = 1,         1,         1, 1, 1, 1, 1, 1, 1, 1, ['A'] = ROW_OF(1), ROW_OF(1), ['_'] = 2,
     ['a'] = ROW_OF(1), ROW_OF(1),
 };
 
 /*
- * Compilers refuse names of more than 1,024 characters; a number may come behind this, and the name of a graph before it.
+ * Compilers refuse names of more than 1,024 characters; a number may come behind this, and the name
+ * of a graph before it.
  */
 enum { MAX_LENGTH = 240 };
 
 /*
- * Eight characters at a time, of which each has a byte of a word: its highest bit says whether something is true of it.
+ * Eight characters at a time, of which each has a byte of a word: its highest bit says whether
+ * something is true of it.
  */
 #define EACH(byte) ((uint64_t)0x0101010101010101 * (byte))
 
@@ -47,7 +47,8 @@ static inline bool are_word_characters(const char *text)
 {
     uint64_t c;
     memcpy(&c, text, sizeof c);
-    uint64_t low = which_are(c, '_', '_'), letters = which_are(c | EACH(0x20), 'a', 'z'), digits = which_are(c, '0', '9');
+    uint64_t low = which_are(c, '_', '_'), letters = which_are(c | EACH(0x20), 'a', 'z'),
+             digits = which_are(c, '0', '9');
     return !(c & EACH(0x80)) && (letters | digits | low) == EACH(0x80) && !(low & low << 8);
 }
 

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * The variables through which a shader meets its host, and the streams from the vertex stage to the pixel stage.
+ * The variables through which a shader meets its host, and the streams from the vertex stage to the
+ * pixel stage.
  *
- * Names at file scope are unique. The table shader->names finds a variable by its name, block apart: two blocks cannot have
- * members of one name, since members are spelled without their block; only vertex data has a scope of its own.
+ * Names at file scope are unique. The table shader->names finds a variable by its name, block
+ * apart: two blocks cannot have members of one name, since members are spelled without their block;
+ * only vertex data has a scope of its own.
  */
 #include "shader/shader.h"
 
@@ -14,9 +16,12 @@
 const char *shader_block_name(enum shader_block block)
 {
     static const char *const names[NUM_BLOCKS] = {
-        [BLOCK_PUBLIC_UNIFORMS] = "PublicUniforms", [BLOCK_PRIVATE_UNIFORMS] = "PrivateUniforms",
-        [BLOCK_LIGHT_DATA] = "LightData",           [BLOCK_TEXTURES] = "Textures",
-        [BLOCK_APP_DATA] = "AppData",               [BLOCK_VERTEX_DATA] = "VertexData",
+        [BLOCK_PUBLIC_UNIFORMS] = "PublicUniforms",
+        [BLOCK_PRIVATE_UNIFORMS] = "PrivateUniforms",
+        [BLOCK_LIGHT_DATA] = "LightData",
+        [BLOCK_TEXTURES] = "Textures",
+        [BLOCK_APP_DATA] = "AppData",
+        [BLOCK_VERTEX_DATA] = "VertexData",
         [BLOCK_OUTPUTS] = "Outputs",
     };
     return names[block];
@@ -25,10 +30,11 @@ const char *shader_block_name(enum shader_block block)
 /* variables are large: a shading model's are not to be moved while they come */
 enum { FIRST_VARIABLES = 80 };
 
-void shader_init(struct shader *shader, struct arena *arena, struct strpool *strings, struct ir_graph *graph,
-                 struct lang_unit *unit)
+void shader_init(struct shader *shader, struct arena *arena, struct strpool *strings,
+                 struct ir_graph *graph, struct lang_unit *unit)
 {
-    *shader = (struct shader){.arena = arena, .strings = strings, .graph = graph, .unit = unit, .max_lights = 3};
+    *shader = (struct shader){
+        .arena = arena, .strings = strings, .graph = graph, .unit = unit, .max_lights = 3};
     for (int stage = 0; stage < NUM_STAGES; stage++)
         shader->stages[stage].reach.arena = arena;
     vec_reserve(arena, &shader->variables, FIRST_VARIABLES);
@@ -77,26 +83,28 @@ static bool is_speller_name(str_id name)
     case STR_LightData_block:
     case STR_PublicUniforms:
     case STR_PrivateUniforms:
-    case STR_VertexData:
-        return true;
-    default:
-        return false;
+    case STR_VertexData: return true;
+    default: return false;
     }
 }
 
 /* A word that the language has for itself. */
 static bool is_reserved(const struct shader *shader, str_id name)
 {
-    return shader->style && lang_syntax_is_reserved(shader->style->syntax, str_text(shader->strings, name), str_len(shader->strings, name));
+    return shader->style
+           && lang_syntax_is_reserved(shader->style->syntax, str_text(shader->strings, name),
+                                      str_len(shader->strings, name));
 }
 
 static bool is_taken(const struct shader *shader, uint32_t scope, str_id name)
 {
-    return is_speller_name(name) || (shader->names && *find_slot(shader, scope, name)) || is_reserved(shader, name);
+    return is_speller_name(name) || (shader->names && *find_slot(shader, scope, name))
+           || is_reserved(shader, name);
 }
 
 /*
- * "normal_", where the language has "normal" for itself, and "normal_2" where that is taken; "roughness_2".
+ * "normal_", where the language has "normal" for itself, and "normal_2" where that is taken;
+ * "roughness_2".
  */
 static str_id variant(struct shader *shader, str_id name, uint32_t number)
 {
@@ -112,16 +120,20 @@ static str_id variant(struct shader *shader, str_id name, uint32_t number)
 
 bool shader_name_is_free(struct shader *shader, str_id name)
 {
-    return !is_taken(shader, NUM_BLOCKS, is_reserved(shader, name) ? variant(shader, name, 1) : name);
+    return !is_taken(shader, NUM_BLOCKS,
+                     is_reserved(shader, name) ? variant(shader, name, 1) : name);
 }
 
 static str_id unique_name(struct shader *shader, uint32_t scope, str_id wanted)
 {
     const char *text = str_text(shader->strings, wanted);
     size_t base_len;
-    const char *base = identifier_from(text, str_len(shader->strings, wanted), shader->arena, &base_len);
-    str_id first = base == text ? wanted : str_intern(shader->strings, base, base_len), name = first;
-    for (uint32_t number = is_reserved(shader, first) ? 1 : 2; is_taken(shader, scope, name); number++)
+    const char *base =
+        identifier_from(text, str_len(shader->strings, wanted), shader->arena, &base_len);
+    str_id first = base == text ? wanted : str_intern(shader->strings, base, base_len),
+           name = first;
+    for (uint32_t number = is_reserved(shader, first) ? 1 : 2; is_taken(shader, scope, name);
+         number++)
         name = variant(shader, first, number);
     return name;
 }
@@ -148,21 +160,25 @@ uint32_t shader_find_variable(const struct shader *shader, enum shader_block blo
 }
 
 /*
- * The variable with the type that a stage reads, which is the element's for arrays of built-in types.
+ * The variable with the type that a stage reads, which is the element's for arrays of built-in
+ * types.
  */
 ir_ref shader_read(struct shader *shader, uint32_t variable)
 {
     const struct shader_variable *v = &shader->variables.items[variable];
-    enum ir_op op = v->block == BLOCK_TEXTURES                                       ? IR_TEXTURE
+    enum ir_op op = v->block == BLOCK_TEXTURES                                    ? IR_TEXTURE
                     : v->block == BLOCK_APP_DATA || v->block == BLOCK_VERTEX_DATA ? IR_STREAM
-                                                                                     : IR_UNIFORM;
-    ir_type_id type = v->array_length ? (ir_type_id)ir_add_array(shader->graph, v->type, v->array_length) : v->type;
+                                                                                  : IR_UNIFORM;
+    ir_type_id type = v->array_length
+                          ? (ir_type_id)ir_add_array(shader->graph, v->type, v->array_length)
+                          : v->type;
     return ir_build(shader->graph, op, type, variable, NULL, 0);
 }
 
 /* ---- What is asked for by name ---- */
 
-static uint32_t find_binding(const struct shader *shader, enum shader_block block, str_id asked, ir_type_id scalar)
+static uint32_t find_binding(const struct shader *shader, enum shader_block block, str_id asked,
+                             ir_type_id scalar)
 {
     for (uint32_t i = 0; i < shader->bindings.len; i++) {
         const struct shader_binding *binding = &shader->bindings.items[i];
@@ -180,8 +196,9 @@ static ir_type_id scalar_of(ir_type_id type)
 static uint32_t bind(struct shader *shader, const struct shader_variable *variable)
 {
     uint32_t index = shader_add_variable(shader, variable);
-    vec_push(shader->arena, &shader->bindings,
-             (struct shader_binding){variable->name, variable->block, scalar_of(variable->type), index});
+    vec_push(
+        shader->arena, &shader->bindings,
+        (struct shader_binding){variable->name, variable->block, scalar_of(variable->type), index});
     return index;
 }
 
@@ -195,7 +212,8 @@ uint32_t shader_global_variable(const struct shader *shader, uint32_t global_id)
 {
     const struct lang_global *global = lang_global(shader->unit, global_id, NULL);
     if (global->kind == LANG_GLOBAL_UNIFORM)
-        return find_binding(shader, uniform_block(global->type), global->name, scalar_of(global->type));
+        return find_binding(shader, uniform_block(global->type), global->name,
+                            scalar_of(global->type));
     if (global->kind == LANG_GLOBAL_STREAM)
         return find_binding(shader, BLOCK_VERTEX_DATA, global->name, scalar_of(global->type));
     return UINT32_MAX;
@@ -222,12 +240,12 @@ enum {
 static const struct uniform_row *find_uniform(str_id name)
 {
     switch (name) {
-#define UNIFORM(name, TYPE, value) \
-    case STR_u_##name: \
-        return &uniform_rows[ROW_##name];
+        /* clang-format takes the include for a part of the macro. */
+// clang-format off
+#define UNIFORM(name, TYPE, value) case STR_u_##name: return &uniform_rows[ROW_##name];
 #include "shader/streams.def"
-    default:
-        return NULL;
+        // clang-format on
+    default: return NULL;
     }
 }
 
@@ -256,7 +274,8 @@ static struct ir_value default_value(ir_type_id type, float number)
     return value;
 }
 
-uint32_t shader_private_uniform(struct shader *shader, str_id name, ir_type_id type, uint16_t array_length)
+uint32_t shader_private_uniform(struct shader *shader, str_id name, ir_type_id type,
+                                uint16_t array_length)
 {
     const struct uniform_row *row = find_uniform(name);
     type = row ? row->type : type;
@@ -264,7 +283,8 @@ uint32_t shader_private_uniform(struct shader *shader, str_id name, ir_type_id t
     uint32_t found = find_binding(shader, block, name, scalar_of(type));
     if (found != UINT32_MAX)
         return found;
-    struct shader_variable variable = {.name = name, .block = (uint8_t)block, .type = type, .array_length = array_length};
+    struct shader_variable variable = {
+        .name = name, .block = (uint8_t)block, .type = type, .array_length = array_length};
     variable.rank = row ? (uint16_t)(row - uniform_rows + 1) : 0;
     if (variable.block == BLOCK_PRIVATE_UNIFORMS && variable.type < IR_NUM_TYPES && !array_length) {
         variable.has_default = true;
@@ -277,11 +297,14 @@ uint32_t shader_private_uniform(struct shader *shader, str_id name, ir_type_id t
 uint32_t shader_light_member(struct shader *shader, str_id name, ir_type_id type)
 {
     if (shader_find_variable(shader, BLOCK_LIGHT_DATA, STR_type) == UINT32_MAX)
-        shader_add_variable(shader, &(struct shader_variable){.name = STR_type, .block = BLOCK_LIGHT_DATA, .type = IR_TYPE_INT});
+        shader_add_variable(shader, &(struct shader_variable){.name = STR_type,
+                                                              .block = BLOCK_LIGHT_DATA,
+                                                              .type = IR_TYPE_INT});
     uint32_t found = shader_find_variable(shader, BLOCK_LIGHT_DATA, name);
     if (found != UINT32_MAX && shader->variables.items[found].type == type)
         return found;
-    return shader_add_variable(shader, &(struct shader_variable){.name = name, .block = BLOCK_LIGHT_DATA, .type = type});
+    return shader_add_variable(
+        shader, &(struct shader_variable){.name = name, .block = BLOCK_LIGHT_DATA, .type = type});
 }
 
 /* ---- Streams ---- */
@@ -289,7 +312,7 @@ uint32_t shader_light_member(struct shader *shader, str_id name, ir_type_id type
 enum stream_space { SPACE_OBJECT, SPACE_POINT, SPACE_VECTOR, SPACE_NORMAL, SPACE_BITANGENT };
 
 struct stream_row {
-    str_id name;        /* 0: of a family, which shares `attribute` with its attributes */
+    str_id name; /* 0: of a family, which shares `attribute` with its attributes */
     ir_type_id type;
     const char *attribute;
     uint8_t space; /* enum stream_space */
@@ -302,7 +325,8 @@ static const struct stream_row stream_rows[] = {
 };
 
 /* *out_suffix: what follows a family's name. */
-static const struct stream_row *find_stream(const struct shader *shader, str_id name, const char **out_suffix)
+static const struct stream_row *find_stream(const struct shader *shader, str_id name,
+                                            const char **out_suffix)
 {
     *out_suffix = "";
     for (size_t i = 0; i < sizeof stream_rows / sizeof *stream_rows; i++) {
@@ -340,7 +364,8 @@ static str_id concat(struct shader *shader, const char *a, const char *b, const 
 }
 
 /* "position:object", "normal:world", "texcoord:0", "geomprop:st". */
-static str_id stream_semantic(struct shader *shader, const struct stream_row *row, const char *suffix)
+static str_id stream_semantic(struct shader *shader, const struct stream_row *row,
+                              const char *suffix)
 {
     if (*suffix) {
         struct text family;
@@ -363,14 +388,16 @@ static bool is_flat(ir_type_id type)
     return scalar_of(type) == IR_TYPE_INT;
 }
 
-static ir_ref attribute(struct shader *shader, const struct stream_row *row, const char *suffix, ir_type_id type)
+static ir_ref attribute(struct shader *shader, const struct stream_row *row, const char *suffix,
+                        ir_type_id type)
 {
     str_id name = concat(shader, "i_", row->attribute, suffix);
     uint32_t index = find_binding(shader, BLOCK_APP_DATA, name, scalar_of(type));
     if (index == UINT32_MAX) {
         struct shader_variable variable = {.name = name, .block = BLOCK_APP_DATA, .type = type};
         variable.rank = (uint16_t)(row - stream_rows);
-        variable.semantic = *suffix ? stream_semantic(shader, row, suffix) : concat(shader, row->attribute, ":", "object");
+        variable.semantic = *suffix ? stream_semantic(shader, row, suffix)
+                                    : concat(shader, row->attribute, ":", "object");
         index = bind(shader, &variable);
     }
     return shader_read(shader, index);
@@ -380,7 +407,8 @@ bool shader_attribute(const struct shader *shader, uint32_t stream, uint32_t *ou
 {
     str_id semantic = shader->variables.items[stream].semantic;
     for (uint32_t i = 0; i < shader->variables.len; i++)
-        if (shader->variables.items[i].block == BLOCK_APP_DATA && shader->variables.items[i].semantic == semantic) {
+        if (shader->variables.items[i].block == BLOCK_APP_DATA
+            && shader->variables.items[i].semantic == semantic) {
             *out_index = i;
             return true;
         }
@@ -402,24 +430,26 @@ static ir_ref xyz(struct ir_graph *graph, ir_ref v)
 }
 
 /* Streams that others are made of have the same suffix: "normalWorld" for "bitangentWorld". */
-static ir_ref vertex_expression(struct shader *shader, const struct stream_row *row, const char *suffix, ir_type_id type)
+static ir_ref vertex_expression(struct shader *shader, const struct stream_row *row,
+                                const char *suffix, ir_type_id type)
 {
     struct ir_graph *graph = shader->graph;
     if (row->space == SPACE_BITANGENT) {
-        ir_ref normal = shader_vertex_stream(shader, concat(shader, "normal", row->attribute, ""), IR_TYPE_VOID);
-        ir_ref tangent = shader_vertex_stream(shader, concat(shader, "tangent", row->attribute, ""), IR_TYPE_VOID);
+        ir_ref normal = shader_vertex_stream(shader, concat(shader, "normal", row->attribute, ""),
+                                             IR_TYPE_VOID);
+        ir_ref tangent = shader_vertex_stream(shader, concat(shader, "tangent", row->attribute, ""),
+                                              IR_TYPE_VOID);
         return ir_op2(graph, IR_CROSS, normal, tangent);
     }
     ir_ref a = attribute(shader, row, suffix, type);
     switch ((enum stream_space)row->space) {
-    case SPACE_POINT:
-        return xyz(graph, transform(shader, STR_u_worldMatrix, a, 1));
+    case SPACE_POINT: return xyz(graph, transform(shader, STR_u_worldMatrix, a, 1));
     case SPACE_VECTOR:
         return ir_op1(graph, IR_NORMALIZE, xyz(graph, transform(shader, STR_u_worldMatrix, a, 0)));
     case SPACE_NORMAL:
-        return ir_op1(graph, IR_NORMALIZE, xyz(graph, transform(shader, STR_u_worldInverseTransposeMatrix, a, 0)));
-    default:
-        return a;
+        return ir_op1(graph, IR_NORMALIZE,
+                      xyz(graph, transform(shader, STR_u_worldInverseTransposeMatrix, a, 0)));
+    default: return a;
     }
 }
 
@@ -447,7 +477,8 @@ ir_ref shader_vertex_stream(struct shader *shader, str_id name, ir_type_id type)
     const struct stream_row *row = find_stream(shader, name, &suffix);
     if (!row || (row->type == IR_TYPE_VOID && type == IR_TYPE_VOID))
         return 0;
-    return as_wanted(shader->graph, vertex_expression(shader, row, suffix, carried_type(row, type)), type);
+    return as_wanted(shader->graph, vertex_expression(shader, row, suffix, carried_type(row, type)),
+                     type);
 }
 
 ir_ref shader_stream(struct shader *shader, str_id name, ir_type_id type)
@@ -459,7 +490,8 @@ ir_ref shader_stream(struct shader *shader, str_id name, ir_type_id type)
     ir_type_id carried = carried_type(row, type);
     uint32_t index = find_binding(shader, BLOCK_VERTEX_DATA, name, scalar_of(carried));
     if (index == UINT32_MAX) {
-        struct shader_variable variable = {.name = name, .block = BLOCK_VERTEX_DATA, .type = carried};
+        struct shader_variable variable = {
+            .name = name, .block = BLOCK_VERTEX_DATA, .type = carried};
         variable.rank = (uint16_t)(row - stream_rows);
         variable.flat = is_flat(carried);
         variable.semantic = stream_semantic(shader, row, suffix);
@@ -469,7 +501,8 @@ ir_ref shader_stream(struct shader *shader, str_id name, ir_type_id type)
         shader->graph->origin = ir_add_origin(shader->graph, name, 0, 0);
         ir_ref value = vertex_expression(shader, row, suffix, carried);
         shader->graph->origin = origin;
-        shader_effect(shader, STAGE_VERTEX, (struct effect){.kind = EFFECT_OUTPUT, .index = index, .value = value});
+        shader_effect(shader, STAGE_VERTEX,
+                      (struct effect){.kind = EFFECT_OUTPUT, .index = index, .value = value});
     }
     return as_wanted(shader->graph, shader_read(shader, index), type);
 }

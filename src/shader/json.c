@@ -52,10 +52,11 @@ static void put_ui(struct json *json, const struct shader_variable *variable)
     const struct {
         const char *key, *value;
     } fields[] = {
-        {"name", ui.name},         {"folder", ui.folder},    {"min", ui.min},
-        {"max", ui.max},           {"softMin", ui.soft_min}, {"softMax", ui.soft_max},
-        {"step", ui.step},         {"doc", ui.doc},          {"enum", ui.enum_names},
-        {"enumValues", ui.enum_values},
+        {"name", ui.name},        {"folder", ui.folder},
+        {"min", ui.min},          {"max", ui.max},
+        {"softMin", ui.soft_min}, {"softMax", ui.soft_max},
+        {"step", ui.step},        {"doc", ui.doc},
+        {"enum", ui.enum_names},  {"enumValues", ui.enum_values},
     };
     bool any = ui.advanced;
     for (size_t i = 0; i < sizeof fields / sizeof *fields; i++)
@@ -160,7 +161,8 @@ static void put_block(struct json *json, enum shader_block block)
     reflect_key(json, "variables");
     reflect_open(json, '[');
     for (uint32_t i = 0; i < shader->interface.len; i++) {
-        const struct shader_variable *variable = &shader->variables.items[shader->interface.items[i]];
+        const struct shader_variable *variable =
+            &shader->variables.items[shader->interface.items[i]];
         if (variable->block == block)
             put_variable(json, variable);
     }
@@ -205,9 +207,11 @@ static void put_lights(struct json *json)
         reflect_key(json, "members");
         reflect_open(json, '[');
         for (uint32_t m = 0; m < light->num_members; m++) {
-            str_id name = shader->variables.items[shader->light_members.items[light->first_member + m]].name;
+            str_id name =
+                shader->variables.items[shader->light_members.items[light->first_member + m]].name;
             reflect_item(json);
-            text_json_string(json->out, str_text(shader->strings, name), str_len(shader->strings, name));
+            text_json_string(json->out, str_text(shader->strings, name),
+                             str_len(shader->strings, name));
         }
         reflect_close(json, ']');
         reflect_close(json, '}');
@@ -228,7 +232,8 @@ static void put_functions(struct json *json)
         for (uint32_t i = 0; i < reach->functions.len; i++) {
             str_id name = lang_function(json->shader->unit, reach->functions.items[i], NULL)->name;
             reflect_item(json);
-            text_json_string(json->out, str_text(json->shader->strings, name), str_len(json->shader->strings, name));
+            text_json_string(json->out, str_text(json->shader->strings, name),
+                             str_len(json->shader->strings, name));
         }
         reflect_close(json, ']');
     }
@@ -270,7 +275,8 @@ static void put_network(struct json *json)
     network_reflect(json, json->options->groups, json->options->num_groups);
 }
 
-void shader_reflect_json(const struct shader *shader, const struct shader_reflect_options *options, struct text *out)
+void shader_reflect_json(const struct shader *shader, const struct shader_reflect_options *options,
+                         struct text *out)
 {
     struct json json = {.shader = shader, .options = options, .out = out};
     reflect_open(&json, '{');

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * json_write.c: JSON with an item per line; keys whose value says nothing are left out by the functions that take text.
+ * json_write.c: JSON with an item per line; keys whose value says nothing are left out by the
+ * functions that take text.
  */
 #ifndef MXG_SHADER_JSON_H
 #define MXG_SHADER_JSON_H

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * layout: the order of the interface, byte offsets by the rules of std140 (OpenGL 4.5 core specification, section 7.6.2.2),
- * bindings and locations.
+ * layout: the order of the interface, byte offsets by the rules of std140 (OpenGL 4.5 core
+ * specification, section 7.6.2.2), bindings and locations.
  */
 #include "shader/shader.h"
 
 #include <assert.h>
 
 /*
- * Bindings of blocks are the same in every shader, so that hosts can share set layouts; textures follow.
+ * Bindings of blocks are the same in every shader, so that hosts can share set layouts; textures
+ * follow.
  */
 enum { BINDING_PRIVATE, BINDING_PUBLIC, BINDING_LIGHTS, BINDING_FIRST_TEXTURE };
 
@@ -20,7 +21,8 @@ static uint32_t round_up(uint32_t n, uint32_t to)
 }
 
 /*
- * Rules 1 to 3: scalars by their size, vectors of 2 and 4 by theirs, vectors of 3 like 4. Matrices are arrays of columns.
+ * Rules 1 to 3: scalars by their size, vectors of 2 and 4 by theirs, vectors of 3 like 4. Matrices
+ * are arrays of columns.
  */
 uint32_t std140_align(ir_type_id type, bool array)
 {
@@ -34,12 +36,14 @@ uint32_t std140_align(ir_type_id type, bool array)
 uint32_t std140_size(ir_type_id type, uint16_t array_length)
 {
     const struct ir_type_info *info = ir_type_info(type);
-    uint32_t size = info->columns > 1 ? (uint32_t)info->columns * STD140_ROUND : 4u * info->components;
+    uint32_t size =
+        info->columns > 1 ? (uint32_t)info->columns * STD140_ROUND : 4u * info->components;
     return array_length ? array_length * round_up(size, STD140_ROUND) : size;
 }
 
 /*
- * Blocks are gathered first, so that the sort by rank within them moves only the few private variables.
+ * Blocks are gathered first, so that the sort by rank within them moves only the few private
+ * variables.
  */
 static void order_interface(struct shader *shader)
 {
@@ -58,7 +62,9 @@ static void order_interface(struct shader *shader)
         if (!variable->stages)
             continue;
         uint32_t at = ends[variable->block]++;
-        for (; at > starts[variable->block] && shader->variables.items[order[at - 1]].rank > variable->rank; at--)
+        for (; at > starts[variable->block]
+               && shader->variables.items[order[at - 1]].rank > variable->rank;
+             at--)
             order[at] = order[at - 1];
         order[at] = i;
     }

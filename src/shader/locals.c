@@ -5,16 +5,32 @@
 #include "shader/schedule.h"
 
 /*
- * Expressions are kept to about a line. Costs are those of SPIR-V before any optimiser: reading a block's member takes an access chain
- * and a load, a local a variable, a store and a load per use.
+ * Expressions are kept to about a line. Costs are those of SPIR-V before any optimiser: reading a
+ * block's member takes an access chain and a load, a local a variable, a store and a load per use.
  */
 /*
- * Characters. A name counts as any other, however long it is: shaders that differ in names alone have the same statements.
+ * Characters. A name counts as any other, however long it is: shaders that differ in names alone
+ * have the same statements.
  */
-enum { GOOD_CHARS = 110, MAX_CHARS = 220, MIN_SPLIT_CHARS = 40, MAX_REPEATED_CHARS = 32, MAX_CLOSURE_CHARS = 64, NAME_CHARS = 10 };
+enum {
+    GOOD_CHARS = 110,
+    MAX_CHARS = 220,
+    MIN_SPLIT_CHARS = 40,
+    MAX_REPEATED_CHARS = 32,
+    MAX_CLOSURE_CHARS = 64,
+    NAME_CHARS = 10
+};
 /* an access and a load each time, or once, a store, and a load each time */
 enum { MIN_USES_OF_COPY = 5 };
-enum { COST_OPERATOR = 1, COST_CHOICE = 3, COST_BUILTIN = 4, COST_CALL = 32, COST_LOCAL = 2, MAX_COST_IN_LOOP = 3, MAX_COST_OF_ARM = 24 };
+enum {
+    COST_OPERATOR = 1,
+    COST_CHOICE = 3,
+    COST_BUILTIN = 4,
+    COST_CALL = 32,
+    COST_LOCAL = 2,
+    MAX_COST_IN_LOOP = 3,
+    MAX_COST_OF_ARM = 24
+};
 
 static bool is_splat(ir_type_id type, const union ir_word *words)
 {
@@ -30,7 +46,8 @@ static uint16_t clamp16(uint32_t n)
 }
 
 /*
- * Nodes that never become locals for their own sake: names, and small constants. Fills cost and chars.
+ * Nodes that never become locals for their own sake: names, and small constants. Fills cost and
+ * chars.
  */
 static bool is_source(const struct scheduler *s, struct plan *plan)
 {
@@ -49,7 +66,8 @@ static bool is_source(const struct scheduler *s, struct plan *plan)
     case IR_UNIFORM:
         plan->cost = 2;
         plan->chars = clamp16(NAME_CHARS + 3);
-        return !s->shader->in_blocks || plan->uses < MIN_USES_OF_COPY || ir_type_is_matrix(node->type);
+        return !s->shader->in_blocks || plan->uses < MIN_USES_OF_COPY
+               || ir_type_is_matrix(node->type);
     case IR_STREAM:
     case IR_TEXTURE:
         plan->cost = 2;
@@ -66,31 +84,36 @@ static bool is_source(const struct scheduler *s, struct plan *plan)
         plan->cost = 1;
         plan->chars = 4;
         return true;
-    default:
-        return false;
+    default: return false;
     }
 }
 
 /*
- * What an operation adds to its operands: cost, characters, and characters for each of them. Calls have names of any length.
+ * What an operation adds to its operands: cost, characters, and characters for each of them. Calls
+ * have names of any length.
  */
 static const struct {
     uint8_t cost, chars, chars_each, unused; /* of a size that is an address's scale */
 } measures[IR_NUM_OPS] = {
-#define OP(ID, text, arity, rule, flags, doc)                                                        \
-    [IR_##ID] = {(flags)&OP_BUILTIN ? COST_BUILTIN : COST_OPERATOR,                                   \
-                 (flags)&OP_BUILTIN ? sizeof text - 1 : IR_##ID == IR_CONSTRUCT ? 4 : 0, (flags)&OP_BUILTIN ? 2 : 3, 0},
+#define OP(ID, text, arity, rule, flags, doc) \
+    [IR_##ID] = {(flags)&OP_BUILTIN ? COST_BUILTIN : COST_OPERATOR, \
+                 (flags)&OP_BUILTIN        ? sizeof text - 1 \
+                 : IR_##ID == IR_CONSTRUCT ? 4 \
+                                           : 0, \
+                 (flags)&OP_BUILTIN ? 2 : 3, 0},
 #include "ir/ops.def"
 #undef OP
 };
 
-static void own_measure(const struct scheduler *s, const struct plan *plan, uint32_t *out_cost, uint32_t *out_chars)
+static void own_measure(const struct scheduler *s, const struct plan *plan, uint32_t *out_cost,
+                        uint32_t *out_chars)
 {
     *out_cost = measures[plan->op].cost;
     *out_chars = measures[plan->op].chars + measures[plan->op].chars_each * plan->num_args;
     if (is_call(plan->op)) {
         uint32_t attr = node_of(s, plan)->attr;
-        str_id name = plan->op == IR_GRAPH_CALL ? s->graph->functions.items[attr].name : s->graph->callees.items[attr].name;
+        str_id name = plan->op == IR_GRAPH_CALL ? s->graph->functions.items[attr].name
+                                                : s->graph->callees.items[attr].name;
         *out_cost = COST_CALL;
         *out_chars = (uint32_t)str_len(s->shader->strings, name) + 2 * plan->num_args;
     } else if (plan->op == IR_CONVERT && plan_of(s, *args_of(s, plan))->type == IR_TYPE_BOOL) {
@@ -105,7 +128,8 @@ static bool may_let(const struct scheduler *s, const struct plan *plan)
         return false;
     if (plan->flags & PLAN_LOOP && s->regions.items[plan->region].outside == plan->region)
         return false;
-    bool is_opaque = type == IR_TYPE_SAMPLER || type == IR_TYPE_SAMPLER_ARRAY || type == IR_TYPE_STRING;
+    bool is_opaque =
+        type == IR_TYPE_SAMPLER || type == IR_TYPE_SAMPLER_ARRAY || type == IR_TYPE_STRING;
     return plan->flags & PLAN_STATEMENT || (type != IR_TYPE_VOID && !is_opaque);
 }
 
@@ -124,7 +148,8 @@ static struct plan *longest_operand(const struct scheduler *s, const struct plan
     const ir_ref *args = args_of(s, plan), *end = args + plan->num_args;
     for (; args < end; args++) {
         struct plan *operand = plan_of(s, *args);
-        bool is_long = operand->chars >= MIN_SPLIT_CHARS && (!longest || operand->chars > longest->chars);
+        bool is_long =
+            operand->chars >= MIN_SPLIT_CHARS && (!longest || operand->chars > longest->chars);
         if (is_long && operand->num_args > 0 && !(operand->flags & PLAN_LET) && may_let(s, operand))
             longest = operand;
     }
@@ -132,8 +157,8 @@ static struct plan *longest_operand(const struct scheduler *s, const struct plan
 }
 
 /*
- * Sums the operands up; the longest of them become locals until the whole is no longer than a line. Where hardly anything would
- * remain without them, the line may be longer.
+ * Sums the operands up; the longest of them become locals until the whole is no longer than a line.
+ * Where hardly anything would remain without them, the line may be longer.
  */
 static void measure(const struct scheduler *s, struct plan *plan)
 {
@@ -161,7 +186,8 @@ static void measure(const struct scheduler *s, struct plan *plan)
 /* Operators on what is at hand are cheaper repeated than stored. */
 static bool is_cheap(const struct plan *plan)
 {
-    if (!(ir_op_info(plan->op)->flags & OP_OPERATOR) || plan->op == IR_SELECT || plan->chars > MAX_REPEATED_CHARS)
+    if (!(ir_op_info(plan->op)->flags & OP_OPERATOR) || plan->op == IR_SELECT
+        || plan->chars > MAX_REPEATED_CHARS)
         return false;
     if (plan->flags & PLAN_MOVED)
         return plan->cost <= MAX_COST_IN_LOOP;
@@ -182,13 +208,14 @@ static bool is_part(struct scheduler *s, const struct plan *plan)
 /* May an arm become a local for the sake of let_arms? What has a name already is not copied. */
 static bool is_little_work(struct scheduler *s, const struct plan *arm)
 {
-    return arm->flags & PLAN_LOOP && (arm->num_args > 0 || arm->op == IR_CONTEXT) && !is_part(s, arm)
-           && arm->cost <= MAX_COST_OF_ARM && may_let(s, arm) && !(arm->flags & PLAN_LOCAL);
+    return arm->flags & PLAN_LOOP && (arm->num_args > 0 || arm->op == IR_CONTEXT)
+           && !is_part(s, arm) && arm->cost <= MAX_COST_OF_ARM && may_let(s, arm)
+           && !(arm->flags & PLAN_LOCAL);
 }
 
 /*
- * A choice between locals and constants is one operation; between expressions it is a branch. In a loop, what is little
- * work is rather done in vain; elsewhere one line reads better.
+ * A choice between locals and constants is one operation; between expressions it is a branch. In a
+ * loop, what is little work is rather done in vain; elsewhere one line reads better.
  */
 static void let_arms(struct scheduler *s, const struct plan *plan)
 {
@@ -207,8 +234,8 @@ static void let_arms(struct scheduler *s, const struct plan *plan)
 static void let_wholes(struct scheduler *s, const struct plan *plan)
 {
     uint8_t op = plan->op;
-    if (op != IR_SWIZZLE && op != IR_MEMBER && op != IR_INDEX && op != IR_CONVERT && op != IR_CONSTRUCT
-        && op != IR_TEX)
+    if (op != IR_SWIZZLE && op != IR_MEMBER && op != IR_INDEX && op != IR_CONVERT
+        && op != IR_CONSTRUCT && op != IR_TEX)
         return;
     for (uint32_t a = 0; a < plan->num_args; a++) {
         struct plan *whole = plan_of(s, args_of(s, plan)[a]);
@@ -224,7 +251,8 @@ static bool is_wanted(const struct plan *plan)
 {
     unsigned flags = plan->flags;
     bool is_long_closure = plan->op == IR_LEAF && plan->chars > MAX_CLOSURE_CHARS;
-    if (flags & PLAN_STATEMENT || is_long_closure || (flags & PLAN_NEIGHBOURS && flags & (PLAN_IN_ARM | PLAN_MOVED)))
+    if (flags & PLAN_STATEMENT || is_long_closure
+        || (flags & PLAN_NEIGHBOURS && flags & (PLAN_IN_ARM | PLAN_MOVED)))
         return true;
     return (plan->uses > 1 || flags & PLAN_MOVED) && !is_cheap(plan);
 }

@@ -31,11 +31,13 @@ void network_find_needed(struct network_group *group)
     group->needed = needed;
 }
 
-static uint64_t hash_input(const struct network_group *group, const struct network_input *input, uint64_t h)
+static uint64_t hash_input(const struct network_group *group, const struct network_input *input,
+                           uint64_t h)
 {
     if (input->kind != NETWORK_LAYER)
         return hash_mix(h, 1);
-    return hash_mix(hash_mix(h, group->needed[input->layer]), (uint64_t)input->layer << 8 | input->output);
+    return hash_mix(hash_mix(h, group->needed[input->layer]),
+                    (uint64_t)input->layer << 8 | input->output);
 }
 
 uint64_t network_topology(const struct network_group *groups, uint32_t num_groups)
@@ -43,7 +45,8 @@ uint64_t network_topology(const struct network_group *groups, uint32_t num_group
     uint64_t h = 0;
     for (uint32_t g = 0; g < num_groups; g++) {
         const struct network *network = groups[g].network;
-        h = hash_input(&groups[g], &groups[g].results[1], hash_input(&groups[g], &groups[g].results[0], hash_mix(h, groups[g].use)));
+        h = hash_input(&groups[g], &groups[g].results[1],
+                       hash_input(&groups[g], &groups[g].results[0], hash_mix(h, groups[g].use)));
         for (uint32_t i = 0; i < network->layers.len; i++) {
             const struct network_layer *layer = &network->layers.items[i];
             const struct network_node *node = &network->nodes.items[layer->node];
@@ -58,7 +61,8 @@ uint64_t network_topology(const struct network_group *groups, uint32_t num_group
 
 /* ---- JSON ---- */
 
-static void put_input(struct json *json, const struct network *network, const struct network_input *input, const char *name)
+static void put_input(struct json *json, const struct network *network,
+                      const struct network_input *input, const char *name)
 {
     reflect_item(json);
     reflect_open(json, '{');
@@ -79,10 +83,12 @@ static void put_input(struct json *json, const struct network *network, const st
 
 static bool is_said(const struct network_input *input)
 {
-    return input->kind != NETWORK_DEFAULT && !(input->kind == NETWORK_FILE && !input->file && !input->path);
+    return input->kind != NETWORK_DEFAULT
+           && !(input->kind == NETWORK_FILE && !input->file && !input->path);
 }
 
-static void put_layer(struct json *json, const struct network *network, const struct network_layer *layer)
+static void put_layer(struct json *json, const struct network *network,
+                      const struct network_layer *layer)
 {
     const struct network_node *node = &network->nodes.items[layer->node];
     reflect_item(json);
@@ -94,7 +100,8 @@ static void put_layer(struct json *json, const struct network *network, const st
     reflect_open(json, '[');
     for (uint32_t i = 0; i < node->num_inputs; i++)
         if (node->inputs[i] && is_said(&network->inputs.items[layer->first_input + i]))
-            put_input(json, network, &network->inputs.items[layer->first_input + i], str_text(network->strings, node->inputs[i]));
+            put_input(json, network, &network->inputs.items[layer->first_input + i],
+                      str_text(network->strings, node->inputs[i]));
     reflect_close(json, ']');
     reflect_close(json, '}');
 }
@@ -131,7 +138,8 @@ static void put_group(struct json *json, const struct network_group *group)
     if (!group->end->name) {
         const struct network_layer *layer = &network->layers.items[group->results[0].layer];
         reflect_id(json, "layer", layer->name);
-        reflect_id(json, "output", network->nodes.items[layer->node].outputs[group->results[0].output]);
+        reflect_id(json, "output",
+                   network->nodes.items[layer->node].outputs[group->results[0].output]);
     }
     reflect_close(json, '}');
 }

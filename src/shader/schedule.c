@@ -6,10 +6,12 @@
  *     graph                         w, p shared or invariant, f(…) used once
  *     statements                    IF { let w, let p; LIGHTS { accumulate += w * f(p, L) } }
  *
- * Three walks over the nodes that a list of effects reaches: collect them (operands first), find each one's region and first use
- * (users first), and choose the locals (operands first). All are iterative and linear.
+ * Three walks over the nodes that a list of effects reaches: collect them (operands first), find
+ * each one's region and first use (users first), and choose the locals (operands first). All are
+ * iterative and linear.
  *
- * needs: a graph without closures      keeps: order of effects      collects: reach, functions, the variables' stages
+ * needs: a graph without closures      keeps: order of effects
+ * collects: reach, functions, the variables' stages
  */
 #include "shader/schedule.h"
 
@@ -23,7 +25,8 @@ unsigned shader_call_outs(const struct shader *shader, ir_ref call)
     if (node->op == IR_VERBATIM)
         return shader->verbatim.items[shader_callee(shader, call)].num_results;
     const struct lang_unit *layer;
-    const struct lang_function *fn = lang_function(shader->unit, shader_callee(shader, call), &layer);
+    const struct lang_function *fn =
+        lang_function(shader->unit, shader_callee(shader, call), &layer);
     unsigned outs = 0;
     for (uint32_t i = 0; i < fn->num_params; i++)
         outs += layer->slots.items[fn->first_slot + i].mode != LANG_IN;
@@ -41,11 +44,13 @@ static void need_verbatim(struct scheduler *s, uint32_t callee)
 }
 
 /*
- * Must all pixels make it together? An IR function counts as soon as derivatives are in it or in its arguments.
+ * Must all pixels make it together? An IR function counts as soon as derivatives are in it or in
+ * its arguments.
  */
 static bool needs_neighbours(const struct ir_graph *graph, const struct ir_node *call)
 {
-    return call->op == IR_GRAPH_CALL ? call->flags & IR_NODE_DERIVATIVE : graph->callees.items[call->attr].derivative;
+    return call->op == IR_GRAPH_CALL ? call->flags & IR_NODE_DERIVATIVE
+                                     : graph->callees.items[call->attr].derivative;
 }
 
 /* What the shader must have for a call; returns flags that follow from it. */
@@ -58,7 +63,8 @@ static unsigned note_call(struct scheduler *s, ir_ref ref, const struct ir_node 
     else
         vec_push(s->arena, &s->called, node->attr);
     bool is_statement = node->type == IR_TYPE_VOID || shader_call_outs(s->shader, ref);
-    return (is_statement ? PLAN_STATEMENT : 0u) | (needs_neighbours(s->graph, node) ? PLAN_NEIGHBOURS : 0u);
+    return (is_statement ? PLAN_STATEMENT : 0u)
+           | (needs_neighbours(s->graph, node) ? PLAN_NEIGHBOURS : 0u);
 }
 
 static void note_variable(const struct scheduler *s, uint32_t index)
@@ -73,21 +79,15 @@ static void note_variable(const struct scheduler *s, uint32_t index)
 static inline unsigned note_needs(struct scheduler *s, ir_ref ref, const struct ir_node *node)
 {
     switch (node->op) {
-    case IR_LOCAL:
-        s->any_local = true;
-        return PLAN_LOCAL;
+    case IR_LOCAL: s->any_local = true; return PLAN_LOCAL;
     case IR_CONTEXT:
     case IR_UNIFORM:
     case IR_STREAM:
-    case IR_TEXTURE:
-        note_variable(s, node->attr);
-        return 0;
+    case IR_TEXTURE: note_variable(s, node->attr); return 0;
     case IR_CALL:
     case IR_VERBATIM:
-    case IR_GRAPH_CALL:
-        return note_call(s, ref, node);
-    default:
-        return ir_op_info(node->op)->flags & OP_DERIVATIVE ? PLAN_NEIGHBOURS : 0;
+    case IR_GRAPH_CALL: return note_call(s, ref, node);
+    default: return ir_op_info(node->op)->flags & OP_DERIVATIVE ? PLAN_NEIGHBOURS : 0;
     }
 }
 
@@ -106,8 +106,14 @@ static inline void reach_node(struct scheduler *s, ir_ref ref)
     unsigned flags = note_needs(s, ref, node) | (node->flags & PLAN_LOOP);
     if (s->any_local)
         flags |= locals_below(s, node);
-    s->plans[ref] = (struct plan){.region = NO_REGION, .first = NO_EFFECT, .effect = NO_EFFECT, .num_args = node->num_args,
-                                  .first_arg = node->first_arg, .type = node->type, .op = node->op, .flags = (uint8_t)flags};
+    s->plans[ref] = (struct plan){.region = NO_REGION,
+                                  .first = NO_EFFECT,
+                                  .effect = NO_EFFECT,
+                                  .num_args = node->num_args,
+                                  .first_arg = node->first_arg,
+                                  .type = node->type,
+                                  .op = node->op,
+                                  .flags = (uint8_t)flags};
     s->is_reached[ref] = true;
     s->reached.items[s->reached.len++] = ref;
 }
@@ -116,7 +122,8 @@ static inline void reach_node(struct scheduler *s, ir_ref ref)
 static void collect(struct scheduler *s, ir_ref ref)
 {
     const struct ir_node *nodes = s->graph->nodes.items;
-    const ir_ref *args = s->graph->args.items, *next = args + nodes[ref].first_arg, *end = next + nodes[ref].num_args;
+    const ir_ref *args = s->graph->args.items, *next = args + nodes[ref].first_arg,
+                 *end = next + nodes[ref].num_args;
     const bool *is_reached = s->is_reached;
     if (is_reached[ref])
         return;
@@ -188,7 +195,8 @@ static uint32_t lift(const struct scheduler *s, uint32_t effect, uint32_t region
 }
 
 /* What one use says of a node; of `effect` only nodes that read a LOCAL want to know. */
-static inline void use(const struct scheduler *s, struct plan *plan, uint32_t uses, uint32_t region, uint32_t first)
+static inline void use(const struct scheduler *s, struct plan *plan, uint32_t uses, uint32_t region,
+                       uint32_t first)
 {
     if (plan->region != region)
         plan->region = plan->uses ? common_region(s, plan->region, region) : region;
@@ -226,7 +234,8 @@ static inline bool has_arms(const struct plan *plan)
 }
 
 /* What a node's place says of its operands. That of the absent one stands for nothing. */
-static inline void place_operands(const struct scheduler *s, struct plan *plans, const struct plan *plan)
+static inline void place_operands(const struct scheduler *s, struct plan *plans,
+                                  const struct plan *plan)
 {
     /* a result is another name of its call */
     uint32_t uses = plan->op == IR_RESULT ? plan->uses : 1;
@@ -268,7 +277,8 @@ static void find_places(struct scheduler *s, const struct effect_list *effects)
 /* ---- Statements ---- */
 
 /*
- * The nodes that become locals, in the order in which they were reached; they stand before the effects that need them first.
+ * The nodes that become locals, in the order in which they were reached; they stand before the
+ * effects that need them first.
  */
 static void find_lets(struct scheduler *s)
 {
@@ -284,7 +294,8 @@ static void find_lets(struct scheduler *s)
 }
 
 /* The effects with the LETs in front of those that need them first. */
-static void write_statements(struct scheduler *s, const struct effect_list *effects, struct effect_list *out)
+static void write_statements(struct scheduler *s, const struct effect_list *effects,
+                             struct effect_list *out)
 {
     /* per effect: where its LETs begin */
     uint32_t *first = ARENA_ARRAY(s->arena, uint32_t, effects->len + 1);
@@ -296,7 +307,8 @@ static void write_statements(struct scheduler *s, const struct effect_list *effe
     struct effect *statements = vec_extend(s->arena, out, s->lets.len + effects->len);
     for (uint32_t i = 0; i < s->lets.len; i++) {
         uint32_t effect = plan_of(s, s->lets.items[i])->first;
-        statements[first[effect]++ + effect] = (struct effect){.kind = EFFECT_LET, .value = s->lets.items[i]};
+        statements[first[effect]++ + effect] =
+            (struct effect){.kind = EFFECT_LET, .value = s->lets.items[i]};
     }
     for (uint32_t i = 0; i < effects->len; i++)
         statements[first[i] + i] = effects->items[i];
@@ -313,7 +325,8 @@ static void forget_reached(struct scheduler *s)
             s->is_reached[s->reached.items[i]] = false;
 }
 
-static void schedule_effects(struct scheduler *s, const struct effect_list *effects, struct effect_list *out)
+static void schedule_effects(struct scheduler *s, const struct effect_list *effects,
+                             struct effect_list *out)
 {
     s->reached.len = s->called.len = 0;
     for (uint32_t i = 0; i < effects->len; i++)
@@ -335,7 +348,8 @@ static void schedule_function(struct scheduler *s, uint32_t function, struct eff
     struct effect_list effects = {0};
     for (uint32_t i = fn->num_results; i-- > 0;) {
         ir_ref result = s->graph->function_results.items[fn->first_result + i];
-        vec_push(s->arena, &effects, (struct effect){.kind = EFFECT_RESULT, .index = i, .value = result});
+        vec_push(s->arena, &effects,
+                 (struct effect){.kind = EFFECT_RESULT, .index = i, .value = result});
     }
     schedule_effects(s, &effects, out);
 }
@@ -353,7 +367,8 @@ static void schedule_functions(struct scheduler *s)
     for (;;) {
         struct caller *top = &vec_last(&stack);
         if (s->called.len) { /* just scheduled */
-            memcpy(vec_extend(s->arena, &top->called, s->called.len), s->called.items, s->called.len * sizeof *s->called.items);
+            memcpy(vec_extend(s->arena, &top->called, s->called.len), s->called.items,
+                   s->called.len * sizeof *s->called.items);
             s->called.len = 0;
         }
         uint32_t next = UINT32_MAX;
@@ -385,7 +400,9 @@ void shader_schedule(struct shader *shader, enum shader_stage_id stage)
         .stage = &shader->stages[stage],
         .stage_bit = (uint8_t)(1u << stage),
         .is_reached = ARENA_ARRAY(shader->arena, bool, shader->graph->nodes.len),
-        .plans = arena_alloc(shader->arena, mem_array_size(shader->arena->mem, shader->graph->nodes.len, sizeof(struct plan))),
+        .plans =
+            arena_alloc(shader->arena, mem_array_size(shader->arena->mem, shader->graph->nodes.len,
+                                                      sizeof(struct plan))),
     };
     vec_reserve(s.arena, &s.reached, shader->graph->nodes.len);
     s.plans[0] = (struct plan){0}; /* of absent operands */

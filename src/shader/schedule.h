@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Inside the scheduler: what is known of each node (schedule.c), from which its locals are chosen (locals.c).
+ * Inside the scheduler: what is known of each node (schedule.c), from which its locals are chosen
+ * (locals.c).
  */
 #ifndef MXG_SHADER_SCHEDULE_H
 #define MXG_SHADER_SCHEDULE_H
@@ -12,11 +13,11 @@
 #define MANY_EFFECTS (UINT32_MAX - 1)
 
 enum plan_flags {
-    PLAN_LOCAL = 1,      /* reads a LOCAL: may be shared within one effect only */
-    PLAN_IN_ARM = 2,     /* some use stands in an expression that is not always evaluated */
+    PLAN_LOCAL = 1,           /* reads a LOCAL: may be shared within one effect only */
+    PLAN_IN_ARM = 2,          /* some use stands in an expression that is not always evaluated */
     PLAN_LOOP = IR_NODE_LOOP, /* reads the light or sample at hand: may not leave its loop */
-    PLAN_MOVED = 8,      /* its region lies outside of that of a use */
-    PLAN_STATEMENT = 16, /* a call that cannot stand in an expression */
+    PLAN_MOVED = 8,           /* its region lies outside of that of a use */
+    PLAN_STATEMENT = 16,      /* a call that cannot stand in an expression */
     PLAN_LET = 32,
     PLAN_NEIGHBOURS = 64, /* to be evaluated by all pixels together */
 };
@@ -27,11 +28,11 @@ struct plan { /* what is known of a reached node, and what of the node itself is
     uint32_t first;  /* the first effect that needs it */
     uint32_t effect; /* where it reads a LOCAL: the only effect that needs it, or MANY_EFFECTS */
     uint32_t num_args, first_arg;
-    uint16_t cost;   /* instructions to compute it from locals and interface variables */
-    uint16_t chars;  /* its length as an expression, about */
+    uint16_t cost;  /* instructions to compute it from locals and interface variables */
+    uint16_t chars; /* its length as an expression, about */
     ir_type_id type;
     uint8_t op;
-    uint8_t flags;   /* enum plan_flags */
+    uint8_t flags; /* enum plan_flags */
 };
 
 struct region {
@@ -59,7 +60,7 @@ struct scheduler {
     VEC(struct visit) visits;
     VEC(struct region) regions;
     VEC(uint32_t) region_of; /* the region that each effect stands in */
-    VEC(uint32_t) called;  /* IR functions called from the effects at hand */
+    VEC(uint32_t) called;    /* IR functions called from the effects at hand */
     uint32_t first_discard;
 };
 

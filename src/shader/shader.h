@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * A shader between IR and text: interface variables in blocks, and per stage a list of statements that a target spells.
+ * A shader between IR and text: interface variables in blocks, and per stage a list of statements
+ * that a target spells.
  *
- *     build + closure ─→ shader (variables, effects) ─layout→ offsets, locations ─schedule→ statements ─spell→ text
- *                                                                               └→ reflection
+ *     build + closure ─→ shader (variables, effects) ─layout→ offsets, locations ─schedule→
+ * statements ─spell→ text └→ reflection
  */
 #ifndef MXG_SHADER_SHADER_H
 #define MXG_SHADER_SHADER_H
@@ -52,22 +53,22 @@ struct shader_tile {
 struct shader_variable {
     /* as spelled: "u_viewPosition", "SR_gold_base_color"; unique among what stands at file scope */
     str_id name;
-    uint8_t block;        /* enum shader_block */
+    uint8_t block; /* enum shader_block */
     /*
      * 1 << STAGE_… of each stage that reads it, or writes it; 0: nothing does, it is not declared
      */
     uint8_t stages;
-    uint8_t update;       /* enum shader_update */
+    uint8_t update; /* enum shader_update */
     bool has_default;
-    bool has_reader;      /* of textures: `sampling` and the default are those of a node */
-    bool flat;            /* not interpolated (integer streams) */
-    uint16_t rank;        /* place within its block: the row of streams.def; equal ranks by index */
+    bool has_reader; /* of textures: `sampling` and the default are those of a node */
+    bool flat;       /* not interpolated (integer streams) */
+    uint16_t rank;   /* place within its block: the row of streams.def; equal ranks by index */
     ir_type_id type;
     uint16_t array_length; /* 0: not an array */
-    str_id doc_type;      /* "color3"; 0 where the document has no say */
-    str_id path;          /* element path of the document's input; 0 for private variables */
-    uint32_t element;     /* document element that the variable comes from; 0 = none */
-    uint32_t definition;  /* element of the nodedef's input: ui attributes; 0 = none */
+    str_id doc_type;       /* "color3"; 0 where the document has no say */
+    str_id path;           /* element path of the document's input; 0 for private variables */
+    uint32_t element;      /* document element that the variable comes from; 0 = none */
+    uint32_t definition;   /* element of the nodedef's input: ui attributes; 0 = none */
     str_id colorspace, unit, unittype;
     /* of private uniforms and streams: "worldMatrix", "position:world", "geomprop:st" … */
     str_id semantic;
@@ -79,7 +80,8 @@ struct shader_variable {
     /* variable that the default is, + 1, where the target reads it with the texture; 0: `value` */
     uint32_t fallback;
     /*
-     * uniform that the default is, + 1: reads are told apart by it and not by its value, which may change
+     * uniform that the default is, + 1: reads are told apart by it and not by its value, which may
+     * change
      */
     uint32_t default_from;
     /* in shader->tiles, which are the layers of a SAMPLER_ARRAY in this order */
@@ -93,7 +95,8 @@ struct shader_variable {
 enum shader_kind { SHADER_VALUE, SHADER_SURFACE, SHADER_VOLUME };
 
 /*
- * Inputs whose value is compiled in: reported to hosts, which must know that a change needs a new shader.
+ * Inputs whose value is compiled in: reported to hosts, which must know that a change needs a new
+ * shader.
  */
 struct shader_compiled_input {
     str_id path, doc_type, value;
@@ -103,7 +106,7 @@ struct shader_compiled_input {
 /* A light shader bound by the host: its number in u_lightData[].type and what samples it. */
 struct shader_light {
     int32_t type;
-    str_id name;                /* of its node, for comments and reflection */
+    str_id name; /* of its node, for comments and reflection */
     /* lang function: inputs, P, out direction, out intensity; LANG_NONE: */
     uint32_t function;
     /* a LIGHT_SHADER over members of LightData: it stands at a position and faces a direction */
@@ -114,10 +117,11 @@ struct shader_light {
 };
 
 /*
- * Target source that mxgen does not parse: what a VERBATIM node calls. The id of the node's callee is its index.
+ * Target source that mxgen does not parse: what a VERBATIM node calls. The id of the node's callee
+ * is its index.
  */
 struct shader_verbatim {
-    str_id source;     /* definitions that the call needs: written once, above; 0 = none */
+    str_id source; /* definitions that the call needs: written once, above; 0 = none */
     /* called with the operands, then an `out` argument for each RESULT; or 0, and then */
     str_id function;
     str_id expression; /* operand i stands where {{i}} is written */
@@ -126,7 +130,8 @@ struct shader_verbatim {
 };
 
 /*
- * Effects: what a stage does, in order, before scheduling. Structured: IF, LIGHTS and SAMPLES end with END.
+ * Effects: what a stage does, in order, before scheduling. Structured: IF, LIGHTS and SAMPLES end
+ * with END.
  */
 enum effect_kind {
     EFFECT_VAR,        /* declares mutable variable `index` with initial value `value` */
@@ -164,7 +169,7 @@ struct effect_list { /* a vector, as of VEC(struct effect) */
     uint32_t len, cap;
 };
 
-struct shader_function { /* an IR function that a stage needs */
+struct shader_function {           /* an IR function that a stage needs */
     uint32_t function;             /* in graph->functions */
     struct effect_list statements; /* LETs and RESULTs */
 };
@@ -174,8 +179,8 @@ struct shader_stage {
     struct effect_list statements; /* scheduled: effects with LETs between them */
     struct lang_reach reach;       /* portable functions and globals that the statements need */
     VEC(struct shader_function) functions; /* IR functions needed, callees first */
-    VEC(uint32_t) verbatim;        /* verbatim sources needed, each once, in order of use */
-    bool has_lights;               /* it loops over lights */
+    VEC(uint32_t) verbatim;                /* verbatim sources needed, each once, in order of use */
+    bool has_lights;                       /* it loops over lights */
 };
 
 /* a stream, attribute or private uniform by the name that it was asked for */
@@ -193,15 +198,16 @@ struct shader_buffer {
 };
 
 /*
- * A surface that was restored as a whole, or taken down: what lights it may follow in the same way (lang/fragment.h).
+ * A surface that was restored as a whole, or taken down: what lights it may follow in the same way
+ * (lang/fragment.h).
  */
 struct shader_model {
-    ir_ref root;           /* 0: there is none */
-    unsigned fragment;     /* its number + 1 */
-    const ir_ref *nodes;   /* of the fragment: none, inputs, and what it restored */
-    const bool *known;     /* fragment_restore */
+    ir_ref root;         /* 0: there is none */
+    unsigned fragment;   /* its number + 1 */
+    const ir_ref *nodes; /* of the fragment: none, inputs, and what it restored */
+    const bool *known;   /* fragment_restore */
     unsigned num_nodes, num_inputs;
-    uint32_t origin;       /* of the node that uses the model */
+    uint32_t origin; /* of the node that uses the model */
 };
 
 struct shader {
@@ -210,16 +216,16 @@ struct shader {
     struct ir_graph *graph;
     /* the generation's unit: specialisations, on the library's units */
     struct lang_unit *unit;
-    struct lang_style *style;      /* whose reserved words variables must not have; NULL: none */
+    struct lang_style *style; /* whose reserved words variables must not have; NULL: none */
     VEC(struct shader_variable) variables;
     VEC(struct shader_tile) tiles;
     VEC(struct shader_compiled_input) compiled;
     VEC(struct shader_local) locals;
-    struct shader_model model;     /* the one that was built last */
+    struct shader_model model; /* the one that was built last */
     VEC(struct shader_light) lights;
     VEC(uint32_t) light_members;
     VEC(struct shader_verbatim) verbatim;
-    VEC(ir_type_id) result_types;  /* of verbatim functions */
+    VEC(ir_type_id) result_types; /* of verbatim functions */
     /* variables that stages use, block by block, in the order of their layout */
     VEC(uint32_t) interface;
     /* in `interface`: where each block begins, and where the last one ends */
@@ -231,20 +237,20 @@ struct shader {
     /* of blocks of uniforms; size 0 where there is none */
     struct shader_buffer buffers[NUM_BLOCKS];
     struct shader_stage stages[NUM_STAGES];
-    uint32_t max_lights;           /* elements of u_lightData */
-    str_id name;                   /* of the element: "Gold" */
-    str_id element_type;           /* "surfacematerial" */
+    uint32_t max_lights; /* elements of u_lightData */
+    str_id name;         /* of the element: "Gold" */
+    str_id element_type; /* "surfacematerial" */
     str_id path;
-    VEC(uint32_t) closures;        /* that are evaluated, by the origins of their leaves */
-    uint8_t kind;                  /* enum shader_kind */
+    VEC(uint32_t) closures; /* that are evaluated, by the origins of their leaves */
+    uint8_t kind;           /* enum shader_kind */
     /* of the document: what the element gives, where that is a plain value */
     str_id value_type;
     /* only variables have parts that can be named: from the rules of layout */
     bool names_wholes;
-    bool transparent;              /* found by analysis: the alpha written may be below 1 */
-    uint8_t alpha;                 /* enum shader_alpha */
-    bool lit;                      /* reads lights or environment */
-    bool displaced;                /* the vertex stage moves the surface */
+    bool transparent; /* found by analysis: the alpha written may be below 1 */
+    uint8_t alpha;    /* enum shader_alpha */
+    bool lit;         /* reads lights or environment */
+    bool displaced;   /* the vertex stage moves the surface */
     /* it is no program but a function of path tracers: there is no vertex stage */
     bool scatters;
     /* uniforms stand in blocks: each reading costs an access beside the load */
@@ -253,16 +259,17 @@ struct shader {
     uint32_t *local_of;
     /* the function of a leaf that the target has no closure for; 0: there is none */
     str_id unknown_closure;
-    bool numbered;                 /* sets, bindings and locations are given */
+    bool numbered; /* sets, bindings and locations are given */
 };
 
-void shader_init(struct shader *shader, struct arena *arena, struct strpool *strings, struct ir_graph *graph,
-                 struct lang_unit *unit);
+void shader_init(struct shader *shader, struct arena *arena, struct strpool *strings,
+                 struct ir_graph *graph, struct lang_unit *unit);
 
 /* interface.c */
 
 /*
- * Adds a variable; the name is made a valid identifier, and unique by a number behind it. Returns its index.
+ * Adds a variable; the name is made a valid identifier, and unique by a number behind it. Returns
+ * its index.
  */
 uint32_t shader_add_variable(struct shader *shader, const struct shader_variable *variable);
 /* at file scope, but for the underscore of reserved words */
@@ -274,20 +281,25 @@ uint32_t shader_find_variable(const struct shader *shader, enum shader_block blo
 ir_ref shader_read(struct shader *shader, uint32_t variable);
 
 /*
- * The member of LightData with this name and type, added where there is none; `type` is there from the first call on.
+ * The member of LightData with this name and type, added where there is none; `type` is there from
+ * the first call on.
  */
 uint32_t shader_light_member(struct shader *shader, str_id name, ir_type_id type);
 
 /*
- * The private uniform or texture of a ShaderX name ("u_worldMatrix"), added at first use with the type, default and
- * semantic of streams.def; the type is the caller's for names that the table does not have.
+ * The private uniform or texture of a ShaderX name ("u_worldMatrix"), added at first use with the
+ * type, default and semantic of streams.def; the type is the caller's for names that the table does
+ * not have.
  */
-uint32_t shader_private_uniform(struct shader *shader, str_id name, ir_type_id type, uint16_t array_length);
+uint32_t shader_private_uniform(struct shader *shader, str_id name, ir_type_id type,
+                                uint16_t array_length);
 
 /*
- * IR node for a geometric stream as the pixel stage reads it ("normalWorld", "texcoord_0", "geomprop_st"…): adds the vertex data, the
- * attributes and matrices it needs, and the vertex stage's computation of it. `type` VOID means the stream's own; texcoord_N
- * may be asked for as VEC3 and color_N as FLOAT or VEC3; geomprop_* is of any type that is asked for. 0: there is no such stream.
+ * IR node for a geometric stream as the pixel stage reads it ("normalWorld", "texcoord_0",
+ * "geomprop_st"…): adds the vertex data, the attributes and matrices it needs, and the vertex
+ * stage's computation of it. `type` VOID means the stream's own; texcoord_N may be asked for as
+ * VEC3 and color_N as FLOAT or VEC3; geomprop_* is of any type that is asked for. 0: there is no
+ * such stream.
  */
 ir_ref shader_stream(struct shader *shader, str_id name, ir_type_id type);
 /* The vertex attribute that a stream of that index is as it is; false: it is computed. */
@@ -302,14 +314,16 @@ void shader_add_closure(struct shader *shader, ir_ref leaf);
 uint32_t shader_add_local(struct shader *shader, str_id name, ir_type_id type);
 
 /*
- * identifier.c: text as an identifier: other characters become '_', no leading digit, no "__", no "gl_" in front; "x" for nothing; what is very long is cut.
- * The text itself where it is one already.
+ * identifier.c: text as an identifier: other characters become '_', no leading digit, no "__", no
+ * "gl_" in front; "x" for nothing; what is very long is cut. The text itself where it is one
+ * already.
  */
 const char *identifier_from(const char *text, size_t len, struct arena *arena, size_t *out_len);
 
 /*
- * finish.c: the last step before spelling. Adds what the stages' statements need from the host, drops vertex data that the pixel stage
- * does not read, schedules both stages and lays the interface out. Nothing may be added after it.
+ * finish.c: the last step before spelling. Adds what the stages' statements need from the host,
+ * drops vertex data that the pixel stage does not read, schedules both stages and lays the
+ * interface out. Nothing may be added after it.
  */
 struct shader_layout_rules { /* from the target's table and the options */
     bool blocks;             /* uniforms stand in std140 blocks */
@@ -323,17 +337,20 @@ struct shader_layout_rules { /* from the target's table and the options */
 void shader_finish(struct shader *shader, const struct shader_layout_rules *rules);
 
 /*
- * calls.c: gives each portable function the one version that all its calls share. Part of shader_finish.
+ * calls.c: gives each portable function the one version that all its calls share. Part of
+ * shader_finish.
  */
 void shader_specialise_calls(struct shader *shader);
 
 /*
- * The variable of a uniform or stream that a portable function reads; UINT32_MAX for constants, and before shader_finish.
+ * The variable of a uniform or stream that a portable function reads; UINT32_MAX for constants, and
+ * before shader_finish.
  */
 uint32_t shader_global_variable(const struct shader *shader, uint32_t global_id);
 
 /*
- * topology.c: a hash of everything but names and uniform values, of a finished shader; computed when asked for.
+ * topology.c: a hash of everything but names and uniform values, of a finished shader; computed
+ * when asked for.
  */
 uint64_t shader_topology(const struct shader *shader, struct arena *scratch);
 
@@ -342,21 +359,24 @@ uint32_t std140_align(ir_type_id type, bool array);
 /* of an array: with the padding behind its last element */
 uint32_t std140_size(ir_type_id type, uint16_t array_length);
 /*
- * Fills shader->interface and, with the rules, offsets, bindings and locations, from the variables' stages.
+ * Fills shader->interface and, with the rules, offsets, bindings and locations, from the variables'
+ * stages.
  */
 void shader_layout(struct shader *shader, const struct shader_layout_rules *rules);
 
 /*
- * schedule.c: decides which nodes become locals and where, and collects what the stage needs: functions, and the stage's bit in
- * the variables that it reads. A node used more than once, or one that would make an expression too long, is a LET in the
- * innermost region that dominates its uses (IF, LIGHTS, SAMPLES). What does not change from turn to turn is moved out of loops, and nodes
- * with derivatives stay outside of IF and loops, of the arms of SELECT, and before any DISCARD. Nodes that read a LOCAL belong to the effect
- * that uses them.
+ * schedule.c: decides which nodes become locals and where, and collects what the stage needs:
+ * functions, and the stage's bit in the variables that it reads. A node used more than once, or one
+ * that would make an expression too long, is a LET in the innermost region that dominates its uses
+ * (IF, LIGHTS, SAMPLES). What does not change from turn to turn is moved out of loops, and nodes
+ * with derivatives stay outside of IF and loops, of the arms of SELECT, and before any DISCARD.
+ * Nodes that read a LOCAL belong to the effect that uses them.
  */
 void shader_schedule(struct shader *shader, enum shader_stage_id stage);
 
 /*
- * Results of a call that it hands out through arguments, beside what it returns; such a call is a statement.
+ * Results of a call that it hands out through arguments, beside what it returns; such a call is a
+ * statement.
  */
 unsigned shader_call_outs(const struct shader *shader, ir_ref call);
 /* What a CALL (a lang function) or a VERBATIM node (an index in shader->verbatim) calls. */
@@ -371,7 +391,8 @@ static inline uint32_t shader_callee(const struct shader *shader, ir_ref call)
 
 /* What the document says about a variable for a user interface; the strings may be NULL. */
 struct shader_ui {
-    const char *name, *folder, *min, *max, *soft_min, *soft_max, *step, *doc, *enum_names, *enum_values;
+    const char *name, *folder, *min, *max, *soft_min, *soft_max, *step, *doc, *enum_names,
+        *enum_values;
     bool advanced;
 };
 struct shader_reflect_options {
@@ -382,6 +403,7 @@ struct shader_reflect_options {
     const struct network_group *groups; /* num_groups: it is a network, and no more */
     uint32_t num_groups;
 };
-void shader_reflect_json(const struct shader *shader, const struct shader_reflect_options *options, struct text *out);
+void shader_reflect_json(const struct shader *shader, const struct shader_reflect_options *options,
+                         struct text *out);
 
 #endif

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * topology: one number for what a shader does, apart from the names of its variables and the values of its uniforms. Shaders of equal
- * topology can share a program.
+ * topology: one number for what a shader does, apart from the names of its variables and the values
+ * of its uniforms. Shaders of equal topology can share a program.
  *
- * Nodes, functions and variables are numbered in the order in which the statements meet them, so that nothing depends on how the graph
- * came about. Portable functions of a library stand for themselves by name and size; versions of them are hashed node by node.
+ * Nodes, functions and variables are numbered in the order in which the statements meet them, so
+ * that nothing depends on how the graph came about. Portable functions of a library stand for
+ * themselves by name and size; versions of them are hashed node by node.
  */
 #include "base/hash.h"
 #include "shader/shader.h"
@@ -13,7 +14,7 @@ struct hasher {
     const struct shader *shader;
     struct arena *arena;
     uint64_t hash;
-    uint32_t *node_numbers;     /* node to its number, from 1; 0: not met */
+    uint32_t *node_numbers; /* node to its number, from 1; 0: not met */
     uint32_t num_nodes;
     uint32_t *variable_numbers; /* variable to its place in the interface */
     /* portable function to its place in the stage's reach; IR functions alike */
@@ -49,8 +50,8 @@ static void add_variables(struct hasher *h)
         uint32_t index = h->shader->interface.items[i];
         const struct shader_variable *variable = &h->shader->variables.items[index];
         h->variable_numbers[index] = i + 1;
-        add(h, (uint64_t)variable->block << 40 | (uint64_t)variable->stages << 32 | (uint64_t)variable->array_length << 16
-                   | variable->type);
+        add(h, (uint64_t)variable->block << 40 | (uint64_t)variable->stages << 32
+                   | (uint64_t)variable->array_length << 16 | variable->type);
         add_text(h, variable->semantic);
     }
 }
@@ -58,11 +59,14 @@ static void add_variables(struct hasher *h)
 /* ---- Portable functions ---- */
 
 /*
- * What a node says beside its children. Globals are told apart by name: their ids depend on what else was parsed.
+ * What a node says beside its children. Globals are told apart by name: their ids depend on what
+ * else was parsed.
  */
-static void add_tree_node(struct hasher *h, const struct lang_unit *layer, const struct lang_node *node)
+static void add_tree_node(struct hasher *h, const struct lang_unit *layer,
+                          const struct lang_node *node)
 {
-    uint64_t own = (uint64_t)node->kind << 56 | (uint64_t)node->op << 48 | (uint64_t)node->type << 32;
+    uint64_t own =
+        (uint64_t)node->kind << 56 | (uint64_t)node->op << 48 | (uint64_t)node->type << 32;
     if (node->kind == LANG_VAR || node->kind == LANG_DECLARE)
         own |= node->a;
     else if (node->kind == LANG_CALL)
@@ -99,10 +103,12 @@ static void add_portable_functions(struct hasher *h, const struct lang_reach *re
 {
     for (uint32_t i = 0; i < reach->functions.len; i++) {
         const struct lang_unit *layer;
-        const struct lang_function *fn = lang_function(h->shader->unit, reach->functions.items[i], &layer);
+        const struct lang_function *fn =
+            lang_function(h->shader->unit, reach->functions.items[i], &layer);
         h->function_numbers[reach->functions.items[i]] = i + 1;
         add(h, (uint64_t)fn->return_type << 32 | (uint64_t)fn->num_params << 16 | fn->num_slots);
-        if ((layer == h->shader->unit && layer->base) || lang_known(layer, reach->functions.items[i]))
+        if ((layer == h->shader->unit && layer->base)
+            || lang_known(layer, reach->functions.items[i]))
             add_tree(h, layer, fn->body);
         add_text(h, fn->name);
         add(h, fn->num_nodes);
@@ -115,26 +121,17 @@ static uint64_t attribute(struct hasher *h, ir_ref ref)
 {
     const struct ir_node *node = ir_get(h->shader->graph, ref);
     switch (node->op) {
-    case IR_CONST:
-        return 0;
+    case IR_CONST: return 0;
     case IR_CONTEXT:
     case IR_UNIFORM:
     case IR_STREAM:
-    case IR_TEXTURE:
-        return h->variable_numbers[node->attr];
-    case IR_PARAM:
-        return node->attr & 0xffff;
-    case IR_CALL:
-        return h->function_numbers[shader_callee(h->shader, ref)];
-    case IR_GRAPH_CALL:
-        return h->graph_function_numbers[node->attr];
-    case IR_VERBATIM:
-        return shader_callee(h->shader, ref);
-    case IR_LEAF:
-        add_text(h, h->shader->graph->callees.items[node->attr].name);
-        return 0;
-    default:
-        return node->attr;
+    case IR_TEXTURE: return h->variable_numbers[node->attr];
+    case IR_PARAM: return node->attr & 0xffff;
+    case IR_CALL: return h->function_numbers[shader_callee(h->shader, ref)];
+    case IR_GRAPH_CALL: return h->graph_function_numbers[node->attr];
+    case IR_VERBATIM: return shader_callee(h->shader, ref);
+    case IR_LEAF: add_text(h, h->shader->graph->callees.items[node->attr].name); return 0;
+    default: return node->attr;
     }
 }
 
@@ -183,7 +180,8 @@ static void add_effects(struct hasher *h, const struct effect_list *statements)
         if (effect->kind == EFFECT_COMMENT)
             continue;
         bool variable = effect->kind == EFFECT_OUTPUT;
-        add(h, (uint64_t)effect->kind << 32 | (variable ? h->variable_numbers[effect->index] : effect->index));
+        add(h, (uint64_t)effect->kind << 32
+                   | (variable ? h->variable_numbers[effect->index] : effect->index));
         if (effect->value)
             add_expression(h, effect->value);
     }
@@ -193,7 +191,8 @@ static void add_stage(struct hasher *h, const struct shader_stage *stage)
 {
     add_portable_functions(h, &stage->reach);
     for (uint32_t i = 0; i < stage->verbatim.len; i++) {
-        const struct shader_verbatim *verbatim = &h->shader->verbatim.items[stage->verbatim.items[i]];
+        const struct shader_verbatim *verbatim =
+            &h->shader->verbatim.items[stage->verbatim.items[i]];
         add_text(h, verbatim->source);
         add_text(h, verbatim->function);
         add_text(h, verbatim->expression);
@@ -208,7 +207,8 @@ static void add_stage(struct hasher *h, const struct shader_stage *stage)
 uint64_t shader_topology(const struct shader *shader, struct arena *scratch)
 {
     struct hasher h = {.shader = shader, .arena = scratch, .hash = HASH_STABLE_SEED};
-    uint32_t num_functions = shader->unit ? shader->unit->base_functions + shader->unit->functions.len : 0;
+    uint32_t num_functions =
+        shader->unit ? shader->unit->base_functions + shader->unit->functions.len : 0;
     h.node_numbers = ARENA_ARRAY(h.arena, uint32_t, shader->graph->nodes.len);
     h.variable_numbers = ARENA_ARRAY(h.arena, uint32_t, shader->variables.len + 1);
     h.function_numbers = ARENA_ARRAY(h.arena, uint32_t, num_functions + 1);

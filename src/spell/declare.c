@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * What stands above the functions: structs, uniforms, textures, and what comes into the stage and goes out.
+ * What stands above the functions: structs, uniforms, textures, and what comes into the stage and
+ * goes out.
  */
 #include "spell/spell.h"
 
 /* Loops over the places in the interface of a block's variables. */
 #define EACH_OF_BLOCK(i, spell, block) \
-    for (uint32_t i = (spell)->shader->first_of_block[block]; i < (spell)->shader->first_of_block[(block) + 1]; i++)
+    for (uint32_t i = (spell)->shader->first_of_block[block]; \
+         i < (spell)->shader->first_of_block[(block) + 1]; i++)
 
 static struct spell_name prefixed(struct spell *spell, const char *prefix, struct spell_name name)
 {
@@ -22,7 +24,8 @@ static const struct shader_variable *interface_variable(const struct spell *spel
     return &spell->shader->variables.items[spell->shader->interface.items[i]];
 }
 
-static struct spell_name variable_name(const struct spell *spell, const struct shader_variable *variable)
+static struct spell_name variable_name(const struct spell *spell,
+                                       const struct shader_variable *variable)
 {
     return spell_name_of(spell->shader->strings, variable->name);
 }
@@ -36,8 +39,14 @@ static bool stage_reads(const struct spell *spell, const struct shader_variable 
 
 void spell_name_interface(struct spell *spell)
 {
-    static const char *const own[] = {"main", "vd", "u_lightData", "LightData", "LightData_block",
-                                      "PublicUniforms", "PrivateUniforms", "VertexData"};
+    static const char *const own[] = {"main",
+                                      "vd",
+                                      "u_lightData",
+                                      "LightData",
+                                      "LightData_block",
+                                      "PublicUniforms",
+                                      "PrivateUniforms",
+                                      "VertexData"};
     for (size_t i = 0; i < sizeof own / sizeof *own; i++)
         names_take(&spell->names, own[i], strlen(own[i]));
     bool io_block = spell_can(spell, CAP_BLOCK_STAGE_IO);
@@ -48,14 +57,16 @@ void spell_name_interface(struct spell *spell)
             name = prefixed(spell, io_block ? "vd." : "vd_", name);
         spell->variables[spell->shader->interface.items[i]] = name;
         bool declared = spell->blocks || stage_reads(spell, variable);
-        if (declared && variable->block != BLOCK_LIGHT_DATA && !(variable->block == BLOCK_VERTEX_DATA && io_block))
+        if (declared && variable->block != BLOCK_LIGHT_DATA
+            && !(variable->block == BLOCK_VERTEX_DATA && io_block))
             names_take(&spell->names, name.text, name.len);
     }
 }
 
 /* ---- Declarations ---- */
 
-static void declare(struct spell *spell, const struct shader_variable *variable, struct spell_name name)
+static void declare(struct spell *spell, const struct shader_variable *variable,
+                    struct spell_name name)
 {
     spell_variable(spell, variable->type, name);
     if (variable->array_length) {
@@ -68,9 +79,9 @@ static void declare(struct spell *spell, const struct shader_variable *variable,
 /* Does this stage use a variable of the block? */
 static bool needs_block(const struct spell *spell, enum shader_block block)
 {
-    EACH_OF_BLOCK (i, spell, block)
-        if (stage_reads(spell, interface_variable(spell, i)))
-            return true;
+    EACH_OF_BLOCK(i, spell, block)
+    if (stage_reads(spell, interface_variable(spell, i)))
+        return true;
     return false;
 }
 
@@ -99,7 +110,8 @@ static void write_location(struct spell *spell, uint32_t location)
 
 static void write_members(struct spell *spell, enum shader_block block)
 {
-    EACH_OF_BLOCK (i, spell, block) {
+    EACH_OF_BLOCK(i, spell, block)
+    {
         const struct shader_variable *variable = interface_variable(spell, i);
         spell_indent(spell, 1);
         if (variable->flat && !spell->shader->scatters)
@@ -124,9 +136,11 @@ static void write_uniform(struct spell *spell, const struct shader_variable *var
     spell_text(spell, "uniform ");
     declare(spell, variable, variable_name(spell, variable));
     bool fixed = variable->block == BLOCK_PRIVATE_UNIFORMS || !spell->options->neutral_names;
-    if (variable->has_default && variable->block != BLOCK_TEXTURES && fixed && spell_can(spell, CAP_UNIFORM_DEFAULTS)) {
+    if (variable->has_default && variable->block != BLOCK_TEXTURES && fixed
+        && spell_can(spell, CAP_UNIFORM_DEFAULTS)) {
         spell_text(spell, " = ");
-        lang_print_value(spell->style, spell->shader->strings, variable->value.type, variable->value.w, LANG_PREC_COMMA, spell->out);
+        lang_print_value(spell->style, spell->shader->strings, variable->value.type,
+                         variable->value.w, LANG_PREC_COMMA, spell->out);
     }
     spell_text(spell, ";\n");
 }
@@ -139,9 +153,9 @@ static void write_uniforms(struct spell *spell, enum shader_block block)
         write_uniform_block(spell, block);
         return;
     }
-    EACH_OF_BLOCK (i, spell, block)
-        if (stage_reads(spell, interface_variable(spell, i)))
-            write_uniform(spell, interface_variable(spell, i));
+    EACH_OF_BLOCK(i, spell, block)
+    if (stage_reads(spell, interface_variable(spell, i)))
+        write_uniform(spell, interface_variable(spell, i));
 }
 
 static void write_light_data(struct spell *spell)
@@ -154,14 +168,16 @@ static void write_light_data(struct spell *spell)
     spell_text(spell, "};\n");
     if (spell->blocks)
         write_layout(spell, buffer->set, buffer->binding, true);
-    spell_text(spell, spell->blocks ? "uniform LightData_block { LightData u_lightData[" : "uniform LightData u_lightData[");
+    spell_text(spell, spell->blocks ? "uniform LightData_block { LightData u_lightData["
+                                    : "uniform LightData u_lightData[");
     spell_number(spell, spell->shader->max_lights);
     spell_text(spell, spell->blocks ? "]; };\n" : "];\n");
 }
 
 static void write_textures(struct spell *spell)
 {
-    EACH_OF_BLOCK (i, spell, BLOCK_TEXTURES) {
+    EACH_OF_BLOCK(i, spell, BLOCK_TEXTURES)
+    {
         const struct shader_variable *variable = interface_variable(spell, i);
         if (!stage_reads(spell, variable))
             continue;
@@ -172,7 +188,8 @@ static void write_textures(struct spell *spell)
 
 static void write_attributes(struct spell *spell, enum shader_block block, const char *qualifier)
 {
-    EACH_OF_BLOCK (i, spell, block) {
+    EACH_OF_BLOCK(i, spell, block)
+    {
         const struct shader_variable *variable = interface_variable(spell, i);
         if (!stage_reads(spell, variable))
             continue;
@@ -211,7 +228,8 @@ static void write_structs(struct spell *spell)
 {
     const struct lang_reach *reach = &spell->stage->reach;
     for (uint32_t i = 0; i < reach->user_types.len; i++)
-        lang_print_struct(spell->style, &spell->lang_names, spell->shader->unit, reach->user_types.items[i], spell->out);
+        lang_print_struct(spell->style, &spell->lang_names, spell->shader->unit,
+                          reach->user_types.items[i], spell->out);
 }
 
 void spell_interface(struct spell *spell)

@@ -1,17 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Nodes as expressions. The scheduler bounds their depth (schedule.c), so the recursion here is shallow.
+ * Nodes as expressions. The scheduler bounds their depth (schedule.c), so the recursion here is
+ * shallow.
  */
 #include "spell/spell.h"
 
 #include <assert.h>
 
 /*
- * Structs and arrays of the graph have their own ids; a struct is that of the portable functions with its name.
+ * Structs and arrays of the graph have their own ids; a struct is that of the portable functions
+ * with its name.
  */
 static const struct ir_user_type *user_type(const struct spell *spell, ir_type_id type)
 {
-    return type < IR_TYPE_FIRST_USER ? NULL : &spell->shader->graph->user_types.items[type - IR_TYPE_FIRST_USER];
+    return type < IR_TYPE_FIRST_USER
+               ? NULL
+               : &spell->shader->graph->user_types.items[type - IR_TYPE_FIRST_USER];
 }
 
 static const char *struct_name(const struct spell *spell, str_id name)
@@ -25,7 +29,8 @@ static const char *struct_name(const struct spell *spell, str_id name)
 
 static void write_lengths(struct spell *spell, ir_type_id type)
 {
-    for (const struct ir_user_type *user; (user = user_type(spell, type)) && user->array_length; type = user->element) {
+    for (const struct ir_user_type *user; (user = user_type(spell, type)) && user->array_length;
+         type = user->element) {
         text_char(spell->out, '[');
         text_u32(spell->out, user->array_length);
         text_char(spell->out, ']');
@@ -76,7 +81,9 @@ static void write_member(struct spell *spell, ir_ref ref, uint32_t attr)
     spell_expression(spell, operand, LANG_PREC_POSTFIX);
     const struct ir_user_type *type = user_type(spell, ir_type_of(spell->shader->graph, operand));
     text_char(spell->out, '.');
-    spell_text(spell, str_text(spell->shader->strings, spell->shader->graph->members.items[type->first_member + attr].name));
+    spell_text(spell,
+               str_text(spell->shader->strings,
+                        spell->shader->graph->members.items[type->first_member + attr].name));
 }
 
 static void write_list(struct spell *spell, ir_ref ref)
@@ -92,9 +99,12 @@ static void write_list(struct spell *spell, ir_ref ref)
 static void write_construct(struct spell *spell, ir_ref ref, ir_type_id type)
 {
     const struct ir_user_type *user = user_type(spell, type);
-    bool braces = user && user->array_length && spell->target->syntax->array_braces, is_struct = user && !user->array_length;
+    bool braces = user && user->array_length && spell->target->syntax->array_braces,
+         is_struct = user && !user->array_length;
     const struct lang_names *names = &spell->lang_names;
-    const char *maker = is_struct && names->maker ? names->maker(names->user_data, struct_name(spell, user->name)) : NULL;
+    const char *maker = is_struct && names->maker
+                            ? names->maker(names->user_data, struct_name(spell, user->name))
+                            : NULL;
     if (maker)
         spell_text(spell, maker);
     else if (!braces)
@@ -129,7 +139,8 @@ static const char *callee_name(const struct spell *spell, ir_ref call)
     if (node->op == IR_GRAPH_CALL)
         return spell->graph_functions[node->attr];
     if (node->op == IR_LEAF)
-        return str_text(spell->shader->strings, spell->shader->graph->callees.items[node->attr].name);
+        return str_text(spell->shader->strings,
+                        spell->shader->graph->callees.items[node->attr].name);
     uint32_t callee = shader_callee(spell->shader, call);
     if (node->op == IR_VERBATIM)
         return str_text(spell->shader->strings, spell->shader->verbatim.items[callee].function);
@@ -147,7 +158,8 @@ unsigned spell_call_open(struct spell *spell, ir_ref call)
 static void write_call(struct spell *spell, ir_ref ref)
 {
     if (ir_get(spell->shader->graph, ref)->op == IR_VERBATIM) {
-        const struct shader_verbatim *verbatim = &spell->shader->verbatim.items[shader_callee(spell->shader, ref)];
+        const struct shader_verbatim *verbatim =
+            &spell->shader->verbatim.items[shader_callee(spell->shader, ref)];
         if (!verbatim->function) {
             write_verbatim(spell, ref, verbatim->expression);
             return;
@@ -162,8 +174,10 @@ static bool is_named(const struct spell *spell, ir_ref ref)
 {
     const struct ir_node *node = ir_get(spell->shader->graph, ref);
     uint8_t op = node->op;
-    bool is_number = op == IR_CONST && node->type < IR_NUM_TYPES && ir_type_info(node->type)->components == 1;
-    return is_number || spell->local_of[ref] || op == IR_UNIFORM || op == IR_STREAM || op == IR_PARAM || op == IR_LOCAL || op == IR_RESULT;
+    bool is_number =
+        op == IR_CONST && node->type < IR_NUM_TYPES && ir_type_info(node->type)->components == 1;
+    return is_number || spell->local_of[ref] || op == IR_UNIFORM || op == IR_STREAM
+           || op == IR_PARAM || op == IR_LOCAL || op == IR_RESULT;
 }
 
 /* What stands for a node: its local, a variable, or else an expression. */
@@ -184,7 +198,8 @@ void spell_expression(struct spell *spell, ir_ref ref, enum lang_precedence leas
     write_operand(spell, ref, least);
 }
 
-static void write_form(struct spell *spell, const struct ir_node *node, const struct lang_pieces *form, enum lang_precedence least)
+static void write_form(struct spell *spell, const struct ir_node *node,
+                       const struct lang_pieces *form, enum lang_precedence least)
 {
     assert(form->text);
     bool parentheses = (enum lang_precedence)form->precedence < least;
@@ -202,7 +217,8 @@ static void write_form(struct spell *spell, const struct ir_node *node, const st
     }
     if (form->rest.len)
         text_put(spell->out, form->rest);
-    if (node->op == IR_TEX_SIZE && ir_type_of(spell->shader->graph, args[0]) == IR_TYPE_SAMPLER_ARRAY)
+    if (node->op == IR_TEX_SIZE
+        && ir_type_of(spell->shader->graph, args[0]) == IR_TYPE_SAMPLER_ARRAY)
         spell_text(spell, ".xy"); /* the third is the number of layers */
     if (parentheses)
         text_char(spell->out, ')');
@@ -214,30 +230,26 @@ static void write_source(struct spell *spell, const struct ir_node *node)
     switch (node->op) {
     case IR_UNIFORM:
     case IR_STREAM:
-    case IR_TEXTURE:
-        spell_name(spell, spell->variables[node->attr]);
-        break;
+    case IR_TEXTURE: spell_name(spell, spell->variables[node->attr]); break;
     case IR_PARAM:
         text_char(spell->out, 'p');
         text_u32(spell->out, node->attr & 0xffff);
         break;
-    case IR_LOCAL:
-        spell_name(spell, spell->locals[node->attr]);
-        break;
+    case IR_LOCAL: spell_name(spell, spell->locals[node->attr]); break;
     case IR_CONTEXT:
         SPELL(spell, "u_lightData[", spell->loop_index, "].");
         spell_name(spell, spell->variables[node->attr]);
         break;
-    case IR_SAMPLE:
-        spell_text(spell, spell->loop_index);
-        break;
+    case IR_SAMPLE: spell_text(spell, spell->loop_index); break;
     default: /* POISON: an error was reported; the text is not used */
-        lang_print_value(spell->style, spell->shader->strings, node->type < IR_NUM_TYPES ? node->type : IR_TYPE_FLOAT,
+        lang_print_value(spell->style, spell->shader->strings,
+                         node->type < IR_NUM_TYPES ? node->type : IR_TYPE_FLOAT,
                          (const union ir_word[16]){{0}}, LANG_PREC_COMMA, spell->out);
     }
 }
 
-static void write_result(struct spell *spell, ir_ref call, uint32_t index, enum lang_precedence least)
+static void write_result(struct spell *spell, ir_ref call, uint32_t index,
+                         enum lang_precedence least)
 {
     uint32_t first = spell->local_of[call];
     if (first)
@@ -247,31 +259,23 @@ static void write_result(struct spell *spell, ir_ref call, uint32_t index, enum 
 }
 
 /* A node that has neither a local nor a form that was made ready. */
-static void write_other_node(struct spell *spell, ir_ref ref, const struct ir_node *node, enum lang_precedence least)
+static void write_other_node(struct spell *spell, ir_ref ref, const struct ir_node *node,
+                             enum lang_precedence least)
 {
     const struct ir_graph *graph = spell->shader->graph;
     switch (node->op) {
     case IR_CONST:
-        lang_print_value(spell->style, spell->shader->strings, node->type, graph->words.items + node->attr, least, spell->out);
+        lang_print_value(spell->style, spell->shader->strings, node->type,
+                         graph->words.items + node->attr, least, spell->out);
         break;
-    case IR_SWIZZLE:
-        write_swizzle(spell, ref, node->attr);
-        break;
-    case IR_MEMBER:
-        write_member(spell, ref, node->attr);
-        break;
-    case IR_CONSTRUCT:
-        write_construct(spell, ref, node->type);
-        break;
+    case IR_SWIZZLE: write_swizzle(spell, ref, node->attr); break;
+    case IR_MEMBER: write_member(spell, ref, node->attr); break;
+    case IR_CONSTRUCT: write_construct(spell, ref, node->type); break;
     case IR_CALL:
     case IR_VERBATIM:
     case IR_GRAPH_CALL:
-    case IR_LEAF:
-        write_call(spell, ref);
-        break;
-    case IR_RESULT:
-        write_result(spell, ir_arg(graph, ref, 0), node->attr, least);
-        break;
+    case IR_LEAF: write_call(spell, ref); break;
+    case IR_RESULT: write_result(spell, ir_arg(graph, ref, 0), node->attr, least); break;
     default:
         if (node->num_args == 0)
             write_source(spell, node);
@@ -280,7 +284,8 @@ static void write_other_node(struct spell *spell, ir_ref ref, const struct ir_no
     }
 }
 
-void spell_node(struct spell *spell, ir_ref ref, const struct ir_node *node, enum lang_precedence least)
+void spell_node(struct spell *spell, ir_ref ref, const struct ir_node *node,
+                enum lang_precedence least)
 {
     const struct lang_pieces *form = spell->style->forms[node->op];
     if (form && form->num)
@@ -290,13 +295,16 @@ void spell_node(struct spell *spell, ir_ref ref, const struct ir_node *node, enu
 }
 
 /* The form for the types at hand of a target that has such forms; NULL: none for these. */
-static const struct lang_pieces *typed_form(const struct spell *spell, ir_ref ref, const struct ir_node *node)
+static const struct lang_pieces *typed_form(const struct spell *spell, ir_ref ref,
+                                            const struct ir_node *node)
 {
-    bool has_form = ir_op_info(node->op)->flags & (OP_OPERATOR | OP_BUILTIN) || node->op == IR_CONST || node->op > IR_LEAF;
+    bool has_form = ir_op_info(node->op)->flags & (OP_OPERATOR | OP_BUILTIN) || node->op == IR_CONST
+                    || node->op > IR_LEAF;
     if (!has_form)
         return NULL;
     ir_type_id types[16];
-    struct lang_use use = {.op = node->op, .type = node->type, .attr = node->attr, .operands = types, .node = ref};
+    struct lang_use use = {
+        .op = node->op, .type = node->type, .attr = node->attr, .operands = types, .node = ref};
     for (; use.num_operands < node->num_args && use.num_operands < 16; use.num_operands++) {
         ir_ref operand = ir_arg(spell->shader->graph, ref, use.num_operands);
         types[use.num_operands] = ir_type_of(spell->shader->graph, operand);
@@ -305,7 +313,8 @@ static const struct lang_pieces *typed_form(const struct spell *spell, ir_ref re
     return spell->lang_names.form(spell->lang_names.user_data, &use);
 }
 
-void spell_typed_node(struct spell *spell, ir_ref ref, const struct ir_node *node, enum lang_precedence least)
+void spell_typed_node(struct spell *spell, ir_ref ref, const struct ir_node *node,
+                      enum lang_precedence least)
 {
     const struct lang_pieces *own = typed_form(spell, ref, node);
     if (own)

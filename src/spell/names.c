@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * names: unique identifiers without a global counter: the second "roughness" of a function is "roughness_2" whatever else there is, so
- * that a small edit of the input gives a small difference in the output. A word that the language has for itself gets an underscore.
+ * names: unique identifiers without a global counter: the second "roughness" of a function is
+ * "roughness_2" whatever else there is, so that a small edit of the input gives a small difference
+ * in the output. A word that the language has for itself gets an underscore.
  */
 #include "base/hash.h"
 #include "spell/spell.h"
@@ -9,9 +10,11 @@
 /* at first: those of usual stages are not moved while they come */
 enum { SLOTS = 512, FEW_SLOTS = 64 };
 
-void names_init(struct name_set *names, struct arena *arena, const struct lang_style *style, bool few)
+void names_init(struct name_set *names, struct arena *arena, const struct lang_style *style,
+                bool few)
 {
-    *names = (struct name_set){.arena = arena, .style = style, .mask = (few ? FEW_SLOTS : SLOTS) - 1};
+    *names =
+        (struct name_set){.arena = arena, .style = style, .mask = (few ? FEW_SLOTS : SLOTS) - 1};
     names->table = ARENA_ARRAY(arena, uint32_t, names->mask + 1);
     vec_reserve(arena, &names->entries, names->mask / 3);
 }
@@ -21,7 +24,8 @@ void names_open_scope(struct name_set *names)
     names->scope++;
 }
 
-static uint32_t *find_slot(const struct name_set *names, const char *text, uint32_t len, uint32_t hash)
+static uint32_t *find_slot(const struct name_set *names, const char *text, uint32_t len,
+                           uint32_t hash)
 {
     uint32_t i = hash & names->mask;
     for (; names->table[i]; i = (i + 1) & names->mask) {
@@ -45,7 +49,8 @@ static void grow(struct name_set *names)
 }
 
 /* The entry of a name in the current scope; *out_new tells whether it was free. */
-static struct name_entry *take(struct name_set *names, const char *text, uint32_t len, bool *out_new)
+static struct name_entry *take(struct name_set *names, const char *text, uint32_t len,
+                               bool *out_new)
 {
     uint32_t hash = hash_bytes(text, len);
     uint32_t *slot = find_slot(names, text, len, hash);
@@ -114,7 +119,8 @@ static struct spell_name add_underscore(struct name_set *names, uint32_t reserve
     text_copy(longer, base->text, len);
     longer[len++] = '_';
     longer[len] = '\0';
-    return names_take(names, longer, len) ? (struct spell_name){longer, len} : add_number(names, reserved);
+    return names_take(names, longer, len) ? (struct spell_name){longer, len}
+                                          : add_number(names, reserved);
 }
 
 struct spell_name names_unique(struct name_set *names, const char *text, size_t len)
@@ -128,7 +134,8 @@ struct spell_name names_unique(struct name_set *names, const char *text, size_t 
     size_t base_len;
     const char *base = identifier_from(text, len, names->arena, &base_len);
     bool is_new;
-    uint32_t entry = (uint32_t)(take(names, base, (uint32_t)base_len, &is_new) - names->entries.items);
+    uint32_t entry =
+        (uint32_t)(take(names, base, (uint32_t)base_len, &is_new) - names->entries.items);
     names->recent[slot].text = text;
     names->recent[slot].len = (uint32_t)len;
     names->recent[slot].entry = entry;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Inside the speller: the state of one stage's output, and what its files offer each other and the targets' hooks.
+ * Inside the speller: the state of one stage's output, and what its files offer each other and the
+ * targets' hooks.
  */
 #ifndef MXG_SPELL_SPELL_H
 #define MXG_SPELL_SPELL_H
@@ -13,10 +14,11 @@ struct name_entry {
     const char *text;
     uint32_t len, hash;
     /*
-     * 0: file scope; else the function that uses it, which has passed where it is not the current one
+     * 0: file scope; else the function that uses it, which has passed where it is not the current
+     * one
      */
     uint32_t scope;
-    uint32_t next;  /* the number to try for the next of this name */
+    uint32_t next; /* the number to try for the next of this name */
 };
 
 struct spell_name { /* as it is written */
@@ -32,7 +34,7 @@ struct name_set {
     VEC(struct name_entry) entries;
     uint32_t *table; /* open addressing: entry + 1 */
     uint32_t mask;
-    uint32_t scope;  /* of the function at hand; 0 outside */
+    uint32_t scope; /* of the function at hand; 0 outside */
     struct { /* names that were asked for lately, by address: most locals are called like others */
         const char *text;
         uint32_t len, entry;
@@ -40,7 +42,8 @@ struct name_set {
 };
 
 /* `few`: less names are to be expected than a pixel stage has. */
-void names_init(struct name_set *names, struct arena *arena, const struct lang_style *style, bool few);
+void names_init(struct name_set *names, struct arena *arena, const struct lang_style *style,
+                bool few);
 /* a new function: the names of the one before are free again */
 void names_open_scope(struct name_set *names);
 /* Texts given to these two must live as long as the set. */
@@ -65,9 +68,11 @@ struct spell {
     struct lang_style *style;     /* of the target's syntax */
     struct lang_names lang_names; /* for the portable printer */
     /*
-     * Writes a node that has no local: spell_node, or spell_typed_node where the target has forms of its own by type.
+     * Writes a node that has no local: spell_node, or spell_typed_node where the target has forms
+     * of its own by type.
      */
-    void (*write_node)(struct spell *spell, ir_ref ref, const struct ir_node *node, enum lang_precedence least);
+    void (*write_node)(struct spell *spell, ir_ref ref, const struct ir_node *node,
+                       enum lang_precedence least);
     /* how each interface variable is read in this stage; NULL: it is not */
     struct spell_name *variables;
     const char **functions;       /* names of portable functions by id, of those that are reached */
@@ -78,17 +83,19 @@ struct spell {
     uint32_t *local_of;
     VEC(struct spell_name) let_names;
     const char *loop_index; /* in LIGHTS and SAMPLES: the loop's variable */
-    struct name_set paths;        /* shown in comments so far */
-    void *target_data;            /* the target's own, while its hook runs */
-    uint8_t *origins_seen;        /* origins whose path was asked for; NULL: no comments */
+    struct name_set paths;  /* shown in comments so far */
+    void *target_data;      /* the target's own, while its hook runs */
+    uint8_t *origins_seen;  /* origins whose path was asked for; NULL: no comments */
 };
 
 /* ---- expression.c ---- */
 
 /* Writes a node so that it binds at least as tightly as `least`. */
 void spell_expression(struct spell *spell, ir_ref ref, enum lang_precedence least);
-void spell_node(struct spell *spell, ir_ref ref, const struct ir_node *node, enum lang_precedence least);
-void spell_typed_node(struct spell *spell, ir_ref ref, const struct ir_node *node, enum lang_precedence least);
+void spell_node(struct spell *spell, ir_ref ref, const struct ir_node *node,
+                enum lang_precedence least);
+void spell_typed_node(struct spell *spell, ir_ref ref, const struct ir_node *node,
+                      enum lang_precedence least);
 /*
  * "f(a, b": the name and operands of a call, unfinished. Returns how many arguments were written.
  */
@@ -117,11 +124,18 @@ void spell_verbatim_sources(struct spell *spell); /* each once */
 void spell_stage(struct spell *spell, enum shader_stage_id stage);
 
 /*
- * The text of a comment, of a document's words: nothing in it ends the line or joins it with the next one.
+ * The text of a comment, of a document's words: nothing in it ends the line or joins it with the
+ * next one.
  */
 void spell_comment(struct spell *spell, const char *text, size_t len);
-static inline void spell_text(struct spell *spell, const char *text) { text_str(spell->out, text); }
-static inline void spell_name(struct spell *spell, struct spell_name name) { text_mem(spell->out, name.text, name.len); }
+static inline void spell_text(struct spell *spell, const char *text)
+{
+    text_str(spell->out, text);
+}
+static inline void spell_name(struct spell *spell, struct spell_name name)
+{
+    text_mem(spell->out, name.text, name.len);
+}
 static inline struct spell_name spell_name_of(const struct strpool *strings, str_id id)
 {
     return (struct spell_name){str_text(strings, id), str_len(strings, id)};
@@ -133,7 +147,10 @@ static inline void spell_texts(struct spell *spell, const char *const *texts)
     while (*texts)
         text_str(spell->out, *texts++);
 }
-static inline void spell_number(struct spell *spell, uint32_t number) { text_u32(spell->out, number); }
+static inline void spell_number(struct spell *spell, uint32_t number)
+{
+    text_u32(spell->out, number);
+}
 static inline void spell_indent(struct spell *spell, unsigned indent)
 {
     while (indent--)
@@ -145,6 +162,9 @@ static inline void spell_mark(struct spell *spell, uint32_t origin)
     if (origin)
         vec_push(spell->scratch, &spell->marks, (struct spell_mark){spell->out->len, origin});
 }
-static inline bool spell_can(const struct spell *spell, uint32_t cap) { return (spell->target->caps & cap) != 0; }
+static inline bool spell_can(const struct spell *spell, uint32_t cap)
+{
+    return (spell->target->caps & cap) != 0;
+}
 
 #endif

@@ -9,17 +9,21 @@
 static bool equal_types(const struct spell *spell, ir_type_id a, ir_type_id b)
 {
     const struct lang_syntax *syntax = spell->target->syntax;
-    return a == b || (a < IR_NUM_TYPES && b < IR_NUM_TYPES && strcmp(lang_syntax_type(syntax, a), lang_syntax_type(syntax, b)) == 0);
+    return a == b
+           || (a < IR_NUM_TYPES && b < IR_NUM_TYPES
+               && strcmp(lang_syntax_type(syntax, a), lang_syntax_type(syntax, b)) == 0);
 }
 
 static bool equal_parameters(const struct spell *spell, uint32_t a, uint32_t b)
 {
     const struct lang_unit *la, *lb;
-    const struct lang_function *fa = lang_function(spell->shader->unit, a, &la), *fb = lang_function(spell->shader->unit, b, &lb);
+    const struct lang_function *fa = lang_function(spell->shader->unit, a, &la),
+                               *fb = lang_function(spell->shader->unit, b, &lb);
     if (fa->num_params != fb->num_params)
         return false;
     for (uint32_t i = 0; i < fa->num_params; i++)
-        if (!equal_types(spell, la->slots.items[fa->first_slot + i].type, lb->slots.items[fb->first_slot + i].type))
+        if (!equal_types(spell, la->slots.items[fa->first_slot + i].type,
+                         lb->slots.items[fb->first_slot + i].type))
             return false;
     return true;
 }
@@ -36,14 +40,17 @@ static struct overloads overloads_init(const struct spell *spell)
     uint32_t n = spell->stage->reach.functions.len, slots = 16;
     while (slots < 2 * n)
         slots *= 2;
-    return (struct overloads){.last = ARENA_ARRAY(spell->scratch, uint32_t, slots), .mask = slots - 1,
+    return (struct overloads){.last = ARENA_ARRAY(spell->scratch, uint32_t, slots),
+                              .mask = slots - 1,
                               .before = ARENA_ARRAY(spell->scratch, uint32_t, n + 1)};
 }
 
 /*
- * The name that an earlier function of the same source name has and that this one may share as an overload; NULL: none.
+ * The name that an earlier function of the same source name has and that this one may share as an
+ * overload; NULL: none.
  */
-static const char *overload_of(const struct spell *spell, struct overloads *overloads, uint32_t index, str_id name)
+static const char *overload_of(const struct spell *spell, struct overloads *overloads,
+                               uint32_t index, str_id name)
 {
     const uint32_t *ids = spell->stage->reach.functions.items;
     uint32_t *last = &overloads->last[hash_pair(name, 0) & overloads->mask];
@@ -68,16 +75,21 @@ static void name_functions(struct spell *spell)
     for (uint32_t i = 0; i < spell->stage->reach.functions.len; i++) {
         uint32_t id = spell->stage->reach.functions.items[i];
         str_id source = lang_function(shader->unit, id, NULL)->name;
-        const char *name = spell_can(spell, CAP_OVERLOADS) ? overload_of(spell, &overloads, i, source) : NULL;
+        const char *name =
+            spell_can(spell, CAP_OVERLOADS) ? overload_of(spell, &overloads, i, source) : NULL;
         if (!name)
-            name = names_unique(&spell->names, str_text(shader->strings, source), str_len(shader->strings, source)).text;
+            name = names_unique(&spell->names, str_text(shader->strings, source),
+                                str_len(shader->strings, source))
+                       .text;
         spell->functions[id] = name;
     }
     for (uint32_t i = 0; i < spell->stage->functions.len; i++) {
         uint32_t index = spell->stage->functions.items[i].function;
         str_id source = shader->graph->functions.items[index].name;
         spell->graph_functions[index] =
-            names_unique(&spell->names, str_text(shader->strings, source), str_len(shader->strings, source)).text;
+            names_unique(&spell->names, str_text(shader->strings, source),
+                         str_len(shader->strings, source))
+                .text;
     }
 }
 
@@ -87,7 +99,9 @@ static void name_types(struct spell *spell)
     for (uint32_t i = 0; i < reach->user_types.len; i++) {
         str_id name = lang_user_type(spell->shader->unit, reach->user_types.items[i], NULL)->name;
         spell->user_types[reach->user_types.items[i] - IR_TYPE_FIRST_USER] =
-            names_unique(&spell->names, str_text(spell->shader->strings, name), str_len(spell->shader->strings, name)).text;
+            names_unique(&spell->names, str_text(spell->shader->strings, name),
+                         str_len(spell->shader->strings, name))
+                .text;
     }
 }
 
@@ -133,11 +147,13 @@ void spell_comment(struct spell *spell, const char *text, size_t len)
 void spell_title(struct spell *spell)
 {
     const struct shader *shader = spell->shader;
-    const char *parts[] = {str_text(shader->strings, shader->name), str_text(shader->strings, shader->element_type),
-                           spell->options->generator, spell->target->name, spell->options->interface};
+    const char *parts[] = {
+        str_text(shader->strings, shader->name), str_text(shader->strings, shader->element_type),
+        spell->options->generator, spell->target->name, spell->options->interface};
     uint32_t textures = 0;
     for (uint32_t i = 0; i < shader->interface.len; i++) {
-        const struct shader_variable *variable = &shader->variables.items[shader->interface.items[i]];
+        const struct shader_variable *variable =
+            &shader->variables.items[shader->interface.items[i]];
         textures += variable->block == BLOCK_TEXTURES && !variable->semantic;
     }
     for (size_t i = spell->options->neutral_names ? 2 : 0; i < sizeof parts / sizeof *parts; i++) {
@@ -153,12 +169,15 @@ void spell_title(struct spell *spell)
 
 static void write_header(struct spell *spell)
 {
-    const char *version = spell->options->version ? spell->options->version : spell->target->versions[0];
+    const char *version =
+        spell->options->version ? spell->options->version : spell->target->versions[0];
     SPELL(spell, "#version ", version, "\n// ");
     spell_title(spell);
     spell_text(spell, "\n");
-    if (spell_can(spell, CAP_PRECISION) && (spell->stage_id == STAGE_PIXEL || spell->shader->displaced))
-        spell_text(spell, "precision highp float;\nprecision highp int;\nprecision highp sampler2D;\n");
+    if (spell_can(spell, CAP_PRECISION)
+        && (spell->stage_id == STAGE_PIXEL || spell->shader->displaced))
+        spell_text(spell,
+                   "precision highp float;\nprecision highp int;\nprecision highp sampler2D;\n");
     if (spell_can(spell, CAP_PRECISION) && spell->shader->tiles.len)
         spell_text(spell, "precision highp sampler2DArray;\n");
     spell_text(spell, "\n");
@@ -185,12 +204,14 @@ static void write_functions(struct spell *spell)
     size_t before = spell->out->len;
     for (uint32_t i = 0; i < reach->globals.len; i++)
         if (shader_global_variable(spell->shader, reach->globals.items[i]) == UINT32_MAX)
-            lang_print_constant(spell->style, &spell->lang_names, spell->shader->unit, reach->globals.items[i], spell->out);
+            lang_print_constant(spell->style, &spell->lang_names, spell->shader->unit,
+                                reach->globals.items[i], spell->out);
     if (spell->out->len > before)
         spell_text(spell, "\n");
     spell_verbatim_sources(spell);
     for (uint32_t i = 0; i < reach->functions.len; i++) {
-        lang_print_function(spell->style, &spell->lang_names, spell->shader->unit, reach->functions.items[i], spell->out);
+        lang_print_function(spell->style, &spell->lang_names, spell->shader->unit,
+                            reach->functions.items[i], spell->out);
         spell_text(spell, "\n");
     }
     for (uint32_t i = 0; i < spell->stage->functions.len; i++)
@@ -213,7 +234,8 @@ void spell_stage(struct spell *spell, enum shader_stage_id stage)
 /* ---- Entry ---- */
 
 /*
- * The target's syntax for a stage that knows no neighbours on the screen: nothing differs from them.
+ * The target's syntax for a stage that knows no neighbours on the screen: nothing differs from
+ * them.
  */
 static const struct lang_syntax *syntax_of_one(struct spell *spell)
 {
@@ -236,21 +258,28 @@ static void init(struct spell *spell)
     const struct shader *shader = spell->shader;
     struct arena *arena = spell->scratch;
     const struct lang_unit *unit = shader->unit;
-    spell->blocks = spell_can(spell, CAP_UNIFORM_BLOCKS) || (spell_can(spell, CAP_BLOCK_OPTION) && spell->options->uniform_blocks);
+    spell->blocks = spell_can(spell, CAP_UNIFORM_BLOCKS)
+                    || (spell_can(spell, CAP_BLOCK_OPTION) && spell->options->uniform_blocks);
     spell->variables = ARENA_ARRAY(arena, struct spell_name, shader->variables.len + 1);
     uint32_t num_functions = unit->base_functions + unit->functions.len;
-    spell->functions = arena_alloc(arena, mem_array_size(arena->mem, num_functions, sizeof *spell->functions));
+    spell->functions =
+        arena_alloc(arena, mem_array_size(arena->mem, num_functions, sizeof *spell->functions));
     spell->graph_functions = ARENA_ARRAY(arena, const char *, shader->graph->functions.len + 1);
-    spell->user_types = ARENA_ARRAY(arena, const char *, unit->base_user_types + unit->user_types.len + 1);
+    spell->user_types =
+        ARENA_ARRAY(arena, const char *, unit->base_user_types + unit->user_types.len + 1);
     spell->locals = ARENA_ARRAY(arena, struct spell_name, shader->locals.len + 1);
     spell->local_of = shader->local_of;
     spell->write_node = spell_node;
-    spell->lang_names = (struct lang_names){
-        .user_data = spell, .function = function_name, .global = global_name, .user_type = user_type_name};
+    spell->lang_names = (struct lang_names){.user_data = spell,
+                                            .function = function_name,
+                                            .global = global_name,
+                                            .user_type = user_type_name};
     bool has_neighbours = spell->stage_id == STAGE_PIXEL ? !shader->scatters : !shader->displaced;
-    spell->style = shader->style && has_neighbours ? shader->style : arena_alloc(arena, sizeof *spell->style);
+    spell->style =
+        shader->style && has_neighbours ? shader->style : arena_alloc(arena, sizeof *spell->style);
     if (spell->style != shader->style)
-        lang_style_init(spell->style, has_neighbours ? spell->target->syntax : syntax_of_one(spell), arena);
+        lang_style_init(spell->style, has_neighbours ? spell->target->syntax : syntax_of_one(spell),
+                        arena);
     names_init(&spell->names, arena, spell->style, spell->stage_id == STAGE_VERTEX);
     if (spell->options->comments && spell->options->path && !spell->options->neutral_names) {
         names_init(&spell->paths, arena, spell->style, true);
@@ -263,13 +292,19 @@ static void init(struct spell *spell)
     name_functions(spell);
 }
 
-void spell_shader_stage(const struct target *target, const struct spell_options *options, const struct shader *shader,
-                        enum shader_stage_id stage, struct arena *scratch, struct text *out, struct spell_mark **out_marks,
+void spell_shader_stage(const struct target *target, const struct spell_options *options,
+                        const struct shader *shader, enum shader_stage_id stage,
+                        struct arena *scratch, struct text *out, struct spell_mark **out_marks,
                         uint32_t *out_num_marks)
 {
     struct spell spell = {
-        .target = target, .options = options, .shader = shader, .stage = &shader->stages[stage], .stage_id = stage,
-        .scratch = scratch, .out = out,
+        .target = target,
+        .options = options,
+        .shader = shader,
+        .stage = &shader->stages[stage],
+        .stage_id = stage,
+        .scratch = scratch,
+        .out = out,
     };
     init(&spell);
     const struct target *writer = target;

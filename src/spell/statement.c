@@ -10,7 +10,8 @@ static void open_line(struct spell *spell, unsigned indent, uint32_t origin)
     spell_indent(spell, indent);
 }
 
-static void write_assignment(struct spell *spell, unsigned indent, struct spell_name name, const char *operator, ir_ref value)
+static void write_assignment(struct spell *spell, unsigned indent, struct spell_name name,
+                             const char *operator, ir_ref value)
 {
     open_line(spell, indent, ir_get(spell->shader->graph, value)->origin);
     spell_name(spell, name);
@@ -27,7 +28,8 @@ static struct spell_name without(struct spell_name name, size_t len)
 }
 
 /* "coat" of the input whose path is "NG/metal/coat", "alphaThreshold" of u_alphaThreshold. */
-static struct spell_name input_name(const struct spell *spell, const struct shader_variable *variable)
+static struct spell_name input_name(const struct spell *spell,
+                                    const struct shader_variable *variable)
 {
     if (!variable->path)
         return without(spell_name_of(spell->shader->strings, variable->name), strlen("u_"));
@@ -37,7 +39,8 @@ static struct spell_name input_name(const struct spell *spell, const struct shad
 }
 
 /*
- * "metal_ior" of the origin, "direction" of a light, "coat" of an input, "noise" of the function mx_noise, else a letter.
+ * "metal_ior" of the origin, "direction" of a light, "coat" of an input, "noise" of the function
+ * mx_noise, else a letter.
  */
 static struct spell_name local_base(const struct spell *spell, ir_ref ref)
 {
@@ -54,11 +57,15 @@ static struct spell_name local_base(const struct spell *spell, ir_ref ref)
     if (name)
         return spell_name_of(strings, name);
     if (node->op == IR_CALL) {
-        struct spell_name function =
-            spell_name_of(strings, lang_function(spell->shader->unit, shader_callee(spell->shader, ref), NULL)->name);
+        struct spell_name function = spell_name_of(
+            strings,
+            lang_function(spell->shader->unit, shader_callee(spell->shader, ref), NULL)->name);
         return strncmp(function.text, "mx_", 3) == 0 ? without(function, 3) : function;
     }
-    return (struct spell_name){node->type == IR_TYPE_BOOL ? "b" : node->type == IR_TYPE_INT ? "k" : "t", 1};
+    return (struct spell_name){node->type == IR_TYPE_BOOL  ? "b"
+                               : node->type == IR_TYPE_INT ? "k"
+                                                           : "t",
+                               1};
 }
 
 static struct spell_name add_local(struct spell *spell, struct spell_name base)
@@ -82,19 +89,22 @@ static struct spell_name part_name(struct spell *spell, struct spell_name base, 
 }
 
 /*
- * A comment says whose inner nodes follow: a node of the document or a graph. The nodes' own names are those of the locals. Nodes of one
- * parent stand in one graph, so that a path is asked for once for all of them.
+ * A comment says whose inner nodes follow: a node of the document or a graph. The nodes' own names
+ * are those of the locals. Nodes of one parent stand in one graph, so that a path is asked for once
+ * for all of them.
  */
 static void write_path(struct spell *spell, unsigned indent, uint32_t origin)
 {
     const struct spell_options *options = spell->options;
     if (!spell->origins_seen || !origin)
         return;
-    uint32_t parent = spell->shader->graph->origins.items[origin].parent, key = parent ? parent : origin;
+    uint32_t parent = spell->shader->graph->origins.items[origin].parent,
+             key = parent ? parent : origin;
     if (spell->origins_seen[key])
         return;
     spell->origins_seen[key] = 1;
-    const char *path = options->path(options->user_data, origin), *end = path ? strrchr(path, '/') : NULL;
+    const char *path = options->path(options->user_data, origin),
+               *end = path ? strrchr(path, '/') : NULL;
     if (!end || !names_take(&spell->paths, path, (size_t)(end - path)))
         return;
     spell_indent(spell, indent);
@@ -126,11 +136,13 @@ struct call_out {
 static struct call_out portable_out(const struct spell *spell, ir_ref call, unsigned index)
 {
     const struct lang_unit *layer;
-    const struct lang_function *fn = lang_function(spell->shader->unit, shader_callee(spell->shader, call), &layer);
+    const struct lang_function *fn =
+        lang_function(spell->shader->unit, shader_callee(spell->shader, call), &layer);
     for (uint32_t i = 0;; i++) {
         const struct lang_slot *slot = &layer->slots.items[fn->first_slot + i];
         if (slot->mode != LANG_IN && index-- == 0)
-            return (struct call_out){slot->type, str_text(spell->shader->strings, slot->name), slot->mode == LANG_INOUT};
+            return (struct call_out){slot->type, str_text(spell->shader->strings, slot->name),
+                                     slot->mode == LANG_INOUT};
     }
 }
 
@@ -142,21 +154,26 @@ static struct call_out describe_out(const struct spell *spell, ir_ref call, unsi
         return portable_out(spell, call, index);
     if (node->op == IR_GRAPH_CALL) {
         const struct ir_function *fn = &shader->graph->functions.items[node->attr];
-        return (struct call_out){ir_type_of(shader->graph, shader->graph->function_results.items[fn->first_result + index + 1]),
-                                 "result", false};
+        return (struct call_out){
+            ir_type_of(shader->graph,
+                       shader->graph->function_results.items[fn->first_result + index + 1]),
+            "result", false};
     }
     const struct shader_verbatim *verbatim = &shader->verbatim.items[shader_callee(shader, call)];
-    return (struct call_out){shader->result_types.items[verbatim->first_result + index], "result", false};
+    return (struct call_out){shader->result_types.items[verbatim->first_result + index], "result",
+                             false};
 }
 
 /*
- * Portable functions mix `in`, `inout` and `out` parameters in any order; the call's operands are those of the first two kinds.
- * An `inout` argument is a local that begins with the operand's value.
+ * Portable functions mix `in`, `inout` and `out` parameters in any order; the call's operands are
+ * those of the first two kinds. An `inout` argument is a local that begins with the operand's
+ * value.
  */
 static void write_portable_arguments(struct spell *spell, ir_ref call, uint32_t first_name)
 {
     const struct lang_unit *layer;
-    const struct lang_function *fn = lang_function(spell->shader->unit, shader_callee(spell->shader, call), &layer);
+    const struct lang_function *fn =
+        lang_function(spell->shader->unit, shader_callee(spell->shader, call), &layer);
     uint32_t operand = 0, out = 0;
     for (uint32_t i = 0; i < fn->num_params; i++) {
         uint8_t mode = layer->slots.items[fn->first_slot + i].mode;
@@ -170,7 +187,8 @@ static void write_portable_arguments(struct spell *spell, ir_ref call, uint32_t 
     }
 }
 
-static void write_call_arguments(struct spell *spell, ir_ref call, uint32_t first_name, unsigned outs)
+static void write_call_arguments(struct spell *spell, ir_ref call, uint32_t first_name,
+                                 unsigned outs)
 {
     if (ir_get(spell->shader->graph, call)->op == IR_CALL) {
         spell_text(spell, spell->functions[shader_callee(spell->shader, call)]);
@@ -187,12 +205,14 @@ static void write_call_arguments(struct spell *spell, ir_ref call, uint32_t firs
 }
 
 /*
- * The operand that belongs to the out parameter `index` of a portable function, which is an inout one.
+ * The operand that belongs to the out parameter `index` of a portable function, which is an inout
+ * one.
  */
 static ir_ref inout_operand(const struct spell *spell, ir_ref call, unsigned index)
 {
     const struct lang_unit *layer;
-    const struct lang_function *fn = lang_function(spell->shader->unit, shader_callee(spell->shader, call), &layer);
+    const struct lang_function *fn =
+        lang_function(spell->shader->unit, shader_callee(spell->shader, call), &layer);
     uint32_t operand = 0;
     for (uint32_t i = 0;; i++) {
         uint8_t mode = layer->slots.items[fn->first_slot + i].mode;
@@ -209,7 +229,8 @@ static struct spell_name parts_base(const struct spell *spell, ir_ref call, unsi
     for (unsigned i = 0; i < outs; i++) {
         const char *part = describe_out(spell, call, i).part;
         size_t len = strlen(part);
-        if (base.len > len + 1 && base.text[base.len - len - 1] == '_' && memcmp(base.text + base.len - len, part, len) == 0)
+        if (base.len > len + 1 && base.text[base.len - len - 1] == '_'
+            && memcmp(base.text + base.len - len, part, len) == 0)
             return (struct spell_name){base.text, base.len - len - 1};
     }
     return base;
@@ -224,8 +245,10 @@ static void declare_outs(struct spell *spell, unsigned indent, ir_ref call, unsi
     for (unsigned i = 0; i < outs; i++) {
         struct call_out out = describe_out(spell, call, i);
         bool is_whole = node->type == IR_TYPE_VOID && outs == 1;
-        struct spell_name name = add_local(spell, part_name(spell, base, is_whole ? NULL : out.part));
-        bool joins = i > 0 && !out.inout && !last.inout && out.type == last.type && out.type < IR_TYPE_FIRST_USER;
+        struct spell_name name =
+            add_local(spell, part_name(spell, base, is_whole ? NULL : out.part));
+        bool joins = i > 0 && !out.inout && !last.inout && out.type == last.type
+                     && out.type < IR_TYPE_FIRST_USER;
         if (joins) {
             text_mem(spell->out, ", ", 2);
             spell_name(spell, name);
@@ -323,8 +346,9 @@ static void write_discard(struct spell *spell, unsigned indent, ir_ref condition
 static void write_variable(struct spell *spell, unsigned indent, const struct effect *effect)
 {
     const struct shader_local *local = &spell->shader->locals.items[effect->index];
-    struct spell_name name = spell->options->neutral_names ? (struct spell_name){"v", 1}
-                                                           : spell_name_of(spell->shader->strings, local->name);
+    struct spell_name name = spell->options->neutral_names
+                                 ? (struct spell_name){"v", 1}
+                                 : spell_name_of(spell->shader->strings, local->name);
     spell->locals[effect->index] = names_unique(&spell->names, name.text, name.len);
     open_line(spell, indent, 0);
     spell_variable(spell, local->type, spell->locals[effect->index]);
@@ -338,8 +362,10 @@ static void write_variable(struct spell *spell, unsigned indent, const struct ef
 static void write_result(struct spell *spell, unsigned indent, const struct effect *effect)
 {
     char name[16] = "return";
-    size_t len = effect->index ? (size_t)snprintf(name, sizeof name, "r%u", (unsigned)effect->index) : strlen(name);
-    write_assignment(spell, indent, (struct spell_name){name, len}, effect->index ? " = " : " ", effect->value);
+    size_t len = effect->index ? (size_t)snprintf(name, sizeof name, "r%u", (unsigned)effect->index)
+                               : strlen(name);
+    write_assignment(spell, indent, (struct spell_name){name, len}, effect->index ? " = " : " ",
+                     effect->value);
 }
 
 static struct spell_name position_name(const struct spell *spell)
@@ -354,19 +380,16 @@ static void write_comment(struct spell *spell, unsigned indent, str_id text)
         return;
     open_line(spell, indent, 0);
     text_mem(spell->out, "// ", 3);
-    spell_comment(spell, str_text(spell->shader->strings, text), str_len(spell->shader->strings, text));
+    spell_comment(spell, str_text(spell->shader->strings, text),
+                  str_len(spell->shader->strings, text));
     text_char(spell->out, '\n');
 }
 
 static void write_effect(struct spell *spell, unsigned indent, const struct effect *effect)
 {
     switch ((enum effect_kind)effect->kind) {
-    case EFFECT_LET:
-        write_let(spell, indent, effect->value);
-        break;
-    case EFFECT_VAR:
-        write_variable(spell, indent, effect);
-        break;
+    case EFFECT_LET: write_let(spell, indent, effect->value); break;
+    case EFFECT_VAR: write_variable(spell, indent, effect); break;
     case EFFECT_ACCUMULATE:
         write_assignment(spell, indent, spell->locals[effect->index], " += ", effect->value);
         break;
@@ -380,21 +403,12 @@ static void write_effect(struct spell *spell, unsigned indent, const struct effe
         write_assignment(spell, indent, position_name(spell), " = ", effect->value);
         break;
     case EFFECT_LIGHTS:
-    case EFFECT_SAMPLES:
-        write_loop(spell, indent, effect->kind == EFFECT_LIGHTS);
-        break;
-    case EFFECT_COMMENT:
-        write_comment(spell, indent, effect->text);
-        break;
-    case EFFECT_DISCARD:
-        write_discard(spell, indent, effect->value);
-        break;
-    case EFFECT_RESULT:
-        write_result(spell, indent, effect);
-        break;
+    case EFFECT_SAMPLES: write_loop(spell, indent, effect->kind == EFFECT_LIGHTS); break;
+    case EFFECT_COMMENT: write_comment(spell, indent, effect->text); break;
+    case EFFECT_DISCARD: write_discard(spell, indent, effect->value); break;
+    case EFFECT_RESULT: write_result(spell, indent, effect); break;
     case EFFECT_IF:
-    case EFFECT_END: /* spell_statements */
-        break;
+    case EFFECT_END: /* spell_statements */ break;
     }
 }
 
@@ -455,9 +469,12 @@ void spell_graph_function(struct spell *spell, const struct shader_function *fun
         names_take(&spell->names, arena_strndup(spell->scratch, name, len), len);
         if (i)
             text_mem(spell->out, ", ", 2);
-        ir_type_id type = in ? graph->param_types.items[fn->first_param_type + index]
-                             : ir_type_of(graph, graph->function_results.items[fn->first_result + index]);
-        spell_text(spell, !in ? syntax->param_out : type == IR_TYPE_SAMPLER ? "" : syntax->param_in);
+        ir_type_id type =
+            in ? graph->param_types.items[fn->first_param_type + index]
+               : ir_type_of(graph, graph->function_results.items[fn->first_result + index]);
+        spell_text(spell, !in                       ? syntax->param_out
+                          : type == IR_TYPE_SAMPLER ? ""
+                                                    : syntax->param_in);
         spell_variable(spell, type, (struct spell_name){name, len});
     }
     text_mem(spell->out, ")\n{\n", 4);

@@ -23,10 +23,8 @@ static bool is_structural(enum ir_op op)
     case IR_CALL:
     case IR_VERBATIM:
     case IR_GRAPH_CALL:
-    case IR_RESULT:
-        return true;
-    default:
-        return false;
+    case IR_RESULT: return true;
+    default: return false;
     }
 }
 
@@ -41,12 +39,9 @@ static uint32_t needed_caps(enum ir_op op)
     case IR_OR:
     case IR_XOR:
     case IR_FLOAT_TO_UINT_BITS:
-    case IR_UINT_BITS_TO_FLOAT:
-        return CAP_BITWISE;
-    case IR_TEX:
-        return CAP_IMPLICIT_LOD;
-    default:
-        return 0;
+    case IR_UINT_BITS_TO_FLOAT: return CAP_BITWISE;
+    case IR_TEX: return CAP_IMPLICIT_LOD;
+    default: return 0;
     }
 }
 

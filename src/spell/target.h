@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * A target: a table with inheritance and few hooks. Passes lower by capability bits; a back end only spells.
+ * A target: a table with inheritance and few hooks. Passes lower by capability bits; a back end
+ * only spells.
  */
 #ifndef MXG_SPELL_TARGET_H
 #define MXG_SPELL_TARGET_H
@@ -26,7 +27,7 @@ enum target_caps {
     /* texture() gives as many channels as are wanted: one, three or four */
     CAP_TYPED_TEXTURES = 16384,
     CAP_MISSING_COLORS = 32768, /* texture() is told what to give where there is no image */
-    CAP_NAMED_WHOLES = 8192,  /* parts are taken of variables only: v.x, but not (a + b).x */
+    CAP_NAMED_WHOLES = 8192,    /* parts are taken of variables only: v.x, but not (a + b).x */
 };
 
 struct spell; /* spell/spell.h */
@@ -37,20 +38,21 @@ struct target_network { /* for hosts that put shaders together themselves */
 };
 
 struct target {
-    const char *name;             /* "glsl": --target */
-    const char *materialx_name;   /* "genglsl": target of implementations */
-    const struct target *base;    /* hooks and rows absent here come from there */
-    const char *brief;            /* one line for --help and introspection */
+    const char *name;           /* "glsl": --target */
+    const char *materialx_name; /* "genglsl": target of implementations */
+    const struct target *base;  /* hooks and rows absent here come from there */
+    const char *brief;          /* one line for --help and introspection */
     uint32_t caps;
     /* values of the option `version`, first is the default; "#version" is written with it */
     const char *const *versions;
     const struct lang_syntax *syntax;
-    const struct closure_rows *closures; /* with CAP_CLOSURES: the language's own */
+    const struct closure_rows *closures;  /* with CAP_CLOSURES: the language's own */
     const struct target_network *network; /* NULL: shaders of the target are whole */
     const char *position; /* what the vertex stage writes the position to; NULL: gl_Position */
     const char *stage_suffix[NUM_STAGES]; /* "vert", "frag"; file endings */
     /*
-     * The type of a node's local, or of each result of a call, where it does not follow from the IR's type; may be NULL, and return it.
+     * The type of a node's local, or of each result of a call, where it does not follow from the
+     * IR's type; may be NULL, and return it.
      */
     const char *(*node_type)(const struct spell *spell, ir_ref ref);
     /* Writes one stage. NULL: from base; the C-like targets share spell_stage. */
@@ -65,7 +67,7 @@ bool target_is_a(const struct target *target, const char *materialx_name);
 
 /* Can the target write an op? */
 enum spell_support {
-    SPELL_NO,      /* documents that need it cannot be generated */
+    SPELL_NO, /* documents that need it cannot be generated */
     /* gone before spelling: closures become sums, strings are compared at compile time */
     SPELL_LOWERED,
     SPELL_YES,
@@ -74,16 +76,16 @@ enum spell_support spell_support(const struct target *target, enum ir_op op);
 extern const char *const spell_support_text[]; /* "no", "lowered", "yes" */
 
 struct spell_options {
-    const char *version;   /* of the target; NULL = default */
-    const char *generator; /* for the first comment: "mxgen 0.1" */
-    const char *interface; /* "complete", "authored", "reduced" */
+    const char *version;    /* of the target; NULL = default */
+    const char *generator;  /* for the first comment: "mxgen 0.1" */
+    const char *interface;  /* "complete", "authored", "reduced" */
     const char *colorspace; /* the working space */
     /* of parameters: 0 none, 1 what user interfaces need, 2 with their documentation */
     int metadata;
     bool uniform_blocks;
     bool neutral_names;
     const char *shader_name; /* no other function or shader has it; NULL: from the element's path */
-    bool comments;         /* paths as comments */
+    bool comments;           /* paths as comments */
     void *user_data;
     /* The element path that a comment shows for an origin; NULL: none. The function may be NULL. */
     const char *(*path)(void *user_data, uint32_t origin);
@@ -98,8 +100,9 @@ struct spell_mark {
 };
 
 /* Writes one stage's source to `out`; its marks, in order, go to `*out_marks`. */
-void spell_shader_stage(const struct target *target, const struct spell_options *options, const struct shader *shader,
-                        enum shader_stage_id stage, struct arena *scratch, struct text *out,
-                        struct spell_mark **out_marks, uint32_t *out_num_marks);
+void spell_shader_stage(const struct target *target, const struct spell_options *options,
+                        const struct shader *shader, enum shader_stage_id stage,
+                        struct arena *scratch, struct text *out, struct spell_mark **out_marks,
+                        uint32_t *out_num_marks);
 
 #endif

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * XInclude (W3C, 1.1) as MaterialX uses it: whole documents, whose top-level elements take the place of the <xi:include>.
+ * XInclude (W3C, 1.1) as MaterialX uses it: whole documents, whose top-level elements take the
+ * place of the <xi:include>.
  */
 #include "xml/internal.h"
 
@@ -40,7 +41,8 @@ static void report_cycle(struct xml_reader *reader, elem_id include, const char 
         }
     }
     text_str(&path, name);
-    diag_add(reader->diags, DIAG_ID_include_cycle, href_place(reader->doc, include), name, text_cstr(&path));
+    diag_add(reader->diags, DIAG_ID_include_cycle, href_place(reader->doc, include), name,
+             text_cstr(&path));
 }
 
 /* What stands in <xi:fallback> replaces an include that cannot be read. */
@@ -57,7 +59,8 @@ static bool use_fallback(struct document *doc, elem_id include)
     return true;
 }
 
-static void include_opened(struct xml_reader *reader, elem_id include, const char *name, const char *data, size_t size)
+static void include_opened(struct xml_reader *reader, elem_id include, const char *name,
+                           const char *data, size_t size)
 {
     struct document *doc = reader->doc;
     str_id id = str_intern_z(doc->strings, name);
@@ -94,9 +97,11 @@ static void process(struct xml_reader *reader, const struct xml_source *source, 
     else if (!*href)
         diag_add(reader->diags, DIAG_ID_include_no_href, doc_place(doc, include));
     else if (reader->include_depth >= reader->limits.max_include_depth)
-        diag_add(reader->diags, DIAG_ID_include_depth, href_place(doc, include), (unsigned)reader->limits.max_include_depth);
+        diag_add(reader->diags, DIAG_ID_include_depth, href_place(doc, include),
+                 (unsigned)reader->limits.max_include_depth);
     else if (reader->opened.len > reader->limits.max_includes)
-        diag_add(reader->diags, DIAG_ID_too_many_includes, href_place(doc, include), (unsigned)reader->limits.max_includes);
+        diag_add(reader->diags, DIAG_ID_too_many_includes, href_place(doc, include),
+                 (unsigned)reader->limits.max_includes);
     else if (xml_open_file(reader, source->name, href, &name, &data, &size, &reason))
         include_opened(reader, include, name, data, size);
     else if (!use_fallback(doc, include))
@@ -111,7 +116,8 @@ static bool is_below(const struct document *doc, elem_id element, elem_id root)
     return element != 0;
 }
 
-void xml_process_includes(struct xml_reader *reader, const struct xml_source *source, uint32_t first)
+void xml_process_includes(struct xml_reader *reader, const struct xml_source *source,
+                          uint32_t first)
 {
     uint32_t end = reader->includes.len;
     for (uint32_t i = first; i < end; i++) {

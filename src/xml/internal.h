@@ -31,14 +31,15 @@ struct xml_source {
     elem_id root;
     bool is_ascii;                /* a column is a byte */
     struct xml_position position; /* of the last tag or value seen */
-    elem_id current;    /* the innermost open element */
-    uint32_t depth;     /* open elements */
+    elem_id current;              /* the innermost open element */
+    uint32_t depth;               /* open elements */
     bool warned_prefix, warned_text;
 };
 
 /*
- * Stands for a raw '<' inside attribute values of a repaired text: one byte, so that positions stay, and one that XML allows but no
- * sane file contains (DEL). A file that does contain it is not repaired.
+ * Stands for a raw '<' inside attribute values of a repaired text: one byte, so that positions
+ * stay, and one that XML allows but no sane file contains (DEL). A file that does contain it is not
+ * repaired.
  */
 enum { XML_RAW_LESS = 0x7f };
 
@@ -72,31 +73,35 @@ struct xml_reader {
     struct xml_name names[XML_NUM_NAMES];
     struct xml_word words[XML_NUM_WORDS]; /* met last, each where its hash says */
     /*
-     * <xi:include> elements of the files being read, innermost last; replaced when the file is parsed
+     * <xi:include> elements of the files being read, innermost last; replaced when the file is
+     * parsed
      */
     VEC(elem_id) includes;
     VEC(struct xml_file) opened;
     uint32_t include_depth;
-    bool stopped;       /* of the current source: no further callback matters */
-    bool raw_less;      /* it stopped at a raw '<' in an attribute value … */
+    bool stopped;                     /* of the current source: no further callback matters */
+    bool raw_less;                    /* it stopped at a raw '<' in an attribute value … */
     struct diag_place raw_less_place; /* … here */
     bool repair_failed;
     bool out_of_memory; /* inside a callback or in libxml2 */
 };
 
 /*
- * The place `offset` bytes into the current source; cheap where it lies behind the last one asked for.
+ * The place `offset` bytes into the current source; cheap where it lies behind the last one asked
+ * for.
  */
 struct diag_place xml_place(struct xml_reader *reader, size_t offset);
 /* The column of that, and the line in source->position. */
 uint32_t xml_column(struct xml_source *source, size_t offset);
 
 /*
- * text.c: from the bytes of a file to UTF-8 text that libxml2 can parse. false: an error was reported.
+ * text.c: from the bytes of a file to UTF-8 text that libxml2 can parse. false: an error was
+ * reported.
  */
 bool xml_prepare_text(struct xml_reader *reader, const char *data, size_t size);
 /*
- * Makes the raw '<' in attribute values XML_RAW_LESS, in a copy of the source's text; false where that cannot be.
+ * Makes the raw '<' in attribute values XML_RAW_LESS, in a copy of the source's text; false where
+ * that cannot be.
  */
 bool xml_repair_text(struct xml_reader *reader);
 
@@ -104,25 +109,31 @@ bool xml_repair_text(struct xml_reader *reader);
 bool xml_parse_source(struct xml_reader *reader);
 
 /*
- * include.c: replaces the <xi:include> elements of a source, from index `first` of reader->includes, by what they include.
+ * include.c: replaces the <xi:include> elements of a source, from index `first` of
+ * reader->includes, by what they include.
  */
-void xml_process_includes(struct xml_reader *reader, const struct xml_source *source, uint32_t first);
+void xml_process_includes(struct xml_reader *reader, const struct xml_source *source,
+                          uint32_t first);
 
 /* reader.c */
 /*
- * Reads a file's text and all that it includes into a root of its own, which stays outside of the tree unless it is the
- * document's root; upgraded to the current version. 0: no tree.
+ * Reads a file's text and all that it includes into a root of its own, which stays outside of the
+ * tree unless it is the document's root; upgraded to the current version. 0: no tree.
  */
-elem_id xml_read_text(struct xml_reader *reader, const char *name, uint16_t file, elem_id root, const char *data, size_t size);
+elem_id xml_read_text(struct xml_reader *reader, const char *name, uint16_t file, elem_id root,
+                      const char *data, size_t size);
 /*
- * Moves a root's children before `sibling`, or to the end of `parent` where that is 0; what it says about its scope goes with them.
+ * Moves a root's children before `sibling`, or to the end of `parent` where that is 0; what it says
+ * about its scope goes with them.
  */
 void xml_merge_root(struct document *doc, elem_id root, elem_id parent, elem_id sibling);
 /*
- * Opens the file that `ref` means in the file `from`; xml_close_file releases it. One is open at a time. *out_name after a failure: xml_files.
+ * Opens the file that `ref` means in the file `from`; xml_close_file releases it. One is open at a
+ * time. *out_name after a failure: xml_files.
  */
-bool xml_open_file(struct xml_reader *reader, const char *from, const char *ref, const char **out_name, const char **out_data,
-                   size_t *out_size, const char **out_reason);
+bool xml_open_file(struct xml_reader *reader, const char *from, const char *ref,
+                   const char **out_name, const char **out_data, size_t *out_size,
+                   const char **out_reason);
 void xml_close_file(struct xml_reader *reader);
 
 #endif

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Text to elements by libxml2's SAX2 interface. No jump crosses a frame of libxml2: each callback runs under mem_try.
+ * Text to elements by libxml2's SAX2 interface. No jump crosses a frame of libxml2: each callback
+ * runs under mem_try.
  */
 #include "xml/internal.h"
 
@@ -41,11 +42,13 @@ struct start_tag {
 };
 
 /*
- * A name from libxml2's dictionary, which has each text at one address for as long as the reader's parser lives.
+ * A name from libxml2's dictionary, which has each text at one address for as long as the reader's
+ * parser lives.
  */
 static str_id plain_name(struct xml_reader *reader, const char *name)
 {
-    struct xml_name *known = &reader->names[((uintptr_t)name ^ (uintptr_t)name >> 7) & (XML_NUM_NAMES - 1)];
+    struct xml_name *known =
+        &reader->names[((uintptr_t)name ^ (uintptr_t)name >> 7) & (XML_NUM_NAMES - 1)];
     if (known->text != name)
         *known = (struct xml_name){name, str_intern_z(reader->doc->strings, name)};
     return known->id;
@@ -67,7 +70,8 @@ static str_id qualified_name(struct xml_reader *reader, const char *prefix, cons
 }
 
 /*
- * Types, names of ports and round numbers stand in a document over and over: a value of up to eight bytes is looked for here first.
+ * Types, names of ports and round numbers stand in a document over and over: a value of up to eight
+ * bytes is looked for here first.
  */
 static str_id intern_value(struct xml_reader *reader, const char *text, size_t len)
 {
@@ -78,7 +82,8 @@ static str_id intern_value(struct xml_reader *reader, const char *text, size_t l
     memcpy(&first, text, sizeof first);
     memcpy(&last, text + len - sizeof last, sizeof last);
     uint64_t bytes = (uint64_t)first << 32 | last;
-    struct xml_word *known = &reader->words[(bytes * 0x9e3779b97f4a7c15u >> 32) & (XML_NUM_WORDS - 1)];
+    struct xml_word *known =
+        &reader->words[(bytes * 0x9e3779b97f4a7c15u >> 32) & (XML_NUM_WORDS - 1)];
     if (known->bytes != bytes || known->len != len)
         *known = (struct xml_word){bytes, (uint32_t)len, str_intern(strings, text, len)};
     return known->id;
@@ -120,31 +125,39 @@ static bool is_no_quote(char c)
 }
 
 /*
- * Offset of the value of the next attribute in a start tag, `at` moved behind it. libxml2 has read the tag as far as its last good
- * attribute; what follows may be anything.
+ * Offset of the value of the next attribute in a start tag, `at` moved behind it. libxml2 has read
+ * the tag as far as its last good attribute; what follows may be anything.
  */
 static size_t next_value(const struct xml_source *source, size_t *at, bool *out_is_namespace)
 {
     size_t name = skip_while(source, *at, is_blank), end = skip_while(source, name, is_in_name);
     const char *text = source->text + name;
-    *out_is_namespace = end - name >= 5 && memcmp(text, "xmlns", 5) == 0 && (end - name == 5 || text[5] == ':');
+    *out_is_namespace =
+        end - name >= 5 && memcmp(text, "xmlns", 5) == 0 && (end - name == 5 || text[5] == ':');
     size_t value = skip_while(source, end, is_no_quote) + 1;
-    const char *close = value < source->size ? memchr(source->text + value, source->text[value - 1], source->size - value) : NULL;
+    const char *close = value < source->size ? memchr(source->text + value, source->text[value - 1],
+                                                      source->size - value)
+                                             : NULL;
     *at = close ? (size_t)(close - source->text) + 1 : source->size;
     return value < source->size ? value : source->size;
 }
 
-static void add_attr(struct xml_reader *reader, elem_id element, str_id name, str_id value, struct diag_place element_place,
-                     size_t offset)
+static void add_attr(struct xml_reader *reader, elem_id element, str_id name, str_id value,
+                     struct diag_place element_place, size_t offset)
 {
-    uint32_t column = xml_column(reader->source, offset), lines = reader->source->position.line - element_place.line;
-    doc_add_attr(reader->doc, element, (struct attribute){.name = name, .value = value,
-                 .line_delta = (uint16_t)(lines < UINT16_MAX ? lines : UINT16_MAX),
-                 .column = (uint16_t)(column < UINT16_MAX ? column : UINT16_MAX)});
+    uint32_t column = xml_column(reader->source, offset),
+             lines = reader->source->position.line - element_place.line;
+    doc_add_attr(
+        reader->doc, element,
+        (struct attribute){.name = name,
+                           .value = value,
+                           .line_delta = (uint16_t)(lines < UINT16_MAX ? lines : UINT16_MAX),
+                           .column = (uint16_t)(column < UINT16_MAX ? column : UINT16_MAX)});
 }
 
 /*
- * Offset of the value of an attribute where it stands as it is in the input of libxml2; SIZE_MAX where it is a copy.
+ * Offset of the value of an attribute where it stands as it is in the input of libxml2; SIZE_MAX
+ * where it is a copy.
  */
 static size_t value_offset(const struct xml_reader *reader, const xmlChar *value)
 {
@@ -155,7 +168,8 @@ static size_t value_offset(const struct xml_reader *reader, const xmlChar *value
 }
 
 /* The name is kept apart. */
-static void add_plain_attr(const struct start_tag *tag, int index, elem_id element, struct diag_place place, size_t offset)
+static void add_plain_attr(const struct start_tag *tag, int index, elem_id element,
+                           struct diag_place place, size_t offset)
 {
     struct xml_reader *reader = tag->reader;
     const xmlChar **a = tag->attrs + (size_t)index * 5;
@@ -169,7 +183,8 @@ static void add_plain_attr(const struct start_tag *tag, int index, elem_id eleme
 /*
  * Attributes in the order of the text. Namespace declarations other than XInclude's are attributes.
  */
-static void add_attrs(const struct start_tag *tag, elem_id element, struct diag_place place, size_t at)
+static void add_attrs(const struct start_tag *tag, elem_id element, struct diag_place place,
+                      size_t at)
 {
     struct xml_reader *reader = tag->reader;
     int ns = 0, attr = 0;
@@ -177,10 +192,12 @@ static void add_attrs(const struct start_tag *tag, elem_id element, struct diag_
         bool is_namespace;
         size_t value = next_value(reader->source, &at, &is_namespace);
         if (is_namespace && ns < tag->num_namespaces) {
-            const char *prefix = (const char *)tag->namespaces[ns * 2], *uri = (const char *)tag->namespaces[ns * 2 + 1];
+            const char *prefix = (const char *)tag->namespaces[ns * 2],
+                       *uri = (const char *)tag->namespaces[ns * 2 + 1];
             ns++;
             if (uri && strcmp(uri, XINCLUDE_NAMESPACE) != 0)
-                add_attr(reader, element, qualified_name(reader, prefix ? "xmlns" : NULL, prefix ? prefix : "xmlns"),
+                add_attr(reader, element,
+                         qualified_name(reader, prefix ? "xmlns" : NULL, prefix ? prefix : "xmlns"),
                          str_intern_z(reader->doc->strings, uri), place, value);
         } else if (attr < tag->num_attrs) {
             add_plain_attr(tag, attr++, element, place, value);
@@ -192,7 +209,8 @@ static void add_attrs(const struct start_tag *tag, elem_id element, struct diag_
 
 static bool is_xinclude(const struct start_tag *tag)
 {
-    return (tag->uri && strcmp(tag->uri, XINCLUDE_NAMESPACE) == 0) || (tag->prefix && strcmp(tag->prefix, "xi") == 0);
+    return (tag->uri && strcmp(tag->uri, XINCLUDE_NAMESPACE) == 0)
+           || (tag->prefix && strcmp(tag->prefix, "xi") == 0);
 }
 
 /* The root is there already; every other element is new. 0: a limit was reached. */
@@ -203,9 +221,11 @@ static elem_id add_element(const struct start_tag *tag, struct diag_place place)
     uint16_t column = (uint16_t)(place.column < UINT16_MAX ? place.column : UINT16_MAX);
     str_id category = qualified_name(reader, is_xinclude(tag) ? "xi" : tag->prefix, tag->name);
     if (source->depth > 0 && !doc_is_full(reader->doc))
-        return doc_add_element(reader->doc, source->current, category, STR_EMPTY, source->file, place.line, column);
+        return doc_add_element(reader->doc, source->current, category, STR_EMPTY, source->file,
+                               place.line, column);
     if (source->depth > 0) {
-        diag_add(reader->diags, DIAG_ID_too_many_elements, place, (unsigned)reader->limits.max_elements);
+        diag_add(reader->diags, DIAG_ID_too_many_elements, place,
+                 (unsigned)reader->limits.max_elements);
         stop(reader);
         return 0;
     }
@@ -219,7 +239,8 @@ static elem_id add_element(const struct start_tag *tag, struct diag_place place)
 }
 
 /*
- * The offset of the first value, where those of all are known and nothing else stands between them; SIZE_MAX where they are not.
+ * The offset of the first value, where those of all are known and nothing else stands between them;
+ * SIZE_MAX where they are not.
  */
 static size_t known_values(const struct start_tag *tag)
 {
@@ -241,7 +262,8 @@ static void start_element(void *arg)
     at -= at == source->size;
     while (at > source->start && text[at] != '<')
         /*
-         * from the first value or from behind the attributes: the tag's start is the last '<', which cannot stand inside one
+         * from the first value or from behind the attributes: the tag's start is the last '<',
+         * which cannot stand inside one
          */
         at--;
     struct diag_place place = xml_place(reader, at);
@@ -277,16 +299,19 @@ static void guarded(struct xml_reader *reader, void (*work)(void *), void *arg)
     }
 }
 
-static void on_start_element(void *user, const xmlChar *name, const xmlChar *prefix, const xmlChar *uri, int num_namespaces,
-                             const xmlChar **namespaces, int num_attrs, int num_defaulted, const xmlChar **attrs)
+static void on_start_element(void *user, const xmlChar *name, const xmlChar *prefix,
+                             const xmlChar *uri, int num_namespaces, const xmlChar **namespaces,
+                             int num_attrs, int num_defaulted, const xmlChar **attrs)
 {
     (void)num_defaulted; /* only a DOCTYPE could have defaults */
-    struct start_tag tag = {user, (const char *)name, (const char *)prefix, (const char *)uri,
-                            num_namespaces, num_attrs, namespaces, attrs};
+    struct start_tag tag = {
+        user,           (const char *)name, (const char *)prefix, (const char *)uri,
+        num_namespaces, num_attrs,          namespaces,           attrs};
     guarded(user, start_element, &tag);
 }
 
-static void on_end_element(void *user, const xmlChar *name, const xmlChar *prefix, const xmlChar *uri)
+static void on_end_element(void *user, const xmlChar *name, const xmlChar *prefix,
+                           const xmlChar *uri)
 {
     (void)name, (void)prefix, (void)uri;
     struct xml_reader *reader = user;
@@ -299,7 +324,8 @@ static void on_end_element(void *user, const xmlChar *name, const xmlChar *prefi
 static void stray_text(void *arg)
 {
     struct xml_reader *reader = arg;
-    diag_add(reader->diags, DIAG_ID_xml_stray_text, doc_place(reader->doc, reader->source->current));
+    diag_add(reader->diags, DIAG_ID_xml_stray_text,
+             doc_place(reader->doc, reader->source->current));
     reader->source->warned_text = true;
 }
 
@@ -323,7 +349,8 @@ static void refuse_doctype(void *arg)
     stop(reader);
 }
 
-static void on_doctype(void *user, const xmlChar *name, const xmlChar *external_id, const xmlChar *system_id)
+static void on_doctype(void *user, const xmlChar *name, const xmlChar *external_id,
+                       const xmlChar *system_id)
 {
     (void)name, (void)external_id, (void)system_id;
     guarded(user, refuse_doctype, user);
@@ -372,9 +399,11 @@ static void report_error(void *arg)
         diag_add(reader->diags, DIAG_ID_xml_encoding, place, "UTF-8");
     } else if (e->error->code == XML_ERR_DOCUMENT_EMPTY) {
         diag_add(reader->diags, DIAG_ID_xml_not_xml, place);
-    } else if (offset == source->size && source->depth > 0 && e->error->code != XML_ERR_TAG_NAME_MISMATCH) {
+    } else if (offset == source->size && source->depth > 0
+               && e->error->code != XML_ERR_TAG_NAME_MISMATCH) {
         str_id innermost = doc_element(reader->doc, source->current)->category;
-        diag_add(reader->diags, DIAG_ID_xml_truncated, place, str_text(reader->doc->strings, innermost));
+        diag_add(reader->diags, DIAG_ID_xml_truncated, place,
+                 str_text(reader->doc->strings, innermost));
     } else {
         diag_add(reader->diags, DIAG_ID_xml_syntax, place, message);
     }
@@ -390,7 +419,8 @@ static void on_error(void *user, const xmlError *error)
         stop(reader);
     }
     /* MaterialX qualifies node names by its own namespaces, which no xmlns declares. */
-    bool is_undeclared_prefix = error->domain == XML_FROM_NAMESPACE && error->code == XML_NS_ERR_UNDEFINED_NAMESPACE;
+    bool is_undeclared_prefix =
+        error->domain == XML_FROM_NAMESPACE && error->code == XML_NS_ERR_UNDEFINED_NAMESPACE;
     if (error->level >= XML_ERR_ERROR && !is_undeclared_prefix)
         guarded(reader, report_error, &(struct parser_error){reader, error});
 }
@@ -441,18 +471,20 @@ static void parse_once(struct xml_reader *reader)
     source->current = 0;
     source->depth = 0;
     /*
-     * NOENT for the right text of character references; no entity can be declared, because a DOCTYPE is refused. IGNORE_ENC because
-     * the text is UTF-8 whatever its declaration says.
+     * NOENT for the right text of character references; no entity can be declared, because a
+     * DOCTYPE is refused. IGNORE_ENC because the text is UTF-8 whatever its declaration says.
      */
     /*
-     * What goes wrong while a declared encoding is looked at is told to the thread's handler, which prints unless it is ours.
+     * What goes wrong while a declared encoding is looked at is told to the thread's handler, which
+     * prints unless it is ours.
      */
     xmlStructuredErrorFunc handler = xmlStructuredError;
     void *handler_data = xmlStructuredErrorContext;
     xmlSetStructuredErrorFunc(reader, on_structured_error);
     if (prepare_parser(reader))
-        xmlCtxtReadMemory(reader->parser, source->text + source->start, (int)(source->size - source->start), NULL, NULL,
-                          XML_PARSE_NOENT | XML_PARSE_NONET | XML_PARSE_BIG_LINES | XML_PARSE_IGNORE_ENC);
+        xmlCtxtReadMemory(
+            reader->parser, source->text + source->start, (int)(source->size - source->start), NULL,
+            NULL, XML_PARSE_NOENT | XML_PARSE_NONET | XML_PARSE_BIG_LINES | XML_PARSE_IGNORE_ENC);
     else
         reader->out_of_memory = true;
     xmlSetStructuredErrorFunc(handler_data, handler);
@@ -464,7 +496,8 @@ static void report_raw_less(struct xml_reader *reader)
 {
     if (reader->repair_failed) {
         diag_add(reader->diags, DIAG_ID_xml_syntax, reader->raw_less_place,
-                 "'<' in an attribute value must be written '&lt;', or a closing quote is missing before it");
+                 "'<' in an attribute value must be written '&lt;', or a closing quote is missing "
+                 "before it");
         return;
     }
     const struct xml_source *source = reader->source;
@@ -476,7 +509,8 @@ bool xml_parse_source(struct xml_reader *reader)
 {
     struct xml_source *source = reader->source;
     if (source->size > INT_MAX) {
-        diag_add(reader->diags, DIAG_ID_file_too_large, xml_place(reader, 0), source->name, (unsigned)INT_MAX >> 20);
+        diag_add(reader->diags, DIAG_ID_file_too_large, xml_place(reader, 0), source->name,
+                 (unsigned)INT_MAX >> 20);
         return false;
     }
     struct doc_mark mark = doc_mark(reader->doc, source->root);

@@ -19,7 +19,8 @@ uint32_t xml_column(struct xml_source *source, size_t offset)
     struct xml_position *p = &source->position;
     if (offset < p->offset || p->line == 0)
         *p = (struct xml_position){.line = 1};
-    for (const char *newline; (newline = memchr(source->text + p->offset, '\n', offset - p->offset)) != NULL; p->line++)
+    for (const char *newline;
+         (newline = memchr(source->text + p->offset, '\n', offset - p->offset)) != NULL; p->line++)
         p->offset = p->line_begin = (size_t)(newline - source->text) + 1;
     p->offset = offset;
     return count_code_points(source, p->line_begin, offset) + 1;
@@ -29,17 +30,22 @@ struct diag_place xml_place(struct xml_reader *reader, size_t offset)
 {
     struct xml_source *source = reader->source;
     uint32_t column = xml_column(source, offset);
-    return (struct diag_place){.file = doc_file_name(reader->doc, source->file), .line = source->position.line, .column = column};
+    return (struct diag_place){.file = doc_file_name(reader->doc, source->file),
+                               .line = source->position.line,
+                               .column = column};
 }
 
 /* Files */
 
-bool xml_open_file(struct xml_reader *reader, const char *from, const char *ref, const char **out_name, const char **out_data,
-                   size_t *out_size, const char **out_reason)
+bool xml_open_file(struct xml_reader *reader, const char *from, const char *ref,
+                   const char **out_name, const char **out_data, size_t *out_size,
+                   const char **out_reason)
 {
     const struct xml_files *files = reader->files;
     const char *name = NULL, *reason = NULL;
-    reader->handle_open = files && files->open(files->user_data, from, ref, &name, out_data, out_size, &reader->handle, &reason);
+    reader->handle_open = files
+                          && files->open(files->user_data, from, ref, &name, out_data, out_size,
+                                         &reader->handle, &reason);
     *out_reason = reason ? reason : "files cannot be read here";
     *out_name = name ? arena_strndup(&reader->scratch, name, strlen(name)) : NULL;
     return reader->handle_open;
@@ -55,7 +61,8 @@ void xml_close_file(struct xml_reader *reader)
 static const str_id scope_attrs[] = {STR_colorspace, STR_fileprefix, STR_geomprefix, STR_namespace};
 
 /*
- * What a root says about its scope, said by a child. No namespace means the global one, even inside a document that has one.
+ * What a root says about its scope, said by a child. No namespace means the global one, even inside
+ * a document that has one.
  */
 static void carry_scope(struct document *doc, elem_id root, elem_id child, bool into_namespace)
 {
@@ -63,14 +70,18 @@ static void carry_scope(struct document *doc, elem_id root, elem_id child, bool 
         str_id name = scope_attrs[i];
         const struct attribute *scope = doc_attr(doc, root, name);
         if ((scope || (name == STR_namespace && into_namespace)) && !doc_attr(doc, child, name))
-            doc_add_attr(doc, child, (struct attribute){.name = name, .value = scope ? scope->value : STR_EMPTY});
+            doc_add_attr(
+                doc, child,
+                (struct attribute){.name = name, .value = scope ? scope->value : STR_EMPTY});
     }
 }
 
 void xml_merge_root(struct document *doc, elem_id root, elem_id parent, elem_id sibling)
 {
-    bool into_namespace = doc_inherited_attr(doc, sibling ? sibling : parent, STR_namespace) != STR_EMPTY;
-    for (elem_id child = doc_element(doc, root)->first_child; child; child = doc_element(doc, root)->first_child) {
+    bool into_namespace =
+        doc_inherited_attr(doc, sibling ? sibling : parent, STR_namespace) != STR_EMPTY;
+    for (elem_id child = doc_element(doc, root)->first_child; child;
+         child = doc_element(doc, root)->first_child) {
         carry_scope(doc, root, child, into_namespace);
         if (sibling)
             doc_move_before(doc, child, sibling);
@@ -79,13 +90,15 @@ void xml_merge_root(struct document *doc, elem_id root, elem_id parent, elem_id 
     }
 }
 
-elem_id xml_read_text(struct xml_reader *reader, const char *name, uint16_t file, elem_id root, const char *data, size_t size)
+elem_id xml_read_text(struct xml_reader *reader, const char *name, uint16_t file, elem_id root,
+                      const char *data, size_t size)
 {
     struct document *doc = reader->doc;
     struct xml_source source = {.name = name, .file = file, .root = root}, *outer = reader->source;
     if (size > (uint64_t)reader->limits.max_file_mib << 20) {
         struct diag_place place = {.file = name};
-        diag_add(reader->diags, DIAG_ID_file_too_large, place, name, (unsigned)reader->limits.max_file_mib);
+        diag_add(reader->diags, DIAG_ID_file_too_large, place, name,
+                 (unsigned)reader->limits.max_file_mib);
         return 0;
     }
     if (!root)
@@ -128,7 +141,8 @@ static void set_defaults(struct xml_limits *limits, const struct xml_limits *giv
 }
 
 /*
- * The first file of a document gives it its root; a further one joins its children, as an included one does.
+ * The first file of a document gives it its root; a further one joins its children, as an included
+ * one does.
  */
 static void read_data(struct reading *reading, const char *name, uint16_t file)
 {
@@ -136,8 +150,10 @@ static void read_data(struct reading *reading, const char *name, uint16_t file)
     struct document *doc = reader->doc;
     const struct element *root = doc_element(doc, doc->root);
     bool is_first = !root->first_child && !root->num_attrs && !root->file;
-    vec_push(&reader->scratch, &reader->opened, (struct xml_file){str_intern_z(doc->strings, name), true});
-    elem_id added = xml_read_text(reader, name, file, is_first ? doc->root : 0, reading->data, reading->size);
+    vec_push(&reader->scratch, &reader->opened,
+             (struct xml_file){str_intern_z(doc->strings, name), true});
+    elem_id added =
+        xml_read_text(reader, name, file, is_first ? doc->root : 0, reading->data, reading->size);
     if (added && !is_first)
         xml_merge_root(doc, added, doc->root, 0);
 }
@@ -146,12 +162,15 @@ static void read_file(struct reading *reading)
 {
     struct xml_reader *reader = &reading->reader;
     const char *canonical, *reason;
-    if (!xml_open_file(reader, "", reading->name, &canonical, &reading->data, &reading->size, &reason)) {
+    if (!xml_open_file(reader, "", reading->name, &canonical, &reading->data, &reading->size,
+                       &reason)) {
         enum diag_id id = canonical ? DIAG_ID_file_unreadable : DIAG_ID_file_missing;
-        diag_add(reader->diags, id, (struct diag_place){.file = reading->name}, reading->name, reason);
+        diag_add(reader->diags, id, (struct diag_place){.file = reading->name}, reading->name,
+                 reason);
         return;
     }
-    read_data(reading, canonical, doc_add_file(reader->doc, str_intern_z(reader->doc->strings, reading->name)));
+    read_data(reading, canonical,
+              doc_add_file(reader->doc, str_intern_z(reader->doc->strings, reading->name)));
 }
 
 static void read_all(void *arg)
@@ -161,7 +180,8 @@ static void read_all(void *arg)
     struct document *doc = reader->doc;
     doc->max_elements = reader->limits.max_elements;
     if (reading->data)
-        read_data(reading, reading->name, doc_add_file(doc, str_intern_z(doc->strings, reading->name)));
+        read_data(reading, reading->name,
+                  doc_add_file(doc, str_intern_z(doc->strings, reading->name)));
     else
         read_file(reading);
     doc_expand_templates(doc, reader->diags);
@@ -185,17 +205,20 @@ static bool read_guarded(struct reading *reading, const struct xml_limits *limit
     return reader->diags->num_errors == num_errors;
 }
 
-bool xml_read_file(struct document *doc, const struct xml_files *files, const struct xml_limits *limits, const char *name,
-                   struct diag_list *diags)
+bool xml_read_file(struct document *doc, const struct xml_files *files,
+                   const struct xml_limits *limits, const char *name, struct diag_list *diags)
 {
     struct reading reading = {.reader = {.doc = doc, .files = files, .diags = diags}, .name = name};
     return read_guarded(&reading, limits);
 }
 
-bool xml_read_memory(struct document *doc, const struct xml_files *files, const struct xml_limits *limits,
-                     const char *name, const char *data, size_t size, struct diag_list *diags)
+bool xml_read_memory(struct document *doc, const struct xml_files *files,
+                     const struct xml_limits *limits, const char *name, const char *data,
+                     size_t size, struct diag_list *diags)
 {
     struct reading reading = {.reader = {.doc = doc, .files = files, .diags = diags},
-                              .name = name, .data = data ? data : "", .size = size};
+                              .name = name,
+                              .data = data ? data : "",
+                              .size = size};
     return read_guarded(&reading, limits);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * The bytes of a file as UTF-8 text: encodings, byte-order marks, what stands before the XML, raw '<' in attribute values.
+ * The bytes of a file as UTF-8 text: encodings, byte-order marks, what stands before the XML, raw
+ * '<' in attribute values.
  */
 #include "xml/internal.h"
 
@@ -12,7 +13,8 @@ static bool has_prefix(const char *text, size_t len, const char *prefix, size_t 
 static size_t find_text(const char *text, size_t len, size_t from, const char *wanted)
 {
     size_t n = strlen(wanted);
-    for (const char *p = text + from; (p = memchr(p, wanted[0], (size_t)(text + len - p))) != NULL; p++)
+    for (const char *p = text + from; (p = memchr(p, wanted[0], (size_t)(text + len - p))) != NULL;
+         p++)
         if (has_prefix(p, (size_t)(text + len - p), wanted, n))
             return (size_t)(p - text);
     return len;
@@ -44,14 +46,16 @@ static char *put_utf8(char *out, uint32_t code)
 }
 
 /* UTF-16 (RFC 2781); false where a surrogate stands alone or half a unit is left over. */
-static bool decode_utf16(struct xml_reader *reader, const unsigned char *bytes, size_t size, bool big_endian)
+static bool decode_utf16(struct xml_reader *reader, const unsigned char *bytes, size_t size,
+                         bool big_endian)
 {
     char *text = arena_alloc(&reader->scratch, size / 2 * 3), *out = text;
     size_t high = big_endian ? 0 : 1, low = 1 - high;
     for (size_t i = 0; i + 1 < size; i += 2) {
         uint32_t code = (uint32_t)bytes[i + high] << 8 | bytes[i + low];
         if (code >= 0xd800 && code < 0xe000) {
-            uint32_t next = i + 3 < size ? (uint32_t)bytes[i + 2 + high] << 8 | bytes[i + 2 + low] : 0;
+            uint32_t next =
+                i + 3 < size ? (uint32_t)bytes[i + 2 + high] << 8 | bytes[i + 2 + low] : 0;
             if (code >= 0xdc00 || next < 0xdc00 || next >= 0xe000)
                 return false;
             code = 0x10000 + ((code - 0xd800) << 10) + (next - 0xdc00);
@@ -67,7 +71,8 @@ static bool decode_utf16(struct xml_reader *reader, const unsigned char *bytes, 
 static void decode_latin1(struct xml_reader *reader)
 {
     struct xml_source *source = reader->source;
-    char *text = arena_alloc(&reader->scratch, mem_array_size(reader->mem, source->size, 2)), *out = text;
+    char *text = arena_alloc(&reader->scratch, mem_array_size(reader->mem, source->size, 2)),
+         *out = text;
     for (size_t i = 0; i < source->size; i++)
         out = put_utf8(out, (unsigned char)source->text[i]);
     source->text = text;
@@ -79,7 +84,8 @@ static void declared_encoding(const struct xml_source *source, char *out, size_t
 {
     const char *text = source->text + source->start;
     size_t len = source->size - source->start, n = 0;
-    size_t end = has_prefix(text, len, "<?xml", 5) ? find_text(text, len < 1024 ? len : 1024, 0, "?>") : 0;
+    size_t end =
+        has_prefix(text, len, "<?xml", 5) ? find_text(text, len < 1024 ? len : 1024, 0, "?>") : 0;
     size_t at = find_text(text, end, 0, "encoding");
     while (at < end && text[at] != '"' && text[at] != '\'')
         at++;
@@ -92,19 +98,21 @@ static bool apply_declared_encoding(struct xml_reader *reader)
 {
     char name[32];
     declared_encoding(reader->source, name, sizeof name);
-    if (!*name || strcmp(name, "utf-8") == 0 || strcmp(name, "utf8") == 0 || strcmp(name, "us-ascii") == 0
-        || strcmp(name, "ascii") == 0)
+    if (!*name || strcmp(name, "utf-8") == 0 || strcmp(name, "utf8") == 0
+        || strcmp(name, "us-ascii") == 0 || strcmp(name, "ascii") == 0)
         return true;
     if (strcmp(name, "iso-8859-1") == 0 || strcmp(name, "latin1") == 0) {
         decode_latin1(reader);
         return true;
     }
-    diag_add(reader->diags, DIAG_ID_xml_unknown_encoding, xml_place(reader, reader->source->start), name);
+    diag_add(reader->diags, DIAG_ID_xml_unknown_encoding, xml_place(reader, reader->source->start),
+             name);
     return false;
 }
 
 /*
- * libxml2 looks at the first four bytes itself and takes zeros for an encoding of wider units, whatever it was told.
+ * libxml2 looks at the first four bytes itself and takes zeros for an encoding of wider units,
+ * whatever it was told.
  */
 static bool check_first_bytes(struct xml_reader *reader)
 {

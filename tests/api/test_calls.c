@@ -39,9 +39,11 @@ static void destroy_objects(struct objects *o)
 static void test_versions(void)
 {
     char text[32];
-    snprintf(text, sizeof text, "%d.%d.%d", MXG_VERSION_MAJOR, MXG_VERSION_MINOR, MXG_VERSION_PATCH);
+    snprintf(text, sizeof text, "%d.%d.%d", MXG_VERSION_MAJOR, MXG_VERSION_MINOR,
+             MXG_VERSION_PATCH);
     REQUIRE_STR(mxg_version_string(), text);
-    REQUIRE_EQ(mxg_version(), MXG_VERSION_MAJOR * 1000000 + MXG_VERSION_MINOR * 1000 + MXG_VERSION_PATCH);
+    REQUIRE_EQ(mxg_version(),
+               MXG_VERSION_MAJOR * 1000000 + MXG_VERSION_MINOR * 1000 + MXG_VERSION_PATCH);
     for (int status = MXG_OK; status <= MXG_ERROR_INTERNAL + 1; status++)
         REQUIRE(*mxg_status_string((mxg_status)status));
 }
@@ -167,11 +169,13 @@ static void test_refused_indices(const struct objects *o)
     REFUSED(mxg_library_nodedef(o->library, mxg_library_num_nodedefs(o->library), &nodedef));
     REFUSED(mxg_library_port(o->library, mxg_library_num_nodedefs(o->library), 0, &port));
     REFUSED(mxg_library_port(o->library, 0, 1000, &port));
-    REFUSED(mxg_document_renderable(o->document, mxg_document_num_renderables(o->document), &renderable));
+    REFUSED(mxg_document_renderable(o->document, mxg_document_num_renderables(o->document),
+                                    &renderable));
     REFUSED(mxg_get_target(mxg_num_targets(), &target));
     REFUSED(mxg_get_option(mxg_num_options(), &option));
     REFUSED(mxg_result_variable(o->result, mxg_result_num_variables(o->result), &variable));
-    REFUSED(mxg_result_compiled_input(o->result, mxg_result_num_compiled_inputs(o->result), &input));
+    REFUSED(
+        mxg_result_compiled_input(o->result, mxg_result_num_compiled_inputs(o->result), &input));
     REFUSED(mxg_diagnostics_get(mxg_result_diagnostics(o->result), 1000, &diagnostic));
     REQUIRE(!mxg_document_file(o->document, mxg_document_num_files(o->document)));
     REQUIRE(!mxg_result_source(o->result, MXG_NUM_STAGES, NULL));
@@ -192,10 +196,15 @@ static void test_null_objects(void)
     mxg_options_destroy(NULL);
     mxg_result_destroy(NULL);
     REQUIRE(!mxg_library_ref(NULL) && !mxg_options_error(NULL));
-    REQUIRE(!mxg_library_diagnostics(NULL) && !mxg_document_diagnostics(NULL) && !mxg_result_diagnostics(NULL));
-    REQUIRE_EQ(mxg_diagnostics_count(NULL) + mxg_diagnostics_errors(NULL) + mxg_diagnostics_warnings(NULL), 0);
+    REQUIRE(!mxg_library_diagnostics(NULL) && !mxg_document_diagnostics(NULL)
+            && !mxg_result_diagnostics(NULL));
+    REQUIRE_EQ(mxg_diagnostics_count(NULL) + mxg_diagnostics_errors(NULL)
+                   + mxg_diagnostics_warnings(NULL),
+               0);
     REQUIRE_EQ(mxg_diagnostics_format(NULL, 0, NULL, 0, false, NULL, 0), 0);
-    REQUIRE_EQ(mxg_library_num_nodedefs(NULL) + mxg_document_num_files(NULL) + mxg_document_num_renderables(NULL), 0);
+    REQUIRE_EQ(mxg_library_num_nodedefs(NULL) + mxg_document_num_files(NULL)
+                   + mxg_document_num_renderables(NULL),
+               0);
     REQUIRE_EQ(mxg_result_num_variables(NULL) + mxg_result_num_compiled_inputs(NULL), 0);
     REQUIRE(!mxg_result_find_variable(NULL, "S/coat", NULL));
     REQUIRE(!mxg_result_source(NULL, MXG_STAGE_PIXEL, &size) && size == 0);
@@ -267,20 +276,23 @@ static void test_document(const struct objects *o)
     REQUIRE_EQ(mxg_diagnostics_count(mxg_result_diagnostics(result)), 0);
     mxg_result_destroy(result);
     mxg_document *bad = NULL;
-    REQUIRE_EQ(mxg_document_parse(o->context, o->library, "bad.mtlx", "<nothing/>", 10, &bad), MXG_ERROR_DOCUMENT);
+    REQUIRE_EQ(mxg_document_parse(o->context, o->library, "bad.mtlx", "<nothing/>", 10, &bad),
+               MXG_ERROR_DOCUMENT);
     REQUIRE(bad && has_diagnostic(mxg_document_diagnostics(bad), "xml-root"));
     mxg_generate_desc desc = {sizeof desc, "glsl", NULL, NULL};
     REQUIRE_EQ(mxg_generate(o->context, bad, &desc, &result), MXG_ERROR_DOCUMENT);
     REQUIRE(result && !mxg_result_source(result, MXG_STAGE_PIXEL, NULL));
     mxg_result_destroy(result);
     mxg_document_destroy(bad);
-    REQUIRE_EQ(mxg_document_parse(o->context, o->library, "empty.mtlx", NULL, 0, &bad), MXG_ERROR_DOCUMENT);
+    REQUIRE_EQ(mxg_document_parse(o->context, o->library, "empty.mtlx", NULL, 0, &bad),
+               MXG_ERROR_DOCUMENT);
     mxg_document_destroy(bad);
 }
 
 static void test_diagnostics(const struct objects *o)
 {
-    static const char text[] = "<materialx version=\"1.39\">\n  <ad name=\"a\" type=\"float\"/>\n</materialx>";
+    static const char text[] =
+        "<materialx version=\"1.39\">\n  <ad name=\"a\" type=\"float\"/>\n</materialx>";
     mxg_document *document = NULL;
     mxg_result *result = NULL;
     mxg_document_parse(o->context, o->library, "typo.mtlx", text, strlen(text), &document);
@@ -289,7 +301,8 @@ static void test_diagnostics(const struct objects *o)
     mxg_diagnostic first = {sizeof first};
     REQUIRE_EQ(mxg_diagnostics_errors(list), 1);
     REQUIRE_EQ(mxg_diagnostics_get(list, 0, &first), MXG_OK);
-    REQUIRE(first.severity == MXG_SEVERITY_ERROR && first.line == 2 && first.column == 3 && first.parent == 0);
+    REQUIRE(first.severity == MXG_SEVERITY_ERROR && first.line == 2 && first.column == 3
+            && first.parent == 0);
     REQUIRE_STR(first.id, "unknown-node");
     REQUIRE_STR(first.file, "typo.mtlx");
     char whole[512], part[20];
@@ -314,7 +327,8 @@ static void test_options(const struct objects *o)
         REQUIRE_EQ(mxg_options_set(o->options, option.key, option.initial), MXG_OK);
     }
     REFUSED(mxg_options_set(o->options, "max-lights", "1025"));
-    REQUIRE_STR(mxg_options_error(o->options), "'1025' is not a value of option 'max-lights'; expected an integer of 0..1024");
+    REQUIRE_STR(mxg_options_error(o->options),
+                "'1025' is not a value of option 'max-lights'; expected an integer of 0..1024");
     REFUSED(mxg_options_set(o->options, "max-lights", "3x"));
     REFUSED(mxg_options_set(o->options, "comments", "yes"));
     REFUSED(mxg_options_set(o->options, "interface", "complet"));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * What a generation gives: source with places, reflection, views; and what a path of an element means.
+ * What a generation gives: source with places, reflection, views; and what a path of an element
+ * means.
  */
 #include "tests/api/fixture.h"
 
@@ -20,8 +21,10 @@ static void bench_open(struct bench *b, const char *text)
     desc.resolver = &resolver;
     REQUIRE_EQ(mxg_context_create(&desc, &b->context), MXG_OK);
     b->library = mxg_library_builtin(b->context);
-    REQUIRE_EQ(text ? mxg_document_parse(b->context, b->library, "test.mtlx", text, strlen(text), &b->document)
-                    : mxg_document_load(b->context, b->library, "main.mtlx", &b->document), MXG_OK);
+    REQUIRE_EQ(text ? mxg_document_parse(b->context, b->library, "test.mtlx", text, strlen(text),
+                                         &b->document)
+                    : mxg_document_load(b->context, b->library, "main.mtlx", &b->document),
+               MXG_OK);
     REQUIRE_EQ(mxg_options_create(b->context, &b->options), MXG_OK);
 }
 
@@ -33,7 +36,8 @@ static void bench_close(struct bench *b)
     mxg_context_destroy(b->context);
 }
 
-static mxg_result *generate(const struct bench *b, const char *target, const char *element, mxg_status expected)
+static mxg_result *generate(const struct bench *b, const char *target, const char *element,
+                            mxg_status expected)
 {
     mxg_generate_desc desc = {sizeof desc, target, element, b->options};
     mxg_result *result = NULL;
@@ -78,7 +82,9 @@ static void test_places(const struct bench *b)
     for (const char *c = source; *c; line += *c++ == '\n') {
         const char *file = NULL, *path = NULL;
         uint32_t at_line = 0, at_column = 0;
-        if ((c != source && c[-1] != '\n') || !mxg_result_source_place(result, MXG_STAGE_PIXEL, line, &file, &at_line, &at_column, &path))
+        if ((c != source && c[-1] != '\n')
+            || !mxg_result_source_place(result, MXG_STAGE_PIXEL, line, &file, &at_line, &at_column,
+                                        &path))
             continue;
         REQUIRE(file && path && at_line && at_column);
         char node[64];
@@ -86,7 +92,9 @@ static void test_places(const struct bench *b)
         /* the same, or inside of it */
         REQUIRE(len == strlen(node) && strncmp(node, path, strlen(path)) == 0);
         inside = inside || strncmp(node, "S/", 2) == 0;
-        found = found || (strcmp(path, "G/t") == 0 && at_line == 8 && at_column == 5 && strcmp(file, "main.mtlx") == 0);
+        found = found
+                || (strcmp(path, "G/t") == 0 && at_line == 8 && at_column == 5
+                    && strcmp(file, "main.mtlx") == 0);
     }
     REQUIRE(found && inside);
     char cut[2];
@@ -109,7 +117,8 @@ static void test_variables(const struct bench *b)
     REQUIRE_STR(coat.type, "float");
     REQUIRE_STR(coat.document_type, "float");
     REQUIRE_STR(coat.uifolder, "Coat");
-    REQUIRE(coat.block == MXG_BLOCK_PUBLIC_UNIFORMS && coat.num_values == 1 && coat.values[0] == 0.5f && coat.byte_size == 4);
+    REQUIRE(coat.block == MXG_BLOCK_PUBLIC_UNIFORMS && coat.num_values == 1
+            && coat.values[0] == 0.5f && coat.byte_size == 4);
     REQUIRE_EQ(coat.stages, 1u << MXG_STAGE_PIXEL);
     REQUIRE(mxg_result_find_variable(result, "G/scale", &index));
     mxg_variable scale = {sizeof scale};
@@ -122,7 +131,8 @@ static void test_variables(const struct bench *b)
     REQUIRE_STR(texture.type, "sampler2D");
     REQUIRE_EQ(texture.block, MXG_BLOCK_TEXTURES);
     REQUIRE(!mxg_result_find_variable(result, "S/base_color", &index)); /* connected */
-    REQUIRE(!mxg_result_find_variable(result, "S/none", NULL) && !mxg_result_find_variable(result, NULL, NULL));
+    REQUIRE(!mxg_result_find_variable(result, "S/none", NULL)
+            && !mxg_result_find_variable(result, NULL, NULL));
     size_t size = 0;
     const char *json = mxg_result_reflection_json(result, &size);
     REQUIRE(json && strlen(json) == size && strstr(json, "\"S/coat\""));
@@ -148,15 +158,20 @@ static void test_variables(const struct bench *b)
 static const char knobs[] =
     "<materialx version=\"1.39\">\n"
     "  <nodegraph name=\"G\">\n"
-    "    <input name=\"mode\" type=\"integer\" value=\"1\" uiname=\"Mode\" uifolder=\"Look\" uimin=\"0\" uimax=\"2\" uisoftmin=\"0\""
-    " uisoftmax=\"1\" uistep=\"1\" enum=\"low,middle,high\" enumvalues=\"0,1,2\" uiadvanced=\"true\" doc=\"How much.\"/>\n"
+    "    <input name=\"mode\" type=\"integer\" value=\"1\" uiname=\"Mode\" uifolder=\"Look\" "
+    "uimin=\"0\" uimax=\"2\" uisoftmin=\"0\""
+    " uisoftmax=\"1\" uistep=\"1\" enum=\"low,middle,high\" enumvalues=\"0,1,2\" "
+    "uiadvanced=\"true\" doc=\"How much.\"/>\n"
     "    <input name=\"width\" type=\"float\" value=\"2\" unit=\"meter\" unittype=\"distance\"/>\n"
-    "    <convert name=\"m\" type=\"float\"><input name=\"in\" type=\"integer\" interfacename=\"mode\"/></convert>\n"
+    "    <convert name=\"m\" type=\"float\"><input name=\"in\" type=\"integer\" "
+    "interfacename=\"mode\"/></convert>\n"
     "    <multiply name=\"s\" type=\"float\"><input name=\"in1\" type=\"float\" nodename=\"m\"/>"
     "<input name=\"in2\" type=\"float\" interfacename=\"width\"/></multiply>\n"
-    "    <geompropvalue name=\"id\" type=\"integer\"><input name=\"geomprop\" type=\"string\" value=\"id\"/>"
+    "    <geompropvalue name=\"id\" type=\"integer\"><input name=\"geomprop\" type=\"string\" "
+    "value=\"id\"/>"
     "<input name=\"default\" type=\"integer\" value=\"3\"/></geompropvalue>\n"
-    "    <convert name=\"i\" type=\"float\"><input name=\"in\" type=\"integer\" nodename=\"id\"/></convert>\n"
+    "    <convert name=\"i\" type=\"float\"><input name=\"in\" type=\"integer\" "
+    "nodename=\"id\"/></convert>\n"
     "    <add name=\"t\" type=\"float\"><input name=\"in1\" type=\"float\" nodename=\"s\"/>"
     "<input name=\"in2\" type=\"float\" nodename=\"i\"/></add>\n"
     "    <output name=\"out\" type=\"float\" nodename=\"t\"/></nodegraph>\n"
@@ -179,8 +194,10 @@ static void test_user_interface(void)
     REQUIRE_STR(width.doc, ""); /* not "Right operand." */
     const struct {
         const char *key, *value;
-    } fields[] = {{"name", mode.uiname},       {"folder", mode.uifolder},     {"min", mode.uimin},   {"max", mode.uimax},
-                  {"softMin", mode.uisoftmin}, {"softMax", mode.uisoftmax},   {"step", mode.uistep}, {"doc", mode.doc},
+    } fields[] = {{"name", mode.uiname},       {"folder", mode.uifolder},
+                  {"min", mode.uimin},         {"max", mode.uimax},
+                  {"softMin", mode.uisoftmin}, {"softMax", mode.uisoftmax},
+                  {"step", mode.uistep},       {"doc", mode.doc},
                   {"enum", mode.enum_names},   {"enumValues", mode.enum_values}};
     const char *json = strstr(mxg_result_reflection_json(result, NULL), "\"path\": \"G/mode\"");
     for (size_t i = 0; i < sizeof fields / sizeof *fields; i++) {
@@ -196,14 +213,16 @@ static void test_user_interface(void)
         mxg_variable variable = MXG_INIT(mxg_variable);
         REQUIRE_EQ(mxg_result_variable(result, i, &variable), MXG_OK);
         num_flat += variable.flat && variable.block == MXG_BLOCK_VERTEX_DATA;
-        num_given += strcmp(variable.semantic, "geomprop:id") == 0 && variable.num_values == 1 && variable.values[0] == 3.0f;
+        num_given += strcmp(variable.semantic, "geomprop:id") == 0 && variable.num_values == 1
+                     && variable.values[0] == 3.0f;
     }
     REQUIRE_EQ(num_flat, 1); /* an integer */
     /* what it is where the geometry has none: of the attribute, and between the stages */
     REQUIRE_EQ(num_given, 2);
     mxg_result_destroy(result);
     result = generate(&b, "osl", "G", MXG_OK);
-    REQUIRE(strstr(mxg_result_source(result, MXG_STAGE_PIXEL, NULL), "id = 3 [[ int lockgeom = 0 ]]"));
+    REQUIRE(
+        strstr(mxg_result_source(result, MXG_STAGE_PIXEL, NULL), "id = 3 [[ int lockgeom = 0 ]]"));
     mxg_result_destroy(result);
     bench_close(&b);
 }
@@ -218,9 +237,11 @@ static void test_without_source(struct bench *b)
     REQUIRE_EQ(mxg_generate(b->context, b->document, &desc, &whole), MXG_OK);
     desc.without_source = true;
     REQUIRE_EQ(mxg_generate(b->context, b->document, &desc, &facts), MXG_OK);
-    REQUIRE(mxg_result_source(whole, MXG_STAGE_PIXEL, NULL) && !mxg_result_source(facts, MXG_STAGE_PIXEL, NULL));
+    REQUIRE(mxg_result_source(whole, MXG_STAGE_PIXEL, NULL)
+            && !mxg_result_source(facts, MXG_STAGE_PIXEL, NULL));
     REQUIRE_STR(mxg_result_reflection_json(facts, NULL), mxg_result_reflection_json(whole, NULL));
-    REQUIRE_EQ(mxg_diagnostics_count(mxg_result_diagnostics(facts)), mxg_diagnostics_count(mxg_result_diagnostics(whole)));
+    REQUIRE_EQ(mxg_diagnostics_count(mxg_result_diagnostics(facts)),
+               mxg_diagnostics_count(mxg_result_diagnostics(whole)));
     REQUIRE_EQ(mxg_result_source_path(facts, MXG_STAGE_PIXEL, 1, NULL, 0), 0);
     REQUIRE(!mxg_result_source_place(facts, MXG_STAGE_PIXEL, 1, NULL, NULL, NULL, NULL));
     mxg_result_destroy(whole);
@@ -240,9 +261,11 @@ static void test_only_diagnostics(struct bench *b)
         desc.only_diagnostics = true;
         REQUIRE_EQ(mxg_generate(b->context, b->document, &desc, &told), status);
         REQUIRE_EQ(status, i ? MXG_ERROR_DOCUMENT : MXG_OK);
-        REQUIRE_EQ(mxg_diagnostics_count(mxg_result_diagnostics(told)), mxg_diagnostics_count(mxg_result_diagnostics(whole)));
+        REQUIRE_EQ(mxg_diagnostics_count(mxg_result_diagnostics(told)),
+                   mxg_diagnostics_count(mxg_result_diagnostics(whole)));
         REQUIRE_EQ(mxg_result_num_files(told), mxg_result_num_files(whole));
-        REQUIRE(!mxg_result_source(told, MXG_STAGE_PIXEL, NULL) && !mxg_result_reflection_json(told, NULL));
+        REQUIRE(!mxg_result_source(told, MXG_STAGE_PIXEL, NULL)
+                && !mxg_result_reflection_json(told, NULL));
         REQUIRE_EQ(mxg_result_num_variables(told), 0);
         REQUIRE_EQ(mxg_result_info(told, &info), MXG_ERROR_ARGUMENT);
         mxg_result_destroy(whole);
@@ -259,13 +282,16 @@ static void test_interfaces(struct bench *b)
     for (uint32_t i = 0; i < mxg_result_num_compiled_inputs(result); i++) {
         mxg_compiled_input input = {sizeof input};
         REQUIRE_EQ(mxg_result_compiled_input(result, i, &input), MXG_OK);
-        found = found || (strcmp(input.path, "S/coat") == 0 && strcmp(input.value, "0.5") == 0 && strcmp(input.type, "float") == 0);
+        found = found
+                || (strcmp(input.path, "S/coat") == 0 && strcmp(input.value, "0.5") == 0
+                    && strcmp(input.type, "float") == 0);
     }
     REQUIRE(found);
     mxg_result_destroy(result);
     mxg_options_set(b->options, "uniform", "S/c*t");
     result = generate(b, "glsl", NULL, MXG_OK);
-    REQUIRE(mxg_result_find_variable(result, "S/coat", NULL) && !mxg_result_find_variable(result, "S/base", NULL));
+    REQUIRE(mxg_result_find_variable(result, "S/coat", NULL)
+            && !mxg_result_find_variable(result, "S/base", NULL));
     REQUIRE_EQ(mxg_diagnostics_warnings(mxg_result_diagnostics(result)), 0);
     mxg_result_destroy(result);
 }
@@ -275,9 +301,11 @@ static void test_globs(struct bench *b)
     static const struct {
         const char *glob;
         bool matches;
-    } globs[] = {{"**", true},         {"S/coat", true},   {"G/*", true},         {"*/sp*roughness", true}, {"**/i/f*e", true},
-                 {"?/coat", true},     {"G/i/*", true},    {"coat", false},       {"S/*/coat", false},      {"*coat", false},
-                 {"S?coat", false},    {"s/coat", false},  {"**/i/*/file", false}, {"S/coat*x", false},     {"S/", false}};
+    } globs[] = {
+        {"**", true},           {"S/coat", true},    {"G/*", true},     {"*/sp*roughness", true},
+        {"**/i/f*e", true},     {"?/coat", true},    {"G/i/*", true},   {"coat", false},
+        {"S/*/coat", false},    {"*coat", false},    {"S?coat", false}, {"s/coat", false},
+        {"**/i/*/file", false}, {"S/coat*x", false}, {"S/", false}};
     for (size_t i = 0; i < sizeof globs / sizeof *globs; i++) {
         mxg_options *options = NULL;
         mxg_options_create(b->context, &options);
@@ -285,7 +313,8 @@ static void test_globs(struct bench *b)
         mxg_generate_desc desc = {sizeof desc, "glsl", NULL, options};
         mxg_result *result = NULL;
         REQUIRE_EQ(mxg_generate(b->context, b->document, &desc, &result), MXG_OK);
-        if (!REQUIRE_EQ(has_diagnostic(mxg_result_diagnostics(result), "glob-no-match"), !globs[i].matches))
+        if (!REQUIRE_EQ(has_diagnostic(mxg_result_diagnostics(result), "glob-no-match"),
+                        !globs[i].matches))
             puts(globs[i].glob);
         mxg_result_destroy(result);
         mxg_options_destroy(options);
@@ -297,8 +326,9 @@ static void test_globs(struct bench *b)
 static void test_views(const struct bench *b)
 {
     static const char *const words[] = {
-        [MXG_VIEW_ELEMENTS] = "[renderable]", [MXG_VIEW_GRAPH] = "G/t", [MXG_VIEW_DOT] = "digraph",
-        [MXG_VIEW_IR] = "%", [MXG_VIEW_CLOSURES] = "mx_", [MXG_VIEW_STATISTICS] = "closures"};
+        [MXG_VIEW_ELEMENTS] = "[renderable]", [MXG_VIEW_GRAPH] = "G/t",
+        [MXG_VIEW_DOT] = "digraph",           [MXG_VIEW_IR] = "%",
+        [MXG_VIEW_CLOSURES] = "mx_",          [MXG_VIEW_STATISTICS] = "closures"};
     mxg_generate_desc desc = {sizeof desc, "glsl", NULL, NULL};
     for (int view = 0; view <= MXG_VIEW_STATISTICS; view++) {
         mxg_result *result = NULL;
@@ -315,25 +345,32 @@ static void test_views(const struct bench *b)
 
 static const char elements[] =
     "<materialx version=\"1.39\">\n"
-    "  <nodedef name=\"ND_a\" node=\"a\"><input name=\"x\" type=\"float\" value=\"1\"/><output name=\"out\" type=\"float\"/></nodedef>\n"
+    "  <nodedef name=\"ND_a\" node=\"a\"><input name=\"x\" type=\"float\" value=\"1\"/><output "
+    "name=\"out\" type=\"float\"/></nodedef>\n"
     "  <nodegraph name=\"NG_a\" nodedef=\"ND_a\">\n"
-    "    <add name=\"sum\" type=\"float\"><input name=\"in1\" type=\"float\" interfacename=\"x\"/></add>\n"
+    "    <add name=\"sum\" type=\"float\"><input name=\"in1\" type=\"float\" "
+    "interfacename=\"x\"/></add>\n"
     "    <output name=\"out\" type=\"float\" nodename=\"sum\"/></nodegraph>\n"
     "  <nodedef name=\"ND_b\" node=\"b\"><output name=\"out\" type=\"float\"/></nodedef>\n"
-    "  <nodegraph name=\"NG_b\"><constant name=\"c\" type=\"float\"/><output name=\"out\" type=\"float\" nodename=\"c\"/></nodegraph>\n"
+    "  <nodegraph name=\"NG_b\"><constant name=\"c\" type=\"float\"/><output name=\"out\" "
+    "type=\"float\" nodename=\"c\"/></nodegraph>\n"
     "  <implementation name=\"IM_b\" nodedef=\"ND_b\" nodegraph=\"NG_b\"/>\n"
-    "  <nodegraph name=\"one\"><a name=\"use\" type=\"float\"/><output name=\"out\" type=\"float\" nodename=\"use\"/></nodegraph>\n"
+    "  <nodegraph name=\"one\"><a name=\"use\" type=\"float\"/><output name=\"out\" type=\"float\" "
+    "nodename=\"use\"/></nodegraph>\n"
     "  <nodegraph name=\"two\">\n"
-    "    <separate3 name=\"parts\" type=\"multioutput\"><input name=\"in\" type=\"color3\" value=\"0.1, 0.2, 0.3\"/></separate3>\n"
+    "    <separate3 name=\"parts\" type=\"multioutput\"><input name=\"in\" type=\"color3\" "
+    "value=\"0.1, 0.2, 0.3\"/></separate3>\n"
     "    <output name=\"x\" type=\"float\" nodename=\"parts\" output=\"outr\"/>\n"
     "    <output name=\"y\" type=\"float\" nodename=\"parts\" output=\"outb\"/></nodegraph>\n"
-    "  <separate3 name=\"said\" type=\"multioutput\"><output name=\"outg\" type=\"float\"/></separate3>\n"
+    "  <separate3 name=\"said\" type=\"multioutput\"><output name=\"outg\" "
+    "type=\"float\"/></separate3>\n"
     "  <surface_unlit name=\"S\" type=\"surfaceshader\"/>\n"
     "  <surfacematerial name=\"M\" type=\"material\">"
     "<input name=\"surfaceshader\" type=\"surfaceshader\" nodename=\"S\"/></surfacematerial>\n"
     "  <look name=\"L\"><materialassign name=\"MA\" material=\"M\" geom=\"/\"/></look>\n"
     "  <look name=\"L0\"/><lookgroup name=\"night\" looks=\"night, L0\"/>\n"
-    "  <lookgroup name=\"day\" looks=\"L0, L\"/><lookgroup name=\"all\" looks=\"night,day\" default=\"L\"/>\n"
+    "  <lookgroup name=\"day\" looks=\"L0, L\"/><lookgroup name=\"all\" looks=\"night,day\" "
+    "default=\"L\"/>\n"
     "</materialx>\n";
 
 static void test_elements(void)
@@ -374,16 +411,20 @@ static void test_elements(void)
     bench_open(&b, elements);
     REQUIRE_EQ(mxg_document_num_renderables(b.document), 1); /* M */
     mxg_renderable material = {sizeof material};
-    REQUIRE(mxg_document_look_material(b.document, "L", 0, &material) == MXG_OK && strcmp(material.path, "M") == 0);
-    REQUIRE(mxg_document_look_material(b.document, "all", 0, &material) == MXG_OK && strcmp(material.path, "M") == 0);
+    REQUIRE(mxg_document_look_material(b.document, "L", 0, &material) == MXG_OK
+            && strcmp(material.path, "M") == 0);
+    REQUIRE(mxg_document_look_material(b.document, "all", 0, &material) == MXG_OK
+            && strcmp(material.path, "M") == 0);
     REQUIRE_EQ(mxg_document_look_material(b.document, "night", 0, &material), MXG_ERROR_ARGUMENT);
     REQUIRE_EQ(mxg_document_look_material(b.document, "L", 1, &material), MXG_ERROR_ARGUMENT);
     REQUIRE_EQ(mxg_document_look_material(b.document, "M", 0, &material), MXG_ERROR_ARGUMENT);
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        mxg_result *result = generate(&b, "glsl", cases[i].path, cases[i].fault ? MXG_ERROR_DOCUMENT : MXG_OK);
+        mxg_result *result =
+            generate(&b, "glsl", cases[i].path, cases[i].fault ? MXG_ERROR_DOCUMENT : MXG_OK);
         mxg_shader_info info = {sizeof info};
         bool good = cases[i].fault ? has_diagnostic(mxg_result_diagnostics(result), cases[i].fault)
-                                   : mxg_result_info(result, &info) == MXG_OK && strcmp(info.path, cases[i].meant) == 0;
+                                   : mxg_result_info(result, &info) == MXG_OK
+                                         && strcmp(info.path, cases[i].meant) == 0;
         if (!REQUIRE(good))
             printf("    %s\n", cases[i].path ? cases[i].path : "(null)");
         mxg_result_destroy(result);
@@ -401,23 +442,31 @@ static void test_elements(void)
 static const char tokens[] =
     "<materialx version=\"1.39\" fileprefix=\"[folder]/\">\n"
     "  <token name=\"folder\" type=\"string\" value=\"maps\"/>\n"
-    "  <nodedef name=\"ND_outer\" node=\"outer\"><input name=\"x\" type=\"float\" value=\"1\"/><output name=\"out\" type=\"color3\"/>"
-    "<token name=\"part\" type=\"string\" value=\"default\"/><token name=\"n\" type=\"integer\" value=\"7\"/></nodedef>\n"
+    "  <nodedef name=\"ND_outer\" node=\"outer\"><input name=\"x\" type=\"float\" "
+    "value=\"1\"/><output name=\"out\" type=\"color3\"/>"
+    "<token name=\"part\" type=\"string\" value=\"default\"/><token name=\"n\" type=\"integer\" "
+    "value=\"7\"/></nodedef>\n"
     "  <nodegraph name=\"NG_outer\" nodedef=\"ND_outer\">\n"
-    "    <inner name=\"a\" type=\"color3\"><token name=\"p\" type=\"string\" interfacename=\"part\"/></inner>\n"
-    "    <image name=\"b\" type=\"color3\"><input name=\"file\" type=\"filename\" value=\"[part]_[n]_&lt;UDIM&gt;.png\"/></image>\n"
+    "    <inner name=\"a\" type=\"color3\"><token name=\"p\" type=\"string\" "
+    "interfacename=\"part\"/></inner>\n"
+    "    <image name=\"b\" type=\"color3\"><input name=\"file\" type=\"filename\" "
+    "value=\"[part]_[n]_&lt;UDIM&gt;.png\"/></image>\n"
     "    <add name=\"c\" type=\"color3\"><input name=\"in1\" type=\"color3\" nodename=\"a\"/>"
     "<input name=\"in2\" type=\"color3\" nodename=\"b\"/></add>\n"
     "    <output name=\"out\" type=\"color3\" nodename=\"c\"/></nodegraph>\n"
-    "  <nodedef name=\"ND_inner\" node=\"inner\"><token name=\"p\" type=\"string\" value=\"unset\"/>"
+    "  <nodedef name=\"ND_inner\" node=\"inner\"><token name=\"p\" type=\"string\" "
+    "value=\"unset\"/>"
     "<output name=\"out\" type=\"color3\"/></nodedef>\n"
     "  <nodegraph name=\"NG_inner\" nodedef=\"ND_inner\">"
-    "<image name=\"i\" type=\"color3\"><input name=\"file\" type=\"filename\" value=\"inner_[p].png\"/></image>"
+    "<image name=\"i\" type=\"color3\"><input name=\"file\" type=\"filename\" "
+    "value=\"inner_[p].png\"/></image>"
     "<output name=\"out\" type=\"color3\" nodename=\"i\"/></nodegraph>\n"
     "  <nodegraph name=\"G\"><token name=\"wood\" type=\"string\" value=\"oak\"/>\n"
     "    <outer name=\"u1\" type=\"color3\"/>\n"
-    "    <outer name=\"u2\" type=\"color3\"><token name=\"part\" type=\"string\" value=\"set\"/></outer>\n"
-    "    <outer name=\"u3\" type=\"color3\"><token name=\"part\" type=\"string\" interfacename=\"wood\"/></outer>\n"
+    "    <outer name=\"u2\" type=\"color3\"><token name=\"part\" type=\"string\" "
+    "value=\"set\"/></outer>\n"
+    "    <outer name=\"u3\" type=\"color3\"><token name=\"part\" type=\"string\" "
+    "interfacename=\"wood\"/></outer>\n"
     "    <add name=\"s\" type=\"color3\"><input name=\"in1\" type=\"color3\" nodename=\"u1\"/>"
     "<input name=\"in2\" type=\"color3\" nodename=\"u2\"/></add>\n"
     "    <add name=\"t\" type=\"color3\"><input name=\"in1\" type=\"color3\" nodename=\"s\"/>"
@@ -438,8 +487,9 @@ static bool has_file(const mxg_result *result, const char *name)
 /* Uses of one definition with different tokens are not the same, though their arguments are. */
 static void test_tokens(void)
 {
-    static const char *const names[] = {"maps/inner_default.png", "maps/default_7_<UDIM>.png", "maps/inner_set.png",
-                                        "maps/set_7_<UDIM>.png",  "maps/inner_oak.png",        "maps/oak_7_<UDIM>.png"};
+    static const char *const names[] = {"maps/inner_default.png", "maps/default_7_<UDIM>.png",
+                                        "maps/inner_set.png",     "maps/set_7_<UDIM>.png",
+                                        "maps/inner_oak.png",     "maps/oak_7_<UDIM>.png"};
     struct bench b;
     bench_open(&b, tokens);
     mxg_result *result = generate(&b, "glsl", "G", MXG_OK);
@@ -470,12 +520,18 @@ static void test_lifetimes(void)
 
 /* ---- Networks ---- */
 
-static const char network[] = "<materialx version=\"1.39\">"
-    "<noise2d name=\"n\" type=\"float\"><input name=\"amplitude\" type=\"float\" value=\"0.25\"/></noise2d>"
-    "<multiply name=\"m\" type=\"float\"><input name=\"in1\" type=\"float\" nodename=\"n\"/><input name=\"in2\" type=\"float\" value=\"1\"/></multiply>"
-    "<oren_nayar_diffuse_bsdf name=\"b\" type=\"BSDF\"><input name=\"roughness\" type=\"float\" nodename=\"m\"/></oren_nayar_diffuse_bsdf>"
-    "<surface name=\"S\" type=\"surfaceshader\"><input name=\"bsdf\" type=\"BSDF\" nodename=\"b\"/></surface>"
-    "<surfacematerial name=\"M\" type=\"material\"><input name=\"surfaceshader\" type=\"surfaceshader\" nodename=\"S\"/></surfacematerial>"
+static const char network[] =
+    "<materialx version=\"1.39\">"
+    "<noise2d name=\"n\" type=\"float\"><input name=\"amplitude\" type=\"float\" "
+    "value=\"0.25\"/></noise2d>"
+    "<multiply name=\"m\" type=\"float\"><input name=\"in1\" type=\"float\" nodename=\"n\"/><input "
+    "name=\"in2\" type=\"float\" value=\"1\"/></multiply>"
+    "<oren_nayar_diffuse_bsdf name=\"b\" type=\"BSDF\"><input name=\"roughness\" type=\"float\" "
+    "nodename=\"m\"/></oren_nayar_diffuse_bsdf>"
+    "<surface name=\"S\" type=\"surfaceshader\"><input name=\"bsdf\" type=\"BSDF\" "
+    "nodename=\"b\"/></surface>"
+    "<surfacematerial name=\"M\" type=\"material\"><input name=\"surfaceshader\" "
+    "type=\"surfaceshader\" nodename=\"S\"/></surfacematerial>"
     "</materialx>";
 
 static bool has_part(const mxg_result *result, const char *name, const char *nodedef)
@@ -511,7 +567,8 @@ static void test_network(void)
     mxg_part part = {sizeof part};
     REQUIRE_EQ(mxg_result_part(result, mxg_result_num_parts(result), &part), MXG_ERROR_ARGUMENT);
     mxg_shader_info info = {sizeof info}, whole_info = {sizeof whole_info};
-    REQUIRE(mxg_result_info(result, &info) == MXG_OK && mxg_result_info(whole, &whole_info) == MXG_OK);
+    REQUIRE(mxg_result_info(result, &info) == MXG_OK
+            && mxg_result_info(whole, &whole_info) == MXG_OK);
     REQUIRE(info.topology != whole_info.topology);
     mxg_result_destroy(result);
     mxg_result_destroy(whole);

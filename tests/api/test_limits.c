@@ -6,7 +6,8 @@ static mxg_document *parse(mxg_context *context, const char *text, mxg_status ex
 {
     mxg_document *document = NULL;
     mxg_library *library = mxg_library_builtin(context);
-    REQUIRE_EQ(mxg_document_parse(context, library, "limit.mtlx", text, strlen(text), &document), expected);
+    REQUIRE_EQ(mxg_document_parse(context, library, "limit.mtlx", text, strlen(text), &document),
+               expected);
     mxg_library_unref(library);
     return document;
 }
@@ -15,12 +16,16 @@ static mxg_document *parse(mxg_context *context, const char *text, mxg_status ex
 static char *chain(unsigned count)
 {
     char *text = malloc(256 + 200 * (size_t)count), *at = text;
-    at += sprintf(at, "<materialx version=\"1.39\"><nodegraph name=\"G\"><time name=\"n0\" type=\"float\"/>");
+    at += sprintf(
+        at, "<materialx version=\"1.39\"><nodegraph name=\"G\"><time name=\"n0\" type=\"float\"/>");
     for (unsigned i = 1; i <= count; i++)
-        at += sprintf(at, "<%s name=\"n%u\" type=\"float\"><input name=\"in1\" type=\"float\" nodename=\"n%u\"/>"
-                          "<input name=\"in2\" type=\"float\" value=\"%u.5\"/></%s>",
-                      i % 2 ? "multiply" : "modulo", i, i - 1, i, i % 2 ? "multiply" : "modulo");
-    sprintf(at, "<output name=\"out\" type=\"float\" nodename=\"n%u\"/></nodegraph></materialx>", count);
+        at += sprintf(
+            at,
+            "<%s name=\"n%u\" type=\"float\"><input name=\"in1\" type=\"float\" nodename=\"n%u\"/>"
+            "<input name=\"in2\" type=\"float\" value=\"%u.5\"/></%s>",
+            i % 2 ? "multiply" : "modulo", i, i - 1, i, i % 2 ? "multiply" : "modulo");
+    sprintf(at, "<output name=\"out\" type=\"float\" nodename=\"n%u\"/></nodegraph></materialx>",
+            count);
     return text;
 }
 
@@ -57,7 +62,8 @@ static void test_max_nodes(void)
     struct outcome outcome = {MXG_ERROR_DOCUMENT, true, 0};
     for (desc.max_nodes = 1; desc.max_nodes < 1000 && outcome.status != MXG_OK; desc.max_nodes++) {
         outcome = generate(&desc, text, "node-limit");
-        REQUIRE(outcome.status == MXG_OK || (outcome.status == MXG_ERROR_DOCUMENT && outcome.is_limited));
+        REQUIRE(outcome.status == MXG_OK
+                || (outcome.status == MXG_ERROR_DOCUMENT && outcome.is_limited));
     }
     REQUIRE_EQ(outcome.size, size);
     REQUIRE(desc.max_nodes > 50 && desc.max_nodes < 1000);
@@ -67,7 +73,8 @@ static void test_max_nodes(void)
 /* What only tells diagnostics knows of the limit, although it does less. */
 static void test_max_nodes_of_diagnostics(void)
 {
-    static const char text[] = "<materialx version=\"1.39\"><standard_surface name=\"S\" type=\"surfaceshader\"/></materialx>";
+    static const char text[] = "<materialx version=\"1.39\"><standard_surface name=\"S\" "
+                               "type=\"surfaceshader\"/></materialx>";
     mxg_context_desc desc = MXG_CONTEXT_DESC_INIT;
     bool was_limited = false, was_made = false;
     for (desc.max_nodes = 100; desc.max_nodes < 3000; desc.max_nodes += 100) {
@@ -101,7 +108,8 @@ static void test_max_elements(void)
         mxg_context *context = NULL;
         mxg_context_create(&desc, &context);
         mxg_document *document = parse(context, text, limit < count ? MXG_ERROR_DOCUMENT : MXG_OK);
-        REQUIRE_EQ(has_diagnostic(mxg_document_diagnostics(document), "too-many-elements"), limit < count);
+        REQUIRE_EQ(has_diagnostic(mxg_document_diagnostics(document), "too-many-elements"),
+                   limit < count);
         mxg_document_destroy(document);
         mxg_context_destroy(context);
     }
@@ -216,7 +224,8 @@ static void test_cancel(void)
     REQUIRE(questions > 3 && questions < 10000);
     left = 1;
     mxg_result *result = NULL;
-    REQUIRE_EQ(mxg_inspect(context, document, MXG_VIEW_STATISTICS, &desc, &result), MXG_ERROR_CANCELLED);
+    REQUIRE_EQ(mxg_inspect(context, document, MXG_VIEW_STATISTICS, &desc, &result),
+               MXG_ERROR_CANCELLED);
     mxg_result_destroy(result);
     mxg_document_destroy(document);
     mxg_library_unref(library);
@@ -239,7 +248,8 @@ static void load(struct memory_files *files, const char *name, const char *fault
     if (status == MXG_OK)
         status = mxg_document_validate(context, document, &result);
     REQUIRE_EQ(status, fault ? MXG_ERROR_DOCUMENT : MXG_OK);
-    REQUIRE(!fault || has_diagnostic(mxg_document_diagnostics(document), fault) || has_diagnostic(mxg_result_diagnostics(result), fault));
+    REQUIRE(!fault || has_diagnostic(mxg_document_diagnostics(document), fault)
+            || has_diagnostic(mxg_result_diagnostics(result), fault));
     REQUIRE_EQ(files->num_open, 0);
     REQUIRE_EQ(files->num_opened, files->num_released);
     mxg_result_destroy(result);
@@ -250,7 +260,8 @@ static void load(struct memory_files *files, const char *name, const char *fault
 
 static void test_files(void)
 {
-    static const char *const faults[] = {"file-missing", "include-missing", "missing-source-file", "missing-source-file", NULL};
+    static const char *const faults[] = {"file-missing", "include-missing", "missing-source-file",
+                                         "missing-source-file", NULL};
     struct memory_files files = {.files = fixture_files};
     for (unsigned i = 0; i < 5; i++) { /* main.mtlx, tint.mtlx, tint.glsl, curve.glsl, none */
         files.fail_at = i + 1;
@@ -273,7 +284,8 @@ static void test_own_resolver(const char *folder)
     REQUIRE_EQ(mxg_document_load(context, library, folder, &document), MXG_ERROR_DOCUMENT);
     REQUIRE(has_diagnostic(mxg_document_diagnostics(document), "file-unreadable"));
     mxg_document_destroy(document);
-    REQUIRE_EQ(mxg_document_load(context, library, "none/at/all.mtlx", &document), MXG_ERROR_DOCUMENT);
+    REQUIRE_EQ(mxg_document_load(context, library, "none/at/all.mtlx", &document),
+               MXG_ERROR_DOCUMENT);
     REQUIRE(has_diagnostic(mxg_document_diagnostics(document), "file-missing"));
     mxg_document_destroy(document);
     char path[4096];

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Every allocation of a cycle fails once, and memory is limited: a status says so, nothing leaks, and the next cycle works.
+ * Every allocation of a cycle fails once, and memory is limited: a status says so, nothing leaks,
+ * and the next cycle works.
  */
 #include "tests/api/fixture.h"
 
@@ -9,14 +10,16 @@ static mxg_status use_result(const mxg_result *result)
     size_t size = 0;
     char line[256];
     for (uint32_t i = 0; i < mxg_diagnostics_count(mxg_result_diagnostics(result)); i++)
-        mxg_diagnostics_format(mxg_result_diagnostics(result), i, NULL, 0, false, line, sizeof line);
+        mxg_diagnostics_format(mxg_result_diagnostics(result), i, NULL, 0, false, line,
+                               sizeof line);
     return mxg_result_reflection_json(result, &size) ? MXG_OK : MXG_ERROR_MEMORY;
 }
 
 /* Of a document with definitions of its own, as the fixture is, and of one that can be told of. */
 static mxg_status use_structures(mxg_context *context, const mxg_document *document)
 {
-    static const char text[] = "<materialx version=\"1.39\"><surface_unlit name=\"S\" type=\"surfaceshader\"/></materialx>";
+    static const char text[] = "<materialx version=\"1.39\"><surface_unlit name=\"S\" "
+                               "type=\"surfaceshader\"/></materialx>";
     mxg_generate_desc desc = {sizeof desc, "glsl", NULL, NULL};
     uint64_t structure;
     mxg_library *builtin = mxg_library_builtin(context);
@@ -64,7 +67,8 @@ static mxg_status cycle(const mxg_context_desc *desc)
     size_t size = 0;
     mxg_status status = mxg_context_create(desc, &context);
     if (status == MXG_OK)
-        status = mxg_library_load(context, builtin = mxg_library_builtin(context), paths, 1, &library);
+        status =
+            mxg_library_load(context, builtin = mxg_library_builtin(context), paths, 1, &library);
     if (status == MXG_OK)
         status = mxg_library_expand(library, &text, &size);
     if (status == MXG_OK)
@@ -170,7 +174,8 @@ static void test_limit(void)
 }
 
 /*
- * Files that mxgen reads itself count too, and running out of memory while reading one is not a missing file.
+ * Files that mxgen reads itself count too, and running out of memory while reading one is not a
+ * missing file.
  */
 static void test_own_files(const char *path)
 {
@@ -184,7 +189,8 @@ static void test_own_files(const char *path)
         mxg_library *library = NULL;
         status = mxg_context_create(&desc, &context);
         if (status == MXG_OK)
-            status = mxg_document_load(context, library = mxg_library_builtin(context), path, &document);
+            status =
+                mxg_document_load(context, library = mxg_library_builtin(context), path, &document);
         REQUIRE(status == MXG_ERROR_MEMORY || status == MXG_OK);
         mxg_document_destroy(document);
         mxg_library_unref(library);

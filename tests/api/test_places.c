@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Elements where they do not belong: every kind of element at the top of a document, and in every other kind, with connections of every kind, to
- * something and to nothing. Each document is told what is wrong, or is right; none is a crash, in validation, in structures, or in generation.
+ * Elements where they do not belong: every kind of element at the top of a document, and in every
+ * other kind, with connections of every kind, to something and to nothing. Each document is told
+ * what is wrong, or is right; none is a crash, in validation, in structures, or in generation.
  */
 #include <mxgen/mxgen.h>
 
@@ -12,13 +13,17 @@ static const char *const kinds[] = {
 #define KIND(name, text) #text,
 #include "src/document/kinds.def"
 #undef KIND
-    "constant", "surfacematerial", "standard_surface", "unheard_of",
+    "constant",
+    "surfacematerial",
+    "standard_surface",
+    "unheard_of",
 };
 enum { NUM_KINDS = sizeof kinds / sizeof *kinds };
 
 static const char *const connections[] = {
-    "value='1'", "nodename='n'", "nodename='none'", "nodegraph='g' output='out'", "nodegraph='none'", "interfacename='i'", "interfacename='none'",
-    "output='o'", "output='none'", "nodedef='D'", "inherit='x'", "nodename='x'",
+    "value='1'",        "nodename='n'",      "nodename='none'",      "nodegraph='g' output='out'",
+    "nodegraph='none'", "interfacename='i'", "interfacename='none'", "output='o'",
+    "output='none'",    "nodedef='D'",       "inherit='x'",          "nodename='x'",
 };
 enum { NUM_CONNECTIONS = sizeof connections / sizeof *connections };
 
@@ -46,7 +51,8 @@ static void try_document(mxg_context *context, mxg_library *library, const char 
 {
     mxg_document *document = NULL;
     mxg_result *result = NULL;
-    mxg_status status = mxg_document_parse(context, library, "places.mtlx", text, strlen(text), &document);
+    mxg_status status =
+        mxg_document_parse(context, library, "places.mtlx", text, strlen(text), &document);
     bool told = mxg_diagnostics_count(mxg_document_diagnostics(document)) > 0;
     if (document) {
         told |= mxg_document_validate(context, document, &result) == MXG_OK;
@@ -62,9 +68,12 @@ static void try_document(mxg_context *context, mxg_library *library, const char 
 int main(void)
 {
     static const char around[] =
-        "<materialx version='1.39'><constant name='n' type='float'/><output name='o' type='float' nodename='n'/>"
-        "<nodegraph name='g'><constant name='n' type='float'/><output name='out' type='float' nodename='n'/></nodegraph>"
-        "<nodedef name='D' node='d'><input name='i' type='float' value='1'/><output name='out' type='float'/></nodedef>%s</materialx>";
+        "<materialx version='1.39'><constant name='n' type='float'/><output name='o' type='float' "
+        "nodename='n'/>"
+        "<nodegraph name='g'><constant name='n' type='float'/><output name='out' type='float' "
+        "nodename='n'/></nodegraph>"
+        "<nodedef name='D' node='d'><input name='i' type='float' value='1'/><output name='out' "
+        "type='float'/></nodedef>%s</materialx>";
     mxg_context *context = NULL;
     char inner[512], outer[1024], text[2048];
     mxg_context_create(NULL, &context);
@@ -72,9 +81,12 @@ int main(void)
     for (int parent = -1; parent < NUM_KINDS; ++parent)
         for (int child = 0; child < NUM_KINDS; ++child)
             for (int with = 0; with < NUM_CONNECTIONS; ++with) {
-                snprintf(inner, sizeof inner, "<%s name='x' type='float' %s/>", kinds[child], connections[with]);
+                snprintf(inner, sizeof inner, "<%s name='x' type='float' %s/>", kinds[child],
+                         connections[with]);
                 if (parent >= 0)
-                    snprintf(outer, sizeof outer, "<%s name='p' type='float' node='q' nodedef='D'>%s</%s>", kinds[parent], inner, kinds[parent]);
+                    snprintf(outer, sizeof outer,
+                             "<%s name='p' type='float' node='q' nodedef='D'>%s</%s>",
+                             kinds[parent], inner, kinds[parent]);
                 snprintf(text, sizeof text, around, parent >= 0 ? outer : inner);
                 try_document(context, library, text);
             }

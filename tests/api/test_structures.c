@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Elements of equal structure, in all documents of some folders, have shaders of equal topology, interface, counts and diagnostics; with
- * neutral names and without comments, of equal text. So have variants of them, in which an attribute has the value of another, a digit is
- * another or an element is left out. And of every element it is told without the shader what is told with it. Arguments: the folders; of
- * those that are not there the test says so.
+ * Elements of equal structure, in all documents of some folders, have shaders of equal topology,
+ * interface, counts and diagnostics; with neutral names and without comments, of equal text. So
+ * have variants of them, in which an attribute has the value of another, a digit is another or an
+ * element is left out. And of every element it is told without the shader what is told with it.
+ * Arguments: the folders; of those that are not there the test says so.
  */
 #define _XOPEN_SOURCE 700
 #include "tests/api/fixture.h"
@@ -16,8 +17,9 @@ static const struct request {
     bool has_values; /* in the source: uniforms' values stand in it */
     bool has_variants;
 } requests[] = {
-    {"glsl", "complete", true, false},   {"glsl", "authored", true, false},  {"glsl", "reduced", true, false},
-    {"vulkan", "complete", false, true}, {"vulkan", "reduced", false, true}, {"osl", "complete", true, false},
+    {"glsl", "complete", true, false},  {"glsl", "authored", true, false},
+    {"glsl", "reduced", true, false},   {"vulkan", "complete", false, true},
+    {"vulkan", "reduced", false, true}, {"osl", "complete", true, false},
     {"osl", "reduced", true, false},
 };
 enum { NUM_REQUESTS = sizeof requests / sizeof *requests };
@@ -68,9 +70,12 @@ static void print_variables(FILE *out, const mxg_result *result)
     for (uint32_t i = 0; i < mxg_result_num_variables(result); i++) {
         mxg_variable v = {sizeof v};
         mxg_result_variable(result, i, &v);
-        fprintf(out, "%d %s %s %s stages %u, [%u], at %u %u %u, offset %u size %u strides %u %u, values %u, modes %s %s %s, tiles %u\n",
-                (int)v.block, v.type, v.document_type, v.semantic, v.stages, v.array_length, v.set, v.binding, v.location, v.offset, v.byte_size,
-                v.array_stride, v.matrix_stride, v.num_values, v.uaddressmode, v.vaddressmode, v.filtertype, v.num_tiles);
+        fprintf(out,
+                "%d %s %s %s stages %u, [%u], at %u %u %u, offset %u size %u strides %u %u, values "
+                "%u, modes %s %s %s, tiles %u\n",
+                (int)v.block, v.type, v.document_type, v.semantic, v.stages, v.array_length, v.set,
+                v.binding, v.location, v.offset, v.byte_size, v.array_stride, v.matrix_stride,
+                v.num_values, v.uaddressmode, v.vaddressmode, v.filtertype, v.num_tiles);
     }
 }
 
@@ -84,12 +89,14 @@ static void print_diagnostics(FILE *out, const mxg_result *result)
     }
 }
 
-static void compare_diagnostics(const mxg_document *document, mxg_generate_desc desc, mxg_status status, const mxg_result *whole)
+static void compare_diagnostics(const mxg_document *document, mxg_generate_desc desc,
+                                mxg_status status, const mxg_result *whole)
 {
     mxg_result *told = NULL;
     desc.only_diagnostics = true;
     REQUIRE_EQ(mxg_generate(corpus.context, document, &desc, &told), status);
-    const mxg_diagnostics *list = mxg_result_diagnostics(told), *expected = mxg_result_diagnostics(whole);
+    const mxg_diagnostics *list = mxg_result_diagnostics(told),
+                          *expected = mxg_result_diagnostics(whole);
     REQUIRE_EQ(mxg_diagnostics_count(list), mxg_diagnostics_count(expected));
     for (uint32_t i = 0; i < mxg_diagnostics_count(expected); i++) {
         char texts[2][512];
@@ -109,13 +116,17 @@ static char *facts_of(const struct request *request, mxg_status status, const mx
     fprintf(out, "status %d\n", (int)status);
     print_diagnostics(out, result);
     if (status == MXG_OK && mxg_result_info(result, &info) == MXG_OK) {
-        fprintf(out, "topology %016" PRIx64 ", closures %u, textures %u, lights %u, %d %d %d %d, compiled %u\n", info.topology, info.num_closures,
-                info.num_textures, info.num_lights, info.transparent, info.lit, info.displaced, (int)info.alpha,
+        fprintf(out,
+                "topology %016" PRIx64
+                ", closures %u, textures %u, lights %u, %d %d %d %d, compiled %u\n",
+                info.topology, info.num_closures, info.num_textures, info.num_lights,
+                info.transparent, info.lit, info.displaced, (int)info.alpha,
                 request->has_values ? 0 : mxg_result_num_compiled_inputs(result));
         print_variables(out, result);
     }
     for (int stage = 0; stage < MXG_NUM_STAGES && !request->has_values; stage++)
-        fprintf(out, "source %016" PRIx64 "\n", hash_text(mxg_result_source(result, (mxg_stage)stage, NULL)));
+        fprintf(out, "source %016" PRIx64 "\n",
+                hash_text(mxg_result_source(result, (mxg_stage)stage, NULL)));
     fclose(out);
     return facts;
 }
@@ -197,11 +208,13 @@ static char *read_text(const char *path, size_t *out_len)
 }
 
 /* The text between quotes of an attribute from `at` on; false: there is none. */
-static bool find_attribute(const char *text, size_t at, const char *name, size_t *out_begin, size_t *out_end)
+static bool find_attribute(const char *text, size_t at, const char *name, size_t *out_begin,
+                           size_t *out_end)
 {
     char start[32];
     snprintf(start, sizeof start, " %s=\"", name);
-    const char *found = strstr(text + at, start), *end = found ? strchr(found + strlen(start), '"') : NULL;
+    const char *found = strstr(text + at, start),
+               *end = found ? strchr(found + strlen(start), '"') : NULL;
     if (!end)
         return false;
     *out_begin = (size_t)(found - text) + strlen(start);
@@ -222,12 +235,16 @@ static char *splice(const char *text, size_t begin, size_t end, const char *othe
 /* To be freed; NULL: nothing could be changed there. */
 static char *vary(const char *text, size_t len)
 {
-    static const char *const names[] = {"value", "value", "value", "nodename", "output", "colorspace", "type", "interfacename", "nodegraph"};
+    static const char *const names[] = {"value",    "value",         "value",
+                                        "nodename", "output",        "colorspace",
+                                        "type",     "interfacename", "nodegraph"};
     const char *name = names[pick(sizeof names / sizeof *names)];
     size_t begin, end, other, other_end;
     if (pick(4) == 0) {
-        const char *input = strstr(text + pick(len), "<input "), *close = input ? strstr(input, "/>") : NULL;
-        return close ? splice(text, (size_t)(input - text), (size_t)(close - text) + 2, "", 0) : NULL;
+        const char *input = strstr(text + pick(len), "<input "),
+                   *close = input ? strstr(input, "/>") : NULL;
+        return close ? splice(text, (size_t)(input - text), (size_t)(close - text) + 2, "", 0)
+                     : NULL;
     }
     if (!find_attribute(text, pick(len), name, &begin, &end))
         return NULL;
@@ -248,7 +265,8 @@ static void examine_variants(const char *path, unsigned at)
         char *variant = vary(text, len);
         mxg_document *document = NULL;
         if (variant)
-            mxg_document_parse(corpus.context, corpus.library, path, variant, strlen(variant), &document);
+            mxg_document_parse(corpus.context, corpus.library, path, variant, strlen(variant),
+                               &document);
         if (document)
             examine(document, path, at, NUM_VARIED_ELEMENTS);
         mxg_document_destroy(document);
@@ -264,7 +282,8 @@ static void examine(const mxg_document *document, const char *path, unsigned at,
     for (uint32_t i = 0; i < mxg_document_num_renderables(document) && i < limit; i++) {
         mxg_renderable renderable = {sizeof renderable};
         mxg_document_renderable(document, i, &renderable);
-        mxg_generate_desc desc = {sizeof desc, requests[at].target, renderable.path, corpus.options[at], requests[at].has_values};
+        mxg_generate_desc desc = {sizeof desc, requests[at].target, renderable.path,
+                                  corpus.options[at], requests[at].has_values};
         uint64_t structure = 0;
         REQUIRE_EQ(mxg_document_structure(corpus.context, document, &desc, &structure), MXG_OK);
         mxg_result *result = NULL;
@@ -309,7 +328,8 @@ int main(int argc, char **argv)
     REQUIRE(corpus.num_paths > 0);
     for (unsigned at = 0; at < NUM_REQUESTS; at++)
         examine_all(at);
-    printf("%u elements, of which %u have a structure, and %u are equal to one before\n", corpus.num_elements, corpus.num_told, corpus.num_equal);
+    printf("%u elements, of which %u have a structure, and %u are equal to one before\n",
+           corpus.num_elements, corpus.num_told, corpus.num_equal);
     REQUIRE(corpus.num_equal > 0);
     for (size_t i = 0; i < corpus.num_paths; i++)
         free(corpus.paths[i]);

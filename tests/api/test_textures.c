@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Files that nodes name: what hosts are told of textures, their tiles, layers and frames; photometric profiles.
+ * Files that nodes name: what hosts are told of textures, their tiles, layers and frames;
+ * photometric profiles.
  */
 #include "tests/api/fixture.h"
 
 /* Names in the folder "maps/" of the files' place, in no order. */
-static const char folder[] = "wall.1013.png\0wall.1001.png\0wall.101.png\0wall.1002.png\0wall.1002.jpg\0notes\0"
-                             "sea.u2_v1.0003.exr\0sea.u1_v1.0003.exr\0sea.u1_v1.0004.exr\0wall.1002.png~\0wall.10011.png";
+static const char folder[] =
+    "wall.1013.png\0wall.1001.png\0wall.101.png\0wall.1002.png\0wall.1002.jpg\0notes\0"
+    "sea.u2_v1.0003.exr\0sea.u1_v1.0003.exr\0sea.u1_v1.0004.exr\0wall.1002.png~\0wall.10011.png";
 
-static size_t list_maps(void *user_data, const char *from, const char *name, char *names, size_t capacity)
+static size_t list_maps(void *user_data, const char *from, const char *name, char *names,
+                        size_t capacity)
 {
     (void)user_data;
     if (strcmp(from, "test.mtlx") != 0 || strcmp(name, "maps/") != 0)
@@ -20,9 +23,11 @@ static size_t list_maps(void *user_data, const char *from, const char *name, cha
 
 static const struct memory_file files[] = {
     {"loop.glsl", "uniform float u_time;\n"
-                  "float sum(sampler2D f) { float s = 0.0; for (float i = 0.0; i < u_time; ++i) s += texture(f, vec2(i)).r; return s; }"},
+                  "float sum(sampler2D f) { float s = 0.0; for (float i = 0.0; i < u_time; ++i) s "
+                  "+= texture(f, vec2(i)).r; return s; }"},
     /* At 0, 45 and 90 degrees from the axis 2, 1 and, in the mean around it, 0.75 candela */
-    {"lamp.ies", "IESNA:LM-63-2002\r\n[TEST] none\r\nTILT=NONE\r\n1 1000 0.5 3 3 1 2 0 0 0\r\n1 1 100\r\n0 45 90\r\n0, 90, 180\r\n"
+    {"lamp.ies", "IESNA:LM-63-2002\r\n[TEST] none\r\nTILT=NONE\r\n1 1000 0.5 3 3 1 2 0 0 0\r\n1 1 "
+                 "100\r\n0 45 90\r\n0, 90, 180\r\n"
                  "4 2 1\r\n4 2 2\r\n4 2 1\r\n"},
     {"tilted.ies", "TILT=INCLUDE\n1 2 0 90 1 1\n1 1000 1 2 1 1 2 0 0 0\n1 1 100\n0 90 0 1 1"},
     {"type_b.ies", "TILT=NONE\n1 1000 1 2 1 2 2 0 0 0\n1 1 100\n0 90 0 1 1"},
@@ -43,9 +48,11 @@ struct shot {
 };
 
 /* Generates the only output of a document with `body`; with `option` set to `value`. */
-static void shoot(struct shot *shot, const char *body, bool lists, const char *option, const char *value, mxg_status expected)
+static void shoot(struct shot *shot, const char *body, bool lists, const char *option,
+                  const char *value, mxg_status expected)
 {
-    static const char head[] = "<materialx version=\"1.39\" fileprefix=\"maps/\">", tail[] = "</materialx>";
+    static const char head[] = "<materialx version=\"1.39\" fileprefix=\"maps/\">",
+                      tail[] = "</materialx>";
     static char text[4096];
     snprintf(text, sizeof text, "%s%s%s", head, body, tail);
     *shot = (struct shot){.files = {.files = files}};
@@ -55,7 +62,9 @@ static void shoot(struct shot *shot, const char *body, bool lists, const char *o
     context.resolver = &resolver;
     REQUIRE_EQ(mxg_context_create(&context, &shot->context), MXG_OK);
     shot->library = mxg_library_builtin(shot->context);
-    REQUIRE_EQ(mxg_document_parse(shot->context, shot->library, "test.mtlx", text, strlen(text), &shot->document), MXG_OK);
+    REQUIRE_EQ(mxg_document_parse(shot->context, shot->library, "test.mtlx", text, strlen(text),
+                                  &shot->document),
+               MXG_OK);
     mxg_options *options = NULL;
     REQUIRE_EQ(mxg_options_create(shot->context, &options), MXG_OK);
     REQUIRE(!option || mxg_options_set(options, option, value) == MXG_OK);
@@ -94,10 +103,12 @@ static unsigned count_diagnostics(const struct shot *shot, const char *id)
 }
 
 #define IMAGE(file, more) \
-    "<image name=\"i\" type=\"color3\"><input name=\"file\" type=\"filename\" value=\"" file "\"/>" more "</image>" \
+    "<image name=\"i\" type=\"color3\"><input name=\"file\" type=\"filename\" value=\"" file \
+    "\"/>" more "</image>" \
     "<output name=\"o\" type=\"color3\" nodename=\"i\"/>"
 
-static void require_tile(const struct shot *shot, uint32_t variable, uint32_t index, const char *file, int32_t u, int32_t v)
+static void require_tile(const struct shot *shot, uint32_t variable, uint32_t index,
+                         const char *file, int32_t u, int32_t v)
 {
     mxg_tile tile = {sizeof tile};
     REQUIRE_EQ(mxg_result_tile(shot->result, variable, index, &tile), MXG_OK);
@@ -136,9 +147,12 @@ static void test_tiles_of_document(void)
 {
     struct shot shot;
     mxg_variable file;
-    shoot(&shot, "<geominfo name=\"a\" geom=\"/a\"><geomprop name=\"udimset\" type=\"stringarray\" value=\"1011, 1001\"/></geominfo>"
-                 "<geominfo name=\"b\" geom=\"/b\"><geomprop name=\"udimset\" type=\"stringarray\" value=\"1001,1002,99\"/></geominfo>"
-                 IMAGE("wall.&lt;UDIM&gt;.png", ""), false, NULL, NULL, MXG_OK);
+    shoot(&shot,
+          "<geominfo name=\"a\" geom=\"/a\"><geomprop name=\"udimset\" type=\"stringarray\" "
+          "value=\"1011, 1001\"/></geominfo>"
+          "<geominfo name=\"b\" geom=\"/b\"><geomprop name=\"udimset\" type=\"stringarray\" "
+          "value=\"1001,1002,99\"/></geominfo>" IMAGE("wall.&lt;UDIM&gt;.png", ""),
+          false, NULL, NULL, MXG_OK);
     uint32_t index = find(&shot, "i/file", &file);
     REQUIRE_EQ(file.num_tiles, 3);
     require_tile(&shot, index, 2, "maps/wall.1011.png", 0, 1);
@@ -158,8 +172,9 @@ static void test_no_tiles(void)
         {IMAGE("none.&lt;UDIM&gt;.png", ""), false, NULL, NULL, NULL},
         {IMAGE("wall.&lt;UDIM&gt;.png", ""), true, "tiles", "host", NULL},
         {IMAGE("&lt;UDIM&gt;/wall.png", ""), true, NULL, NULL, "no-tiles"},
-        {"<geominfo name=\"a\" geom=\"/a\"><geomprop name=\"uvtileset\" type=\"stringarray\" value=\"u1_v1,u900_v2\"/></geominfo>"
-         IMAGE("sea.&lt;UVTILE&gt;.exr", ""), true, NULL, NULL, "too-many-tiles"},
+        {"<geominfo name=\"a\" geom=\"/a\"><geomprop name=\"uvtileset\" type=\"stringarray\" "
+         "value=\"u1_v1,u900_v2\"/></geominfo>" IMAGE("sea.&lt;UVTILE&gt;.exr", ""),
+         true, NULL, NULL, "too-many-tiles"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         struct shot shot;
@@ -168,7 +183,8 @@ static void test_no_tiles(void)
         find(&shot, "i/file", &file);
         REQUIRE_STR(file.type, "sampler2D");
         REQUIRE_EQ(file.num_tiles, 0);
-        REQUIRE_EQ(mxg_diagnostics_count(mxg_result_diagnostics(shot.result)), cases[i].warning ? 1 : 0);
+        REQUIRE_EQ(mxg_diagnostics_count(mxg_result_diagnostics(shot.result)),
+                   cases[i].warning ? 1 : 0);
         REQUIRE(!cases[i].warning || count_diagnostics(&shot, cases[i].warning) == 1);
         finish(&shot);
     }
@@ -178,9 +194,11 @@ static void test_no_tiles(void)
 static void test_tiles_in_loop(void)
 {
     static const char body[] =
-        "<nodedef name=\"ND_s\" node=\"s\"><input name=\"file\" type=\"filename\" value=\"\"/><output name=\"out\" type=\"float\"/></nodedef>"
+        "<nodedef name=\"ND_s\" node=\"s\"><input name=\"file\" type=\"filename\" "
+        "value=\"\"/><output name=\"out\" type=\"float\"/></nodedef>"
         "<implementation name=\"IM_s\" nodedef=\"ND_s\" file=\"loop.glsl\" function=\"sum\"/>"
-        "<s name=\"i\" type=\"float\"><input name=\"file\" type=\"filename\" value=\"wall.&lt;UDIM&gt;.png\"/></s>"
+        "<s name=\"i\" type=\"float\"><input name=\"file\" type=\"filename\" "
+        "value=\"wall.&lt;UDIM&gt;.png\"/></s>"
         "<output name=\"o\" type=\"float\" nodename=\"i\"/>";
     struct shot shot;
     shoot(&shot, body, true, NULL, NULL, MXG_ERROR_DOCUMENT);
@@ -194,9 +212,11 @@ static void test_tiles_in_loop(void)
 static void test_blurred_tiles(void)
 {
     static const char body[] =
-        "<image name=\"i\" type=\"color3\"><input name=\"file\" type=\"filename\" value=\"wall.&lt;UDIM&gt;.png\"/></image>"
+        "<image name=\"i\" type=\"color3\"><input name=\"file\" type=\"filename\" "
+        "value=\"wall.&lt;UDIM&gt;.png\"/></image>"
         "<blur name=\"b\" type=\"color3\"><input name=\"in\" type=\"color3\" nodename=\"i\"/>"
-        "<input name=\"size\" type=\"float\" value=\"0.1\"/></blur><output name=\"o\" type=\"color3\" nodename=\"b\"/>";
+        "<input name=\"size\" type=\"float\" value=\"0.1\"/></blur><output name=\"o\" "
+        "type=\"color3\" nodename=\"b\"/>";
     struct shot shot;
     shoot(&shot, body, true, "interface", "reduced", MXG_OK);
     const char *source = mxg_result_source(shot.result, MXG_STAGE_PIXEL, NULL);
@@ -213,7 +233,8 @@ static const char *file_at(const struct shot *shot, int32_t frame)
 {
     static char file[64];
     mxg_variable variable;
-    size_t len = mxg_result_texture_file(shot->result, find(shot, "i/file", &variable), 0, frame, file, sizeof file);
+    size_t len = mxg_result_texture_file(shot->result, find(shot, "i/file", &variable), 0, frame,
+                                         file, sizeof file);
     REQUIRE_EQ(len, strlen(file));
     return file;
 }
@@ -226,18 +247,33 @@ static void test_frames(void)
             int32_t frame;
             const char *file; /* "" where there is none */
         } at[4];
-    } cases[] = { /* of frames 2 to 4, which frames 7 to 9 show */
+    } cases[] = {
+        /* of frames 2 to 4, which frames 7 to 9 show */
         {"constant", {{6, ""}, {7, "maps/a2_02.png"}, {9, "maps/a4_04.png"}, {10, ""}}},
-        {"clamp", {{-100, "maps/a2_02.png"}, {8, "maps/a3_03.png"}, {10, "maps/a4_04.png"}, {100, "maps/a4_04.png"}}},
-        {"periodic", {{6, "maps/a4_04.png"}, {10, "maps/a2_02.png"}, {5, "maps/a3_03.png"}, {13, "maps/a2_02.png"}}},
-        {"mirror", {{6, "maps/a3_03.png"}, {10, "maps/a3_03.png"}, {11, "maps/a2_02.png"}, {12, "maps/a3_03.png"}}},
+        {"clamp",
+         {{-100, "maps/a2_02.png"},
+          {8, "maps/a3_03.png"},
+          {10, "maps/a4_04.png"},
+          {100, "maps/a4_04.png"}}},
+        {"periodic",
+         {{6, "maps/a4_04.png"},
+          {10, "maps/a2_02.png"},
+          {5, "maps/a3_03.png"},
+          {13, "maps/a2_02.png"}}},
+        {"mirror",
+         {{6, "maps/a3_03.png"},
+          {10, "maps/a3_03.png"},
+          {11, "maps/a2_02.png"},
+          {12, "maps/a3_03.png"}}},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         char body[512];
         snprintf(body, sizeof body,
-                 IMAGE("a{frame}_{02frame}.png", "<input name=\"framerange\" type=\"string\" value=\"2-4\"/>"
+                 IMAGE("a{frame}_{02frame}.png",
+                       "<input name=\"framerange\" type=\"string\" value=\"2-4\"/>"
                        "<input name=\"frameoffset\" type=\"integer\" value=\"-5\"/>"
-                       "<input name=\"frameendaction\" type=\"string\" value=\"%s\"/>"), cases[i].end_action);
+                       "<input name=\"frameendaction\" type=\"string\" value=\"%s\"/>"),
+                 cases[i].end_action);
         struct shot shot;
         mxg_variable file;
         shoot(&shot, body, false, NULL, NULL, MXG_OK);
@@ -261,9 +297,11 @@ static void test_frame_names(void)
     REQUIRE_STR(file_at(&shot, 12345), "maps/{shot}_12345_{4frame}{frame");
     REQUIRE_STR(file_at(&shot, -7), "maps/{shot}_-007_{4frame}{frame");
     uint32_t index = find(&shot, "i/file", &variable);
-    REQUIRE_EQ(mxg_result_texture_file(shot.result, index, 0, 7, small, sizeof small), strlen("maps/{shot}_0007_{4frame}{frame"));
+    REQUIRE_EQ(mxg_result_texture_file(shot.result, index, 0, 7, small, sizeof small),
+               strlen("maps/{shot}_0007_{4frame}{frame"));
     REQUIRE_STR(small, "maps/{s");
-    REQUIRE_EQ(mxg_result_texture_file(shot.result, index, 0, 7, NULL, 0), strlen("maps/{shot}_0007_{4frame}{frame"));
+    REQUIRE_EQ(mxg_result_texture_file(shot.result, index, 0, 7, NULL, 0),
+               strlen("maps/{shot}_0007_{4frame}{frame"));
     REQUIRE_EQ(mxg_result_texture_file(shot.result, UINT32_MAX, 0, 7, small, sizeof small), 0);
     REQUIRE_STR(small, "");
     finish(&shot);
@@ -274,15 +312,22 @@ static void test_two_ways(void)
 {
     static const char body[] =
         "<nodegraph name=\"G\"><input name=\"file\" type=\"filename\" value=\"a.png\"/>"
-        "<image name=\"a\" type=\"color3\"><input name=\"file\" type=\"filename\" interfacename=\"file\"/>"
+        "<image name=\"a\" type=\"color3\"><input name=\"file\" type=\"filename\" "
+        "interfacename=\"file\"/>"
         "<input name=\"uaddressmode\" type=\"string\" value=\"mirror\"/></image>"
-        "<image name=\"b\" type=\"color3\"><input name=\"file\" type=\"filename\" interfacename=\"file\"/>"
+        "<image name=\"b\" type=\"color3\"><input name=\"file\" type=\"filename\" "
+        "interfacename=\"file\"/>"
         "<input name=\"layer\" type=\"string\" value=\"diffuse\"/></image>"
-        "<image name=\"c\" type=\"color3\"><input name=\"file\" type=\"filename\" interfacename=\"file\"/>"
-        "<input name=\"uaddressmode\" type=\"string\" value=\"mirror\"/><input name=\"texcoord\" type=\"vector2\" nodename=\"p\"/></image>"
-        "<position name=\"q\" type=\"vector3\"/><convert name=\"p\" type=\"vector2\"><input name=\"in\" type=\"vector3\" nodename=\"q\"/></convert>"
-        "<add name=\"d\" type=\"color3\"><input name=\"in1\" type=\"color3\" nodename=\"a\"/><input name=\"in2\" type=\"color3\" nodename=\"b\"/></add>"
-        "<add name=\"e\" type=\"color3\"><input name=\"in1\" type=\"color3\" nodename=\"d\"/><input name=\"in2\" type=\"color3\" nodename=\"c\"/></add>"
+        "<image name=\"c\" type=\"color3\"><input name=\"file\" type=\"filename\" "
+        "interfacename=\"file\"/>"
+        "<input name=\"uaddressmode\" type=\"string\" value=\"mirror\"/><input name=\"texcoord\" "
+        "type=\"vector2\" nodename=\"p\"/></image>"
+        "<position name=\"q\" type=\"vector3\"/><convert name=\"p\" type=\"vector2\"><input "
+        "name=\"in\" type=\"vector3\" nodename=\"q\"/></convert>"
+        "<add name=\"d\" type=\"color3\"><input name=\"in1\" type=\"color3\" "
+        "nodename=\"a\"/><input name=\"in2\" type=\"color3\" nodename=\"b\"/></add>"
+        "<add name=\"e\" type=\"color3\"><input name=\"in1\" type=\"color3\" "
+        "nodename=\"d\"/><input name=\"in2\" type=\"color3\" nodename=\"c\"/></add>"
         "<output name=\"o\" type=\"color3\" nodename=\"e\"/></nodegraph>";
     struct shot shot;
     unsigned mirrored = 0, layered = 0;
@@ -302,11 +347,14 @@ static void test_two_ways(void)
 }
 
 #define LAMP(file) \
-    "<measured_edf name=\"light\" type=\"EDF\"><input name=\"file\" type=\"filename\" fileprefix=\"\" value=\"" file "\"/></measured_edf>" \
-    "<surface name=\"s\" type=\"surfaceshader\"><input name=\"edf\" type=\"EDF\" nodename=\"light\"/></surface>"
+    "<measured_edf name=\"light\" type=\"EDF\"><input name=\"file\" type=\"filename\" " \
+    "fileprefix=\"\" value=\"" file "\"/></measured_edf>" \
+    "<surface name=\"s\" type=\"surfaceshader\"><input name=\"edf\" type=\"EDF\" " \
+    "nodename=\"light\"/></surface>"
 
 /*
- * Intensities relative to the greatest, every two degrees; what stands behind the last angle is not stored.
+ * Intensities relative to the greatest, every two degrees; what stands behind the last angle is not
+ * stored.
  */
 static void test_profile(void)
 {
@@ -314,7 +362,8 @@ static void test_profile(void)
     mxg_compiled_input file = {sizeof file};
     shoot(&shot, LAMP("lamp.ies"), false, NULL, NULL, MXG_OK);
     REQUIRE_EQ(mxg_diagnostics_count(mxg_result_diagnostics(shot.result)), 0);
-    const char *table = strstr(mxg_result_source(shot.result, MXG_STAGE_PIXEL, NULL), "float[47](1.0, 0.9777");
+    const char *table =
+        strstr(mxg_result_source(shot.result, MXG_STAGE_PIXEL, NULL), "float[47](1.0, 0.9777");
     /* 90 degrees, and behind */
     REQUIRE(table && strstr(table, ", 0.375") && strstr(table, ", 0.0);"));
     REQUIRE_EQ(mxg_result_num_files(shot.result), 1);
@@ -331,7 +380,8 @@ static void test_profile(void)
 static void test_bad_profiles(void)
 {
     static const char *const bodies[] = {LAMP("type_b.ies"),   LAMP("short.ies"), LAMP("dark.ies"),
-                                         LAMP("mixed_up.ies"), LAMP("many.ies"),  LAMP("other.ies"), LAMP("missing.ies")};
+                                         LAMP("mixed_up.ies"), LAMP("many.ies"),  LAMP("other.ies"),
+                                         LAMP("missing.ies")};
     for (size_t i = 0; i < sizeof bodies / sizeof *bodies; i++) {
         struct shot shot;
         shoot(&shot, bodies[i], false, NULL, NULL, MXG_OK);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Threads over one library, each with a context of its own, and documents that they share or load for themselves give the bytes of a
- * single one. Arguments: how many generations each thread makes, and the documents.
+ * Threads over one library, each with a context of its own, and documents that they share or load
+ * for themselves give the bytes of a single one. Arguments: how many generations each thread makes,
+ * and the documents.
  */
 #define _POSIX_C_SOURCE 200809L
 #include "tests/api/fixture.h"
@@ -33,7 +34,8 @@ struct worker {
 /* What a generation gives, as one text; to be freed. */
 static char *all_of(const mxg_result *result)
 {
-    const char *parts[] = {mxg_result_source(result, MXG_STAGE_VERTEX, NULL), mxg_result_source(result, MXG_STAGE_PIXEL, NULL),
+    const char *parts[] = {mxg_result_source(result, MXG_STAGE_VERTEX, NULL),
+                           mxg_result_source(result, MXG_STAGE_PIXEL, NULL),
                            mxg_result_reflection_json(result, NULL)};
     size_t len = 1;
     for (int i = 0; i < 3; i++)
@@ -69,7 +71,8 @@ static uint64_t structure_of(mxg_context *context, const mxg_document *document,
     return mxg_document_structure(context, document, &desc, &structure) == MXG_OK ? structure : 1;
 }
 
-static bool gives(mxg_context *context, const mxg_document *document, const char *target, const char *expected)
+static bool gives(mxg_context *context, const mxg_document *document, const char *target,
+                  const char *expected)
 {
     mxg_result *result = generate(context, document, target);
     char *text = all_of(result);
@@ -80,7 +83,8 @@ static bool gives(mxg_context *context, const mxg_document *document, const char
 }
 
 /*
- * Documents come in another order for each thread; every other one is loaded anew, over the shared library or the thread's own.
+ * Documents come in another order for each thread; every other one is loaded anew, over the shared
+ * library or the thread's own.
  */
 static void *work(void *arg)
 {
@@ -88,13 +92,19 @@ static void *work(void *arg)
     const struct shared *shared = worker->shared;
     mxg_context *context = NULL;
     mxg_context_create(NULL, &context);
-    mxg_library *library = mxg_library_ref(shared->library), *own_library = mxg_library_builtin(context);
+    mxg_library *library = mxg_library_ref(shared->library),
+                *own_library = mxg_library_builtin(context);
     for (unsigned i = 0; i < shared->num_generations; i++) {
-        unsigned at = (i + worker->number) % shared->num_documents, target = (i / shared->num_documents) % NUM_TARGETS;
-        mxg_document *own = i % 2 ? load(context, i % 4 == 1 ? library : own_library, shared->paths[at]) : NULL;
+        unsigned at = (i + worker->number) % shared->num_documents,
+                 target = (i / shared->num_documents) % NUM_TARGETS;
+        mxg_document *own =
+            i % 2 ? load(context, i % 4 == 1 ? library : own_library, shared->paths[at]) : NULL;
         worker->num_wrong += i % 2 && !own;
-        worker->num_wrong += !gives(context, own ? own : shared->documents[at], targets[target], shared->expected[at][target]);
-        worker->num_wrong += structure_of(context, own ? own : shared->documents[at], targets[target]) != shared->structures[at][target];
+        worker->num_wrong += !gives(context, own ? own : shared->documents[at], targets[target],
+                                    shared->expected[at][target]);
+        worker->num_wrong +=
+            structure_of(context, own ? own : shared->documents[at], targets[target])
+            != shared->structures[at][target];
         mxg_document_destroy(own);
         char *text = i < shared->num_documents ? all_of(shared->results[at]) : NULL;
         worker->num_wrong += text && strcmp(text, shared->expected[at][0]) != 0;
@@ -117,7 +127,8 @@ static void prepare(struct shared *shared, mxg_context *context, const char *pat
         mxg_result *result = generate(context, shared->documents[at], targets[target]);
         shared->expected[at][target] = all_of(result);
         REQUIRE(*shared->expected[at][target]);
-        shared->structures[at][target] = structure_of(context, shared->documents[at], targets[target]);
+        shared->structures[at][target] =
+            structure_of(context, shared->documents[at], targets[target]);
         mxg_result_destroy(result);
     }
     shared->results[at] = generate(context, shared->documents[at], targets[0]);

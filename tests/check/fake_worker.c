@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * In place of mxgen-check: does what the document's name says. Of a name with "dies", "hangs" or "lies" it dies, hangs,
- * or answers with something that is no record; with "slow" it takes a while; all others pass.
+ * In place of mxgen-check: does what the document's name says. Of a name with "dies", "hangs" or
+ * "lies" it dies, hangs, or answers with something that is no record; with "slow" it takes a while;
+ * all others pass.
  */
 #define _POSIX_C_SOURCE 200809L
 #include "cli/check/packed.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * A record that goes from a worker to `mxgen check` arrives as it was; bytes that are no record are none, whatever they are.
+ * A record that goes from a worker to `mxgen check` arrives as it was; bytes that are no record are
+ * none, whatever they are.
  */
 #define _POSIX_C_SOURCE 200809L
 #include "cli/check/packed.h"
@@ -11,18 +12,41 @@
 static struct check_document *make_document(void)
 {
     static struct check_message messages[] = {
-        {MXG_SEVERITY_WARNING, "unused-node", "nobody uses 'a'", "a.mtlx", 4, 7, 2, "", NULL, "a.mtlx:4:7: warning: …\n"},
+        {MXG_SEVERITY_WARNING, "unused-node", "nobody uses 'a'", "a.mtlx", 4, 7, 2, "", NULL,
+         "a.mtlx:4:7: warning: …\n"},
         {MXG_SEVERITY_ERROR, "bad-value", "'x' is no number", "a.mtlx", 5, 1, 0, "M", "glsl", NULL},
     };
-    static struct check_part parts[] = {{MEASURE_TEXTURES, "wood", 1}, {MEASURE_UNIFORM_BYTES, "", 1ull << 40}};
+    static struct check_part parts[] = {{MEASURE_TEXTURES, "wood", 1},
+                                        {MEASURE_UNIFORM_BYTES, "", 1ull << 40}};
     static uint32_t indices[] = {1, 0};
-    static struct check_shader shaders[] = {
-        {"glsl", CHECK_COMPILE, true, "0123456789abcdef", {1, 2, 3}, parts, 2, indices, 2, 0.5, 12.25}, {.target = "osl"}};
-    static struct check_element elements[] = {{"M", "material", shaders, 2, "cGljdHVyZQ==", "1,2"}, {.path = "N"}};
+    static struct check_shader shaders[] = {{"glsl",
+                                             CHECK_COMPILE,
+                                             true,
+                                             "0123456789abcdef",
+                                             {1, 2, 3},
+                                             parts,
+                                             2,
+                                             indices,
+                                             2,
+                                             0.5,
+                                             12.25},
+                                            {.target = "osl"}};
+    static struct check_element elements[] = {{"M", "material", shaders, 2, "cGljdHVyZQ==", "1,2"},
+                                              {.path = "N"}};
     static const char *files[] = {"a.mtlx", "b.mtlx"}, *folders[] = {"./"}, *images[] = {"c.png"};
-    static struct check_document document = {.file = "a.mtlx", .failed = CHECK_COMPILE, .messages = messages, .num_messages = 2,
-                                             .files = files, .num_files = 2, .folders = folders, .num_folders = 1, .images = images,
-                                             .num_images = 1, .elements = elements, .num_elements = 2, .load_ms = 1.0};
+    static struct check_document document = {.file = "a.mtlx",
+                                             .failed = CHECK_COMPILE,
+                                             .messages = messages,
+                                             .num_messages = 2,
+                                             .files = files,
+                                             .num_files = 2,
+                                             .folders = folders,
+                                             .num_folders = 1,
+                                             .images = images,
+                                             .num_images = 1,
+                                             .elements = elements,
+                                             .num_elements = 2,
+                                             .load_ms = 1.0};
     return &document;
 }
 

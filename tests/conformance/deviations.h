@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * What of a reference is not followed, as it is listed with its reasons: lines of two names and of the numbers that are allowed instead, of
- * which there may be none. What is listed must be met by a test, and must deviate.
+ * What of a reference is not followed, as it is listed with its reasons: lines of two names and of
+ * the numbers that are allowed instead, of which there may be none. What is listed must be met by a
+ * test, and must deviate.
  */
 #ifndef MXG_TESTS_CONFORMANCE_DEVIATIONS_H
 #define MXG_TESTS_CONFORMANCE_DEVIATIONS_H
@@ -23,7 +24,8 @@ struct deviations {
 };
 
 /*
- * Reads a file whose lines have `num_numbers` numbers behind the names. False after printing that there is none.
+ * Reads a file whose lines have `num_numbers` numbers behind the names. False after printing that
+ * there is none.
  */
 bool deviations_read(struct deviations *list, const char *path, size_t num_numbers);
 void deviations_finish(struct deviations *list);

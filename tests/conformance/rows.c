@@ -27,8 +27,10 @@ static bool list_documents(struct suite *suite)
         const char *end = strrchr(entry->d_name, '.');
         if (!end || strcmp(end, ".csv") != 0)
             continue;
-        suite->documents = lines_grow(suite->documents, suite->num_documents, sizeof *suite->documents);
-        suite->documents[suite->num_documents++] = strndup(entry->d_name, (size_t)(end - entry->d_name));
+        suite->documents =
+            lines_grow(suite->documents, suite->num_documents, sizeof *suite->documents);
+        suite->documents[suite->num_documents++] =
+            strndup(entry->d_name, (size_t)(end - entry->d_name));
     }
     if (dir)
         closedir(dir);
@@ -74,7 +76,8 @@ static unsigned components_of(const char *type)
     static const struct {
         const char *type;
         unsigned components;
-    } types[] = {{"float", 1}, {"vector2", 2}, {"vector3", 3}, {"color3", 3}, {"vector4", 4}, {"color4", 4}};
+    } types[] = {{"float", 1},  {"vector2", 2}, {"vector3", 3},
+                 {"color3", 3}, {"vector4", 4}, {"color4", 4}};
     for (size_t i = 0; i < sizeof types / sizeof *types; ++i)
         if (strcmp(type, types[i].type) == 0)
             return types[i].components;
@@ -97,7 +100,8 @@ static bool parse_row(char *line, struct row *row)
     for (size_t i = 0; i < ROW_PIXELS * row->components; ++i) {
         if (i < count && !*rest)
             return false;
-        row->values[i] = i < count ? strtod(lines_field(&rest, ','), NULL) : row->values[i % row->components];
+        row->values[i] =
+            i < count ? strtod(lines_field(&rest, ','), NULL) : row->values[i % row->components];
     }
     return !*rest;
 }
@@ -161,9 +165,11 @@ static bool fail(struct suite *suite, const struct row_list *list, const struct 
     return is_shown;
 }
 
-void suite_judge(struct suite *suite, const struct row_list *list, const struct row *row, const float *values, const char *problem)
+void suite_judge(struct suite *suite, const struct row_list *list, const struct row *row,
+                 const float *values, const char *problem)
 {
-    const struct deviation *deviation = deviations_find(&suite->deviations, list->document, row->name);
+    const struct deviation *deviation =
+        deviations_find(&suite->deviations, list->document, row->name);
     size_t at = 0;
     bool good = values && agrees(row, values, &at);
     if (values && !row->is_defined) {
@@ -177,8 +183,9 @@ void suite_judge(struct suite *suite, const struct row_list *list, const struct 
         ++suite->deviate;
     } else if (fail(suite, list, row)) {
         if (values)
-            printf("pixel %zu, component %zu is %.9g, not %.9g (tolerance %g)\n", at / row->components, at % row->components,
-                   (double)values[at], row->values[at], row->tolerance);
+            printf("pixel %zu, component %zu is %.9g, not %.9g (tolerance %g)\n",
+                   at / row->components, at % row->components, (double)values[at], row->values[at],
+                   row->tolerance);
         else
             puts(problem);
     }
@@ -201,10 +208,13 @@ static void check_deviations(struct suite *suite, size_t num_rows)
 
 int suite_report(struct suite *suite, const char *name, bool is_whole)
 {
-    size_t total = suite->agree + suite->deviate + suite->undefined + suite->skipped + suite->failed;
+    size_t total =
+        suite->agree + suite->deviate + suite->undefined + suite->skipped + suite->failed;
     if (is_whole)
         check_deviations(suite, total);
-    printf("%s: %zu rows: %zu agree, %zu deviate as listed, %zu undefined in the reference, %zu not computed, %zu failed\n",
-           name, total, suite->agree, suite->deviate, suite->undefined, suite->skipped, suite->failed);
+    printf("%s: %zu rows: %zu agree, %zu deviate as listed, %zu undefined in the reference, %zu "
+           "not computed, %zu failed\n",
+           name, total, suite->agree, suite->deviate, suite->undefined, suite->skipped,
+           suite->failed);
     return suite->failed ? 1 : 0;
 }

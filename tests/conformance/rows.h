@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Reference values of nodes (README.md): rows of expected/<document>.csv, one for each output of cases/<document>.mtlx, and
- * deviations.tsv, the rows that are not followed. A test computes a row's values by its own means and lets suite_judge compare.
+ * Reference values of nodes (README.md): rows of expected/<document>.csv, one for each output of
+ * cases/<document>.mtlx, and deviations.tsv, the rows that are not followed. A test computes a
+ * row's values by its own means and lets suite_judge compare.
  */
 #ifndef MXG_TESTS_CONFORMANCE_ROWS_H
 #define MXG_TESTS_CONFORMANCE_ROWS_H
@@ -14,7 +15,7 @@
 enum { ROW_PIXELS = 16, ROW_MAX_COMPONENTS = 4 };
 
 struct row {
-    char *name;          /* element path: "g_add_float/v1" */
+    char *name; /* element path: "g_add_float/v1" */
     unsigned components;
     /* false: the reference is not finite or not stable there; any value is right */
     bool is_defined;
@@ -49,15 +50,18 @@ void row_list_free(struct row_list *list);
 char *suite_case_file(const struct suite *suite, size_t index);
 
 /*
- * Compares and counts; differences are printed. `values` as in the row; NULL where there are none, and `problem` tells why.
+ * Compares and counts; differences are printed. `values` as in the row; NULL where there are none,
+ * and `problem` tells why.
  */
-void suite_judge(struct suite *suite, const struct row_list *list, const struct row *row, const float *values, const char *problem);
+void suite_judge(struct suite *suite, const struct row_list *list, const struct row *row,
+                 const float *values, const char *problem);
 
 /* Counts a row that this test cannot compute. */
 void suite_skip(struct suite *suite, const struct row_list *list, const struct row *row);
 
 /*
- * Prints the counts. Where all documents were read (`is_whole`) the list of deviations is checked too. What main returns.
+ * Prints the counts. Where all documents were read (`is_whole`) the list of deviations is checked
+ * too. What main returns.
  */
 int suite_report(struct suite *suite, const char *name, bool is_whole);
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Rows without a GPU: the graph of an output is computed at the grid's points by the IR's evaluator, and what it calls by the portable
- * language's. Vertex data is computed as the vertex stage does. Rows that need textures, derivatives or functions that read uniforms
- * are not computed.
+ * Rows without a GPU: the graph of an output is computed at the grid's points by the IR's
+ * evaluator, and what it calls by the portable language's. Vertex data is computed as the vertex
+ * stage does. Rows that need textures, derivatives or functions that read uniforms are not
+ * computed.
  *
  *     test_evaluator FOLDER
  */
@@ -20,9 +21,9 @@ struct run {
     struct suite suite;
     struct scene scene;
     const struct row *row;
-    uint32_t vertex;       /* where the evaluator is */
+    uint32_t vertex; /* where the evaluator is */
     struct generation *generation;
-    bool is_computed;      /* the row has values */
+    bool is_computed; /* the row has values */
     float values[ROW_PIXELS * ROW_MAX_COMPONENTS];
 };
 
@@ -40,7 +41,8 @@ static void from_floats(ir_type_id type, const float *values, struct ir_value *o
     }
 }
 
-static bool uniform_value(const struct run *run, const struct shader_variable *variable, const char *name, struct ir_value *out)
+static bool uniform_value(const struct run *run, const struct shader_variable *variable,
+                          const char *name, struct ir_value *out)
 {
     float values[16] = {0};
     *out = variable->value;
@@ -52,7 +54,8 @@ static bool uniform_value(const struct run *run, const struct shader_variable *v
     return true;
 }
 
-static bool attribute_value(const struct run *run, const struct shader_variable *variable, const char *name, struct ir_value *out)
+static bool attribute_value(const struct run *run, const struct shader_variable *variable,
+                            const char *name, struct ir_value *out)
 {
     float values[4] = {INTEGER_ATTRIBUTE, INTEGER_ATTRIBUTE, INTEGER_ATTRIBUTE, INTEGER_ATTRIBUTE};
     bool is_float = ir_type_info(variable->type)->scalar == IR_TYPE_FLOAT;
@@ -69,7 +72,8 @@ static bool evaluate(struct run *run, ir_ref ref, struct ir_value *out);
 /* What the vertex stage writes to vertex data `index`. */
 static bool vertex_data(struct run *run, uint32_t index, struct ir_value *out)
 {
-    const struct effect_list *effects = &run->generation->result->shader.stages[STAGE_VERTEX].effects;
+    const struct effect_list *effects =
+        &run->generation->result->shader.stages[STAGE_VERTEX].effects;
     for (uint32_t i = 0; i < effects->len; ++i)
         if (effects->items[i].kind == EFFECT_OUTPUT && effects->items[i].index == index)
             return evaluate(run, effects->items[i].value, out);
@@ -93,18 +97,20 @@ static bool source(void *user_data, const struct ir_graph *graph, ir_ref ref, st
 }
 
 /*
- * RESULT 0 is what the function returns, RESULT 1 its first `out` parameter, also where it returns nothing.
+ * RESULT 0 is what the function returns, RESULT 1 its first `out` parameter, also where it returns
+ * nothing.
  */
-static bool call(void *user_data, const struct ir_graph *graph, ir_ref ref, const struct ir_value *args, uint32_t result,
-                 struct ir_value *out)
+static bool call(void *user_data, const struct ir_graph *graph, ir_ref ref,
+                 const struct ir_value *args, uint32_t result, struct ir_value *out)
 {
     struct run *run = user_data;
     const struct lang_unit *unit = &run->generation->result->unit;
     uint32_t function = (uint32_t)graph->callees.items[ir_get(graph, ref)->attr].id;
     bool returns = lang_function(unit, function, NULL)->return_type != IR_TYPE_VOID;
     struct ir_value results[MAX_RESULTS];
-    if (ir_get(graph, ref)->op != IR_CALL || (result == 0 && !returns) || lang_num_results(unit, function) > MAX_RESULTS ||
-        !lang_eval_call(unit, function, args, results, MAX_STEPS, &run->generation->scratch))
+    if (ir_get(graph, ref)->op != IR_CALL || (result == 0 && !returns)
+        || lang_num_results(unit, function) > MAX_RESULTS
+        || !lang_eval_call(unit, function, args, results, MAX_STEPS, &run->generation->scratch))
         return false;
     *out = results[returns ? result : result - 1];
     return true;
@@ -129,7 +135,8 @@ static void compute(struct generation *generation)
     for (uint32_t pixel = 0; pixel < ROW_PIXELS; ++pixel) {
         struct ir_value value;
         run->vertex = run->scene.mesh.num_vertices - ROW_PIXELS + pixel;
-        if (!evaluate(run, generation->root, &value) || ir_type_info(value.type)->components != run->row->components)
+        if (!evaluate(run, generation->root, &value)
+            || ir_type_info(value.type)->components != run->row->components)
             return;
         for (unsigned c = 0; c < run->row->components; ++c)
             *out++ = value.w[c].f;
@@ -137,7 +144,8 @@ static void compute(struct generation *generation)
     run->is_computed = true;
 }
 
-static void check_document(struct run *run, mxg_context *context, mxg_library *library, size_t index)
+static void check_document(struct run *run, mxg_context *context, mxg_library *library,
+                           size_t index)
 {
     struct row_list list;
     char *path = suite_case_file(&run->suite, index);
@@ -152,11 +160,13 @@ static void check_document(struct run *run, mxg_context *context, mxg_library *l
         desc.element = list.items[i].name;
         run->row = &list.items[i];
         run->is_computed = false;
-        mxg_status status = good ? generation_run(context, document, &desc, compute, run, &result) : MXG_ERROR_DOCUMENT;
+        mxg_status status = good ? generation_run(context, document, &desc, compute, run, &result)
+                                 : MXG_ERROR_DOCUMENT;
         if (status == MXG_OK && !run->is_computed)
             suite_skip(&run->suite, &list, run->row);
         else
-            suite_judge(&run->suite, &list, run->row, run->is_computed ? run->values : NULL, "the graph cannot be built");
+            suite_judge(&run->suite, &list, run->row, run->is_computed ? run->values : NULL,
+                        "the graph cannot be built");
         mxg_result_destroy(result);
     }
     row_list_free(&list);
@@ -174,8 +184,9 @@ int main(int argc, char **argv)
     mxg_context *context = NULL;
     mxg_library *library = NULL;
     int code = 1;
-    if (mxg_context_create(NULL, &context) == MXG_OK && (library = mxg_library_builtin(context)) != NULL &&
-        scene_init_grid(&run.scene) && suite_open(&run.suite, argv[1])) {
+    if (mxg_context_create(NULL, &context) == MXG_OK
+        && (library = mxg_library_builtin(context)) != NULL && scene_init_grid(&run.scene)
+        && suite_open(&run.suite, argv[1])) {
         for (size_t i = 0; i < run.suite.num_documents; ++i)
             check_document(&run, context, library, i);
         size_t computed = run.suite.agree + run.suite.deviate + run.suite.undefined;

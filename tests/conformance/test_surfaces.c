@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Materials drawn and compared with what MaterialX's own GLSL draws of them (README.md, "Surfaces").
+ * Materials drawn and compared with what MaterialX's own GLSL draws of them (README.md,
+ * "Surfaces").
  *
  *     test_surfaces [KEY=VALUE...] DEVIATIONS FOLDER [DOCUMENTS [NAME...]]
  *
- * KEY=VALUE is an option of generation, to see what a variant of the shaders would be. Images are those of
- * FOLDER/expected/surfaces/index.tsv (of materials NAME… only), documents are relative to FOLDER. MaterialX's own ("example") are relative
- * to DOCUMENTS, and left out where there is no such folder. Reference images may hold the middle pixels of larger cells only; the shader is
+ * KEY=VALUE is an option of generation, to see what a variant of the shaders would be. Images are
+ * those of FOLDER/expected/surfaces/index.tsv (of materials NAME… only), documents are relative to
+ * FOLDER. MaterialX's own ("example") are relative to DOCUMENTS, and left out where there is no
+ * such folder. Reference images may hold the middle pixels of larger cells only; the shader is
  * drawn whole in any case.
  */
 #define _POSIX_C_SOURCE 200809L
@@ -62,8 +64,9 @@ static bool read_reference(const char *folder, const char *name, struct referenc
     FILE *file = lines_open(path);
     unsigned width = 0, height = 0;
     float scale = 0.0f;
-    bool good = file && fscanf(file, "P%c %u %u %f", &kind, &width, &height, &scale) == 4 && fgetc(file) == '\n' && scale < 0.0f &&
-                width == height && width && SIZE % width == 0;
+    bool good = file && fscanf(file, "P%c %u %u %f", &kind, &width, &height, &scale) == 4
+                && fgetc(file) == '\n' && scale < 0.0f && width == height && width
+                && SIZE % width == 0;
     *out = (struct reference){.size = width, .channels = kind == 'F' ? 3 : 1};
     size_t count = (size_t)width * height * out->channels;
     out->values = good ? malloc(count * sizeof(float)) : NULL;
@@ -77,7 +80,8 @@ static bool read_reference(const char *folder, const char *name, struct referenc
 }
 
 /* Pixel x, y of the reference, where a smaller one holds the middle of each cell. */
-static const float *pixel_of(float (*pixels)[4], const struct reference *reference, uint32_t x, uint32_t y)
+static const float *pixel_of(float (*pixels)[4], const struct reference *reference, uint32_t x,
+                             uint32_t y)
 {
     uint32_t step = SIZE / reference->size;
     uint32_t row = SIZE - 1 - (y * step + step / 2); /* ours begin on top */
@@ -105,7 +109,8 @@ static struct errors measure(const struct reference *reference, float (*pixels)[
         const float *got = pixel_of(pixels, reference, i % reference->size, i / reference->size);
         double square = 0.0, either = 0.0;
         for (uint32_t c = 0; c < reference->channels; ++c) {
-            double value = (double)got[reference->channels == 1 ? 3 : c], difference = value - (double)expected[c];
+            double value = (double)got[reference->channels == 1 ? 3 : c],
+                   difference = value - (double)expected[c];
             sum += value;
             expected_sum += (double)expected[c];
             square += difference * difference / reference->channels;
@@ -118,11 +123,14 @@ static struct errors measure(const struct reference *reference, float (*pixels)[
     size_t kept = (size_t)((1.0 - trimmed) * (double)covered);
     for (size_t i = 0; i < kept; ++i)
         square_sum += squares[i];
-    double values = fmax((double)covered, 1.0) * reference->channels, mean = fmax(expected_sum / values, dark);
-    return (struct errors){fabs(sum / values - expected_sum / values) / mean, sqrt(square_sum / fmax((double)kept, 1.0)) / mean};
+    double values = fmax((double)covered, 1.0) * reference->channels,
+           mean = fmax(expected_sum / values, dark);
+    return (struct errors){fabs(sum / values - expected_sum / values) / mean,
+                           sqrt(square_sum / fmax((double)kept, 1.0)) / mean};
 }
 
-static void judge(struct run *run, const char *material, const char *image, const char *file, float (*pixels)[4])
+static void judge(struct run *run, const char *material, const char *image, const char *file,
+                  float (*pixels)[4])
 {
     struct reference reference;
     struct errors limit = {max_mean_error, max_rms_error}, got = {INFINITY, INFINITY};
@@ -142,7 +150,8 @@ static void judge(struct run *run, const char *material, const char *image, cons
         printf("mean %.2f %%, rms %.2f %%)\n", 100.0 * got.mean, 100.0 * got.rms);
     if (agrees && !deviation) {
         ++run->agree;
-        run->worst = (struct errors){fmax(run->worst.mean, got.mean), fmax(run->worst.rms, got.rms)};
+        run->worst =
+            (struct errors){fmax(run->worst.mean, got.mean), fmax(run->worst.rms, got.rms)};
     }
     run->deviate += deviation && is_allowed && !agrees;
     run->failed += !is_allowed || (deviation && agrees);
@@ -150,7 +159,8 @@ static void judge(struct run *run, const char *material, const char *image, cons
 
 /* ---- Drawing ---- */
 
-static bool draw(struct run *run, const char *path, const char *element, enum image_kind kind, float (*pixels)[4])
+static bool draw(struct run *run, const char *path, const char *element, enum image_kind kind,
+                 float (*pixels)[4])
 {
     mxg_document *document = NULL;
     mxg_result *result = NULL;
@@ -158,10 +168,11 @@ static bool draw(struct run *run, const char *path, const char *element, enum im
     desc.target = "vulkan";
     desc.element = element;
     desc.options = run->options;
-    bool good = mxg_document_load(run->context, run->library, path, &document) == MXG_OK &&
-                mxg_generate(run->context, document, &desc, &result) == MXG_OK;
+    bool good = mxg_document_load(run->context, run->library, path, &document) == MXG_OK
+                && mxg_generate(run->context, document, &desc, &result) == MXG_OK;
     if (good) {
-        struct bind bind = {.result = result, .scene = &run->scenes[kind], .document = path, .is_opaque = true};
+        struct bind bind = {
+            .result = result, .scene = &run->scenes[kind], .document = path, .is_opaque = true};
         good = render_result(&run->gpu, &bind, SIZE, SIZE, pixels[0]);
         if (!good)
             printf("%s: %s\n", path, bind.reason);
@@ -195,7 +206,8 @@ static void check_line(struct run *run, char *line)
     size_t kind = 0;
     while (kind < NUM_IMAGE_KINDS && strcmp(image_names[kind], fields[1]) != 0)
         ++kind;
-    char *path = is_example ? lines_path(run->documents, ".", fields[4], "") : lines_path(run->folder, ".", fields[4], "");
+    char *path = is_example ? lines_path(run->documents, ".", fields[4], "")
+                            : lines_path(run->folder, ".", fields[4], "");
     if (kind == NUM_IMAGE_KINDS || !draw(run, path, fields[5], (enum image_kind)kind, pixels)) {
         ++run->failed;
     } else {
@@ -234,8 +246,10 @@ static bool make_scene(struct scene *scene, enum image_kind kind)
 static bool start(struct run *run, const char *deviations, char **settings, size_t num_settings)
 {
     compile_begin();
-    bool good = mxg_context_create(NULL, &run->context) == MXG_OK && (run->library = mxg_library_builtin(run->context)) != NULL &&
-                mxg_options_create(run->context, &run->options) == MXG_OK && deviations_read(&run->deviations, deviations, 2);
+    bool good = mxg_context_create(NULL, &run->context) == MXG_OK
+                && (run->library = mxg_library_builtin(run->context)) != NULL
+                && mxg_options_create(run->context, &run->options) == MXG_OK
+                && deviations_read(&run->deviations, deviations, 2);
     for (size_t i = 0; good && i < num_settings; ++i) {
         char *value = strchr(settings[i], '=');
         *value = '\0';
@@ -283,7 +297,8 @@ int main(int argc, char **argv)
         --argc;
     }
     if (argc < 3) {
-        fprintf(stderr, "usage: %s [KEY=VALUE...] DEVIATIONS FOLDER [DOCUMENTS [NAME...]]\n", argv[0]);
+        fprintf(stderr, "usage: %s [KEY=VALUE...] DEVIATIONS FOLDER [DOCUMENTS [NAME...]]\n",
+                argv[0]);
         return 2;
     }
     struct run run = {.folder = argv[2], .documents = argc > 3 ? argv[3] : ""};
@@ -297,8 +312,9 @@ int main(int argc, char **argv)
         code = EXIT_SKIPPED;
     } else if (start(&run, argv[1], settings, (size_t)(argv + 1 - settings))) {
         check_all(&run);
-        printf("surfaces: %zu images agree (mean within %.2f %%, rms within %.2f %%), %zu deviate as listed, %zu failed\n", run.agree,
-               100.0 * run.worst.mean, 100.0 * run.worst.rms, run.deviate, run.failed);
+        printf("surfaces: %zu images agree (mean within %.2f %%, rms within %.2f %%), %zu deviate "
+               "as listed, %zu failed\n",
+               run.agree, 100.0 * run.worst.mean, 100.0 * run.worst.rms, run.deviate, run.failed);
         code = run.failed ? 1 : 0;
     }
     stop(&run);

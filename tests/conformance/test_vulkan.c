@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Every row drawn: the generated Vulkan shader runs on the grid scene, on whatever device there is, and its pixels are compared.
+ * Every row drawn: the generated Vulkan shader runs on the grid scene, on whatever device there is,
+ * and its pixels are compared.
  *
- *     test_vulkan FOLDER INTERFACE [PART PARTS]      the documents of one part of several, counted from 1
+ *     test_vulkan FOLDER INTERFACE [PART PARTS]      the documents of one part of several, counted
+ * from 1
  */
 #include "render/render.h"
 #include "rows.h"
@@ -46,7 +48,8 @@ static void arrange(float (*pixels)[4], unsigned components, float *out)
 }
 
 /* The values of an element; false with run->problem. */
-static bool draw(struct run *run, const mxg_document *document, const char *path, const struct row *row, float *out_values)
+static bool draw(struct run *run, const mxg_document *document, const char *path,
+                 const struct row *row, float *out_values)
 {
     float pixels[WIDTH * HEIGHT][4];
     mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
@@ -92,10 +95,11 @@ static void check_document(struct run *run, size_t index)
 static bool start(struct run *run, const char *folder, const char *interface)
 {
     compile_begin();
-    return mxg_context_create(NULL, &run->context) == MXG_OK && (run->library = mxg_library_builtin(run->context)) != NULL &&
-           mxg_options_create(run->context, &run->options) == MXG_OK &&
-           mxg_options_set(run->options, "interface", interface) == MXG_OK && scene_init_grid(&run->scene) &&
-           suite_open(&run->suite, folder);
+    return mxg_context_create(NULL, &run->context) == MXG_OK
+           && (run->library = mxg_library_builtin(run->context)) != NULL
+           && mxg_options_create(run->context, &run->options) == MXG_OK
+           && mxg_options_set(run->options, "interface", interface) == MXG_OK
+           && scene_init_grid(&run->scene) && suite_open(&run->suite, folder);
 }
 
 static void stop(struct run *run)
@@ -115,7 +119,8 @@ int main(int argc, char **argv)
         fprintf(stderr, "usage: %s FOLDER INTERFACE [PART PARTS]\n", argv[0]);
         return 2;
     }
-    size_t part = argc == 5 ? strtoul(argv[3], NULL, 10) : 1, parts = argc == 5 ? strtoul(argv[4], NULL, 10) : 1;
+    size_t part = argc == 5 ? strtoul(argv[3], NULL, 10) : 1,
+           parts = argc == 5 ? strtoul(argv[4], NULL, 10) : 1;
     struct run run = {.suite = {.folder = argv[1]}};
     int code = 1;
     if (!gpu_open(&run.gpu)) {
@@ -125,7 +130,8 @@ int main(int argc, char **argv)
         for (size_t i = part - 1; i < run.suite.num_documents; i += parts)
             check_document(&run, i);
         char name[64];
-        snprintf(name, sizeof name, "conformance, vulkan, %s, part %zu of %zu", argv[2], part, parts);
+        snprintf(name, sizeof name, "conformance, vulkan, %s, part %zu of %zu", argv[2], part,
+                 parts);
         code = suite_report(&run.suite, name, parts == 1);
     }
     stop(&run);

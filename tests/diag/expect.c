@@ -44,7 +44,10 @@ static bool parse(const char *text, long here, struct message *out)
         out->severity = strcmp(severity, severity_names[i]) == 0 ? i : out->severity;
     long number = strtol(place, NULL, 10);
     bool relative = place[0] == '+' || place[0] == '-';
-    out->line = place[0] == '*' ? EXPECT_ANYWHERE : !place[0] ? here : relative ? here + number : number;
+    out->line = place[0] == '*' ? EXPECT_ANYWHERE
+                : !place[0]     ? here
+                : relative      ? here + number
+                                : number;
     return out->severity >= 0;
 }
 
@@ -54,7 +57,8 @@ bool expect_read(struct expectations *expectations, const char *path)
         if (strcmp(expectations->files[i], base_name(path)) == 0)
             return true;
     if (expectations->num_files < EXPECT_MAX_FILES)
-        snprintf(expectations->files[expectations->num_files++], sizeof *expectations->files, "%s", base_name(path));
+        snprintf(expectations->files[expectations->num_files++], sizeof *expectations->files, "%s",
+                 base_name(path));
     struct messages *messages = &expectations->messages;
     char *text = read_text(path);
     long line = 1;
@@ -78,8 +82,9 @@ void messages_add(struct messages *messages, const struct message *m)
 {
     for (unsigned i = 0; i < messages->len; ++i) {
         const struct message *have = &messages->items[i];
-        if (have->severity == m->severity && have->line == m->line && have->column == m->column && strcmp(have->id, m->id) == 0
-            && strcmp(have->file, m->file) == 0 && strcmp(have->text, m->text) == 0)
+        if (have->severity == m->severity && have->line == m->line && have->column == m->column
+            && strcmp(have->id, m->id) == 0 && strcmp(have->file, m->file) == 0
+            && strcmp(have->text, m->text) == 0)
             return;
     }
     if (messages->len < EXPECT_MAX_MESSAGES)
@@ -89,7 +94,8 @@ void messages_add(struct messages *messages, const struct message *m)
 static bool fits(const struct message *expected, const struct message *given)
 {
     bool here = expected->line == EXPECT_ANYWHERE
-                || (!expected->matched && expected->line == given->line && strcmp(expected->file, given->file) == 0);
+                || (!expected->matched && expected->line == given->line
+                    && strcmp(expected->file, given->file) == 0);
     return here && expected->severity == given->severity && strcmp(expected->id, given->id) == 0
            && (!expected->column || expected->column == given->column);
 }

@@ -10,8 +10,8 @@ enum { EXPECT_MAX_MESSAGES = 256, EXPECT_MAX_FILES = 32, EXPECT_ANYWHERE = -1 };
 struct message {
     char file[128]; /* base name */
     char id[64];
-    char text[200]; /* of given messages */
-    int severity;   /* as mxg_severity */
+    char text[200];    /* of given messages */
+    int severity;      /* as mxg_severity */
     long line, column; /* column 0: any; line EXPECT_ANYWHERE: any place in any file */
     bool matched;
 };

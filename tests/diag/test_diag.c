@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Documents with faults, and the messages they must give: no more, no fewer. A document says them beside the fault,
+ * Documents with faults, and the messages they must give: no more, no fewer. A document says them
+ * beside the fault,
  *
- *     <!-- expect-error@+1: type-mismatch 14 -->      severity, line (here: the next), id, column (optional)
+ *     <!-- expect-error@+1: type-mismatch 14 -->      severity, line (here: the next), id, column
+ * (optional)
  *
- * in itself or in a file it reads (there perhaps behind //). The place is @+N or @-N lines from the comment, @N line N, @0 no line, @* any
- * place in any file, any number of times, and without @ the comment's own line. A first line "<!-- mxgen: key=value ... -->" has
- * options: target, element, library, warnings, trust=yes, sandbox=yes, limits (max-errors …), and those of generation. Every document is loaded, validated, and
- * everything in it that can be rendered is generated.
+ * in itself or in a file it reads (there perhaps behind //). The place is @+N or @-N lines from the
+ * comment, @N line N, @0 no line, @* any place in any file, any number of times, and without @ the
+ * comment's own line. A first line "<!-- mxgen: key=value ... -->" has options: target, element,
+ * library, warnings, trust=yes, sandbox=yes, limits (max-errors …), and those of generation. Every
+ * document is loaded, validated, and everything in it that can be rendered is generated.
  *
- *     test_diag FOLDER              and every id of the catalogue must be expected in a document or listed in FOLDER/elsewhere.txt
- *     test_diag --must-fail FOLDER  every document must break one of these rules: the test of this program
+ *     test_diag FOLDER              and every id of the catalogue must be expected in a document or
+ * listed in FOLDER/elsewhere.txt test_diag --must-fail FOLDER  every document must break one of
+ * these rules: the test of this program
  *
  * A document whose name begins with '_' is parked: its first line says why.
  */
@@ -53,7 +57,8 @@ static void fault(struct case_ *c, const char *what, const struct message *m)
     if (c->silent)
         return;
     if (m)
-        printf("%s:%ld:%ld: %s: %s %s: %s\n", m->file, m->line, m->column, what, severity_names[m->severity], m->id, m->text);
+        printf("%s:%ld:%ld: %s: %s %s: %s\n", m->file, m->line, m->column, what,
+               severity_names[m->severity], m->id, m->text);
     else
         printf("%s: %s\n", c->name, what);
 }
@@ -140,9 +145,14 @@ static bool set_limit(mxg_context_desc *desc, const char *key, const char *value
     const struct {
         const char *key;
         uint32_t *out;
-    } limits[] = {{"max-file-size", &desc->max_file_mib}, {"max-elements", &desc->max_elements}, {"max-nodes", &desc->max_nodes},
-                  {"max-output-size", &desc->max_output_mib}, {"max-errors", &desc->max_errors}, {"max-depth", &desc->max_depth},
-                  {"max-include-depth", &desc->max_include_depth}, {"max-includes", &desc->max_includes}};
+    } limits[] = {{"max-file-size", &desc->max_file_mib},
+                  {"max-elements", &desc->max_elements},
+                  {"max-nodes", &desc->max_nodes},
+                  {"max-output-size", &desc->max_output_mib},
+                  {"max-errors", &desc->max_errors},
+                  {"max-depth", &desc->max_depth},
+                  {"max-include-depth", &desc->max_include_depth},
+                  {"max-includes", &desc->max_includes}};
     for (size_t i = 0; i < sizeof limits / sizeof *limits; ++i) {
         if (strcmp(key, limits[i].key) != 0)
             continue;
@@ -168,7 +178,8 @@ static void apply_options(struct case_ *c, const char *line, mxg_context_desc *l
         } else if (strcmp(key, "library") == 0) {
             const char *path = value;
             mxg_library *base = c->library;
-            c->no_library = !status_is_good(c, mxg_library_load(c->context, base, &path, 1, &c->library));
+            c->no_library =
+                !status_is_good(c, mxg_library_load(c->context, base, &path, 1, &c->library));
             collect(c, mxg_library_diagnostics(c->library));
             mxg_library_unref(base);
             read_expectations(c, value);
@@ -260,7 +271,9 @@ static unsigned check_coverage(void)
         fclose(list);
     for (int i = 0; i < NUM_IDS; ++i)
         if (covered[i] == listed[i] && ++faults)
-            printf("%s: %s\n", ids[i], covered[i] ? "has a document, but is listed in elsewhere.txt" : "no document expects it");
+            printf("%s: %s\n", ids[i],
+                   covered[i] ? "has a document, but is listed in elsewhere.txt"
+                              : "no document expects it");
     return faults;
 }
 
@@ -296,6 +309,7 @@ int main(int argc, char **argv)
     }
     failed += must_fail ? 0 : check_coverage();
     failed += count == 0;
-    printf("diag%s: %u passed, %u failed, %u skipped\n", must_fail ? "-runner" : "", passed, failed, parked);
+    printf("diag%s: %u passed, %u failed, %u skipped\n", must_fail ? "-runner" : "", passed, failed,
+           parked);
     return failed ? 1 : 0;
 }

@@ -33,7 +33,8 @@ void fuzz_files_split(struct fuzz_files *files, const char *data, size_t size)
     }
 }
 
-static bool open_part(void *user_data, const char *from, const char *ref, mxg_blob *out_blob, const char **out_reason)
+static bool open_part(void *user_data, const char *from, const char *ref, mxg_blob *out_blob,
+                      const char **out_reason)
 {
     struct fuzz_files *files = user_data;
     (void)from, (void)out_reason;
@@ -57,7 +58,8 @@ static void release_part(void *user_data, mxg_blob *blob)
     files->num_open--;
 }
 
-mxg_context *fuzz_files_context(struct fuzz_files *files, struct fuzz_heap *heap, mxg_context_desc desc)
+mxg_context *fuzz_files_context(struct fuzz_files *files, struct fuzz_heap *heap,
+                                mxg_context_desc desc)
 {
     mxg_resolver resolver = {files, open_part, release_part};
     mxg_context *context = NULL;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * An input that is several files: parts that begin with a line "== NAME". What stands before the first such line is "main.mtlx"; names
- * that no part has are not found.
+ * An input that is several files: parts that begin with a line "== NAME". What stands before the
+ * first such line is "main.mtlx"; names that no part has are not found.
  */
 #ifndef MXG_TESTS_FUZZ_FILES_H
 #define MXG_TESTS_FUZZ_FILES_H
@@ -24,8 +24,10 @@ struct fuzz_files {
 void fuzz_files_split(struct fuzz_files *files, const char *data, size_t size);
 
 /*
- * A context that reads these files with memory of the heap, and the rest as `desc` says. NULL: it cannot be made.
+ * A context that reads these files with memory of the heap, and the rest as `desc` says. NULL: it
+ * cannot be made.
  */
-mxg_context *fuzz_files_context(struct fuzz_files *files, struct fuzz_heap *heap, mxg_context_desc desc);
+mxg_context *fuzz_files_context(struct fuzz_files *files, struct fuzz_heap *heap,
+                                mxg_context_desc desc);
 
 #endif

@@ -26,7 +26,8 @@ static void run_attempt(void *arg)
     attempt->work(&attempt->job);
 }
 
-void fuzz_run_job(const char *data, size_t size, struct fuzz_heap *heap, size_t limit, void (*work)(struct fuzz_job *job))
+void fuzz_run_job(const char *data, size_t size, struct fuzz_heap *heap, size_t limit,
+                  void (*work)(struct fuzz_job *job))
 {
     struct mem mem;
     struct attempt attempt = {{data, size, {0}}, work};

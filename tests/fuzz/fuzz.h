@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * What the fuzz targets share. A target is one function; every input is run through it twice: with memory as it comes, and with the one
- * allocation failing that the input's bytes choose. Either way nothing may stay behind.
+ * What the fuzz targets share. A target is one function; every input is run through it twice: with
+ * memory as it comes, and with the one allocation failing that the input's bytes choose. Either way
+ * nothing may stay behind.
  */
 #ifndef MXG_TESTS_FUZZ_H
 #define MXG_TESTS_FUZZ_H
@@ -29,15 +30,18 @@ struct fuzz_job {
 };
 
 /*
- * Runs work on a job for the input, up to where memory runs out: at `limit` bytes (0: none), or because it is to fail.
+ * Runs work on a job for the input, up to where memory runs out: at `limit` bytes (0: none), or
+ * because it is to fail.
  */
-void fuzz_run_job(const char *data, size_t size, struct fuzz_heap *heap, size_t limit, void (*work)(struct fuzz_job *job));
+void fuzz_run_job(const char *data, size_t size, struct fuzz_heap *heap, size_t limit,
+                  void (*work)(struct fuzz_job *job));
 
 /* A number made of all bytes of the input: for choices. */
 unsigned fuzz_choice(const char *data, size_t size, unsigned below);
 
 /* What holds for every input; a failure ends the program, as the sanitizers do. */
 #define FUZZ_REQUIRE(condition) \
-    ((condition) ? (void)0 : (fprintf(stderr, "%s:%d: %s\n", __FILE__, __LINE__, #condition), abort()))
+    ((condition) ? (void)0 \
+                 : (fprintf(stderr, "%s:%d: %s\n", __FILE__, __LINE__, #condition), abort()))
 
 #endif

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * A document with its includes and sources: loaded, validated, looked at, and what it renders generated, for a target and an interface
- * that the bytes choose. A status that a document cannot be the reason of is a fault.
+ * A document with its includes and sources: loaded, validated, looked at, and what it renders
+ * generated, for a target and an interface that the bytes choose. A status that a document cannot
+ * be the reason of is a fault.
  */
 #include "files.h"
 
@@ -19,11 +20,12 @@ static void format_all(const mxg_diagnostics *list, const struct fuzz_files *fil
 {
     char text[512];
     for (uint32_t i = 0; i < mxg_diagnostics_count(list); i++)
-        mxg_diagnostics_format(list, i, files->items[0].data, files->items[0].size, i % 2, text, sizeof text);
+        mxg_diagnostics_format(list, i, files->items[0].data, files->items[0].size, i % 2, text,
+                               sizeof text);
 }
 
-static void generate(mxg_context *context, const mxg_document *document, const mxg_generate_desc *desc,
-                     const struct fuzz_files *files)
+static void generate(mxg_context *context, const mxg_document *document,
+                     const mxg_generate_desc *desc, const struct fuzz_files *files)
 {
     mxg_result *result = NULL;
     mxg_status status = mxg_generate(context, document, desc, &result);
@@ -34,7 +36,8 @@ static void generate(mxg_context *context, const mxg_document *document, const m
     mxg_result_destroy(result);
 }
 
-static void use(mxg_context *context, const mxg_document *document, const struct fuzz_files *files, unsigned choice)
+static void use(mxg_context *context, const mxg_document *document, const struct fuzz_files *files,
+                unsigned choice)
 {
     mxg_options *options = NULL;
     mxg_result *result = NULL;
@@ -52,7 +55,8 @@ static void use(mxg_context *context, const mxg_document *document, const struct
         FUZZ_REQUIRE(is_expected(mxg_document_structure(context, document, &desc, &structure)));
         generate(context, document, &desc, files);
     }
-    FUZZ_REQUIRE(is_expected(mxg_inspect(context, document, (mxg_view)(choice / 512 % 6), &desc, &result)));
+    FUZZ_REQUIRE(
+        is_expected(mxg_inspect(context, document, (mxg_view)(choice / 512 % 6), &desc, &result)));
     mxg_result_destroy(result);
     mxg_options_destroy(options);
 }
@@ -61,7 +65,10 @@ void fuzz_run(const char *data, size_t size, struct fuzz_heap *heap)
 {
     struct fuzz_files files;
     fuzz_files_split(&files, data, size);
-    mxg_context_desc limits = {.max_memory = (size_t)256 << 20, .max_elements = 20000, .max_nodes = 50000, .max_output_mib = 4};
+    mxg_context_desc limits = {.max_memory = (size_t)256 << 20,
+                               .max_elements = 20000,
+                               .max_nodes = 50000,
+                               .max_output_mib = 4};
     mxg_context *context = fuzz_files_context(&files, heap, limits);
     mxg_document *document = NULL;
     if (!context)

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Source of the shading language: a file, and an inline expression. What parses prints as a file that parses to the same text, before
- * and after everything known is folded; functions without parameters run.
+ * Source of the shading language: a file, and an inline expression. What parses prints as a file
+ * that parses to the same text, before and after everything known is folded; functions without
+ * parameters run.
  */
 #include "fuzz.h"
 
@@ -10,11 +11,12 @@
 enum { MAX_STEPS = 20000 };
 
 /* The file includes itself and one other. */
-static bool read_source(void *user_data, const char *from, const char *ref, const char **out_name, const char **out_text,
-                        size_t *out_len, const char **out_reason)
+static bool read_source(void *user_data, const char *from, const char *ref, const char **out_name,
+                        const char **out_text, size_t *out_len, const char **out_reason)
 {
     const struct fuzz_job *job = user_data;
-    static const char other[] = "const float HALF = 0.5;\nfloat twice(float x) { return x * 2.0; }\n";
+    static const char other[] =
+        "const float HALF = 0.5;\nfloat twice(float x) { return x * 2.0; }\n";
     bool is_main = strcmp(ref, "main.glsl") == 0;
     (void)from;
     *out_reason = "no such file";
@@ -43,7 +45,8 @@ static const char *print(struct arena *arena, const struct lang_unit *unit)
             continue;
         }
         text_str(&out, global->kind == LANG_GLOBAL_UNIFORM ? "uniform " : "in ");
-        lang_print_variable(&style, NULL, unit, global->type, str_text(unit->strings, global->name), &out);
+        lang_print_variable(&style, NULL, unit, global->type, str_text(unit->strings, global->name),
+                            &out);
         text_str(&out, ";\n");
     }
     for (uint32_t i = 0; i < unit->functions.len; i++)
@@ -67,7 +70,8 @@ static bool parse(struct arena *arena, const char *text, size_t size, struct lan
     if (file != LANG_NONE && memchr(text, '{', size))
         return true;
     static const struct lang_input inputs[] = {{STR_in, IR_TYPE_VEC3}, {STR_type, IR_TYPE_STRING}};
-    lang_parse_expression(out, text, size < 2000 ? size : 2000, inputs, 2, IR_TYPE_VOID, file, (struct diag_place){0}, &diags);
+    lang_parse_expression(out, text, size < 2000 ? size : 2000, inputs, 2, IR_TYPE_VOID, file,
+                          (struct diag_place){0}, &diags);
     return file != LANG_NONE;
 }
 

@@ -14,7 +14,8 @@ static void check_float(float value)
     float again;
     FUZZ_REQUIRE(len <= sizeof text);
     if (value == value && value - value == 0)
-        FUZZ_REQUIRE(num_parse_float(text, len, &again) == len && memcmp(&again, &value, sizeof value) == 0);
+        FUZZ_REQUIRE(num_parse_float(text, len, &again) == len
+                     && memcmp(&again, &value, sizeof value) == 0);
 }
 
 static void run(struct fuzz_job *job)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Feeds files to a fuzz target, for compilers without libFuzzer: the inputs that ever failed, and the seeds. Arguments: files, folders.
+ * Feeds files to a fuzz target, for compilers without libFuzzer: the inputs that ever failed, and
+ * the seeds. Arguments: files, folders.
  */
 #define _POSIX_C_SOURCE 200809L
 #include "fuzz.h"

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Large graphs: chains (each node reads the one before it) and diamonds (each reads the one before it twice, so that there are 2^n paths)
- * of up to a million nodes, definitions nested in definitions, and limits. Everything must be generated, with a source that grows in
- * proportion to the graph. How many instructions that takes is measured by bench/.
+ * Large graphs: chains (each node reads the one before it) and diamonds (each reads the one before
+ * it twice, so that there are 2^n paths) of up to a million nodes, definitions nested in
+ * definitions, and limits. Everything must be generated, with a source that grows in proportion to
+ * the graph. How many instructions that takes is measured by bench/.
  *
  *     test_growth [NODES]      the largest number of nodes; default 1,000,000
  */
@@ -53,9 +54,14 @@ static const char *const shape_names[NUM_SHAPES] = {"chain", "diamond"};
 static void add_node(struct text *text, enum shape shape, unsigned i)
 {
     if (shape == CHAIN)
-        add(text, "<sin name=\"n%u\" type=\"vector3\"><input name=\"in\" type=\"vector3\" nodename=\"n%u\"/></sin>\n", i, i - 1);
+        add(text,
+            "<sin name=\"n%u\" type=\"vector3\"><input name=\"in\" type=\"vector3\" "
+            "nodename=\"n%u\"/></sin>\n",
+            i, i - 1);
     else
-        add(text, "<%s name=\"n%u\" type=\"vector3\"><input name=\"in1\" type=\"vector3\" nodename=\"n%u\"/>"
+        add(text,
+            "<%s name=\"n%u\" type=\"vector3\"><input name=\"in1\" type=\"vector3\" "
+            "nodename=\"n%u\"/>"
             "<input name=\"in2\" type=\"vector3\" nodename=\"n%u\"/></%s>\n",
             i % 2 ? "multiply" : "add", i, i - 1, i - 1, i % 2 ? "multiply" : "add");
 }
@@ -63,34 +69,49 @@ static void add_node(struct text *text, enum shape shape, unsigned i)
 static struct text graph(enum shape shape, unsigned nodes)
 {
     struct text text = {NULL, 0, 0};
-    add(&text, "<materialx version=\"1.39\"><nodegraph name=\"NG\">\n<position name=\"n0\" type=\"vector3\"/>\n");
+    add(&text, "<materialx version=\"1.39\"><nodegraph name=\"NG\">\n<position name=\"n0\" "
+               "type=\"vector3\"/>\n");
     for (unsigned i = 1; i <= nodes; ++i)
         add_node(&text, shape, i);
-    add(&text, "<output name=\"out\" type=\"vector3\" nodename=\"n%u\"/></nodegraph></materialx>", nodes);
+    add(&text, "<output name=\"out\" type=\"vector3\" nodename=\"n%u\"/></nodegraph></materialx>",
+        nodes);
     return text;
 }
 
 /*
- * Each definition uses the one below it twice, with different arguments: inlined it would be 2^depth nodes.
+ * Each definition uses the one below it twice, with different arguments: inlined it would be
+ * 2^depth nodes.
  */
 static struct text nested(unsigned depth)
 {
     struct text text = {NULL, 0, 0};
     add(&text, "<materialx version=\"1.39\">\n");
     for (unsigned i = 0; i <= depth; ++i) {
-        add(&text, "<nodedef name=\"ND_d%u\" node=\"d%u\"><input name=\"in\" type=\"float\"/><output name=\"out\" type=\"float\"/></nodedef>"
-            "<nodegraph name=\"NG_d%u\" nodedef=\"ND_d%u\">", i, i, i, i);
+        add(&text,
+            "<nodedef name=\"ND_d%u\" node=\"d%u\"><input name=\"in\" type=\"float\"/><output "
+            "name=\"out\" type=\"float\"/></nodedef>"
+            "<nodegraph name=\"NG_d%u\" nodedef=\"ND_d%u\">",
+            i, i, i, i);
         if (i == 0)
-            add(&text, "<sin name=\"sum\" type=\"float\"><input name=\"in\" type=\"float\" interfacename=\"in\"/></sin>");
+            add(&text, "<sin name=\"sum\" type=\"float\"><input name=\"in\" type=\"float\" "
+                       "interfacename=\"in\"/></sin>");
         else
-            add(&text, "<d%u name=\"a\" type=\"float\"><input name=\"in\" type=\"float\" interfacename=\"in\"/></d%u>"
-                "<d%u name=\"b\" type=\"float\"><input name=\"in\" type=\"float\" nodename=\"a\"/></d%u>"
-                "<add name=\"sum\" type=\"float\"><input name=\"in1\" type=\"float\" nodename=\"a\"/>"
-                "<input name=\"in2\" type=\"float\" nodename=\"b\"/></add>", i - 1, i - 1, i - 1, i - 1);
+            add(&text,
+                "<d%u name=\"a\" type=\"float\"><input name=\"in\" type=\"float\" "
+                "interfacename=\"in\"/></d%u>"
+                "<d%u name=\"b\" type=\"float\"><input name=\"in\" type=\"float\" "
+                "nodename=\"a\"/></d%u>"
+                "<add name=\"sum\" type=\"float\"><input name=\"in1\" type=\"float\" "
+                "nodename=\"a\"/>"
+                "<input name=\"in2\" type=\"float\" nodename=\"b\"/></add>",
+                i - 1, i - 1, i - 1, i - 1);
         add(&text, "<output name=\"out\" type=\"float\" nodename=\"sum\"/></nodegraph>\n");
     }
-    add(&text, "<time name=\"t\" type=\"float\"/><d%u name=\"n\" type=\"float\"><input name=\"in\" type=\"float\" nodename=\"t\"/></d%u>"
-        "<output name=\"out\" type=\"float\" nodename=\"n\"/></materialx>", depth, depth);
+    add(&text,
+        "<time name=\"t\" type=\"float\"/><d%u name=\"n\" type=\"float\"><input name=\"in\" "
+        "type=\"float\" nodename=\"t\"/></d%u>"
+        "<output name=\"out\" type=\"float\" nodename=\"n\"/></materialx>",
+        depth, depth);
     return text;
 }
 
@@ -116,9 +137,11 @@ static void print_first(const mxg_diagnostics *list)
 }
 
 /*
- * Bytes of source of an element; 0: none. Errors are printed, except for `expected`, which must be among them.
+ * Bytes of source of an element; 0: none. Errors are printed, except for `expected`, which must be
+ * among them.
  */
-static size_t generate(const struct text *text, const char *element, const mxg_context_desc *desc, const char *expected)
+static size_t generate(const struct text *text, const char *element, const mxg_context_desc *desc,
+                       const char *expected)
 {
     mxg_context *context = NULL;
     mxg_document *document = NULL;
@@ -129,7 +152,8 @@ static size_t generate(const struct text *text, const char *element, const mxg_c
     size_t size = 0;
     mxg_context_create(desc, &context);
     mxg_library *library = mxg_library_builtin(context);
-    mxg_status status = mxg_document_parse(context, library, "growth.mtlx", text->data, text->len, &document);
+    mxg_status status =
+        mxg_document_parse(context, library, "growth.mtlx", text->data, text->len, &document);
     const mxg_diagnostics *list = mxg_document_diagnostics(document);
     if (status == MXG_OK) {
         status = mxg_generate(context, document, &how, &result);
@@ -137,7 +161,8 @@ static size_t generate(const struct text *text, const char *element, const mxg_c
         mxg_result_source(result, MXG_STAGE_PIXEL, &size);
     }
     if (expected)
-        check(status == MXG_ERROR_DOCUMENT && has_id(list, expected), expected, (size_t)status, size);
+        check(status == MXG_ERROR_DOCUMENT && has_id(list, expected), expected, (size_t)status,
+              size);
     else if (status != MXG_OK)
         print_first(list);
     mxg_result_destroy(result);
@@ -172,7 +197,8 @@ static void check_nesting(void)
         sizes[i] = generate(&text, "out", &desc, NULL);
         free(text.data);
     }
-    check(sizes[0] > 0 && sizes[1] > 0 && sizes[1] < 8 * sizes[0], "definitions in definitions", sizes[0], sizes[1]);
+    check(sizes[0] > 0 && sizes[1] > 0 && sizes[1] < 8 * sizes[0], "definitions in definitions",
+          sizes[0], sizes[1]);
     struct text deep = nested(2000);
     generate(&deep, "out", NULL, "graph-depth");
     free(deep.data);

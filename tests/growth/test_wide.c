@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #define _POSIX_C_SOURCE 200809L
 /*
- * Wide documents, most of them wrong throughout: validation takes time in proportion to their size, whatever is many of. Eight times the
- * elements may take 24 times as long, for caches and for what else runs on the machine; what is quadratic takes 64 times.
+ * Wide documents, most of them wrong throughout: validation takes time in proportion to their size,
+ * whatever is many of. Eight times the elements may take 24 times as long, for caches and for what
+ * else runs on the machine; what is quadratic takes 64 times.
  */
 #include <mxgen/mxgen.h>
 
@@ -15,39 +16,73 @@
 static const struct shape {
     const char *name, *before, *first, *between, *second, *after;
 } shapes[] = {
-    {"nodes", "", "<constant name='c#' type='float'/>", "", "<output name='o#' type='float' nodename='c#'/>", ""},
+    {"nodes", "", "<constant name='c#' type='float'/>", "",
+     "<output name='o#' type='float' nodename='c#'/>", ""},
     {"unknown nodes", "", "<xadd# name='c#' type='float'/>", "", "", ""},
     {"unknown types", "", "<constant name='c#' type='flot#'/>", "", "", ""},
     {"unknown attributes", "", "<constant name='c#' type='float' typo#='1'/>", "", "", ""},
-    {"declared attributes", "", "<attributedef name='A#' attrname='a#' type='string'/>", "", "<constant name='c#' type='float' a#='1'/>", ""},
-    {"unknown inputs", "<constant name='c' type='float'>", "<input name='i#' type='float' value='0'/>", "</constant>", "", ""},
-    {"dangling nodes", "", "<add name='a#' type='float'><input name='in1' type='float' nodename='xa#'/></add>", "", "", ""},
+    {"declared attributes", "", "<attributedef name='A#' attrname='a#' type='string'/>", "",
+     "<constant name='c#' type='float' a#='1'/>", ""},
+    {"unknown inputs", "<constant name='c' type='float'>",
+     "<input name='i#' type='float' value='0'/>", "</constant>", "", ""},
+    {"dangling nodes", "",
+     "<add name='a#' type='float'><input name='in1' type='float' nodename='xa#'/></add>", "", "",
+     ""},
     {"dangling interfaces", "<nodegraph name='N'>", "<input name='i#' type='float' value='0'/>", "",
-     "<dot name='d#' type='float'><input name='in' type='float' interfacename='xi#'/></dot>", "</nodegraph>"},
-    {"dangling graphs", "", "<nodegraph name='N#'/>", "", "<output name='o#' type='float' nodegraph='xN#'/>", ""},
-    {"dangling outputs", "<nodegraph name='N'>", "<output name='o#' type='float' value='1'/>", "</nodegraph>",
-     "<output name='p#' type='float' nodegraph='N' output='xo#'/>", ""},
-    {"colour spaces", "", "<constant name='c#' type='color3'><input name='value' type='color3' value='1,1,1' colorspace='srgb_tx#'/></constant>", "", "", ""},
-    {"units", "", "<unittypedef name='t#'/><unitdef name='u#' unittype='t#'><unit name='n#' scale='1'/></unitdef>", "",
-     "<constant name='c#' type='float'><input name='value' type='float' value='1' unittype='t#' unit='n#'/></constant>", ""},
-    {"unknown units", "", "<unitdef name='u#' unittype='t#'><unit name='n#' scale='1'/></unitdef>", "",
-     "<constant name='c#' type='float'><input name='value' type='float' value='1' unit='xn#'/></constant>", ""},
-    {"types", "", "<typedef name='t#'><member name='m' type='float' value='1'/></typedef>", "", "<constant name='c#' type='t#'/>", ""},
-    {"definitions of one node", "", "<nodedef name='D#' node='g'><output name='out' type='float'/></nodedef>", "", "", ""},
-    {"definitions", "", "<nodedef name='D#' node='g#'><output name='out' type='float'/></nodedef>", "", "<g# name='n#' type='float' nodedef='xD#'/>", ""},
-    {"ports", "<nodedef name='D' node='g'>", "<input name='i#' type='float' value='0'/>", "<output name='out' type='float'/></nodedef>", "", ""},
+     "<dot name='d#' type='float'><input name='in' type='float' interfacename='xi#'/></dot>",
+     "</nodegraph>"},
+    {"dangling graphs", "", "<nodegraph name='N#'/>", "",
+     "<output name='o#' type='float' nodegraph='xN#'/>", ""},
+    {"dangling outputs", "<nodegraph name='N'>", "<output name='o#' type='float' value='1'/>",
+     "</nodegraph>", "<output name='p#' type='float' nodegraph='N' output='xo#'/>", ""},
+    {"colour spaces", "",
+     "<constant name='c#' type='color3'><input name='value' type='color3' value='1,1,1' "
+     "colorspace='srgb_tx#'/></constant>",
+     "", "", ""},
+    {"units", "",
+     "<unittypedef name='t#'/><unitdef name='u#' unittype='t#'><unit name='n#' "
+     "scale='1'/></unitdef>",
+     "",
+     "<constant name='c#' type='float'><input name='value' type='float' value='1' unittype='t#' "
+     "unit='n#'/></constant>",
+     ""},
+    {"unknown units", "", "<unitdef name='u#' unittype='t#'><unit name='n#' scale='1'/></unitdef>",
+     "",
+     "<constant name='c#' type='float'><input name='value' type='float' value='1' "
+     "unit='xn#'/></constant>",
+     ""},
+    {"types", "", "<typedef name='t#'><member name='m' type='float' value='1'/></typedef>", "",
+     "<constant name='c#' type='t#'/>", ""},
+    {"definitions of one node", "",
+     "<nodedef name='D#' node='g'><output name='out' type='float'/></nodedef>", "", "", ""},
+    {"definitions", "", "<nodedef name='D#' node='g#'><output name='out' type='float'/></nodedef>",
+     "", "<g# name='n#' type='float' nodedef='xD#'/>", ""},
+    {"ports", "<nodedef name='D' node='g'>", "<input name='i#' type='float' value='0'/>",
+     "<output name='out' type='float'/></nodedef>", "", ""},
     {"implementations", "<nodedef name='D' node='g'><output name='out' type='float'/></nodedef>",
      "<implementation name='I#' nodedef='D' target='t#' nodegraph='G'/>",
-     "<nodegraph name='G'><constant name='c' type='float'/><output name='out' type='float' nodename='c'/></nodegraph>", "", ""},
-    {"functional graphs", "", "<nodedef name='D#' node='g#'><output name='out' type='float'/></nodedef>", "",
-     "<nodegraph name='G#' nodedef='D#'><constant name='c' type='float'/><output name='out' type='float' nodename='c'/></nodegraph>", ""},
-    {"inheritance", "<nodedef name='D0' node='g0'><output name='out' type='float'/></nodedef>", "<nodedef name='D^' node='g^' inherit='D#'/>", "", "", ""},
-    {"properties of geometry", "<nodedef name='D' node='g'><output name='out' type='float'/></nodedef>",
+     "<nodegraph name='G'><constant name='c' type='float'/><output name='out' type='float' "
+     "nodename='c'/></nodegraph>",
+     "", ""},
+    {"functional graphs", "",
+     "<nodedef name='D#' node='g#'><output name='out' type='float'/></nodedef>", "",
+     "<nodegraph name='G#' nodedef='D#'><constant name='c' type='float'/><output name='out' "
+     "type='float' nodename='c'/></nodegraph>",
+     ""},
+    {"inheritance", "<nodedef name='D0' node='g0'><output name='out' type='float'/></nodedef>",
+     "<nodedef name='D^' node='g^' inherit='D#'/>", "", "", ""},
+    {"properties of geometry",
+     "<nodedef name='D' node='g'><output name='out' type='float'/></nodedef>",
      "<geompropdef name='p#' type='vector3' geomprop='g'/>", "", "", ""},
-    {"chains of graphs", "<nodegraph name='G0'><input name='in' type='float' value='1'/><output name='out' type='float' interfacename='in'/></nodegraph>",
-     "<nodegraph name='G^'><input name='in' type='float' nodegraph='G#'/><dot name='d' type='float'><input name='in' type='float' interfacename='in'/></dot>"
-     "<output name='out' type='float' nodename='d'/></nodegraph>", "", "", ""},
-    {"looks", "", "<look name='l#'><materialassign name='a' material='x#' geom='/g'/></look>", "", "<surfacematerial name='x#' type='material'/>", ""},
+    {"chains of graphs",
+     "<nodegraph name='G0'><input name='in' type='float' value='1'/><output name='out' "
+     "type='float' interfacename='in'/></nodegraph>",
+     "<nodegraph name='G^'><input name='in' type='float' nodegraph='G#'/><dot name='d' "
+     "type='float'><input name='in' type='float' interfacename='in'/></dot>"
+     "<output name='out' type='float' nodename='d'/></nodegraph>",
+     "", "", ""},
+    {"looks", "", "<look name='l#'><materialassign name='a' material='x#' geom='/g'/></look>", "",
+     "<surfacematerial name='x#' type='material'/>", ""},
     {"collections", "", "<collection name='c^' includecollection='c#'/>", "", "", ""},
     {"geometry", "", "<collection name='c#' includegeom='/a[,/b{,/c#'/>", "", "", ""},
     {"equal names", "", "<constant name='c' type='float'/>", "", "", ""},
@@ -71,7 +106,8 @@ static void add(struct text *text, const char *part, unsigned number)
     }
     for (; *part; ++part) {
         if (*part == '#' || *part == '^')
-            text->len += (size_t)snprintf(text->data + text->len, 16, "%u", *part == '^' ? number + 1 : number);
+            text->len += (size_t)snprintf(text->data + text->len, 16, "%u",
+                                          *part == '^' ? number + 1 : number);
         else
             text->data[text->len++] = *part;
     }
@@ -111,7 +147,8 @@ static double validation_time(const struct text *text)
     mxg_context_create(&desc, &context);
     mxg_library *library = mxg_library_builtin(context);
     double begin = seconds();
-    if (mxg_document_parse(context, library, "wide.mtlx", text->data, text->len, &document) == MXG_OK)
+    if (mxg_document_parse(context, library, "wide.mtlx", text->data, text->len, &document)
+        == MXG_OK)
         mxg_document_validate(context, document, &result);
     double time = seconds() - begin;
     mxg_result_destroy(result);
@@ -158,10 +195,15 @@ static unsigned count_messages(const struct text *text, const char *id)
 /* A definition has at most 1,024 inputs, and says so once. */
 static bool are_ports_limited(void)
 {
-    static const struct shape ports = {"ports", "<nodedef name='D' node='g'>", "<input name='i#' type='float' value='0'/>",
-                                       "<output name='out' type='float'/></nodedef>", "", ""};
+    static const struct shape ports = {"ports",
+                                       "<nodedef name='D' node='g'>",
+                                       "<input name='i#' type='float' value='0'/>",
+                                       "<output name='out' type='float'/></nodedef>",
+                                       "",
+                                       ""};
     struct text good = document(&ports, 1024), bad = document(&ports, 1025);
-    bool limited = count_messages(&good, "too-many-ports") == 0 && count_messages(&bad, "too-many-ports") == 1;
+    bool limited =
+        count_messages(&good, "too-many-ports") == 0 && count_messages(&bad, "too-many-ports") == 1;
     free(good.data);
     free(bad.data);
     if (!limited)
@@ -180,7 +222,8 @@ int main(void)
             continue;
         }
         ++failed;
-        printf("failed: %s: %.1f ms for %d, %.1f ms for %d\n", shapes[i].name, few * 1e3, FEW, many * 1e3, MANY);
+        printf("failed: %s: %.1f ms for %d, %.1f ms for %d\n", shapes[i].name, few * 1e3, FEW,
+               many * 1e3, MANY);
     }
     printf("wide: %u passed, %u failed, 0 skipped\n", passed, failed);
     return failed ? 1 : 0;

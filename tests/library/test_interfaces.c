@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Every definition of the built-in library has the interface that MaterialX 1.39 (interfaces.tsv) or ShaderX 2018 (shaderx.tsv; its
- * surface, volume, displacement and blackbody are MaterialX's, and what it leaves open is as in the node it stands on) gives it, is
- * of OSL generators (osl.tsv), or is listed as ours (colorspaces.tsv).
- * A row per definition:
+ * Every definition of the built-in library has the interface that MaterialX 1.39 (interfaces.tsv)
+ * or ShaderX 2018 (shaderx.tsv; its surface, volume, displacement and blackbody are MaterialX's,
+ * and what it leaves open is as in the node it stands on) gives it, is of OSL generators (osl.tsv),
+ * or is listed as ours (colorspaces.tsv). A row per definition:
  *
  *     name  node  library  version  isdefault  group  inherit  inputs  outputs
  *
- * Ports are separated by " | ". An input is "name:type[@geomprop][=value][ [uniform]][ {enum}][ unit:type/unit][ range:min..max]", an
- * output "name:type[=value][ default value][ ->input]", of which the interface tells the default. A range that is not given may be any.
+ * Ports are separated by " | ". An input is "name:type[@geomprop][=value][ [uniform]][ {enum}][
+ * unit:type/unit][ range:min..max]", an output "name:type[=value][ default value][ ->input]", of
+ * which the interface tells the default. A range that is not given may be any.
  *
  *     test_interfaces TABLE...
  */
@@ -18,7 +19,20 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { NAME, NODE, LIBRARY, VERSION, IS_DEFAULT, GROUP, INHERIT, INPUTS, OUTPUTS, NUM_COLUMNS, MAX_ROWS = 1024, MAX_LINE = 1 << 16 };
+enum {
+    NAME,
+    NODE,
+    LIBRARY,
+    VERSION,
+    IS_DEFAULT,
+    GROUP,
+    INHERIT,
+    INPUTS,
+    OUTPUTS,
+    NUM_COLUMNS,
+    MAX_ROWS = 1024,
+    MAX_LINE = 1 << 16
+};
 
 struct row {
     char *columns[NUM_COLUMNS];
@@ -174,7 +188,8 @@ static bool same_value(const char *a, const char *b)
 
 static unsigned faults;
 
-static void expect(bool good, const char *nodedef, const char *port, const char *what, const char *is, const char *should)
+static void expect(bool good, const char *nodedef, const char *port, const char *what,
+                   const char *is, const char *should)
 {
     faults += !good;
     if (!good)
@@ -183,34 +198,47 @@ static void expect(bool good, const char *nodedef, const char *port, const char 
 
 static void compare_port(const char *nodedef, const mxg_port *is, const struct port *should)
 {
-    expect(strcmp(is->name, should->name) == 0, nodedef, should->name, "name", is->name, should->name);
-    expect(strcmp(is->type, should->type) == 0, nodedef, should->name, "type", is->type, should->type);
-    expect(same_value(is->value, should->value), nodedef, should->name, "default", is->value, should->value);
-    expect(strcmp(is->defaultgeomprop, should->geomprop) == 0, nodedef, should->name, "defaultgeomprop", is->defaultgeomprop,
-           should->geomprop);
-    expect(is->uniform == should->uniform, nodedef, should->name, "uniform", is->uniform ? "true" : "false",
-           should->uniform ? "true" : "false");
-    expect(same_value(is->enum_names, should->enums), nodedef, should->name, "enum", is->enum_names, should->enums);
-    expect(strcmp(is->unit, should->unit) == 0, nodedef, should->name, "unit", is->unit, should->unit);
+    expect(strcmp(is->name, should->name) == 0, nodedef, should->name, "name", is->name,
+           should->name);
+    expect(strcmp(is->type, should->type) == 0, nodedef, should->name, "type", is->type,
+           should->type);
+    expect(same_value(is->value, should->value), nodedef, should->name, "default", is->value,
+           should->value);
+    expect(strcmp(is->defaultgeomprop, should->geomprop) == 0, nodedef, should->name,
+           "defaultgeomprop", is->defaultgeomprop, should->geomprop);
+    expect(is->uniform == should->uniform, nodedef, should->name, "uniform",
+           is->uniform ? "true" : "false", should->uniform ? "true" : "false");
+    expect(same_value(is->enum_names, should->enums), nodedef, should->name, "enum", is->enum_names,
+           should->enums);
+    expect(strcmp(is->unit, should->unit) == 0, nodedef, should->name, "unit", is->unit,
+           should->unit);
     if (*should->min) {
-        expect(same_value(is->uimin, should->min), nodedef, should->name, "uimin", is->uimin, should->min);
-        expect(same_value(is->uimax, should->max), nodedef, should->name, "uimax", is->uimax, should->max);
+        expect(same_value(is->uimin, should->min), nodedef, should->name, "uimin", is->uimin,
+               should->min);
+        expect(same_value(is->uimax, should->max), nodedef, should->name, "uimax", is->uimax,
+               should->max);
     }
 }
 
-static void compare_nodedef(const mxg_library *library, uint32_t index, const mxg_nodedef *def, const struct row *row)
+static void compare_nodedef(const mxg_library *library, uint32_t index, const mxg_nodedef *def,
+                            const struct row *row)
 {
     static struct port ports[512];
     char number[2][16];
-    expect(strcmp(def->node, row->columns[NODE]) == 0, def->name, "", "node", def->node, row->columns[NODE]);
-    expect(strcmp(def->version, row->columns[VERSION]) == 0, def->name, "", "version", def->version, row->columns[VERSION]);
-    expect(strcmp(def->group, row->columns[GROUP]) == 0, def->name, "", "nodegroup", def->group, row->columns[GROUP]);
+    expect(strcmp(def->node, row->columns[NODE]) == 0, def->name, "", "node", def->node,
+           row->columns[NODE]);
+    expect(strcmp(def->version, row->columns[VERSION]) == 0, def->name, "", "version", def->version,
+           row->columns[VERSION]);
+    expect(strcmp(def->group, row->columns[GROUP]) == 0, def->name, "", "nodegroup", def->group,
+           row->columns[GROUP]);
     expect(def->has_implementation, def->name, "", "implementation", "missing", "there");
     for (int column = INPUTS; column <= OUTPUTS; ++column) {
-        uint32_t count = column == INPUTS ? def->num_inputs : def->num_outputs, should = list_ports(row, column, ports, 512);
+        uint32_t count = column == INPUTS ? def->num_inputs : def->num_outputs,
+                 should = list_ports(row, column, ports, 512);
         snprintf(number[0], sizeof *number, "%u", count);
         snprintf(number[1], sizeof *number, "%u", should);
-        expect(count == should, def->name, column == INPUTS ? "inputs" : "outputs", "number", number[0], number[1]);
+        expect(count == should, def->name, column == INPUTS ? "inputs" : "outputs", "number",
+               number[0], number[1]);
         for (uint32_t i = 0; i < count && i < should; ++i) {
             mxg_port port = {sizeof port};
             mxg_library_port(library, index, (column == OUTPUTS ? def->num_inputs : 0) + i, &port);
@@ -220,7 +248,8 @@ static void compare_nodedef(const mxg_library *library, uint32_t index, const mx
 }
 
 /* What `mxgen library doc` has to tell: nothing may be left without a meaning. */
-static void require_documentation(const mxg_library *library, uint32_t index, const mxg_nodedef *def)
+static void require_documentation(const mxg_library *library, uint32_t index,
+                                  const mxg_nodedef *def)
 {
     expect(*def->doc, def->name, "", "doc", "", "a sentence");
     for (uint32_t i = 0; i < def->num_inputs; ++i) {
@@ -268,7 +297,8 @@ int main(int argc, char **argv)
     failed += passed + failed != num_rows;
     ++*(is_small(library) ? &passed : &failed);
     if (mxg_library_num_nodedefs(library) != num_rows)
-        printf("the library has %u definitions, the tables %u\n", mxg_library_num_nodedefs(library), num_rows);
+        printf("the library has %u definitions, the tables %u\n", mxg_library_num_nodedefs(library),
+               num_rows);
     mxg_library_unref(library);
     mxg_context_destroy(context);
     for (unsigned i = 0; i < num_rows; ++i)

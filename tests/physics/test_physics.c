@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Energy, reciprocity and sampling of every leaf (leaves.def), measured on the first Vulkan device by measure.glsl: a pixel for each
- * setting and angle.
+ * Energy, reciprocity and sampling of every leaf (leaves.def), measured on the first Vulkan device
+ * by measure.glsl: a pixel for each setting and angle.
  *
- *     test_physics FOLDER SHADERS [-v] [NAME...]      FOLDER has measure.glsl, SHADERS the library's shading functions
+ *     test_physics FOLDER SHADERS [-v] [NAME...]      FOLDER has measure.glsl, SHADERS the
+ * library's shading functions
  */
 #define _POSIX_C_SOURCE 200809L
 #include "render/render.h"
@@ -25,8 +26,10 @@ struct leaf {
 };
 
 static const struct leaf leaves[] = {
-#define LEAF(name, file, function, arguments, eval_arguments, refracts, back, through, albedo_error, is_reciprocal)                                               \
-    {#name, file, function, arguments, eval_arguments, refracts, back, through, albedo_error, is_reciprocal},
+#define LEAF(name, file, function, arguments, eval_arguments, refracts, back, through, \
+             albedo_error, is_reciprocal) \
+    {#name,    file, function, arguments,    eval_arguments, \
+     refracts, back, through,  albedo_error, is_reciprocal},
 #include "leaves.def"
 #undef LEAF
 };
@@ -34,7 +37,7 @@ static const struct leaf leaves[] = {
 struct run {
     const char *folder, *shaders;
     bool is_verbose;
-    char *measures; /* measure.glsl */
+    char *measures;                     /* measure.glsl */
     char source[32768], document[4096]; /* of the leaf at hand */
     mxg_context *context;
     mxg_library *library;
@@ -65,7 +68,8 @@ static char *read_file(const char *folder, const char *name, char *path, size_t 
 }
 
 /* The leaf's document and source are made here; what they include is the library's. */
-static bool open_file(void *user_data, const char *from, const char *ref, mxg_blob *out, const char **out_reason)
+static bool open_file(void *user_data, const char *from, const char *ref, mxg_blob *out,
+                      const char **out_reason)
 {
     static char path[4096];
     struct run *run = user_data;
@@ -95,7 +99,8 @@ static void make_source(struct run *run, const struct leaf *leaf)
 {
     char refraction[1024] = "vec3(0.0)";
     if (leaf->refracts)
-        snprintf(refraction, sizeof refraction, "mx_%s_refraction(%s, V, L)", leaf->function, leaf->arguments);
+        snprintf(refraction, sizeof refraction, "mx_%s_refraction(%s, V, L)", leaf->function,
+                 leaf->arguments);
     snprintf(run->source, sizeof run->source,
              "#include \"%s.glsl\"\n"
              "const vec3 N = vec3(0.0, 0.0, 1.0);\n"
@@ -109,8 +114,9 @@ static void make_source(struct run *run, const struct leaf *leaf)
              "vec3 leaf_back(float a, float b, vec3 V) { return normalize(%s); }\n"
              "vec3 leaf_through(float a, float b, vec3 V) { return normalize(%s); }\n"
              "%s",
-             leaf->file, leaf->function, leaf->arguments, leaf->eval_arguments, refraction, leaf->function, leaf->arguments,
-             leaf->function, leaf->arguments, leaf->function, leaf->arguments, leaf->back, leaf->through, run->measures);
+             leaf->file, leaf->function, leaf->arguments, leaf->eval_arguments, refraction,
+             leaf->function, leaf->arguments, leaf->function, leaf->arguments, leaf->function,
+             leaf->arguments, leaf->back, leaf->through, run->measures);
 }
 
 /* An output for each measure. */
@@ -119,12 +125,16 @@ static void make_document(struct run *run)
     static const char *const names[] = {"energy", "agreement", "histogram"};
     int len = snprintf(run->document, sizeof run->document, "<materialx version=\"1.39\">");
     for (size_t i = 0; i < sizeof names / sizeof *names; ++i)
-        len += snprintf(run->document + len, sizeof run->document - (size_t)len,
-                        "<nodedef name=\"ND_%s\" node=\"%s\"><input name=\"st\" type=\"vector2\"/><output name=\"out\" type=\"color4\"/>"
-                        "</nodedef><implementation name=\"IM_%s\" nodedef=\"ND_%s\" file=\"leaf.glsl\" function=\"%s\"/>"
-                        "<texcoord name=\"st_%s\" type=\"vector2\"/><%s name=\"%s\" type=\"color4\">"
-                        "<input name=\"st\" type=\"vector2\" nodename=\"st_%s\"/></%s>",
-                        names[i], names[i], names[i], names[i], names[i], names[i], names[i], names[i], names[i], names[i]);
+        len +=
+            snprintf(run->document + len, sizeof run->document - (size_t)len,
+                     "<nodedef name=\"ND_%s\" node=\"%s\"><input name=\"st\" "
+                     "type=\"vector2\"/><output name=\"out\" type=\"color4\"/>"
+                     "</nodedef><implementation name=\"IM_%s\" nodedef=\"ND_%s\" "
+                     "file=\"leaf.glsl\" function=\"%s\"/>"
+                     "<texcoord name=\"st_%s\" type=\"vector2\"/><%s name=\"%s\" type=\"color4\">"
+                     "<input name=\"st\" type=\"vector2\" nodename=\"st_%s\"/></%s>",
+                     names[i], names[i], names[i], names[i], names[i], names[i], names[i], names[i],
+                     names[i], names[i]);
     snprintf(run->document + len, sizeof run->document - (size_t)len, "</materialx>");
 }
 
@@ -138,7 +148,8 @@ static void print_errors(const mxg_diagnostics *list)
 }
 
 /* Rows from the bottom. */
-static bool draw(struct run *run, mxg_document *document, const char *measure, uint32_t width, uint32_t height, float (*out)[4])
+static bool draw(struct run *run, mxg_document *document, const char *measure, uint32_t width,
+                 uint32_t height, float (*out)[4])
 {
     float(*pixels)[4] = malloc((size_t)width * height * sizeof *pixels);
     mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
@@ -157,7 +168,8 @@ static bool draw(struct run *run, mxg_document *document, const char *measure, u
         print_errors(mxg_result_diagnostics(result));
     }
     for (uint32_t y = 0; good && y < height; ++y)
-        memcpy(out[(size_t)y * width], pixels[(size_t)(height - 1 - y) * width], width * sizeof *pixels);
+        memcpy(out[(size_t)y * width], pixels[(size_t)(height - 1 - y) * width],
+               width * sizeof *pixels);
     free(pixels);
     mxg_result_destroy(result);
     return good;
@@ -165,7 +177,8 @@ static bool draw(struct run *run, mxg_document *document, const char *measure, u
 
 /* ---- Judgement ---- */
 
-static void expect(struct run *run, const struct leaf *leaf, const char *what, double got, double at_most)
+static void expect(struct run *run, const struct leaf *leaf, const char *what, double got,
+                   double at_most)
 {
     bool good = got <= at_most;
     if (!good || run->is_verbose)
@@ -176,7 +189,8 @@ static void expect(struct run *run, const struct leaf *leaf, const char *what, d
 enum { ANGLES = 8, SETTINGS = 24 };
 
 /* Every pixel's value in one channel. */
-static void expect_all(struct run *run, const struct leaf *leaf, const char *what, float (*pixels)[4], int channel, double at_most)
+static void expect_all(struct run *run, const struct leaf *leaf, const char *what,
+                       float (*pixels)[4], int channel, double at_most)
 {
     char text[128];
     size_t worst = 0;
@@ -185,13 +199,14 @@ static void expect_all(struct run *run, const struct leaf *leaf, const char *wha
         values[i] = isnan(pixels[i][channel]) ? INFINITY : fabs((double)pixels[i][channel]);
         worst = values[i] > values[worst] ? i : worst;
     }
-    snprintf(text, sizeof text, "%s at angle %zu, settings %zu and %zu", what, worst % ANGLES, worst / ANGLES % 6, worst / ANGLES / 6);
+    snprintf(text, sizeof text, "%s at angle %zu, settings %zu and %zu", what, worst % ANGLES,
+             worst / ANGLES % 6, worst / ANGLES / 6);
     expect(run, leaf, text, values[worst], at_most);
 }
 
 /* Pixels of a measure; false, counted, where there are none. */
-static bool measure(struct run *run, const struct leaf *leaf, mxg_document *document, const char *name, uint32_t width, uint32_t height,
-                    float (*out)[4])
+static bool measure(struct run *run, const struct leaf *leaf, mxg_document *document,
+                    const char *name, uint32_t width, uint32_t height, float (*out)[4])
 {
     bool good = draw(run, document, name, width, height, out);
     if (!good)
@@ -224,7 +239,8 @@ static void judge_agreement(struct run *run, const struct leaf *leaf, mxg_docume
 }
 
 /*
- * Pearson's test: bins of few samples are one; the statistic as a normal deviate (Wilson and Hilferty 1931).
+ * Pearson's test: bins of few samples are one; the statistic as a normal deviate (Wilson and
+ * Hilferty 1931).
  */
 static double chi_square_deviate(float (*bins)[4], size_t count, double samples)
 {
@@ -256,7 +272,8 @@ static void judge_histogram(struct run *run, const struct leaf *leaf, mxg_docume
     if (!measure(run, leaf, document, "histogram", 16, 8 * RUNS, pixels))
         return;
     for (size_t i = 0; i < RUNS; ++i)
-        expect(run, leaf, "chi-square, as a normal deviate,", chi_square_deviate(pixels + i * BINS, BINS, DRAWS), 3.5);
+        expect(run, leaf, "chi-square, as a normal deviate,",
+               chi_square_deviate(pixels + i * BINS, BINS, DRAWS), 3.5);
 }
 
 static void check_leaf(struct run *run, const struct leaf *leaf)
@@ -285,9 +302,11 @@ static bool start(struct run *run)
     char path[4096];
     compile_begin();
     run->measures = read_file(run->folder, "measure.glsl", path, sizeof path);
-    return run->measures && mxg_context_create(&desc, &run->context) == MXG_OK && (run->library = mxg_library_builtin(run->context)) != NULL &&
-           mxg_options_create(run->context, &run->options) == MXG_OK &&
-           mxg_options_set(run->options, "integrator", "path") == MXG_OK && scene_init_plane(&run->scene);
+    return run->measures && mxg_context_create(&desc, &run->context) == MXG_OK
+           && (run->library = mxg_library_builtin(run->context)) != NULL
+           && mxg_options_create(run->context, &run->options) == MXG_OK
+           && mxg_options_set(run->options, "integrator", "path") == MXG_OK
+           && scene_init_plane(&run->scene);
 }
 
 static void stop(struct run *run)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Preloaded in front of the Vulkan loader: the driver loses its device when work number LOST_DEVICE is waited for, counted from 1.
+ * Preloaded in front of the Vulkan loader: the driver loses its device when work number LOST_DEVICE
+ * is waited for, counted from 1.
  */
 #define _GNU_SOURCE
 #include <dlfcn.h>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * mean_ratio A B: the mean of picture A over that of B, of all colours together; their sizes may differ.
+ * mean_ratio A B: the mean of picture A over that of B, of all colours together; their sizes may
+ * differ.
  */
 #include "render/image.h"
 

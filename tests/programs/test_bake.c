@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Baked environments: light is neither lost nor made, a lobe's level shows what the lobe would, files come back as they were.
+ * Baked environments: light is neither lost nor made, a lobe's level shows what the lobe would,
+ * files come back as they were.
  */
 #include "unit/test.h"
 
@@ -32,7 +33,8 @@ static void check_constant(const struct image *map, float value)
 
 static void test_constant(void)
 {
-    struct image map = {.width = 64, .height = 32, .is_float = true, .pixels = malloc(64 * 32 * 4 * sizeof(float))};
+    struct image map = {
+        .width = 64, .height = 32, .is_float = true, .pixels = malloc(64 * 32 * 4 * sizeof(float))};
     for (size_t i = 0; i < 64 * 32 * 4; ++i)
         ((float *)map.pixels)[i] = 2.5f;
     struct baked baked;
@@ -44,11 +46,16 @@ static void test_constant(void)
 }
 
 /*
- * Radiance 1 + y: its irradiance over pi is 1 + 2/3 y (Ramamoorthi and Hanrahan 2001, A_1 / A_0 = 2/3).
+ * Radiance 1 + y: its irradiance over pi is 1 + 2/3 y (Ramamoorthi and Hanrahan 2001, A_1 / A_0 =
+ * 2/3).
  */
 static void test_gradient(void)
 {
-    struct image map = {.width = 128, .height = 64, .is_float = true, .pixels = malloc(128 * 64 * 4 * sizeof(float))}, out;
+    struct image map = {.width = 128,
+                        .height = 64,
+                        .is_float = true,
+                        .pixels = malloc(128 * 64 * 4 * sizeof(float))},
+                 out;
     for (uint32_t i = 0; i < 128 * 64; ++i) {
         double d[3];
         environment_direction(&map, i % 128, i / 128, d);
@@ -66,7 +73,8 @@ static void test_gradient(void)
 }
 
 /*
- * GGX with height-correlated masking over a uniform grid of directions: Heitz 2014, equations 71, 72 and 99.
+ * GGX with height-correlated masking over a uniform grid of directions: Heitz 2014, equations 71,
+ * 72 and 99.
  */
 static void integrate(double cosine, double alpha, double *out_a, double *out_b)
 {
@@ -79,7 +87,8 @@ static void integrate(double cosine, double alpha, double *out_a, double *out_b)
             double h[3] = {v[0] + r * cos(phi), v[1] + r * sin(phi), v[2] + z};
             double len = sqrt(h[0] * h[0] + h[1] * h[1] + h[2] * h[2]), hz = h[2] / len;
             double k = hz * hz * (alpha * alpha - 1) + 1, d = alpha * alpha / (PI * k * k);
-            double lv = sqrt(1 + alpha * alpha * (1 / (cosine * cosine) - 1)), ll = sqrt(1 + alpha * alpha * (1 / (z * z) - 1));
+            double lv = sqrt(1 + alpha * alpha * (1 / (cosine * cosine) - 1)),
+                   ll = sqrt(1 + alpha * alpha * (1 / (z * z) - 1));
             /* f cos, times the solid angle */
             double value = d * 2 / (lv + ll) / (4 * cosine) * 2 * PI / ((double)N * N);
             double facing = (v[0] * h[0] + v[2] * h[2]) / len, curve = pow(1 - facing, 5);
@@ -109,8 +118,11 @@ static void test_files(const char *folder)
     REQUIRE(baked_write(&made, folder, reason, sizeof reason));
     REQUIRE(baked_read(folder, &read, reason, sizeof reason));
     REQUIRE(read.radiance.levels == made.radiance.levels && read.radiance.levels == 10);
-    REQUIRE(memcmp(read.radiance.pixels, made.radiance.pixels, num_floats(&made.radiance) * sizeof(float)) == 0);
-    REQUIRE(memcmp(read.albedo.pixels, made.albedo.pixels, num_floats(&made.albedo) * sizeof(float)) == 0);
+    REQUIRE(memcmp(read.radiance.pixels, made.radiance.pixels,
+                   num_floats(&made.radiance) * sizeof(float))
+            == 0);
+    REQUIRE(memcmp(read.albedo.pixels, made.albedo.pixels, num_floats(&made.albedo) * sizeof(float))
+            == 0);
     baked_finish(&read);
     REQUIRE(!baked_read("no-such-folder", &read, reason, sizeof reason) && reason[0]);
     baked_finish(&read);
@@ -118,7 +130,8 @@ static void test_files(const char *folder)
     image_finish(&map);
     image_finish(&stand_in);
     for (size_t i = 0; i < 3; ++i) {
-        snprintf(path, sizeof path, "%s/%s.exr", folder, (const char *const[]){"radiance", "irradiance", "albedo"}[i]);
+        snprintf(path, sizeof path, "%s/%s.exr", folder,
+                 (const char *const[]){"radiance", "irradiance", "albedo"}[i]);
         REQUIRE(remove(path) == 0);
     }
 }

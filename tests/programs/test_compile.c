@@ -1,25 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * The judge of shaders must itself be right: it accepts what is valid, and tells stage and line of what is not.
+ * The judge of shaders must itself be right: it accepts what is valid, and tells stage and line of
+ * what is not.
  */
 #include "validate/compile.h"
 
 #include "unit/test.h"
 
-#define VERTEX(version)                                                                                                \
-    "#version " version "\nlayout(location = 0) in vec3 p;\nvoid main()\n{\n    gl_Position = vec4(p, 1.0);\n}\n"
+#define VERTEX(version) \
+    "#version " version \
+    "\nlayout(location = 0) in vec3 p;\nvoid main()\n{\n    gl_Position = vec4(p, 1.0);\n}\n"
 
 static const char *const desktop_vertex = VERTEX("450"), *const es_vertex = VERTEX("300 es");
-static const char *const desktop_pixel = "#version 450\nuniform vec3 u_color;\nlayout(location = 0) out vec4 o;\n"
-                                         "void main()\n{\n    o = vec4(u_color * 2.0, 1.0);\n}\n";
+static const char *const desktop_pixel =
+    "#version 450\nuniform vec3 u_color;\nlayout(location = 0) out vec4 o;\n"
+    "void main()\n{\n    o = vec4(u_color * 2.0, 1.0);\n}\n";
 static const char *const vulkan_pixel =
     "#version 450\nlayout(set = 0, binding = 0, std140) uniform B { vec3 u_color; };\n"
     "layout(location = 0) out vec4 o;\nvoid main()\n{\n    o = vec4(u_color * 2.0, 1.0);\n}\n";
-static const char *const es_pixel =
-    "#version 300 es\nprecision highp float;\nuniform vec3 u_color;\nlayout(location = 0) out vec4 o;\n"
-    "void main()\n{\n    o = vec4(u_color * 2.0, 1.0);\n}\n";
-static const char *const broken_pixel =
-    "#version 450\nlayout(location = 0) out vec4 o;\nvoid main()\n{\n    o = vec4(missing, 1.0);\n}\n";
+static const char *const es_pixel = "#version 300 es\nprecision highp float;\nuniform vec3 "
+                                    "u_color;\nlayout(location = 0) out vec4 o;\n"
+                                    "void main()\n{\n    o = vec4(u_color * 2.0, 1.0);\n}\n";
+static const char *const broken_pixel = "#version 450\nlayout(location = 0) out vec4 o;\nvoid "
+                                        "main()\n{\n    o = vec4(missing, 1.0);\n}\n";
 static struct compiled compile(const char *target, const char *vertex, const char *pixel)
 {
     struct compiled compiled;
@@ -28,7 +31,8 @@ static struct compiled compile(const char *target, const char *vertex, const cha
     return compiled;
 }
 
-static void accepts(const char *target, const char *vertex, const char *pixel, uint32_t instructions)
+static void accepts(const char *target, const char *vertex, const char *pixel,
+                    uint32_t instructions)
 {
     struct compiled compiled = compile(target, vertex, pixel);
     REQUIRE_EQ(compiled.errors, 0);
@@ -39,7 +43,8 @@ static void accepts(const char *target, const char *vertex, const char *pixel, u
     compiled_finish(&compiled);
 }
 
-static void refuses(const char *target, const char *vertex, const char *pixel, uint32_t line, const char *word)
+static void refuses(const char *target, const char *vertex, const char *pixel, uint32_t line,
+                    const char *word)
 {
     struct compiled compiled = compile(target, vertex, pixel);
     REQUIRE(compiled.errors > 0);
@@ -56,7 +61,8 @@ int main(void)
 {
     compile_begin();
     /*
-     * label, load, multiply, 3 extracts, construct, store, return; a member of a block needs an access chain too
+     * label, load, multiply, 3 extracts, construct, store, return; a member of a block needs an
+     * access chain too
      */
     accepts("glsl", desktop_vertex, desktop_pixel, 9);
     accepts("vulkan", desktop_vertex, vulkan_pixel, 10);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * A document read from text, with files that exist only in a table, and its diagnostics as one line of text.
+ * A document read from text, with files that exist only in a table, and its diagnostics as one line
+ * of text.
  */
 #ifndef MXG_TESTS_DOCUMENT_FIXTURE_H
 #define MXG_TESTS_DOCUMENT_FIXTURE_H
@@ -43,8 +44,9 @@ static void *fixture_realloc(void *user_data, void *block, size_t old_size, size
 }
 
 /* Names are found as they are written, without folders. */
-static bool fixture_open_file(void *user_data, const char *from, const char *ref, const char **out_name, const char **out_data,
-                              size_t *out_size, void **out_handle, const char **out_reason)
+static bool fixture_open_file(void *user_data, const char *from, const char *ref,
+                              const char **out_name, const char **out_data, size_t *out_size,
+                              void **out_handle, const char **out_reason)
 {
     struct fixture *f = user_data;
     (void)from;
@@ -77,7 +79,8 @@ static inline void fixture_init(struct fixture *f)
     arena_init(&f->arena, &f->mem);
 }
 
-static inline void fixture_read_bytes(struct fixture *f, const char *bytes, size_t size, const struct xml_limits *limits)
+static inline void fixture_read_bytes(struct fixture *f, const char *bytes, size_t size,
+                                      const struct xml_limits *limits)
 {
     struct xml_files files = {f, fixture_open_file, fixture_release};
     strpool_init(&f->strings, &f->arena, NULL);
@@ -86,7 +89,8 @@ static inline void fixture_read_bytes(struct fixture *f, const char *bytes, size
     f->read = xml_read_memory(&f->doc, &files, limits, "test.mtlx", bytes, size, &f->diags);
 }
 
-static inline void fixture_read(struct fixture *f, const char *text, const struct fixture_file *files)
+static inline void fixture_read(struct fixture *f, const char *text,
+                                const struct fixture_file *files)
 {
     fixture_init(f);
     f->files = files;
@@ -101,7 +105,8 @@ static inline void fixture_close(struct fixture *f)
 }
 
 /*
- * "3:7 type-mismatch, b.mtlx:1:1 version-missing": remarks left out, the file where it is not the document itself.
+ * "3:7 type-mismatch, b.mtlx:1:1 version-missing": remarks left out, the file where it is not the
+ * document itself.
  */
 static inline const char *fixture_messages(struct fixture *f)
 {
@@ -124,7 +129,8 @@ static inline const char *fixture_tree(struct fixture *f)
 {
     struct text text;
     text_init(&text, &f->arena);
-    for (elem_id e = doc_element(&f->doc, f->doc.root)->first_child; e; e = doc_element(&f->doc, e)->next)
+    for (elem_id e = doc_element(&f->doc, f->doc.root)->first_child; e;
+         e = doc_element(&f->doc, e)->next)
         doc_write(&f->doc, e, &text);
     return text_cstr(&text);
 }

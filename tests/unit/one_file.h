@@ -7,8 +7,9 @@
 
 #include <stdio.h>
 
-static inline bool read_one_file(void *user_data, const char *from, const char *ref, const char **out_name, const char **out_text,
-                                 size_t *out_len, const char **out_reason)
+static inline bool read_one_file(void *user_data, const char *from, const char *ref,
+                                 const char **out_name, const char **out_text, size_t *out_len,
+                                 const char **out_reason)
 {
     (void)from, (void)out_reason;
     *out_name = ref;

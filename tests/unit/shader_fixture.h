@@ -17,7 +17,7 @@ struct fixture {
     struct ir_graph graph;
     struct lang_unit unit;
     struct shader shader;
-    uint32_t file; /* of the portable functions */
+    uint32_t file;  /* of the portable functions */
     uint32_t color; /* a vec3 local */
 };
 
@@ -65,17 +65,32 @@ static inline ir_ref uniform(struct fixture *f, const char *text, ir_type_id typ
     return shader_read(&f->shader, shader_add_variable(&f->shader, &v));
 }
 
-static inline ir_ref number(struct fixture *f, float value) { return ir_const_float(&f->graph, value); }
-static inline ir_ref op1(struct fixture *f, enum ir_op op, ir_ref a) { return ir_op1(&f->graph, op, a); }
-static inline ir_ref op2(struct fixture *f, enum ir_op op, ir_ref a, ir_ref b) { return ir_op2(&f->graph, op, a, b); }
-static inline ir_ref vec3_of(struct fixture *f, ir_ref a) { return ir_construct(&f->graph, IR_TYPE_VEC3, &a, 1); }
+static inline ir_ref number(struct fixture *f, float value)
+{
+    return ir_const_float(&f->graph, value);
+}
+static inline ir_ref op1(struct fixture *f, enum ir_op op, ir_ref a)
+{
+    return ir_op1(&f->graph, op, a);
+}
+static inline ir_ref op2(struct fixture *f, enum ir_op op, ir_ref a, ir_ref b)
+{
+    return ir_op2(&f->graph, op, a, b);
+}
+static inline ir_ref vec3_of(struct fixture *f, ir_ref a)
+{
+    return ir_construct(&f->graph, IR_TYPE_VEC3, &a, 1);
+}
 /* A member of the light at hand, for effects inside of EFFECT_LIGHTS. */
 static inline ir_ref light_member(struct fixture *f, const char *text)
 {
     uint32_t member = shader_light_member(&f->shader, word(f, text), IR_TYPE_VEC3);
     return ir_build(&f->graph, IR_CONTEXT, IR_TYPE_VEC3, member, NULL, 0);
 }
-static inline ir_ref light_direction(struct fixture *f) { return light_member(f, "direction"); }
+static inline ir_ref light_direction(struct fixture *f)
+{
+    return light_member(f, "direction");
+}
 static inline ir_ref read_color(struct fixture *f)
 {
     return ir_build(&f->graph, IR_LOCAL, IR_TYPE_VEC3, f->color, NULL, 0);
@@ -86,7 +101,8 @@ static inline uint32_t function(struct fixture *f, const char *text)
     return lang_find_function(&f->unit, f->file, word(f, text), NULL, 0);
 }
 
-static inline ir_ref call(struct fixture *f, const char *text, const ir_ref *args, unsigned num_args)
+static inline ir_ref call(struct fixture *f, const char *text, const ir_ref *args,
+                          unsigned num_args)
 {
     ir_type_id types[8];
     for (unsigned i = 0; i < num_args; i++)
@@ -95,8 +111,10 @@ static inline ir_ref call(struct fixture *f, const char *text, const ir_ref *arg
     if (id == LANG_NONE) /* one of several */
         id = lang_find_function(&f->unit, f->file, word(f, text), types, num_args);
     const struct lang_function *fn = lang_function(&f->unit, id, NULL);
-    struct ir_callee callee = {.id = id, .name = fn->name, .derivative = (fn->flags & LANG_FN_DERIVATIVE) != 0};
-    return ir_build(&f->graph, IR_CALL, fn->return_type, ir_add_callee(&f->graph, callee), args, num_args);
+    struct ir_callee callee = {
+        .id = id, .name = fn->name, .derivative = (fn->flags & LANG_FN_DERIVATIVE) != 0};
+    return ir_build(&f->graph, IR_CALL, fn->return_type, ir_add_callee(&f->graph, callee), args,
+                    num_args);
 }
 
 static inline ir_ref result(struct fixture *f, ir_ref of, uint32_t index, ir_type_id type)
@@ -106,7 +124,8 @@ static inline ir_ref result(struct fixture *f, ir_ref of, uint32_t index, ir_typ
 
 static inline void effect(struct fixture *f, enum effect_kind kind, uint32_t index, ir_ref value)
 {
-    shader_effect(&f->shader, STAGE_PIXEL, (struct effect){.kind = (uint8_t)kind, .index = index, .value = value});
+    shader_effect(&f->shader, STAGE_PIXEL,
+                  (struct effect){.kind = (uint8_t)kind, .index = index, .value = value});
 }
 
 static inline void accumulate(struct fixture *f, ir_ref value)
@@ -116,7 +135,8 @@ static inline void accumulate(struct fixture *f, ir_ref value)
 
 static inline uint32_t add_output(struct fixture *f)
 {
-    struct shader_variable out = {.name = word(f, "out1"), .block = BLOCK_OUTPUTS, .type = IR_TYPE_VEC4};
+    struct shader_variable out = {
+        .name = word(f, "out1"), .block = BLOCK_OUTPUTS, .type = IR_TYPE_VEC4};
     return shader_add_variable(&f->shader, &out);
 }
 

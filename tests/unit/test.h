@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * What a unit test needs. A failed requirement is printed with its place and counted; the test goes on.
+ * What a unit test needs. A failed requirement is printed with its place and counted; the test goes
+ * on.
  *
  *     int main(void)
  *     {
@@ -28,7 +29,8 @@ static inline bool test_count(bool passed, const char *file, int line, const cha
     return passed;
 }
 
-static inline bool test_equal(long long a, long long b, const char *file, int line, const char *what)
+static inline bool test_equal(long long a, long long b, const char *file, int line,
+                              const char *what)
 {
     bool passed = test_count(a == b, file, line, what);
     if (!passed)
@@ -36,7 +38,8 @@ static inline bool test_equal(long long a, long long b, const char *file, int li
     return passed;
 }
 
-static inline bool test_same_text(const char *a, const char *b, const char *file, int line, const char *what)
+static inline bool test_same_text(const char *a, const char *b, const char *file, int line,
+                                  const char *what)
 {
     bool passed = test_count(a && b && strcmp(a, b) == 0, file, line, what);
     if (!passed)
@@ -46,7 +49,8 @@ static inline bool test_same_text(const char *a, const char *b, const char *file
 
 /* Each gives whether it held. */
 #define REQUIRE(condition) test_count((condition), __FILE__, __LINE__, #condition)
-#define REQUIRE_EQ(a, b) test_equal((long long)(a), (long long)(b), __FILE__, __LINE__, #a " == " #b)
+#define REQUIRE_EQ(a, b) \
+    test_equal((long long)(a), (long long)(b), __FILE__, __LINE__, #a " == " #b)
 #define REQUIRE_STR(a, b) test_same_text((a), (b), __FILE__, __LINE__, #a)
 
 /* Prints the sum; what main returns. */

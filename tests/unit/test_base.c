@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * The ground floor: arenas and their failures, string pools in layers, numbers as text, growing text.
+ * The ground floor: arenas and their failures, string pools in layers, numbers as text, growing
+ * text.
  */
 #include "base/hash.h"
 #include "base/mem.h"
@@ -17,7 +18,8 @@
 /* Memory */
 
 /*
- * The C library's allocator, which fails once `left` allocations are done, and checks the sizes that it is told.
+ * The C library's allocator, which fails once `left` allocations are done, and checks the sizes
+ * that it is told.
  */
 struct counting {
     size_t left, held;
@@ -197,7 +199,8 @@ static void test_strings(struct arena *arena)
     bool found = true;
     for (unsigned i = 0; i < 5000; i++) {
         snprintf(name, sizeof name, "n%u", i * 7919);
-        found = found && str_intern_z(&top, name) == ids[i] && strcmp(str_text(&top, ids[i]), name) == 0;
+        found = found && str_intern_z(&top, name) == ids[i]
+                && strcmp(str_text(&top, ids[i]), name) == 0;
     }
     REQUIRE(found);
     REQUIRE_EQ(top.num, 5000);
@@ -205,7 +208,8 @@ static void test_strings(struct arena *arena)
 }
 
 /*
- * A layer as a library image has it: offsets into one block of bytes, and ids of 16 bits where they fit.
+ * A layer as a library image has it: offsets into one block of bytes, and ids of 16 bits where they
+ * fit.
  */
 static void test_image_layer(struct arena *arena, bool is_narrow)
 {
@@ -261,10 +265,25 @@ static void test_float_forms(void)
         float value;
         const char *text;
     } cases[] = {
-        {0.0f, "0.0"}, {-0.0f, "-0.0"}, {1.0f, "1.0"}, {-1.5f, "-1.5"}, {0.1f, "0.1"}, {0.00001f, "0.00001"},
-        {0.000001f, "1e-6"}, {123456792.0f, "123456790.0"}, {1e9f, "1e9"}, {1.5e10f, "1.5e10"}, {16777216.0f, "16777216.0"},
-        {3.40282347e38f, "3.4028235e38"}, {1.17549435e-38f, "1.1754944e-38"}, {1e-45f, "1e-45"}, {3.14159274f, "3.1415927"},
-        {0.333333343f, "0.33333334"}, {INFINITY, "inf"}, {-INFINITY, "-inf"}, {NAN, "nan"},
+        {0.0f, "0.0"},
+        {-0.0f, "-0.0"},
+        {1.0f, "1.0"},
+        {-1.5f, "-1.5"},
+        {0.1f, "0.1"},
+        {0.00001f, "0.00001"},
+        {0.000001f, "1e-6"},
+        {123456792.0f, "123456790.0"},
+        {1e9f, "1e9"},
+        {1.5e10f, "1.5e10"},
+        {16777216.0f, "16777216.0"},
+        {3.40282347e38f, "3.4028235e38"},
+        {1.17549435e-38f, "1.1754944e-38"},
+        {1e-45f, "1e-45"},
+        {3.14159274f, "3.1415927"},
+        {0.333333343f, "0.33333334"},
+        {INFINITY, "inf"},
+        {-INFINITY, "-inf"},
+        {NAN, "nan"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
         REQUIRE_STR(float_text(cases[i].value), cases[i].text);
@@ -273,9 +292,24 @@ static void test_float_forms(void)
         float value;
         size_t len;
     } reads[] = {
-        {"1", 1.0f, 1}, {"+2.5", 2.5f, 4}, {"-.5", -0.5f, 3}, {"3.", 3.0f, 2}, {"1e3", 1000.0f, 3}, {"1E-2", 0.01f, 4},
-        {"1e+2x", 100.0f, 4}, {"2e", 2.0f, 1}, {"2e+", 2.0f, 1}, {"1,5", 1.0f, 1}, {"", 0, 0}, {".", 0, 0}, {"-", 0, 0},
-        {"e5", 0, 0}, {"1e400", INFINITY, 5}, {"-1e400", -INFINITY, 6}, {"1e-400", 0.0f, 6}, {"0e999999999999", 0.0f, 14},
+        {"1", 1.0f, 1},
+        {"+2.5", 2.5f, 4},
+        {"-.5", -0.5f, 3},
+        {"3.", 3.0f, 2},
+        {"1e3", 1000.0f, 3},
+        {"1E-2", 0.01f, 4},
+        {"1e+2x", 100.0f, 4},
+        {"2e", 2.0f, 1},
+        {"2e+", 2.0f, 1},
+        {"1,5", 1.0f, 1},
+        {"", 0, 0},
+        {".", 0, 0},
+        {"-", 0, 0},
+        {"e5", 0, 0},
+        {"1e400", INFINITY, 5},
+        {"-1e400", -INFINITY, 6},
+        {"1e-400", 0.0f, 6},
+        {"0e999999999999", 0.0f, 14},
         {"0.000000000000000000000000000000000000000000000000001e51", 1.0f, 56},
         {"123456789012345678901234567890", 123456789012345678901234567890.0f, 30},
         {"16777217.0000000000000000000000000001", 16777216.0f, 37},
@@ -304,7 +338,8 @@ static int num_digits(const char *text)
 }
 
 /*
- * What is printed reads back to the same bits, and is as short as the shortest of the C library's forms that does.
+ * What is printed reads back to the same bits, and is as short as the shortest of the C library's
+ * forms that does.
  */
 static bool round_trips(float value)
 {
@@ -315,8 +350,8 @@ static bool round_trips(float value)
             break;
     }
     const char *text = float_text(value);
-    return parse_float(text) == value && strtof(text, NULL) == value && num_digits(text) <= num_digits(shortest)
-        && strpbrk(text, ".e");
+    return parse_float(text) == value && strtof(text, NULL) == value
+           && num_digits(text) <= num_digits(shortest) && strpbrk(text, ".e");
 }
 
 static void test_round_trips(void)
@@ -340,7 +375,8 @@ static void test_round_trips(void)
 /* A locale with a decimal comma, where there is one here, changes nothing. */
 static void test_locale(struct arena *arena)
 {
-    static const char *const names[] = {"de_DE.UTF-8", "de_DE", "fr_FR.UTF-8", "cs_CZ.UTF-8", "German"};
+    static const char *const names[] = {"de_DE.UTF-8", "de_DE", "fr_FR.UTF-8", "cs_CZ.UTF-8",
+                                        "German"};
     bool comma = false;
     for (size_t i = 0; i < sizeof names / sizeof *names && !comma; i++)
         comma = setlocale(LC_ALL, names[i]) && strcmp(localeconv()->decimal_point, ",") == 0;
@@ -361,8 +397,18 @@ static void test_integers(void)
         int64_t value;
         size_t len;
     } cases[] = {
-        {"0", 0, 1}, {"-12", -12, 3}, {"+7", 7, 2}, {"0x1F", 31, 4}, {"-0xff", -255, 5}, {"12abc", 12, 2}, {"0x", 0, 1},
-        {"4294967295", 4294967295, 10}, {"99999999999999999999", 0, 0}, {"", 0, 0}, {"-", 0, 0}, {"x", 0, 0},
+        {"0", 0, 1},
+        {"-12", -12, 3},
+        {"+7", 7, 2},
+        {"0x1F", 31, 4},
+        {"-0xff", -255, 5},
+        {"12abc", 12, 2},
+        {"0x", 0, 1},
+        {"4294967295", 4294967295, 10},
+        {"99999999999999999999", 0, 0},
+        {"", 0, 0},
+        {"-", 0, 0},
+        {"x", 0, 0},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         int64_t value = 0;
@@ -406,9 +452,9 @@ static void test_json_strings(struct arena *arena)
         {"plain", "\"plain\""},
         {"a\"b\\c\n\x01", "\"a\\\"b\\\\c\\u000a\\u0001\""},
         {"\xc3\xa4\xe2\x82\xac\xf0\x9f\x98\x80", "\"\xc3\xa4\xe2\x82\xac\xf0\x9f\x98\x80\""},
-        {"\x80x", "\"" BAD "x\""},          /* a continuation byte alone */
-        {"\xc3", "\"" BAD "\""},            /* cut short */
-        {"\xc0\xaf", "\"" BAD BAD "\""},    /* longer than need be */
+        {"\x80x", "\"" BAD "x\""},               /* a continuation byte alone */
+        {"\xc3", "\"" BAD "\""},                 /* cut short */
+        {"\xc0\xaf", "\"" BAD BAD "\""},         /* longer than need be */
         {"\xed\xa0\x80", "\"" BAD BAD BAD "\""}, /* a surrogate */
         {"\xf5\x80\x80\x80", "\"" BAD BAD BAD BAD "\""},
     };

@@ -21,7 +21,8 @@ static const char *render(const struct diag *diag, const char *source, bool colo
 }
 
 /*
- * Ids are distinct, lower-case words with hyphens; formats use what diag.h allows and say something.
+ * Ids are distinct, lower-case words with hyphens; formats use what diag.h allows and say
+ * something.
  */
 static void test_catalogue(void)
 {
@@ -48,7 +49,8 @@ static void test_list(void)
     struct diag_list list;
     diag_list_init(&list, &arena);
     char name[] = "wood.mtlx";
-    diag_add(&list, DIAG_ID_unknown_node, (struct diag_place){name, 3, 5, 0}, "mux", " (did you mean 'mix'?)");
+    diag_add(&list, DIAG_ID_unknown_node, (struct diag_place){name, 3, 5, 0}, "mux",
+             " (did you mean 'mix'?)");
     diag_add(&list, DIAG_ID_defined_here, at(1, 1, 0), "mix");
     diag_add(&list, DIAG_ID_connected_here, at(2, 1, 0), "mix");
     diag_add(&list, DIAG_ID_version_missing, at(1, 1, 0));
@@ -58,7 +60,8 @@ static void test_list(void)
     REQUIRE_EQ(list.num_errors, 1);
     REQUIRE_EQ(list.num_warnings, 1);
     const struct diag *items = list.items.items;
-    REQUIRE_STR(items[0].message, "unknown node <mux> (did you mean 'mix'?); no library that is loaded defines it: add the one that does with '--library'");
+    REQUIRE_STR(items[0].message, "unknown node <mux> (did you mean 'mix'?); no library that is "
+                                  "loaded defines it: add the one that does with '--library'");
     REQUIRE_STR(items[0].place.file, "wood.mtlx");
     REQUIRE_EQ(items[0].severity, DIAG_ERROR);
     REQUIRE_EQ(items[1].severity, DIAG_NOTE);
@@ -71,7 +74,8 @@ static void test_list(void)
 }
 
 /*
- * Errors beyond the limit are counted; they go with their notes, and one note says so. Warnings still come.
+ * Errors beyond the limit are counted; they go with their notes, and one note says so. Warnings
+ * still come.
  */
 static void test_limit(void)
 {
@@ -93,28 +97,35 @@ static void test_limit(void)
 
 static void test_text(void)
 {
-    struct diag diag = {.id = DIAG_ID_unknown_node, .message = "unknown node <mux>", .place = at(2, 3, 4)};
+    struct diag diag = {
+        .id = DIAG_ID_unknown_node, .message = "unknown node <mux>", .place = at(2, 3, 4)};
     static const char source[] = "<materialx>\n  <mux name='a'/>\r\n</materialx>";
-    REQUIRE_STR(render(&diag, source, false), "wood.mtlx:2:3: error: unknown node <mux> [unknown-node]\n"
-                                              "      <mux name='a'/>\n"
-                                              "      ^~~~\n");
-    REQUIRE_STR(render(&diag, NULL, false), "wood.mtlx:2:3: error: unknown node <mux> [unknown-node]\n");
+    REQUIRE_STR(render(&diag, source, false),
+                "wood.mtlx:2:3: error: unknown node <mux> [unknown-node]\n"
+                "      <mux name='a'/>\n"
+                "      ^~~~\n");
+    REQUIRE_STR(render(&diag, NULL, false),
+                "wood.mtlx:2:3: error: unknown node <mux> [unknown-node]\n");
     diag.place = at(1, 1, 0);
-    REQUIRE_STR(render(&diag, source, false), "wood.mtlx:1:1: error: unknown node <mux> [unknown-node]\n"
-                                              "    <materialx>\n"
-                                              "    ^\n");
+    REQUIRE_STR(render(&diag, source, false),
+                "wood.mtlx:1:1: error: unknown node <mux> [unknown-node]\n"
+                "    <materialx>\n"
+                "    ^\n");
     REQUIRE_STR(render(&diag, source, true),
                 "\x1b[1mwood.mtlx:1:1: \x1b[1;31merror: \x1b[0munknown node <mux> [unknown-node]\n"
                 "    <materialx>\n"
                 "    \x1b[1;32m^\x1b[0m\n");
     diag.place = at(0, 0, 0);
-    REQUIRE_STR(render(&diag, source, false), "wood.mtlx: error: unknown node <mux> [unknown-node]\n");
+    REQUIRE_STR(render(&diag, source, false),
+                "wood.mtlx: error: unknown node <mux> [unknown-node]\n");
     diag.place = (struct diag_place){0};
     REQUIRE_STR(render(&diag, source, false), "error: unknown node <mux> [unknown-node]\n");
     diag.place = at(9, 1, 1); /* the source is another one */
-    REQUIRE_STR(render(&diag, source, false), "wood.mtlx:9:1: error: unknown node <mux> [unknown-node]\n");
+    REQUIRE_STR(render(&diag, source, false),
+                "wood.mtlx:9:1: error: unknown node <mux> [unknown-node]\n");
     diag.place = at(1, 80, 1);
-    REQUIRE_STR(render(&diag, source, false), "wood.mtlx:1:80: error: unknown node <mux> [unknown-node]\n");
+    REQUIRE_STR(render(&diag, source, false),
+                "wood.mtlx:1:80: error: unknown node <mux> [unknown-node]\n");
     diag.severity = DIAG_NOTE;
     diag.place = at(3, 12, 9); /* the underline ends with the line */
     REQUIRE_STR(render(&diag, source, false), "wood.mtlx:3:12: note: unknown node <mux>\n"
@@ -123,11 +134,13 @@ static void test_text(void)
 }
 
 /*
- * Columns are code points; tabs stay tabs under tabs; escapes of the document do not reach the terminal.
+ * Columns are code points; tabs stay tabs under tabs; escapes of the document do not reach the
+ * terminal.
  */
 static void test_columns(void)
 {
-    struct diag diag = {.id = DIAG_ID_unknown_node, .message = "evil \x1b[2J", .place = at(1, 7, 2)};
+    struct diag diag = {
+        .id = DIAG_ID_unknown_node, .message = "evil \x1b[2J", .place = at(1, 7, 2)};
     REQUIRE_STR(render(&diag, "\t\xc3\xa4\xe2\x82\xac\t<\x1bxy", false),
                 "wood.mtlx:1:7: error: evil ?[2J [unknown-node]\n"
                 "    \t\xc3\xa4\xe2\x82\xac\t<?xy\n"
@@ -161,16 +174,21 @@ static void test_json(void)
     diag_add(&list, DIAG_ID_version_missing, at(0, 0, 0));
     text_init(&text, &arena);
     diag_render_json(&list, &text);
-    REQUIRE_STR(text_cstr(&text),
-                "[\n"
-                "  {\"severity\": \"error\", \"id\": \"unknown-node\", \"message\": \"unknown node <a\\\"b>; no library that is loaded defines it: add the one that does with '--library'\", "
-                "\"file\": \"wood.mtlx\", \"line\": 3, \"column\": 5, \"length\": 4, \"notes\": [\n"
-                "    {\"severity\": \"note\", \"id\": \"defined-here\", \"message\": \"'x' is defined here\", "
-                "\"file\": \"wood.mtlx\", \"line\": 1, \"column\": 1, \"length\": 1},\n"
-                "    {\"severity\": \"note\", \"id\": \"connected-here\", \"message\": \"'y' is here\"}]},\n"
-                "  {\"severity\": \"warning\", \"id\": \"version-missing\", "
-                "\"message\": \"<materialx> has no version; it is read as 1.39\", \"file\": \"wood.mtlx\"}\n"
-                "]\n");
+    REQUIRE_STR(
+        text_cstr(&text),
+        "[\n"
+        "  {\"severity\": \"error\", \"id\": \"unknown-node\", \"message\": \"unknown node "
+        "<a\\\"b>; no library that is loaded defines it: add the one that does with '--library'\", "
+        "\"file\": \"wood.mtlx\", \"line\": 3, \"column\": 5, \"length\": 4, \"notes\": [\n"
+        "    {\"severity\": \"note\", \"id\": \"defined-here\", \"message\": \"'x' is defined "
+        "here\", "
+        "\"file\": \"wood.mtlx\", \"line\": 1, \"column\": 1, \"length\": 1},\n"
+        "    {\"severity\": \"note\", \"id\": \"connected-here\", \"message\": \"'y' is "
+        "here\"}]},\n"
+        "  {\"severity\": \"warning\", \"id\": \"version-missing\", "
+        "\"message\": \"<materialx> has no version; it is read as 1.39\", \"file\": "
+        "\"wood.mtlx\"}\n"
+        "]\n");
 }
 
 static const char *suggest(const char *word, const char *const *candidates, size_t count)
@@ -195,7 +213,8 @@ static void test_suggestions_end(void)
 
 static void test_suggest(void)
 {
-    static const char *const nodes[] = {"multiply", "mix", "image", "standard_surface", "noise2d", "noise3d", "Mix"};
+    static const char *const nodes[] = {"multiply", "mix",     "image", "standard_surface",
+                                        "noise2d",  "noise3d", "Mix"};
     static const struct {
         const char *word, *suggestion;
     } cases[] = {
@@ -211,7 +230,8 @@ static void test_suggest(void)
         {"", ""},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
-        REQUIRE_STR(suggest(cases[i].word, nodes, sizeof nodes / sizeof *nodes), cases[i].suggestion);
+        REQUIRE_STR(suggest(cases[i].word, nodes, sizeof nodes / sizeof *nodes),
+                    cases[i].suggestion);
     char longest[300];
     memset(longest, 'a', sizeof longest - 1);
     longest[sizeof longest - 1] = '\0';

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * The element tree: types and values, building, names in layers, templates, namespaces, validation. Upgrades: test_upgrade.c.
+ * The element tree: types and values, building, names in layers, templates, namespaces, validation.
+ * Upgrades: test_upgrade.c.
  */
 #include "document_fixture.h"
 
@@ -55,7 +56,8 @@ static void test_values(void)
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         struct ir_value value = {0};
         unsigned components = doc_type_components(cases[i].type);
-        bool good = doc_parse_value(cases[i].type, cases[i].text, strlen(cases[i].text), NULL, &value);
+        bool good =
+            doc_parse_value(cases[i].type, cases[i].text, strlen(cases[i].text), NULL, &value);
         if (!REQUIRE_EQ(good, cases[i].good))
             printf("    '%s'\n", cases[i].text);
         if (good && cases[i].last != 0)
@@ -70,7 +72,8 @@ static void test_values(void)
 
 static elem_id add(struct document *doc, elem_id parent, const char *category, const char *name)
 {
-    return doc_add_element(doc, parent, str_intern_z(doc->strings, category), str_intern_z(doc->strings, name), 0, 1, 1);
+    return doc_add_element(doc, parent, str_intern_z(doc->strings, category),
+                           str_intern_z(doc->strings, name), 0, 1, 1);
 }
 
 static void test_building(void)
@@ -78,20 +81,23 @@ static void test_building(void)
     struct fixture f;
     fixture_read(&f, ROOT "<nodegraph name=\"g\"/>" END, NULL);
     struct document *doc = &f.doc;
-    elem_id a = add(doc, doc->root, "add", "a"), b = add(doc, doc->root, "add", "b"), c = add(doc, a, "input", "c");
+    elem_id a = add(doc, doc->root, "add", "a"), b = add(doc, doc->root, "add", "b"),
+            c = add(doc, a, "input", "c");
     doc_set_attr(doc, a, STR_type, STR_float); /* after others were added */
     doc_set_attr(doc, b, STR_type, STR_color3);
     doc_set_attr(doc, a, STR_value, STR_true);
     doc_set_attr(doc, a, STR_type, STR_integer);
-    REQUIRE_STR(fixture_tree(&f), "<nodegraph name=\"g\"/>\n"
-                                  "<add name=\"a\" type=\"integer\" value=\"true\">\n  <input name=\"c\"/>\n</add>\n"
-                                  "<add name=\"b\" type=\"color3\"/>\n");
+    REQUIRE_STR(fixture_tree(&f),
+                "<nodegraph name=\"g\"/>\n"
+                "<add name=\"a\" type=\"integer\" value=\"true\">\n  <input name=\"c\"/>\n</add>\n"
+                "<add name=\"b\" type=\"color3\"/>\n");
     REQUIRE(doc_attr_is_true(doc, a, STR_value));
     doc_remove_attr(doc, a, STR_type);
     doc_move_before(doc, b, a);
     doc_move_element(doc, c, b);
     doc_set_category(doc, c, STR_output);
-    REQUIRE_STR(fixture_tree(&f), "<nodegraph name=\"g\"/>\n<add name=\"b\" type=\"color3\">\n  <output name=\"c\"/>\n</add>\n"
+    REQUIRE_STR(fixture_tree(&f), "<nodegraph name=\"g\"/>\n<add name=\"b\" type=\"color3\">\n  "
+                                  "<output name=\"c\"/>\n</add>\n"
                                   "<add name=\"a\" value=\"true\"/>\n");
     doc_remove_element(doc, a);
     doc_remove_element(doc, doc_element(doc, doc->root)->first_child);
@@ -105,12 +111,14 @@ static void test_building(void)
 static void test_layers(void)
 {
     struct fixture f;
-    fixture_read(&f, ROOT "<nodedef name=\"ND_x\"><input name=\"in\" type=\"float\"/></nodedef>" END, NULL);
+    fixture_read(
+        &f, ROOT "<nodedef name=\"ND_x\"><input name=\"in\" type=\"float\"/></nodedef>" END, NULL);
     struct strpool strings;
     struct document top;
     strpool_init(&strings, &f.arena, &f.strings);
     doc_init(&top, &f.arena, &strings, &f.doc);
-    const char *text = "<materialx version=\"1.39\" fileprefix=\"p/\"><x name=\"y\"><input name=\"file\" fileprefix=\"\"/></x>" END;
+    const char *text = "<materialx version=\"1.39\" fileprefix=\"p/\"><x name=\"y\"><input "
+                       "name=\"file\" fileprefix=\"\"/></x>" END;
     REQUIRE(xml_read_memory(&top, NULL, NULL, "top.mtlx", text, strlen(text), &f.diags));
     elem_id below = doc_find(&top, "/ND_x/in", 8), own = doc_find(&top, "y/file", 6);
     REQUIRE(below && own && below < top.root && own > top.root);
@@ -121,7 +129,8 @@ static void test_layers(void)
     REQUIRE_EQ(doc_child_of_kind(&top, doc_element(&top, below)->parent, KIND_OUTPUT, STR_in), 0);
     /* the nearest counts, empty or not */
     REQUIRE_EQ(doc_inherited_attr(&top, own, STR_fileprefix), STR_EMPTY);
-    REQUIRE_STR(str_text(&strings, doc_inherited_attr(&top, doc_find(&top, "y", 1), STR_fileprefix)), "p/");
+    REQUIRE_STR(
+        str_text(&strings, doc_inherited_attr(&top, doc_find(&top, "y", 1), STR_fileprefix)), "p/");
     struct text path;
     text_init(&path, &f.arena);
     doc_path(&top, own, '/', &path);
@@ -135,62 +144,90 @@ static void test_layers(void)
 
 static void test_duplicates(void)
 {
-    REQUIRE_MESSAGES(ROOT "\n<a name=\"n\"/>\n<b name=\"n\"/>\n" END, NULL, "3:1 duplicate-name, 2:1 previous-definition");
-    REQUIRE_MESSAGES(ROOT "\n<a name=\"n\"/>\n<a name=\"n\" type=\"x\"/>\n" END, NULL, "3:1 duplicate-name, 2:1 previous-definition");
-    REQUIRE_MESSAGES(ROOT "\n<a name=\"n\"><b/></a>\n<a name=\"n\"><b/><b/></a>\n" END, NULL, "3:1 duplicate-name, 2:1 previous-definition");
-    REQUIRE_MESSAGES(ROOT "\n<a name=\"n\" x=\"1\" y=\"2\"><b/></a>\n<a y=\"2\" x=\"1\" name=\"n\"><b/></a>\n" END, NULL,
-                     "3:1 repeated-element, 2:1 previous-definition");
-    REQUIRE_TREE(ROOT "<a name=\"n\"/><a name=\"n\"/><a/><a/>" END, NULL, "<a name=\"n\"/>\n<a/>\n<a/>\n");
+    REQUIRE_MESSAGES(ROOT "\n<a name=\"n\"/>\n<b name=\"n\"/>\n" END, NULL,
+                     "3:1 duplicate-name, 2:1 previous-definition");
+    REQUIRE_MESSAGES(ROOT "\n<a name=\"n\"/>\n<a name=\"n\" type=\"x\"/>\n" END, NULL,
+                     "3:1 duplicate-name, 2:1 previous-definition");
+    REQUIRE_MESSAGES(ROOT "\n<a name=\"n\"><b/></a>\n<a name=\"n\"><b/><b/></a>\n" END, NULL,
+                     "3:1 duplicate-name, 2:1 previous-definition");
+    REQUIRE_MESSAGES(
+        ROOT
+        "\n<a name=\"n\" x=\"1\" y=\"2\"><b/></a>\n<a y=\"2\" x=\"1\" name=\"n\"><b/></a>\n" END,
+        NULL, "3:1 repeated-element, 2:1 previous-definition");
+    REQUIRE_TREE(ROOT "<a name=\"n\"/><a name=\"n\"/><a/><a/>" END, NULL,
+                 "<a name=\"n\"/>\n<a/>\n<a/>\n");
 }
 
 static void test_templates(void)
 {
     REQUIRE_TREE(ROOT "<first/><template vars=\"type n\" rows=\"float 1; color3 2;\">"
-                      "<a name=\"x_@type@_@n@\" t=\"@type@\" z=\"@type.zero@\" o=\"@type.one@\" h=\"@type.half@\" g=\"@type.glsl@\" "
+                      "<a name=\"x_@type@_@n@\" t=\"@type@\" z=\"@type.zero@\" o=\"@type.one@\" "
+                      "h=\"@type.half@\" g=\"@type.glsl@\" "
                       "s=\"@type.size@\"/><b mail=\"a@b.c\"/></template><last/>" END,
                  NULL,
                  "<first/>\n"
-                 "<a name=\"x_float_1\" t=\"float\" z=\"0.0\" o=\"1.0\" h=\"0.5\" g=\"float\" s=\"1\"/>\n<b mail=\"a@b.c\"/>\n"
-                 "<a name=\"x_color3_2\" t=\"color3\" z=\"0.0, 0.0, 0.0\" o=\"1.0, 1.0, 1.0\" h=\"0.5, 0.5, 0.5\" g=\"vec3\" s=\"3\"/>\n"
+                 "<a name=\"x_float_1\" t=\"float\" z=\"0.0\" o=\"1.0\" h=\"0.5\" g=\"float\" "
+                 "s=\"1\"/>\n<b mail=\"a@b.c\"/>\n"
+                 "<a name=\"x_color3_2\" t=\"color3\" z=\"0.0, 0.0, 0.0\" o=\"1.0, 1.0, 1.0\" "
+                 "h=\"0.5, 0.5, 0.5\" g=\"vec3\" s=\"3\"/>\n"
                  "<b mail=\"a@b.c\"/>\n<last/>\n");
-    REQUIRE_TREE(ROOT "<template vars=\"t\" rows=\"matrix33; boolean; integer; filename\"><a one=\"@t.one@\" g=\"@t.glsl@\"/></template>" END,
+    REQUIRE_TREE(ROOT "<template vars=\"t\" rows=\"matrix33; boolean; integer; filename\"><a "
+                      "one=\"@t.one@\" g=\"@t.glsl@\"/></template>" END,
                  NULL,
-                 "<a one=\"1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0\" g=\"mat3\"/>\n<a one=\"true\" g=\"bool\"/>\n"
+                 "<a one=\"1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0\" g=\"mat3\"/>\n<a "
+                 "one=\"true\" g=\"bool\"/>\n"
                  "<a one=\"1\" g=\"int\"/>\n<a one=\"\" g=\"sampler2D\"/>\n");
-    REQUIRE_TREE(ROOT "<nodedef><template vars=\"a\" rows=\"1; 2\"><template vars=\"b\" rows=\"@a@x; y\"><in v=\"@a@@b@\"><in/></in>"
+    REQUIRE_TREE(ROOT "<nodedef><template vars=\"a\" rows=\"1; 2\"><template vars=\"b\" "
+                      "rows=\"@a@x; y\"><in v=\"@a@@b@\"><in/></in>"
                       "</template><in v=\"@a@\"/></template></nodedef>" END,
                  NULL,
-                 "<nodedef>\n  <in v=\"11x\">\n    <in/>\n  </in>\n  <in v=\"1y\">\n    <in/>\n  </in>\n  <in v=\"1\"/>\n"
-                 "  <in v=\"22x\">\n    <in/>\n  </in>\n  <in v=\"2y\">\n    <in/>\n  </in>\n  <in v=\"2\"/>\n</nodedef>\n");
+                 "<nodedef>\n  <in v=\"11x\">\n    <in/>\n  </in>\n  <in v=\"1y\">\n    <in/>\n  "
+                 "</in>\n  <in v=\"1\"/>\n"
+                 "  <in v=\"22x\">\n    <in/>\n  </in>\n  <in v=\"2y\">\n    <in/>\n  </in>\n  <in "
+                 "v=\"2\"/>\n</nodedef>\n");
     REQUIRE_MESSAGES(ROOT "<template rows=\"x\"><a/></template>" END, NULL, "1:27 template-bad");
-    REQUIRE_MESSAGES(ROOT "<template vars=\"a b\" rows=\"1 2; 3\"><a/></template>" END, NULL, "1:54 template-bad");
-    REQUIRE_MESSAGES(ROOT "<template vars=\"a\" rows=\"1\"><a b=\"@c@\"/></template>" END, NULL, "1:43 template-bad");
-    REQUIRE_MESSAGES(ROOT "<template vars=\"a\" rows=\"1\"><a b=\"@a.zero@\"/></template>" END, NULL, "1:52 template-bad");
-    REQUIRE_MESSAGES(ROOT "<template vars=\"a\" rows=\"1\"><template vars=\"a\" rows=\"2\"><x/></template></template>" END, NULL,
+    REQUIRE_MESSAGES(ROOT "<template vars=\"a b\" rows=\"1 2; 3\"><a/></template>" END, NULL,
+                     "1:54 template-bad");
+    REQUIRE_MESSAGES(ROOT "<template vars=\"a\" rows=\"1\"><a b=\"@c@\"/></template>" END, NULL,
                      "1:43 template-bad");
+    REQUIRE_MESSAGES(ROOT "<template vars=\"a\" rows=\"1\"><a b=\"@a.zero@\"/></template>" END,
+                     NULL, "1:52 template-bad");
+    REQUIRE_MESSAGES(ROOT "<template vars=\"a\" rows=\"1\"><template vars=\"a\" "
+                          "rows=\"2\"><x/></template></template>" END,
+                     NULL, "1:43 template-bad");
 }
 
 static void test_namespaces(void)
 {
     static const struct fixture_file files[] = {
-        {"lib.mtlx", "<materialx version=\"1.39\" namespace=\"lib\"><nodedef name=\"ND_a\" node=\"a\"/><nodegraph name=\"NG_a\" nodedef=\"ND_a\"/>"
-                     "<a name=\"x\" nodedef=\"ND_a\"/><b name=\"y\"><input name=\"in\" nodename=\"x\"/></b></materialx>"},
+        {"lib.mtlx", "<materialx version=\"1.39\" namespace=\"lib\"><nodedef name=\"ND_a\" "
+                     "node=\"a\"/><nodegraph name=\"NG_a\" nodedef=\"ND_a\"/>"
+                     "<a name=\"x\" nodedef=\"ND_a\"/><b name=\"y\"><input name=\"in\" "
+                     "nodename=\"x\"/></b></materialx>"},
         {NULL, NULL},
     };
-    REQUIRE_TREE("<materialx version=\"1.39\" xmlns:xi=\"http://www.w3.org/2001/XInclude\"><xi:include href=\"lib.mtlx\"/>"
-                 "<lib:a name=\"x\" nodedef=\"lib:ND_a\"/><a name=\"z\"/>" END,
-                 files,
-                 "<nodedef name=\"lib:ND_a\" node=\"lib:a\" namespace=\"lib\"/>\n"
-                 "<nodegraph name=\"lib:NG_a\" nodedef=\"lib:ND_a\" namespace=\"lib\"/>\n"
-                 "<lib:a name=\"lib:x\" nodedef=\"lib:ND_a\" namespace=\"lib\"/>\n"
-                 "<b name=\"lib:y\" namespace=\"lib\">\n  <input name=\"in\" nodename=\"lib:x\"/>\n</b>\n"
-                 "<lib:a name=\"x\" nodedef=\"lib:ND_a\"/>\n<a name=\"z\"/>\n");
+    REQUIRE_TREE(
+        "<materialx version=\"1.39\" xmlns:xi=\"http://www.w3.org/2001/XInclude\"><xi:include "
+        "href=\"lib.mtlx\"/>"
+        "<lib:a name=\"x\" nodedef=\"lib:ND_a\"/><a name=\"z\"/>" END,
+        files,
+        "<nodedef name=\"lib:ND_a\" node=\"lib:a\" namespace=\"lib\"/>\n"
+        "<nodegraph name=\"lib:NG_a\" nodedef=\"lib:ND_a\" namespace=\"lib\"/>\n"
+        "<lib:a name=\"lib:x\" nodedef=\"lib:ND_a\" namespace=\"lib\"/>\n"
+        "<b name=\"lib:y\" namespace=\"lib\">\n  <input name=\"in\" nodename=\"lib:x\"/>\n</b>\n"
+        "<lib:a name=\"x\" nodedef=\"lib:ND_a\"/>\n<a name=\"z\"/>\n");
     struct fixture f;
-    fixture_read(&f, "<materialx version=\"1.39\" namespace=\"n\"><nodegraph name=\"g\"><add name=\"a\"><input name=\"i\" nodename=\"g\"/>"
-                     "</add></nodegraph></materialx>", NULL);
-    REQUIRE(doc_find(&f.doc, "n:g/a", 5) && doc_find(&f.doc, "g/a", 3) == doc_find(&f.doc, "n:g/a", 5));
+    fixture_read(&f,
+                 "<materialx version=\"1.39\" namespace=\"n\"><nodegraph name=\"g\"><add "
+                 "name=\"a\"><input name=\"i\" nodename=\"g\"/>"
+                 "</add></nodegraph></materialx>",
+                 NULL);
+    REQUIRE(doc_find(&f.doc, "n:g/a", 5)
+            && doc_find(&f.doc, "g/a", 3) == doc_find(&f.doc, "n:g/a", 5));
     /* a node of the graph */
-    REQUIRE_STR(str_text(&f.strings, doc_attr_value(&f.doc, doc_find(&f.doc, "g/a/i", 5), STR_nodename)), "g");
+    REQUIRE_STR(
+        str_text(&f.strings, doc_attr_value(&f.doc, doc_find(&f.doc, "g/a/i", 5), STR_nodename)),
+        "g");
     fixture_close(&f);
 }
 
@@ -211,33 +248,55 @@ static void require_valid(const char *content, const char *expected)
 static void test_validation(void)
 {
     require_valid("", "");
-    require_valid("<nodedef name=\"ND_a\" node=\"a\"><input name=\"in\" type=\"float\" value=\"1\"/><output name=\"out\" type=\"float\"/></nodedef>"
-                  "<nodegraph name=\"NG_a\" nodedef=\"ND_a\"><add name=\"b\" type=\"float\"><input name=\"in1\" type=\"float\" interfacename=\"in\"/>"
+    require_valid("<nodedef name=\"ND_a\" node=\"a\"><input name=\"in\" type=\"float\" "
+                  "value=\"1\"/><output name=\"out\" type=\"float\"/></nodedef>"
+                  "<nodegraph name=\"NG_a\" nodedef=\"ND_a\"><add name=\"b\" type=\"float\"><input "
+                  "name=\"in1\" type=\"float\" interfacename=\"in\"/>"
                   "</add><output name=\"out\" type=\"float\" nodename=\"b\"/></nodegraph>"
-                  "<add name=\"c\" type=\"float\"><input name=\"in1\" type=\"float\" nodegraph=\"NG_a\"/></add>", "");
+                  "<add name=\"c\" type=\"float\"><input name=\"in1\" type=\"float\" "
+                  "nodegraph=\"NG_a\"/></add>",
+                  "");
     require_valid("<add name=\"1a\" type=\"float\"/>", "2:1 bad-name");
     require_valid("<add name=\"a b\" type=\"float\"/>", "2:1 bad-name");
     require_valid("<add type=\"float\"/>", "2:1 name-missing");
     require_valid("<add name=\"a\"/>", "2:1 missing-attribute");
     require_valid("<add name=\"a\" type=\"flaot\"/>", "2:21 unknown-type");
-    require_valid("<typedef name=\"t\"><member name=\"m\" type=\"float\" value=\"x\"/></typedef><add name=\"a\" type=\"t\"/>", "2:56 bad-value");
-    require_valid("<add name=\"a\" type=\"float\"><input name=\"in1\" type=\"float\" value=\"abc\"/></add>", "2:66 bad-value");
-    require_valid("<nodedef name=\"N\" node=\"n\"><input name=\"i\" type=\"color3\" uimax=\"1\"/><output name=\"o\" type=\"float\"/></nodedef>",
+    require_valid("<typedef name=\"t\"><member name=\"m\" type=\"float\" "
+                  "value=\"x\"/></typedef><add name=\"a\" type=\"t\"/>",
+                  "2:56 bad-value");
+    require_valid(
+        "<add name=\"a\" type=\"float\"><input name=\"in1\" type=\"float\" value=\"abc\"/></add>",
+        "2:66 bad-value");
+    require_valid("<nodedef name=\"N\" node=\"n\"><input name=\"i\" type=\"color3\" "
+                  "uimax=\"1\"/><output name=\"o\" type=\"float\"/></nodedef>",
                   "2:65 bad-value");
     require_valid("<nodedef name=\"N\" node=\"n\"/>", "2:1 no-output");
     require_valid("<input name=\"i\" type=\"float\"/>", "2:1 misplaced-element");
-    require_valid("<nodedef name=\"N\" node=\"n\"><add name=\"a\" type=\"float\"/><output name=\"o\" type=\"float\"/></nodedef>", "2:28 misplaced-element");
-    require_valid("<add name=\"b\" type=\"float\"/><add name=\"a\" type=\"float\"><input name=\"in1\" type=\"float\" nodename=\"b\" value=\"1\"/></add>",
+    require_valid("<nodedef name=\"N\" node=\"n\"><add name=\"a\" type=\"float\"/><output "
+                  "name=\"o\" type=\"float\"/></nodedef>",
+                  "2:28 misplaced-element");
+    require_valid("<add name=\"b\" type=\"float\"/><add name=\"a\" type=\"float\"><input "
+                  "name=\"in1\" type=\"float\" nodename=\"b\" value=\"1\"/></add>",
                   "2:107 value-and-connection");
-    require_valid("<add name=\"b\" type=\"float\"/><nodegraph name=\"c\"><output name=\"o\" type=\"float\"/></nodegraph>"
-                  "<add name=\"a\" type=\"float\"><input name=\"in1\" type=\"float\" nodename=\"b\" nodegraph=\"c\"/></add>", "2:119 several-connections");
-    require_valid("<add name=\"a\" type=\"float\"><input name=\"in1\" type=\"float\" nodename=\"b\"/></add>"
-                  "<add name=\"b\" type=\"float\"><input name=\"in1\" type=\"float\" nodename=\"a\"/></add>", "2:1 cycle");
-    require_valid("<add name=\"a\" type=\"float\"><input name=\"in1\" type=\"float\" nodename=\"a\"/></add>", "2:1 cycle");
+    require_valid("<add name=\"b\" type=\"float\"/><nodegraph name=\"c\"><output name=\"o\" "
+                  "type=\"float\"/></nodegraph>"
+                  "<add name=\"a\" type=\"float\"><input name=\"in1\" type=\"float\" "
+                  "nodename=\"b\" nodegraph=\"c\"/></add>",
+                  "2:119 several-connections");
+    require_valid(
+        "<add name=\"a\" type=\"float\"><input name=\"in1\" type=\"float\" nodename=\"b\"/></add>"
+        "<add name=\"b\" type=\"float\"><input name=\"in1\" type=\"float\" nodename=\"a\"/></add>",
+        "2:1 cycle");
+    require_valid(
+        "<add name=\"a\" type=\"float\"><input name=\"in1\" type=\"float\" nodename=\"a\"/></add>",
+        "2:1 cycle");
     require_valid("<nodedef name=\"N\" node=\"n\" inherit=\"M\"/>", "2:37 inherit-missing");
-    require_valid("<nodedef name=\"N\" node=\"n\" inherit=\"M\"/><nodedef name=\"M\" node=\"n\" inherit=\"N\"/>", "2:37 inherit-cycle");
-    require_valid("<look name=\"l\"><materialassign name=\"m\" material=\"x\" collection=\"c\"/></look>",
-                  "2:66 dangling-reference, 2:51 dangling-reference");
+    require_valid("<nodedef name=\"N\" node=\"n\" inherit=\"M\"/><nodedef name=\"M\" node=\"n\" "
+                  "inherit=\"N\"/>",
+                  "2:37 inherit-cycle");
+    require_valid(
+        "<look name=\"l\"><materialassign name=\"m\" material=\"x\" collection=\"c\"/></look>",
+        "2:66 dangling-reference, 2:51 dangling-reference");
     require_valid("<implementation name=\"i\"/>", "2:1 missing-attribute");
 }
 

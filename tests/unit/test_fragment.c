@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Fragments: a call of a library's function is restored where it was taken down for arguments of the same pattern, and only there. Behind
- * the recording the constant 2.5 in the trees becomes 3.5: so the result tells where it comes from. And versions of functions, which are taken down
- * in the same rehearsals.
+ * Fragments: a call of a library's function is restored where it was taken down for arguments of
+ * the same pattern, and only there. Behind the recording the constant 2.5 in the trees becomes 3.5:
+ * so the result tells where it comes from. And versions of functions, which are taken down in the
+ * same rehearsals.
  */
 #include "lang/lang.h"
 
@@ -20,7 +21,8 @@ struct fixture {
     uint32_t file;
 };
 
-static ir_ref global_node(void *user_data, struct ir_graph *graph, const struct lang_unit *unit, uint32_t global_id)
+static ir_ref global_node(void *user_data, struct ir_graph *graph, const struct lang_unit *unit,
+                          uint32_t global_id)
 {
     (void)user_data, (void)unit;
     return ir_build(graph, IR_UNIFORM, IR_TYPE_FLOAT, 100 + global_id, NULL, 0);
@@ -72,7 +74,8 @@ static const char *call(struct fixture *f, const ir_ref *args)
 }
 
 /*
- * Takes down a call, gives the fragments to the library, and changes its trees. Returns what the call became.
+ * Takes down a call, gives the fragments to the library, and changes its trees. Returns what the
+ * call became.
  */
 static const char *record(struct fixture *f, const ir_ref *args)
 {
@@ -108,7 +111,8 @@ static void test_same_pattern(void)
 {
     struct fixture f;
     record_two(&f, two_factors);
-    REQUIRE(is_restored(&f, (ir_ref[]){uniform(&f, IR_TYPE_FLOAT, 7), uniform(&f, IR_TYPE_FLOAT, 8)}));
+    REQUIRE(
+        is_restored(&f, (ir_ref[]){uniform(&f, IR_TYPE_FLOAT, 7), uniform(&f, IR_TYPE_FLOAT, 8)}));
     /* no rule looks through a sine */
     ir_ref sine = ir_op1(&f.graph, IR_SIN, uniform(&f, IR_TYPE_FLOAT, 3));
     REQUIRE(is_restored(&f, (ir_ref[]){sine, uniform(&f, IR_TYPE_FLOAT, 8)}));
@@ -120,7 +124,8 @@ static void test_other_pattern(void)
     struct fixture f;
     record_two(&f, two_factors);
     ir_ref a = uniform(&f, IR_TYPE_FLOAT, 0), b = uniform(&f, IR_TYPE_FLOAT, 1);
-    ir_ref product = ir_op2(&f.graph, IR_MUL, a, b), sample = ir_build(&f.graph, IR_SAMPLE, IR_TYPE_INT, 0, NULL, 0);
+    ir_ref product = ir_op2(&f.graph, IR_MUL, a, b),
+           sample = ir_build(&f.graph, IR_SAMPLE, IR_TYPE_INT, 0, NULL, 0);
     REQUIRE(!is_restored(&f, (ir_ref[]){a, a}));
     REQUIRE(!is_restored(&f, (ir_ref[]){ir_const_float(&f.graph, 1.0f), b}));
     REQUIRE(!is_restored(&f, (ir_ref[]){a, ir_const_float(&f.graph, 4.0f)}));
@@ -149,12 +154,14 @@ static void test_looked_through(void)
     REQUIRE(is_restored(&f, (ir_ref[]){product, a}));
     REQUIRE(!is_restored(&f, (ir_ref[]){product, b}));
     REQUIRE(!is_restored(&f, (ir_ref[]){a, b}));
-    REQUIRE(!is_restored(&f, (ir_ref[]){ir_op2(&f.graph, IR_MUL, a, ir_const_float(&f.graph, 4.0f)), a}));
+    REQUIRE(!is_restored(
+        &f, (ir_ref[]){ir_op2(&f.graph, IR_MUL, a, ir_const_float(&f.graph, 4.0f)), a}));
     teardown(&f);
 }
 
 /*
- * What is computed from a derivative weighs as much as anything else: only derivatives in a branch of their own do not.
+ * What is computed from a derivative weighs as much as anything else: only derivatives in a branch
+ * of their own do not.
  */
 static void test_derivatives(void)
 {
@@ -163,15 +170,19 @@ static void test_derivatives(void)
     ir_ref slope = ir_op1(&f.graph, IR_DFDX, uniform(&f, IR_TYPE_FLOAT, 0));
     REQUIRE(is_restored(&f, (ir_ref[]){slope, uniform(&f, IR_TYPE_FLOAT, 1)}));
     teardown(&f);
-    record_two(&f, "float f(float x, float y) { float z = 2.5 * y; if (x > 0.0) z = z - x; return z; }");
+    record_two(
+        &f, "float f(float x, float y) { float z = 2.5 * y; if (x > 0.0) z = z - x; return z; }");
     slope = ir_op1(&f.graph, IR_DFDX, uniform(&f, IR_TYPE_FLOAT, 0));
     ir_ref args[] = {uniform(&f, IR_TYPE_FLOAT, 1), slope};
     REQUIRE(is_restored(&f, args));
     f.host.choice = LANG_NONE;
     REQUIRE(!strstr(call(&f, args), "call")); /* read and lowered, it is no call either */
     teardown(&f);
-    setup(&f, "float f(float x, float y) { float z = 2.5 * y; if (x > 0.0) z = dFdx(z); return z; }");
-    REQUIRE(strstr(call(&f, (ir_ref[]){uniform(&f, IR_TYPE_FLOAT, 0), uniform(&f, IR_TYPE_FLOAT, 1)}), "call"));
+    setup(&f,
+          "float f(float x, float y) { float z = 2.5 * y; if (x > 0.0) z = dFdx(z); return z; }");
+    REQUIRE(
+        strstr(call(&f, (ir_ref[]){uniform(&f, IR_TYPE_FLOAT, 0), uniform(&f, IR_TYPE_FLOAT, 1)}),
+               "call"));
     teardown(&f);
 }
 
@@ -181,26 +192,33 @@ static void test_same_nodes(void)
     static const char source[] =
         "uniform float u_gain;\n"
         "float large(float x) { for (int i = 0; i < 4; ++i) { x += sin(x) * x; } return x; }\n"
-        "float two(float x, out float y) { for (int i = 0; i < 4; ++i) { x += x; } y = x; return x - 1.0; }\n"
-        "vec3 f(vec3 v, float s, mat3 m) { float t; float r = two(s, t); vec4 w = vec4(v.zxy, large(s));\n"
+        "float two(float x, out float y) { for (int i = 0; i < 4; ++i) { x += x; } y = x; return x "
+        "- 1.0; }\n"
+        "vec3 f(vec3 v, float s, mat3 m) { float t; float r = two(s, t); vec4 w = vec4(v.zxy, "
+        "large(s));\n"
         "  vec3 q = s * s > 0.5 ? w.xyz + v : v * vec3(1.0, 2.0, -3.0);\n"
-        "  return m * q + (w.w + r * t) * vec3(u_gain, s, v.y) + mat3(s, v.x, s, v.y, s, v.z, s, s, r)[1]; }";
+        "  return m * q + (w.w + r * t) * vec3(u_gain, s, v.y) + mat3(s, v.x, s, v.y, s, v.z, s, "
+        "s, r)[1]; }";
     struct fixture f;
     setup(&f, source);
-    const ir_ref forwards[3] = {uniform(&f, IR_TYPE_VEC3, 0), uniform(&f, IR_TYPE_FLOAT, 1), uniform(&f, IR_TYPE_MAT3, 2)};
+    const ir_ref forwards[3] = {uniform(&f, IR_TYPE_VEC3, 0), uniform(&f, IR_TYPE_FLOAT, 1),
+                                uniform(&f, IR_TYPE_MAT3, 2)};
     const char *recorded = record(&f, forwards);
     REQUIRE_EQ(f.recorder.fragments.len, 1);
-    const ir_ref again[3] = {uniform(&f, IR_TYPE_VEC3, 0), uniform(&f, IR_TYPE_FLOAT, 1), uniform(&f, IR_TYPE_MAT3, 2)};
+    const ir_ref again[3] = {uniform(&f, IR_TYPE_VEC3, 0), uniform(&f, IR_TYPE_FLOAT, 1),
+                             uniform(&f, IR_TYPE_MAT3, 2)};
     REQUIRE_STR(call(&f, again), recorded);
     uint32_t num_nodes = f.graph.nodes.len;
     call(&f, again);
     REQUIRE_EQ(f.graph.nodes.len, num_nodes);
     begin(&f);
-    ir_ref m = uniform(&f, IR_TYPE_MAT3, 2), s = uniform(&f, IR_TYPE_FLOAT, 1), v = uniform(&f, IR_TYPE_VEC3, 0);
+    ir_ref m = uniform(&f, IR_TYPE_MAT3, 2), s = uniform(&f, IR_TYPE_FLOAT, 1),
+           v = uniform(&f, IR_TYPE_VEC3, 0);
     const char *restored = call(&f, (ir_ref[]){v, s, m});
     begin(&f);
     f.host.choice = LANG_NONE;
-    m = uniform(&f, IR_TYPE_MAT3, 2), s = uniform(&f, IR_TYPE_FLOAT, 1), v = uniform(&f, IR_TYPE_VEC3, 0);
+    m = uniform(&f, IR_TYPE_MAT3, 2), s = uniform(&f, IR_TYPE_FLOAT, 1),
+    v = uniform(&f, IR_TYPE_VEC3, 0);
     REQUIRE_STR(restored, call(&f, (ir_ref[]){v, s, m}));
     teardown(&f);
 }
@@ -209,7 +227,8 @@ static void test_same_nodes(void)
 static void test_foreign_strings(void)
 {
     struct fixture f;
-    setup(&f, "float f(float x, string mode) { if (mode == \"twice\") return x * 2.5 * 2.0; return x + 2.5; }");
+    setup(&f, "float f(float x, string mode) { if (mode == \"twice\") return x * 2.5 * 2.0; return "
+              "x + 2.5; }");
     struct strpool own;
     strpool_init(&own, &f.arena, &f.strings);
     ir_ref foreign = ir_const_string(&f.graph, str_intern_z(&own, "of the document"));
@@ -221,18 +240,22 @@ static void test_foreign_strings(void)
 /* ---- Versions of functions ---- */
 
 static const char nested[] =
-    "float g(float x, float k, float unused) { for (int i = 0; i < 4; ++i) { x += sin(x * k) * k; } return x; }\n"
+    "float g(float x, float k, float unused) { for (int i = 0; i < 4; ++i) { x += sin(x * k) * k; "
+    "} return x; }\n"
     "float f(float x) { for (int i = 0; i < 3; ++i) { x += g(x, 2.5, x); } return x; }\n";
 
 /*
- * What a plan makes of calls of a function, by name, with nothing known; of f first. Returns f's version.
+ * What a plan makes of calls of a function, by name, with nothing known; of f first. Returns f's
+ * version.
  */
-static uint32_t plan(struct fixture *f, unsigned num_calls, const char *const *names, const union ir_word *const (*args)[3])
+static uint32_t plan(struct fixture *f, unsigned num_calls, const char *const *names,
+                     const union ir_word *const (*args)[3])
 {
     f->generated.host = f->host;
     uint32_t first = 0;
     for (unsigned i = 0; i < num_calls; i++) {
-        uint32_t id = lang_find_function(&f->library, f->file, str_find(&f->strings, names[i], 1), NULL, 0);
+        uint32_t id =
+            lang_find_function(&f->library, f->file, str_find(&f->strings, names[i], 1), NULL, 0);
         uint32_t call = lang_plan_call(&f->generated, id, args[i]);
         first = i ? first : call;
     }

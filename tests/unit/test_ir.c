@@ -41,7 +41,8 @@ static const char *print(struct fixture *f, const ir_ref *roots, uint32_t num_ro
 }
 
 /*
- * Parses, prints: with folding, what the builder makes of the text. Prints the error where it is not IR.
+ * Parses, prints: with folding, what the builder makes of the text. Prints the error where it is
+ * not IR.
  */
 static const char *reprint(struct fixture *f, const char *text)
 {
@@ -57,9 +58,10 @@ static const char *reprint(struct fixture *f, const char *text)
 }
 
 /* Sources that the cases of test_builder use. */
-#define SOURCES "%f = uniform float\n%g = uniform float @1\n%v = uniform vec3 @2\n%w = uniform vec3 @3\n" \
-                "%b = uniform bool @4\n%i = uniform int @5\n%q = uniform vec4 @6\n%m = uniform mat3 @7\n" \
-                "%u = uniform uint @8\n%j = uniform ivec2 @9\n%n = uniform mat4 @10\n%k = uniform vec2 @11\n"
+#define SOURCES \
+    "%f = uniform float\n%g = uniform float @1\n%v = uniform vec3 @2\n%w = uniform vec3 @3\n" \
+    "%b = uniform bool @4\n%i = uniform int @5\n%q = uniform vec4 @6\n%m = uniform mat3 @7\n" \
+    "%u = uniform uint @8\n%j = uniform ivec2 @9\n%n = uniform mat4 @10\n%k = uniform vec2 @11\n"
 
 /* Nodes, the last of which is %r; and a graph equal to what the builder makes of it. */
 static const struct {
@@ -111,11 +113,15 @@ static const struct {
     {"%r = mix vec3 vec3(0.0, 0.0, 0.0), %v, %f", "%r = mul vec3 %f, %v\nreturn %r"},
     {"%r = mix float 1.0, 0.0, %f", "%r = sub float 1.0, %f\nreturn %r"},
     {"%r = clamp vec3 %v, %f, %f", "%r = construct vec3 %f\nreturn %r"},
-    {"%a = construct vec3 %f\n%r = mix vec3 %a, vec3(2.0, 2.0, 2.0), %g", "%a = mix float %f, 2.0, %g\n%r = construct vec3 %a\nreturn %r"},
-    {"%a = construct vec3 %f\n%r = pow vec3 %a, %v", "%a = construct vec3 %f\n%r = pow vec3 %a, %v\nreturn %r"},
-    {"%a = mul vec3 %v, %f\n%r = mul vec3 %a, %g", "%a = mul float %f, %g\n%r = mul vec3 %v, %a\nreturn %r"},
+    {"%a = construct vec3 %f\n%r = mix vec3 %a, vec3(2.0, 2.0, 2.0), %g",
+     "%a = mix float %f, 2.0, %g\n%r = construct vec3 %a\nreturn %r"},
+    {"%a = construct vec3 %f\n%r = pow vec3 %a, %v",
+     "%a = construct vec3 %f\n%r = pow vec3 %a, %v\nreturn %r"},
+    {"%a = mul vec3 %v, %f\n%r = mul vec3 %a, %g",
+     "%a = mul float %f, %g\n%r = mul vec3 %v, %a\nreturn %r"},
     {"%h = sample int\n%l = convert float %h\n%a = mul vec3 %v, %f\n%r = mul vec3 %a, %l",
-     "%h = sample int\n%l = convert float %h\n%a = mul vec3 %f, %v\n%r = mul vec3 %l, %a\nreturn %r"},
+     "%h = sample int\n%l = convert float %h\n%a = mul vec3 %f, %v\n%r = mul vec3 %l, %a\nreturn "
+     "%r"},
     {"%r = select vec3 true, %v, %w", "return %v"},
     {"%r = select vec3 %b, %v, %v", "return %v"},
     {"%r = select bool %b, true, false", "return %b"},
@@ -123,8 +129,10 @@ static const struct {
     {"%r = dFdx vec3 vec3(1.0, 2.0, 3.0)", "return vec3(0.0, 0.0, 0.0)"},
     /* constants as people write them */
     {"%r = sub float %f, -1.0", "%r = add float %f, 1.0\nreturn %r"},
-    {"%r = add vec3 %v, vec3(-1.0, -2.0, -3.0)", "%r = sub vec3 %v, vec3(1.0, 2.0, 3.0)\nreturn %r"},
-    {"%r = add vec3 %v, vec3(-1.0, 2.0, -3.0)", "%r = add vec3 %v, vec3(-1.0, 2.0, -3.0)\nreturn %r"},
+    {"%r = add vec3 %v, vec3(-1.0, -2.0, -3.0)",
+     "%r = sub vec3 %v, vec3(1.0, 2.0, 3.0)\nreturn %r"},
+    {"%r = add vec3 %v, vec3(-1.0, 2.0, -3.0)",
+     "%r = add vec3 %v, vec3(-1.0, 2.0, -3.0)\nreturn %r"},
     {"%r = sub float -1.0, %f", "%r = sub float -1.0, %f\nreturn %r"},
     {"%r = add int %i, -1", "%r = add int %i, -1\nreturn %r"},
     {"%r = div float %f, 2.0", "%r = mul float %f, 0.5\nreturn %r"},
@@ -138,19 +146,22 @@ static const struct {
     {"%a = clamp float %f, 0.1, %g\n%r = abs float %a", "%r = clamp float %f, 0.1, %g\nreturn %r"},
     {"%a = clamp vec2 %k, vec2(0.0, -1.0), vec2(1.0, 1.0)\n%r = abs vec2 %a",
      "%a = clamp vec2 %k, vec2(0.0, -1.0), vec2(1.0, 1.0)\n%r = abs vec2 %a\nreturn %r"},
-    {"%a = clamp float %f, %g, 1.0\n%r = min float %a, 1.0", "%r = clamp float %f, %g, 1.0\nreturn %r"},
+    {"%a = clamp float %f, %g, 1.0\n%r = min float %a, 1.0",
+     "%r = clamp float %f, %g, 1.0\nreturn %r"},
     /* swizzles, constructors, conversions */
     {"%r = swizzle vec3 .xyz %v", "return %v"},
     {"%r = swizzle float .x %f", "return %f"},
     {"%r = swizzle vec3 .xxx %f", "%r = construct vec3 %f\nreturn %r"},
     {"%r = swizzle vec2 .xy %v", "%r = swizzle vec2 .xy %v\nreturn %r"},
     {"%a = swizzle vec3 .zyx %v\n%r = swizzle vec2 .xy %a", "%r = swizzle vec2 .zy %v\nreturn %r"},
-    {"%a = construct vec3 %f, %g, 1.0\n%r = swizzle vec2 .yx %a", "%r = construct vec2 %g, %f\nreturn %r"},
+    {"%a = construct vec3 %f, %g, 1.0\n%r = swizzle vec2 .yx %a",
+     "%r = construct vec2 %g, %f\nreturn %r"},
     {"%a = construct vec3 %f, %g, 1.0\n%r = swizzle vec2 .zz %a", "return vec2(1.0, 1.0)"},
     {"%a = construct vec4 %v, %f\n%r = swizzle vec3 .xyz %a", "return %v"},
     {"%a = construct vec4 %v, %f\n%r = swizzle float .w %a", "return %f"},
     {"%a = construct vec3 %f\n%r = swizzle vec2 .zx %a", "%r = construct vec2 %f\nreturn %r"},
-    {"%x = swizzle float .x %v\n%y = swizzle float .y %v\n%z = swizzle float .z %v\n%r = construct vec3 %x, %y, %z",
+    {"%x = swizzle float .x %v\n%y = swizzle float .y %v\n%z = swizzle float .z %v\n%r = construct "
+     "vec3 %x, %y, %z",
      "return %v"},
     {"%x = swizzle float .x %q\n%y = swizzle float .z %q\n%r = construct vec3 %y, %x, %f",
      "%1 = swizzle vec2 .zx %q\n%r = construct vec3 %1, %f\nreturn %r"},
@@ -207,7 +218,8 @@ static void test_sharing(void)
     struct fixture f;
     setup(&f);
     struct ir_graph *g = &f.graph;
-    ir_ref x = ir_build(g, IR_UNIFORM, IR_TYPE_FLOAT, 0, NULL, 0), y = ir_build(g, IR_UNIFORM, IR_TYPE_FLOAT, 1, NULL, 0);
+    ir_ref x = ir_build(g, IR_UNIFORM, IR_TYPE_FLOAT, 0, NULL, 0),
+           y = ir_build(g, IR_UNIFORM, IR_TYPE_FLOAT, 1, NULL, 0);
     REQUIRE(x != y);
     REQUIRE_EQ(ir_build(g, IR_UNIFORM, IR_TYPE_FLOAT, 0, NULL, 0), x);
     ir_ref sum = ir_op2(g, IR_ADD, x, y);
@@ -249,8 +261,10 @@ static void test_convert(void)
     struct fixture f;
     setup(&f);
     struct ir_graph *g = &f.graph;
-    ir_ref i = ir_build(g, IR_UNIFORM, IR_TYPE_INT, 0, NULL, 0), v = ir_build(g, IR_UNIFORM, IR_TYPE_VEC3, 1, NULL, 0);
-    ir_ref m = ir_build(g, IR_UNIFORM, IR_TYPE_MAT3, 2, NULL, 0), b = ir_build(g, IR_UNIFORM, IR_TYPE_BSDF, 3, NULL, 0);
+    ir_ref i = ir_build(g, IR_UNIFORM, IR_TYPE_INT, 0, NULL, 0),
+           v = ir_build(g, IR_UNIFORM, IR_TYPE_VEC3, 1, NULL, 0);
+    ir_ref m = ir_build(g, IR_UNIFORM, IR_TYPE_MAT3, 2, NULL, 0),
+           b = ir_build(g, IR_UNIFORM, IR_TYPE_BSDF, 3, NULL, 0);
     REQUIRE_EQ(ir_convert(g, IR_TYPE_INT, i), i);
     REQUIRE_EQ(ir_type_of(g, ir_convert(g, IR_TYPE_VEC3, i)), IR_TYPE_VEC3);
     REQUIRE_EQ(ir_type_of(g, ir_convert(g, IR_TYPE_MAT3, i)), IR_TYPE_MAT3);
@@ -259,7 +273,8 @@ static void test_convert(void)
     REQUIRE_EQ(ir_convert(g, IR_TYPE_VEC3, m), 0);
     REQUIRE_EQ(ir_type_of(g, ir_convert(g, IR_TYPE_MAT4, m)), IR_TYPE_MAT4);
     REQUIRE_EQ(ir_convert(g, IR_TYPE_FLOAT, b), 0);
-    REQUIRE_EQ(ir_construct(g, IR_TYPE_VEC4, (ir_ref[]){i, v}, 2), ir_construct(g, IR_TYPE_VEC4, (ir_ref[]){i, v}, 2));
+    REQUIRE_EQ(ir_construct(g, IR_TYPE_VEC4, (ir_ref[]){i, v}, 2),
+               ir_construct(g, IR_TYPE_VEC4, (ir_ref[]){i, v}, 2));
     REQUIRE_EQ(ir_construct(g, IR_TYPE_VEC2, (ir_ref[]){i, v}, 2), 0);
     REQUIRE_EQ(ir_construct(g, IR_TYPE_VEC4, (ir_ref[]){b, v}, 2), 0);
     REQUIRE(ir_const_is(g, ir_const_splat(g, IR_TYPE_VEC3, 2.0f), 2.0f));
@@ -270,7 +285,8 @@ static void test_convert(void)
 }
 
 /*
- * Structs and arrays are taken apart where they were put together, and structs put together where they were taken apart.
+ * Structs and arrays are taken apart where they were put together, and structs put together where
+ * they were taken apart.
  */
 static void test_user_types(void)
 {
@@ -278,37 +294,42 @@ static void test_user_types(void)
     setup(&f);
     struct ir_graph *g = &f.graph;
     str_id name = str_intern_z(&f.strings, "Ray");
-    struct ir_member members[] = {{str_intern_z(&f.strings, "origin"), IR_TYPE_VEC3}, {name, IR_TYPE_FLOAT}};
-    ir_type_id ray = (ir_type_id)ir_add_struct(g, name, members, 2), rays = (ir_type_id)ir_add_array(g, ray, 2);
+    struct ir_member members[] = {{str_intern_z(&f.strings, "origin"), IR_TYPE_VEC3},
+                                  {name, IR_TYPE_FLOAT}};
+    ir_type_id ray = (ir_type_id)ir_add_struct(g, name, members, 2),
+               rays = (ir_type_id)ir_add_array(g, ray, 2);
     REQUIRE_EQ(ir_add_struct(g, name, members, 2), ray);
     REQUIRE_EQ(ir_add_array(g, ray, 2), rays);
     REQUIRE(ir_add_array(g, ray, 3) != rays);
-    ir_ref v = ir_build(g, IR_UNIFORM, IR_TYPE_VEC3, 0, NULL, 0), t = ir_build(g, IR_UNIFORM, IR_TYPE_FLOAT, 1, NULL, 0);
+    ir_ref v = ir_build(g, IR_UNIFORM, IR_TYPE_VEC3, 0, NULL, 0),
+           t = ir_build(g, IR_UNIFORM, IR_TYPE_FLOAT, 1, NULL, 0);
     ir_ref a = ir_construct(g, ray, (ir_ref[]){v, t}, 2);
     REQUIRE_EQ(ir_construct(g, ray, (ir_ref[]){t, v}, 2), 0);
     ir_ref both = ir_construct(g, rays, (ir_ref[]){a, a}, 2);
     REQUIRE_EQ(ir_build(g, IR_MEMBER, IR_TYPE_FLOAT, 1, &a, 1), t);
     REQUIRE_EQ(ir_build(g, IR_INDEX, ray, 0, (ir_ref[]){both, ir_const_int(g, 1)}, 2), a);
-    ir_ref any = ir_build(g, IR_UNIFORM, rays, 2, NULL, 0), i = ir_build(g, IR_UNIFORM, IR_TYPE_INT, 3, NULL, 0);
+    ir_ref any = ir_build(g, IR_UNIFORM, rays, 2, NULL, 0),
+           i = ir_build(g, IR_UNIFORM, IR_TYPE_INT, 3, NULL, 0);
     ir_ref one = ir_build(g, IR_INDEX, ray, 0, (ir_ref[]){any, i}, 2);
-    ir_ref root = ir_build(g, IR_MEMBER, IR_TYPE_VEC3, 0, &one, 1), last = ir_build(g, IR_MEMBER, IR_TYPE_FLOAT, 1, &one, 1);
+    ir_ref root = ir_build(g, IR_MEMBER, IR_TYPE_VEC3, 0, &one, 1),
+           last = ir_build(g, IR_MEMBER, IR_TYPE_FLOAT, 1, &one, 1);
     REQUIRE_EQ(ir_construct(g, ray, (ir_ref[]){root, last}, 2), one);
     REQUIRE(ir_construct(g, ray, (ir_ref[]){root, t}, 2) != one);
-    REQUIRE_STR(print(&f, &root, 1),
-                "struct \"Ray\" vec3 \"origin\", float \"Ray\"\n"
-                "array $0 2\n"
-                "array $0 3\n"
-                "%1 = uniform $1 @2\n"
-                "%2 = uniform int @3\n"
-                "%3 = index $0 %1, %2\n"
-                "%4 = member vec3 %3\n"
-                "return %4\n");
+    REQUIRE_STR(print(&f, &root, 1), "struct \"Ray\" vec3 \"origin\", float \"Ray\"\n"
+                                     "array $0 2\n"
+                                     "array $0 3\n"
+                                     "%1 = uniform $1 @2\n"
+                                     "%2 = uniform int @3\n"
+                                     "%3 = index $0 %1, %2\n"
+                                     "%4 = member vec3 %3\n"
+                                     "return %4\n");
     teardown(&f);
 }
 
 /* What is printed parses back to the same, whether folded or not. */
 static const char *const round_trips[] = {
-    "return 1.0, -0.0, 1e-45, 3.4028235e38, inf, -inf, nan#2143289344, 7, -2147483648, 4294967295u, true, \"a\\\"b\\\\\\u0001\"\n",
+    "return 1.0, -0.0, 1e-45, 3.4028235e38, inf, -inf, nan#2143289344, 7, -2147483648, "
+    "4294967295u, true, \"a\\\"b\\\\\\u0001\"\n",
     "return vec3(1.0, 2.0, 3.0), ivec2(1, -2), mat2(1.0, 0.0, 0.0, 1.0)\n",
     "callee \"mx_noise\" 0x00000000000000ff derivative pure\n"
     "callee \"oren\" 0xfedcba9876543210\n"
@@ -375,7 +396,8 @@ static const struct {
     {"return \"open", "1: the string does not end on its line"},
     {"return \"\\n\"", "1: the string has a character that may not stand there"},
     {"return nan#5", "1: these are not the bits of a NaN"},
-    {"%1 = uniform vec2\n%2 = swizzle float .z %1", "2: the operand does not have these components"},
+    {"%1 = uniform vec2\n%2 = swizzle float .z %1",
+     "2: the operand does not have these components"},
     {"%1 = uniform vec2\n%2 = swizzle vec2 .xyxyx %1", "2: one to four of xyzw were expected"},
     {"%1 = uniform $0", "1: there is no such struct or array"},
     {"array float 0", "1: an array has elements"},
@@ -385,13 +407,19 @@ static const struct {
     {"callee \"f\" 1", "1: a callee's id was expected: 0x and up to 16 hexadecimal digits"},
     {"%1 = param float @0:0", "1: there is no such function"},
     {"function \"f\" float\n%1 = param float @0:1", "2: the function has fewer parameters"},
-    {"function \"f\"\n%1 = graph_call void", "2: the function is called before its results are set"},
-    {"function \"f\" float\nresults 0 = 1.0\n%1 = graph_call void", "3: the call does not have the function's number of arguments"},
-    {"function \"f\" float\nresults 0 = 1.0\n%1 = graph_call void 1", "3: an argument does not have the parameter's type"},
-    {"function \"f\"\nresults 0 = 1.0\n%1 = graph_call int", "3: the type is neither void nor that of the first result"},
+    {"function \"f\"\n%1 = graph_call void",
+     "2: the function is called before its results are set"},
+    {"function \"f\" float\nresults 0 = 1.0\n%1 = graph_call void",
+     "3: the call does not have the function's number of arguments"},
+    {"function \"f\" float\nresults 0 = 1.0\n%1 = graph_call void 1",
+     "3: an argument does not have the parameter's type"},
+    {"function \"f\"\nresults 0 = 1.0\n%1 = graph_call int",
+     "3: the type is neither void nor that of the first result"},
     {"function \"f\"\nresults 0 = 1.0\nresults 0 = 1.0", "3: the function has its results already"},
-    {"function \"f\"\nresults 0 = 1.0\n%1 = graph_call void\n%2 = result float @1 %1", "4: the function has fewer results"},
-    {"function \"f\"\nresults 0 = 1.0\n%1 = graph_call void\n%2 = result int %1", "4: the result does not have the function's type"},
+    {"function \"f\"\nresults 0 = 1.0\n%1 = graph_call void\n%2 = result float @1 %1",
+     "4: the function has fewer results"},
+    {"function \"f\"\nresults 0 = 1.0\n%1 = graph_call void\n%2 = result int %1",
+     "4: the result does not have the function's type"},
     {"%1 = uniform float\n%2 = result float %1", "2: the operand of a result is not a call"},
     {"%1 = uniform float\n%2 = layer BSDF %1, %1", "2: an operand has the wrong type"},
     {"%1 = const float", "1: a constant is not built from operands"},
@@ -445,19 +473,25 @@ static void test_marks(void)
     teardown(&f);
 }
 
-static bool source_value(void *user_data, const struct ir_graph *graph, ir_ref ref, struct ir_value *out);
+static bool source_value(void *user_data, const struct ir_graph *graph, ir_ref ref,
+                         struct ir_value *out);
 
 /*
- * Uniform 2 in the place of uniform 1: in the graph, in functions, and in functions that only they call.
+ * Uniform 2 in the place of uniform 1: in the graph, in functions, and in functions that only they
+ * call.
  */
 static void test_replace(void)
 {
-    static const char text[] = "function \"inner\" float\n%p = param float @0:0\n%n = uniform float @1\n%q = mul float %p, %n\nresults 0 = %q\n"
-                               "function \"same\" float\n%s = param float @1:0\n%t = mul float %s, 2.0\nresults 1 = %t\n"
-                               "function \"outer\" float\n%x = param float @2:0\n%y = graph_call float @0 %x\n%z = graph_call float @1 %y\n"
-                               "results 2 = %z, %y\n"
-                               "%k = uniform float @3\n%a = graph_call void @2 %k\n%b = result float %a\n%c = result float @1 %a\n"
-                               "%d = add float %b, %c\n%e = mul float %d, %n\n%m = uniform float @2\nreturn %e, %n, %m\n";
+    static const char text[] =
+        "function \"inner\" float\n%p = param float @0:0\n%n = uniform float @1\n%q = mul float "
+        "%p, %n\nresults 0 = %q\n"
+        "function \"same\" float\n%s = param float @1:0\n%t = mul float %s, 2.0\nresults 1 = %t\n"
+        "function \"outer\" float\n%x = param float @2:0\n%y = graph_call float @0 %x\n%z = "
+        "graph_call float @1 %y\n"
+        "results 2 = %z, %y\n"
+        "%k = uniform float @3\n%a = graph_call void @2 %k\n%b = result float %a\n%c = result "
+        "float @1 %a\n"
+        "%d = add float %b, %c\n%e = mul float %d, %n\n%m = uniform float @2\nreturn %e, %n, %m\n";
     struct fixture f;
     setup(&f);
     ir_ref *roots;
@@ -465,29 +499,34 @@ static void test_replace(void)
     struct ir_value value;
     struct ir_eval_env env = {.source = source_value};
     REQUIRE(!ir_parse(&f.graph, text, strlen(text), &roots, &num_roots, &line));
-    REQUIRE(ir_eval(&f.graph, roots[0], &env, &f.arena, &value) && value.w[0].f == 3.0f * 11.0f * 13.0f * 11.0f);
+    REQUIRE(ir_eval(&f.graph, roots[0], &env, &f.arena, &value)
+            && value.w[0].f == 3.0f * 11.0f * 13.0f * 11.0f);
     ir_ref replaced = ir_replace(&f.graph, roots[0], roots[1], roots[2], &f.arena);
-    REQUIRE(ir_eval(&f.graph, replaced, &env, &f.arena, &value) && value.w[0].f == 3.0f * 12.0f * 13.0f * 12.0f);
+    REQUIRE(ir_eval(&f.graph, replaced, &env, &f.arena, &value)
+            && value.w[0].f == 3.0f * 12.0f * 13.0f * 12.0f);
     REQUIRE_EQ(ir_mark(&f.graph, &replaced, 1, &f.arena)[roots[1]], 0);
     REQUIRE_EQ(ir_replace(&f.graph, replaced, roots[1], roots[2], &f.arena), replaced);
     teardown(&f);
 }
 
 /*
- * Uniform k has the value 10 + k, or is unknown from 8 on; calls give their first argument plus the index of the result.
+ * Uniform k has the value 10 + k, or is unknown from 8 on; calls give their first argument plus the
+ * index of the result.
  */
-static bool source_value(void *user_data, const struct ir_graph *graph, ir_ref ref, struct ir_value *out)
+static bool source_value(void *user_data, const struct ir_graph *graph, ir_ref ref,
+                         struct ir_value *out)
 {
     (void)user_data;
     const struct ir_node *node = ir_get(graph, ref);
     if (node->attr >= 8)
         return false;
-    *out = node->type == IR_TYPE_BOOL ? ir_value_bool(node->attr & 1) : ir_value_float(10.0f + (float)node->attr);
+    *out = node->type == IR_TYPE_BOOL ? ir_value_bool(node->attr & 1)
+                                      : ir_value_float(10.0f + (float)node->attr);
     return true;
 }
 
-static bool call_value(void *user_data, const struct ir_graph *graph, ir_ref call, const struct ir_value *args,
-                       uint32_t result, struct ir_value *out)
+static bool call_value(void *user_data, const struct ir_graph *graph, ir_ref call,
+                       const struct ir_value *args, uint32_t result, struct ir_value *out)
 {
     (void)user_data, (void)graph, (void)call;
     *out = ir_value_float(args[0].w[0].f + (float)result);
@@ -503,18 +542,28 @@ static const struct {
     {"%a = uniform float @9\nreturn %a", 0.0f / 0.0f},
     /* an unknown or undefined value that is not chosen does no harm */
     {"%b = uniform bool @1\n%a = uniform float @9\n%c = select float %b, 2.0, %a\nreturn %c", 2.0f},
-    {"%b = uniform bool @0\n%a = uniform float @9\n%c = select float %b, 2.0, %a\nreturn %c", 0.0f / 0.0f},
-    {"%a = uniform bool @9\n%b = uniform bool @0\n%c = land bool %a, %b\n%d = select float %c, 1.0, 2.0\nreturn %d", 2.0f},
-    {"%a = uniform bool @9\n%b = uniform bool @1\n%c = lor bool %a, %b\n%d = select float %c, 1.0, 2.0\nreturn %d", 1.0f},
+    {"%b = uniform bool @0\n%a = uniform float @9\n%c = select float %b, 2.0, %a\nreturn %c",
+     0.0f / 0.0f},
+    {"%a = uniform bool @9\n%b = uniform bool @0\n%c = land bool %a, %b\n%d = select float %c, "
+     "1.0, 2.0\nreturn %d",
+     2.0f},
+    {"%a = uniform bool @9\n%b = uniform bool @1\n%c = lor bool %a, %b\n%d = select float %c, 1.0, "
+     "2.0\nreturn %d",
+     1.0f},
     /* calls */
-    {"callee \"f\" 0x1\n%a = uniform float @2\n%b = call void %a, 1.0\n%c = result float @5 %b\nreturn %c", 17.0f},
+    {"callee \"f\" 0x1\n%a = uniform float @2\n%b = call void %a, 1.0\n%c = result float @5 "
+     "%b\nreturn %c",
+     17.0f},
     {"callee \"f\" 0x1\n%a = uniform float @2\n%b = call float %a\nreturn %b", 12.0f},
-    {"function \"f\" float\n%p = param float @0:0\n%q = mul float %p, 2.0\n%s = add float %p, 1.0\nresults 0 = %q, %s\n"
+    {"function \"f\" float\n%p = param float @0:0\n%q = mul float %p, 2.0\n%s = add float %p, "
+     "1.0\nresults 0 = %q, %s\n"
      "function \"g\" float, float\n%x = param float @1:0\n%y = param float @1:1\n"
-     "%c = graph_call void @0 %x\n%d = graph_call void @0 %y\n%e = result float @0 %c\n%h = result float @1 %d\n"
+     "%c = graph_call void @0 %x\n%d = graph_call void @0 %y\n%e = result float @0 %c\n%h = result "
+     "float @1 %d\n"
      "%i = sub float %e, %h\nresults 1 = %i\n"
      /* 2·13 - (1 + 1) */
-     "%u = uniform float @3\n%v = graph_call float @1 %u, 1.0\nreturn %v", 24.0f},
+     "%u = uniform float @3\n%v = graph_call float @1 %u, 1.0\nreturn %v",
+     24.0f},
 };
 
 static void test_eval(void)
@@ -530,7 +579,8 @@ static void test_eval(void)
         float expected = eval_cases[i].value;
         REQUIRE(!ir_parse(&f.graph, text, strlen(text), &roots, &num_roots, &line));
         bool known = ir_eval(&f.graph, roots[0], &env, &f.arena, &value);
-        if (!REQUIRE_EQ(known, expected == expected) || (known && !REQUIRE(value.w[0].f == expected)))
+        if (!REQUIRE_EQ(known, expected == expected)
+            || (known && !REQUIRE(value.w[0].f == expected)))
             printf("    in %s\n", text);
         teardown(&f);
     }
@@ -591,9 +641,7 @@ static void mutate(char *text, size_t cap)
     for (unsigned times = 1 + random_below(3); times > 0; times--) {
         size_t len = strlen(text), at = random_below((uint32_t)len), run = 1 + random_below(12);
         switch (random_below(3)) {
-        case 0:
-            text[at] = bytes[random_below(sizeof bytes - 1)];
-            break;
+        case 0: text[at] = bytes[random_below(sizeof bytes - 1)]; break;
         case 1:
             if (at + run < len)
                 memmove(text + at, text + at + run, len - at - run + 1);
@@ -636,7 +684,8 @@ static void test_mutations(void)
         if (k < num_trips)
             snprintf(text, sizeof text, "%s", round_trips[k]);
         else
-            snprintf(text, sizeof text, "%s%s\nreturn %%r\n", SOURCES, builder_cases[k - num_trips].in);
+            snprintf(text, sizeof text, "%s%s\nreturn %%r\n", SOURCES,
+                     builder_cases[k - num_trips].in);
         test_mutation(text);
     }
 }

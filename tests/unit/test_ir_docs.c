@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * The tables of docs/ir.md are those of ops.def, types.def and rules.def, and its examples are IR. Argument: the path of
- * the document (its own by default); with --update behind it, the tables are written anew. Tables stand between
+ * The tables of docs/ir.md are those of ops.def, types.def and rules.def, and its examples are IR.
+ * Argument: the path of the document (its own by default); with --update behind it, the tables are
+ * written anew. Tables stand between
  * <!-- name --> and <!-- end -->.
  */
 #include "ir/internal.h"
@@ -20,7 +21,8 @@ static void write_types(struct text *out)
         const struct ir_type_info *info = ir_type_info((ir_type_id)type);
         text_fmt(out, "| `%s` | ", info->text);
         if (info->components)
-            text_fmt(out, "`%s` | %u | %u |\n", ir_type_text(info->scalar), (unsigned)info->components, (unsigned)info->columns);
+            text_fmt(out, "`%s` | %u | %u |\n", ir_type_text(info->scalar),
+                     (unsigned)info->components, (unsigned)info->columns);
         else
             text_str(out, "| | |\n");
     }
@@ -28,8 +30,9 @@ static void write_types(struct text *out)
 
 static void write_flags(struct text *out, unsigned flags)
 {
-    static const char *const names[] = {"pure",     "commutes",        "derivative",       "built-in",
-                                        "operator", "also of `int`", "also of `uint`", "of matrices"};
+    static const char *const names[] = {"pure",           "commutes",   "derivative",
+                                        "built-in",       "operator",   "also of `int`",
+                                        "also of `uint`", "of matrices"};
     bool first = true;
     for (unsigned i = 0; i < sizeof names / sizeof *names; i++) {
         if (flags >> i & 1) {
@@ -42,10 +45,11 @@ static void write_flags(struct text *out, unsigned flags)
 static void write_ops(struct text *out)
 {
     static const char *const rules[] = {
-        [IR_RULE_NONE] = "",           [IR_RULE_SAME] = "same",     [IR_RULE_ARITH] = "arith",
-        [IR_RULE_SPLAT] = "splat",     [IR_RULE_REDUCE] = "reduce", [IR_RULE_COMPARE] = "compare",
-        [IR_RULE_LOGIC] = "logic",     [IR_RULE_INTEGER] = "integer", [IR_RULE_SELECT] = "select"};
-    text_str(out, "| op | operands | typing | marks | meaning |\n| --- | --- | --- | --- | --- |\n");
+        [IR_RULE_NONE] = "",       [IR_RULE_SAME] = "same",       [IR_RULE_ARITH] = "arith",
+        [IR_RULE_SPLAT] = "splat", [IR_RULE_REDUCE] = "reduce",   [IR_RULE_COMPARE] = "compare",
+        [IR_RULE_LOGIC] = "logic", [IR_RULE_INTEGER] = "integer", [IR_RULE_SELECT] = "select"};
+    text_str(out,
+             "| op | operands | typing | marks | meaning |\n| --- | --- | --- | --- | --- |\n");
     for (unsigned op = 0; op < IR_NUM_OPS; op++) {
         const struct ir_op_info *info = ir_op_info((enum ir_op)op);
         text_fmt(out, "| `%s` | ", info->text);
@@ -65,7 +69,8 @@ static void write_ops(struct text *out)
 /* A rule's side as a call: mul(A, sub(1, B)). */
 static void write_side(struct text *out, const uint8_t **tokens)
 {
-    static const char *const names[] = {"A", "B", "C", "D", "K", "0", "1", "2", "1/2", "-1", "identity", "true", "false"};
+    static const char *const names[] = {"A", "B",   "C",  "D",        "K",    "0",    "1",
+                                        "2", "1/2", "-1", "identity", "true", "false"};
     unsigned token = *(*tokens)++;
     if (token >= RULE_A) {
         text_str(out, names[token - RULE_A]);
@@ -111,7 +116,8 @@ static bool read_file(const char *path, struct text *out)
 static bool put_table(struct text *document, const char *mark, const struct text *table)
 {
     const char *text = text_cstr(document), *start = strstr(text, mark);
-    const char *body = start ? start + strlen(mark) : NULL, *end = body ? strstr(body, "<!-- end -->") : NULL;
+    const char *body = start ? start + strlen(mark) : NULL,
+               *end = body ? strstr(body, "<!-- end -->") : NULL;
     if (!end)
         return false;
     struct text result;
@@ -129,7 +135,9 @@ static void put_tables(struct text *document)
     static const struct {
         const char *mark;
         void (*write)(struct text *out);
-    } tables[] = {{"<!-- types -->", write_types}, {"<!-- ops -->", write_ops}, {"<!-- rules -->", write_rules}};
+    } tables[] = {{"<!-- types -->", write_types},
+                  {"<!-- ops -->", write_ops},
+                  {"<!-- rules -->", write_rules}};
     for (size_t i = 0; i < sizeof tables / sizeof *tables; i++) {
         struct text table;
         text_init(&table, &arena);
@@ -213,7 +221,9 @@ int main(int argc, char **argv)
             fclose(file);
         }
     } else if (!REQUIRE(strcmp(text_cstr(&before), text_cstr(&after)) == 0)) {
-        printf("    the tables of %s are out of date; run this test with --update behind the path\n", path);
+        printf(
+            "    the tables of %s are out of date; run this test with --update behind the path\n",
+            path);
     }
     arena_finish(&arena);
     return test_report("ir_docs");

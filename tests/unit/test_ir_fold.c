@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Constant arithmetic against values worked out by hand or with other tools from the definitions in GLSL 4.50 section 8 and 5.
- * Every foldable op must stand in the table.
+ * Constant arithmetic against values worked out by hand or with other tools from the definitions in
+ * GLSL 4.50 section 8 and 5. Every foldable op must stand in the table.
  */
 #include "ir/ir.h"
 
@@ -26,7 +26,8 @@ static const struct {
     {"mul vec2 mat2(1.0, 2.0, 3.0, 4.0), vec2(5.0, 6.0)", "vec2(23.0, 34.0)"},
     {"mul vec2 vec2(5.0, 6.0), mat2(1.0, 2.0, 3.0, 4.0)", "vec2(17.0, 39.0)"},
     {"mul mat2 mat2(1.0, 2.0, 3.0, 4.0), mat2(5.0, 6.0, 7.0, 8.0)", "mat2(23.0, 34.0, 31.0, 46.0)"},
-    {"mul vec3 mat3(0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0), vec3(7.0, 8.0, 9.0)", "vec3(9.0, 7.0, 8.0)"},
+    {"mul vec3 mat3(0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0), vec3(7.0, 8.0, 9.0)",
+     "vec3(9.0, 7.0, 8.0)"},
     {"div vec2 1.0, vec2(2.0, 4.0)", "vec2(0.5, 0.25)"},
     {"div float 1.0, 0.0", "inf"},
     {"div float -1.0, 0.0", "-inf"},
@@ -216,17 +217,21 @@ static const struct {
     {"refract vec2 vec2(0.6, -0.8), vec2(0.0, 1.0), 0.5", "vec2(0.3, -0.9539392)"},
     {"refract vec2 vec2(0.8, -0.6), vec2(0.0, 1.0), 1.5", "vec2(0.0, 0.0)"}, /* total reflection */
     /* matrices */
-    {"matrixCompMult mat2 mat2(1.0, 2.0, 3.0, 4.0), mat2(5.0, 6.0, 7.0, 8.0)", "mat2(5.0, 12.0, 21.0, 32.0)"},
+    {"matrixCompMult mat2 mat2(1.0, 2.0, 3.0, 4.0), mat2(5.0, 6.0, 7.0, 8.0)",
+     "mat2(5.0, 12.0, 21.0, 32.0)"},
     {"transpose mat2 mat2(1.0, 2.0, 3.0, 4.0)", "mat2(1.0, 3.0, 2.0, 4.0)"},
-    {"transpose mat3 mat3(1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0)", "mat3(1.0, 4.0, 7.0, 2.0, 5.0, 8.0, 3.0, 6.0, 9.0)"},
+    {"transpose mat3 mat3(1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0)",
+     "mat3(1.0, 4.0, 7.0, 2.0, 5.0, 8.0, 3.0, 6.0, 9.0)"},
     {"determinant float mat2(1.0, 2.0, 3.0, 4.0)", "-2.0"},
     {"determinant float mat3(2.0, 0.0, 0.0, 0.0, 3.0, 0.0, 0.0, 0.0, 4.0)", "24.0"},
     {"determinant float mat3(0.0, 1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0)", "-1.0"},
     {"determinant float mat2(1.0, 2.0, 2.0, 4.0)", "0.0"},
     {"inverse mat2 mat2(1.0, 2.0, 3.0, 4.0)", "mat2(-2.0, 1.0, 1.5, -0.5)"},
     {"inverse mat2 mat2(1.0, 2.0, 2.0, 4.0)", "undefined"},
-    {"inverse mat3 mat3(0.0, 1.0, 0.0, 0.0, 0.0, 2.0, 4.0, 0.0, 0.0)", "mat3(0.0, 0.0, 0.25, 1.0, 0.0, 0.0, 0.0, 0.5, 0.0)"},
-    {"inverse mat4 mat4(1.0, 0.0, 0.0, 0.0, 0.0, 2.0, 0.0, 0.0, 0.0, 0.0, 4.0, 0.0, 3.0, 6.0, 8.0, 1.0)",
+    {"inverse mat3 mat3(0.0, 1.0, 0.0, 0.0, 0.0, 2.0, 4.0, 0.0, 0.0)",
+     "mat3(0.0, 0.0, 0.25, 1.0, 0.0, 0.0, 0.0, 0.5, 0.0)"},
+    {"inverse mat4 mat4(1.0, 0.0, 0.0, 0.0, 0.0, 2.0, 0.0, 0.0, 0.0, 0.0, 4.0, 0.0, 3.0, 6.0, 8.0, "
+     "1.0)",
      "mat4(1.0, 0.0, 0.0, 0.0, 0.0, 0.5, 0.0, 0.0, 0.0, 0.0, 0.25, 0.0, -3.0, -3.0, -2.0, 1.0)"},
 };
 
@@ -275,7 +280,8 @@ static void test_values(void)
 static void test_coverage(void)
 {
     for (unsigned op = 0; op < IR_NUM_OPS; op++) {
-        bool foldable = (ir_op_info((enum ir_op)op)->flags & OP_PURE) && op != IR_CONST && op != IR_MEMBER;
+        bool foldable =
+            (ir_op_info((enum ir_op)op)->flags & OP_PURE) && op != IR_CONST && op != IR_MEMBER;
         if (!REQUIRE_EQ(seen[op], foldable))
             printf("    op %s\n", ir_op_info((enum ir_op)op)->text);
     }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Tests derived from rules.def. Of every rule: what stands on the right stands on the left; the right costs less, so that
- * rewriting ends; both sides have the same value, on special and random inputs and in every typing that fits; and the
- * builder makes the same node of both sides.
+ * Tests derived from rules.def. Of every rule: what stands on the right stands on the left; the
+ * right costs less, so that rewriting ends; both sides have the same value, on special and random
+ * inputs and in every typing that fits; and the builder makes the same node of both sides.
  */
 #include "ir/internal.h"
 
@@ -17,16 +17,12 @@ static unsigned cost_of(enum ir_op op)
 {
     switch (op) {
     case IR_NEG:
-    case IR_NOT:
-        return 1;
+    case IR_NOT: return 1;
     case IR_SELECT:
     case IR_DISTANCE:
-    case IR_POW:
-        return 3;
-    case IR_MIX:
-        return 5;
-    default:
-        return 2;
+    case IR_POW: return 3;
+    case IR_MIX: return 5;
+    default: return 2;
     }
 }
 
@@ -34,7 +30,7 @@ static unsigned cost(const uint8_t *tokens)
 {
     unsigned sum = 0;
     for (; *tokens != RULE_END; tokens++)
-        sum += *tokens < RULE_A ? cost_of((enum ir_op)*tokens) : 0;
+        sum += *tokens < RULE_A ? cost_of((enum ir_op) * tokens) : 0;
     return sum;
 }
 
@@ -55,7 +51,8 @@ static uint32_t random_bits(void)
 
 static float random_float(bool exact)
 {
-    static const uint32_t specials[] = {0x7fc00000, 0x7f800000, 0xff800000, 1, 0x80000001, 0x7f7fffff, 0xff7fffff};
+    static const uint32_t specials[] = {0x7fc00000, 0x7f800000, 0xff800000, 1,
+                                        0x80000001, 0x7f7fffff, 0xff7fffff};
     static const float common[] = {0.0f, -0.0f, 1.0f, -1.0f, 0.5f, 2.0f};
     uint32_t bits = random_bits();
     if (bits % 4 == 0)
@@ -127,7 +124,8 @@ static ir_ref build_side(const struct typing *t, const uint8_t **tokens)
     if (token >= RULE_K)
         return constant(t, token);
     if (token >= RULE_A)
-        return ir_build(t->graph, IR_UNIFORM, t->types[t->choice[token - RULE_A]], token - RULE_A, NULL, 0);
+        return ir_build(t->graph, IR_UNIFORM, t->types[t->choice[token - RULE_A]], token - RULE_A,
+                        NULL, 0);
     ir_ref args[3] = {0};
     ir_type_id types[3];
     unsigned arity = (unsigned)ir_op_info((enum ir_op)token)->arity;
@@ -138,13 +136,15 @@ static ir_ref build_side(const struct typing *t, const uint8_t **tokens)
         types[i] = ir_type_of(t->graph, args[i]);
     }
     ir_type_id type = ir_op_result((enum ir_op)token, types, arity);
-    if (type == IR_TYPE_VOID || (token == IR_MUL && ir_is_linear_mul(types[0], types[1]) != t->linear))
+    if (type == IR_TYPE_VOID
+        || (token == IR_MUL && ir_is_linear_mul(types[0], types[1]) != t->linear))
         return 0;
     return ir_build(t->graph, (enum ir_op)token, type, 0, args, arity);
 }
 
 /*
- * The right side: constants that stand alone have the root's type, others are scalars; then it is widened.
+ * The right side: constants that stand alone have the root's type, others are scalars; then it is
+ * widened.
  */
 static ir_ref build_right(const struct typing *t, const struct rule *rule, ir_type_id type)
 {
@@ -169,7 +169,8 @@ struct sample {
     struct ir_value values[NUM_VARIABLES];
 };
 
-static bool sample_source(void *user_data, const struct ir_graph *graph, ir_ref ref, struct ir_value *out)
+static bool sample_source(void *user_data, const struct ir_graph *graph, ir_ref ref,
+                          struct ir_value *out)
 {
     const struct sample *sample = user_data;
     *out = sample->values[ir_get(graph, ref)->attr];
@@ -192,7 +193,8 @@ static bool is_finite(const struct ir_value *value)
 }
 
 /* Whether both sides agree on one sample; also where the left side is undefined there. */
-static bool agrees(const struct ir_graph *graph, ir_ref left, ir_ref right, struct sample *sample, struct arena *scratch)
+static bool agrees(const struct ir_graph *graph, ir_ref left, ir_ref right, struct sample *sample,
+                   struct arena *scratch)
 {
     struct ir_eval_env env = {.user_data = sample, .source = sample_source};
     struct ir_value a, b;
@@ -232,9 +234,10 @@ static bool test_typing(const struct rule *rule, struct typing *t)
             for (unsigned k = 0; k < NUM_VARIABLES; k++)
                 sample.values[k] = random_value(t->types[t->choice[k]], rule->exact);
             if (!REQUIRE(agrees(&plain, left, right, &sample, &arena)))
-                printf("    rule %s, types %s %s %s %s %s\n", rule->name, ir_type_text(t->types[t->choice[0]]),
-                       ir_type_text(t->types[t->choice[1]]), ir_type_text(t->types[t->choice[2]]),
-                       ir_type_text(t->types[t->choice[3]]), ir_type_text(t->types[t->choice[4]]));
+                printf("    rule %s, types %s %s %s %s %s\n", rule->name,
+                       ir_type_text(t->types[t->choice[0]]), ir_type_text(t->types[t->choice[1]]),
+                       ir_type_text(t->types[t->choice[2]]), ir_type_text(t->types[t->choice[3]]),
+                       ir_type_text(t->types[t->choice[4]]));
         }
         t->graph = &folding;
         pattern = rule->pattern;
@@ -278,12 +281,14 @@ static void test_shape(enum ir_op op, const struct rule *rule)
     for (const uint8_t *token = rule->replacement; *token != RULE_END; token++)
         if (*token >= RULE_A && *token < RULE_K)
             bound = bound && occurs(*token, rule->pattern);
-    if (!REQUIRE_EQ(rule->pattern[0], op) || !REQUIRE(bound) || !REQUIRE(cost(rule->replacement) < cost(rule->pattern)))
+    if (!REQUIRE_EQ(rule->pattern[0], op) || !REQUIRE(bound)
+        || !REQUIRE(cost(rule->replacement) < cost(rule->pattern)))
         printf("    rule %s\n", rule->name);
 }
 
 /*
- * Inner ops have variables and constants as operands: what the matcher can match. Whoever restores nodes knows of them.
+ * Inner ops have variables and constants as operands: what the matcher can match. Whoever restores
+ * nodes knows of them.
  */
 static void test_depth(const struct rule *rule)
 {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Four ways to the same number: a function evaluated as it is written, a version with some of its arguments bound, the one
- * version of a planned shader, and the IR that a call becomes. They must agree for whatever is bound.
+ * Four ways to the same number: a function evaluated as it is written, a version with some of its
+ * arguments bound, the one version of a planned shader, and the IR that a call becomes. They must
+ * agree for whatever is bound.
  */
 #include "lang/lang.h"
 
@@ -16,26 +17,35 @@ static const char source[] =
     "const float weights[4] = float[4](0.25, -1.0, 2.0, 0.5);\n"
     "struct Ray { vec3 origin; float scale[2]; };\n"
     "float branch(float x, float y, bool a, int n) {\n"
-    "    float r = x; if (a) { if (y > 0.5) return x * y; r += 1.0; } else if (n == 2) r = y; else { float t = x - y; r = t * t; }\n"
+    "    float r = x; if (a) { if (y > 0.5) return x * y; r += 1.0; } else if (n == 2) r = y; else "
+    "{ float t = x - y; r = t * t; }\n"
     "    if (n > 1) r *= 2.0; return r - y; }\n"
     "float loop(float x, int n, float w, bool early) {\n"
     "    float sum = 0.0; float last = x; int i = 0;\n"
     "    while (true) { if (i >= n) break; ++i; if (early && sum > 2.0) return sum + w;\n"
     "        if ((i & 1) == 0) continue; last = sum; sum += x * w + weights[i & 3]; }\n"
     "    do { sum -= 0.5; } while (sum > 3.0); return sum * last; }\n"
-    "float carried(float x, int n) { float k = 1.0; float r = 0.0; for (int i = 0; i < n; ++i) { r += k; k = x; } return r; }\n"
+    "float carried(float x, int n) { float k = 1.0; float r = 0.0; for (int i = 0; i < n; ++i) { r "
+    "+= k; k = x; } return r; }\n"
     "float stopped(float x, int n) { float k = 0.0;\n"
-    "    for (int i = 0; i < 5; ++i) { k = x + float(i); if (i == n) break; k = 0.5; } return k; }\n"
+    "    for (int i = 0; i < 5; ++i) { k = x + float(i); if (i == n) break; k = 0.5; } return k; "
+    "}\n"
     "vec3 outs(vec3 v, float s, out vec2 a, inout float b, int n) {\n"
-    "    a = v.zx; vec3 r = v; r.yx = v.xz * s; r[n & 1] += b; b = r.y; if (s > 1.0) { a.y = s; return r; } a *= 2.0; return r + v; }\n"
-    "float twice(float x, float k) { vec2 a; float b = k; vec3 r = outs(vec3(x, k, 1.0), k, a, b, 0);\n"
+    "    a = v.zx; vec3 r = v; r.yx = v.xz * s; r[n & 1] += b; b = r.y; if (s > 1.0) { a.y = s; "
+    "return r; } a *= 2.0; return r + v; }\n"
+    "float twice(float x, float k) { vec2 a; float b = k; vec3 r = outs(vec3(x, k, 1.0), k, a, b, "
+    "0);\n"
     "    float c = 1.0; outs(r, 2.0, a, c, 1); return dot(r, r) + a.x * a.y + b * c; }\n"
-    "float parts(float x, float y, int n) { Ray r = Ray(vec3(x, y, 1.0), float[2](y, 2.0)); Ray q = r;\n"
+    "float parts(float x, float y, int n) { Ray r = Ray(vec3(x, y, 1.0), float[2](y, 2.0)); Ray q "
+    "= r;\n"
     "    q.origin.xy = r.origin.yx; q.scale[1] *= x; if (n > 0) { r = q; r.origin.z = 0.0; }\n"
     "    return dot(r.origin, q.origin) + r.scale[n & 1] * q.scale[1]; }\n"
-    "float calls(float x, float y, bool a, int n) { float z = branch(x, y, a, n); z += branch(1.0, y, !a, 2) * y;\n"
-    "    if (n == 3) z = loop(z, n, 0.5, a); return twice(z, y) + parts(y, 2.0, n) + branch(2.0, 1.0, true, 0); }\n"
-    "mat3 matrices(vec3 v, float s, mat3 m) { mat3 r = m * s; r[1] = v; r[2].x = s; mat3 i = mat3(1.0);\n"
+    "float calls(float x, float y, bool a, int n) { float z = branch(x, y, a, n); z += branch(1.0, "
+    "y, !a, 2) * y;\n"
+    "    if (n == 3) z = loop(z, n, 0.5, a); return twice(z, y) + parts(y, 2.0, n) + branch(2.0, "
+    "1.0, true, 0); }\n"
+    "mat3 matrices(vec3 v, float s, mat3 m) { mat3 r = m * s; r[1] = v; r[2].x = s; mat3 i = "
+    "mat3(1.0);\n"
     "    i[0][1] += s; return r * i + transpose(m) * v.x; }\n";
 
 struct agree {
@@ -79,8 +89,9 @@ static bool is_near(const struct ir_value *x, const struct ir_value *y)
 {
     const struct ir_type_info *info = ir_type_info(x->type);
     for (unsigned i = 0; i < info->components; i++)
-        if (info->scalar == IR_TYPE_FLOAT ? fabsf(x->w[i].f - y->w[i].f) > 1e-4f * (1.0f + fabsf(x->w[i].f))
-                                          : x->w[i].u != y->w[i].u)
+        if (info->scalar == IR_TYPE_FLOAT
+                ? fabsf(x->w[i].f - y->w[i].f) > 1e-4f * (1.0f + fabsf(x->w[i].f))
+                : x->w[i].u != y->w[i].u)
             return false;
     return x->type == y->type;
 }
@@ -104,20 +115,22 @@ static void try_version(struct agree *a, uint32_t version, const char *how)
         require_results(a, results, how);
 }
 
-static ir_ref no_global(void *user_data, struct ir_graph *graph, const struct lang_unit *unit, uint32_t global_id)
+static ir_ref no_global(void *user_data, struct ir_graph *graph, const struct lang_unit *unit,
+                        uint32_t global_id)
 {
     (void)user_data, (void)unit, (void)global_id;
     return ir_poison(graph, IR_TYPE_FLOAT);
 }
 
-static bool source_value(void *user_data, const struct ir_graph *graph, ir_ref ref, struct ir_value *out)
+static bool source_value(void *user_data, const struct ir_graph *graph, ir_ref ref,
+                         struct ir_value *out)
 {
     *out = ((struct agree *)user_data)->args[ir_get(graph, ref)->attr];
     return true;
 }
 
-static bool call_value(void *user_data, const struct ir_graph *graph, ir_ref call, const struct ir_value *args,
-                       uint32_t result, struct ir_value *out)
+static bool call_value(void *user_data, const struct ir_graph *graph, ir_ref call,
+                       const struct ir_value *args, uint32_t result, struct ir_value *out)
 {
     struct agree *a = user_data;
     uint32_t id = (uint32_t)graph->callees.items[ir_get(graph, call)->attr].id;
@@ -137,8 +150,9 @@ static void try_lowering(struct agree *a, uint32_t max_inline_nodes)
     unsigned num_args = 0;
     for (uint32_t i = 0; i < a->fn->num_params; i++)
         if (param(a, i)->mode != LANG_OUT)
-            args[num_args++] = a->bound[i] ? ir_const(&graph, &a->args[i])
-                                           : ir_build(&graph, IR_UNIFORM, param(a, i)->type, i, NULL, 0);
+            args[num_args++] = a->bound[i]
+                                   ? ir_const(&graph, &a->args[i])
+                                   : ir_build(&graph, IR_UNIFORM, param(a, i)->type, i, NULL, 0);
     lang_lower_call(&a->generated, &graph, &host, a->id, args, results);
     ir_ref node;
     REQUIRE(!ir_check(&graph, &node));

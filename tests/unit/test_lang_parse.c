@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * The language's front half: what parses, what is refused and with which words, what a tree holds; and mutated sources,
- * which may not parse but must not crash, hang or leave anything behind.
+ * The language's front half: what parses, what is refused and with which words, what a tree holds;
+ * and mutated sources, which may not parse but must not crash, hang or leave anything behind.
  *
  *     test_lang_parse [ROUNDS [FILE...]]    more rounds of mutation, and files to mutate
  */
@@ -43,8 +43,8 @@ static void teardown(struct fixture *f)
     REQUIRE_EQ(f->mem.used, 0);
 }
 
-static bool read_source(void *user_data, const char *from, const char *ref, const char **out_name, const char **out_text,
-                        size_t *out_len, const char **out_reason)
+static bool read_source(void *user_data, const char *from, const char *ref, const char **out_name,
+                        const char **out_text, size_t *out_len, const char **out_reason)
 {
     const struct fixture *f = user_data;
     (void)from;
@@ -59,12 +59,14 @@ static bool read_source(void *user_data, const char *from, const char *ref, cons
     return false;
 }
 
-static uint32_t parse_sources(struct fixture *f, struct lang_unit *unit, const struct source *sources, unsigned num)
+static uint32_t parse_sources(struct fixture *f, struct lang_unit *unit,
+                              const struct source *sources, unsigned num)
 {
     struct lang_reader reader = {.user_data = f, .read = read_source};
     f->sources = sources;
     f->num_sources = num;
-    return lang_parse_file(unit, &reader, "", sources[0].name, (struct diag_place){.file = "test"}, &f->diags);
+    return lang_parse_file(unit, &reader, "", sources[0].name, (struct diag_place){.file = "test"},
+                           &f->diags);
 }
 
 static uint32_t parse_text(struct fixture *f, const char *text)
@@ -79,7 +81,8 @@ static const char *messages(struct fixture *f)
     text_init(&text, &f->arena);
     for (uint32_t i = 0; i < f->diags.items.len; i++) {
         const struct diag *diag = &f->diags.items.items[i];
-        text_fmt(&text, "%s%u:%u: %s", i ? "\n" : "", (unsigned)diag->place.line, (unsigned)diag->place.column, diag->message);
+        text_fmt(&text, "%s%u:%u: %s", i ? "\n" : "", (unsigned)diag->place.line,
+                 (unsigned)diag->place.column, diag->message);
     }
     return text_cstr(&text);
 }
@@ -100,7 +103,8 @@ static void check_tree(const struct lang_unit *unit, uint32_t id, lang_ref ref, 
             REQUIRE(node->a + ir_type_info(node->type)->components <= unit->words.len);
             first = 3;
             break;
-        case LANG_VAR: case LANG_INPUT:
+        case LANG_VAR:
+        case LANG_INPUT:
             REQUIRE(node->a < lang_function(unit, id, NULL)->num_slots);
             first = 3;
             break;
@@ -125,7 +129,8 @@ static void check_file(const struct lang_unit *unit, uint32_t file)
     const struct lang_file *f = lang_file(unit, file, NULL);
     for (uint32_t i = 0; i < f->num_functions; i++) {
         const struct lang_function *function = lang_function(unit, f->first_function + i, NULL);
-        REQUIRE(function->body != 0 && function->file == file && function->num_params <= function->num_slots);
+        REQUIRE(function->body != 0 && function->file == file
+                && function->num_params <= function->num_slots);
         REQUIRE(function->first_slot + function->num_slots <= unit->slots.len);
         check_tree(unit, f->first_function + i, function->body, 0);
     }
@@ -150,7 +155,8 @@ static const char everything[] =
     "uniform sampler2D u_image; uniform vec4 u_table[COUNT]; in vec3 normalWorld;\n"
     "struct Ray { vec3 origin, direction; float weights[COUNT]; };\n"
     "float later(float x); /* a prototype */\n"
-    "float sum(const in float w[3]) { float s = 0.0; for (int i = 0, n = w.length(); i < n; ++i) s += w[i]; return s; }\n"
+    "float sum(const in float w[3]) { float s = 0.0; for (int i = 0, n = w.length(); i < n; ++i) s "
+    "+= w[i]; return s; }\n"
     "vec3 march(Ray ray, inout vec3 state, out float t)\n"
     "{\n"
     "    t = later(ray.weights[0]) + sum(float[](1, 2, 3u));\n"
@@ -165,7 +171,8 @@ static const char everything[] =
     "}\n"
     "float later(float x) { { ; } return max(x, THIRD) / 2; }\n"
     "bool is_clamp(string mode) { return mode == \"clamp\"; }\n"
-    "float over(int a) { return 1.0; } float over(float a) { return 2.0; } float over(vec2 a) { return 3.0; }\n"
+    "float over(int a) { return 1.0; } float over(float a) { return 2.0; } float over(vec2 a) { "
+    "return 3.0; }\n"
     "float choose() { return over(1u) + over(ivec2(1, 2)) + over(1); }\n";
 
 static void test_everything(void)
@@ -176,7 +183,8 @@ static void test_everything(void)
     REQUIRE_STR(messages(&f), "");
     if (REQUIRE(file != LANG_NONE)) {
         check_file(&f.unit, file);
-        uint32_t later = find(&f, file, "later"), march = find(&f, file, "march"), sum = find(&f, file, "sum");
+        uint32_t later = find(&f, file, "later"), march = find(&f, file, "march"),
+                 sum = find(&f, file, "sum");
         REQUIRE(later < march && sum < march);
         const struct lang_function *function = lang_function(&f.unit, march, NULL);
         REQUIRE_EQ(function->num_params, 3);
@@ -186,8 +194,10 @@ static void test_everything(void)
         REQUIRE_EQ(function->num_globals, 6);
         REQUIRE_EQ(function->flags, LANG_FN_DERIVATIVE);
         const struct lang_slot *slots = f.unit.slots.items + function->first_slot;
-        REQUIRE(!slots[0].assigned && slots[1].assigned && slots[2].assigned && slots[3].assigned && !slots[4].assigned);
-        REQUIRE(slots[0].mode == LANG_IN && slots[1].mode == LANG_INOUT && slots[2].mode == LANG_OUT);
+        REQUIRE(!slots[0].assigned && slots[1].assigned && slots[2].assigned && slots[3].assigned
+                && !slots[4].assigned);
+        REQUIRE(slots[0].mode == LANG_IN && slots[1].mode == LANG_INOUT
+                && slots[2].mode == LANG_OUT);
         REQUIRE_EQ(lang_function(&f.unit, later, NULL)->flags, LANG_FN_PURE | LANG_FN_STRAIGHT);
         REQUIRE_EQ(lang_function(&f.unit, sum, NULL)->flags, LANG_FN_PURE);
         REQUIRE_EQ(lang_function(&f.unit, find(&f, file, "is_clamp"), NULL)->flags,
@@ -209,10 +219,14 @@ static void test_globals(void)
         uint32_t num_words, array_length;
         float last;
     } expected[] = {
-        {"TAU", LANG_GLOBAL_CONST, 1, 0, 6.2831853f}, {"COUNT", LANG_GLOBAL_CONST, 1, 0, 0.0f},
-        {"THIRD", LANG_GLOBAL_CONST, 1, 0, 1.0f / 3.0f}, {"CORNERS", LANG_GLOBAL_CONST, 8, 0, 1.0f},
-        {"TO_XYZ", LANG_GLOBAL_CONST, 9, 0, 9.0f}, {"option_quality", LANG_GLOBAL_OPTION, 1, 0, 0.0f},
-        {"u_image", LANG_GLOBAL_UNIFORM, 0, 0, 0.0f}, {"u_table", LANG_GLOBAL_UNIFORM, 0, 3, 0.0f},
+        {"TAU", LANG_GLOBAL_CONST, 1, 0, 6.2831853f},
+        {"COUNT", LANG_GLOBAL_CONST, 1, 0, 0.0f},
+        {"THIRD", LANG_GLOBAL_CONST, 1, 0, 1.0f / 3.0f},
+        {"CORNERS", LANG_GLOBAL_CONST, 8, 0, 1.0f},
+        {"TO_XYZ", LANG_GLOBAL_CONST, 9, 0, 9.0f},
+        {"option_quality", LANG_GLOBAL_OPTION, 1, 0, 0.0f},
+        {"u_image", LANG_GLOBAL_UNIFORM, 0, 0, 0.0f},
+        {"u_table", LANG_GLOBAL_UNIFORM, 0, 3, 0.0f},
         {"normalWorld", LANG_GLOBAL_STREAM, 0, 0, 0.0f},
     };
     REQUIRE_EQ(parsed->num_globals, sizeof expected / sizeof expected[0]);
@@ -223,7 +237,8 @@ static void test_globals(void)
         REQUIRE_EQ(global->num_words, expected[i].num_words);
         REQUIRE_EQ(global->array_length, expected[i].array_length);
         if (expected[i].last != 0.0f)
-            REQUIRE(f.unit.words.items[global->words + global->num_words - 1].f == expected[i].last);
+            REQUIRE(f.unit.words.items[global->words + global->num_words - 1].f
+                    == expected[i].last);
     }
     teardown(&f);
 }
@@ -231,7 +246,8 @@ static void test_globals(void)
 static void test_includes(void)
 {
     static const struct source sources[] = {
-        {"main.glsl", "float f(float x) { return g(x) + BASE; }\n#include \"mid.glsl\"\n#include \"base.glsl\"\n"},
+        {"main.glsl", "float f(float x) { return g(x) + BASE; }\n#include \"mid.glsl\"\n#include "
+                      "\"base.glsl\"\n"},
         {"mid.glsl", "#include \"base.glsl\"\nfloat g(float x) { return h(x); }\n"},
         {"base.glsl", "const float BASE = 2.0;\nfloat h(float x) { return x * BASE; }\n"},
     };
@@ -248,7 +264,8 @@ static void test_includes(void)
     struct lang_unit above;
     lang_unit_init(&above, &f.arena, &f.strings, &f.unit);
     REQUIRE_EQ(parse_sources(&f, &above, sources, 3), file);
-    static const struct source upper = {"upper.glsl", "#include \"mid.glsl\"\nfloat u(float x) { return g(h(x)) * BASE; }\n"};
+    static const struct source upper = {
+        "upper.glsl", "#include \"mid.glsl\"\nfloat u(float x) { return g(h(x)) * BASE; }\n"};
     struct source both[4] = {upper, sources[0], sources[1], sources[2]};
     uint32_t top = parse_sources(&f, &above, both, 4);
     REQUIRE_STR(messages(&f), "");
@@ -257,22 +274,26 @@ static void test_includes(void)
     check_file(&above, top);
     const ir_type_id integer = IR_TYPE_INT, vector = IR_TYPE_VEC2;
     REQUIRE_EQ(lang_find_function(&above, top, str_intern_z(&f.strings, "u"), &integer, 1), 3);
-    REQUIRE_EQ(lang_find_function(&above, top, str_intern_z(&f.strings, "u"), &vector, 1), LANG_NONE);
+    REQUIRE_EQ(lang_find_function(&above, top, str_intern_z(&f.strings, "u"), &vector, 1),
+               LANG_NONE);
     REQUIRE_EQ(lang_find_function(&above, top, str_intern_z(&f.strings, "h"), NULL, 0), 0);
     teardown(&f);
 }
 
 static void test_include_errors(void)
 {
-    static const struct source cycle[] = {{"a.glsl", "#include \"b.glsl\"\n"}, {"b.glsl", "\n#include \"a.glsl\"\n"}};
+    static const struct source cycle[] = {{"a.glsl", "#include \"b.glsl\"\n"},
+                                          {"b.glsl", "\n#include \"a.glsl\"\n"}};
     struct fixture f;
     setup(&f);
     REQUIRE_EQ(parse_sources(&f, &f.unit, cycle, 2), LANG_NONE);
     REQUIRE_STR(messages(&f), "2:10: 'a.glsl' includes itself: b.glsl\n1:10: included from here");
     REQUIRE_EQ(f.unit.files.len, 0);
     diag_list_init(&f.diags, &f.arena);
-    REQUIRE_EQ(parse_text(&f, "#include \"none.glsl\"\n#include x\nfloat f() { return 1.0; }\n"), LANG_NONE);
-    REQUIRE_STR(messages(&f), "1:10: cannot read the source file 'none.glsl' of 'a.glsl': no such file\n2:1: #include needs the name of a file in quotes");
+    REQUIRE_EQ(parse_text(&f, "#include \"none.glsl\"\n#include x\nfloat f() { return 1.0; }\n"),
+               LANG_NONE);
+    REQUIRE_STR(messages(&f), "1:10: cannot read the source file 'none.glsl' of 'a.glsl': no such "
+                              "file\n2:1: #include needs the name of a file in quotes");
     teardown(&f);
 }
 
@@ -282,60 +303,80 @@ static const struct {
     const char *text, *messages;
 } refused[] = {
     {"float f(float x) { return x + y; }", "1:31: unknown name 'y'"},
-    {"float f(float width) { return widht; }", "1:31: unknown name 'widht' (did you mean 'width'?)"},
-    {"vec3 f(vec3 v) { return normalise(v); }", "1:25: unknown function 'normalise' (did you mean 'normalize'?)"},
+    {"float f(float width) { return widht; }",
+     "1:31: unknown name 'widht' (did you mean 'width'?)"},
+    {"vec3 f(vec3 v) { return normalise(v); }",
+     "1:25: unknown function 'normalise' (did you mean 'normalize'?)"},
     {"float f() { vec33 v; return v.x + 1; }", "1:13: unknown type 'vec33' (did you mean 'vec3'?)"},
     {"float f() {\n    float a = 1.0\n    return a;\n}", "2:18: expected ';' before 'return'"},
     {"float f() { return 1.0 }", "1:24: expected ';' before '}'"},
     {"float f() { return (1.0; }", "1:24: expected ')' before ';'"},
     {"float f() { return 1.0;", "1:24: expected '}' before 'end of file'"},
-    {"float f(float x) { if (x > 0.0) return 1.0; }", "1:7: 'f' does not return a value on every path"},
-    {"float f(float x) { if (x) return 1.0; return 2.0; }", "1:24: the condition is float; bool was expected"},
+    {"float f(float x) { if (x > 0.0) return 1.0; }",
+     "1:7: 'f' does not return a value on every path"},
+    {"float f(float x) { if (x) return 1.0; return 2.0; }",
+     "1:24: the condition is float; bool was expected"},
     {"int f(float x) { return x; }", "1:25: the returned value is float; int was expected"},
     {"void f() { return 1; }", "1:19: the function is void; it returns no value"},
     {"float f(vec3 v) { return v.q; }", "1:28: vec3 has no '.q'"},
     {"float f(vec2 v) { return v[2]; }", "1:28: index 2 is outside of vec2"},
     {"vec3 f(vec3 a, vec2 b) { return a * b; }", "1:35: '*' cannot be applied to vec3 and vec2"},
-    {"vec3 f(vec3 a) { return vec3(a, 1.0, 1.0); }", "1:33: vec3 cannot be built from this: the arguments before this one fill it"},
-    {"vec3 f(vec2 a) { return vec3(a); }", "1:25: vec3 cannot be built from this: vec2 has 2 of 3 components"},
+    {"vec3 f(vec3 a) { return vec3(a, 1.0, 1.0); }",
+     "1:33: vec3 cannot be built from this: the arguments before this one fill it"},
+    {"vec3 f(vec2 a) { return vec3(a); }",
+     "1:25: vec3 cannot be built from this: vec2 has 2 of 3 components"},
     {"void f(const float x) { x = 1.0; }", "1:25: cannot assign: 'x' is const"},
     {"uniform float u; void f() { u += 1.0; }", "1:29: cannot assign: it is a uniform"},
-    {"in vec2 texcoord_0; void f() { texcoord_0.x = 1.0; }", "1:43: cannot assign: it is an input of the stage"},
+    {"in vec2 texcoord_0; void f() { texcoord_0.x = 1.0; }",
+     "1:43: cannot assign: it is an input of the stage"},
     {"const float K = 1.0; void f() { K++; }", "1:33: cannot assign: it is a constant"},
     {"void f(vec2 v) { v.xx = v; }", "1:20: cannot assign: a component stands in it twice"},
     {"void f(float a) { a + 1.0 = a; }", "1:21: cannot assign: it is the result of an operation"},
-    {"void g(out float x) { x = 1.0; } void f() { g(1.0); }", "1:47: cannot pass this as an out argument: it is a constant"},
+    {"void g(out float x) { x = 1.0; } void f() { g(1.0); }",
+     "1:47: cannot pass this as an out argument: it is a constant"},
     {"void g(out float x) { x = 1.0; } void f(int i) { g(i); }",
      "1:50: no function 'g' takes (int)\n1:6: candidate: void g(out float)"},
     {"float g(vec2 x) { return 1.0; }\nfloat f() { return g(1.0, 2.0); }",
      "2:20: no function 'g' takes (float, float)\n1:7: candidate: float g(vec2)"},
-    {"float g(int a, float b) { return 1.0; }\nfloat g(float a, int b) { return 1.0; }\nfloat f() { return g(1, 1); }",
-     "3:20: several functions 'g' take (int, int) equally well\n1:7: candidate: float g(int, float)\n2:7: candidate: float g(float, int)"},
+    {"float g(int a, float b) { return 1.0; }\nfloat g(float a, int b) { return 1.0; }\nfloat f() "
+     "{ return g(1, 1); }",
+     "3:20: several functions 'g' take (int, int) equally well\n1:7: candidate: float g(int, "
+     "float)\n2:7: candidate: float g(float, int)"},
     {"float f(float x) { return f(x - 1.0); }", "1:7: recursion is refused: 'f' calls 'f'"},
     {"float g(float x); float f(float x) { return g(x); } float g(float x) { return f(x); }",
      "1:59: recursion is refused: 'g' calls 'f' calls 'g'"},
     {"float f(float x);", "1:7: 'f' is declared here but nowhere defined"},
-    {"float f() { return 1.0; }\nfloat f() { return 2.0; }", "2:7: 'f' is defined already\n1:7: 'f' is defined here"},
+    {"float f() { return 1.0; }\nfloat f() { return 2.0; }",
+     "2:7: 'f' is defined already\n1:7: 'f' is defined here"},
     {"float sin(float x) { return x; }", "1:7: 'sin' is the name of a built-in function or type"},
-    {"float g = 1.0;", "1:7: 'g' must be const, uniform or in: there are no other global variables"},
-    {"uniform float u; const float K = u * 2.0;", "1:36: the value of 'K' is not a constant expression"},
+    {"float g = 1.0;",
+     "1:7: 'g' must be const, uniform or in: there are no other global variables"},
+    {"uniform float u; const float K = u * 2.0;",
+     "1:36: the value of 'K' is not a constant expression"},
     {"void f() { break; }", "1:12: 'break' outside of a loop"},
-    {"void f(int i) { switch (i) { case 1: break; } }", "1:17: the portable shading language has no 'switch'"},
-    {"void f(int i) { int j = i++; }", "1:26: the portable shading language has no '++' inside of an expression; make it a statement of its own"},
-    {"void f(int i) { i + 1; }", "1:17: the statement has no effect: a call or an assignment was expected"},
+    {"void f(int i) { switch (i) { case 1: break; } }",
+     "1:17: the portable shading language has no 'switch'"},
+    {"void f(int i) { int j = i++; }", "1:26: the portable shading language has no '++' inside of "
+                                       "an expression; make it a statement of its own"},
+    {"void f(int i) { i + 1; }",
+     "1:17: the statement has no effect: a call or an assignment was expected"},
     {"#ifdef X\nfloat f() { return 1.0; }", "1:2: the portable shading language has no '#ifdef'"},
-    {"#define SQUARE(x) (x * x)", "1:9: the portable shading language has no '#define' with parameters; write a function"},
+    {"#define SQUARE(x) (x * x)",
+     "1:9: the portable shading language has no '#define' with parameters; write a function"},
     {"float f() { return 1e99; }", "1:20: '1e99' is beyond the range of float"},
     {"float f() { return 5000000000; }", "1:20: '5000000000' does not fit in 32 bits"},
     {"float f() { return 1.0; } /* open", "1:27: '/*' begins a comment that does not end"},
     {"void f(string s) { string t = s; }", "1:27: a variable cannot have type string"},
     {"bool f(string s) { return s < \"a\"; }", "1:29: '<' cannot be applied to string and string"},
     {"float f() { float a[2][2]; return 1.0; }", "1:20: there are no arrays of arrays"},
-    {"float f() { float a[0]; return 1.0; }", "1:21: the length of an array must be a constant int from 1 to 65535"},
+    {"float f() { float a[0]; return 1.0; }",
+     "1:21: the length of an array must be a constant int from 1 to 65535"},
     {"struct S { float a; float a; };", "1:27: the name 'a' stands twice in this scope"},
-    {"float f(float a) { float a = 1.0; return a; }", "1:26: the name 'a' stands twice in this scope\n1:15: the first one is here"},
+    {"float f(float a) { float a = 1.0; return a; }",
+     "1:26: the name 'a' stands twice in this scope\n1:15: the first one is here"},
     {"float f() { float a; return a; }\nfloat g() { return a + ; }\nint h() { return 1.0; }",
-     "2:20: unknown name 'a'\n2:24: expected an expression before ';'\n3:18: the returned value is float; int was expected"},
+     "2:20: unknown name 'a'\n2:24: expected an expression before ';'\n3:18: the returned value is "
+     "float; int was expected"},
 };
 
 static void test_refused(void)
@@ -346,7 +387,8 @@ static void test_refused(void)
         REQUIRE_EQ(parse_text(&f, refused[i].text), LANG_NONE);
         if (!REQUIRE_STR(messages(&f), refused[i].messages))
             printf("in: %s\n", refused[i].text);
-        REQUIRE(f.unit.nodes.len == 1 && f.unit.functions.len == 0 && f.unit.files.len == 0 && f.unit.slots.len == 0);
+        REQUIRE(f.unit.nodes.len == 1 && f.unit.functions.len == 0 && f.unit.files.len == 0
+                && f.unit.slots.len == 0);
         teardown(&f);
     }
 }
@@ -368,13 +410,15 @@ static void test_error_limit(void)
 
 /* Inline expressions. */
 
-static uint32_t parse_expression(struct fixture *f, const char *text, ir_type_id type, uint32_t file)
+static uint32_t parse_expression(struct fixture *f, const char *text, ir_type_id type,
+                                 uint32_t file)
 {
     const struct lang_input inputs[] = {{str_intern_z(&f->strings, "a"), IR_TYPE_VEC3},
                                         {str_intern_z(&f->strings, "b"), IR_TYPE_FLOAT},
                                         {str_intern_z(&f->strings, "file"), IR_TYPE_SAMPLER}};
     struct diag_place where = {"doc.mtlx", 10, 5, 0};
-    return lang_parse_expression(&f->unit, text, strlen(text), inputs, 3, type, file, where, &f->diags);
+    return lang_parse_expression(&f->unit, text, strlen(text), inputs, 3, type, file, where,
+                                 &f->diags);
 }
 
 static void test_expressions(void)
@@ -392,12 +436,14 @@ static void test_expressions(void)
         {"twice({{b}}) * SCALE", IR_TYPE_FLOAT, ""},
         {"{{a}}", IR_TYPE_FLOAT, "10:5: the expression is vec3; float was expected"},
         {"{{a}} +\n {{c}}", IR_TYPE_VEC3, "11:2: unknown input 'c'"},
-        {"{{a}} {{b}}", IR_TYPE_VEC3, "10:11: expected an operator or the end of the expression before 'b'"},
+        {"{{a}} {{b}}", IR_TYPE_VEC3,
+         "10:11: expected an operator or the end of the expression before 'b'"},
         {"", IR_TYPE_VEC3, "10:5: expected an expression before 'the end'"},
     };
     struct fixture f;
     setup(&f);
-    uint32_t file = parse_text(&f, "const float SCALE = 2.0; float twice(float x) { return 2.0 * x; }");
+    uint32_t file =
+        parse_text(&f, "const float SCALE = 2.0; float twice(float x) { return 2.0 * x; }");
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         diag_list_init(&f.diags, &f.arena);
         uint32_t id = parse_expression(&f, cases[i].text, cases[i].type, file);
@@ -405,7 +451,8 @@ static void test_expressions(void)
         if (!REQUIRE((id == LANG_NONE) == (cases[i].messages[0] != 0)) || id == LANG_NONE)
             continue;
         const struct lang_function *function = lang_function(&f.unit, id, NULL);
-        REQUIRE(function->flags & LANG_FN_EXPRESSION && function->num_slots == 3 && function->return_type == cases[i].type);
+        REQUIRE(function->flags & LANG_FN_EXPRESSION && function->num_slots == 3
+                && function->return_type == cases[i].type);
         check_tree(&f.unit, id, function->body, 0);
     }
     /* not seen from there */
@@ -427,19 +474,39 @@ static void test_values(void)
         {"float f() { return true || false && false ? 1.0 : 2.0; }", 1.0f},
         {"float f() { return false ? 1 : true ? 2 : 3; }", 2.0f},
         {"float f() { return 10 - 4 - 3; }", 3.0f},
-        {"float f() { vec4 v = vec4(1, vec2(2, 3), 4); v.wx = v.xy; return dot(v, vec4(1, 10, 100, 1000)); }", 1322.0f},
+        {"float f() { vec4 v = vec4(1, vec2(2, 3), 4); v.wx = v.xy; return dot(v, vec4(1, 10, 100, "
+         "1000)); }",
+         1322.0f},
         {"float f() { mat2 m = mat2(1, 2, 3, 4); m[1].x = 5; return (m * vec2(1, 10)).x; }", 51.0f},
         {"float f() { mat3 m = mat3(2); return (m * vec3(1, 2, 3)).z + m[0][1]; }", 6.0f},
-        {"float f() { vec3 v = vec3(vec4(1, 2, 3, 4)); v.y++; --v.z; v *= 2; return v.x + v.y * v.z; }", 26.0f},
-        {"float f() { float s = 0; for (int i = 0, n = 4; i < n; i++) { if (i == 1) continue; s += i; } return s; }", 5.0f},
-        {"float f() { int i = 0; do i += 2; while (i < 5); while (true) { if (i > 8) break; i++; } return i; }", 9.0f},
-        {"void g(inout float x, out vec2 y) { x += 1; y = vec2(x); } float f() { float x = 1; vec3 y = vec3(5); g(x, y.zy); return x + y.y; }", 4.0f},
-        {"struct S { float a[2]; vec2 b; }; float f() { S s = S(float[](1, 2), vec2(3)); s.a[1] = 7; s.b.y = 1; return s.a[1] * s.b.x + s.b.y; }", 22.0f},
-        {"const float T[3] = { 1, 2, 4 }; float f() { float s = 0; for (int i = 0; i < T.length(); ++i) s += T[i]; return s; }", 7.0f},
+        {"float f() { vec3 v = vec3(vec4(1, 2, 3, 4)); v.y++; --v.z; v *= 2; return v.x + v.y * "
+         "v.z; }",
+         26.0f},
+        {"float f() { float s = 0; for (int i = 0, n = 4; i < n; i++) { if (i == 1) continue; s += "
+         "i; } return s; }",
+         5.0f},
+        {"float f() { int i = 0; do i += 2; while (i < 5); while (true) { if (i > 8) break; i++; } "
+         "return i; }",
+         9.0f},
+        {"void g(inout float x, out vec2 y) { x += 1; y = vec2(x); } float f() { float x = 1; vec3 "
+         "y = vec3(5); g(x, y.zy); return x + y.y; }",
+         4.0f},
+        {"struct S { float a[2]; vec2 b; }; float f() { S s = S(float[](1, 2), vec2(3)); s.a[1] = "
+         "7; s.b.y = 1; return s.a[1] * s.b.x + s.b.y; }",
+         22.0f},
+        {"const float T[3] = { 1, 2, 4 }; float f() { float s = 0; for (int i = 0; i < T.length(); "
+         "++i) s += T[i]; return s; }",
+         7.0f},
         {"float f() { float x = 1; { float x = 2; x += 1; } return x; }", 1.0f},
-        {"float g(int a) { return 1; } float g(float a) { return 2; } float f() { return g(1) * 100 + g(1.0) * 10 + g(1u); }", 122.0f},
-        {"float f() { return atan(1, 1) > 0.78 && min(2, 3u) == 2u && mix(1.0, 2.0, true) == 2.0 ? 1 : 0; }", 1.0f},
-        {"const int N = 3; const int M = N * 2 - 1; float f() { const int K = M + 1; float a[K]; return a.length(); }", 6.0f},
+        {"float g(int a) { return 1; } float g(float a) { return 2; } float f() { return g(1) * "
+         "100 + g(1.0) * 10 + g(1u); }",
+         122.0f},
+        {"float f() { return atan(1, 1) > 0.78 && min(2, 3u) == 2u && mix(1.0, 2.0, true) == 2.0 ? "
+         "1 : 0; }",
+         1.0f},
+        {"const int N = 3; const int M = N * 2 - 1; float f() { const int K = M + 1; float a[K]; "
+         "return a.length(); }",
+         6.0f},
         {"float f() { vec2 v = vec2(1, 2).yx; return v.x * 10 + v.yyx.z; }", 22.0f},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
@@ -451,7 +518,8 @@ static void test_values(void)
         struct ir_value value = {0};
         bool good = id != LANG_NONE && lang_eval_call(&f.unit, id, NULL, &value, 10000, &f.arena);
         if (!REQUIRE(good && value.type == IR_TYPE_FLOAT && value.w[0].f == cases[i].value))
-            printf("    %g, not %g: %s\n", (double)value.w[0].f, (double)cases[i].value, cases[i].text);
+            printf("    %g, not %g: %s\n", (double)value.w[0].f, (double)cases[i].value,
+                   cases[i].text);
         teardown(&f);
     }
 }
@@ -462,11 +530,16 @@ static void test_depth(void)
     static const struct {
         const char *prefix, *repeated, *middle, *closing;
     } cases[] = {
-        {"float f() { return ", "(", "1.0", ")"},   {"float f() { return ", "- ", "1.0", ""},
-        {"float f(float x) { return x", "+ x", "", ""}, {"float f(vec2 x) { return x", ".xy", ".x", ""},
-        {"float f(bool x) { return ", "x ? 1.0 : ", "2.0", ""}, {"float f(float x) { return ", "sin(", "x", ")"},
-        {"void f() ", "{", "", "}"},               {"void f(bool x) { ", "if (x) ", ";", ""},
-        {"void f(bool x) { ", "if (x) ; else ", ";", ""}, {"void f() { ", "do ", ";", " while (true);"},
+        {"float f() { return ", "(", "1.0", ")"},
+        {"float f() { return ", "- ", "1.0", ""},
+        {"float f(float x) { return x", "+ x", "", ""},
+        {"float f(vec2 x) { return x", ".xy", ".x", ""},
+        {"float f(bool x) { return ", "x ? 1.0 : ", "2.0", ""},
+        {"float f(float x) { return ", "sin(", "x", ")"},
+        {"void f() ", "{", "", "}"},
+        {"void f(bool x) { ", "if (x) ", ";", ""},
+        {"void f(bool x) { ", "if (x) ; else ", ";", ""},
+        {"void f() { ", "do ", ";", " while (true);"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         struct fixture f;
@@ -497,9 +570,58 @@ static uint32_t random_below(uint32_t *state, uint32_t limit)
 }
 
 static const char *const fragments[] = {
-    "(", ")", "{", "}", "[", "]", ";", ",", ".", "=", "+", "-", "++", "?", ":", "\"", "/*", "*/", "//", "#", "\n", "{{", "}}", "\\\n",
-    "0x", "1e", "1.0", "2u", "float", "vec3", "const", "struct S {", "uniform", "return", "if (", "for (", "x", "option_x", "\xff", "#define A ",
-    "#include \"a.glsl\"\n", "float f(", "void", "out", "in", "while (", "sampler2D", "string", "float[](", "99999999999", "do", "else",
+    "(",
+    ")",
+    "{",
+    "}",
+    "[",
+    "]",
+    ";",
+    ",",
+    ".",
+    "=",
+    "+",
+    "-",
+    "++",
+    "?",
+    ":",
+    "\"",
+    "/*",
+    "*/",
+    "//",
+    "#",
+    "\n",
+    "{{",
+    "}}",
+    "\\\n",
+    "0x",
+    "1e",
+    "1.0",
+    "2u",
+    "float",
+    "vec3",
+    "const",
+    "struct S {",
+    "uniform",
+    "return",
+    "if (",
+    "for (",
+    "x",
+    "option_x",
+    "\xff",
+    "#define A ",
+    "#include \"a.glsl\"\n",
+    "float f(",
+    "void",
+    "out",
+    "in",
+    "while (",
+    "sampler2D",
+    "string",
+    "float[](",
+    "99999999999",
+    "do",
+    "else",
 };
 
 /* One change of `text`, which has room for 64 bytes more. */
@@ -510,9 +632,7 @@ static size_t mutate(char *text, size_t len, uint32_t *state)
     const char *fragment = fragments[random_below(state, sizeof fragments / sizeof fragments[0])];
     size_t fragment_len = strlen(fragment);
     switch (random_below(state, 4)) {
-    case 0: /* delete */
-        memmove(text + at, text + end, len - end);
-        return len - (end - at);
+    case 0: /* delete */ memmove(text + at, text + end, len - end); return len - (end - at);
     case 1: /* insert a fragment */
         memmove(text + at + fragment_len, text + at, len - at);
         memcpy(text + at, fragment, fragment_len);
@@ -579,7 +699,9 @@ int main(int argc, char **argv)
     test_values();
     test_depth();
     fuzz(everything, rounds);
-    fuzz("mix({{a}}.xyz, vec3({{b}}, 1.0, -2.0), clamp({{b}} * 2.0, 0, 1)) + ({{a}} * mat3(1.0))[1]", rounds);
+    fuzz(
+        "mix({{a}}.xyz, vec3({{b}}, 1.0, -2.0), clamp({{b}} * 2.0, 0, 1)) + ({{a}} * mat3(1.0))[1]",
+        rounds);
     for (int i = 2; i < argc; i++)
         fuzz_file(argv[i], rounds);
     return test_report("lang_parse");

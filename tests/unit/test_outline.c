@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Definitions nested in definitions: those used often become functions of the shader, and the value stays what it is when all are
- * expanded. The IR of `mxgen inspect` is read back and evaluated.
+ * Definitions nested in definitions: those used often become functions of the shader, and the value
+ * stays what it is when all are expanded. The IR of `mxgen inspect` is read back and evaluated.
  */
 #include "base/text.h"
 #include "ir/ir.h"
@@ -12,26 +12,39 @@
 #include <math.h>
 
 /*
- * f0(x, k) = sin(k x) and, above it, fn(x, k) = fn-1(x, k) + fn-1(fn-1(x, k), k / 2): 2^n uses of f0, and f1 to fn-1 with ever other
- * arguments.
+ * f0(x, k) = sin(k x) and, above it, fn(x, k) = fn-1(x, k) + fn-1(fn-1(x, k), k / 2): 2^n uses of
+ * f0, and f1 to fn-1 with ever other arguments.
  */
 static void write_definition(struct text *out, unsigned n)
 {
-    text_fmt(out, "<nodedef name=\"ND_f%u\" node=\"f%u\"><input name=\"x\" type=\"float\"/><input name=\"k\" type=\"float\"/>"
-                  "<output name=\"out\" type=\"float\"/></nodedef><nodegraph name=\"NG_f%u\" nodedef=\"ND_f%u\">", n, n, n, n);
+    text_fmt(out,
+             "<nodedef name=\"ND_f%u\" node=\"f%u\"><input name=\"x\" type=\"float\"/><input "
+             "name=\"k\" type=\"float\"/>"
+             "<output name=\"out\" type=\"float\"/></nodedef><nodegraph name=\"NG_f%u\" "
+             "nodedef=\"ND_f%u\">",
+             n, n, n, n);
     if (n == 0) {
-        text_str(out, "<multiply name=\"kx\" type=\"float\"><input name=\"in1\" type=\"float\" interfacename=\"k\"/>"
+        text_str(out, "<multiply name=\"kx\" type=\"float\"><input name=\"in1\" type=\"float\" "
+                      "interfacename=\"k\"/>"
                       "<input name=\"in2\" type=\"float\" interfacename=\"x\"/></multiply>"
-                      "<sin name=\"sum\" type=\"float\"><input name=\"in\" type=\"float\" nodename=\"kx\"/></sin>");
+                      "<sin name=\"sum\" type=\"float\"><input name=\"in\" type=\"float\" "
+                      "nodename=\"kx\"/></sin>");
     } else {
-        text_fmt(out, "<divide name=\"half\" type=\"float\"><input name=\"in1\" type=\"float\" interfacename=\"k\"/>"
-                      "<input name=\"in2\" type=\"float\" value=\"2\"/></divide>"
-                      "<f%u name=\"a\" type=\"float\"><input name=\"x\" type=\"float\" interfacename=\"x\"/>"
-                      "<input name=\"k\" type=\"float\" interfacename=\"k\"/></f%u>", n - 1, n - 1);
-        text_fmt(out, "<f%u name=\"b\" type=\"float\"><input name=\"x\" type=\"float\" nodename=\"a\"/>"
-                      "<input name=\"k\" type=\"float\" nodename=\"half\"/></f%u>"
-                      "<add name=\"sum\" type=\"float\"><input name=\"in1\" type=\"float\" nodename=\"a\"/>"
-                      "<input name=\"in2\" type=\"float\" nodename=\"b\"/></add>", n - 1, n - 1);
+        text_fmt(
+            out,
+            "<divide name=\"half\" type=\"float\"><input name=\"in1\" type=\"float\" "
+            "interfacename=\"k\"/>"
+            "<input name=\"in2\" type=\"float\" value=\"2\"/></divide>"
+            "<f%u name=\"a\" type=\"float\"><input name=\"x\" type=\"float\" interfacename=\"x\"/>"
+            "<input name=\"k\" type=\"float\" interfacename=\"k\"/></f%u>",
+            n - 1, n - 1);
+        text_fmt(
+            out,
+            "<f%u name=\"b\" type=\"float\"><input name=\"x\" type=\"float\" nodename=\"a\"/>"
+            "<input name=\"k\" type=\"float\" nodename=\"half\"/></f%u>"
+            "<add name=\"sum\" type=\"float\"><input name=\"in1\" type=\"float\" nodename=\"a\"/>"
+            "<input name=\"in2\" type=\"float\" nodename=\"b\"/></add>",
+            n - 1, n - 1);
     }
     text_str(out, "<output name=\"out\" type=\"float\" nodename=\"sum\"/></nodegraph>\n");
 }
@@ -41,8 +54,11 @@ static void write_document(struct text *out, unsigned depth)
     text_str(out, "<materialx version=\"1.39\">\n");
     for (unsigned n = 0; n <= depth; n++)
         write_definition(out, n);
-    text_fmt(out, "<time name=\"t\" type=\"float\"/><f%u name=\"f\" type=\"float\"><input name=\"x\" type=\"float\" nodename=\"t\"/>"
-                  "<input name=\"k\" type=\"float\" value=\"1.5\"/></f%u><output name=\"out\" type=\"float\" nodename=\"f\"/></materialx>",
+    text_fmt(out,
+             "<time name=\"t\" type=\"float\"/><f%u name=\"f\" type=\"float\"><input name=\"x\" "
+             "type=\"float\" nodename=\"t\"/>"
+             "<input name=\"k\" type=\"float\" value=\"1.5\"/></f%u><output name=\"out\" "
+             "type=\"float\" nodename=\"f\"/></materialx>",
              depth, depth);
 }
 
@@ -107,7 +123,9 @@ int main(void)
         arena_init(&arena, &mem);
         text_init(&source, &arena);
         write_document(&source, depth);
-        REQUIRE_EQ(mxg_document_parse(context, library, "nested.mtlx", source.data, source.len, &document), MXG_OK);
+        REQUIRE_EQ(
+            mxg_document_parse(context, library, "nested.mtlx", source.data, source.len, &document),
+            MXG_OK);
         if (REQUIRE_EQ(mxg_inspect(context, document, MXG_VIEW_IR, &desc, &result), MXG_OK)) {
             size_t size;
             const char *text = mxg_result_text(result, &size);

@@ -6,7 +6,8 @@
 /* ---- std140 ---- */
 
 /*
- * Offsets and sizes worked out by hand from the rules of OpenGL 4.5, 7.6.2.2, for one block that holds these members in order.
+ * Offsets and sizes worked out by hand from the rules of OpenGL 4.5, 7.6.2.2, for one block that
+ * holds these members in order.
  */
 static const struct member_case {
     ir_type_id type;
@@ -35,11 +36,15 @@ static void test_std140(void)
     struct fixture f;
     fixture_open(&f, NULL);
     for (size_t i = 0; i < sizeof member_cases / sizeof *member_cases; i++) {
-        struct shader_variable v = {.name = word(&f, "v"), .block = BLOCK_PUBLIC_UNIFORMS, .type = member_cases[i].type,
-                                    .array_length = member_cases[i].array_length, .stages = 1 << STAGE_PIXEL};
+        struct shader_variable v = {.name = word(&f, "v"),
+                                    .block = BLOCK_PUBLIC_UNIFORMS,
+                                    .type = member_cases[i].type,
+                                    .array_length = member_cases[i].array_length,
+                                    .stages = 1 << STAGE_PIXEL};
         shader_add_variable(&f.shader, &v);
     }
-    shader_layout(&f.shader, &(struct shader_layout_rules){.blocks = true, .bindings = true, .set = 2});
+    shader_layout(&f.shader,
+                  &(struct shader_layout_rules){.blocks = true, .bindings = true, .set = 2});
     for (size_t i = 0; i < sizeof member_cases / sizeof *member_cases; i++) {
         const struct shader_variable *v = &f.shader.variables.items[i];
         REQUIRE_EQ(v->offset, member_cases[i].offset);
@@ -64,19 +69,24 @@ static void test_light_layout(void)
         const char *name;
         ir_type_id type;
         uint32_t offset;
-    } members[] = {{"direction", IR_TYPE_VEC3, 16}, {"color", IR_TYPE_VEC3, 32},     {"intensity", IR_TYPE_FLOAT, 44},
-                   {"position", IR_TYPE_VEC3, 48},  {"decay_rate", IR_TYPE_FLOAT, 60}, {"outer_angle", IR_TYPE_FLOAT, 64}};
+    } members[] = {{"direction", IR_TYPE_VEC3, 16},   {"color", IR_TYPE_VEC3, 32},
+                   {"intensity", IR_TYPE_FLOAT, 44},  {"position", IR_TYPE_VEC3, 48},
+                   {"decay_rate", IR_TYPE_FLOAT, 60}, {"outer_angle", IR_TYPE_FLOAT, 64}};
     for (size_t i = 0; i < sizeof members / sizeof *members; i++)
-        vec_push(&f.arena, &f.shader.light_members, shader_light_member(&f.shader, word(&f, members[i].name), members[i].type));
-    REQUIRE_EQ(shader_light_member(&f.shader, word(&f, "color"), IR_TYPE_VEC3), f.shader.light_members.items[1]);
-    REQUIRE(shader_light_member(&f.shader, word(&f, "color"), IR_TYPE_FLOAT) != f.shader.light_members.items[1]);
+        vec_push(&f.arena, &f.shader.light_members,
+                 shader_light_member(&f.shader, word(&f, members[i].name), members[i].type));
+    REQUIRE_EQ(shader_light_member(&f.shader, word(&f, "color"), IR_TYPE_VEC3),
+               f.shader.light_members.items[1]);
+    REQUIRE(shader_light_member(&f.shader, word(&f, "color"), IR_TYPE_FLOAT)
+            != f.shader.light_members.items[1]);
     effect(&f, EFFECT_LIGHTS, 0, 0);
     effect(&f, EFFECT_END, 0, 0);
     shader_finish(&f.shader, &(struct shader_layout_rules){.blocks = true});
     uint32_t type = shader_find_variable(&f.shader, BLOCK_LIGHT_DATA, word(&f, "type"));
     REQUIRE_EQ(f.shader.variables.items[type].offset, 0);
     for (size_t i = 0; i < sizeof members / sizeof *members; i++)
-        REQUIRE_EQ(f.shader.variables.items[f.shader.light_members.items[i]].offset, members[i].offset);
+        REQUIRE_EQ(f.shader.variables.items[f.shader.light_members.items[i]].offset,
+                   members[i].offset);
     REQUIRE_EQ(f.shader.buffers[BLOCK_LIGHT_DATA].stride, 80);
     REQUIRE_EQ(f.shader.buffers[BLOCK_LIGHT_DATA].size, 240);
     fixture_close(&f);
@@ -87,8 +97,9 @@ static void test_light_layout(void)
 /* Statements in short: "var a lights{ b acc } out", where a and b are the names of LETs. */
 static const char *describe(struct fixture *f, const struct effect_list *statements)
 {
-    static const char *const kinds[] = {"var", "acc", "assign", "out", "position", "if{", "lights{", "samples{", "}", "comment",
-                                        "discard", "let", "result"};
+    static const char *const kinds[] = {"var",     "acc",     "assign",   "out", "position",
+                                        "if{",     "lights{", "samples{", "}",   "comment",
+                                        "discard", "let",     "result"};
     struct text out;
     text_init(&out, &f->arena);
     for (uint32_t i = 0; i < statements->len; i++) {
@@ -96,7 +107,8 @@ static const char *describe(struct fixture *f, const struct effect_list *stateme
         if (i)
             text_char(&out, ' ');
         uint32_t origin = e->kind == EFFECT_LET ? ir_get(&f->graph, e->value)->origin : 0;
-        text_str(&out, origin ? str_text(&f->strings, f->graph.origins.items[origin].name) : kinds[e->kind]);
+        text_str(&out, origin ? str_text(&f->strings, f->graph.origins.items[origin].name)
+                              : kinds[e->kind]);
     }
     return text_cstr(&out);
 }
@@ -120,71 +132,97 @@ static ir_ref dear(struct fixture *f, const char *text)
     static void title(void) \
     { \
         struct fixture fixture, *f = &fixture; \
-        fixture_open(f, "float derivative(float x) { float y = 0.0; for (int i = 0; i < 3; ++i) y += dFdx(x); return y; }\n" \
-                        "float two(float x, out float y) { y = x; for (int i = 0; i < 3; ++i) y *= x; return y + 1.0; }\n"); \
+        fixture_open(f, "float derivative(float x) { float y = 0.0; for (int i = 0; i < 3; ++i) " \
+                        "y += dFdx(x); return y; }\n" \
+                        "float two(float x, out float y) { y = x; for (int i = 0; i < 3; ++i) y " \
+                        "*= x; return y + 1.0; }\n"); \
         __VA_ARGS__ \
         REQUIRE_STR(scheduled(f), expected); \
         fixture_close(f); \
     }
 
 SCHEDULE_TEST(used_once, "acc", accumulate(f, dear(f, "a"));)
-SCHEDULE_TEST(used_twice, "a acc acc", ir_ref a = dear(f, "a"); accumulate(f, a); accumulate(f, op2(f, IR_ADD, a, dear(f, "b")));)
-SCHEDULE_TEST(cheap_twice, "acc acc", ir_ref a = op1(f, IR_NEG, uniform(f, "u", IR_TYPE_VEC3)); accumulate(f, a);
+SCHEDULE_TEST(used_twice, "a acc acc", ir_ref a = dear(f, "a"); accumulate(f, a);
               accumulate(f, op2(f, IR_ADD, a, dear(f, "b")));)
-SCHEDULE_TEST(sinks_into_if, "if{ a acc acc }", ir_ref a = dear(f, "a"); effect(f, EFFECT_IF, 0, uniform(f, "c", IR_TYPE_BOOL));
-              accumulate(f, a); accumulate(f, op2(f, IR_MUL, a, dear(f, "b"))); effect(f, EFFECT_END, 0, 0);)
-SCHEDULE_TEST(before_first_if, "if{ acc } a if{ acc } if{ acc }", ir_ref a = dear(f, "a"); ir_ref c = uniform(f, "c", IR_TYPE_BOOL);
-              effect(f, EFFECT_IF, 0, c); accumulate(f, dear(f, "b")); effect(f, EFFECT_END, 0, 0);
-              for (int i = 0; i < 2; i++) {
-                  effect(f, EFFECT_IF, 0, c);
-                  accumulate(f, a);
-                  effect(f, EFFECT_END, 0, 0);
-              })
-SCHEDULE_TEST(out_of_lights, "a lights{ acc }", ir_ref a = dear(f, "a"); effect(f, EFFECT_LIGHTS, 0, 0);
-              accumulate(f, op2(f, IR_MUL, a, light_direction(f))); effect(f, EFFECT_END, 0, 0);)
+SCHEDULE_TEST(cheap_twice, "acc acc", ir_ref a = op1(f, IR_NEG, uniform(f, "u", IR_TYPE_VEC3));
+              accumulate(f, a); accumulate(f, op2(f, IR_ADD, a, dear(f, "b")));)
+SCHEDULE_TEST(sinks_into_if, "if{ a acc acc }", ir_ref a = dear(f, "a");
+              effect(f, EFFECT_IF, 0, uniform(f, "c", IR_TYPE_BOOL)); accumulate(f, a);
+              accumulate(f, op2(f, IR_MUL, a, dear(f, "b"))); effect(f, EFFECT_END, 0, 0);)
+SCHEDULE_TEST(
+    before_first_if, "if{ acc } a if{ acc } if{ acc }", ir_ref a = dear(f, "a");
+    ir_ref c = uniform(f, "c", IR_TYPE_BOOL); effect(f, EFFECT_IF, 0, c);
+    accumulate(f, dear(f, "b")); effect(f, EFFECT_END, 0, 0); for (int i = 0; i < 2; i++) {
+        effect(f, EFFECT_IF, 0, c);
+        accumulate(f, a);
+        effect(f, EFFECT_END, 0, 0);
+    })
+SCHEDULE_TEST(out_of_lights, "a lights{ acc }", ir_ref a = dear(f, "a");
+              effect(f, EFFECT_LIGHTS, 0, 0); accumulate(f, op2(f, IR_MUL, a, light_direction(f)));
+              effect(f, EFFECT_END, 0, 0);)
 SCHEDULE_TEST(out_of_lights_into_if, "if{ a lights{ acc } }", ir_ref a = dear(f, "a");
-              effect(f, EFFECT_IF, 0, uniform(f, "c", IR_TYPE_BOOL)); effect(f, EFFECT_LIGHTS, 0, 0);
-              accumulate(f, op2(f, IR_MUL, a, light_direction(f))); effect(f, EFFECT_END, 0, 0); effect(f, EFFECT_END, 0, 0);)
-SCHEDULE_TEST(stays_in_lights, "lights{ a acc acc }", name(f, "a"); ir_ref a = op1(f, IR_NORMALIZE, light_direction(f)); name(f, "");
-              effect(f, EFFECT_LIGHTS, 0, 0); accumulate(f, a); accumulate(f, op2(f, IR_MUL, a, a)); effect(f, EFFECT_END, 0, 0);)
-SCHEDULE_TEST(two_light_loops, "lights{ acc } lights{ acc }", ir_ref a = op1(f, IR_NORMALIZE, light_direction(f));
-              for (int i = 0; i < 2; i++) {
-                  effect(f, EFFECT_LIGHTS, 0, 0);
-                  accumulate(f, a);
-                  effect(f, EFFECT_END, 0, 0);
-              })
-SCHEDULE_TEST(uniform_read_often, "a acc acc acc acc acc", name(f, "a"); ir_ref a = uniform(f, "u", IR_TYPE_VEC3); name(f, "");
-              for (int i = 1; i <= 5; i++)
-                  accumulate(f, op2(f, IR_ADD, a, dear(f, (char[]){(char)('a' + i), 0}))); )
+              effect(f, EFFECT_IF, 0, uniform(f, "c", IR_TYPE_BOOL));
+              effect(f, EFFECT_LIGHTS, 0, 0); accumulate(f, op2(f, IR_MUL, a, light_direction(f)));
+              effect(f, EFFECT_END, 0, 0); effect(f, EFFECT_END, 0, 0);)
+SCHEDULE_TEST(stays_in_lights, "lights{ a acc acc }", name(f, "a");
+              ir_ref a = op1(f, IR_NORMALIZE, light_direction(f)); name(f, "");
+              effect(f, EFFECT_LIGHTS, 0, 0); accumulate(f, a); accumulate(f, op2(f, IR_MUL, a, a));
+              effect(f, EFFECT_END, 0, 0);)
+SCHEDULE_TEST(
+    two_light_loops, "lights{ acc } lights{ acc }",
+    ir_ref a = op1(f, IR_NORMALIZE, light_direction(f));
+    for (int i = 0; i < 2; i++) {
+        effect(f, EFFECT_LIGHTS, 0, 0);
+        accumulate(f, a);
+        effect(f, EFFECT_END, 0, 0);
+    })
+SCHEDULE_TEST(uniform_read_often, "a acc acc acc acc acc", name(f, "a");
+              ir_ref a = uniform(f, "u", IR_TYPE_VEC3); name(f, ""); for (int i = 1; i <= 5; i++)
+                  accumulate(f, op2(f, IR_ADD, a, dear(f, (char[]){(char)('a' + i), 0})));)
 SCHEDULE_TEST(uniform_read_sometimes, "acc acc acc acc", ir_ref a = uniform(f, "u", IR_TYPE_VEC3);
               for (int i = 1; i <= 4; i++)
-                  accumulate(f, op2(f, IR_ADD, a, dear(f, (char[]){(char)('a' + i), 0}))); )
+                  accumulate(f, op2(f, IR_ADD, a, dear(f, (char[]){(char)('a' + i), 0})));)
 SCHEDULE_TEST(two_kinds_of_loops, "a lights{ acc } samples{ b acc acc }", ir_ref a = dear(f, "a");
-              ir_ref i = ir_op1(&f->graph, IR_SIN, ir_convert(&f->graph, IR_TYPE_FLOAT, ir_build(&f->graph, IR_SAMPLE, IR_TYPE_INT, 0, NULL, 0)));
+              ir_ref i = ir_op1(&f->graph, IR_SIN,
+                                ir_convert(&f->graph, IR_TYPE_FLOAT,
+                                           ir_build(&f->graph, IR_SAMPLE, IR_TYPE_INT, 0, NULL,
+                                                    0)));
               name(f, "b"); ir_ref b = op2(f, IR_MUL, a, i); name(f, "");
-              effect(f, EFFECT_LIGHTS, 0, 0); accumulate(f, op2(f, IR_MUL, a, light_direction(f))); effect(f, EFFECT_END, 0, 0);
-              effect(f, EFFECT_SAMPLES, 0, 0); accumulate(f, b); accumulate(f, op1(f, IR_SQRT, b)); effect(f, EFFECT_END, 0, 0);)
-SCHEDULE_TEST(condition_in_lights, "lights{ if{ acc } }", ir_ref c = op2(f, IR_GT, uniform(f, "w", IR_TYPE_FLOAT), number(f, 0));
-              effect(f, EFFECT_LIGHTS, 0, 0); effect(f, EFFECT_IF, 0, c); accumulate(f, light_direction(f));
-              effect(f, EFFECT_END, 0, 0); effect(f, EFFECT_END, 0, 0);)
-SCHEDULE_TEST(derivative_out_of_if, "a if{ acc }", ir_ref b = dear(f, "b"); name(f, "a"); ir_ref a = op1(f, IR_DFDX, b); name(f, "");
-              effect(f, EFFECT_IF, 0, uniform(f, "c", IR_TYPE_BOOL)); accumulate(f, op1(f, IR_SIN, a)); effect(f, EFFECT_END, 0, 0);)
-SCHEDULE_TEST(derivative_call_out_of_if, "a if{ acc }", ir_ref u = uniform(f, "u", IR_TYPE_FLOAT); name(f, "a");
-              ir_ref a = call(f, "derivative", &u, 1); name(f, ""); effect(f, EFFECT_IF, 0, uniform(f, "c", IR_TYPE_BOOL));
-              accumulate(f, vec3_of(f, a)); effect(f, EFFECT_END, 0, 0);)
-SCHEDULE_TEST(derivative_before_discard, "a discard acc", name(f, "a"); ir_ref u = uniform(f, "u", IR_TYPE_VEC3);
-              ir_ref a = op1(f, IR_DFDX, op1(f, IR_SIN, u)); name(f, ""); effect(f, EFFECT_DISCARD, 0, uniform(f, "c", IR_TYPE_BOOL));
-              accumulate(f, a);)
-SCHEDULE_TEST(derivative_out_of_arm, "a acc", ir_ref u = uniform(f, "u", IR_TYPE_VEC3); name(f, "a");
+              effect(f, EFFECT_LIGHTS, 0, 0); accumulate(f, op2(f, IR_MUL, a, light_direction(f)));
+              effect(f, EFFECT_END, 0, 0); effect(f, EFFECT_SAMPLES, 0, 0); accumulate(f, b);
+              accumulate(f, op1(f, IR_SQRT, b)); effect(f, EFFECT_END, 0, 0);)
+SCHEDULE_TEST(condition_in_lights, "lights{ if{ acc } }",
+              ir_ref c = op2(f, IR_GT, uniform(f, "w", IR_TYPE_FLOAT), number(f, 0));
+              effect(f, EFFECT_LIGHTS, 0, 0); effect(f, EFFECT_IF, 0, c);
+              accumulate(f, light_direction(f)); effect(f, EFFECT_END, 0, 0);
+              effect(f, EFFECT_END, 0, 0);)
+SCHEDULE_TEST(derivative_out_of_if, "a if{ acc }", ir_ref b = dear(f, "b"); name(f, "a");
+              ir_ref a = op1(f, IR_DFDX, b); name(f, "");
+              effect(f, EFFECT_IF, 0, uniform(f, "c", IR_TYPE_BOOL));
+              accumulate(f, op1(f, IR_SIN, a)); effect(f, EFFECT_END, 0, 0);)
+SCHEDULE_TEST(derivative_call_out_of_if, "a if{ acc }", ir_ref u = uniform(f, "u", IR_TYPE_FLOAT);
+              name(f, "a"); ir_ref a = call(f, "derivative", &u, 1); name(f, "");
+              effect(f, EFFECT_IF, 0, uniform(f, "c", IR_TYPE_BOOL)); accumulate(f, vec3_of(f, a));
+              effect(f, EFFECT_END, 0, 0);)
+SCHEDULE_TEST(derivative_before_discard, "a discard acc", name(f, "a");
+              ir_ref u = uniform(f, "u", IR_TYPE_VEC3);
               ir_ref a = op1(f, IR_DFDX, op1(f, IR_SIN, u)); name(f, "");
-              accumulate(f, ir_op3(&f->graph, IR_SELECT, uniform(f, "c", IR_TYPE_BOOL), op1(f, IR_SIN, a), u));)
-SCHEDULE_TEST(local_in_its_effect, "var acc a acc", effect(f, EFFECT_VAR, f->color, vec3_of(f, number(f, 0)));
-              accumulate(f, dear(f, "b")); name(f, "a"); ir_ref a = op1(f, IR_SIN, read_color(f)); name(f, "");
-              accumulate(f, op2(f, IR_MUL, a, a));)
-SCHEDULE_TEST(local_in_two_effects, "var acc acc", effect(f, EFFECT_VAR, f->color, vec3_of(f, number(f, 0)));
-              ir_ref a = op1(f, IR_SIN, read_color(f)); accumulate(f, a); accumulate(f, op2(f, IR_ADD, a, dear(f, "b")));)
-SCHEDULE_TEST(several_results, "a acc acc", ir_ref u = uniform(f, "u", IR_TYPE_FLOAT); name(f, "a"); ir_ref c = call(f, "two", &u, 1);
-              name(f, ""); accumulate(f, vec3_of(f, result(f, c, 0, IR_TYPE_FLOAT)));
+              effect(f, EFFECT_DISCARD, 0, uniform(f, "c", IR_TYPE_BOOL)); accumulate(f, a);)
+SCHEDULE_TEST(derivative_out_of_arm, "a acc", ir_ref u = uniform(f, "u", IR_TYPE_VEC3);
+              name(f, "a"); ir_ref a = op1(f, IR_DFDX, op1(f, IR_SIN, u)); name(f, "");
+              accumulate(f, ir_op3(&f->graph, IR_SELECT, uniform(f, "c", IR_TYPE_BOOL),
+                                   op1(f, IR_SIN, a), u));)
+SCHEDULE_TEST(local_in_its_effect, "var acc a acc",
+              effect(f, EFFECT_VAR, f->color, vec3_of(f, number(f, 0)));
+              accumulate(f, dear(f, "b")); name(f, "a"); ir_ref a = op1(f, IR_SIN, read_color(f));
+              name(f, ""); accumulate(f, op2(f, IR_MUL, a, a));)
+SCHEDULE_TEST(local_in_two_effects, "var acc acc",
+              effect(f, EFFECT_VAR, f->color, vec3_of(f, number(f, 0)));
+              ir_ref a = op1(f, IR_SIN, read_color(f)); accumulate(f, a);
+              accumulate(f, op2(f, IR_ADD, a, dear(f, "b")));)
+SCHEDULE_TEST(several_results, "a acc acc", ir_ref u = uniform(f, "u", IR_TYPE_FLOAT); name(f, "a");
+              ir_ref c = call(f, "two", &u, 1); name(f, "");
+              accumulate(f, vec3_of(f, result(f, c, 0, IR_TYPE_FLOAT)));
               accumulate(f, vec3_of(f, result(f, c, 1, IR_TYPE_FLOAT)));)
 SCHEDULE_TEST(part_of_a_local, "a acc", name(f, "a");
               ir_ref a = op1(f, IR_NORMALIZE, uniform(f, "u", IR_TYPE_VEC3)); name(f, "");
@@ -217,7 +255,8 @@ static void test_schedule(void)
 }
 
 /*
- * Every LET stands before what reads it, in a region that is still open there. Checked over a random graph.
+ * Every LET stands before what reads it, in a region that is still open there. Checked over a
+ * random graph.
  */
 static bool is_visible(const struct effect_list *list, uint32_t reader, ir_ref value)
 {
@@ -240,7 +279,8 @@ static uint32_t next_random(uint32_t *state)
     return *state >> 16;
 }
 
-static void check_reads(struct fixture *f, const struct effect_list *list, const uint8_t *is_let, uint32_t at, ir_ref ref)
+static void check_reads(struct fixture *f, const struct effect_list *list, const uint8_t *is_let,
+                        uint32_t at, ir_ref ref)
 {
     for (uint32_t a = 0; a < ir_get(&f->graph, ref)->num_args; a++) {
         ir_ref operand = ir_arg(&f->graph, ref, a);
@@ -257,12 +297,14 @@ static void test_random_schedules(void)
         struct fixture f;
         fixture_open(&f, NULL);
         uint32_t state = seed, open = 0;
-        ir_ref pool[64] = {uniform(&f, "u", IR_TYPE_VEC3), uniform(&f, "v", IR_TYPE_VEC3), light_direction(&f)};
+        ir_ref pool[64] = {uniform(&f, "u", IR_TYPE_VEC3), uniform(&f, "v", IR_TYPE_VEC3),
+                           light_direction(&f)};
         for (uint32_t n = 3; n < 64; n++) {
             static const enum ir_op ops[] = {IR_ADD, IR_MUL, IR_MIN, IR_CROSS};
             ir_ref a = pool[next_random(&state) % n], b = pool[next_random(&state) % n];
-            pool[n] = next_random(&state) % 5 == 0 ? op1(&f, next_random(&state) % 2 ? IR_SIN : IR_DFDX, a)
-                                                   : op2(&f, ops[next_random(&state) % 4], a, b);
+            pool[n] = next_random(&state) % 5 == 0
+                          ? op1(&f, next_random(&state) % 2 ? IR_SIN : IR_DFDX, a)
+                          : op2(&f, ops[next_random(&state) % 4], a, b);
         }
         effect(&f, EFFECT_LIGHTS, 0, 0);
         for (int n = 0; n < 24; n++) {
@@ -297,7 +339,8 @@ static void test_random_schedules(void)
 }
 
 /*
- * A chain of a million nodes becomes a list of short statements, without recursion; a diamond of depth 1000 is not unfolded.
+ * A chain of a million nodes becomes a list of short statements, without recursion; a diamond of
+ * depth 1000 is not unfolded.
  */
 static void test_long_chains(void)
 {
@@ -334,9 +377,19 @@ static void test_names(void)
     static const struct {
         const char *wanted, *got;
     } cases[] = {
-        {"SR_gold_base", "SR_gold_base"}, {"SR_gold_base", "SR_gold_base_2"}, {"a b", "a_b"}, {"2x", "x2x"},
-        {"a__b", "a_b_2"}, {"gl_Position", "xgl_Position"}, {"vec3", "vec3_"}, {"vec3", "vec3_2"}, {"main", "main_2"}, {"", "x"},
-        {"caf\xc3\xa9", "caf_"}, {"caf_", "caf_2"}, {"_", "_"},
+        {"SR_gold_base", "SR_gold_base"},
+        {"SR_gold_base", "SR_gold_base_2"},
+        {"a b", "a_b"},
+        {"2x", "x2x"},
+        {"a__b", "a_b_2"},
+        {"gl_Position", "xgl_Position"},
+        {"vec3", "vec3_"},
+        {"vec3", "vec3_2"},
+        {"main", "main_2"},
+        {"", "x"},
+        {"caf\xc3\xa9", "caf_"},
+        {"caf_", "caf_2"},
+        {"_", "_"},
     };
     struct fixture f;
     fixture_open(&f, NULL);
@@ -344,7 +397,9 @@ static void test_names(void)
     lang_style_init(&style, target_find("glsl")->syntax, &f.arena);
     f.shader.style = &style;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        struct shader_variable v = {.name = word(&f, cases[i].wanted), .block = BLOCK_PUBLIC_UNIFORMS, .type = IR_TYPE_FLOAT};
+        struct shader_variable v = {.name = word(&f, cases[i].wanted),
+                                    .block = BLOCK_PUBLIC_UNIFORMS,
+                                    .type = IR_TYPE_FLOAT};
         REQUIRE_STR(variable_name(&f, shader_add_variable(&f.shader, &v)), cases[i].got);
     }
     fixture_close(&f);
@@ -356,16 +411,26 @@ static const struct stream_case {
     ir_type_id wanted;
     const char *interface;
 } stream_cases[] = {
-    {"positionWorld", IR_TYPE_VOID, "u_worldMatrix u_viewProjectionMatrix i_position positionWorld out1"},
-    {"normalWorld", IR_TYPE_VEC3, "u_worldMatrix u_worldInverseTransposeMatrix u_viewProjectionMatrix i_position i_normal normalWorld out1"},
-    {"tangentObject", IR_TYPE_VEC3, "u_worldMatrix u_viewProjectionMatrix i_position i_tangent tangentObject out1"},
-    {"bitangentWorld", IR_TYPE_VEC3, "u_worldMatrix u_worldInverseTransposeMatrix u_viewProjectionMatrix i_position i_normal "
-                                     "i_tangent bitangentWorld out1"},
-    {"bitangentObject", IR_TYPE_VEC3, "u_worldMatrix u_viewProjectionMatrix i_position i_normal i_tangent bitangentObject out1"},
-    {"texcoord_1", IR_TYPE_VEC3, "u_worldMatrix u_viewProjectionMatrix i_position i_texcoord_1 texcoord_1 out1"},
-    {"color_0", IR_TYPE_FLOAT, "u_worldMatrix u_viewProjectionMatrix i_position i_color_0 color_0 out1"},
-    {"geomprop_st", IR_TYPE_VEC2, "u_worldMatrix u_viewProjectionMatrix i_position i_geomprop_st geomprop_st out1"},
-    {"geomprop_flag", IR_TYPE_BOOL, "u_worldMatrix u_viewProjectionMatrix i_position i_geomprop_flag geomprop_flag out1"},
+    {"positionWorld", IR_TYPE_VOID,
+     "u_worldMatrix u_viewProjectionMatrix i_position positionWorld out1"},
+    {"normalWorld", IR_TYPE_VEC3,
+     "u_worldMatrix u_worldInverseTransposeMatrix u_viewProjectionMatrix i_position i_normal "
+     "normalWorld out1"},
+    {"tangentObject", IR_TYPE_VEC3,
+     "u_worldMatrix u_viewProjectionMatrix i_position i_tangent tangentObject out1"},
+    {"bitangentWorld", IR_TYPE_VEC3,
+     "u_worldMatrix u_worldInverseTransposeMatrix u_viewProjectionMatrix i_position i_normal "
+     "i_tangent bitangentWorld out1"},
+    {"bitangentObject", IR_TYPE_VEC3,
+     "u_worldMatrix u_viewProjectionMatrix i_position i_normal i_tangent bitangentObject out1"},
+    {"texcoord_1", IR_TYPE_VEC3,
+     "u_worldMatrix u_viewProjectionMatrix i_position i_texcoord_1 texcoord_1 out1"},
+    {"color_0", IR_TYPE_FLOAT,
+     "u_worldMatrix u_viewProjectionMatrix i_position i_color_0 color_0 out1"},
+    {"geomprop_st", IR_TYPE_VEC2,
+     "u_worldMatrix u_viewProjectionMatrix i_position i_geomprop_st geomprop_st out1"},
+    {"geomprop_flag", IR_TYPE_BOOL,
+     "u_worldMatrix u_viewProjectionMatrix i_position i_geomprop_flag geomprop_flag out1"},
 };
 
 static void test_streams(void)
@@ -406,7 +471,8 @@ static void test_private_uniforms(void)
     for (int i = 0; i < 16; i++)
         REQUIRE(f.shader.variables.items[env].value.w[i].f == half_turn[i]);
     REQUIRE_EQ(shader_private_uniform(&f.shader, word(&f, "u_envMatrix"), IR_TYPE_MAT4, 0), env);
-    uint32_t samples = shader_private_uniform(&f.shader, word(&f, "u_envRadianceSamples"), IR_TYPE_INT, 0);
+    uint32_t samples =
+        shader_private_uniform(&f.shader, word(&f, "u_envRadianceSamples"), IR_TYPE_INT, 0);
     REQUIRE_EQ(f.shader.variables.items[samples].value.w[0].i, 16);
     uint32_t map = shader_private_uniform(&f.shader, word(&f, "u_envRadiance"), IR_TYPE_SAMPLER, 0);
     REQUIRE_EQ(f.shader.variables.items[map].block, BLOCK_TEXTURES);
@@ -418,10 +484,12 @@ static void test_private_uniforms(void)
 
 /* ---- Topology ---- */
 
-static uint64_t topology(const char *uniform_name, const char *garbage, float constant, enum ir_op op)
+static uint64_t topology(const char *uniform_name, const char *garbage, float constant,
+                         enum ir_op op)
 {
     struct fixture f;
-    fixture_open(&f, "float g(float x) { float y = x; for (int i = 0; i < 4; ++i) y *= x; return y; }");
+    fixture_open(&f,
+                 "float g(float x) { float y = x; for (int i = 0; i < 4; ++i) y *= x; return y; }");
     if (garbage)
         op1(&f, IR_SIN, uniform(&f, garbage, IR_TYPE_FLOAT));
     ir_ref u = uniform(&f, uniform_name, IR_TYPE_FLOAT);
@@ -441,7 +509,8 @@ static uint64_t topology_of_string(const char *garbage, const char *mode)
     if (garbage)
         word(&f, garbage);
     ir_ref constant = ir_const_string(&f.graph, word(&f, mode));
-    ir_ref equal = ir_build(&f.graph, IR_EQ, IR_TYPE_BOOL, 0, (ir_ref[]){uniform(&f, "mode", IR_TYPE_STRING), constant}, 2);
+    ir_ref equal = ir_build(&f.graph, IR_EQ, IR_TYPE_BOOL, 0,
+                            (ir_ref[]){uniform(&f, "mode", IR_TYPE_STRING), constant}, 2);
     accumulate(&f, vec3_of(&f, ir_convert(&f.graph, IR_TYPE_FLOAT, equal)));
     write_color(&f);
     scheduled(&f);
@@ -465,11 +534,13 @@ static void test_topology(void)
 
 /* ---- Reflection ---- */
 
-static void describe_ui(void *user_data, const struct shader_variable *variable, struct shader_ui *out)
+static void describe_ui(void *user_data, const struct shader_variable *variable,
+                        struct shader_ui *out)
 {
     (void)user_data;
     if (variable->path)
-        *out = (struct shader_ui){.name = "Base", .folder = "Main", .min = "0", .soft_max = "1", .advanced = true};
+        *out = (struct shader_ui){
+            .name = "Base", .folder = "Main", .min = "0", .soft_max = "1", .advanced = true};
 }
 
 static void test_json(void)
@@ -479,21 +550,33 @@ static void test_json(void)
     ir_ref base = uniform(&f, "base", IR_TYPE_FLOAT);
     f.shader.variables.items[0].doc_type = word(&f, "float");
     f.shader.variables.items[0].value.w[0].f = 0.5f;
-    vec_push(&f.arena, &f.shader.compiled, (struct shader_compiled_input){word(&f, "SR/\"x\""), word(&f, "float"), word(&f, "1"), 0});
+    vec_push(
+        &f.arena, &f.shader.compiled,
+        (struct shader_compiled_input){word(&f, "SR/\"x\""), word(&f, "float"), word(&f, "1"), 0});
     effect(&f, EFFECT_OUTPUT, add_output(&f), ir_construct(&f.graph, IR_TYPE_VEC4, &base, 1));
     shader_finish(&f.shader, &(struct shader_layout_rules){.blocks = true, .bindings = true});
     struct text out;
     text_init(&out, &f.arena);
-    shader_reflect_json(&f.shader, &(struct shader_reflect_options){.target = "vulkan", .ui = describe_ui}, &out);
+    shader_reflect_json(
+        &f.shader, &(struct shader_reflect_options){.target = "vulkan", .ui = describe_ui}, &out);
     const char *json = text_cstr(&out);
     static const char *const parts[] = {
-        "{\n  \"name\": \"Gold\",\n  \"element\": \"surfacematerial\",\n  \"target\": \"vulkan\",\n  \"topology\": \"",
-        "      \"name\": \"PublicUniforms\",\n      \"set\": 0,\n      \"binding\": 1,\n      \"size\": 16,\n      \"variables\": [\n"
-        "        {\n          \"name\": \"base\",\n          \"type\": \"float\",\n          \"stages\": [\"pixel\"],\n"
-        "          \"path\": \"base\",\n          \"documentType\": \"float\",\n          \"default\": 0.5,\n          \"offset\": 0,\n"
-        "          \"size\": 4,\n          \"ui\": {\n            \"name\": \"Base\",\n            \"folder\": \"Main\",\n"
-        "            \"min\": \"0\",\n            \"softMax\": \"1\",\n            \"advanced\": true\n          }\n        }\n      ]\n    }",
-        "\"name\": \"u_viewProjectionMatrix\"", "\"semantic\": \"position:object\"", "\"location\": 0", "\"matrixStride\": 16",
+        "{\n  \"name\": \"Gold\",\n  \"element\": \"surfacematerial\",\n  \"target\": "
+        "\"vulkan\",\n  \"topology\": \"",
+        "      \"name\": \"PublicUniforms\",\n      \"set\": 0,\n      \"binding\": 1,\n      "
+        "\"size\": 16,\n      \"variables\": [\n"
+        "        {\n          \"name\": \"base\",\n          \"type\": \"float\",\n          "
+        "\"stages\": [\"pixel\"],\n"
+        "          \"path\": \"base\",\n          \"documentType\": \"float\",\n          "
+        "\"default\": 0.5,\n          \"offset\": 0,\n"
+        "          \"size\": 4,\n          \"ui\": {\n            \"name\": \"Base\",\n            "
+        "\"folder\": \"Main\",\n"
+        "            \"min\": \"0\",\n            \"softMax\": \"1\",\n            \"advanced\": "
+        "true\n          }\n        }\n      ]\n    }",
+        "\"name\": \"u_viewProjectionMatrix\"",
+        "\"semantic\": \"position:object\"",
+        "\"location\": 0",
+        "\"matrixStride\": 16",
         "\"path\": \"SR/\\\"x\\\"\"",
     };
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)

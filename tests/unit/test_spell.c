@@ -1,25 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * The speller and its targets. With a folder as argument, the shaders of the op walk and of the whole stages are written there, for
- * a GLSL compiler to judge.
+ * The speller and its targets. With a folder as argument, the shaders of the op walk and of the
+ * whole stages are written there, for a GLSL compiler to judge.
  */
 #include "shader_fixture.h"
 #include "test.h"
 
 static const char *folder;
 
-static const char *spell(struct fixture *f, const char *target_name, enum shader_stage_id stage, const struct spell_options *options,
-                         struct spell_mark **out_marks, uint32_t *out_num_marks)
+static const char *spell(struct fixture *f, const char *target_name, enum shader_stage_id stage,
+                         const struct spell_options *options, struct spell_mark **out_marks,
+                         uint32_t *out_num_marks)
 {
     struct text out;
     text_init(&out, &f->arena);
-    spell_shader_stage(target_find(target_name), options, &f->shader, stage, &f->arena, &out, out_marks, out_num_marks);
+    spell_shader_stage(target_find(target_name), options, &f->shader, stage, &f->arena, &out,
+                       out_marks, out_num_marks);
     return text_cstr(&out);
 }
 
 static const struct spell_options plain = {.generator = "mxgen 0.1", .interface = "complete"};
 
-static void finish(struct fixture *f, const struct target *target, const struct spell_options *options)
+static void finish(struct fixture *f, const struct target *target,
+                   const struct spell_options *options)
 {
     f->shader.style = ARENA_NEW(&f->arena, struct lang_style);
     lang_style_init(f->shader.style, target->syntax, &f->arena);
@@ -47,10 +50,14 @@ static const char functions[] =
     "uniform float u_time;\n"
     "const float weights[3] = float[3](1.0, 2.0, 3.5);\n"
     "struct Pair { float a; vec3 b; };\n"
-    "float noise(vec2 p) { float s = 0.0; for (int i = 0; i < 3; ++i) s += weights[i] * sin(p.x * u_time); return s; }\n"
-    "void split(vec3 a, out float x, out float y) { x = a.x; y = a.y; for (int i = 0; i < 2; ++i) y *= 2.0; }\n"
-    "float step_on(float a, inout float b) { for (int i = 0; i < 2; ++i) b *= a; return b + 1.0; }\n"
-    "Pair make_pair(float x) { Pair p; p.a = x; p.b = vec3(x, 1.0, 2.0) + normalWorld; for (int i = 0; i < 3; ++i) p.a *= 3.0; return p; }\n"
+    "float noise(vec2 p) { float s = 0.0; for (int i = 0; i < 3; ++i) s += weights[i] * sin(p.x * "
+    "u_time); return s; }\n"
+    "void split(vec3 a, out float x, out float y) { x = a.x; y = a.y; for (int i = 0; i < 2; ++i) "
+    "y *= 2.0; }\n"
+    "float step_on(float a, inout float b) { for (int i = 0; i < 2; ++i) b *= a; return b + 1.0; "
+    "}\n"
+    "Pair make_pair(float x) { Pair p; p.a = x; p.b = vec3(x, 1.0, 2.0) + normalWorld; for (int i "
+    "= 0; i < 3; ++i) p.a *= 3.0; return p; }\n"
     "float twin(float x) { float y = 0.0; for (int i = 0; i < 3; ++i) y += x; return y; }\n"
     "float twin(vec2 x) { float y = 0.0; for (int i = 0; i < 3; ++i) y += x.x; return y; }\n";
 
@@ -60,8 +67,10 @@ static const char functions[] =
     do { \
         struct fixture fixture, *f = &fixture; \
         fixture_open(f, functions); \
-        ir_ref a = uniform(f, "a", IR_TYPE_FLOAT), b = uniform(f, "b", IR_TYPE_FLOAT), c = uniform(f, "c", IR_TYPE_FLOAT); \
-        ir_ref v = uniform(f, "v", IR_TYPE_VEC3), t = uniform(f, "t", IR_TYPE_BOOL), i = uniform(f, "i", IR_TYPE_INT); \
+        ir_ref a = uniform(f, "a", IR_TYPE_FLOAT), b = uniform(f, "b", IR_TYPE_FLOAT), \
+               c = uniform(f, "c", IR_TYPE_FLOAT); \
+        ir_ref v = uniform(f, "v", IR_TYPE_VEC3), t = uniform(f, "t", IR_TYPE_BOOL), \
+               i = uniform(f, "i", IR_TYPE_INT); \
         (void)a, (void)b, (void)c, (void)v, (void)t, (void)i; \
         f->graph.no_fold = true; \
         effect(f, EFFECT_OUTPUT, add_output(f), (value)); \
@@ -98,10 +107,15 @@ static void test_expressions(void)
     EXPRESSION("(t ? t : t) ? a : b", select_of(f, select_of(f, t, t, t), a, b));
     EXPRESSION("!(t || t) && t ? a : b",
                select_of(f, op2(f, IR_LAND, op1(f, IR_NOT, op2(f, IR_LOR, t, t)), t), a, b));
-    EXPRESSION("(t || t) && t ? a : b", select_of(f, op2(f, IR_LAND, op2(f, IR_LOR, t, t), t), a, b));
-    EXPRESSION("i << (i & 3) | ~i", op2(f, IR_OR, op2(f, IR_SHL, i, op2(f, IR_AND, i, ir_const_int(&f->graph, 3))), op1(f, IR_BITNOT, i)));
+    EXPRESSION("(t || t) && t ? a : b",
+               select_of(f, op2(f, IR_LAND, op2(f, IR_LOR, t, t), t), a, b));
+    EXPRESSION("i << (i & 3) | ~i",
+               op2(f, IR_OR, op2(f, IR_SHL, i, op2(f, IR_AND, i, ir_const_int(&f->graph, 3))),
+                   op1(f, IR_BITNOT, i)));
     EXPRESSION("vec3(a)", (f->graph.no_fold = false, vec3_of(f, a)));
-    EXPRESSION("vec4(v, 1.0)", (f->graph.no_fold = false, ir_construct(&f->graph, IR_TYPE_VEC4, (ir_ref[]){v, number(f, 1)}, 2)));
+    EXPRESSION("vec4(v, 1.0)",
+               (f->graph.no_fold = false,
+                ir_construct(&f->graph, IR_TYPE_VEC4, (ir_ref[]){v, number(f, 1)}, 2)));
     EXPRESSION("float(i)", ir_convert(&f->graph, IR_TYPE_FLOAT, i));
     EXPRESSION("v[i]", ir_build(&f->graph, IR_INDEX, IR_TYPE_FLOAT, 0, (ir_ref[]){v, i}, 2));
     EXPRESSION("roundEven(a)", op1(f, IR_ROUND, a));
@@ -154,9 +168,17 @@ static void test_locals(void)
     static const struct {
         const char *first, *second, *got_first, *got_second;
     } cases[] = {
-        {"roughness", "roughness", "roughness", "roughness_2"}, {"mix", "vec3", "mix_", "vec3_"}, {"mix", "mix", "mix_", "mix_2"}, {"mix", "mix_", "mix_", "mix_2"}, {"a", "v", "a_2", "v_2"},
-        {"2nd", "a  b", "x2nd", "a_b"}, {"x__y", "x_y", "x_y", "x_y_2"}, {"main", "vd", "main_2", "vd_2"},
-        {"x_", "x_", "x_", "x_2"}, {"", "", "t", "t_2"}, {"gl_in", "out1", "xgl_in", "out1_2"},
+        {"roughness", "roughness", "roughness", "roughness_2"},
+        {"mix", "vec3", "mix_", "vec3_"},
+        {"mix", "mix", "mix_", "mix_2"},
+        {"mix", "mix_", "mix_", "mix_2"},
+        {"a", "v", "a_2", "v_2"},
+        {"2nd", "a  b", "x2nd", "a_b"},
+        {"x__y", "x_y", "x_y", "x_y_2"},
+        {"main", "vd", "main_2", "vd_2"},
+        {"x_", "x_", "x_", "x_2"},
+        {"", "", "t", "t_2"},
+        {"gl_in", "out1", "xgl_in", "out1_2"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         struct fixture f;
@@ -181,30 +203,48 @@ static void test_locals(void)
 
 static void test_statements(void)
 {
-    STATEMENTS("    vec3 color = vec3(0.0);\n    if (a > 0.0)\n        color += v;\n    out1 = vec4(color, 1.0);\n", &plain,
-               effect(f, EFFECT_VAR, f->color, ir_const_splat(&f->graph, IR_TYPE_VEC3, 0));
-               effect(f, EFFECT_IF, 0, op2(f, IR_GT, a, number(f, 0))); accumulate(f, v); effect(f, EFFECT_END, 0, 0); write_color(f););
-    STATEMENTS("    vec3 color;\n    if (a > 0.0) {\n        vec3 n = sin(v);\n        color += n;\n        color += n + vec3(1.0);\n    }\n", &plain,
-               effect(f, EFFECT_VAR, f->color, 0); effect(f, EFFECT_IF, 0, op2(f, IR_GT, a, number(f, 0)));
+    STATEMENTS("    vec3 color = vec3(0.0);\n    if (a > 0.0)\n        color += v;\n    out1 = "
+               "vec4(color, 1.0);\n",
+               &plain, effect(f, EFFECT_VAR, f->color, ir_const_splat(&f->graph, IR_TYPE_VEC3, 0));
+               effect(f, EFFECT_IF, 0, op2(f, IR_GT, a, number(f, 0))); accumulate(f, v);
+               effect(f, EFFECT_END, 0, 0); write_color(f););
+    STATEMENTS("    vec3 color;\n    if (a > 0.0) {\n        vec3 n = sin(v);\n        color += "
+               "n;\n        color += n + vec3(1.0);\n    }\n",
+               &plain, effect(f, EFFECT_VAR, f->color, 0);
+               effect(f, EFFECT_IF, 0, op2(f, IR_GT, a, number(f, 0)));
                use_twice(f, sine(f, "n", v)); effect(f, EFFECT_END, 0, 0););
-    STATEMENTS("    if (a < 0.5)\n        discard;\n", &plain, effect(f, EFFECT_DISCARD, 0, op2(f, IR_LT, a, number(f, 0.5f))););
-    STATEMENTS("    vec3 color = v;\n    float s_x, s_y;\n    split(v, s_x, s_y);\n    color += vec3(s_x);\n    color += vec3(s_y);\n",
-               &plain, effect(f, EFFECT_VAR, f->color, v); name(f, "s"); ir_ref s = call(f, "split", &v, 1); f->graph.origin = 0;
-               accumulate(f, vec3_of(f, result(f, s, 1, IR_TYPE_FLOAT))); accumulate(f, vec3_of(f, result(f, s, 2, IR_TYPE_FLOAT))););
-    STATEMENTS("    vec3 color = v;\n    float s_b = 2.0;\n    float s = step_on(a, s_b);\n    color += vec3(s_b + s);\n", &plain,
-               effect(f, EFFECT_VAR, f->color, v); name(f, "s"); ir_ref args[] = {a, number(f, 2)}; ir_ref s = call(f, "step_on", args, 2);
-               f->graph.origin = 0;
-               ir_ref out = result(f, s, 1, IR_TYPE_FLOAT), returned = result(f, s, 0, IR_TYPE_FLOAT);
+    STATEMENTS("    if (a < 0.5)\n        discard;\n", &plain,
+               effect(f, EFFECT_DISCARD, 0, op2(f, IR_LT, a, number(f, 0.5f))););
+    STATEMENTS("    vec3 color = v;\n    float s_x, s_y;\n    split(v, s_x, s_y);\n    color += "
+               "vec3(s_x);\n    color += vec3(s_y);\n",
+               &plain, effect(f, EFFECT_VAR, f->color, v);
+               name(f, "s"); ir_ref s = call(f, "split", &v, 1); f->graph.origin = 0;
+               accumulate(f, vec3_of(f, result(f, s, 1, IR_TYPE_FLOAT)));
+               accumulate(f, vec3_of(f, result(f, s, 2, IR_TYPE_FLOAT))););
+    STATEMENTS("    vec3 color = v;\n    float s_b = 2.0;\n    float s = step_on(a, s_b);\n    "
+               "color += vec3(s_b + s);\n",
+               &plain, effect(f, EFFECT_VAR, f->color, v);
+               name(f, "s"); ir_ref args[] = {a, number(f, 2)};
+               ir_ref s = call(f, "step_on", args, 2); f->graph.origin = 0;
+               ir_ref out = result(f, s, 1, IR_TYPE_FLOAT),
+               returned = result(f, s, 0, IR_TYPE_FLOAT);
                accumulate(f, vec3_of(f, op2(f, IR_ADD, out, returned))););
-    STATEMENTS("    vec3 color = v;\n    // NG\n    vec3 n = sin(v);\n    color += n;\n    color += n + vec3(1.0);\n"
+    STATEMENTS("    vec3 color = v;\n    // NG\n    vec3 n = sin(v);\n    color += n;\n    color "
+               "+= n + vec3(1.0);\n"
                "    vec3 m = sin(n);\n    color += m;\n    color += m + vec3(1.0);\n",
-               (&(struct spell_options){.comments = true, .path = path_of, .user_data = f}), effect(f, EFFECT_VAR, f->color, v);
+               (&(struct spell_options){.comments = true, .path = path_of, .user_data = f}),
+               effect(f, EFFECT_VAR, f->color, v);
                ir_ref n = sine(f, "n", v); use_twice(f, n); use_twice(f, sine(f, "m", n)););
-    STATEMENTS("    vec3 v = u_0;\n    vec3 v_2 = sin(u_0);\n    v += v_2;\n    v += v_2 + vec3(1.0);\n",
-               (&(struct spell_options){.comments = true, .path = path_of, .user_data = f, .neutral_names = true}),
-               effect(f, EFFECT_VAR, f->color, v); use_twice(f, sine(f, "n", v)););
-    STATEMENTS("    vec3 color = v;\n    for (int i = 0; i < min(u_numActiveLightSources, 3); ++i) {\n        color += u_lightData[i].direction;\n    }\n", &plain,
-               effect(f, EFFECT_VAR, f->color, v); effect(f, EFFECT_LIGHTS, 0, 0); accumulate(f, light_direction(f));
+    STATEMENTS(
+        "    vec3 v = u_0;\n    vec3 v_2 = sin(u_0);\n    v += v_2;\n    v += v_2 + vec3(1.0);\n",
+        (&(struct spell_options){
+            .comments = true, .path = path_of, .user_data = f, .neutral_names = true}),
+        effect(f, EFFECT_VAR, f->color, v);
+        use_twice(f, sine(f, "n", v)););
+    STATEMENTS("    vec3 color = v;\n    for (int i = 0; i < min(u_numActiveLightSources, 3); ++i) "
+               "{\n        color += u_lightData[i].direction;\n    }\n",
+               &plain, effect(f, EFFECT_VAR, f->color, v);
+               effect(f, EFFECT_LIGHTS, 0, 0); accumulate(f, light_direction(f));
                effect(f, EFFECT_END, 0, 0););
 }
 
@@ -214,7 +254,8 @@ static const char *stage_from(struct fixture *f, const char *from)
     struct spell_mark *marks;
     uint32_t num_marks;
     finish(f, target_find("glsl"), &plain);
-    const char *text = spell(f, "glsl", STAGE_PIXEL, &plain, &marks, &num_marks), *start = strstr(text, from);
+    const char *text = spell(f, "glsl", STAGE_PIXEL, &plain, &marks, &num_marks),
+               *start = strstr(text, from);
     return start ? start : text;
 }
 
@@ -223,12 +264,14 @@ static void test_graph_functions(void)
     struct fixture f;
     fixture_open(&f, NULL);
     static const ir_type_id types[] = {IR_TYPE_VEC3, IR_TYPE_FLOAT};
-    uint32_t inner = ir_add_function(&f.graph, word(&f, "inner"), types, 1), outer = ir_add_function(&f.graph, word(&f, "outer"), types, 2);
+    uint32_t inner = ir_add_function(&f.graph, word(&f, "inner"), types, 1),
+             outer = ir_add_function(&f.graph, word(&f, "outer"), types, 2);
     ir_ref p = ir_param(&f.graph, inner, 0), length = op1(&f, IR_LENGTH, p);
     name(&f, "n");
     ir_ref n = op1(&f, IR_NORMALIZE, p);
     f.graph.origin = 0;
-    ir_set_results(&f.graph, inner, (ir_ref[]){op2(&f, IR_CROSS, n, op2(&f, IR_MUL, n, length)), length}, 2);
+    ir_set_results(&f.graph, inner,
+                   (ir_ref[]){op2(&f, IR_CROSS, n, op2(&f, IR_MUL, n, length)), length}, 2);
     ir_ref args[] = {ir_param(&f.graph, outer, 0), ir_param(&f.graph, outer, 1)};
     name(&f, "deep");
     ir_ref deep = ir_build(&f.graph, IR_GRAPH_CALL, IR_TYPE_VEC3, inner, args, 1);
@@ -237,12 +280,15 @@ static void test_graph_functions(void)
     ir_ref sum = op2(&f, IR_ADD, scaled, result(&f, deep, 0, IR_TYPE_VEC3));
     ir_set_results(&f.graph, outer, &sum, 1);
     ir_ref given[] = {uniform(&f, "v", IR_TYPE_VEC3), uniform(&f, "a", IR_TYPE_FLOAT)};
-    effect(&f, EFFECT_VAR, f.color, ir_build(&f.graph, IR_GRAPH_CALL, IR_TYPE_VEC3, outer, given, 2));
+    effect(&f, EFFECT_VAR, f.color,
+           ir_build(&f.graph, IR_GRAPH_CALL, IR_TYPE_VEC3, outer, given, 2));
     write_color(&f);
     REQUIRE_STR(stage_from(&f, "vec3 inner"),
-                "vec3 inner(const vec3 p0, out float r1)\n{\n    float t = length(p0);\n    r1 = t;\n    vec3 n = normalize(p0);\n"
+                "vec3 inner(const vec3 p0, out float r1)\n{\n    float t = length(p0);\n    r1 = "
+                "t;\n    vec3 n = normalize(p0);\n"
                 "    return cross(n, t * n);\n}\n\n"
-                "vec3 outer(const vec3 p0, const float p1)\n{\n    float deep_result;\n    vec3 deep = inner(p0, deep_result);\n"
+                "vec3 outer(const vec3 p0, const float p1)\n{\n    float deep_result;\n    vec3 "
+                "deep = inner(p0, deep_result);\n"
                 "    return p1 * deep_result + deep;\n}\n\n"
                 "void main()\n{\n    vec3 color = outer(v, a);\n    out1 = vec4(color, 1.0);\n}\n");
     fixture_close(&f);
@@ -253,12 +299,17 @@ static void test_verbatim(void)
     struct fixture f;
     fixture_open(&f, NULL);
     vec_push(&f.arena, &f.shader.result_types, IR_TYPE_VEC3);
-    vec_push(&f.arena, &f.shader.verbatim, (struct shader_verbatim){.source = word(&f, "void theirs(vec3 a, out vec3 b) { b = a; }\n"),
-                                                                    .function = word(&f, "theirs"), .num_results = 1});
-    vec_push(&f.arena, &f.shader.verbatim, (struct shader_verbatim){.expression = word(&f, "{{0}} * {{1}}")});
+    vec_push(
+        &f.arena, &f.shader.verbatim,
+        (struct shader_verbatim){.source = word(&f, "void theirs(vec3 a, out vec3 b) { b = a; }\n"),
+                                 .function = word(&f, "theirs"),
+                                 .num_results = 1});
+    vec_push(&f.arena, &f.shader.verbatim,
+             (struct shader_verbatim){.expression = word(&f, "{{0}} * {{1}}")});
     uint32_t callees[2];
     for (uint32_t i = 0; i < 2; i++)
-        callees[i] = ir_add_callee(&f.graph, (struct ir_callee){.id = SHADER_VERBATIM_ID(i), .name = word(&f, "theirs")});
+        callees[i] = ir_add_callee(
+            &f.graph, (struct ir_callee){.id = SHADER_VERBATIM_ID(i), .name = word(&f, "theirs")});
     ir_ref v = uniform(&f, "v", IR_TYPE_VEC3), args[] = {op2(&f, IR_ADD, v, number(&f, 1)), v};
     ir_ref product = ir_build(&f.graph, IR_VERBATIM, IR_TYPE_VEC3, callees[1], args, 2);
     name(&f, "copy");
@@ -266,7 +317,8 @@ static void test_verbatim(void)
     effect(&f, EFFECT_VAR, f.color, result(&f, copy, 1, IR_TYPE_VEC3));
     write_color(&f);
     REQUIRE_STR(stage_from(&f, "void theirs"),
-                "void theirs(vec3 a, out vec3 b) { b = a; }\n\nvoid main()\n{\n    vec3 copy;\n    theirs(((v + vec3(1.0)) * v), copy);\n"
+                "void theirs(vec3 a, out vec3 b) { b = a; }\n\nvoid main()\n{\n    vec3 copy;\n    "
+                "theirs(((v + vec3(1.0)) * v), copy);\n"
                 "    vec3 color = copy;\n    out1 = vec4(color, 1.0);\n}\n");
     fixture_close(&f);
 }
@@ -292,17 +344,20 @@ static void build_lit(struct fixture *f)
     ir_ref uv = shader_stream(&f->shader, word(f, "texcoord_0"), IR_TYPE_VOID);
     ir_ref flag = shader_stream(&f->shader, word(f, "geomprop_flag"), IR_TYPE_BOOL);
     name(f, "N");
-    ir_ref n = op1(f, IR_NORMALIZE, shader_stream(&f->shader, word(f, "normalWorld"), IR_TYPE_VOID));
+    ir_ref n =
+        op1(f, IR_NORMALIZE, shader_stream(&f->shader, word(f, "normalWorld"), IR_TYPE_VOID));
     ir_ref texel = op2(f, IR_TEX, uniform(f, "image_file", IR_TYPE_SAMPLER), uv);
     if (!texel)
-        texel = ir_build(&f->graph, IR_TEX, IR_TYPE_VEC4, 0, (ir_ref[]){uniform(f, "image_file", IR_TYPE_SAMPLER), uv}, 2);
+        texel = ir_build(&f->graph, IR_TEX, IR_TYPE_VEC4, 0,
+                         (ir_ref[]){uniform(f, "image_file", IR_TYPE_SAMPLER), uv}, 2);
     name(f, "base");
     ir_ref image = ir_swizzle(&f->graph, texel, (uint8_t[]){0, 1, 2}, 3);
     ir_ref base = op2(f, IR_MUL, image, uniform(f, "base_color", IR_TYPE_VEC3));
     f->graph.origin = 0;
     effect(f, EFFECT_VAR, f->color, op2(f, IR_MUL, base, call(f, "noise", &uv, 1)));
     effect(f, EFFECT_LIGHTS, 0, 0);
-    accumulate(f, op2(f, IR_MUL, light, op2(f, IR_MUL, base, op2(f, IR_DOT, n, light_direction(f)))));
+    accumulate(f,
+               op2(f, IR_MUL, light, op2(f, IR_MUL, base, op2(f, IR_DOT, n, light_direction(f)))));
     effect(f, EFFECT_END, 0, 0);
     effect(f, EFFECT_IF, 0, flag);
     accumulate(f, n);
@@ -312,9 +367,11 @@ static void build_lit(struct fixture *f)
 }
 
 static const char *const lit_main =
-    "float noise(~vec2 p)\n{\n    float s = 0.0;\n    for (int i = 0; i < 3; ++i)\n        s += weights[i] * sin(p.x * u_time);\n"
+    "float noise(~vec2 p)\n{\n    float s = 0.0;\n    for (int i = 0; i < 3; ++i)\n        s += "
+    "weights[i] * sin(p.x * u_time);\n"
     "    return s;\n}\n\n"
-    "void main()\n{\n    vec3 base = texture(image_file, @texcoord_0).xyz * base_color;\n    vec3 color = base * noise(@texcoord_0);\n"
+    "void main()\n{\n    vec3 base = texture(image_file, @texcoord_0).xyz * base_color;\n    vec3 "
+    "color = base * noise(@texcoord_0);\n"
     "    vec3 N = normalize(@normalWorld);\n"
     "    for (int i = 0; i < min(u_numActiveLightSources, 3); ++i) {\n"
     "        color += u_lightData[i].color * (base * dot(N, u_lightData[i].direction));\n    }\n"
@@ -326,47 +383,60 @@ static const struct stage_case {
     const char *pixel, *vertex;
 } stage_cases[] = {
     {"glsl", "vd.", false,
-     "#version 450\n// Gold · surfacematerial · mxgen 0.1 · glsl · complete · 1 closure · 1 texture\n\n"
-     "uniform vec3 base_color = vec3(0.0);\nuniform float u_time = 0.0;\nuniform int u_numActiveLightSources = 0;\n"
+     "#version 450\n// Gold · surfacematerial · mxgen 0.1 · glsl · complete · 1 closure · 1 "
+     "texture\n\n"
+     "uniform vec3 base_color = vec3(0.0);\nuniform float u_time = 0.0;\nuniform int "
+     "u_numActiveLightSources = 0;\n"
      "struct LightData {\n    int type;\n    vec3 color;\n    vec3 direction;\n};\n"
      "uniform LightData u_lightData[3];\nuniform sampler2D image_file;\n"
-     "in VertexData {\n    vec3 normalWorld;\n    vec2 texcoord_0;\n    flat int geomprop_flag;\n} vd;\n"
+     "in VertexData {\n    vec3 normalWorld;\n    vec2 texcoord_0;\n    flat int geomprop_flag;\n} "
+     "vd;\n"
      "out vec4 out1;\n\nconst float weights[3] = float[3](1.0, 2.0, 3.5);\n\n",
-     "#version 450\n// Gold · surfacematerial · mxgen 0.1 · glsl · complete · 1 closure · 1 texture\n\n"
-     "uniform mat4 u_worldMatrix = mat4(1.0);\nuniform mat4 u_worldInverseTransposeMatrix = mat4(1.0);\n"
+     "#version 450\n// Gold · surfacematerial · mxgen 0.1 · glsl · complete · 1 closure · 1 "
+     "texture\n\n"
+     "uniform mat4 u_worldMatrix = mat4(1.0);\nuniform mat4 u_worldInverseTransposeMatrix = "
+     "mat4(1.0);\n"
      "uniform mat4 u_viewProjectionMatrix = mat4(1.0);\n"
      "in vec3 i_position;\nin vec3 i_normal;\nin vec2 i_texcoord_0;\nin int i_geomprop_flag;\n"
-     "out VertexData {\n    vec3 normalWorld;\n    vec2 texcoord_0;\n    flat int geomprop_flag;\n} vd;\n\n"
+     "out VertexData {\n    vec3 normalWorld;\n    vec2 texcoord_0;\n    flat int "
+     "geomprop_flag;\n} vd;\n\n"
      "void main()\n{\n    vd.texcoord_0 = i_texcoord_0;\n    vd.geomprop_flag = i_geomprop_flag;\n"
      "    vd.normalWorld = normalize((u_worldInverseTransposeMatrix * vec4(i_normal, 0.0)).xyz);\n"
      ""
      "    gl_Position = u_viewProjectionMatrix * (u_worldMatrix * vec4(i_position, 1.0));\n}\n"},
     {"vulkan", "vd.", false,
-     "#version 450\n// Gold · surfacematerial · mxgen 0.1 · vulkan · complete · 1 closure · 1 texture\n\n"
+     "#version 450\n// Gold · surfacematerial · mxgen 0.1 · vulkan · complete · 1 closure · 1 "
+     "texture\n\n"
      "layout(set = 0, binding = 1, std140) uniform PublicUniforms {\n    vec3 base_color;\n};\n"
-     "layout(set = 0, binding = 0, std140) uniform PrivateUniforms {\n    mat4 u_worldMatrix;\n    mat4 u_worldInverseTransposeMatrix;\n"
+     "layout(set = 0, binding = 0, std140) uniform PrivateUniforms {\n    mat4 u_worldMatrix;\n    "
+     "mat4 u_worldInverseTransposeMatrix;\n"
      "    mat4 u_viewProjectionMatrix;\n    float u_time;\n    int u_numActiveLightSources;\n};\n"
      "struct LightData {\n    int type;\n    vec3 color;\n    vec3 direction;\n};\n"
      "layout(set = 0, binding = 2, std140) uniform LightData_block { LightData u_lightData[3]; };\n"
      "layout(set = 0, binding = 3) uniform sampler2D image_file;\n"
      "layout(location = 0) in VertexData {\n    vec3 normalWorld;\n    vec2 texcoord_0;\n"
      "    flat int geomprop_flag;\n} vd;\n"
-     "layout(location = 0) out vec4 out1;\n\nconst float weights[3] = float[3](1.0, 2.0, 3.5);\n\n", NULL},
+     "layout(location = 0) out vec4 out1;\n\nconst float weights[3] = float[3](1.0, 2.0, 3.5);\n\n",
+     NULL},
     {"essl", "vd_", true,
-     "#version 300 es\n// Gold · surfacematerial · mxgen 0.1 · essl · complete · 1 closure · 1 texture\n"
+     "#version 300 es\n// Gold · surfacematerial · mxgen 0.1 · essl · complete · 1 closure · 1 "
+     "texture\n"
      "precision highp float;\nprecision highp int;\nprecision highp sampler2D;\n\n"
      "layout(std140) uniform PublicUniforms {\n    vec3 base_color;\n};\n"
-     "layout(std140) uniform PrivateUniforms {\n    mat4 u_worldMatrix;\n    mat4 u_worldInverseTransposeMatrix;\n"
+     "layout(std140) uniform PrivateUniforms {\n    mat4 u_worldMatrix;\n    mat4 "
+     "u_worldInverseTransposeMatrix;\n"
      "    mat4 u_viewProjectionMatrix;\n    float u_time;\n    int u_numActiveLightSources;\n};\n"
      "struct LightData {\n    int type;\n    vec3 color;\n    vec3 direction;\n};\n"
      "layout(std140) uniform LightData_block { LightData u_lightData[3]; };\n"
      "uniform sampler2D image_file;\n"
      "in vec3 vd_normalWorld;\nin vec2 vd_texcoord_0;\nflat in int vd_geomprop_flag;\n"
-     "out vec4 out1;\n\nconst float weights[3] = float[3](1.0, 2.0, 3.5);\n\n", NULL},
+     "out vec4 out1;\n\nconst float weights[3] = float[3](1.0, 2.0, 3.5);\n\n",
+     NULL},
 };
 
 /* The text with a target's words: '@' the prefix of vertex data, '~' that of parameters. */
-static const char *fill_in(struct fixture *f, const char *text, const char *vertex_data, const char *param)
+static const char *fill_in(struct fixture *f, const char *text, const char *vertex_data,
+                           const char *param)
 {
     struct text out;
     text_init(&out, &f->arena);
@@ -380,15 +450,17 @@ static const char *fill_in(struct fixture *f, const char *text, const char *vert
 }
 
 /* Does the line that begins with `start` come from the origin of this name? */
-static bool maps_line(struct fixture *f, const char *text, const struct spell_mark *marks, uint32_t num_marks, const char *start,
-                      const char *origin)
+static bool maps_line(struct fixture *f, const char *text, const struct spell_mark *marks,
+                      uint32_t num_marks, const char *start, const char *origin)
 {
     const char *line = text;
     while (strncmp(line, start, strlen(start)) != 0)
         line = strchr(line, '\n') + 1;
     for (uint32_t i = 0; i < num_marks; i++)
         if (text + marks[i].at == line)
-            return strcmp(str_text(&f->strings, f->graph.origins.items[marks[i].origin].name), origin) == 0;
+            return strcmp(str_text(&f->strings, f->graph.origins.items[marks[i].origin].name),
+                          origin)
+                   == 0;
     return false;
 }
 
@@ -407,7 +479,8 @@ static void test_stages(void)
         const char *pixel = spell(&f, c->target, STAGE_PIXEL, &options, &marks, &num_marks);
         const char *rest = strstr(pixel, "float noise(");
         REQUIRE_STR(arena_strndup(&f.arena, pixel, (size_t)(rest - pixel)), c->pixel);
-        REQUIRE_STR(rest, fill_in(&f, lit_main, c->vertex_data, target_find(c->target)->syntax->param_in));
+        REQUIRE_STR(
+            rest, fill_in(&f, lit_main, c->vertex_data, target_find(c->target)->syntax->param_in));
         REQUIRE(maps_line(&f, pixel, marks, num_marks, "    vec3 N = ", "N"));
         REQUIRE(num_marks >= 2);
         write_file(c->target, "lit", "frag", pixel);
@@ -424,23 +497,31 @@ static void test_function_names(void)
 {
     struct fixture f;
     fixture_open(&f, functions);
-    ir_ref a = uniform(&f, "a", IR_TYPE_FLOAT), uv = shader_stream(&f.shader, word(&f, "texcoord_0"), IR_TYPE_VOID);
-    ir_type_id pair = (ir_type_id)ir_add_struct(&f.graph, word(&f, "Pair"),
-                                                (struct ir_member[]){{word(&f, "a"), IR_TYPE_FLOAT}, {word(&f, "b"), IR_TYPE_VEC3}}, 2);
+    ir_ref a = uniform(&f, "a", IR_TYPE_FLOAT),
+           uv = shader_stream(&f.shader, word(&f, "texcoord_0"), IR_TYPE_VOID);
+    ir_type_id pair = (ir_type_id)ir_add_struct(
+        &f.graph, word(&f, "Pair"),
+        (struct ir_member[]){{word(&f, "a"), IR_TYPE_FLOAT}, {word(&f, "b"), IR_TYPE_VEC3}}, 2);
     uint32_t make = function(&f, "make_pair");
-    ir_ref p = ir_build(&f.graph, IR_CALL, pair, ir_add_callee(&f.graph, (struct ir_callee){.id = make, .name = word(&f, "make_pair")}), &a, 1);
+    ir_ref p = ir_build(
+        &f.graph, IR_CALL, pair,
+        ir_add_callee(&f.graph, (struct ir_callee){.id = make, .name = word(&f, "make_pair")}), &a,
+        1);
     ir_ref t1 = call(&f, "twin", &a, 1), t2 = call(&f, "twin", &uv, 1);
     uniform(&f, "make_pair", IR_TYPE_FLOAT); /* not used, not in the way */
     ir_ref clash = uniform(&f, "noise", IR_TYPE_FLOAT);
     effect(&f, EFFECT_VAR, f.color, ir_build(&f.graph, IR_MEMBER, IR_TYPE_VEC3, 1, &p, 1));
-    ir_ref difference = op2(&f, IR_SUB, t1, t2), member = ir_build(&f.graph, IR_MEMBER, IR_TYPE_FLOAT, 0, &p, 1);
+    ir_ref difference = op2(&f, IR_SUB, t1, t2),
+           member = ir_build(&f.graph, IR_MEMBER, IR_TYPE_FLOAT, 0, &p, 1);
     accumulate(&f, vec3_of(&f, op2(&f, IR_MUL, difference, member)));
     accumulate(&f, vec3_of(&f, op2(&f, IR_MUL, clash, call(&f, "noise", &uv, 1))));
     write_color(&f);
     const char *text = stage_from(&f, "void main");
-    REQUIRE_STR(text, "void main()\n{\n    Pair make_pair_2 = make_pair(a);\n    vec3 color = make_pair_2.b;\n"
-                      "    color += vec3((twin(a) - twin(vd.texcoord_0)) * make_pair_2.a);\n"
-                      "    color += vec3(noise * noise_2(vd.texcoord_0));\n    out1 = vec4(color, 1.0);\n}\n");
+    REQUIRE_STR(
+        text,
+        "void main()\n{\n    Pair make_pair_2 = make_pair(a);\n    vec3 color = make_pair_2.b;\n"
+        "    color += vec3((twin(a) - twin(vd.texcoord_0)) * make_pair_2.a);\n"
+        "    color += vec3(noise * noise_2(vd.texcoord_0));\n    out1 = vec4(color, 1.0);\n}\n");
     fixture_close(&f);
 }
 
@@ -493,7 +574,8 @@ static ir_ref as_vec3(struct fixture *f, ir_ref value)
     struct ir_graph *graph = &f->graph;
     const struct ir_type_info *info = ir_type_info(ir_type_of(graph, value));
     if (info->columns > 1)
-        value = ir_build(graph, IR_INDEX, IR_TYPE_VEC3, 0, (ir_ref[]){value, ir_const_int(graph, 0)}, 2);
+        value = ir_build(graph, IR_INDEX, IR_TYPE_VEC3, 0,
+                         (ir_ref[]){value, ir_const_int(graph, 0)}, 2);
     else if (info->components > 1 && info->components != 3)
         value = ir_component(graph, value, 0);
     if (ir_type_info(ir_type_of(graph, value))->scalar != IR_TYPE_FLOAT)
@@ -513,7 +595,8 @@ static void walk_ops(const struct target *target)
         bool hardware = target->caps & CAP_STAGES;
         REQUIRE_EQ(support, op >= IR_LEAF && hardware ? SPELL_LOWERED : SPELL_YES);
         const struct ir_op_info *info = ir_op_info((enum ir_op)op);
-        if (!(info->flags & (OP_OPERATOR | OP_BUILTIN)) || info->arity < 1 || op == IR_MEMBER || op == IR_SWIZZLE)
+        if (!(info->flags & (OP_OPERATOR | OP_BUILTIN)) || info->arity < 1 || op == IR_MEMBER
+            || op == IR_SWIZZLE)
             continue;
         struct op_types types = types_of((enum ir_op)op);
         ir_ref args[4];
@@ -523,7 +606,8 @@ static void walk_ops(const struct target *target)
             args[i] = inputs[types.args[i]];
         }
         if (REQUIRE(types.result != IR_TYPE_VOID))
-            accumulate(&f, as_vec3(&f, ir_build(&f.graph, (enum ir_op)op, types.result, 0, args, (unsigned)info->arity)));
+            accumulate(&f, as_vec3(&f, ir_build(&f.graph, (enum ir_op)op, types.result, 0, args,
+                                                (unsigned)info->arity)));
     }
     write_color(&f);
     struct spell_mark *marks;

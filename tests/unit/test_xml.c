@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * From XML text to elements: places, encodings, what is tolerated, what is refused, includes, running out of memory.
+ * From XML text to elements: places, encodings, what is tolerated, what is refused, includes,
+ * running out of memory.
  */
 #include "document_fixture.h"
 
@@ -18,7 +19,8 @@ static void test_places(void)
                  "<?xml version=\"1.0\"?>\n"
                  "<!-- h\xc3\xa4user <a b='c'> -->\n"
                  "<materialx version=\"1.39\">\n"
-                 "  <constant name=\"\xc3\xa4\xc3\xb6\xf0\x9f\x98\x80\" doc='a &lt; \"b\"&#10;' type=\"float\"><input name=\"value\"\n"
+                 "  <constant name=\"\xc3\xa4\xc3\xb6\xf0\x9f\x98\x80\" doc='a &lt; \"b\"&#10;' "
+                 "type=\"float\"><input name=\"value\"\n"
                  "     type = \"float\"\r\n"
                  "  value='0.5'/></constant>\n"
                  "</materialx>\n",
@@ -27,7 +29,8 @@ static void test_places(void)
     REQUIRE_EQ(doc_place(&f.doc, f.doc.root).line, 3);
     const char *path = "\xc3\xa4\xc3\xb6\xf0\x9f\x98\x80/value";
     struct diag_place value = place_of(&f, path, STR_value), type = place_of(&f, path, STR_type);
-    struct diag_place input = place_of(&f, path, STR_EMPTY), doc = place_of(&f, "\xc3\xa4\xc3\xb6\xf0\x9f\x98\x80", STR_doc);
+    struct diag_place input = place_of(&f, path, STR_EMPTY),
+                      doc = place_of(&f, "\xc3\xa4\xc3\xb6\xf0\x9f\x98\x80", STR_doc);
     REQUIRE_STR(value.file, "test.mtlx");
     REQUIRE_EQ(input.line, 4);
     REQUIRE_EQ(input.column, 59);
@@ -43,8 +46,11 @@ static void test_places(void)
 
 static void test_everything_is_kept(void)
 {
-    REQUIRE_TREE(ROOT "<a:b name=\"n\" my:x=\"1\" xmlns:my=\"urn:y\" unknown=\"&amp;\"><strange/></a:b></materialx>", NULL,
-                 "<a:b name=\"n\" my:x=\"1\" xmlns:my=\"urn:y\" unknown=\"&amp;\">\n  <strange/>\n</a:b>\n");
+    REQUIRE_TREE(
+        ROOT "<a:b name=\"n\" my:x=\"1\" xmlns:my=\"urn:y\" "
+             "unknown=\"&amp;\"><strange/></a:b></materialx>",
+        NULL,
+        "<a:b name=\"n\" my:x=\"1\" xmlns:my=\"urn:y\" unknown=\"&amp;\">\n  <strange/>\n</a:b>\n");
 }
 
 static void test_refused(void)
@@ -54,28 +60,34 @@ static void test_refused(void)
     REQUIRE_MESSAGES("hello", NULL, "1:1 xml-not-xml");
     REQUIRE_MESSAGES("{\"a\": 1}", NULL, "1:1 xml-not-xml");
     REQUIRE_MESSAGES("<html><a/></html>", NULL, "1:1 xml-root");
-    REQUIRE_MESSAGES("<!DOCTYPE materialx [<!ENTITY a \"b\">]>\n" ROOT "</materialx>", NULL, "1:21 xml-doctype");
+    REQUIRE_MESSAGES("<!DOCTYPE materialx [<!ENTITY a \"b\">]>\n" ROOT "</materialx>", NULL,
+                     "1:21 xml-doctype");
     REQUIRE_MESSAGES(ROOT "\n<nodegraph name=\"g\">\n", NULL, "3:1 xml-truncated");
     REQUIRE_MESSAGES(ROOT "\n<nodegraph name=\"g\"", NULL, "2:20 xml-truncated");
     REQUIRE_MESSAGES(ROOT "\n<a></b></materialx>", NULL, "2:8 xml-syntax");
     REQUIRE_MESSAGES(ROOT "<a x=\"1\" x=\"2\"/></materialx>", NULL, "1:41 xml-syntax");
     REQUIRE_MESSAGES(ROOT "<a x=\"&unknown;\"/></materialx>", NULL, "1:42 xml-syntax");
     REQUIRE_MESSAGES(ROOT "<a x=\"\xff\"/></materialx>", NULL, "1:33 xml-encoding");
-    REQUIRE_MESSAGES("<?xml version=\"1.0\" encoding=\"klingon\"?>" ROOT "</materialx>", NULL, "1:1 xml-unknown-encoding");
+    REQUIRE_MESSAGES("<?xml version=\"1.0\" encoding=\"klingon\"?>" ROOT "</materialx>", NULL,
+                     "1:1 xml-unknown-encoding");
     REQUIRE_MESSAGES(ROOT "</materialx>" ROOT "</materialx>", NULL, "1:39 xml-syntax");
 }
 
 static void test_tolerated(void)
 {
-    REQUIRE_MESSAGES(ROOT "<input file=\"a.<UDIM>.<b>.png\"/></materialx>", NULL, "1:42 xml-raw-less-than, 1:49 xml-raw-less-than");
+    REQUIRE_MESSAGES(ROOT "<input file=\"a.<UDIM>.<b>.png\"/></materialx>", NULL,
+                     "1:42 xml-raw-less-than, 1:49 xml-raw-less-than");
     REQUIRE_TREE(ROOT "<a b=\"x < y\"/></materialx>", NULL, "<a b=\"x &lt; y\"/>\n");
     /* a quote is missing */
     REQUIRE_MESSAGES(ROOT "<a b=\"c/>\n<d e=\"f\"/></materialx>", NULL, "2:1 xml-syntax");
     REQUIRE_MESSAGES(ROOT "<a b=\"<x>\x7f\"/></materialx>", NULL, "1:33 xml-syntax");
     REQUIRE_MESSAGES("\xef\xbb\xbf" ROOT "<a/></materialx>", NULL, "1:1 xml-byte-order-mark");
-    REQUIRE_MESSAGES("\n\n<?xml version=\"1.0\"?>\n" ROOT "<a></materialx>", NULL, "1:1 xml-text-before-declaration, 4:42 xml-syntax");
-    REQUIRE_MESSAGES("Licence: none\n" ROOT "</materialx>", NULL, "1:1 xml-text-before-declaration");
-    REQUIRE_MESSAGES("<!-- -->\n<?xml version=\"1.0\"?>\n" ROOT "</materialx>", NULL, "1:1 xml-text-before-declaration");
+    REQUIRE_MESSAGES("\n\n<?xml version=\"1.0\"?>\n" ROOT "<a></materialx>", NULL,
+                     "1:1 xml-text-before-declaration, 4:42 xml-syntax");
+    REQUIRE_MESSAGES("Licence: none\n" ROOT "</materialx>", NULL,
+                     "1:1 xml-text-before-declaration");
+    REQUIRE_MESSAGES("<!-- -->\n<?xml version=\"1.0\"?>\n" ROOT "</materialx>", NULL,
+                     "1:1 xml-text-before-declaration");
     REQUIRE_MESSAGES("<!-- -->\n" ROOT "</materialx>", NULL, "");
     REQUIRE_MESSAGES(ROOT "</materialx>\"", NULL, "1:39 xml-text-after-root");
     REQUIRE_MESSAGES(ROOT "stray <a/> text</materialx>", NULL, "1:1 xml-stray-text");
@@ -102,7 +114,8 @@ static size_t encode_utf16(const char *text, bool big_endian, bool mark, char *o
 
 static void test_encodings(void)
 {
-    const char *text = "<?xml version=\"1.0\" encoding=\"UTF-16\"?>\n" ROOT "<a name=\"b\"/></materialx>";
+    const char *text =
+        "<?xml version=\"1.0\" encoding=\"UTF-16\"?>\n" ROOT "<a name=\"b\"/></materialx>";
     for (int variant = 0; variant < 4; variant++) {
         char bytes[512];
         struct fixture f;
@@ -117,7 +130,9 @@ static void test_encodings(void)
     fixture_read_bytes(&f, "\xff\xfe<\0\0\xd8<\0", 8, NULL); /* half a surrogate pair */
     REQUIRE_STR(fixture_messages(&f), "1:1 xml-encoding");
     fixture_close(&f);
-    REQUIRE_TREE("<?xml version=\"1.0\" encoding=\"ISO-8859-1\"?>" ROOT "<a b=\"\xe4\"/></materialx>", NULL, "<a b=\"\xc3\xa4\"/>\n");
+    REQUIRE_TREE("<?xml version=\"1.0\" encoding=\"ISO-8859-1\"?>" ROOT
+                 "<a b=\"\xe4\"/></materialx>",
+                 NULL, "<a b=\"\xc3\xa4\"/>\n");
 }
 
 static void test_limits(void)
@@ -129,8 +144,10 @@ static void test_limits(void)
         {ROOT "<a><b/></a></materialx>", ""},
         {ROOT "<a><b><c/></b></a></materialx>", "1:33 xml-depth"},
         {ROOT "<a/><a/><a/><a/><a/></materialx>", "1:43 too-many-elements"},
-        {ROOT "<template vars=\"t\" rows=\"a; b; c; d; e; f\"><@t@/></template></materialx>", "1:71 xml-syntax"},
-        {ROOT "<template vars=\"t\" rows=\"a; b; c; d; e; f\"><x/></template></materialx>", "1:1 too-many-elements"},
+        {ROOT "<template vars=\"t\" rows=\"a; b; c; d; e; f\"><@t@/></template></materialx>",
+         "1:71 xml-syntax"},
+        {ROOT "<template vars=\"t\" rows=\"a; b; c; d; e; f\"><x/></template></materialx>",
+         "1:1 too-many-elements"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         struct fixture f;
@@ -144,46 +161,63 @@ static void test_limits(void)
 #define XI "<materialx version=\"1.39\" xmlns:xi=\"http://www.w3.org/2001/XInclude\">"
 
 static const struct fixture_file files[] = {
-    {"a.mtlx", "<materialx version=\"1.39\" colorspace=\"acescg\" fileprefix=\"p/\"><c name=\"one\"/><c name=\"two\" fileprefix=\"\"/></materialx>"},
+    {"a.mtlx", "<materialx version=\"1.39\" colorspace=\"acescg\" fileprefix=\"p/\"><c "
+               "name=\"one\"/><c name=\"two\" fileprefix=\"\"/></materialx>"},
     {"nested.mtlx", XI "<xi:include href=\"a.mtlx\"/><c name=\"three\"/></materialx>"},
     {"loop.mtlx", XI "<xi:include href=\"loop2.mtlx\"/></materialx>"},
     {"loop2.mtlx", XI "<xi:include href=\"loop.mtlx\"/></materialx>"},
     {"broken.mtlx", ROOT "<c>"},
-    {"old.mtlx", "<materialx version=\"1.37\"><atan2 name=\"x\" type=\"float\"><parameter name=\"in1\"/></atan2></materialx>"},
+    {"old.mtlx", "<materialx version=\"1.37\"><atan2 name=\"x\" type=\"float\"><parameter "
+                 "name=\"in1\"/></atan2></materialx>"},
     {NULL, NULL},
 };
 
 static void test_includes(void)
 {
-    REQUIRE_TREE(XI "<c name=\"zero\"/><xi:include href=\"a.mtlx\"/><c name=\"last\"/></materialx>", files,
+    REQUIRE_TREE(XI "<c name=\"zero\"/><xi:include href=\"a.mtlx\"/><c name=\"last\"/></materialx>",
+                 files,
                  "<c name=\"zero\"/>\n"
                  "<c name=\"one\" colorspace=\"acescg\" fileprefix=\"p/\"/>\n"
                  "<c name=\"two\" fileprefix=\"\" colorspace=\"acescg\"/>\n"
                  "<c name=\"last\"/>\n");
-    REQUIRE_TREE(XI "<xi:include href=\"nested.mtlx\"/><xi:include href=\"a.mtlx\"/></materialx>", files,
+    REQUIRE_TREE(XI "<xi:include href=\"nested.mtlx\"/><xi:include href=\"a.mtlx\"/></materialx>",
+                 files,
                  "<c name=\"one\" colorspace=\"acescg\" fileprefix=\"p/\"/>\n"
                  "<c name=\"two\" fileprefix=\"\" colorspace=\"acescg\"/>\n"
                  "<c name=\"three\"/>\n");
-    REQUIRE_TREE(XI "<atan2 name=\"y\" type=\"float\"><input name=\"iny\"/></atan2><xi:include href=\"old.mtlx\"/></materialx>", files,
+    REQUIRE_TREE(XI "<atan2 name=\"y\" type=\"float\"><input name=\"iny\"/></atan2><xi:include "
+                    "href=\"old.mtlx\"/></materialx>",
+                 files,
                  "<atan2 name=\"y\" type=\"float\">\n  <input name=\"iny\"/>\n</atan2>\n"
                  "<atan2 name=\"x\" type=\"float\">\n  <input name=\"inx\"/>\n</atan2>\n");
-    REQUIRE_TREE(XI "<xi:include href=\"none\"><xi:fallback><d/><xi:include href=\"a.mtlx\"/></xi:fallback></xi:include></materialx>", files,
+    REQUIRE_TREE(XI "<xi:include href=\"none\"><xi:fallback><d/><xi:include "
+                    "href=\"a.mtlx\"/></xi:fallback></xi:include></materialx>",
+                 files,
                  "<d/>\n<c name=\"one\" colorspace=\"acescg\" fileprefix=\"p/\"/>\n"
                  "<c name=\"two\" fileprefix=\"\" colorspace=\"acescg\"/>\n");
-    REQUIRE_TREE(XI "<xi:include href=\"nested.mtlx\"><xi:fallback><xi:include href=\"none\"/></xi:fallback></xi:include></materialx>", NULL, "");
+    REQUIRE_TREE(XI "<xi:include href=\"nested.mtlx\"><xi:fallback><xi:include "
+                    "href=\"none\"/></xi:fallback></xi:include></materialx>",
+                 NULL, "");
 }
 
 static void test_bad_includes(void)
 {
-    REQUIRE_MESSAGES(XI "\n<xi:include href=\"none.mtlx\"/></materialx>", files, "2:19 include-missing");
+    REQUIRE_MESSAGES(XI "\n<xi:include href=\"none.mtlx\"/></materialx>", files,
+                     "2:19 include-missing");
     REQUIRE_MESSAGES(XI "\n<xi:include/></materialx>", files, "2:1 include-no-href");
-    REQUIRE_MESSAGES(XI "\n<xi:include href=\"a.mtlx\" parse=\"text\"/></materialx>", files, "2:1 include-part");
-    REQUIRE_MESSAGES(XI "\n<xi:include href=\"a.mtlx\" xpointer=\"x\"/></materialx>", files, "2:1 include-part");
-    REQUIRE_MESSAGES(XI "\n<xi:include href=\"loop.mtlx\"/></materialx>", files,
-                     "loop2.mtlx:1:88 include-cycle, loop.mtlx:1:70 include-from, 2:1 include-from");
-    REQUIRE_MESSAGES(XI "\n<xi:include href=\"broken.mtlx\"/></materialx>", files, "broken.mtlx:1:30 xml-truncated, 2:1 include-from");
-    REQUIRE_MESSAGES(ROOT "\n<xi:include href=\"a.mtlx\"/></materialx>", files, "2:1 xml-undeclared-prefix");
-    REQUIRE_MESSAGES(XI "<xi:include href=\"test.mtlx\"/></materialx>", ((const struct fixture_file[]){{"test.mtlx", "x"}, {NULL, NULL}}),
+    REQUIRE_MESSAGES(XI "\n<xi:include href=\"a.mtlx\" parse=\"text\"/></materialx>", files,
+                     "2:1 include-part");
+    REQUIRE_MESSAGES(XI "\n<xi:include href=\"a.mtlx\" xpointer=\"x\"/></materialx>", files,
+                     "2:1 include-part");
+    REQUIRE_MESSAGES(
+        XI "\n<xi:include href=\"loop.mtlx\"/></materialx>", files,
+        "loop2.mtlx:1:88 include-cycle, loop.mtlx:1:70 include-from, 2:1 include-from");
+    REQUIRE_MESSAGES(XI "\n<xi:include href=\"broken.mtlx\"/></materialx>", files,
+                     "broken.mtlx:1:30 xml-truncated, 2:1 include-from");
+    REQUIRE_MESSAGES(ROOT "\n<xi:include href=\"a.mtlx\"/></materialx>", files,
+                     "2:1 xml-undeclared-prefix");
+    REQUIRE_MESSAGES(XI "<xi:include href=\"test.mtlx\"/></materialx>",
+                     ((const struct fixture_file[]){{"test.mtlx", "x"}, {NULL, NULL}}),
                      "1:88 include-cycle");
     struct fixture_file chain[40];
     char names[40][16], texts[40][128];
@@ -219,8 +253,9 @@ static void test_files(void)
 
 static bool read_with_little_memory(size_t used_before, size_t allocations)
 {
-    const char *text = XI "<xi:include href=\"nested.mtlx\"/><xi:include href=\"old.mtlx\"/>"
-                       "<template vars=\"t\" rows=\"a; b\"><c name=\"@t@\"/></template><a b=\"<c>\"/></materialx>";
+    const char *text = XI
+        "<xi:include href=\"nested.mtlx\"/><xi:include href=\"old.mtlx\"/>"
+        "<template vars=\"t\" rows=\"a; b\"><c name=\"@t@\"/></template><a b=\"<c>\"/></materialx>";
     struct fixture f;
     fixture_init(&f);
     f.files = files;
@@ -238,8 +273,8 @@ static bool read_with_little_memory(size_t used_before, size_t allocations)
 }
 
 /*
- * Memory runs out at every allocation, and, as arenas take it in large pieces, with their first piece used up to many different
- * points: nothing leaks, and files are closed.
+ * Memory runs out at every allocation, and, as arenas take it in large pieces, with their first
+ * piece used up to many different points: nothing leaks, and files are closed.
  */
 static void test_memory(void)
 {
@@ -260,7 +295,10 @@ static void test_size(void)
     text_init(&text, &f.arena);
     text_str(&text, ROOT);
     for (unsigned i = 0; i < NODES; i++)
-        text_fmt(&text, "\n<add name=\"n%u\" type=\"float\"><input name=\"in1\" type=\"float\" nodename=\"n%u\"/></add>", i, i - 1);
+        text_fmt(&text,
+                 "\n<add name=\"n%u\" type=\"float\"><input name=\"in1\" type=\"float\" "
+                 "nodename=\"n%u\"/></add>",
+                 i, i - 1);
     text_str(&text, "</materialx>");
     fixture_read_bytes(&f, text.data, text.len, NULL);
     REQUIRE(f.read);

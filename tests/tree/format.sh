@@ -1,0 +1,7 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Every C and C++ file is formatted as .clang-format says. Argument: the root of the project.
+cd "$1" || exit 1
+command -v clang-format >/dev/null || { echo "skip: clang-format is not installed"; exit 77; }
+git rev-parse --git-dir >/dev/null 2>&1 || { echo "skip: no git checkout, so no list of files"; exit 77; }
+exec script/format --check
