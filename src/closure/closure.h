@@ -92,8 +92,8 @@ struct closure_list {
 };
 
 /*
- * Flattens a BSDF, EDF or VDF: leaves with their total weight, in the order of their nodes, equal leaves
- * merged, leaves of weight 0 gone. root 0: an empty list.
+ * Flattens a BSDF, EDF or VDF: leaves with their total weight, in the order of their nodes, equal
+ * leaves merged, leaves of weight 0 gone. root 0: an empty list.
  */
 void closure_flatten(struct shader *shader, const struct closure_host *host, ir_ref root,
                      struct closure_list *out);

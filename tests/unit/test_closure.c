@@ -35,12 +35,9 @@ static const struct {
 static const struct {
     enum leaf_function which;
     const char *suffix;
-} members[] = {{LEAF_EVAL, "eval"},
-               {LEAF_THROUGHPUT, "throughput"},
-               {LEAF_FACTOR, "factor"},
-               {LEAF_EMISSION, "emission"},
-               {LEAF_ABSORPTION, "absorption"},
-               {LEAF_SCATTERING, "scattering"}};
+} members[] = {
+    {LEAF_EVAL, "eval"},         {LEAF_THROUGHPUT, "throughput"}, {LEAF_FACTOR, "factor"},
+    {LEAF_EMISSION, "emission"}, {LEAF_ABSORPTION, "absorption"}, {LEAF_SCATTERING, "scattering"}};
 
 struct scene {
     struct fixture base;
@@ -49,7 +46,7 @@ struct scene {
     struct lang_host lang;
     struct closure_point point;
     struct closure_host host;
-    bool variable; /* numbers are uniforms */
+    bool variable;     /* numbers are uniforms */
     VEC(float) values; /* of the uniforms */
 };
 
@@ -86,10 +83,8 @@ static void scene_open(struct scene *s, bool variable)
     }
     s->lang.max_inline_nodes = 1000;
     s->point = (struct closure_point){vec3(s, 0, 0, 0), vec3(s, 0, 0, 1), vec3(s, 0, 0, 1)};
-    s->host = (struct closure_host){.user_data = s,
-                                    .point = &s->point,
-                                    .leaf_functions = leaf_functions,
-                                    .lang = &s->lang};
+    s->host = (struct closure_host){
+        .user_data = s, .point = &s->point, .leaf_functions = leaf_functions, .lang = &s->lang};
     s->variable = variable;
 }
 
@@ -282,12 +277,12 @@ static void test_layers(void)
     /* a top of weight 0 hides nothing */
     REQUIRE_WEIGHTS(layer(s, leaf(s, MATTE, 0, 2), leaf(s, GLASS, 1, 1)), "glass 1");
     /* three layers, in both orders of association: 0.5 · 0.25 = 0.125 */
-    REQUIRE_WEIGHTS(layer(s, leaf(s, GLASS, 1, 0.5f),
-                          layer(s, leaf(s, GLASS, 1, 0.25f), leaf(s, MATTE, 1, 1))),
-                    "glass 0.5, glass 1, matte 0.125");
-    REQUIRE_WEIGHTS(layer(s, layer(s, leaf(s, GLASS, 1, 0.5f), leaf(s, GLASS, 1, 0.25f)),
-                          leaf(s, MATTE, 1, 1)),
-                    "glass 0.5, glass 1, matte 0.125");
+    REQUIRE_WEIGHTS(
+        layer(s, leaf(s, GLASS, 1, 0.5f), layer(s, leaf(s, GLASS, 1, 0.25f), leaf(s, MATTE, 1, 1))),
+        "glass 0.5, glass 1, matte 0.125");
+    REQUIRE_WEIGHTS(
+        layer(s, layer(s, leaf(s, GLASS, 1, 0.5f), leaf(s, GLASS, 1, 0.25f)), leaf(s, MATTE, 1, 1)),
+        "glass 0.5, glass 1, matte 0.125");
 }
 
 static void test_mixes(void)
@@ -311,12 +306,12 @@ static void test_sums(void)
     REQUIRE_WEIGHTS(add(s, leaf(s, MATTE, 0.5f, 1), leaf(s, GLASS, 0.25f, 1)),
                     "glass 0.25, matte 0.5");
     /* T = 1 - (0.25 + 0.5), and never less than 0 */
-    REQUIRE_WEIGHTS(layer(s, add(s, leaf(s, GLASS, 1, 0.75f), leaf(s, GLASS, 1, 0.5f)),
-                          leaf(s, MATTE, 1, 1)),
-                    "glass 1, glass 1, matte 0.25");
-    REQUIRE_WEIGHTS(layer(s, add(s, leaf(s, GLASS, 1, 0.25f), leaf(s, GLASS, 1, 0.5f)),
-                          leaf(s, MATTE, 1, 1)),
-                    "glass 1, glass 1");
+    REQUIRE_WEIGHTS(
+        layer(s, add(s, leaf(s, GLASS, 1, 0.75f), leaf(s, GLASS, 1, 0.5f)), leaf(s, MATTE, 1, 1)),
+        "glass 1, glass 1, matte 0.25");
+    REQUIRE_WEIGHTS(
+        layer(s, add(s, leaf(s, GLASS, 1, 0.25f), leaf(s, GLASS, 1, 0.5f)), leaf(s, MATTE, 1, 1)),
+        "glass 1, glass 1");
 }
 
 static void test_scales(void)
@@ -334,9 +329,9 @@ static void test_scales(void)
         layer(s, scale(s, leaf(s, GLASS, 1, 0.25f), num(s, 0.5f)), leaf(s, MATTE, 1, 1)),
         "glass 0.5, matte 0.25");
     /* colours of nested scales multiply */
-    REQUIRE_WEIGHTS(scale(s, scale(s, leaf(s, MATTE, 1, 1), color(s, 1, 0.5f, 0.5f)),
-                          color(s, 0.5f, 1, 0.5f)),
-                    "matte 0.5 0.5 0.25");
+    REQUIRE_WEIGHTS(
+        scale(s, scale(s, leaf(s, MATTE, 1, 1), color(s, 1, 0.5f, 0.5f)), color(s, 0.5f, 1, 0.5f)),
+        "matte 0.5 0.5 0.25");
 }
 
 /* Leaves with the same inputs are one, whatever the way to them. */
@@ -370,8 +365,7 @@ static void test_shared_nodes(void)
 /* A film takes the place of its base, whose response it multiplies: (0.5, 0.5, 1). */
 static void test_modifiers(void)
 {
-    REQUIRE_WEIGHTS(leaf_over(s, FILM, 1, 0.5f, leaf(s, MATTE, 0.5f, 1)),
-                    "matte 0.25 0.25 0.5");
+    REQUIRE_WEIGHTS(leaf_over(s, FILM, 1, 0.5f, leaf(s, MATTE, 0.5f, 1)), "matte 0.25 0.25 0.5");
     /* and hides as much as its base: T = 0.25 */
     REQUIRE_WEIGHTS(
         layer(s, leaf_over(s, FILM, 1, 0.5f, leaf(s, GLASS, 1, 0.25f)), leaf(s, MATTE, 1, 1)),
