@@ -109,8 +109,7 @@ static inline const char *layers_messages(struct layers *l)
     text_init(&text, &l->arena);
     for (uint32_t i = 0; i < l->diags.items.len; i++)
         if (l->diags.items.items[i].severity != DIAG_REMARK)
-            text_fmt(&text, "%s%s", text.len ? ", " : "",
-                     diag_id_text(l->diags.items.items[i].id));
+            text_fmt(&text, "%s%s", text.len ? ", " : "", diag_id_text(l->diags.items.items[i].id));
     diag_list_init(&l->diags, &l->arena);
     return text_cstr(&text);
 }

@@ -18,8 +18,7 @@ static const struct layer_file files[] = {
     "<nodedef name='" name "' node='" node "' " attributes ">" ports "</nodedef>"
 #define INPUT(name, type, more) "<input name='" name "' type='" type "' " more "/>"
 #define OUTPUT(name, type) "<output name='" name "' type='" type "'/>"
-#define IMPL(name, nodedef, more) \
-    "<implementation name='" name "' nodedef='" nodedef "' " more "/>"
+#define IMPL(name, nodedef, more) "<implementation name='" name "' nodedef='" nodedef "' " more "/>"
 
 static const char standard[] =
     "<typedef name='span'><member name='low' type='float'/><member name='high' type='vector3'/>"
@@ -28,7 +27,8 @@ static const char standard[] =
     "<unitdef name='UD_distance' unittype='distance'><unit name='foot' scale='0.25'/>"
     "<unit name='meter' scale='1'/></unitdef>"
     "<unitdef name='UD_angle' unittype='angle'><unit name='degree' scale='1'/></unitdef>"
-    "<unittypedef name='shoe'/><unitdef name='UD_shoe' unittype='shoe'><unit name='foot' scale='3'/></unitdef>"
+    "<unittypedef name='shoe'/><unitdef name='UD_shoe' unittype='shoe'><unit name='foot' "
+    "scale='3'/></unitdef>"
     "<geompropdef name='UV1' type='vector2' geomprop='texcoord' index='1'/>"
     "<geompropdef name='Nworld' type='vector3' geomprop='normal' space='world'/>"
     "<geompropdef name='wear' type='float'/>"
@@ -37,38 +37,45 @@ static const char standard[] =
             INPUT("in", "float", "value='0.5'") INPUT("amount", "float", "value='1'")
                 INPUT("mode", "string", "value='linear' uniform='true' enum='linear, cubic'")
                     OUTPUT("out", "float"))
-    NODEDEF("ND_gain_color3", "gain", "",
-            INPUT("in", "color3", "") INPUT("amount", "float", "value='2'")
-                OUTPUT("out", "color3"))
-    NODEDEF("ND_texcoord_vector2", "texcoord", "", OUTPUT("out", "vector2"))
-    NODEDEF("ND_split_color3", "split", "",
-            INPUT("in", "vector3", "defaultgeomprop='Nworld'") OUTPUT("low", "float")
-                OUTPUT("high", "float"))
+        NODEDEF("ND_gain_color3", "gain", "",
+                INPUT("in", "color3", "") INPUT("amount", "float", "value='2'")
+                    OUTPUT("out", "color3"))
+            NODEDEF("ND_texcoord_vector2", "texcoord", "", OUTPUT("out", "vector2"))
+                NODEDEF("ND_split_color3", "split", "",
+                        INPUT("in", "vector3", "defaultgeomprop='Nworld'") OUTPUT("low", "float")
+                            OUTPUT("high", "float"))
     /* versions */
-    NODEDEF("ND_tone_1", "tone", "version='1.0'", INPUT("in", "float", "value='1'")
-            OUTPUT("out", "float"))
-    NODEDEF("ND_tone_2", "tone", "version='2.0' isdefaultversion='true' inherit='ND_tone_1'",
-            INPUT("curve", "float", "value='3'"))
-    NODEDEF("ND_tone_3", "tone", "version='3.0' inherit='ND_tone_2'",
-            INPUT("in", "float", "value='7'") INPUT("last", "integer", "value='5'"))
+    NODEDEF("ND_tone_1", "tone", "version='1.0'",
+            INPUT("in", "float", "value='1'") OUTPUT("out", "float"))
+        NODEDEF("ND_tone_2", "tone", "version='2.0' isdefaultversion='true' inherit='ND_tone_1'",
+                INPUT("curve", "float", "value='3'"))
+            NODEDEF("ND_tone_3", "tone", "version='3.0' inherit='ND_tone_2'",
+                    INPUT("in", "float", "value='7'") INPUT("last", "integer", "value='5'"))
     /* a node without a default version */
-    NODEDEF("ND_beta_1", "beta", "version='0.1'", OUTPUT("out", "float"))
-    NODEDEF("ND_matte", "matte", "", INPUT("color", "color3", "value='1, 1, 1'")
-            OUTPUT("out", "BSDF"))
-    NODEDEF("ND_acescg_to_lin_rec709_color3", "acescg_to_lin_rec709", "",
-            INPUT("in", "color3", "") OUTPUT("out", "color3"))
-    IMPL("IM_gain_float", "ND_gain_float", "sourcecode='{{in}} * {{amount}}'")
-    IMPL("IM_gain_float_old", "ND_gain_float", "target='genold' file='old.c' function='old'")
-    IMPL("IM_texcoord", "ND_texcoord_vector2", "")
-    IMPL("IM_split", "ND_split_color3", "file='wave.glsl' function='split'")
-    IMPL("IM_tone_1", "ND_tone_1", "sourcecode='{{in}} +'")
-    IMPL("IM_matte", "ND_matte", "file='matte.glsl' function='matte'")
-    "<nodegraph name='NG_tone_2' nodedef='ND_tone_2'>"
-    "<gain name='first' type='float'><input name='in' type='float' interfacename='in'/>"
-    "<input name='amount' type='float' value='4'/></gain>"
-    "<gain name='second' type='float'><input name='in' type='float' nodename='first'/>"
-    "<input name='amount' type='float' interfacename='curve'/></gain>"
-    "<output name='out' type='float' nodename='second'/></nodegraph>";
+    NODEDEF("ND_beta_1", "beta", "version='0.1'", OUTPUT("out", "float")) NODEDEF(
+        "ND_matte", "matte", "", INPUT("color", "color3", "value='1, 1, 1'") OUTPUT("out", "BSDF"))
+        NODEDEF("ND_acescg_to_lin_rec709_color3", "acescg_to_lin_rec709", "",
+                INPUT("in", "color3", "") OUTPUT("out", "color3"))
+            IMPL("IM_gain_float", "ND_gain_float", "sourcecode='{{in}} * {{amount}}'") IMPL(
+                "IM_gain_float_old", "ND_gain_float", "target='genold' file='old.c' function='old'")
+                IMPL("IM_texcoord", "ND_texcoord_vector2",
+                     "") IMPL("IM_split", "ND_split_color3", "file='wave.glsl' function='split'")
+                    IMPL("IM_tone_1", "ND_tone_1", "sourcecode='{{in}} +'") IMPL(
+                        "IM_matte", "ND_matte",
+                        "file='matte.glsl' function='matte'") "<nodegraph name='NG_tone_2' "
+                                                              "nodedef='ND_tone_2'>"
+                                                              "<gain name='first' "
+                                                              "type='float'><input name='in' "
+                                                              "type='float' interfacename='in'/>"
+                                                              "<input name='amount' type='float' "
+                                                              "value='4'/></gain>"
+                                                              "<gain name='second' "
+                                                              "type='float'><input name='in' "
+                                                              "type='float' nodename='first'/>"
+                                                              "<input name='amount' type='float' "
+                                                              "interfacename='curve'/></gain>"
+                                                              "<output name='out' type='float' "
+                                                              "nodename='second'/></nodegraph>";
 
 static uint32_t def(struct layers *l, const char *name)
 {
@@ -89,7 +96,10 @@ static const char *ports_of(struct layers *l, const char *name)
     const struct port *ports = library_ports(&l->lib, id, NULL);
     unsigned count = nodedef->num_inputs + nodedef->num_outputs;
     for (unsigned i = 0; i < count; i++) {
-        text_fmt(&text, "%s%s %s", i == 0 ? "" : i == nodedef->num_inputs ? " | " : ", ",
+        text_fmt(&text, "%s%s %s",
+                 i == 0                     ? ""
+                 : i == nodedef->num_inputs ? " | "
+                                            : ", ",
                  str_text(&l->lib.strings, library_type_name(&l->lib, ports[i].type)),
                  str_text(&l->lib.strings, ports[i].name));
         if (ports[i].flags & PORT_HAS_VALUE)
@@ -169,8 +179,7 @@ static void test_inheritance(void)
     REQUIRE_STR(ports_of(&l, "ND_tone_1"), "float in 1 | float out");
     REQUIRE_STR(ports_of(&l, "ND_tone_2"), "float curve 3, float in 1 | float out");
     /* its own ports first, and what it declares again counts once */
-    REQUIRE_STR(ports_of(&l, "ND_tone_3"),
-                "float in 7, integer last 5, float curve 3 | float out");
+    REQUIRE_STR(ports_of(&l, "ND_tone_3"), "float in 7, integer last 5, float curve 3 | float out");
     REQUIRE_STR(ports_of(&l, "ND_tone_4"),
                 "float own 1, float in 7, integer last 5, float curve 3 | float out");
     layers_close(&l);
@@ -235,11 +244,9 @@ static void test_trust(void)
     } cases[] = {{LIBRARY_TRUST_ALL, "expression", "verbatim genold"},
                  {LIBRARY_TRUST_PORTABLE, "expression", "broken genold"},
                  {LIBRARY_TRUST_GRAPHS, "broken", "broken genold"}};
-    static const char document[] =
-        NODEDEF("ND_a", "a", "", OUTPUT("out", "float"))
-            IMPL("IM_a", "ND_a", "sourcecode='1.0'")
-                NODEDEF("ND_b", "b", "", OUTPUT("out", "float"))
-                    IMPL("IM_b", "ND_b", "target='genold' sourcecode='goto'");
+    static const char document[] = NODEDEF("ND_a", "a", "", OUTPUT("out", "float"))
+        IMPL("IM_a", "ND_a", "sourcecode='1.0'") NODEDEF("ND_b", "b", "", OUTPUT("out", "float"))
+            IMPL("IM_b", "ND_b", "target='genold' sourcecode='goto'");
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         struct layers l;
         layers_begin(&l, files);
@@ -302,9 +309,8 @@ static void test_match_by_version(void)
     REQUIRE_MATCH("<tone name='n' type='float'/>", "ND_tone_2", "");
     REQUIRE_MATCH("<tone name='n' type='float' version='1.0'/>", "ND_tone_1", "");
     REQUIRE_MATCH("<tone name='n' type='float' version='3.0'/>", "ND_tone_3", "");
-    REQUIRE_MATCH(
-        "<tone name='n' type='float' version='9.0'/>", "-",
-        "no-matching-nodedef, nodedef-candidate, nodedef-candidate, nodedef-candidate");
+    REQUIRE_MATCH("<tone name='n' type='float' version='9.0'/>", "-",
+                  "no-matching-nodedef, nodedef-candidate, nodedef-candidate, nodedef-candidate");
     REQUIRE_MATCH("<beta name='n' type='float'/>", "-", "no-matching-nodedef, nodedef-candidate");
     REQUIRE_MATCH("<beta name='n' type='float' version='0.1'/>", "ND_beta_1", "");
     /* an input that only an older version has does not choose it */
@@ -360,8 +366,7 @@ static void require_binding(const char *document, const char *path, doc_type typ
 {
     struct layers l;
     layers_open(&l, files, standard, document);
-    struct binding b =
-        library_resolve_connection(&l.lib, layers_element(&l, path), type, &l.diags);
+    struct binding b = library_resolve_connection(&l.lib, layers_element(&l, path), type, &l.diags);
     test_same_text(describe_binding(&l, &b), expected, file, line, document);
     test_same_text(layers_messages(&l), messages, file, line, document);
     layers_close(&l);
@@ -391,7 +396,7 @@ static void test_connections(void)
     REQUIRE_BINDING(graph, "m/in", float, "value 0.25", "");
     REQUIRE_BINDING(graph, "o/in", float, "default", "");
     REQUIRE_BINDING(graph, "g/b/in", float, "node s/1", "");
-    REQUIRE_BINDING(graph, "n/in", float, "node b/0", ""); /* through an output */
+    REQUIRE_BINDING(graph, "n/in", float, "node b/0", "");     /* through an output */
     REQUIRE_BINDING(graph, "g/a/in", float, "value 0.75", ""); /* through an interface input */
     REQUIRE_BINDING(graph, "p/in", float, "node b/0", "output-needed");
     REQUIRE_BINDING(graph, "v/in", float, "node s2/0", "output-needed");
@@ -406,10 +411,11 @@ static void test_interfaces(void)
 {
     static const char document[] =
         NODEDEF("ND_double", "double", "",
-                INPUT("x", "float", "") INPUT("y", "float", "value='1'") OUTPUT("out", "float"))
-        "<nodegraph name='NG' nodedef='ND_double'>"
-        "<gain name='a' type='float'><input name='in' type='float' interfacename='y'/></gain>"
-        "<output name='out' type='float' nodename='a'/></nodegraph>";
+                INPUT("x", "float", "") INPUT("y", "float", "value='1'") OUTPUT(
+                    "out", "float")) "<nodegraph name='NG' nodedef='ND_double'>"
+                                     "<gain name='a' type='float'><input name='in' type='float' "
+                                     "interfacename='y'/></gain>"
+                                     "<output name='out' type='float' nodename='a'/></nodegraph>";
     struct layers l;
     layers_open(&l, files, standard, document);
     elem_id in = layers_element(&l, "NG/a/in"), graph = layers_element(&l, "NG");
@@ -524,8 +530,11 @@ static void test_enums(void)
     static const struct {
         const char *word;
         bool good;
-    } cases[] = {{"linear", true}, {"cubic", true}, {"cub", false},
-                 {"linear, cubic", false}, {" cubic", false}};
+    } cases[] = {{"linear", true},
+                 {"cubic", true},
+                 {"cub", false},
+                 {"linear, cubic", false},
+                 {" cubic", false}};
     struct layers l;
     layers_open(&l, files, standard, "");
     const struct port *ports = library_ports(&l.lib, def(&l, "ND_gain_float"), NULL);
@@ -642,11 +651,12 @@ enum { IMAGE_MAGIC = 8, IMAGE_FINGERPRINT = 16, IMAGE_CHECKSUM = 24, IMAGE_SIZE 
 
 static const char *expected_refusal(size_t damaged)
 {
-    return damaged < IMAGE_MAGIC         ? "it does not begin like one"
-           : damaged < IMAGE_FINGERPRINT ? "it was packed by another version of mxgen; pack it again"
-           : damaged < IMAGE_CHECKSUM    ? "it is damaged (the checksum differs)"
-           : damaged < IMAGE_SIZE        ? "it is truncated"
-                                         : "it is damaged (the checksum differs)";
+    return damaged < IMAGE_MAGIC ? "it does not begin like one"
+           : damaged < IMAGE_FINGERPRINT
+               ? "it was packed by another version of mxgen; pack it again"
+           : damaged < IMAGE_CHECKSUM ? "it is damaged (the checksum differs)"
+           : damaged < IMAGE_SIZE     ? "it is truncated"
+                                      : "it is damaged (the checksum differs)";
 }
 
 /* A flipped bit anywhere, an end that is missing, a place that no file is mapped to. */
