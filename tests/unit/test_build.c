@@ -25,40 +25,138 @@ static const struct layer_file files[] = {
 static const char standard[] =
     "<unittypedef name='distance'/><unitdef name='UD' unittype='distance'>"
     "<unit name='meter' scale='1'/><unit name='foot' scale='0.25'/></unitdef>"
-    "<geompropdef name='wear' type='float'/>"
-    NODEDEF("ND_gain", "gain", INPUT("in", "float", "value='3'") INPUT("amount", "float", "value='2'")
-            OUTPUT)
-    IMPL("ND_gain", "sourcecode='{{in}} * {{amount}}'")
-    NODEDEF("ND_plus", "plus", INPUT("a", "float", "") INPUT("b", "float", "value='1'") OUTPUT)
-    IMPL("ND_plus", "sourcecode='{{a}} + {{b}}'")
-    NODEDEF("ND_twice", "twice", INPUT("x", "float", "value='5'") OUTPUT)
-    "<nodegraph name='NG_twice' nodedef='ND_twice'>"
-    "<gain name='g' type='float'><input name='in' type='float' interfacename='x'/></gain>"
-    "<output name='out' type='float' nodename='g'/></nodegraph>"
-    NODEDEF("ND_worn", "worn", INPUT("in", "float", "defaultgeomprop='wear'") OUTPUT)
-    IMPL("ND_worn", "sourcecode='{{in}}'")
-    NODEDEF("ND_pick", "pick",
-            INPUT("which", "integer", "value='low' enum='low, middle, high' enumvalues='1, 5, 9'")
-            OUTPUT)
-    IMPL("ND_pick", "sourcecode='float({{which}})'")
-    NODEDEF("ND_which", "which", OUTPUT)
-    IMPL("ND_which", "sourcecode='1.0'")
-    "<implementation name='I2' nodedef='ND_which' target='gen' sourcecode='2.0'/>"
-    "<implementation name='I3' nodedef='ND_which' target='sub' sourcecode='3.0'/>"
-    NODEDEF("ND_only", "only", OUTPUT)
-    "<implementation name='I4' nodedef='ND_only' target='gen' sourcecode='4.0'/>"
-    NODEDEF("ND_shade", "shade", INPUT("color", "color3", "value='1, 1, 1'") OUTPUT)
-    IMPL("ND_shade", "sourcecode='{{color}}.x + {{color}}.y'")
-    "<nodedef name='ND_acescg_to_lin_rec709_color3' node='acescg_to_lin_rec709'>"
-    "<input name='in' type='color3'/><output name='out' type='color3'/></nodedef>"
-    IMPL("ND_acescg_to_lin_rec709_color3", "sourcecode='{{in}} * 0.5'")
-    "<nodedef name='ND_matte' node='matte'><input name='shade' type='float' value='0.5'/>"
-    "<input name='weight' type='float' value='1'/><input name='color' type='color3'/>"
-    "<output name='out' type='BSDF'/></nodedef>"
-    IMPL("ND_matte", "file='matte.glsl' function='matte'")
-    NODEDEF("ND_self", "self", INPUT("x", "float", "") OUTPUT)
-    "<nodegraph name='NG_self' nodedef='ND_self'><self name='s' type='float'/>"
-    "<output name='out' type='float' nodename='s'/></nodegraph>";
+    "<geompropdef name='wear' type='float'/>" NODEDEF(
+        "ND_gain", "gain",
+        INPUT("in", "float", "value='3'") INPUT("amount", "float", "value='2'")
+            OUTPUT) IMPL("ND_gain",
+                         "sourcecode='{{in}} * {{amount}}'") NODEDEF("ND_plus", "plus",
+                                                                     INPUT("a", "float", "")
+                                                                         INPUT("b", "float",
+                                                                               "value='1'") OUTPUT)
+        IMPL("ND_plus", "sourcecode='{{a}} + {{b}}'") NODEDEF(
+            "ND_twice", "twice",
+            INPUT("x", "float", "value='5'")
+                OUTPUT) "<nodegraph name='NG_twice' nodedef='ND_twice'>"
+                        "<gain name='g' type='float'><input name='in' type='float' "
+                        "interfacename='x'/></gain>"
+                        "<output name='out' type='float' nodename='g'/></nodegraph>" NODEDEF(
+                            "ND_worn", "worn",
+                            INPUT("in", "float", "defaultgeomprop='wear'") OUTPUT)
+                            IMPL("ND_worn", "sourcecode='{{in}}'") NODEDEF(
+                                "ND_pick", "pick",
+                                INPUT("which", "integer",
+                                      "value='low' enum='low, middle, high' enumvalues='1, 5, 9'")
+                                    OUTPUT) IMPL("ND_pick",
+                                                 "sourcecode='float({{which}})'") NODEDEF("ND_"
+                                                                                          "which",
+                                                                                          "which",
+                                                                                          OUTPUT)
+                                IMPL("ND_which",
+                                     "sourcecode='1.0'") "<implementation name='I2' "
+                                                         "nodedef='ND_which' target='gen' "
+                                                         "sourcecode='2.0'/>"
+                                                         "<implementation name='I3' "
+                                                         "nodedef='ND_which' target='sub' "
+                                                         "sourcecode='3.0'/>" NODEDEF("ND_only", "only", OUTPUT) "<implementation name='I4' nodedef='ND_only' target='gen' sourcecode='4.0'/>" NODEDEF(
+                                                             "ND_shade", "shade",
+                                                             INPUT("color", "color3",
+                                                                   "value='1, 1, 1'") OUTPUT)
+                                                             IMPL("ND_shade",
+                                                                  "sourcecode='{{color}}.x + "
+                                                                  "{{color}}.y'") "<nodedef "
+                                                                                  "name='ND_acescg_"
+                                                                                  "to_lin_rec709_"
+                                                                                  "color3' "
+                                                                                  "node='acescg_to_"
+                                                                                  "lin_rec709'>"
+                                                                                  "<input "
+                                                                                  "name='in' "
+                                                                                  "type='color3'/"
+                                                                                  "><output "
+                                                                                  "name='out' "
+                                                                                  "type='color3'/"
+                                                                                  "></"
+                                                                                  "nodedef>" IMPL(
+                                                                                      "ND_acescg_"
+                                                                                      "to_lin_"
+                                                                                      "rec709_"
+                                                                                      "color3",
+                                                                                      "sourcecode='"
+                                                                                      "{{in}} * "
+                                                                                      "0.5'") "<nod"
+                                                                                              "edef"
+                                                                                              " nam"
+                                                                                              "e='"
+                                                                                              "ND_"
+                                                                                              "matt"
+                                                                                              "e' "
+                                                                                              "node"
+                                                                                              "='"
+                                                                                              "matt"
+                                                                                              "e'><"
+                                                                                              "inpu"
+                                                                                              "t "
+                                                                                              "name"
+                                                                                              "='"
+                                                                                              "shad"
+                                                                                              "e' "
+                                                                                              "type"
+                                                                                              "='"
+                                                                                              "floa"
+                                                                                              "t' "
+                                                                                              "valu"
+                                                                                              "e='"
+                                                                                              "0.5'"
+                                                                                              "/>"
+                                                                                              "<inp"
+                                                                                              "ut "
+                                                                                              "name"
+                                                                                              "='"
+                                                                                              "weig"
+                                                                                              "ht' "
+                                                                                              "type"
+                                                                                              "='"
+                                                                                              "floa"
+                                                                                              "t' "
+                                                                                              "valu"
+                                                                                              "e='"
+                                                                                              "1'/"
+                                                                                              "><"
+                                                                                              "inpu"
+                                                                                              "t "
+                                                                                              "name"
+                                                                                              "='"
+                                                                                              "colo"
+                                                                                              "r' "
+                                                                                              "type"
+                                                                                              "='"
+                                                                                              "colo"
+                                                                                              "r3'/"
+                                                                                              ">"
+                                                                                              "<out"
+                                                                                              "put "
+                                                                                              "name"
+                                                                                              "='"
+                                                                                              "out'"
+                                                                                              " typ"
+                                                                                              "e='"
+                                                                                              "BSDF"
+                                                                                              "'/"
+                                                                                              "></"
+                                                                                              "node"
+                                                                                              "def"
+                                                                                              ">" IMPL(
+                                                                                                  "ND_matte",
+                                                                                                  "file='matte.glsl' function='matte'")
+                                                                                                  NODEDEF(
+                                                                                                      "ND_self",
+                                                                                                      "self",
+                                                                                                      INPUT(
+                                                                                                          "x",
+                                                                                                          "float",
+                                                                                                          "")
+                                                                                                          OUTPUT) "<nodegraph name='NG_self' nodedef='ND_self'><self name='s' type='float'/>"
+                                                                                                                  "<output name='out' type='float' nodename='s'/></nodegraph>";
 
 struct work {
     struct layers layers;
@@ -181,7 +279,7 @@ static void test_interface(void)
         {"n", INTERFACE_REDUCED, NULL, NULL, "", "0.5", 1},
         {"n", INTERFACE_REDUCED, amount, NULL, "n_amount=2", "0.5", 1},
         {"n", INTERFACE_COMPLETE, NULL, in, "n_amount=2", "0.5", 1},
-        {"n", INTERFACE_REDUCED, amount, all, "", "0.5", 1}, /* constant wins */
+        {"n", INTERFACE_REDUCED, amount, all, "", "0.5", 1},          /* constant wins */
         {"o", INTERFACE_COMPLETE, NULL, NULL, "o_amount=2", "28", 0}, /* m is no part of it */
         {"o", INTERFACE_COMPLETE, all, NULL, "m_in=7 m_amount=2 o_amount=2", "28", 0},
         {"g/out", INTERFACE_COMPLETE, NULL, NULL, "g_k=4", "8", 0},
@@ -226,12 +324,23 @@ static void test_globs(void)
         const char *glob, *path;
         bool matches;
     } cases[] = {
-        {"a/b", "a/b", true},      {"a/b", "a/bc", false},  {"a/?", "a/b", true},
-        {"a?b", "a/b", false},     {"*", "a/b", false},     {"*/*", "a/b", true},
-        {"**", "a/b/c", true},     {"a/**/c", "a/x/y/c", true}, {"a/*/c", "a/x/y/c", false},
-        {"**/c", "a/b/c", true},   {"*b*", "abc", true},    {"*a*b", "xxaxxb", true},
-        {"*a*b", "xxbxxa", false}, {"", "", true},          {"", "a", false},
-        {"a*", "a", true},         {"**x", "a/b", false},
+        {"a/b", "a/b", true},
+        {"a/b", "a/bc", false},
+        {"a/?", "a/b", true},
+        {"a?b", "a/b", false},
+        {"*", "a/b", false},
+        {"*/*", "a/b", true},
+        {"**", "a/b/c", true},
+        {"a/**/c", "a/x/y/c", true},
+        {"a/*/c", "a/x/y/c", false},
+        {"**/c", "a/b/c", true},
+        {"*b*", "abc", true},
+        {"*a*b", "xxaxxb", true},
+        {"*a*b", "xxbxxa", false},
+        {"", "", true},
+        {"", "a", false},
+        {"a*", "a", true},
+        {"**x", "a/b", false},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
         if (!REQUIRE_EQ(build_glob_matches(cases[i].glob, cases[i].path), cases[i].matches))
@@ -351,11 +460,12 @@ static void test_sharing(void)
 {
     struct work w;
     static const char *const all[] = {"**"};
-    work_open(&w, "<gain name='m' type='float'/>"
-                  "<plus name='n' type='float'><input name='a' type='float' nodename='m'/>"
-                  "<input name='b' type='float' nodename='m'/></plus>"
-                  "<twice name='t' type='float'><input name='x' type='float' nodename='m'/></twice>"
-                  "<twice name='u' type='float'><input name='x' type='float' nodename='m'/></twice>");
+    work_open(&w,
+              "<gain name='m' type='float'/>"
+              "<plus name='n' type='float'><input name='a' type='float' nodename='m'/>"
+              "<input name='b' type='float' nodename='m'/></plus>"
+              "<twice name='t' type='float'><input name='x' type='float' nodename='m'/></twice>"
+              "<twice name='u' type='float'><input name='x' type='float' nodename='m'/></twice>");
     w.options.uniform_globs = all;
     w.options.num_uniform_globs = 1;
     REQUIRE_STR(value_text(&w, work_build(&w, "n")), "12");
