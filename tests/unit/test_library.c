@@ -559,11 +559,9 @@ struct image {
 static struct image pack(struct layers *l)
 {
     struct text text;
-    struct lang_recorder recorder;
     text_init(&text, &l->arena);
     lang_make_canonical(&l->base.unit);
-    lang_recorder_init(&recorder, &l->arena, &l->base.unit, l->base.impls.len);
-    library_write_image(&l->base, &recorder, NULL, &text);
+    library_write_image(&l->base, NULL, &text);
     struct image image = {aligned_alloc(16, (text.len + 15) / 16 * 16), text.len};
     memcpy(image.data, text.data, text.len);
     return image;
