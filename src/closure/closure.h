@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
  * From closures to effects: a tree of BSDFs becomes a flat list of leaves with weights, and the
- * list becomes what the pixel stage does: lights, environment, emission, opacity (design section
- * 7).
+ * list becomes what the pixel stage does: lights, environment, emission, opacity.
  */
 #ifndef MXG_CLOSURE_CLOSURE_H
 #define MXG_CLOSURE_CLOSURE_H
