@@ -51,7 +51,9 @@ static ir_ref weighted(struct emitter *e, const struct closure_leaf *leaf, ir_re
     g->origin = ir_get(g, leaf->leaf)->origin;
     ir_ref weight = ir_const_is(g, leaf->scalar, 1.0f) ? leaf->color
                                                        : closure_mul(g, leaf->color, leaf->scalar);
+    closure_name(e->shader, weight, leaf->leaf, "weight");
     value = closure_product(g, value, weight);
+    closure_name(e->shader, value, leaf->leaf, "response");
     g->origin = before;
     return value;
 }
@@ -102,7 +104,9 @@ static void accumulate_all(struct emitter *e, enum closure_place place, ir_ref f
             always = add(e, always, sum);
             continue;
         }
-        effect(e, EFFECT_IF, 0, ir_op2(g, IR_GT, guard, ir_const_float(g, 0.0f)));
+        ir_ref condition = ir_op2(g, IR_GT, guard, ir_const_float(g, 0.0f));
+        closure_name(e->shader, condition, first->leaf, "visible");
+        effect(e, EFFECT_IF, 0, condition);
         accumulate(e, factor, sum);
         effect(e, EFFECT_END, 0, 0);
     }
@@ -223,6 +227,7 @@ static ir_ref emission(struct emitter *e, ir_ref edf)
 static void write_output(struct emitter *e, ir_ref color, ir_ref alpha)
 {
     struct ir_graph *g = e->graph;
+    ir_suggest_name(g, alpha, STR_opacity, IR_NAME_ROLE);
     uint32_t out = shader_find_variable(e->shader, BLOCK_OUTPUTS, STR_out1);
     if (out == UINT32_MAX)
         out = shader_add_variable(e->shader, &(struct shader_variable){.name = STR_out1,

@@ -82,6 +82,7 @@ struct spell {
     /* node of a LET to its first name in let_names, + 1; 0: it is an expression */
     uint32_t *local_of;
     VEC(struct spell_name) let_names;
+    VEC(str_id) wanted_names; /* of the function's locals, sorted */
     const char *loop_index; /* in LIGHTS and SAMPLES: the loop's variable */
     struct name_set paths;  /* shown in comments so far */
     void *target_data;      /* the target's own, while its hook runs */
@@ -103,6 +104,15 @@ unsigned spell_call_open(struct spell *spell, ir_ref call);
 void spell_type(struct spell *spell, ir_type_id type);
 /* "float x[3]" */
 void spell_variable(struct spell *spell, ir_type_id type, struct spell_name name);
+
+/* ---- local.c ---- */
+
+/* Before a function's statements: which names several of its locals want. */
+void spell_plan_locals(struct spell *spell, const struct effect_list *statements);
+/* The name of a call with several results, each of which adds its own. */
+struct spell_name spell_call_base(struct spell *spell, ir_ref call);
+/* What a local is called, before names_unique; its operands have their names already. */
+struct spell_name spell_local_base(struct spell *spell, ir_ref ref);
 
 /* ---- statement.c ---- */
 
