@@ -62,8 +62,9 @@ struct spell {
     enum shader_stage_id stage_id;
     struct arena *scratch;
     struct text *out;
-    VEC(struct spell_mark) marks; /* ascending */
-    bool blocks;                  /* uniforms stand in blocks */
+    VEC(struct spell_mark) marks;        /* ascending */
+    size_t verbatim_begin, verbatim_end; /* source of the document in `out`: no line is broken */
+    bool blocks;                         /* uniforms stand in blocks */
     struct name_set names;
     struct lang_style *style;     /* of the target's syntax */
     struct lang_names lang_names; /* for the portable printer */
@@ -83,10 +84,10 @@ struct spell {
     uint32_t *local_of;
     VEC(struct spell_name) let_names;
     VEC(str_id) wanted_names; /* of the function's locals, sorted */
-    const char *loop_index; /* in LIGHTS and SAMPLES: the loop's variable */
-    struct name_set paths;  /* shown in comments so far */
-    void *target_data;      /* the target's own, while its hook runs */
-    uint8_t *origins_seen;  /* origins whose path was asked for; NULL: no comments */
+    const char *loop_index;   /* in LIGHTS and SAMPLES: the loop's variable */
+    struct name_set paths;    /* shown in comments so far */
+    void *target_data;        /* the target's own, while its hook runs */
+    uint8_t *origins_seen;    /* origins whose path was asked for; NULL: no comments */
 };
 
 /* ---- expression.c ---- */
@@ -124,6 +125,11 @@ void spell_graph_function(struct spell *spell, const struct shader_function *fun
 
 void spell_name_interface(struct spell *spell);
 void spell_interface(struct spell *spell);
+
+/* ---- wrap.c ---- */
+
+/* Breaks the long lines of spell->out from `begin` on; marks move along. */
+void spell_wrap(struct spell *spell, size_t begin);
 
 /* ---- stage.c ---- */
 

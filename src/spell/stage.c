@@ -186,6 +186,7 @@ static void write_header(struct spell *spell)
 void spell_verbatim_sources(struct spell *spell)
 {
     const struct shader *shader = spell->shader;
+    spell->verbatim_begin = spell->out->len;
     for (uint32_t i = 0; i < spell->stage->verbatim.len; i++) {
         str_id source = shader->verbatim.items[spell->stage->verbatim.items[i]].source;
         bool written = source == 0;
@@ -196,6 +197,7 @@ void spell_verbatim_sources(struct spell *spell)
         spell_text(spell, str_text(shader->strings, source));
         spell_text(spell, "\n");
     }
+    spell->verbatim_end = spell->out->len;
 }
 
 static void write_functions(struct spell *spell)
@@ -306,11 +308,13 @@ void spell_shader_stage(const struct target *target, const struct spell_options 
         .scratch = scratch,
         .out = out,
     };
+    size_t begin = out->len;
     init(&spell);
     const struct target *writer = target;
     while (!writer->stage && writer->base)
         writer = writer->base;
     (writer->stage ? writer->stage : spell_stage)(&spell, stage);
+    spell_wrap(&spell, begin);
     *out_marks = spell.marks.items;
     *out_num_marks = spell.marks.len;
 }
