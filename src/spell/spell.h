@@ -139,6 +139,9 @@ void spell_verbatim_sources(struct spell *spell); /* each once */
 /* The stage of C-like targets: declarations, functions, main. */
 void spell_stage(struct spell *spell, enum shader_stage_id stage);
 
+/* "// …": the first sentence that the library has on a function; may write nothing. */
+void spell_function_doc(struct spell *spell, uint32_t function);
+
 /*
  * The text of a comment, of a document's words: nothing in it ends the line or joins it with the
  * next one.

@@ -200,6 +200,17 @@ void spell_verbatim_sources(struct spell *spell)
     spell->verbatim_end = spell->out->len;
 }
 
+void spell_function_doc(struct spell *spell, uint32_t function)
+{
+    str_id doc = lang_function(spell->shader->unit, function, NULL)->doc;
+    if (!doc || !spell->options->comments || spell->options->neutral_names)
+        return;
+    spell_text(spell, "// ");
+    spell_comment(spell, str_text(spell->shader->strings, doc),
+                  str_len(spell->shader->strings, doc));
+    spell_text(spell, "\n");
+}
+
 static void write_functions(struct spell *spell)
 {
     const struct lang_reach *reach = &spell->stage->reach;
@@ -212,6 +223,7 @@ static void write_functions(struct spell *spell)
         spell_text(spell, "\n");
     spell_verbatim_sources(spell);
     for (uint32_t i = 0; i < reach->functions.len; i++) {
+        spell_function_doc(spell, reach->functions.items[i]);
         lang_print_function(spell->style, &spell->lang_names, spell->shader->unit,
                             reach->functions.items[i], spell->out);
         spell_text(spell, "\n");

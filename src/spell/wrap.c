@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
  * Long lines are broken where an expression nests least: after a comma or in front of an operator.
- * Strings, comments, directives of the preprocessor and source that a document brought stay as they
- * are.
+ * A long comment goes on in the next line. Strings, directives of the preprocessor and source that
+ * a document brought stay as they are.
  */
 #include "spell/spell.h"
 
@@ -69,22 +69,36 @@ static void copy(struct wrapper *w, const char *from, const char *to, const char
     text_mem(&w->out, from, (size_t)(to - from));
 }
 
+/* A comment of its own line goes on in the next one, broken at a space. */
+static const char *comment_break(const char *from, const char *end, size_t indent)
+{
+    const char *at = from + MAX_COLUMNS - indent < end ? from + MAX_COLUMNS - indent : end;
+    while (at > from + MIN_COLUMNS && *at != ' ')
+        at--;
+    return *at == ' ' ? at : NULL;
+}
+
 static void wrap_line(struct wrapper *w, const char *line, const char *end, const char *base)
 {
     size_t indent = 0, column = 0;
     while (line + indent < end && line[indent] == ' ')
         indent++;
     const char *from = line;
+    bool is_comment = end - line > (ptrdiff_t)indent + 2 && memcmp(line + indent, "//", 2) == 0;
     while (column + (size_t)(end - from) > MAX_COLUMNS && line[indent] != '#') {
-        const char *at = find_break(from, end, column);
+        const char *at =
+            is_comment ? comment_break(from, end, column) : find_break(from, end, column);
         if (!at || at <= line + indent)
             break;
         copy(w, from, at, base);
         text_char(&w->out, '\n');
-        for (size_t i = 0; i < indent + INDENT; i++)
+        column = is_comment ? indent : indent + INDENT;
+        for (size_t i = 0; i < column; i++)
             text_char(&w->out, ' ');
+        if (is_comment)
+            text_str(&w->out, "// ");
+        column += is_comment ? strlen("// ") : 0;
         from = at + 1;
-        column = indent + INDENT;
     }
     copy(w, from, end, base);
 }
