@@ -72,8 +72,8 @@ static const struct {
     [IR_MIX] = {"blend", "blended"},
     [IR_STEP] = {"threshold"},
     [IR_SMOOTHSTEP] = {"transition", "smooth"},
-    [IR_LENGTH] = {"length_of"},
-    [IR_DISTANCE] = {"distance_to"},
+    [IR_LENGTH] = {"magnitude"},
+    [IR_DISTANCE] = {"separation"},
     [IR_DOT] = {"cosine"},
     [IR_CROSS] = {"cross_product"},
     [IR_NORMALIZE] = {"direction", "unit"},
@@ -141,7 +141,8 @@ static struct spell_name bare_name(const struct spell *spell, str_id id)
 static struct spell_name operand_name(const struct spell *spell, ir_ref ref)
 {
     const struct ir_node *node = ir_get(spell->shader->graph, ref);
-    if (spell->local_of[ref])
+    /* a description of a description says nothing */
+    if (spell->local_of[ref] && (node->name || node->op == IR_CONTEXT))
         return spell->let_names.items[spell->local_of[ref] - 1];
     if (node->op == IR_UNIFORM)
         return input_name(spell, &spell->shader->variables.items[node->attr]);
@@ -199,10 +200,15 @@ static struct spell_name name_by_operand(struct spell *spell, ir_ref ref)
 static struct spell_name name_by_operation(const struct spell *spell, ir_ref ref)
 {
     const struct ir_node *node = ir_get(spell->shader->graph, ref);
-    if (node->op != IR_CALL)
-        return word(nouns[node->op].alone ? nouns[node->op].alone : "value");
-    uint32_t id = shader_callee(spell->shader, ref);
-    return bare_name(spell, lang_function(spell->shader->unit, id, NULL)->name);
+    switch (node->op) {
+    case IR_CALL: {
+        uint32_t id = shader_callee(spell->shader, ref);
+        return bare_name(spell, lang_function(spell->shader->unit, id, NULL)->name);
+    }
+    case IR_GRAPH_CALL:
+        return bare_name(spell, spell->shader->graph->functions.items[node->attr].name);
+    default: return word(nouns[node->op].alone ? nouns[node->op].alone : "value");
+    }
 }
 
 /* ---- Names that several locals want ---- */

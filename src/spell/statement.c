@@ -229,7 +229,7 @@ static void write_call_let(struct spell *spell, unsigned indent, ir_ref call, un
     if (node->type == IR_TYPE_VOID)
         vec_push(spell->scratch, &spell->let_names, (struct spell_name){0});
     else
-        (void)add_local(spell, spell_local_base(spell, call));
+        (void)add_local(spell, spell_call_base(spell, call));
     declare_outs(spell, indent, call, outs);
     open_line(spell, indent, node->origin);
     if (node->type != IR_TYPE_VOID) {
