@@ -11,7 +11,6 @@ struct mx_GgxLobe {
     float step;
     float weight;
     float level;
-    mat4 map;
 };
 uniform vec3 u_viewPosition = vec3(0.0);
 uniform int u_numActiveLightSources = 0;
@@ -48,7 +47,7 @@ vec2 mx_ggx_albedo_fit(const float u, const float c)
 mx_GgxLobe mx_ggx_lobe_at(const mat3 frame, const vec3 v)
 {
     return mx_GgxLobe(frame, vec3(0.04, 0.04, 1.0), 0.0016, v, sqrt(mix(v.z * v.z, 1.0, 0.0016)),
-        normalize(v * vec3(0.04, 0.04, 1.0)), 0.0, 0.0, 0.0, mat4(1.0));
+        normalize(v * vec3(0.04, 0.04, 1.0)), 0.0, 0.0, 0.0);
 }
 
 // Axes of the tangent space around N with x along X: `w * frame` enters it, `frame * w` leaves it.

@@ -11,7 +11,6 @@ struct mx_GgxLobe {
     float step;
     float weight;
     float level;
-    mat4 map;
 };
 layout(set = 0, binding = 1, std140) uniform PublicUniforms {
     float SR_varnish_opacity;
@@ -70,7 +69,7 @@ mx_GgxLobe mx_ggx_lobe_at(const mat3 frame, const vec3 v)
     float step_ = 1.0 / float(max(u_envRadianceSamples, 1));
     float weight = step_ * (v.z + masking);
     return mx_GgxLobe(frame, vec3(0.04, 0.04, 1.0), 0.0016, v, masking, normalize(v * vec3(0.04, 0.04, 1.0)), step_,
-        weight * u_envLightIntensity, weight * 0.0016 * exp2(2.0 * float(u_envRadianceMips) - 2.3485), u_envMatrix);
+        weight * u_envLightIntensity, weight * 0.0016 * exp2(2.0 * float(u_envRadianceMips) - 2.3485));
 }
 
 // Axes of the tangent space around N with x along X: `w * frame` enters it, `frame * w` leaves it.
@@ -120,25 +119,25 @@ float mx_fresnel_dielectric(const float cosine)
     return 0.5 * dot(r, r);
 }
 
-// Where the light of a direction is in a picture; `map` turns directions of the world into those of the picture.
-vec2 mx_latlong(const mat4 map, const vec3 direction)
+// Where the light from a direction of the world lies in the environment's picture.
+vec2 mx_latlong(const vec3 direction)
 {
-    vec3 d = normalize((map * vec4(direction, 0.0)).xyz);
+    vec3 d = normalize((u_envMatrix * vec4(direction, 0.0)).xyz);
     return vec2(atan(d.x, -d.z), -2.0 * asin(clamp(d.y, -1.0, 1.0))) * 0.15915494 + vec2(0.5);
 }
 
 // Light of a direction, filtered over the solid angle of a sample (Krivanek and Colbert 2008; the mip level is equation
 // 13 of GPU Gems 3, section 20.4).
-vec3 mx_filtered_light(const mat4 map, const vec3 L, const float level)
+vec3 mx_filtered_light(const vec3 L, const float level)
 {
-    return textureLod(u_envRadiance, mx_latlong(map, L), max(0.25 * log2(level * level / dot(L.xz, L.xz)), 0.0)).xyz;
+    return textureLod(u_envRadiance, mx_latlong(L), max(0.25 * log2(level * level / dot(L.xz, L.xz)), 0.0)).xyz;
 }
 
 // The light of a sample, and in the fourth component the cosine at its facet h.
 vec4 mx_ggx_sample_at(const mx_GgxLobe lobe, const vec3 h, const float level)
 {
     vec3 l = reflect(-lobe.v, h);
-    return vec4(mx_ggx_visibility(lobe, max(l.z, 1e-8)) * mx_filtered_light(lobe.map, lobe.frame * l, level),
+    return vec4(mx_ggx_visibility(lobe, max(l.z, 1e-8)) * mx_filtered_light(lobe.frame * l, level),
         clamp(dot(lobe.v, h), 1e-8, 1.0));
 }
 
@@ -210,8 +209,7 @@ void main()
     // coat, paint
     vec2 fit = (cos_v * vec2(-0.7632, -0.4993) - vec2(0.4297, 0.6076) + vec2(0.43155, 0.60945)) * 0.3 + vec2(1.0);
     vec3 paint_product = paint_weight * clamp(fit.x / fit.y, 0.0, 1.0) * vec3(0.6, 0.1, 0.05);
-    vec3 paint_response_2 = textureLod(u_envIrradiance, mx_latlong(u_envMatrix, N), 0.0).xyz * u_envLightIntensity
-        * paint_product;
+    vec3 paint_response_2 = textureLod(u_envIrradiance, mx_latlong(N), 0.0).xyz * u_envLightIntensity * paint_product;
     color += scale * mx_ggx_gather_dielectric(lobe) + paint_response_2;
     // opacity
     if (SR_varnish_opacity < u_alphaThreshold)

@@ -11,7 +11,6 @@ struct mx_GgxLobe {
     float step;
     float weight;
     float level;
-    mat4 map;
 };
 uniform vec3 u_viewPosition = vec3(0.0);
 uniform int u_numActiveLightSources = 0;
@@ -53,7 +52,7 @@ vec2 mx_ggx_albedo_fit(const float u, const float c)
 mx_GgxLobe mx_ggx_lobe_at(const mat3 frame, const vec3 v)
 {
     return mx_GgxLobe(frame, vec3(0.04, 0.04, 1.0), 0.0016, v, sqrt(mix(v.z * v.z, 1.0, 0.0016)),
-        normalize(v * vec3(0.04, 0.04, 1.0)), 0.0, 0.0, 0.0, mat4(1.0));
+        normalize(v * vec3(0.04, 0.04, 1.0)), 0.0, 0.0, 0.0);
 }
 
 // Axes of the tangent space around N with x along X: `w * frame` enters it, `frame * w` leaves it.
@@ -103,10 +102,10 @@ float mx_fresnel_dielectric(const float cosine)
     return 0.5 * dot(r, r);
 }
 
-// Where the light of a direction is in a picture; `map` turns directions of the world into those of the picture.
-vec2 mx_latlong(const mat4 map, const vec3 direction)
+// Where the light from a direction of the world lies in the environment's picture.
+vec2 mx_latlong(const vec3 direction)
 {
-    vec3 d = normalize((map * vec4(direction, 0.0)).xyz);
+    vec3 d = normalize((u_envMatrix * vec4(direction, 0.0)).xyz);
     return vec2(atan(d.x, -d.z), -2.0 * asin(clamp(d.y, -1.0, 1.0))) * 0.15915494 + vec2(0.5);
 }
 
@@ -121,7 +120,7 @@ vec3 mx_ggx_prefiltered(const vec3 N, const vec3 V)
 {
     vec2 albedo = mx_ggx_albedo(max(abs(dot(N, V)), 1e-8));
     return mix(vec3(0.03373595), vec3(1.0), albedo.y) * albedo.x
-        * (textureLod(u_envRadiance, mx_latlong(u_envMatrix, reflect(-V, faceforward(N, -V, N))), 0.2
+        * (textureLod(u_envRadiance, mx_latlong(reflect(-V, faceforward(N, -V, N))), 0.2
         * float(u_envRadianceMips - 1)).xyz * u_envLightIntensity);
 }
 
@@ -159,9 +158,9 @@ void main()
     // coat, paint
     vec3 coat_response = scale * mx_ggx_prefiltered(N, V);
     vec2 fit = (cos_v * vec2(-0.7632, -0.4993) - vec2(0.4297, 0.6076) + vec2(0.43155, 0.60945)) * 0.3 + vec2(1.0);
-    vec3 environment_irradiance = textureLod(u_envIrradiance, mx_latlong(u_envMatrix, h), 0.0).xyz
-        * u_envLightIntensity;
-    vec3 even = clamp(fit.x / fit.y, 0.0, 1.0) * vec3(0.6, 0.1, 0.05) * environment_irradiance;
+    vec3 oren_nayar_diffuse_bsdf_albedo = clamp(fit.x / fit.y, 0.0, 1.0) * vec3(0.6, 0.1, 0.05);
+    vec3 even = oren_nayar_diffuse_bsdf_albedo
+        * (textureLod(u_envIrradiance, mx_latlong(h), 0.0).xyz * u_envLightIntensity);
     color += coat_response + even * (coat_throughput * coat_throughput * 0.75);
     out1 = vec4(color, 1.0);
 }

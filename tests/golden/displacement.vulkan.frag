@@ -25,10 +25,10 @@ float mx_line(const vec2 p)
     return distance(from, vec2(0.5) * clamp(dot(from, vec2(0.5)) / 0.5, 0.0, 1.0)) > 0.1 ? 0.0 : 1.0;
 }
 
-// Where the light of a direction is in a picture; `map` turns directions of the world into those of the picture.
-vec2 mx_latlong(const mat4 map, const vec3 direction)
+// Where the light from a direction of the world lies in the environment's picture.
+vec2 mx_latlong(const vec3 direction)
 {
-    vec3 d = normalize((map * vec4(direction, 0.0)).xyz);
+    vec3 d = normalize((u_envMatrix * vec4(direction, 0.0)).xyz);
     return vec2(atan(d.x, -d.z), -2.0 * asin(clamp(d.y, -1.0, 1.0))) * 0.15915494 + vec2(0.5);
 }
 
@@ -45,7 +45,7 @@ void main()
     vec3 facet_facing = faceforward(facet_direction, -direction, facet_direction);
     vec3 facet_direction_2 = normalize(cross(dFdx(vd.positionWorld), dFdy(vd.positionWorld)));
     vec3 N = normalize(direction + (facet_facing - faceforward(facet_direction_2, -direction, facet_direction_2)));
-    color += textureLod(u_envIrradiance, mx_latlong(u_envMatrix, faceforward(N, -normalize(u_viewPosition - P_sum), N)),
-        0.0).xyz * (u_envLightIntensity * 0.18);
+    color += textureLod(u_envIrradiance, mx_latlong(faceforward(N, -normalize(u_viewPosition - P_sum), N)), 0.0).xyz
+        * (u_envLightIntensity * 0.18);
     out1 = vec4(color, 1.0);
 }

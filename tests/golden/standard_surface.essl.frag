@@ -24,10 +24,10 @@ in vec3 vd_positionWorld;
 in vec3 vd_normalWorld;
 out vec4 out1;
 
-// Where the light of a direction is in a picture; `map` turns directions of the world into those of the picture.
-vec2 mx_latlong(const mat4 map, const vec3 direction)
+// Where the light from a direction of the world lies in the environment's picture.
+vec2 mx_latlong(const vec3 direction)
 {
-    vec3 d = normalize((map * vec4(direction, 0.0)).xyz);
+    vec3 d = normalize((u_envMatrix * vec4(direction, 0.0)).xyz);
     return vec2(atan(d.x, -d.z), -2.0 * asin(clamp(d.y, -1.0, 1.0))) * 0.15915494 + vec2(0.5);
 }
 
@@ -62,8 +62,8 @@ void main()
     // environment
     // diffuse
     vec2 fit = (cos_v * vec2(-0.7632, -0.4993) - vec2(0.4297, 0.6076) + vec2(0.8631, 1.2189)) * 0.6 + vec2(1.0);
-    vec3 environment_irradiance = textureLod(u_envIrradiance, mx_latlong(u_envMatrix, N), 0.0).xyz
-        * u_envLightIntensity;
-    color += clamp(fit.x / fit.y, 0.0, 1.0) * vec3(0.5, 0.25, 0.15) * environment_irradiance;
+    vec3 oren_nayar_diffuse_bsdf_albedo = clamp(fit.x / fit.y, 0.0, 1.0) * vec3(0.5, 0.25, 0.15);
+    color += oren_nayar_diffuse_bsdf_albedo
+        * (textureLod(u_envIrradiance, mx_latlong(N), 0.0).xyz * u_envLightIntensity);
     out1 = vec4(color, 1.0);
 }

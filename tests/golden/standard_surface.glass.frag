@@ -11,7 +11,6 @@ struct mx_GgxLobe {
     float step;
     float weight;
     float level;
-    mat4 map;
 };
 uniform vec3 u_viewPosition = vec3(0.0);
 uniform int u_numActiveLightSources = 0;
@@ -61,7 +60,7 @@ mx_GgxLobe mx_ggx_lobe_at(const mat3 frame, const vec3 v)
     float weight = step_ * (v.z + masking);
     return mx_GgxLobe(frame, vec3(0.0001, 0.0001, 1.0), 9.999999e-9, v, masking,
         normalize(v * vec3(0.0001, 0.0001, 1.0)), step_, weight * u_envLightIntensity, weight * 9.999999e-9
-        * exp2(2.0 * float(u_envRadianceMips) - 2.3485), u_envMatrix);
+        * exp2(2.0 * float(u_envRadianceMips) - 2.3485));
 }
 
 // Axes of the tangent space around N with x along X: `w * frame` enters it, `frame * w` leaves it.
@@ -111,18 +110,18 @@ float mx_fresnel_dielectric(const float cosine)
     return 0.5 * dot(r, r);
 }
 
-// Where the light of a direction is in a picture; `map` turns directions of the world into those of the picture.
-vec2 mx_latlong(const mat4 map, const vec3 direction)
+// Where the light from a direction of the world lies in the environment's picture.
+vec2 mx_latlong(const vec3 direction)
 {
-    vec3 d = normalize((map * vec4(direction, 0.0)).xyz);
+    vec3 d = normalize((u_envMatrix * vec4(direction, 0.0)).xyz);
     return vec2(atan(d.x, -d.z), -2.0 * asin(clamp(d.y, -1.0, 1.0))) * 0.15915494 + vec2(0.5);
 }
 
 // Light of a direction, filtered over the solid angle of a sample (Krivanek and Colbert 2008; the mip level is equation
 // 13 of GPU Gems 3, section 20.4).
-vec3 mx_filtered_light(const mat4 map, const vec3 L, const float level)
+vec3 mx_filtered_light(const vec3 L, const float level)
 {
-    return textureLod(u_envRadiance, mx_latlong(map, L), max(0.25 * log2(level * level / dot(L.xz, L.xz)), 0.0)).xyz;
+    return textureLod(u_envRadiance, mx_latlong(L), max(0.25 * log2(level * level / dot(L.xz, L.xz)), 0.0)).xyz;
 }
 
 // Direction of the ray -v after it has entered the sphere at normal h and left it again.
@@ -141,7 +140,7 @@ vec4 mx_ggx_sample_at(const mx_GgxLobe lobe, const vec3 h, const float level, co
         l = mx_refract_sphere(lobe.v, h, refract_ior);
         weight = 0.5 / lobe.v.z;
     }
-    return vec4(weight * mx_filtered_light(lobe.map, lobe.frame * l, level), clamp(dot(lobe.v, h), 1e-8, 1.0));
+    return vec4(weight * mx_filtered_light(lobe.frame * l, level), clamp(dot(lobe.v, h), 1e-8, 1.0));
 }
 
 // A normal of those visible from v, which is stretched by the roughness, before it is scaled to length 1 (Dupuy and

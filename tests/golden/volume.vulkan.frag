@@ -30,10 +30,10 @@ layout(location = 0) in VertexData {
 } vd;
 layout(location = 0) out vec4 out1;
 
-// Where the light of a direction is in a picture; `map` turns directions of the world into those of the picture.
-vec2 mx_latlong(const mat4 map, const vec3 direction)
+// Where the light from a direction of the world lies in the environment's picture.
+vec2 mx_latlong(const vec3 direction)
 {
-    vec3 d = normalize((map * vec4(direction, 0.0)).xyz);
+    vec3 d = normalize((u_envMatrix * vec4(direction, 0.0)).xyz);
     return vec2(atan(d.x, -d.z), -2.0 * asin(clamp(d.y, -1.0, 1.0))) * 0.15915494 + vec2(0.5);
 }
 
@@ -70,10 +70,9 @@ void main()
     // environment
     // smoke
     if (one_minus_st_outx > 0.0) {
-        vec3 environment_irradiance = textureLod(u_envIrradiance, mx_latlong(u_envMatrix, -V), 0.0).xyz
-            * u_envLightIntensity;
+        vec3 environment_irradiance = textureLod(u_envIrradiance, mx_latlong(-V), 0.0).xyz * u_envLightIntensity;
         vec3 anisotropic_vdf_environment = mix(environment_irradiance, u_envLightIntensity
-            * textureLod(u_envIrradiance, mx_latlong(u_envMatrix, V), 0.0).xyz, 0.19999999) * 1.2;
+            * textureLod(u_envIrradiance, mx_latlong(V), 0.0).xyz, 0.19999999) * 1.2;
         color += path_blend * (one_minus_st_outx * depth_product) * anisotropic_vdf_environment;
     }
     out1 = vec4(color, dot(lost_difference, vec3(0.3333333)));
