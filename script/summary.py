@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Sums the tests of a meson log. A test prints lines "name: N passed, N failed[, N skipped]"; one that prints none counts as one
-check. The output of tests that failed is shown, and why checks were skipped. The last line is the sum; exit 1 where one failed."""
+"""Sums the tests of a meson log. A test prints lines "name: N passed, N failed[, N skipped]"; a test without such a line counts as one
+check. Prints the output of failed tests and the reasons of skipped checks; the last line is the sum. Exits with 1 if a test failed."""
 import json
 import re
 import sys
