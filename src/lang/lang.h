@@ -476,7 +476,6 @@ struct lang_pieces {
 struct lang_style {
     const struct lang_syntax *syntax;
     struct arena *arena;
-    bool plain_floats; /* floats are written as they are */
     bool from_images;  /* functions are taken from there, where they are */
     struct text_word types[IR_NUM_TYPES];
     struct lang_pieces *forms[IR_NUM_OPS]; /* each is made when it is first asked for */

@@ -16,7 +16,6 @@ void lang_style_init(struct lang_style *style, const struct lang_syntax *syntax,
         const char *name = lang_syntax_type(syntax, type);
         style->types[type] = text_word_of(arena, name, strlen(name));
     }
-    style->plain_floats = !syntax->write_value && !syntax->float_literals_need_suffix;
 }
 
 /* Precedence an operand needs, by what stands around it in the form. */
