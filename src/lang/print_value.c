@@ -128,18 +128,10 @@ static bool has_sign(ir_type_id type, union ir_word word)
                                  : type == IR_TYPE_INT && word.i < 0 && word.i != INT32_MIN;
 }
 
-/* as bits, of which those of numbers that are neither negative nor infinite are less */
-enum { FLOAT_INFINITY = 0x7f800000 };
-
 void lang_print_value(const struct lang_style *style, const struct strpool *strings,
                       ir_type_id type, const union ir_word *words, enum lang_precedence least,
                       struct text *out)
 {
-    /* most values of a shader */
-    if (type == IR_TYPE_FLOAT && style->plain_floats && words->u < FLOAT_INFINITY) {
-        text_float(out, words->f);
-        return;
-    }
     const struct ir_type_info *info = ir_type_info(type);
     if (type == IR_TYPE_STRING) {
         text_json_string(out, str_text(strings, words->u), str_len(strings, words->u));

@@ -280,9 +280,9 @@ static void init(struct spell *spell)
     if (spell->style != shader->style)
         lang_style_init(spell->style, has_neighbours ? spell->target->syntax : syntax_of_one(spell),
                         arena);
-    names_init(&spell->names, arena, spell->style, spell->stage_id == STAGE_VERTEX);
+    names_init(&spell->names, arena, spell->style);
     if (spell->options->comments && spell->options->path && !spell->options->neutral_names) {
-        names_init(&spell->paths, arena, spell->style, true);
+        names_init(&spell->paths, arena, spell->style);
         spell->origins_seen = ARENA_ARRAY(arena, uint8_t, shader->graph->origins.len);
     }
     if (spell->options->shader_name)

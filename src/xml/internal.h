@@ -49,15 +49,6 @@ struct xml_file {
     bool open;   /* it is being read now: including it is a cycle */
 };
 
-/* A short value, by its length and its first and last bytes. */
-struct xml_word {
-    uint64_t bytes;
-    uint32_t len;
-    str_id id;
-};
-
-enum { XML_NUM_NAMES = 128, XML_NUM_WORDS = 128 /* powers of two */ };
-
 struct xml_reader {
     struct document *doc;
     struct mem *mem;
@@ -69,9 +60,6 @@ struct xml_reader {
     void *handle; /* of the file that is open, for files->release */
     bool handle_open;
     struct xml_source *source;
-    /* met last, each where its address says; those of `parser` */
-    struct xml_name names[XML_NUM_NAMES];
-    struct xml_word words[XML_NUM_WORDS]; /* met last, each where its hash says */
     /*
      * <xi:include> elements of the files being read, innermost last; replaced when the file is
      * parsed
