@@ -90,11 +90,6 @@ enum lang_function_flags {
     /* an inline expression: no name, LANG_INPUT slots, body is RETURN expr */
     LANG_FN_EXPRESSION = 16,
     LANG_FN_FINAL = 32, /* nothing to specialise, unless arguments or callees are: canon.c */
-    /*
-     * its variables and what it returns are of built-in types; told of a library's functions:
-     * canon.c
-     */
-    LANG_FN_PLAIN = 64,
 };
 
 struct lang_function {
@@ -412,9 +407,9 @@ struct lang_syntax {
     const char *name; /* "glsl" */
     /* rows absent here come from there; NULL for the portable form itself */
     const struct lang_syntax *base;
-    const char *const *type_names;     /* [IR_NUM_TYPES], NULL entries: from base */
-    const struct lang_form *forms;     /* [IR_NUM_OPS], text NULL: from base */
-    const char *const *reserved; /* identifiers that must be renamed, sorted by byte value */
+    const char *const *type_names; /* [IR_NUM_TYPES], NULL entries: from base */
+    const struct lang_form *forms; /* [IR_NUM_OPS], text NULL: from base */
+    const char *const *reserved;   /* identifiers that must be renamed, sorted by byte value */
     uint32_t num_reserved;
     /* prefix of a parameter that is never assigned: "const " in GLSL, "" elsewhere */
     const char *param_in;
@@ -469,7 +464,7 @@ struct lang_pieces {
 struct lang_style {
     const struct lang_syntax *syntax;
     struct arena *arena;
-    bool from_images;  /* functions are taken from there, where they are */
+    bool from_images; /* functions are taken from there, where they are */
     struct text_word types[IR_NUM_TYPES];
     struct lang_pieces *forms[IR_NUM_OPS]; /* each is made when it is first asked for */
 };

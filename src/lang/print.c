@@ -9,7 +9,7 @@ struct printer {
     const struct lang_function *fn;
     struct text *out;
     struct text_word *locals; /* by slot: its name in the output */
-    uint32_t *visible;    /* slots in scope, innermost last */
+    uint32_t *visible;        /* slots in scope, innermost last */
     uint32_t num_visible;
     unsigned indent;
     bool is_typed; /* the target is asked for forms by type */

@@ -57,7 +57,11 @@ static const char *const type_names[IR_NUM_TYPES] = {
 #undef IR_TYPE
 };
 
-static const char *const keywords[] = {"bool", "break", "const", "continue", "do", "else", "false", "float", "for", "if", "in", "inout", "int", "ivec2", "mat2", "mat3", "mat4", "out", "return", "sampler2D", "string", "struct", "true", "uint", "uniform", "vec2", "vec3", "vec4", "void", "while"};
+static const char *const keywords[] = {
+    "bool",    "break", "const",  "continue",  "do",     "else",   "false", "float",
+    "for",     "if",    "in",     "inout",     "int",    "ivec2",  "mat2",  "mat3",
+    "mat4",    "out",   "return", "sampler2D", "string", "struct", "true",  "uint",
+    "uniform", "vec2",  "vec3",   "vec4",      "void",   "while"};
 
 const struct lang_syntax lang_syntax_portable = {
     .name = "portable",
