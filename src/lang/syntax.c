@@ -105,7 +105,9 @@ bool lang_syntax_is_reserved(const struct lang_syntax *syntax, const char *name,
     for (uint32_t low = 0, high = syntax->num_reserved; low < high;) {
         uint32_t middle = (low + high) / 2;
         const char *word = syntax->reserved[middle];
-        int order = strncmp(name, word, len);
+        int order = (unsigned char)name[0] - (unsigned char)word[0];
+        if (order == 0)
+            order = strncmp(name, word, len);
         if (order == 0 && word[len] == '\0')
             return true;
         if (order <= 0)
