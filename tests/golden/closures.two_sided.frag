@@ -119,7 +119,7 @@ vec2 mx_ggx_albedo(const float c)
 vec3 mx_ggx_prefiltered(const vec3 N, const vec3 V)
 {
     vec2 albedo = mx_ggx_albedo(max(abs(dot(N, V)), 1e-8));
-    return mix(vec3(0.03373595), vec3(1.0), albedo.y) * albedo.x
+    return mix(vec3(0.033735953), vec3(1.0), albedo.y) * albedo.x
         * (textureLod(u_envRadiance, mx_latlong(reflect(-V, faceforward(N, -V, N))), 0.2
         * float(u_envRadianceMips - 1)).xyz * u_envLightIntensity);
 }

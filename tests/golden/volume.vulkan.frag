@@ -75,5 +75,5 @@ void main()
             * textureLod(u_envIrradiance, mx_latlong(V), 0.0).xyz, 0.2) * 1.2;
         color += path_blend * (one_minus_st_outx * depth_product) * anisotropic_vdf_environment;
     }
-    out1 = vec4(color, dot(lost_difference, vec3(0.3333333)));
+    out1 = vec4(color, dot(lost_difference, vec3(0.33333334)));
 }
