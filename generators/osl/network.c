@@ -8,6 +8,7 @@
  *     connect NG_marble_place.out NG_marble_noise.texcoord ;
  */
 #include "generators/osl/osl.h"
+#include "generators/osl/tree.h"
 
 static const char parts[] = "xyzw";
 
@@ -138,4 +139,5 @@ const struct target_network osl_network = {
                  "    P += displacementshader;\n    N = calculatenormal(P);\n}\n"},
         },
     .write = write_group,
+    .emit_node = osl_emit_node,
 };

@@ -4,6 +4,7 @@
  * (docs/osl.md).
  */
 #include "generators/osl/osl.h"
+#include "generators/osl/tree.h"
 
 static const struct lang_words reserved[] = {
 #define RESERVED(length, words) LANG_WORDS(length, words),
@@ -52,29 +53,6 @@ const struct lang_syntax osl_syntax = {
     .defines_constants = true,
     .array_braces = true,
     .write_value = osl_write_value,
-};
-
-/* ---- Closures (stdosl.h of OSL 1.14) ---- */
-
-static const struct closure_option film[] = {
-    {"thinfilm_thickness", NULL,
-     "'thinfilm_thickness' thinfilm_thickness 'thinfilm_ior' thinfilm_ior"},
-    {0}};
-static const struct closure_option energy[] = {
-    {"energy_compensation", NULL, "'energy_compensation' energy_compensation"}, {0}};
-static const struct closure_option zeltner[] = {{"mode", "zeltner", "'mode' 1"}, {0}};
-
-static const struct closure_row closure_rows[] = {
-#define CLOSURE(name, closure, arguments, options) {"mx_" #name, closure, arguments, options},
-#include "generators/osl/closures.def"
-    {0}};
-
-static const struct closure_rows closures = {
-    .rows = closure_rows,
-    .emission = "uniform_edf",
-    .medium = "anisotropic_vdf",
-    .transparent = "transparent_bsdf",
-    .output = "Ci",
 };
 
 /* ---- The file ---- */
@@ -197,9 +175,9 @@ const struct target target_osl = {
     .name = "osl",
     .materialx_name = "genosl",
     .brief = "Open Shading Language 1.14 and later",
-    .caps = CAP_OVERLOADS | CAP_BITWISE | CAP_IMPLICIT_LOD | CAP_CLOSURES | CAP_STRINGS
-            | CAP_NAMED_WHOLES | CAP_TYPED_TEXTURES | CAP_MISSING_COLORS,
-    .closures = &closures,
+    .caps = CAP_OVERLOADS | CAP_BITWISE | CAP_IMPLICIT_LOD | CAP_STRINGS | CAP_NAMED_WHOLES
+            | CAP_TYPED_TEXTURES | CAP_MISSING_COLORS,
+    .closures = &osl_closures,
     .network = &osl_network,
     .syntax = &osl_syntax,
     .position = "P",

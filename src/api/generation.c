@@ -184,10 +184,9 @@ void generation_report_not_renderable(struct generation *g, const char *why)
     const struct document *doc = &g->document->layer.doc;
     struct text unknown;
     text_init(&unknown, &g->scratch);
-    if (g->result->shader.unknown_closure) {
+    if (g->unknown_leaf) {
         text_fmt(&unknown, "%s has no closure for '%s', and functions cannot stand for one",
-                 g->result->target->name,
-                 str_text(doc->strings, g->result->shader.unknown_closure));
+                 g->result->target->name, str_text(doc->strings, g->unknown_leaf));
         why = text_cstr(&unknown);
     }
     diag_add(diags_of(g), DIAG_ID_not_renderable, doc_place(doc, g->element),
@@ -442,21 +441,19 @@ static const char *leaf_input(void *user_data, uint32_t callee, unsigned index)
     return build_leaf_input(user_data, callee, index);
 }
 
-struct closure_host generation_closure_host(const struct generation *g, struct builder *builder,
-                                            struct closure_point *point)
+struct closure_host generation_closure_host(struct builder *builder, struct closure_point *point)
 {
     return (struct closure_host){.user_data = builder,
                                  .point = point,
                                  .leaf_functions = leaf_functions,
                                  .leaf_input = leaf_input,
-                                 .rows = g->result->target->closures,
                                  .lang = build_lang_host(builder)};
 }
 
 void generation_start_closures(struct generation *g)
 {
     bind_lights(g);
-    g->closure_host = generation_closure_host(g, g->builder, &g->point);
+    g->closure_host = generation_closure_host(g->builder, &g->point);
     g->lighting = (struct closure_lighting){
         .lights = g->result->shader.lights.len > 0 && g->result->shader.max_lights > 0,
         .environment = g->options[OPTION_environment].number != 0,
@@ -481,8 +478,9 @@ struct shader_layout_rules generation_layout_rules(const struct generation *g)
 static bool emit(struct generation *g)
 {
     struct shader *shader = &g->result->shader;
-    if (g->result->target->caps & CAP_CLOSURES)
-        return closure_emit_tree(shader, &g->closure_host, g->root);
+    const struct target_closures *closures = g->result->target->closures;
+    if (closures)
+        return closures->emit(shader, &g->closure_host, g->root, &g->unknown_leaf);
     return closure_emit(shader, &g->closure_host, &g->lighting, g->root);
 }
 
@@ -493,7 +491,7 @@ static bool has_nothing_to_tell(const struct generation *g)
 {
     const struct ir_graph *graph = &g->result->graph;
     bool has_room = (uint64_t)graph->nodes.len * NODES_PER_NODE + MORE_NODES < graph->max_nodes;
-    return has_room && !(g->result->target->caps & CAP_CLOSURES)
+    return has_room && !g->result->target->closures
            && closure_is_surface(&g->result->shader, g->root);
 }
 

@@ -62,6 +62,7 @@ struct generation {
     struct closure_point point;
     struct closure_lighting lighting;
     ir_ref root;
+    str_id unknown_leaf; /* the family of a leaf that the target has no closure for; 0: none */
     struct arena scratch;
     struct file_source files; /* what a generation reads beside the document */
     struct lang_reader reader;
@@ -90,8 +91,7 @@ bool generation_spell(struct generation *g);  /* source */
 bool generation_make_network(struct generation *g); /* network.c */
 
 /* What network.c shares with them. */
-struct closure_host generation_closure_host(const struct generation *g, struct builder *builder,
-                                            struct closure_point *point);
+struct closure_host generation_closure_host(struct builder *builder, struct closure_point *point);
 struct shader_layout_rules generation_layout_rules(const struct generation *g);
 struct spell_options generation_spell_options(const struct generation *g);
 void generation_report_not_renderable(struct generation *g, const char *why);

@@ -84,17 +84,18 @@ static bool emit_node(struct generation *g, struct shader *shader, struct networ
     struct diag_list *told = ARENA_NEW(arena, struct diag_list);
     struct closure_point *point = ARENA_NEW(arena, struct closure_point);
     ir_ref *results = ARENA_ARRAY(arena, ir_ref, node->num_outputs);
-    struct closure_result *outputs = ARENA_ARRAY(arena, struct closure_result, node->num_outputs);
+    struct network_output *outputs = ARENA_ARRAY(arena, struct network_output, node->num_outputs);
     str_id *names = ARENA_ARRAY(arena, str_id, node->num_outputs);
     diag_list_init(told, arena);
     struct builder *builder = build_start(&g->document->layer, &g->build_options, shader, told);
     build_network_node(builder, node, results);
     for (uint32_t i = 0; i < node->num_outputs; i++) {
-        outputs[i] = (struct closure_result){.value = results[i]};
+        outputs[i] = (struct network_output){.value = results[i]};
         outputs[i].name = build_network_output(builder, node, i, &outputs[i].doc_type);
     }
-    struct closure_host host = generation_closure_host(g, builder, point);
-    if (!closure_emit_node(shader, &host, outputs, node->num_outputs))
+    struct closure_host host = generation_closure_host(builder, point);
+    if (!g->result->target->network->emit_node(shader, &host, outputs, node->num_outputs,
+                                               &g->unknown_leaf))
         return false;
     struct shader_layout_rules rules = generation_layout_rules(g);
     shader_finish(shader, &rules);
@@ -125,10 +126,8 @@ static bool make_node(struct generation *g, struct spell_options *options,
 {
     mxg_result *result = g->result;
     struct shader *shader = new_shader(g, node);
-    if (!emit_node(g, shader, node)) {
-        result->shader.unknown_closure = shader->unknown_closure;
+    if (!emit_node(g, shader, node))
         return false;
-    }
     drop_unread(shader, node);
     struct text source;
     struct spell_mark *marks;

@@ -55,6 +55,12 @@ struct network {
     VEC(struct network_input) inputs;
 };
 
+/* One output of a node, as its shader gives it. */
+struct network_output {
+    ir_ref value;
+    str_id name, doc_type;
+};
+
 /* What a shader group does with its last layer. */
 enum network_use {
     NETWORK_SURFACE,

@@ -257,8 +257,6 @@ struct shader {
     bool in_blocks;
     /* the speller's: by node, 0 between the lists of statements; from shader_finish */
     uint32_t *local_of;
-    /* the function of a leaf that the target has no closure for; 0: there is none */
-    str_id unknown_closure;
     bool numbered; /* sets, bindings and locations are given */
 };
 

@@ -20,7 +20,6 @@ enum target_caps {
     CAP_OVERLOADS = 128,      /* functions may be overloaded */
     CAP_BITWISE = 256,        /* unsigned integers and bit operators */
     CAP_IMPLICIT_LOD = 512,   /* texture() in pixel stages */
-    CAP_CLOSURES = 1024,      /* the language has closures: keep the tree */
     CAP_STRINGS = 2048,       /* the language has strings */
     /* the tiles of an image are layers of one texture; else its host, or texture(), finds them */
     CAP_TEXTURE_ARRAYS = 4096,
@@ -32,9 +31,27 @@ enum target_caps {
 
 struct spell; /* spell/spell.h */
 
+/* Of a language with closures: the renderer knows lights, layers and weights. */
+struct target_closures {
+    /*
+     * Writes the effects for a root of any type, in the place of closure_emit. False where the type
+     * has no meaning, or where a leaf has no closure in the language: *out_unknown is its family
+     * then, else it stays.
+     */
+    bool (*emit)(struct shader *shader, const struct closure_host *host, ir_ref root,
+                 str_id *out_unknown);
+};
+
 struct target_network { /* for hosts that put shaders together themselves */
     struct network_end ends[NUM_NETWORK_USES];
     void (*write)(const struct network_group *group, struct text *out);
+    /*
+     * The effects of one node's shader, whose outputs have these names: closures and shaders of any
+     * kind are closures, those of other layers are uniforms, and a displacement is the offset.
+     * False as target_closures.emit.
+     */
+    bool (*emit_node)(struct shader *shader, const struct closure_host *host,
+                      const struct network_output *outputs, unsigned n, str_id *out_unknown);
 };
 
 struct target {
@@ -46,8 +63,8 @@ struct target {
     /* values of the option `version`, first is the default; "#version" is written with it */
     const char *const *versions;
     const struct lang_syntax *syntax;
-    const struct closure_rows *closures;  /* with CAP_CLOSURES: the language's own */
-    const struct target_network *network; /* NULL: shaders of the target are whole */
+    const struct target_closures *closures; /* NULL: the language has none */
+    const struct target_network *network;   /* NULL: shaders of the target are whole */
     const char *position; /* what the vertex stage writes the position to; NULL: gl_Position */
     const char *stage_suffix[NUM_STAGES]; /* "vert", "frag"; file endings */
     /*
