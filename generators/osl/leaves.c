@@ -52,20 +52,56 @@ struct row {
     struct option option; /* arguments NULL: there is none */
 };
 
-#define ARG(name) {.kind = ARGUMENT_INPUT, .input = INPUT_##name}
-#define ARG_X(name) {.kind = ARGUMENT_X, .input = INPUT_##name}
-#define ARG_Y(name) {.kind = ARGUMENT_Y, .input = INPUT_##name}
-#define ARG_FACING(name) {.kind = ARGUMENT_FACING, .input = INPUT_##name}
-#define ARG_REFLECTED(name) {.kind = ARGUMENT_REFLECTED, .input = INPUT_##name}
-#define ARG_TRANSMITTED(name) {.kind = ARGUMENT_TRANSMITTED, .input = INPUT_##name}
-#define ARG_BENT(name) {.kind = ARGUMENT_BENT, .input = INPUT_##name}
-#define ARG_TEXT(word) {.kind = ARGUMENT_TEXT, .text = word}
-#define ARG_INT(value) {.kind = ARGUMENT_INT, .number = value}
+#define ARG(name) \
+    { \
+        .kind = ARGUMENT_INPUT, .input = INPUT_##name \
+    }
+#define ARG_X(name) \
+    { \
+        .kind = ARGUMENT_X, .input = INPUT_##name \
+    }
+#define ARG_Y(name) \
+    { \
+        .kind = ARGUMENT_Y, .input = INPUT_##name \
+    }
+#define ARG_FACING(name) \
+    { \
+        .kind = ARGUMENT_FACING, .input = INPUT_##name \
+    }
+#define ARG_REFLECTED(name) \
+    { \
+        .kind = ARGUMENT_REFLECTED, .input = INPUT_##name \
+    }
+#define ARG_TRANSMITTED(name) \
+    { \
+        .kind = ARGUMENT_TRANSMITTED, .input = INPUT_##name \
+    }
+#define ARG_BENT(name) \
+    { \
+        .kind = ARGUMENT_BENT, .input = INPUT_##name \
+    }
+#define ARG_TEXT(word) \
+    { \
+        .kind = ARGUMENT_TEXT, .text = word \
+    }
+#define ARG_INT(value) \
+    { \
+        .kind = ARGUMENT_INT, .number = value \
+    }
 #define ARG_KEYWORD(name) ARG_TEXT(#name), ARG(name)
 #define ARGUMENTS(...) ((const struct argument[]){__VA_ARGS__, {.kind = ARGUMENT_END}})
-#define GIVEN(name, ...) {INPUT_##name, NULL, ARGUMENTS(__VA_ARGS__)}
-#define GIVEN_AS(name, word, ...) {INPUT_##name, word, ARGUMENTS(__VA_ARGS__)}
-#define NO_OPTION {.arguments = NULL}
+#define GIVEN(name, ...) \
+    { \
+        INPUT_##name, NULL, ARGUMENTS(__VA_ARGS__) \
+    }
+#define GIVEN_AS(name, word, ...) \
+    { \
+        INPUT_##name, word, ARGUMENTS(__VA_ARGS__) \
+    }
+#define NO_OPTION \
+    { \
+        .arguments = NULL \
+    }
 
 static const struct row rows[] = {
 #define CLOSURE(leaf, closure, arguments, ...) {"mx_" #leaf, closure, arguments, __VA_ARGS__},
@@ -268,10 +304,10 @@ static ir_ref turned_factor(const struct leaf *leaf)
     ir_ref view = closure_view(leaf->tree->shader, leaf->tree->host);
     ir_ref cosine = ir_op1(g, IR_ABS, ir_op2(g, IR_DOT, leaf->inputs[INPUT_normal], view));
     struct osl_interface interface = {.color0 = leaf->inputs[INPUT_color0],
-                                          .color90 = leaf->inputs[INPUT_color90],
-                                          .exponent = leaf->inputs[INPUT_exponent],
-                                          .ior = leaf->inputs[INPUT_ior],
-                                          .extinction = leaf->inputs[INPUT_extinction]};
+                                      .color90 = leaf->inputs[INPUT_color90],
+                                      .exponent = leaf->inputs[INPUT_exponent],
+                                      .ior = leaf->inputs[INPUT_ior],
+                                      .extinction = leaf->inputs[INPUT_extinction]};
     ir_ref more =
         osl_fresnel_rise(g, &interface, ir_op2(g, IR_MIN, cosine, ir_const_float(g, 1.0f)));
     ir_ref one = ir_const_splat(g, ir_type_of(g, more), 1.0f);
@@ -313,8 +349,7 @@ static ir_ref row_call(struct leaf *leaf, const struct row *row)
     if (!thin)
         return whole;
     leaf->side = BOTH_SIDES;
-    ir_ref color = argument(leaf, tint),
-           straight = osl_scaled(t, osl_transparent(t), color),
+    ir_ref color = argument(leaf, tint), straight = osl_scaled(t, osl_transparent(t), color),
            shell = osl_layered(t, reflected, straight);
     return osl_mixed(t, whole, shell, ir_convert(t->graph, IR_TYPE_FLOAT, thin));
 }

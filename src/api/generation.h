@@ -20,12 +20,6 @@ struct stage_source {
     uint32_t num_marks;
 };
 
-struct network_part { /* a shader that layers of a network are of */
-    const char *name, *source;
-    size_t size;
-    const char *nodedef; /* "": of a group's end */
-};
-
 struct mxg_result {
     struct object object; /* stands on the document */
     const mxg_document *document;
@@ -37,10 +31,7 @@ struct mxg_result {
     struct stage_source stages[NUM_STAGES];
     /* a line that was asked for lately and where it begins: the next one is near */
     _Atomic uint64_t line_hints[NUM_STAGES];
-    struct network network; /* option osl-network: in the place of stages are lists of layers */
-    struct network_group groups[2];
-    uint32_t num_groups; /* 0: it is no network */
-    VEC(struct network_part) parts;
+    struct network network; /* option `network`: in the place of `shader`; arena NULL: it is none */
     VEC(const char *) files;   /* read for it */
     const char **origin_paths; /* of origins of graph, made when asked for during generation */
     bool has_shader;           /* generation ended well */

@@ -65,13 +65,15 @@ struct builder *build_start(const struct library *lib, const struct build_option
 ir_ref build_element(struct builder *builder, elem_id element, unsigned output);
 
 /*
- * network.c: from now on builder notes layers in `network`, and what build_element gives is over
- * sources that stand for them. (The second function says what such a value is.)
+ * network.c: from now on the builder records layers in `network`, and the value of build_element
+ * is over sources that stand for them.
  */
 void build_record_network(struct builder *builder, struct network *network);
-struct network_input build_network_input(struct builder *builder, ir_ref value);
-/* A layer that gives a value which is no layer's; UINT32_MAX: there is none of its type. */
-uint32_t build_constant_layer(struct builder *builder, ir_ref value, str_id doc_type);
+/*
+ * Fills network->results for the root that build_element gave. `type` is that of a plain
+ * value; false: the library has no node that gives a constant of that type.
+ */
+bool build_network_results(struct builder *builder, ir_ref root, str_id type);
 /*
  * With a builder of its own: the results of a node of a network over parameters, whose names are
  * noted, and the names of its outputs.

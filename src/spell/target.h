@@ -42,9 +42,12 @@ struct target_closures {
                  str_id *out_unknown);
 };
 
-struct target_network { /* for hosts that put shaders together themselves */
-    struct network_end ends[NUM_NETWORK_USES];
-    void (*write)(const struct network_group *group, struct text *out);
+struct json; /* shader/json.h */
+
+/* Of a language whose hosts put a shader together of one per node: option `network`. */
+struct target_network {
+    /* Decides by network->results what the program is, and which nodes it needs. */
+    void (*plan)(struct network *network);
     /*
      * The effects of one node's shader, whose outputs have these names: closures and shaders of any
      * kind are closures, those of other layers are uniforms, and a displacement is the offset.
@@ -52,6 +55,13 @@ struct target_network { /* for hosts that put shaders together themselves */
      */
     bool (*emit_node)(struct shader *shader, const struct closure_host *host,
                       const struct network_output *outputs, unsigned n, str_id *out_unknown);
+    /* Adds the shaders that are of no node, once those of nodes stand. */
+    void (*add_parts)(struct network *network);
+    /* The text of a stage; nothing: there is no such stage. */
+    void (*write)(const struct network *network, enum shader_stage_id stage, struct text *out);
+    uint64_t (*topology)(const struct network *network); /* of everything but values */
+    /* Keys of the object at hand (docs/reflection.md). */
+    void (*reflect)(const struct network *network, struct json *json);
 };
 
 struct target {
