@@ -14,8 +14,8 @@ enum { OSL_MAX_ENDS = 2 };   /* results that a group can take */
 /* A kind of group, and the shader that it ends in. */
 struct osl_end {
     enum shader_stage_id stage;
-    const char *use;         /* "surface" */
-    const char *name;        /* of the shader; NULL: the group ends in the result's own layer */
+    const char *use;  /* "surface" */
+    const char *name; /* of the shader; NULL: the group ends in the result's own layer */
     const char *source;
     struct {
         enum network_result result;

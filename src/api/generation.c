@@ -45,18 +45,25 @@ static bool check_version(struct generation *g)
         text_fmt(&list, "%s%s", list.len ? ", " : "", *known);
     }
     if (version)
-        diag_add(diags_of(g), DIAG_ID_bad_option, nowhere, version, "target-version",
+        diag_add(diags_of(g), DIAG_ID_bad_option, nowhere, version, option_key(OPTION_version),
                  list.len ? text_cstr(&list) : "no version");
     return !version;
 }
 
 static bool check_network(struct generation *g)
 {
-    bool is_possible = g->result->target->network || !g->options[OPTION_osl_network].number;
-    if (!is_possible)
-        diag_add(diags_of(g), DIAG_ID_bad_option, nowhere, "true", "osl-network",
-                 "false: only 'osl' has networks");
-    return is_possible;
+    struct text possible;
+    if (g->result->target->network || !g->options[OPTION_network].number)
+        return true;
+    text_init(&possible, &g->scratch);
+    text_str(&possible, "false: only");
+    for (const struct target *const *target = targets; *target; target++)
+        if ((*target)->network)
+            text_fmt(&possible, " '%s'", (*target)->name);
+    text_str(&possible, " has networks");
+    diag_add(diags_of(g), DIAG_ID_bad_option, nowhere, "true", option_key(OPTION_network),
+             text_cstr(&possible));
+    return false;
 }
 
 /* MaterialX names of the target and those it inherits, nearest first. */
@@ -82,6 +89,7 @@ static void set_build_options(struct generation *g)
 {
     const struct option_value *o = g->options;
     const mxg_context *context = g->result->object.context;
+    uint32_t caps = g->result->target->caps;
     g->build_options = (struct build_options){
         .interface = (enum build_interface)o[OPTION_interface].number,
         .uniform_globs = o[OPTION_uniform].list.items,
@@ -91,17 +99,17 @@ static void set_build_options(struct generation *g)
         .colorspace = option_name(g, OPTION_colorspace),
         .distance_unit = option_name(g, OPTION_distance_unit),
         .angle_unit = str_intern_z(&g->result->strings, "degree"),
-        .strings = g->result->target->caps & CAP_STRINGS,
+        .strings = caps & CAP_STRINGS,
         .neutral_names = o[OPTION_names].number != 0,
-        .short_names = !(g->result->target->caps & CAP_STAGES),
+        .short_names = caps & CAP_SCOPED_PARAMETERS,
         .environment = o[OPTION_environment].number,
         .albedo = o[OPTION_albedo].number,
         .sample_filter = o[OPTION_sample_filter].number,
-        .texture_modes = g->result->target->caps & CAP_STAGES ? o[OPTION_texture_modes].number
-                                                              : TEXTURE_MODES_BUT_BORDERS,
-        .missing_colors = g->result->target->caps & CAP_MISSING_COLORS,
-        .indexed_tangents = !(g->result->target->caps & CAP_STAGES),
-        .tiles = o[OPTION_tiles].number == 0 && g->result->target->caps & CAP_TEXTURE_ARRAYS,
+        .texture_modes =
+            caps & CAP_READS_SAY_MODES ? TEXTURE_MODES_BUT_BORDERS : o[OPTION_texture_modes].number,
+        .missing_colors = caps & CAP_MISSING_COLORS,
+        .indexed_tangents = caps & CAP_INDEXED_TANGENTS,
+        .tiles = o[OPTION_tiles].number == 0 && caps & CAP_TEXTURE_ARRAYS,
         .reader = &g->reader,
         .list_folder = context->resolver.list_folder,
         .list_user_data = context->resolver.user_data,
@@ -210,7 +218,7 @@ bool generation_build(struct generation *g)
 {
     g->builder =
         build_start(&g->document->layer, &g->build_options, &g->result->shader, diags_of(g));
-    if (g->options[OPTION_osl_network].number)
+    if (g->options[OPTION_network].number)
         build_record_network(g->builder, &g->result->network);
     g->root = build_element(g->builder, g->element, g->output);
     if (!is_good(g))
@@ -400,11 +408,12 @@ static void bind_light(struct generation *g, const char *item, int32_t next_type
     if (item[len]
         && (number_len == 0 || num_parse_int(item + len + 1, number_len, &type) != number_len
             || type < INT32_MIN || type > INT32_MAX)) {
-        diag_add(diags_of(g), DIAG_ID_bad_option, nowhere, item, "lights", "'node=number'");
+        diag_add(diags_of(g), DIAG_ID_bad_option, nowhere, item, option_key(OPTION_lights),
+                 "'node=number'");
         return;
     }
     if (has_light(&g->result->shader, (int32_t)type)) {
-        diag_add(diags_of(g), DIAG_ID_bad_option, nowhere, item, "lights",
+        diag_add(diags_of(g), DIAG_ID_bad_option, nowhere, item, option_key(OPTION_lights),
                  "a number that no other light has");
         return;
     }
@@ -469,7 +478,7 @@ struct shader_layout_rules generation_layout_rules(const struct generation *g)
                   || ((caps & CAP_BLOCK_OPTION) && g->options[OPTION_uniform_blocks].number),
         .bindings = caps & CAP_BINDINGS,
         .neutral_names = g->options[OPTION_names].number != 0,
-        .one_stage = !(caps & CAP_STAGES),
+        .one_stage = !(caps & CAP_VERTEX_STAGE),
         .typed_textures = caps & CAP_TYPED_TEXTURES,
         .names_wholes = caps & CAP_NAMED_WHOLES,
     };
@@ -571,7 +580,8 @@ static bool spell_one(struct generation *g, const struct spell_options *options,
 }
 
 /*
- * A vertex stage may have nothing to do: of what path tracers call, and in OSL where nothing moves.
+ * A vertex stage may have nothing to do: path tracers call a function, and a target without a
+ * vertex stage has only what moves the surface there.
  */
 static bool has_stage(const mxg_result *result, int stage)
 {

@@ -10,23 +10,30 @@
 #include "shader/network.h"
 
 enum target_caps {
-    CAP_STAGES = 1,           /* vertex and pixel stages; else one shader */
-    CAP_UNIFORM_BLOCKS = 2,   /* uniforms must stand in blocks */
-    CAP_BLOCK_OPTION = 4,     /* uniforms may stand in blocks: --uniform-blocks */
-    CAP_UNIFORM_DEFAULTS = 8, /* uniforms may have initial values */
-    CAP_BINDINGS = 16,        /* layout(set, binding) and locations */
-    CAP_BLOCK_STAGE_IO = 32,  /* stage inputs and outputs may stand in an interface block */
-    CAP_PRECISION = 64,       /* needs default precision statements */
-    CAP_OVERLOADS = 128,      /* functions may be overloaded */
-    CAP_BITWISE = 256,        /* unsigned integers and bit operators */
-    CAP_IMPLICIT_LOD = 512,   /* texture() in pixel stages */
-    CAP_STRINGS = 2048,       /* the language has strings */
+    /* a vertex stage computes what the pixel stage reads; else shaders read the geometry itself */
+    CAP_VERTEX_STAGE = 1 << 0,
+    CAP_UNIFORM_BLOCKS = 1 << 1,   /* uniforms must stand in blocks */
+    CAP_BLOCK_OPTION = 1 << 2,     /* uniforms may stand in blocks: --uniform-blocks */
+    CAP_UNIFORM_DEFAULTS = 1 << 3, /* uniforms may have initial values */
+    CAP_BINDINGS = 1 << 4,         /* layout(set, binding) and locations */
+    CAP_BLOCK_STAGE_IO = 1 << 5,   /* stage inputs and outputs may stand in an interface block */
+    CAP_PRECISION = 1 << 6,        /* needs default precision statements */
+    CAP_OVERLOADS = 1 << 7,        /* functions may be overloaded */
+    CAP_BITWISE = 1 << 8,          /* unsigned integers and bit operators */
+    CAP_IMPLICIT_LOD = 1 << 9,     /* texture() in pixel stages */
+    CAP_STRINGS = 1 << 10,         /* the language has strings */
     /* the tiles of an image are layers of one texture; else its host, or texture(), finds them */
-    CAP_TEXTURE_ARRAYS = 4096,
+    CAP_TEXTURE_ARRAYS = 1 << 11,
+    CAP_NAMED_WHOLES = 1 << 12, /* parts are taken of variables only: v.x, but not (a + b).x */
     /* texture() gives as many channels as are wanted: one, three or four */
-    CAP_TYPED_TEXTURES = 16384,
-    CAP_MISSING_COLORS = 32768, /* texture() is told what to give where there is no image */
-    CAP_NAMED_WHOLES = 8192,    /* parts are taken of variables only: v.x, but not (a + b).x */
+    CAP_TYPED_TEXTURES = 1 << 13,
+    CAP_MISSING_COLORS = 1 << 14, /* texture() is told what to give where there is no image */
+    /* texture() is told address modes and filters, but no borders of a colour; else samplers are */
+    CAP_READS_SAY_MODES = 1 << 15,
+    /* each shader has a scope of its own for its parameters: names need no node in front */
+    CAP_SCOPED_PARAMETERS = 1 << 16,
+    /* tangents follow the coordinates of their index; else, as in MaterialX, the first */
+    CAP_INDEXED_TANGENTS = 1 << 17,
 };
 
 struct spell; /* spell/spell.h */
