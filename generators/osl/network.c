@@ -45,8 +45,7 @@ static bool is_struct(ir_type_id type)
     return type == IR_TYPE_VEC2 || type == IR_TYPE_VEC4;
 }
 
-static void write_value(const struct network *network, const struct network_input *input,
-                        const char *name, struct text *out)
+static void write_value(const struct network_input *input, const char *name, struct text *out)
 {
     const struct ir_value *value = &input->value;
     unsigned count = ir_type_info(value->type)->components;
@@ -57,8 +56,7 @@ static void write_value(const struct network *network, const struct network_inpu
     }
     if (is_struct(value->type))
         return;
-    bool is_color =
-        value->type == IR_TYPE_VEC3 && strcmp(text_of(network, input->doc_type), "color3") == 0;
+    bool is_color = value->type == IR_TYPE_VEC3 && input->doc_type == STR_color3;
     text_fmt(out, "param %s %s", is_color ? "color" : lang_syntax_type(&osl_syntax, value->type),
              name);
     if (value->type == IR_TYPE_MAT3)
@@ -72,7 +70,7 @@ static void write_parameter(const struct network *network, const struct network_
                             const char *name, struct text *out)
 {
     if (input->kind == NETWORK_VALUE)
-        write_value(network, input, name, out);
+        write_value(input, name, out);
     if (input->kind != NETWORK_FILE || !*text_of(network, input->file))
         return;
     const char *file = text_of(network, input->file);

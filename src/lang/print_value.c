@@ -41,7 +41,7 @@ void print_base_type(const struct lang_style *style, const struct lang_names *na
     if (ast_is_user_type(type))
         text_str(out, print_struct_name(names, unit, type));
     else
-        text_put(out, style->types[type]);
+        print_type_name(style, names, type, out);
 }
 
 void print_lengths(const struct lang_unit *unit, ir_type_id type, struct text *out)

@@ -104,6 +104,12 @@ void spell_type(struct spell *spell, ir_type_id type);
 /* "float x[3]" */
 void spell_variable(struct spell *spell, ir_type_id type, struct spell_name name);
 
+/* The name of a portable function, which the text at hand calls. */
+static inline const char *spell_function_name(const struct spell *spell, uint32_t function)
+{
+    return spell->lang_names.function(spell->lang_names.user_data, function);
+}
+
 /* ---- statement.c ---- */
 
 /* Statements with the given indentation, which name their locals in a new scope. */
