@@ -96,16 +96,14 @@ const char *build_leaf_input(struct builder *builder, uint32_t callee, unsigned 
 /* Whether a path matches: '*' is any run without '/', '**' any run, '?' one character but '/'. */
 bool build_glob_matches(const char *glob, const char *path);
 
-/* A light shader's implementation function for the target; LIBRARY_NONE. */
-uint32_t build_light_function(struct builder *builder, uint32_t nodedef);
-/* What an input of a definition is when nothing is said; false: no number is known. */
-bool build_port_value(struct builder *builder, const struct port *port, struct ir_value *out);
 /*
- * The LIGHT_SHADER that a definition made of nodes gives for its inputs; 0 after an error. `where`
- * is told in messages.
+ * lights.c: fills shader->lights. An item is the node of a light shader or the path of a <light>
+ * of the document, with "=" and the light's number behind; without a number, it is the item's
+ * place, from 1. "none" is no light. `is_said` is false for the default, of which lights may be
+ * absent.
  */
-ir_ref build_light_shader(struct builder *builder, uint32_t nodedef, elem_id where,
-                          const ir_ref *args);
+void build_lights(struct builder *builder, const char *const *items, uint32_t num_items,
+                  bool is_said);
 
 struct structure_options {
     enum build_interface interface;
