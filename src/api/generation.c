@@ -462,3 +462,42 @@ mxg_status generation_run(mxg_context *context, const mxg_document *document,
     *out_result = result;
     return g->cancelled ? MXG_ERROR_CANCELLED : object_status(&result->object);
 }
+
+static void drop_source(mxg_result *result)
+{
+    for (int stage = 0; stage < NUM_STAGES; stage++)
+        result->stages[stage] = (struct stage_source){0};
+}
+
+static void generate(struct generation *g)
+{
+    bool built = generation_start(g) && generation_build(g);
+    if (g->result->network.arena)
+        g->result->has_shader = built && generation_make_network(g);
+    else
+        g->result->has_shader = built && generation_emit(g) && !g->desc.only_diagnostics
+                                && generation_finish(g)
+                                && (g->desc.without_source || generation_spell(g));
+    if (!g->result->has_shader)
+        drop_source(g->result);
+}
+
+mxg_status mxg_generate(mxg_context *context, const mxg_document *document,
+                        const mxg_generate_desc *desc, mxg_result **out_result)
+{
+    if (out_result)
+        *out_result = NULL;
+    if (!desc || !desc->target)
+        return MXG_ERROR_ARGUMENT;
+    return generation_run(context, document, desc, generate, NULL, out_result);
+}
+
+void mxg_result_destroy(mxg_result *result)
+{
+    object_unref(result ? &result->object : NULL);
+}
+
+const mxg_diagnostics *mxg_result_diagnostics(const mxg_result *result)
+{
+    return result ? &result->object.diagnostics : NULL;
+}

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * A generation step by step, for generate.c, which takes all of them, and inspect.c, which stops on
- * the way.
+ * A generation step by step, for mxg_generate, which takes all of them, and inspect.c, which stops
+ * on the way.
  */
 #ifndef MXG_API_GENERATION_H
 #define MXG_API_GENERATION_H

@@ -47,9 +47,9 @@ static struct shader_light start_light(struct builder *b, uint32_t nodedef, int3
                                  .first_member = shader->light_members.len};
     for (uint32_t i = 0; i < def->num_inputs; i++)
         if (is_member(b, &ports[i]))
-            vec_push(b->arena, &shader->light_members,
-                     shader_light_member(shader, ports[i].name,
-                                         library_type_ir(b->lib, ports[i].type)));
+            vec_push(
+                b->arena, &shader->light_members,
+                shader_light_member(shader, ports[i].name, library_type_ir(b->lib, ports[i].type)));
     light.num_members = shader->light_members.len - light.first_member;
     return light;
 }
