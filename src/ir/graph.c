@@ -157,6 +157,17 @@ static unsigned own_flags(const struct ir_graph *graph, struct content c)
     return flags | (ir_type_is_closure(c.type) || ir_type_is_shader(c.type) ? IR_NODE_CLOSURE : 0u);
 }
 
+unsigned ir_flags_of(const struct ir_graph *graph, ir_ref ref)
+{
+    const struct ir_node *node = ir_get(graph, ref);
+    if (node->op == IR_CONST)
+        return 0;
+    unsigned inherited = 0;
+    for (uint32_t i = 0; i < node->num_args; i++)
+        inherited |= ir_get(graph, ir_arg(graph, ref, i))->flags;
+    return own_flags(graph, content_of(graph, ref)) | (inherited & IR_NODE_INHERITED);
+}
+
 /*
  * Copies the operands to graph->args and returns their flags; they may lie there already, so that
  * growing would move them.

@@ -362,10 +362,15 @@ const char *ir_parse(struct ir_graph *graph, const char *text, size_t len, ir_re
                      uint32_t *out_num_roots, uint32_t *out_line);
 
 /*
- * check.c: NULL, or the first violated invariant, with the node's index. For tests and debug
- * builds.
+ * check.c: NULL, or the first broken rule of a graph, with the node that breaks it (0: no node
+ * does, but a table of the graph).
  */
 const char *ir_check(const struct ir_graph *graph, ir_ref *out_node);
+/*
+ * In builds with -Dcheck_ir=true: ends the program if ir_check finds a broken rule, and names the
+ * step after which, the node, and the rule. Other builds do nothing here.
+ */
+void ir_assert_valid(const struct ir_graph *graph, const char *step);
 
 /* eval.c: values of pure graphs, for tests and folding of whole graphs. */
 
