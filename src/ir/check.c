@@ -233,7 +233,8 @@ const char *ir_node_problem(const struct ir_graph *graph, enum ir_op op, ir_type
     ir_type_id result = ir_op_result(op, types, num_args);
     if (result == IR_TYPE_VOID)
         return "the operands do not fit the op";
-    return result == type ? NULL : "the operands give another type";
+    bool is_part = op == IR_TEX && (type == IR_TYPE_FLOAT || type == IR_TYPE_VEC3);
+    return result == type || is_part ? NULL : "the operands give another type";
 }
 
 static const char *const_problem(const struct ir_graph *graph, const struct ir_node *node)

@@ -93,14 +93,33 @@ ir_ref ir_find_equal(const struct ir_graph *graph, ir_ref ref)
     return *find_slot(graph, content_of(graph, ref));
 }
 
+/* Room for n more nodes; everyone else sees the array as constant. */
+static struct ir_node *reserve_nodes(struct ir_graph *graph, uint32_t n)
+{
+    struct ir_node *nodes = (struct ir_node *)(uintptr_t)graph->nodes.items;
+    if (graph->nodes.cap - graph->nodes.len < n)
+        graph->nodes.items = nodes = vec_more(graph->arena, nodes, &graph->nodes.cap, sizeof *nodes,
+                                              graph->nodes.len + n - graph->nodes.cap);
+    return nodes + graph->nodes.len;
+}
+
+/* The same for operands. */
+static ir_ref *reserve_args(struct ir_graph *graph, uint32_t n)
+{
+    ir_ref *args = (ir_ref *)(uintptr_t)graph->args.items;
+    if (graph->args.cap - graph->args.len < n)
+        graph->args.items = args = vec_more(graph->arena, args, &graph->args.cap, sizeof *args,
+                                            graph->args.len + n - graph->args.cap);
+    return args + graph->args.len;
+}
+
 void ir_graph_init(struct ir_graph *graph, struct arena *arena, struct strpool *strings)
 {
     *graph = (struct ir_graph){.arena = arena, .strings = strings};
-    vec_reserve(arena, &graph->nodes, FIRST_NODES);
-    vec_reserve(arena, &graph->args, 2 * FIRST_NODES);
     /* 0 is no node; it must not look like a constant */
-    vec_push(arena, &graph->nodes, (struct ir_node){.op = IR_POISON});
-    vec_push(arena, &graph->args, 0); /* so that there is something to point to */
+    *reserve_nodes(graph, FIRST_NODES) = (struct ir_node){.op = IR_POISON};
+    *reserve_args(graph, 2 * FIRST_NODES) = 0; /* so that there is something to point to */
+    graph->nodes.len = graph->args.len = 1;
     vec_push(arena, &graph->words, (union ir_word){.u = 0});
     vec_push(arena, &graph->origins, (struct ir_origin){0});
     grow_table(graph);
@@ -176,10 +195,9 @@ static unsigned push_args(struct ir_graph *graph, const ir_ref *args, uint32_t n
 {
     uint32_t len = graph->args.len;
     uintptr_t offset = (uintptr_t)args - (uintptr_t)graph->args.items;
-    vec_reserve(graph->arena, &graph->args, num_args);
+    ir_ref *to = reserve_args(graph, num_args);
     const ir_ref *from =
         offset < len * sizeof *args ? graph->args.items + offset / sizeof *args : args;
-    ir_ref *to = graph->args.items + len;
     const struct ir_node *nodes = graph->nodes.items;
     unsigned flags = 0;
     for (uint32_t i = 0; i < num_args; i++) {
@@ -208,7 +226,8 @@ static bool has_room(struct ir_graph *graph, enum ir_op op)
 static inline ir_ref add(struct ir_graph *graph, struct ir_node node, uint32_t *slot)
 {
     ir_ref ref = graph->nodes.len;
-    vec_push(graph->arena, &graph->nodes, node);
+    *reserve_nodes(graph, 1) = node;
+    graph->nodes.len++;
     *slot = ref;
     if (ref >= graph->table_mask / 4 * 3)
         grow_table(graph);

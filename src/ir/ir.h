@@ -216,9 +216,10 @@ struct ir_function {
 
 struct ir_graph {
     struct arena *arena;
-    struct strpool *strings;   /* may be NULL where no strings are built */
-    VEC(struct ir_node) nodes; /* [0] is unused */
-    VEC(ir_ref) args;          /* [0] is unused */
+    struct strpool *strings; /* may be NULL where no strings are built */
+    /* [0] of both is unused; only graph.c writes to them */
+    VEC(const struct ir_node) nodes;
+    VEC(const ir_ref) args;
     /* [0] is unused; constant pool: as many as the type has components */
     VEC(union ir_word) words;
     VEC(struct ir_origin) origins; /* [0] is nothing */
@@ -352,6 +353,22 @@ uint8_t *ir_count_uses(const struct ir_graph *graph, const uint8_t *marked, cons
  * not change is not copied.
  */
 ir_ref ir_replace(struct ir_graph *graph, ir_ref root, ir_ref from, ir_ref to, struct arena *arena);
+
+/*
+ * rebuild.c: makes the graph anew of the nodes that the roots need. Returns the new node per old
+ * one, 0 for those that are gone. Types, callees, origins and functions keep their indices.
+ */
+struct ir_pass {
+    void *user_data;
+    /*
+     * Builds the new node of the same type for the node `old` over `args`, the new operands, which
+     * it may overwrite; `node` is what stood there. Nothing is folded. Constants are not asked for.
+     */
+    ir_ref (*build)(void *user_data, struct ir_graph *graph, ir_ref old, const struct ir_node *node,
+                    ir_ref *args);
+};
+const ir_ref *ir_rebuild(struct ir_graph *graph, const ir_ref *roots, uint32_t num_roots,
+                         const struct ir_pass *pass, struct arena *arena);
 
 /* print.c, parse.c: the text form (docs/ir.md); what is printed parses back to an equal graph. */
 

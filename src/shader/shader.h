@@ -337,10 +337,11 @@ struct shader_layout_rules { /* from the target's table and the options */
 void shader_finish(struct shader *shader, const struct shader_layout_rules *rules);
 
 /*
- * calls.c: gives each portable function the one version that all its calls share. Part of
- * shader_finish.
+ * calls.c: gives each portable function the one version that all its calls share, and builds the
+ * graph anew of what the effects need; refs from before are gone. With typed_textures, TEX gives
+ * one or three channels where no more are wanted. Part of shader_finish.
  */
-void shader_specialise_calls(struct shader *shader);
+void shader_specialise_calls(struct shader *shader, bool typed_textures);
 
 /*
  * The variable of a uniform or stream that a portable function reads; UINT32_MAX for constants, and

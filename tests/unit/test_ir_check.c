@@ -123,7 +123,8 @@ struct fixture {
 
 static void damage(struct ir_graph *g, ir_ref ref, enum part part, uint32_t value)
 {
-    struct ir_node *node = &g->nodes.items[ref];
+    struct ir_node *node = (struct ir_node *)(uintptr_t)&g->nodes.items[ref];
+    ir_ref *args = (ir_ref *)(uintptr_t)g->args.items + node->first_arg;
     switch (part) {
     case OP: node->op = (uint8_t)value; break;
     case TYPE: node->type = (ir_type_id)value; break;
@@ -132,14 +133,16 @@ static void damage(struct ir_graph *g, ir_ref ref, enum part part, uint32_t valu
     case FIRST_ARG: node->first_arg = value; break;
     case FLAGS: node->flags = (uint8_t)value; break;
     case ORIGIN: node->origin = value; break;
-    case ARG: g->args.items[node->first_arg] = value; break;
-    case ARG_1: g->args.items[node->first_arg + 1] = value; break;
+    case ARG: args[0] = value; break;
+    case ARG_1: args[1] = value; break;
     case FIRST_PARAM: g->functions.items[0].first_param_type = value; break;
     case FIRST_RESULT: g->functions.items[0].first_result = value; break;
     case RESULT: g->function_results.items[g->functions.items[0].first_result] = value; break;
     case ELEMENT: g->user_types.items[0].element = (ir_type_id)value; break;
     case FIRST_MEMBER: g->user_types.items[0].first_member = value; break;
-    case MEMBER: g->members.items[g->user_types.items[0].first_member].type = (ir_type_id)value; break;
+    case MEMBER:
+        g->members.items[g->user_types.items[0].first_member].type = (ir_type_id)value;
+        break;
     case PARENT: g->origins.items[1].parent = value; break;
     }
 }
