@@ -285,11 +285,6 @@ static void enter_graph(struct builder *b, struct frame *frame)
         finish_call(b, frame, function - 1);
         return;
     }
-    ir_ref results[BUILD_MAX_OUTPUTS];
-    if (frame->outline == LIBRARY_NONE && build_restore(b, frame, results)) {
-        finish_graph(b, frame, results);
-        return;
-    }
     frame->inner = new_instance(b, frame->scope, graph);
     frame->inner->nodedef = frame->node.nodedef;
     frame->inner->args = frame->args;
@@ -354,7 +349,6 @@ static void leave_graph(struct builder *b)
         results[i] = build_input(b, frame->inner, frame->inner->graph, &outputs[i], &binding);
     }
     if (frame->outline == LIBRARY_NONE) {
-        build_record(b, frame, results);
         finish_graph(b, frame, results);
         return;
     }

@@ -298,9 +298,11 @@ static void take_leaf(struct flattener *f, ir_ref ref, struct closure_list *out)
         return;
     }
     ir_ref scalar = closure_mul(g, w.scalar, ir_arg(g, ref, 0));
-    if (!ir_const_is(g, scalar, 0.0f))
-        merge_leaf(f, out, unit_leaf(g, ref, f->shader->arena),
-                   (struct weight){scalar, w.color, w.medium});
+    if (ir_const_is(g, scalar, 0.0f))
+        return;
+    ir_ref leaf = unit_leaf(g, ref, f->shader->arena);
+    if (ir_get(g, leaf)->op == IR_LEAF) /* it is POISON where the graph is full */
+        merge_leaf(f, out, leaf, (struct weight){scalar, w.color, w.medium});
 }
 
 void closure_flatten(struct shader *shader, const struct closure_host *host, ir_ref root,

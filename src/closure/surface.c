@@ -382,16 +382,9 @@ static bool light_surface(struct emitter *e, const struct surface *s)
 
 static void emit_surface(struct emitter *e, ir_ref root)
 {
-    struct shader *shader = e->shader;
     struct surface s = root ? surface_of(e, root) : (struct surface){0};
-    uint32_t first_closure = shader->closures.len;
-    bool is_usual = closure_is_usual(shader, e->host, e->lighting, root);
-    if (!is_usual || !closure_restore_lit(shader, e->host, &e->lit)) {
-        if (!light_surface(e, &s))
-            return;
-        if (is_usual && shader->unit->recorder)
-            closure_record_lit(shader, e->host, first_closure, &e->lit);
-    }
+    if (!light_surface(e, &s))
+        return;
     emit_lit(e);
     finish_surface(e, &s);
 }

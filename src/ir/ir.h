@@ -72,7 +72,6 @@ struct ir_user_type {
     ir_type_id element; /* of an array */
     uint16_t num_members;
     uint32_t first_member; /* in the table's members */
-    uint32_t known_as;     /* of a graph's: the type of the language that it was made of; 0: none */
 };
 
 /*
@@ -271,15 +270,6 @@ static inline ir_type_id ir_type_of(const struct ir_graph *graph, ir_ref ref)
  */
 ir_ref ir_build(struct ir_graph *graph, enum ir_op op, ir_type_id type, uint32_t attr,
                 const ir_ref *args, unsigned num_args);
-
-/*
- * The same for a node that ir_build has made before over other nodes of which it saw the same: it
- * puts operands that commute in order and adds the node. What it sees of an operand is its op, and
- * the operands behind it of these: constants, and what is looked through.
- */
-ir_ref ir_restore(struct ir_graph *graph, enum ir_op op, ir_type_id type, uint32_t attr,
-                  ir_ref *args, unsigned num_args);
-bool ir_is_looked_through(enum ir_op op);
 
 /* An op whose rule gives the type; 0 where the operands do not fit. */
 ir_ref ir_op1(struct ir_graph *graph, enum ir_op op, ir_ref a);

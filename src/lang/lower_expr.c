@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lang/fragment.h"
 #include "lang/lower.h"
 
 static ir_ref value_of(struct lower *lo, ir_ref leaf, ir_type_id type)
@@ -63,8 +62,6 @@ static void lower_global(struct lower *lo, const struct lang_node *node, ir_ref 
         lo->failed = true;
     } else {
         *out = lo->host->global(lo->host->user_data, lo->graph, lo->unit, node->a);
-        if (lo->unit->recorder)
-            fragment_note_global(lo->unit->recorder, *out, node->a);
     }
 }
 
