@@ -193,8 +193,8 @@ static ir_ref call(struct tree *t, const char *name, ir_type_id type, const ir_r
                    unsigned n)
 {
     str_id id = str_intern_z(t->shader->strings, name);
-    uint32_t callee =
-        ir_add_callee(t->graph, (struct ir_callee){.id = (uint64_t)3 << 32 | id, .name = id});
+    uint32_t callee = ir_add_callee(
+        t->graph, (struct ir_callee){.kind = IR_CALLEE_CLOSURE, .index = id, .name = id});
     return ir_build(t->graph, IR_LEAF, type, callee, args, n);
 }
 

@@ -131,6 +131,16 @@ static bool is_call(const struct ir_graph *graph, ir_ref ref)
     return op == IR_CALL || op == IR_VERBATIM || op == IR_GRAPH_CALL;
 }
 
+static const char *callee_problem(const struct ir_graph *graph, enum ir_op op, uint32_t attr)
+{
+    if (attr >= graph->callees.len)
+        return "there is no such callee";
+    enum ir_callee_kind kind = graph->callees.items[attr].kind;
+    bool fits = op == IR_LEAF ? kind == IR_CALLEE_FAMILY || kind == IR_CALLEE_CLOSURE
+                              : kind == (op == IR_CALL ? IR_CALLEE_FUNCTION : IR_CALLEE_VERBATIM);
+    return fits ? NULL : "the callee is not of the op's kind";
+}
+
 static const char *graph_call_problem(const struct ir_graph *graph, ir_type_id type, uint32_t attr,
                                       const ir_ref *args, unsigned num_args)
 {
@@ -200,7 +210,7 @@ static const char *special_problem(const struct ir_graph *graph, enum ir_op op, 
                    : "the operand cannot be indexed so";
     case IR_CALL:
     case IR_VERBATIM:
-    case IR_LEAF: return attr < graph->callees.len ? NULL : "there is no such callee";
+    case IR_LEAF: return callee_problem(graph, op, attr);
     case IR_GRAPH_CALL: return graph_call_problem(graph, type, attr, args, num_args);
     case IR_RESULT: return result_problem(graph, type, attr, args[0]);
     default: break;

@@ -275,12 +275,14 @@ uint32_t ir_add_origin(struct ir_graph *graph, str_id name, uint32_t element, ui
     return index;
 }
 
-static uint32_t find_callee_slot(const struct ir_graph *graph, uint64_t id)
+static uint32_t find_callee_slot(const struct ir_graph *graph, const struct ir_callee *callee)
 {
-    uint32_t slot = hash_pair((uint32_t)(id >> 32), (uint32_t)id) & graph->callee_mask;
-    while (graph->callee_table[slot]
-           && graph->callees.items[graph->callee_table[slot] - 1].id != id)
-        slot = (slot + 1) & graph->callee_mask;
+    uint32_t slot = hash_pair(callee->kind, callee->index) & graph->callee_mask;
+    for (; graph->callee_table[slot]; slot = (slot + 1) & graph->callee_mask) {
+        const struct ir_callee *found = &graph->callees.items[graph->callee_table[slot] - 1];
+        if (found->kind == callee->kind && found->index == callee->index)
+            break;
+    }
     return slot;
 }
 
@@ -290,14 +292,14 @@ static void grow_callee_table(struct ir_graph *graph)
     graph->callee_table = ARENA_ARRAY(graph->arena, uint32_t, slots);
     graph->callee_mask = slots - 1;
     for (uint32_t i = 0; i < graph->callees.len; i++)
-        graph->callee_table[find_callee_slot(graph, graph->callees.items[i].id)] = i + 1;
+        graph->callee_table[find_callee_slot(graph, &graph->callees.items[i])] = i + 1;
 }
 
 uint32_t ir_add_callee(struct ir_graph *graph, struct ir_callee callee)
 {
     if (graph->callees.len >= graph->callee_mask / 4 * 3)
         grow_callee_table(graph);
-    uint32_t slot = find_callee_slot(graph, callee.id);
+    uint32_t slot = find_callee_slot(graph, &callee);
     if (!graph->callee_table[slot]) {
         vec_push(graph->arena, &graph->callees, callee);
         graph->callee_table[slot] = graph->callees.len;

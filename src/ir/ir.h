@@ -191,12 +191,19 @@ struct ir_origin {
     uint32_t parent;  /* the origin of the instantiating node; 0 = none */
 };
 
-/*
- * A callee of CALL, VERBATIM or LEAF nodes. `id` is the owner's (a function id, a family id…):
- * equal ids are equal callees.
- */
+enum ir_callee_kind {
+    IR_CALLEE_FUNCTION, /* of CALL: a function of the portable language */
+    IR_CALLEE_VERBATIM, /* of VERBATIM: source of the target */
+    IR_CALLEE_FAMILY,   /* of LEAF: a family of functions of the portable language */
+    IR_CALLEE_CLOSURE,  /* of LEAF: a closure of the target */
+    IR_NUM_CALLEE_KINDS
+};
+extern const char *const ir_callee_kinds[IR_NUM_CALLEE_KINDS]; /* "function" … */
+
+/* A callee of CALL, VERBATIM or LEAF nodes. Equal kind and index is an equal callee. */
 struct ir_callee {
-    uint64_t id;
+    uint8_t kind;   /* enum ir_callee_kind */
+    uint32_t index; /* the owner's number: id of a function, of a family, of the closure's name… */
     str_id name;
     bool derivative; /* it contains derivatives or implicit-LOD texture reads */
     bool pure;       /* its result depends on its arguments only (no uniform or stream inside) */
@@ -312,7 +319,7 @@ bool ir_get_const(const struct ir_graph *graph, ir_ref ref, struct ir_value *out
 bool ir_const_is(const struct ir_graph *graph, ir_ref ref, float f); /* all components equal f */
 
 uint32_t ir_add_origin(struct ir_graph *graph, str_id name, uint32_t element, uint32_t parent);
-/* the same index for the same id */
+/* the same number for an equal callee */
 uint32_t ir_add_callee(struct ir_graph *graph, struct ir_callee callee);
 uint32_t ir_add_struct(struct ir_graph *graph, str_id name, const struct ir_member *members,
                        unsigned num_members);

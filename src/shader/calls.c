@@ -86,8 +86,8 @@ static ir_ref build_call(const struct final_pass *pass, struct ir_graph *graph, 
 {
     const struct lang_unit *unit = pass->shader->unit, *layer;
     struct ir_callee callee = graph->callees.items[node->attr];
-    uint32_t given = (uint32_t)callee.id, version = lang_plan_version(unit, pass->planned[old]),
-             read = 0, kept = 0;
+    uint32_t given = callee.index, version = lang_plan_version(unit, pass->planned[old]), read = 0,
+             kept = 0;
     const struct lang_function *fn = lang_function(unit, given, &layer);
     for (uint32_t i = 0; i < fn->num_params; i++) {
         if (!has_operand(layer, fn, i))
@@ -98,7 +98,7 @@ static ir_ref build_call(const struct final_pass *pass, struct ir_graph *graph, 
     }
     assert(read == node->num_args);
     uint16_t flags = lang_function(unit, version, NULL)->flags;
-    callee.id = version;
+    callee.index = version;
     callee.derivative = (flags & LANG_FN_DERIVATIVE) != 0;
     callee.pure = (flags & LANG_FN_PURE) != 0;
     return ir_build(graph, IR_CALL, node->type, ir_add_callee(graph, callee), args, kept);

@@ -369,10 +369,8 @@ unsigned shader_call_outs(const struct shader *shader, ir_ref call);
 /* What a CALL (a lang function) or a VERBATIM node (an index in shader->verbatim) calls. */
 static inline uint32_t shader_callee(const struct shader *shader, ir_ref call)
 {
-    return (uint32_t)shader->graph->callees.items[ir_get(shader->graph, call)->attr].id;
+    return shader->graph->callees.items[ir_get(shader->graph, call)->attr].index;
 }
-/* The id of the callee of VERBATIM nodes, apart from those of functions. */
-#define SHADER_VERBATIM_ID(index) ((uint64_t)2 << 32 | (index))
 
 /* json.c: the reflection as JSON (docs/reflection.md). */
 
