@@ -80,11 +80,6 @@ static void sample_emitter(struct shader *shader, const struct closure_host *hos
                          : ir_const_splat(g, IR_TYPE_VEC3, 0.0f);
 }
 
-static uint32_t named(struct shader *shader, str_id name)
-{
-    return ir_add_origin(shader->graph, name, 0, 0);
-}
-
 static ir_ref type_of_light(struct shader *shader)
 {
     return member(shader, shader_light_member(shader, STR_type, IR_TYPE_INT));
@@ -94,28 +89,26 @@ void closure_sample_light(struct shader *shader, const struct closure_host *host
                           struct closure_light *out)
 {
     struct ir_graph *g = shader->graph;
-    uint32_t before = g->origin, direction_origin = named(shader, STR_L),
-             intensity_origin = named(shader, STR_light);
     ir_ref type = type_of_light(shader);
     closure_position(shader, host); /* once, outside of the loop */
     *out = (struct closure_light){0, ir_const_splat(g, IR_TYPE_VEC3, 0.0f)};
     for (uint32_t i = shader->lights.len; i-- > 0;) {
         const struct shader_light *light = &shader->lights.items[i];
         ir_ref results[2];
-        g->origin = named(shader, light->name);
+        ir_push_name(g, light->name);
         if (light->shader)
             sample_emitter(shader, host, light, results);
         else
             call_function(shader, host, light, results);
         ir_ref is_this = ir_op2(g, IR_EQ, type, ir_const_int(g, light->type));
-        g->origin = direction_origin;
+        ir_change_name(g, STR_L);
         out->direction = out->direction && out->direction != results[0]
                              ? ir_op3(g, IR_SELECT, is_this, results[0], out->direction)
                              : results[0];
-        g->origin = intensity_origin;
+        ir_change_name(g, STR_light);
         out->intensity = ir_op3(g, IR_SELECT, is_this, results[1], out->intensity);
+        ir_pop_origin(g);
     }
-    g->origin = before;
 }
 
 static ir_ref distance_to(struct shader *shader, const struct closure_host *host, uint32_t position)

@@ -133,11 +133,10 @@ static ir_ref component(struct ir_graph *g, ir_ref value, unsigned index, unsign
         if (ir_type_info(ir_type_of(g, args[i]))->components > 1)
             args[i] = component(g, args[i], index, depth - 1);
     }
-    uint32_t before = g->origin;
-    g->origin = node.origin;
+    ir_push_origin(g, node.origin);
     ir_ref built = ir_build(g, (enum ir_op)node.op, ir_type_info(node.type)->scalar, node.attr,
                             args, node.num_args);
-    g->origin = before;
+    ir_pop_origin(g);
     return built;
 }
 
@@ -480,14 +479,13 @@ static ir_ref closure_of(struct tree *t, ir_ref root)
         ir_get(t->graph, root)->op == IR_SURFACE_SHADER && !is_false(t, ir_arg(t->graph, root, 3));
     t->thin = is_thin ? ir_arg(t->graph, root, 3) : 0;
     uint8_t *needed = ir_mark(t->graph, &root, 1, t->shader->arena);
-    uint32_t before = t->graph->origin;
     for (ir_ref ref = 1; ref <= root; ref++) {
         if (!needed[ref] || !(ir_get(t->graph, ref)->flags & IR_NODE_CLOSURE))
             continue;
-        t->graph->origin = ir_get(t->graph, ref)->origin;
+        ir_push_origin_of(t->graph, ref);
         t->of[ref] = rewrite(t, ref);
+        ir_pop_origin(t->graph);
     }
-    t->graph->origin = before;
     return t->of[root];
 }
 
@@ -604,12 +602,11 @@ static bool emit_value(struct tree *t, ir_ref root)
 static ir_ref view(struct shader *shader)
 {
     struct ir_graph *g = shader->graph;
-    uint32_t before = g->origin;
-    g->origin = ir_add_origin(g, str_intern_z(shader->strings, "incident"), 0, 0);
+    ir_push_name(g, str_intern_z(shader->strings, "incident"));
     ir_ref way = ir_op1(g, IR_NORMALIZE, incident(shader));
-    g->origin = ir_add_origin(g, STR_V, 0, 0);
+    ir_change_name(g, STR_V);
     ir_ref view = ir_op1(g, IR_NEG, way);
-    g->origin = before;
+    ir_pop_origin(g);
     return view;
 }
 

@@ -346,6 +346,8 @@ static const char *tables_problem(const struct ir_graph *graph)
     for (uint32_t i = 1; i < graph->origins.len && !problem; i++)
         if (graph->origins.items[i].parent >= i)
             problem = "the parent of an origin is not older than the origin";
+    if (!problem && graph->outer_origins.len)
+        problem = "an origin was pushed and not popped";
     return problem;
 }
 

@@ -239,7 +239,8 @@ struct ir_graph {
     uint32_t table_mask;
     uint32_t *callee_table; /* the same over callee indices + 1 */
     uint32_t callee_mask;
-    uint32_t origin;    /* given to new nodes */
+    uint32_t origin;             /* of new nodes: ir_push_origin */
+    VEC(uint32_t) outer_origins; /* those below it on the stack */
     uint32_t max_nodes; /* 0 = unlimited; beyond it ->overflow is set and POISON returned */
     bool overflow;
     bool exact;   /* apply only rules that hold for every input, infinities and NaN included */
@@ -319,6 +320,36 @@ bool ir_get_const(const struct ir_graph *graph, ir_ref ref, struct ir_value *out
 bool ir_const_is(const struct ir_graph *graph, ir_ref ref, float f); /* all components equal f */
 
 uint32_t ir_add_origin(struct ir_graph *graph, str_id name, uint32_t element, uint32_t parent);
+/*
+ * New nodes have the origin on top of a stack, whose lowest is nothing. Each push has its pop in
+ * the same step of a generation.
+ */
+static inline void ir_push_origin(struct ir_graph *graph, uint32_t origin)
+{
+    assert(origin < graph->origins.len);
+    vec_push(graph->arena, &graph->outer_origins, graph->origin);
+    graph->origin = origin;
+}
+static inline void ir_pop_origin(struct ir_graph *graph)
+{
+    assert(graph->outer_origins.len > 0);
+    graph->origin = vec_pop(&graph->outer_origins);
+}
+/* a new origin that is only a name */
+static inline void ir_push_name(struct ir_graph *graph, str_id name)
+{
+    ir_push_origin(graph, ir_add_origin(graph, name, 0, 0));
+}
+/* another name in the place of the top */
+static inline void ir_change_name(struct ir_graph *graph, str_id name)
+{
+    ir_pop_origin(graph);
+    ir_push_name(graph, name);
+}
+static inline void ir_push_origin_of(struct ir_graph *graph, ir_ref ref)
+{
+    ir_push_origin(graph, ir_get(graph, ref)->origin);
+}
 /* the same number for an equal callee */
 uint32_t ir_add_callee(struct ir_graph *graph, struct ir_callee callee);
 uint32_t ir_add_struct(struct ir_graph *graph, str_id name, const struct ir_member *members,

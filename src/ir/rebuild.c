@@ -48,7 +48,6 @@ static void complete_function(struct rebuild *r, uint32_t index)
 static ir_ref copy_node(struct rebuild *r, ir_ref ref)
 {
     const struct ir_node *node = ir_get(&r->old, ref);
-    r->graph->origin = node->origin;
     if (node->op == IR_CONST)
         return ir_const_words(r->graph, node->type, ir_constant_words(&r->old, ref));
     if (node->op == IR_GRAPH_CALL)
@@ -66,6 +65,7 @@ const ir_ref *ir_rebuild(struct ir_graph *graph, const ir_ref *roots, uint32_t n
                          const struct ir_pass *pass, struct arena *arena)
 {
     struct rebuild r = {.graph = graph, .old = *graph, .pass = pass, .arena = arena};
+    assert(graph->outer_origins.len == 0);
     const uint8_t *needed = ir_mark(graph, roots, num_roots, arena);
     r.copies = ARENA_ARRAY(arena, ir_ref, graph->nodes.len);
     ir_graph_init(graph, r.old.arena, r.old.strings);
@@ -74,12 +74,13 @@ const ir_ref *ir_rebuild(struct ir_graph *graph, const ir_ref *roots, uint32_t n
     for (ir_ref ref = 1; ref < r.old.nodes.len; ref++) {
         if (!needed[ref])
             continue;
+        ir_push_origin(graph, ir_get(&r.old, ref)->origin);
         r.copies[ref] = copy_node(&r, ref);
+        ir_pop_origin(graph);
         assert(ir_type_of(graph, r.copies[ref]) == ir_type_of(&r.old, ref));
     }
     graph->no_fold = r.old.no_fold;
     graph->exact = r.old.exact;
-    graph->origin = r.old.origin;
     graph->max_nodes = r.old.max_nodes;
     graph->overflow = r.old.overflow;
     return r.copies;

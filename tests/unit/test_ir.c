@@ -232,9 +232,9 @@ static void test_sharing(void)
     REQUIRE_EQ(ir_op2(g, IR_ADD, x, ir_const_int(g, 1)), 0); /* types do not fit */
     REQUIRE_EQ(ir_op1(g, IR_NOT, x), 0);
 
-    g->origin = ir_add_origin(g, str_intern_z(&f.strings, "roughness"), 7, 0);
+    ir_push_origin(g, ir_add_origin(g, str_intern_z(&f.strings, "roughness"), 7, 0));
     ir_ref product = ir_op2(g, IR_MUL, x, y);
-    g->origin = 0;
+    ir_pop_origin(g);
     REQUIRE_EQ(ir_op2(g, IR_MUL, x, y), product);
     REQUIRE_EQ(g->origins.items[ir_get(g, product)->origin].element, 7);
 

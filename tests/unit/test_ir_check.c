@@ -30,6 +30,7 @@ enum part {
     FIRST_MEMBER,
     MEMBER,
     PARENT, /* of origin 1 */
+    PUSHED, /* an origin */
 };
 
 /* A function that is called, and one without results. */
@@ -113,6 +114,7 @@ static const struct {
     {TYPES, 0, FIRST_MEMBER, 9, "the members of a struct lie outside of the graph"},
     {TYPES, 0, MEMBER, IR_TYPE_FIRST_USER, "the type of a member is not older than the struct"},
     {"%1 = uniform float", 0, PARENT, 1, "the parent of an origin is not older than the origin"},
+    {"%1 = uniform float", 0, PUSHED, 1, "an origin was pushed and not popped"},
 };
 enum { NUM_CASES = sizeof cases / sizeof *cases };
 
@@ -146,6 +148,7 @@ static void damage(struct ir_graph *g, ir_ref ref, enum part part, uint32_t valu
         g->members.items[g->user_types.items[0].first_member].type = (ir_type_id)value;
         break;
     case PARENT: g->origins.items[1].parent = value; break;
+    case PUSHED: ir_push_origin(g, value); break;
     }
 }
 
