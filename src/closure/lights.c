@@ -101,14 +101,14 @@ void closure_sample_light(struct shader *shader, const struct closure_host *host
         else
             call_function(shader, host, light, results);
         ir_ref is_this = ir_op2(g, IR_EQ, type, ir_const_int(g, light->type));
-        ir_change_name(g, STR_L);
         out->direction = out->direction && out->direction != results[0]
                              ? ir_op3(g, IR_SELECT, is_this, results[0], out->direction)
                              : results[0];
-        ir_change_name(g, STR_light);
         out->intensity = ir_op3(g, IR_SELECT, is_this, results[1], out->intensity);
         ir_pop_origin(g);
     }
+    ir_suggest_name(g, out->direction, STR_L, IR_NAME_ROLE);
+    ir_suggest_name(g, out->intensity, STR_light, IR_NAME_ROLE);
 }
 
 static ir_ref distance_to(struct shader *shader, const struct closure_host *host, uint32_t position)

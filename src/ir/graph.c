@@ -120,6 +120,8 @@ void ir_graph_init(struct ir_graph *graph, struct arena *arena, struct strpool *
     *reserve_nodes(graph, FIRST_NODES) = (struct ir_node){.op = IR_POISON};
     *reserve_args(graph, 2 * FIRST_NODES) = 0; /* so that there is something to point to */
     graph->nodes.len = graph->args.len = 1;
+    vec_reserve(arena, &graph->labels, FIRST_NODES);
+    vec_push(arena, &graph->labels, (struct ir_label){0});
     vec_push(arena, &graph->words, (union ir_word){.u = 0});
     vec_push(arena, &graph->origins, (struct ir_origin){0});
     grow_table(graph);
@@ -228,6 +230,7 @@ static inline ir_ref add(struct ir_graph *graph, struct ir_node node, uint32_t *
     ir_ref ref = graph->nodes.len;
     *reserve_nodes(graph, 1) = node;
     graph->nodes.len++;
+    vec_push(graph->arena, &graph->labels, (struct ir_label){0});
     *slot = ref;
     if (ref >= graph->table_mask / 4 * 3)
         grow_table(graph);
@@ -240,8 +243,11 @@ ir_ref ir_intern(struct ir_graph *graph, enum ir_op op, ir_type_id type, uint32_
     assert(op != IR_CONST);
     struct content c = {op, type, attr, num_args, args};
     uint32_t *slot = find_slot(graph, c);
-    if (*slot)
+    if (*slot) {
+        bool is_other = graph->origin && ir_get(graph, *slot)->origin != graph->origin;
+        graph->labels.items[*slot].is_shared |= is_other;
         return *slot;
+    }
     if (!has_room(graph, op))
         return ir_poison(graph, type);
     struct ir_node node = {.op = (uint8_t)op,

@@ -181,6 +181,13 @@ enum ir_node_flags {
     IR_NODE_INHERITED = IR_NODE_DERIVATIVE | IR_NODE_LOOP | IR_NODE_DEAR | IR_NODE_PARTIAL
 };
 
+/* What readers call a node, which is no part of it: names.c. */
+struct ir_label {
+    str_id name;    /* 0 = nothing, or several things */
+    uint8_t rank;   /* enum ir_name_rank: of two names the one of the higher rank wins */
+    bool is_shared; /* more than one origin asked for the node */
+};
+
 /*
  * Where a node comes from: for names, comments and diagnostics. The IR carries it and does not look
  * inside.
@@ -226,6 +233,7 @@ struct ir_graph {
     /* [0] of both is unused; only graph.c writes to them */
     VEC(const struct ir_node) nodes;
     VEC(const ir_ref) args;
+    VEC(struct ir_label) labels; /* by node */
     /* [0] is unused; constant pool: as many as the type has components */
     VEC(union ir_word) words;
     VEC(struct ir_origin) origins; /* [0] is nothing */
@@ -318,6 +326,27 @@ static inline const union ir_word *ir_constant_words(const struct ir_graph *grap
 /* The value of such a constant; false for anything else. */
 bool ir_get_const(const struct ir_graph *graph, ir_ref ref, struct ir_value *out);
 bool ir_const_is(const struct ir_graph *graph, ir_ref ref, float f); /* all components equal f */
+
+/*
+ * names.c: names for the locals of a shader. A library function that is lowered inside of another
+ * one ranks lower by its depth. Of two document nodes with one result the first names it; a node
+ * that functions of one rank call by several names has none.
+ */
+enum ir_name_rank {
+    IR_NAME_NONE = 0,
+    IR_NAME_PARAMETER = 50, /* of a library function that takes the value */
+    IR_NAME_FUNCTION = 100, /* of a library function that returns the value */
+    IR_NAME_LOCAL = 150,    /* of a local variable of a library function */
+    IR_NAME_ROLE = 200,     /* what the compiler knows of it: a weight, a throughput */
+    IR_NAME_RESULT = 250,   /* of a document's node */
+    IR_NAME_MAX_DEPTH = 49, /* deeper functions rank as this */
+};
+void ir_suggest_name(struct ir_graph *graph, ir_ref ref, str_id name, unsigned rank);
+static inline const struct ir_label *ir_label(const struct ir_graph *graph, ir_ref ref)
+{
+    assert(ref < graph->labels.len);
+    return &graph->labels.items[ref];
+}
 
 uint32_t ir_add_origin(struct ir_graph *graph, str_id name, uint32_t element, uint32_t parent);
 /*

@@ -61,6 +61,18 @@ static ir_ref copy_node(struct rebuild *r, ir_ref ref)
     return r->pass->build(r->pass->user_data, r->graph, ref, node, r->args.items);
 }
 
+/* A copy that stands for one node has its label; several nodes suggest theirs. */
+static void label_copy(struct rebuild *r, ir_ref ref)
+{
+    const struct ir_label *old = ir_label(&r->old, ref);
+    struct ir_label *label = &r->graph->labels.items[r->copies[ref]];
+    if (!label->rank)
+        *label = (struct ir_label){old->name, old->rank, label->is_shared};
+    else if (old->name)
+        ir_suggest_name(r->graph, r->copies[ref], old->name, old->rank);
+    label->is_shared |= old->is_shared;
+}
+
 const ir_ref *ir_rebuild(struct ir_graph *graph, const ir_ref *roots, uint32_t num_roots,
                          const struct ir_pass *pass, struct arena *arena)
 {
@@ -77,6 +89,7 @@ const ir_ref *ir_rebuild(struct ir_graph *graph, const ir_ref *roots, uint32_t n
         ir_push_origin(graph, ir_get(&r.old, ref)->origin);
         r.copies[ref] = copy_node(&r, ref);
         ir_pop_origin(graph);
+        label_copy(&r, ref);
         assert(ir_type_of(graph, r.copies[ref]) == ir_type_of(&r.old, ref));
     }
     graph->no_fold = r.old.no_fold;
