@@ -166,8 +166,8 @@ struct ir_node {
     uint32_t num_args;
     uint32_t first_arg; /* in graph->args */
     uint32_t attr;
-    uint32_t origin; /* what the node was built for: index in graph->origins; 0 = nothing */
-    str_id name;     /* what a reader calls it (names.c); 0 = nothing, or several things */
+    uint32_t origin;   /* what the node was built for: index in graph->origins; 0 = nothing */
+    str_id name;       /* what a reader calls it (names.c); 0 = nothing, or several things */
     uint8_t name_rank; /* enum ir_name_rank; of two names the one of the higher rank wins */
     bool is_shared;    /* it was asked for by more than one origin */
 };
