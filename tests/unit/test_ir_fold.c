@@ -141,6 +141,11 @@ static const struct {
     {"sinh float 1.0", "1.1752012"},
     {"cosh float 1.0", "1.5430807"},
     {"tanh float 1.0", "0.7615942"},
+    {"asinh float 1.0", "0.8813736"},
+    {"acosh float 2.0", "1.316958"},
+    {"acosh float 0.5", "undefined"},
+    {"atanh float 0.5", "0.54930615"},
+    {"atanh float 1.0", "undefined"},
     /* exponentials */
     {"pow float 2.0, 0.5", "1.4142135"},
     {"pow vec2 vec2(0.5, 3.0), vec2(3.0, 2.0)", "vec2(0.125, 9.0)"},
