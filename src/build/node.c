@@ -66,7 +66,7 @@ const struct implementation *build_choose(struct builder *b, uint32_t nodedef, e
         diag_add(b->diags, DIAG_ID_missing_implementation, doc_place(&b->lib->doc, node),
                  build_text(b, def->name),
                  b->options->num_targets ? build_text(b, b->options->targets[0]) : "",
-                 "; write it as a <nodegraph> or <implementation> with this 'nodedef'");
+                 "; add a <nodegraph> or <implementation> with this 'nodedef'");
         diag_add(b->diags, DIAG_ID_defined_here, doc_place(&b->lib->doc, def->element),
                  build_text(b, def->name));
     }
@@ -275,11 +275,4 @@ uint32_t build_light_function(struct builder *b, uint32_t nodedef)
 {
     const struct implementation *impl = best_of(b, nodedef);
     return impl && impl->kind == IMPL_FUNCTION ? impl->ref : LIBRARY_NONE;
-}
-
-ir_ref build_light_shader(struct builder *b, uint32_t nodedef, elem_id where, const ir_ref *args)
-{
-    ir_ref result = 0;
-    build_apply(b, nodedef, where, args, &result);
-    return result && ir_get(b->graph, result)->op == IR_LIGHT_SHADER ? result : 0;
 }
