@@ -34,8 +34,6 @@ struct mxg_result {
     struct ir_graph graph;
     struct shader shader;
     struct stage_source stages[NUM_STAGES];
-    /* a recent line and its offset, because the next query is usually near */
-    _Atomic uint64_t line_hints[NUM_STAGES];
     struct network network; /* option osl-network: in the place of stages are lists of layers */
     struct network_group groups[2];
     uint32_t num_groups; /* 0: it is no network */

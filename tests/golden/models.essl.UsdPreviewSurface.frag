@@ -114,7 +114,7 @@ mx_GgxLobe mx_ggx_lobe(const vec2 roughness, const vec3 N, const vec3 X, const v
 // sphere; `area` is the product of the roughness along x and y.
 float mx_ggx_distribution(const vec3 e, const float area)
 {
-    return 1.0 / (3.1415927 * area * dot(e, e) * dot(e, e));
+    return 1.0 / (3.141593 * area * dot(e, e) * dot(e, e));
 }
 
 // Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v; half is left of the divisor of the
@@ -338,7 +338,7 @@ void main()
         if (diffuse_weight > 0.0)
             color += light * (reflection_product * (ggx_light * mx_fresnel_schlick(cosine, reflection_n, f90)));
         // diffuse
-        color += light * (max(dot(L, N), 1e-8) / 3.1415927 * diffuse_product);
+        color += light * (max(dot(L, N), 1e-8) / 3.141593 * diffuse_product);
     }
     // environment
     // coating

@@ -108,7 +108,7 @@ mx_GgxLobe mx_ggx_lobe(const vec2 roughness, const vec3 N, const vec3 X, const v
 // sphere; `area` is the product of the roughness along x and y.
 float mx_ggx_distribution(const vec3 e, const float area)
 {
-    return 1.0 / (3.1415927 * area * dot(e, e) * dot(e, e));
+    return 1.0 / (3.141593 * area * dot(e, e) * dot(e, e));
 }
 
 // Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v; half is left of the divisor of the
@@ -304,7 +304,7 @@ void main()
     float sheen_rough = SR_gltf_pbr_sheen_roughness * SR_gltf_pbr_sheen_roughness;
     float s = 1.0 / max(sheen_rough, 0.005);
     float coating_difference = 1.0 - SR_gltf_pbr_clearcoat
-        * (mix(0.040000003, 1.0, coating_albedo.y) * coating_albedo.x * coating_scale);
+        * (mix(0.04, 1.0, coating_albedo.y) * coating_albedo.x * coating_scale);
     vec3 fuzz_product = SR_gltf_pbr_sheen_color / sheen_weight * (sheen_weight * coating_difference);
     float metal_film_weight = SR_gltf_pbr_metallic * SR_gltf_pbr_iridescence;
     float alpha_bitangent = SR_gltf_pbr_roughness * SR_gltf_pbr_roughness;
@@ -370,7 +370,7 @@ void main()
         float cos_l = max(dot(L, Nf), 1e-8);
         if (sheen_weight > 0.0) {
             float cos_h = dot(H, Nf);
-            float fuzz_product_2 = cos_l * ((s + 2.0) * pow(max(1.0 - cos_h * cos_h, 0.0), s * 0.5) / 6.2831855);
+            float fuzz_product_2 = cos_l * ((s + 2.0) * pow(max(1.0 - cos_h * cos_h, 0.0), s * 0.5) / 6.283185);
             color += light * (fuzz_product_2 / ((cos_v + cos_l - cos_v * cos_l) * 4.0) * fuzz_product);
         }
         // metal_film
@@ -392,7 +392,7 @@ void main()
         if (reflection_weight > 0.0)
             color += light * (reflection_product * (ggx_light * mx_fresnel_schlick(cosine, n, f90)));
         // diffuse
-        color += light * (cos_l / 3.1415927 * diffuse_product);
+        color += light * (cos_l / 3.141593 * diffuse_product);
     }
     // environment
     // coating

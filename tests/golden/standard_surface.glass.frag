@@ -55,12 +55,11 @@ vec2 mx_ggx_albedo_fit(const float u, const float c)
 
 mx_GgxLobe mx_ggx_lobe_at(const mat3 frame, const vec3 v)
 {
-    float masking = sqrt(mix(v.z * v.z, 1.0, 9.999999e-9));
+    float masking = sqrt(mix(v.z * v.z, 1.0, 1e-8));
     float step_ = 1.0 / float(max(u_envRadianceSamples, 1));
     float weight = step_ * (v.z + masking);
-    return mx_GgxLobe(frame, vec3(0.0001, 0.0001, 1.0), 9.999999e-9, v, masking,
-        normalize(v * vec3(0.0001, 0.0001, 1.0)), step_, weight * u_envLightIntensity, weight * 9.999999e-9
-        * exp2(2.0 * float(u_envRadianceMips) - 2.3485));
+    return mx_GgxLobe(frame, vec3(0.0001, 0.0001, 1.0), 1e-8, v, masking, normalize(v * vec3(0.0001, 0.0001, 1.0)),
+        step_, weight * u_envLightIntensity, weight * 1e-8 * exp2(2.0 * float(u_envRadianceMips) - 2.3485));
 }
 
 // Axes of the tangent space around N with x along X: `w * frame` enters it, `frame * w` leaves it.
@@ -84,7 +83,7 @@ mx_GgxLobe mx_ggx_lobe(const vec3 N, const vec3 X, const vec3 V)
 // sphere; `area` is the product of the roughness along x and y.
 float mx_ggx_distribution(const vec3 e, const float area)
 {
-    return 1.0 / (3.1415927 * area * dot(e, e) * dot(e, e));
+    return 1.0 / (3.141593 * area * dot(e, e) * dot(e, e));
 }
 
 // Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v; half is left of the divisor of the
@@ -206,7 +205,7 @@ void main()
     // environment
     // reflection, refraction
     vec3 reflection_response_2 = scale * mx_ggx_gather_dielectric(lobe, 0.0);
-    float one_minus_ggx_reflectance = 1.0 - mix(0.042579994, 1.0, albedo.y) * albedo.x * scale;
+    float one_minus_ggx_reflectance = 1.0 - mix(0.04257999, 1.0, albedo.y) * albedo.x * scale;
     color += reflection_response_2 + one_minus_ggx_reflectance * mx_ggx_gather_dielectric(lobe, 1.52);
     out1 = vec4(color, 1.0);
 }

@@ -65,15 +65,15 @@ void main()
         vec3 light = u_lightData[i].color * (type == 1 ? intensity : point_light_choice);
         vec3 directional_light_to_light = -u_lightData[i].direction;
         float smoke_d = dot(V, type == 1 ? directional_light_to_light : to_light) * 0.8 + 1.16;
-        color += light * (0.84 / (smoke_d * 12.566371 * sqrt(smoke_d)) * smoke_product);
+        color += light * (0.84 / (smoke_d * 12.56637 * sqrt(smoke_d)) * smoke_product);
     }
     // environment
     // smoke
     if (one_minus_st_outx > 0.0) {
         vec3 environment_irradiance = textureLod(u_envIrradiance, mx_latlong(-V), 0.0).xyz * u_envLightIntensity;
         vec3 anisotropic_vdf_environment = mix(environment_irradiance, u_envLightIntensity
-            * textureLod(u_envIrradiance, mx_latlong(V), 0.0).xyz, 0.19999999) * 1.2;
+            * textureLod(u_envIrradiance, mx_latlong(V), 0.0).xyz, 0.2) * 1.2;
         color += path_blend * (one_minus_st_outx * depth_product) * anisotropic_vdf_environment;
     }
-    out1 = vec4(color, dot(lost_difference, vec3(0.3333333)));
+    out1 = vec4(color, dot(lost_difference, vec3(0.33333334)));
 }
