@@ -466,7 +466,7 @@ struct lang_style {
     const struct lang_syntax *syntax;
     struct arena *arena;
 <<<<<<< HEAD
-    bool from_images;  /* functions are taken from there, where they are */
+    bool from_images; /* functions are taken from there, where they are */
 =======
     bool from_images; /* functions are taken from there, where they are */
 >>>>>>> refs/heads/simplify
