@@ -5,24 +5,13 @@
 
 #include "closure/closure.h"
 
-/*
- * Calls one function of a leaf's family with the inputs of the leaf; 0 if the family does not have
- * it. `light` gives L for LEAF_EVAL; view direction, normal and position are those of the shaded
- * point.
- */
-ir_ref closure_call(struct shader *shader, const struct closure_host *host, ir_ref leaf,
-                    enum leaf_function which, const ir_ref *light);
-
 /* The shaded point. */
 ir_ref closure_position(struct shader *shader, const struct closure_host *host);
 
 /* Its unit normal. */
 ir_ref closure_normal(struct shader *shader, const struct closure_host *host);
 
-/* Unit direction to the viewer. */
-ir_ref closure_view(struct shader *shader, const struct closure_host *host);
-
-/* The same for functions with several results; false if the family does not have it. */
+/* The same for functions that give several values; false where the family has none. */
 bool closure_call_all(struct shader *shader, const struct closure_host *host, ir_ref leaf,
                       enum leaf_function which, const ir_ref *light, ir_ref *results);
 
@@ -75,9 +64,6 @@ struct closure_lit {
     struct closure_parts at[NUM_PLACES];
 };
 
-/* displacement.c: the offset vector of a displacement shader; 0: no displacement. */
-ir_ref closure_offset(struct shader *shader, ir_ref displacement);
-
 /*
  * displacement.c: moves the shaded point and the vertices, and returns the surface with the
  * displaced normal. Either may be 0.
@@ -97,19 +83,7 @@ ir_ref closure_mul(struct ir_graph *graph, ir_ref a, ir_ref b);
 ir_ref closure_product(struct ir_graph *graph, ir_ref value, ir_ref weight);
 /* guard.c: finds the parts that need a branch. in_loop: considers only code inside the loop. */
 void closure_find_guarded(struct shader *shader, struct closure_parts *list, bool in_loop);
-ir_ref closure_one_minus(struct ir_graph *graph, ir_ref a);
-
-/*
- * fresnel.c: an interface with Schlick's colours, a conductor (`extinction`), or a dielectric; 0:
- * no such input.
- */
-struct closure_interface {
-    ir_ref color0, color90, exponent, ior, extinction;
-};
-/* The ratio of its reflectance at a cosine to its reflectance at normal incidence. */
-ir_ref closure_fresnel_rise(struct ir_graph *graph, const struct closure_interface *of,
-                            ir_ref cosine);
-/* Mixes two closures of one type; 0 is an absent closure. */
+/* Two closures of one type, either of which may be 0: none. */
 ir_ref closure_mixed(struct ir_graph *graph, ir_ref bg, ir_ref fg, ir_ref mix);
 
 /* Names a value after its role for a leaf or operator: "coat_weight" of the leaf "coat". */

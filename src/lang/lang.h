@@ -465,11 +465,7 @@ struct lang_pieces {
 struct lang_style {
     const struct lang_syntax *syntax;
     struct arena *arena;
-<<<<<<< HEAD
     bool from_images; /* functions are taken from there, where they are */
-=======
-    bool from_images; /* functions are taken from there, where they are */
->>>>>>> refs/heads/simplify
     struct text_word types[IR_NUM_TYPES];
     struct lang_pieces *forms[IR_NUM_OPS]; /* each is made when it is first asked for */
 };
@@ -502,6 +498,8 @@ struct lang_use {
  */
 struct lang_names {
     void *user_data;
+    /* Told of each built-in type whose name is written; may be NULL. */
+    void (*type)(void *user_data, ir_type_id type);
     const char *(*function)(void *user_data, uint32_t id);
     const char *(*global)(void *user_data, uint32_t id);
     const char *(*user_type)(void *user_data, ir_type_id type);

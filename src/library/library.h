@@ -45,9 +45,10 @@ enum impl_kind {
     IMPL_FUNCTION,   /* ref: lang function id */
     IMPL_FAMILY,     /* ref: index of the leaf family */
     IMPL_GRAPH,      /* ref: element of the nodegraph */
-    IMPL_DYNAMIC,    /* C code for the node's name builds it */
-    IMPL_VERBATIM,   /* ref: verbatim source */
-    /* its diagnostics are deferred: [ref, ref + count) of the layer's deferred list */
+    /* built by C code, chosen by the node's name, or by `ref` where that is chosen_input */
+    IMPL_DYNAMIC,
+    IMPL_VERBATIM, /* ref: verbatim source */
+    /* its diagnostics were deferred: [ref, ref + count) of the layer's deferred list */
     IMPL_BROKEN,
 };
 

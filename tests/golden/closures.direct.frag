@@ -71,7 +71,7 @@ mx_GgxLobe mx_ggx_lobe(const vec3 N, const vec3 X, const vec3 V)
 // sphere; `area` is the product of the roughness along x and y.
 float mx_ggx_distribution(const vec3 e, const float area)
 {
-    return 1.0 / (3.141593 * area * dot(e, e) * dot(e, e));
+    return 1.0 / (3.1415927 * area * dot(e, e) * dot(e, e));
 }
 
 // Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v; half is left of the divisor of the
@@ -108,7 +108,7 @@ void main()
     float ggx_compensation = (1.0 / albedo.x - 1.0) * 0.079748526 + 1.0;
     vec3 facing = faceforward(N, -V, N);
     mx_GgxLobe coat_ggx_lobe = mx_ggx_lobe(facing, normalize(vd.tangentWorld), V);
-    vec3 scaled_paint_weight = (1.0 - mix(0.03373595, 1.0, albedo.y) * albedo.x * ggx_compensation) * 0.75
+    vec3 scaled_paint_weight = (1.0 - mix(0.033735953, 1.0, albedo.y) * albedo.x * ggx_compensation) * 0.75
         * vec3(0.6, 0.1, 0.05);
     for (int i = 0; i < min(u_numActiveLightSources, 1); ++i) {
         // coat, paint
@@ -118,7 +118,7 @@ void main()
         float fresnel = mx_fresnel_dielectric(clamp(dot(V, H), 1e-8, 1.0));
         float cos_l = max(dot(L, facing), 1e-8);
         vec3 paint_response = scaled_paint_weight
-            * (cos_l / 3.141593 * (max(dot(V, L) - cos_v * cos_l, 0.0) * 0.225 / max(cos_l, cos_v) + 0.89285713));
+            * (cos_l / 3.1415927 * (max(dot(V, L) - cos_v * cos_l, 0.0) * 0.225 / max(cos_l, cos_v) + 0.89285713));
         vec3 sum = ggx_compensation * mx_ggx_light(coat_ggx_lobe, L, H) * fresnel + paint_response;
         color += u_lightData[i].color * (u_lightData[i].type == 1 ? intensity : 0.0) * sum;
     }

@@ -76,7 +76,7 @@ mx_GgxLobe mx_ggx_lobe(const vec3 N, const vec3 X, const vec3 V)
 // sphere; `area` is the product of the roughness along x and y.
 float mx_ggx_distribution(const vec3 e, const float area)
 {
-    return 1.0 / (3.141593 * area * dot(e, e) * dot(e, e));
+    return 1.0 / (3.1415927 * area * dot(e, e) * dot(e, e));
 }
 
 // Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v; half is left of the divisor of the
@@ -135,7 +135,7 @@ void main()
     float scale = (1.0 / coat_albedo.x - 1.0) * 0.079748526 + 1.0;
     vec3 h = faceforward(N, -V, N);
     mx_GgxLobe coat_ggx_lobe = mx_ggx_lobe(h, normalize(vd.tangentWorld), V);
-    float coat_throughput = 1.0 - mix(0.03373595, 1.0, coat_albedo.y) * coat_albedo.x * scale;
+    float coat_throughput = 1.0 - mix(0.033735953, 1.0, coat_albedo.y) * coat_albedo.x * scale;
     for (int i = 0; i < min(u_numActiveLightSources, 1); ++i) {
         // coat, paint
         float intensity = u_lightData[i].intensity;
@@ -146,10 +146,10 @@ void main()
         vec2 coat_albedo_2 = mx_ggx_albedo_fit(0.04 / (c + 0.04), c);
         float ggx_compensation = (1.0 / coat_albedo_2.x - 1.0) * 0.079748526 + 1.0;
         float cos_l = max(dot(L, h), 1e-8);
-        float paint_product = cos_l / 3.141593
+        float paint_product = cos_l / 3.1415927
             * (max(dot(V, L) - cos_v * cos_l, 0.0) * 0.225 / max(cos_l, cos_v) + 0.89285713);
         vec3 paint_response = coat_throughput
-            * (1.0 - mix(0.03373595, 1.0, coat_albedo_2.y) * coat_albedo_2.x * ggx_compensation) * 0.75 * paint_product
+            * (1.0 - mix(0.033735953, 1.0, coat_albedo_2.y) * coat_albedo_2.x * ggx_compensation) * 0.75 * paint_product
             * vec3(0.6, 0.1, 0.05);
         vec3 sum = scale * mx_ggx_light(coat_ggx_lobe, L, H) * fresnel + paint_response;
         color += u_lightData[i].color * (u_lightData[i].type == 1 ? intensity : 0.0) * sum;

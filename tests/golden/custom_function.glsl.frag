@@ -9,8 +9,8 @@ out vec4 out1;
 
 vec2 wave(const float x, const float frequency)
 {
-    float phase = 6.283185 * frequency * x;
-    return vec2(sin(phase), 6.283185 * frequency * cos(phase)) / frequency;
+    float phase = 6.2831855 * frequency * x;
+    return vec2(sin(phase), 6.2831855 * frequency * cos(phase)) / frequency;
 }
 
 void waves(const vec2 uv, const int count, out float height, out float slope)

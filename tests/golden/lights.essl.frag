@@ -38,7 +38,7 @@ void main()
         vec3 point_light_product = u_lightData[i].color * (u_lightData[i].type == 2 ? point_light_ratio : 0.0);
         vec3 bulb_ratio = d / magnitude_d;
         vec3 to_light = normalize(d);
-        float bsdf_response = max(dot(bulb_is_equal ? bulb_ratio : to_light, bsdf_facing), 1e-8) / 3.141593 * 0.8;
+        float bsdf_response = max(dot(bulb_is_equal ? bulb_ratio : to_light, bsdf_facing), 1e-8) / 3.1415927 * 0.8;
         color += (bulb_is_equal ? bulb_product : point_light_product) * bsdf_response;
     }
     // opacity

@@ -108,7 +108,7 @@ mx_GgxLobe mx_ggx_lobe(const vec2 roughness, const vec3 N, const vec3 X, const v
 // sphere; `area` is the product of the roughness along x and y.
 float mx_ggx_distribution(const vec3 e, const float area)
 {
-    return 1.0 / (3.141593 * area * dot(e, e) * dot(e, e));
+    return 1.0 / (3.1415927 * area * dot(e, e) * dot(e, e));
 }
 
 // Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v; half is left of the divisor of the
@@ -341,8 +341,8 @@ void main()
     vec3 reflection_scale = difference * mix(mx_fresnel_schlick(1.0, n, f90), f90, 0.04761905) + vec3(1.0);
     vec3 reflection_product = reflection_scale * (substrate_weight * reflection_weight);
     vec3 product = mix(n, f90, albedo.y) * albedo.x;
-    float reflection_throughput = 1.0 - dot(product * reflection_scale, vec3(0.3333333));
-    float body_weight = mix(reflection_throughput, 1.0 - dot(product * reflection_film_scale, vec3(0.3333333)),
+    float reflection_throughput = 1.0 - dot(product * reflection_scale, vec3(0.33333334));
+    float body_weight = mix(reflection_throughput, 1.0 - dot(product * reflection_film_scale, vec3(0.33333334)),
         SR_gltf_pbr_iridescence) * substrate_weight;
     vec3 diffuse_product = SR_gltf_pbr_base_color
         * (body_weight * (dielectric_weight * (1.0 - SR_gltf_pbr_transmission)));
@@ -370,7 +370,7 @@ void main()
         float cos_l = max(dot(L, Nf), 1e-8);
         if (sheen_weight > 0.0) {
             float cos_h = dot(H, Nf);
-            float fuzz_product_2 = cos_l * ((s + 2.0) * pow(max(1.0 - cos_h * cos_h, 0.0), s * 0.5) / 6.283185);
+            float fuzz_product_2 = cos_l * ((s + 2.0) * pow(max(1.0 - cos_h * cos_h, 0.0), s * 0.5) / 6.2831855);
             color += light * (fuzz_product_2 / ((cos_v + cos_l - cos_v * cos_l) * 4.0) * fuzz_product);
         }
         // metal_film
@@ -392,7 +392,7 @@ void main()
         if (reflection_weight > 0.0)
             color += light * (reflection_product * (ggx_light * mx_fresnel_schlick(cosine, n, f90)));
         // diffuse
-        color += light * (cos_l / 3.141593 * diffuse_product);
+        color += light * (cos_l / 3.1415927 * diffuse_product);
     }
     // environment
     // coating

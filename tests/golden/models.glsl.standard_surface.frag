@@ -145,7 +145,7 @@ mx_GgxLobe mx_ggx_lobe(const vec2 roughness, const vec3 N, const vec3 X, const v
 // sphere; `area` is the product of the roughness along x and y.
 float mx_ggx_distribution(const vec3 e, const float area)
 {
-    return 1.0 / (3.141593 * area * dot(e, e) * dot(e, e));
+    return 1.0 / (3.1415927 * area * dot(e, e) * dot(e, e));
 }
 
 // Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v; half is left of the divisor of the
@@ -272,14 +272,14 @@ vec3 mx_subsurface_light(const vec3 falloff, const float cos_l)
     float theta = acos(cos_l);
     vec3 light = vec3(0.0);
     vec3 sum = vec3(0.0);
-    for (float x = -3.043418; x < 3.141593; x += 0.19634955) {
+    for (float x = -3.043418; x < 3.1415927; x += 0.19634955) {
         float d = abs(sin(0.5 * x));
         vec3 e = exp(falloff * d);
         vec3 profile = (e + e * e * e) / d;
         light += profile * max(cos(theta + x), 0.0);
         sum += profile;
     }
-    return light / (3.141593 * sum);
+    return light / (3.1415927 * sum);
 }
 
 // Where the light from a direction of the world lies in the environment's picture.
@@ -485,12 +485,12 @@ void main()
             color += light * (mx_subsurface_light(subsurface_falloff, l_dot_nf) * scatter_product);
         // fuzz, translucent, diffuse
         float cos_l = max(l_dot_nf, 1e-8);
-        float diffuse_product = cos_l / 3.141593
+        float diffuse_product = cos_l / 3.1415927
             * (ab.x + ab.y * max(dot(V, L) - cos_v * cos_l, 0.0) / max(cos_l, cos_v));
         float cos_h = dot(H, Nf);
-        float fuzz_product_2 = cos_l * ((s + 2.0) * pow(max(1.0 - cos_h * cos_h, 0.0), s * 0.5) / 6.283185);
+        float fuzz_product_2 = cos_l * ((s + 2.0) * pow(max(1.0 - cos_h * cos_h, 0.0), s * 0.5) / 6.2831855);
         vec3 fuzz_response = fuzz_product_2 / ((cos_v + cos_l - cos_v * cos_l) * 4.0) * fuzz_product;
-        vec3 sum = fuzz_response + max(-l_dot_nf, 0.0) / 3.141593 * translucent_product;
+        vec3 sum = fuzz_response + max(-l_dot_nf, 0.0) / 3.1415927 * translucent_product;
         color += light * (diffuse_color * diffuse_weight * diffuse_product + sum);
     }
     // environment

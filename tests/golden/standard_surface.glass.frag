@@ -83,7 +83,7 @@ mx_GgxLobe mx_ggx_lobe(const vec3 N, const vec3 X, const vec3 V)
 // sphere; `area` is the product of the roughness along x and y.
 float mx_ggx_distribution(const vec3 e, const float area)
 {
-    return 1.0 / (3.141593 * area * dot(e, e) * dot(e, e));
+    return 1.0 / (3.1415927 * area * dot(e, e) * dot(e, e));
 }
 
 // Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v; half is left of the divisor of the
@@ -205,7 +205,7 @@ void main()
     // environment
     // reflection, refraction
     vec3 reflection_response_2 = scale * mx_ggx_gather_dielectric(lobe, 0.0);
-    float one_minus_ggx_reflectance = 1.0 - mix(0.04257999, 1.0, albedo.y) * albedo.x * scale;
+    float one_minus_ggx_reflectance = 1.0 - mix(0.042579994, 1.0, albedo.y) * albedo.x * scale;
     color += reflection_response_2 + one_minus_ggx_reflectance * mx_ggx_gather_dielectric(lobe, 1.52);
     out1 = vec4(color, 1.0);
 }

@@ -65,7 +65,7 @@ void main()
         vec3 light = u_lightData[i].color * (type == 1 ? intensity : point_light_choice);
         vec3 directional_light_to_light = -u_lightData[i].direction;
         float smoke_d = dot(V, type == 1 ? directional_light_to_light : to_light) * 0.8 + 1.16;
-        color += light * (0.84 / (smoke_d * 12.56637 * sqrt(smoke_d)) * smoke_product);
+        color += light * (0.84 / (smoke_d * 12.566371 * sqrt(smoke_d)) * smoke_product);
     }
     // environment
     // smoke
