@@ -188,6 +188,8 @@ static void write_stage(struct spell *spell, enum shader_stage_id stage)
     spell_text(spell, "\n\n");
     write_declarations(&osl);
     text_mem(out, types.data, types.len);
+    spell->verbatim_begin += out->len;
+    spell->verbatim_end += out->len;
     text_mem(out, functions.data, functions.len);
     for (uint32_t i = 0; i < spell->marks.len; i++)
         spell->marks.items[i].at += out->len;

@@ -54,7 +54,7 @@ static bool check_network(struct generation *g)
     if (g->result->target->network || !g->options[OPTION_network].number)
         return true;
     text_init(&possible, &g->scratch);
-    text_str(&possible, "false: only");
+    text_str(&possible, "false; only the target");
     for (const struct target *const *target = targets; *target; target++)
         if ((*target)->network)
             text_fmt(&possible, " '%s'", (*target)->name);
@@ -191,7 +191,7 @@ void generation_report_not_renderable(struct generation *g, const char *why)
     struct text unknown;
     text_init(&unknown, &g->scratch);
     if (g->unknown_leaf) {
-        text_fmt(&unknown, "%s has no closure for '%s', and functions cannot stand for one",
+        text_fmt(&unknown, "%s has no closure for '%s', and a function cannot replace it",
                  g->result->target->name, str_text(doc->strings, g->unknown_leaf));
         why = text_cstr(&unknown);
     }
@@ -199,7 +199,7 @@ void generation_report_not_renderable(struct generation *g, const char *why)
              str_text(doc->strings, doc_element(doc, g->element)->name), why);
 }
 
-static const char gives_nothing[] = "it gives no surface, volume, light or colour";
+static const char gives_nothing[] = "it is not a surface, volume, light or colour";
 
 /* Whether work may go on: not cancelled, within limits, nothing reported. */
 static bool is_good(struct generation *g)
@@ -304,7 +304,7 @@ bool generation_emit(struct generation *g)
         return is_good(g);
     if (!emit(g))
         generation_report_not_renderable(g, g->result->shader.scatters
-                                                ? "a path tracer is given surfaces and values only"
+                                                ? "a path tracer draws only surfaces and values"
                                                 : gives_nothing);
     return is_good(g);
 }

@@ -143,7 +143,7 @@ static bool stands_alone(const struct library *layer, const struct nodedef *def)
 /* The definitions of light shaders, for a message. */
 static void put_lights(const struct builder *b, struct text *out)
 {
-    const char *separator = "; known are: ";
+    const char *separator = "; expected one of: ";
     for (const struct library *layer = b->lib; layer; layer = layer->base)
         for (uint32_t i = 0; i < layer->nodedefs.len; i++) {
             const struct nodedef *def = &layer->nodedefs.items[i];
@@ -168,7 +168,7 @@ static const char *light_hint(struct builder *b, const char *item, size_t len)
     const char *node = str_text(doc->strings, doc_element(doc, element)->category);
     text_fmt(&hint,
              strcmp(node, "light") == 0 ? "; the node has no EDF"
-                                        : "; bind '%s', and let the host set its members",
+                                        : "; bind '%s' and let the host set its members",
              node);
     return text_cstr(&hint);
 }
@@ -190,7 +190,7 @@ static bool number_of(struct builder *b, const char *item, int64_t next, int32_t
     bool is_number = !sign || (len && num_parse_int(number, len, &type) == len);
     const char *expected = !is_number || type < INT32_MIN || type > INT32_MAX ? "'node=number'"
                            : has_light(b->shader, (int32_t)type)
-                               ? "a number that no other light has"
+                               ? "a number that no other light uses"
                                : NULL;
     if (expected)
         diag_add(b->diags, DIAG_ID_bad_option, nowhere, item, "lights", expected);

@@ -86,4 +86,7 @@ void closure_find_guarded(struct shader *shader, struct closure_parts *list, boo
 /* Two closures of one type, either of which may be 0: none. */
 ir_ref closure_mixed(struct ir_graph *graph, ir_ref bg, ir_ref fg, ir_ref mix);
 
+/* Names a value after its part for a leaf or operator: "coat_weight" of the leaf "coat". */
+void closure_name(struct shader *shader, ir_ref value, ir_ref closure, const char *role);
+
 #endif

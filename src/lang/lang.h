@@ -99,6 +99,7 @@ enum lang_function_flags {
 
 struct lang_function {
     str_id name;
+    str_id doc; /* the first sentence of the comment above it; 0: none */
     uint16_t flags;
     ir_type_id return_type;
     uint16_t num_params, num_slots; /* parameters come first among the slots */

@@ -159,6 +159,32 @@ static void find_offsets(struct lower *lo, struct lower_frame *frame, struct few
     frame->offsets = offsets;
 }
 
+void lower_name(struct lower *lo, ir_type_id type, ir_ref first_leaf, str_id name,
+                enum ir_name_rank rank)
+{
+    ir_ref value = first_leaf;
+    if (value && ast_is_user_type(type)) {
+        const struct ir_node *part = ir_get(lo->graph, value);
+        value = part->op == IR_MEMBER || part->op == IR_INDEX ? ir_arg(lo->graph, value, 0) : 0;
+    }
+    unsigned depth = lo->depth < IR_NAME_MAX_DEPTH ? lo->depth : IR_NAME_MAX_DEPTH;
+    if (value)
+        ir_suggest_name(lo->graph, value, name, rank - depth);
+}
+
+void lower_name_slot(struct lower *lo, uint32_t slot, enum ir_name_rank rank)
+{
+    const struct lower_frame *frame = lo->frame;
+    const struct lang_slot *named = &frame->layer->slots.items[frame->fn->first_slot + slot];
+    lower_name(lo, named->type, frame->leaves[frame->offsets[slot]], named->name, rank);
+}
+
+static void name_parameters(struct lower *lo)
+{
+    for (uint32_t i = 0; i < lo->frame->fn->num_params; i++)
+        lower_name_slot(lo, i, IR_NAME_PARAMETER);
+}
+
 static void open_frame(struct lower *lo, struct lower_frame *frame, const ir_ref *in,
                        struct few *few)
 {
@@ -269,13 +295,17 @@ static bool lower_inline(struct lower *lo, uint32_t id, const ir_ref *in, ir_ref
     struct few few;
     open_frame(lo, &frame, in, &few);
     lo->frame = &frame;
+    name_parameters(lo);
     lo->depth++;
     lower_statements(lo, lower_node(lo, frame.fn->body)->a);
     lo->depth--;
     lo->frame = caller;
     bool done = !lo->failed;
-    if (done)
+    if (done) {
         collect_results(&frame, out);
+        if (frame.fn->return_type != IR_TYPE_VOID && frame.fn->name)
+            lower_name(lo, frame.fn->return_type, out[0], frame.fn->name, IR_NAME_FUNCTION);
+    }
     lo->failed = false;
     lo->max_graph_nodes = max_graph_nodes;
     return done;

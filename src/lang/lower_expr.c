@@ -279,10 +279,11 @@ void lower_assign(struct lower *lo, lang_ref target, const ir_ref *leaves)
     const struct lang_node *node = lower_node(lo, target);
     if (lo->failed)
         return;
-    if (node->kind == LANG_VAR)
+    if (node->kind == LANG_VAR) {
         copy_leaves(leaves, lower_leaves(lo, node->type),
                     lo->frame->leaves + lo->frame->offsets[node->a]);
-    else if (ast_is_user_type(lower_node(lo, node->a)->type))
+        lower_name_slot(lo, node->a, IR_NAME_LOCAL);
+    } else if (ast_is_user_type(lower_node(lo, node->a)->type))
         assign_part(lo, node, leaves);
     else
         assign_element(lo, node, value_of(lo, leaves[0], node->type));
