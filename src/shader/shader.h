@@ -12,7 +12,7 @@
 #include "ir/ir.h"
 #include "lang/lang.h"
 
-/* Blocks of the ShaderX convention (design section 8). */
+/* Blocks of the ShaderX convention; docs/reflection.md tells of their contents. */
 enum shader_block {
     BLOCK_PUBLIC_UNIFORMS,
     BLOCK_PRIVATE_UNIFORMS,
