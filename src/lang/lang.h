@@ -498,6 +498,8 @@ struct lang_use {
  */
 struct lang_names {
     void *user_data;
+    /* Told of each built-in type whose name is written; may be NULL. */
+    void (*type)(void *user_data, ir_type_id type);
     const char *(*function)(void *user_data, uint32_t id);
     const char *(*global)(void *user_data, uint32_t id);
     const char *(*user_type)(void *user_data, ir_type_id type);

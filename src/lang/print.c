@@ -151,12 +151,6 @@ static void print_member(struct printer *p, const struct lang_node *node)
              str_text(p->unit->strings, layer->members.items[user->first_member + node->b].name));
 }
 
-static void print_type_name(struct printer *p, ir_type_id type)
-{
-    if (!ast_is_user_type(type))
-        text_put(p->out, p->style->types[type]);
-}
-
 /* A constant beside a vector is written as a vector where the style spreads constants (style.c). */
 static inline void print_operand(struct printer *p, const struct lang_node *operand,
                                  ir_type_id wide, enum lang_precedence least)
@@ -165,7 +159,7 @@ static inline void print_operand(struct printer *p, const struct lang_node *oper
         print_expression(p, operand, least);
         return;
     }
-    print_type_name(p, wide);
+    print_type_name(p->style, p->names, wide, p->out);
     text_char(p->out, '(');
     print_expression(p, operand, LANG_PREC_ASSIGN);
     text_char(p->out, ')');
@@ -181,7 +175,7 @@ static void print_form(struct printer *p, const struct lang_pieces *form, ir_typ
         if (piece->before.len)
             text_put(p->out, piece->before);
         if (piece->index == LANG_PIECE_TYPE)
-            print_type_name(p, type);
+            lang_print_type(p->style, p->names, p->unit, type, p->out);
         else
             print_operand(p, operands[piece->index], wide, (enum lang_precedence)piece->least);
     }
@@ -583,6 +577,19 @@ static void print_param(struct printer *p, uint32_t slot)
     text_str(p->out, "_in");
 }
 
+/* Arrays cannot be macros. */
+static void print_constant_arrays(struct printer *p)
+{
+    for (uint32_t i = 0; p->style->syntax->defines_constants && i < p->fn->num_globals; i++) {
+        uint32_t id = p->layer->refs.items[p->fn->first_global + i];
+        const struct lang_global *global = lang_global(p->unit, id, NULL);
+        if (!ast_is_user_type(global->type) || !global->num_words)
+            continue;
+        text_str(p->out, "    ");
+        lang_print_constant(p->style, p->names, p->unit, id, p->out);
+    }
+}
+
 static void print_copies(struct printer *p)
 {
     for (uint32_t i = 0; i < p->fn->num_params; i++) {
@@ -618,6 +625,7 @@ void lang_print_function(struct lang_style *style, const struct lang_names *name
     struct printer p = start(style, names, unit, id, out);
     print_head(&p, id);
     text_str(out, "\n{\n");
+    print_constant_arrays(&p);
     print_copies(&p);
     print_body(&p, node_at(&p, p.fn->body));
     text_str(out, "}\n");

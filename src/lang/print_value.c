@@ -41,7 +41,7 @@ void print_base_type(const struct lang_style *style, const struct lang_names *na
     if (ast_is_user_type(type))
         text_str(out, print_struct_name(names, unit, type));
     else
-        text_put(out, style->types[type]);
+        print_type_name(style, names, type, out);
 }
 
 void print_lengths(const struct lang_unit *unit, ir_type_id type, struct text *out)
@@ -83,10 +83,8 @@ enum { SHORT_FLOAT = 7 }; /* characters of a number that cannot be shortened */
  */
 static float shortened(float f)
 {
-    int exponent;
-    frexpf(f, &exponent);
     double scale = 1.0;
-    for (int digits = 5 - (int)floor(exponent * 0.30103); digits > 0; digits--)
+    for (int digits = 5 - (int)floor(log10(fabs((double)f))); digits > 0; digits--)
         scale *= 10.0;
     double rounded = round((double)f * scale) / scale;
     float near = (float)rounded;

@@ -107,6 +107,12 @@ struct spell_name spell_call_base(struct spell *spell, ir_ref call);
 /* What a local is called, before names_unique; its operands have their names already. */
 struct spell_name spell_local_base(struct spell *spell, ir_ref ref);
 
+/* The name of a portable function, which the text at hand calls. */
+static inline const char *spell_function_name(const struct spell *spell, uint32_t function)
+{
+    return spell->lang_names.function(spell->lang_names.user_data, function);
+}
+
 /* ---- statement.c ---- */
 
 /* Statements with the given indentation, which name their locals in a new scope. */
