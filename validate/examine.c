@@ -229,19 +229,6 @@ static void validate(struct examiner *examiner, const mxg_document *document)
     examiner->document->validate_ms = examine_clock() - begin;
 }
 
-/*
- * Of a generation of which nobody reads more than messages: what tells its equals. 0: nothing does,
- * or it must be made.
- */
-static uint64_t find_structure(const struct examiner *examiner, const mxg_document *document,
-                               const mxg_generate_desc *desc)
-{
-    uint64_t structure = 0;
-    if (desc->only_diagnostics && !examiner->no_sharing)
-        mxg_document_structure(examiner->cli->context, document, desc, &structure);
-    return structure;
-}
-
 static void generate(struct examiner *examiner, const mxg_document *document, const char *element,
                      struct check_shader *shader)
 {
@@ -256,16 +243,11 @@ static void generate(struct examiner *examiner, const mxg_document *document, co
     desc.only_diagnostics = desc.without_source && !examiner->render;
     mxg_result *result = NULL;
     channel_mark(&examiner->channel, CHECK_GENERATE, element, shader->target);
-    uint64_t structure = find_structure(examiner, document, &desc);
-    if (structures_have(&examiner->structures, structure))
-        return;
     mxg_status status = mxg_generate(examiner->cli->context, document, &desc, &result);
     add_diagnostics(examiner, mxg_result_diagnostics(result), shader, element);
     add_status(examiner, status, shader, element);
     if (status != MXG_OK)
         check_fail(&shader->failed, CHECK_GENERATE);
-    else if (mxg_diagnostics_count(mxg_result_diagnostics(result)) == 0)
-        structures_add(&examiner->structures, structure);
     shader->generate_ms = examine_clock() - begin;
     if (status == MXG_OK)
         examine_shader(examiner, result, shader, element);
@@ -318,7 +300,6 @@ const struct check_document *examine(struct examiner *examiner, const char *path
 void examiner_finish(struct examiner *examiner)
 {
     store_finish(&examiner->store);
-    structures_finish(&examiner->structures);
     if (examiner->is_compiler_ready)
         compile_end();
     if (examiner->folder)

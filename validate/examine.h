@@ -5,7 +5,6 @@
 
 #include "cli/check/protocol.h"
 #include "cli/cli.h"
-#include "validate/structures.h"
 
 struct examiner {
     struct cli *cli;
@@ -14,8 +13,6 @@ struct examiner {
     struct channel channel;
     bool is_brief;    /* nobody asks for measures */
     bool errors_only; /* nobody reads how other messages are printed */
-    bool no_sharing;  /* every element is generated, whatever was before */
-    struct structures structures;
 
     struct store store; /* of the document at hand */
     struct check_document *document;

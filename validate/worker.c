@@ -69,7 +69,6 @@ int main(int argc, char **argv)
         {"target", 't', ARG_LIST, "T", "a target", &examiner.targets},
         {"no-compile", 0, ARG_FLAG, NULL, "generates only", &no_compile},
         {"render", 0, ARG_FLAG, NULL, "draws every element", &examiner.render},
-        {"no-sharing", 0, ARG_FLAG, NULL, "generates every element", &examiner.no_sharing},
     };
     int code;
     if (cli_start(&cli, &command, args, sizeof args / sizeof *args, CLI_GENERATES, argc, argv,

@@ -38,7 +38,7 @@ struct check {
     struct cli cli;
     struct arg_list target_args, files_from, targets, worker_args;
     size_t jobs, time_limit;
-    bool no_compile, no_sharing, render, stats;
+    bool no_compile, render, stats;
     bool needs_measures;    /* of every document */
     bool needs_errors_only; /* of the messages, how they are printed */
     struct check_reports reports;
@@ -273,8 +273,6 @@ static void make_worker_args(struct check *check)
         add_worker_arg(check, "target", check->targets.items[i]);
     if (check->no_compile)
         add_worker_arg(check, "--no-compile", NULL);
-    if (check->no_sharing)
-        add_worker_arg(check, "--no-sharing", NULL);
     if (check->render)
         add_worker_arg(check, "--render", NULL);
     cli_forward(&check->cli, &check->worker_args);
@@ -441,10 +439,6 @@ int command_check(const struct command *command, int argc, char **argv)
         {"files-from", 0, ARG_LIST, "FILE",
          "a list of paths, one on each line; '-': standard input", &check.files_from},
         {"no-compile", 0, ARG_FLAG, NULL, "generates, and compiles nothing", &check.no_compile},
-        {"no-sharing", 0, ARG_FLAG, NULL,
-         "generates every element, also where one of equal structure was generated without a "
-         "message",
-         &check.no_sharing},
         {"render", 0, ARG_FLAG, NULL,
          "draws every element, for the gallery and to compare with a baseline", &check.render},
         {"time-limit", 0, ARG_SIZE, "S",

@@ -105,18 +105,4 @@ bool build_port_value(struct builder *builder, const struct port *port, struct i
 ir_ref build_light_shader(struct builder *builder, uint32_t nodedef, elem_id where,
                           const ir_ref *args);
 
-struct structure_options {
-    enum build_interface interface;
-    const char *colorspace;
-    uint64_t seed; /* of what else programs depend on */
-};
-
-/*
- * structure.c: one number for what an element is but for names, places and what becomes uniforms;
- * equal numbers, equal programs. 0: that cannot be told without a generation, of elements with
- * faults among others.
- */
-uint64_t build_structure(const struct library *lib, const struct structure_options *options,
-                         elem_id element, unsigned output, struct arena *scratch);
-
 #endif
