@@ -5,7 +5,7 @@
  */
 #define _POSIX_C_SOURCE 200809L
 #include "cli/files.h"
-#include "cli/library_doc.h"
+#include "doc/library.h"
 
 #include <string.h>
 #include <unistd.h>

@@ -5,8 +5,8 @@
  * all others pass.
  */
 #define _POSIX_C_SOURCE 200809L
-#include "cli/check/packed.h"
-#include "cli/check/protocol.h"
+#include "check/packed.h"
+#include "check/protocol.h"
 
 #include <signal.h>
 #include <stdlib.h>

@@ -4,7 +4,7 @@
  * none, whatever they are.
  */
 #define _POSIX_C_SOURCE 200809L
-#include "cli/check/packed.h"
+#include "check/packed.h"
 #include "unit/test.h"
 
 #include <stdlib.h>
