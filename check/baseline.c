@@ -2,6 +2,7 @@
 #include "check/baseline.h"
 
 #include "check/picture.h"
+#include "check/record_io.h"
 #include "cli/cli.h"
 
 #include <inttypes.h>
@@ -16,11 +17,10 @@ struct baseline_entry {
 
 /* ---- The index ---- */
 
+/* Never 0, which is a free entry. */
 static uint64_t hash_name(const char *name)
 {
-    uint64_t hash = 0xcbf29ce484222325u; /* FNV-1a */
-    for (; *name; ++name)
-        hash = (hash ^ (unsigned char)*name) * 0x100000001b3u;
+    uint64_t hash = cli_hash(CLI_HASH_OF_NOTHING, name);
     return hash ? hash : 1;
 }
 
@@ -51,20 +51,17 @@ static bool grow(struct baseline *baseline)
     return true;
 }
 
-static bool add_entry(struct baseline *baseline)
+static bool add_entry(struct baseline *baseline, uint64_t offset)
 {
-    struct store store = {0};
-    const struct json_value *document =
-        json_parse(&store, baseline->reader.text, baseline->reader.size);
-    uint64_t hash = document ? hash_name(json_get_text(document, "file")) : 0;
-    store_finish(&store);
-    if (!hash)
+    const char *file = json_text_of(baseline->reader.document, "file");
+    if (!*file)
         baseline->reader.fault = "a document in it cannot be read";
-    if (!hash || (baseline->num_entries * 2 >= baseline->capacity && !grow(baseline)))
+    if (!*file || (baseline->num_entries * 2 >= baseline->capacity && !grow(baseline)))
         return false;
+    uint64_t hash = hash_name(file);
     struct baseline_entry *entry = find_entry(baseline->entries, baseline->capacity, hash);
     baseline->num_entries += entry->hash == 0;
-    *entry = (struct baseline_entry){hash, reader_offset(&baseline->reader), false};
+    *entry = (struct baseline_entry){hash, offset, false};
     return true;
 }
 
@@ -73,7 +70,8 @@ bool baseline_open(struct baseline *baseline, const char *path)
     *baseline = (struct baseline){.is_open = true};
     if (!reader_open(&baseline->reader, path) || !grow(baseline))
         return false;
-    while (reader_next(&baseline->reader) && add_entry(baseline)) {
+    uint64_t offset;
+    while (reader_next(&baseline->reader, &offset) && add_entry(baseline, offset)) {
     }
     return !baseline->reader.fault;
 }
@@ -98,15 +96,11 @@ uint64_t baseline_list_gone(struct baseline *baseline, FILE *out)
     if (baseline->capacity)
         qsort(baseline->entries, baseline->capacity, sizeof *baseline->entries, compare_offsets);
     for (size_t i = 0; i < baseline->capacity; ++i) {
-        struct store store = {0};
         const struct baseline_entry *entry = &baseline->entries[i];
         if (!entry->hash || entry->is_compared || !reader_read_at(&baseline->reader, entry->offset))
             continue;
-        const struct json_value *document =
-            json_parse(&store, baseline->reader.text, baseline->reader.size);
         fprintf(out, "changed %s (gone): it is no longer there\n",
-                document ? json_get_text(document, "file") : "");
-        store_finish(&store);
+                json_text_of(baseline->reader.document, "file"));
         ++count;
     }
     return count;
@@ -120,7 +114,7 @@ static const struct check_document *find_document(struct baseline *baseline, str
     if (!entry->hash || !reader_read_at(&baseline->reader, entry->offset))
         return NULL;
     entry->is_compared = true;
-    return check_read_document(store, baseline->reader.text, baseline->reader.size);
+    return record_from_json(store, baseline->reader.document);
 }
 
 /* ---- What differs ---- */
@@ -145,9 +139,10 @@ static void add(struct comparison *c, enum check_change_kind kind, char *text)
 static void compare_verdicts(struct comparison *c, enum check_stage before, enum check_stage now)
 {
     if (now && !before)
-        add(c, CHANGE_FAILS, cli_format("fails at %s, where it passed", check_stage_name(now)));
+        add(c, CHANGE_FAILS, cli_format("fails at %s, where it passed", check_stage_names[now]));
     else if (before && !now)
-        add(c, CHANGE_FIXED, cli_format("passes, where it failed at %s", check_stage_name(before)));
+        add(c, CHANGE_FIXED,
+            cli_format("passes, where it failed at %s", check_stage_names[before]));
 }
 
 static void compare_measures(struct comparison *c, const struct check_shader *before,
@@ -219,7 +214,7 @@ static void compare_element(struct comparison *c, const struct check_element *be
             compare_shader(c, old, shader);
         else if (shader->failed)
             add(c, CHANGE_FAILS,
-                cli_format("is new and fails at %s", check_stage_name(shader->failed)));
+                cli_format("is new and fails at %s", check_stage_names[shader->failed]));
         else
             add(c, CHANGE_NEW, cli_format("is new"));
     }
@@ -256,7 +251,7 @@ void baseline_compare(struct baseline *baseline, struct store *store,
         compare_verdicts(&c, own_failure(before), own_failure(document));
     else if (own_failure(document))
         add(&c, CHANGE_FAILS,
-            cli_format("is new and fails at %s", check_stage_name(document->failed)));
+            cli_format("is new and fails at %s", check_stage_names[document->failed]));
     for (size_t i = 0; i < document->num_elements; ++i)
         compare_element(&c, before ? find_element(before, document->elements[i].path) : NULL,
                         &document->elements[i]);

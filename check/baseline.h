@@ -6,6 +6,7 @@
 #ifndef MXG_CHECK_BASELINE_H
 #define MXG_CHECK_BASELINE_H
 
+#include "check/record.h"
 #include "check/report_reader.h"
 
 struct baseline {

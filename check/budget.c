@@ -80,10 +80,8 @@ static char *folder_above(const char *folder)
 
 static struct budget_folder *place_of(struct budget *budget, const char *folder)
 {
-    uint32_t hash = 2166136261u; /* FNV-1a */
-    for (const char *c = folder; *c; ++c)
-        hash = (hash ^ (unsigned char)*c) * 16777619u;
-    return &budget->folders[(hash ^ hash >> 16) % NUM_BUDGET_FOLDERS];
+    uint64_t hash = cli_hash(CLI_HASH_OF_NOTHING, folder);
+    return &budget->folders[(hash ^ hash >> 32) % NUM_BUDGET_FOLDERS];
 }
 
 /*

@@ -2,11 +2,12 @@
 #define _POSIX_C_SOURCE 200809L
 #include "check/cache.h"
 
+#include "check/json.h"
+#include "check/record_io.h"
 #include "cli/cli.h"
 #include "cli/files.h"
 
 #include <dirent.h>
-#include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -15,23 +16,38 @@ enum { NUM_FILES = 1024 }; /* whose hashes are remembered: includes that many do
 
 struct cached_file {
     char *path;
-    char hex[SHA256_HEX + 1];
+    struct cache_hash hash;
 };
 
 /* ---- Hashes ---- */
 
-static bool hash_file(const char *path, char out[SHA256_HEX + 1])
+/* A text with its length before it, so that two texts are not taken for one. */
+static void add_text(SHA2_CTX *sha, const char *text)
 {
-    struct sha256 sha;
+    size_t len = strlen(text);
+    SHA256Update(sha, (const uint8_t *)&len, sizeof len);
+    SHA256Update(sha, (const uint8_t *)text, len);
+}
+
+static struct cache_hash end_hash(SHA2_CTX *sha)
+{
+    struct cache_hash hash;
+    SHA256End(sha, hash.hex);
+    return hash;
+}
+
+/* Of the bytes of a file; "" where it cannot be read. */
+static struct cache_hash hash_file(const char *path)
+{
+    SHA2_CTX sha;
     size_t size = 0;
     char *data = files_is_regular(path) ? files_read(path, &size) : NULL;
     if (!data)
-        return false;
-    sha256_init(&sha);
-    sha256_add(&sha, data, size);
-    sha256_hex(&sha, out);
+        return (struct cache_hash){""};
+    SHA256Init(&sha);
+    SHA256Update(&sha, (const uint8_t *)data, size);
     free(data);
-    return true;
+    return end_hash(&sha);
 }
 
 static int compare_names(const void *a, const void *b)
@@ -40,9 +56,9 @@ static int compare_names(const void *a, const void *b)
 }
 
 /* A folder by the names in it; one that is not there has none. */
-static void hash_folder(const char *path, char out[SHA256_HEX + 1])
+static struct cache_hash hash_folder(const char *path)
 {
-    struct sha256 sha;
+    SHA2_CTX sha;
     struct arg_list names = {0};
     DIR *folder = opendir(path);
     for (const struct dirent *entry; folder && (entry = readdir(folder)) != NULL;)
@@ -51,13 +67,11 @@ static void hash_folder(const char *path, char out[SHA256_HEX + 1])
         closedir(folder);
     if (names.len)
         qsort(names.items, names.len, sizeof *names.items, compare_names);
-    sha256_init(&sha);
-    for (size_t i = 0; i < names.len; ++i) {
-        sha256_add_text(&sha, names.items[i]);
-        free((void *)(uintptr_t)names.items[i]);
-    }
-    sha256_hex(&sha, out);
-    free(names.items);
+    SHA256Init(&sha);
+    for (size_t i = 0; i < names.len; ++i)
+        add_text(&sha, names.items[i]);
+    args_free(&names);
+    return end_hash(&sha);
 }
 
 static bool is_folder_name(const char *path)
@@ -66,47 +80,29 @@ static bool is_folder_name(const char *path)
     return len && path[len - 1] == '/';
 }
 
-/*
- * The hash of a file that may have been asked for before in this run; "" where it cannot be read.
- */
+/* The hash of a file or folder that may have been asked for before in this run. */
 static const char *remembered_hash(struct cache *cache, const char *path)
 {
-    struct sha256 sha;
-    char hex[SHA256_HEX + 1];
-    sha256_init(&sha);
-    sha256_add_text(&sha, path);
-    sha256_hex(&sha, hex);
-    struct cached_file *file = &cache->files[sha.state[0] % NUM_FILES];
+    struct cached_file *file = &cache->files[cli_hash(CLI_HASH_OF_NOTHING, path) % NUM_FILES];
     if (!file->path || strcmp(file->path, path) != 0) {
         free(file->path);
         file->path = cli_format("%s", path);
-        if (is_folder_name(path))
-            hash_folder(path, file->hex);
-        else if (!hash_file(path, file->hex))
-            file->hex[0] = '\0';
+        file->hash = is_folder_name(path) ? hash_folder(path) : hash_file(path);
     }
-    return file->hex;
-}
-
-static void add_file(struct sha256 *sha, const char *path)
-{
-    char hex[SHA256_HEX + 1] = "";
-    hash_file(path, hex);
-    sha256_add_text(sha, path);
-    sha256_add_text(sha, hex);
+    return file->hash.hex;
 }
 
 /* A program by its version, size and time: another build is another program. */
-static void add_program(struct sha256 *sha, const char *path)
+static void add_program(SHA2_CTX *sha, const char *path)
 {
     struct stat info = {0};
     stat(path, &info);
     int64_t numbers[] = {info.st_size, info.st_mtim.tv_sec, info.st_mtim.tv_nsec};
-    sha256_add_text(sha, mxg_version_string());
-    sha256_add(sha, numbers, sizeof numbers);
+    add_text(sha, mxg_version_string());
+    SHA256Update(sha, (const uint8_t *)numbers, sizeof numbers);
 }
 
-static void add_renderer(struct sha256 *sha)
+static void add_renderer(SHA2_CTX *sha)
 {
     char *program = cli_program("mxgen-render");
     add_program(sha, program);
@@ -119,20 +115,22 @@ void cache_init(struct cache *cache, const char *folder, const struct arg_list *
     *cache = (struct cache){.folder = folder, .begin = time(NULL)};
     if (!folder)
         return;
-    struct sha256 sha;
-    const uint32_t version = CHECK_FORMAT_VERSION;
+    SHA2_CTX sha;
+    const uint8_t version = CHECK_FORMAT_VERSION;
     cache->files = calloc(NUM_FILES, sizeof *cache->files);
-    sha256_init(&sha);
-    sha256_add(&sha, &version, sizeof version);
+    SHA256Init(&sha);
+    SHA256Update(&sha, &version, sizeof version);
     add_program(&sha, args->items[0]);
     for (size_t i = 1; i < args->len && args->items[i]; ++i) {
-        sha256_add_text(&sha, args->items[i]);
+        add_text(&sha, args->items[i]);
         if (strcmp(args->items[i], "--render") == 0)
             add_renderer(&sha);
     }
-    for (uint32_t i = 0; i < mxg_library_num_files(library); ++i)
-        add_file(&sha, mxg_library_file(library, i));
-    sha256_hex(&sha, cache->configuration);
+    for (uint32_t i = 0; i < mxg_library_num_files(library); ++i) {
+        add_text(&sha, mxg_library_file(library, i));
+        add_text(&sha, hash_file(mxg_library_file(library, i)).hex);
+    }
+    cache->configuration = end_hash(&sha);
     if (!cache->files)
         cache->folder = NULL;
 }
@@ -146,80 +144,74 @@ void cache_finish(struct cache *cache)
 
 /* ---- Entries ---- */
 
-static void make_key(const struct cache *cache, const char *path, struct cache_key *out)
+static struct cache_key make_key(const struct cache *cache, const char *path)
 {
-    struct sha256 sha;
-    *out = (struct cache_key){0};
-    if (!hash_file(path, out->document))
-        return;
-    sha256_init(&sha);
-    sha256_add_text(&sha, cache->configuration);
-    sha256_add_text(&sha, path);
-    sha256_add_text(&sha, out->document);
-    sha256_hex(&sha, out->hex);
+    SHA2_CTX sha;
+    struct cache_key key = {.document = hash_file(path)};
+    if (!key.document.hex[0])
+        return key;
+    SHA256Init(&sha);
+    add_text(&sha, cache->configuration.hex);
+    add_text(&sha, path);
+    add_text(&sha, key.document.hex);
+    key.name = end_hash(&sha);
+    return key;
 }
 
 static char *entry_path(const struct cache *cache, const struct cache_key *key)
 {
-    return cli_format("%s/%.2s/%s.json", cache->folder, key->hex, key->hex + 2);
+    return cli_format("%s/%.2s/%s.json", cache->folder, key->name.hex, key->name.hex + 2);
 }
-
-#define STAMP "stamp " /* what is said of an image begins with that */
 
 /* Images are large: size and time stand for what is in them. */
-static void stamp_image(const char *path, char out[SHA256_HEX + 1])
+static struct cache_hash stamp_image(const char *path)
 {
     struct stat info;
+    struct cache_hash stamp = {"none"};
     if (stat(path, &info) == 0)
-        snprintf(out, SHA256_HEX + 1, STAMP "%jd %jd.%09ld", (intmax_t)info.st_size,
+        snprintf(stamp.hex, sizeof stamp.hex, "%jd %jd.%09ld", (intmax_t)info.st_size,
                  (intmax_t)info.st_mtim.tv_sec, info.st_mtim.tv_nsec);
-    else
-        snprintf(out, SHA256_HEX + 1, STAMP "none");
+    return stamp;
 }
 
-static bool is_as_before(struct cache *cache, const char *path, const char *said)
+/*
+ * An entry is an object: "files" has the hash of each file that was read besides the document, and
+ * of the names in each folder of textures; "images" has the stamp of each image that a picture
+ * shows; "record" is the record.
+ */
+static bool is_current(struct cache *cache, json_t *entry)
 {
-    char stamp[SHA256_HEX + 1];
-    if (strncmp(said, STAMP, strlen(STAMP)) != 0)
-        return strcmp(said, remembered_hash(cache, path)) == 0;
-    stamp_image(path, stamp);
-    return strcmp(said, stamp) == 0;
+    const char *path;
+    json_t *value;
+    json_object_foreach(json_object_get(entry, "files"), path, value)
+    {
+        const char *hash = json_string_value(value);
+        if (!hash || !*hash || strcmp(hash, remembered_hash(cache, path)) != 0)
+            return false;
+    }
+    json_object_foreach(json_object_get(entry, "images"), path, value)
+    {
+        const char *stamp = json_string_value(value);
+        if (!stamp || strcmp(stamp, stamp_image(path).hex) != 0)
+            return false;
+    }
+    return json_object_get(entry, "files") && json_object_get(entry, "images");
 }
 
-/* The first line of an entry is an object: path and hash of each file that was read besides the
- * document, and of the names in each folder of textures; path and stamp of each image that a
- * picture shows. */
-static bool is_current(struct cache *cache, const char *line, size_t len)
-{
-    struct store store = {0};
-    const struct json_value *files = json_parse(&store, line, len);
-    bool good = files && files->kind == JSON_OBJECT;
-    for (const struct json_value *file = good ? files->first : NULL; file && good;
-         file = file->next)
-        good =
-            file->kind == JSON_STRING && *file->text && is_as_before(cache, file->key, file->text);
-    store_finish(&store);
-    return good;
-}
-
-char *cache_find(struct cache *cache, const char *path, struct cache_key *out_key, size_t *out_size)
+json_t *cache_find(struct cache *cache, const char *path, struct cache_key *out_key)
 {
     *out_key = (struct cache_key){0};
     if (!cache->folder)
         return NULL;
-    make_key(cache, path, out_key);
-    if (!out_key->hex[0])
+    *out_key = make_key(cache, path);
+    if (!out_key->name.hex[0])
         return NULL;
-    char *entry = entry_path(cache, out_key), *record = NULL;
-    size_t size = 0;
-    char *text = files_read(entry, &size);
-    free(entry);
-    const char *newline = text ? memchr(text, '\n', size) : NULL;
-    if (newline && is_current(cache, text, (size_t)(newline - text))) {
-        *out_size = size - (size_t)(newline + 1 - text);
-        record = cli_format("%s", newline + 1);
-    }
-    free(text);
+    char *file = entry_path(cache, out_key);
+    json_t *entry = json_load_file(file, 0, NULL), *record = NULL;
+    free(file);
+    if (is_current(cache, entry))
+        record = json_incref(json_object_get(entry, "record"));
+    json_decref(entry);
     return record;
 }
 
@@ -257,53 +249,40 @@ static bool follows_from_files(const struct cache *cache, const struct check_doc
     return true;
 }
 
-static char *make_entry(struct cache *cache, const struct check_document *document,
-                        size_t *out_size)
+static char *make_entry(struct cache *cache, const struct check_document *document)
 {
-    char *text = NULL;
-    FILE *out = open_memstream(&text, out_size);
-    struct json_writer json = {.out = out};
-    if (!out)
-        return NULL;
-    json_begin(&json, '{');
-    for (size_t i = 1; i < document->num_files; ++i) {
-        json_key(&json, document->files[i]);
-        json_string(&json, remembered_hash(cache, document->files[i]));
-    }
-    for (size_t i = 0; i < document->num_folders; ++i) {
-        json_key(&json, document->folders[i]);
-        json_string(&json, remembered_hash(cache, document->folders[i]));
-    }
-    for (size_t i = 0; i < document->num_images; ++i) {
-        char stamp[SHA256_HEX + 1];
-        stamp_image(document->images[i], stamp);
-        json_key(&json, document->images[i]);
-        json_string(&json, stamp);
-    }
-    json_end(&json, '}');
-    putc('\n', out);
-    check_write_document(out, document, true);
-    fclose(out);
+    json_t *entry = json_object(), *files = json_object(), *images = json_object();
+    for (size_t i = 1; i < document->num_files; ++i)
+        json_set(files, document->files[i],
+                 json_string(remembered_hash(cache, document->files[i])));
+    for (size_t i = 0; i < document->num_folders; ++i)
+        json_set(files, document->folders[i],
+                 json_string(remembered_hash(cache, document->folders[i])));
+    for (size_t i = 0; i < document->num_images; ++i)
+        json_set(images, document->images[i], json_string(stamp_image(document->images[i]).hex));
+    json_object_set_new(entry, "files", files);
+    json_object_set_new(entry, "images", images);
+    json_object_set_new(entry, "record", record_to_json(document, true));
+    char *text = json_dumps(entry, JSON_STYLE);
+    json_decref(entry);
     return text;
 }
 
 void cache_put(struct cache *cache, const struct cache_key *key,
                const struct check_document *document)
 {
-    struct cache_key now;
-    if (!cache->folder || !key->hex[0] || cache->fault || !follows_from_files(cache, document))
+    if (!cache->folder || !key->name.hex[0] || cache->fault || !follows_from_files(cache, document))
         return;
-    make_key(cache, document->file, &now);
-    if (strcmp(now.hex, key->hex) != 0)
+    struct cache_key now = make_key(cache, document->file);
+    if (strcmp(now.name.hex, key->name.hex) != 0)
         return;
     char *path = entry_path(cache, key), *slash = strrchr(path, '/');
     *slash = '\0';
     cache->fault = files_make_folder(path);
     *slash = '/';
-    size_t entry_size = 0;
-    char *entry = make_entry(cache, document, &entry_size);
+    char *entry = make_entry(cache, document);
     if (entry && !cache->fault)
-        cache->fault = files_write(path, entry, entry_size);
+        cache->fault = files_write(path, entry, strlen(entry));
     free(entry);
     free(path);
 }

@@ -11,18 +11,24 @@
 
 #include "cli/args.h"
 #include "check/record.h"
-#include "cli/sha256.h"
 
+#include <jansson.h>
+#include <sha2.h>
 #include <time.h>
 
+/* A SHA-256 in hexadecimal. */
+struct cache_hash {
+    char hex[SHA256_DIGEST_STRING_LENGTH];
+};
+
 struct cache_key {
-    char hex[SHA256_HEX + 1];      /* names the entry; "": the document cannot be read */
-    char document[SHA256_HEX + 1]; /* hash of its bytes */
+    struct cache_hash name;     /* of the entry; "": the document cannot be read */
+    struct cache_hash document; /* of its bytes */
 };
 
 struct cache {
     const char *folder; /* NULL: no cache */
-    char configuration[SHA256_HEX + 1];
+    struct cache_hash configuration;
     struct cached_file *files; /* hashes of files that were met lately */
     const char *fault;         /* entries cannot be written: why */
     time_t begin;
@@ -34,10 +40,10 @@ void cache_init(struct cache *cache, const char *folder, const struct arg_list *
 void cache_finish(struct cache *cache);
 
 /*
- * The key of a document as it is now, and the record of it; NULL where there is none. To be freed.
+ * The key of a document as it is now, and its record as JSON, to be unreferenced; NULL where there
+ * is none.
  */
-char *cache_find(struct cache *cache, const char *path, struct cache_key *out_key,
-                 size_t *out_size);
+json_t *cache_find(struct cache *cache, const char *path, struct cache_key *out_key);
 
 /* Keeps a record, if it follows from files alone and these are still what they were. */
 void cache_put(struct cache *cache, const struct cache_key *key,

@@ -9,9 +9,10 @@
 #include "check/cache.h"
 #include "check/check.h"
 #include "check/inputs.h"
-#include "check/packed.h"
+#include "check/json.h"
 #include "check/pool.h"
 #include "check/protocol.h"
+#include "check/record_io.h"
 #include "cli/files.h"
 
 #include <stdlib.h>
@@ -26,8 +27,8 @@ struct slot {
     char *path;
     uint64_t index; /* among all documents */
     struct cache_key key;
-    bool is_cached; /* it was not given out */
-    char *record;   /* NULL: not there yet */
+    json_t *cached; /* its record where it was not given out */
+    char *record;   /* a worker's answer; NULL: not there yet */
     size_t size;
     bool is_done;
     enum check_stage failed; /* without a record */
@@ -101,16 +102,25 @@ static void forget_times(struct check_document *document)
 static struct check_document *read_record(struct check *check, struct store *store,
                                           const struct slot *slot)
 {
-    if (!slot->record)
-        return NULL;
-    struct check_document *document = slot->is_cached
-                                          ? check_read_document(store, slot->record, slot->size)
-                                          : check_unpack_document(store, slot->record, slot->size);
-    if (document && slot->is_cached)
+    struct check_document *document = NULL;
+    if (slot->cached)
+        document = record_from_json(store, slot->cached);
+    else if (slot->record)
+        document = record_from_bytes(store, slot->record, slot->size);
+    if (document && slot->cached)
         forget_times(document);
     else if (document)
         cache_put(&check->cache, &slot->key, document);
     return document;
+}
+
+static void finish_slot(struct slot *slot)
+{
+    json_decref(slot->cached);
+    free(slot->path);
+    free(slot->record);
+    free(slot->reason);
+    *slot = (struct slot){0};
 }
 
 static void tell_document(struct check *check, struct slot *slot)
@@ -128,13 +138,10 @@ static void tell_document(struct check *check, struct slot *slot)
     budget_judge(&check->budget, &store, document);
     if (check->reports.run.is_compared)
         baseline_compare(&check->baseline, &store, document);
-    check->reports.totals.cached += slot->is_cached;
+    check->reports.totals.cached += slot->cached != NULL;
     reports_document(&check->reports, document);
     store_finish(&store);
-    free(slot->path);
-    free(slot->record);
-    free(slot->reason);
-    *slot = (struct slot){0};
+    finish_slot(slot);
 }
 
 static void tell_done(struct check *check)
@@ -173,8 +180,8 @@ static bool give_next(struct check *check)
         return false;
     struct slot *slot = slot_of(check, check->last++);
     *slot = (struct slot){.path = cli_copy(path, strlen(path)), .index = check->num_found - 1};
-    slot->record = cache_find(&check->cache, path, &slot->key, &slot->size);
-    slot->is_done = slot->is_cached = slot->record != NULL;
+    slot->cached = cache_find(&check->cache, path, &slot->key);
+    slot->is_done = slot->cached != NULL;
     if (!slot->is_done)
         pool_give(&check->pool, (struct pool_task){slot->path, task_note(check, path),
                                                    (size_t)(check->last - 1)});
@@ -249,7 +256,7 @@ static bool parse_shard(struct check *check)
     run->shard = strtoul(check->shard, &end, 10);
     run->num_shards = *end == '/' ? strtoul(end + 1, &end, 10) : 0;
     if (*end == '\0' && run->shard >= 1 && run->shard <= run->num_shards
-        && run->num_shards <= 1000000)
+        && run->num_shards <= MAX_SHARDS)
         return true;
     fprintf(stderr, "mxgen: '%s' is not a shard; write K/N, from 1/N to N/N\n", check->shard);
     return false;
@@ -383,20 +390,15 @@ static int run(struct check *check)
 
 static void finish(struct check *check)
 {
-    for (; check->slots && check->first < check->last; ++check->first) { /* after a fault */
-        free(slot_of(check, check->first)->path);
-        free(slot_of(check, check->first)->record);
-        free(slot_of(check, check->first)->reason);
-    }
+    for (; check->slots && check->first < check->last; ++check->first) /* after a fault */
+        finish_slot(slot_of(check, check->first));
     free(check->slots);
     pool_finish(&check->pool);
     cache_finish(&check->cache);
     budget_finish(&check->budget);
     baseline_close(&check->baseline);
     inputs_finish(&check->inputs);
-    for (size_t i = 0; i + 1 < check->worker_args.len; ++i)
-        free((void *)(uintptr_t)check->worker_args.items[i]);
-    free(check->worker_args.items);
+    args_free(&check->worker_args);
     free(check->target_args.items);
     free(check->files_from.items);
     free(check->targets.items);
@@ -428,6 +430,7 @@ static int run_if_sensible(struct check *check)
 
 int command_check(const struct command *command, int argc, char **argv)
 {
+    json_use_memory();
     if (argc > 1 && strcmp(argv[1], "merge") == 0)
         return check_merge(command, argc - 1, argv + 1);
     struct check check = {.time_limit = 120};

@@ -23,19 +23,11 @@ static const char *copy(struct examiner *examiner, const char *text)
     return text ? store_text(&examiner->store, text, strlen(text)) : "";
 }
 
-static uint32_t hash_text(uint32_t hash, const char *text)
-{
-    for (; *text; ++text)
-        hash = (hash ^ (unsigned char)*text) * 16777619u; /* FNV-1a */
-    return hash;
-}
-
 /* The place of an equal message, or the free one where it belongs. */
 static uint32_t *find_place(const struct examiner *examiner, const struct check_message *message)
 {
-    size_t mask = examiner->capacity - 1,
-           at =
-               hash_text(hash_text(2166136261u ^ message->line, message->id), message->text) & mask;
+    uint64_t hash = cli_hash(CLI_HASH_OF_NOTHING ^ message->line, message->id);
+    size_t mask = examiner->capacity - 1, at = (size_t)cli_hash(hash, message->text) & mask;
     while (examiner->messages[at]
            && !check_is_same_message(&examiner->document->messages[examiner->messages[at] - 1],
                                      message))

@@ -37,13 +37,6 @@ static bool make_folder(struct examiner *examiner)
     return examiner->folder != NULL;
 }
 
-static void free_args(struct arg_list *args)
-{
-    for (size_t i = 0; i < args->len; ++i)
-        free((void *)(uintptr_t)args->items[i]);
-    free(args->items);
-}
-
 /*
  * What the renderer prints goes to a file. Returns 0, its exit code, or -1 where it cannot be
  * started or died.
@@ -77,7 +70,7 @@ static int run(struct examiner *examiner, const char *element)
     }
     posix_spawn_file_actions_destroy(&actions);
     free(log);
-    free_args(&args);
+    args_free(&args);
     return !reason && WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 

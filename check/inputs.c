@@ -3,6 +3,7 @@
 #include "check/inputs.h"
 
 #include "cli/cli.h"
+#include "cli/memory.h"
 
 #include <dirent.h>
 #include <errno.h>
@@ -23,19 +24,9 @@ struct input_source {
     size_t capacity;
 };
 
-static void *allocate(size_t size)
-{
-    void *data = calloc(1, size);
-    if (!data) {
-        fputs("mxgen: out of memory\n", stderr);
-        exit(EXIT_FAULT);
-    }
-    return data;
-}
-
 static struct input_source *push(struct check_inputs *inputs)
 {
-    struct input_source *source = allocate(sizeof *source);
+    struct input_source *source = memory_alloc(sizeof *source);
     source->outer = inputs->sources;
     source->mark = "";
     return inputs->sources = source;
@@ -79,9 +70,7 @@ void inputs_finish(struct check_inputs *inputs)
 
 static uint64_t hash_path(const char *path)
 {
-    uint64_t hash = 0xcbf29ce484222325u; /* FNV-1a */
-    for (; *path; ++path)
-        hash = (hash ^ (unsigned char)*path) * 0x100000001b3u;
+    uint64_t hash = cli_hash(CLI_HASH_OF_NOTHING, path);
     return hash ? hash : 1;
 }
 
@@ -98,7 +87,7 @@ static bool is_new(struct check_inputs *inputs, const char *path)
 {
     if (inputs->num_seen * 2 >= inputs->capacity) {
         size_t capacity = inputs->capacity ? inputs->capacity * 2 : 64;
-        uint64_t *table = allocate(capacity * sizeof *table);
+        uint64_t *table = memory_alloc(capacity * sizeof *table);
         for (size_t i = 0; i < inputs->capacity; ++i)
             if (inputs->seen[i])
                 *find_seen(table, capacity, inputs->seen[i]) = inputs->seen[i];
@@ -191,7 +180,7 @@ static bool push_pattern(struct check_inputs *inputs, const char *pattern)
         return true;
     }
     struct input_source *source = push(inputs);
-    source->owned = allocate((found.gl_pathc + 1) * sizeof *source->owned);
+    source->owned = memory_alloc((found.gl_pathc + 1) * sizeof *source->owned);
     for (; source->num_items < found.gl_pathc; ++source->num_items)
         source->owned[source->num_items] = cli_format("%s", found.gl_pathv[source->num_items]);
     source->items = (const char *const *)source->owned;

@@ -4,6 +4,7 @@
  * their index.
  */
 #include "check/check.h"
+#include "check/record_io.h"
 #include "check/report_reader.h"
 
 #include <inttypes.h>
@@ -35,8 +36,8 @@ static void advance(struct merge *merge, struct part *part)
 {
     store_finish(&part->store);
     part->document = NULL;
-    if (reader_next(&part->reader)) {
-        part->document = check_read_document(&part->store, part->reader.text, part->reader.size);
+    if (reader_next(&part->reader, NULL)) {
+        part->document = record_from_json(&part->store, part->reader.document);
         if (!part->document)
             part->reader.fault = "a document in it cannot be read";
     }
@@ -44,24 +45,38 @@ static void advance(struct merge *merge, struct part *part)
         fail(merge, part->path, part->reader.fault);
 }
 
-/* The targets of the first part; "shard" says which of how many each is. */
-static bool read_headers(struct merge *merge)
+/* "shard": {"number": 2, "count": 8}; 0 where the report is no part. */
+static uint64_t shard_of(const struct part *part, const char *key)
 {
-    uint64_t expected = json_get_count(json_get(merge->parts[0].reader.header, "shard"), "count");
+    return json_count_of(json_object_get(part->reader.header, "shard"), key);
+}
+
+static void read_targets(struct merge *merge)
+{
+    const json_t *targets = json_object_get(merge->parts[0].reader.header, "targets");
+    for (size_t i = 0; i < json_array_size(targets); ++i) {
+        const char *name = json_string_value(json_array_get(targets, i));
+        args_append(&merge->targets, name ? name : "");
+    }
+}
+
+/* Whether the parts are all shards of one run. */
+static bool are_complete(struct merge *merge)
+{
+    uint64_t expected = shard_of(&merge->parts[0], "count");
+    if (expected > MAX_SHARDS) {
+        fail(merge, merge->parts[0].path, "it is of more shards than there can be");
+        return false;
+    }
     bool *seen = calloc((size_t)merge->num_parts + 1, sizeof *seen);
     for (size_t i = 0; seen && i < merge->num_parts; ++i) {
-        const struct json_value *header = merge->parts[i].reader.header,
-                                *shard = json_get(header, "shard");
-        uint64_t number = json_get_count(shard, "number");
-        if (json_get_count(shard, "count") != expected)
+        uint64_t number = shard_of(&merge->parts[i], "number");
+        if (shard_of(&merge->parts[i], "count") != expected)
             report_error(&merge->cli.report, "shard-other",
                          "'%s' is not a shard of the same run as '%s'", merge->parts[i].path,
                          merge->parts[0].path);
         if (number <= merge->num_parts)
             seen[number] = true;
-        for (const struct json_value *name = json_get(header, "targets")->first; i == 0 && name;
-             name = name->next)
-            args_append(&merge->targets, name->kind == JSON_STRING ? name->text : "");
     }
     for (uint64_t number = 1; seen && number <= expected && expected; ++number)
         if (number > merge->num_parts || !seen[number])
@@ -81,7 +96,10 @@ static bool open_parts(struct merge *merge)
         if (!reader_open(&merge->parts[i].reader, paths->items[i]))
             fail(merge, paths->items[i], merge->parts[i].reader.fault);
     }
-    return merge->num_parts && merge->cli.report.errors == 0 && read_headers(merge);
+    if (!merge->num_parts || merge->cli.report.errors || !are_complete(merge))
+        return false;
+    read_targets(merge);
+    return true;
 }
 
 /* The part whose document comes next. */
@@ -116,13 +134,14 @@ static int run(struct merge *merge)
 {
     if (!open_parts(merge))
         return EXIT_FAULT;
+    const json_t *header = merge->parts[0].reader.header;
     merge->reports.run = (struct check_run){
         .targets = merge->targets.items,
         .num_targets = merge->targets.len,
         .quiet = merge->cli.quiet,
         .verbose = merge->cli.verbose,
-        .compiles = json_get(merge->parts[0].reader.header, "compiles")->kind == JSON_TRUE,
-        .is_compared = json_get(merge->parts[0].reader.header, "compared")->kind == JSON_TRUE,
+        .compiles = json_is_true(json_object_get(header, "compiles")),
+        .is_compared = json_is_true(json_object_get(header, "compared")),
         .with_times = merge->stats,
     };
     if (!reports_begin(&merge->reports, &merge->cli.report))

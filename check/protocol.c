@@ -3,6 +3,7 @@
 #include "check/protocol.h"
 
 #include "cli/cli.h"
+#include "cli/memory.h"
 
 #include <errno.h>
 #include <stdlib.h>
@@ -39,12 +40,7 @@ static void reserve(struct frame_stream *stream, size_t size)
     size_t capacity = stream->capacity ? stream->capacity : FIRST_CAPACITY;
     while (capacity - stream->end <= size)
         capacity *= 2;
-    char *bytes = realloc(stream->bytes, capacity);
-    if (!bytes) {
-        fputs("mxgen: out of memory\n", stderr);
-        exit(EXIT_FAULT);
-    }
-    stream->bytes = bytes;
+    stream->bytes = memory_resize(stream->bytes, capacity);
     stream->capacity = capacity;
 }
 
@@ -115,9 +111,8 @@ uint64_t desk_clock(void)
 char *desk_describe(const struct desk *desk)
 {
     unsigned stage = atomic_load(&desk->stage);
-    const char *name = stage == CHECK_PASSED || stage >= NUM_CHECK_STAGES
-                           ? "start"
-                           : check_stage_name((enum check_stage)stage);
+    const char *name =
+        stage == CHECK_PASSED || stage >= NUM_CHECK_STAGES ? "start" : check_stage_names[stage];
     return *desk->element ? cli_format("%s of '%s' for %s", name, desk->element, desk->target)
                           : cli_format("%s", name);
 }

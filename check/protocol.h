@@ -22,7 +22,7 @@ enum task_note {
 };
 
 /*
- * A task is the path of a document; an answer is a record (packed.h), and its note how many
+ * A task is the path of a document; an answer is a record as bytes, and its note how many
  * microseconds it took.
  */
 struct frame {

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * What came of a document: the one thing that workers make, the cache keeps, and every report is
- * written from. Its text form is one JSON object (docs/check.md).
+ * The outcome of a document. Workers make such records, the cache keeps them, and every report is
+ * written from them. As text a record is one JSON object (docs/check.md).
  */
 #ifndef MXG_CHECK_RECORD_H
 #define MXG_CHECK_RECORD_H
 
-#include "cli/json.h"
 #include "cli/store.h"
 
 #include <mxgen/mxgen.h>
+
+#include <stdbool.h>
+#include <stdint.h>
 
 #define CHECK_FORMAT_VERSION 1 /* of records and reports in JSON */
 
@@ -33,7 +35,7 @@ enum check_stage {
 };
 
 /* "passed", "load" … */
-const char *check_stage_name(enum check_stage stage);
+extern const char *const check_stage_names[NUM_CHECK_STAGES];
 
 enum measure {
 #define MEASURE(name, key, option, noun, meaning) MEASURE_##name,
@@ -105,7 +107,7 @@ enum check_change_kind {
         NUM_CHECK_CHANGES
 };
 
-const char *check_change_name(enum check_change_kind kind);
+extern const char *const check_change_names[NUM_CHECK_CHANGES];
 
 struct check_change {
     enum check_change_kind kind;
@@ -154,11 +156,5 @@ void check_add_place(struct store *store, struct check_document *document, const
 /* Appends a file, or an image, once; the name is copied. */
 void check_add_file(struct store *store, struct check_document *document, const char *path);
 void check_add_image(struct store *store, struct check_document *document, const char *path);
-
-/* Writes the document as one line. Times change from run to run, and are left out on demand. */
-void check_write_document(FILE *out, const struct check_document *document, bool with_times);
-
-/* NULL where the text is no such object. */
-struct check_document *check_read_document(struct store *store, const char *text, size_t len);
 
 #endif

@@ -3,97 +3,61 @@
 #define _FILE_OFFSET_BITS 64
 #include "check/report_reader.h"
 
+#include "check/record.h"
+
 #include <ctype.h>
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 
+enum { MAX_HEADER = 1 << 20 };
+
 static const char damaged[] = "it is no report of mxgen check, or only a part of one";
 
-static void append(struct report_reader *reader, int c)
+static int next_char(FILE *in)
 {
-    if (reader->size + 2 > reader->capacity) {
-        size_t capacity = reader->capacity ? reader->capacity * 2 : 4096;
-        char *more = realloc(reader->text, capacity);
-        if (!more) {
-            reader->fault = "out of memory";
-            return;
-        }
-        reader->text = more;
-        reader->capacity = capacity;
-    }
-    reader->text[reader->size++] = (char)c;
-    reader->text[reader->size] = '\0';
-}
-
-static int next_char(struct report_reader *reader)
-{
-    int c = getc(reader->in);
+    int c = getc(in);
     while (c != EOF && isspace(c))
-        c = getc(reader->in);
+        c = getc(in);
     return c;
 }
 
-/* Copies a string whose first quote stands in the text already. */
-static bool copy_string(struct report_reader *reader)
-{
-    for (int c; (c = getc(reader->in)) != EOF && !reader->fault;) {
-        append(reader, c);
-        if (c == '\\' && (c = getc(reader->in)) != EOF)
-            append(reader, c);
-        else if (c == '"')
-            return true;
-    }
-    return false;
-}
-
-/* Copies an object whose first bracket stands in the text already. */
-static bool copy_object(struct report_reader *reader)
-{
-    int depth = 1;
-    for (int c; depth && !reader->fault;) {
-        c = getc(reader->in);
-        if (c == EOF)
-            return false;
-        append(reader, c);
-        if (c == '"' && !copy_string(reader))
-            return false;
-        depth += (c == '{') + (c == '[');
-        depth -= (c == '}') + (c == ']');
-    }
-    return !reader->fault;
-}
-
-/* Up to the documents: the text is then "{… "documents":[", which is closed to be read. */
-static bool read_header(struct report_reader *reader)
+/*
+ * Reads the report up to the documents, without white space, and closes what is open then: JSON of
+ * its own. False: there are no documents.
+ */
+static bool read_header(FILE *in, char *text)
 {
     static const char key[] = "\"documents\":[";
-    reader->size = 0;
-    while (reader->size < sizeof key
-           || memcmp(reader->text + reader->size - (sizeof key - 1), key, sizeof key - 1) != 0) {
-        int c = next_char(reader);
-        if (c == EOF || reader->fault || reader->size > 1u << 20)
+    const size_t len = sizeof key - 1;
+    bool in_string = false;
+    size_t size = 0;
+    while (size < len || memcmp(text + size - len, key, len) != 0) {
+        int c = in_string ? getc(in) : next_char(in);
+        if (c == EOF || size + sizeof "x]}" > MAX_HEADER)
             return false;
-        append(reader, c);
-        if (c == '"' && !copy_string(reader))
-            return false;
+        text[size++] = (char)c;
+        if (in_string && c == '\\')
+            text[size++] = (char)getc(in);
+        else if (c == '"')
+            in_string = !in_string;
     }
-    append(reader, ']');
-    append(reader, '}');
-    if (reader->fault)
-        return false;
-    reader->header = json_parse(&reader->store, reader->text, reader->size);
-    return reader->header && strcmp(json_get_text(reader->header, "format"), "mxgen-check") == 0;
+    strcpy(text + size, "]}");
+    return true;
 }
 
 bool reader_open(struct report_reader *reader, const char *path)
 {
     *reader = (struct report_reader){.in = fopen(path, "r")};
-    if (!reader->in)
+    char *text = malloc(MAX_HEADER);
+    if (!reader->in || !text)
         reader->fault = strerror(errno);
-    else if (!read_header(reader) && !reader->fault)
+    else if (read_header(reader->in, text))
+        reader->header = json_loads(text, 0, NULL);
+    free(text);
+    if (!reader->fault && strcmp(json_text_of(reader->header, "format"), "mxgen-check") != 0)
         reader->fault = damaged;
-    else if (reader->header && json_get_count(reader->header, "version") != CHECK_FORMAT_VERSION)
+    else if (!reader->fault && json_count_of(reader->header, "version") != CHECK_FORMAT_VERSION)
         reader->fault = "it is of another version of the format";
     return !reader->fault;
 }
@@ -102,33 +66,30 @@ void reader_close(struct report_reader *reader)
 {
     if (reader->in)
         fclose(reader->in);
-    free(reader->text);
-    store_finish(&reader->store);
+    json_decref(reader->header);
+    json_decref(reader->document);
 }
 
-bool reader_next(struct report_reader *reader)
+bool reader_next(struct report_reader *reader, uint64_t *out_offset)
 {
-    reader->size = 0;
-    int c = reader->fault ? EOF : next_char(reader);
+    json_decref(reader->document);
+    reader->document = NULL;
+    int c = reader->fault ? ']' : next_char(reader->in);
     if (c == ',')
-        c = next_char(reader);
-    if (c == ']' || reader->fault)
+        c = next_char(reader->in);
+    if (c == ']')
         return false;
-    append(reader, c);
-    if (c == '{' && copy_object(reader))
-        return true;
-    if (!reader->fault)
-        reader->fault = damaged;
-    return false;
-}
-
-uint64_t reader_offset(const struct report_reader *reader)
-{
+    ungetc(c, reader->in);
     off_t at = ftello(reader->in);
-    return at < 0 ? 0 : (uint64_t)at - reader->size;
+    if (out_offset)
+        *out_offset = at < 0 ? 0 : (uint64_t)at;
+    reader->document = c == '{' ? json_loadf(reader->in, JSON_DISABLE_EOF_CHECK, NULL) : NULL;
+    if (!reader->document)
+        reader->fault = damaged;
+    return reader->document != NULL;
 }
 
 bool reader_read_at(struct report_reader *reader, uint64_t offset)
 {
-    return fseeko(reader->in, (off_t)offset, SEEK_SET) == 0 && reader_next(reader);
+    return fseeko(reader->in, (off_t)offset, SEEK_SET) == 0 && reader_next(reader, NULL);
 }

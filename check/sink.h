@@ -10,7 +10,7 @@
 #include "check/record.h"
 #include "cli/files.h"
 
-enum { MAX_TARGETS = 16 };
+enum { MAX_TARGETS = 16, MAX_SHARDS = 1000000 };
 
 /* Sums over all documents. */
 struct check_totals {

@@ -51,7 +51,7 @@ static const char *stage_of(const struct check_document *document,
     /* a fault of the document is one of all its elements */
     check_fail(&failed,
                element && document->failed > CHECK_VALIDATE ? CHECK_PASSED : document->failed);
-    return check_stage_name(failed);
+    return check_stage_names[failed];
 }
 
 /* A change of the document is one of all its elements. */
@@ -75,7 +75,7 @@ static void write_changes(FILE *out, const struct check_document *document,
         const struct check_change *change = &document->changes[i];
         if (!is_change_of(change, element))
             continue;
-        fprintf(out, "<p class=\"change\">%s: %s%s", check_change_name(change->kind),
+        fprintf(out, "<p class=\"change\">%s: %s%s", check_change_names[change->kind],
                 change->target, *change->target ? ": " : "");
         markup_text(out, change->text);
         fputs("</p>", out);
@@ -89,7 +89,7 @@ static void begin_card(struct sink *sink, const struct check_document *document,
     bool warned = false;
     for (size_t i = 0; i < document->num_messages; ++i)
         warned = warned || document->messages[i].severity == MXG_SEVERITY_WARNING;
-    bool passed = strcmp(stage, check_stage_name(CHECK_PASSED)) == 0;
+    bool passed = strcmp(stage, check_stage_names[CHECK_PASSED]) == 0;
     fprintf(sink->out, "<article class=\"%s%s%s\"", passed ? "passed" : "failed",
             warned ? " warned" : "", has_changed(document, element) ? " changed" : "");
     for (size_t i = 0; element && i < NUM_MEASURES; ++i)
@@ -116,7 +116,7 @@ static void write_table(FILE *out, const struct check_element *element)
     for (size_t k = 0; k < element->num_shaders; ++k) {
         const struct check_shader *shader = &element->shaders[k];
         fprintf(out, "<tr><td>%s</td><td>%s</td>", shader->target,
-                check_stage_name(shader->failed));
+                check_stage_names[shader->failed]);
         for (size_t i = 0; i < NUM_MEASURES; ++i)
             fprintf(out,
                     i == MEASURE_INSTRUCTIONS && !shader->compiled ? "<td></td>"

@@ -1,84 +1,73 @@
 // SPDX-License-Identifier: Apache-2.0
-/* --json: everything, with a document on each line (docs/check.md, docs/check.schema.json). */
+/*
+ * --json: everything, with a document on each line (docs/check.md, docs/check.schema.json). The
+ * report is one object, whose members are written as they come.
+ */
+#include "check/json.h"
+#include "check/record_io.h"
 #include "check/sink.h"
+
+/* Writes the members without the braces around them. */
+static void write_members(FILE *out, json_t *members)
+{
+    json_dumpf(members, out, JSON_STYLE | JSON_EMBED);
+    json_decref(members);
+}
 
 static void begin(struct sink *sink)
 {
-    struct json_writer json = {.out = sink->out};
-    json_begin(&json, '{');
-    json_put_string(&json, "format", "mxgen-check");
-    json_put_count(&json, "version", CHECK_FORMAT_VERSION);
-    json_put_string(&json, "mxgen", mxg_version_string());
-    json_key(&json, "targets");
-    json_begin(&json, '[');
-    for (size_t i = 0; i < sink->run->num_targets; ++i)
-        json_string(&json, sink->run->targets[i]);
-    json_end(&json, ']');
-    json_key(&json, "compiles");
-    json_bool(&json, sink->run->compiles);
-    if (sink->run->is_compared && sink->kind == &sink_json) {
-        json_key(&json, "compared");
-        json_bool(&json, true);
-    }
-    if (sink->run->num_shards) {
-        json_key(&json, "shard");
-        json_begin(&json, '{');
-        json_put_count(&json, "number", sink->run->shard);
-        json_put_count(&json, "count", sink->run->num_shards);
-        json_end(&json, '}');
-    }
-    json_key(&json, "documents");
-    json_begin(&json, '[');
+    const struct check_run *run = sink->run;
+    json_t *header = json_pack("{s:s, s:i, s:s}", "format", "mxgen-check", "version",
+                               CHECK_FORMAT_VERSION, "mxgen", mxg_version_string());
+    json_t *targets = json_array();
+    for (size_t i = 0; i < run->num_targets; ++i)
+        json_array_append_new(targets, json_text(run->targets[i]));
+    json_object_set_new(header, "targets", targets);
+    json_object_set_new(header, "compiles", json_boolean(run->compiles));
+    if (run->is_compared && sink->kind == &sink_json)
+        json_object_set_new(header, "compared", json_true());
+    if (run->num_shards)
+        json_object_set_new(header, "shard",
+                            json_pack("{s:I, s:I}", "number", (json_int_t)run->shard, "count",
+                                      (json_int_t)run->num_shards));
+    putc('{', sink->out);
+    write_members(sink->out, header);
+    fputs(",\"documents\":[", sink->out);
 }
 
 static void write_document(struct sink *sink, const struct check_document *document)
 {
+    json_t *record = record_to_json(document, sink->run->with_times);
     fputs(sink->num_documents ? ",\n" : "\n", sink->out);
-    check_write_document(sink->out, document, sink->run->with_times);
+    json_dumpf(record, sink->out, JSON_STYLE);
+    json_decref(record);
 }
 
-static void put_stages(struct json_writer *json, const struct check_totals *totals)
+/* An object with the counts that are not 0, by their names. */
+static json_t *make_counts(const char *const *names, const uint64_t *counts, size_t num)
 {
-    json_key(json, "stages");
-    json_begin(json, '{');
-    for (int stage = 0; stage < NUM_CHECK_STAGES; ++stage)
-        json_put_count(json, check_stage_name((enum check_stage)stage), totals->failed[stage]);
-    json_end(json, '}');
-}
-
-static void put_changes(struct json_writer *json, const struct check_totals *totals)
-{
-    json_key(json, "changes");
-    json_begin(json, '{');
-    for (int kind = 0; kind < NUM_CHECK_CHANGES; ++kind)
-        json_put_count(json, check_change_name((enum check_change_kind)kind),
-                       totals->changes[kind]);
-    json_end(json, '}');
+    json_t *object = json_object();
+    for (size_t i = 0; i < num; ++i)
+        json_set_count(object, names[i], counts[i]);
+    return object;
 }
 
 static void end(struct sink *sink, const struct check_totals *totals)
 {
-    struct json_writer json = {.out = sink->out};
-    fputc('\n', sink->out);
-    json_end(&json, ']');
-    json_key(&json, "summary");
-    json_begin(&json, '{');
-    json_key(&json, "documents");
-    json_count(&json, totals->documents);
-    json_key(&json, "failed");
-    json_count(&json, totals->documents - totals->failed[CHECK_PASSED]);
-    json_key(&json, "elements");
-    json_count(&json, totals->elements);
-    json_key(&json, "shaders");
-    json_count(&json, totals->shaders);
-    json_put_count(&json, "errors", totals->errors);
-    json_put_count(&json, "warnings", totals->warnings);
-    put_stages(&json, totals);
+    json_t *summary =
+        json_pack("{s:I, s:I, s:I, s:I}", "documents", (json_int_t)totals->documents, "failed",
+                  (json_int_t)(totals->documents - totals->failed[CHECK_PASSED]), "elements",
+                  (json_int_t)totals->elements, "shaders", (json_int_t)totals->shaders);
+    json_set_count(summary, "errors", totals->errors);
+    json_set_count(summary, "warnings", totals->warnings);
+    json_object_set_new(summary, "stages",
+                        make_counts(check_stage_names, totals->failed, NUM_CHECK_STAGES));
     if (sink->run->is_compared && sink->kind == &sink_json)
-        put_changes(&json, totals);
-    json_end(&json, '}');
-    json_end(&json, '}');
-    fputc('\n', sink->out);
+        json_object_set_new(summary, "changes",
+                            make_counts(check_change_names, totals->changes, NUM_CHECK_CHANGES));
+    fputs("\n],", sink->out);
+    write_members(sink->out, json_pack("{s:o}", "summary", summary));
+    fputs("}\n", sink->out);
 }
 
 /*

@@ -27,8 +27,8 @@ static bool is_error(const struct check_message *message)
 
 static void write_failure(FILE *out, enum check_stage stage, const struct check_message *first)
 {
-    fprintf(out, "><failure type=\"%s\" message=\"", first ? first->id : check_stage_name(stage));
-    markup_text(out, first ? first->text : check_stage_name(stage));
+    fprintf(out, "><failure type=\"%s\" message=\"", first ? first->id : check_stage_names[stage]);
+    markup_text(out, first ? first->text : check_stage_names[stage]);
     fputs("\">", out);
 }
 

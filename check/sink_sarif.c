@@ -3,6 +3,7 @@
  * --sarif: the messages, for code review tools. OASIS SARIF 2.1.0; section numbers below are its
  * own.
  */
+#include "check/json.h"
 #include "check/sink.h"
 
 #include <ctype.h>
@@ -50,52 +51,37 @@ static char *uri_of(struct store *store, const char *path)
 }
 
 /* Section 3.27.12; the end of a region is the column behind it (3.30.8). */
-static void put_location(struct json_writer *json, struct store *store,
-                         const struct check_message *message)
+static json_t *make_location(const struct check_message *message)
 {
-    json_key(json, "locations");
-    json_begin(json, '[');
-    json_begin(json, '{');
-    json_key(json, "physicalLocation");
-    json_begin(json, '{');
-    json_key(json, "artifactLocation");
-    json_begin(json, '{');
-    json_put_string(json, "uri", uri_of(store, message->file));
-    json_end(json, '}');
-    if (message->line) {
-        json_key(json, "region");
-        json_begin(json, '{');
-        json_put_count(json, "startLine", message->line);
-        json_put_count(json, "startColumn", message->column);
-        json_put_count(json, "endColumn",
-                       message->column && message->length ? message->column + message->length : 0);
-        json_end(json, '}');
-    }
-    json_end(json, '}');
-    json_end(json, '}');
-    json_end(json, ']');
+    struct store store = {0};
+    json_t *place =
+        json_pack("{s:{s:s}}", "artifactLocation", "uri", uri_of(&store, message->file));
+    store_finish(&store);
+    json_t *region = json_object();
+    json_set_count(region, "startLine", message->line);
+    json_set_count(region, "startColumn", message->column);
+    if (message->column && message->length)
+        json_set_count(region, "endColumn", message->column + message->length);
+    if (message->line)
+        json_object_set(place, "region", region);
+    json_decref(region);
+    return json_pack("{s:o}", "physicalLocation", place);
 }
 
 static void write_result(struct sink *sink, const struct check_message *message)
 {
     static const char *const levels[] = {"error", "warning", "note"};
     struct sarif_state *state = sink->state;
-    struct store store = {0};
-    struct json_writer json = {.out = sink->out};
+    json_t *result =
+        json_pack("{s:s, s:s, s:{s:o}}", "ruleId", message->id, "level", levels[message->severity],
+                  "message", "text", json_text(message->text));
+    if (*message->file)
+        json_object_set_new(result, "locations", json_pack("[o]", make_location(message)));
     note_id(state, message->id);
     fputs(state->comma ? ",\n" : "\n", sink->out);
     state->comma = true;
-    json_begin(&json, '{');
-    json_put_string(&json, "ruleId", message->id);
-    json_put_string(&json, "level", levels[message->severity]);
-    json_key(&json, "message");
-    json_begin(&json, '{');
-    json_put_string(&json, "text", message->text);
-    json_end(&json, '}');
-    if (*message->file)
-        put_location(&json, &store, message);
-    json_end(&json, '}');
-    store_finish(&store);
+    json_dumpf(result, sink->out, JSON_STYLE);
+    json_decref(result);
 }
 
 static void write_document(struct sink *sink, const struct check_document *document)
@@ -104,47 +90,35 @@ static void write_document(struct sink *sink, const struct check_document *docum
         write_result(sink, &document->messages[i]);
 }
 
-static void put_text(struct json_writer *json, const char *key, const char *text)
-{
-    if (!*text)
-        return;
-    json_key(json, key);
-    json_begin(json, '{');
-    json_put_string(json, "text", text);
-    json_end(json, '}');
-}
-
-/* What 'mxgen explain' says of an id (3.49). */
-static void write_rule(struct json_writer *json, const char *id)
+/* The cause and the cure that 'mxgen explain' gives (3.49). */
+static json_t *make_rule(const char *id)
 {
     mxg_diagnostic_kind kind = {sizeof kind};
+    json_t *rule = json_pack("{s:s}", "id", id);
     uint32_t i = 0;
     while (mxg_get_diagnostic_kind(i, &kind) == MXG_OK && strcmp(kind.id, id) != 0)
         ++i;
-    json_begin(json, '{');
-    json_put_string(json, "id", id);
-    if (i < mxg_num_diagnostic_kinds()) {
-        put_text(json, "fullDescription", kind.cause);
-        put_text(json, "help", kind.cure);
-    }
-    json_end(json, '}');
+    if (i == mxg_num_diagnostic_kinds())
+        return rule;
+    if (*kind.cause)
+        json_object_set_new(rule, "fullDescription", json_pack("{s:s}", "text", kind.cause));
+    if (*kind.cure)
+        json_object_set_new(rule, "help", json_pack("{s:s}", "text", kind.cure));
+    return rule;
 }
 
 static void end(struct sink *sink, const struct check_totals *totals)
 {
     struct sarif_state *state = sink->state;
-    struct json_writer json = {.out = sink->out};
+    json_t *rules = json_array();
     (void)totals;
-    fputs("\n],\"tool\":{\"driver\":", sink->out);
-    json_begin(&json, '{');
-    json_put_string(&json, "name", "mxgen");
-    json_put_string(&json, "version", mxg_version_string());
-    json_key(&json, "rules");
-    json_begin(&json, '[');
     for (size_t i = 0; state && i < state->num_ids; ++i)
-        write_rule(&json, state->ids[i]);
-    json_end(&json, ']');
-    json_end(&json, '}');
+        json_array_append_new(rules, make_rule(state->ids[i]));
+    json_t *driver = json_pack("{s:s, s:s, s:o}", "name", "mxgen", "version", mxg_version_string(),
+                               "rules", rules);
+    fputs("\n],\"tool\":{\"driver\":", sink->out);
+    json_dumpf(driver, sink->out, JSON_STYLE);
+    json_decref(driver);
     fputs("}}]}\n", sink->out);
     if (state)
         store_finish(&state->store);

@@ -95,7 +95,7 @@ static void print_changes(FILE *out, const struct check_document *document)
 {
     for (size_t i = 0; i < document->num_changes; ++i) {
         const struct check_change *change = &document->changes[i];
-        fprintf(out, "changed %s (%s)", document->file, check_change_name(change->kind));
+        fprintf(out, "changed %s (%s)", document->file, check_change_names[change->kind]);
         if (*change->element)
             fprintf(out, " '%s'", change->element);
         fprintf(out, "%s%s: %s\n", *change->target ? " for " : "", change->target, change->text);
@@ -108,7 +108,7 @@ static void print_document(struct sink *sink, const struct check_document *docum
     if (run->with_times && sink->state)
         rank_document(sink->state, document);
     if (document->failed)
-        fprintf(sink->out, "FAILED %s (%s)\n", document->file, check_stage_name(document->failed));
+        fprintf(sink->out, "FAILED %s (%s)\n", document->file, check_stage_names[document->failed]);
     else if (run->verbose || (has_warning(document) && !run->quiet))
         fprintf(sink->out, "passed %s\n", document->file);
     for (size_t i = 0; i < document->num_messages; ++i)
@@ -121,8 +121,8 @@ static void print_comparison(FILE *out, const struct check_totals *totals)
 {
     fputs("since the baseline:", out);
     for (int kind = 0; kind < NUM_CHECK_CHANGES; ++kind)
-        fprintf(out, "%s %s %" PRIu64, kind ? "," : "",
-                check_change_name((enum check_change_kind)kind), totals->changes[kind]);
+        fprintf(out, "%s %s %" PRIu64, kind ? "," : "", check_change_names[kind],
+                totals->changes[kind]);
     fputs(" (documents)\n", out);
 }
 
@@ -142,8 +142,7 @@ static void print_failures(FILE *out, const struct check_totals *totals)
     for (int stage = CHECK_PASSED + 1; stage < NUM_CHECK_STAGES; ++stage) {
         if (!totals->failed[stage])
             continue;
-        fprintf(out, "%s%s %" PRIu64, separator, check_stage_name((enum check_stage)stage),
-                totals->failed[stage]);
+        fprintf(out, "%s%s %" PRIu64, separator, check_stage_names[stage], totals->failed[stage]);
         separator = ", ";
     }
     print_count(out, failed ? "), " : ", ", totals->errors, "error");

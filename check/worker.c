@@ -6,8 +6,8 @@
  * for compilers.
  */
 #define _POSIX_C_SOURCE 200809L
-#include "check/packed.h"
 #include "check/examine.h"
+#include "check/record_io.h"
 
 #include <malloc.h>
 #include <stdlib.h>
@@ -39,7 +39,7 @@ static void keep_memory(void)
 static bool serve(struct examiner *examiner, int output)
 {
     struct frame task;
-    struct packed record = {0};
+    struct record_bytes record = {0};
     if (!channel_open(&examiner->channel, STDIN_FILENO, output)) {
         fputs("mxgen: this program is started by 'mxgen check'\n", stderr);
         return false;
@@ -48,10 +48,10 @@ static bool serve(struct examiner *examiner, int output)
         examiner->is_brief = task.note & TASK_BRIEF;
         examiner->errors_only = task.note & TASK_ERRORS_ONLY;
         const struct check_document *document = examine(examiner, task.body);
-        check_pack_document(&record, &examiner->store, document);
-        channel_answer(&examiner->channel, record.bytes, record.size);
+        record_to_bytes(&record, document);
+        channel_answer(&examiner->channel, record.data, record.size);
     }
-    free(record.bytes);
+    free(record.data);
     channel_close(&examiner->channel);
     return true;
 }

@@ -2,29 +2,32 @@
 #include "cli/args.h"
 
 #include "cli/cli.h"
+#include "cli/memory.h"
 
 #include <errno.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Programs end where there is no memory for their arguments. */
 static void *grow(void *items, size_t len, size_t item_size)
 {
     if (len & (len - 1)) /* room doubles at powers of two */
         return items;
-    void *more = realloc(items, (len ? len * 2 : 1) * item_size);
-    if (!more) {
-        fputs("mxgen: out of memory\n", stderr);
-        exit(1);
-    }
-    return more;
+    return memory_resize(items, (len ? len * 2 : 1) * item_size);
 }
 
 void args_append(struct arg_list *list, const char *item)
 {
     list->items = grow(list->items, list->len, sizeof *list->items);
     list->items[list->len++] = item;
+}
+
+void args_free(struct arg_list *list)
+{
+    for (size_t i = 0; i < list->len; ++i)
+        free((void *)(uintptr_t)list->items[i]);
+    free(list->items);
+    *list = (struct arg_list){0};
 }
 
 void args_forward(const struct arg *arg, struct arg_list *out)

@@ -52,6 +52,8 @@ bool args_parse(struct arg_parser *parser, int argc, char **argv);
 void args_finish(struct arg_parser *parser);
 
 void args_append(struct arg_list *list, const char *item);
+/* Frees the list and its items, which must be of cli_format or cli_copy. */
+void args_free(struct arg_list *list);
 
 /* Appends what an option was given, as it is written on a command line; nothing for a text that was
  * not given. The items are to be freed. */

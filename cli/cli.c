@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/cli.h"
 #include "cli/files.h"
+#include "cli/memory.h"
 #include "cli/warnings.h"
 
 #include <errno.h>
@@ -251,11 +252,9 @@ char *cli_file_name(const char *element_path)
      * that names stay different.
      */
     enum { MAX_NAME = 200 };
-    uint32_t hash = 2166136261u; /* FNV-1a */
-    for (const char *c = element_path; *c; ++c)
-        hash = (hash ^ (unsigned char)*c) * 16777619u;
+    unsigned hash = (unsigned)cli_hash(CLI_HASH_OF_NOTHING, element_path);
     char *name = strlen(element_path) > MAX_NAME
-                     ? cli_format("%.*s-%08x", MAX_NAME, element_path, (unsigned)hash)
+                     ? cli_format("%.*s-%08x", MAX_NAME, element_path, hash)
                      : cli_format("%s", element_path);
     for (char *c = name; *c; ++c) {
         if (*c == '/')
@@ -264,21 +263,17 @@ char *cli_file_name(const char *element_path)
     return name;
 }
 
-static char *allocate_text(size_t len)
+uint64_t cli_hash(uint64_t hash, const char *text)
 {
-    char *text = malloc(len + 1);
-    if (!text) {
-        fputs("mxgen: out of memory\n", stderr);
-        exit(EXIT_FAULT);
-    }
-    return text;
+    for (; *text; ++text)
+        hash = (hash ^ (unsigned char)*text) * 0x100000001b3u;
+    return hash;
 }
 
 char *cli_copy(const char *text, size_t len)
 {
-    char *copy = memcpy(allocate_text(len), text, len);
-    copy[len] = '\0';
-    return copy;
+    char *copy = memory_alloc(len + 1);
+    return memcpy(copy, text, len);
 }
 
 char *cli_format(const char *format, ...)
@@ -287,7 +282,7 @@ char *cli_format(const char *format, ...)
     va_start(args, format);
     va_copy(again, args);
     int len = vsnprintf(NULL, 0, format, args);
-    char *text = allocate_text(len < 0 ? 0 : (size_t)len);
+    char *text = memory_alloc(len < 0 ? 1 : (size_t)len + 1);
     *text = '\0';
     if (len > 0)
         vsnprintf(text, (size_t)len + 1, format, again);

@@ -82,6 +82,10 @@ __attribute__((format(printf, 1, 2)))
 char *
 cli_format(const char *format, ...);
 
+/* FNV-1a of a text and of what was hashed before, at first CLI_HASH_OF_NOTHING. */
+#define CLI_HASH_OF_NOTHING 0xcbf29ce484222325u
+uint64_t cli_hash(uint64_t hash, const char *text);
+
 /*
  * A copy of `len` bytes with a NUL behind them, to be freed; ends the program where there is no
  * memory.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /* mxgen explain: cause, example and cure of every message. */
 #include "cli/cli.h"
+#include "cli/memory.h"
 #include "cli/files.h"
 #include "cli/utf8.h"
 
@@ -95,13 +96,8 @@ struct example_file {
 
 static void append(struct example_file *file, const char *text, size_t len)
 {
-    char *more = realloc(file->text, file->len + len + 1);
-    if (!more) {
-        fputs("mxgen: out of memory\n", stderr);
-        exit(EXIT_FAULT);
-    }
-    file->text = more;
-    memcpy(more + file->len, text, len);
+    file->text = memory_resize(file->text, file->len + len + 1);
+    memcpy(file->text + file->len, text, len);
     file->len += len;
 }
 

@@ -223,13 +223,6 @@ static void write_depfile(struct generate *gen)
                      reason);
 }
 
-static void free_items(struct arg_list *list)
-{
-    for (size_t i = 0; i < list->len; ++i)
-        free((void *)(uintptr_t)list->items[i]);
-    free(list->items);
-}
-
 static int generate_all(struct generate *gen)
 {
     gen->several = gen->cli.parser.inputs.len > 1;
@@ -265,8 +258,8 @@ int command_generate(const struct command *command, int argc, char **argv)
                    : EXIT_USAGE;
     cli_finish(&gen.cli);
     free(gen.elements.items);
-    free_items(&gen.outputs);
-    free_items(&gen.sources);
-    free_items(&gen.folders);
+    args_free(&gen.outputs);
+    args_free(&gen.sources);
+    args_free(&gen.folders);
     return code;
 }

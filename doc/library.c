@@ -56,5 +56,5 @@ void library_doc(struct cli *cli, const struct library_args *args)
         write_page(&manual, cli, folder, "index.html", manual_write_html);
     if (args->markdown || both)
         write_page(&manual, cli, folder, "index.md", manual_write_markdown);
-    manual_finish(&manual);
+    store_finish(&manual.store);
 }

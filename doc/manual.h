@@ -8,6 +8,7 @@
 #define MXG_DOC_MANUAL_H
 
 #include "cli/cli.h"
+#include "cli/store.h"
 
 #include <mxgen/mxgen.h>
 
@@ -68,16 +69,13 @@ struct manual {
     struct manual_node *nodes; /* by group, then by name */
     size_t num_nodes, num_variants;
     uint32_t num_targets;
-    void *blocks; /* all of the above */
+    struct store store; /* of all of the above */
 };
 
 /* model.c: the definitions from `first` on. */
 void manual_init(struct manual *manual, const mxg_library *library, uint32_t first);
-void manual_finish(struct manual *manual);
 
-/* Zeroed memory that lives as long as the reference. */
-void *manual_alloc(struct manual *manual, size_t size);
-/* Takes over a text of cli_format. */
+/* A copy that lives as long as the reference; frees the text. */
 const char *manual_keep(struct manual *manual, char *text);
 
 /* cells.c: what a port says in a column; "" for nothing. */

@@ -5,51 +5,19 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- Memory ---- */
-
-struct block {
-    struct block *next;
-    char *text; /* of cli_format; else the memory stands behind the block */
-};
-
-static struct block *add_block(struct manual *manual, size_t size)
-{
-    struct block *block = calloc(1, sizeof *block + size);
-    if (!block) {
-        fputs("mxgen: out of memory\n", stderr);
-        exit(EXIT_FAULT);
-    }
-    block->next = manual->blocks;
-    manual->blocks = block;
-    return block;
-}
-
-void *manual_alloc(struct manual *manual, size_t size)
-{
-    return add_block(manual, size) + 1;
-}
-
 const char *manual_keep(struct manual *manual, char *text)
 {
-    add_block(manual, 0)->text = text;
-    return text;
-}
-
-void manual_finish(struct manual *manual)
-{
-    for (struct block *block = manual->blocks; block;) {
-        struct block *next = block->next;
-        free(block->text);
-        free(block);
-        block = next;
-    }
+    const char *kept = store_text(&manual->store, text, strlen(text));
+    free(text);
+    return kept;
 }
 
 /* ---- Texts ---- */
 
 static struct manual_texts make_texts(struct manual *manual, size_t capacity)
 {
-    return (struct manual_texts){.items = manual_alloc(manual, capacity * sizeof(const char *))};
+    return (struct manual_texts){.items =
+                                     store_alloc(&manual->store, capacity * sizeof(const char *))};
 }
 
 static void add_distinct(struct manual_texts *texts, const char *text)
@@ -105,7 +73,7 @@ static void add_ports(struct manual *manual, struct manual_edition *edition)
     size_t capacity = 0;
     for (size_t i = 0; i < edition->num_variants; ++i)
         capacity += edition->variants[i].def.num_inputs + edition->variants[i].def.num_outputs;
-    edition->ports = manual_alloc(manual, capacity * sizeof *edition->ports);
+    edition->ports = store_alloc(&manual->store, capacity * sizeof *edition->ports);
     for (unsigned is_output = 0; is_output < 2; ++is_output) {
         for (size_t i = 0; i < edition->num_variants; ++i) {
             const struct manual_variant *variant = &edition->variants[i];
@@ -249,7 +217,7 @@ static void add_node(struct manual *manual, const struct manual_variant *variant
                                  .text = def->doc,
                                  .file = def->file,
                                  .num_variants = num};
-    node->editions = manual_alloc(manual, num * sizeof *node->editions);
+    node->editions = store_alloc(&manual->store, num * sizeof *node->editions);
     for (size_t i = 0; i < num;) {
         struct manual_edition *edition = &node->editions[node->num_editions++];
         edition->version = variants[i].def.version;
@@ -267,7 +235,7 @@ void manual_init(struct manual *manual, const mxg_library *library, uint32_t fir
 {
     uint32_t end = mxg_library_num_nodedefs(library);
     *manual = (struct manual){.library = library, .num_targets = mxg_num_targets()};
-    struct manual_variant *variants = manual_alloc(manual, (end - first) * sizeof *variants);
+    struct manual_variant *variants = store_alloc(&manual->store, (end - first) * sizeof *variants);
     for (uint32_t i = first; i < end; ++i) {
         struct manual_variant *variant = &variants[manual->num_variants];
         *variant = (struct manual_variant){.index = i, .def = {sizeof variant->def}};
@@ -279,7 +247,7 @@ void manual_init(struct manual *manual, const mxg_library *library, uint32_t fir
         ++manual->num_variants;
     }
     qsort(variants, manual->num_variants, sizeof *variants, compare_variants);
-    manual->nodes = manual_alloc(manual, manual->num_variants * sizeof *manual->nodes);
+    manual->nodes = store_alloc(&manual->store, manual->num_variants * sizeof *manual->nodes);
     for (size_t i = 0; i < manual->num_variants;) {
         size_t len = 1;
         while (i + len < manual->num_variants && is_same_node(&variants[i], &variants[i + len]))

@@ -116,9 +116,6 @@ void diag_render_text(const struct diag *diag, const char *source, size_t source
 void diag_render_line(const struct diag *diag, const char *line, size_t line_len, bool colour,
                       struct text *out);
 
-/* One JSON object per message, notes nested in their message: an array. */
-void diag_render_json(const struct diag_list *list, struct text *out);
-
 /*
  * What was probably meant by a word that means nothing: " (did you mean 'x'?)" for the candidate
  * that is closest by edit distance, "" where none is near; the first of equally close ones. It

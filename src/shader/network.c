@@ -3,7 +3,7 @@
 #include "shader/network.h"
 
 #include "base/hash.h"
-#include "shader/json.h"
+#include "shader/reflect.h"
 
 const char *network_use_text(enum network_use use)
 {
@@ -61,24 +61,24 @@ uint64_t network_topology(const struct network_group *groups, uint32_t num_group
 
 /* ---- JSON ---- */
 
-static void put_input(struct json *json, const struct network *network,
+static void put_input(struct reflect *r, const struct network *network,
                       const struct network_input *input, const char *name)
 {
-    reflect_item(json);
-    reflect_open(json, '{');
-    reflect_string(json, "name", name);
-    reflect_id(json, "documentType", input->doc_type);
+    json_item(&r->json);
+    json_open(&r->json, '{');
+    json_put_text(&r->json, "name", name);
+    reflect_id(r, "documentType", input->doc_type);
     if (input->kind == NETWORK_VALUE)
-        reflect_value(json, "value", &input->value);
+        reflect_value(&r->json, "value", &input->value);
     else if (input->kind == NETWORK_FILE)
-        reflect_id(json, "file", input->file);
-    reflect_id(json, "path", input->path);
+        reflect_id(r, "file", input->file);
+    reflect_id(r, "path", input->path);
     if (input->kind == NETWORK_LAYER) {
         const struct network_layer *from = &network->layers.items[input->layer];
-        reflect_id(json, "layer", from->name);
-        reflect_id(json, "output", network->nodes.items[from->node].outputs[input->output]);
+        reflect_id(r, "layer", from->name);
+        reflect_id(r, "output", network->nodes.items[from->node].outputs[input->output]);
     }
-    reflect_close(json, '}');
+    json_close(&r->json, '}');
 }
 
 static bool is_said(const struct network_input *input)
@@ -87,104 +87,104 @@ static bool is_said(const struct network_input *input)
            && !(input->kind == NETWORK_FILE && !input->file && !input->path);
 }
 
-static void put_layer(struct json *json, const struct network *network,
+static void put_layer(struct reflect *r, const struct network *network,
                       const struct network_layer *layer)
 {
     const struct network_node *node = &network->nodes.items[layer->node];
-    reflect_item(json);
-    reflect_open(json, '{');
-    reflect_id(json, "name", layer->name);
-    reflect_id(json, "path", layer->path);
-    reflect_id(json, "shader", node->name);
-    reflect_key(json, "inputs");
-    reflect_open(json, '[');
+    json_item(&r->json);
+    json_open(&r->json, '{');
+    reflect_id(r, "name", layer->name);
+    reflect_id(r, "path", layer->path);
+    reflect_id(r, "shader", node->name);
+    json_key(&r->json, "inputs");
+    json_open(&r->json, '[');
     for (uint32_t i = 0; i < node->num_inputs; i++)
         if (node->inputs[i] && is_said(&network->inputs.items[layer->first_input + i]))
-            put_input(json, network, &network->inputs.items[layer->first_input + i],
+            put_input(r, network, &network->inputs.items[layer->first_input + i],
                       str_text(network->strings, node->inputs[i]));
-    reflect_close(json, ']');
-    reflect_close(json, '}');
+    json_close(&r->json, ']');
+    json_close(&r->json, '}');
 }
 
-static void put_end(struct json *json, const struct network_group *group)
+static void put_end(struct reflect *r, const struct network_group *group)
 {
-    reflect_item(json);
-    reflect_open(json, '{');
-    reflect_string(json, "name", NETWORK_END_LAYER);
-    reflect_string(json, "shader", group->end->name);
-    reflect_key(json, "inputs");
-    reflect_open(json, '[');
+    json_item(&r->json);
+    json_open(&r->json, '{');
+    json_put_text(&r->json, "name", NETWORK_END_LAYER);
+    json_put_text(&r->json, "shader", group->end->name);
+    json_key(&r->json, "inputs");
+    json_open(&r->json, '[');
     for (unsigned i = 0; i < 2 && group->end->inputs[i]; i++)
         if (is_said(&group->results[i]))
-            put_input(json, group->network, &group->results[i], group->end->inputs[i]);
-    reflect_close(json, ']');
-    reflect_close(json, '}');
+            put_input(r, group->network, &group->results[i], group->end->inputs[i]);
+    json_close(&r->json, ']');
+    json_close(&r->json, '}');
 }
 
-static void put_group(struct json *json, const struct network_group *group)
+static void put_group(struct reflect *r, const struct network_group *group)
 {
     const struct network *network = group->network;
-    reflect_item(json);
-    reflect_open(json, '{');
-    reflect_string(json, "use", network_use_text(group->use));
-    reflect_key(json, "layers");
-    reflect_open(json, '[');
+    json_item(&r->json);
+    json_open(&r->json, '{');
+    json_put_text(&r->json, "use", network_use_text(group->use));
+    json_key(&r->json, "layers");
+    json_open(&r->json, '[');
     for (uint32_t i = 0; i < network->layers.len; i++)
         if (group->needed[i])
-            put_layer(json, network, &network->layers.items[i]);
+            put_layer(r, network, &network->layers.items[i]);
     if (group->end->name)
-        put_end(json, group);
-    reflect_close(json, ']');
+        put_end(r, group);
+    json_close(&r->json, ']');
     if (!group->end->name) {
         const struct network_layer *layer = &network->layers.items[group->results[0].layer];
-        reflect_id(json, "layer", layer->name);
-        reflect_id(json, "output",
+        reflect_id(r, "layer", layer->name);
+        reflect_id(r, "output",
                    network->nodes.items[layer->node].outputs[group->results[0].output]);
     }
-    reflect_close(json, '}');
+    json_close(&r->json, '}');
 }
 
-static void put_settled(struct json *json, const struct network_node *node)
+static void put_settled(struct reflect *r, const struct network_node *node)
 {
     bool any = false;
     for (uint32_t i = 0; i < node->num_inputs; i++)
         any |= node->fixed[i].type != IR_TYPE_VOID;
     if (!any)
         return;
-    reflect_key(json, "settled");
-    reflect_open(json, '{');
+    json_key(&r->json, "settled");
+    json_open(&r->json, '{');
     for (uint32_t i = 0; i < node->num_inputs; i++) {
-        const char *name = str_text(json->shader->strings, node->ports[i]);
+        const char *name = str_text(r->shader->strings, node->ports[i]);
         if (node->fixed[i].type == IR_TYPE_STRING || node->fixed[i].type == IR_TYPE_SAMPLER)
-            reflect_id(json, name, node->fixed[i].w[0].u);
+            reflect_id(r, name, node->fixed[i].w[0].u);
         else if (node->fixed[i].type != IR_TYPE_VOID)
-            reflect_value(json, name, &node->fixed[i]);
+            reflect_value(&r->json, name, &node->fixed[i]);
     }
-    reflect_close(json, '}');
+    json_close(&r->json, '}');
 }
 
-static void put_node(struct json *json, const struct network_node *node)
+static void put_node(struct reflect *r, const struct network_node *node)
 {
-    reflect_item(json);
-    reflect_open(json, '{');
-    reflect_id(json, "name", node->name);
-    reflect_id(json, "definition", node->definition_name);
-    put_settled(json, node);
-    reflect_close(json, '}');
+    json_item(&r->json);
+    json_open(&r->json, '{');
+    reflect_id(r, "name", node->name);
+    reflect_id(r, "definition", node->definition_name);
+    put_settled(r, node);
+    json_close(&r->json, '}');
 }
 
-void network_reflect(struct json *json, const struct network_group *groups, uint32_t num_groups)
+void network_reflect(struct reflect *r, const struct network_group *groups, uint32_t num_groups)
 {
     const struct network *network = groups->network;
-    reflect_key(json, "groups");
-    reflect_open(json, '[');
+    json_key(&r->json, "groups");
+    json_open(&r->json, '[');
     for (uint32_t g = 0; g < num_groups; g++)
-        put_group(json, &groups[g]);
-    reflect_close(json, ']');
-    reflect_key(json, "shaders");
-    reflect_open(json, '[');
+        put_group(r, &groups[g]);
+    json_close(&r->json, ']');
+    json_key(&r->json, "shaders");
+    json_open(&r->json, '[');
     for (uint32_t i = 0; i < network->nodes.len; i++)
         if (network->nodes.items[i].source)
-            put_node(json, &network->nodes.items[i]);
-    reflect_close(json, ']');
+            put_node(r, &network->nodes.items[i]);
+    json_close(&r->json, ']');
 }

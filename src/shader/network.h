@@ -94,8 +94,8 @@ const char *network_use_text(enum network_use use);
 void network_find_needed(struct network_group *group); /* by its results */
 /* of everything but values */
 uint64_t network_topology(const struct network_group *groups, uint32_t num_groups);
-struct json;
+struct reflect;
 /* keys of the object at hand */
-void network_reflect(struct json *json, const struct network_group *groups, uint32_t num_groups);
+void network_reflect(struct reflect *r, const struct network_group *groups, uint32_t num_groups);
 
 #endif
