@@ -212,10 +212,8 @@ static const struct lang_syntax *image_syntax(void)
 
 static void write_image(const struct object *object, struct text *out)
 {
-    mxg_library *library = (mxg_library *)(uintptr_t)object; /* documents hold references of it */
-    struct lang_recorder recorder;
-    library_rehearse(library, &recorder, out->arena);
-    library_write_image(&library->layer, &recorder, image_syntax(), out);
+    const mxg_library *library = (const mxg_library *)object;
+    library_write_image(&library->layer, image_syntax(), out);
 }
 
 static void write_expanded(const struct object *object, struct text *out)

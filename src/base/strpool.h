@@ -8,7 +8,7 @@
  * constants.
  *
  * A layer is either growing (pointers into an arena) or an image (offsets into a mapped block, see
- * library/image.h).
+ * library/image.c).
  */
 #ifndef MXG_BASE_STRPOOL_H
 #define MXG_BASE_STRPOOL_H
