@@ -73,7 +73,7 @@ static bool are_complete(struct merge *merge)
         uint64_t number = shard_of(&merge->parts[i], "number");
         if (shard_of(&merge->parts[i], "count") != expected)
             report_error(&merge->cli.report, "shard-other",
-                         "'%s' is not a shard of the same run as '%s'", merge->parts[i].path,
+                         "'%s' and '%s' are not shards of the same run", merge->parts[i].path,
                          merge->parts[0].path);
         if (number <= merge->num_parts)
             seen[number] = true;
@@ -122,7 +122,8 @@ static void tell_all(struct merge *merge)
     for (struct part *part; (part = find_next(merge)) != NULL; advance(merge, part)) {
         if (part->document->index < expected)
             report_error(&merge->cli.report, "shard-twice",
-                         "'%s' has document %" PRIu64 ", '%s', which another part has too",
+                         "'%s' contains document %" PRIu64
+                         ", '%s', but another shard contains it too",
                          part->path, part->document->index, part->document->file);
         else
             reports_document(&merge->reports, part->document);

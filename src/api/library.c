@@ -75,8 +75,7 @@ static void read_path(struct load *load, const char *path)
     struct diag_list *diags = &load->library->object.diagnostics.list;
     if (is_image(path)) {
         refuse_image(load, path,
-                     "it stands on no other library: name it first, without the one that is built "
-                     "in (--no-builtin-library)");
+                     "an image has no base library: name it first, with --no-builtin-library");
         return;
     }
     if (!folder_exists(path)) {

@@ -262,9 +262,9 @@ static const char *check_header(const struct header *header, const void *data, s
                                 bool check_bytes)
 {
     if (size < sizeof *header || memcmp(header->magic, magic, sizeof magic) != 0)
-        return "it does not begin like one";
+        return "it is not a library image";
     if (header->fingerprint != fingerprint())
-        return "it was packed by another version of mxgen; pack it again";
+        return "another version of mxgen packed it; pack it again";
     if (header->size != size)
         return "it is truncated";
     if (check_bytes && header->checksum != checksum(data, size))

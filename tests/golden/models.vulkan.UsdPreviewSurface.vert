@@ -25,12 +25,12 @@ layout(location = 0) out VertexData {
 
 void main()
 {
-    vec3 normalWorld = normalize((u_worldInverseTransposeMatrix * vec4(i_normal, 0.0)).xyz);
-    vd.normalWorld = normalWorld;
-    vec3 tangentWorld = normalize((u_worldMatrix * vec4(i_tangent, 0.0)).xyz);
-    vd.tangentWorld = tangentWorld;
-    vd.bitangentWorld = cross(normalWorld, tangentWorld);
-    vec4 positionWorld = u_worldMatrix * vec4(i_position, 1.0);
-    vd.positionWorld = positionWorld.xyz;
-    gl_Position = u_viewProjectionMatrix * positionWorld;
+    vec3 direction = normalize((u_worldInverseTransposeMatrix * vec4(i_normal, 0.0)).xyz);
+    vd.normalWorld = direction;
+    vec3 direction_2 = normalize((u_worldMatrix * vec4(i_tangent, 0.0)).xyz);
+    vd.tangentWorld = direction_2;
+    vd.bitangentWorld = cross(direction, direction_2);
+    vec4 positionWorld_product = u_worldMatrix * vec4(i_position, 1.0);
+    vd.positionWorld = positionWorld_product.xyz;
+    gl_Position = u_viewProjectionMatrix * positionWorld_product;
 }

@@ -130,7 +130,7 @@ for place in missing/ball.png ball.xyz . ; do
     check "a picture that cannot be written: $place" exits 1 "$render" none.mtlx -o "$place" --size 8
     check 'is output-failed' eval 'grep -q "\[output-failed\]" err && ! grep -q none.mtlx err'
 done
-check 'an ending of no format' eval '! "$render" plain.mtlx -o ball.xyz 2>err; grep -q "ball.xyz.: its ending is that of no format" err'
+check 'an ending of no format' eval '! "$render" plain.mtlx -o ball.xyz 2>err; grep -q "ball.xyz.: unknown image format" err'
 check 'a copy, too' exits 1 "$render" none.mtlx -o x.png --copy missing/x.png
 check 'a value that is none' exits 1 "$render" plain.mtlx -o x.png --set SR/base_color=abc
 check 'is bad-value' grep -q '\[bad-value\]' err

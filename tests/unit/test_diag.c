@@ -60,8 +60,8 @@ static void test_list(void)
     REQUIRE_EQ(list.num_errors, 1);
     REQUIRE_EQ(list.num_warnings, 1);
     const struct diag *items = list.items.items;
-    REQUIRE_STR(items[0].message, "unknown node <mux> (did you mean 'mix'?); no library that is "
-                                  "loaded defines it: add the one that does with '--library'");
+    REQUIRE_STR(items[0].message, "unknown node <mux> (did you mean 'mix'?); no loaded library "
+                                  "defines it; '--library' adds a library");
     REQUIRE_STR(items[0].place.file, "wood.mtlx");
     REQUIRE_EQ(items[0].severity, DIAG_ERROR);
     REQUIRE_EQ(items[1].severity, DIAG_NOTE);
@@ -90,7 +90,7 @@ static void test_limit(void)
     REQUIRE_EQ(list.num_errors, 5);
     /* two errors, each with a note; the note about the rest; the warning */
     REQUIRE_EQ(list.items.len, 6);
-    REQUIRE_STR(list.items.items[4].message, "more errors than 2; the rest is not shown");
+    REQUIRE_STR(list.items.items[4].message, "more than 2 errors; the rest is not shown");
     REQUIRE_EQ(list.items.items[4].parent, 2);
     REQUIRE_EQ(list.items.items[5].id, DIAG_ID_version_missing);
 }
