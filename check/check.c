@@ -435,26 +435,24 @@ int command_check(const struct command *command, int argc, char **argv)
         return check_merge(command, argc - 1, argv + 1);
     struct check check = {.time_limit = 120};
     struct arg args[16 + NUM_SINK_KINDS + NUM_MEASURES] = {
-        {"target", 't', ARG_LIST, "T,...", "targets to generate for (default: glsl)",
-         &check.target_args},
-        {"jobs", 'j', ARG_SIZE, "N", "documents at a time (default: as many as there are cores)",
-         &check.jobs},
+        {"target", 't', ARG_LIST, "T,...", "targets (default: glsl)", &check.target_args},
+        {"jobs", 'j', ARG_SIZE, "N",
+         "documents checked at the same time (default: number of cores)", &check.jobs},
         {"files-from", 0, ARG_LIST, "FILE",
-         "a list of paths, one on each line; '-': standard input", &check.files_from},
-        {"no-compile", 0, ARG_FLAG, NULL, "generates, and compiles nothing", &check.no_compile},
+         "reads paths from a file, one on each line; '-' is standard input", &check.files_from},
+        {"no-compile", 0, ARG_FLAG, NULL, "does not compile the shaders", &check.no_compile},
         {"render", 0, ARG_FLAG, NULL,
-         "draws every element, for the gallery and to compare with a baseline", &check.render},
+         "renders each element, for the gallery and for comparison with a baseline", &check.render},
         {"time-limit", 0, ARG_SIZE, "S",
-         "seconds that a step of a document may take, one element for one target; 0: any (default: "
-         "120)",
+         "limit in seconds for one step: one element for one target; 0: none (default: 120)",
          &check.time_limit},
-        {"cache", 0, ARG_TEXT, "DIR",
-         "keeps what was found, and checks again only what has changed", &check.cache_folder},
+        {"cache", 0, ARG_TEXT, "DIR", "keeps results, and checks only changed documents again",
+         &check.cache_folder},
         {"shard", 0, ARG_TEXT, "K/N",
-         "checks the K-th of N parts; 'check merge' joins their JSON reports", &check.shard},
-        {"update-baseline", 0, ARG_FLAG, NULL, "writes the baseline anew, after the comparison",
+         "checks part K of N; 'mxgen check merge' joins the JSON reports", &check.shard},
+        {"update-baseline", 0, ARG_FLAG, NULL, "replaces the baseline after the comparison",
          &check.update_baseline},
-        {"stats", 0, ARG_FLAG, NULL, "tells times, the slowest documents and the largest shaders",
+        {"stats", 0, ARG_FLAG, NULL, "prints times, the slowest documents and the largest shaders",
          &check.stats},
     };
     size_t num_args = 0;
@@ -463,8 +461,8 @@ int command_check(const struct command *command, int argc, char **argv)
     num_args += reports_args(&check.reports, args + num_args);
     for (int i = 0; i < NUM_MEASURES; ++i)
         args[num_args++] = (struct arg){
-            measure_infos[i].option, 0, ARG_TEXT, "N | T=N,...", measure_infos[i].meaning,
-            &check.budget_args[i]};
+            measure_infos[i].option, 0,       ARG_TEXT, "N | T=N,...", measure_infos[i].meaning,
+            &check.budget_args[i],   ARG_MORE};
     int code;
     if (cli_start(&check.cli, command, args, num_args, CLI_GENERATES, argc, argv, &code))
         code = run_if_sensible(&check);

@@ -164,7 +164,7 @@ int check_merge(const struct command *command, int argc, char **argv)
 {
     struct merge merge = {0};
     struct arg args[4 + NUM_SINK_KINDS] = {
-        {"stats", 0, ARG_FLAG, NULL, "tells times, the slowest documents and the largest shaders",
+        {"stats", 0, ARG_FLAG, NULL, "prints times, the slowest documents and the largest shaders",
          &merge.stats},
     };
     size_t num_args = 1 + reports_args(&merge.reports, args + 1);

@@ -39,6 +39,6 @@ static void end(struct sink *sink, const struct check_totals *totals)
     putc('\n', sink->out);
 }
 
-const struct sink_kind sink_depfile = {
-    "depfile", "writes which files the reports depend on, for make and ninja", begin,
-    write_document, end};
+const struct sink_kind sink_depfile = {"depfile",
+                                       "writes the dependencies of the reports, for make and ninja",
+                                       begin, write_document, end};

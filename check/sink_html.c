@@ -172,5 +172,5 @@ static void end(struct sink *sink, const struct check_totals *totals)
     fputs("//]]>\n</script></body></html>\n", sink->out);
 }
 
-const struct sink_kind sink_html = {"html", "writes a gallery, one page of HTML", begin,
+const struct sink_kind sink_html = {"html", "writes a gallery as one HTML page", begin,
                                     write_document, end};

@@ -89,7 +89,7 @@ static void write_plain(struct sink *sink, const struct check_document *document
 }
 
 const struct sink_kind sink_baseline = {
-    "baseline", "compares with this report of an earlier run; writes it where there is none", begin,
+    "baseline", "compares with this earlier JSON report, or writes it if it does not exist", begin,
     write_plain, end};
-const struct sink_kind sink_json = {"json", "writes all that was found as JSON", begin,
-                                    write_document, end};
+const struct sink_kind sink_json = {"json", "writes the full report as JSON", begin, write_document,
+                                    end};

@@ -111,5 +111,5 @@ static void end(struct sink *sink, const struct check_totals *totals)
 }
 
 const struct sink_kind sink_junit = {
-    "junit", "writes a test case for each element and target, as JUnit's XML", begin,
+    "junit", "writes JUnit XML, with a test case for each element and target", begin,
     write_document, end};

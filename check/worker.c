@@ -58,7 +58,7 @@ static bool serve(struct examiner *examiner, int output)
 
 int main(int argc, char **argv)
 {
-    static const struct command command = {"check", "-check (started by `mxgen check`)",
+    static const struct command command = {"check", "-check (a worker, which `mxgen check` starts)",
                                            "Checks documents.", NULL};
     struct cli cli;
     bool no_compile = false;
@@ -67,8 +67,8 @@ int main(int argc, char **argv)
     keep_memory();
     const struct arg args[] = {
         {"target", 't', ARG_LIST, "T", "a target", &examiner.targets},
-        {"no-compile", 0, ARG_FLAG, NULL, "generates only", &no_compile},
-        {"render", 0, ARG_FLAG, NULL, "draws every element", &examiner.render},
+        {"no-compile", 0, ARG_FLAG, NULL, "does not compile the shaders", &no_compile},
+        {"render", 0, ARG_FLAG, NULL, "renders each element", &examiner.render},
     };
     int code;
     if (cli_start(&cli, &command, args, sizeof args / sizeof *args, CLI_GENERATES, argc, argv,

@@ -56,11 +56,9 @@ int command_explain(const struct command *command, int argc, char **argv)
     bool markdown = false;
     const struct arg args[] = {
         {"output", 'o', ARG_TEXT, "DIR",
-         "writes the examples of the messages (default: of all) there instead: ID/wrong and "
-         "ID/right",
-         &folder},
+         "writes the examples instead, to DIR/ID/wrong and DIR/ID/right", &folder},
         {"markdown", 0, ARG_FLAG, NULL,
-         "prints Markdown: of all messages a document with a table of them", &markdown},
+         "prints Markdown; without an ID, the document of all messages", &markdown},
     };
     int code;
     if (cli_start(&cli, command, args, sizeof args / sizeof *args, CLI_LIBRARY_IS_INPUT, argc, argv,

@@ -162,9 +162,9 @@ int main(int argc, char **argv)
         {"targets", 't', ARG_TEXT, "T,...", "targets (default: glsl,vulkan,essl)", &check.targets},
         {"interfaces", 'i', ARG_TEXT, "I,...",
          "interface modes (default: complete,authored,reduced)", &check.interfaces},
-        {"element", 'e', ARG_LIST, "PATH", "an element (default: all that can be rendered)",
+        {"element", 'e', ARG_LIST, "PATH", "path of an element (default: all renderable elements)",
          &check.elements},
-        {"no-compile", 0, ARG_FLAG, NULL, "generates only", &check.no_compile},
+        {"no-compile", 0, ARG_FLAG, NULL, "does not compile the shaders", &check.no_compile},
     };
     int code;
     if (cli_start(&check.cli, &command, args, sizeof args / sizeof *args,
