@@ -143,8 +143,8 @@ struct token {
     uint32_t line, column, columns; /* columns: code points it covers */
     const char *comment;            /* the line comments right above it; NULL: none */
     size_t comment_len;
-    union ir_word value;            /* of a number */
-    const char *reason;             /* of TOKEN_BAD */
+    union ir_word value; /* of a number */
+    const char *reason;  /* of TOKEN_BAD */
 };
 
 struct lexer {

@@ -2,8 +2,6 @@
 /* The reflection as JSON (docs/reflection.md). Fields that say nothing are left out. */
 #include "shader/reflect.h"
 
-#include "shader/network.h"
-
 #include <math.h>
 
 void reflect_id(struct reflect *r, const char *key, str_id value)
@@ -311,8 +309,8 @@ static void put_shader(struct reflect *r)
 
 static void put_network(struct reflect *r)
 {
-    put_topology(r, network_topology(r->options->groups, r->options->num_groups));
-    network_reflect(r, r->options->groups, r->options->num_groups);
+    put_topology(r, r->options->network_topology);
+    r->options->reflect_network(r->options->network, r);
 }
 
 void shader_reflect_json(const struct shader *shader, const struct shader_reflect_options *options,
@@ -325,7 +323,7 @@ void shader_reflect_json(const struct shader *shader, const struct shader_reflec
     reflect_id(&r, "element", shader->element_type);
     json_put_text(&r.json, "target", options->target);
     json_put_text(&r.json, "generator", options->generator);
-    if (options->num_groups)
+    if (options->network)
         put_network(&r);
     else
         put_shader(&r);
