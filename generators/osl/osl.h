@@ -16,7 +16,9 @@ struct osl_macro {
 };
 
 struct osl_maker { /* structs.c: the function that puts a struct together */
-    const char *type, *name;
+    ir_type_id type;
+    const char *name;
+    bool is_called;
 };
 
 /* What is known while a file is written. */
@@ -29,6 +31,10 @@ struct osl {
     uint8_t first_helper[IR_NUM_OPS];
     VEC(struct osl_macro) macros;
     VEC(struct osl_maker) makers;
+    /* marked while text is written: what it names must stand above it */
+    bool *called;              /* per portable function */
+    bool *read;                /* per portable global */
+    uint32_t types;            /* 1 << type of each built-in type */
     VEC(const char *) helpers; /* functions that the file declares for itself, callees first */
 };
 
@@ -42,6 +48,9 @@ void osl_find_kinds(struct osl *osl);
 /* "color"; NULL: as its type says */
 const char *osl_node_type(const struct spell *spell, ir_ref ref);
 
+/* The name of a built-in type, which is about to be written. */
+const char *osl_type(struct osl *osl, ir_type_id type);
+
 void osl_index_helpers(struct osl *osl);
 void osl_add_helper(struct osl *osl, const char *text); /* unless it is there */
 /* forms.c: lang_names.form; `user_data` is the spell, whose target_data the osl. */
@@ -49,22 +58,18 @@ const struct lang_pieces *osl_form(void *user_data, const struct lang_use *use);
 bool osl_write_value(const struct lang_style *style, ir_type_id type, const union ir_word *words,
                      struct text *out);
 
-/* functions.c: those of the library that a shader's text needs */
-/* that stdosl.h has for one; NULL: none */
+/* functions.c: the library's functions that were called, and their constants */
+/* The function of stdosl.h that stands for one; NULL: none. */
 const char *osl_same_function(const struct spell *spell, uint32_t id);
 void osl_name_same_functions(struct spell *spell);
-void osl_write_functions(struct osl *osl, const char *shader, struct text *out);
-char osl_type_letter(ir_type_id type); /* as in helpers.def */
-bool osl_mentions(const char *text, const char *word);
+const char *osl_function_name(void *user_data, uint32_t id); /* lang_names.function */
+void osl_write_functions(struct osl *osl, struct text *out); /* below them nothing is called */
+char osl_type_letter(ir_type_id type);                       /* as in helpers.def */
 
-/*
- * structs.c: those of the document's functions, with what puts them together where `functions` or
- * the shader calls it
- */
+/* structs.c: those of the document's functions, with the makers that were called */
 void osl_name_makers(struct osl *osl);
 const char *osl_maker(void *user_data, const char *type); /* lang_names.maker */
-void osl_write_structs(const struct osl *osl, const char *functions, const char *shader,
-                       struct text *out);
+void osl_write_structs(struct osl *osl, struct text *out);
 
 /*
  * textures.c: the form that reads a texture of the graph; NULL: it is one that a function was

@@ -6,6 +6,8 @@
  */
 #include "generators/osl/osl.h"
 
+#include <assert.h>
+
 static const struct ir_member *members_of(const struct spell *spell, ir_type_id type,
                                           uint32_t *out_count)
 {
@@ -32,28 +34,38 @@ static bool has_struct(const struct spell *spell, ir_type_id type)
     return any;
 }
 
+static const char *type_name(const struct spell *spell, ir_type_id type)
+{
+    return spell->user_types[type - IR_TYPE_FIRST_USER];
+}
+
 void osl_name_makers(struct osl *osl)
 {
     struct spell *spell = osl->spell;
     const struct lang_reach *reach = &spell->stage->reach;
     for (uint32_t i = 0; i < reach->user_types.len; i++) {
-        const char *type = spell->user_types[reach->user_types.items[i] - IR_TYPE_FIRST_USER];
-        if (!has_struct(spell, reach->user_types.items[i]))
+        ir_type_id type = reach->user_types.items[i];
+        if (!has_struct(spell, type))
             continue;
         struct text name;
         text_init(&name, spell->scratch);
-        text_fmt(&name, "make_%s", type);
+        text_fmt(&name, "make_%s", type_name(spell, type));
         const char *unique = names_unique(&spell->names, text_cstr(&name), name.len).text;
-        vec_push(spell->scratch, &osl->makers, (struct osl_maker){type, unique});
+        vec_push(spell->scratch, &osl->makers, (struct osl_maker){.type = type, .name = unique});
     }
 }
 
 const char *osl_maker(void *user_data, const char *type)
 {
-    const struct osl *osl = ((struct spell *)user_data)->target_data;
-    for (uint32_t i = 0; i < osl->makers.len; i++)
-        if (strcmp(osl->makers.items[i].type, type) == 0)
-            return osl->makers.items[i].name;
+    const struct spell *spell = user_data;
+    struct osl *osl = spell->target_data;
+    for (uint32_t i = 0; i < osl->makers.len; i++) {
+        struct osl_maker *maker = &osl->makers.items[i];
+        if (strcmp(type_name(spell, maker->type), type) != 0)
+            continue;
+        maker->is_called = true;
+        return maker->name;
+    }
     return NULL;
 }
 
@@ -84,8 +96,7 @@ static void write_maker(const struct spell *spell, ir_type_id type, const char *
 {
     uint32_t count;
     const struct ir_member *members = members_of(spell, type, &count);
-    const char *made = local_name(spell, members, count),
-               *name = spell->user_types[type - IR_TYPE_FIRST_USER];
+    const char *made = local_name(spell, members, count), *name = type_name(spell, type);
     text_fmt(out, "\n%s %s(", name, maker);
     for (uint32_t i = 0; i < count; i++) {
         text_str(out, i ? ", " : "");
@@ -99,17 +110,20 @@ static void write_maker(const struct spell *spell, ir_type_id type, const char *
     text_fmt(out, "    return %s;\n}\n", made);
 }
 
-void osl_write_structs(const struct osl *osl, const char *functions, const char *shader,
-                       struct text *out)
+void osl_write_structs(struct osl *osl, struct text *out)
 {
     struct spell *spell = osl->spell;
     const struct lang_reach *reach = &spell->stage->reach;
+    uint32_t next = 0; /* makers are in the order of their types */
     for (uint32_t i = 0; i < reach->user_types.len; i++) {
         ir_type_id type = reach->user_types.items[i];
         lang_print_struct(spell->style, &spell->lang_names, spell->shader->unit, type, out);
-        const char *maker = osl_maker(spell, spell->user_types[type - IR_TYPE_FIRST_USER]);
-        if (maker && (osl_mentions(functions, maker) || osl_mentions(shader, maker)))
-            write_maker(spell, type, maker, out);
+        if (next < osl->makers.len && osl->makers.items[next].type == type) {
+            const struct osl_maker *maker = &osl->makers.items[next++];
+            if (maker->is_called)
+                write_maker(spell, type, maker->name, out);
+        }
         text_char(out, '\n');
     }
+    assert(next == osl->makers.len);
 }

@@ -204,6 +204,7 @@ struct option_value {
 
 /* The defaults; they live in the arena. */
 const struct option_value *options_default(struct arena *arena);
+const char *option_key(enum option_id option); /* "interface" */
 const struct option_value *options_values(const mxg_options *options);
 
 /* ---- Elements: renderable.c, element.c ---- */

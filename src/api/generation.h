@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * A generation step by step, for generate.c, which takes all of them, and inspect.c, which stops on
- * the way.
+ * A generation step by step, for mxg_generate, which takes all of them, and inspect.c, which stops
+ * on the way.
  */
 #ifndef MXG_API_GENERATION_H
 #define MXG_API_GENERATION_H
@@ -20,12 +20,6 @@ struct stage_source {
     uint32_t num_marks;
 };
 
-struct network_part { /* a shader that layers of a network are of */
-    const char *name, *source;
-    size_t size;
-    const char *nodedef; /* "": of a group's end */
-};
-
 struct mxg_result {
     struct object object; /* stands on the document */
     const mxg_document *document;
@@ -35,12 +29,7 @@ struct mxg_result {
     struct ir_graph graph;
     struct shader shader;
     struct stage_source stages[NUM_STAGES];
-    /* a line that was asked for lately and where it begins: the next one is near */
-    _Atomic uint64_t line_hints[NUM_STAGES];
-    struct network network; /* option osl-network: in the place of stages are lists of layers */
-    struct network_group groups[2];
-    uint32_t num_groups; /* 0: it is no network */
-    VEC(struct network_part) parts;
+    struct network network; /* option `network`: in the place of `shader`; arena NULL: it is none */
     VEC(const char *) files;   /* read for it */
     const char **origin_paths; /* of origins of graph, made when asked for during generation */
     bool has_shader;           /* generation ended well */
@@ -62,6 +51,7 @@ struct generation {
     struct closure_point point;
     struct closure_lighting lighting;
     ir_ref root;
+    str_id unknown_leaf; /* the family of a leaf that the target has no closure for; 0: none */
     struct arena scratch;
     struct file_source files; /* what a generation reads beside the document */
     struct lang_reader reader;
@@ -90,8 +80,7 @@ bool generation_spell(struct generation *g);  /* source */
 bool generation_make_network(struct generation *g); /* network.c */
 
 /* What network.c shares with them. */
-struct closure_host generation_closure_host(const struct generation *g, struct builder *builder,
-                                            struct closure_point *point);
+struct closure_host generation_closure_host(struct builder *builder, struct closure_point *point);
 struct shader_layout_rules generation_layout_rules(const struct generation *g);
 struct spell_options generation_spell_options(const struct generation *g);
 void generation_report_not_renderable(struct generation *g, const char *why);

@@ -38,7 +38,7 @@ static bool is_covered(const struct option_value *values)
 {
     return !values
            || (!values[OPTION_uniform].list.len && !values[OPTION_constant].list.len
-               && !values[OPTION_osl_network].number);
+               && !values[OPTION_network].number);
 }
 
 static void find_structure(void *arg, struct arena *scratch)

@@ -65,13 +65,15 @@ struct builder *build_start(const struct library *lib, const struct build_option
 ir_ref build_element(struct builder *builder, elem_id element, unsigned output);
 
 /*
- * network.c: from now on builder notes layers in `network`, and what build_element gives is over
- * sources that stand for them. (The second function says what such a value is.)
+ * network.c: from now on the builder records layers in `network`, and the value of build_element
+ * is over sources that stand for them.
  */
 void build_record_network(struct builder *builder, struct network *network);
-struct network_input build_network_input(struct builder *builder, ir_ref value);
-/* A layer that gives a value which is no layer's; UINT32_MAX: there is none of its type. */
-uint32_t build_constant_layer(struct builder *builder, ir_ref value, str_id doc_type);
+/*
+ * Fills network->results for the root that build_element gave. `type` is that of a plain
+ * value; false: the library has no node that gives a constant of that type.
+ */
+bool build_network_results(struct builder *builder, ir_ref root, str_id type);
 /*
  * With a builder of its own: the results of a node of a network over parameters, whose names are
  * noted, and the names of its outputs.
@@ -94,16 +96,14 @@ const char *build_leaf_input(struct builder *builder, uint32_t callee, unsigned 
 /* Whether a path matches: '*' is any run without '/', '**' any run, '?' one character but '/'. */
 bool build_glob_matches(const char *glob, const char *path);
 
-/* A light shader's implementation function for the target; LIBRARY_NONE. */
-uint32_t build_light_function(struct builder *builder, uint32_t nodedef);
-/* What an input of a definition is when nothing is said; false: no number is known. */
-bool build_port_value(struct builder *builder, const struct port *port, struct ir_value *out);
 /*
- * The LIGHT_SHADER that a definition made of nodes gives for its inputs; 0 after an error. `where`
- * is told in messages.
+ * lights.c: fills shader->lights. An item is the node of a light shader or the path of a <light>
+ * of the document, with "=" and the light's number behind; without a number, it is the item's
+ * place, from 1. "none" is no light. `is_said` is false for the default, of which lights may be
+ * absent.
  */
-ir_ref build_light_shader(struct builder *builder, uint32_t nodedef, elem_id where,
-                          const ir_ref *args);
+void build_lights(struct builder *builder, const char *const *items, uint32_t num_items,
+                  bool is_said);
 
 struct structure_options {
     enum build_interface interface;

@@ -193,6 +193,8 @@ str_id build_file_name(struct builder *b, const struct instance *scope, elem_id 
 /* Whether a node sets tokens: then what is built for it is for no other. */
 bool build_has_tokens(const struct builder *b, elem_id node);
 
+/* node.c: the function that a definition is for the target; LIBRARY_NONE: it is none. */
+uint32_t build_light_function(struct builder *b, uint32_t nodedef);
 /* node.c: results of a node from its arguments, except graphs. Writes one ref per output. */
 void build_node(struct builder *b, const struct frame *frame, ir_ref *results);
 /* The graph's number for a family that a LEAF calls. */

@@ -334,12 +334,6 @@ ir_ref build_default(struct builder *b, const struct port *port)
                : zero(b, type);
 }
 
-bool build_port_value(struct builder *b, const struct port *port, struct ir_value *out)
-{
-    ir_ref value = port->geomprop ? 0 : build_default(b, port);
-    return value && ir_get_const(b->graph, value, out);
-}
-
 /* ---- bindings ---- */
 
 /* The value that an element of the document or a graph says, with its colour space and unit. */

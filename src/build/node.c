@@ -278,10 +278,3 @@ uint32_t build_light_function(struct builder *b, uint32_t nodedef)
     const struct implementation *impl = best_of(b, nodedef);
     return impl && impl->kind == IMPL_FUNCTION ? impl->ref : LIBRARY_NONE;
 }
-
-ir_ref build_light_shader(struct builder *b, uint32_t nodedef, elem_id where, const ir_ref *args)
-{
-    ir_ref result = 0;
-    build_apply(b, nodedef, where, args, &result);
-    return result && ir_get(b->graph, result)->op == IR_LIGHT_SHADER ? result : 0;
-}

@@ -115,7 +115,9 @@ void closure_name(struct shader *shader, ir_ref value, ir_ref closure, const cha
         return;
     struct text text;
     text_init(&text, shader->arena);
-    text_fmt(&text, "%s_%s", str_text(shader->strings, owner), role);
-    str_id name = str_intern(shader->strings, text_cstr(&text), text.len);
+    text_mem(&text, str_text(shader->strings, owner), str_len(shader->strings, owner));
+    text_char(&text, '_');
+    text_str(&text, role);
+    str_id name = str_intern(shader->strings, text.data, text.len);
     ir_suggest_name(shader->graph, value, name, IR_NAME_ROLE);
 }

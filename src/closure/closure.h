@@ -34,30 +34,6 @@ struct closure_point {
     ir_ref position, normal, view; /* unit normal, unit direction to the viewer */
 };
 
-/*
- * A target's own closures: closure_emit_tree. Arguments are words that tree.c explains, names of
- * the leaf's inputs for the most part.
- */
-struct closure_option { /* further arguments, given where an input says something */
-    const char *input;
-    const char *unless; /* of a string: the only word that matters */
-    const char *arguments;
-};
-
-struct closure_row {
-    const char *family; /* of the leaf's functions: "mx_dielectric_bsdf" */
-    const char *closure, *arguments;
-    const struct closure_option *options; /* ends with input NULL; or NULL */
-};
-
-struct closure_rows {
-    const struct closure_row *rows; /* ends with family NULL */
-    const char *emission;           /* takes a radiance */
-    const char *medium;             /* takes albedo, extinction, anisotropy */
-    const char *transparent;        /* takes nothing */
-    const char *output;             /* the variable that a shader writes its closure to */
-};
-
 struct closure_host {
     void *user_data;
     struct closure_point *point;
@@ -65,7 +41,6 @@ struct closure_host {
     const uint32_t *(*leaf_functions)(void *user_data, uint32_t callee);
     /* The name of the input that operand `index` + 1 of a LEAF node is; NULL beyond the last. */
     const char *(*leaf_input)(void *user_data, uint32_t callee, unsigned index);
-    const struct closure_rows *rows; /* the target's; NULL: it has no closures */
     const struct lang_host *lang;
     /*
      * direction from which light comes through layers, which take from it there, too; NULL: only on
@@ -115,23 +90,23 @@ bool closure_emit(struct shader *shader, const struct closure_host *host,
 /* Whether the root is lit as a surface: then closure_emit does not fail. */
 bool closure_is_surface(const struct shader *shader, ir_ref root);
 
-/*
- * closure_emit for targets with closures, which get the tree (host->rows). False, too, where a leaf
- * has no row.
- */
-bool closure_emit_tree(struct shader *shader, const struct closure_host *host, ir_ref root);
+/* ---- For targets with closures of their own ---- */
 
 /*
- * One node of a network: its results become outputs of these names and document types. Closures and
- * shaders of any kind are closures there, those that come from other layers are uniforms; a
- * displacement is the offset. False where a leaf has no row.
+ * The value of one function of a leaf's family for the leaf's inputs; 0 where the family has none.
+ * `light` gives L for LEAF_EVAL; view direction, normal and position are the shaded point's.
  */
-struct closure_result {
-    ir_ref value;
-    str_id name, doc_type;
-};
-bool closure_emit_node(struct shader *shader, const struct closure_host *host,
-                       const struct closure_result *results, unsigned n);
+ir_ref closure_call(struct shader *shader, const struct closure_host *host, ir_ref leaf,
+                    enum leaf_function which, const ir_ref *light);
+
+/* Unit direction to the viewer. */
+ir_ref closure_view(struct shader *shader, const struct closure_host *host);
+
+/* displacement.c: how far a displacement shader moves a point; 0: nothing moves. */
+ir_ref closure_offset(struct shader *shader, ir_ref displacement);
+
+/* 1 - a */
+ir_ref closure_one_minus(struct ir_graph *graph, ir_ref a);
 
 /* Leaves and weights as text: `mxgen inspect --closures`. */
 void closure_describe(struct shader *shader, const struct closure_host *host, ir_ref root,

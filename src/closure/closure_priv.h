@@ -5,21 +5,11 @@
 
 #include "closure/closure.h"
 
-/*
- * The value of one function of a leaf's family for the leaf's inputs; 0 where the family has none.
- * `light` gives L for LEAF_EVAL; view direction, normal and position are the shaded point's.
- */
-ir_ref closure_call(struct shader *shader, const struct closure_host *host, ir_ref leaf,
-                    enum leaf_function which, const ir_ref *light);
-
 /* The shaded point. */
 ir_ref closure_position(struct shader *shader, const struct closure_host *host);
 
 /* Its unit normal. */
 ir_ref closure_normal(struct shader *shader, const struct closure_host *host);
-
-/* Unit direction to the viewer. */
-ir_ref closure_view(struct shader *shader, const struct closure_host *host);
 
 /* The same for functions that give several values; false where the family has none. */
 bool closure_call_all(struct shader *shader, const struct closure_host *host, ir_ref leaf,
@@ -74,9 +64,6 @@ struct closure_lit {
     struct closure_parts at[NUM_PLACES];
 };
 
-/* displacement.c: how far a displacement shader moves a point; 0: nothing moves. */
-ir_ref closure_offset(struct shader *shader, ir_ref displacement);
-
 /*
  * displacement.c: moves the shaded point and the vertices, and returns the surface with the normal
  * bent. Either may be 0.
@@ -96,18 +83,6 @@ ir_ref closure_mul(struct ir_graph *graph, ir_ref a, ir_ref b);
 ir_ref closure_product(struct ir_graph *graph, ir_ref value, ir_ref weight);
 /* guard.c: finds which parts need one. in_loop: only what is computed in each turn counts. */
 void closure_find_guarded(struct shader *shader, struct closure_parts *list, bool in_loop);
-ir_ref closure_one_minus(struct ir_graph *graph, ir_ref a);
-
-/*
- * fresnel.c: an interface by Schlick's colours, as a conductor (`extinction`), or as a dielectric;
- * 0: it has no such input.
- */
-struct closure_interface {
-    ir_ref color0, color90, exponent, ior, extinction;
-};
-/* By how much more it reflects at a cosine than head-on. */
-ir_ref closure_fresnel_rise(struct ir_graph *graph, const struct closure_interface *of,
-                            ir_ref cosine);
 /* Two closures of one type, either of which may be 0: none. */
 ir_ref closure_mixed(struct ir_graph *graph, ir_ref bg, ir_ref fg, ir_ref mix);
 

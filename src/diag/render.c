@@ -58,25 +58,10 @@ static bool begins_code_point(char byte)
     return (byte & 0xc0) != 0x80;
 }
 
-/* How many of eight bytes begin a code point: those that are not 10xxxxxx. */
-static uint32_t begun_in_word(const char *bytes)
-{
-    const uint64_t lowest = UINT64_C(0x0101010101010101);
-    uint64_t word;
-    memcpy(&word, bytes, sizeof word);
-    return 8 - (uint32_t)((((word >> 7) & ~(word >> 6) & lowest) * lowest) >> 56);
-}
-
-/*
- * Bytes of the first `count` code points, or all of them. A document may be one line of megabytes,
- * with many messages about it.
- */
+/* Bytes of the first `count` code points, or all of them. */
 static size_t bytes_of(struct line line, uint32_t count)
 {
     size_t at = 0;
-    for (uint32_t begun; at + 8 <= line.len && (begun = begun_in_word(line.text + at)) <= count;
-         at += 8)
-        count -= begun;
     for (; at < line.len; at++)
         if (begins_code_point(line.text[at]) && count-- == 0)
             break;

@@ -578,6 +578,7 @@ static void add_implementation(struct indexer *ix, elem_id element)
         parse_implementation(ix, &impl);
     } else {
         impl.kind = IMPL_DYNAMIC;
+        impl.ref = attr(ix, element, STR_function);
     }
     add_impl(ix, impl);
 }

@@ -46,8 +46,9 @@ enum impl_kind {
     IMPL_FUNCTION,   /* ref: lang function id */
     IMPL_FAMILY,     /* a closure leaf: ref: family index */
     IMPL_GRAPH,      /* ref: element of the nodegraph */
-    IMPL_DYNAMIC,    /* built by C code chosen by the node's name */
-    IMPL_VERBATIM,   /* ref: verbatim source */
+    /* built by C code, chosen by the node's name, or by `ref` where that is chosen_input */
+    IMPL_DYNAMIC,
+    IMPL_VERBATIM, /* ref: verbatim source */
     /* its diagnostics were deferred: [ref, ref + count) of the layer's deferred list */
     IMPL_BROKEN,
 };

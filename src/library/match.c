@@ -67,22 +67,17 @@ static struct candidate fit_outputs(const struct library *lib, const struct node
     return misfit("its output is %s, but the node has type %s", has, type, 0);
 }
 
-static struct candidate fit_inputs(const struct library *lib, const struct nodedef *def,
-                                   const struct port *ports, elem_id node)
+static struct candidate fit_inputs(const struct library *lib, uint32_t id, const struct port *ports,
+                                   elem_id node)
 {
     struct candidate result = {FIT_EXACT, NULL, 0, 0, 0};
-    unsigned at = 0; /* most nodes have their inputs in the definition's order */
     for (elem_id child = doc_element(&lib->doc, node)->first_child; child;
          child = doc_element(&lib->doc, child)->next) {
         const struct element *input = doc_element(&lib->doc, child);
         if (input->kind != KIND_INPUT)
             continue;
-        const struct port *port = NULL;
-        for (unsigned tried = 0; tried < def->num_inputs && !port; tried++, at++) {
-            at = at < def->num_inputs ? at : 0;
-            if (ports[at].name == input->name)
-                port = &ports[at];
-        }
+        int index = library_find_input(lib, id, input->name);
+        const struct port *port = index < 0 ? NULL : &ports[index];
         str_id type = doc_attr_value(&lib->doc, child, STR_type);
         if (!port)
             result =
@@ -101,7 +96,7 @@ static struct candidate fit(const struct library *lib, uint32_t id, elem_id node
     struct candidate c = fit_outputs(lib, def, ports, node);
     if (c.fit == FIT_NOT)
         return c;
-    struct candidate inputs = fit_inputs(lib, def, ports, node);
+    struct candidate inputs = fit_inputs(lib, id, ports, node);
     if (inputs.fit == FIT_NOT || any_version)
         return inputs;
     c = fit_version(lib, def, node);

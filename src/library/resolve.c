@@ -350,20 +350,15 @@ struct graph_node library_resolve_node(const struct library *lib, elem_id node,
     struct binding *bindings = vec_extend(out->arena, &out->bindings, def->num_inputs);
     for (unsigned i = 0; i < def->num_inputs; i++)
         bindings[i] = (struct binding){.kind = BIND_DEFAULT};
-    unsigned port = 0; /* most nodes have their inputs in the definition's order */
     for (elem_id e = doc_element(&lib->doc, node)->first_child; e;
          e = doc_element(&lib->doc, e)->next) {
         const struct element *input = doc_element(&lib->doc, e);
-        if (input->kind != KIND_INPUT)
+        int port =
+            input->kind == KIND_INPUT ? library_find_input(lib, result.nodedef, input->name) : -1;
+        if (port < 0)
             continue;
-        for (unsigned tried = 0; tried < def->num_inputs; tried++, port++) {
-            port = port < def->num_inputs ? port : 0;
-            if (ports[port].name != input->name)
-                continue;
-            struct binding b = library_resolve_connection(lib, e, ports[port].type, diags);
-            out->bindings.items[result.first_binding + port] = b;
-            break;
-        }
+        struct binding b = library_resolve_connection(lib, e, ports[port].type, diags);
+        out->bindings.items[result.first_binding + (unsigned)port] = b;
     }
     return result;
 }

@@ -2,8 +2,6 @@
 /* The reflection as JSON (docs/reflection.md). Fields that say nothing are left out. */
 #include "shader/json.h"
 
-#include "shader/network.h"
-
 /* ---- Variables ---- */
 
 static const char *const stage_names[NUM_STAGES] = {"vertex", "pixel"};
@@ -271,8 +269,8 @@ static void put_shader(struct json *json)
 
 static void put_network(struct json *json)
 {
-    put_topology(json, network_topology(json->options->groups, json->options->num_groups));
-    network_reflect(json, json->options->groups, json->options->num_groups);
+    put_topology(json, json->options->network_topology);
+    json->options->reflect_network(json->options->network, json);
 }
 
 void shader_reflect_json(const struct shader *shader, const struct shader_reflect_options *options,
@@ -285,7 +283,7 @@ void shader_reflect_json(const struct shader *shader, const struct shader_reflec
     reflect_id(&json, "element", shader->element_type);
     reflect_string(&json, "target", options->target);
     reflect_string(&json, "generator", options->generator);
-    if (options->num_groups)
+    if (options->network)
         put_network(&json);
     else
         put_shader(&json);

@@ -243,8 +243,6 @@ struct shader {
     bool in_blocks;
     /* the speller's: by node, 0 between the lists of statements; from shader_finish */
     uint32_t *local_of;
-    /* the function of a leaf that the target has no closure for; 0: there is none */
-    str_id unknown_closure;
     bool numbered; /* sets, bindings and locations are given */
 };
 
@@ -380,13 +378,16 @@ struct shader_ui {
         *enum_values;
     bool advanced;
 };
+struct json; /* json.h */
+struct network;
 struct shader_reflect_options {
     const char *target, *generator; /* "vulkan", "mxgen 0.1.0" */
     void *user_data;
     /* Fills the strings for a variable, which is zeroed before; NULL: none. */
     void (*ui)(void *user_data, const struct shader_variable *variable, struct shader_ui *out);
-    const struct network_group *groups; /* num_groups: it is a network, and no more */
-    uint32_t num_groups;
+    const struct network *network; /* described in the place of the shader; NULL: it is none */
+    uint64_t network_topology;
+    void (*reflect_network)(const struct network *network, struct json *json);
 };
 void shader_reflect_json(const struct shader *shader, const struct shader_reflect_options *options,
                          struct text *out);

@@ -41,25 +41,12 @@ struct start_tag {
     const xmlChar **attrs;      /* name, prefix, URI, value, end of the value */
 };
 
-/*
- * A name from libxml2's dictionary, which has each text at one address for as long as the reader's
- * parser lives.
- */
-static str_id plain_name(struct xml_reader *reader, const char *name)
-{
-    struct xml_name *known =
-        &reader->names[((uintptr_t)name ^ (uintptr_t)name >> 7) & (XML_NUM_NAMES - 1)];
-    if (known->text != name)
-        *known = (struct xml_name){name, str_intern_z(reader->doc->strings, name)};
-    return known->id;
-}
-
 /* "prefix:name" or "name", interned. */
 static str_id qualified_name(struct xml_reader *reader, const char *prefix, const char *name)
 {
     struct strpool *strings = reader->doc->strings;
     if (!prefix)
-        return plain_name(reader, name);
+        return str_intern_z(strings, name);
     char small[128];
     size_t prefix_len = strlen(prefix), name_len = strlen(name), len = prefix_len + 1 + name_len;
     char *text = len <= sizeof small ? small : arena_alloc(&reader->scratch, len);
@@ -69,32 +56,12 @@ static str_id qualified_name(struct xml_reader *reader, const char *prefix, cons
     return str_intern(strings, text, len);
 }
 
-/*
- * Types, names of ports and round numbers stand in a document over and over: a value of up to eight
- * bytes is looked for here first.
- */
-static str_id intern_value(struct xml_reader *reader, const char *text, size_t len)
-{
-    struct strpool *strings = reader->doc->strings;
-    if (len < 4 || len > 8)
-        return str_intern(strings, text, len);
-    uint32_t first, last;
-    memcpy(&first, text, sizeof first);
-    memcpy(&last, text + len - sizeof last, sizeof last);
-    uint64_t bytes = (uint64_t)first << 32 | last;
-    struct xml_word *known =
-        &reader->words[(bytes * 0x9e3779b97f4a7c15u >> 32) & (XML_NUM_WORDS - 1)];
-    if (known->bytes != bytes || known->len != len)
-        *known = (struct xml_word){bytes, (uint32_t)len, str_intern(strings, text, len)};
-    return known->id;
-}
-
 static str_id attr_value(struct xml_reader *reader, const xmlChar *value, const xmlChar *end)
 {
     const char *text = (const char *)value;
     size_t len = (size_t)(end - value);
     if (!reader->source->raw_less.len || !memchr(text, XML_RAW_LESS, len))
-        return intern_value(reader, text, len);
+        return str_intern(reader->doc->strings, text, len);
     char *copy = arena_strndup(&reader->scratch, text, len);
     for (char *p = copy; (p = memchr(p, XML_RAW_LESS, (size_t)(copy + len - p))) != NULL;)
         *p = '<';

@@ -621,22 +621,6 @@ static void test_leaves(void)
     work_close(&w);
 }
 
-static void test_port_values(void)
-{
-    struct work w;
-    struct ir_value value;
-    work_open(&w, "<gain name='n' type='float'/>");
-    work_build(&w, "n");
-    const struct library *lib = &w.layers.lib;
-    const struct port *gain = library_ports(lib, 0, NULL), *plus = library_ports(lib, 1, NULL);
-    REQUIRE(build_port_value(w.builder, &gain[1], &value) && value.w[0].f == 2);
-    REQUIRE(build_port_value(w.builder, &plus[0], &value) && value.w[0].f == 0);
-    struct port property = gain[0];
-    property.geomprop = layers_word(&w.layers, "wear");
-    REQUIRE(!build_port_value(w.builder, &property, &value));
-    work_close(&w);
-}
-
 int main(void)
 {
     test_interface();
@@ -653,6 +637,5 @@ int main(void)
     test_cancel();
     test_targets();
     test_leaves();
-    test_port_values();
     return test_report("build");
 }

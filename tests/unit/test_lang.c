@@ -158,8 +158,7 @@ static const char *other_name(void *user_data, uint32_t id)
 /* A target with words of its own, no operator for a remainder, and another name for a type. */
 static void test_print_target(void)
 {
-    static const struct lang_words reserved[] = {LANG_WORDS(4, "half"), LANG_WORDS(6, "sample"),
-                                                 LANG_WORDS(7, "texture")};
+    static const char *const reserved[] = {"half", "sample", "texture"};
     static const char *const type_names[IR_NUM_TYPES] = {[IR_TYPE_VEC3] = "float3"};
     static const struct lang_form forms[IR_NUM_OPS] = {
         [IR_REM] = {"rem($0, $1)", LANG_PREC_POSTFIX, false},
@@ -173,7 +172,7 @@ static void test_print_target(void)
         .type_names = type_names,
         .forms = forms,
         .reserved = reserved,
-        .max_reserved = 7,
+        .num_reserved = 3,
         .param_in = "const ",
         .param_in_assigned = "",
         .param_out = "out ",

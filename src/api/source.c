@@ -1,47 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/* From an element to the source of its shader. */
+/* The source of a result, and the places of the document that its lines come from. */
 #include "api/generation.h"
 
 #include <stdio.h>
-
-static void drop_source(mxg_result *result)
-{
-    for (int stage = 0; stage < NUM_STAGES; stage++)
-        result->stages[stage] = (struct stage_source){0};
-}
-
-static void generate(struct generation *g)
-{
-    bool built = generation_start(g) && generation_build(g);
-    if (g->result->network.arena)
-        g->result->has_shader = built && generation_make_network(g);
-    else
-        g->result->has_shader = built && generation_emit(g) && !g->desc.only_diagnostics
-                                && generation_finish(g)
-                                && (g->desc.without_source || generation_spell(g));
-    if (!g->result->has_shader)
-        drop_source(g->result);
-}
-
-mxg_status mxg_generate(mxg_context *context, const mxg_document *document,
-                        const mxg_generate_desc *desc, mxg_result **out_result)
-{
-    if (out_result)
-        *out_result = NULL;
-    if (!desc || !desc->target)
-        return MXG_ERROR_ARGUMENT;
-    return generation_run(context, document, desc, generate, NULL, out_result);
-}
-
-void mxg_result_destroy(mxg_result *result)
-{
-    object_unref(result ? &result->object : NULL);
-}
-
-const mxg_diagnostics *mxg_result_diagnostics(const mxg_result *result)
-{
-    return result ? &result->object.diagnostics : NULL;
-}
 
 const char *mxg_result_source(const mxg_result *result, mxg_stage stage, size_t *out_size)
 {
@@ -51,28 +12,15 @@ const char *mxg_result_source(const mxg_result *result, mxg_stage stage, size_t 
     return known ? result->stages[stage].text : NULL;
 }
 
-/*
- * Where a line (from 1) begins; the end of the source where it has fewer. Lines are mostly asked
- * for in order.
- */
-static size_t start_of_line(const mxg_result *result, mxg_stage stage, uint32_t line)
+/* Where a line (from 1) begins; the end of the source where it has fewer. */
+static size_t start_of_line(const struct stage_source *source, uint32_t line)
 {
-    const struct stage_source *source = &result->stages[stage];
-    /* the result stays what it is */
-    _Atomic uint64_t *hint = (_Atomic uint64_t *)(uintptr_t)&result->line_hints[stage];
-    uint64_t known = atomic_load_explicit(hint, memory_order_relaxed);
-    uint32_t at = (uint32_t)(known >> 32);
-    bool is_behind = at && at <= line;
-    const char *start = source->text + (is_behind ? (uint32_t)known : 0),
-               *end = source->text + source->size;
-    for (at = is_behind ? at : 1; at < line && start < end; at++) {
+    const char *start = source->text, *end = start + source->size;
+    for (uint32_t at = 1; at < line && start < end; at++) {
         const char *newline = memchr(start, '\n', (size_t)(end - start));
         start = newline ? newline + 1 : end;
     }
-    size_t offset = (size_t)(start - source->text);
-    if (at == line && offset <= UINT32_MAX)
-        atomic_store_explicit(hint, (uint64_t)line << 32 | offset, memory_order_relaxed);
-    return offset;
+    return (size_t)(start - source->text);
 }
 
 /* The first origin that a line was marked with; 0: none. */
@@ -81,7 +29,7 @@ static uint32_t origin_of_line(const mxg_result *result, mxg_stage stage, uint32
     const struct stage_source *source = &result->stages[stage];
     if (line == 0 || !source->text)
         return 0;
-    size_t start = start_of_line(result, stage, line), end = start_of_line(result, stage, line + 1);
+    size_t start = start_of_line(source, line), end = start_of_line(source, line + 1);
     uint32_t low = 0, high = source->num_marks;
     while (low < high) {
         uint32_t middle = low + (high - low) / 2;
@@ -182,25 +130,4 @@ size_t mxg_result_closure_path(const mxg_result *result, uint32_t index, char *b
     bool is_there = result && result->has_shader && index < result->shader.closures.len;
     return write_path(result, is_there ? result->shader.closures.items[index] : 0, buffer,
                       capacity);
-}
-
-uint32_t mxg_num_targets(void)
-{
-    uint32_t count = 0;
-    while (targets[count])
-        count++;
-    return count;
-}
-
-mxg_status mxg_get_target(uint32_t index, mxg_target *out)
-{
-    if (index >= mxg_num_targets())
-        return MXG_ERROR_ARGUMENT;
-    const struct target *target = targets[index];
-    mxg_target full = {
-        .name = target->name,
-        .materialx_name = target->materialx_name,
-        .brief = target->brief,
-        .stage_suffix = {target->stage_suffix[STAGE_VERTEX], target->stage_suffix[STAGE_PIXEL]}};
-    return struct_write(out, &full, sizeof full);
 }

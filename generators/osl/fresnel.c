@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-/* By how much more an interface reflects at a cosine than head-on, as nodes. */
-#include "closure/closure_priv.h"
+/* How much more an interface reflects at a cosine than head-on, as nodes. */
+#include "generators/osl/tree.h"
 
 static ir_ref squared(struct ir_graph *g, ir_ref x)
 {
     return ir_op2(g, IR_MUL, x, x);
 }
 
-/* What a conductor reflects head-on: ((n - 1)^2 + k^2) / ((n + 1)^2 + k^2). */
+/* The reflectance of a conductor head-on: ((n - 1)^2 + k^2) / ((n + 1)^2 + k^2). */
 static ir_ref frontal_of_conductor(struct ir_graph *g, ir_ref n, ir_ref k)
 {
     ir_ref one = ir_const_float(g, 1.0f), extinct = squared(g, k);
@@ -45,7 +45,7 @@ static ir_ref dielectric_rise(struct ir_graph *g, ir_ref n, ir_ref cosine)
     return ir_op2(g, IR_DIV, ir_op2(g, IR_MUL, twice, ir_const_float(g, 0.5f)), frontal);
 }
 
-ir_ref closure_fresnel_rise(struct ir_graph *g, const struct closure_interface *of, ir_ref cosine)
+ir_ref osl_fresnel_rise(struct ir_graph *g, const struct osl_interface *of, ir_ref cosine)
 {
     if (of->color0)
         return schlick_rise(g, of->color0, of->color90, of->exponent, cosine);
