@@ -5,6 +5,8 @@
 
 #include "build/build.h"
 
+#include <assert.h>
+
 /* A scope whose nodes are being built: the document, or one use of a functional graph. */
 struct instance {
     struct instance *parent;
@@ -65,6 +67,9 @@ struct builder {
     struct ir_graph *graph;
     struct arena *arena;
     struct diag_list *diags;
+    /* build_apply: demand.c asks for inputs, and an input may need a definition applied */
+    void (*apply)(struct builder *b, uint32_t nodedef, elem_id where, const ir_ref *args,
+                  ir_ref *results);
     struct lang_host host;
     struct instance *document;
     VEC(struct frame) frames;
@@ -89,25 +94,46 @@ static inline const char *build_text(const struct builder *b, str_id id)
     return str_text(b->shader->strings, id);
 }
 
+/* Types whose values are numbers: what parameters and uniforms can be. */
+static inline bool build_is_number(ir_type_id type)
+{
+    return type >= IR_TYPE_BOOL && type <= IR_TYPE_MAT4;
+}
+
 enum { BUILD_MAX_OUTPUTS = 64 };
 
-/* demand.c: asks for a node's results; afterwards its slot is SLOT_ERROR or holds results. */
-void build_demand(struct builder *b, struct instance *scope, elem_id node);
+/* scope.c */
+static inline uint32_t *build_slot(struct instance *scope, elem_id node)
+{
+    assert(node - scope->first < scope->num_slots);
+    return &scope->slots[node - scope->first];
+}
+/* The scope of a graph within another. */
+struct instance *build_new_instance(struct builder *b, struct instance *parent, elem_id graph);
 /* Output `output` of a node that was asked for; POISON of `type` after an error. */
 ir_ref build_result(struct builder *b, struct instance *scope, elem_id node, unsigned output,
                     doc_type type);
+
+/* demand.c: asks for a node's results; afterwards its slot is SLOT_ERROR or holds results. */
+void build_demand(struct builder *b, struct instance *scope, elem_id node);
+/* builder->apply */
+void build_apply_definition(struct builder *b, uint32_t nodedef, elem_id where, const ir_ref *args,
+                            ir_ref *results);
 
 /*
  * Applies a definition to arguments, outside of any document graph: geometric properties, colour
  * transforms. `where` is the element that needs it, for messages. Writes one ref per output; poison
  * after an error.
  */
-void build_apply(struct builder *b, uint32_t nodedef, elem_id where, const ir_ref *args,
-                 ir_ref *results);
+static inline void build_apply(struct builder *b, uint32_t nodedef, elem_id where,
+                               const ir_ref *args, ir_ref *results)
+{
+    b->apply(b, nodedef, where, args, results);
+}
 
 /*
- * The memo of a graph used with these arguments, made when it is new. It moves when another is
- * made.
+ * memo.c: the memo of a graph used with these arguments, made when it is new. It moves when another
+ * is made.
  */
 struct memo *build_memo(struct builder *b, uint32_t impl, const ir_ref *args, uint32_t n);
 
@@ -133,6 +159,28 @@ void build_trace(void *builder, struct diag_list *list);
 /* The value of a binding whose node, if it has one, was asked for. `node` owns the input. */
 ir_ref build_input(struct builder *b, struct instance *scope, elem_id node, const struct port *port,
                    const struct binding *binding);
+
+/* interface.c */
+
+/* The variable that an input of a node would be; `element` says its value, 0: none does. */
+struct shader_variable build_describe(struct builder *b, elem_id node, const struct port *port,
+                                      elem_id element, str_id input, str_id path);
+/*
+ * A literal or default of an input of a node of the document: uniform or constant as the interface
+ * mode says. `authored`: the document says it.
+ */
+ir_ref build_publish(struct builder *b, elem_id node, const struct port *port, elem_id element,
+                     str_id input, ir_ref value, bool authored);
+/* The path of an input: "SR_gold/base_color". */
+str_id build_input_path(struct builder *b, elem_id node, str_id input, elem_id element);
+
+/* value.c */
+
+/*
+ * The constant that attribute `value` of an element says, as `text`; poison and a diagnostic where
+ * it does not parse.
+ */
+ir_ref build_constant(struct builder *b, const struct port *port, str_id text, elem_id element);
 /*
  * What an input is when nothing is said: default value, geometric property, or nothing (0 for
  * closures).
@@ -145,8 +193,6 @@ ir_ref build_geomprop(struct builder *b, str_id name, doc_type type, struct diag
  * is neither.
  */
 bool build_initial(const struct builder *b, ir_ref value, struct ir_value *out);
-/* The path of an input: "SR_gold/base_color". */
-str_id build_input_path(struct builder *b, elem_id node, str_id input, elem_id element);
 
 /*
  * color.c: from `space` to the working space, by the library's transform nodes; value of a color3
@@ -193,14 +239,19 @@ str_id build_file_name(struct builder *b, const struct instance *scope, elem_id 
 /* Whether a node sets tokens: then what is built for it is for no other. */
 bool build_has_tokens(const struct builder *b, elem_id node);
 
-/* node.c: the function that a definition is for the target; LIBRARY_NONE: it is none. */
+/* choose.c */
+
+/* The implementation of a definition for the target; NULL after a diagnostic. */
+const struct implementation *build_choose(struct builder *b, uint32_t nodedef, elem_id node);
+/* The function that a definition is for the target; LIBRARY_NONE: it is none. */
 uint32_t build_light_function(struct builder *b, uint32_t nodedef);
+/* "ND_constant_color3" of "constant"; LIBRARY_NONE: the library has none of the type. */
+uint32_t build_definition_of(const struct builder *b, const char *node, str_id type);
+
 /* node.c: results of a node from its arguments, except graphs. Writes one ref per output. */
 void build_node(struct builder *b, const struct frame *frame, ir_ref *results);
 /* The graph's number for a family that a LEAF calls. */
 uint32_t build_leaf_callee(struct builder *b, uint32_t family);
-/* The implementation of a definition for the target; NULL after a diagnostic. */
-const struct implementation *build_choose(struct builder *b, uint32_t nodedef, elem_id node);
 /* Calls an expression or function implementation. */
 void build_call(struct builder *b, const struct implementation *impl, const ir_ref *args,
                 ir_ref *results);
@@ -219,8 +270,8 @@ ir_ref build_measured_edf(struct builder *b, ir_ref color, ir_ref normal, ir_ref
  * values; they become sources that stand for it.
  */
 void build_record_node(struct builder *b, const struct frame *frame, ir_ref *results);
-/* A geometric property that no node gives, by a node that reads it. */
-ir_ref build_property_layer(struct builder *b, const struct geomprop *prop);
+/* The default of an input, as its layers have it; type VOID or 0: it has no number. */
+struct ir_value build_network_default(struct builder *b, const struct port *port);
 
 /* dynamic.c: nodes that C code builds; false: there is none for the definition. */
 bool build_dynamic(struct builder *b, const struct frame *frame, ir_ref *results);
