@@ -27,8 +27,7 @@ static const struct lang_pieces *form_of(struct osl *osl, const char *text,
                                          enum lang_precedence precedence)
 {
     struct lang_pieces *form = ARENA_NEW(osl->spell->scratch, struct lang_pieces);
-    lang_form_split(&(struct lang_form){text, (uint8_t)precedence, false}, osl->spell->scratch,
-                    form);
+    lang_form_split(&(struct lang_form){text, (uint8_t)precedence, false}, form);
     return form;
 }
 

@@ -12,28 +12,15 @@ const char *mxg_result_source(const mxg_result *result, mxg_stage stage, size_t 
     return known ? result->stages[stage].text : NULL;
 }
 
-/*
- * Where a line (from 1) begins; the end of the source where it has fewer. Lines are mostly asked
- * for in order.
- */
-static size_t start_of_line(const mxg_result *result, mxg_stage stage, uint32_t line)
+/* Where a line (from 1) begins; the end of the source where it has fewer. */
+static size_t start_of_line(const struct stage_source *source, uint32_t line)
 {
-    const struct stage_source *source = &result->stages[stage];
-    /* the result stays what it is */
-    _Atomic uint64_t *hint = (_Atomic uint64_t *)(uintptr_t)&result->line_hints[stage];
-    uint64_t known = atomic_load_explicit(hint, memory_order_relaxed);
-    uint32_t at = (uint32_t)(known >> 32);
-    bool is_behind = at && at <= line;
-    const char *start = source->text + (is_behind ? (uint32_t)known : 0),
-               *end = source->text + source->size;
-    for (at = is_behind ? at : 1; at < line && start < end; at++) {
+    const char *start = source->text, *end = start + source->size;
+    for (uint32_t at = 1; at < line && start < end; at++) {
         const char *newline = memchr(start, '\n', (size_t)(end - start));
         start = newline ? newline + 1 : end;
     }
-    size_t offset = (size_t)(start - source->text);
-    if (at == line && offset <= UINT32_MAX)
-        atomic_store_explicit(hint, (uint64_t)line << 32 | offset, memory_order_relaxed);
-    return offset;
+    return (size_t)(start - source->text);
 }
 
 /* The first origin that a line was marked with; 0: none. */
@@ -42,7 +29,7 @@ static uint32_t origin_of_line(const mxg_result *result, mxg_stage stage, uint32
     const struct stage_source *source = &result->stages[stage];
     if (line == 0 || !source->text)
         return 0;
-    size_t start = start_of_line(result, stage, line), end = start_of_line(result, stage, line + 1);
+    size_t start = start_of_line(source, line), end = start_of_line(source, line + 1);
     uint32_t low = 0, high = source->num_marks;
     while (low < high) {
         uint32_t middle = low + (high - low) / 2;

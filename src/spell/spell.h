@@ -26,8 +26,6 @@ struct spell_name { /* as it is written */
     size_t len;
 };
 
-enum { NAMES_RECENT = 64 };
-
 struct name_set {
     struct arena *arena;
     const struct lang_style *style;
@@ -35,15 +33,9 @@ struct name_set {
     uint32_t *table; /* open addressing: entry + 1 */
     uint32_t mask;
     uint32_t scope; /* of the function at hand; 0 outside */
-    struct { /* names that were asked for lately, by address: most locals are called like others */
-        const char *text;
-        uint32_t len, entry;
-    } recent[NAMES_RECENT];
 };
 
-/* `few`: less names are to be expected than a pixel stage has. */
-void names_init(struct name_set *names, struct arena *arena, const struct lang_style *style,
-                bool few);
+void names_init(struct name_set *names, struct arena *arena, const struct lang_style *style);
 /* a new function: the names of the one before are free again */
 void names_open_scope(struct name_set *names);
 /* Texts given to these two must live as long as the set. */
@@ -106,12 +98,6 @@ void spell_type(struct spell *spell, ir_type_id type);
 /* "float x[3]" */
 void spell_variable(struct spell *spell, ir_type_id type, struct spell_name name);
 
-/* The name of a portable function, which the text at hand calls. */
-static inline const char *spell_function_name(const struct spell *spell, uint32_t function)
-{
-    return spell->lang_names.function(spell->lang_names.user_data, function);
-}
-
 /* ---- local.c ---- */
 
 /* Before a function's statements: which names several of its locals want. */
@@ -120,6 +106,12 @@ void spell_plan_locals(struct spell *spell, const struct effect_list *statements
 struct spell_name spell_call_base(struct spell *spell, ir_ref call);
 /* What a local is called, before names_unique; its operands have their names already. */
 struct spell_name spell_local_base(struct spell *spell, ir_ref ref);
+
+/* The name of a portable function, which the text at hand calls. */
+static inline const char *spell_function_name(const struct spell *spell, uint32_t function)
+{
+    return spell->lang_names.function(spell->lang_names.user_data, function);
+}
 
 /* ---- statement.c ---- */
 
