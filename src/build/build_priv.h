@@ -134,7 +134,8 @@ static inline void build_apply(struct builder *b, uint32_t nodedef, elem_id wher
 }
 
 /*
- * memo.c: the memo of a nodegraph with these arguments; adds it if absent. A later addition moves it.
+ * memo.c: the memo of a nodegraph with these arguments; adds it if absent. A later addition moves
+ * it.
  */
 struct memo *build_memo(struct builder *b, uint32_t impl, const ir_ref *args, uint32_t n);
 

@@ -129,7 +129,7 @@ static str_id element_attr(const struct builder *b, elem_id element, str_id name
 }
 
 struct shader_variable build_describe(struct builder *b, elem_id node, const struct port *port,
-                                       elem_id element, str_id input, str_id path)
+                                      elem_id element, str_id input, str_id path)
 {
     return (struct shader_variable){
         .name = variable_name(b, node, input),
@@ -154,7 +154,7 @@ static ir_ref add_uniform(struct builder *b, struct shader_variable v, ir_ref in
 }
 
 ir_ref build_publish(struct builder *b, elem_id node, const struct port *port, elem_id element,
-                      str_id input, ir_ref value, bool authored)
+                     str_id input, ir_ref value, bool authored)
 {
     ir_type_id type = ir_type_of(b->graph, value);
     bool can_vary = type != IR_TYPE_STRING && ir_is_const(b->graph, value);
