@@ -180,9 +180,9 @@ str_id build_file_name(struct builder *b, const struct instance *scope, elem_id 
 /* True if a node sets tokens, so that its results cannot be shared. */
 bool build_has_tokens(const struct builder *b, elem_id node);
 
-/* node.c: the function that a definition is for the target; LIBRARY_NONE: it is none. */
+/* node.c: the function that implements a definition for the target; LIBRARY_NONE: none. */
 uint32_t build_light_function(struct builder *b, uint32_t nodedef);
-/* node.c: results of a node from its arguments, except graphs. Writes one ref per output. */
+/* node.c: the results of a node, except nodegraphs. Writes one ref per output. */
 void build_node(struct builder *b, const struct frame *frame, ir_ref *results);
 /* The callee index of a leaf family, for a LEAF. */
 uint32_t build_leaf_callee(struct builder *b, uint32_t family);
