@@ -16,8 +16,10 @@ ir_ref ir_intern(struct ir_graph *graph, enum ir_op op, ir_type_id type, uint32_
                  const ir_ref *args, unsigned num_args);
 /* The same for a constant of a built-in type. */
 ir_ref ir_intern_const(struct ir_graph *graph, ir_type_id type, const union ir_word *words);
-/* The node with the content of node `ref`: itself, unless it stands twice. For ir_check. */
+/* For ir_check: the node with the content of node `ref`, which is itself unless it stands twice. */
 ir_ref ir_find_equal(const struct ir_graph *graph, ir_ref ref);
+/* For ir_check: the flags that follow from the op of node `ref` and from its operands. */
+unsigned ir_flags_of(const struct ir_graph *graph, ir_ref ref);
 
 /*
  * simplify.c: an equal, simpler node for a constructor, swizzle, member or index; 0 if there is
@@ -92,5 +94,7 @@ ir_ref ir_apply_rules(struct ir_graph *graph, enum ir_op op, ir_type_id type, co
 /* check.c: NULL, or the reason why the node is invalid. */
 const char *ir_node_problem(const struct ir_graph *graph, enum ir_op op, ir_type_id type,
                             uint32_t attr, const ir_ref *args, unsigned num_args);
+/* Ends the program: a rule is broken, which only a fault of mxgen can do. */
+_Noreturn void ir_fail(const char *where, ir_ref node, enum ir_op op, const char *problem);
 
 #endif

@@ -166,10 +166,7 @@ struct ir_node {
     uint32_t num_args;
     uint32_t first_arg; /* in graph->args */
     uint32_t attr;
-    uint32_t origin;   /* document node of this node: index in graph->origins; 0 = none */
-    str_id name;       /* suggested name of its local (names.c); 0 = none, or several */
-    uint8_t name_rank; /* enum ir_name_rank; the name with the higher rank wins */
-    bool is_shared;    /* several origins use it */
+    uint32_t origin; /* what the node was built for: index in graph->origins; 0 = nothing */
 };
 
 enum ir_node_flags {
@@ -185,6 +182,13 @@ enum ir_node_flags {
     IR_NODE_INHERITED = IR_NODE_DERIVATIVE | IR_NODE_LOOP | IR_NODE_DEAR | IR_NODE_PARTIAL
 };
 
+/* What readers call a node, which is no part of it: names.c. */
+struct ir_label {
+    str_id name;    /* 0 = nothing, or several things */
+    uint8_t rank;   /* enum ir_name_rank: of two names the one of the higher rank wins */
+    bool is_shared; /* more than one origin asked for the node */
+};
+
 /*
  * The source of a node, for names, comments and diagnostics. The IR stores it and never reads it.
  */
@@ -194,12 +198,19 @@ struct ir_origin {
     uint32_t parent;  /* origin of the node that instantiates this one; 0 = none */
 };
 
-/*
- * The callee of CALL, VERBATIM or LEAF nodes. `id` belongs to the owner (a function id, a family
- * id…); equal ids are equal callees.
- */
+enum ir_callee_kind {
+    IR_CALLEE_FUNCTION, /* of CALL: a function of the portable language */
+    IR_CALLEE_VERBATIM, /* of VERBATIM: source of the target */
+    IR_CALLEE_FAMILY,   /* of LEAF: a family of functions of the portable language */
+    IR_CALLEE_CLOSURE,  /* of LEAF: a closure of the target */
+    IR_NUM_CALLEE_KINDS
+};
+extern const char *const ir_callee_kinds[IR_NUM_CALLEE_KINDS]; /* "function" … */
+
+/* A callee of CALL, VERBATIM or LEAF nodes. Equal kind and index is an equal callee. */
 struct ir_callee {
-    uint64_t id;
+    uint8_t kind;   /* enum ir_callee_kind */
+    uint32_t index; /* the owner's number: id of a function, of a family, of the closure's name… */
     str_id name;
     bool derivative; /* it contains derivatives or implicit-LOD texture reads */
     bool pure;       /* its result depends only on its arguments (no uniform or stream inside) */
@@ -218,9 +229,11 @@ struct ir_function {
 
 struct ir_graph {
     struct arena *arena;
-    struct strpool *strings;   /* may be NULL where no strings are built */
-    VEC(struct ir_node) nodes; /* [0] is unused */
-    VEC(ir_ref) args;          /* [0] is unused */
+    struct strpool *strings; /* may be NULL where no strings are built */
+    /* [0] of both is unused; only graph.c writes to them */
+    VEC(const struct ir_node) nodes;
+    VEC(const ir_ref) args;
+    VEC(struct ir_label) labels; /* by node */
     /* [0] is unused; constant pool: as many as the type has components */
     VEC(union ir_word) words;
     VEC(struct ir_origin) origins; /* [0] is nothing */
@@ -234,8 +247,9 @@ struct ir_graph {
     uint32_t table_mask;
     uint32_t *callee_table; /* the same over callee indices + 1 */
     uint32_t callee_mask;
-    uint32_t origin;    /* origin of new nodes */
-    uint32_t max_nodes; /* 0 = unlimited; above it the builder sets ->overflow and returns POISON */
+    uint32_t origin;             /* of new nodes: ir_push_origin */
+    VEC(uint32_t) outer_origins; /* those below it on the stack */
+    uint32_t max_nodes; /* 0 = unlimited; beyond it ->overflow is set and POISON returned */
     bool overflow;
     bool exact;   /* only apply exact rules, which hold for infinities and NaN, too */
     bool no_fold; /* do not fold; for tests */
@@ -328,11 +342,44 @@ enum ir_name_rank {
     IR_NAME_MAX_DEPTH = 49, /* deeper functions rank as this */
 };
 void ir_suggest_name(struct ir_graph *graph, ir_ref ref, str_id name, unsigned rank);
-/* The name of a node that `copy` replaces. */
-void ir_inherit_name(struct ir_graph *graph, ir_ref copy, const struct ir_node *original);
+static inline const struct ir_label *ir_label(const struct ir_graph *graph, ir_ref ref)
+{
+    assert(ref < graph->labels.len);
+    return &graph->labels.items[ref];
+}
 
 uint32_t ir_add_origin(struct ir_graph *graph, str_id name, uint32_t element, uint32_t parent);
-/* returns the same index for the same id */
+/*
+ * New nodes have the origin on top of a stack, whose lowest is nothing. Each push has its pop in
+ * the same step of a generation.
+ */
+static inline void ir_push_origin(struct ir_graph *graph, uint32_t origin)
+{
+    assert(origin < graph->origins.len);
+    vec_push(graph->arena, &graph->outer_origins, graph->origin);
+    graph->origin = origin;
+}
+static inline void ir_pop_origin(struct ir_graph *graph)
+{
+    assert(graph->outer_origins.len > 0);
+    graph->origin = vec_pop(&graph->outer_origins);
+}
+/* a new origin that is only a name */
+static inline void ir_push_name(struct ir_graph *graph, str_id name)
+{
+    ir_push_origin(graph, ir_add_origin(graph, name, 0, 0));
+}
+/* another name in the place of the top */
+static inline void ir_change_name(struct ir_graph *graph, str_id name)
+{
+    ir_pop_origin(graph);
+    ir_push_name(graph, name);
+}
+static inline void ir_push_origin_of(struct ir_graph *graph, ir_ref ref)
+{
+    ir_push_origin(graph, ir_get(graph, ref)->origin);
+}
+/* the same number for an equal callee */
 uint32_t ir_add_callee(struct ir_graph *graph, struct ir_callee callee);
 uint32_t ir_add_struct(struct ir_graph *graph, str_id name, const struct ir_member *members,
                        unsigned num_members);
@@ -364,7 +411,23 @@ uint8_t *ir_count_uses(const struct ir_graph *graph, const uint8_t *marked, cons
  */
 ir_ref ir_replace(struct ir_graph *graph, ir_ref root, ir_ref from, ir_ref to, struct arena *arena);
 
-/* print.c, parse.c: the text form (docs/ir.md). Parsing a printed text gives an equal graph. */
+/*
+ * rebuild.c: makes the graph anew of the nodes that the roots need. Returns the new node per old
+ * one, 0 for those that are gone. Types, callees, origins and functions keep their indices.
+ */
+struct ir_pass {
+    void *user_data;
+    /*
+     * Builds the new node of the same type for the node `old` over `args`, the new operands, which
+     * it may overwrite; `node` is what stood there. Nothing is folded. Constants are not asked for.
+     */
+    ir_ref (*build)(void *user_data, struct ir_graph *graph, ir_ref old, const struct ir_node *node,
+                    ir_ref *args);
+};
+const ir_ref *ir_rebuild(struct ir_graph *graph, const ir_ref *roots, uint32_t num_roots,
+                         const struct ir_pass *pass, struct arena *arena);
+
+/* print.c, parse.c: the text form (docs/ir.md); what is printed parses back to an equal graph. */
 
 void ir_print(const struct ir_graph *graph, const ir_ref *roots, uint32_t num_roots,
               struct text *out);
@@ -373,10 +436,15 @@ const char *ir_parse(struct ir_graph *graph, const char *text, size_t len, ir_re
                      uint32_t *out_num_roots, uint32_t *out_line);
 
 /*
- * check.c: NULL, or the first violated invariant, with the node's index. For tests and debug
- * builds.
+ * check.c: NULL, or the first broken rule of a graph, with the node that breaks it (0: no node
+ * does, but a table of the graph).
  */
 const char *ir_check(const struct ir_graph *graph, ir_ref *out_node);
+/*
+ * In builds with -Dcheck_ir=true: ends the program if ir_check finds a broken rule, and names the
+ * step after which, the node, and the rule. Other builds do nothing here.
+ */
+void ir_assert_valid(const struct ir_graph *graph, const char *step);
 
 /* eval.c: evaluates pure graphs, for tests and for folding whole graphs. */
 

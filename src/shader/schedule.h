@@ -71,7 +71,7 @@ static inline struct plan *plan_of(const struct scheduler *s, ir_ref ref)
 
 static inline const struct ir_node *node_of(const struct scheduler *s, const struct plan *plan)
 {
-    return &s->graph->nodes.items[plan - s->plans];
+    return ir_get(s->graph, (ir_ref)(plan - s->plans));
 }
 
 static inline const ir_ref *args_of(const struct scheduler *s, const struct plan *plan)

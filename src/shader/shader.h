@@ -308,10 +308,11 @@ struct shader_layout_rules { /* from the target's table and the options */
 void shader_finish(struct shader *shader, const struct shader_layout_rules *rules);
 
 /*
- * calls.c: gives each portable function the one version that all its calls share. Part of
- * shader_finish.
+ * calls.c: gives each portable function the one version that all its calls share, and builds the
+ * graph anew of what the effects need; refs from before are gone. With typed_textures, TEX gives
+ * one or three channels where no more are wanted. Part of shader_finish.
  */
-void shader_specialise_calls(struct shader *shader);
+void shader_specialise_calls(struct shader *shader, bool typed_textures);
 
 /*
  * The variable of a uniform or stream that a portable function reads; UINT32_MAX for constants, and
@@ -347,10 +348,8 @@ unsigned shader_call_outs(const struct shader *shader, ir_ref call);
 /* What a CALL (a lang function) or a VERBATIM node (an index in shader->verbatim) calls. */
 static inline uint32_t shader_callee(const struct shader *shader, ir_ref call)
 {
-    return (uint32_t)shader->graph->callees.items[ir_get(shader->graph, call)->attr].id;
+    return shader->graph->callees.items[ir_get(shader->graph, call)->attr].index;
 }
-/* The id of the callee of VERBATIM nodes, apart from those of functions. */
-#define SHADER_VERBATIM_ID(index) ((uint64_t)2 << 32 | (index))
 
 /* json.c: the reflection as JSON (docs/reflection.md). */
 
