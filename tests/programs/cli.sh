@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# The command line: exit codes, file names, messages, what is left behind. Argument: the program.
+# The command line: exit codes, filenames, messages, output files. Argument: the program.
 mxgen=$(realpath "$1")
 here=$(cd "$(dirname "$0")" && pwd)
 . "$here/common.sh"
