@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* mxgen-render: pictures of materials, without a display. `mxgen render` starts it. */
+/* mxgen-render: renders pictures of materials without a display. `mxgen render` starts it. */
 #define _POSIX_C_SOURCE 200809L
 #include "cli/cli.h"
 #include "cli/files.h"
@@ -12,16 +12,17 @@
 #include <string.h>
 #include <unistd.h>
 
-#define OVERSAMPLING 2 /* samples for each pixel and axis */
+#define OVERSAMPLING 2 /* samples per pixel and axis */
 #define MAX_FRAMES 10000
 #define MAX_BOUNCES 64
 
-/* The studio takes any mesh; the others are fixed, for tests and for patterns. */
+/* The studio takes any mesh. The other scenes are fixed, for tests and patterns. */
 enum scene_kind { SCENE_STUDIO, SCENE_SPHERE, SCENE_PLANE, SCENE_GRID, NUM_SCENES };
 
 static const struct {
     const char *name;
-    double exposure; /* what a white surface in the scene's daylight needs; values as they are: 1 */
+    /* factor for a white surface in the daylight of the scene; 1 for unchanged values */
+    double exposure;
 } scene_kinds[NUM_SCENES] = {[SCENE_STUDIO] = {"studio", 0.6},
                              [SCENE_SPHERE] = {"sphere", 0.6},
                              [SCENE_PLANE] = {"plane", 1.0},
@@ -39,7 +40,7 @@ struct job {
     bool path_trace, as_drawn;
     enum scene_kind scene_kind;
     struct bind_value *values;
-    struct arg_list found; /* documents, of folders too; allocated */
+    struct arg_list found; /* documents, including those in folders; allocated */
 };
 
 /* ---- Arguments ---- */
@@ -61,7 +62,7 @@ static bool parse_size(struct job *job)
     return true;
 }
 
-/* Splits "path=value" in place; NULL after telling what is wrong. To be freed. */
+/* Splits "path=value" in place. NULL after reporting an error. The caller frees the result. */
 static struct bind_value *split_settings(const struct arg_list *settings)
 {
     struct bind_value *values = calloc(settings->len + 1, sizeof *values);
@@ -95,7 +96,7 @@ static bool is_set(const struct cli *cli, const char *key)
     return false;
 }
 
-/* The place of a word in a list; the list's length after telling that it has no such word. */
+/* The index of a word in a list; after reporting an unknown word, the length of the list. */
 static size_t find_word(const char *option, const char *word, const char *const *words)
 {
     size_t i = 0;
@@ -110,7 +111,7 @@ static size_t find_word(const char *option, const char *word, const char *const 
     return i;
 }
 
-/* "--environment" is a mode of generation, or the file of a map; it may stand once for each. */
+/* "--environment" takes a mode of generation or the file of a map, at most one of each. */
 static void apply_environments(struct job *job)
 {
     for (size_t i = 0; i < job->environments.len; ++i) {
@@ -124,7 +125,7 @@ static void apply_environments(struct job *job)
     }
 }
 
-/* Fewer uniforms, smaller shader: only what the user sets has to stay open. */
+/* Reduces the interface for a smaller shader: only the inputs that the user sets stay uniforms. */
 static bool apply_interface(struct job *job)
 {
     if (job->settings.len || is_set(&job->cli, "interface"))
@@ -164,10 +165,10 @@ static bool parse(struct job *job)
         fprintf(stderr, "mxgen: a turntable has at most %d pictures\n", MAX_FRAMES);
         return false;
     }
-    /* samplers here have neither borders of any colour nor cubic filters */
+    /* the device's samplers have neither arbitrary border colours nor cubic filters */
     if (!is_set(&job->cli, "texture-modes"))
         mxg_options_set(job->cli.options, "texture-modes", "shared");
-    if (!is_set(&job->cli, "sample-filter")) /* there is nothing to be like */
+    if (!is_set(&job->cli, "sample-filter")) /* no picture of MaterialX to match */
         mxg_options_set(job->cli.options, "sample-filter", "narrow");
     bool is_sane =
         job->paths && job->paths <= UINT32_MAX && job->bounces && job->bounces <= MAX_BOUNCES;
@@ -254,7 +255,7 @@ static bool prepare(struct job *job)
 
 /* ---- Work ---- */
 
-/* "[3/40] Gold" on a terminal, over what stood there; nothing in a pipe. */
+/* Prints "[3/40] Gold" on a terminal, over the previous line; prints nothing to a pipe. */
 static void tell_progress(const struct job *job, size_t done, size_t count, const char *name)
 {
     if (job->cli.quiet || count < 2 || !isatty(STDERR_FILENO))
@@ -328,7 +329,7 @@ static void add_item(struct items *list, const mxg_document *document, const cha
     more[list->len++] = (struct item){{document, path, element}, cli_format("%s", element)};
 }
 
-/* The materials of the look that is asked for, or what can be rendered. */
+/* Adds the materials of the requested look, or the renderables. */
 static void add_elements(struct job *job, struct items *list, const mxg_document *document,
                          const char *path)
 {
@@ -347,7 +348,7 @@ static void add_elements(struct job *job, struct items *list, const mxg_document
         if (!job->element || strcmp(job->element, renderable.path) == 0)
             add_item(list, document, path, renderable.path);
     }
-    if (i == 0 || (list->len == 0 && job->element)) /* generation says what is wrong */
+    if (i == 0 || (list->len == 0 && job->element)) /* generation reports the error */
         add_item(list, document, path, job->element);
 }
 
@@ -404,7 +405,7 @@ static void draw_sheet(struct job *job, const struct items *list)
 
 /* ---- Values ---- */
 
-/* Components of a document type that a pixel shows; what is no vector is shown as a colour. */
+/* Number of components that a pixel shows; a non-vector type becomes a colour. */
 static unsigned num_components(const char *type)
 {
     if (strcmp(type, "float") == 0)
@@ -425,9 +426,7 @@ static void print_values(const char *element, unsigned components, const struct 
     putchar('\n');
 }
 
-/*
- * A line for each element: its path, then the values of the 16 pixels row by row from the bottom.
- */
+/* Prints a line per element: its path, then the values of the 16 pixels in rows from the bottom. */
 static void draw_grid(struct job *job, const mxg_document *document, const char *path)
 {
     for (uint32_t i = 0; i < mxg_document_num_renderables(document); ++i) {
@@ -445,7 +444,7 @@ static void draw_grid(struct job *job, const mxg_document *document, const char 
 
 /* ---- Commands ---- */
 
-/* One picture of the first element, or of the one that is asked for. */
+/* Renders one picture of the first element, or of the requested one. */
 static void render_file(struct job *job, const char *path)
 {
     mxg_document *document = cli_load(&job->cli, path);
@@ -474,7 +473,7 @@ static void render_all(struct job *job)
     free_items(&list);
 }
 
-/* The documents: of folders, those in them. */
+/* Collects the documents, including those in folders. */
 static bool find_documents(struct job *job)
 {
     const struct arg_list *inputs = &job->cli.parser.inputs;
@@ -520,7 +519,7 @@ static int bake(struct job *job)
     return job->cli.report.errors ? EXIT_FAULT : EXIT_DONE;
 }
 
-/* Found out before anything is drawn, which may take long. */
+/* Checked before rendering, which may take long. */
 static bool can_write(struct job *job, const char *path)
 {
     char reason[256];
@@ -627,8 +626,8 @@ int main(int argc, char **argv)
                   &code)) {
         job.painter.cli = &job.cli;
         /*
-         * llvmpipe's optimiser takes minutes for large shaders; without it pictures are the same,
-         * and seconds are enough.
+         * llvmpipe's optimiser takes minutes for large shaders. Without it the pictures are the
+         * same after seconds.
          */
         if (!job.path_trace)
             setenv("GALLIVM_PERF", "nopt", 0);

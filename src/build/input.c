@@ -290,11 +290,10 @@ static ir_ref make_geomprop(struct builder *b, const struct geomprop *prop)
     ir_ref *args = ARENA_ARRAY(b->arena, ir_ref, def->num_inputs);
     for (uint32_t i = 0; i < def->num_inputs; i++)
         args[i] = geomprop_arg(b, prop, &ports[i]);
-    uint32_t before = b->graph->origin;
-    b->graph->origin = ir_add_origin(b->graph, b->recorder ? prop->name : prop->geomprop, 0, 0);
+    ir_push_name(b->graph, b->recorder ? prop->name : prop->geomprop);
     ir_ref results[BUILD_MAX_OUTPUTS];
     build_apply(b, prop->nodedef, prop->element, args, results);
-    b->graph->origin = before;
+    ir_pop_origin(b->graph);
     return results[0];
 }
 

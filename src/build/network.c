@@ -402,10 +402,9 @@ ir_ref build_property_layer(struct builder *b, const struct geomprop *prop)
     for (unsigned i = 0; i < def->num_inputs; i++)
         args[i] = ports[i].name == STR_geomprop ? ir_const_string(b->graph, prop->name)
                                                 : build_default(b, &ports[i]);
-    uint32_t before = b->graph->origin;
-    b->graph->origin = ir_add_origin(b->graph, prop->name, 0, 0);
+    ir_push_name(b->graph, prop->name);
     build_apply(b, nodedef, prop->element, args, results);
-    b->graph->origin = before;
+    ir_pop_origin(b->graph);
     return results[0];
 }
 
@@ -463,11 +462,12 @@ void build_network_node(struct builder *b, struct network_node *node, ir_ref *re
     str_id *names = ARENA_ARRAY(b->arena, str_id, node->num_inputs);
     frame.args = ARENA_ARRAY(b->arena, ir_ref, node->num_inputs);
     frame.impl = build_choose(b, node->definition, frame.node.element);
-    b->graph->origin = ir_add_origin(b->graph, str_intern_z(b->shader->strings, "value"), 0, 0);
+    ir_push_name(b->graph, str_intern_z(b->shader->strings, "value"));
     for (uint32_t i = 0; i < node->num_inputs; i++)
         frame.args[i] = argument(b, frame.impl, &ports[i], &node->fixed[i], &names[i]);
     node->inputs = names;
     build_node(b, &frame, results);
+    ir_pop_origin(b->graph);
 }
 
 str_id build_network_output(struct builder *b, const struct network_node *node, uint32_t index,
