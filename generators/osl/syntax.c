@@ -37,7 +37,7 @@ static const char *const type_names[IR_NUM_TYPES] = {
 
 /* Structs and small matrices, in which every part is written. */
 static bool write_value(const struct lang_style *style, ir_type_id type, const union ir_word *words,
-                     struct text *out)
+                        struct text *out)
 {
     if (!osl_is_struct(type) && type != IR_TYPE_MAT3)
         return false;
