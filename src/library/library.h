@@ -165,8 +165,8 @@ struct library {
     VEC(struct user_type) types;
     VEC(struct unit) units; /* by name, then as they stand in the document */
     VEC(uint32_t) refs;
-    /* open addressing by node name: first nodedef of that node (own index + 1) */
-    VEC(uint32_t) node_table;
+    /* node name → first nodedef of that node (own index + 1) */
+    struct table node_table;
     /* per own element: 1 + own index of its nodedef, type, geomprop or graph_node; 0 = none */
     VEC(uint32_t) element_info;
     /* in place of `element_info` in an image layer of few definitions */

@@ -216,9 +216,7 @@ struct shader {
     VEC(uint32_t) interface;
     /* in `interface`: where each block begins, and where the last one ends */
     uint32_t first_of_block[NUM_BLOCKS + 1];
-    /* open addressing: names at file scope to variables, see interface.c */
-    uint32_t *names;
-    uint32_t names_mask;
+    struct table names; /* names to variables + 1: interface.c */
     VEC(struct shader_binding) bindings;
     /* of blocks of uniforms; size 0 where there is none */
     struct shader_buffer buffers[NUM_BLOCKS];
