@@ -231,7 +231,7 @@ struct shader {
     bool in_blocks;
     /* for the speller, from shader_finish: by node; 0 between the statement lists */
     uint32_t *local_of;
-    bool numbered; /* sets, bindings and locations are given */
+    bool numbered; /* sets, bindings and locations are assigned */
 };
 
 void shader_init(struct shader *shader, struct arena *arena, struct strpool *strings,
