@@ -4,8 +4,7 @@
 
 #include <assert.h>
 
-static const struct lang_words reserved[] = {
-#define RESERVED(length, words) LANG_WORDS(length, words),
+static const char *const reserved[] = {
 #include "generators/osl/reserved.def"
 };
 
@@ -37,7 +36,7 @@ static const char *const type_names[IR_NUM_TYPES] = {
 
 /* Structs and small matrices, in which every part is written. */
 static bool write_value(const struct lang_style *style, ir_type_id type, const union ir_word *words,
-                     struct text *out)
+                        struct text *out)
 {
     if (!osl_is_struct(type) && type != IR_TYPE_MAT3)
         return false;
@@ -59,7 +58,7 @@ const struct lang_syntax osl_syntax = {
     .type_names = type_names,
     .forms = forms,
     .reserved = reserved,
-    .max_reserved = sizeof reserved / sizeof *reserved - 1,
+    .num_reserved = sizeof reserved / sizeof *reserved,
     .param_in = "",
     .param_in_assigned = "",
     .param_out = "output ",
