@@ -25,6 +25,7 @@ static const struct dialect dialects[] = {
     {"vulkan", GLSLANG_CLIENT_VULKAN, GLSLANG_TARGET_VULKAN_1_0, GLSLANG_CORE_PROFILE, true, 0},
     /* There is no SPIR-V of ESSL 3.00; 3.10 contains it. */
     {"essl", GLSLANG_CLIENT_OPENGL, GLSLANG_TARGET_OPENGL_450, GLSLANG_ES_PROFILE, false, 310},
+    {"essl310", GLSLANG_CLIENT_OPENGL, GLSLANG_TARGET_OPENGL_450, GLSLANG_ES_PROFILE, true, 0},
 };
 
 static const glslang_stage_t glslang_stages[MXG_NUM_STAGES] = {GLSLANG_STAGE_VERTEX,
