@@ -4,7 +4,7 @@
 #define MXG_RENDER_RENDER_H
 
 #include "render/bind.h"
-#include "validate/compile.h"
+#include "compile/compile.h"
 
 /* A program on the device, for one picture or several. */
 struct render {

@@ -4,7 +4,7 @@
 #include "render/bvh.h"
 #include "render/importance.h"
 #include "render/inputs.h"
-#include "validate/compile.h"
+#include "compile/compile.h"
 
 #include <math.h>
 #include <stdio.h>

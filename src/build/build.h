@@ -106,18 +106,4 @@ bool build_glob_matches(const char *glob, const char *path);
 void build_lights(struct builder *builder, const char *const *items, uint32_t num_items,
                   bool is_said);
 
-struct structure_options {
-    enum build_interface interface;
-    const char *colorspace;
-    uint64_t seed; /* of what else programs depend on */
-};
-
-/*
- * structure.c: one number for what an element is but for names, places and what becomes uniforms;
- * equal numbers, equal programs. 0: that cannot be told without a generation, of elements with
- * faults among others.
- */
-uint64_t build_structure(const struct library *lib, const struct structure_options *options,
-                         elem_id element, unsigned output, struct arena *scratch);
-
 #endif

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Renders diagnostics for people (with the source line and a caret) and for programs (JSON). */
+/* Renders diagnostics for people, with the source line and a caret. */
 #include "diag/diag.h"
 
 enum {
@@ -158,46 +158,4 @@ void diag_render_text(const struct diag *diag, const char *source, size_t source
     struct line line = source && diag->place.line ? find_line(source, source_len, diag->place.line)
                                                   : (struct line){0};
     diag_render_line(diag, line.text, line.len, colour, out);
-}
-
-static void json_field(struct text *out, const char *name, const char *value)
-{
-    text_fmt(out, "\"%s\": ", name);
-    text_json_string(out, value, strlen(value));
-}
-
-/* The members of a diagnostic's JSON object, without its braces. */
-static void json_members(const struct diag *diag, struct text *out)
-{
-    json_field(out, "severity", diag_severity_text(diag->severity));
-    text_str(out, ", ");
-    json_field(out, "id", diag_id_text(diag->id));
-    text_str(out, ", ");
-    json_field(out, "message", diag->message);
-    if (!diag->place.file)
-        return;
-    text_str(out, ", ");
-    json_field(out, "file", diag->place.file);
-    if (diag->place.line)
-        text_fmt(out, ", \"line\": %u, \"column\": %u, \"length\": %u", (unsigned)diag->place.line,
-                 (unsigned)diag->place.column,
-                 (unsigned)(diag->place.length ? diag->place.length : 1));
-}
-
-void diag_render_json(const struct diag_list *list, struct text *out)
-{
-    text_char(out, '[');
-    for (uint32_t i = 0; i < list->items.len;) {
-        text_str(out, i ? ",\n  {" : "\n  {");
-        json_members(&list->items.items[i], out);
-        uint32_t first = ++i;
-        for (; i < list->items.len && list->items.items[i].parent == first - 1; i++) {
-            text_str(out, i == first ? ", \"notes\": [" : ",");
-            text_str(out, "\n    {");
-            json_members(&list->items.items[i], out);
-            text_char(out, '}');
-        }
-        text_str(out, i > first ? "]}" : "}");
-    }
-    text_str(out, list->items.len ? "\n]\n" : "]\n");
 }

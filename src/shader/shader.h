@@ -359,7 +359,7 @@ struct shader_ui {
         *enum_values;
     bool advanced;
 };
-struct json; /* json.h */
+struct reflect; /* reflect.h */
 struct network;
 struct shader_reflect_options {
     const char *target, *generator; /* "vulkan", "mxgen 0.1.0" */
@@ -368,7 +368,7 @@ struct shader_reflect_options {
     void (*ui)(void *user_data, const struct shader_variable *variable, struct shader_ui *out);
     const struct network *network; /* described in the place of the shader; NULL: it is none */
     uint64_t network_topology;
-    void (*reflect_network)(const struct network *network, struct json *json);
+    void (*reflect_network)(const struct network *network, struct reflect *r);
 };
 void shader_reflect_json(const struct shader *shader, const struct shader_reflect_options *options,
                          struct text *out);
