@@ -45,10 +45,10 @@ enum impl_kind {
     IMPL_FUNCTION,   /* ref: lang function id */
     IMPL_FAMILY,     /* ref: index of the leaf family */
     IMPL_GRAPH,      /* ref: element of the nodegraph */
-    /* built by C code, chosen by the node's name, or by `ref` where that is chosen_input */
+    /* C code builds it; the node's name selects the code, or `ref` if that is chosen_input */
     IMPL_DYNAMIC,
     IMPL_VERBATIM, /* ref: verbatim source */
-    /* its diagnostics were deferred: [ref, ref + count) of the layer's deferred list */
+    /* its diagnostics are deferred: [ref, ref + count) of the layer's deferred list */
     IMPL_BROKEN,
 };
 
