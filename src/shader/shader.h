@@ -215,9 +215,7 @@ struct shader {
     VEC(uint32_t) interface;
     /* start of each block in `interface`, and the end of the last */
     uint32_t first_of_block[NUM_BLOCKS + 1];
-    /* open addressing: from names at file scope to variables, see interface.c */
-    uint32_t *names;
-    uint32_t names_mask;
+    struct table names; /* names to variables + 1: interface.c */
     VEC(struct shader_binding) bindings;
     /* uniform blocks; size 0 if absent */
     struct shader_buffer buffers[NUM_BLOCKS];
