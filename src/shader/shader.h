@@ -11,6 +11,7 @@
 
 #include "ir/ir.h"
 #include "lang/lang.h"
+#include "shader/names.h"
 
 /* Blocks of the ShaderX convention; docs/reflection.md tells of their contents. */
 enum shader_block {
@@ -216,7 +217,8 @@ struct shader {
     VEC(uint32_t) interface;
     /* in `interface`: where each block begins, and where the last one ends */
     uint32_t first_of_block[NUM_BLOCKS + 1];
-    struct table names; /* names to variables + 1: interface.c */
+    struct table names;                    /* names to variables + 1: interface.c */
+    struct name_set taken[NUM_BLOCKS + 1]; /* by scope */
     VEC(struct shader_binding) bindings;
     /* of blocks of uniforms; size 0 where there is none */
     struct shader_buffer buffers[NUM_BLOCKS];
