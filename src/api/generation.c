@@ -54,7 +54,7 @@ static bool check_network(struct generation *g)
     if (g->result->target->network || !g->options[OPTION_network].number)
         return true;
     text_init(&possible, &g->scratch);
-    text_str(&possible, "false: only");
+    text_str(&possible, "false; only the target");
     for (const struct target *const *target = targets; *target; target++)
         if ((*target)->network)
             text_fmt(&possible, " '%s'", (*target)->name);

@@ -72,5 +72,5 @@ void strpool_init(struct strpool *pool, struct arena *arena, const struct strpoo
     };
     for (size_t i = 0; i < sizeof words / sizeof *words; i++)
         str_intern_z(pool, words[i]);
-    assert(pool->num == STR_NUM_WORDS); /* a word stands twice in words.def */
+    assert(pool->num == STR_NUM_WORDS); /* words.def has a duplicate word */
 }

@@ -99,7 +99,9 @@ elem_id doc_add_like(struct document *doc, elem_id parent, str_id category, str_
     return doc_add_element(doc, parent, category, name, like->file, like->line, like->column);
 }
 
-/* An element's attributes stand together: where others follow them, they move to the end first. */
+/*
+ * The attributes of an element are contiguous: if others follow them, they first move to the end.
+ */
 void doc_add_attr(struct document *doc, elem_id element, struct attribute attr)
 {
     struct element *e = own(doc, element);
@@ -330,7 +332,7 @@ static elem_id find_name(const struct document *doc, elem_id parent, str_id name
     return found;
 }
 
-/* Two elements with equal content: the second adds nothing and may stand. */
+/* True if two elements have equal content, so that the second one is redundant. */
 static bool are_equal(const struct document *doc, elem_id a, elem_id b)
 {
     elem_id root_a = a, root_b = b;
@@ -406,7 +408,7 @@ elem_id doc_child_of_kind(const struct document *doc, elem_id parent, enum eleme
     return child && doc_element(doc, child)->kind == kind ? child : 0;
 }
 
-/* A top-level name with the namespace of the root before it; 0: no such text is known. */
+/* A top-level name prefixed with the namespace of the root; 0: no such string exists. */
 static str_id qualified(const struct document *doc, const char *name, size_t len)
 {
     str_id namespace = doc_attr_value(doc, doc->root, STR_namespace);

@@ -142,7 +142,8 @@ static const uint8_t flags_of_ops[IR_NUM_OPS] = {
     [IR_POW] = IR_NODE_PARTIAL,       [IR_SQRT] = IR_NODE_PARTIAL,
     [IR_RSQRT] = IR_NODE_PARTIAL,     [IR_LOG] = IR_NODE_PARTIAL,
     [IR_LOG2] = IR_NODE_PARTIAL,      [IR_ASIN] = IR_NODE_PARTIAL,
-    [IR_ACOS] = IR_NODE_PARTIAL,
+    [IR_ACOS] = IR_NODE_PARTIAL,      [IR_ACOSH] = IR_NODE_PARTIAL,
+    [IR_ATANH] = IR_NODE_PARTIAL,
 };
 
 /* Of the node itself; those of its operands are added to them. */

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * The library image: the arrays of a layer, one behind another, as they stand in memory.
+ * The library image: the arrays of a layer in their memory layout, one after another.
  *
  *     header | section 0 | section 1 | …     each section aligned to 16 bytes
  *
- * Records refer to each other by index only, so mapping is setting one pointer per section. The
- * layout belongs to one build on one kind of machine; the header's fingerprint says which, and
- * another is refused, not converted.
+ * Records refer to each other by index, so mapping sets one pointer per section. The layout belongs
+ * to one build on one kind of machine. The header has a fingerprint of it; mxgen refuses an image
+ * with another fingerprint.
  */
 #include "library/library.h"
 
@@ -16,7 +16,7 @@
 
 enum { ALIGNMENT = 16 };
 
-struct any_vec { /* what every VEC looks like */
+struct any_vec { /* the layout of every VEC */
     void *items;
     uint32_t len, cap;
 };
@@ -43,7 +43,7 @@ static const struct section_info section_infos[] = {
 };
 enum {
     NUM_VECS = sizeof section_infos / sizeof *section_infos,
-    SECTION_NAME_TABLE = NUM_VECS, /* the document's names */
+    SECTION_NAME_TABLE = NUM_VECS, /* the name table of the document */
     SECTION_NODE_TABLE,
     SECTION_ELEMENT_INFO,
     SECTION_STR_OFFSETS,
@@ -54,9 +54,9 @@ enum {
 
 struct header {
     char magic[8];
-    uint64_t fingerprint; /* of the layout: sizes of the records, number of words, version */
-    uint64_t checksum;    /* of everything behind it */
-    uint64_t size;        /* of the whole image */
+    uint64_t fingerprint; /* hash of the layout: sizes of records, number of words, version */
+    uint64_t checksum;    /* of all following bytes */
+    uint64_t size;        /* of the image */
     uint32_t first_element, first_attr, first_file, root;
     uint32_t num_strings, has_attributedefs;
     struct {
@@ -75,7 +75,7 @@ static uint64_t checksum(const void *image, size_t size)
 static uint64_t fingerprint(void)
 {
     uint64_t h = HASH_STABLE_SEED;
-    uint32_t facts[NUM_VECS + 4] = {7 /* bumped when meanings change but sizes do not */,
+    uint32_t facts[NUM_VECS + 4] = {7 /* increase it when meanings change but sizes do not */,
                                     STR_NUM_WORDS, IR_NUM_OPS, NUM_ELEMENT_KINDS};
     for (unsigned i = 0; i < NUM_VECS; i++)
         facts[i + 4] = (uint32_t)section_infos[i].item_size;
@@ -138,7 +138,7 @@ static uint32_t max_element(const struct library *lib)
     return lib->doc.first_element + lib->doc.elements.len;
 }
 
-/* What an element_info says at most. */
+/* The maximum of element_info. */
 static uint32_t max_info(const struct library *lib)
 {
     uint32_t most =
@@ -146,7 +146,9 @@ static uint32_t max_info(const struct library *lib)
     return most > lib->geomprops.len ? most : lib->geomprops.len;
 }
 
-/* ---- Attributes: each run of them once, since template rows repeat most of theirs ---- */
+/*
+ * ---- Attributes: equal runs are stored once, because rows of templates repeat most of them ----
+ */
 
 struct runs {
     struct document *doc;
@@ -175,8 +177,8 @@ static void share_run(struct runs *runs, uint32_t index, struct arena *arena)
 }
 
 /*
- * Gives the document elements and attributes of its own, in which equal runs are one. Nothing may
- * be added to it after this.
+ * Copies elements and attributes and merges equal runs of attributes. No attribute can be added
+ * afterwards.
  */
 static void share_attributes(struct document *doc, struct arena *arena)
 {
@@ -290,7 +292,7 @@ static void map_element_info(struct library *lib, const struct header *header, c
 {
     void *table = base + header->sections[SECTION_ELEMENT_INFO].offset;
     if (header->sections[SECTION_ELEMENT_INFO].len < lib->doc.elements.len)
-        return; /* it was never indexed */
+        return; /* the name table was never built */
     if (is_narrow(max_info(lib)))
         lib->narrow_info = table;
     else
@@ -305,7 +307,7 @@ const char *library_map_image(struct library *lib, const void *data, size_t size
                                                     : check_header(header, data, size, check_bytes);
     if (fault)
         return fault;
-    /* The records are never written through these pointers: a mapped layer does not change. */
+    /* No code writes through these pointers: a mapped layer does not change. */
     char *base = (char *)(uintptr_t)data;
     memset(lib, 0, sizeof *lib);
     lib->digest = header->checksum;

@@ -15,7 +15,7 @@ enum target_caps {
     CAP_UNIFORM_BLOCKS = 1 << 1,   /* uniforms must stand in blocks */
     CAP_BLOCK_OPTION = 1 << 2,     /* uniforms may stand in blocks: --uniform-blocks */
     CAP_UNIFORM_DEFAULTS = 1 << 3, /* uniforms may have initial values */
-    CAP_BINDINGS = 1 << 4,         /* layout(set, binding) and locations */
+    CAP_BINDINGS = 1 << 4,         /* layout(binding) and locations */
     CAP_BLOCK_STAGE_IO = 1 << 5,   /* stage inputs and outputs may stand in an interface block */
     CAP_PRECISION = 1 << 6,        /* needs default precision statements */
     CAP_OVERLOADS = 1 << 7,        /* functions may be overloaded */
@@ -34,6 +34,7 @@ enum target_caps {
     CAP_SCOPED_PARAMETERS = 1 << 16,
     /* tangents follow the coordinates of their index; else, as in MaterialX, the first */
     CAP_INDEXED_TANGENTS = 1 << 17,
+    CAP_SETS = 1 << 18, /* with CAP_BINDINGS: layout(set, binding) */
 };
 
 struct spell; /* spell/spell.h */
@@ -49,7 +50,7 @@ struct target_closures {
                  str_id *out_unknown);
 };
 
-struct json; /* shader/json.h */
+struct reflect; /* shader/reflect.h */
 
 /* Of a language whose hosts put a shader together of one per node: option `network`. */
 struct target_network {
@@ -68,7 +69,7 @@ struct target_network {
     void (*write)(const struct network *network, enum shader_stage_id stage, struct text *out);
     uint64_t (*topology)(const struct network *network); /* of everything but values */
     /* Keys of the object at hand (docs/reflection.md). */
-    void (*reflect)(const struct network *network, struct json *json);
+    void (*reflect)(const struct network *network, struct reflect *r);
 };
 
 struct target {

@@ -13,12 +13,6 @@ struct xml_position {
     uint32_t line; /* 0: unknown */
 };
 
-/* A name that libxml2 stores once, with its id. */
-struct xml_name {
-    const char *text;
-    str_id id;
-};
-
 /* The current file. Its text is UTF-8 without a byte-order mark; mxgen converts other encodings. */
 struct xml_source {
     const char *name; /* canonical; includes in the file are relative to it */
