@@ -11,6 +11,7 @@
 
 #include "ir/ir.h"
 #include "lang/lang.h"
+#include "shader/names.h"
 
 /* Blocks of the ShaderX convention; docs/reflection.md describes their contents. */
 enum shader_block {
@@ -215,7 +216,8 @@ struct shader {
     VEC(uint32_t) interface;
     /* start of each block in `interface`, and the end of the last */
     uint32_t first_of_block[NUM_BLOCKS + 1];
-    struct table names; /* names to variables + 1: interface.c */
+    struct table names;                    /* names to variables + 1: interface.c */
+    struct name_set taken[NUM_BLOCKS + 1]; /* by scope */
     VEC(struct shader_binding) bindings;
     /* uniform blocks; size 0 if absent */
     struct shader_buffer buffers[NUM_BLOCKS];

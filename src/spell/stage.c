@@ -295,9 +295,9 @@ static void init(struct spell *spell)
     if (spell->style != shader->style)
         lang_style_init(spell->style, has_neighbours ? spell->target->syntax : syntax_of_one(spell),
                         arena);
-    names_init(&spell->names, arena, spell->style);
+    names_init(&spell->names, arena, spell->style->syntax);
     if (spell->options->comments && spell->options->path && !spell->options->neutral_names) {
-        names_init(&spell->paths, arena, spell->style);
+        names_init(&spell->paths, arena, NULL);
         spell->origins_seen = ARENA_ARRAY(arena, uint8_t, shader->graph->origins.len);
     }
     if (spell->options->shader_name)
