@@ -10,9 +10,9 @@ sys.path.append(str(pathlib.Path(__file__).resolve().parent))
 from checks import check, finish
 
 ROOT = pathlib.Path(sys.argv[1])
-ROOMS = "base diag ir document xml lang shader closure library build spell bind api".split()
-FRONT = {"document", "xml", "library", "build", "bind"}
-BACK = {"ir", "closure", "shader", "spell"}
+ROOMS = "base diag ir document xml tree parse lower specialise print shader closure library build spell bind api".split()
+FRONT = {"document", "xml", "parse", "library", "build", "bind"}
+BACK = {"ir", "lower", "specialise", "print", "closure", "shader", "spell"}
 INCLUDE = re.compile(r'^\s*#\s*include\s*["<]([^">]+)[">]', re.MULTILINE)
 
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
  * The shader stands: every call that is left is known. Each portable function now gets the one
- * version that its calls share (lang/plan.c), and the calls lose the arguments that the version
- * takes for granted.
+ * version that its calls share (specialise/plan.c), and the calls lose the arguments that the
+ * version takes for granted.
  */
 #include "shader/shader.h"
+#include "specialise/specialise.h"
 
 static void mark_roots(const struct shader *shader, uint8_t *needed)
 {

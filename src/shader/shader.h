@@ -10,7 +10,8 @@
 #define MXG_SHADER_SHADER_H
 
 #include "ir/ir.h"
-#include "lang/lang.h"
+#include "print/print.h"
+#include "tree/reach.h"
 
 /* Blocks of the ShaderX convention; docs/reflection.md tells of their contents. */
 enum shader_block {
