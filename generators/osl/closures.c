@@ -67,15 +67,14 @@ static ir_ref closure_of(struct osl_tree *t, ir_ref root)
                    && !osl_is_false(t, ir_arg(t->graph, root, 3));
     t->thin = is_thin ? ir_arg(t->graph, root, 3) : 0;
     uint8_t *needed = ir_mark(t->graph, &root, 1, t->shader->arena);
-    uint32_t before = t->graph->origin;
     for (ir_ref ref = 1; ref <= root; ref++) {
         if (!needed[ref] || !(ir_get(t->graph, ref)->flags & IR_NODE_CLOSURE))
             continue;
-        t->graph->origin = ir_get(t->graph, ref)->origin;
+        ir_push_origin_of(t->graph, ref);
         t->of[ref] = rewrite(t, ref);
+        ir_pop_origin(t->graph);
         assert(!t->of[ref] || ir_type_is_closure(ir_type_of(t->graph, t->of[ref])));
     }
-    t->graph->origin = before;
     return t->of[root];
 }
 
@@ -194,12 +193,11 @@ static bool emit_value(struct osl_tree *t, ir_ref root)
 static struct osl_tree start(struct shader *shader, const struct closure_host *host)
 {
     struct ir_graph *g = shader->graph;
-    uint32_t before = g->origin;
-    g->origin = ir_add_origin(g, str_intern_z(shader->strings, "incident"), 0, 0);
+    ir_push_name(g, str_intern_z(shader->strings, "incident"));
     ir_ref way = ir_op1(g, IR_NORMALIZE, incident(shader));
-    g->origin = ir_add_origin(g, STR_V, 0, 0);
+    ir_change_name(g, STR_V);
     host->point->view = ir_op1(g, IR_NEG, way);
-    g->origin = before;
+    ir_pop_origin(g);
     return (struct osl_tree){.shader = shader, .graph = g, .host = host};
 }
 

@@ -9,8 +9,8 @@ ir_ref osl_call(struct osl_tree *t, const char *name, ir_type_id type, const ir_
 {
     assert(ir_type_is_closure(type));
     str_id id = str_intern_z(t->shader->strings, name);
-    uint32_t callee =
-        ir_add_callee(t->graph, (struct ir_callee){.id = (uint64_t)3 << 32 | id, .name = id});
+    uint32_t callee = ir_add_callee(
+        t->graph, (struct ir_callee){.kind = IR_CALLEE_CLOSURE, .index = id, .name = id});
     return ir_build(t->graph, IR_LEAF, type, callee, args, n);
 }
 

@@ -11,31 +11,14 @@
 
 static const char parts[] = "xyzw";
 
-static bool is_struct(ir_type_id type)
-{
-    return type == IR_TYPE_VEC2 || type == IR_TYPE_VEC4 || type == IR_TYPE_IVEC2;
-}
-
 static bool is_vector(ir_type_id type)
 {
-    return is_struct(type) || type == IR_TYPE_VEC3;
+    return osl_is_struct(type) || type == IR_TYPE_VEC3;
 }
 
 static unsigned components(ir_type_id type)
 {
     return type < IR_NUM_TYPES ? ir_type_info(type)->components : 0;
-}
-
-/* A type as one letter: helpers.def. */
-char osl_type_letter(ir_type_id type)
-{
-    static const char letters[IR_NUM_TYPES] = {
-        [IR_TYPE_BOOL] = 'b',   [IR_TYPE_INT] = 'i',  [IR_TYPE_UINT] = 'u', [IR_TYPE_FLOAT] = 'f',
-        [IR_TYPE_IVEC2] = 'I',  [IR_TYPE_VEC2] = '2', [IR_TYPE_VEC3] = '3', [IR_TYPE_VEC4] = '4',
-        [IR_TYPE_MAT2] = 'm',   [IR_TYPE_MAT3] = 'M', [IR_TYPE_MAT4] = 'N', [IR_TYPE_SAMPLER] = 's',
-        [IR_TYPE_STRING] = 't',
-    };
-    return type < IR_NUM_TYPES && letters[type] ? letters[type] : '?';
 }
 
 /* ---- Forms made here: they live as long as the file is written ---- */
@@ -67,20 +50,6 @@ static const struct lang_pieces *call_form(struct osl *osl, const char *name, un
 }
 
 /* ---- Helpers ---- */
-
-static bool has_helper(const struct osl *osl, const char *text)
-{
-    for (uint32_t i = 0; i < osl->helpers.len; i++)
-        if (strcmp(osl->helpers.items[i], text) == 0)
-            return true;
-    return false;
-}
-
-void osl_add_helper(struct osl *osl, const char *text)
-{
-    if (!has_helper(osl, text))
-        vec_push(osl->spell->scratch, &osl->helpers, text);
-}
 
 struct helper_row {
     uint8_t op; /* enum ir_op */
@@ -372,8 +341,9 @@ static const struct lang_pieces *convert_form(struct osl *osl, const struct lang
     }
     if (is_vector(from) && is_vector(to)) /* ivec2 and vec2 */
         return component_form(osl, use);
-    return is_struct(to) || (to == IR_TYPE_VEC3 && from != IR_TYPE_FLOAT) ? construct_form(osl, use)
-                                                                          : NULL;
+    return osl_is_struct(to) || (to == IR_TYPE_VEC3 && from != IR_TYPE_FLOAT)
+               ? construct_form(osl, use)
+               : NULL;
 }
 
 static const struct lang_pieces *index_form(struct osl *osl, const struct lang_use *use)
@@ -389,9 +359,9 @@ static const struct lang_pieces *index_form(struct osl *osl, const struct lang_u
 
 static bool touches_struct(const struct lang_use *use)
 {
-    bool any = is_struct(use->type);
+    bool any = osl_is_struct(use->type);
     for (unsigned i = 0; i < use->num_operands; i++)
-        any |= is_struct(use->operands[i]);
+        any |= osl_is_struct(use->operands[i]);
     return any;
 }
 
@@ -552,22 +522,4 @@ const struct lang_pieces *osl_form(void *user_data, const struct lang_use *use)
     if (by_component)
         return component_form(osl, use);
     return cast_form(osl, use);
-}
-
-/* Structs and small matrices, in which every part is written. */
-bool osl_write_value(const struct lang_style *style, ir_type_id type, const union ir_word *words,
-                     struct text *out)
-{
-    if (!is_struct(type) && type != IR_TYPE_MAT3)
-        return false;
-    const struct ir_type_info *info = ir_type_info(type);
-    text_fmt(out, "%s(", lang_syntax_type(&osl_syntax, type));
-    for (unsigned i = 0; i < info->components; i++) {
-        text_str(out, i ? ", " : "");
-        lang_print_value(style, NULL, info->scalar, &words[i], LANG_PREC_COMMA, out);
-        if (type == IR_TYPE_MAT3 && i % 3 == 2)
-            text_str(out, ", 0");
-    }
-    text_str(out, type == IR_TYPE_MAT3 ? ", 0, 0, 0, 1)" : ")");
-    return true;
 }

@@ -1,32 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
 /* Networks in the reflection: groups with their layers, and the shaders (docs/reflection.md). */
 #include "generators/osl/groups.h"
-#include "shader/json.h"
+#include "shader/reflect.h"
 
 /* The layer that an input is connected to. */
-static void put_source(struct json *json, const struct network *network,
+static void put_source(struct reflect *r, const struct network *network,
                        const struct network_input *input)
 {
     const struct network_layer *from = &network->layers.items[input->layer];
-    reflect_id(json, "layer", from->name);
-    reflect_id(json, "output", network->nodes.items[from->node].outputs[input->output]);
+    reflect_id(r, "layer", from->name);
+    reflect_id(r, "output", network->nodes.items[from->node].outputs[input->output]);
 }
 
-static void put_input(struct json *json, const struct network *network,
+static void put_input(struct reflect *r, const struct network *network,
                       const struct network_input *input, const char *name)
 {
-    reflect_item(json);
-    reflect_open(json, '{');
-    reflect_string(json, "name", name);
-    reflect_id(json, "documentType", input->doc_type);
+    json_item(&r->json);
+    json_open(&r->json, '{');
+    json_put_text(&r->json, "name", name);
+    reflect_id(r, "documentType", input->doc_type);
     if (input->kind == NETWORK_VALUE)
-        reflect_value(json, "value", &input->value);
+        reflect_value(&r->json, "value", &input->value);
     else if (input->kind == NETWORK_FILE)
-        reflect_id(json, "file", input->file);
-    reflect_id(json, "path", input->path);
+        reflect_id(r, "file", input->file);
+    reflect_id(r, "path", input->path);
     if (input->kind == NETWORK_LAYER)
-        put_source(json, network, input);
-    reflect_close(json, '}');
+        put_source(r, network, input);
+    json_close(&r->json, '}');
 }
 
 static bool is_said(const struct network_input *input)
@@ -35,102 +35,102 @@ static bool is_said(const struct network_input *input)
            && !(input->kind == NETWORK_FILE && !input->file && !input->path);
 }
 
-static void put_layer(struct json *json, const struct network *network,
+static void put_layer(struct reflect *r, const struct network *network,
                       const struct network_layer *layer)
 {
     const struct network_node *node = &network->nodes.items[layer->node];
-    reflect_item(json);
-    reflect_open(json, '{');
-    reflect_id(json, "name", layer->name);
-    reflect_id(json, "path", layer->path);
-    reflect_id(json, "shader", node->name);
-    reflect_key(json, "inputs");
-    reflect_open(json, '[');
+    json_item(&r->json);
+    json_open(&r->json, '{');
+    reflect_id(r, "name", layer->name);
+    reflect_id(r, "path", layer->path);
+    reflect_id(r, "shader", node->name);
+    json_key(&r->json, "inputs");
+    json_open(&r->json, '[');
     for (uint32_t i = 0; i < node->num_inputs; i++)
         if (node->inputs[i] && is_said(&network->inputs.items[layer->first_input + i]))
-            put_input(json, network, &network->inputs.items[layer->first_input + i],
+            put_input(r, network, &network->inputs.items[layer->first_input + i],
                       str_text(network->strings, node->inputs[i]));
-    reflect_close(json, ']');
-    reflect_close(json, '}');
+    json_close(&r->json, ']');
+    json_close(&r->json, '}');
 }
 
-static void put_end(struct json *json, const struct network *network, const struct osl_end *end)
+static void put_end(struct reflect *r, const struct network *network, const struct osl_end *end)
 {
-    reflect_item(json);
-    reflect_open(json, '{');
-    reflect_string(json, "name", OSL_END_LAYER);
-    reflect_string(json, "shader", end->name);
-    reflect_key(json, "inputs");
-    reflect_open(json, '[');
+    json_item(&r->json);
+    json_open(&r->json, '{');
+    json_put_text(&r->json, "name", OSL_END_LAYER);
+    json_put_text(&r->json, "shader", end->name);
+    json_key(&r->json, "inputs");
+    json_open(&r->json, '[');
     for (unsigned i = 0; i < OSL_MAX_ENDS && end->inputs[i].parameter; i++) {
         const struct network_input *input = &network->results[end->inputs[i].result];
         if (is_said(input))
-            put_input(json, network, input, end->inputs[i].parameter);
+            put_input(r, network, input, end->inputs[i].parameter);
     }
-    reflect_close(json, ']');
-    reflect_close(json, '}');
+    json_close(&r->json, ']');
+    json_close(&r->json, '}');
 }
 
-static void put_group(struct json *json, const struct network *network,
+static void put_group(struct reflect *r, const struct network *network,
                       const struct osl_group *group)
 {
-    reflect_item(json);
-    reflect_open(json, '{');
-    reflect_string(json, "use", group->end->use);
-    reflect_key(json, "layers");
-    reflect_open(json, '[');
+    json_item(&r->json);
+    json_open(&r->json, '{');
+    json_put_text(&r->json, "use", group->end->use);
+    json_key(&r->json, "layers");
+    json_open(&r->json, '[');
     for (uint32_t i = 0; i < network->layers.len; i++)
         if (group->needed[i])
-            put_layer(json, network, &network->layers.items[i]);
+            put_layer(r, network, &network->layers.items[i]);
     if (group->end->name)
-        put_end(json, network, group->end);
-    reflect_close(json, ']');
+        put_end(r, network, group->end);
+    json_close(&r->json, ']');
     if (!group->end->name)
-        put_source(json, network, &network->results[group->end->inputs[0].result]);
-    reflect_close(json, '}');
+        put_source(r, network, &network->results[group->end->inputs[0].result]);
+    json_close(&r->json, '}');
 }
 
-static void put_settled(struct json *json, const struct network_node *node)
+static void put_settled(struct reflect *r, const struct network_node *node)
 {
     bool any = false;
     for (uint32_t i = 0; i < node->num_inputs; i++)
         any |= node->fixed[i].type != IR_TYPE_VOID;
     if (!any)
         return;
-    reflect_key(json, "settled");
-    reflect_open(json, '{');
+    json_key(&r->json, "settled");
+    json_open(&r->json, '{');
     for (uint32_t i = 0; i < node->num_inputs; i++) {
-        const char *name = str_text(json->shader->strings, node->ports[i]);
+        const char *name = str_text(r->shader->strings, node->ports[i]);
         if (node->fixed[i].type == IR_TYPE_STRING || node->fixed[i].type == IR_TYPE_SAMPLER)
-            reflect_id(json, name, node->fixed[i].w[0].u);
+            reflect_id(r, name, node->fixed[i].w[0].u);
         else if (node->fixed[i].type != IR_TYPE_VOID)
-            reflect_value(json, name, &node->fixed[i]);
+            reflect_value(&r->json, name, &node->fixed[i]);
     }
-    reflect_close(json, '}');
+    json_close(&r->json, '}');
 }
 
-static void put_node(struct json *json, const struct network_node *node)
+static void put_node(struct reflect *r, const struct network_node *node)
 {
-    reflect_item(json);
-    reflect_open(json, '{');
-    reflect_id(json, "name", node->name);
-    reflect_id(json, "definition", node->definition_name);
-    put_settled(json, node);
-    reflect_close(json, '}');
+    json_item(&r->json);
+    json_open(&r->json, '{');
+    reflect_id(r, "name", node->name);
+    reflect_id(r, "definition", node->definition_name);
+    put_settled(r, node);
+    json_close(&r->json, '}');
 }
 
-void osl_reflect_network(const struct network *network, struct json *json)
+void osl_reflect_network(const struct network *network, struct reflect *r)
 {
     const struct osl_program *program = osl_program_of(network);
-    reflect_key(json, "groups");
-    reflect_open(json, '[');
+    json_key(&r->json, "groups");
+    json_open(&r->json, '[');
     for (unsigned i = 0; i < program->num_groups; i++)
-        put_group(json, network, &program->groups[i]);
-    reflect_close(json, ']');
-    reflect_key(json, "shaders");
-    reflect_open(json, '[');
+        put_group(r, network, &program->groups[i]);
+    json_close(&r->json, ']');
+    json_key(&r->json, "shaders");
+    json_open(&r->json, '[');
     for (uint32_t i = 0; i < network->nodes.len; i++)
         if (network->nodes.items[i].is_needed)
-            put_node(json, &network->nodes.items[i]);
-    reflect_close(json, ']');
+            put_node(r, &network->nodes.items[i]);
+    json_close(&r->json, ']');
 }

@@ -44,6 +44,6 @@ void osl_add_network_parts(struct network *network);
 uint64_t osl_network_topology(const struct network *network);
 
 /* group_json.c */
-void osl_reflect_network(const struct network *network, struct json *json);
+void osl_reflect_network(const struct network *network, struct reflect *r);
 
 #endif

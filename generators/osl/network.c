@@ -40,21 +40,16 @@ static void write_matrix33(const struct ir_value *value, struct text *out)
     }
 }
 
-static bool is_struct(ir_type_id type)
-{
-    return type == IR_TYPE_VEC2 || type == IR_TYPE_VEC4;
-}
-
 static void write_value(const struct network_input *input, const char *name, struct text *out)
 {
     const struct ir_value *value = &input->value;
     unsigned count = ir_type_info(value->type)->components;
-    for (unsigned i = 0; is_struct(value->type) && i < count; i++) {
+    for (unsigned i = 0; osl_is_struct(value->type) && i < count; i++) {
         text_fmt(out, "param float %s.%c ", name, parts[i]);
         text_float(out, value->w[i].f);
         text_str(out, " ;\n");
     }
-    if (is_struct(value->type))
+    if (osl_is_struct(value->type))
         return;
     bool is_color = value->type == IR_TYPE_VEC3 && input->doc_type == STR_color3;
     text_fmt(out, "param %s %s", is_color ? "color" : lang_syntax_type(&osl_syntax, value->type),

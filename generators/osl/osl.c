@@ -8,54 +8,6 @@
 
 #include <assert.h>
 
-static const char *const reserved[] = {
-#include "generators/osl/reserved.def"
-};
-
-#define CALL(op, text) [IR_##op] = {text, LANG_PREC_POSTFIX, false}
-
-static const struct lang_form forms[IR_NUM_OPS] = {
-    [IR_LXOR] = {"$0 != $1", LANG_PREC_EQUAL, true},
-    CALL(ATAN2, "atan2($0, $1)"),
-    CALL(RSQRT, "inversesqrt($0)"),
-    CALL(INVERSE, "(1 / $0)"),
-    CALL(DFDX, "Dx($0)"),
-    CALL(DFDY, "Dy($0)"),
-    CALL(LAYER, "layer($0, $1)"),
-    CALL(CLOSURE_MIX, "mix($0, $1, $2)"),
-    [IR_CLOSURE_ADD] = {"$0 + $1", LANG_PREC_SUM, true},
-    [IR_CLOSURE_SCALE] = {"$0 * $1", LANG_PREC_PRODUCT, true},
-};
-
-static const char *const type_names[IR_NUM_TYPES] = {
-    [IR_TYPE_BOOL] = "int",          [IR_TYPE_INT] = "int",
-    [IR_TYPE_UINT] = "int",          [IR_TYPE_FLOAT] = "float",
-    [IR_TYPE_IVEC2] = "ivector2",    [IR_TYPE_VEC2] = "vector2",
-    [IR_TYPE_VEC3] = "vector",       [IR_TYPE_VEC4] = "vector4",
-    [IR_TYPE_MAT2] = "matrix",       [IR_TYPE_MAT3] = "matrix",
-    [IR_TYPE_MAT4] = "matrix",       [IR_TYPE_STRING] = "string",
-    [IR_TYPE_SAMPLER] = "string",    [IR_TYPE_BSDF] = "closure color",
-    [IR_TYPE_EDF] = "closure color", [IR_TYPE_VDF] = "closure color",
-};
-
-const struct lang_syntax osl_syntax = {
-    .name = "osl",
-    .base = &lang_syntax_portable,
-    .type_names = type_names,
-    .forms = forms,
-    .reserved = reserved,
-    .num_reserved = sizeof reserved / sizeof *reserved,
-    .param_in = "",
-    .param_in_assigned = "",
-    .param_out = "output ",
-    .param_inout = "output ",
-    .copies_params = true,
-    .plain_scalars = true,
-    .defines_constants = true,
-    .array_braces = true,
-    .write_value = osl_write_value,
-};
-
 /* ---- The file ---- */
 
 /* Vectors that OSL lacks. */
@@ -68,19 +20,6 @@ static const struct {
     {IR_TYPE_IVEC2, "ivector2", "struct ivector2 {\n    int x, y;\n};\n"},
 };
 enum { NUM_STRUCTS = sizeof structs / sizeof *structs };
-
-static void note_type(void *user_data, ir_type_id type)
-{
-    struct osl *osl = ((struct spell *)user_data)->target_data;
-    assert(type < IR_NUM_TYPES);
-    osl->types |= 1u << type;
-}
-
-const char *osl_type(struct osl *osl, ir_type_id type)
-{
-    note_type(osl->spell, type);
-    return lang_syntax_type(&osl_syntax, type);
-}
 
 /* Nobody but their text says what sources of the document need. */
 static void note_verbatim_types(struct osl *osl, str_id text)
@@ -153,7 +92,7 @@ static void start(struct osl *osl)
     spell->target_data = osl;
     spell->write_node = spell_typed_node;
     spell->lang_names.form = osl_form;
-    spell->lang_names.type = note_type;
+    spell->lang_names.type = osl_note_type;
     spell->lang_names.function = osl_function_name;
     spell->lang_names.global = osl_global_name;
     spell->lang_names.maker = osl_maker;

@@ -35,11 +35,6 @@ static const struct known_row *find_row(const struct known_row *rows, size_t cou
     return NULL;
 }
 
-const struct shader_variable *osl_interface_variable(const struct osl *osl, uint32_t i)
-{
-    return &osl->spell->shader->variables.items[osl->spell->shader->interface.items[i]];
-}
-
 static const char *text_of(const struct osl *osl, str_id id)
 {
     return str_text(osl->spell->shader->strings, id);
@@ -56,11 +51,6 @@ static const struct known_row *known_of(const struct osl *osl,
         return find_row(uniform_rows, sizeof uniform_rows / sizeof *uniform_rows,
                         text_of(osl, variable->semantic));
     return NULL;
-}
-
-bool osl_is_read(const struct osl *osl, const struct shader_variable *variable)
-{
-    return variable->stages >> osl->spell->stage_id & 1;
 }
 
 /* "st" of the stream "geomprop_st": the name of the primitive's variable. */

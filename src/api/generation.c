@@ -54,7 +54,7 @@ static bool check_network(struct generation *g)
     if (g->result->target->network || !g->options[OPTION_network].number)
         return true;
     text_init(&possible, &g->scratch);
-    text_str(&possible, "false: only");
+    text_str(&possible, "false; only the target");
     for (const struct target *const *target = targets; *target; target++)
         if ((*target)->network)
             text_fmt(&possible, " '%s'", (*target)->name);
@@ -219,6 +219,7 @@ bool generation_build(struct generation *g)
     if (g->options[OPTION_network].number)
         build_record_network(g->builder, &g->result->network);
     g->root = build_element(g->builder, g->element, g->output);
+    ir_assert_valid(&g->result->graph, "after build");
     if (!is_good(g))
         return false;
     if (!g->root)
@@ -302,7 +303,9 @@ bool generation_emit(struct generation *g)
     g->result->shader.scatters = g->options[OPTION_integrator].number == 2;
     if (g->desc.only_diagnostics && has_nothing_to_tell(g))
         return is_good(g);
-    if (!emit(g))
+    bool is_emitted = emit(g);
+    ir_assert_valid(&g->result->graph, "after closures");
+    if (!is_emitted)
         generation_report_not_renderable(g, g->result->shader.scatters
                                                 ? "a path tracer draws only surfaces and values"
                                                 : gives_nothing);

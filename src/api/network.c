@@ -37,8 +37,10 @@ static bool emit_node(struct generation *g, struct shader *shader, struct networ
         outputs[i].name = build_network_output(builder, node, i, &outputs[i].doc_type);
     }
     struct closure_host host = generation_closure_host(builder, point);
-    if (!g->result->target->network->emit_node(shader, &host, outputs, node->num_outputs,
-                                               &g->unknown_leaf))
+    bool is_emitted = g->result->target->network->emit_node(shader, &host, outputs,
+                                                            node->num_outputs, &g->unknown_leaf);
+    ir_assert_valid(shader->graph, "after closures");
+    if (!is_emitted)
         return false;
     struct shader_layout_rules rules = generation_layout_rules(g);
     shader_finish(shader, &rules);

@@ -36,7 +36,7 @@ static str_id find_hashed(const struct strpool *pool, const char *text, size_t l
 {
     for (; pool; pool = pool->base) {
         if (pool->offsets)
-            return find_in_image(pool, text, len, hash); /* which stands on nothing */
+            return find_in_image(pool, text, len, hash); /* an image has no base */
         if (!pool->table)
             continue;
         str_id id;
@@ -79,7 +79,7 @@ static str_id add(struct strpool *pool, const char *text, size_t len, uint32_t h
     vec_push(pool->arena, &pool->entries,
              (struct str_entry){arena_strndup(pool->arena, text, len), (uint32_t)len, hash});
     pool->num++;
-    uint32_t *table = (uint32_t *)(uintptr_t)pool->table; /* ours: a growing layer owns its table */
+    uint32_t *table = (uint32_t *)(uintptr_t)pool->table; /* a growing pool owns its table */
     uint32_t slot = hash & pool->table_mask;
     while (table[slot])
         slot = (slot + 1) & pool->table_mask;
@@ -117,5 +117,5 @@ void strpool_init(struct strpool *pool, struct arena *arena, const struct strpoo
     };
     for (size_t i = 0; i < sizeof words / sizeof *words; i++)
         str_intern_z(pool, words[i]);
-    assert(pool->num == STR_NUM_WORDS); /* a word stands twice in words.def */
+    assert(pool->num == STR_NUM_WORDS); /* words.def has a duplicate word */
 }

@@ -34,10 +34,9 @@ static ir_ref position(struct shader *shader)
 static ir_ref known(struct shader *shader, ir_ref *place, str_id name, ir_ref make(struct shader *))
 {
     if (!*place) {
-        uint32_t before = shader->graph->origin;
-        shader->graph->origin = ir_add_origin(shader->graph, name, 0, 0);
+        ir_push_name(shader->graph, name);
         *place = make(shader);
-        shader->graph->origin = before;
+        ir_pop_origin(shader->graph);
     }
     return *place;
 }
@@ -95,12 +94,11 @@ bool closure_call_all(struct shader *shader, const struct closure_host *host, ir
         args[i] = i < num_inputs ? ir_arg(g, leaf, i + 1)
                                  : context_value(shader, host->point, slot->name, light);
     }
-    uint32_t before = g->origin;
-    g->origin = node.origin;
+    ir_push_origin(g, node.origin);
     struct lang_host see_through = *host->lang;
     see_through.max_outer_nodes = MAX_LEAF_NODES;
     lang_lower_call(shader->unit, g, &see_through, id, args, results);
-    g->origin = before;
+    ir_pop_origin(g);
     return true;
 }
 

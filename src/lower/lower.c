@@ -346,7 +346,8 @@ static uint32_t callee(struct lower *lo, uint32_t id)
 {
     const struct lang_function *fn = lang_function(lo->unit, id, NULL);
     return ir_add_callee(lo->graph,
-                         (struct ir_callee){.id = id,
+                         (struct ir_callee){.kind = IR_CALLEE_FUNCTION,
+                                            .index = id,
                                             .name = fn->name,
                                             .derivative = (fn->flags & LANG_FN_DERIVATIVE) != 0,
                                             .pure = (fn->flags & LANG_FN_PURE) != 0});

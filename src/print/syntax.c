@@ -32,6 +32,7 @@ static const struct lang_form forms[IR_NUM_OPS] = {
     CALL1(SIN, "sin"), CALL1(COS, "cos"), CALL1(TAN, "tan"),
     CALL1(ASIN, "asin"), CALL1(ACOS, "acos"), CALL1(ATAN, "atan"), CALL2(ATAN2, "atan"),
     CALL1(SINH, "sinh"), CALL1(COSH, "cosh"), CALL1(TANH, "tanh"),
+    CALL1(ASINH, "asinh"), CALL1(ACOSH, "acosh"), CALL1(ATANH, "atanh"),
     CALL2(POW, "pow"), CALL1(EXP, "exp"), CALL1(LOG, "log"), CALL1(EXP2, "exp2"), CALL1(LOG2, "log2"),
     CALL1(SQRT, "sqrt"), CALL1(RSQRT, "inversesqrt"),
     CALL1(ABS, "abs"), CALL1(SIGN, "sign"), CALL1(FLOOR, "floor"), CALL1(TRUNC, "trunc"), CALL1(ROUND, "round"),

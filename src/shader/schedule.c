@@ -102,7 +102,7 @@ static unsigned locals_below(const struct scheduler *s, const struct ir_node *no
 /* What the node depends on follows from its operands, which are reached before. */
 static inline void reach_node(struct scheduler *s, ir_ref ref)
 {
-    const struct ir_node *node = &s->graph->nodes.items[ref];
+    const struct ir_node *node = ir_get(s->graph, ref);
     unsigned flags = note_needs(s, ref, node) | (node->flags & PLAN_LOOP);
     if (s->any_local)
         flags |= locals_below(s, node);

@@ -98,6 +98,12 @@ void spell_type(struct spell *spell, ir_type_id type);
 /* "float x[3]" */
 void spell_variable(struct spell *spell, ir_type_id type, struct spell_name name);
 
+/* The name of a portable function, which the text at hand calls. */
+static inline const char *spell_function_name(const struct spell *spell, uint32_t function)
+{
+    return spell->lang_names.function(spell->lang_names.user_data, function);
+}
+
 /* ---- local.c ---- */
 
 /* Before a function's statements: which names several of its locals want. */
@@ -106,12 +112,6 @@ void spell_plan_locals(struct spell *spell, const struct effect_list *statements
 struct spell_name spell_call_base(struct spell *spell, ir_ref call);
 /* What a local is called, before names_unique; its operands have their names already. */
 struct spell_name spell_local_base(struct spell *spell, ir_ref ref);
-
-/* The name of a portable function, which the text at hand calls. */
-static inline const char *spell_function_name(const struct spell *spell, uint32_t function)
-{
-    return spell->lang_names.function(spell->lang_names.user_data, function);
-}
 
 /* ---- statement.c ---- */
 

@@ -49,7 +49,7 @@ struct target_closures {
                  str_id *out_unknown);
 };
 
-struct json; /* shader/json.h */
+struct reflect; /* shader/reflect.h */
 
 /* Of a language whose hosts put a shader together of one per node: option `network`. */
 struct target_network {
@@ -68,7 +68,7 @@ struct target_network {
     void (*write)(const struct network *network, enum shader_stage_id stage, struct text *out);
     uint64_t (*topology)(const struct network *network); /* of everything but values */
     /* Keys of the object at hand (docs/reflection.md). */
-    void (*reflect)(const struct network *network, struct json *json);
+    void (*reflect)(const struct network *network, struct reflect *r);
 };
 
 struct target {

@@ -793,8 +793,8 @@ static void test_lower_call_in_branch(void)
            "float h(float x) { if (x > 0.0) return sum(x); return x; }\n"
            "float f(float x) { return sum(x) + h(x); }",
            "f", 24, ARGS("x"),
-           "callee \"sum\" 0x0000000000000000 pure\n"
-           "callee \"h\" 0x0000000000000001 pure\n"
+           "callee \"sum\" function 0 pure\n"
+           "callee \"h\" function 1 pure\n"
            "%1 = uniform float\n"
            "%2 = call float %1\n"
            "%3 = call float @1 %1\n"
@@ -812,7 +812,7 @@ static void test_lower_calls(void)
            "%3 = texture vec4 %1, %2\n"
            "return %3\n");
     lowers(texture_source, "f", 24, ARGS("map", "uv", "on"),
-           "callee \"f\" 0x0000000000000000 derivative\n"
+           "callee \"f\" function 0 derivative\n"
            "%1 = texture_input sampler2D\n"
            "%2 = uniform vec2 @1\n"
            "%3 = uniform bool @2\n"
@@ -822,7 +822,7 @@ static void test_lower_calls(void)
            "s; }\n"
            "float f(float x) { return sum(x, 3) + sum(2.0, 3); }",
            "f", 24, ARGS("x"),
-           "callee \"sum\" 0x0000000000000000 pure\n"
+           "callee \"sum\" function 0 pure\n"
            "%1 = uniform float\n"
            "%2 = call float %1, 3\n"
            "%3 = add float %2, 6.0\n"
@@ -830,7 +830,7 @@ static void test_lower_calls(void)
     lowers("vec2 big(vec2 x, float k, out float y, bool b) { y = k; for (int i = 0; i < 3; ++i) x "
            "+= k; return b ? x.yx : x; }",
            "big", 0, ARGS("x", "k", "1"),
-           "callee \"big\" 0x0000000000000000 pure\n"
+           "callee \"big\" function 0 pure\n"
            "%1 = uniform vec2\n"
            "%2 = uniform float @1\n"
            "%3 = call vec2 %1, %2, true\n"
@@ -839,7 +839,7 @@ static void test_lower_calls(void)
            "return %4, %5\n");
     lowers("float f(float x, float y) { return sin(x) * cos(y) + sin(y) * cos(x) + sqrt(x); }", "f",
            4, ARGS("x", "y"),
-           "callee \"f\" 0x0000000000000000 pure\n"
+           "callee \"f\" function 0 pure\n"
            "%1 = uniform float\n"
            "%2 = uniform float @1\n"
            "%3 = call float %1, %2\n"

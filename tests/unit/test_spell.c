@@ -312,7 +312,8 @@ static void test_verbatim(void)
     uint32_t callees[2];
     for (uint32_t i = 0; i < 2; i++)
         callees[i] = ir_add_callee(
-            &f.graph, (struct ir_callee){.id = SHADER_VERBATIM_ID(i), .name = word(&f, "theirs")});
+            &f.graph,
+            (struct ir_callee){.kind = IR_CALLEE_VERBATIM, .index = i, .name = word(&f, "theirs")});
     ir_ref v = uniform(&f, "v", IR_TYPE_VEC3), args[] = {op2(&f, IR_ADD, v, number(&f, 1)), v};
     ir_ref product = ir_build(&f.graph, IR_VERBATIM, IR_TYPE_VEC3, callees[1], args, 2);
     name(&f, "copy");
@@ -510,8 +511,8 @@ static void test_function_names(void)
     uint32_t make = function(&f, "make_pair");
     ir_ref p = ir_build(
         &f.graph, IR_CALL, pair,
-        ir_add_callee(&f.graph, (struct ir_callee){.id = make, .name = word(&f, "make_pair")}), &a,
-        1);
+        ir_add_callee(&f.graph, (struct ir_callee){.index = make, .name = word(&f, "make_pair")}),
+        &a, 1);
     ir_ref t1 = call(&f, "twin", &a, 1), t2 = call(&f, "twin", &uv, 1);
     uniform(&f, "make_pair", IR_TYPE_FLOAT); /* not used, not in the way */
     ir_ref clash = uniform(&f, "noise", IR_TYPE_FLOAT);
