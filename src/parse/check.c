@@ -2,54 +2,6 @@
 /* Types of operators, implicit conversions, what may be assigned. GLSL 4.50, 4.1.10 and 5.9. */
 #include "parse/parse_priv.h"
 
-/* Types */
-
-ir_type_id check_scalar(ir_type_id type)
-{
-    return type < IR_NUM_TYPES ? ir_type_info(type)->scalar : IR_TYPE_VOID;
-}
-
-unsigned check_rank(ir_type_id scalar)
-{
-    return scalar == IR_TYPE_INT ? 1 : scalar == IR_TYPE_UINT ? 2 : scalar == IR_TYPE_FLOAT ? 3 : 0;
-}
-
-static const ir_type_id scalar_of_rank[] = {IR_TYPE_VOID, IR_TYPE_INT, IR_TYPE_UINT, IR_TYPE_FLOAT};
-
-static unsigned rank_of(ir_type_id type)
-{
-    return check_rank(check_scalar(type));
-}
-
-/* The same shape with components of a higher rank; VOID where there is none. */
-static ir_type_id with_rank(ir_type_id type, unsigned rank)
-{
-    if (ir_type_is_matrix(type))
-        return rank == 3 ? type : IR_TYPE_VOID;
-    return ir_type_vector(scalar_of_rank[rank], ir_type_info(type)->components);
-}
-
-bool check_converts(ir_type_id from, ir_type_id to)
-{
-    if (from == to)
-        return true;
-    unsigned rank = rank_of(from);
-    return rank && rank < rank_of(to) && with_rank(from, rank_of(to)) == to;
-}
-
-bool check_is_array(const struct parser *p, ir_type_id type, ir_type_id *out_element,
-                    uint32_t *out_length)
-{
-    if (type < IR_TYPE_FIRST_USER)
-        return false;
-    const struct ir_user_type *user = lang_user_type(p->unit, type, NULL);
-    if (user->array_length == 0)
-        return false;
-    *out_element = user->element;
-    *out_length = user->array_length;
-    return true;
-}
-
 /* Conversions */
 
 lang_ref check_cast(struct parser *p, lang_ref a, ir_type_id type)
@@ -78,14 +30,15 @@ bool check_unify(struct parser *p, lang_ref *args, unsigned num_args, unsigned m
 {
     unsigned rank = min_rank;
     for (unsigned i = 0; i < num_args; i++)
-        rank = rank_of(tree_type(p, args[i])) > rank ? rank_of(tree_type(p, args[i])) : rank;
+        rank = check_rank_of(tree_type(p, args[i])) > rank ? check_rank_of(tree_type(p, args[i]))
+                                                           : rank;
     for (unsigned i = 0; i < num_args; i++) {
         ir_type_id type = tree_type(p, args[i]);
-        if (!rank_of(type) || rank_of(type) == rank)
+        if (!check_rank_of(type) || check_rank_of(type) == rank)
             continue;
-        if (with_rank(type, rank) == IR_TYPE_VOID)
+        if (check_with_rank(type, rank) == IR_TYPE_VOID)
             return false;
-        args[i] = check_cast(p, args[i], with_rank(type, rank));
+        args[i] = check_cast(p, args[i], check_with_rank(type, rank));
         if (!args[i])
             return false;
     }
@@ -100,7 +53,7 @@ lang_ref check_unary(struct parser *p, enum ir_op op, lang_ref a, uint32_t place
     bool fits = op == IR_NOT ? type == IR_TYPE_BOOL
                 : op == IR_BITNOT
                     ? check_scalar(type) == IR_TYPE_INT || check_scalar(type) == IR_TYPE_UINT
-                    : rank_of(type) != 0;
+                    : check_rank_of(type) != 0;
     if (!fits) {
         const char *text = op == IR_NOT ? "!" : op == IR_BITNOT ? "~" : op == IR_NEG ? "-" : "+";
         PARSE_TYPE_ERROR(p, place, "'%s' cannot be applied to %s", text, parse_type_text(p, type));
@@ -117,7 +70,8 @@ static ir_type_id binary_type(struct parser *p, enum ir_op op, lang_ref operands
 {
     bool is_shift = op == IR_SHL || op == IR_SHR;
     ir_type_id types[2] = {tree_type(p, operands[0]), tree_type(p, operands[1])};
-    if (rank_of(types[0]) && rank_of(types[1]) && !is_shift && !check_unify(p, operands, 2, 0))
+    if (check_rank_of(types[0]) && check_rank_of(types[1]) && !is_shift
+        && !check_unify(p, operands, 2, 0))
         return IR_TYPE_VOID;
     types[0] = tree_type(p, operands[0]);
     types[1] = tree_type(p, operands[1]);
@@ -151,7 +105,7 @@ lang_ref check_select(struct parser *p, lang_ref condition, lang_ref a, lang_ref
     if (!condition)
         return 0;
     lang_ref operands[3] = {condition, a, b};
-    if (rank_of(tree_type(p, a)) && rank_of(tree_type(p, b)))
+    if (check_rank_of(tree_type(p, a)) && check_rank_of(tree_type(p, b)))
         check_unify(p, operands + 1, 2, 0);
     ir_type_id type = tree_type(p, operands[1]);
     bool is_value = type >= IR_TYPE_FIRST_USER
@@ -213,7 +167,7 @@ lang_ref check_member(struct parser *p, lang_ref a, const struct token *name)
     if (type >= IR_TYPE_FIRST_USER && !check_is_array(p, type, &element, &length))
         return check_struct_member(p, a, name);
     uint8_t components[4];
-    bool has_components = rank_of(type) && !ir_type_is_matrix(type);
+    bool has_components = check_rank_of(type) && !ir_type_is_matrix(type);
     unsigned size = has_components ? ir_type_info(type)->components : 0;
     unsigned count = size ? read_swizzle(name, size, components) : 0;
     if (!count || ir_type_vector(check_scalar(type), count) == IR_TYPE_VOID) {
@@ -235,7 +189,7 @@ static bool indexed(struct parser *p, ir_type_id type, ir_type_id *out_element,
     if (type >= IR_TYPE_FIRST_USER)
         return check_is_array(p, type, out_element, out_length);
     const struct ir_type_info *info = ir_type_info(type);
-    if (!rank_of(type) || info->components < 2)
+    if (!check_rank_of(type) || info->components < 2)
         return false;
     unsigned length = info->columns > 1 ? info->columns : info->components;
     *out_length = length;

@@ -9,105 +9,6 @@ static struct lang_file *own_file(struct parser *p)
     return &p->unit->files.items[p->file - p->unit->base_files];
 }
 
-/* Types */
-
-static bool is_word(const struct token *token, const char *word)
-{
-    return token->kind == TOKEN_NAME && token->len == strlen(word)
-           && memcmp(token->text, word, token->len) == 0;
-}
-
-bool parse_at_type(struct parser *p)
-{
-    if (p->token.kind != TOKEN_NAME)
-        return false;
-    struct token next = parse_peek(p);
-    return next.kind == TOKEN_NAME
-           || (next.kind == TOKEN_OPEN_INDEX
-               && lookup_type(p->unit, p->token.text, p->token.len) != IR_TYPE_VOID);
-}
-
-ir_type_id parse_type(struct parser *p, bool may_be_void, bool *out_bad)
-{
-    struct token token = p->token;
-    *out_bad = true;
-    if (token.kind != TOKEN_NAME) {
-        parse_unexpected(p, "a type");
-        return IR_TYPE_VOID;
-    }
-    parse_advance(p);
-    ir_type_id type = lookup_type(p->unit, token.text, token.len);
-    *out_bad = type == IR_TYPE_VOID && !(may_be_void && is_word(&token, "void"));
-    if (!*out_bad)
-        return type;
-    const char *word = parse_token_text(p, &token);
-    if (is_word(&token, "void"))
-        PARSE_TYPE_ERROR(p, parse_place(&token), "nothing but a function can have type void");
-    else
-        PARSE_ERROR(p, parse_where_token(p, &token), lang_unknown, "type", word,
-                    lookup_suggest(p, word, LOOKUP_TYPES));
-    return IR_TYPE_VOID;
-}
-
-/* What a constant expression leaves behind is taken back, but for `keep` words at the end. */
-static void drop_tree(struct parser *p, const struct parse_mark *mark, uint32_t keep)
-{
-    union ir_word *words = p->unit->words.items;
-    if (keep)
-        memmove(words + mark->words, words + p->unit->words.len - keep, keep * sizeof *words);
-    p->unit->words.len = mark->words + keep;
-    p->unit->nodes.len = mark->nodes;
-    p->origins.len = mark->nodes - p->first_node;
-}
-
-static ir_type_id sized_array(struct parser *p, ir_type_id element, uint32_t place)
-{
-    struct parse_mark mark = parse_mark(p->unit);
-    struct ir_value length = {0};
-    lang_ref size = parse_expression(p);
-    bool constant = size && check_value(p, size, &length);
-    uint32_t size_place = size ? tree_place(p, size) : place;
-    drop_tree(p, &mark, 0);
-    if (!size || element == IR_TYPE_VOID)
-        return IR_TYPE_VOID;
-    bool integer = constant && (length.type == IR_TYPE_INT || length.type == IR_TYPE_UINT);
-    if (!integer || length.w[0].u == 0 || length.w[0].u > PARSE_MAX_ARRAY) {
-        PARSE_TYPE_ERROR(p, size_place,
-                         "the length of an array must be a constant int from 1 to %d",
-                         PARSE_MAX_ARRAY);
-        return IR_TYPE_VOID;
-    }
-    ir_type_id type = lookup_array(p->unit, element, length.w[0].u);
-    if (type == IR_TYPE_VOID)
-        PARSE_ERROR(p, parse_where(p, place, 0), lang_limit,
-                    "there are too many structs and arrays");
-    return type;
-}
-
-ir_type_id parse_array_suffix(struct parser *p, ir_type_id element, bool *out_unsized)
-{
-    uint32_t place = parse_place(&p->token), length;
-    ir_type_id inner, type = IR_TYPE_VOID;
-    parse_advance(p);
-    bool unsized = p->token.kind == TOKEN_CLOSE_INDEX;
-    if (unsized && !out_unsized)
-        PARSE_TYPE_ERROR(p, place, "this array needs a length");
-    else if (!unsized)
-        type = sized_array(p, element, place);
-    bool nested = p->token.kind == TOKEN_CLOSE_INDEX && parse_peek(p).kind == TOKEN_OPEN_INDEX;
-    bool opaque = element == IR_TYPE_STRING || element == IR_TYPE_SAMPLER;
-    if (nested || opaque || check_is_array(p, element, &inner, &length)) {
-        PARSE_TYPE_ERROR(p, place, "there are no arrays of %s",
-                         nested ? "arrays" : parse_type_text(p, element));
-        p->panic |= nested;
-        type = IR_TYPE_VOID;
-    } else if (unsized && out_unsized) {
-        *out_unsized = element != IR_TYPE_VOID;
-    }
-    parse_expect(p, TOKEN_CLOSE_INDEX);
-    return type;
-}
-
 /* TYPE or TYPE[n], as a struct's member, a parameter or a global begins. */
 static ir_type_id parse_sized_type(struct parser *p, bool *out_unsized)
 {
@@ -257,7 +158,7 @@ static void parse_constant(struct parser *p, const struct token *at, str_id name
         for (uint32_t i = 0; i < global.num_words; i++)
             vec_push(p->unit->arena, &p->unit->words, (union ir_word){0});
     }
-    drop_tree(p, &mark, global.num_words);
+    parse_drop_tree(p, &mark, global.num_words);
     global.words = mark.words;
     declare_global(p, at, global, false);
 }
@@ -286,7 +187,7 @@ void parse_define(struct parser *p)
                     parse_say(p, "the value of '%s'", parse_text(p, name)));
         return;
     }
-    drop_tree(p, &mark, global.num_words);
+    parse_drop_tree(p, &mark, global.num_words);
     global.words = mark.words;
     declare_global(p, &at, global, true);
 }
@@ -378,7 +279,7 @@ static bool parse_params(struct parser *p)
     p->first_slot = p->unit->slots.len;
     p->locals.len = 0;
     p->scope = 0;
-    if (is_word(&p->token, "void") && parse_peek(p).kind == TOKEN_CLOSE)
+    if (parse_is_word(&p->token, "void") && parse_peek(p).kind == TOKEN_CLOSE)
         parse_advance(p);
     if (parse_accept(p, TOKEN_CLOSE))
         return true;

@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "parse/parse_priv.h"
 
-struct lang_node *tree_node(struct parser *p, lang_ref ref)
-{
-    return &p->unit->nodes.items[ref];
-}
-
 uint32_t tree_place(const struct parser *p, lang_ref ref)
 {
     return p->origins.items[ref - p->first_node].place;

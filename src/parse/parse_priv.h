@@ -222,6 +222,7 @@ bool parse_expect(struct parser *p, enum token_kind kind);
 /* the same for a whole construct: "an expression" */
 void parse_unexpected(struct parser *p, const char *expected);
 struct token parse_peek(const struct parser *p); /* the token after the current one */
+bool parse_is_word(const struct token *token, const char *word); /* a name of these letters */
 /* expects a name and goes past it; 0 after an error */
 str_id parse_name(struct parser *p);
 /*
@@ -268,6 +269,8 @@ struct parse_mark {
 };
 struct parse_mark parse_mark(const struct lang_unit *unit);
 void parse_roll_back(struct lang_unit *unit, const struct parse_mark *mark);
+/* Takes back what a constant expression leaves behind, but for `keep` words at the end. */
+void parse_drop_tree(struct parser *p, const struct parse_mark *mark, uint32_t keep);
 void parse_init(struct parser *p, struct lang_unit *unit, struct diag_list *diags);
 void parse_begin(struct parser *p, const char *file_name, const char *text, size_t len,
                  uint32_t line, uint32_t column, bool inputs);
@@ -293,7 +296,10 @@ lang_ref parse_expression(struct parser *p); /* 0 after an error, which has been
 
 /* node.c: building nodes */
 
-struct lang_node *tree_node(struct parser *p, lang_ref ref);
+static inline struct lang_node *tree_node(struct parser *p, lang_ref ref)
+{
+    return &p->unit->nodes.items[ref];
+}
 uint32_t tree_place(const struct parser *p, lang_ref ref); /* of a node of this parse */
 lang_ref tree_new(struct parser *p, enum lang_kind kind, enum ir_op op, ir_type_id type,
                   uint32_t place);
@@ -318,13 +324,21 @@ struct tree_chain {
 };
 void tree_append(struct parser *p, struct tree_chain *chain, lang_ref ref); /* 0 is ignored */
 
-/* check.c: types and operators */
+/* types.c */
 
 /* of arithmetic scalars, growing with implicit conversion; 0 for others */
 unsigned check_rank(ir_type_id scalar);
 /* component type; VOID for user types and opaque ones */
 ir_type_id check_scalar(ir_type_id type);
+unsigned check_rank_of(ir_type_id type); /* of its components */
+/* The same shape with components of a higher rank; VOID where there is none. */
+ir_type_id check_with_rank(ir_type_id type, unsigned rank);
 bool check_converts(ir_type_id from, ir_type_id to); /* implicitly, or equal */
+bool check_is_array(const struct parser *p, ir_type_id type, ir_type_id *out_element,
+                    uint32_t *out_length);
+
+/* check.c: conversions and operators */
+
 /* an explicit CONVERT; constants are folded */
 lang_ref check_cast(struct parser *p, lang_ref a, ir_type_id type);
 /* Converted implicitly; 0 and "WHAT is X; Y was expected" where that is impossible. */
@@ -340,8 +354,6 @@ lang_ref check_index(struct parser *p, lang_ref a, lang_ref index, uint32_t plac
 bool check_assignable(struct parser *p, lang_ref target, const char *doing);
 lang_ref check_assign(struct parser *p, enum ir_op op, lang_ref target, lang_ref value,
                       uint32_t place);
-bool check_is_array(const struct parser *p, ir_type_id type, ir_type_id *out_element,
-                    uint32_t *out_length);
 
 /* check_call.c, check_construct.c */
 

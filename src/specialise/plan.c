@@ -12,7 +12,7 @@
  */
 #include "specialise/spec.h"
 
-static struct lang_plan *plan_of(struct lang_unit *unit)
+struct lang_plan *plan_of(struct lang_unit *unit)
 {
     if (!unit->plan) {
         unit->plan = ARENA_NEW(unit->arena, struct lang_plan);
@@ -133,19 +133,6 @@ uint32_t plan_note_any(struct lang_unit *unit, uint32_t function)
     plan_of(unit);
     unit->plan->is_open = true;
     return plan_note_call(unit, function, NULL, true);
-}
-
-void lang_plan_finish(struct lang_unit *unit)
-{
-    struct lang_plan *plan = plan_of(unit);
-    for (uint32_t id = plan->num_ids; id-- > 0;) /* callees are added on the way */
-        for (uint32_t link = plan->first_variant[id]; link;
-             link = plan->variants.items[link - 1].next)
-            spec_begin(unit, link - 1);
-    for (uint32_t id = 0; id < plan->num_ids; id++)
-        for (uint32_t link = plan->first_variant[id]; link;
-             link = plan->variants.items[link - 1].next)
-            spec_finish(unit, link - 1);
 }
 
 uint32_t lang_plan_version(const struct lang_unit *unit, uint32_t call)

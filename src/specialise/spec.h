@@ -102,6 +102,8 @@ static inline struct lang_node *spec_node(struct spec *s, lang_ref ref)
 
 lang_ref spec_add(struct spec *s, struct lang_node node); /* next is cleared */
 void spec_append(struct spec *s, struct chain *chain, lang_ref ref);
+/* node.c: the words of a type's components may be the unit's own. */
+lang_ref spec_constant_words(struct spec *s, ir_type_id type, const union ir_word *words);
 lang_ref spec_constant(struct spec *s, const struct ir_value *value);
 bool spec_get(const struct spec *s, lang_ref ref, struct ir_value *out); /* the value of a CONST */
 
@@ -138,9 +140,8 @@ lang_ref spec_sweep(struct spec *s, lang_ref first);
 /* single.c: variables that are read once become their values. */
 lang_ref spec_single(struct spec *s, lang_ref first);
 
-/* specialise.c: the forward step of a variant, and the others. */
-void spec_begin(struct lang_unit *unit, uint32_t variant);
-void spec_finish(struct lang_unit *unit, uint32_t variant);
+/* plan.c: the unit's plan, made by the first call of this. */
+struct lang_plan *plan_of(struct lang_unit *unit);
 
 /*
  * plan.c: tells what a call passes. Returns the variant that is called, which may be moved by

@@ -111,7 +111,7 @@ static void forward(struct spec *s)
     v->num_calls = s->unit->plan->calls.len - first_call;
 }
 
-void spec_begin(struct lang_unit *unit, uint32_t variant)
+static void begin(struct lang_unit *unit, uint32_t variant)
 {
     struct spec *s = open_variant(unit, variant);
     if (!begin_final(s))
@@ -198,7 +198,7 @@ static void start_backward(struct spec *s)
             s->slots[i].uses = SLOT_READ;
 }
 
-void spec_finish(struct lang_unit *unit, uint32_t variant)
+static void finish(struct lang_unit *unit, uint32_t variant)
 {
     struct spec *s = open_variant(unit, variant);
     if (variant_of(s)->is_final) {
@@ -215,4 +215,17 @@ void spec_finish(struct lang_unit *unit, uint32_t variant)
     for (uint32_t i = 0; i < s->fn.num_params; i++)
         s->changed |= s->slots[i].is_dropped = is_dropped(s, i);
     variant_of(s)->version = s->changed ? add_version(s, body) : variant_of(s)->function;
+}
+
+void lang_plan_finish(struct lang_unit *unit)
+{
+    struct lang_plan *plan = plan_of(unit);
+    for (uint32_t id = plan->num_ids; id-- > 0;) /* callees are added on the way */
+        for (uint32_t link = plan->first_variant[id]; link;
+             link = plan->variants.items[link - 1].next)
+            begin(unit, link - 1);
+    for (uint32_t id = 0; id < plan->num_ids; id++)
+        for (uint32_t link = plan->first_variant[id]; link;
+             link = plan->variants.items[link - 1].next)
+            finish(unit, link - 1);
 }

@@ -651,12 +651,11 @@ enum { IMAGE_MAGIC = 8, IMAGE_FINGERPRINT = 16, IMAGE_CHECKSUM = 24, IMAGE_SIZE 
 
 static const char *expected_refusal(size_t damaged)
 {
-    return damaged < IMAGE_MAGIC ? "it is not a library image"
-           : damaged < IMAGE_FINGERPRINT
-               ? "another version of mxgen packed it; pack it again"
-           : damaged < IMAGE_CHECKSUM ? "it is damaged (the checksum differs)"
-           : damaged < IMAGE_SIZE     ? "it is truncated"
-                                      : "it is damaged (the checksum differs)";
+    return damaged < IMAGE_MAGIC         ? "it is not a library image"
+           : damaged < IMAGE_FINGERPRINT ? "another version of mxgen packed it; pack it again"
+           : damaged < IMAGE_CHECKSUM    ? "it is damaged (the checksum differs)"
+           : damaged < IMAGE_SIZE        ? "it is truncated"
+                                         : "it is damaged (the checksum differs)";
 }
 
 /* A flipped bit anywhere, an end that is missing, a place that no file is mapped to. */
