@@ -18,13 +18,17 @@ struct dialect {
     glslang_profile_t profile;
     bool is_spirv_source; /* written for SPIR-V: every location and binding stands in the source */
     int spirv_version;    /* #version under which SPIR-V is made; 0: the source's own */
+    spv_target_env environment; /* whose rules the SPIR-V keeps, if the source is written for it */
 };
 
 static const struct dialect dialects[] = {
-    {"glsl", GLSLANG_CLIENT_OPENGL, GLSLANG_TARGET_OPENGL_450, GLSLANG_CORE_PROFILE, false, 0},
-    {"vulkan", GLSLANG_CLIENT_VULKAN, GLSLANG_TARGET_VULKAN_1_0, GLSLANG_CORE_PROFILE, true, 0},
+    {"glsl", GLSLANG_CLIENT_OPENGL, GLSLANG_TARGET_OPENGL_450, GLSLANG_CORE_PROFILE, false, 0, 0},
+    {"vulkan", GLSLANG_CLIENT_VULKAN, GLSLANG_TARGET_VULKAN_1_0, GLSLANG_CORE_PROFILE, true, 0,
+     SPV_ENV_VULKAN_1_0},
     /* There is no SPIR-V of ESSL 3.00; 3.10 contains it. */
-    {"essl", GLSLANG_CLIENT_OPENGL, GLSLANG_TARGET_OPENGL_450, GLSLANG_ES_PROFILE, false, 310},
+    {"essl", GLSLANG_CLIENT_OPENGL, GLSLANG_TARGET_OPENGL_450, GLSLANG_ES_PROFILE, false, 310, 0},
+    {"essl310", GLSLANG_CLIENT_OPENGL, GLSLANG_TARGET_OPENGL_450, GLSLANG_ES_PROFILE, true, 0,
+     SPV_ENV_OPENGL_4_5},
 };
 
 static const glslang_stage_t glslang_stages[MXG_NUM_STAGES] = {GLSLANG_STAGE_VERTEX,
@@ -143,10 +147,10 @@ static glslang_shader_t *parse_stage(const struct dialect *dialect, mxg_stage st
  * Only of shaders that are written for SPIR-V: glslang has no valid form for a loose uniform that
  * is a bool.
  */
-static void validate_spirv(mxg_stage stage, struct compiled *out)
+static void validate_spirv(const struct dialect *dialect, mxg_stage stage, struct compiled *out)
 {
     const struct compiled_stage *code = &out->stages[stage];
-    spv_context context = spvContextCreate(SPV_ENV_VULKAN_1_0);
+    spv_context context = spvContextCreate(dialect->environment);
     spv_diagnostic diagnostic = NULL;
     if (spvValidateBinary(context, code->words, code->num_words, &diagnostic) != SPV_SUCCESS) {
         const char *text = diagnostic ? diagnostic->error : "invalid SPIR-V";
@@ -179,7 +183,7 @@ static void generate_spirv(const struct dialect *dialect, glslang_program_t *pro
     memcpy(code->words, words, num_words * sizeof *code->words);
     code->body_instructions = spirv_count(code->words, code->num_words, NULL, NULL);
     if (dialect->is_spirv_source)
-        validate_spirv(stage, out);
+        validate_spirv(dialect, stage, out);
 }
 
 static bool link_stages(const struct dialect *dialect, glslang_program_t *program, bool to_spirv,

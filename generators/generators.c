@@ -3,8 +3,8 @@
 #include "generators/glsl/glsl.h"
 #include "generators/osl/osl.h"
 
-const struct target *const targets[] = {&target_glsl, &target_vulkan, &target_essl, &target_osl,
-                                        NULL};
+const struct target *const targets[] = {&target_glsl,    &target_vulkan, &target_essl,
+                                        &target_essl310, &target_osl,    NULL};
 
 const struct target *target_find(const char *name)
 {

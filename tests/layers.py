@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Checks the includes: a room of src/ includes only earlier rooms, the back end does not include the front end, one room includes
-libxml2, and programs include only the public header. Argument: the root of the project."""
+libxml2, programs include only the public header, and at most three files of a room call each other in a circle. Argument: the
+root of the project."""
 import pathlib
 import re
 import sys
