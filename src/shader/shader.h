@@ -10,8 +10,9 @@
 #define MXG_SHADER_SHADER_H
 
 #include "ir/ir.h"
-#include "lang/lang.h"
+#include "print/print.h"
 #include "shader/names.h"
+#include "tree/reach.h"
 
 /* Blocks of the ShaderX convention; docs/reflection.md describes their contents. */
 enum shader_block {

@@ -58,7 +58,7 @@ def reached(page):
 
 FOLDERS = [path.name for path in ROOT.iterdir() if path.is_dir() and not path.name.startswith((".", "build"))]
 ROOMS = [path.name for path in (ROOT / "src").iterdir()]
-# "src/ir/ops.def", "lang/lang.h", "tests/fuzz/regression"; not what stands in another path, an address or a placeholder.
+# "src/ir/ops.def", "tree/tree.h", "tests/fuzz/regression"; not what stands in another path, an address or a placeholder.
 PATH = re.compile(rf"(?<![\w./<>$*{{}}-])((?:{'|'.join(FOLDERS + ROOMS)})/[\w./-]*\w)(?![\w/<>*{{}}…])")
 FILE = re.compile(r"(?<![\w./<>$*%@\"-])(\w+\.(?:c|h|def))\b(?!\.)")
 COMMENT = re.compile(r"/\*.*?\*/|//[^\n]*", re.DOTALL)
