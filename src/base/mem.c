@@ -188,6 +188,22 @@ void *arena_grow(struct arena *arena, void *block, size_t old_size, size_t new_s
     return memcpy(arena_alloc(arena, new_size), block, old_size);
 }
 
+void arena_release(struct arena *arena, void *block, size_t size)
+{
+    if (!block || !is_large(round_up(size)))
+        return;
+    struct arena_chunk *chunk =
+        (struct arena_chunk *)((char *)block - offsetof(struct arena_chunk, data));
+    assert(chunk->size == sizeof *chunk + round_up(size));
+    if (chunk->prev)
+        chunk->prev->next = chunk->next;
+    else
+        arena->large = chunk->next;
+    if (chunk->next)
+        chunk->next->prev = chunk->prev;
+    mem_realloc(arena->mem, chunk, chunk->size, 0);
+}
+
 char *arena_strndup(struct arena *arena, const char *text, size_t len)
 {
     char *copy = arena_alloc(arena, len + 1);

@@ -164,12 +164,9 @@ struct library {
     VEC(struct user_type) types;
     VEC(struct unit) units; /* sorted by name, then by document order */
     VEC(uint32_t) refs;
-    /* open addressing by node name: first nodedef of the node (index in this layer + 1) */
-    VEC(uint32_t) node_table;
-    /*
-     * per element of this layer: 1 + the index in this layer of its nodedef, type, geomprop or
-     * graph_node; 0 = none
-     */
+    /* node name → first nodedef of that node (own index + 1) */
+    struct table node_table;
+    /* per own element: 1 + own index of its nodedef, type, geomprop or graph_node; 0 = none */
     VEC(uint32_t) element_info;
     /* replaces `element_info` in an image layer whose indices fit in 16 bits */
     const uint16_t *narrow_info;

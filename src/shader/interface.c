@@ -48,104 +48,50 @@ static uint32_t name_scope(enum shader_block block)
     return block == BLOCK_LIGHT_DATA || block == BLOCK_VERTEX_DATA ? (uint32_t)block : NUM_BLOCKS;
 }
 
-/* The slot that holds a variable of this name and scope, or the free one where it belongs. */
-static uint32_t *find_slot(const struct shader *shader, uint32_t scope, str_id name)
+/* The variable of this name and scope, + 1; 0: there is none. */
+static uint32_t find(const struct shader *shader, uint32_t scope, str_id name)
 {
-    uint32_t i = hash_pair(name, scope) & shader->names_mask;
-    for (; shader->names[i]; i = (i + 1) & shader->names_mask) {
-        const struct shader_variable *found = &shader->variables.items[shader->names[i] - 1];
-        if (found->name == name && name_scope(found->block) == scope)
-            break;
+    uint32_t hash = hash_pair(name, scope);
+    for (uint32_t at = hash, found; (found = table_next(&shader->names, hash, &at));) {
+        const struct shader_variable *variable = &shader->variables.items[found - 1];
+        if (variable->name == name && name_scope(variable->block) == scope)
+            return found;
     }
-    return &shader->names[i];
+    return 0;
 }
 
-static void grow_names(struct shader *shader)
+/* Names that are taken in a scope; the language is known by the time of the first variable. */
+static struct name_set *names_of(struct shader *shader, uint32_t scope)
 {
-    uint32_t slots = shader->names_mask ? (shader->names_mask + 1) * 2 : 256;
-    shader->names = ARENA_ARRAY(shader->arena, uint32_t, slots);
-    shader->names_mask = slots - 1;
-    for (uint32_t i = 0; i < shader->variables.len; i++) {
-        const struct shader_variable *variable = &shader->variables.items[i];
-        *find_slot(shader, name_scope(variable->block), variable->name) = i + 1;
+    struct name_set *names = &shader->taken[scope];
+    if (!names->arena) {
+        names_init(names, shader->arena, shader->style ? shader->style->syntax : NULL);
+        names_take_frame(names);
     }
-}
-
-/* Names that the speller needs at file scope. */
-static bool is_speller_name(str_id name)
-{
-    switch (name) {
-    case STR_main:
-    case STR_scatter:
-    case STR_vd:
-    case STR_u_lightData:
-    case STR_LightData:
-    case STR_LightData_block:
-    case STR_PublicUniforms:
-    case STR_PrivateUniforms:
-    case STR_VertexData: return true;
-    default: return false;
-    }
-}
-
-/* A word that the language has for itself. */
-static bool is_reserved(const struct shader *shader, str_id name)
-{
-    return shader->style
-           && lang_syntax_is_reserved(shader->style->syntax, str_text(shader->strings, name),
-                                      str_len(shader->strings, name));
-}
-
-static bool is_taken(const struct shader *shader, uint32_t scope, str_id name)
-{
-    return is_speller_name(name) || (shader->names && *find_slot(shader, scope, name))
-           || is_reserved(shader, name);
-}
-
-/*
- * "normal_", where the language has "normal" for itself, and "normal_2" where that is taken;
- * "roughness_2".
- */
-static str_id variant(struct shader *shader, str_id name, uint32_t number)
-{
-    struct text text;
-    text_init(&text, shader->arena);
-    text_mem(&text, str_text(shader->strings, name), str_len(shader->strings, name));
-    if (text.data[text.len - 1] != '_')
-        text_char(&text, '_');
-    if (number > 1)
-        text_u32(&text, number);
-    return str_intern(shader->strings, text.data, text.len);
+    return names;
 }
 
 bool shader_name_is_free(struct shader *shader, str_id name)
 {
-    return !is_taken(shader, NUM_BLOCKS,
-                     is_reserved(shader, name) ? variant(shader, name, 1) : name);
+    return names_is_free(names_of(shader, NUM_BLOCKS), str_text(shader->strings, name),
+                         str_len(shader->strings, name));
 }
 
 static str_id unique_name(struct shader *shader, uint32_t scope, str_id wanted)
 {
     const char *text = str_text(shader->strings, wanted);
-    size_t base_len;
-    const char *base =
-        identifier_from(text, str_len(shader->strings, wanted), shader->arena, &base_len);
-    str_id first = base == text ? wanted : str_intern(shader->strings, base, base_len),
-           name = first;
-    for (uint32_t number = is_reserved(shader, first) ? 1 : 2; is_taken(shader, scope, name);
-         number++)
-        name = variant(shader, first, number);
-    return name;
+    struct spell_name name =
+        names_unique(names_of(shader, scope), text, str_len(shader->strings, wanted));
+    return name.text == text ? wanted : str_intern(shader->strings, name.text, name.len);
 }
 
 uint32_t shader_add_variable(struct shader *shader, const struct shader_variable *variable)
 {
-    if (shader->variables.len * 2 >= shader->names_mask)
-        grow_names(shader);
     uint32_t scope = name_scope(variable->block);
     str_id name = unique_name(shader, scope, variable->name);
+    assert(!find(shader, scope, name));
     uint32_t index = shader->variables.len;
-    *find_slot(shader, scope, name) = index + 1;
+    table_add(&shader->names, shader->arena, hash_pair(name, scope), index + 1);
     vec_push(shader->arena, &shader->variables, *variable);
     vec_last(&shader->variables).name = name;
     return index;
@@ -153,10 +99,8 @@ uint32_t shader_add_variable(struct shader *shader, const struct shader_variable
 
 uint32_t shader_find_variable(const struct shader *shader, enum shader_block block, str_id name)
 {
-    if (!shader->names)
-        return UINT32_MAX;
-    uint32_t slot = *find_slot(shader, name_scope(block), name);
-    return slot && shader->variables.items[slot - 1].block == block ? slot - 1 : UINT32_MAX;
+    uint32_t found = find(shader, name_scope(block), name);
+    return found && shader->variables.items[found - 1].block == block ? found - 1 : UINT32_MAX;
 }
 
 /*

@@ -39,16 +39,7 @@ static bool stage_reads(const struct spell *spell, const struct shader_variable 
 
 void spell_name_interface(struct spell *spell)
 {
-    static const char *const own[] = {"main",
-                                      "vd",
-                                      "u_lightData",
-                                      "LightData",
-                                      "LightData_block",
-                                      "PublicUniforms",
-                                      "PrivateUniforms",
-                                      "VertexData"};
-    for (size_t i = 0; i < sizeof own / sizeof *own; i++)
-        names_take(&spell->names, own[i], strlen(own[i]));
+    names_take_frame(&spell->names);
     bool io_block = spell_can(spell, CAP_BLOCK_STAGE_IO);
     for (uint32_t i = 0; i < spell->shader->interface.len; i++) {
         const struct shader_variable *variable = interface_variable(spell, i);
