@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lang/ast.h"
 
+#include <assert.h>
+
 /* Was `index` new to the set of bytes, which grows to hold it? */
 static bool mark(struct arena *arena, uint8_t **seen, uint32_t *cap, uint32_t index)
 {
@@ -70,6 +72,7 @@ void lang_reach_add(struct lang_reach *reach, const struct lang_unit *unit, uint
         struct visit *top = &vec_last(&stack);
         const struct lang_unit *layer;
         const struct lang_function *fn = lang_function(unit, top->id, &layer);
+        assert(top->next_callee <= fn->num_callees);
         if (top->next_callee == fn->num_callees) {
             add_own_needs(reach, unit, layer, fn);
             vec_push(reach->arena, &reach->functions, top->id);
