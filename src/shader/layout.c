@@ -68,6 +68,8 @@ static void order_interface(struct shader *shader)
             order[at] = order[at - 1];
         order[at] = i;
     }
+    for (int block = 0; block < NUM_BLOCKS; block++)
+        assert(ends[block] == starts[block + 1]);
 }
 
 static void place_in_buffer(struct shader_buffer *buffer, struct shader_variable *variable)
@@ -77,6 +79,7 @@ static void place_in_buffer(struct shader_buffer *buffer, struct shader_variable
     variable->size = std140_size(variable->type, variable->array_length);
     variable->array_stride = array ? variable->size / variable->array_length : 0;
     variable->matrix_stride = matrix ? STD140_ROUND : 0;
+    assert(variable->offset >= buffer->size && variable->size > 0);
     variable->set = buffer->set;
     variable->binding = buffer->binding;
     buffer->size = variable->offset + variable->size;

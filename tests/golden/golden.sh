@@ -12,6 +12,7 @@ golden=$(cd "$(dirname "$0")" && pwd)
 
 [ -n "$compile" ] || skip 'without glslang nothing is compiled'
 command -v oslc >/dev/null || skip 'without oslc no OSL is compiled'
+command -v glslangValidator >/dev/null || skip 'without glslangValidator no function of path tracers is compiled'
 compiles() { [ -n "$compile" ] && { [ "$1" != osl ] || command -v oslc >/dev/null; }; } # TARGET
 
 # same KEPT NEW: whether they are equal; with --update they are then.
@@ -43,6 +44,13 @@ run_line() {
             [ -z "$update" ] || cat check.log
         done
     done
+    if [[ " ${options[*]} " = *' --integrator=scatter '* ]]; then # a function without a program around it
+        for file in "$title"/*.frag; do
+            echo 'void main() { scatter(); }' >>"$file"
+            command -v glslangValidator >/dev/null && check "$file compiles" glslangValidator "$file"
+        done
+        return
+    fi
     compiles "$target" && check "$title compiles" "$compile" "$document" --targets "$target" --interfaces "$interface" "${options[@]}"
 }
 
