@@ -470,6 +470,7 @@ struct shader_layout_rules generation_layout_rules(const struct generation *g)
     return (struct shader_layout_rules){
         .blocks = (caps & CAP_UNIFORM_BLOCKS)
                   || ((caps & CAP_BLOCK_OPTION) && g->options[OPTION_uniform_blocks].number),
+        .packing = g->result->target->packing,
         .bindings = caps & CAP_BINDINGS,
         .neutral_names = g->options[OPTION_names].number != 0,
         .one_stage = !(caps & CAP_STAGES),

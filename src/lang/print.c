@@ -140,6 +140,11 @@ static void print_list(struct printer *p, lang_ref ref)
     while (ref) {
         const struct lang_node *node = node_at(p, ref);
         print_expression(p, node, LANG_PREC_ASSIGN);
+        if (node->type == IR_TYPE_SAMPLER && p->style->syntax->sampler_type) {
+            text_str(p->out, ", ");
+            print_expression(p, node, LANG_PREC_POSTFIX);
+            text_str(p->out, LANG_SAMPLER_SUFFIX);
+        }
         ref = node->next;
         if (ref)
             text_mem(p->out, ", ", 2);
@@ -610,6 +615,11 @@ static void print_param(struct printer *p, uint32_t slot)
     text_str(p->out, param_prefix(p->style->syntax, param));
     if (!is_copied(p, param)) {
         print_variable(p, slot);
+        if (param->type == IR_TYPE_SAMPLER && p->style->syntax->sampler_type) {
+            text_fmt(p->out, ", %s ", p->style->syntax->sampler_type);
+            print_local(p, slot);
+            text_str(p->out, LANG_SAMPLER_SUFFIX);
+        }
         return;
     }
     lang_print_type(p->style, p->names, p->unit, param->type, p->out);

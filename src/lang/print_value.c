@@ -201,7 +201,7 @@ void lang_print_constant(const struct lang_style *style, const struct lang_names
     const char *name = print_global_name(names, unit, global_id);
     bool is_local = style->syntax->defines_constants && ast_is_user_type(global->type);
     bool defines = style->syntax->defines_constants && !is_local;
-    text_str(out, defines ? "#define " : is_local ? "" : "const ");
+    text_str(out, defines ? "#define " : is_local ? "" : style->syntax->constant);
     if (defines)
         text_str(out, name);
     else

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * layout: the order of the interface, byte offsets by the rules of std140 (OpenGL 4.5 core
- * specification, section 7.6.2.2), bindings and locations.
+ * layout: the order of the interface, byte offsets by the packing of the target's blocks, bindings
+ * and locations.
  */
 #include "shader/shader.h"
 
@@ -70,11 +70,23 @@ static void order_interface(struct shader *shader)
     }
 }
 
-static void place_in_buffer(struct shader_buffer *buffer, struct shader_variable *variable)
+static uint32_t next_offset(const struct shader_variable *variable, enum shader_packing packing,
+                            uint32_t end)
+{
+    uint32_t align = std140_align(variable->type, variable->array_length > 0);
+    bool is_vector = !variable->array_length && !ir_type_is_matrix(variable->type);
+    if (packing == PACKING_STD140 || !is_vector)
+        return round_up(end, align);
+    return end % STD140_ROUND + variable->size > STD140_ROUND ? round_up(end, STD140_ROUND) : end;
+}
+
+static void place_in_buffer(struct shader_buffer *buffer, enum shader_packing packing,
+                            struct shader_variable *variable)
 {
     bool array = variable->array_length > 0, matrix = ir_type_is_matrix(variable->type);
-    variable->offset = round_up(buffer->size, std140_align(variable->type, array));
     variable->size = std140_size(variable->type, variable->array_length);
+    variable->offset = next_offset(variable, packing, buffer->size);
+    assert(variable->offset >= buffer->size && variable->offset % 4 == 0);
     variable->array_stride = array ? variable->size / variable->array_length : 0;
     variable->matrix_stride = matrix ? STD140_ROUND : 0;
     variable->set = buffer->set;
@@ -117,7 +129,7 @@ void shader_layout(struct shader *shader, const struct shader_layout_rules *rule
         case BLOCK_PRIVATE_UNIFORMS:
         case BLOCK_LIGHT_DATA:
             if (rules->blocks)
-                place_in_buffer(&shader->buffers[variable->block], variable);
+                place_in_buffer(&shader->buffers[variable->block], rules->packing, variable);
             break;
         case BLOCK_TEXTURES:
             if (rules->bindings) {

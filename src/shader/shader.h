@@ -88,7 +88,7 @@ struct shader_variable {
     uint32_t first_tile, num_tiles;
     /* layout.c */
     uint32_t set, binding, location;
-    uint32_t offset, size, array_stride, matrix_stride; /* std140, in bytes */
+    uint32_t offset, size, array_stride, matrix_stride; /* in a block, in bytes */
 };
 
 /* What a shader of a target without stages is. */
@@ -193,7 +193,7 @@ struct shader_binding {
 
 struct shader_buffer {
     uint32_t set, binding;
-    uint32_t size;   /* in bytes, std140; of LightData: of the whole array */
+    uint32_t size;   /* in bytes; of LightData: of the whole array */
     uint32_t stride; /* of LightData: from light to light */
 };
 
@@ -325,14 +325,26 @@ const char *identifier_from(const char *text, size_t len, struct arena *arena, s
  * drops vertex data that the pixel stage does not read, schedules both stages and lays the
  * interface out. Nothing may be added after it.
  */
+/* Where the members of a block of uniforms stand. */
+enum shader_packing {
+    PACKING_STD140, /* OpenGL 4.5 core specification, section 7.6.2.2 */
+    /*
+     * Constant buffers of Direct3D: a vector does not cross a row of 16 bytes and is aligned to
+     * its components otherwise. What follows an array or a matrix begins a row, which Direct3D
+     * leaves to packoffset and Vulkan asks for.
+     */
+    PACKING_CBUFFER,
+};
+
 struct shader_layout_rules { /* from the target's table and the options */
-    bool blocks;             /* uniforms stand in std140 blocks */
-    bool bindings;           /* sets and bindings are numbered, locations given */
-    bool neutral_names;      /* public variables are numbered: equal topology, equal names */
-    bool one_stage;          /* there is no vertex stage */
-    bool typed_textures;     /* texture() gives one or three channels where no more are wanted */
-    bool names_wholes;       /* parts are taken of variables only: v.x, but not (a + b).x */
-    uint32_t set;            /* descriptor set of everything */
+    bool blocks;             /* uniforms stand in blocks */
+    enum shader_packing packing;
+    bool bindings;       /* sets and bindings are numbered, locations given */
+    bool neutral_names;  /* public variables are numbered: equal topology, equal names */
+    bool one_stage;      /* there is no vertex stage */
+    bool typed_textures; /* texture() gives one or three channels where no more are wanted */
+    bool names_wholes;   /* parts are taken of variables only: v.x, but not (a + b).x */
+    uint32_t set;        /* descriptor set of everything */
 };
 void shader_finish(struct shader *shader, const struct shader_layout_rules *rules);
 

@@ -37,6 +37,19 @@ struct target_network { /* for hosts that put shaders together themselves */
     void (*write)(const struct network_group *group, struct text *out);
 };
 
+/*
+ * What stands around the functions and statements of a stage, which spell_stage writes. Hooks may
+ * be NULL: nothing stands there.
+ */
+struct target_frame {
+    /* Names at file scope and of main's parameters that the hooks write; NULL-terminated. */
+    const char *const *names;
+    /* Structs, uniforms, textures, stage inputs and outputs, below the language's first lines. */
+    void (*declare)(struct spell *spell);
+    void (*open)(struct spell *spell);  /* "void main()\n{\n", and what main begins with */
+    void (*close)(struct spell *spell); /* what main ends with, before its brace */
+};
+
 struct target {
     const char *name;           /* "glsl": --target */
     const char *materialx_name; /* "genglsl": target of implementations */
@@ -48,6 +61,16 @@ struct target {
     const struct lang_syntax *syntax;
     const struct closure_rows *closures;  /* with CAP_CLOSURES: the language's own */
     const struct target_network *network; /* NULL: shaders of the target are whole */
+    const struct target_frame *frame;     /* of spell_stage; NULL: from base */
+    /*
+     * The form of an op where types decide (struct lang_names); user_data is the spell. NULL: the
+     * syntax says all.
+     */
+    const struct lang_pieces *(*form)(void *user_data, const struct lang_use *use);
+    /* The function that puts a struct together (struct lang_names), where there is no constructor
+     */
+    const char *(*maker)(void *user_data, const char *type);
+    enum shader_packing packing; /* of blocks of uniforms */
     const char *position; /* what the vertex stage writes the position to; NULL: gl_Position */
     const char *stage_suffix[NUM_STAGES]; /* "vert", "frag"; file endings */
     /*
