@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * The frame of a GLSL stage: version and precision, uniforms loose or in blocks, what comes into the
- * stage and goes out, main.
+ * The frame of a GLSL stage: version and precision, uniforms loose or in blocks, what comes into
+ * the stage and goes out, main.
  */
 #include "generators/glsl/glsl.h"
 
@@ -182,8 +182,14 @@ static void open_main(struct spell *spell)
     spell_text(spell, spell->shader->scatters ? "void scatter()\n{\n" : "void main()\n{\n");
 }
 
-static const char *const names[] = {
-    "main",       "vd", "u_lightData", "LightData", "LightData_block", "PublicUniforms", "PrivateUniforms",
-    "VertexData", NULL};
+static const char *const names[] = {"main",
+                                    "vd",
+                                    "u_lightData",
+                                    "LightData",
+                                    "LightData_block",
+                                    "PublicUniforms",
+                                    "PrivateUniforms",
+                                    "VertexData",
+                                    NULL};
 
 const struct target_frame glsl_frame = {.names = names, .declare = declare, .open = open_main};

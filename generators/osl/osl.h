@@ -15,10 +15,6 @@ struct osl_macro {
     uint32_t uses;
 };
 
-struct osl_maker { /* structs.c: the function that puts a struct together */
-    const char *type, *name;
-};
-
 /* What is known while a file is written. */
 struct osl {
     struct spell *spell;
@@ -28,7 +24,6 @@ struct osl {
     /* the first row of helpers.def for an op, + 1; 0: there is none */
     uint8_t first_helper[IR_NUM_OPS];
     VEC(struct osl_macro) macros;
-    VEC(struct osl_maker) makers;
     VEC(const char *) helpers; /* functions that the file declares for itself, callees first */
 };
 

@@ -594,6 +594,7 @@ struct spell_options generation_spell_options(const struct generation *g)
         .colorspace = g->options[OPTION_colorspace].text,
         .metadata = (int)g->options[OPTION_metadata].number,
         .uniform_blocks = g->options[OPTION_uniform_blocks].number,
+        .vulkan_attributes = g->options[OPTION_hlsl_vulkan].number,
         .neutral_names = g->options[OPTION_names].number,
         .comments = g->options[OPTION_comments].number,
         .user_data = result,

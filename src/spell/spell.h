@@ -52,6 +52,13 @@ struct spell_name names_unique(struct name_set *names, const char *text, size_t 
 /* Takes a name as it is; false where it is taken already. */
 bool names_take(struct name_set *names, const char *text, size_t len);
 
+/* ---- maker.c: functions that put structs together ---- */
+
+struct spell_maker {
+    ir_type_id type;
+    const char *type_name, *name;
+};
+
 /* ---- The state ---- */
 
 struct spell {
@@ -86,8 +93,9 @@ struct spell {
     const char *loop_index;    /* in LIGHTS and SAMPLES: the loop's variable */
     struct name_set paths;     /* shown in comments so far */
     VEC(const char *) helpers; /* spell_helper */
-    void *target_data;         /* the target's own, while its hook runs */
-    uint8_t *origins_seen;     /* origins whose path was asked for; NULL: no comments */
+    VEC(struct spell_maker) makers;
+    void *target_data;     /* the target's own, while its hook runs */
+    uint8_t *origins_seen; /* origins whose path was asked for; NULL: no comments */
 };
 
 /* ---- expression.c ---- */
@@ -131,6 +139,16 @@ void spell_declare(struct spell *spell, const struct shader_variable *variable,
                    struct spell_name name);
 /* The structs of the stage's functions. */
 void spell_structs(struct spell *spell);
+
+/* ---- maker.c ---- */
+
+/* Gives a struct of the stage a maker, which is named at file scope: "make_Outer". */
+void spell_name_maker(struct spell *spell, ir_type_id type);
+/* By the struct's name in the output; NULL: it has none. */
+const struct spell_maker *spell_find_maker(const struct spell *spell, const char *type_name);
+/* "Outer make_Outer(vec2 a, float b) { Outer made; made.a = a; … return made; }" */
+void spell_write_maker(const struct spell *spell, const struct spell_maker *maker,
+                       struct text *out);
 
 /* ---- stage.c ---- */
 

@@ -106,6 +106,7 @@ struct spell_options {
     /* of parameters: 0 none, 1 what user interfaces need, 2 with their documentation */
     int metadata;
     bool uniform_blocks;
+    bool vulkan_attributes; /* of HLSL: [[vk::binding(3, 0)]] */
     bool neutral_names;
     const char *shader_name; /* no other function or shader has it; NULL: from the element's path */
     bool comments;           /* paths as comments */

@@ -1,0 +1,320 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * The frame of an HLSL stage: constant buffers, textures with their samplers, main with its
+ * semantics.
+ *
+ * Registers have the numbers of Vulkan's bindings: b0 to b2 are buffers, and the texture tN and its
+ * sampler sN follow, so that a host of either kind binds by one number.
+ */
+#include "generators/hlsl/hlsl.h"
+
+static bool has_vulkan_attributes(const struct spell *spell)
+{
+    return spell->options->vulkan_attributes;
+}
+
+/* "[[vk::binding(3, 0)]] " on request. */
+static void write_binding(struct spell *spell, uint32_t binding, uint32_t set)
+{
+    if (has_vulkan_attributes(spell))
+        text_fmt(spell->out, "[[vk::binding(%u, %u)]] ", (unsigned)binding, (unsigned)set);
+}
+
+static void write_location(struct spell *spell, uint32_t location)
+{
+    if (has_vulkan_attributes(spell))
+        text_fmt(spell->out, "[[vk::location(%u)]] ", (unsigned)location);
+}
+
+/* " : register(t3)" */
+static void write_register(struct spell *spell, char kind, uint32_t binding, uint32_t set)
+{
+    text_fmt(spell->out, " : register(%c%u", kind, (unsigned)binding);
+    if (set)
+        text_fmt(spell->out, ", space%u", (unsigned)set);
+    text_char(spell->out, ')');
+}
+
+static struct spell_name name_of(const struct spell *spell, const struct shader_variable *variable)
+{
+    return spell_name_of(spell->shader->strings, variable->name);
+}
+
+/* ---- Buffers ---- */
+
+static void write_member(struct spell *spell, const struct shader_variable *variable)
+{
+    spell_indent(spell, 1);
+    if (ir_type_is_matrix(variable->type))
+        spell_text(spell, "row_major ");
+    spell_declare(spell, variable, name_of(spell, variable));
+}
+
+/* "float3 u_viewPosition : packoffset(c4.y);" */
+static void write_buffer(struct spell *spell, enum shader_block block)
+{
+    if (!spell_uses_block(spell, block))
+        return;
+    const struct shader_buffer *buffer = &spell->shader->buffers[block];
+    write_binding(spell, buffer->binding, buffer->set);
+    SPELL(spell, "cbuffer ", shader_block_name(block));
+    write_register(spell, 'b', buffer->binding, buffer->set);
+    spell_text(spell, "\n{\n");
+    SPELL_EACH_OF_BLOCK(i, spell, block)
+    {
+        const struct shader_variable *variable = spell_interface_variable(spell, i);
+        unsigned row = variable->offset / 16, component = variable->offset / 4 % 4;
+        write_member(spell, variable);
+        text_fmt(spell->out, " : packoffset(c%u", row);
+        if (component)
+            text_fmt(spell->out, ".%c", "xyzw"[component]);
+        spell_text(spell, ");\n");
+    }
+    spell_text(spell, "};\n");
+}
+
+static void write_lights(struct spell *spell)
+{
+    if (!spell->stage->has_lights)
+        return;
+    const struct shader_buffer *buffer = &spell->shader->buffers[BLOCK_LIGHT_DATA];
+    spell_text(spell, "struct LightData {\n");
+    SPELL_EACH_OF_BLOCK(i, spell, BLOCK_LIGHT_DATA)
+    {
+        write_member(spell, spell_interface_variable(spell, i));
+        spell_text(spell, ";\n");
+    }
+    spell_text(spell, "};\n");
+    write_binding(spell, buffer->binding, buffer->set);
+    spell_text(spell, "cbuffer LightData_block");
+    write_register(spell, 'b', buffer->binding, buffer->set);
+    text_fmt(spell->out, "\n{\n    LightData u_lightData[%u];\n};\n",
+             (unsigned)spell->shader->max_lights);
+}
+
+static void write_textures(struct spell *spell)
+{
+    SPELL_EACH_OF_BLOCK(i, spell, BLOCK_TEXTURES)
+    {
+        const struct shader_variable *variable = spell_interface_variable(spell, i);
+        if (!spell_uses(spell, variable))
+            continue;
+        write_binding(spell, variable->binding, variable->set);
+        spell_declare(spell, variable, name_of(spell, variable));
+        write_register(spell, 't', variable->binding, variable->set);
+        spell_text(spell, ";\n");
+        write_binding(spell, variable->binding, variable->set);
+        SPELL(spell, spell->target->syntax->sampler_type, " ");
+        spell_name(spell, name_of(spell, variable));
+        spell_text(spell, LANG_SAMPLER_SUFFIX);
+        write_register(spell, 's', variable->binding, variable->set);
+        spell_text(spell, ";\n");
+    }
+}
+
+/* ---- Stage inputs and outputs ---- */
+
+/*
+ * "NORMAL" of i_normal, "TEXCOORD0" of i_texcoord_0, "GEOMPROP_WEAR" of i_geomprop_wear. Case does
+ * not count in semantics: properties whose names differ in nothing else are told apart by their
+ * location.
+ */
+static const char *semantic_of(struct spell *spell, const struct shader_variable *variable)
+{
+    struct text text;
+    text_init(&text, spell->scratch);
+    const char *name = str_text(spell->shader->strings, variable->name) + strlen("i_");
+    for (; *name; name++) {
+        bool joins_number = *name == '_' && strspn(name + 1, "0123456789") == strlen(name + 1);
+        if (!joins_number)
+            text_char(&text, *name >= 'a' && *name <= 'z' ? (char)(*name - 'a' + 'A') : *name);
+    }
+    return text_cstr(&text);
+}
+
+static const char *attribute_semantic(struct spell *spell, uint32_t place)
+{
+    const struct shader_variable *variable = spell_interface_variable(spell, place);
+    const char *semantic = semantic_of(spell, variable);
+    bool is_taken = false;
+    SPELL_EACH_OF_BLOCK(i, spell, BLOCK_APP_DATA)
+    is_taken |= i < place
+                && strcmp(semantic_of(spell, spell_interface_variable(spell, i)), semantic) == 0;
+    if (!is_taken)
+        return semantic;
+    struct text text;
+    text_init(&text, spell->scratch);
+    text_fmt(&text, "ATTRIBUTE%u", (unsigned)variable->location);
+    return text_cstr(&text);
+}
+
+/* One struct for both stages, whether they read all of it or not, so that they fit together. */
+static void write_vertex_data(struct spell *spell)
+{
+    spell_text(spell, "struct VertexData {\n");
+    if (!spell->shader->scatters)
+        spell_text(spell, "    float4 position : SV_Position;\n");
+    SPELL_EACH_OF_BLOCK(i, spell, BLOCK_VERTEX_DATA)
+    {
+        const struct shader_variable *variable = spell_interface_variable(spell, i);
+        spell_indent(spell, 1);
+        if (!spell->shader->scatters) {
+            write_location(spell, variable->location);
+            spell_text(spell, variable->flat ? "nointerpolation " : "");
+        }
+        spell_declare(spell, variable, name_of(spell, variable));
+        if (!spell->shader->scatters)
+            text_fmt(spell->out, " : TEXCOORD%u", (unsigned)variable->location);
+        spell_text(spell, ";\n");
+    }
+    spell_text(spell, "};\n");
+}
+
+static bool reads_vertex_data(const struct spell *spell)
+{
+    return spell->stage_id == STAGE_VERTEX || spell_uses_block(spell, BLOCK_VERTEX_DATA);
+}
+
+/*
+ * Functions may read streams, which are parameters of main otherwise: then main copies between its
+ * parameters and variables at file scope.
+ */
+static bool shares_streams(const struct spell *spell)
+{
+    bool shares = spell->stage->functions.len > 0;
+    const struct lang_reach *reach = &spell->stage->reach;
+    for (uint32_t i = 0; i < reach->globals.len && !shares; i++)
+        shares = lang_global(spell->shader->unit, reach->globals.items[i], NULL)->kind
+                 == LANG_GLOBAL_STREAM;
+    return shares;
+}
+
+static void write_shared(struct spell *spell)
+{
+    bool is_scatter = spell->shader->scatters;
+    if (reads_vertex_data(spell) && (is_scatter || shares_streams(spell)))
+        spell_text(spell, "static VertexData vd;\n");
+    enum shader_block block = is_scatter ? BLOCK_OUTPUTS : BLOCK_APP_DATA;
+    if (!is_scatter && (spell->stage_id == STAGE_PIXEL || !shares_streams(spell)))
+        return;
+    SPELL_EACH_OF_BLOCK(i, spell, block)
+    {
+        const struct shader_variable *variable = spell_interface_variable(spell, i);
+        if (!spell_uses(spell, variable))
+            continue;
+        spell_text(spell, "static ");
+        spell_declare(spell, variable, name_of(spell, variable));
+        spell_text(spell, ";\n");
+    }
+}
+
+static void declare(struct spell *spell)
+{
+    const char *version =
+        spell->options->version ? spell->options->version : spell->target->versions[0];
+    spell_text(spell, "// ");
+    spell_title(spell);
+    SPELL(spell, "\n// shader model ", version, "\n\n");
+    spell_structs(spell);
+    for (uint32_t i = 0; i < spell->stage->reach.user_types.len; i++)
+        spell_name_maker(spell, spell->stage->reach.user_types.items[i]);
+    write_buffer(spell, BLOCK_PUBLIC_UNIFORMS);
+    write_buffer(spell, BLOCK_PRIVATE_UNIFORMS);
+    write_lights(spell);
+    write_textures(spell);
+    if (reads_vertex_data(spell))
+        write_vertex_data(spell);
+    write_shared(spell);
+}
+
+/* ---- Main ---- */
+
+/* The separator before a parameter of main, which stands on a line of its own. */
+static void begin_parameter(struct spell *spell, bool *is_first)
+{
+    spell_text(spell, *is_first ? "\n    " : ",\n    ");
+    *is_first = false;
+}
+
+static void write_parameters(struct spell *spell, enum shader_block block, const char *mode,
+                             const char *suffix, bool *is_first)
+{
+    SPELL_EACH_OF_BLOCK(i, spell, block)
+    {
+        const struct shader_variable *variable = spell_interface_variable(spell, i);
+        if (!spell_uses(spell, variable))
+            continue;
+        begin_parameter(spell, is_first);
+        write_location(spell, variable->location);
+        spell_text(spell, mode);
+        spell_declare(spell, variable, name_of(spell, variable));
+        SPELL(spell, suffix, " : ");
+        if (block == BLOCK_OUTPUTS)
+            text_fmt(spell->out, "SV_Target%u", (unsigned)variable->location);
+        else
+            spell_text(spell, attribute_semantic(spell, i));
+    }
+}
+
+/* "    i_normal = i_normal_in;" */
+static void copy_attributes(struct spell *spell)
+{
+    SPELL_EACH_OF_BLOCK(i, spell, BLOCK_APP_DATA)
+    {
+        const struct shader_variable *variable = spell_interface_variable(spell, i);
+        const char *name = str_text(spell->shader->strings, variable->name);
+        if (spell_uses(spell, variable))
+            SPELL(spell, "    ", name, " = ", name, "_in;\n");
+    }
+}
+
+static void open_main(struct spell *spell)
+{
+    if (spell->shader->scatters) {
+        spell_text(spell, "void scatter()\n{\n");
+        return;
+    }
+    bool is_first = true, is_pixel = spell->stage_id == STAGE_PIXEL, shares = shares_streams(spell);
+    spell_text(spell, "void main(");
+    if (!is_pixel)
+        write_parameters(spell, BLOCK_APP_DATA, "", shares ? "_in" : "", &is_first);
+    if (reads_vertex_data(spell)) {
+        begin_parameter(spell, &is_first);
+        SPELL(spell, is_pixel ? "VertexData vd" : "out VertexData vd",
+              !shares    ? ""
+              : is_pixel ? "_in"
+                         : "_out");
+    }
+    if (is_pixel)
+        write_parameters(spell, BLOCK_OUTPUTS, "out ", "", &is_first);
+    spell_text(spell, ")\n{\n");
+    if (!shares)
+        return;
+    if (is_pixel)
+        spell_text(spell, reads_vertex_data(spell) ? "    vd = vd_in;\n" : "");
+    else
+        copy_attributes(spell);
+}
+
+static void close_main(struct spell *spell)
+{
+    bool copies = !spell->shader->scatters && spell->stage_id == STAGE_VERTEX
+                  && shares_streams(spell);
+    spell_text(spell, copies ? "    vd_out = vd;\n" : "");
+}
+
+static const char *const names[] = {"main",
+                                    "scatter",
+                                    "vd",
+                                    "vd_in",
+                                    "vd_out",
+                                    "u_lightData",
+                                    "LightData",
+                                    "LightData_block",
+                                    "PublicUniforms",
+                                    "PrivateUniforms",
+                                    "VertexData",
+                                    NULL};
+
+const struct target_frame hlsl_frame = {
+    .names = names, .declare = declare, .open = open_main, .close = close_main};
