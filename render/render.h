@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/* From a generated shader of target "vulkan" to a picture of floats: compiles, binds, draws. */
+/* From a generated shader of target "vulkan" or "hlsl" to a picture of floats: compiles, binds,
+ * draws. */
 #ifndef MXG_RENDER_RENDER_H
 #define MXG_RENDER_RENDER_H
 

@@ -11,9 +11,8 @@
 
 static const EShLanguage stages[MXG_NUM_STAGES] = {EShLangVertex, EShLangFragment};
 
-static const EShMessages messages =
-    static_cast<EShMessages>(EShMsgSpvRules | EShMsgVulkanRules | EShMsgReadHlsl
-                             | EShMsgCascadingErrors);
+static const EShMessages messages = static_cast<EShMessages>(
+    EShMsgSpvRules | EShMsgVulkanRules | EShMsgReadHlsl | EShMsgCascadingErrors);
 
 static bool parse(glslang::TShader &shader, EShLanguage stage, const char *source)
 {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/* HLSL to SPIR-V. glslang's C interface has no way to name the entry point, which its HLSL needs. */
+/* HLSL to SPIR-V. glslang's C interface has no way to name the entry point, which its HLSL needs.
+ */
 #ifndef MXG_VALIDATE_HLSL_H
 #define MXG_VALIDATE_HLSL_H
 

@@ -242,10 +242,11 @@ static const struct lang_pieces *convert(struct spell *spell, const struct lang_
 
 static const struct lang_pieces *(*const writers[IR_NUM_OPS])(struct spell *,
                                                               const struct lang_use *) = {
-    [IR_MUL] = product,      [IR_EQ] = equality,           [IR_NE] = equality,
-    [IR_SIGN] = sign,        [IR_MOD] = modulo,            [IR_INVERSE] = inverse,
-    [IR_TEX_FETCH] = texel,  [IR_TEX_SIZE] = texture_size, [IR_CONSTRUCT] = construct,
-    [IR_CONVERT] = convert,
+    [IR_MUL] = product,         [IR_EQ] = equality,
+    [IR_NE] = equality,         [IR_SIGN] = sign,
+    [IR_MOD] = modulo,          [IR_INVERSE] = inverse,
+    [IR_TEX_FETCH] = texel,     [IR_TEX_SIZE] = texture_size,
+    [IR_CONSTRUCT] = construct, [IR_CONVERT] = convert,
 };
 
 const struct lang_pieces *hlsl_form(void *user_data, const struct lang_use *use)

@@ -138,8 +138,8 @@ static const char *attribute_semantic(struct spell *spell, uint32_t place)
     const char *semantic = semantic_of(spell, variable);
     bool is_taken = false;
     SPELL_EACH_OF_BLOCK(i, spell, BLOCK_APP_DATA)
-    is_taken |= i < place
-                && strcmp(semantic_of(spell, spell_interface_variable(spell, i)), semantic) == 0;
+    is_taken |=
+        i < place && strcmp(semantic_of(spell, spell_interface_variable(spell, i)), semantic) == 0;
     if (!is_taken)
         return semantic;
     struct text text;
@@ -298,23 +298,15 @@ static void open_main(struct spell *spell)
 
 static void close_main(struct spell *spell)
 {
-    bool copies = !spell->shader->scatters && spell->stage_id == STAGE_VERTEX
-                  && shares_streams(spell);
+    bool copies =
+        !spell->shader->scatters && spell->stage_id == STAGE_VERTEX && shares_streams(spell);
     spell_text(spell, copies ? "    vd_out = vd;\n" : "");
 }
 
-static const char *const names[] = {"main",
-                                    "scatter",
-                                    "vd",
-                                    "vd_in",
-                                    "vd_out",
-                                    "u_lightData",
-                                    "LightData",
-                                    "LightData_block",
-                                    "PublicUniforms",
-                                    "PrivateUniforms",
-                                    "VertexData",
-                                    NULL};
+static const char *const names[] = {
+    "main",           "scatter",         "vd",         "vd_in",
+    "vd_out",         "u_lightData",     "LightData",  "LightData_block",
+    "PublicUniforms", "PrivateUniforms", "VertexData", NULL};
 
 const struct target_frame hlsl_frame = {
     .names = names, .declare = declare, .open = open_main, .close = close_main};

@@ -36,10 +36,14 @@ static const struct lang_form forms_alone[IR_NUM_OPS] = {
 };
 
 static const char *const type_names[IR_NUM_TYPES] = {
-    [IR_TYPE_IVEC2] = "int2",        [IR_TYPE_VEC2] = "float2",
-    [IR_TYPE_VEC3] = "float3",       [IR_TYPE_VEC4] = "float4",
-    [IR_TYPE_MAT2] = "float2x2",     [IR_TYPE_MAT3] = "float3x3",
-    [IR_TYPE_MAT4] = "float4x4",     [IR_TYPE_SAMPLER] = "Texture2D",
+    [IR_TYPE_IVEC2] = "int2",
+    [IR_TYPE_VEC2] = "float2",
+    [IR_TYPE_VEC3] = "float3",
+    [IR_TYPE_VEC4] = "float4",
+    [IR_TYPE_MAT2] = "float2x2",
+    [IR_TYPE_MAT3] = "float3x3",
+    [IR_TYPE_MAT4] = "float4x4",
+    [IR_TYPE_SAMPLER] = "Texture2D",
     [IR_TYPE_SAMPLER_ARRAY] = "Texture2DArray",
 };
 

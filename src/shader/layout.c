@@ -87,6 +87,8 @@ static void place_in_buffer(struct shader_buffer *buffer, enum shader_packing pa
     variable->size = std140_size(variable->type, variable->array_length);
     variable->offset = next_offset(variable, packing, buffer->size);
     assert(variable->offset >= buffer->size && variable->offset % 4 == 0);
+    assert(variable->block != BLOCK_LIGHT_DATA
+           || variable->offset == next_offset(variable, PACKING_STD140, buffer->size));
     variable->array_stride = array ? variable->size / variable->array_length : 0;
     variable->matrix_stride = matrix ? STD140_ROUND : 0;
     variable->set = buffer->set;
@@ -109,8 +111,24 @@ static void finish_buffers(struct shader *shader)
     lights->size *= shader->max_lights;
 }
 
+/*
+ * Long vectors first and matrices last: in this order std140 and constant buffers agree on each
+ * offset. Members of a struct have no packoffset, and glslang takes the size of HLSL's from std140.
+ */
+static void rank_light_members(struct shader *shader)
+{
+    for (uint32_t i = 0; i < shader->variables.len; i++) {
+        struct shader_variable *variable = &shader->variables.items[i];
+        const struct ir_type_info *info = ir_type_info(variable->type);
+        if (variable->block == BLOCK_LIGHT_DATA)
+            variable->rank = info->columns > 1 ? 4 : (uint16_t)(4 - info->components);
+    }
+}
+
 void shader_layout(struct shader *shader, const struct shader_layout_rules *rules)
 {
+    if (rules->packing == PACKING_CBUFFER)
+        rank_light_members(shader);
     order_interface(shader);
     memset(shader->buffers, 0, sizeof shader->buffers);
     shader->numbered = rules->bindings;
