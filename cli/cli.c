@@ -202,7 +202,7 @@ bool cli_find_target(const char *name, size_t len, mxg_target *out)
             || (strlen(out->materialx_name) == len && memcmp(out->materialx_name, name, len) == 0))
             return true;
     }
-    fprintf(stderr, "mxgen: unknown target '%.*s'; known are", (int)len, name);
+    fprintf(stderr, "mxgen: unknown target '%.*s'; expected one of", (int)len, name);
     for (uint32_t i = 0; i < mxg_num_targets(); ++i) {
         mxg_get_target(i, out);
         fprintf(stderr, "%s %s", i ? "," : ":", out->name);

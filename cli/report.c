@@ -201,7 +201,7 @@ static bool admit(struct report *report, const mxg_diagnostic *diagnostic)
         return true;
     }
     if (!report->is_rest_told)
-        fprintf(stderr, "note: more errors than %zu; the rest is not shown\n", report->max_errors);
+        fprintf(stderr, "note: more than %zu errors; the rest is not shown\n", report->max_errors);
     report->is_rest_told = true;
     return false;
 }

@@ -14,8 +14,8 @@ bool gpu_check(struct gpu *gpu, VkResult result, const char *what)
         VkResult result;
         const char *id, *text;
     } known[] = {
-        {VK_ERROR_DEVICE_LOST, "device-lost", "the driver lost the device"},
-        {VK_ERROR_OUT_OF_DEVICE_MEMORY, "device-memory", "the device has no memory left"},
+        {VK_ERROR_DEVICE_LOST, "device-lost", "the Vulkan device was lost"},
+        {VK_ERROR_OUT_OF_DEVICE_MEMORY, "device-memory", "the device is out of memory"},
         {VK_ERROR_OUT_OF_HOST_MEMORY, "device-memory", "out of memory"},
         {VK_ERROR_INITIALIZATION_FAILED, "no-device", "the driver does not start"},
     };
@@ -38,8 +38,8 @@ static bool fail_no_device(struct gpu *gpu)
 {
     gpu->id = "no-device";
     snprintf(gpu->reason, sizeof gpu->reason,
-             "there is no device with Vulkan 1.3; the package mesa-vulkan-drivers brings one that "
-             "needs no hardware");
+             "no device supports Vulkan 1.3; install a driver, for example the package "
+             "mesa-vulkan-drivers, which needs no hardware");
     return false;
 }
 

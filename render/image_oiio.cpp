@@ -197,8 +197,7 @@ bool image_can_write(const char *path, char *reason, size_t capacity)
     struct stat info;
     if (!OIIO::ImageOutput::create(name)) {
         OIIO::geterror();
-        return fail(reason, capacity,
-                    "its ending is that of no format; .png, .jpg, .exr and .hdr are some");
+        return fail(reason, capacity, "unknown image format; use .png, .jpg, .exr or .hdr");
     }
     if (stat(path, &info) == 0 && S_ISDIR(info.st_mode))
         return fail(reason, capacity, std::strerror(EISDIR));

@@ -236,7 +236,7 @@ static bool open_gpu(struct job *job)
     uint32_t most = painter->gpu.max_size / painter->oversampling;
     if (painter->width > most || painter->height > most)
         report_error(&job->cli.report, "size-limit",
-                     "a picture of %ux%u is too large: this device draws up to %ux%u",
+                     "a picture of %ux%u is too large; this device renders up to %ux%u",
                      painter->width, painter->height, most, most);
     return painter->width <= most && painter->height <= most;
 }

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
-# Sourced by the scripts beside it: goes to the project's root, offers `build`.
+# The other scripts source this file. It changes to the root of the project and defines `build`.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 install_missing_packages() {
     local missing=() package
-    command -v dpkg >/dev/null || return 0 # another system: its user knows best
+    command -v dpkg >/dev/null || return 0 # not Debian: the user installs the packages
     while read -r package; do
         dpkg -s "$package" >/dev/null 2>&1 || missing+=("$package")
     done < <(sed 's/#.*//; /^[[:space:]]*$/d' script/packages.txt)
@@ -18,7 +18,7 @@ install_missing_packages() {
         sh "${missing[@]}" >&2
 }
 
-# Configures once, then builds; prints only when it fails.
+# Configures on first use, then builds. Prints only errors.
 build() {
     local output
     if [ ! -f build/build.ninja ]; then

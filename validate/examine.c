@@ -95,7 +95,7 @@ static void tell_rest(struct examiner *examiner, struct check_message *last)
 {
     if (strstr(last->rendered, "the rest is not shown"))
         return;
-    char *text = cli_format("%snote: more errors than %zu; the rest is not shown\n", last->rendered,
+    char *text = cli_format("%snote: more than %zu errors; the rest is not shown\n", last->rendered,
                             examiner->cli->max_errors);
     last->rendered = copy(examiner, text);
     free(text);

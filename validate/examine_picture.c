@@ -93,7 +93,7 @@ static void fail(struct examiner *examiner, const struct check_element *element,
 {
     const char *why = log && *log ? log : "mxgen-render could not be started, or died\n";
     char *text =
-        cli_format("'%s' cannot be drawn: %.*s", element->path, (int)strcspn(why, "\n"), why);
+        cli_format("cannot render '%s': %.*s", element->path, (int)strcspn(why, "\n"), why);
     char *rendered = cli_format("%s: error: %s [render-failed]\n", examiner->document->file, text);
     examine_add(examiner, NULL,
                 (struct check_message){.id = "render-failed",

@@ -182,7 +182,7 @@ static void fail(struct store *store, struct check_document *document,
 {
     const struct measure_info *info = &measure_infos[rule->measure];
     char *parts = describe_parts(shader, rule->measure);
-    char *text = cli_format("'%s' for %s has %" PRIu64 " %s, where %" PRIu64 " are allowed%s",
+    char *text = cli_format("'%s' for %s has %" PRIu64 " %s; the budget allows %" PRIu64 "%s",
                             element->path, shader->target, shader->measures[rule->measure],
                             info->noun, rule->limit, parts ? parts : "");
     char *rendered = cli_format("%s: error: %s [over-budget]\n", document->file, text);

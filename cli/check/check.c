@@ -378,7 +378,7 @@ static int run(struct check *check)
         fprintf(stderr, "warning: the cache '%s' cannot be written: %s [output-failed]\n",
                 check->cache_folder, check->cache.fault);
     if (totals->documents == 0 && !check->num_found && !check->inputs.failed && !check->pool.fault)
-        report_error(report, "nothing-to-check", "no document was found");
+        report_error(report, "nothing-to-check", "found no document to check");
     bool good = !report->errors && !check->inputs.failed && reports_are_good(&check->reports);
     return good ? EXIT_DONE : EXIT_FAULT;
 }

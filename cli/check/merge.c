@@ -55,7 +55,7 @@ static bool read_headers(struct merge *merge)
         uint64_t number = json_get_count(shard, "number");
         if (json_get_count(shard, "count") != expected)
             report_error(&merge->cli.report, "shard-other",
-                         "'%s' is not a shard of the same run as '%s'", merge->parts[i].path,
+                         "'%s' and '%s' are not shards of the same run", merge->parts[i].path,
                          merge->parts[0].path);
         if (number <= merge->num_parts)
             seen[number] = true;
@@ -104,7 +104,8 @@ static void tell_all(struct merge *merge)
     for (struct part *part; (part = find_next(merge)) != NULL; advance(merge, part)) {
         if (part->document->index < expected)
             report_error(&merge->cli.report, "shard-twice",
-                         "'%s' has document %" PRIu64 ", '%s', which another part has too",
+                         "'%s' contains document %" PRIu64
+                         ", '%s', but another shard contains it too",
                          part->path, part->document->index, part->document->file);
         else
             reports_document(&merge->reports, part->document);

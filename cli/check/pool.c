@@ -254,7 +254,7 @@ static bool take_answer(struct pool *pool, struct pool_worker *worker, struct po
 static char *describe_end(const char *mark, int status)
 {
     if (WIFSIGNALED(status))
-        return cli_format("mxgen-check died of signal %d (%s) at: %s", WTERMSIG(status),
+        return cli_format("mxgen-check crashed with signal %d (%s) at: %s", WTERMSIG(status),
                           strsignal(WTERMSIG(status)), mark);
     return cli_format("mxgen-check ended with exit code %d at: %s", WEXITSTATUS(status), mark);
 }
@@ -278,7 +278,8 @@ static bool answer_end(struct pool *pool, struct pool_worker *worker, struct poo
     pool->num_waiting += worker->num_tasks;
     int status = stop(worker, false);
     if (is_late)
-        out->reason = cli_format("not done within %g seconds at: %s", pool->time_limit, mark);
+        out->reason =
+            cli_format("the step takes longer than %g seconds: %s", pool->time_limit, mark);
     else if (is_ready)
         out->reason = describe_end(mark, status);
     free(mark);

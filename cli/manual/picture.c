@@ -301,7 +301,8 @@ static bool draw_node(struct manual *manual, struct cli *cli, struct manual_node
     if (status == 0)
         node->picture = picture;
     else
-        report_error(&cli->report, "no-picture", "'%s' could not be drawn", node->name);
+        report_error(&cli->report, "no-picture", "the renderer made no picture of '%s'",
+                     node->name);
     return status == 0;
 }
 

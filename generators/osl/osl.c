@@ -187,6 +187,9 @@ static void write_stage(struct spell *spell, enum shader_stage_id stage)
     spell_title(spell);
     spell_text(spell, "\n\n");
     write_declarations(&osl, text_cstr(&above), text_cstr(&shader));
+    size_t moved = out->len + above.len - functions.len;
+    spell->verbatim_begin += moved;
+    spell->verbatim_end += moved;
     SPELL(spell, text_cstr(&above));
     for (uint32_t i = 0; i < spell->marks.len; i++)
         spell->marks.items[i].at += out->len;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * mxgen: MaterialX documents to shaders. The whole public interface.
+ * mxgen compiles MaterialX documents to shaders. This header is the whole public interface.
  *
  *     mxg_context *ctx;
  *     mxg_context_create(NULL, &ctx);
@@ -20,21 +20,21 @@
  *     options    values by key; belongs to the caller              until mxg_options_destroy
  *     result     source, reflection and diagnostics of one call;   until mxg_result_destroy
  *                immutable; holds its document
- * Whatever an accessor returns lives as long as the object asked. Nothing is returned for the
- * caller to free but objects. A context must outlive what was made with it. Destroying NULL is
- * allowed.
+ * An accessor returns data of its object: the data lives as long as the object. The caller frees
+ * objects and nothing else. A context must outlive the objects that it made. Every destroy function
+ * accepts NULL.
  *
- * Errors: functions return an mxg_status for what the *caller* did or the machine lacks. Faults of
- * a document are diagnostics, found in the document or result, which exist even then.
+ * Errors: the returned mxg_status reports mistakes of the caller and missing resources of the
+ * machine. Errors in a document are diagnostics of the document or of the result; both exist even
+ * if the call fails.
  *
- * Threads: different contexts are independent. One context, and objects while they are made with
- * it, belong to one thread at a time; a library, document or result may be read by any number of
- * threads, each generating with a context of its own. Options belong to one thread while they are
- * set.
+ * Threads: different contexts are independent. One thread at a time may use a context or make an
+ * object with it. Any number of threads may read the same library, document or result, if each
+ * generates with its own context. One thread at a time may set options.
  *
- * Strings are UTF-8 and NUL-terminated; lengths are given where a text may be large. The library
- * prints nothing, reads no environment variable, changes no locale and opens no file but through
- * the resolver.
+ * Strings are UTF-8 and NUL-terminated. Functions return the length of a text that may be large.
+ * The library does not print, read environment variables or change the locale, and opens files only
+ * through the resolver.
  */
 #ifndef MXGEN_MXGEN_H
 #define MXGEN_MXGEN_H
@@ -54,8 +54,9 @@ extern "C" {
 #endif
 
 /*
- * Structs begin with their size, by which they can grow: `mxg_variable variable =
- * MXG_INIT(mxg_variable);`. All else of it is 0: of what the caller describes that is the default.
+ * A struct begins with its size, so that later versions can add members. Initialise it with
+ * `mxg_variable variable = MXG_INIT(mxg_variable);`. All other members become 0, which is the
+ * default value of every member that the caller may set.
  */
 // clang-format off
 #ifdef __cplusplus
@@ -67,13 +68,13 @@ extern "C" {
 
 /* ---- Version ---- */
 
-/* major: incompatible; minor: additions; patch: neither. The soname carries the major. */
+/* major: incompatible; minor: additions; patch: neither. The soname contains the major version. */
 #define MXG_VERSION_MAJOR 0
 #define MXG_VERSION_MINOR 1
 #define MXG_VERSION_PATCH 0
 
 /*
- * The version of the library at run time, as major * 1000000 + minor * 1000 + patch, and as text
+ * The version of the library at run time, as major * 1000000 + minor * 1000 + patch and as text
  * "0.1.0".
  */
 MXG_API uint32_t mxg_version(void);
@@ -83,12 +84,13 @@ MXG_API const char *mxg_version_string(void);
 
 typedef enum mxg_status {
     MXG_OK = 0,
-    MXG_ERROR_DOCUMENT = 1, /* the document, library or request has errors: read the diagnostics */
-    /* NULL where an object must be, an index out of range, a struct of unknown size */
+    /* the document, library or request has errors; the diagnostics list them */
+    MXG_ERROR_DOCUMENT = 1,
+    /* a required object is NULL, an index is out of range, or a struct has an unknown size */
     MXG_ERROR_ARGUMENT = 2,
-    MXG_ERROR_MEMORY = 3,    /* the allocator failed, or the context's memory limit was reached */
-    MXG_ERROR_CANCELLED = 4, /* the cancel callback said so */
-    MXG_ERROR_INTERNAL = 5,  /* a bug of mxgen */
+    MXG_ERROR_MEMORY = 3,    /* the allocator failed, or the context reached its memory limit */
+    MXG_ERROR_CANCELLED = 4, /* the cancel callback returned true */
+    MXG_ERROR_INTERNAL = 5,  /* a bug in mxgen */
     MXG_STATUS_MAX_ENUM = 0x7fffffff
 } mxg_status;
 
@@ -103,29 +105,29 @@ typedef struct mxg_result mxg_result;
 /* ---- Context ---- */
 
 /*
- * As realloc, told both sizes; new_size 0 frees. NULL for a size above 0 is a failure, which the
- * current call reports as MXG_ERROR_MEMORY. Called on every thread that uses the context or an
- * object made with it, perhaps on several at once: some texts are made when they are asked for
- * first, and whoever gives up the last reference frees. It must not call mxgen.
+ * Like realloc, with the old size as well; a new_size of 0 frees. Returning NULL for a size above 0
+ * is a failure, and the current call returns MXG_ERROR_MEMORY. Any thread that uses the context or
+ * an object of it calls this function, so several threads may call it at once: accessors make some
+ * texts on first use, and the last unref frees. It must not call mxgen.
  */
 typedef void *(*mxg_realloc_fn)(void *user_data, void *block, size_t old_size, size_t new_size);
 
-/* A file's bytes, borrowed from the host between open and release. */
+/* The bytes of a file. The host lends them from open to release. */
 typedef struct mxg_blob {
-    /* canonical name: what messages show and what includes in it are relative to */
+    /* canonical name: messages show it, and includes in the file are relative to it */
     const char *name;
     const char *data;
     size_t size;
-    void *handle; /* the host's own */
+    void *handle; /* for the host's use */
 } mxg_blob;
 
 /*
- * How files are found. `from` is the canonical name of the referring file, "" for a file named by
- * the caller. *out_blob is zeroed before; without a name the file keeps `ref`. On failure open
- * returns false, may point *out_reason at a text that lives until the next call, and sets
- * out_blob->name where the file is there but cannot be read: "file-unreadable" instead of
- * "file-missing". release is called once for each successful open, before the call of mxgen
- * returns.
+ * Finds files. `from` is the canonical name of the referring file, or "" if the caller named the
+ * file. *out_blob is zero on entry; a blob without a name takes the name `ref`. On failure open
+ * returns false and may point *out_reason at a text that lives until the next call. If the file
+ * exists but cannot be read, open also sets out_blob->name: the diagnostic is then
+ * "file-unreadable" instead of "file-missing". mxgen calls release once for each successful open,
+ * before the API call returns.
  */
 typedef struct mxg_resolver {
     void *user_data;
@@ -133,10 +135,11 @@ typedef struct mxg_resolver {
                  const char **out_reason);
     void (*release)(void *user_data, mxg_blob *blob);
     /*
-     * The names in a folder of textures, which `folder` names as `ref` names a file ("" is that of
-     * `from`): each with its NUL behind it, into `names`. Returns the bytes that all names need, 0
-     * for no such folder; where that is more than `capacity`, nothing is read and it is called
-     * again. NULL: the tiles of images (<UDIM>) are those that the document lists.
+     * Lists the files of a texture folder. `folder` is relative like `ref`; "" is the folder of
+     * `from`. Writes each name with its NUL into `names` and returns the number of bytes that all
+     * names need, or 0 if the folder does not exist. If the result exceeds `capacity`, mxgen
+     * ignores `names` and calls again. NULL: an image has the tiles (<UDIM>) that the document
+     * lists.
      */
     size_t (*list_folder)(void *user_data, const char *from, const char *folder, char *names,
                           size_t capacity);
@@ -144,38 +147,40 @@ typedef struct mxg_resolver {
 
 typedef struct mxg_context_desc {
     size_t size;            /* sizeof(mxg_context_desc) */
-    mxg_realloc_fn realloc; /* NULL: the C library's */
+    mxg_realloc_fn realloc; /* NULL: realloc and free of the C library */
     void *realloc_user_data;
-    /* copied; NULL: files relative to the referring file, then to the working directory */
+    /* copied. NULL: paths are relative to the referring file, then to the working directory */
     const mxg_resolver *resolver;
-    /* asked now and then by mxg_generate and mxg_inspect; true stops them. NULL: never */
+    /* mxg_generate and mxg_inspect call it repeatedly and stop when it returns true; may be NULL */
     bool (*cancel)(void *user_data);
     void *cancel_user_data;
     /* bytes of the context, its objects and the files it reads without a resolver; 0 = unlimited */
     size_t max_memory;
     uint32_t max_file_mib;      /* 0 = 256 */
     uint32_t max_elements;      /* 0 = 16,000,000 */
-    uint32_t max_nodes;         /* IR operations of a generation; 0 = 64,000,000 */
+    uint32_t max_nodes;         /* IR nodes of one generation; 0 = 64,000,000 */
     uint32_t max_output_mib;    /* 0 = 256 */
-    uint32_t max_errors;        /* errors kept per call, with what belongs to them; 0 = 20 */
-    uint32_t max_depth;         /* of elements in elements, up to 200; 0 = 128 */
-    uint32_t max_include_depth; /* of files in files, up to 200; 0 = 16 */
+    uint32_t max_errors;        /* errors that a call keeps, with their notes; 0 = 20 */
+    uint32_t max_depth;         /* nesting of elements, up to 200; 0 = 128 */
+    uint32_t max_include_depth; /* nesting of includes, up to 200; 0 = 16 */
     uint32_t max_includes;      /* files that a document includes; 0 = 4,096 */
     /*
-     * Which warnings are told and which are errors, by words separated by commas: "error" for all,
-     * "error=ID", "no-error=ID", "no-ID", "ID" (of something that is only a note otherwise). NULL:
-     * as they are. A word that is none of these is MXG_ERROR_ARGUMENT.
+     * Changes the severity of diagnostics. Words, separated by commas: "error" makes all warnings
+     * errors, "error=ID" makes one an error, "no-error=ID" undoes that, "no-ID" disables a warning,
+     * "ID" makes a warning of a diagnostic that is off by default. NULL: the severities of the
+     * catalogue. An unknown word returns MXG_ERROR_ARGUMENT.
      */
     const char *warnings;
     /*
-     * Source that documents bring (libraries may bring any). Without either: portable source, which
-     * mxgen reads and writes anew; source for one target is refused, since what is not portable of
-     * it would be passed on as it is. trust: all. sandbox without trust: none.
+     * Shader source in documents (libraries may always contain source). By default, mxgen accepts
+     * source in the portable language, which it parses and prints, and refuses source for one
+     * target, which it would copy into the shader unread. trust: accept all source. sandbox without
+     * trust: accept none.
      */
     bool trust;
     /*
-     * Without a resolver: files that documents refer to must lie in or below the folder of a file
-     * that the caller named, or one of the include roots.
+     * Without a resolver: a document may only refer to files in or below an include root or the
+     * folder of a file that the caller named.
      */
     bool sandbox;
     const char *const *include_roots; /* folders; num_include_roots of them */
@@ -199,48 +204,48 @@ typedef enum mxg_severity {
 typedef struct mxg_diagnostic {
     size_t size; /* in: sizeof(mxg_diagnostic) */
     mxg_severity severity;
-    const char *id;                /* "type-mismatch": stable */
-    const char *message;           /* one line, no location inside */
-    const char *file;              /* NULL: none */
+    const char *id;                /* stable, for example "type-mismatch" */
+    const char *message;           /* one line, without the location */
+    const char *file;              /* NULL: no file */
     uint32_t line, column, length; /* from 1, columns in code points; 0 = unknown */
-    uint32_t parent;               /* for a note: index of its message; else the own index */
+    uint32_t parent; /* for a note: index of its error or warning; otherwise its own index */
 } mxg_diagnostic;
 
 /*
- * Diagnostics of whatever can have them; each list is in order of discovery, notes behind their
- * message.
+ * The diagnostics of a library, document or result, in order of discovery. Notes follow the
+ * diagnostic that they explain.
  */
 typedef struct mxg_diagnostics mxg_diagnostics;
 MXG_API uint32_t mxg_diagnostics_count(const mxg_diagnostics *list);
-/* how many errors, those not kept included */
+/* number of errors, including errors beyond max_errors */
 MXG_API uint32_t mxg_diagnostics_errors(const mxg_diagnostics *list);
 MXG_API uint32_t mxg_diagnostics_warnings(const mxg_diagnostics *list);
 MXG_API mxg_status mxg_diagnostics_get(const mxg_diagnostics *list, uint32_t index,
                                        mxg_diagnostic *out);
 /*
- * Renders one as compilers do, with the source line and a caret where `source` (may be NULL) holds
- * the file's text. Writes at most `capacity` bytes with a NUL; returns the length it needs without
- * the NUL, 0 where there is none or no memory.
+ * Formats one diagnostic as compilers do. If `source`, which may be NULL, contains the text of the
+ * file, the output shows the source line with a caret. Writes at most `capacity` bytes including a
+ * NUL; returns the full length without the NUL, or 0 if there is no such diagnostic or no memory.
  */
 MXG_API size_t mxg_diagnostics_format(const mxg_diagnostics *list, uint32_t index,
                                       const char *source, size_t source_size, bool colour,
                                       char *buffer, size_t capacity);
-/* The same where the source line is at hand, without its end; NULL: unknown. */
+/* The same, if the caller has only the source line (without its line end; NULL: unknown). */
 MXG_API size_t mxg_diagnostics_format_line(const mxg_diagnostics *list, uint32_t index,
                                            const char *line, size_t line_size, bool colour,
                                            char *buffer, size_t capacity);
 
-/* Everything that can be said, for lists and help: `mxgen explain`. Static. */
+/* Every diagnostic that mxgen can report, for lists and help: `mxgen explain`. Static. */
 typedef struct mxg_diagnostic_kind {
     size_t size;           /* in: sizeof(mxg_diagnostic_kind) */
-    const char *id;        /* "type-mismatch": stable */
-    mxg_severity severity; /* unless the context's `warnings` say otherwise */
-    const char *message;   /* with %s and %u where something is put in */
+    const char *id;        /* stable, for example "type-mismatch" */
+    mxg_severity severity; /* default; the context's `warnings` can change it */
+    const char *message;   /* a format with %s and %u */
     const char *cause, *cure;
     /*
-     * An example as a difference: lines that begin with "- " make it wrong, with "+ " right, with "
-     * " are of both; "== NAME" begins another file than example.mtlx; "$ ", "-$ ", "+$ " are the
-     * arguments of mxgen, where these matter. "": there is none.
+     * An example as a diff. Lines with "- " belong to the wrong version, lines with "+ " to the
+     * right one, lines with two spaces to both. "== NAME" begins another file than example.mtlx. "$
+     * ", "-$ " and "+$ " give the arguments of mxgen if they matter. "": no example.
      */
     const char *example;
 } mxg_diagnostic_kind;
@@ -253,15 +258,15 @@ MXG_API const mxg_diagnostics *mxg_result_diagnostics(const mxg_result *result);
 
 /* ---- Library ---- */
 
-/* The library that is built in, with a reference for the caller. */
+/* The built-in library. The caller owns a reference. */
 MXG_API mxg_library *mxg_library_builtin(mxg_context *context);
 
 /*
- * A library of `base` (may be NULL: an empty one) and the given files, folders (every .mtlx below)
- * or library images (.mxlib). Where a definition stands in both, the new one wins. An image stands
- * on no base, and is the first of the paths. *out_library is set even with MXG_ERROR_DOCUMENT, for
- * its diagnostics. Folders are those of the file system; what lies in them is read through the
- * resolver.
+ * Makes a library from `base` (NULL: empty) and the given files, folders (every .mtlx below) or
+ * library images (.mxlib). A new definition replaces a definition of the same name in `base`. An
+ * image must be the first path and needs `base` NULL. *out_library is set even with
+ * MXG_ERROR_DOCUMENT: it has the diagnostics. Folders belong to the file system; the resolver reads
+ * the files in them.
  */
 MXG_API mxg_status mxg_library_load(mxg_context *context, mxg_library *base,
                                     const char *const *paths, size_t num_paths,
@@ -270,71 +275,71 @@ MXG_API mxg_library *mxg_library_ref(mxg_library *library); /* atomic; returns i
 MXG_API void mxg_library_unref(mxg_library *library);
 
 /*
- * Files that were read for it and for what it stands on: for depfiles and watchers. The built-in
- * library has none.
+ * The files of the library and of its bases, for depfiles and watchers. The built-in library has
+ * none.
  */
 MXG_API uint32_t mxg_library_num_files(const mxg_library *library);
 MXG_API const char *mxg_library_file(const mxg_library *library, uint32_t index);
 
 /*
- * The library image, for mxg_library_load and for embedding; it lives as long as the library. Only
- * of libraries on no base.
+ * The library image, for mxg_library_load and for embedding. It lives as long as the library. The
+ * library must have no base.
  */
 MXG_API mxg_status mxg_library_image(mxg_library *library, const void **out_data, size_t *out_size);
-/* The library as a plain MaterialX document: templates expanded. */
+/* The library as a plain MaterialX document with all templates expanded. */
 MXG_API mxg_status mxg_library_expand(mxg_library *library, const char **out_text,
                                       size_t *out_size);
 
 typedef struct mxg_nodedef {
     size_t size;                                            /* in */
-    const char *name, *node, *version, *group, *doc, *file; /* "" where absent */
+    const char *name, *node, *version, *group, *doc, *file; /* "" if absent */
     uint32_t num_inputs, num_outputs;
-    bool has_implementation; /* for some target */
-    bool is_default_version; /* what a node without a version means */
+    bool has_implementation; /* for at least one target */
+    bool is_default_version; /* a node without a version uses this definition */
 } mxg_nodedef;
 
 typedef struct mxg_port {
     size_t size; /* in */
-    /* "" where absent */
+    /* "" if absent */
     const char *name, *type, *value, *defaultgeomprop, *enum_names, *unit, *doc;
     bool uniform;
     bool advanced; /* uiadvanced */
-    /* "" where absent */
+    /* "" if absent */
     const char *enum_values, *unittype, *uiname, *uifolder, *uimin, *uimax, *uisoftmin, *uisoftmax,
         *uistep;
 } mxg_port;
 
-/* those of its base included */
+/* The count includes the definitions of the bases. */
 MXG_API uint32_t mxg_library_num_nodedefs(const mxg_library *library);
 MXG_API mxg_status mxg_library_nodedef(const mxg_library *library, uint32_t index,
                                        mxg_nodedef *out);
-/* Port `index` of a definition: inputs first, then outputs. */
+/* Port `index` of a definition: first the inputs, then the outputs. */
 MXG_API mxg_status mxg_library_port(const mxg_library *library, uint32_t nodedef, uint32_t index,
                                     mxg_port *out);
-/* Whether the definition has an implementation that the target (by name) can use. */
+/* True if the definition has an implementation for the target (by name). */
 MXG_API bool mxg_library_supports(const mxg_library *library, uint32_t nodedef, const char *target);
 
 /* ---- Document ---- */
 
 /*
  * Loads and resolves a file. *out_document is set whenever memory allows, also with
- * MXG_ERROR_DOCUMENT: errors of one part, such as an include that is not there, leave the
- * renderables of the others; what is no XML has none.
+ * MXG_ERROR_DOCUMENT. If one part has an error, for example a missing include, the renderables of
+ * the other parts remain. A file that is not XML has no renderables.
  */
 MXG_API mxg_status mxg_document_load(mxg_context *context, mxg_library *library, const char *path,
                                      mxg_document **out_document);
-/* The same from memory; `name` is for messages and as the base of includes. */
+/* The same from memory. `name` appears in messages and is the base of includes. */
 MXG_API mxg_status mxg_document_parse(mxg_context *context, mxg_library *library, const char *name,
                                       const char *data, size_t size, mxg_document **out_document);
 MXG_API void mxg_document_destroy(mxg_document *document);
 
-/* Files that were read, the document itself first: for depfiles and watchers. */
+/* The files of the document, itself first, for depfiles and watchers. */
 MXG_API uint32_t mxg_document_num_files(const mxg_document *document);
 MXG_API const char *mxg_document_file(const mxg_document *document, uint32_t index);
 
 /*
- * Elements that can be generated: materials; without any, outputs of graphs and shaders that
- * nothing uses. In document order.
+ * Elements that mxgen can generate, in document order: the materials. A document without materials
+ * has its graph outputs and the shaders that nothing uses.
  */
 typedef struct mxg_renderable {
     size_t size;          /* in */
@@ -346,15 +351,14 @@ MXG_API uint32_t mxg_document_num_renderables(const mxg_document *document);
 MXG_API mxg_status mxg_document_renderable(const mxg_document *document, uint32_t index,
                                            mxg_renderable *out);
 /*
- * Those that a look, or a group of looks, assigns; MXG_ERROR_ARGUMENT behind the last, and where
- * `look` is the path of anything else.
+ * The materials that a look or a look group assigns. MXG_ERROR_ARGUMENT if `index` is behind the
+ * last one or `look` is not the path of a look.
  */
 MXG_API mxg_status mxg_document_look_material(const mxg_document *document, const char *look,
                                               uint32_t index, mxg_renderable *out);
 
 /*
- * Checks the whole document against its library without generating: every node, connection and
- * value.
+ * Checks every node, connection and value of the document against its library, without generating.
  */
 MXG_API mxg_status mxg_document_validate(mxg_context *context, const mxg_document *document,
                                          mxg_result **out_result);
@@ -365,7 +369,8 @@ typedef struct mxg_target {
     size_t size; /* in */
     const char *name, *materialx_name, *brief;
     /*
-     * file endings of vertex and pixel stage (OSL: of displacement and shader); NULL: no such stage
+     * file endings of the vertex and the pixel stage (OSL: of displacement and shader); NULL: no
+     * such stage
      */
     const char *stage_suffix[2];
 } mxg_target;
@@ -389,7 +394,8 @@ typedef struct mxg_option {
     const char *doc;
 } mxg_option;
 /*
- * Every option of generation: hosts build their interface, and the command line its flags, from it.
+ * Every option of generation. The command line makes its flags from this list; a host can make its
+ * user interface from it.
  */
 MXG_API uint32_t mxg_num_options(void);
 MXG_API mxg_status mxg_get_option(uint32_t index, mxg_option *out);
@@ -397,8 +403,8 @@ MXG_API mxg_status mxg_get_option(uint32_t index, mxg_option *out);
 MXG_API mxg_status mxg_options_create(mxg_context *context, mxg_options **out_options);
 MXG_API void mxg_options_destroy(mxg_options *options);
 /*
- * Sets an option by key from text ("true", "16", "reduced"); lists append. MXG_ERROR_ARGUMENT for
- * an unknown key or a bad value; mxg_options_error then says what is wrong.
+ * Sets an option by key from text ("true", "16", "reduced"); lists append. Returns
+ * MXG_ERROR_ARGUMENT for an unknown key or a bad value; mxg_options_error then explains the error.
  */
 MXG_API mxg_status mxg_options_set(mxg_options *options, const char *key, const char *value);
 MXG_API const char *mxg_options_error(const mxg_options *options);
@@ -414,30 +420,32 @@ typedef enum mxg_stage {
 
 typedef struct mxg_generate_desc {
     size_t size;
-    const char *target; /* name of a target: "glsl" */
+    const char *target; /* name of a target, for example "glsl" */
     /*
-     * Path of what to generate: a material, shader, node or output, "Gold" or "NG_marble1/out"; an
-     * output of a node, "split/outr"; a graph with one output, or a look with one material. NULL:
-     * the document's first renderable.
+     * Path of the element to generate: a material, shader, node or output ("Gold",
+     * "NG_marble1/out"), an output of a node ("split/outr"), a graph with one output, or a look
+     * with one material. NULL: the first renderable of the document.
      */
     const char *element;
-    const mxg_options *options; /* NULL: defaults */
+    const mxg_options *options; /* NULL: default options */
     /*
-     * Everything but the source: diagnostics, variables, the topology by which a host finds a
-     * program that it has already. A third cheaper. Nothing but the limit max_output_mib can be
-     * violated by writing the source. Networks of OSL have their layers all the same.
+     * Leaves out the source. The result has the diagnostics, the variables and the topology, so a
+     * host can look for a program that it already has. The call takes a third less time. Only the
+     * limit max_output_mib can fail later, when the source is written. OSL networks keep their
+     * layers.
      */
     bool without_source;
     /*
-     * Only whether it can be generated: diagnostics, and files beside the document. There is no
-     * source, no variable and no info; what is left to do then cannot fail. A third of the time.
+     * Only checks that the element can be generated. The result has the diagnostics and the files
+     * beside the document, but no source, variables or info. The call takes a third of the time;
+     * the steps that it leaves out cannot fail.
      */
     bool only_diagnostics;
 } mxg_generate_desc;
 #define MXG_GENERATE_DESC_INIT MXG_INIT(mxg_generate_desc)
 
 /*
- * *out_result is set whenever memory allows. With MXG_ERROR_DOCUMENT it has diagnostics and no
+ * *out_result is set whenever memory allows. With MXG_ERROR_DOCUMENT it has diagnostics but no
  * source.
  */
 MXG_API mxg_status mxg_generate(mxg_context *context, const mxg_document *document,
@@ -459,41 +467,41 @@ MXG_API mxg_status mxg_document_structure(mxg_context *context, const mxg_docume
                                           const mxg_generate_desc *desc, uint64_t *out_structure);
 
 /*
- * The source of a stage; NULL where there is none: of a vertex stage of OSL where nothing is
- * displaced.
+ * The source of a stage; NULL if the shader has no such stage. OSL has a vertex stage only for
+ * displacement.
  */
 MXG_API const char *mxg_result_source(const mxg_result *result, mxg_stage stage, size_t *out_size);
 /*
- * With the option `osl-network` the sources above are lists of layers, values and connections, as
- * OSL's ShaderGroupBegin takes them, and these are the shaders of the layers: a file each,
- * "<name>.osl". Shaders of one name are equal, whatever the element.
+ * With the option `osl-network`, the sources above list layers, values and connections in the
+ * syntax of OSL's ShaderGroupBegin. The parts are the shaders of the layers: one file "<name>.osl"
+ * each. Two parts of the same name are equal, also across elements.
  */
 typedef struct mxg_part {
     size_t size;      /* in */
     const char *name; /* "ND_dielectric_bsdf_scatter_mode_T" */
     const char *source;
     size_t source_size;
-    const char *nodedef; /* "ND_dielectric_bsdf"; "" of the shader that ends a group */
+    const char *nodedef; /* "ND_dielectric_bsdf"; "" for the last shader of a group */
 } mxg_part;
 MXG_API uint32_t mxg_result_num_parts(const mxg_result *result);
 MXG_API mxg_status mxg_result_part(const mxg_result *result, uint32_t index, mxg_part *out);
 
-/* The place in the document that a line (from 1) of a stage's source comes from; false: none. */
+/* The place in the document that produced a line (from 1) of a stage's source; false: none. */
 MXG_API bool mxg_result_source_place(const mxg_result *result, mxg_stage stage, uint32_t line,
                                      const char **out_file, uint32_t *out_line,
                                      uint32_t *out_column, const char **out_path);
 
 /*
- * The path of the node that a line was written for, also of one inside of a definition:
- * "SR_gold/coat_bsdf". Writes at most `capacity` bytes with a NUL; returns the length it needs
- * without the NUL, 0 where there is none or no memory.
+ * The path of the node that produced a line, also of a node inside a definition:
+ * "SR_gold/coat_bsdf". Writes at most `capacity` bytes including a NUL; returns the full length
+ * without the NUL, or 0 if there is no path or no memory.
  */
 MXG_API size_t mxg_result_source_path(const mxg_result *result, mxg_stage stage, uint32_t line,
                                       char *buffer, size_t capacity);
 
 /*
- * The path of the node that closure `index` was evaluated for, in the same way; there are
- * num_closures of mxg_shader_info.
+ * The path of the node that produced closure `index` (below num_closures of mxg_shader_info), in
+ * the same way.
  */
 MXG_API size_t mxg_result_closure_path(const mxg_result *result, uint32_t index, char *buffer,
                                        size_t capacity);
@@ -518,13 +526,13 @@ typedef enum mxg_block {
 
 typedef struct mxg_variable {
     size_t size;      /* in */
-    const char *name; /* as in the source; members of blocks without the block's name */
+    const char *name; /* as in the source; a member does not include the name of its block */
     mxg_block block;
-    uint32_t stages;           /* bit s: stage s reads it */
-    const char *type;          /* in the shading language's terms: "vec3", "sampler2D" */
+    uint32_t stages;           /* bit s: stage s reads the variable */
+    const char *type;          /* a type of the shading language: "vec3", "sampler2D" */
     const char *document_type; /* "color3"; "" for private variables */
     const char *path;          /* "SR_gold/base_color"; "" for private variables */
-    const char *semantic;      /* "worldMatrix", "geomprop:st"; "" for public ones */
+    const char *semantic;      /* "worldMatrix", "geomprop:st"; "" for public variables */
     const char *colorspace, *unit;
     uint32_t array_length; /* 0: not an array */
     uint32_t set, binding, location;
@@ -533,17 +541,17 @@ typedef struct mxg_variable {
     float values[16];    /* integers and booleans as numbers */
     /* textures */
     const char *file, *uaddressmode, *vaddressmode, *filtertype;
-    /* user interface, from the definition: "" where absent */
+    /* for user interfaces, from the definition; "" if absent */
     const char *uiname, *uifolder, *uimin, *uimax, *uisoftmin, *uisoftmax, *doc;
     /*
-     * textures: the layer of the file, by name; the frames of a sequence; the tiles of an image,
-     * whose files are layers of an array
+     * textures: the name of the file's layer; the frames of a sequence; the tiles of an image,
+     * whose files are the layers of a texture array
      */
     const char *layer, *framerange, *frameendaction;
     int32_t frameoffset;
     uint32_t num_tiles;
     const char *unittype;
-    /* user interface; names and values are separated by commas */
+    /* for user interfaces; commas separate names and values */
     const char *uistep, *enum_names, *enum_values;
     bool advanced; /* uiadvanced */
     bool flat;     /* not interpolated between vertices */
@@ -551,8 +559,8 @@ typedef struct mxg_variable {
 MXG_API uint32_t mxg_result_num_variables(const mxg_result *result);
 MXG_API mxg_status mxg_result_variable(const mxg_result *result, uint32_t index, mxg_variable *out);
 /*
- * A tile of a texture: what texture coordinates from (u, v) to (u + 1, v + 1) show, and which is
- * layer `tile` of the array.
+ * A tile of a texture. It covers the texture coordinates from (u, v) to (u + 1, v + 1) and is layer
+ * `tile` of the texture array.
  */
 typedef struct mxg_tile {
     size_t size; /* in */
@@ -562,18 +570,21 @@ typedef struct mxg_tile {
 MXG_API mxg_status mxg_result_tile(const mxg_result *result, uint32_t variable, uint32_t tile,
                                    mxg_tile *out);
 /*
- * The file of a texture, or of a tile of it, at a frame: {frame} and {04frame} replaced, with the
- * offset, range and end action that the document gives. Writes as much as fits and a NUL; returns
- * the length, 0 where there is no file for the frame: the default is shown.
+ * The file of a texture, or of one of its tiles, at a frame. Replaces {frame} and {04frame} and
+ * applies the document's offset, range and end action. Writes as much as fits and a NUL; returns
+ * the full length, or 0 if the frame has no file: the host then shows the default colour.
  */
 MXG_API size_t mxg_result_texture_file(const mxg_result *result, uint32_t variable, uint32_t tile,
                                        int32_t frame, char *out, size_t capacity);
 
-/* Index of the variable of a document path; false: there is none (unused, or compiled in). */
+/*
+ * Index of the variable for a document path; false: no variable has it, because the input is unused
+ * or compiled in.
+ */
 MXG_API bool mxg_result_find_variable(const mxg_result *result, const char *path,
                                       uint32_t *out_index);
 
-/* Inputs whose value is compiled in: changing one needs a new generation. */
+/* Inputs whose value is compiled in. A new value needs a new generation. */
 typedef struct mxg_compiled_input {
     size_t size; /* in */
     const char *path, *type, *value;
@@ -583,9 +594,9 @@ MXG_API mxg_status mxg_result_compiled_input(const mxg_result *result, uint32_t 
                                              mxg_compiled_input *out);
 
 /*
- * How a host draws what a shader gives: as it is; with a depth test alone, since pixels below
- * u_alphaThreshold are discarded and the others have alpha 1; or blended over what is behind, in
- * order. Colours are premultiplied.
+ * How a host draws the shader. OPAQUE: without blending. MASK: with the depth test alone; the
+ * shader discards pixels below u_alphaThreshold and writes alpha 1 for the others. BLEND: back to
+ * front, blended over the pixels behind. Colours are premultiplied.
  */
 typedef enum mxg_alpha {
     MXG_ALPHA_OPAQUE,
@@ -598,24 +609,27 @@ typedef struct mxg_shader_info {
     size_t size; /* in */
     const char *name, *path, *target;
     /*
-     * equal for shaders that differ in names and uniform values alone; made when `size` reaches
-     * this far
+     * A hash: equal for shaders that differ only in names and uniform values. mxg_result_info
+     * computes it only if `size` includes this member.
      */
     uint64_t topology;
     uint32_t num_closures, num_textures, num_lights;
     bool transparent, lit;
-    bool displaced; /* the vertex stage moves the surface: give it small triangles */
+    bool displaced; /* the vertex stage moves the surface: draw it with small triangles */
     mxg_alpha alpha;
 } mxg_shader_info;
 MXG_API mxg_status mxg_result_info(const mxg_result *result, mxg_shader_info *out);
 
-/* All of the above as JSON (docs/reflection.md). NULL without a shader or without memory. */
+/*
+ * The variables, inputs and info above as JSON (docs/reflection.md). NULL without a shader or
+ * without memory.
+ */
 MXG_API const char *mxg_result_reflection_json(const mxg_result *result, size_t *out_size);
 
 /* ---- Looking inside ---- */
 
 typedef enum mxg_view {
-    MXG_VIEW_ELEMENTS, /* the element tree and what can be rendered */
+    MXG_VIEW_ELEMENTS, /* the element tree and the renderables */
     MXG_VIEW_GRAPH,    /* nodes and connections as text */
     MXG_VIEW_DOT,      /* the same for Graphviz */
     MXG_VIEW_IR,       /* the optimised IR, parseable (docs/ir.md) */
@@ -624,8 +638,8 @@ typedef enum mxg_view {
     MXG_VIEW_MAX_ENUM = 0x7fffffff
 } mxg_view;
 /*
- * A text for people; *out_result holds it as mxg_result_text. desc says element, target and options
- * where the view needs them.
+ * A text for people. *out_result holds it; mxg_result_text returns it. desc selects the element,
+ * target and options if the view needs them.
  */
 MXG_API mxg_status mxg_inspect(mxg_context *context, const mxg_document *document, mxg_view view,
                                const mxg_generate_desc *desc, mxg_result **out_result);

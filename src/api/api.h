@@ -186,10 +186,6 @@ struct path_list {
 const char *folder_list(struct arena *arena, const char *path, const char *suffix,
                         struct path_list *out);
 
-/* rehearse.c: what an image has beside a library's records. */
-void library_rehearse(struct mxg_library *library, struct lang_recorder *recorder,
-                      struct arena *arena);
-
 /* ---- Options: options.c, options.def ---- */
 
 enum option_id {

@@ -39,7 +39,7 @@ static void report_kind(const struct search *s, elem_id element)
 {
     struct text reason;
     text_init(&reason, s->diags->arena);
-    text_fmt(&reason, "it is a <%s>; give an output, a node, a material or a look",
+    text_fmt(&reason, "it is a <%s>; choose an output, node, material or look",
              text_of(s, doc_element(s->doc, element)->category));
     report_not_renderable(s, element, text_cstr(&reason));
 }
@@ -83,7 +83,7 @@ static elem_id only_choice(const struct search *s, elem_id element, const struct
     if (choices->len)
         report_ambiguous(s, element, &list);
     else
-        report_not_renderable(s, element, "it has no output and no material");
+        report_not_renderable(s, element, "it has neither an output nor a material");
     return 0;
 }
 

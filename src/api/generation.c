@@ -55,7 +55,7 @@ static bool check_network(struct generation *g)
     bool is_possible = g->result->target->network || !g->options[OPTION_osl_network].number;
     if (!is_possible)
         diag_add(diags_of(g), DIAG_ID_bad_option, nowhere, "true", "osl-network",
-                 "false: only 'osl' has networks");
+                 "false; only the target 'osl' has networks");
     return is_possible;
 }
 
@@ -185,7 +185,7 @@ void generation_report_not_renderable(struct generation *g, const char *why)
     struct text unknown;
     text_init(&unknown, &g->scratch);
     if (g->result->shader.unknown_closure) {
-        text_fmt(&unknown, "%s has no closure for '%s', and functions cannot stand for one",
+        text_fmt(&unknown, "%s has no closure for '%s', and a function cannot replace it",
                  g->result->target->name,
                  str_text(doc->strings, g->result->shader.unknown_closure));
         why = text_cstr(&unknown);
@@ -194,7 +194,7 @@ void generation_report_not_renderable(struct generation *g, const char *why)
              str_text(doc->strings, doc_element(doc, g->element)->name), why);
 }
 
-static const char gives_nothing[] = "it gives no surface, volume, light or colour";
+static const char gives_nothing[] = "it is not a surface, volume, light or colour";
 
 /* Whether work may go on: not cancelled, within limits, nothing reported. */
 static bool is_good(struct generation *g)
@@ -352,7 +352,7 @@ static bool stands_alone(const struct library *layer, const struct nodedef *def)
 /* The definitions of light shaders, for who named none of them. */
 static void put_lights(const struct generation *g, struct text *out)
 {
-    const char *separator = "; known are: ";
+    const char *separator = "; expected one of: ";
     for (const struct library *layer = &g->document->layer; layer; layer = layer->base)
         for (uint32_t i = 0; i < layer->nodedefs.len; i++) {
             const struct nodedef *def = &layer->nodedefs.items[i];
@@ -377,7 +377,7 @@ static const char *light_hint(struct generation *g, const char *item, size_t len
     const char *node = str_text(doc->strings, doc_element(doc, element)->category);
     text_fmt(&hint,
              strcmp(node, "light") == 0 ? "; the node has no EDF"
-                                        : "; bind '%s', and let the host set its members",
+                                        : "; bind '%s' and let the host set its members",
              node);
     return text_cstr(&hint);
 }
@@ -406,7 +406,7 @@ static void bind_light(struct generation *g, const char *item, int32_t next_type
     }
     if (has_light(&g->result->shader, (int32_t)type)) {
         diag_add(diags_of(g), DIAG_ID_bad_option, nowhere, item, "lights",
-                 "a number that no other light has");
+                 "a number that no other light uses");
         return;
     }
     uint32_t nodedef = find_light(g, item, len);
@@ -506,7 +506,7 @@ bool generation_emit(struct generation *g)
         return is_good(g);
     if (!emit(g))
         generation_report_not_renderable(g, g->result->shader.scatters
-                                                ? "a path tracer is given surfaces and values only"
+                                                ? "a path tracer draws only surfaces and values"
                                                 : gives_nothing);
     return is_good(g);
 }

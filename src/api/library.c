@@ -75,8 +75,7 @@ static void read_path(struct load *load, const char *path)
     struct diag_list *diags = &load->library->object.diagnostics.list;
     if (is_image(path)) {
         refuse_image(load, path,
-                     "it stands on no other library: name it first, without the one that is built "
-                     "in (--no-builtin-library)");
+                     "an image has no base library: name it first, with --no-builtin-library");
         return;
     }
     if (!folder_exists(path)) {
@@ -212,10 +211,8 @@ static const struct lang_syntax *image_syntax(void)
 
 static void write_image(const struct object *object, struct text *out)
 {
-    mxg_library *library = (mxg_library *)(uintptr_t)object; /* documents hold references of it */
-    struct lang_recorder recorder;
-    library_rehearse(library, &recorder, out->arena);
-    library_write_image(&library->layer, &recorder, image_syntax(), out);
+    const mxg_library *library = (const mxg_library *)object;
+    library_write_image(&library->layer, image_syntax(), out);
 }
 
 static void write_expanded(const struct object *object, struct text *out)

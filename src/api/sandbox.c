@@ -77,8 +77,8 @@ const char *sandbox_fault(const struct mxg_context *context, const char *path)
     if (stat(path, &info) != 0)
         return NULL; /* opening it tells why */
     if (context->sandbox && (!realpath(path, real) || !is_known(context, real)))
-        return "it is outside of the folders that documents may refer to; see --sandbox";
-    return S_ISREG(info.st_mode) || S_ISDIR(info.st_mode) ? NULL : "it is no plain file";
+        return "it is outside the folders that documents may read; see --sandbox";
+    return S_ISREG(info.st_mode) || S_ISDIR(info.st_mode) ? NULL : "it is not a regular file";
 }
 
 void sandbox_finish(struct mxg_context *context)

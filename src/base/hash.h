@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Hashes for tables inside one process and one library image. Not stable between versions or byte
+ * Hashes for tables inside one process and one library image. They differ between versions and byte
  * orders.
  */
 #ifndef MXG_BASE_HASH_H
@@ -66,7 +66,7 @@ static inline uint32_t hash_pair(uint32_t a, uint32_t b)
 }
 
 /*
- * FNV-1a of 64 bits: stable everywhere, for hashes that leave the process (topology hash, image
+ * 64-bit FNV-1a: the same on every machine, for hashes that leave the process (topology hash, image
  * checksum).
  */
 static inline uint64_t hash_stable(uint64_t h, const void *data, size_t size)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Numbers as text, independent of the locale. */
+/* Conversion between numbers and text, independent of the locale. */
 #ifndef MXG_BASE_NUM_H
 #define MXG_BASE_NUM_H
 
@@ -7,22 +7,22 @@
 #include <stddef.h>
 #include <stdint.h>
 
-enum { NUM_FLOAT_MAX = 32 }; /* bytes that num_print_float may write */
+enum { NUM_FLOAT_MAX = 32 }; /* maximum number of bytes that num_print_float writes */
 
 /*
- * Shortest decimal that reads back to the same float; see text_float. Returns its length; no NUL is
- * written.
+ * Prints the shortest decimal that parses to the same float; see text_float. Returns its length and
+ * writes no NUL.
  */
 size_t num_print_float(char *out, float value);
 
 /*
- * Reads a decimal at `text`: sign, digits, fraction, exponent, as the MaterialX and GLSL grammars
- * have them. Returns the bytes read, 0 where no number stands there. Values beyond float's range
- * give an infinity or 0.
+ * Parses a decimal with sign, digits, fraction and exponent, as in the grammars of MaterialX and
+ * GLSL. Returns the number of bytes, or 0 if there is no number. Values beyond the range of float
+ * become an infinity or 0.
  */
 size_t num_parse_float(const char *text, size_t len, float *out_value);
 
-/* A decimal or 0x integer with optional sign; 0 where there is none or where it does not fit. */
+/* Parses a decimal or 0x integer with an optional sign; 0 if there is none or it does not fit. */
 size_t num_parse_int(const char *text, size_t len, int64_t *out_value);
 
 #endif

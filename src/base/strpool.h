@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Interned strings: one 32-bit id per distinct text, compared by id.
+ * Interned strings: one 32-bit id per distinct text, so a comparison of ids is a comparison of
+ * texts.
  *
- * Pools form layers. A document's pool stands on its library's: text which the library knows has
- * the library's id, new text gets an id beyond. A lower layer does not change while a higher one
- * exists. The lowest layer begins with the words of words.def, so that STR_type, STR_value… are
- * constants.
+ * Pools stack: the pool of a document extends the pool of its library. A text in a lower pool keeps
+ * its id, and a new text gets a higher id. A lower pool does not change while a higher one exists.
+ * The lowest pool begins with the words of words.def, so STR_type, STR_value… are constants.
  *
- * A layer is either growing (pointers into an arena) or an image (offsets into a mapped block, see
- * library/image.h).
+ * A pool either grows (pointers into an arena) or is part of a library image (offsets into the
+ * mapped file).
  */
 #ifndef MXG_BASE_STRPOOL_H
 #define MXG_BASE_STRPOOL_H
@@ -17,7 +17,7 @@
 
 #include <assert.h>
 
-typedef uint32_t str_id; /* 0 is the empty string, which also stands for "absent" */
+typedef uint32_t str_id; /* 0 is the empty string, which also means "absent" */
 
 enum str_word {
     STR_EMPTY,
@@ -34,34 +34,34 @@ struct str_entry {
 };
 
 struct strpool {
-    const struct strpool *base; /* the layer below; NULL for the lowest */
-    uint32_t first;             /* id of this layer's first string */
-    uint32_t num;               /* strings of this layer */
-    uint32_t table_mask;        /* slots - 1; slots is a power of two; 0 = no table yet */
-    const uint32_t *table;      /* open addressing: id or 0 */
-    /* growing layer */
+    const struct strpool *base; /* the pool below; NULL for the lowest */
+    uint32_t first;             /* id of this pool's first string */
+    uint32_t num;               /* number of strings in this pool */
+    uint32_t table_mask;   /* slots - 1; the number of slots is a power of two; 0 = no table yet */
+    const uint32_t *table; /* open addressing: id or 0 */
+    /* growing pool */
     struct arena *arena;
     VEC(struct str_entry) entries;
-    /* image layer: text i at bytes + offsets[i], its end (NUL) at offsets[i + 1] - 1 */
-    const uint32_t *offsets; /* num + 1 of them; NULL in a growing layer */
-    const uint16_t *narrow;  /* in place of `table` where all ids fit */
+    /* image: text i is at bytes + offsets[i], its NUL at offsets[i + 1] - 1 */
+    const uint32_t *offsets; /* num + 1 entries; NULL in a growing pool */
+    const uint16_t *narrow;  /* replaces `table` if all ids fit in 16 bits */
     const char *bytes;
 };
 
-/* An empty growing layer on `base`; with no base it holds the words of words.def. */
+/* Makes an empty growing pool above `base`; without a base it contains the words of words.def. */
 void strpool_init(struct strpool *pool, struct arena *arena, const struct strpool *base);
 
 /*
- * The id of a text, which is added where no layer has it. The bytes are copied; they must hold no
- * NUL.
+ * The id of a text; adds the text if no pool of the stack has it. Copies the bytes, which must not
+ * contain NUL.
  */
 str_id str_intern(struct strpool *pool, const char *text, size_t len);
 str_id str_intern_z(struct strpool *pool, const char *text);
 
-/* The id of a text, or 0 where no layer has it. */
+/* The id of a text, or 0 if no pool of the stack has it. */
 str_id str_find(const struct strpool *pool, const char *text, size_t len);
 
-/* The layer that an id is of. */
+/* The pool of an id. */
 static inline const struct strpool *str_layer(const struct strpool *pool, str_id id)
 {
     while (id < pool->first)
@@ -70,7 +70,7 @@ static inline const struct strpool *str_layer(const struct strpool *pool, str_id
     return pool;
 }
 
-/* The text of an id; valid as long as its layer. */
+/* The text of an id; valid as long as its pool. */
 static inline const char *str_text(const struct strpool *pool, str_id id)
 {
     pool = str_layer(pool, id);

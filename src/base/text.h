@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Text that grows: the writer of everything mxgen emits. Appending never fails but by running out
- * of memory (mem.h).
+ * A growing text: mxgen writes all its output with it. The only failure of an append is out of
+ * memory (mem.h).
  */
 #ifndef MXG_BASE_TEXT_H
 #define MXG_BASE_TEXT_H
@@ -16,7 +16,7 @@ struct text {
 
 void text_init(struct text *text, struct arena *arena);
 
-/* Room for `more` bytes behind the end; text->data + text->len is where they go. */
+/* Reserves `more` bytes after the end, at text->data + text->len. */
 void text_reserve(struct text *text, size_t more);
 
 /* Words are short: two copies that overlap do for any length between theirs and twice theirs. */
@@ -86,7 +86,7 @@ void text_i32(struct text *text, int32_t value);
 void text_hex64(struct text *text, uint64_t value); /* 16 digits */
 
 /*
- * The shortest decimal that reads back to the same float, always with '.' or an exponent; "inf",
+ * Writes the shortest decimal that parses to the same float, always with '.' or an exponent; "inf",
  * "-inf", "nan".
  */
 void text_other_float(struct text *text, float value);
@@ -104,7 +104,7 @@ static inline void text_float(struct text *text, float value)
     text_mem(text, small, sizeof small);
 }
 
-/* As printf; for messages, not for floats (the locale's decimal point would show). */
+/* Like printf. For messages, not for floats: they would have the decimal point of the locale. */
 #if defined(__GNUC__)
 __attribute__((format(printf, 2, 3)))
 #endif
@@ -113,7 +113,7 @@ void text_fmt(struct text *text, const char *format, ...);
 /* A JSON string literal with its quotes; invalid UTF-8 becomes U+FFFD. */
 void text_json_string(struct text *text, const char *bytes, size_t len);
 
-/* The text with a NUL behind it; valid until the next append. */
+/* The text with a NUL; valid until the next append. */
 const char *text_cstr(struct text *text);
 
 #endif

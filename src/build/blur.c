@@ -190,7 +190,7 @@ ir_ref build_blur(struct builder *b, ir_ref in, ir_ref size, ir_ref filtertype, 
         return in;
     if (b->recorder && !ir_is_const(b->graph, in)) {
         diag_add(b->diags, DIAG_ID_blur_left_out, doc_place(&b->lib->doc, node),
-                 "a layer of a network cannot ask for its input elsewhere");
+                 "a layer of an OSL network cannot evaluate its input at other places");
         return in;
     }
     const struct kernel *kernel = find_kernel(b, filtertype);
@@ -203,8 +203,9 @@ ir_ref build_blur(struct builder *b, ir_ref in, ir_ref size, ir_ref filtertype, 
             move(&blur, ref);
     if (blur.num_moved > MAX_MOVED || blur.is_unknown) {
         diag_add(b->diags, DIAG_ID_blur_left_out, doc_place(&b->lib->doc, node),
-                 blur.is_unknown ? "it is part of a definition that is used often"
-                                 : "its input is too large to be computed nine times");
+                 blur.is_unknown
+                     ? "its graph became a function of the shader, because many nodes use it"
+                     : "its input is too large to evaluate nine times");
         return in;
     }
     return moved_of(&blur, in)[0] ? sum(&blur, kernel) : in;

@@ -18,36 +18,14 @@ static const struct known_option {
                      {"option_texture_modes", offsetof(struct build_options, texture_modes)},
                      {"option_integrator", offsetof(struct build_options, integrator)},
                      {"option_sample_filter", offsetof(struct build_options, sample_filter)}};
-enum { NUM_KNOWN_OPTIONS = sizeof known_options / sizeof *known_options };
-
-static const int *option_value(const struct build_options *options,
-                               const struct known_option *known)
-{
-    return (const int *)(const void *)((const char *)options + known->offset);
-}
 
 /* The value of "option_environment"…; NULL where there is no such option. */
 static const int *find_option(const struct build_options *options, const char *name)
 {
-    for (size_t i = 0; i < NUM_KNOWN_OPTIONS; i++)
+    for (size_t i = 0; i < sizeof known_options / sizeof *known_options; i++)
         if (strcmp(name, known_options[i].name) == 0)
-            return option_value(options, &known_options[i]);
+            return (const int *)(const void *)((const char *)options + known_options[i].offset);
     return NULL;
-}
-
-/* All of them as one number. */
-static uint32_t choice_of(const struct build_options *options)
-{
-    enum { BITS = 6 };
-    static_assert(NUM_KNOWN_OPTIONS * BITS <= 32, "one number does not suffice");
-    uint32_t choice = 0;
-    for (size_t i = 0; i < NUM_KNOWN_OPTIONS; i++) {
-        int value = *option_value(options, &known_options[i]);
-        if (value < 0 || value >= 1 << BITS)
-            return LANG_NONE;
-        choice = choice << BITS | (uint32_t)value;
-    }
-    return choice;
 }
 
 /*
@@ -110,12 +88,10 @@ struct builder *build_start(const struct library *lib, const struct build_option
     b->resolved.arena = b->arena;
     b->globals =
         ARENA_ARRAY(b->arena, ir_ref, shader->unit->base_globals + shader->unit->globals.len);
-    b->may_restore = build_may_restore(b);
     b->host = (struct lang_host){.user_data = b,
                                  .global = global_node,
                                  .texture = build_read_tiles,
-                                 .max_inline_nodes = INLINE_NODES,
-                                 .choice = choice_of(options)};
+                                 .max_inline_nodes = INLINE_NODES};
     b->document = ARENA_NEW(b->arena, struct instance);
     b->document->nodedef = LIBRARY_NONE;
     b->document->first = lib->doc.first_element;

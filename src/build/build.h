@@ -14,7 +14,7 @@
 #include "library/library.h"
 #include "shader/network.h"
 
-/* Which inputs stay variable (design section 6). */
+/* Which inputs stay variable: the option `interface`. */
 enum build_interface { INTERFACE_COMPLETE, INTERFACE_AUTHORED, INTERFACE_REDUCED };
 
 enum { TEXTURE_MODES_BUT_BORDERS = 3 }; /* libraries/stdlib/image.glsl tells them all */

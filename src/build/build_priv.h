@@ -79,7 +79,6 @@ struct builder {
     struct build_prefix path, name; /* in front of the paths and names of a node's inputs */
     ir_ref missing_texel;           /* what the node at hand reads where its image has no tile */
     struct recorder *recorder;      /* network.c; NULL: one shader is built */
-    bool may_restore;               /* build_may_restore */
     bool has_colorspace;            /* the option names a space that the library converts to */
     bool has_distance_unit;         /* the option names a unit that the library knows */
     bool cancelled;
@@ -122,18 +121,6 @@ void build_begin_function(struct builder *b, struct frame *frame);
 /* One ref per output of the definition. */
 void build_call_function(struct builder *b, const struct frame *frame, uint32_t function,
                          ir_ref *results);
-
-/*
- * fragment.c: whether graphs of the image are what they were when it was packed, as far as options
- * and layers say.
- */
-bool build_may_restore(const struct builder *b);
-/*
- * The results of frame's graph where it was taken down for such arguments; false: it must be built.
- */
-bool build_restore(struct builder *b, const struct frame *frame, ir_ref *results);
-/* Takes down what frame's graph became, where that is asked for. */
-void build_record(struct builder *b, const struct frame *frame, const ir_ref *results);
 
 /*
  * trace.c: adds notes that tell which nodes use the graph that is being built; a struct diag_list's

@@ -39,7 +39,7 @@ void build_check_colorspace(struct builder *b)
                         || transform(b, black, DOC_TYPE_color3, hub, space);
     if (!b->has_colorspace)
         diag_add(b->diags, DIAG_ID_bad_option, (struct diag_place){0}, space, "colorspace",
-                 "a linear colour space that the library converts lin_rec709 to");
+                 "a linear colour space that the library can convert from lin_rec709");
 }
 
 void build_check_distance_unit(struct builder *b)
@@ -50,7 +50,7 @@ void build_check_distance_unit(struct builder *b)
         || library_unit_type_of(b->lib, b->options->distance_unit) == STR_distance;
     if (!b->has_distance_unit)
         diag_add(b->diags, DIAG_ID_bad_option, (struct diag_place){0}, unit, "distance-unit",
-                 "a unit of distance that the library knows, such as meter or centimeter");
+                 "a distance unit of the library, for example meter or centimeter");
 }
 
 ir_ref build_color_transform(struct builder *b, ir_ref value, doc_type type, str_id space,

@@ -236,10 +236,30 @@ static void set_origin(struct builder *b, const struct frame *frame)
                                      frame->node.element, frame->scope->origin);
 }
 
+/* "noise1", and "separate1_outr" where a node has several results. */
+static void name_results(struct builder *b, const struct frame *frame, const ir_ref *results)
+{
+    const struct nodedef *def = library_nodedef(b->lib, frame->node.nodedef);
+    const struct port *ports = library_ports(b->lib, frame->node.nodedef, NULL);
+    str_id node = doc_element(doc_of(b), frame->node.element)->name;
+    for (uint32_t i = 0; i < def->num_outputs; i++) {
+        str_id name = node;
+        if (def->num_outputs > 1) {
+            struct text text;
+            text_init(&text, b->arena);
+            text_fmt(&text, "%s_%s", build_text(b, node),
+                     build_text(b, ports[def->num_inputs + i].name));
+            name = str_intern(b->shader->strings, text_cstr(&text), text.len);
+        }
+        ir_suggest_name(b->graph, results[i], name, IR_NAME_RESULT);
+    }
+}
+
 /* The results of a graph for these arguments are known: they are kept for equal uses. */
 static void finish_graph(struct builder *b, struct frame *frame, ir_ref *results)
 {
     convert_colors(b, frame, results);
+    name_results(b, frame, results);
     uint32_t first =
         add_results(b, results, library_nodedef(b->lib, frame->node.nodedef)->num_outputs);
     if (!frame->has_tokens)
@@ -285,11 +305,6 @@ static void enter_graph(struct builder *b, struct frame *frame)
         finish_call(b, frame, function - 1);
         return;
     }
-    ir_ref results[BUILD_MAX_OUTPUTS];
-    if (frame->outline == LIBRARY_NONE && build_restore(b, frame, results)) {
-        finish_graph(b, frame, results);
-        return;
-    }
     frame->inner = new_instance(b, frame->scope, graph);
     frame->inner->nodedef = frame->node.nodedef;
     frame->inner->args = frame->args;
@@ -323,6 +338,7 @@ static void step_inputs(struct builder *b)
         ir_ref results[BUILD_MAX_OUTPUTS];
         build_node(b, frame, results);
         convert_colors(b, frame, results);
+        name_results(b, frame, results);
         finish(b, add_results(b, results, def->num_outputs));
     }
     b->graph->origin = before;
@@ -354,7 +370,6 @@ static void leave_graph(struct builder *b)
         results[i] = build_input(b, frame->inner, frame->inner->graph, &outputs[i], &binding);
     }
     if (frame->outline == LIBRARY_NONE) {
-        build_record(b, frame, results);
         finish_graph(b, frame, results);
         return;
     }

@@ -66,7 +66,7 @@ const struct implementation *build_choose(struct builder *b, uint32_t nodedef, e
         diag_add(b->diags, DIAG_ID_missing_implementation, doc_place(&b->lib->doc, node),
                  build_text(b, def->name),
                  b->options->num_targets ? build_text(b, b->options->targets[0]) : "",
-                 "; write it as a <nodegraph> or <implementation> with this 'nodedef'");
+                 "; add a <nodegraph> or <implementation> with this 'nodedef'");
         diag_add(b->diags, DIAG_ID_defined_here, doc_place(&b->lib->doc, def->element),
                  build_text(b, def->name));
     }

@@ -59,7 +59,7 @@ static unsigned next_count(struct measurement *m)
 {
     float count = next_number(m);
     if (!m->fault && !(count >= 1.0f && count <= MAX_ANGLES))
-        m->fault = "it has no usable number of angles";
+        m->fault = "its number of angles is invalid";
     return m->fault ? 0 : (unsigned)count;
 }
 
@@ -142,7 +142,7 @@ static void make_table(struct measurement *m, float table[LENGTH])
     for (int i = 0; i < LENGTH && greatest > 0.0f; i++)
         table[i] /= greatest;
     if (!(greatest > 0.0f))
-        m->fault = "it has no light";
+        m->fault = "all its values are 0";
 }
 
 static bool read_table(struct builder *b, elem_id element, const char *file, float table[LENGTH])

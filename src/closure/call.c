@@ -109,3 +109,15 @@ ir_ref closure_call(struct shader *shader, const struct closure_host *host, ir_r
     ir_ref result[1];
     return closure_call_all(shader, host, leaf, which, light, result) ? result[0] : 0;
 }
+
+void closure_name(struct shader *shader, ir_ref value, ir_ref closure, const char *role)
+{
+    str_id owner = shader->graph->origins.items[ir_get(shader->graph, closure)->origin].name;
+    if (!owner || !value)
+        return;
+    struct text text;
+    text_init(&text, shader->arena);
+    text_fmt(&text, "%s_%s", str_text(shader->strings, owner), role);
+    str_id name = str_intern(shader->strings, text_cstr(&text), text.len);
+    ir_suggest_name(shader->graph, value, name, IR_NAME_ROLE);
+}

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
  * From closures to effects: a tree of BSDFs becomes a flat list of leaves with weights, and the
- * list becomes what the pixel stage does: lights, environment, emission, opacity (design section
- * 7).
+ * list becomes what the pixel stage does: lights, environment, emission, opacity.
  */
 #ifndef MXG_CLOSURE_CLOSURE_H
 #define MXG_CLOSURE_CLOSURE_H
@@ -92,8 +91,8 @@ struct closure_list {
 };
 
 /*
- * Flattens a BSDF, EDF or VDF: leaves with their total weight, in order of first use, equal leaves
- * merged, leaves of weight 0 gone. root 0: an empty list.
+ * Flattens a BSDF, EDF or VDF: leaves with their total weight, in the order of their nodes, equal
+ * leaves merged, leaves of weight 0 gone. root 0: an empty list.
  */
 void closure_flatten(struct shader *shader, const struct closure_host *host, ir_ref root,
                      struct closure_list *out);

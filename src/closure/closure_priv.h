@@ -74,15 +74,6 @@ struct closure_lit {
     struct closure_parts at[NUM_PLACES];
 };
 
-/* model.c: whether a surface may be lit by a fragment, or what lights it be taken down as one. */
-bool closure_is_usual(const struct shader *shader, const struct closure_host *host,
-                      const struct closure_lighting *lighting, ir_ref root);
-/* `state` from a fragment, up to the parts, and shader->closures; false where there is none. */
-bool closure_restore_lit(struct shader *shader, const struct closure_host *host,
-                         struct closure_lit *state);
-void closure_record_lit(struct shader *shader, const struct closure_host *host,
-                        uint32_t first_closure, struct closure_lit *state);
-
 /* displacement.c: how far a displacement shader moves a point; 0: nothing moves. */
 ir_ref closure_offset(struct shader *shader, ir_ref displacement);
 
@@ -119,5 +110,8 @@ ir_ref closure_fresnel_rise(struct ir_graph *graph, const struct closure_interfa
                             ir_ref cosine);
 /* Two closures of one type, either of which may be 0: none. */
 ir_ref closure_mixed(struct ir_graph *graph, ir_ref bg, ir_ref fg, ir_ref mix);
+
+/* Names a value after its part for a leaf or operator: "coat_weight" of the leaf "coat". */
+void closure_name(struct shader *shader, ir_ref value, ir_ref closure, const char *role);
 
 #endif

@@ -148,6 +148,7 @@ static void find_throughputs(struct flattener *f, uint32_t num_nodes)
             f->throughputs[ref] = leaf_throughput(f, ref);
         else if (is_operator(ir_get(f->graph, ref)))
             f->throughputs[ref] = operator_throughput(f, ref);
+        closure_name(f->shader, f->throughputs[ref], ref, "throughput");
     }
     f->graph->origin = before;
 }
@@ -206,10 +207,13 @@ static void add_weight(struct flattener *f, ir_ref ref, struct weight add)
 static void add_scaled(struct flattener *f, ir_ref ref, struct weight w, ir_ref factor)
 {
     struct ir_graph *g = f->graph;
-    if (ir_type_of(g, factor) == IR_TYPE_FLOAT)
+    bool is_scalar = ir_type_of(g, factor) == IR_TYPE_FLOAT;
+    if (is_scalar)
         w.scalar = closure_mul(g, w.scalar, factor);
     else if (!ir_const_is(g, factor, 1.0f))
         w.color = closure_mul(g, w.color, factor);
+    if (ref && !ir_const_is(g, factor, 1.0f))
+        closure_name(f->shader, is_scalar ? w.scalar : w.color, ref, "weight");
     add_weight(f, ref, w);
 }
 
@@ -298,9 +302,12 @@ static void take_leaf(struct flattener *f, ir_ref ref, struct closure_list *out)
         return;
     }
     ir_ref scalar = closure_mul(g, w.scalar, ir_arg(g, ref, 0));
-    if (!ir_const_is(g, scalar, 0.0f))
-        merge_leaf(f, out, unit_leaf(g, ref, f->shader->arena),
-                   (struct weight){scalar, w.color, w.medium});
+    closure_name(f->shader, scalar, ref, "weight");
+    if (ir_const_is(g, scalar, 0.0f))
+        return;
+    ir_ref leaf = unit_leaf(g, ref, f->shader->arena);
+    if (ir_get(g, leaf)->op == IR_LEAF) /* it is POISON where the graph is full */
+        merge_leaf(f, out, leaf, (struct weight){scalar, w.color, w.medium});
 }
 
 void closure_flatten(struct shader *shader, const struct closure_host *host, ir_ref root,

@@ -94,8 +94,7 @@ void closure_sample_light(struct shader *shader, const struct closure_host *host
                           struct closure_light *out)
 {
     struct ir_graph *g = shader->graph;
-    uint32_t before = g->origin, direction_origin = named(shader, STR_L),
-             intensity_origin = named(shader, STR_light);
+    uint32_t before = g->origin;
     ir_ref type = type_of_light(shader);
     closure_position(shader, host); /* once, outside of the loop */
     *out = (struct closure_light){0, ir_const_splat(g, IR_TYPE_VEC3, 0.0f)};
@@ -108,14 +107,14 @@ void closure_sample_light(struct shader *shader, const struct closure_host *host
         else
             call_function(shader, host, light, results);
         ir_ref is_this = ir_op2(g, IR_EQ, type, ir_const_int(g, light->type));
-        g->origin = direction_origin;
         out->direction = out->direction && out->direction != results[0]
                              ? ir_op3(g, IR_SELECT, is_this, results[0], out->direction)
                              : results[0];
-        g->origin = intensity_origin;
         out->intensity = ir_op3(g, IR_SELECT, is_this, results[1], out->intensity);
     }
     g->origin = before;
+    ir_suggest_name(g, out->direction, STR_L, IR_NAME_ROLE);
+    ir_suggest_name(g, out->intensity, STR_light, IR_NAME_ROLE);
 }
 
 static ir_ref distance_to(struct shader *shader, const struct closure_host *host, uint32_t position)

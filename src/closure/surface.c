@@ -51,7 +51,9 @@ static ir_ref weighted(struct emitter *e, const struct closure_leaf *leaf, ir_re
     g->origin = ir_get(g, leaf->leaf)->origin;
     ir_ref weight = ir_const_is(g, leaf->scalar, 1.0f) ? leaf->color
                                                        : closure_mul(g, leaf->color, leaf->scalar);
+    closure_name(e->shader, weight, leaf->leaf, "weight");
     value = closure_product(g, value, weight);
+    closure_name(e->shader, value, leaf->leaf, "response");
     g->origin = before;
     return value;
 }
@@ -81,6 +83,29 @@ static void accumulate(struct emitter *e, ir_ref factor, ir_ref value)
     e->graph->origin = before;
 }
 
+static void comment(struct emitter *e, str_id text)
+{
+    shader_effect(e->shader, STAGE_PIXEL, (struct effect){.kind = EFFECT_COMMENT, .text = text});
+}
+
+/* "metal, reflection": the leaves whose parts follow, each once. */
+static void comment_leaves(struct emitter *e, const struct closure_part *parts, uint32_t count)
+{
+    struct text names;
+    text_init(&names, e->shader->arena);
+    str_id last = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        str_id name = e->graph->origins.items[ir_get(e->graph, parts[i].leaf)->origin].name;
+        if (!name || name == last)
+            continue;
+        text_str(&names, names.len ? ", " : "");
+        text_str(&names, str_text(e->shader->strings, name));
+        last = name;
+    }
+    if (names.len)
+        comment(e, str_intern(e->shader->strings, names.data, names.len));
+}
+
 /*
  * color += factor · Σ parts. Leaves that are always computed share one line; the others stand
  * behind their guards.
@@ -89,10 +114,12 @@ static void accumulate_all(struct emitter *e, enum closure_place place, ir_ref f
 {
     struct ir_graph *g = e->graph;
     struct closure_parts *list = &e->lit.at[place];
+    struct closure_parts unguarded = {0};
     ir_ref always = 0;
     closure_find_guarded(e->shader, list, place != PLACE_WHOLE);
     for (uint32_t i = 0; i < list->parts.len;) {
         const struct closure_part *first = &list->parts.items[i];
+        uint32_t begin = i;
         ir_ref guard = first->scalar, sum = 0;
         do
             sum = add(e, sum, list->parts.items[i++].value);
@@ -100,14 +127,21 @@ static void accumulate_all(struct emitter *e, enum closure_place place, ir_ref f
                && list->parts.items[i].is_guarded == first->is_guarded);
         if (!first->is_guarded || ir_is_const(g, guard)) {
             always = add(e, always, sum);
+            for (uint32_t k = begin; k < i; k++)
+                vec_push(e->shader->arena, &unguarded.parts, list->parts.items[k]);
             continue;
         }
-        effect(e, EFFECT_IF, 0, ir_op2(g, IR_GT, guard, ir_const_float(g, 0.0f)));
+        comment_leaves(e, first, i - begin);
+        ir_ref condition = ir_op2(g, IR_GT, guard, ir_const_float(g, 0.0f));
+        closure_name(e->shader, condition, first->leaf, "visible");
+        effect(e, EFFECT_IF, 0, condition);
         accumulate(e, factor, sum);
         effect(e, EFFECT_END, 0, 0);
     }
-    if (always)
+    if (always) {
+        comment_leaves(e, unguarded.parts.items, unguarded.parts.len);
         accumulate(e, factor, always);
+    }
 }
 
 static bool has_function(const struct emitter *e, const struct closure_leaf *leaf,
@@ -189,10 +223,13 @@ static void emit_lit(struct emitter *e)
         return;
     declare_color(e);
     if (has_lights) {
+        comment(e, STR_lights);
         effect(e, EFFECT_LIGHTS, 0, 0);
         accumulate_all(e, PLACE_LIGHT, e->lit.light.intensity);
         effect(e, EFFECT_END, 0, 0);
     }
+    if (has_samples || e->lit.at[PLACE_WHOLE].parts.len)
+        comment(e, STR_environment);
     accumulate_all(e, PLACE_WHOLE, 0);
     if (has_samples) {
         effect(e, EFFECT_SAMPLES, 0, 0);
@@ -223,6 +260,7 @@ static ir_ref emission(struct emitter *e, ir_ref edf)
 static void write_output(struct emitter *e, ir_ref color, ir_ref alpha)
 {
     struct ir_graph *g = e->graph;
+    ir_suggest_name(g, alpha, STR_opacity, IR_NAME_ROLE);
     uint32_t out = shader_find_variable(e->shader, BLOCK_OUTPUTS, STR_out1);
     if (out == UINT32_MAX)
         out = shader_add_variable(e->shader, &(struct shader_variable){.name = STR_out1,
@@ -269,6 +307,7 @@ static void finish_surface(struct emitter *e, const struct surface *s)
         write_output(e, final_color(e), ir_const_float(e->graph, 1.0f));
         return;
     }
+    comment(e, STR_opacity);
     alpha_test(e, alpha);
     ir_ref color = final_color(e);
     write_output(e, s->premultiplied ? color : ir_op2(e->graph, IR_MUL, color, alpha), alpha);
@@ -382,16 +421,9 @@ static bool light_surface(struct emitter *e, const struct surface *s)
 
 static void emit_surface(struct emitter *e, ir_ref root)
 {
-    struct shader *shader = e->shader;
     struct surface s = root ? surface_of(e, root) : (struct surface){0};
-    uint32_t first_closure = shader->closures.len;
-    bool is_usual = closure_is_usual(shader, e->host, e->lighting, root);
-    if (!is_usual || !closure_restore_lit(shader, e->host, &e->lit)) {
-        if (!light_surface(e, &s))
-            return;
-        if (is_usual && shader->unit->recorder)
-            closure_record_lit(shader, e->host, first_closure, &e->lit);
-    }
+    if (!light_surface(e, &s))
+        return;
     emit_lit(e);
     finish_surface(e, &s);
 }

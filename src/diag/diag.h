@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Diagnostics: what mxgen says to the author of a document. A catalogue of messages with stable ids
- * (catalogue.def), a list that collects them, and renderers. Nothing here prints: a list is data
- * until somebody renders it.
+ * Diagnostics: the catalogue of messages with stable ids (catalogue.def), a list that collects
+ * them, and renderers. Nothing in this room prints.
  */
 #ifndef MXG_DIAG_DIAG_H
 #define MXG_DIAG_DIAG_H
@@ -13,9 +12,9 @@
 enum diag_severity {
     DIAG_ERROR,
     DIAG_WARNING,
-    DIAG_NOTE,    /* belongs to the message before it */
-    DIAG_REMARK,  /* stands alone; of interest to who asks for it */
-    DIAG_IGNORED, /* not added at all: what a policy makes of others */
+    DIAG_NOTE,    /* explains the diagnostic before it */
+    DIAG_REMARK,  /* hidden by default */
+    DIAG_IGNORED, /* suppressed by a policy */
 };
 
 enum diag_id {
@@ -26,74 +25,73 @@ enum diag_id {
 };
 
 /*
- * A place in a source file. Lines and columns count from 1, columns in code points; line 0: the
- * file as a whole.
+ * A place in a source file. Lines and columns count from 1, columns in code points. Line 0 is the
+ * whole file.
  */
 struct diag_place {
-    const char *file; /* as the user named it; NULL: no file */
+    const char *file; /* as the user wrote it; NULL: no file */
     uint32_t line, column;
-    uint32_t length; /* code points to underline; 0 = 1 */
+    uint32_t length; /* code points to underline; 0 means 1 */
 };
 
 struct diag {
     enum diag_id id;
     enum diag_severity severity;
-    const char *message; /* one line, no location inside */
+    const char *message; /* one line, without the location */
     struct diag_place place;
-    uint32_t parent; /* for notes: index of the message they belong to; else its own index */
+    /* for a note: index of the diagnostic that it explains; otherwise its own index */
+    uint32_t parent;
 };
 
-/*
- * What the author wants to hear of warnings and remarks: by -W. Errors and notes are what they are.
- */
+/* The severities that -W selects for warnings and remarks. Errors and notes keep their severity. */
 struct diag_policy {
     uint8_t severities[DIAG_NUM_IDS]; /* enum diag_severity */
 };
 
 struct diag_list {
     struct arena *arena;              /* owns messages and file names */
-    const struct diag_policy *policy; /* NULL: the catalogue's severities */
+    const struct diag_policy *policy; /* NULL: the severities of the catalogue */
     /*
-     * Called behind each message, not notes: adds notes that tell how the work came there. May be
+     * Called after each diagnostic except notes, to add notes with the path of expansion. May be
      * NULL.
      */
     void (*trace)(void *user_data, struct diag_list *list);
     void *trace_data;
     VEC(struct diag) items;
     uint32_t num_errors, num_warnings;
-    uint32_t num_guesses; /* that were made: diag_guess_begin */
-    uint32_t max_errors;  /* further errors are counted but not kept; 0 = unlimited */
-    uint32_t last;        /* index of the last message that is not a note */
-    bool muted_notes;     /* the last message was dropped: so are its notes */
+    uint32_t num_guesses; /* number of suggestions so far: diag_guess_begin */
+    uint32_t max_errors;  /* the list counts further errors but does not keep them; 0 = unlimited */
+    uint32_t last;        /* index of the last diagnostic that is not a note */
+    bool muted_notes;     /* the last diagnostic was dropped, so its notes are dropped, too */
 };
 
 void diag_list_init(struct diag_list *list, struct arena *arena);
 
 /*
- * Adds a message; the arguments are those of the id's format. Notes attach to the message before
- * them, and are dropped with it. The place's file name is copied.
+ * Adds a diagnostic; the arguments match the format of the id. A note belongs to the diagnostic
+ * before it and is dropped with it. Copies the name of the file.
  */
 void diag_add(struct diag_list *list, enum diag_id id, struct diag_place place, ...);
 
-/* Adds a copy of a message of another list; notes attach to the message before them. */
+/* Adds a copy of a diagnostic of another list. A note belongs to the diagnostic before it. */
 void diag_repeat(struct diag_list *list, const struct diag *diag);
 
 /*
- * A policy from words as -W has them, separated by commas: "error" makes errors of all warnings,
- * "error=ID" of one, "no-error=ID" none of that one; "no-ID" switches one off, "ID" on (a remark
- * becomes a warning). Their order does not count. Returns NULL, or the first word that is none of
- * these or names what is not a warning.
+ * Makes a policy from the words of -W, separated by commas: "error" makes all warnings errors,
+ * "error=ID" one of them, "no-error=ID" none of that id; "no-ID" disables a warning, "ID" enables
+ * it (a remark becomes a warning). The order does not matter. Returns NULL, or the first word that
+ * is invalid or names no warning.
  */
 const char *diag_policy_parse(struct diag_policy *policy, const char *words);
 
-/* The stable id: "type-mismatch". */
+/* The stable id, for example "type-mismatch". */
 const char *diag_id_text(enum diag_id id);
 bool diag_id_find(const char *stable, size_t len, enum diag_id *out_id);
-enum diag_severity diag_id_severity(enum diag_id id); /* the catalogue's */
+enum diag_severity diag_id_severity(enum diag_id id); /* in the catalogue */
 const char *diag_id_format(enum diag_id id);
 const char *diag_severity_text(enum diag_severity severity); /* "error" … */
 
-/* explain.def: what is behind an id. All are "" rather than NULL. */
+/* An entry of explain.def. Missing texts are "", not NULL. */
 struct diag_explanation {
     const char *cause, *cure;
     const char *example; /* see mxg_diagnostic_kind in mxgen.h */
@@ -101,30 +99,28 @@ struct diag_explanation {
 const struct diag_explanation *diag_explain(enum diag_id id);
 
 /*
- * Renders one message as compilers do:
+ * Renders one diagnostic as compilers do:
  *     file:line:col: error: message [id]
  *         <source line>
  *         ^~~~
- * `source` (the file's text, may be NULL) gives the line, of which a long one is cut around the
- * column. Control characters are replaced, tabs kept. Notes are printed without their id; `colour`
- * adds terminal escapes.
+ * `source`, the text of the file, may be NULL; long lines are cut around the column. Replaces
+ * control characters except tabs. Notes have no id. `colour` adds terminal escapes.
  */
 void diag_render_text(const struct diag *diag, const char *source, size_t source_len, bool colour,
                       struct text *out);
 
-/* The same with the source line at hand, without its end; NULL: unknown. */
+/* The same, if the caller has only the source line (without its line end; NULL: unknown). */
 void diag_render_line(const struct diag *diag, const char *line, size_t line_len, bool colour,
                       struct text *out);
 
-/* One JSON object per message, notes nested in their message: an array. */
+/* Renders the list as a JSON array with one object per diagnostic; notes are nested in it. */
 void diag_render_json(const struct diag_list *list, struct text *out);
 
 /*
- * What was probably meant by a word that means nothing: " (did you mean 'x'?)" for the candidate
- * that is closest by edit distance, "" where none is near; the first of equally close ones. It
- * lives in the list's arena. A list gets some suggestions only, so that a document which is wrong
- * throughout is reported in linear time: where diag_guess_begin returns false, candidates need not
- * be looked for.
+ * A suggestion " (did you mean 'x'?)" for an unknown word: the candidate with the smallest edit
+ * distance, the first of several, or "" if none is close. It lives in the arena of the list. Each
+ * list has a limited number of suggestions, so that the report of a document with many errors takes
+ * linear time: if diag_guess_begin returns false, the caller skips the candidates.
  *
  *     struct diag_guess guess;
  *     if (diag_guess_begin(&guess, diags, word))
@@ -136,14 +132,14 @@ struct diag_guess {
     struct diag_list *list;
     const char *word, *best;
     size_t len, best_distance;
-    uint64_t places[256]; /* where each byte stands in it */
+    uint64_t places[256]; /* bit set of positions for each byte of the word */
 };
 bool diag_may_guess(const struct diag_list *list);
 bool diag_guess_begin(struct diag_guess *guess, struct diag_list *list, const char *word);
 void diag_guess_add(struct diag_guess *guess, const char *candidate);
 const char *diag_guess_text(struct diag_guess *guess);
 
-/* The same where the candidates are at hand. */
+/* The same for an array of candidates. */
 const char *diag_suggest(struct diag_list *list, const char *word, const char *const *candidates,
                          size_t num_candidates);
 

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * The element tree of a MaterialX document: flat arrays addressed by 32-bit index, strings
- * interned, no pointers inside.
+ * The element tree of a MaterialX document: flat arrays, 32-bit indices, interned strings, no
+ * pointers.
  *
- * Documents form layers like string pools: a document stands on its library, whose elements it sees
- * and never changes. Element and attribute indices count through the layers. The tree is what the
- * file says after XInclude, templates and upgrade; looking things up by meaning is the library
- * room's work.
+ * A document stacks on the documents of its library: it reads their elements and never changes
+ * them. Element and attribute indices count through these layers. The tree is the file after
+ * XInclude, templates and upgrade. The library room resolves references.
  */
 #ifndef MXG_DOCUMENT_DOCUMENT_H
 #define MXG_DOCUMENT_DOCUMENT_H
@@ -17,7 +16,7 @@
 
 /* types.c, value.c */
 
-/* 0 = none; standard types; types of typedef elements from DOC_TYPE_FIRST_USER */
+/* 0 = none; standard types; from DOC_TYPE_FIRST_USER the types of <typedef> elements */
 typedef uint16_t doc_type;
 enum {
     DOC_TYPE_NONE,
@@ -30,27 +29,28 @@ enum {
     DOC_TYPE_FIRST_USER = 64
 };
 
-/* The standard type of a type name, 0 for others (user types are the library's business). */
+/* The standard type of a type name; 0 for other names. The library room handles user types. */
 doc_type doc_type_of(str_id name);
-str_id doc_type_name(doc_type type); /* of a standard type */
-/* of a standard type; IR_TYPE_VOID for arrays and multioutput */
+str_id doc_type_name(doc_type type); /* for standard types */
+/* For standard types. IR_TYPE_VOID for arrays and multioutput. */
 ir_type_id doc_type_ir(doc_type type);
-unsigned doc_type_components(doc_type type); /* numbers in a value: 3 for color3; 0: not a number */
+/* number of numeric components: 3 for color3; 0 if the type is not numeric */
+unsigned doc_type_components(doc_type type);
 
 /*
- * Parses a value as MaterialX writes it ("0.5", "1, 0, 0", "true") of a type with an ir type that
- * holds components. Strings give their str_id, interned in `strings` when that is not NULL.
- * Surrounding spaces are allowed, trailing text is not. false: not a value of the type.
+ * Parses a value in MaterialX syntax ("0.5", "1, 0, 0", "true"). The type must have an IR type with
+ * components. A string returns its str_id, interned in `strings` unless that is NULL. Accepts
+ * surrounding blanks but no trailing text. false: the text is not a value of the type.
  */
 bool doc_parse_value(doc_type type, const char *text, size_t len, struct strpool *strings,
                      struct ir_value *out);
 
 /*
- * Whether a text is a value of the type; arrays too. Types without a form of their own (strings,
- * file names, shaders): always.
+ * True if the text is a value of the type; also for arrays. Always true for types without a syntax
+ * (strings, filenames, shaders).
  */
 bool doc_value_is_valid(doc_type type, const char *text, size_t len);
-/* What is wrong with a value that is not valid, to be said behind it. */
+/* The reason why a value is invalid, as a suffix for a message. */
 const char *doc_value_fault(doc_type type, const char *text, size_t len, struct arena *arena);
 
 /* document.c */
@@ -69,9 +69,9 @@ struct element {
     str_id category, name;             /* name 0: none */
     elem_id parent, first_child, next; /* 0 = none */
     uint32_t first_attr;
-    uint32_t line;   /* of the start tag, from 1 */
+    uint32_t line;   /* line of the start tag, from 1 */
     uint16_t column; /* in code points, from 1; saturates */
-    uint16_t file;   /* number of its file (through the layers); 0 = none */
+    uint16_t file;   /* number of the file, through the layers; 0 = none */
     uint16_t num_attrs;
     uint16_t kind; /* enum element_kind */
 };
@@ -82,71 +82,74 @@ struct attribute {
     uint16_t column;     /* of the value's first character */
 };
 
-/* What building needs beside the tree: appending and removing in constant time. */
+/* Links for constant-time insertion and removal while the tree grows. */
 struct doc_link {
     elem_id last_child, previous;
 };
 
 struct document {
-    const struct document *base;                    /* the layer below or NULL */
-    struct strpool *strings;                        /* this layer's pool */
+    const struct document *base;                    /* the layer below, or NULL */
+    struct strpool *strings;                        /* the pool of this layer */
     struct arena *arena;                            /* NULL in an image layer */
-    uint32_t first_element, first_attr, first_file; /* first own index of each */
+    uint32_t first_element, first_attr, first_file; /* first index of this layer */
     elem_id root;
-    uint32_t max_elements;  /* own ones, for what multiplies input (doc_is_full); 0 = no limit */
-    bool has_templates;     /* a <template> was added since the last expansion */
-    bool has_attributedefs; /* an <attributedef> was added, wherever it is now */
-    bool is_global;         /* no namespace is in it, as doc_qualify_names found */
-    VEC(struct element) elements; /* own ones */
+    /* limit of this layer for steps that multiply elements (doc_is_full); 0 = unlimited */
+    uint32_t max_elements;
+    bool has_templates;           /* a <template> was added after the last expansion */
+    bool has_attributedefs;       /* an <attributedef> was added somewhere */
+    bool is_global;               /* no element has a namespace (set by doc_qualify_names) */
+    VEC(struct element) elements; /* elements of this layer */
     VEC(struct attribute) attrs;
-    VEC(str_id) files;            /* names as the user gave them or as included */
-    VEC(struct doc_link) links;   /* beside `elements`; empty in an image layer */
-    uint32_t *name_table;         /* (parent, name) → element: open addressing; doc_index_names */
-    const uint16_t *narrow_names; /* in place of that, of an image whose elements' ids fit */
+    VEC(str_id) files;          /* names from the user or from includes */
+    VEC(struct doc_link) links; /* parallel to `elements`; empty in an image layer */
+    uint32_t *name_table;       /* hash table (parent, name) → element; doc_index_names */
+    /* replaces name_table in an image whose element ids fit in 16 bits */
+    const uint16_t *narrow_names;
     uint32_t name_mask;
-    uint32_t num_names; /* slots taken */
+    uint32_t num_names; /* used slots */
 };
 
-/* An empty document with its root element <materialx>. */
+/* Makes an empty document with a root element <materialx>. */
 void doc_init(struct document *doc, struct arena *arena, struct strpool *strings,
               const struct document *base);
 
 /*
- * Building: children are appended in order; parent 0 gives an element outside of the tree. `name`
- * is kept apart from the attributes. Every function takes elements of this layer only and costs
- * constant time, beside the element's own attributes.
+ * Appends a child. parent 0 makes an element outside the tree. The name is not an attribute. All
+ * functions that change the tree take elements of this layer, and need constant time plus the time
+ * for the element's attributes.
  */
 elem_id doc_add_element(struct document *doc, elem_id parent, str_id category, str_id name,
                         uint16_t file, uint32_t line, uint16_t column);
 void doc_add_attr(struct document *doc, elem_id element, struct attribute attr);
-/* A new element at the place (file, line, column) of another: what upgrade and templates make. */
+/*
+ * Adds an element with the place (file, line, column) of another element. Upgrade and templates use
+ * it.
+ */
 elem_id doc_add_like(struct document *doc, elem_id parent, str_id category, str_id name,
                      elem_id origin);
 /* Replaces or adds an attribute. */
 void doc_set_attr(struct document *doc, elem_id element, str_id name, str_id value);
 void doc_remove_attr(struct document *doc, elem_id element, str_id name);
-void doc_set_category(struct document *doc, elem_id element, str_id category); /* kind follows */
+/* also updates the kind */
+void doc_set_category(struct document *doc, elem_id element, str_id category);
 void doc_set_name(struct document *doc, elem_id element, str_id name);
 void doc_set_place(struct document *doc, elem_id element, uint16_t file, uint32_t line,
                    uint16_t column);
-/* unlinks it from its parent, which becomes 0 */
+/* Unlinks the element from its parent. Its parent becomes 0. */
 void doc_remove_element(struct document *doc, elem_id element);
-/* to the end of its children */
+/* Appends the element to the children of another parent. */
 void doc_move_element(struct document *doc, elem_id element, elem_id new_parent);
 void doc_move_before(struct document *doc, elem_id element, elem_id sibling);
 static inline bool doc_is_full(const struct document *doc)
 {
     return doc->max_elements && doc->elements.len >= doc->max_elements;
 }
-/*
- * The number of a file name, which is added where this layer does not have it. 0: more than 65,535
- * files.
- */
+/* The number of a file name; adds the name if this layer lacks it. 0: more than 65,535 files. */
 uint16_t doc_add_file(struct document *doc, str_id name);
 
 /*
- * A point to go back to: what was added after the mark goes, and `root`, which must be childless
- * then, is as it was.
+ * A restore point. Restoring removes everything added after the mark, and restores `root`, which
+ * must have no children at the mark.
  */
 struct doc_mark {
     uint32_t num_elements, num_attrs;
@@ -157,20 +160,20 @@ struct doc_mark doc_mark(const struct document *doc, elem_id root);
 void doc_rollback(struct document *doc, elem_id root, const struct doc_mark *mark);
 
 /*
- * The element behind `element` in document order inside the subtree of `root`; 0: that was the
- * last. Starts with root itself.
+ * The next element in document order in the subtree of `root`; 0 after the last. Starts with `root`
+ * itself.
  */
 elem_id doc_next_in_tree(const struct document *doc, elem_id root, elem_id element);
 
 /*
- * Called once the tree stands, and again after additions: what doc_child and doc_find look into.
- * Reports duplicate names, and removes elements that repeat an equal one, where `diags` is given.
+ * Builds the index for doc_child and doc_find. Call it after the tree is complete, and again after
+ * additions. With `diags` it reports duplicate names and removes elements that repeat an equal one.
  */
 void doc_index_names(struct document *doc, struct diag_list *diags);
 /* The same for one element that was added, renamed or moved since. */
 void doc_index_element(struct document *doc, elem_id element);
 
-/* The layer that an element is of. */
+/* The layer of an element. */
 static inline const struct document *doc_layer(const struct document *doc, elem_id element)
 {
     while (element < doc->first_element)
@@ -183,16 +186,16 @@ static inline const struct element *doc_element(const struct document *doc, elem
     doc = doc_layer(doc, element);
     return &doc->elements.items[element - doc->first_element];
 }
-/* Pointer to the element's num_attrs attributes. */
+/* The num_attrs attributes of the element. */
 const struct attribute *doc_attrs(const struct document *doc, elem_id element);
-/* NULL: absent */
+/* NULL if absent. */
 const struct attribute *doc_attr(const struct document *doc, elem_id element, str_id name);
-/* 0: absent or empty */
+/* 0 if absent or empty. */
 str_id doc_attr_value(const struct document *doc, elem_id element, str_id name);
 bool doc_attr_is_true(const struct document *doc, elem_id element, str_id name);
 /*
- * The same, looked for in the element and then in its ancestors (colorspace, fileprefix,
- * geomprefix). The nearest one counts, an empty one too.
+ * The same for inherited attributes (colorspace, fileprefix, geomprefix): the value on the closest
+ * element, from the element upwards. An empty value counts.
  */
 str_id doc_inherited_attr(const struct document *doc, elem_id element, str_id name);
 
@@ -201,8 +204,8 @@ elem_id doc_child_of_kind(const struct document *doc, elem_id parent, enum eleme
                           str_id name);
 
 /*
- * An element by path: "NG_marble1/out", "/NG_marble1/out"; 0: none. Looked for in this layer, then
- * in those below. Where the root has a namespace, the first name may leave it out.
+ * Finds an element by path: "NG_marble1/out", "/NG_marble1/out"; 0: none. Searches this layer
+ * first, then the layers below. The first name may omit the namespace of the root.
  */
 elem_id doc_find(const struct document *doc, const char *path, size_t len);
 void doc_path(const struct document *doc, elem_id element, char separator, struct text *out);
@@ -211,40 +214,40 @@ enum element_kind doc_kind_of(str_id category);
 
 const char *doc_file_name(const struct document *doc, uint16_t file); /* NULL for 0 */
 struct diag_place doc_place(const struct document *doc, elem_id element);
-/* The place of an attribute's value; of the element where it is absent. */
+/* The place of an attribute's value, or of the element if the attribute is absent. */
 struct diag_place doc_attr_place(const struct document *doc, elem_id element, str_id attr);
 
-/* template.c: expands the <template> elements of this layer's tree in place (docs/library.md). */
+/* template.c: expands the <template> elements of this layer in place (docs/library.md). */
 void doc_expand_templates(struct document *doc, struct diag_list *diags);
 
 /*
- * upgrade.c: from the version that `root`, a file's <materialx>, says (1.22 to 1.38) to 1.39, with
- * an `upgraded` note for each change. Elements from `root` to before `end` are the file's own and
- * are upgraded; all others may be referred to.
+ * upgrade.c: upgrades a file from the version of `root`, its <materialx> (1.22 to 1.38), to 1.39,
+ * with an `upgraded` note per change. The elements from `root` to before `end` are those of the
+ * file; only they change.
  */
 void doc_upgrade(struct document *doc, elem_id root, elem_id end, struct diag_list *diags);
 
 /*
- * namespace.c: qualifies the names of top-level elements that have a `namespace` as "ns:name" and
- * the references to them from inside the namespace ("MaterialX Namespaces"): afterwards every
- * reference is the name of what it refers to.
+ * namespace.c: renames top-level elements with a `namespace` to "ns:name", and the references to
+ * them from inside the namespace ("MaterialX Namespaces"). Afterwards every reference equals the
+ * name of its target.
  */
 void doc_qualify_names(struct document *doc);
 
 /*
- * write.c: the tree as MaterialX XML, two spaces per level: `mxgen library expand`, later `format`.
+ * write.c: writes the tree as MaterialX XML with two spaces per level, for `mxgen library expand`.
  */
 void doc_write(const struct document *doc, elem_id root, struct text *out);
 
-/* validate.c: checks that need no library: names, attributes, values that parse, structure. */
+/* validate.c: checks that need no library: names, attributes, value syntax, structure. */
 void doc_validate(const struct document *doc, struct diag_list *diags);
 /*
- * What of it concerns how the children of an element stand: their place, their required attributes,
- * and that none is connected twice.
+ * The part of doc_validate for the children of one element: their places, their required
+ * attributes, and repeated connections.
  */
 void doc_check_children(const struct document *doc, elem_id parent, struct diag_list *diags);
 
-/* Tells that the type which an element says is none, or that it says none. */
+/* Reports the type of an element if it is unknown or missing. */
 void doc_report_type(const struct document *doc, elem_id element, struct diag_list *diags);
 
 #endif

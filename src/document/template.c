@@ -173,7 +173,7 @@ static void check_hiding(struct expansion *x, elem_id inner)
     for (struct slice word = next_word(&rest); word.len; word = next_word(&rest))
         for (size_t i = 0; i < x->num_vars; i++)
             if (slice_is(x->vars[i], word.text, word.len))
-                fail(x, STR_vars, "an inner template has a variable '%.*s' too", word);
+                fail(x, STR_vars, "an inner template also has a variable '%.*s'", word);
 }
 
 /* One element without its children. */
@@ -251,7 +251,7 @@ static bool read_row(struct expansion *x, struct slice *rest)
         if (count == x->num_vars)
             return true;
         if (count)
-            fail(x, STR_rows, "the row '%.*s' does not have one word for each variable", line);
+            fail(x, STR_rows, "the row '%.*s' needs one word for each variable", line);
     }
     return false;
 }

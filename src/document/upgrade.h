@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * What the files of the version upgrade share. One step per version, each from tables and a few
- * functions.
+ * Declarations that the files of the version upgrade share. Each version has one step, which
+ * consists of tables and a few functions.
  */
 #ifndef MXG_DOCUMENT_UPGRADE_H
 #define MXG_DOCUMENT_UPGRADE_H
@@ -11,16 +11,16 @@
 struct upgrade {
     struct document *doc;
     struct diag_list *diags;
-    elem_id root, end;   /* the file's own elements … */
-    elem_id first_added; /* … and those that the upgrade added */
+    elem_id root, end;   /* the elements of the file … */
+    elem_id first_added; /* … and the elements that the upgrade added */
     elem_id pass_end;
-    int minor;     /* of the step that runs: 38 brings 1.37 to 1.38 */
-    bool outdated; /* the document says that it is of this version: changes are warnings */
+    int minor;     /* of the current step: 38 upgrades 1.37 to 1.38 */
+    bool outdated; /* the document declares this version or a later one, so changes are warnings */
 };
 
 /*
- * The elements that the upgrade changes, in the tree; those added on the way are not visited. 0: no
- * more.
+ * Iterates over the elements that the upgrade changes, without elements that it adds meanwhile. 0
+ * after the last.
  */
 elem_id upgrade_first(struct upgrade *u);
 elem_id upgrade_next(const struct upgrade *u, elem_id element);
@@ -32,38 +32,38 @@ bool upgrade_is_node(const struct upgrade *u, elem_id element);
 str_id upgrade_attr(const struct upgrade *u, elem_id element, const char *name);
 elem_id upgrade_child(const struct upgrade *u, elem_id parent, const char *name);
 
-/* Says what was changed at an element. */
+/* Reports a change of an element. */
 #if defined(__GNUC__)
 __attribute__((format(printf, 3, 4)))
 #endif
 void upgrade_note(struct upgrade *u, elem_id element, const char *format, ...);
 
-/* Changes that keep names findable. */
+/* Changes that keep the name index valid. */
 void upgrade_set_name(struct upgrade *u, elem_id element, str_id name);
 void upgrade_move(struct upgrade *u, elem_id element, elem_id new_parent);
-/* `name`, or where that is taken in the scope, `name` with a number behind it. */
+/* `name`, or `name` with a number if the scope already has the name. */
 str_id upgrade_free_name(struct upgrade *u, elem_id scope, const char *name);
-/* A node with a free name before `before`, in its scope. */
+/* Adds a node with a free name before `before`, in the same scope. */
 elem_id upgrade_add_node(struct upgrade *u, elem_id before, const char *name, const char *category,
                          str_id type);
 elem_id upgrade_add_input(struct upgrade *u, elem_id node, const char *name, str_id type,
                           str_id value);
-/* Another meaning: the explicit definition goes with the old category. */
+/* Changes the category and removes the nodedef of the old one. */
 void upgrade_set_category(struct upgrade *u, elem_id node, const char *category);
 void upgrade_remove_input(struct upgrade *u, elem_id node, const char *name);
 
 /* Ports: inputs and outputs. */
-/* the graph whose nodes its nodename means */
+/* the nodegraph or document that contains the target of a nodename */
 elem_id upgrade_scope(const struct upgrade *u, elem_id port);
-/* the node of its nodename; 0: none */
+/* the node of the nodename; 0: none */
 elem_id upgrade_upstream(const struct upgrade *u, elem_id port);
-/* of whatever it is connected to; 0: unknown */
+/* the type of the connection's source; 0: unknown */
 str_id upgrade_upstream_type(const struct upgrade *u, elem_id port);
 bool upgrade_is_connected(const struct upgrade *u, elem_id port);
 void upgrade_connect(struct upgrade *u, elem_id port, elem_id node, const char *output);
 /*
- * An input `name` of `node` with all that `source` says; NULL type: the source's. Nothing where
- * source is 0.
+ * Copies `source` to an input `name` of `node`. A NULL type keeps the type of the source. Does
+ * nothing if `source` is 0.
  */
 void upgrade_copy_input(struct upgrade *u, elem_id source, elem_id node, const char *name,
                         const char *type);

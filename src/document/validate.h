@@ -10,10 +10,11 @@ struct validation {
     const struct document *doc;
     struct diag_list *diags;
     struct arena *arena;
-    bool is_age_told; /* that there are elements older than the version that the document says */
-    /* per text: an <attributedef> says that it is an attribute; made when the first is asked for */
+    /* already reported that some elements are older than the document's version */
+    bool is_age_told;
+    /* per text: an <attributedef> declares it as an attribute; NULL until the first lookup */
     uint8_t *declared;
-    /* kinds of elements on which an attribute was found to mean something */
+    /* kinds of elements that were found to allow an attribute */
     struct good_attribute {
         str_id name;
         uint64_t kinds;
@@ -23,12 +24,12 @@ struct validation {
 /* validate_attributes.c */
 void validate_attributes(struct validation *v, elem_id element);
 
-/* validate_geometry.c: lists of names and patterns of geometry. */
+/* validate_geometry.c: checks lists of geometry names and patterns. */
 void validate_geometry(struct validation *v, elem_id element);
 
 /*
- * validate_links.c: top-level elements that others refer to are there; graphs have no cycles.
- * Connections are library/validate.c's.
+ * validate_links.c: checks that the targets of top-level references exist and that nodegraphs have
+ * no cycles. library/validate.c checks connections.
  */
 void validate_links(struct validation *v);
 

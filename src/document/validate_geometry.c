@@ -72,14 +72,14 @@ static const char *slash_fault(struct geometry_name name)
 static const char *fault_of(struct geometry_name name)
 {
     if (name.text == name.end)
-        return "has nothing between two commas, or at an end";
+        return "has an empty name in the list";
     const char *fault = bracket_fault(name, '[', ']', "has a '[' without ']'",
                                       "has a ']' without '['", "has nothing between '[' and ']'");
     if (!fault)
         fault = bracket_fault(name, '{', '}', "has a '{' without '}'", "has a '}' without '{'",
                               "has nothing between '{' and '}'");
     if (!fault && has_blank(name))
-        fault = "has a blank inside of a name: commas separate names";
+        fault = "has a blank inside a name; commas separate names";
     return fault ? fault : slash_fault(name);
 }
 

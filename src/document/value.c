@@ -135,8 +135,8 @@ const char *doc_value_fault(doc_type type, const char *text, size_t len, struct 
     for (end = fault; end < len && text[end] != ',' && !is_space(text[end]);)
         end++;
     if (end == fault)
-        return ": a number is missing behind a comma";
-    text_fmt(&said, ": '%.*s' is no %s", (int)(end - fault), text + fault,
+        return ": a number is missing after a comma";
+    text_fmt(&said, ": '%.*s' is not a valid %s", (int)(end - fault), text + fault,
              integer ? "integer" : "number");
     return text_cstr(&said);
 }

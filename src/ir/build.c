@@ -128,31 +128,6 @@ ir_ref ir_build(struct ir_graph *graph, enum ir_op op, ir_type_id type, uint32_t
     return result ? result : ir_intern(graph, op, type, attr, own, num_args);
 }
 
-ir_ref ir_restore(struct ir_graph *graph, enum ir_op op, ir_type_id type, uint32_t attr,
-                  ir_ref *args, unsigned num_args)
-{
-    if (op == IR_MUL || ir_op_info(op)->flags & OP_COMMUTES)
-        sort_operands(graph, op, args);
-    return ir_intern(graph, op, type, attr, args, num_args);
-}
-
-/*
- * Rules have these within their patterns (a test compares); the others are what simplify.c asks
- * for.
- */
-bool ir_is_looked_through(enum ir_op op)
-{
-    static const bool looked_through[IR_NUM_OPS] = {
-        [IR_NEG] = true,       [IR_NOT] = true,       [IR_SUB] = true,       [IR_MUL] = true,
-        [IR_SELECT] = true,    [IR_ABS] = true,       [IR_SIGN] = true,      [IR_FLOOR] = true,
-        [IR_TRUNC] = true,     [IR_ROUND] = true,     [IR_CEIL] = true,      [IR_CLAMP] = true,
-        [IR_NORMALIZE] = true, [IR_TRANSPOSE] = true, [IR_BITNOT] = true,    [IR_EQ] = true,
-        [IR_NE] = true,        [IR_LT] = true,        [IR_LE] = true,        [IR_GT] = true,
-        [IR_GE] = true,        [IR_POISON] = true,    [IR_CONSTRUCT] = true, [IR_SWIZZLE] = true,
-    };
-    return looked_through[op];
-}
-
 static ir_ref build_by_rule(struct ir_graph *graph, enum ir_op op, const ir_ref *args,
                             unsigned num_args)
 {

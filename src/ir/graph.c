@@ -210,8 +210,11 @@ ir_ref ir_intern(struct ir_graph *graph, enum ir_op op, ir_type_id type, uint32_
     assert(op != IR_CONST);
     struct content c = {op, type, attr, num_args, args};
     uint32_t *slot = find_slot(graph, c);
-    if (*slot)
+    if (*slot) {
+        struct ir_node *equal = &graph->nodes.items[*slot];
+        equal->is_shared |= graph->origin && equal->origin != graph->origin;
         return *slot;
+    }
     if (!has_room(graph, op))
         return ir_poison(graph, type);
     struct ir_node node = {.op = (uint8_t)op,

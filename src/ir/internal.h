@@ -20,8 +20,7 @@ ir_ref ir_find_equal(const struct ir_graph *graph, ir_ref ref);
 ir_ref ir_simplify(struct ir_graph *graph, enum ir_op op, ir_type_id type, uint32_t attr,
                    const ir_ref *args, unsigned num_args);
 /*
- * What is clamped to 0 and more is its own absolute value; else 0. (Of what else is looked through:
- * ir_is_looked_through.)
+ * A value that is clamped to 0 and more is its own absolute value; 0 for any other value.
  */
 ir_ref ir_simplify_abs(const struct ir_graph *graph, ir_ref a);
 /*

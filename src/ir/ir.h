@@ -72,7 +72,6 @@ struct ir_user_type {
     ir_type_id element; /* of an array */
     uint16_t num_members;
     uint32_t first_member; /* in the table's members */
-    uint32_t known_as;     /* of a graph's: the type of the language that it was made of; 0: none */
 };
 
 /*
@@ -167,7 +166,10 @@ struct ir_node {
     uint32_t num_args;
     uint32_t first_arg; /* in graph->args */
     uint32_t attr;
-    uint32_t origin; /* what the node was built for: index in graph->origins; 0 = nothing */
+    uint32_t origin;   /* what the node was built for: index in graph->origins; 0 = nothing */
+    str_id name;       /* what a reader calls it (names.c); 0 = nothing, or several things */
+    uint8_t name_rank; /* enum ir_name_rank; of two names the one of the higher rank wins */
+    bool is_shared;    /* it was asked for by more than one origin */
 };
 
 enum ir_node_flags {
@@ -271,15 +273,6 @@ static inline ir_type_id ir_type_of(const struct ir_graph *graph, ir_ref ref)
 ir_ref ir_build(struct ir_graph *graph, enum ir_op op, ir_type_id type, uint32_t attr,
                 const ir_ref *args, unsigned num_args);
 
-/*
- * The same for a node that ir_build has made before over other nodes of which it saw the same: it
- * puts operands that commute in order and adds the node. What it sees of an operand is its op, and
- * the operands behind it of these: constants, and what is looked through.
- */
-ir_ref ir_restore(struct ir_graph *graph, enum ir_op op, ir_type_id type, uint32_t attr,
-                  ir_ref *args, unsigned num_args);
-bool ir_is_looked_through(enum ir_op op);
-
 /* An op whose rule gives the type; 0 where the operands do not fit. */
 ir_ref ir_op1(struct ir_graph *graph, enum ir_op op, ir_ref a);
 ir_ref ir_op2(struct ir_graph *graph, enum ir_op op, ir_ref a, ir_ref b);
@@ -319,6 +312,24 @@ static inline const union ir_word *ir_constant_words(const struct ir_graph *grap
 /* The value of such a constant; false for anything else. */
 bool ir_get_const(const struct ir_graph *graph, ir_ref ref, struct ir_value *out);
 bool ir_const_is(const struct ir_graph *graph, ir_ref ref, float f); /* all components equal f */
+
+/*
+ * names.c: names for the locals of a shader. A library function that is lowered inside of another
+ * one ranks lower by its depth. Of two document nodes with one result the first names it; a node
+ * that functions of one rank call by several names has none.
+ */
+enum ir_name_rank {
+    IR_NAME_NONE = 0,
+    IR_NAME_PARAMETER = 50, /* of a library function that takes the value */
+    IR_NAME_FUNCTION = 100, /* of a library function that returns the value */
+    IR_NAME_LOCAL = 150,    /* of a local variable of a library function */
+    IR_NAME_ROLE = 200,     /* what the compiler knows of it: a weight, a throughput */
+    IR_NAME_RESULT = 250,   /* of a document's node */
+    IR_NAME_MAX_DEPTH = 49, /* deeper functions rank as this */
+};
+void ir_suggest_name(struct ir_graph *graph, ir_ref ref, str_id name, unsigned rank);
+/* The name of a node that `copy` replaces. */
+void ir_inherit_name(struct ir_graph *graph, ir_ref copy, const struct ir_node *original);
 
 uint32_t ir_add_origin(struct ir_graph *graph, str_id name, uint32_t element, uint32_t parent);
 /* the same index for the same id */

@@ -15,9 +15,7 @@ struct copier {
     struct lang_unit *to;
     const struct lang_unit *made; /* the layer of the versions */
     VEC(lang_ref) calls;          /* of the function, arguments before the call that they are for */
-    /* of versions in `to`; NULL: they are named by what they are versions of */
-    const uint32_t *ids;
-    uint8_t *is_used; /* by slot */
+    uint8_t *is_used;             /* by slot */
     /* open addressing: 1 + a function, of each distinct run of slots */
     uint32_t *runs;
     uint32_t runs_mask;
@@ -52,7 +50,7 @@ static uint32_t given_function(const struct copier *c, uint32_t id)
     if (id < c->made->base_functions)
         return id;
     id -= c->made->base_functions;
-    return c->ids ? c->ids[id] : c->made->versions.items[id].origin;
+    return c->made->versions.items[id].origin;
 }
 
 static void copy_call(struct copier *c, struct lang_node *node)
@@ -191,16 +189,6 @@ static struct lang_function copy_version(struct copier *c, uint32_t version)
     if (ast_is_plain(c->to, &fn))
         fn.flags |= LANG_FN_PLAIN;
     return fn;
-}
-
-uint32_t lang_copy_version(struct lang_unit *to, const struct lang_unit *made, uint32_t version,
-                           const uint32_t *ids)
-{
-    uint32_t none = 0;
-    struct copier c = {.to = to, .made = made, .ids = ids, .runs = &none};
-    struct lang_function fn = copy_version(&c, version);
-    vec_push(to->arena, &to->functions, fn);
-    return to->base_functions + to->functions.len - 1;
 }
 
 static struct lang_function copy_function(struct copier *c, uint32_t id, uint32_t version)

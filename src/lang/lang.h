@@ -99,6 +99,7 @@ enum lang_function_flags {
 
 struct lang_function {
     str_id name;
+    str_id doc; /* the first sentence of the comment above it; 0: none */
     uint16_t flags;
     ir_type_id return_type;
     uint16_t num_params, num_slots; /* parameters come first among the slots */
@@ -117,36 +118,6 @@ struct lang_function {
 struct lang_version {    /* what a function of a generation's layer is (plan.c) */
     uint32_t origin;     /* id of the function that it was made from */
     uint32_t dropped[2]; /* bit i is set where parameter i of that is gone */
-};
-
-/*
- * A version that was made when the library was packed: known.c. They are the last functions of a
- * unit.
- */
-struct lang_known {
-    uint32_t function; /* id of what it is a version of */
-    uint32_t choice;   /* of the host that it was made for */
-    /*
-     * in unit->known_facts: what was known of each parameter; then of each call the callee, its
-     * version and the same
-     */
-    uint32_t first_fact;
-    uint32_t num_calls;
-    uint32_t dropped[2]; /* as in struct lang_version */
-};
-
-/* What a call of a function became for arguments of one pattern: fragment.c. */
-struct lang_fragment {
-    uint32_t hash;       /* of the pattern */
-    uint32_t first_code; /* in unit->codes: the pattern, the nodes, the results */
-    uint16_t pattern_len, num_nodes;
-    uint16_t next; /* of the same function: its number + 1; 0: none */
-    /*
-     * what is made of these nodes afterwards, a fragment without pattern: its number + 1; 0: none
-     */
-    uint16_t follower;
-    uint32_t unused;
-    uint32_t choice; /* of the host that it was made for */
 };
 
 enum lang_global_kind {
@@ -199,8 +170,6 @@ struct lang_host { /* how globals become IR nodes */
     uint32_t max_outer_nodes;
     /* functions larger than this are called, not lowered, unless their result folds to constants */
     uint32_t max_inline_nodes;
-    /* the values of all options, as a number; LANG_NONE: one that no fragment was made for */
-    uint32_t choice;
 };
 
 /*
@@ -224,12 +193,6 @@ struct lang_unit {
     VEC(struct ir_user_type) user_types;
     VEC(struct ir_member) members;
     /* Of an image layer: */
-    VEC(struct lang_fragment) fragments;
-    VEC(uint16_t) codes;
-    VEC(uint16_t) fragment_of;       /* by function: number + 1 of its first fragment; 0: none */
-    VEC(uint16_t) graph_fragment_of; /* the same by a number that the owner of graphs gives */
-    VEC(struct lang_known) known;
-    VEC(uint32_t) known_facts;
     /* where the text of each function begins, and where the last one's ends (texts.c) */
     VEC(uint32_t) texts;
     VEC(char) text_bytes;
@@ -240,7 +203,6 @@ struct lang_unit {
     VEC(struct lang_version) versions; /* by function */
     /* plan.c: which constants functions take for granted; NULL until the shader stands */
     struct lang_plan *plan;
-    struct lang_recorder *recorder; /* fragment_record.c: takes down what calls become; NULL */
 };
 
 void lang_unit_init(struct lang_unit *unit, struct arena *arena, struct strpool *strings,
@@ -260,15 +222,6 @@ static inline const struct lang_function *lang_function(const struct lang_unit *
     return &unit->functions.items[id - unit->base_functions];
 }
 
-/* NULL where the function is no such version. */
-static inline const struct lang_known *lang_known(const struct lang_unit *unit, uint32_t id)
-{
-    while (id < unit->base_functions)
-        unit = unit->base;
-    uint32_t first = unit->base_functions + unit->functions.len - unit->known.len;
-    return id >= first ? &unit->known.items[id - first] : NULL;
-}
-
 static inline const struct lang_global *lang_global(const struct lang_unit *unit, uint32_t id,
                                                     const struct lang_unit **out_unit)
 {
@@ -277,14 +230,6 @@ static inline const struct lang_global *lang_global(const struct lang_unit *unit
     if (out_unit)
         *out_unit = unit;
     return &unit->globals.items[id - unit->base_globals];
-}
-
-/* The layer that all others stand on. */
-static inline const struct lang_unit *lang_lowest(const struct lang_unit *unit)
-{
-    while (unit->base)
-        unit = unit->base;
-    return unit;
 }
 
 static inline const struct lang_file *lang_file(const struct lang_unit *unit, uint32_t id,
@@ -372,45 +317,6 @@ void lang_lower_call(struct lang_unit *generated, struct ir_graph *graph,
 unsigned lang_num_results(const struct lang_unit *unit, uint32_t id);
 
 /*
- * fragment_record.c: while a generation's layer has a recorder, what lang_lower_call makes of
- * functions of the lowest layer is taken down as fragments, in vectors of `arena` that stand beside
- * those of the layer. For an image; other layers have none.
- */
-struct lang_recorder {
-    struct arena *arena;
-    VEC(struct lang_fragment) fragments;
-    VEC(uint16_t) codes;
-    VEC(uint16_t) fragment_of;
-    VEC(uint16_t) graph_fragment_of;
-    struct lang_global_use { /* of the generation at hand */
-        ir_ref node;
-        uint32_t global;
-    } globals[64];
-    unsigned num_globals;
-    bool of_graphs; /* these are taken down, otherwise calls of functions */
-    /*
-     * nodes of the use at hand: those that nobody needs are kept, too, since they may give later
-     * ones their names; 0: not
-     */
-    uint32_t first_new;
-    /* the lowest, to which versions are added; nothing else is there to be used */
-    struct lang_unit library;
-    /* by number in the generation's layer: what a version is called there; LANG_NONE: it is not */
-    VEC(uint32_t) version_ids;
-    uint32_t first_fact, first_word; /* of the version at hand */
-    bool is_known;                   /* it can be taken down */
-    /*
-     * of the fragment that was taken down last, as restoring it gives them: [0] is none, then
-     * inputs and nodes
-     */
-    VEC(ir_ref) nodes;
-};
-/* Everything that was taken down goes to the library, of which nobody has begun a layer yet. */
-void lang_recorder_give(const struct lang_recorder *recorder, struct lang_unit *unit);
-void lang_recorder_init(struct lang_recorder *recorder, struct arena *arena,
-                        const struct lang_unit *lowest, uint32_t num_graphs);
-
-/*
  * plan.c (specialise.c): one version per function for a whole shader. First lang_plan_call for
  * every call in the IR, then lang_plan_finish, then lang_plan_version of what each lang_plan_call
  * returned.
@@ -437,13 +343,6 @@ bool lang_param_dropped(const struct lang_unit *generated, uint32_t version, uin
  * been; no generation may use it yet.
  */
 void lang_make_canonical(struct lang_unit *unit);
-/*
- * Adds a version to another unit. `ids`: what versions that it calls are called there, by their
- * numbers in their own layer. Returns its id.
- */
-uint32_t lang_copy_version(struct lang_unit *to, const struct lang_unit *made, uint32_t version,
-                           const uint32_t *ids);
-
 /* eval.c */
 
 /*

@@ -141,8 +141,10 @@ struct token {
     const char *text; /* in the source */
     size_t len;
     uint32_t line, column, columns; /* columns: code points it covers */
-    union ir_word value;            /* of a number */
-    const char *reason;             /* of TOKEN_BAD */
+    const char *comment;            /* the line comments right above it; NULL: none */
+    size_t comment_len;
+    union ir_word value; /* of a number */
+    const char *reason;  /* of TOKEN_BAD */
 };
 
 struct lexer {

@@ -84,9 +84,13 @@ static void skip_line(struct lexer *lexer)
     }
 }
 
-/* false at a comment that does not end. */
-static bool skip_blanks(struct lexer *lexer)
+/*
+ * False at a comment that does not end. `token` gets the line comments that stand right above it:
+ * lines of their own without an empty line in between or behind.
+ */
+static bool skip_blanks(struct lexer *lexer, struct token *token)
 {
+    unsigned line_ends = 0; /* since the last line comment */
     while (lexer->at < lexer->end) {
         size_t joined = continuation(lexer);
         if (joined) {
@@ -94,9 +98,17 @@ static bool skip_blanks(struct lexer *lexer)
             step_to(lexer, lexer->at + joined);
             lexer->line_begins = begins_line;
         } else if (is_blank(*lexer->at)) {
+            line_ends += *lexer->at == '\n';
+            if (line_ends > 1)
+                token->comment = NULL;
             step(lexer);
         } else if (begins(lexer, "//", 2)) {
+            if (!token->comment && lexer->line_begins)
+                token->comment = lexer->at;
+            line_ends = 0;
             skip_line(lexer);
+            if (token->comment)
+                token->comment_len = (size_t)(lexer->at - token->comment);
         } else if (begins(lexer, "/*", 2)) {
             struct lexer start = *lexer;
             step_to(lexer, lexer->at + 2);
@@ -265,9 +277,11 @@ static void lex_token(struct lexer *lexer, struct token *token, bool line_begins
 
 void lex_next(struct lexer *lexer, struct token *out_token)
 {
-    bool closed = skip_blanks(lexer);
-    *out_token = (struct token){
-        .kind = TOKEN_END, .text = lexer->at, .line = lexer->line, .column = lexer->column};
+    *out_token = (struct token){.kind = TOKEN_END};
+    bool closed = skip_blanks(lexer, out_token);
+    out_token->text = lexer->at;
+    out_token->line = lexer->line;
+    out_token->column = lexer->column;
     if (!closed) {
         out_token->len = 2;
         out_token->columns = 2;

@@ -3,7 +3,6 @@
  * Calls into IR. A call is, in this order of preference: a constant, the nodes of the callee's
  * body, a CALL.
  */
-#include "lang/fragment.h"
 #include "lang/lower.h"
 
 enum { MAX_EVAL_STEPS = 20000, FEW_SLOTS = 32, FEW_LEAVES = 64 };
@@ -19,9 +18,10 @@ unsigned lang_num_results(const struct lang_unit *unit, uint32_t id)
 
 /* Structs and arrays between rows of leaves and single nodes */
 
-static ir_type_id make_graph_type(const struct lang_unit *unit, struct ir_graph *graph,
-                                  ir_type_id type)
+ir_type_id lower_graph_type(const struct lang_unit *unit, struct ir_graph *graph, ir_type_id type)
 {
+    if (!ast_is_user_type(type))
+        return type;
     const struct lang_unit *layer;
     const struct ir_user_type *user = lang_user_type(unit, type, &layer);
     if (user->array_length)
@@ -33,20 +33,6 @@ static ir_type_id make_graph_type(const struct lang_unit *unit, struct ir_graph 
         members[i].type = lower_graph_type(unit, graph, members[i].type);
     }
     return (ir_type_id)ir_add_struct(graph, user->name, members, user->num_members);
-}
-
-ir_type_id lower_graph_type(const struct lang_unit *unit, struct ir_graph *graph, ir_type_id type)
-{
-    if (!ast_is_user_type(type))
-        return type;
-    for (uint32_t i = 0; i < graph->user_types.len; i++)
-        if (graph->user_types.items[i].known_as == type)
-            return (ir_type_id)(IR_TYPE_FIRST_USER + i);
-    ir_type_id result = make_graph_type(unit, graph, type);
-    struct ir_user_type *made = &graph->user_types.items[result - IR_TYPE_FIRST_USER];
-    if (!made->known_as)
-        made->known_as = type;
-    return result;
 }
 
 static ir_type_id graph_type(struct lower *lo, ir_type_id type)
@@ -173,6 +159,32 @@ static void find_offsets(struct lower *lo, struct lower_frame *frame, struct few
     frame->offsets = offsets;
 }
 
+void lower_name(struct lower *lo, ir_type_id type, ir_ref first_leaf, str_id name,
+                enum ir_name_rank rank)
+{
+    ir_ref value = first_leaf;
+    if (value && ast_is_user_type(type)) {
+        const struct ir_node *part = ir_get(lo->graph, value);
+        value = part->op == IR_MEMBER || part->op == IR_INDEX ? ir_arg(lo->graph, value, 0) : 0;
+    }
+    unsigned depth = lo->depth < IR_NAME_MAX_DEPTH ? lo->depth : IR_NAME_MAX_DEPTH;
+    if (value)
+        ir_suggest_name(lo->graph, value, name, rank - depth);
+}
+
+void lower_name_slot(struct lower *lo, uint32_t slot, enum ir_name_rank rank)
+{
+    const struct lower_frame *frame = lo->frame;
+    const struct lang_slot *named = &frame->layer->slots.items[frame->fn->first_slot + slot];
+    lower_name(lo, named->type, frame->leaves[frame->offsets[slot]], named->name, rank);
+}
+
+static void name_parameters(struct lower *lo)
+{
+    for (uint32_t i = 0; i < lo->frame->fn->num_params; i++)
+        lower_name_slot(lo, i, IR_NAME_PARAMETER);
+}
+
 static void open_frame(struct lower *lo, struct lower_frame *frame, const ir_ref *in,
                        struct few *few)
 {
@@ -283,13 +295,17 @@ static bool lower_inline(struct lower *lo, uint32_t id, const ir_ref *in, ir_ref
     struct few few;
     open_frame(lo, &frame, in, &few);
     lo->frame = &frame;
+    name_parameters(lo);
     lo->depth++;
     lower_statements(lo, lower_node(lo, frame.fn->body)->a);
     lo->depth--;
     lo->frame = caller;
     bool done = !lo->failed;
-    if (done)
+    if (done) {
         collect_results(&frame, out);
+        if (frame.fn->return_type != IR_TYPE_VOID && frame.fn->name)
+            lower_name(lo, frame.fn->return_type, out[0], frame.fn->name, IR_NAME_FUNCTION);
+    }
     lo->failed = false;
     lo->max_graph_nodes = max_graph_nodes;
     return done;
@@ -331,6 +347,17 @@ static void poison_results(struct lower *lo, uint32_t id, ir_ref *out)
             out = poison(lo, ast_slot(layer, fn, i)->type, out);
 }
 
+/* The graph's number for a function that is called. */
+static uint32_t callee(struct lower *lo, uint32_t id)
+{
+    const struct lang_function *fn = lang_function(lo->unit, id, NULL);
+    return ir_add_callee(lo->graph,
+                         (struct ir_callee){.id = id,
+                                            .name = fn->name,
+                                            .derivative = (fn->flags & LANG_FN_DERIVATIVE) != 0,
+                                            .pure = (fn->flags & LANG_FN_PURE) != 0});
+}
+
 static void build_call(struct lower *lo, uint32_t id, const ir_ref *in, ir_ref *out)
 {
     ir_ref args[LOWER_MAX_LEAVES];
@@ -343,8 +370,7 @@ static void build_call(struct lower *lo, uint32_t id, const ir_ref *in, ir_ref *
     const struct lang_unit *layer;
     const struct lang_function *fn = lang_function(lo->unit, id, &layer);
     ir_type_id type = graph_type(lo, fn->return_type);
-    ir_ref call = ir_build(lo->graph, IR_CALL, type, fragment_callee(lo->unit, lo->graph, id), args,
-                           num_args);
+    ir_ref call = ir_build(lo->graph, IR_CALL, type, callee(lo, id), args, num_args);
     bool is_single = fn->return_type != IR_TYPE_VOID && lang_num_results(lo->unit, id) == 1;
     if (fn->return_type != IR_TYPE_VOID) {
         ir_ref value = is_single ? call : ir_build(lo->graph, IR_RESULT, type, 0, &call, 1);
@@ -441,65 +467,6 @@ static void poison_whole_results(struct lower *lo, ir_ref *results)
                 ir_poison(lo->graph, graph_type(lo, ast_slot(lo->frame->layer, fn, i)->type));
 }
 
-/* False where the function has no fragments, and none are taken down. */
-static bool begin_pattern(const struct lower *lo, uint32_t id, const ir_ref *args,
-                          struct fragment_pattern *pattern)
-{
-    const struct lang_unit *layer = lo->frame->layer;
-    const struct lang_function *fn = lo->frame->fn;
-    bool has_any = id < layer->fragment_of.len && layer->fragment_of.items[id];
-    if ((!has_any && !lo->unit->recorder) || layer->base || lo->host->choice == LANG_NONE
-        || !(fn->flags & LANG_FN_PLAIN))
-        return false;
-    fragment_pattern_begin(pattern, lo->graph, layer);
-    pattern->codes[pattern->len++] = (uint16_t)lo->host->max_outer_nodes;
-    pattern->codes[pattern->len++] = (uint16_t)lo->host->max_inline_nodes;
-    for (uint32_t i = 0; i < fn->num_params; i++)
-        if (ast_slot(layer, fn, i)->mode != LANG_OUT)
-            fragment_pattern_add(pattern, *args++);
-    return !pattern->failed;
-}
-
-static void restore(struct fragment_host *host, const struct lang_unit *layer,
-                    const struct lang_fragment *fragment, const struct fragment_pattern *pattern,
-                    ir_ref *results)
-{
-    ir_ref nodes[1 + FRAGMENT_MAX_INPUTS + FRAGMENT_MAX_NODES];
-    nodes[0] = 0;
-    if (pattern->num_inputs)
-        memcpy(nodes + 1, pattern->inputs, pattern->num_inputs * sizeof *nodes);
-    const uint16_t *codes =
-        fragment_restore(host, layer, fragment, pattern->num_inputs, nodes, NULL);
-    for (unsigned count = *codes++; count > 0; count--)
-        *results++ = nodes[*codes++];
-}
-
-/* A function that is called, by a fragment where there is one. */
-static void lower_known_function(struct lower *lo, uint32_t id, const ir_ref *args, ir_ref *results)
-{
-    const struct lang_unit *layer = lo->frame->layer;
-    struct fragment_host host = {.unit = lo->unit, .graph = lo->graph, .lang = lo->host};
-    struct fragment_pattern pattern;
-    bool has_pattern = begin_pattern(lo, id, args, &pattern);
-    struct lang_recorder *recorder = lo->unit->recorder;
-    const struct lang_fragment *fragment = NULL;
-    if (has_pattern && !recorder)
-        fragment = fragment_find(layer, layer->fragment_of.items[id], &pattern, lo->host->choice);
-    uint32_t first_new = lo->graph->nodes.len;
-    if (fragment)
-        restore(&host, layer, fragment, &pattern, results);
-    else if (!fits(lo))
-        poison_whole_results(lo, results);
-    else
-        (lo->frame->fn->flags & LANG_FN_PLAIN ? lower_plain_function : lower_function)(lo, id, args,
-                                                                                       results);
-    if (!has_pattern || !recorder || recorder->of_graphs)
-        return;
-    recorder->first_new = first_new;
-    fragment_record(&host, &recorder->fragment_of.items[id], &pattern, results,
-                    lang_num_results(lo->unit, id));
-}
-
 void lang_lower_call(struct lang_unit *generated, struct ir_graph *graph,
                      const struct lang_host *host, uint32_t id, const ir_ref *args, ir_ref *results)
 {
@@ -514,6 +481,10 @@ void lang_lower_call(struct lang_unit *generated, struct ir_graph *graph,
     frame.fn = lang_function(generated, id, &frame.layer);
     if (frame.fn->flags & LANG_FN_EXPRESSION)
         lower_inline_expression(&lo, args, results);
+    else if (!fits(&lo))
+        poison_whole_results(&lo, results);
+    else if (frame.fn->flags & LANG_FN_PLAIN)
+        lower_plain_function(&lo, id, args, results);
     else
-        lower_known_function(&lo, id, args, results);
+        lower_function(&lo, id, args, results);
 }

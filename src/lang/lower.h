@@ -64,6 +64,12 @@ void lower_assign(struct lower *lo, lang_ref target, const ir_ref *leaves);
 /* lower.c: the graph's form of a type of the language. */
 ir_type_id lower_graph_type(const struct lang_unit *unit, struct ir_graph *graph, ir_type_id type);
 
+/* Names a value of the type after a variable; a struct or array: the call that gives it. */
+void lower_name(struct lower *lo, ir_type_id type, ir_ref first_leaf, str_id name,
+                enum ir_name_rank rank);
+/* The same for the value of a slot, whose name it is. */
+void lower_name_slot(struct lower *lo, uint32_t slot, enum ir_name_rank rank);
+
 /* lower_stmt.c. True where the function has returned. */
 bool lower_statements(struct lower *lo, lang_ref first);
 

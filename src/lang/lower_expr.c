@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lang/fragment.h"
 #include "lang/lower.h"
 
 static ir_ref value_of(struct lower *lo, ir_ref leaf, ir_type_id type)
@@ -63,8 +62,6 @@ static void lower_global(struct lower *lo, const struct lang_node *node, ir_ref 
         lo->failed = true;
     } else {
         *out = lo->host->global(lo->host->user_data, lo->graph, lo->unit, node->a);
-        if (lo->unit->recorder)
-            fragment_note_global(lo->unit->recorder, *out, node->a);
     }
 }
 
@@ -282,10 +279,11 @@ void lower_assign(struct lower *lo, lang_ref target, const ir_ref *leaves)
     const struct lang_node *node = lower_node(lo, target);
     if (lo->failed)
         return;
-    if (node->kind == LANG_VAR)
+    if (node->kind == LANG_VAR) {
         copy_leaves(leaves, lower_leaves(lo, node->type),
                     lo->frame->leaves + lo->frame->offsets[node->a]);
-    else if (ast_is_user_type(lower_node(lo, node->a)->type))
+        lower_name_slot(lo, node->a, IR_NAME_LOCAL);
+    } else if (ast_is_user_type(lower_node(lo, node->a)->type))
         assign_part(lo, node, leaves);
     else
         assign_element(lo, node, value_of(lo, leaves[0], node->type));

@@ -10,10 +10,13 @@ static void lower_declare(struct lower *lo, const struct lang_node *node)
 {
     const uint32_t *offsets = lo->frame->offsets;
     ir_ref *leaves = lo->frame->leaves + offsets[node->a];
-    if (!node->b)
+    if (!node->b) {
         memset(leaves, 0, (offsets[node->a + 1] - offsets[node->a]) * sizeof *leaves);
-    else
-        lower_expression(lo, lower_node(lo, node->b), leaves);
+        return;
+    }
+    lower_expression(lo, lower_node(lo, node->b), leaves);
+    if (!lo->failed)
+        lower_name_slot(lo, node->a, IR_NAME_LOCAL);
 }
 
 static void lower_assignment(struct lower *lo, const struct lang_node *node)

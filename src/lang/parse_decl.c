@@ -446,8 +446,33 @@ static uint32_t declare_function(struct parser *p, const struct token *at, str_i
     return p->unit->base_functions + p->unit->functions.len - 1;
 }
 
-static void parse_function(struct parser *p, const struct token *at, str_id name,
-                           ir_type_id return_type)
+/* The first sentence of a comment, without the slashes and line ends; 0: it is empty. */
+static str_id doc_of(struct parser *p, const struct token *first)
+{
+    struct text doc;
+    text_init(&doc, p->unit->arena);
+    const char *at = first->comment, *end = at ? at + first->comment_len : NULL;
+    bool is_blank = false, line_begins = true;
+    for (; at < end && *at; at++) {
+        if (*at == ' ' || *at == '\t' || *at == '\r' || *at == '\n') {
+            is_blank = doc.len > 0;
+            line_begins |= *at == '\n';
+        } else if (*at != '/' || !line_begins) {
+            /* "et al. 2023" goes on */
+            bool is_new = is_blank && doc.data[doc.len - 1] == '.' && *at >= 'A' && *at <= 'Z';
+            if (is_new)
+                break;
+            if (is_blank)
+                text_char(&doc, ' ');
+            text_char(&doc, *at);
+            is_blank = line_begins = false;
+        }
+    }
+    return doc.len ? str_intern(p->unit->strings, doc.data, doc.len) : 0;
+}
+
+static void parse_function(struct parser *p, const struct token *first, const struct token *at,
+                           str_id name, ir_type_id return_type)
 {
     if (!parse_params(p))
         return;
@@ -469,6 +494,7 @@ static void parse_function(struct parser *p, const struct token *at, str_id name
         function->num_slots = (uint16_t)(p->unit->slots.len - p->first_slot);
         function->body = body;
         function->place = parse_place(at);
+        function->doc = doc_of(p, first);
     }
     p->locals.len = 0;
 }
@@ -476,6 +502,7 @@ static void parse_function(struct parser *p, const struct token *at, str_id name
 static void parse_function_or_global(struct parser *p)
 {
     bool bad, unsized = false;
+    struct token first = p->token;
     ir_type_id type = parse_type(p, true, &bad);
     if (!p->panic && p->token.kind == TOKEN_OPEN_INDEX)
         type = parse_array_suffix(p, type, &unsized);
@@ -493,7 +520,7 @@ static void parse_function_or_global(struct parser *p)
     if (unsized || type == IR_TYPE_STRING || type == IR_TYPE_SAMPLER)
         PARSE_TYPE_ERROR(p, parse_place(&at), "a function cannot return %s",
                          unsized ? "an array without length" : parse_type_text(p, type));
-    parse_function(p, &at, name, type);
+    parse_function(p, &first, &at, name, type);
 }
 
 void parse_declarations(struct parser *p)

@@ -176,8 +176,6 @@ bool lang_param_dropped(const struct lang_unit *unit, uint32_t version, uint32_t
 {
     if (version == given || index >= SPEC_MAX_PARAMS)
         return false;
-    const uint32_t *dropped = version < unit->base_functions
-                                  ? lang_known(unit, version)->dropped
-                                  : unit->versions.items[version - unit->base_functions].dropped;
+    const uint32_t *dropped = unit->versions.items[version - unit->base_functions].dropped;
     return dropped[index / 32] >> index % 32 & 1;
 }

@@ -74,13 +74,31 @@ void lang_print_variable(const struct lang_style *style, const struct lang_names
     print_lengths(unit, type, out);
 }
 
+/*
+ * A number that folding made may miss a short one by its last bit: 1.0 - 0.8 gives 0.19999999. The
+ * short one is written where it has six digits or less and is no whole number, which a bit may keep
+ * apart from its neighbours on purpose (0.99999994).
+ */
+static float shortened(float f)
+{
+    int exponent;
+    frexpf(f, &exponent);
+    double scale = 1.0;
+    for (int digits = 6 - (int)floor(exponent * 0.30103); digits > 0; digits--)
+        scale *= 10.0;
+    double rounded = round((double)f * scale) / scale;
+    float near = (float)rounded;
+    bool is_neighbour = near == nextafterf(f, near) && near != truncf(near);
+    return is_neighbour && isfinite(near) ? near : f;
+}
+
 static void print_float(const struct lang_syntax *syntax, float f, struct text *out)
 {
     if (isnan(f) || isinf(f)) { /* no target has literals for these */
         text_str(out, isnan(f) ? "(0.0 / 0.0)" : f > 0 ? "(1.0 / 0.0)" : "(-1.0 / 0.0)");
         return;
     }
-    text_float(out, f);
+    text_float(out, shortened(f));
     if (syntax->float_literals_need_suffix)
         text_char(out, 'f');
 }

@@ -72,8 +72,7 @@ static lang_ref skip_wrapper(struct spec *s, const struct lang_node *call)
     const struct lang_unit *layer;
     struct lang_function wrapper = *lang_function(s->unit, call->a, &layer);
     lang_ref returned = ast_returned(layer, &wrapper);
-    bool is_version = layer == s->unit || lang_known(layer, call->a);
-    if (!is_version || !returned)
+    if (layer != s->unit || !returned)
         return 0;
     const struct lang_node inner = *ast_node(layer, returned);
     if (inner.kind == LANG_CONST && wrapper.num_params == 0)

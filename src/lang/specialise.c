@@ -114,7 +114,7 @@ static void forward(struct spec *s)
 void spec_begin(struct lang_unit *unit, uint32_t variant)
 {
     struct spec *s = open_variant(unit, variant);
-    if (!begin_final(s) && !known_begin(s))
+    if (!begin_final(s))
         forward(s);
 }
 
@@ -201,22 +201,18 @@ static void start_backward(struct spec *s)
 void spec_finish(struct lang_unit *unit, uint32_t variant)
 {
     struct spec *s = open_variant(unit, variant);
-    if (variant_of(s)->is_final || variant_of(s)->is_known) {
-        bool is_final = variant_of(s)->is_final && stays_final(s);
-        variant_of(s)->version = is_final ? variant_of(s)->function : known_version(s);
-        if (variant_of(s)->version != LANG_NONE)
+    if (variant_of(s)->is_final) {
+        if (stays_final(s)) {
+            variant_of(s)->version = variant_of(s)->function;
             return;
+        }
         forward(s); /* its calls have been noted: nothing new is said of the callees */
     }
     s->changed = variant_of(s)->changed;
-    if (unit->recorder)
-        known_take_calls(s);
     start_backward(s);
     spec_resolve(s);
     lang_ref body = spec_single(s, spec_sweep(s, variant_of(s)->body));
     for (uint32_t i = 0; i < s->fn.num_params; i++)
         s->changed |= s->slots[i].is_dropped = is_dropped(s, i);
     variant_of(s)->version = s->changed ? add_version(s, body) : variant_of(s)->function;
-    if (unit->recorder)
-        known_take_version(s);
 }

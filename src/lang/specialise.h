@@ -41,7 +41,6 @@ struct variant {         /* a function with the strings and flags that choose wh
     bool changed;     /* its tree is not the source's */
     /* its source's tree is taken as it is, so far; first_call: the variants that it calls */
     bool is_final;
-    bool is_known;     /* the same with the tree of a version that the library has */
     bool keeps_unused; /* parameters that nobody uses: some argument has effects */
 };
 
@@ -142,19 +141,6 @@ lang_ref spec_single(struct spec *s, lang_ref first);
 /* specialise.c: the forward step of a variant, and the others. */
 void spec_begin(struct lang_unit *unit, uint32_t variant);
 void spec_finish(struct lang_unit *unit, uint32_t variant);
-
-/*
- * known.c: notes what a version of the library that fits the variant calls; false: there is none.
- */
-bool known_begin(struct spec *s);
-/* That version, when its callees' versions are known, or LANG_NONE. */
-uint32_t known_version(const struct spec *s);
-/*
- * Takes down what a variant calls, before its calls are resolved, and the version that it has
- * become.
- */
-void known_take_calls(struct spec *s);
-void known_take_version(struct spec *s);
 
 /*
  * plan.c: tells what a call passes. Returns the variant that is called, which may be moved by

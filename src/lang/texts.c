@@ -8,10 +8,10 @@
 #include "lang/print.h"
 
 /* Can it be in a shader as it is? */
-static bool is_worth_text(const struct lang_function *fn, bool is_version)
+static bool is_worth_text(const struct lang_function *fn)
 {
     bool is_called = fn->num_nodes > LOWER_TINY || !(fn->flags & LANG_FN_STRAIGHT);
-    return (fn->flags & LANG_FN_FINAL || is_version) && !(fn->flags & LANG_FN_STRINGS) && is_called;
+    return fn->flags & LANG_FN_FINAL && !(fn->flags & LANG_FN_STRINGS) && is_called;
 }
 
 /*
@@ -57,7 +57,7 @@ void lang_make_texts(struct lang_unit *unit, const struct lang_syntax *syntax, s
         vec_push(arena, &unit->texts, (uint32_t)before);
         struct type_watch watch = {.unit = unit, .fn = &unit->functions.items[i]};
         struct lang_names names = {.user_data = &watch, .user_type = watch_type};
-        if (is_worth_text(watch.fn, lang_known(unit, unit->base_functions + i)))
+        if (is_worth_text(watch.fn))
             lang_print_function(style, &names, unit, unit->base_functions + i, &text);
         if (text.len > before + MAX_TEXT || watch.found_other)
             text.len = before;

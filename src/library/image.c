@@ -29,38 +29,15 @@ struct section_info {
         offsetof(struct library, field), sizeof *((struct library *)NULL)->field.items \
     }
 static const struct section_info section_infos[] = {
-    SECTION(doc.elements),
-    SECTION(doc.attrs),
-    SECTION(doc.files),
-    SECTION(unit.nodes),
-    SECTION(unit.slots),
-    SECTION(unit.functions),
-    SECTION(unit.globals),
-    SECTION(unit.files),
-    SECTION(unit.words),
-    SECTION(unit.refs),
-    SECTION(unit.user_types),
-    SECTION(unit.members),
-    SECTION(unit.texts),
-    SECTION(unit.text_bytes),
-    SECTION(nodedefs),
-    SECTION(ports),
-    SECTION(impls),
-    SECTION(families),
-    SECTION(verbatims),
-    SECTION(graph_nodes),
-    SECTION(bindings),
-    SECTION(geomprops),
-    SECTION(types),
-    SECTION(units),
-    SECTION(refs),
-    SECTION(node_table),
-    SECTION(unit.fragments),
-    SECTION(unit.codes),
-    SECTION(unit.fragment_of),
-    SECTION(unit.graph_fragment_of),
-    SECTION(unit.known),
-    SECTION(unit.known_facts),
+    SECTION(doc.elements), SECTION(doc.attrs),       SECTION(doc.files),
+    SECTION(unit.nodes),   SECTION(unit.slots),      SECTION(unit.functions),
+    SECTION(unit.globals), SECTION(unit.files),      SECTION(unit.words),
+    SECTION(unit.refs),    SECTION(unit.user_types), SECTION(unit.members),
+    SECTION(unit.texts),   SECTION(unit.text_bytes), SECTION(nodedefs),
+    SECTION(ports),        SECTION(impls),           SECTION(families),
+    SECTION(verbatims),    SECTION(graph_nodes),     SECTION(bindings),
+    SECTION(geomprops),    SECTION(types),           SECTION(units),
+    SECTION(refs),         SECTION(node_table),
 };
 enum {
     NUM_VECS = sizeof section_infos / sizeof *section_infos,
@@ -96,7 +73,7 @@ static uint64_t checksum(const void *image, size_t size)
 static uint64_t fingerprint(void)
 {
     uint64_t h = HASH_STABLE_SEED;
-    uint32_t facts[NUM_VECS + 4] = {5 /* bumped when meanings change but sizes do not */,
+    uint32_t facts[NUM_VECS + 4] = {6 /* bumped when meanings change but sizes do not */,
                                     STR_NUM_WORDS, IR_NUM_OPS, NUM_ELEMENT_KINDS};
     for (unsigned i = 0; i < NUM_VECS; i++)
         facts[i + 4] = (uint32_t)section_infos[i].item_size;
@@ -244,8 +221,8 @@ static void put_strings(const struct strpool *pool, struct text *out, struct hea
     header->string_mask = mask;
 }
 
-void library_write_image(const struct library *lib, const struct lang_recorder *recorder,
-                         const struct lang_syntax *syntax, struct text *out)
+void library_write_image(const struct library *lib, const struct lang_syntax *syntax,
+                         struct text *out)
 {
     struct header header = {
         .fingerprint = fingerprint(),
@@ -260,7 +237,6 @@ void library_write_image(const struct library *lib, const struct lang_recorder *
     memcpy(header.magic, magic, sizeof magic);
     struct library packed = *lib;
     share_attributes(&packed.doc, out->arena);
-    lang_recorder_give(recorder, &packed.unit);
     if (syntax)
         lang_make_texts(&packed.unit, syntax, out->arena);
     size_t start = out->len;
@@ -286,9 +262,9 @@ static const char *check_header(const struct header *header, const void *data, s
                                 bool check_bytes)
 {
     if (size < sizeof *header || memcmp(header->magic, magic, sizeof magic) != 0)
-        return "it does not begin like one";
+        return "it is not a library image";
     if (header->fingerprint != fingerprint())
-        return "it was packed by another version of mxgen; pack it again";
+        return "another version of mxgen packed it; pack it again";
     if (header->size != size)
         return "it is truncated";
     if (check_bytes && header->checksum != checksum(data, size))

@@ -289,7 +289,7 @@ static bool ends_with(const char *text, const char *end)
 static str_id read_source(struct indexer *ix, elem_id element, str_id file, const char *from,
                           struct diag_list *diags)
 {
-    const char *name, *text, *reason = "no reader";
+    const char *name, *text, *reason = "the context cannot read files";
     size_t len;
     if (!ix->reader
         || !ix->reader->read(ix->reader->user_data, from, text_of(ix->lib, file), &name, &text,
@@ -323,7 +323,7 @@ static bool parse_expressions(struct indexer *ix, struct implementation *impl, s
         if (!own && (def->num_outputs > 1 || !source)) {
             diag_add(diags, DIAG_ID_function_signature, where, "sourcecode",
                      text_of(ix->lib, def->name),
-                     "each output needs an <output> child with its own sourcecode");
+                     "each output needs an <output> child with sourcecode");
             return false;
         }
         ids[i] = parse_expression(ix, impl->nodedef, i, own ? own : source, file, where, diags);
@@ -388,16 +388,17 @@ static const char *check_signature(const struct indexer *ix, const struct implem
     if (library_type_ir(ix->lib, ports[def->num_inputs].type) == IR_TYPE_LIGHT)
         return NULL; /* lights have a signature of their own: see library.md */
     if (fn->num_params != def->num_inputs + outs)
-        return "it needs one parameter per input, then one `out` per output (or a returned value)";
+        return "it needs one parameter per input, then one `out` parameter per output (or a return "
+               "value)";
     if (fn->return_type != IR_TYPE_VOID && def->num_outputs != 1)
         return "it returns a value, but the node has several outputs";
     for (uint32_t i = 0; i < fn->num_params; i++) {
         const struct lang_slot *slot = &unit->slots.items[fn->first_slot + i];
         bool out = i >= def->num_inputs;
         if (slot->type != library_type_ir(ix->lib, ports[i].type))
-            return "a parameter's type is not that of the node's input or output";
+            return "a parameter differs in type from its input or output";
         if ((slot->mode != LANG_IN) != out)
-            return "inputs must be `in` parameters and outputs `out` parameters";
+            return "inputs need `in` parameters, and outputs need `out` parameters";
     }
     return NULL;
 }
@@ -412,8 +413,8 @@ static bool find_implementation_function(struct indexer *ix, struct implementati
     if (is_closure(ports[def->num_inputs].type)) {
         if (find_family(ix, impl, name, file))
             return true;
-        diag_add(diags, DIAG_ID_missing_function, where, "the file", text_of(lib, name),
-                 " with a suffix such as '_eval'");
+        diag_add(diags, DIAG_ID_missing_function, where, text_of(lib, name),
+                 " with a suffix of a closure family, for example '_eval'");
         return false;
     }
     struct lang_input inputs[MAX_PORTS];
@@ -429,7 +430,7 @@ static bool find_implementation_function(struct indexer *ix, struct implementati
     if (function == LANG_NONE)
         function = lang_find_function(&ix->lib->unit, file, name, NULL, 0);
     if (function == LANG_NONE) {
-        diag_add(diags, DIAG_ID_missing_function, where, "the file", text_of(lib, name), "");
+        diag_add(diags, DIAG_ID_missing_function, where, text_of(lib, name), "");
         return false;
     }
     const char *fault = check_signature(ix, impl, function);
@@ -483,9 +484,9 @@ static void parse_implementation(struct indexer *ix, struct implementation *impl
     struct diag_list faults;
     diag_list_init(&faults, ix->arena);
     if (ix->lib->trust == LIBRARY_TRUST_GRAPHS)
-        refuse_source(ix, impl, "no source is read in a sandbox", &faults);
+        refuse_source(ix, impl, "a sandbox allows no source", &faults);
     else if (impl->target && ix->lib->trust == LIBRARY_TRUST_PORTABLE)
-        refuse_source(ix, impl, "it is written for one target", &faults);
+        refuse_source(ix, impl, "it is for one target only", &faults);
     else if (parse_source(ix, impl, &faults))
         return;
     str_id file_name = attr(ix, impl->element, STR_file);

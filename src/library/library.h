@@ -330,11 +330,12 @@ void library_check_enum(const struct library *lib, const struct port *port, str_
 /* image.c */
 
 /*
- * The layer as one block with fragments (library must stand on no base); the layout is that of this
- * build, checked when mapped. `syntax`: that which functions stand in as text; NULL: in none.
+ * Writes the layer as one block. The library has no base. Only a build with the same layout of
+ * records maps the block; mapping checks that. `syntax`: the block has the texts of functions in
+ * it; NULL: in none.
  */
-void library_write_image(const struct library *lib, const struct lang_recorder *recorder,
-                         const struct lang_syntax *syntax, struct text *out);
+void library_write_image(const struct library *lib, const struct lang_syntax *syntax,
+                         struct text *out);
 /*
  * Makes `lib` refer into a mapped image, which must outlive it; NULL or why it was refused.
  * check_bytes: verify the checksum, for files.

@@ -43,9 +43,9 @@ static struct candidate fit_version(const struct library *lib, const struct node
 {
     str_id version = doc_attr_value(&lib->doc, node, STR_version);
     if (version && version != def->version)
-        return misfit("its version is '%s', the node asks for '%s'", def->version, version, 0);
+        return misfit("its version is '%s', but the node requests '%s'", def->version, version, 0);
     if (!version && def->version && !def->is_default_version)
-        return misfit("version '%s' is not the default one; ask for it with version=\"%s\"",
+        return misfit("version '%s' is not the default; request it with version=\"%s\"",
                       def->version, def->version, 0);
     return (struct candidate){FIT_EXACT, NULL, 0, 0, 0};
 }
@@ -55,7 +55,7 @@ static struct candidate fit_outputs(const struct library *lib, const struct node
 {
     str_id type = doc_attr_value(&lib->doc, node, STR_type);
     if (def->num_outputs == 0)
-        return misfit("it has no output of a known type", 0, 0, 0);
+        return misfit("it has no output with a valid type", 0, 0, 0);
     if (!type)
         return (struct candidate){FIT_EXACT, NULL, 0, 0, 0};
     if (def->num_outputs > 1 && type == STR_multioutput)
@@ -64,7 +64,7 @@ static struct candidate fit_outputs(const struct library *lib, const struct node
     if (def->num_outputs == 1 && library_type(lib, type) == out->type)
         return (struct candidate){FIT_EXACT, NULL, 0, 0, 0};
     str_id has = def->num_outputs == 1 ? library_type_name(lib, out->type) : STR_multioutput;
-    return misfit("its output is %s, the node says %s", has, type, 0);
+    return misfit("its output is %s, but the node has type %s", has, type, 0);
 }
 
 static struct candidate fit_inputs(const struct library *lib, const struct nodedef *def,
@@ -88,7 +88,7 @@ static struct candidate fit_inputs(const struct library *lib, const struct noded
             result =
                 (struct candidate){FIT_EXTRA_INPUTS, "it has no input '%s'", input->name, 0, 0};
         else if (type && library_type(lib, type) != port->type)
-            return misfit("its input '%s' is %s, the node's is %s", input->name,
+            return misfit("its input '%s' is %s, but the node gives %s", input->name,
                           library_type_name(lib, port->type), type);
     }
     return result;

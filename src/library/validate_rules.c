@@ -120,13 +120,13 @@ static void check_declared_input(struct validate *v, elem_id input)
     bool is_uniform = doc_attr_is_true(v->doc, input, STR_uniform),
          takes_geometry = has(v, input, STR_defaultgeomprop);
     if (is_uniform_type(type) && !is_uniform)
-        tell(v, input, "takes strings, files or lists, which do not vary: say uniform=\"true\"");
+        tell(v, input, "has a type that cannot vary over a surface; write uniform=\"true\"");
     if (takes_geometry && is_uniform)
-        tell(v, input, "is uniform, and its defaultgeomprop varies");
+        tell(v, input, "is uniform, but its defaultgeomprop varies");
     else if (takes_geometry && type != DOC_TYPE_vector2 && type != DOC_TYPE_vector3)
-        tell(v, input, "has a defaultgeomprop, which only vector2 and vector3 can have");
+        tell(v, input, "has a defaultgeomprop, which needs the type vector2 or vector3");
     else if (takes_geometry && has(v, input, STR_value))
-        tell(v, input, "has a value and a defaultgeomprop: one of them counts");
+        tell(v, input, "has a value and a defaultgeomprop; keep one of them");
 }
 
 /* "NodeDef Output Elements" */
@@ -135,12 +135,12 @@ static void check_declared_output(struct validate *v, elem_id nodedef, elem_id o
     str_id name = doc_attr_value(v->doc, output, STR_defaultinput);
     elem_id input = name ? doc_child_of_kind(v->doc, nodedef, KIND_INPUT, name) : 0;
     if (is_connected(v, output))
-        tell(v, output, "is of a definition, where nothing is connected");
+        tell(v, output, "belongs to a nodedef and cannot be connected");
     if (input
         && doc_attr_value(v->doc, input, STR_type) != doc_attr_value(v->doc, output, STR_type))
         tell(v, output, "has a defaultinput of another type");
     else if (name && !input && !has(v, nodedef, STR_inherit))
-        tell(v, output, "has a defaultinput that is no input");
+        tell(v, output, "has a defaultinput that names no input");
 }
 
 static void check_nodedef(struct validate *v, elem_id nodedef)
@@ -161,7 +161,9 @@ static void check_functional_graph(struct validate *v, elem_id graph, uint32_t i
     const struct port *outputs = library_ports(v->lib, id, NULL) + def->num_inputs;
     for (elem_id e = doc_element(v->doc, graph)->first_child; e; e = doc_element(v->doc, e)->next)
         if (doc_element(v->doc, e)->kind == KIND_INPUT) {
-            tell(v, e, "is of a graph that implements a definition, whose inputs count");
+            tell(v, e,
+                 "is ignored, because the nodegraph takes its inputs from the nodedef that it "
+                 "implements");
             break;
         }
     for (unsigned i = 0; i < def->num_outputs; i++) {
@@ -171,9 +173,10 @@ static void check_functional_graph(struct validate *v, elem_id graph, uint32_t i
             /* the only one may have any name */
             output = doc_element(v->doc, e)->kind == KIND_OUTPUT ? e : 0;
         if (!output)
-            tell(v, graph, "lacks an output of the definition that it implements");
+            tell(v, graph, "lacks an output of the nodedef that it implements");
         else if (library_type(v->lib, doc_attr_value(v->doc, output, STR_type)) != outputs[i].type)
-            tell(v, output, "has another type than in the definition that its graph implements");
+            tell(v, output,
+                 "differs in type from the output of the nodedef that its nodegraph implements");
     }
 }
 
@@ -185,7 +188,7 @@ static void check_graph(struct validate *v, elem_id graph)
     for (elem_id e = doc_element(v->doc, graph)->first_child; e; e = doc_element(v->doc, e)->next)
         if (doc_element(v->doc, e)->kind == KIND_OUTPUT && !is_connected(v, e)
             && !has(v, e, STR_value))
-            tell(v, e, "is connected to nothing");
+            tell(v, e, "is not connected");
 }
 
 /* "Custom Geometric Properties" */
@@ -196,12 +199,12 @@ static void check_geompropdef(struct validate *v, elem_id element)
          is_standard = has(v, element, STR_geomprop);
     bool is_placed = has(v, element, STR_space) || has(v, element, STR_index);
     if (is_uniform_type(type) && !is_uniform)
-        tell(v, element, "has strings or files, which do not vary: say uniform=\"true\"");
+        tell(v, element, "has a type that cannot vary over a surface; write uniform=\"true\"");
     if (is_uniform && (is_standard || is_placed))
-        tell(v, element, "is uniform, so it has no geomprop, space or index");
+        tell(v, element, "is uniform and cannot have a geomprop, space or index");
     else if (is_placed && !is_standard)
         tell(v, element,
-             "has a space or index, which only standard properties have: say which by geomprop");
+             "has a space or index, which need a standard property; name it with geomprop");
 }
 
 static void check_unit_scale(struct validate *v, elem_id unit)
@@ -224,16 +227,16 @@ void validate_declaration(struct validate *v, elem_id element)
     case KIND_GEOMPROPDEF: check_geompropdef(v, element); break;
     case KIND_IMPLEMENTATION:
         if (has(v, element, STR_file) && has(v, element, STR_sourcecode))
-            tell(v, element, "has a file and sourcecode: one of them counts");
+            tell(v, element, "has a file and sourcecode; keep one of them");
         break;
     case KIND_TYPEDEF:
         if (doc_type_of(e->name))
-            tell(v, element, "has the name of a type of MaterialX");
+            tell(v, element, "has the name of a standard type");
         break;
     case KIND_UNIT: check_unit_scale(v, element); break;
     case KIND_INPUT:
         if (doc_element(v->doc, e->parent)->kind == KIND_VARIANT && is_connected(v, element))
-            tell(v, element, "is of a variant, which has values only");
+            tell(v, element, "belongs to a variant and needs a value, not a connection");
         break;
     default: break;
     }

@@ -12,7 +12,7 @@
 #include "ir/ir.h"
 #include "lang/lang.h"
 
-/* Blocks of the ShaderX convention (design section 8). */
+/* Blocks of the ShaderX convention; docs/reflection.md tells of their contents. */
 enum shader_block {
     BLOCK_PUBLIC_UNIFORMS,
     BLOCK_PRIVATE_UNIFORMS,
@@ -197,19 +197,6 @@ struct shader_buffer {
     uint32_t stride; /* of LightData: from light to light */
 };
 
-/*
- * A surface that was restored as a whole, or taken down: what lights it may follow in the same way
- * (lang/fragment.h).
- */
-struct shader_model {
-    ir_ref root;         /* 0: there is none */
-    unsigned fragment;   /* its number + 1 */
-    const ir_ref *nodes; /* of the fragment: none, inputs, and what it restored */
-    const bool *known;   /* fragment_restore */
-    unsigned num_nodes, num_inputs;
-    uint32_t origin; /* of the node that uses the model */
-};
-
 struct shader {
     struct arena *arena;
     struct strpool *strings;
@@ -221,7 +208,6 @@ struct shader {
     VEC(struct shader_tile) tiles;
     VEC(struct shader_compiled_input) compiled;
     VEC(struct shader_local) locals;
-    struct shader_model model; /* the one that was built last */
     VEC(struct shader_light) lights;
     VEC(uint32_t) light_members;
     VEC(struct shader_verbatim) verbatim;

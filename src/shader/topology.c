@@ -107,8 +107,7 @@ static void add_portable_functions(struct hasher *h, const struct lang_reach *re
             lang_function(h->shader->unit, reach->functions.items[i], &layer);
         h->function_numbers[reach->functions.items[i]] = i + 1;
         add(h, (uint64_t)fn->return_type << 32 | (uint64_t)fn->num_params << 16 | fn->num_slots);
-        if ((layer == h->shader->unit && layer->base)
-            || lang_known(layer, reach->functions.items[i]))
+        if (layer == h->shader->unit && layer->base)
             add_tree(h, layer, fn->body);
         add_text(h, fn->name);
         add(h, fn->num_nodes);

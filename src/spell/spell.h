@@ -70,8 +70,9 @@ struct spell {
     enum shader_stage_id stage_id;
     struct arena *scratch;
     struct text *out;
-    VEC(struct spell_mark) marks; /* ascending */
-    bool blocks;                  /* uniforms stand in blocks */
+    VEC(struct spell_mark) marks;        /* ascending */
+    size_t verbatim_begin, verbatim_end; /* source of the document in `out`: no line is broken */
+    bool blocks;                         /* uniforms stand in blocks */
     struct name_set names;
     struct lang_style *style;     /* of the target's syntax */
     struct lang_names lang_names; /* for the portable printer */
@@ -90,6 +91,7 @@ struct spell {
     /* node of a LET to its first name in let_names, + 1; 0: it is an expression */
     uint32_t *local_of;
     VEC(struct spell_name) let_names;
+    VEC(str_id) wanted_names;  /* of the function's locals, sorted */
     const char *loop_index;    /* in LIGHTS and SAMPLES: the loop's variable */
     struct name_set paths;     /* shown in comments so far */
     VEC(const char *) helpers; /* spell_helper */
@@ -115,6 +117,15 @@ unsigned spell_call_open(struct spell *spell, ir_ref call);
 void spell_type(struct spell *spell, ir_type_id type);
 /* "float x[3]" */
 void spell_variable(struct spell *spell, ir_type_id type, struct spell_name name);
+
+/* ---- local.c ---- */
+
+/* Before a function's statements: which names several of its locals want. */
+void spell_plan_locals(struct spell *spell, const struct effect_list *statements);
+/* The name of a call with several results, each of which adds its own. */
+struct spell_name spell_call_base(struct spell *spell, ir_ref call);
+/* What a local is called, before names_unique; its operands have their names already. */
+struct spell_name spell_local_base(struct spell *spell, ir_ref ref);
 
 /* ---- statement.c ---- */
 
@@ -150,6 +161,11 @@ const struct spell_maker *spell_find_maker(const struct spell *spell, const char
 void spell_write_maker(const struct spell *spell, const struct spell_maker *maker,
                        struct text *out);
 
+/* ---- wrap.c ---- */
+
+/* Breaks the long lines of spell->out from `begin` on; marks move along. */
+void spell_wrap(struct spell *spell, size_t begin);
+
 /* ---- stage.c ---- */
 
 /*
@@ -162,6 +178,9 @@ void spell_verbatim_sources(struct spell *spell); /* each once */
 
 /* The stage of C-like targets: declarations, functions, main. */
 void spell_stage(struct spell *spell, enum shader_stage_id stage);
+
+/* "// …": the first sentence that the library has on a function; may write nothing. */
+void spell_function_doc(struct spell *spell, uint32_t function);
 
 /*
  * The text of a comment, of a document's words: nothing in it ends the line or joins it with the

@@ -170,6 +170,7 @@ void spell_title(struct spell *spell)
 void spell_verbatim_sources(struct spell *spell)
 {
     const struct shader *shader = spell->shader;
+    spell->verbatim_begin = spell->out->len;
     for (uint32_t i = 0; i < spell->stage->verbatim.len; i++) {
         str_id source = shader->verbatim.items[spell->stage->verbatim.items[i]].source;
         bool written = source == 0;
@@ -180,6 +181,18 @@ void spell_verbatim_sources(struct spell *spell)
         spell_text(spell, str_text(shader->strings, source));
         spell_text(spell, "\n");
     }
+    spell->verbatim_end = spell->out->len;
+}
+
+void spell_function_doc(struct spell *spell, uint32_t function)
+{
+    str_id doc = lang_function(spell->shader->unit, function, NULL)->doc;
+    if (!doc || !spell->options->comments || spell->options->neutral_names)
+        return;
+    spell_text(spell, "// ");
+    spell_comment(spell, str_text(spell->shader->strings, doc),
+                  str_len(spell->shader->strings, doc));
+    spell_text(spell, "\n");
 }
 
 static void write_functions(struct spell *spell)
@@ -194,6 +207,7 @@ static void write_functions(struct spell *spell)
         spell_text(spell, "\n");
     spell_verbatim_sources(spell);
     for (uint32_t i = 0; i < reach->functions.len; i++) {
+        spell_function_doc(spell, reach->functions.items[i]);
         lang_print_function(spell->style, &spell->lang_names, spell->shader->unit,
                             reach->functions.items[i], spell->out);
         spell_text(spell, "\n");
@@ -310,12 +324,14 @@ void spell_shader_stage(const struct target *target, const struct spell_options 
         .scratch = scratch,
         .out = out,
     };
+    size_t begin = out->len;
     const struct target *writer = target;
     while (!writer->stage && !writer->frame)
         writer = writer->base;
     spell.frame = writer->frame;
     init(&spell);
     (writer->stage ? writer->stage : spell_stage)(&spell, stage);
+    spell_wrap(&spell, begin);
     *out_marks = spell.marks.items;
     *out_num_marks = spell.marks.len;
 }

@@ -22,52 +22,6 @@ static void write_assignment(struct spell *spell, unsigned indent, struct spell_
 
 /* ---- Locals ---- */
 
-static struct spell_name without(struct spell_name name, size_t len)
-{
-    return (struct spell_name){name.text + len, name.len - len};
-}
-
-/* "coat" of the input whose path is "NG/metal/coat", "alphaThreshold" of u_alphaThreshold. */
-static struct spell_name input_name(const struct spell *spell,
-                                    const struct shader_variable *variable)
-{
-    if (!variable->path)
-        return without(spell_name_of(spell->shader->strings, variable->name), strlen("u_"));
-    struct spell_name path = spell_name_of(spell->shader->strings, variable->path);
-    const char *slash = strrchr(path.text, '/');
-    return slash ? without(path, (size_t)(slash + 1 - path.text)) : path;
-}
-
-/*
- * "metal_ior" of the origin, "direction" of a light, "coat" of an input, "noise" of the function
- * mx_noise, else a letter.
- */
-static struct spell_name local_base(const struct spell *spell, ir_ref ref)
-{
-    const struct ir_graph *graph = spell->shader->graph;
-    const struct ir_node *node = ir_get(graph, ref);
-    const struct strpool *strings = spell->shader->strings;
-    if (spell->options->neutral_names)
-        return (struct spell_name){"v", 1};
-    if (node->op == IR_CONTEXT)
-        return spell_name_of(strings, spell->shader->variables.items[node->attr].name);
-    if (node->op == IR_UNIFORM)
-        return input_name(spell, &spell->shader->variables.items[node->attr]);
-    str_id name = graph->origins.items[node->origin].name;
-    if (name)
-        return spell_name_of(strings, name);
-    if (node->op == IR_CALL) {
-        struct spell_name function = spell_name_of(
-            strings,
-            lang_function(spell->shader->unit, shader_callee(spell->shader, ref), NULL)->name);
-        return strncmp(function.text, "mx_", 3) == 0 ? without(function, 3) : function;
-    }
-    return (struct spell_name){node->type == IR_TYPE_BOOL  ? "b"
-                               : node->type == IR_TYPE_INT ? "k"
-                                                           : "t",
-                               1};
-}
-
 static struct spell_name add_local(struct spell *spell, struct spell_name base)
 {
     struct spell_name name = names_unique(&spell->names, base.text, base.len);
@@ -223,9 +177,9 @@ static ir_ref inout_operand(const struct spell *spell, ir_ref call, unsigned ind
 }
 
 /* "metal" of a call "metal_ior" with a result "ior", which is not named twice. */
-static struct spell_name parts_base(const struct spell *spell, ir_ref call, unsigned outs)
+static struct spell_name parts_base(struct spell *spell, ir_ref call, unsigned outs)
 {
-    struct spell_name base = local_base(spell, call);
+    struct spell_name base = spell_call_base(spell, call);
     for (unsigned i = 0; i < outs; i++) {
         const char *part = describe_out(spell, call, i).part;
         size_t len = strlen(part);
@@ -240,7 +194,8 @@ static struct spell_name parts_base(const struct spell *spell, ir_ref call, unsi
 static void declare_outs(struct spell *spell, unsigned indent, ir_ref call, unsigned outs)
 {
     const struct ir_node *node = ir_get(spell->shader->graph, call);
-    struct spell_name base = outs > 1 ? parts_base(spell, call, outs) : local_base(spell, call);
+    struct spell_name base =
+        outs > 1 ? parts_base(spell, call, outs) : spell_call_base(spell, call);
     struct call_out last = {0};
     for (unsigned i = 0; i < outs; i++) {
         struct call_out out = describe_out(spell, call, i);
@@ -274,7 +229,7 @@ static void write_call_let(struct spell *spell, unsigned indent, ir_ref call, un
     if (node->type == IR_TYPE_VOID)
         vec_push(spell->scratch, &spell->let_names, (struct spell_name){0});
     else
-        (void)add_local(spell, local_base(spell, call));
+        (void)add_local(spell, spell_call_base(spell, call));
     declare_outs(spell, indent, call, outs);
     open_line(spell, indent, node->origin);
     if (node->type != IR_TYPE_VOID) {
@@ -297,7 +252,7 @@ static void write_let(struct spell *spell, unsigned indent, ir_ref ref)
             return;
         }
     }
-    struct spell_name name = add_local(spell, local_base(spell, ref));
+    struct spell_name name = add_local(spell, spell_local_base(spell, ref));
     open_line(spell, indent, node->origin);
     if (node->op == IR_CONST && !spell->target->syntax->defines_constants)
         spell_text(spell, "const ");
@@ -425,6 +380,7 @@ void spell_statements(struct spell *spell, const struct effect_list *statements,
 {
     spell->let_names.len = 0;
     spell->loop_index = NULL;
+    spell_plan_locals(spell, statements);
     for (uint32_t i = 0; i < statements->len; i++) {
         const struct effect *effect = &statements->items[i];
         if (effect->kind == EFFECT_END) {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/* support: which ops a target writes, as a table for tests and documentation (docs/targets.md). */
+/* support: which ops a target writes, as a table for tests. */
 #include "spell/target.h"
-
-const char *const spell_support_text[] = {"no", "lowered", "yes"};
 
 /* Ops that the speller writes itself: names, literals and constructors need no form. */
 static bool is_structural(enum ir_op op)

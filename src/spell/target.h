@@ -96,7 +96,6 @@ enum spell_support {
     SPELL_YES,
 };
 enum spell_support spell_support(const struct target *target, enum ir_op op);
-extern const char *const spell_support_text[]; /* "no", "lowered", "yes" */
 
 struct spell_options {
     const char *version;    /* of the target; NULL = default */

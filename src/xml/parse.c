@@ -495,9 +495,10 @@ static void parse_once(struct xml_reader *reader)
 static void report_raw_less(struct xml_reader *reader)
 {
     if (reader->repair_failed) {
-        diag_add(reader->diags, DIAG_ID_xml_syntax, reader->raw_less_place,
-                 "'<' in an attribute value must be written '&lt;', or a closing quote is missing "
-                 "before it");
+        diag_add(
+            reader->diags, DIAG_ID_xml_syntax, reader->raw_less_place,
+            "unescaped '<' in an attribute value, or a missing quotation mark before it; write "
+            "'&lt;'");
         return;
     }
     const struct xml_source *source = reader->source;

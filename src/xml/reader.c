@@ -46,7 +46,7 @@ bool xml_open_file(struct xml_reader *reader, const char *from, const char *ref,
     reader->handle_open = files
                           && files->open(files->user_data, from, ref, &name, out_data, out_size,
                                          &reader->handle, &reason);
-    *out_reason = reason ? reason : "files cannot be read here";
+    *out_reason = reason ? reason : "the context cannot read files";
     *out_name = name ? arena_strndup(&reader->scratch, name, strlen(name)) : NULL;
     return reader->handle_open;
 }

@@ -127,8 +127,8 @@ static void test_max_output(void)
     free(short_text);
     free(long_text);
     unsigned nodes = (unsigned)(MIB / per_node);
-    short_text = chain(nodes - nodes / 8);
-    long_text = chain(nodes + nodes / 8);
+    short_text = chain(nodes - nodes / 4);
+    long_text = chain(nodes + nodes / 4);
     size = generate(&desc, short_text, "output-limit").size;
     REQUIRE(size < MIB && generate(&desc, long_text, "output-limit").size > MIB);
     desc.max_output_mib = 1;

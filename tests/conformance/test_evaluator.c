@@ -194,7 +194,7 @@ int main(int argc, char **argv)
             puts("too few rows are computed");
             ++run.suite.failed;
         }
-        code = suite_report(&run.suite, "conformance, evaluator", true);
+        code = suite_report(&run.suite, "conformance-evaluator", true);
     }
     suite_close(&run.suite);
     scene_finish(&run.scene);

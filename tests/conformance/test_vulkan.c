@@ -131,8 +131,7 @@ int main(int argc, char **argv)
         for (size_t i = part - 1; i < run.suite.num_documents; i += parts)
             check_document(&run, i);
         char name[64];
-        snprintf(name, sizeof name, "conformance, %s, %s, part %zu of %zu", run.target, argv[3],
-                 part, parts);
+        snprintf(name, sizeof name, "conformance-%s-%s-%zu/%zu", run.target, argv[3], part, parts);
         code = suite_report(&run.suite, name, parts == 1);
     }
     stop(&run);

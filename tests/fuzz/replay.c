@@ -55,5 +55,5 @@ int main(int argc, char **argv)
     for (int i = 1; i < argc; ++i)
         feed(argv[i]);
     printf("fuzz-replay: %u passed, 0 failed\n", num_passed);
-    return 0;
+    return num_passed ? 0 : 77;
 }

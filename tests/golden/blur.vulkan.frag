@@ -10,19 +10,25 @@ layout(location = 0) out vec4 out1;
 void main()
 {
     // NG
-    vec2 soft = vd.texcoord_0 + vec2(0.028867513, 0.0);
-    vec2 soft_2 = vd.texcoord_0 + vec2(-0.028867513, 0.0);
-    vec2 soft_3 = abs((soft - soft_2) * 0.5) + abs(dFdx(vd.texcoord_0));
-    vec2 soft_4 = vd.texcoord_0 + vec2(0.0, 0.028867513);
-    vec2 soft_5 = vd.texcoord_0 + vec2(0.0, -0.028867513);
-    vec2 soft_6 = abs((soft_4 - soft_5) * 0.5) + abs(dFdy(vd.texcoord_0));
-    vec3 soft_7 = textureGrad(wood_file, vd.texcoord_0 - vec2(0.028867513), soft_3, soft_6).xyz * 0.01388889;
-    vec3 soft_8 = textureGrad(wood_file, vd.texcoord_0 + vec2(0.028867513, -0.028867513), soft_3, soft_6).xyz * 0.01388889;
-    vec3 soft_9 = soft_7 + textureGrad(wood_file, soft_5, soft_3, soft_6).xyz * 0.05555556 + soft_8;
-    vec3 soft_10 = soft_9 + textureGrad(wood_file, soft_2, soft_3, soft_6).xyz * 0.05555556;
-    vec3 soft_11 = soft_10 + textureGrad(wood_file, vd.texcoord_0, soft_3, soft_6).xyz * 0.22222224;
-    vec3 soft_12 = textureGrad(wood_file, vd.texcoord_0 + vec2(-0.028867513, 0.028867513), soft_3, soft_6).xyz * 0.01388889;
-    vec3 soft_13 = soft_11 + textureGrad(wood_file, soft, soft_3, soft_6).xyz * 0.05555556 + soft_12;
-    vec3 soft_14 = soft_13 + textureGrad(wood_file, soft_4, soft_3, soft_6).xyz * 0.05555556;
-    out1 = vec4(soft_14 + textureGrad(wood_file, vd.texcoord_0 + vec2(0.028867513), soft_3, soft_6).xyz * 0.01388889 + vec3(1.0, 0.0, 0.0), 1.0);
+    vec2 soft_sum = vd.texcoord_0 + vec2(0.028867513, 0.0);
+    vec2 soft_sum_2 = vd.texcoord_0 + vec2(-0.028867513, 0.0);
+    vec2 soft_sum_3 = abs((soft_sum - soft_sum_2) * 0.5) + abs(dFdx(vd.texcoord_0));
+    vec2 soft_sum_4 = vd.texcoord_0 + vec2(0.0, 0.028867513);
+    vec2 soft_sum_5 = vd.texcoord_0 + vec2(0.0, -0.028867513);
+    vec2 soft_sum_6 = abs((soft_sum_4 - soft_sum_5) * 0.5) + abs(dFdy(vd.texcoord_0));
+    vec3 soft_product = textureGrad(wood_file, vd.texcoord_0 - vec2(0.028867513), soft_sum_3, soft_sum_6).xyz
+        * 0.01388889;
+    vec3 soft_product_2 = textureGrad(wood_file, vd.texcoord_0 + vec2(0.028867513, -0.028867513), soft_sum_3,
+        soft_sum_6).xyz * 0.01388889;
+    vec3 soft_sum_7 = soft_product + textureGrad(wood_file, soft_sum_5, soft_sum_3, soft_sum_6).xyz * 0.05555556
+        + soft_product_2;
+    vec3 soft_sum_8 = soft_sum_7 + textureGrad(wood_file, soft_sum_2, soft_sum_3, soft_sum_6).xyz * 0.05555556;
+    vec3 soft_sum_9 = soft_sum_8 + textureGrad(wood_file, vd.texcoord_0, soft_sum_3, soft_sum_6).xyz * 0.22222224;
+    vec3 soft_product_3 = textureGrad(wood_file, vd.texcoord_0 + vec2(-0.028867513, 0.028867513), soft_sum_3,
+        soft_sum_6).xyz * 0.01388889;
+    vec3 soft_sum_10 = soft_sum_9 + textureGrad(wood_file, soft_sum, soft_sum_3, soft_sum_6).xyz * 0.05555556
+        + soft_product_3;
+    vec3 soft_sum_11 = soft_sum_10 + textureGrad(wood_file, soft_sum_4, soft_sum_3, soft_sum_6).xyz * 0.05555556;
+    out1 = vec4(soft_sum_11 + textureGrad(wood_file, vd.texcoord_0 + vec2(0.028867513), soft_sum_3, soft_sum_6).xyz
+        * 0.01388889 + vec3(1.0, 0.0, 0.0), 1.0);
 }

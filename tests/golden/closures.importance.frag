@@ -11,7 +11,6 @@ struct mx_GgxLobe {
     float step;
     float weight;
     float level;
-    mat4 map;
 };
 layout(set = 0, binding = 1, std140) uniform PublicUniforms {
     float SR_varnish_opacity;
@@ -48,15 +47,20 @@ layout(location = 0) in VertexData {
 } vd;
 layout(location = 0) out vec4 out1;
 
+// A polynomial of two variables, what directional albedos are fitted by (the programs in fits/).
 float mx_bicubic(const mat4 m, const float x)
 {
     return dot(vec4(1.0, x, x * x, x * x * x), m * vec4(1.0, 0.04, 0.0016, 0.000064));
 }
 
+// The program fits/ggx.c makes the constants. x is never too small by more than 0.001, so that giving lost energy back
+// adds none. `u` follows what happens where light grazes the facets.
 vec2 mx_ggx_albedo_fit(const float u, const float c)
 {
-    float x = clamp(1.0 - c - 0.04 * mx_bicubic(mat4(-0.2006, 5.2916, -3.7565, 0.218, -10.2439, 6.6203, -0.9657, 2.5694, 38.3042, -80.8059, 71.731, -28.5214, -34.2, 89.1079, -88.4065, 33.782), u), 0.0, 1.0);
-    return vec2(min(1.0046 - u * mx_bicubic(mat4(-0.1447, 2.759, -5.4314, 2.8497, -0.9366, 1.4766, 0.5911, -1.0905, 11.8506, -30.2645, 27.3289, -8.9414, -4.3199, 8.2596, -3.1648, -0.8054), u), 1.0), x * x * x * x * x);
+    float x = clamp(1.0 - c - 0.04 * mx_bicubic(mat4(-0.2006, 5.2916, -3.7565, 0.218, -10.2439, 6.6203, -0.9657, 2.5694,
+        38.3042, -80.8059, 71.731, -28.5214, -34.2, 89.1079, -88.4065, 33.782), u), 0.0, 1.0);
+    return vec2(min(1.0046 - u * mx_bicubic(mat4(-0.1447, 2.759, -5.4314, 2.8497, -0.9366, 1.4766, 0.5911, -1.0905,
+        11.8506, -30.2645, 27.3289, -8.9414, -4.3199, 8.2596, -3.1648, -0.8054), u), 1.0), x * x * x * x * x);
 }
 
 mx_GgxLobe mx_ggx_lobe_at(const mat3 frame, const vec3 v)
@@ -64,9 +68,11 @@ mx_GgxLobe mx_ggx_lobe_at(const mat3 frame, const vec3 v)
     float masking = sqrt(mix(v.z * v.z, 1.0, 0.0016));
     float step_ = 1.0 / float(max(u_envRadianceSamples, 1));
     float weight = step_ * (v.z + masking);
-    return mx_GgxLobe(frame, vec3(0.04, 0.04, 1.0), 0.0016, v, masking, normalize(v * vec3(0.04, 0.04, 1.0)), step_, weight * u_envLightIntensity, weight * 0.0016 * exp2(2.0 * float(u_envRadianceMips) - 2.3485), u_envMatrix);
+    return mx_GgxLobe(frame, vec3(0.04, 0.04, 1.0), 0.0016, v, masking, normalize(v * vec3(0.04, 0.04, 1.0)), step_,
+        weight * u_envLightIntensity, weight * 0.0016 * exp2(2.0 * float(u_envRadianceMips) - 2.3485));
 }
 
+// Axes of the tangent space around N with x along X: `w * frame` enters it, `frame * w` leaves it.
 mat3 mx_frame(const vec3 N, const vec3 X)
 {
     mat3 frame;
@@ -76,52 +82,68 @@ mat3 mx_frame(const vec3 N, const vec3 X)
     return frame;
 }
 
+// N faces V.
 mx_GgxLobe mx_ggx_lobe(const vec3 N, const vec3 X, const vec3 V)
 {
     mat3 frame = mx_frame(N, X);
     return mx_ggx_lobe_at(frame, max(V * frame, vec3(-1.0, -1.0, 1e-8)));
 }
 
+// Distribution of normals (Burley 2012, appendix B.2, equation 13) at a normal that is stretched to that of a unit
+// sphere; `area` is the product of the roughness along x and y.
 float mx_ggx_distribution(const vec3 e, const float area)
 {
     return 1.0 / (3.1415927 * area * dot(e, e) * dot(e, e));
 }
 
+// Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v; half is left of the divisor of the
+// reflection model.
 float mx_ggx_visibility(const mx_GgxLobe lobe, const float cos_l)
 {
     return cos_l / (lobe.v.z * sqrt(mix(cos_l * cos_l, 1.0, lobe.area)) + cos_l * lobe.masking);
 }
 
+// The lobe towards L, but for Fresnel's factor.
 float mx_ggx_light(const mx_GgxLobe lobe, const vec3 L, const vec3 H)
 {
-    return 0.5 * mx_ggx_distribution(H * lobe.frame / lobe.stretch, lobe.area) * mx_ggx_visibility(lobe, max(dot(L, lobe.frame[2]), 1e-8));
+    return 0.5 * mx_ggx_distribution(H * lobe.frame / lobe.stretch, lobe.area)
+        * mx_ggx_visibility(lobe, max(dot(L, lobe.frame[2]), 1e-8));
 }
 
+// Unpolarised Fresnel equations of a dielectric; the clamped root makes total internal reflection come out as 1.
 float mx_fresnel_dielectric(const float cosine)
 {
     float g = sqrt(max(2.1025002 + cosine * cosine - 1.0, 0.0));
-    vec2 a = cosine * vec2(1.0, 2.1025002);
+    vec2 a = cosine * vec2(1.0, 2.1025);
     vec2 r = (a - g) / (a + g);
     return 0.5 * dot(r, r);
 }
 
-vec2 mx_latlong(const mat4 map, const vec3 direction)
+// Where the light from a direction of the world lies in the environment's picture.
+vec2 mx_latlong(const vec3 direction)
 {
-    vec3 d = normalize((map * vec4(direction, 0.0)).xyz);
+    vec3 d = normalize((u_envMatrix * vec4(direction, 0.0)).xyz);
     return vec2(atan(d.x, -d.z), -2.0 * asin(clamp(d.y, -1.0, 1.0))) * 0.15915494 + vec2(0.5);
 }
 
-vec3 mx_filtered_light(const mat4 map, const vec3 L, const float level)
+// Light of a direction, filtered over the solid angle of a sample (Krivanek and Colbert 2008; the mip level is equation
+// 13 of GPU Gems 3, section 20.4).
+vec3 mx_filtered_light(const vec3 L, const float level)
 {
-    return textureLod(u_envRadiance, mx_latlong(map, L), max(0.25 * log2(level * level / dot(L.xz, L.xz)), 0.0)).xyz;
+    return textureLod(u_envRadiance, mx_latlong(L), max(0.25 * log2(level * level / dot(L.xz, L.xz)), 0.0)).xyz;
 }
 
+// The light of a sample, and in the fourth component the cosine at its facet h.
 vec4 mx_ggx_sample_at(const mx_GgxLobe lobe, const vec3 h, const float level)
 {
     vec3 l = reflect(-lobe.v, h);
-    return vec4(mx_ggx_visibility(lobe, max(l.z, 1e-8)) * mx_filtered_light(lobe.map, lobe.frame * l, level), clamp(dot(lobe.v, h), 1e-8, 1.0));
+    return vec4(mx_ggx_visibility(lobe, max(l.z, 1e-8)) * mx_filtered_light(lobe.frame * l, level),
+        clamp(dot(lobe.v, h), 1e-8, 1.0));
 }
 
+// A normal of those visible from v, which is stretched by the roughness, before it is scaled to length 1 (Dupuy and
+// Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps"): (cos, sin) of its turn around z, and how far the
+// cap is below its top.
 vec3 mx_ggx_cap(const vec2 around, const float depth, const vec3 v)
 {
     return vec3(v.xy + sqrt(depth * (2.0 - depth)) * around, v.z + 1.0 - depth);
@@ -135,6 +157,7 @@ vec4 mx_ggx_sample(const mx_GgxLobe lobe, const vec2 around, const float xi)
     return mx_ggx_sample_at(lobe, normalize(h), s * s * lobe.level);
 }
 
+// A function for each interface: what has nothing left to choose needs no version of its own.
 vec3 mx_ggx_gather_dielectric(const mx_GgxLobe lobe)
 {
     vec2 around = vec2(1.0, 0.0);
@@ -150,38 +173,45 @@ vec3 mx_ggx_gather_dielectric(const mx_GgxLobe lobe)
 void main()
 {
     vec3 color = vec3(0.0);
-    vec3 normal = normalize(vd.normalWorld);
+    // lights
+    vec3 normal_N = normalize(vd.normalWorld);
     vec3 V = normalize(u_viewPosition - vd.positionWorld);
-    float coat = max(abs(dot(normal, V)), 1e-8);
-    vec2 coat_2 = mx_ggx_albedo_fit(0.04 / (coat + 0.04), coat);
-    float coat_3 = (1.0 / coat_2.x - 1.0) * 0.079748526 + 1.0;
-    vec3 coat_4 = faceforward(normal, -V, normal);
-    mx_GgxLobe coat_5 = mx_ggx_lobe(coat_4, normalize(vd.tangentWorld), V);
-    float paint = (1.0 - mix(0.033735953, 1.0, coat_2.y) * coat_2.x * coat_3) * 0.75;
-    vec3 paint_2 = paint * vec3(0.6, 0.1, 0.05);
+    float cos_v = max(abs(dot(normal_N, V)), 1e-8);
+    vec2 albedo = mx_ggx_albedo_fit(0.04 / (cos_v + 0.04), cos_v);
+    float scale = (1.0 / albedo.x - 1.0) * 0.079748526 + 1.0;
+    vec3 N = faceforward(normal_N, -V, normal_N);
+    mx_GgxLobe lobe = mx_ggx_lobe(N, normalize(vd.tangentWorld), V);
+    float paint_weight = (1.0 - mix(0.033735953, 1.0, albedo.y) * albedo.x * scale) * 0.75;
+    vec3 scaled_paint_weight = paint_weight * vec3(0.6, 0.1, 0.05);
     for (int i = 0; i < min(u_numActiveLightSources, 3); ++i) {
+        // coat, paint
         int type = u_lightData[i].type;
         float intensity = u_lightData[i].intensity;
-        vec3 spot_light = u_lightData[i].position - vd.positionWorld;
-        float spot_light_2 = intensity / pow(length(spot_light) + 1.0, u_lightData[i].decay_rate);
-        float spot_light_3 = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
-        vec3 spot_light_4 = normalize(spot_light);
-        float spot_light_5 = smoothstep(spot_light_3, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, spot_light_4)) * spot_light_2;
-        float light = type == 3 ? spot_light_5 : 0.0;
-        float light_2 = type == 2 ? spot_light_2 : light;
-        vec3 directional_light = -u_lightData[i].direction;
-        vec3 L = type == 1 ? directional_light : spot_light_4;
-        vec3 coat_6 = normalize(V + L);
-        float coat_7 = mx_fresnel_dielectric(clamp(dot(V, coat_6), 1e-8, 1.0));
-        float paint_3 = max(dot(L, coat_4), 1e-8);
-        vec3 paint_4 = paint_2 * (paint_3 / 3.1415927 * (max(dot(V, L) - coat * paint_3, 0.0) * 0.225 / max(paint_3, coat) + 0.89285713));
-        vec3 t = coat_3 * mx_ggx_light(coat_5, L, coat_6) * coat_7 + paint_4;
-        color += u_lightData[i].color * (type == 1 ? intensity : light_2) * t;
+        vec3 d = u_lightData[i].position - vd.positionWorld;
+        float ratio = intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
+        float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
+        vec3 to_light = normalize(d);
+        float spot_light_product = smoothstep(spot_light_difference, u_lightData[i].inner_angle,
+            -dot(u_lightData[i].direction, to_light)) * ratio;
+        float spot_light_choice = type == 3 ? spot_light_product : 0.0;
+        float point_light_choice = type == 2 ? ratio : spot_light_choice;
+        vec3 directional_light_to_light = -u_lightData[i].direction;
+        vec3 L = type == 1 ? directional_light_to_light : to_light;
+        vec3 H = normalize(V + L);
+        float fresnel = mx_fresnel_dielectric(clamp(dot(V, H), 1e-8, 1.0));
+        float cos_l = max(dot(L, N), 1e-8);
+        vec3 paint_response = scaled_paint_weight
+            * (cos_l / 3.1415927 * (max(dot(V, L) - cos_v * cos_l, 0.0) * 0.225 / max(cos_l, cos_v) + 0.89285713));
+        vec3 sum = scale * mx_ggx_light(lobe, L, H) * fresnel + paint_response;
+        color += u_lightData[i].color * (type == 1 ? intensity : point_light_choice) * sum;
     }
-    vec2 paint_5 = (coat * vec2(-0.7632, -0.4993) - vec2(0.4297, 0.6076) + vec2(0.43155003, 0.60945004)) * 0.3 + vec2(1.0);
-    vec3 paint_6 = paint * clamp(paint_5.x / paint_5.y, 0.0, 1.0) * vec3(0.6, 0.1, 0.05);
-    vec3 paint_7 = textureLod(u_envIrradiance, mx_latlong(u_envMatrix, coat_4), 0.0).xyz * u_envLightIntensity * paint_6;
-    color += coat_3 * mx_ggx_gather_dielectric(coat_5) + paint_7;
+    // environment
+    // coat, paint
+    vec2 fit = (cos_v * vec2(-0.7632, -0.4993) - vec2(0.4297, 0.6076) + vec2(0.43155, 0.60945)) * 0.3 + vec2(1.0);
+    vec3 paint_product = paint_weight * clamp(fit.x / fit.y, 0.0, 1.0) * vec3(0.6, 0.1, 0.05);
+    vec3 paint_response_2 = textureLod(u_envIrradiance, mx_latlong(N), 0.0).xyz * u_envLightIntensity * paint_product;
+    color += scale * mx_ggx_gather_dielectric(lobe) + paint_response_2;
+    // opacity
     if (SR_varnish_opacity < u_alphaThreshold)
         discard;
     out1 = vec4(SR_varnish_opacity * color, SR_varnish_opacity);

@@ -9,6 +9,7 @@ in VertexData {
 } vd;
 out vec4 out1;
 
+// The dot product of p with a vector to the middle of an edge of a cube.
 float mx_gradient(const uint hash, const vec3 p)
 {
     uint h = hash & 15u;
@@ -46,7 +47,12 @@ uint mx_hash_final(const uint x, const uint y, const uint z)
 
 vec3 mx_noise_face_vec3(const int x, const int y, const int z, const vec3 f, const vec3 w)
 {
-    return mix(mix(mx_gradient_vec3(mx_hash_final(3735928584u + uint(x), 3735928584u + uint(y), 3735928584u + uint(z)), f), mx_gradient_vec3(mx_hash_final(3735928584u + uint(x + 1), 3735928584u + uint(y), 3735928584u + uint(z)), f - vec3(1.0, 0.0, 0.0)), w.x), mix(mx_gradient_vec3(mx_hash_final(3735928584u + uint(x), 3735928584u + uint(y + 1), 3735928584u + uint(z)), f - vec3(0.0, 1.0, 0.0)), mx_gradient_vec3(mx_hash_final(3735928584u + uint(x + 1), 3735928584u + uint(y + 1), 3735928584u + uint(z)), f - vec3(1.0, 1.0, 0.0)), w.x), w.y);
+    return mix(mix(mx_gradient_vec3(mx_hash_final(3735928584u + uint(x), 3735928584u + uint(y), 3735928584u + uint(z)),
+        f), mx_gradient_vec3(mx_hash_final(3735928584u + uint(x + 1), 3735928584u + uint(y), 3735928584u + uint(z)), f
+        - vec3(1.0, 0.0, 0.0)), w.x), mix(mx_gradient_vec3(mx_hash_final(3735928584u + uint(x), 3735928584u
+        + uint(y + 1), 3735928584u + uint(z)), f - vec3(0.0, 1.0, 0.0)),
+        mx_gradient_vec3(mx_hash_final(3735928584u + uint(x + 1), 3735928584u + uint(y + 1), 3735928584u + uint(z)), f
+        - vec3(1.0, 1.0, 0.0)), w.x), w.y);
 }
 
 vec3 mx_fade(const vec3 t)
@@ -62,14 +68,15 @@ vec3 mx_noise_vec3(const vec3 p)
     int x = int(cell.x);
     int y = int(cell.y);
     int z = int(cell.z);
-    return 0.982 * mix(mx_noise_face_vec3(x, y, z, f, w), mx_noise_face_vec3(x, y, z + 1, f - vec3(0.0, 0.0, 1.0), w), w.z);
+    return 0.982 * mix(mx_noise_face_vec3(x, y, z, f, w), mx_noise_face_vec3(x, y, z + 1, f - vec3(0.0, 0.0, 1.0), w),
+        w.z);
 }
 
 void main()
 {
     // NG
-    vec2 board = floor(vd.texcoord_0 * 8.0);
-    vec3 board_2 = vec3(mod(board.x + board.y, 2.0));
-    vec3 chosen = 2 > NG_mode ? vd.texcoord_0.x > NG_limit ? board_2 : vec3(1.0, 0.0, 0.0) : vec3(0.0);
-    out1 = vec4(1 > NG_mode ? mx_noise_vec3(vd.positionObject) : chosen, 1.0);
+    vec2 cell = floor(vd.texcoord_0 * 8.0);
+    vec3 board = vec3(mod(cell.x + cell.y, 2.0));
+    vec3 chosen_choice = 2 > NG_mode ? vd.texcoord_0.x > NG_limit ? board : vec3(1.0, 0.0, 0.0) : vec3(0.0);
+    out1 = vec4(1 > NG_mode ? mx_noise_vec3(vd.positionObject) : chosen_choice, 1.0);
 }

@@ -9,7 +9,7 @@ out vec4 out1;
 void main()
 {
     // NG
-    vec2 board = floor(vd.texcoord_0 * 8.0);
-    vec3 board_2 = vec3(mod(board.x + board.y, 2.0));
-    out1 = vec4(vd.texcoord_0.x > 0.5 ? board_2 : vec3(1.0, 0.0, 0.0), 1.0);
+    vec2 cell = floor(vd.texcoord_0 * 8.0);
+    vec3 board = vec3(mod(cell.x + cell.y, 2.0));
+    out1 = vec4(vd.texcoord_0.x > 0.5 ? board : vec3(1.0, 0.0, 0.0), 1.0);
 }

@@ -25,23 +25,27 @@ float mx_line(const vec2 p)
     return distance(from, vec2(0.5) * clamp(dot(from, vec2(0.5)) / 0.5, 0.0, 1.0)) > 0.1 ? 0.0 : 1.0;
 }
 
-vec2 mx_latlong(const mat4 map, const vec3 direction)
+// Where the light from a direction of the world lies in the environment's picture.
+vec2 mx_latlong(const vec3 direction)
 {
-    vec3 d = normalize((map * vec4(direction, 0.0)).xyz);
+    vec3 d = normalize((u_envMatrix * vec4(direction, 0.0)).xyz);
     return vec2(atan(d.x, -d.z), -2.0 * asin(clamp(d.y, -1.0, 1.0))) * 0.15915494 + vec2(0.5);
 }
 
 void main()
 {
     vec3 color = vec3(0.0);
-    vec3 normal = normalize(vd.normalWorld);
+    // environment
+    // bsdf
+    vec3 direction = normalize(vd.normalWorld);
     float both = texture(height_file, vd.texcoord_0).x * mx_line(vd.texcoord_0);
-    vec3 D1 = normalize(vd.tangentWorld) * 0.1 + normal * both;
-    vec3 P = mix(D1, normal * (both * 0.5), 0.25) + vd.positionWorld;
-    vec3 facet = normalize(cross(dFdx(P), dFdy(P)));
-    vec3 facet_2 = faceforward(facet, -normal, facet);
-    vec3 facet_3 = normalize(cross(dFdx(vd.positionWorld), dFdy(vd.positionWorld)));
-    vec3 N = normalize(normal + (facet_2 - faceforward(facet_3, -normal, facet_3)));
-    color += textureLod(u_envIrradiance, mx_latlong(u_envMatrix, faceforward(N, -normalize(u_viewPosition - P), N)), 0.0).xyz * (u_envLightIntensity * 0.18);
+    vec3 D1_sum = normalize(vd.tangentWorld) * 0.1 + direction * both;
+    vec3 P_sum = mix(D1_sum, direction * (both * 0.5), 0.25) + vd.positionWorld;
+    vec3 facet_direction = normalize(cross(dFdx(P_sum), dFdy(P_sum)));
+    vec3 facet_facing = faceforward(facet_direction, -direction, facet_direction);
+    vec3 facet_direction_2 = normalize(cross(dFdx(vd.positionWorld), dFdy(vd.positionWorld)));
+    vec3 N = normalize(direction + (facet_facing - faceforward(facet_direction_2, -direction, facet_direction_2)));
+    color += textureLod(u_envIrradiance, mx_latlong(faceforward(N, -normalize(u_viewPosition - P_sum), N)), 0.0).xyz
+        * (u_envLightIntensity * 0.18);
     out1 = vec4(color, 1.0);
 }

@@ -19,5 +19,6 @@ void main()
     // NG
     vec3 v = normalize(vd_positionWorld - u_viewPosition);
     float facing = dot(normalize(vd_normalObject), v);
-    out1 = vec4(facing, dot(v, normalize(vd_tangentObject)), vd_geomprop_wear, float(vd_geomprop_part)) * vd_color_0 * u_time;
+    out1 = vec4(facing, dot(v, normalize(vd_tangentObject)), vd_geomprop_wear, float(vd_geomprop_part)) * vd_color_0
+        * u_time;
 }

@@ -18,5 +18,6 @@ void main()
     // NG
     vec3 v = normalize(vd.positionWorld - u_viewPosition);
     float facing = dot(normalize(vd.normalObject), v);
-    out1 = vec4(facing, dot(v, normalize(vd.tangentObject)), vd.geomprop_wear, float(vd.geomprop_part)) * vd.color_0 * u_time;
+    out1 = vec4(facing, dot(v, normalize(vd.tangentObject)), vd.geomprop_wear, float(vd.geomprop_part)) * vd.color_0
+        * u_time;
 }

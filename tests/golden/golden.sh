@@ -10,6 +10,10 @@ mxgen=$(realpath "$1") compile=${2:+$(realpath "$2")} update=${3:-}
 golden=$(cd "$(dirname "$0")" && pwd)
 . "$golden/../programs/common.sh"
 
+[ -n "$compile" ] || skip 'without glslang nothing is compiled'
+command -v oslc >/dev/null || skip 'without oslc no OSL is compiled'
+compiles() { [ -n "$compile" ] && { [ "$1" != osl ] || command -v oslc >/dev/null; }; } # TARGET
+
 # same KEPT NEW: whether they are equal; with --update they are then.
 same() {
     diff -u --label "${1##*/}" --label "${1##*/} (now)" "$([ -e "$1" ] && echo "$1" || echo /dev/null)" "$2" && return
@@ -39,7 +43,7 @@ run_line() {
             [ -z "$update" ] || cat check.log
         done
     done
-    [ -z "$compile" ] || check "$title compiles" "$compile" "$document" --targets "$target" --interfaces "$interface" "${options[@]}"
+    compiles "$target" && check "$title compiles" "$compile" "$document" --targets "$target" --interfaces "$interface" "${options[@]}"
 }
 
 declare -A kept
@@ -50,10 +54,13 @@ for document in *.mtlx; do
         run_line "$document" "${words[@]}"
     done < <(sed -n 's/^<!-- mxgen: \(.*\) -->$/\1/p' "$document")
 done
+targets=$("$mxgen" --help | sed -n '/^Targets:/,$ s/^  \([a-z][^ ]*\) .*/\1/p')
+check 'there are targets' test -n "$targets"
+for target in $targets; do # the shading models in every language
+    check "models.mtlx has a run '$target'" ls "$golden/models.$target".standard_surface.*
+done
 for file in "$golden"/*.vert "$golden"/*.frag "$golden"/*.osl "$golden"/*.oslgroup "$golden"/*.json; do # what no run makes any more
     [ -n "${kept[${file##*/}]:-}" ] && continue
     [ -n "$update" ] && rm -v "$file" || check "${file##*/} is made by a run" false
 done
-[ -n "$compile" ] || skip 'golden: nothing is compiled without glslang'
-command -v oslc >/dev/null || skip 'golden: OSL is not compiled without oslc'
 finish golden

@@ -9,9 +9,11 @@ in VertexData {
 } vd;
 out vec4 out1;
 
+// IEC 61966-2-1
 vec3 mx_srgb_texture_to_lin_rec709(const vec3 color)
 {
-    return mix(color / vec3(12.92), pow(max((color + vec3(0.055)) / vec3(1.055), vec3(0.0)), vec3(2.4)), step(0.04045, color));
+    return mix(color / vec3(12.92), pow(max((color + vec3(0.055)) / vec3(1.055), vec3(0.0)), vec3(2.4)),
+        step(0.04045, color));
 }
 
 void main()

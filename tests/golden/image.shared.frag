@@ -9,16 +9,18 @@ in VertexData {
 } vd;
 out vec4 out1;
 
+// IEC 61966-2-1
 vec3 mx_srgb_texture_to_lin_rec709(const vec3 color)
 {
-    return mix(color / vec3(12.92), pow(max((color + vec3(0.055)) / vec3(1.055), vec3(0.0)), vec3(2.4)), step(0.04045, color));
+    return mix(color / vec3(12.92), pow(max((color + vec3(0.055)) / vec3(1.055), vec3(0.0)), vec3(2.4)),
+        step(0.04045, color));
 }
 
 void main()
 {
     // NG
-    vec4 framed = texture(framed_file, vd.texcoord_0);
-    vec3 framed_2 = vd.texcoord_0.x < 0.0 || vd.texcoord_0.x > 1.0 ? vec3(1.0, 0.0, 1.0) : framed.xyz;
+    vec4 image = texture(framed_file, vd.texcoord_0);
+    vec3 framed = vd.texcoord_0.x < 0.0 || vd.texcoord_0.x > 1.0 ? vec3(1.0, 0.0, 1.0) : image.xyz;
     vec3 tiled = mx_srgb_texture_to_lin_rec709(texture(tiled_file, vd.texcoord_0 * vec2(4.0, 2.0)).xyz);
-    out1 = vec4(mx_srgb_texture_to_lin_rec709(texture(NG_file, vd.texcoord_0).xyz) * framed_2 + tiled, 1.0);
+    out1 = vec4(mx_srgb_texture_to_lin_rec709(texture(NG_file, vd.texcoord_0).xyz) * framed + tiled, 1.0);
 }

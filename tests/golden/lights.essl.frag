@@ -25,20 +25,23 @@ out vec4 out1;
 void main()
 {
     vec3 color = vec3(0.0);
-    vec3 normal = normalize(vd_normalWorld);
-    vec3 bsdf = faceforward(normal, -normalize(u_viewPosition - vd_positionWorld), normal);
+    // lights
+    vec3 N = normalize(vd_normalWorld);
+    vec3 bsdf_facing = faceforward(N, -normalize(u_viewPosition - vd_positionWorld), N);
     for (int i = 0; i < min(u_numActiveLightSources, 3); ++i) {
-        bool bulb = u_lightData[i].type == 1;
-        vec3 point_light = u_lightData[i].position - vd_positionWorld;
-        float point_light_2 = length(point_light);
-        vec3 bulb_2 = u_lightData[i].tint * (u_lightData[i].power / (point_light_2 * point_light_2));
-        float point_light_3 = u_lightData[i].intensity / pow(point_light_2 + 1.0, u_lightData[i].decay_rate);
-        vec3 light = u_lightData[i].color * (u_lightData[i].type == 2 ? point_light_3 : 0.0);
-        vec3 bulb_3 = point_light / point_light_2;
-        vec3 point_light_4 = normalize(point_light);
-        float bsdf_2 = max(dot(bulb ? bulb_3 : point_light_4, bsdf), 1e-8) / 3.1415927 * 0.8;
-        color += (bulb ? bulb_2 : light) * bsdf_2;
+        // bsdf
+        bool bulb_is_equal = u_lightData[i].type == 1;
+        vec3 d = u_lightData[i].position - vd_positionWorld;
+        float magnitude_d = length(d);
+        vec3 bulb_product = u_lightData[i].tint * (u_lightData[i].power / (magnitude_d * magnitude_d));
+        float point_light_ratio = u_lightData[i].intensity / pow(magnitude_d + 1.0, u_lightData[i].decay_rate);
+        vec3 point_light_product = u_lightData[i].color * (u_lightData[i].type == 2 ? point_light_ratio : 0.0);
+        vec3 bulb_ratio = d / magnitude_d;
+        vec3 to_light = normalize(d);
+        float bsdf_response = max(dot(bulb_is_equal ? bulb_ratio : to_light, bsdf_facing), 1e-8) / 3.1415927 * 0.8;
+        color += (bulb_is_equal ? bulb_product : point_light_product) * bsdf_response;
     }
+    // opacity
     if (S_opacity < u_alphaThreshold)
         discard;
     out1 = vec4(S_opacity * color, S_opacity);

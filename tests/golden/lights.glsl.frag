@@ -20,17 +20,20 @@ out vec4 out1;
 void main()
 {
     vec3 color = vec3(0.0);
-    vec3 normal = normalize(vd.normalWorld);
-    vec3 bsdf = faceforward(normal, -normalize(u_viewPosition - vd.positionWorld), normal);
+    // lights
+    vec3 N = normalize(vd.normalWorld);
+    vec3 bsdf_facing = faceforward(N, -normalize(u_viewPosition - vd.positionWorld), N);
     for (int i = 0; i < min(u_numActiveLightSources, 3); ++i) {
-        vec3 bulb = u_lightData[i].position - vd.positionWorld;
-        float bulb_2 = length(bulb);
-        vec3 cone = smoothstep(0.8660254, 0.9848077, dot(normalize(u_lightData[i].direction), -(bulb / bulb_2))) * vec3(1.0, 0.5, 0.2);
-        vec3 lamp = cone * (60.0 / (bulb_2 * bulb_2));
-        float bulb_3 = u_lightData[i].power / (bulb_2 * bulb_2);
-        vec3 light = u_lightData[i].tint * (u_lightData[i].type == 4 ? bulb_3 : 0.0);
-        float bsdf_2 = max(dot(bulb / bulb_2, bsdf), 1e-8) / 3.1415927 * 0.8;
-        color += (u_lightData[i].type == 2 ? lamp : light) * bsdf_2;
+        // bsdf
+        vec3 difference = u_lightData[i].position - vd.positionWorld;
+        float magnitude = length(difference);
+        vec3 conical_edf_emission = smoothstep(0.8660254, 0.9848077,
+            dot(normalize(u_lightData[i].direction), -(difference / magnitude))) * vec3(1.0, 0.5, 0.2);
+        vec3 lamp_product = conical_edf_emission * (60.0 / (magnitude * magnitude));
+        float bulb_ratio = u_lightData[i].power / (magnitude * magnitude);
+        vec3 bulb_product = u_lightData[i].tint * (u_lightData[i].type == 4 ? bulb_ratio : 0.0);
+        float bsdf_response = max(dot(difference / magnitude, bsdf_facing), 1e-8) / 3.1415927 * 0.8;
+        color += (u_lightData[i].type == 2 ? lamp_product : bulb_product) * bsdf_response;
     }
     out1 = vec4(color, 1.0);
 }

@@ -6,6 +6,7 @@ in VertexData {
 } vd;
 out vec4 out1;
 
+// The three least distances, in order, after one more is seen.
 vec3 mx_insert_distance(const vec3 nearest, const float d)
 {
     if (d < nearest.x)
@@ -42,9 +43,12 @@ vec3 mx_cellnoise_vec3(const vec2 p)
     vec2 cell = floor(p);
     int x = int(cell.x);
     int y = int(cell.y);
-    return vec3(float(mx_hash_final(3735928584u + uint(x), 3735928584u + uint(y), 3735928584u)) / 4.2949673e9, float(mx_hash_final(3735928584u + uint(x), 3735928584u + uint(y), 3735928585u)) / 4.2949673e9, float(mx_hash_final(3735928584u + uint(x), 3735928584u + uint(y), 3735928586u)) / 4.2949673e9);
+    return vec3(float(mx_hash_final(3735928584u + uint(x), 3735928584u + uint(y), 3735928584u)) / 4.2949673e9,
+        float(mx_hash_final(3735928584u + uint(x), 3735928584u + uint(y), 3735928585u)) / 4.2949673e9,
+        float(mx_hash_final(3735928584u + uint(x), 3735928584u + uint(y), 3735928586u)) / 4.2949673e9);
 }
 
+// Returns the nearest point, and the squared distances to the three nearest.
 vec2 mx_worley(const vec2 p, out vec3 distances)
 {
     vec2 cell = floor(p);

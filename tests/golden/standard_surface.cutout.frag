@@ -10,6 +10,7 @@ out vec4 out1;
 
 void main()
 {
+    // opacity
     // SR_leaf
     float opacity_grey = dot(texture(mask_file, vd.texcoord_0).xyz, vec3(0.2722287, 0.6740818, 0.0536895));
     if (opacity_grey < u_alphaThreshold)

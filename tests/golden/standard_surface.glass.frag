@@ -11,7 +11,6 @@ struct mx_GgxLobe {
     float step;
     float weight;
     float level;
-    mat4 map;
 };
 uniform vec3 u_viewPosition = vec3(0.0);
 uniform int u_numActiveLightSources = 0;
@@ -38,15 +37,20 @@ in VertexData {
 } vd;
 out vec4 out1;
 
+// A polynomial of two variables, what directional albedos are fitted by (the programs in fits/).
 float mx_bicubic(const mat4 m, const float x)
 {
-    return dot(vec4(1.0, x, x * x, x * x * x), m * vec4(1.0, 0.0001, 9.999999e-9, 9.999999e-13));
+    return dot(vec4(1.0, x, x * x, x * x * x), m * vec4(1.0, 0.0001, 1e-8, 1e-12));
 }
 
+// The program fits/ggx.c makes the constants. x is never too small by more than 0.001, so that giving lost energy back
+// adds none. `u` follows what happens where light grazes the facets.
 vec2 mx_ggx_albedo_fit(const float u, const float c)
 {
-    float x = clamp(1.0 - c - 0.0001 * mx_bicubic(mat4(-0.2006, 5.2916, -3.7565, 0.218, -10.2439, 6.6203, -0.9657, 2.5694, 38.3042, -80.8059, 71.731, -28.5214, -34.2, 89.1079, -88.4065, 33.782), u), 0.0, 1.0);
-    return vec2(min(1.0046 - u * mx_bicubic(mat4(-0.1447, 2.759, -5.4314, 2.8497, -0.9366, 1.4766, 0.5911, -1.0905, 11.8506, -30.2645, 27.3289, -8.9414, -4.3199, 8.2596, -3.1648, -0.8054), u), 1.0), x * x * x * x * x);
+    float x = clamp(1.0 - c - 0.0001 * mx_bicubic(mat4(-0.2006, 5.2916, -3.7565, 0.218, -10.2439, 6.6203, -0.9657,
+        2.5694, 38.3042, -80.8059, 71.731, -28.5214, -34.2, 89.1079, -88.4065, 33.782), u), 0.0, 1.0);
+    return vec2(min(1.0046 - u * mx_bicubic(mat4(-0.1447, 2.759, -5.4314, 2.8497, -0.9366, 1.4766, 0.5911, -1.0905,
+        11.8506, -30.2645, 27.3289, -8.9414, -4.3199, 8.2596, -3.1648, -0.8054), u), 1.0), x * x * x * x * x);
 }
 
 mx_GgxLobe mx_ggx_lobe_at(const mat3 frame, const vec3 v)
@@ -54,9 +58,12 @@ mx_GgxLobe mx_ggx_lobe_at(const mat3 frame, const vec3 v)
     float masking = sqrt(mix(v.z * v.z, 1.0, 9.999999e-9));
     float step_ = 1.0 / float(max(u_envRadianceSamples, 1));
     float weight = step_ * (v.z + masking);
-    return mx_GgxLobe(frame, vec3(0.0001, 0.0001, 1.0), 9.999999e-9, v, masking, normalize(v * vec3(0.0001, 0.0001, 1.0)), step_, weight * u_envLightIntensity, weight * 9.999999e-9 * exp2(2.0 * float(u_envRadianceMips) - 2.3485), u_envMatrix);
+    return mx_GgxLobe(frame, vec3(0.0001, 0.0001, 1.0), 9.999999e-9, v, masking,
+        normalize(v * vec3(0.0001, 0.0001, 1.0)), step_, weight * u_envLightIntensity, weight * 9.999999e-9
+        * exp2(2.0 * float(u_envRadianceMips) - 2.3485));
 }
 
+// Axes of the tangent space around N with x along X: `w * frame` enters it, `frame * w` leaves it.
 mat3 mx_frame(const vec3 N, const vec3 X)
 {
     mat3 frame;
@@ -66,27 +73,35 @@ mat3 mx_frame(const vec3 N, const vec3 X)
     return frame;
 }
 
+// N faces V.
 mx_GgxLobe mx_ggx_lobe(const vec3 N, const vec3 X, const vec3 V)
 {
     mat3 frame = mx_frame(N, X);
     return mx_ggx_lobe_at(frame, max(V * frame, vec3(-1.0, -1.0, 1e-8)));
 }
 
+// Distribution of normals (Burley 2012, appendix B.2, equation 13) at a normal that is stretched to that of a unit
+// sphere; `area` is the product of the roughness along x and y.
 float mx_ggx_distribution(const vec3 e, const float area)
 {
     return 1.0 / (3.1415927 * area * dot(e, e) * dot(e, e));
 }
 
+// Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v; half is left of the divisor of the
+// reflection model.
 float mx_ggx_visibility(const mx_GgxLobe lobe, const float cos_l)
 {
     return cos_l / (lobe.v.z * sqrt(mix(cos_l * cos_l, 1.0, lobe.area)) + cos_l * lobe.masking);
 }
 
+// The lobe towards L, but for Fresnel's factor.
 float mx_ggx_light(const mx_GgxLobe lobe, const vec3 L, const vec3 H)
 {
-    return 0.5 * mx_ggx_distribution(H * lobe.frame / lobe.stretch, lobe.area) * mx_ggx_visibility(lobe, max(dot(L, lobe.frame[2]), 1e-8));
+    return 0.5 * mx_ggx_distribution(H * lobe.frame / lobe.stretch, lobe.area)
+        * mx_ggx_visibility(lobe, max(dot(L, lobe.frame[2]), 1e-8));
 }
 
+// Unpolarised Fresnel equations of a dielectric; the clamped root makes total internal reflection come out as 1.
 float mx_fresnel_dielectric(const float cosine)
 {
     float g = sqrt(max(2.3104 + cosine * cosine - 1.0, 0.0));
@@ -95,23 +110,28 @@ float mx_fresnel_dielectric(const float cosine)
     return 0.5 * dot(r, r);
 }
 
-vec2 mx_latlong(const mat4 map, const vec3 direction)
+// Where the light from a direction of the world lies in the environment's picture.
+vec2 mx_latlong(const vec3 direction)
 {
-    vec3 d = normalize((map * vec4(direction, 0.0)).xyz);
+    vec3 d = normalize((u_envMatrix * vec4(direction, 0.0)).xyz);
     return vec2(atan(d.x, -d.z), -2.0 * asin(clamp(d.y, -1.0, 1.0))) * 0.15915494 + vec2(0.5);
 }
 
-vec3 mx_filtered_light(const mat4 map, const vec3 L, const float level)
+// Light of a direction, filtered over the solid angle of a sample (Krivanek and Colbert 2008; the mip level is equation
+// 13 of GPU Gems 3, section 20.4).
+vec3 mx_filtered_light(const vec3 L, const float level)
 {
-    return textureLod(u_envRadiance, mx_latlong(map, L), max(0.25 * log2(level * level / dot(L.xz, L.xz)), 0.0)).xyz;
+    return textureLod(u_envRadiance, mx_latlong(L), max(0.25 * log2(level * level / dot(L.xz, L.xz)), 0.0)).xyz;
 }
 
+// Direction of the ray -v after it has entered the sphere at normal h and left it again.
 vec3 mx_refract_sphere(const vec3 v, const vec3 h, const float ior)
 {
     vec3 inside = refract(-v, h, 1.0 / ior);
     return refract(inside, normalize(inside * dot(inside, h) - 0.5 * h), ior);
 }
 
+// The light of a sample, and in the fourth component the cosine at its facet h.
 vec4 mx_ggx_sample_at(const mx_GgxLobe lobe, const vec3 h, const float level, const float refract_ior)
 {
     vec3 l = reflect(-lobe.v, h);
@@ -120,9 +140,12 @@ vec4 mx_ggx_sample_at(const mx_GgxLobe lobe, const vec3 h, const float level, co
         l = mx_refract_sphere(lobe.v, h, refract_ior);
         weight = 0.5 / lobe.v.z;
     }
-    return vec4(weight * mx_filtered_light(lobe.map, lobe.frame * l, level), clamp(dot(lobe.v, h), 1e-8, 1.0));
+    return vec4(weight * mx_filtered_light(lobe.frame * l, level), clamp(dot(lobe.v, h), 1e-8, 1.0));
 }
 
+// A normal of those visible from v, which is stretched by the roughness, before it is scaled to length 1 (Dupuy and
+// Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps"): (cos, sin) of its turn around z, and how far the
+// cap is below its top.
 vec3 mx_ggx_cap(const vec2 around, const float depth, const vec3 v)
 {
     return vec3(v.xy + sqrt(depth * (2.0 - depth)) * around, v.z + 1.0 - depth);
@@ -136,6 +159,7 @@ vec4 mx_ggx_sample(const mx_GgxLobe lobe, const vec2 around, const float xi, con
     return mx_ggx_sample_at(lobe, normalize(h), s * s * lobe.level, refract_ior);
 }
 
+// A function for each interface: what has nothing left to choose needs no version of its own.
 vec3 mx_ggx_gather_dielectric(const mx_GgxLobe lobe, const float refract_ior)
 {
     vec2 around = vec2(1.0, 0.0);
@@ -152,32 +176,37 @@ vec3 mx_ggx_gather_dielectric(const mx_GgxLobe lobe, const float refract_ior)
 void main()
 {
     vec3 color = vec3(0.0);
-    vec3 normal = normalize(vd.normalWorld);
+    // lights
+    vec3 direction = normalize(vd.normalWorld);
     vec3 V = normalize(u_viewPosition - vd.positionWorld);
     // SR_glass
-    float reflection = max(abs(dot(normal, V)), 1e-8);
-    vec2 reflection_2 = mx_ggx_albedo_fit(0.0001 / (reflection + 0.0001), reflection);
-    float reflection_3 = (1.0 / reflection_2.x - 1.0) * 0.08817142 + 1.0;
-    mx_GgxLobe reflection_4 = mx_ggx_lobe(faceforward(normal, -V, normal), normalize(vd.tangentWorld), V);
+    float c = max(abs(dot(direction, V)), 1e-8);
+    vec2 albedo = mx_ggx_albedo_fit(0.0001 / (c + 0.0001), c);
+    float scale = (1.0 / albedo.x - 1.0) * 0.08817142 + 1.0;
+    mx_GgxLobe lobe = mx_ggx_lobe(faceforward(direction, -V, direction), normalize(vd.tangentWorld), V);
     for (int i = 0; i < min(u_numActiveLightSources, 3); ++i) {
+        // reflection
         int type = u_lightData[i].type;
         float intensity = u_lightData[i].intensity;
-        vec3 spot_light = u_lightData[i].position - vd.positionWorld;
-        float spot_light_2 = intensity / pow(length(spot_light) + 1.0, u_lightData[i].decay_rate);
-        float spot_light_3 = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
-        vec3 spot_light_4 = normalize(spot_light);
-        float spot_light_5 = smoothstep(spot_light_3, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, spot_light_4)) * spot_light_2;
-        float light = type == 3 ? spot_light_5 : 0.0;
-        float light_2 = type == 2 ? spot_light_2 : light;
-        vec3 directional_light = -u_lightData[i].direction;
-        vec3 L = type == 1 ? directional_light : spot_light_4;
-        vec3 reflection_5 = normalize(V + L);
-        float reflection_6 = mx_fresnel_dielectric(clamp(dot(V, reflection_5), 1e-8, 1.0));
-        float reflection_7 = reflection_3 * mx_ggx_light(reflection_4, L, reflection_5) * reflection_6;
-        color += u_lightData[i].color * (type == 1 ? intensity : light_2) * reflection_7;
+        vec3 d = u_lightData[i].position - vd.positionWorld;
+        float ratio = intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
+        float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
+        vec3 to_light = normalize(d);
+        float spot_light_product = smoothstep(spot_light_difference, u_lightData[i].inner_angle,
+            -dot(u_lightData[i].direction, to_light)) * ratio;
+        float spot_light_choice = type == 3 ? spot_light_product : 0.0;
+        float point_light_choice = type == 2 ? ratio : spot_light_choice;
+        vec3 directional_light_to_light = -u_lightData[i].direction;
+        vec3 L = type == 1 ? directional_light_to_light : to_light;
+        vec3 H = normalize(V + L);
+        float fresnel = mx_fresnel_dielectric(clamp(dot(V, H), 1e-8, 1.0));
+        float reflection_response = scale * mx_ggx_light(lobe, L, H) * fresnel;
+        color += u_lightData[i].color * (type == 1 ? intensity : point_light_choice) * reflection_response;
     }
-    vec3 reflection_8 = reflection_3 * mx_ggx_gather_dielectric(reflection_4, 0.0);
-    float reflection_9 = 1.0 - mix(0.042579994, 1.0, reflection_2.y) * reflection_2.x * reflection_3;
-    color += reflection_8 + reflection_9 * mx_ggx_gather_dielectric(reflection_4, 1.52);
+    // environment
+    // reflection, refraction
+    vec3 reflection_response_2 = scale * mx_ggx_gather_dielectric(lobe, 0.0);
+    float one_minus_ggx_reflectance = 1.0 - mix(0.042579994, 1.0, albedo.y) * albedo.x * scale;
+    color += reflection_response_2 + one_minus_ggx_reflectance * mx_ggx_gather_dielectric(lobe, 1.52);
     out1 = vec4(color, 1.0);
 }

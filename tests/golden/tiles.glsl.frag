@@ -13,39 +13,42 @@ in VertexData {
 } vd;
 out vec4 out1;
 
+// IEC 61966-2-1
 vec3 mx_srgb_texture_to_lin_rec709(const vec3 color)
 {
-    return mix(color / vec3(12.92), pow(max((color + vec3(0.055)) / vec3(1.055), vec3(0.0)), vec3(2.4)), step(0.04045, color));
+    return mix(color / vec3(12.92), pow(max((color + vec3(0.055)) / vec3(1.055), vec3(0.0)), vec3(2.4)),
+        step(0.04045, color));
 }
 
 void main()
 {
     // NG
-    vec2 wall = floor(vd.texcoord_0);
-    bool wall_2 = wall.y >= 0.0 && wall.y <= 1.0;
-    float stone[6] = float[6](0.0, 1.0, -1.0, -1.0, -1.0, 2.0);
-    float wall_3 = stone[int(clamp(wall.x + wall.y * 3.0, 0.0, 5.0))];
-    bool wall_4 = wall.x >= 0.0 && wall.x <= 2.0 && wall_2 && wall_3 >= 0.0;
-    vec2 wall_5 = fract(vd.texcoord_0);
-    vec2 wall_6 = dFdx(vd.texcoord_0);
-    vec2 wall_7 = dFdy(vd.texcoord_0);
-    vec4 wall_8 = textureGrad(wall_file, vec3(wall_5, wall_3), wall_6, wall_7);
-    vec3 wall_9 = mx_srgb_texture_to_lin_rec709((wall_4 ? wall_8 : vec4(1.0, 0.0, 1.0, 1.0)).xyz);
-    vec3 stone_2 = abs(normalize(vd.normalObject));
-    vec3 stone_3 = stone_2 / dot(stone_2, vec3(1.0));
-    vec3 stone_4 = stone_3 / dot(stone_3, vec3(1.0));
-    vec4 stone_5 = texture(stone_filex, vd.positionObject.yz) * stone_4.x;
-    vec2 stone_6 = floor(vd.positionObject.xy);
-    bool stone_7 = stone_6.x >= 0.0 && stone_6.x <= 2.0;
-    float stone_8 = stone[int(clamp(stone_6.x + stone_6.y * 3.0, 0.0, 5.0))];
-    bool stone_9 = stone_7 && (stone_6.y >= 0.0 && stone_6.y <= 1.0) && stone_8 >= 0.0;
-    vec2 stone_10 = dFdx(vd.positionObject.xy);
-    vec2 stone_11 = dFdy(vd.positionObject.xy);
-    vec4 stone_12 = textureGrad(stone_filez, vec3(fract(vd.positionObject.xy), stone_8), stone_10, stone_11);
-    vec4 stone_13 = (stone_9 ? stone_12 : vec4(0.0, 0.0, 0.0, 1.0)) * stone_4.z;
-    vec3 stone_14 = (stone_5 + texture(stone_filey, vd.positionObject.xz) * stone_4.y + stone_13).xyz;
-    bool rust = wall_2 && (wall.x >= 0.0 && wall.x <= 1.0);
-    vec3 rust_2 = vec3(wall_5, wall.x + wall.y * 2.0);
-    vec4 rust_3 = textureGrad(rust_file, rust_2, wall_6, wall_7);
-    out1 = vec4(mix(wall_9, stone_14, (rust ? rust_3 : vec4(0.0, 0.0, 0.0, 1.0)).x), 1.0);
+    vec2 whole = floor(vd.texcoord_0);
+    bool are_both = whole.y >= 0.0 && whole.y <= 1.0;
+    float vector[6] = float[6](0.0, 1.0, -1.0, -1.0, -1.0, 2.0);
+    float wall_element = vector[int(clamp(whole.x + whole.y * 3.0, 0.0, 5.0))];
+    bool wall_are_both = whole.x >= 0.0 && whole.x <= 2.0 && are_both && wall_element >= 0.0;
+    vec2 fraction = fract(vd.texcoord_0);
+    vec2 slope_x = dFdx(vd.texcoord_0);
+    vec2 slope_y = dFdy(vd.texcoord_0);
+    vec4 wall_texel = textureGrad(wall_file, vec3(fraction, wall_element), slope_x, slope_y);
+    vec3 wall = mx_srgb_texture_to_lin_rec709((wall_are_both ? wall_texel : vec4(1.0, 0.0, 1.0, 1.0)).xyz);
+    vec3 stone_weight = abs(normalize(vd.normalObject));
+    vec3 stone_weight_2 = stone_weight / dot(stone_weight, vec3(1.0));
+    vec3 stone_weight_3 = stone_weight_2 / dot(stone_weight_2, vec3(1.0));
+    vec4 stone_product = texture(stone_filex, vd.positionObject.yz) * stone_weight_3.x;
+    vec2 whole_uv = floor(vd.positionObject.xy);
+    bool stone_are_both = whole_uv.x >= 0.0 && whole_uv.x <= 2.0;
+    float stone_element = vector[int(clamp(whole_uv.x + whole_uv.y * 3.0, 0.0, 5.0))];
+    bool stone_are_both_2 = stone_are_both && (whole_uv.y >= 0.0 && whole_uv.y <= 1.0) && stone_element >= 0.0;
+    vec2 slope_x_of_uv = dFdx(vd.positionObject.xy);
+    vec2 slope_y_of_uv = dFdy(vd.positionObject.xy);
+    vec4 stone_texel = textureGrad(stone_filez, vec3(fract(vd.positionObject.xy), stone_element), slope_x_of_uv,
+        slope_y_of_uv);
+    vec4 stone_product_2 = (stone_are_both_2 ? stone_texel : vec4(0.0, 0.0, 0.0, 1.0)) * stone_weight_3.z;
+    vec3 stone = (stone_product + texture(stone_filey, vd.positionObject.xz) * stone_weight_3.y + stone_product_2).xyz;
+    bool rust_are_both = are_both && (whole.x >= 0.0 && whole.x <= 1.0);
+    vec3 rust_vector = vec3(fraction, whole.x + whole.y * 2.0);
+    vec4 rust_texel = textureGrad(rust_file, rust_vector, slope_x, slope_y);
+    out1 = vec4(mix(wall, stone, (rust_are_both ? rust_texel : vec4(0.0, 0.0, 0.0, 1.0)).x), 1.0);
 }

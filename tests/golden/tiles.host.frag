@@ -13,9 +13,11 @@ in VertexData {
 } vd;
 out vec4 out1;
 
+// IEC 61966-2-1
 vec3 mx_srgb_texture_to_lin_rec709(const vec3 color)
 {
-    return mix(color / vec3(12.92), pow(max((color + vec3(0.055)) / vec3(1.055), vec3(0.0)), vec3(2.4)), step(0.04045, color));
+    return mix(color / vec3(12.92), pow(max((color + vec3(0.055)) / vec3(1.055), vec3(0.0)), vec3(2.4)),
+        step(0.04045, color));
 }
 
 vec4 mx_triplanar(sampler2D filex, sampler2D filey, sampler2D filez, const vec3 position, const vec3 normal)
@@ -23,9 +25,12 @@ vec4 mx_triplanar(sampler2D filex, sampler2D filey, sampler2D filez, const vec3 
     vec3 weight = abs(normalize(normal));
     weight /= dot(weight, vec3(1.0));
     weight /= dot(weight, vec3(1.0));
-    return texture(filex, position.yz) * weight.x + texture(filey, position.xz) * weight.y + texture(filez, position.xy) * weight.z;
+    return texture(filex, position.yz) * weight.x + texture(filey, position.xz) * weight.y + texture(filez, position.xy)
+        * weight.z;
 }
 
+// Cubic B-spline filtering by four linear lookups: Christian Sigg and Markus Hadwiger, "Fast Third-Order Texture
+// Filtering", GPU Gems 2, 2005, chapter 20.
 vec4 mx_sample_cubic(sampler2D file, const vec2 uv)
 {
     vec2 size = vec2(textureSize(file, 0));
@@ -40,7 +45,8 @@ vec4 mx_sample_cubic(sampler2D file, const vec2 uv)
     vec2 t = w2 + w3;
     vec2 dx = dFdx(uv);
     vec2 dy = dFdy(uv);
-    return mix(mix(textureGrad(file, low, dx, dy), textureGrad(file, vec2(high.x, low.y), dx, dy), t.x), mix(textureGrad(file, vec2(low.x, high.y), dx, dy), textureGrad(file, high, dx, dy), t.x), t.y);
+    return mix(mix(textureGrad(file, low, dx, dy), textureGrad(file, vec2(high.x, low.y), dx, dy), t.x),
+        mix(textureGrad(file, vec2(low.x, high.y), dx, dy), textureGrad(file, high, dx, dy), t.x), t.y);
 }
 
 void main()

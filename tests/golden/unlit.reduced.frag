@@ -9,6 +9,7 @@ out vec4 out1;
 
 void main()
 {
+    // opacity
     if (0.375 < u_alphaThreshold)
         discard;
     out1 = vec4(vec3(vd.texcoord_0, 0.0) * 0.5, 0.375);

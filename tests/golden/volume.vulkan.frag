@@ -30,42 +30,50 @@ layout(location = 0) in VertexData {
 } vd;
 layout(location = 0) out vec4 out1;
 
-vec2 mx_latlong(const mat4 map, const vec3 direction)
+// Where the light from a direction of the world lies in the environment's picture.
+vec2 mx_latlong(const vec3 direction)
 {
-    vec3 d = normalize((map * vec4(direction, 0.0)).xyz);
+    vec3 d = normalize((u_envMatrix * vec4(direction, 0.0)).xyz);
     return vec2(atan(d.x, -d.z), -2.0 * asin(clamp(d.y, -1.0, 1.0))) * 0.15915494 + vec2(0.5);
 }
 
 void main()
 {
     vec3 V = normalize(u_viewPosition - vd.positionWorld);
-    float depth = u_volumeDepth * max(dot(V, normalize(vd.normalWorld)), 0.0);
-    float t = 1.0 - vd.texcoord_0.x;
-    vec3 optical_depth = t * vec3(0.3, 0.5, 0.9) + t * 1.2;
-    vec3 optical_depth_2 = depth * (optical_depth + t * vec3(2.0, 1.0, 0.5));
-    vec3 lost = vec3(1.0) - exp(-optical_depth_2);
-    vec3 path = mix(vec3(1.0), lost / max(optical_depth_2, vec3(0.001)), step(vec3(0.001), optical_depth_2));
-    vec3 color = depth * path * (vd.texcoord_0.x * vec3(0.2, 0.06, 0.01));
-    vec3 smoke = path * (t * depth * 1.2);
+    float depth_product = u_volumeDepth * max(dot(V, normalize(vd.normalWorld)), 0.0);
+    float one_minus_st_outx = 1.0 - vd.texcoord_0.x;
+    vec3 optical_depth_sum = one_minus_st_outx * vec3(0.3, 0.5, 0.9) + one_minus_st_outx * 1.2;
+    vec3 optical_depth_product = depth_product * (optical_depth_sum + one_minus_st_outx * vec3(2.0, 1.0, 0.5));
+    vec3 lost_difference = vec3(1.0) - exp(-optical_depth_product);
+    vec3 path_blend = mix(vec3(1.0), lost_difference / max(optical_depth_product, vec3(0.001)),
+        step(vec3(0.001), optical_depth_product));
+    vec3 color = depth_product * path_blend * (vd.texcoord_0.x * vec3(0.2, 0.06, 0.01));
+    // lights
+    vec3 smoke_product = path_blend * (one_minus_st_outx * depth_product * 1.2);
     for (int i = 0; i < min(u_numActiveLightSources, 3); ++i) {
+        // smoke
         int type = u_lightData[i].type;
         float intensity = u_lightData[i].intensity;
-        vec3 spot_light = u_lightData[i].position - vd.positionWorld;
-        float spot_light_2 = intensity / pow(length(spot_light) + 1.0, u_lightData[i].decay_rate);
-        float spot_light_3 = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
-        vec3 spot_light_4 = normalize(spot_light);
-        float spot_light_5 = smoothstep(spot_light_3, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, spot_light_4)) * spot_light_2;
-        float light = type == 3 ? spot_light_5 : 0.0;
-        float light_2 = type == 2 ? spot_light_2 : light;
-        vec3 light_3 = u_lightData[i].color * (type == 1 ? intensity : light_2);
-        vec3 directional_light = -u_lightData[i].direction;
-        float smoke_2 = dot(V, type == 1 ? directional_light : spot_light_4) * 0.8 + 1.16;
-        color += light_3 * (0.84 / (smoke_2 * 12.566371 * sqrt(smoke_2)) * smoke);
+        vec3 d = u_lightData[i].position - vd.positionWorld;
+        float ratio = intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
+        float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
+        vec3 to_light = normalize(d);
+        float spot_light_product = smoothstep(spot_light_difference, u_lightData[i].inner_angle,
+            -dot(u_lightData[i].direction, to_light)) * ratio;
+        float spot_light_choice = type == 3 ? spot_light_product : 0.0;
+        float point_light_choice = type == 2 ? ratio : spot_light_choice;
+        vec3 light = u_lightData[i].color * (type == 1 ? intensity : point_light_choice);
+        vec3 directional_light_to_light = -u_lightData[i].direction;
+        float smoke_d = dot(V, type == 1 ? directional_light_to_light : to_light) * 0.8 + 1.16;
+        color += light * (0.84 / (smoke_d * 12.566371 * sqrt(smoke_d)) * smoke_product);
     }
-    if (t > 0.0) {
-        vec3 smoke_3 = textureLod(u_envIrradiance, mx_latlong(u_envMatrix, -V), 0.0).xyz * u_envLightIntensity;
-        vec3 smoke_4 = mix(smoke_3, u_envLightIntensity * textureLod(u_envIrradiance, mx_latlong(u_envMatrix, V), 0.0).xyz, 0.19999999) * 1.2;
-        color += path * (t * depth) * smoke_4;
+    // environment
+    // smoke
+    if (one_minus_st_outx > 0.0) {
+        vec3 environment_irradiance = textureLod(u_envIrradiance, mx_latlong(-V), 0.0).xyz * u_envLightIntensity;
+        vec3 anisotropic_vdf_environment = mix(environment_irradiance, u_envLightIntensity
+            * textureLod(u_envIrradiance, mx_latlong(V), 0.0).xyz, 0.19999999) * 1.2;
+        color += path_blend * (one_minus_st_outx * depth_product) * anisotropic_vdf_environment;
     }
-    out1 = vec4(color, dot(lost, vec3(0.33333334)));
+    out1 = vec4(color, dot(lost_difference, vec3(0.3333333)));
 }

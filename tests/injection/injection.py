@@ -5,13 +5,14 @@ target. What is left of the source without its comments and string literals must
 Arguments: mxgen, mxgen-compile or '', the template."""
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
 from xml.sax.saxutils import quoteattr
 
 sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent))
-from checks import check, finish
+from checks import check, finish, skip
 
 MXGEN, COMPILE, TEMPLATE = sys.argv[1], sys.argv[2], pathlib.Path(sys.argv[3]).read_text(encoding="utf-8")
 MARK = re.compile(r"\bINJECTED\b") # a part of an identifier is harmless
@@ -65,8 +66,12 @@ with tempfile.TemporaryDirectory() as folder:
             check(all(out in path.parents for path in made), f"{name}, {target}: a file elsewhere")
             for path in made:
                 check_source(path, f"{name}, {target}")
-        if COMPILE:
+        if COMPILE: # all targets that have a compiler here
             result = subprocess.run([COMPILE, document], capture_output=True, text=True, check=False)
             check(result.returncode == 0, f"{name} does not compile: {result.stdout[-1500:]}{result.stderr[-500:]}")
 
+if not COMPILE:
+    skip("without glslang nothing is compiled")
+if not shutil.which("oslc"):
+    skip("without oslc no OSL is compiled")
 finish("injection")

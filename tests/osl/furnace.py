@@ -108,7 +108,7 @@ def agree(what, mean, reference, expected):
 def compare(what, document, options, expected):
     reference = in_folder(traced, document, options)
     if isinstance(reference, str) and "no-device" in reference:
-        skip("osl-furnace: there is no Vulkan device")
+        skip("there is no Vulkan device")
         finish()
     agree(what, in_folder(by_osl, document, options), reference, expected)
     if what in NETWORKS:
@@ -116,7 +116,7 @@ def compare(what, document, options, expected):
 
 
 if not shutil.which("oslc") or not shutil.which("testrender"):
-    skip("osl-furnace: oslc or testrender is not installed")
+    skip("oslc or testrender is not installed")
     finish()
 for line in (HERE / "furnace.tsv").read_text(encoding="utf-8").splitlines()[1:]:
     name, ratio, alike, _ = (line.split("\t") + ["", "", ""])[:4]
@@ -125,7 +125,7 @@ for line in (HERE / "furnace.tsv").read_text(encoding="utf-8").splitlines()[1:]:
     is_example = name.endswith(".mtlx")
     document = pathlib.Path(EXAMPLES) / name if is_example else HERE / "furnace.mtlx"
     if is_example and not (EXAMPLES and document.exists()):
-        skip(f"osl-furnace: there is no {document}")
+        skip(f"there is no {document}")
         continue
     element = [] if is_example else ["--element", name]
     compare(name, document, element, float(ratio or 1))

@@ -124,13 +124,13 @@ def run_materials():
 
 
 if not shutil.which("oslc") or not shutil.which("testshade"):
-    print("skip: osl-networks: oslc or testshade is not installed\nosl-networks: 0 passed, 0 failed, 1 skipped")
+    print("skip: oslc or testshade is not installed\nosl-networks: 0 passed, 0 failed, 1 skipped")
     sys.exit(77)
 run_values()
 if MATERIALS and pathlib.Path(MATERIALS).is_dir():
     run_materials()
 else:
-    print("skip: osl-networks: there are no materials")
+    print(f"skip: there is no folder {MATERIALS}")
     counts["skipped"] += 1
 print(f"osl-networks: {counts['passed']} passed, {counts['failed']} failed, {counts['skipped']} skipped")
-sys.exit(counts["failed"] > 0)
+sys.exit(1 if counts["failed"] else 0 if counts["passed"] else 77)

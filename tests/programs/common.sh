@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Sourced by the tests of programs: `check` counts, `finish NAME` prints the line that script/test sums up.
+# Sourced by the tests of programs: `check` counts, `finish NAME` prints the line that script/test sums up and ends the test, with 77
+# (skipped) where nothing was checked.
 set -u
 passed=0 failed=0 skipped=0
 work=$(mktemp -d)
@@ -35,8 +36,15 @@ skip() {
     printf 'skip: %s\n' "$1"
 }
 
+# has_device RENDERER...: whether the program finds a Vulkan device.
+has_device() {
+    echo '<materialx version="1.39"><position name="p" type="vector3"/><output name="o" type="vector3" nodename="p"/></materialx>' >device.mtlx
+    "$@" device.mtlx --scene grid >device.out 2>&1 || ! grep -q no-device device.out
+}
+
 finish() {
     printf '%s: %d passed, %d failed, %d skipped\n' "$1" "$passed" "$failed" "$skipped"
+    [ $((passed + failed)) -gt 0 ] || exit 77
     [ "$failed" -eq 0 ]
     exit
 }

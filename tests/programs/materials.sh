@@ -70,7 +70,8 @@ while read -r document; do
     fi
 done <documents
 
-[ -n "$render" ] || finish materials
+[ -n "$render" ] || { skip 'there is no renderer'; finish materials; }
+has_device "$render" || { skip 'there is no Vulkan device'; finish materials; }
 examples=resources/Materials/Examples/StandardSurface
 for document in $(grep "^$examples/" documents); do
     for element in $(cut -f 2 "made/$document/out" | sort -u); do

@@ -89,7 +89,7 @@ all_near() {
         awk -F, -v v="$2" '{ n = NF } { for (i = 2; i <= NF; i++) if ($i < v - 1e-6 || $i > v + 1e-6) exit 1 } END { exit n < 33 }'
 }
 
-if ! "$render" plain.mtlx --scene grid >out 2>err && grep -q no-device err; then
+if ! has_device "$render"; then
     skip 'there is no Vulkan device'
     finish render
 fi
@@ -130,7 +130,7 @@ for place in missing/ball.png ball.xyz . ; do
     check "a picture that cannot be written: $place" exits 1 "$render" none.mtlx -o "$place" --size 8
     check 'is output-failed' eval 'grep -q "\[output-failed\]" err && ! grep -q none.mtlx err'
 done
-check 'an ending of no format' eval '! "$render" plain.mtlx -o ball.xyz 2>err; grep -q "ball.xyz.: its ending is that of no format" err'
+check 'an ending of no format' eval '! "$render" plain.mtlx -o ball.xyz 2>err; grep -q "ball.xyz.: unknown image format" err'
 check 'a copy, too' exits 1 "$render" none.mtlx -o x.png --copy missing/x.png
 check 'a value that is none' exits 1 "$render" plain.mtlx -o x.png --set SR/base_color=abc
 check 'is bad-value' grep -q '\[bad-value\]' err
@@ -147,7 +147,7 @@ for lost in 1 2; do
         check 'and nothing is written' test ! -e lost.png
     done
 done
-check 'no driver' eval 'VK_DRIVER_FILES=/none VK_ICD_FILENAMES=/none exits 1 "$render" plain.mtlx -o x.png && grep -q mesa-vulkan-drivers err'
+check 'no driver' eval 'VK_DRIVER_FILES=/none VK_ICD_FILENAMES=/none exits 1 "$render" plain.mtlx -o x.png && grep -q "mesa-vulkan-drivers.*\[no-device\]" err'
 check 'leaves nothing behind' test -z "$(ls -A | grep -E '^x.png|tmp')"
 
 # corner FILE: the last pixel of a PPM.

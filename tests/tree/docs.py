@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""What the documentation says of the project itself: links lead somewhere, every page can be reached from README.md, its commands run as they
-stand there and its program compiles. Arguments: the root of the project, the program, a C compiler."""
+"""What the project says of itself. Documentation: links lead somewhere, every page can be reached from README.md, its commands run as they
+stand there and its program compiles. Documentation, comments and messages: every file and folder that they name exists.
+Arguments: the root of the project, the program, a C compiler."""
 import pathlib
 import re
 import subprocess
@@ -55,6 +56,42 @@ def reached(page):
     return found
 
 
+FOLDERS = [path.name for path in ROOT.iterdir() if path.is_dir() and not path.name.startswith((".", "build"))]
+ROOMS = [path.name for path in (ROOT / "src").iterdir()]
+# "src/ir/ops.def", "lang/lang.h", "tests/fuzz/regression"; not what stands in another path, an address or a placeholder.
+PATH = re.compile(rf"(?<![\w./<>$*{{}}-])((?:{'|'.join(FOLDERS + ROOMS)})/[\w./-]*\w)(?![\w/<>*{{}}…])")
+FILE = re.compile(r"(?<![\w./<>$*%@\"-])(\w+\.(?:c|h|def))\b(?!\.)")
+COMMENT = re.compile(r"/\*.*?\*/|//[^\n]*", re.DOTALL)
+TEXTS = (".c", ".h", ".cpp", ".def", ".glsl", ".mtlx", ".py", ".sh", ".build", ".md", ".txt", "")
+# Where a path of a comment may begin, beside the folder of the file itself.
+PLACES = [ROOT, ROOT / "src", ROOT / "include", ROOT / "tests", ROOT / "libraries"]
+NOT_OURS = {"stdosl.h"}
+
+
+def sources():
+    for folder in FOLDERS:
+        for path in sorted((ROOT / folder).rglob("*")):
+            if path.suffix in TEXTS and path.is_file() and "__pycache__" not in path.parts:
+                yield path
+
+
+def check_references():
+    names = {path.name for path in sources()}
+    for path in [*sources(), ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "meson.build"]:
+        text = path.read_text(encoding="utf-8", errors="replace")
+        if path.suffix == ".sh" or not path.suffix: # what their commands name may be made by them
+            text = "".join(line if line.startswith("#") else "\n" for line in text.splitlines(keepends=True))
+        where = path.relative_to(ROOT)
+        for found in PATH.finditer(text):
+            exists = any((place / f"{found[1]}{program}").exists() for place in [*PLACES, path.parent] for program in ("", ".c"))
+            check(exists or found[1].startswith("build/"), f"{where}:{text.count(chr(10), 0, found.start()) + 1}: there is no {found[1]}")
+        if path.suffix in (".c", ".h", ".cpp", ".def"):
+            for comment in COMMENT.finditer(text):
+                for name in FILE.findall(comment[0]):
+                    check(name in names | NOT_OURS, f"{where}:{text.count(chr(10), 0, comment.start()) + 1}: there is no {name}")
+        check(not re.search(r"design[\s*]+section|section \d+ of the design", text), f"{where}: a section of a design that is not here")
+
+
 def blocks(language):
     return re.findall(rf"^```{language}\n(.*?)^```", text_of(ROOT / "README.md"), re.MULTILINE | re.DOTALL)
 
@@ -85,6 +122,7 @@ for page in pages:
     check_links(page)
 for page in set(pages) - reached(ROOT / "README.md"):
     check(False, f"no link leads from README.md to {page.relative_to(ROOT)}")
+check_references()
 check_commands()
 check_program()
 finish("docs")

@@ -53,11 +53,11 @@ static inline bool test_same_text(const char *a, const char *b, const char *file
     test_equal((long long)(a), (long long)(b), __FILE__, __LINE__, #a " == " #b)
 #define REQUIRE_STR(a, b) test_same_text((a), (b), __FILE__, __LINE__, #a)
 
-/* Prints the sum; what main returns. */
+/* Prints the sum; what main returns: 77, which means skipped, where nothing was required. */
 static inline int test_report(const char *name)
 {
     printf("%s: %u passed, %u failed\n", name, test_num_passed, test_num_failed);
-    return test_num_failed ? 1 : 0;
+    return test_num_failed ? 1 : test_num_passed ? 0 : 77;
 }
 
 #endif

@@ -60,8 +60,8 @@ static void test_list(void)
     REQUIRE_EQ(list.num_errors, 1);
     REQUIRE_EQ(list.num_warnings, 1);
     const struct diag *items = list.items.items;
-    REQUIRE_STR(items[0].message, "unknown node <mux> (did you mean 'mix'?); no library that is "
-                                  "loaded defines it: add the one that does with '--library'");
+    REQUIRE_STR(items[0].message, "unknown node <mux> (did you mean 'mix'?); no loaded library "
+                                  "defines it; '--library' adds a library");
     REQUIRE_STR(items[0].place.file, "wood.mtlx");
     REQUIRE_EQ(items[0].severity, DIAG_ERROR);
     REQUIRE_EQ(items[1].severity, DIAG_NOTE);
@@ -90,7 +90,7 @@ static void test_limit(void)
     REQUIRE_EQ(list.num_errors, 5);
     /* two errors, each with a note; the note about the rest; the warning */
     REQUIRE_EQ(list.items.len, 6);
-    REQUIRE_STR(list.items.items[4].message, "more errors than 2; the rest is not shown");
+    REQUIRE_STR(list.items.items[4].message, "more than 2 errors; the rest is not shown");
     REQUIRE_EQ(list.items.items[4].parent, 2);
     REQUIRE_EQ(list.items.items[5].id, DIAG_ID_version_missing);
 }
@@ -178,7 +178,7 @@ static void test_json(void)
         text_cstr(&text),
         "[\n"
         "  {\"severity\": \"error\", \"id\": \"unknown-node\", \"message\": \"unknown node "
-        "<a\\\"b>; no library that is loaded defines it: add the one that does with '--library'\", "
+        "<a\\\"b>; no loaded library defines it; '--library' adds a library\", "
         "\"file\": \"wood.mtlx\", \"line\": 3, \"column\": 5, \"length\": 4, \"notes\": [\n"
         "    {\"severity\": \"note\", \"id\": \"defined-here\", \"message\": \"'x' is defined "
         "here\", "
@@ -186,7 +186,7 @@ static void test_json(void)
         "    {\"severity\": \"note\", \"id\": \"connected-here\", \"message\": \"'y' is "
         "here\"}]},\n"
         "  {\"severity\": \"warning\", \"id\": \"version-missing\", "
-        "\"message\": \"<materialx> has no version; it is read as 1.39\", \"file\": "
+        "\"message\": \"<materialx> has no version and is read as 1.39\", \"file\": "
         "\"wood.mtlx\"}\n"
         "]\n");
 }

@@ -371,9 +371,9 @@ static const struct {
     {"float f() { float a[2][2]; return 1.0; }", "1:20: there are no arrays of arrays"},
     {"float f() { float a[0]; return 1.0; }",
      "1:21: the length of an array must be a constant int from 1 to 65535"},
-    {"struct S { float a; float a; };", "1:27: the name 'a' stands twice in this scope"},
+    {"struct S { float a; float a; };", "1:27: the name 'a' is used twice in this scope"},
     {"float f(float a) { float a = 1.0; return a; }",
-     "1:26: the name 'a' stands twice in this scope\n1:15: the first one is here"},
+     "1:26: the name 'a' is used twice in this scope\n1:15: the first one is here"},
     {"float f() { float a; return a; }\nfloat g() { return a + ; }\nint h() { return 1.0; }",
      "2:20: unknown name 'a'\n2:24: expected an expression before ';'\n3:18: the returned value is "
      "float; int was expected"},

@@ -151,6 +151,7 @@ static ir_ref sine(struct fixture *f, const char *called, ir_ref a)
 {
     name(f, called);
     ir_ref value = op1(f, IR_SIN, a);
+    ir_suggest_name(&f->graph, value, word(f, called), IR_NAME_RESULT);
     f->graph.origin = 0;
     return value;
 }
@@ -162,7 +163,7 @@ static void use_twice(struct fixture *f, ir_ref value)
     accumulate(f, op2(f, IR_ADD, type == IR_TYPE_VEC3 ? value : vec3_of(f, value), number(f, 1)));
 }
 
-/* Names of locals: from their origins, made fit, without clashes. */
+/* Names of locals: from the document's nodes, made fit, without clashes. */
 static void test_locals(void)
 {
     static const struct {
@@ -177,7 +178,7 @@ static void test_locals(void)
         {"x__y", "x_y", "x_y", "x_y_2"},
         {"main", "vd", "main_2", "vd_2"},
         {"x_", "x_", "x_", "x_2"},
-        {"", "", "t", "t_2"},
+        {"", "", "sine_a", "sine_v"},
         {"gl_in", "out1", "xgl_in", "out1_2"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
@@ -269,6 +270,7 @@ static void test_graph_functions(void)
     ir_ref p = ir_param(&f.graph, inner, 0), length = op1(&f, IR_LENGTH, p);
     name(&f, "n");
     ir_ref n = op1(&f, IR_NORMALIZE, p);
+    ir_suggest_name(&f.graph, n, word(&f, "n"), IR_NAME_RESULT);
     f.graph.origin = 0;
     ir_set_results(&f.graph, inner,
                    (ir_ref[]){op2(&f, IR_CROSS, n, op2(&f, IR_MUL, n, length)), length}, 2);
@@ -283,14 +285,15 @@ static void test_graph_functions(void)
     effect(&f, EFFECT_VAR, f.color,
            ir_build(&f.graph, IR_GRAPH_CALL, IR_TYPE_VEC3, outer, given, 2));
     write_color(&f);
-    REQUIRE_STR(stage_from(&f, "vec3 inner"),
-                "vec3 inner(const vec3 p0, out float r1)\n{\n    float t = length(p0);\n    r1 = "
-                "t;\n    vec3 n = normalize(p0);\n"
-                "    return cross(n, t * n);\n}\n\n"
-                "vec3 outer(const vec3 p0, const float p1)\n{\n    float deep_result;\n    vec3 "
-                "deep = inner(p0, deep_result);\n"
-                "    return p1 * deep_result + deep;\n}\n\n"
-                "void main()\n{\n    vec3 color = outer(v, a);\n    out1 = vec4(color, 1.0);\n}\n");
+    REQUIRE_STR(
+        stage_from(&f, "vec3 inner"),
+        "vec3 inner(const vec3 p0, out float r1)\n{\n    float magnitude = length(p0);\n    r1 = "
+        "magnitude;\n    vec3 n = normalize(p0);\n"
+        "    return cross(n, magnitude * n);\n}\n\n"
+        "vec3 outer(const vec3 p0, const float p1)\n{\n    float deep_result;\n    vec3 "
+        "deep = inner(p0, deep_result);\n"
+        "    return p1 * deep_result + deep;\n}\n\n"
+        "void main()\n{\n    vec3 color = outer(v, a);\n    out1 = vec4(color, 1.0);\n}\n");
     fixture_close(&f);
 }
 
@@ -346,6 +349,7 @@ static void build_lit(struct fixture *f)
     name(f, "N");
     ir_ref n =
         op1(f, IR_NORMALIZE, shader_stream(&f->shader, word(f, "normalWorld"), IR_TYPE_VOID));
+    ir_suggest_name(&f->graph, n, word(f, "N"), IR_NAME_RESULT);
     ir_ref texel = op2(f, IR_TEX, uniform(f, "image_file", IR_TYPE_SAMPLER), uv);
     if (!texel)
         texel = ir_build(&f->graph, IR_TEX, IR_TYPE_VEC4, 0,
@@ -353,6 +357,7 @@ static void build_lit(struct fixture *f)
     name(f, "base");
     ir_ref image = ir_swizzle(&f->graph, texel, (uint8_t[]){0, 1, 2}, 3);
     ir_ref base = op2(f, IR_MUL, image, uniform(f, "base_color", IR_TYPE_VEC3));
+    ir_suggest_name(&f->graph, base, word(f, "base"), IR_NAME_RESULT);
     f->graph.origin = 0;
     effect(f, EFFECT_VAR, f->color, op2(f, IR_MUL, base, call(f, "noise", &uv, 1)));
     effect(f, EFFECT_LIGHTS, 0, 0);
@@ -454,8 +459,8 @@ static bool maps_line(struct fixture *f, const char *text, const struct spell_ma
                       uint32_t num_marks, const char *start, const char *origin)
 {
     const char *line = text;
-    while (strncmp(line, start, strlen(start)) != 0)
-        line = strchr(line, '\n') + 1;
+    while (line && strncmp(line, start, strlen(start)) != 0)
+        line = strchr(line, '\n') ? strchr(line, '\n') + 1 : NULL;
     for (uint32_t i = 0; i < num_marks; i++)
         if (text + marks[i].at == line)
             return strcmp(str_text(&f->strings, f->graph.origins.items[marks[i].origin].name),

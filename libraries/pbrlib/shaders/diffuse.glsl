@@ -218,10 +218,10 @@ vec3 mx_subsurface_light(vec3 falloff, float cos_l)
 
 vec3 mx_subsurface_bsdf_eval(vec3 color, vec3 radius, float anisotropy, vec3 N, vec3 V, vec3 L, vec3 P)
 {
-    vec3 n = mx_facing(N, V);
+    vec3 Nf = mx_facing(N, V);
     if (option_integrator == 1) // where there are no screen derivatives: what leaves where it entered
-        return color * mx_cosine_pdf(n, L);
-    return color * mx_subsurface_light(mx_subsurface_falloff(radius, n, P), dot(n, L));
+        return color * mx_cosine_pdf(Nf, L);
+    return color * mx_subsurface_light(mx_subsurface_falloff(radius, Nf, P), dot(Nf, L));
 }
 
 vec3 mx_subsurface_bsdf_environment(vec3 color, vec3 radius, float anisotropy, vec3 N, vec3 V)

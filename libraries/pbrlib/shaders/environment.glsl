@@ -16,16 +16,16 @@ uniform float u_envLightIntensity;
 uniform int u_envRadianceMips;
 uniform int u_envRadianceSamples;
 
-// Where the light of a direction is in a picture; `map` turns directions of the world into those of the picture.
-vec2 mx_latlong(mat4 map, vec3 direction)
+// Where the light from a direction of the world lies in the environment's picture.
+vec2 mx_latlong(vec3 direction)
 {
-    vec3 d = normalize((map * vec4(direction, 0.0)).xyz);
+    vec3 d = normalize((u_envMatrix * vec4(direction, 0.0)).xyz);
     return vec2(atan(d.x, -d.z), -2.0 * asin(clamp(d.y, -1.0, 1.0))) * (0.5 / MX_PI) + 0.5;
 }
 
 vec3 mx_environment_radiance(vec3 direction, float lod)
 {
-    return textureLod(u_envRadiance, mx_latlong(u_envMatrix, direction), lod).rgb * u_envLightIntensity;
+    return textureLod(u_envRadiance, mx_latlong(direction), lod).rgb * u_envLightIntensity;
 }
 
 // Cosine-weighted average of the light around N.
@@ -33,14 +33,14 @@ vec3 mx_environment_irradiance(vec3 N)
 {
     if (option_environment == 0)
         return vec3(0.0);
-    return textureLod(u_envIrradiance, mx_latlong(u_envMatrix, N), 0.0).rgb * u_envLightIntensity;
+    return textureLod(u_envIrradiance, mx_latlong(N), 0.0).rgb * u_envLightIntensity;
 }
 
 // Light of a direction, filtered over the solid angle of a sample (Krivanek and Colbert 2008; the mip level is equation 13 of GPU Gems 3,
 // section 20.4).
-vec3 mx_filtered_light(mat4 map, vec3 L, float level)
+vec3 mx_filtered_light(vec3 L, float level)
 {
-    return textureLod(u_envRadiance, mx_latlong(map, L), max(0.25 * log2(level * level / dot(L.xz, L.xz)), 0.0)).rgb;
+    return textureLod(u_envRadiance, mx_latlong(L), max(0.25 * log2(level * level / dot(L.xz, L.xz)), 0.0)).rgb;
 }
 
 // ---- lobes by their own samples: with `--integrator path`, where an average over the hemisphere stands in for them otherwise
@@ -56,5 +56,5 @@ vec3 mx_lobe_light(vec3 L, vec3 weight, float pdf)
 {
     float count = float(u_envRadianceSamples);
     float level = exp2(2.0 * float(u_envRadianceMips) - 5.0 - 1.3 * float(option_sample_filter)) / max(pdf * count, MX_EPSILON);
-    return weight * (u_envLightIntensity / count) * mx_filtered_light(u_envMatrix, L, level);
+    return weight * (u_envLightIntensity / count) * mx_filtered_light(L, level);
 }

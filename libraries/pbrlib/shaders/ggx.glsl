@@ -51,7 +51,6 @@ struct mx_GgxLobe {
     float step;    // between samples of the environment: 1 / their number
     float weight;  // of one
     float level;   // where their mip levels begin
-    mat4 map;      // to the directions of the map
 };
 
 mx_GgxLobe mx_ggx_lobe_at(mat3 frame, vec2 alpha, vec3 v)
@@ -63,8 +62,7 @@ mx_GgxLobe mx_ggx_lobe_at(mat3 frame, vec2 alpha, vec3 v)
     return mx_GgxLobe(frame, vec3(alpha, 1.0), area, v, masking, normalize(v * vec3(alpha, 1.0)), step,
                       option_environment == 2 ? weight * u_envLightIntensity : 0.0,
                       option_environment == 2
-                          ? weight * area * exp2(2.0 * float(u_envRadianceMips) - 2.3485 - 1.3 * float(option_sample_filter)) : 0.0,
-                      option_environment == 2 ? u_envMatrix : mat4(1.0));
+                          ? weight * area * exp2(2.0 * float(u_envRadianceMips) - 2.3485 - 1.3 * float(option_sample_filter)) : 0.0);
 }
 
 // N faces V.
@@ -216,7 +214,7 @@ vec4 mx_ggx_sample_at(mx_GgxLobe lobe, vec3 h, float level, float refract_ior)
         l = mx_refract_sphere(lobe.v, h, refract_ior);
         weight = 0.5 / lobe.v.z;
     }
-    return vec4(weight * mx_filtered_light(lobe.map, lobe.frame * l, level), clamp(dot(lobe.v, h), MX_EPSILON, 1.0));
+    return vec4(weight * mx_filtered_light(lobe.frame * l, level), clamp(dot(lobe.v, h), MX_EPSILON, 1.0));
 }
 
 vec4 mx_ggx_sample(mx_GgxLobe lobe, vec2 around, float xi, float refract_ior)
@@ -329,7 +327,7 @@ vec3 mx_ggx_gather_solid(mx_GgxLobe lobe, float ior, int mode, string model, vec
         vec3 turned = reflect(-lobe.v, normalize(inside * dot(inside, h) - 0.5 * h)); // the way is its own mirror image where it turns
         vec3 f = mx_fresnel(light.w, model, n, k, f90, exponent, film, film_ior);
         sum += (mode == MX_REFRACTS ? vec3(1.0) : 1.0 - f)
-             * mix(light.xyz, 0.5 / lobe.v.z * mx_filtered_light(lobe.map, lobe.frame * turned, s * s * lobe.level), f / (1.0 + f));
+             * mix(light.xyz, 0.5 / lobe.v.z * mx_filtered_light(lobe.frame * turned, s * s * lobe.level), f / (1.0 + f));
         around = MX_GOLDEN_TURN * around;
     }
     return lobe.weight * sum;

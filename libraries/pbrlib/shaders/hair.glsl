@@ -126,10 +126,10 @@ float mx_hair_around(int p, float phi, vec2 gamma, float roughness)
 vec3 mx_chiang_hair_bsdf_eval(vec3 tint_R, vec3 tint_TT, vec3 tint_TRT, float ior, vec2 roughness_R, vec2 roughness_TT, vec2 roughness_TRT,
                               float cuticle_angle, vec3 absorption, vec3 N, vec3 curve_direction, vec3 V, vec3 L)
 {
-    vec3 n = mx_facing(N, V);
-    vec3 x = mx_tangent(n, curve_direction);
-    vec3 v = mx_enter_frame(V, n, x);
-    vec3 l = mx_enter_frame(L, n, x);
+    vec3 Nf = mx_facing(N, V);
+    vec3 x = mx_tangent(Nf, curve_direction);
+    vec3 v = mx_enter_frame(V, Nf, x);
+    vec3 l = mx_enter_frame(L, Nf, x);
     float phi = atan(l.z * v.y - v.z * l.y, l.y * v.y + l.z * v.z);
     float reflected;
     vec3 through;

@@ -45,15 +45,15 @@ float mx_sheen_zeltner(vec3 N, vec3 V, vec3 L, float c, float r)
 
 vec3 mx_sheen_bsdf_eval(vec3 color, float roughness, vec3 N, string mode, vec3 V, vec3 L)
 {
-    vec3 n = mx_facing(N, V);
+    vec3 Nf = mx_facing(N, V);
     float cos_v = mx_view_cosine(N, V);
     if (mode == "zeltner")
         return color * (mx_sheen_albedo(cos_v, roughness, mode)
-                        * mx_sheen_zeltner(n, V, L, min(cos_v, 1.0), clamp(roughness, 0.01, 1.0)));
+                        * mx_sheen_zeltner(Nf, V, L, min(cos_v, 1.0), clamp(roughness, 0.01, 1.0)));
 
     // Distribution of Conty and Kulla, equation 2, over the smooth denominator of Neubelt and Pettineo 2013
-    float cos_l = max(dot(n, L), MX_EPSILON);
-    float cos_h = dot(n, normalize(L + V));
+    float cos_l = max(dot(Nf, L), MX_EPSILON);
+    float cos_h = dot(Nf, normalize(L + V));
     float s = 1.0 / max(roughness, 0.005);
     float d = (2.0 + s) * pow(max(1.0 - cos_h * cos_h, 0.0), 0.5 * s) / (2.0 * MX_PI);
     return color * (d * cos_l / (4.0 * (cos_l + cos_v - cos_l * cos_v)));
@@ -72,24 +72,24 @@ vec3 mx_sheen_bsdf_throughput(vec3 color, float roughness, vec3 N, string mode, 
 // Zeltner's lobe as it is; Conty and Kulla's is so wide that even directions serve it (their section 3).
 float mx_sheen_bsdf_pdf(vec3 color, float roughness, vec3 N, string mode, vec3 V, vec3 L)
 {
-    vec3 n = mx_facing(N, V);
+    vec3 Nf = mx_facing(N, V);
     if (mode == "zeltner")
-        return mx_sheen_zeltner(n, V, L, clamp(dot(n, V), MX_EPSILON, 1.0), clamp(roughness, 0.01, 1.0));
-    return dot(n, L) > 0.0 ? 0.5 / MX_PI : 0.0;
+        return mx_sheen_zeltner(Nf, V, L, clamp(dot(Nf, V), MX_EPSILON, 1.0), clamp(roughness, 0.01, 1.0));
+    return dot(Nf, L) > 0.0 ? 0.5 / MX_PI : 0.0;
 }
 
 void mx_sheen_bsdf_sample(vec3 color, float roughness, vec3 N, string mode, vec3 V, vec3 xi, out vec3 L, out vec3 weight, out float pdf)
 {
-    vec3 n = mx_facing(N, V);
+    vec3 Nf = mx_facing(N, V);
     if (mode == "zeltner")
     {
-        vec2 m = mx_sheen_transform(clamp(dot(n, V), MX_EPSILON, 1.0), clamp(roughness, 0.01, 1.0));
+        vec2 m = mx_sheen_transform(clamp(dot(Nf, V), MX_EPSILON, 1.0), clamp(roughness, 0.01, 1.0));
         vec3 w = mx_sample_cosine(xi.xy);
-        L = mx_sheen_frame(n, V) * normalize(vec3(w.x - m.y * w.z, w.y, m.x * w.z));
+        L = mx_sheen_frame(Nf, V) * normalize(vec3(w.x - m.y * w.z, w.y, m.x * w.z));
     }
     else
     {
-        L = mx_any_frame(n) * vec3(mx_polar(sqrt(1.0 - xi.x * xi.x), xi.y), xi.x);
+        L = mx_any_frame(Nf) * vec3(mx_polar(sqrt(1.0 - xi.x * xi.x), xi.y), xi.x);
     }
     pdf = mx_sheen_bsdf_pdf(color, roughness, N, mode, V, L);
     weight = mx_sheen_bsdf_eval(color, roughness, N, mode, V, L) / max(pdf, MX_EPSILON);

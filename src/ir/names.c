@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * names: what a reader calls a node. Names come from three places: a node of the document names its
+ * result, a library function its local variables, its parameters and its value.
+ */
+#include "ir/ir.h"
+
+#include <assert.h>
+
+static void suggest(struct ir_graph *graph, ir_ref ref, str_id name, unsigned rank)
+{
+    struct ir_node *node = &graph->nodes.items[ref];
+    if (node->op == IR_CONST || rank < node->name_rank)
+        return;
+    /* what a graph gives is called after the graph's node, not after the node inside */
+    bool is_inside =
+        node->origin && graph->origin && graph->origins.items[node->origin].parent == graph->origin;
+    if (rank > node->name_rank || (rank == IR_NAME_RESULT && is_inside)) {
+        node->name = name;
+        node->name_rank = (uint8_t)rank;
+    } else if (rank != IR_NAME_RESULT && node->name != name) {
+        node->name = 0;
+    }
+}
+
+/* A vector of one scalar is written as that scalar for the most part: both have the name. */
+static ir_ref splatted(const struct ir_graph *graph, ir_ref ref)
+{
+    const struct ir_node *node = ir_get(graph, ref);
+    return node->op == IR_CONSTRUCT && node->num_args == 1 ? ir_arg(graph, ref, 0) : 0;
+}
+
+void ir_suggest_name(struct ir_graph *graph, ir_ref ref, str_id name, unsigned rank)
+{
+    assert(rank <= IR_NAME_RESULT);
+    for (; ref && name; ref = splatted(graph, ref))
+        suggest(graph, ref, name, rank);
+}
+
+void ir_inherit_name(struct ir_graph *graph, ir_ref copy, const struct ir_node *original)
+{
+    ir_suggest_name(graph, copy, original->name, original->name_rank);
+}

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * Long lines are broken where an expression nests least: after a comma or in front of an operator.
+ * A long comment goes on in the next line. Strings, directives of the preprocessor and source that
+ * a document brought stay as they are.
+ */
+#include "spell/spell.h"
+
+#include <ctype.h>
+
+enum { MAX_COLUMNS = 120, MIN_COLUMNS = 40, INDENT = 4 };
+
+struct wrapper {
+    const struct spell *spell;
+    struct text out;
+    uint32_t next_mark;
+    struct spell_mark *marks;
+};
+
+/* Does the operator or comma at `at` allow a break? The break replaces the space. */
+static bool may_break(const char *at, const char *end)
+{
+    if (*at != ' ' || at + 2 >= end)
+        return false;
+    if (at[-1] == ',')
+        return true;
+    bool is_operator = strchr("+-*/%<>=!&|^?:", at[1]) && at[1] != '\0';
+    bool ends = at[2] == ' ' || (at + 3 < end && at[3] == ' ' && ispunct((unsigned char)at[2]));
+    return is_operator && ends && !(at[1] == '=' && at[2] == ' ');
+}
+
+/*
+ * Where to break [from, end), which begins at column `column`: of the places that leave no more
+ * than MAX_COLUMNS, the last of those with the fewest open brackets; NULL: nowhere.
+ */
+static const char *find_break(const char *from, const char *end, size_t column)
+{
+    const char *best = NULL;
+    int depth = 0, best_depth = 0;
+    bool in_string = false;
+    for (const char *at = from; at < end && column + (size_t)(at - from) <= MAX_COLUMNS; at++) {
+        if (*at == '"' && at[-1] != '\\')
+            in_string = !in_string;
+        if (in_string)
+            continue;
+        if (at[0] == '/' && at + 1 < end && at[1] == '/')
+            return NULL;
+        depth += strchr("([{", *at) != NULL;
+        depth -= strchr(")]}", *at) != NULL;
+        bool is_far = column + (size_t)(at - from) >= MIN_COLUMNS;
+        if (is_far && at > from && may_break(at, end) && (!best || depth <= best_depth)) {
+            best = at;
+            best_depth = depth;
+        }
+    }
+    return best;
+}
+
+static void copy(struct wrapper *w, const char *from, const char *to, const char *base)
+{
+    const struct spell *spell = w->spell;
+    for (; w->next_mark < spell->marks.len; w->next_mark++) {
+        size_t at = spell->marks.items[w->next_mark].at;
+        if (at >= (size_t)(to - base))
+            break;
+        size_t start = (size_t)(from - base); /* a mark may stand on the space that went */
+        w->marks[w->next_mark].at = w->out.len + (at > start ? at - start : 0);
+    }
+    text_mem(&w->out, from, (size_t)(to - from));
+}
+
+/* A comment of its own line goes on in the next one, broken at a space. */
+static const char *comment_break(const char *from, const char *end, size_t indent)
+{
+    const char *at = from + MAX_COLUMNS - indent < end ? from + MAX_COLUMNS - indent : end;
+    while (at > from + MIN_COLUMNS && *at != ' ')
+        at--;
+    return *at == ' ' ? at : NULL;
+}
+
+static void wrap_line(struct wrapper *w, const char *line, const char *end, const char *base)
+{
+    size_t indent = 0, column = 0;
+    while (line + indent < end && line[indent] == ' ')
+        indent++;
+    const char *from = line;
+    bool is_comment = end - line > (ptrdiff_t)indent + 2 && memcmp(line + indent, "//", 2) == 0;
+    while (column + (size_t)(end - from) > MAX_COLUMNS && line[indent] != '#') {
+        const char *at =
+            is_comment ? comment_break(from, end, column) : find_break(from, end, column);
+        if (!at || at <= line + indent)
+            break;
+        copy(w, from, at, base);
+        text_char(&w->out, '\n');
+        column = is_comment ? indent : indent + INDENT;
+        for (size_t i = 0; i < column; i++)
+            text_char(&w->out, ' ');
+        if (is_comment)
+            text_str(&w->out, "// ");
+        column += is_comment ? strlen("// ") : 0;
+        from = at + 1;
+    }
+    copy(w, from, end, base);
+}
+
+void spell_wrap(struct spell *spell, size_t begin)
+{
+    const char *base = spell->out->data, *end = base + spell->out->len;
+    struct wrapper w = {.spell = spell, .marks = spell->marks.items};
+    text_init(&w.out, spell->out->arena);
+    text_reserve(&w.out, spell->out->len + spell->out->len / 16);
+    const char *kept = base + spell->verbatim_begin, *kept_end = base + spell->verbatim_end;
+    copy(&w, base, base + begin, base);
+    for (const char *line = base + begin; line < end;) {
+        const char *newline = memchr(line, '\n', (size_t)(end - line));
+        const char *stop = newline ? newline : end;
+        bool is_kept = line >= kept && line < kept_end;
+        if (is_kept)
+            copy(&w, line, stop, base);
+        else
+            wrap_line(&w, line, stop, base);
+        if (newline)
+            copy(&w, newline, newline + 1, base);
+        line = newline ? newline + 1 : end;
+    }
+    *spell->out = w.out;
+}

@@ -1,0 +1,658 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * The build room: what elements of a document become. Values are computed by the IR's evaluator,
+ * with uniforms at their defaults.
+ */
+#include "build/build_priv.h"
+
+#include "layers_fixture.h"
+
+#include <stdlib.h>
+
+#define NODEDEF(name, node, ports) "<nodedef name='" name "' node='" node "'>" ports "</nodedef>"
+#define INPUT(name, type, more) "<input name='" name "' type='" type "' " more "/>"
+#define OUTPUT "<output name='out' type='float'/>"
+#define IMPL(nodedef, more) "<implementation name='IM_" nodedef "' nodedef='" nodedef "' " more "/>"
+
+static const struct layer_file files[] = {
+    {"matte.glsl", "vec3 matte_eval(vec3 color, float shade, vec3 L) { return color * shade; }\n"},
+    {"lamp.glsl", "void lamp(float power, vec3 P, out vec3 L, out vec3 light)\n"
+                  "{ L = P; light = vec3(power); }\n"},
+    {NULL, NULL},
+};
+
+/* gain: in · amount, plus: a + b; twice: a graph of gain; which: differs by target. */
+static const char standard[] =
+    "<unittypedef name='distance'/><unitdef name='UD' unittype='distance'>"
+    "<unit name='meter' scale='1'/><unit name='foot' scale='0.25'/></unitdef>"
+    "<geompropdef name='wear' type='float'/>" NODEDEF(
+        "ND_gain", "gain",
+        INPUT("in", "float", "value='3'") INPUT("amount", "float", "value='2'")
+            OUTPUT) IMPL("ND_gain",
+                         "sourcecode='{{in}} * {{amount}}'") NODEDEF("ND_plus", "plus",
+                                                                     INPUT("a", "float", "")
+                                                                         INPUT("b", "float",
+                                                                               "value='1'") OUTPUT)
+        IMPL("ND_plus", "sourcecode='{{a}} + {{b}}'") NODEDEF(
+            "ND_twice", "twice",
+            INPUT("x", "float", "value='5'")
+                OUTPUT) "<nodegraph name='NG_twice' nodedef='ND_twice'>"
+                        "<gain name='g' type='float'><input name='in' type='float' "
+                        "interfacename='x'/></gain>"
+                        "<output name='out' type='float' nodename='g'/></nodegraph>" NODEDEF(
+                            "ND_worn", "worn",
+                            INPUT("in", "float", "defaultgeomprop='wear'") OUTPUT)
+                            IMPL("ND_worn", "sourcecode='{{in}}'") NODEDEF(
+                                "ND_pick", "pick",
+                                INPUT("which", "integer",
+                                      "value='low' enum='low, middle, high' enumvalues='1, 5, 9'")
+                                    OUTPUT) IMPL("ND_pick",
+                                                 "sourcecode='float({{which}})'") NODEDEF("ND_"
+                                                                                          "which",
+                                                                                          "which",
+                                                                                          OUTPUT)
+                                IMPL(
+                                    "ND_which",
+                                    "sourcecode='1.0'") "<implementation name='I2' "
+                                                        "nodedef='ND_which' target='gen' "
+                                                        "sourcecode='2.0'/>"
+                                                        "<implementation name='I3' "
+                                                        "nodedef='ND_which' target='sub' "
+                                                        "sourcecode='3.0'/>" NODEDEF("ND_only", "only", OUTPUT) "<implementation name='I4' nodedef='ND_only' target='gen' sourcecode='4.0'/>" NODEDEF(
+                                                            "ND_shade", "shade",
+                                                            INPUT("color", "color3",
+                                                                  "value='1, 1, 1'") OUTPUT)
+                                                            IMPL(
+                                                                "ND_shade",
+                                                                "sourcecode='{{color}}.x + "
+                                                                "{{color}}.y'") "<nodedef "
+                                                                                "name='ND_acescg_"
+                                                                                "to_lin_rec709_"
+                                                                                "color3' "
+                                                                                "node='acescg_to_"
+                                                                                "lin_rec709'>"
+                                                                                "<input "
+                                                                                "name='in' "
+                                                                                "type='color3'/"
+                                                                                "><output "
+                                                                                "name='out' "
+                                                                                "type='color3'/"
+                                                                                "></"
+                                                                                "nodedef>" IMPL(
+                                                                                    "ND_acescg_"
+                                                                                    "to_lin_"
+                                                                                    "rec709_"
+                                                                                    "color3",
+                                                                                    "sourcecode='"
+                                                                                    "{{in}} * "
+                                                                                    "0.5'") "<nod"
+                                                                                            "edef"
+                                                                                            " nam"
+                                                                                            "e='"
+                                                                                            "ND_"
+                                                                                            "matt"
+                                                                                            "e' "
+                                                                                            "node"
+                                                                                            "='"
+                                                                                            "matt"
+                                                                                            "e'><"
+                                                                                            "inpu"
+                                                                                            "t "
+                                                                                            "name"
+                                                                                            "='"
+                                                                                            "shad"
+                                                                                            "e' "
+                                                                                            "type"
+                                                                                            "='"
+                                                                                            "floa"
+                                                                                            "t' "
+                                                                                            "valu"
+                                                                                            "e='"
+                                                                                            "0.5'"
+                                                                                            "/>"
+                                                                                            "<inp"
+                                                                                            "ut "
+                                                                                            "name"
+                                                                                            "='"
+                                                                                            "weig"
+                                                                                            "ht' "
+                                                                                            "type"
+                                                                                            "='"
+                                                                                            "floa"
+                                                                                            "t' "
+                                                                                            "valu"
+                                                                                            "e='"
+                                                                                            "1'/"
+                                                                                            "><"
+                                                                                            "inpu"
+                                                                                            "t "
+                                                                                            "name"
+                                                                                            "='"
+                                                                                            "colo"
+                                                                                            "r' "
+                                                                                            "type"
+                                                                                            "='"
+                                                                                            "colo"
+                                                                                            "r3'/"
+                                                                                            ">"
+                                                                                            "<out"
+                                                                                            "put "
+                                                                                            "name"
+                                                                                            "='"
+                                                                                            "out'"
+                                                                                            " typ"
+                                                                                            "e='"
+                                                                                            "BSDF"
+                                                                                            "'/"
+                                                                                            "></"
+                                                                                            "node"
+                                                                                            "def"
+                                                                                            ">" IMPL(
+                                                                                                "ND"
+                                                                                                "_m"
+                                                                                                "at"
+                                                                                                "t"
+                                                                                                "e",
+                                                                                                "fi"
+                                                                                                "le"
+                                                                                                "='"
+                                                                                                "ma"
+                                                                                                "tt"
+                                                                                                "e."
+                                                                                                "gl"
+                                                                                                "sl"
+                                                                                                "' "
+                                                                                                "fu"
+                                                                                                "nc"
+                                                                                                "ti"
+                                                                                                "on"
+                                                                                                "='"
+                                                                                                "ma"
+                                                                                                "tt"
+                                                                                                "e"
+                                                                                                "'")
+                                                                                                NODEDEF(
+                                                                                                    "ND_self",
+                                                                                                    "self",
+                                                                                                    INPUT(
+                                                                                                        "x",
+                                                                                                        "float",
+                                                                                                        "")
+                                                                                                        OUTPUT) "<nodegraph name='NG_self' nodedef='ND_self'><self name='s' type='float'/>"
+                                                                                                                "<output name='out' type='float' nodename='s'/></nodegraph>";
+
+struct work {
+    struct layers layers;
+    struct strpool strings;
+    struct lang_unit unit;
+    struct ir_graph graph;
+    struct shader shader;
+    struct build_options options;
+    str_id targets[2];
+    struct builder *builder;
+};
+
+static void work_open(struct work *w, const char *document)
+{
+    memset(w, 0, sizeof *w);
+    layers_open(&w->layers, files, standard, document);
+    struct arena *arena = &w->layers.arena;
+    strpool_init(&w->strings, arena, &w->layers.lib.strings);
+    lang_unit_init(&w->unit, arena, &w->strings, &w->layers.lib.unit);
+    ir_graph_init(&w->graph, arena, &w->strings);
+    shader_init(&w->shader, arena, &w->strings, &w->graph, &w->unit);
+    w->options.colorspace = str_intern_z(&w->strings, "lin_rec709");
+    w->options.distance_unit = str_intern_z(&w->strings, "meter");
+    w->options.targets = w->targets;
+}
+
+/* The value of an element; 0 after an error. */
+static ir_ref work_build(struct work *w, const char *path)
+{
+    if (!w->builder)
+        w->builder = build_start(&w->layers.lib, &w->options, &w->shader, &w->layers.diags);
+    return build_element(w->builder, layers_element(&w->layers, path), 0);
+}
+
+static void work_close(struct work *w)
+{
+    ir_ref at = 0;
+    const char *fault = ir_check(&w->graph, &at);
+    if (!REQUIRE(!fault))
+        printf("    node %u: %s\n", at, fault);
+    layers_close(&w->layers);
+}
+
+static bool value_of_source(void *user_data, const struct ir_graph *graph, ir_ref ref,
+                            struct ir_value *out)
+{
+    const struct work *w = user_data;
+    const struct ir_node *node = ir_get(graph, ref);
+    if (node->op != IR_UNIFORM)
+        return false;
+    *out = w->shader.variables.items[node->attr].value;
+    return w->shader.variables.items[node->attr].has_default;
+}
+
+/* "6": the value; "poison", "nothing", or "?" where it is not known yet. */
+static const char *value_text(struct work *w, ir_ref ref)
+{
+    struct text text;
+    struct ir_value value;
+    struct ir_eval_env env = {.user_data = w, .source = value_of_source};
+    text_init(&text, &w->layers.arena);
+    if (!ref)
+        return "nothing";
+    if (ir_get(&w->graph, ref)->op == IR_POISON)
+        return "poison";
+    if (!ir_eval(&w->graph, ref, &env, &w->layers.arena, &value))
+        return "?";
+    for (unsigned i = 0; i < ir_type_info(value.type)->components; i++)
+        text_fmt(&text, "%s%g", i ? " " : "", (double)value.w[i].f);
+    return text_cstr(&text);
+}
+
+/* "n_in=0.25 n_amount=2": the uniforms that were made, with their defaults. */
+static const char *uniforms(struct work *w)
+{
+    struct text text;
+    text_init(&text, &w->layers.arena);
+    for (uint32_t i = 0; i < w->shader.variables.len; i++) {
+        const struct shader_variable *v = &w->shader.variables.items[i];
+        if (v->block == BLOCK_PUBLIC_UNIFORMS)
+            text_fmt(&text, "%s%s=%g", text.len ? " " : "", str_text(&w->strings, v->name),
+                     (double)v->value.w[0].f);
+    }
+    return text_cstr(&text);
+}
+
+/* Requires the value of element n of a document and what is reported. */
+#define REQUIRE_VALUE(document, expected, messages) \
+    do { \
+        struct work w_; \
+        work_open(&w_, (document)); \
+        REQUIRE_STR(value_text(&w_, work_build(&w_, "n")), (expected)); \
+        REQUIRE_STR(layers_messages(&w_.layers), (messages)); \
+        work_close(&w_); \
+    } while (0)
+
+/* ---- The interface ---- */
+
+/* in is authored, amount is not; m is upstream. */
+static const char authored[] =
+    "<gain name='m' type='float'><input name='in' type='float' value='7'/></gain>"
+    "<gain name='n' type='float'><input name='in' type='float' value='0.25'/></gain>"
+    "<gain name='o' type='float'><input name='in' type='float' nodename='m'/></gain>"
+    "<nodegraph name='g'><input name='k' type='float' value='4'/>"
+    "<gain name='a' type='float'><input name='in' type='float' interfacename='k'/></gain>"
+    "<output name='out' type='float' nodename='a'/></nodegraph>";
+
+static void test_interface(void)
+{
+    static const char *const amount[] = {"n/amount"}, *const all[] = {"**"}, *const in[] = {"*/in"};
+    static const struct {
+        const char *element;
+        enum build_interface interface;
+        const char *const *uniform, *const *constant;
+        const char *expected, *value;
+        unsigned compiled; /* authored inputs that are compiled in */
+    } cases[] = {
+        {"n", INTERFACE_COMPLETE, NULL, NULL, "n_in=0.25 n_amount=2", "0.5", 0},
+        {"n", INTERFACE_AUTHORED, NULL, NULL, "n_in=0.25", "0.5", 0},
+        {"n", INTERFACE_REDUCED, NULL, NULL, "", "0.5", 1},
+        {"n", INTERFACE_REDUCED, amount, NULL, "n_amount=2", "0.5", 1},
+        {"n", INTERFACE_COMPLETE, NULL, in, "n_amount=2", "0.5", 1},
+        {"n", INTERFACE_REDUCED, amount, all, "", "0.5", 1},          /* constant wins */
+        {"o", INTERFACE_COMPLETE, NULL, NULL, "o_amount=2", "28", 0}, /* m is no part of it */
+        {"o", INTERFACE_COMPLETE, all, NULL, "m_in=7 m_amount=2 o_amount=2", "28", 0},
+        {"g/out", INTERFACE_COMPLETE, NULL, NULL, "g_k=4", "8", 0},
+        {"g/out", INTERFACE_AUTHORED, NULL, NULL, "g_k=4", "8", 0},
+        {"g/out", INTERFACE_REDUCED, NULL, NULL, "", "8", 1},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        struct work w;
+        work_open(&w, authored);
+        w.options.interface = cases[i].interface;
+        w.options.uniform_globs = cases[i].uniform;
+        w.options.num_uniform_globs = cases[i].uniform != NULL;
+        w.options.constant_globs = cases[i].constant;
+        w.options.num_constant_globs = cases[i].constant != NULL;
+        REQUIRE_STR(value_text(&w, work_build(&w, cases[i].element)), cases[i].value);
+        REQUIRE_STR(uniforms(&w), cases[i].expected);
+        REQUIRE_EQ(w.shader.compiled.len, cases[i].compiled);
+        work_close(&w);
+    }
+}
+
+static void test_variables(void)
+{
+    struct work w;
+    work_open(&w, authored);
+    w.options.short_names = true;
+    work_build(&w, "n");
+    REQUIRE_STR(uniforms(&w), "in=0.25 amount=2");
+    const struct shader_variable *v = &w.shader.variables.items[0];
+    REQUIRE_STR(str_text(&w.strings, v->path), "n/in");
+    REQUIRE_STR(str_text(&w.strings, v->doc_type), "float");
+    REQUIRE_EQ(v->type, IR_TYPE_FLOAT);
+    REQUIRE_EQ(v->update, UPDATE_UNIFORM);
+    REQUIRE_EQ(v->element, layers_element(&w.layers, "n/in"));
+    REQUIRE_EQ(w.shader.variables.items[1].element, layers_element(&w.layers, "n"));
+    work_close(&w);
+}
+
+static void test_globs(void)
+{
+    static const struct {
+        const char *glob, *path;
+        bool matches;
+    } cases[] = {
+        {"a/b", "a/b", true},
+        {"a/b", "a/bc", false},
+        {"a/?", "a/b", true},
+        {"a?b", "a/b", false},
+        {"*", "a/b", false},
+        {"*/*", "a/b", true},
+        {"**", "a/b/c", true},
+        {"a/**/c", "a/x/y/c", true},
+        {"a/*/c", "a/x/y/c", false},
+        {"**/c", "a/b/c", true},
+        {"*b*", "abc", true},
+        {"*a*b", "xxaxxb", true},
+        {"*a*b", "xxbxxa", false},
+        {"", "", true},
+        {"", "a", false},
+        {"a*", "a", true},
+        {"**x", "a/b", false},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
+        if (!REQUIRE_EQ(build_glob_matches(cases[i].glob, cases[i].path), cases[i].matches))
+            printf("    '%s' and '%s'\n", cases[i].glob, cases[i].path);
+}
+
+/* ---- Values ---- */
+
+static void test_nodes(void)
+{
+    REQUIRE_VALUE("<gain name='n' type='float'/>", "6", "");
+    REQUIRE_VALUE("<gain name='n' type='float'><input name='in' type='float' value='x'/></gain>",
+                  "poison", "bad-value");
+    REQUIRE_VALUE("<plus name='n' type='float'/>", "1", ""); /* without a default: 0 */
+    REQUIRE_VALUE("<pick name='n' type='float'/>", "1", "");
+    REQUIRE_VALUE("<pick name='n' type='float'><input name='which' type='integer' value='high'/>"
+                  "</pick>",
+                  "9", "");
+    REQUIRE_VALUE("<pick name='n' type='float'><input name='which' type='integer' value='6'/>"
+                  "</pick>",
+                  "6", "");
+}
+
+static void test_graphs(void)
+{
+    REQUIRE_VALUE("<twice name='n' type='float'/>", "10", "");
+    REQUIRE_VALUE("<twice name='n' type='float'><input name='x' type='float' value='0.5'/></twice>",
+                  "1", "");
+    /* graphs of graphs: 2 (2 · 5) + 2 · 1 */
+    REQUIRE_VALUE("<twice name='a' type='float'/>"
+                  "<twice name='b' type='float'><input name='x' type='float' nodename='a'/></twice>"
+                  "<twice name='c' type='float'><input name='x' type='float' value='1'/></twice>"
+                  "<plus name='n' type='float'><input name='a' type='float' nodename='b'/>"
+                  "<input name='b' type='float' nodename='c'/></plus>",
+                  "22", "");
+    REQUIRE_VALUE("<self name='n' type='float'/>", "poison", "recursive-definition, used-by");
+}
+
+static void test_units_and_spaces(void)
+{
+    REQUIRE_VALUE("<gain name='n' type='float'><input name='in' type='float' value='2' "
+                  "unittype='distance' unit='foot'/></gain>",
+                  "1", ""); /* 2 · 0.25 · 2 */
+    REQUIRE_VALUE("<shade name='n' type='float'><input name='color' type='color3' "
+                  "value='0.5, 0.25, 0'/></shade>",
+                  "0.75", "");
+    REQUIRE_VALUE("<shade name='n' type='float'><input name='color' type='color3' "
+                  "value='0.5, 0.25, 0' colorspace='acescg'/></shade>",
+                  "0.375", "");
+    REQUIRE_VALUE("<shade name='n' type='float'><input name='color' type='color3' "
+                  "value='0.5, 0.25, 0' colorspace='mine'/></shade>",
+                  "poison", "unknown-colorspace");
+}
+
+static void test_properties(void)
+{
+    struct work w;
+    work_open(&w, "<worn name='n' type='float'/>"
+                  "<worn name='m' type='float'><input name='in' type='float' value='1'/></worn>");
+    ir_ref root = work_build(&w, "n");
+    REQUIRE_EQ(ir_get(&w.graph, root)->op, IR_STREAM);
+    REQUIRE_STR(layers_messages(&w.layers), "");
+    REQUIRE_EQ(work_build(&w, "m"), root); /* the property counts, as for MaterialX */
+    REQUIRE_STR(layers_messages(&w.layers), "geomprop-literal");
+    work_close(&w);
+}
+
+/* ---- Demand ---- */
+
+/* Only what is needed is looked at; the order of the document does not count. */
+static void test_need(void)
+{
+    static const char document[] =
+        "<plus name='n' type='float'><input name='a' type='float' nodename='late'/></plus>"
+        "<gain name='bad' type='float'><input name='in' type='float' value='x'/></gain>"
+        "<nonsense name='odd' type='float'/>"
+        "<gain name='c1' type='float'><input name='in' type='float' nodename='c2'/></gain>"
+        "<gain name='c2' type='float'><input name='in' type='float' nodename='c1'/></gain>"
+        "<gain name='late' type='float'><input name='in' type='float' value='4'/></gain>";
+    REQUIRE_VALUE(document, "9", "");
+    struct work w;
+    work_open(&w, document);
+    REQUIRE_STR(value_text(&w, work_build(&w, "c1")), "nothing");
+    REQUIRE_STR(layers_messages(&w.layers), "cycle");
+    REQUIRE_STR(value_text(&w, work_build(&w, "odd")), "nothing");
+    REQUIRE_STR(layers_messages(&w.layers), "unknown-node");
+    /* and what is left is as good as before */
+    REQUIRE_STR(value_text(&w, work_build(&w, "n")), "9");
+    REQUIRE_STR(layers_messages(&w.layers), "");
+    work_close(&w);
+}
+
+/* A fault is told once; what follows from it is poison and says nothing. */
+static void test_poison(void)
+{
+    static const char document[] =
+        "<gain name='bad' type='float'><input name='in' type='float' value='x'/></gain>"
+        "<plus name='n' type='float'><input name='a' type='float' nodename='bad'/>"
+        "<input name='b' type='float' nodename='bad'/></plus>"
+        "<nonsense name='odd' type='float'/>"
+        "<plus name='m' type='float'><input name='a' type='float' nodename='odd'/>"
+        "<input name='b' type='float' nodename='n'/></plus>"
+        "<shade name='k' type='float'><input name='color' type='color3' nodename='n'/></shade>";
+    struct work w;
+    work_open(&w, document);
+    REQUIRE_STR(value_text(&w, work_build(&w, "n")), "poison");
+    REQUIRE_STR(layers_messages(&w.layers), "bad-value");
+    REQUIRE_STR(value_text(&w, work_build(&w, "m")), "poison");
+    REQUIRE_STR(layers_messages(&w.layers), "unknown-node");
+    REQUIRE_STR(value_text(&w, work_build(&w, "k")), "poison");
+    REQUIRE_STR(layers_messages(&w.layers), "type-mismatch, connected-here");
+    work_close(&w);
+}
+
+/* A node is built once however many read it: one uniform stands for its input. */
+static void test_sharing(void)
+{
+    struct work w;
+    static const char *const all[] = {"**"};
+    work_open(&w,
+              "<gain name='m' type='float'/>"
+              "<plus name='n' type='float'><input name='a' type='float' nodename='m'/>"
+              "<input name='b' type='float' nodename='m'/></plus>"
+              "<twice name='t' type='float'><input name='x' type='float' nodename='m'/></twice>"
+              "<twice name='u' type='float'><input name='x' type='float' nodename='m'/></twice>");
+    w.options.uniform_globs = all;
+    w.options.num_uniform_globs = 1;
+    REQUIRE_STR(value_text(&w, work_build(&w, "n")), "12");
+    REQUIRE_STR(uniforms(&w), "m_in=3 m_amount=2");
+    /* and a graph once for equal arguments */
+    REQUIRE_EQ(work_build(&w, "t"), work_build(&w, "u"));
+    work_close(&w);
+}
+
+enum { DEPTH = 20000 };
+
+/* p0 reads p1 reads p2 …: each adds 1, and the last gives 6. To be freed. */
+static char *make_chain(void)
+{
+    size_t room = (size_t)DEPTH * 96 + 64, len = 0;
+    char *document = malloc(room);
+    for (int i = 0; document && i < DEPTH; i++)
+        len += (size_t)snprintf(document + len, room - len,
+                                "<plus name='p%d' type='float'><input name='a' type='float' "
+                                "nodename='p%d'/></plus>",
+                                i, i + 1);
+    if (document)
+        snprintf(document + len, room - len, "<gain name='p%d' type='float'/>", DEPTH);
+    return document;
+}
+
+/* Nothing recurses on the C stack. */
+static void test_depth(void)
+{
+    struct work w;
+    char *document = make_chain();
+    work_open(&w, document);
+    w.options.interface = INTERFACE_REDUCED;
+    REQUIRE_STR(value_text(&w, work_build(&w, "p0")), "20006");
+    REQUIRE_STR(layers_messages(&w.layers), "");
+    work_close(&w);
+    free(document);
+}
+
+struct patience {
+    unsigned asked, stops_at; /* 0: never */
+};
+
+static bool is_over(void *user_data)
+{
+    struct patience *patience = user_data;
+    return ++patience->asked == patience->stops_at;
+}
+
+static void test_cancel(void)
+{
+    struct patience patiences[] = {{0, 2}, {0, 0}};
+    char *document = make_chain();
+    for (unsigned i = 0; i < 2; i++) {
+        struct work w;
+        work_open(&w, document);
+        w.options.cancel = is_over;
+        w.options.cancel_user_data = &patiences[i];
+        work_build(&w, "p0");
+        REQUIRE_EQ(build_cancelled(w.builder), i == 0);
+        work_close(&w);
+    }
+    REQUIRE_EQ(patiences[0].asked, 2); /* and not again */
+    REQUIRE(patiences[1].asked > 2);
+    free(document);
+}
+
+/* ---- Implementations ---- */
+
+/* The nearest target counts; of equal ones, the document's. */
+static void test_targets(void)
+{
+    static const char plain[] = "<which name='n' type='float'/>",
+                      own[] = "<which name='n' type='float'/>"
+                              "<implementation name='I' nodedef='ND_which' sourcecode='8.0'/>",
+                      own_gen[] = "<which name='n' type='float'/><implementation name='I' "
+                                  "nodedef='ND_which' target='gen' sourcecode='9.0'/>",
+                      only[] = "<only name='n' type='float'/>";
+    static const struct {
+        const char *targets[2], *document, *expected, *messages;
+    } cases[] = {
+        {{NULL}, plain, "1", ""},
+        {{"gen"}, plain, "2", ""},
+        {{"sub", "gen"}, plain, "3", ""},
+        {{"new", "gen"}, plain, "2", ""}, /* inherited */
+        {{"new"}, plain, "1", ""},
+        {{NULL}, own, "8", ""},
+        {{"gen"}, own, "2", ""},
+        {{"gen"}, own_gen, "9", ""},
+        {{"sub", "gen"}, own_gen, "3", ""},
+        {{"gen"}, only, "4", ""},
+        {{"new"}, only, "nothing", "missing-implementation, defined-here"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        struct work w;
+        work_open(&w, cases[i].document);
+        for (unsigned t = 0; t < 2 && cases[i].targets[t]; t++)
+            w.targets[w.options.num_targets++] = str_intern_z(&w.strings, cases[i].targets[t]);
+        if (!REQUIRE_STR(value_text(&w, work_build(&w, "n")), cases[i].expected))
+            printf("    case %zu\n", i);
+        REQUIRE_STR(layers_messages(&w.layers), cases[i].messages);
+        work_close(&w);
+    }
+}
+
+/* Weight first, then the inputs in order. */
+static void test_leaves(void)
+{
+    struct work w;
+    work_open(&w, "<matte name='n' type='BSDF'><input name='weight' type='float' value='0.25'/>"
+                  "<input name='shade' type='float' value='0.75'/></matte>"
+                  "<matte name='m' type='BSDF'><input name='weight' type='float' value='0'/>"
+                  "</matte>");
+    w.options.interface = INTERFACE_REDUCED;
+    ir_ref leaf = work_build(&w, "n");
+    if (REQUIRE(leaf && ir_get(&w.graph, leaf)->op == IR_LEAF)) {
+        uint32_t callee = ir_get(&w.graph, leaf)->attr;
+        REQUIRE_EQ(ir_type_of(&w.graph, leaf), IR_TYPE_BSDF);
+        REQUIRE_EQ(ir_get(&w.graph, leaf)->num_args, 3);
+        REQUIRE(ir_const_is(&w.graph, ir_arg(&w.graph, leaf, 0), 0.25f));
+        REQUIRE(ir_const_is(&w.graph, ir_arg(&w.graph, leaf, 1), 0.75f));
+        REQUIRE(ir_const_is(&w.graph, ir_arg(&w.graph, leaf, 2), 0.0f));
+        REQUIRE_STR(build_leaf_input(w.builder, callee, 0), "shade");
+        REQUIRE_STR(build_leaf_input(w.builder, callee, 1), "color");
+        REQUIRE(!build_leaf_input(w.builder, callee, 2));
+        REQUIRE_STR(str_text(&w.strings, build_leaf_family(w.builder, callee)->name), "matte");
+    }
+    REQUIRE_EQ(work_build(&w, "m"), 0); /* of weight 0 */
+    REQUIRE_STR(layers_messages(&w.layers), "");
+    work_close(&w);
+}
+
+static void test_port_values(void)
+{
+    struct work w;
+    struct ir_value value;
+    work_open(&w, "<gain name='n' type='float'/>");
+    work_build(&w, "n");
+    const struct library *lib = &w.layers.lib;
+    const struct port *gain = library_ports(lib, 0, NULL), *plus = library_ports(lib, 1, NULL);
+    REQUIRE(build_port_value(w.builder, &gain[1], &value) && value.w[0].f == 2);
+    REQUIRE(build_port_value(w.builder, &plus[0], &value) && value.w[0].f == 0);
+    struct port property = gain[0];
+    property.geomprop = layers_word(&w.layers, "wear");
+    REQUIRE(!build_port_value(w.builder, &property, &value));
+    work_close(&w);
+}
+
+int main(void)
+{
+    test_interface();
+    test_variables();
+    test_globs();
+    test_nodes();
+    test_graphs();
+    test_units_and_spaces();
+    test_properties();
+    test_need();
+    test_poison();
+    test_sharing();
+    test_depth();
+    test_cancel();
+    test_targets();
+    test_leaves();
+    test_port_values();
+    return test_report("build");
+}
