@@ -182,14 +182,4 @@ static void open_main(struct spell *spell)
     spell_text(spell, spell->shader->scatters ? "void scatter()\n{\n" : "void main()\n{\n");
 }
 
-static const char *const names[] = {"main",
-                                    "vd",
-                                    "u_lightData",
-                                    "LightData",
-                                    "LightData_block",
-                                    "PublicUniforms",
-                                    "PrivateUniforms",
-                                    "VertexData",
-                                    NULL};
-
-const struct target_frame glsl_frame = {.names = names, .declare = declare, .open = open_main};
+const struct target_frame glsl_frame = {.declare = declare, .open = open_main};

@@ -88,6 +88,33 @@ static const struct lang_pieces *equality(struct spell *spell, const struct lang
                 : form_of(spell, "!equal($0, $1)", LANG_PREC_UNARY);
 }
 
+static const char *struct_name(struct spell *spell, const struct lang_use *use)
+{
+    if (!use->node)
+        return spell->user_types[use->type - IR_TYPE_FIRST_USER];
+    struct text *out = spell->out, *name = new_text(spell);
+    spell->out = name;
+    spell_type(spell, use->type);
+    spell->out = out;
+    return text_cstr(name);
+}
+
+/* "c ? a : b" takes numbers only. */
+static const struct lang_pieces *choice(struct spell *spell, const struct lang_use *use)
+{
+    if (use->type < IR_TYPE_FIRST_USER)
+        return NULL;
+    const char *type = struct_name(spell, use);
+    struct text *text = new_text(spell);
+    text_fmt(
+        text,
+        "%s choose(bool condition, %s yes, %s no)\n{\n    if (condition)\n        return yes;\n"
+        "    return no;\n}\n",
+        type, type, type);
+    spell_helper(spell, text_cstr(text));
+    return call_of(spell, "choose($0, $1, $2)");
+}
+
 /* ---- Built-in functions ---- */
 
 /* HLSL's own gives integers. */
@@ -142,16 +169,14 @@ static const struct lang_pieces *inverse(struct spell *spell, const struct lang_
 
 static const struct lang_pieces *texture_size(struct spell *spell, const struct lang_use *use)
 {
-    bool is_array = use->operands[0] == IR_TYPE_SAMPLER_ARRAY;
-    spell_helper(spell, is_array ? "int2 texture_size(Texture2DArray t, int level)\n{\n"
-                                   "    uint width, height, layers, levels;\n"
-                                   "    t.GetDimensions(uint(level), width, height, layers, "
-                                   "levels);\n"
-                                   "    return int2(width, height);\n}\n"
-                                 : "int2 texture_size(Texture2D t, int level)\n{\n"
-                                   "    uint width, height, levels;\n"
-                                   "    t.GetDimensions(uint(level), width, height, levels);\n"
-                                   "    return int2(width, height);\n}\n");
+    struct text *text = new_text(spell);
+    const char *layers = use->operands[0] == IR_TYPE_SAMPLER_ARRAY ? "layers, " : "";
+    text_fmt(text,
+             "int2 texture_size(%s t, int level)\n{\n    uint width, height, %slevels;\n"
+             "    t.GetDimensions(uint(level), width, height, %slevels);\n"
+             "    return int2(width, height);\n}\n",
+             type_name(spell, use->operands[0]), layers, layers);
+    spell_helper(spell, text_cstr(text));
     return call_of(spell, "texture_size($0, $1)");
 }
 
@@ -240,13 +265,15 @@ static const struct lang_pieces *convert(struct spell *spell, const struct lang_
 
 /* ---- Hooks ---- */
 
-static const struct lang_pieces *(*const writers[IR_NUM_OPS])(struct spell *,
-                                                              const struct lang_use *) = {
+typedef const struct lang_pieces *form_writer(struct spell *spell, const struct lang_use *use);
+
+static form_writer *const writers[IR_NUM_OPS] = {
     [IR_MUL] = product,         [IR_EQ] = equality,
-    [IR_NE] = equality,         [IR_SIGN] = sign,
-    [IR_MOD] = modulo,          [IR_INVERSE] = inverse,
-    [IR_TEX_FETCH] = texel,     [IR_TEX_SIZE] = texture_size,
-    [IR_CONSTRUCT] = construct, [IR_CONVERT] = convert,
+    [IR_NE] = equality,         [IR_SELECT] = choice,
+    [IR_SIGN] = sign,           [IR_MOD] = modulo,
+    [IR_INVERSE] = inverse,     [IR_TEX_SIZE] = texture_size,
+    [IR_TEX_FETCH] = texel,     [IR_CONVERT] = convert,
+    [IR_CONSTRUCT] = construct,
 };
 
 const struct lang_pieces *hlsl_form(void *user_data, const struct lang_use *use)

@@ -8,21 +8,16 @@
  */
 #include "generators/hlsl/hlsl.h"
 
-static bool has_vulkan_attributes(const struct spell *spell)
-{
-    return spell->options->vulkan_attributes;
-}
-
-/* "[[vk::binding(3, 0)]] " on request. */
+/* On request. */
 static void write_binding(struct spell *spell, uint32_t binding, uint32_t set)
 {
-    if (has_vulkan_attributes(spell))
+    if (spell->options->vulkan_attributes)
         text_fmt(spell->out, "[[vk::binding(%u, %u)]] ", (unsigned)binding, (unsigned)set);
 }
 
 static void write_location(struct spell *spell, uint32_t location)
 {
-    if (has_vulkan_attributes(spell))
+    if (spell->options->vulkan_attributes)
         text_fmt(spell->out, "[[vk::location(%u)]] ", (unsigned)location);
 }
 
@@ -114,12 +109,8 @@ static void write_textures(struct spell *spell)
 
 /* ---- Stage inputs and outputs ---- */
 
-/*
- * "NORMAL" of i_normal, "TEXCOORD0" of i_texcoord_0, "GEOMPROP_WEAR" of i_geomprop_wear. Case does
- * not count in semantics: properties whose names differ in nothing else are told apart by their
- * location.
- */
-static const char *semantic_of(struct spell *spell, const struct shader_variable *variable)
+/* "NORMAL" of i_normal, "TEXCOORD0" of i_texcoord_0, "GEOMPROP_WEAR" of i_geomprop_wear. */
+static const char *semantic_from(struct spell *spell, const struct shader_variable *variable)
 {
     struct text text;
     text_init(&text, spell->scratch);
@@ -132,20 +123,18 @@ static const char *semantic_of(struct spell *spell, const struct shader_variable
     return text_cstr(&text);
 }
 
-static const char *attribute_semantic(struct spell *spell, uint32_t place)
+/* Semantics have no case: of properties that differ in nothing else, the later has a number. */
+static void write_semantic(struct spell *spell, uint32_t place)
 {
     const struct shader_variable *variable = spell_interface_variable(spell, place);
-    const char *semantic = semantic_of(spell, variable);
+    const char *semantic = semantic_from(spell, variable);
     bool is_taken = false;
-    SPELL_EACH_OF_BLOCK(i, spell, BLOCK_APP_DATA)
-    is_taken |=
-        i < place && strcmp(semantic_of(spell, spell_interface_variable(spell, i)), semantic) == 0;
-    if (!is_taken)
-        return semantic;
-    struct text text;
-    text_init(&text, spell->scratch);
-    text_fmt(&text, "ATTRIBUTE%u", (unsigned)variable->location);
-    return text_cstr(&text);
+    for (uint32_t i = spell->shader->first_of_block[BLOCK_APP_DATA]; i < place && !is_taken; i++)
+        is_taken = !strcmp(semantic_from(spell, spell_interface_variable(spell, i)), semantic);
+    if (is_taken)
+        text_fmt(spell->out, "ATTRIBUTE%u", (unsigned)variable->location);
+    else
+        spell_text(spell, semantic);
 }
 
 /* One struct for both stages, whether they read all of it or not, so that they fit together. */
@@ -176,34 +165,27 @@ static bool reads_vertex_data(const struct spell *spell)
 }
 
 /*
- * Functions may read streams, which are parameters of main otherwise: then main copies between its
- * parameters and variables at file scope.
+ * Functions may read vertex data, which is a parameter of main otherwise: then main copies between
+ * its parameter and a variable at file scope.
  */
-static bool shares_streams(const struct spell *spell)
+static bool shares_vertex_data(const struct spell *spell)
 {
-    bool shares = spell->stage->functions.len > 0;
+    bool shares = spell->shader->scatters || spell->stage->functions.len > 0;
     const struct lang_reach *reach = &spell->stage->reach;
     for (uint32_t i = 0; i < reach->globals.len && !shares; i++)
         shares = lang_global(spell->shader->unit, reach->globals.items[i], NULL)->kind
                  == LANG_GLOBAL_STREAM;
-    return shares;
+    return shares && reads_vertex_data(spell);
 }
 
-static void write_shared(struct spell *spell)
+/* Of a function of path tracers. */
+static void write_results(struct spell *spell)
 {
-    bool is_scatter = spell->shader->scatters;
-    if (reads_vertex_data(spell) && (is_scatter || shares_streams(spell)))
-        spell_text(spell, "static VertexData vd;\n");
-    enum shader_block block = is_scatter ? BLOCK_OUTPUTS : BLOCK_APP_DATA;
-    if (!is_scatter && (spell->stage_id == STAGE_PIXEL || !shares_streams(spell)))
-        return;
-    SPELL_EACH_OF_BLOCK(i, spell, block)
+    SPELL_EACH_OF_BLOCK(i, spell, BLOCK_OUTPUTS)
     {
-        const struct shader_variable *variable = spell_interface_variable(spell, i);
-        if (!spell_uses(spell, variable))
-            continue;
         spell_text(spell, "static ");
-        spell_declare(spell, variable, name_of(spell, variable));
+        spell_declare(spell, spell_interface_variable(spell, i),
+                      name_of(spell, spell_interface_variable(spell, i)));
         spell_text(spell, ";\n");
     }
 }
@@ -224,20 +206,21 @@ static void declare(struct spell *spell)
     write_textures(spell);
     if (reads_vertex_data(spell))
         write_vertex_data(spell);
-    write_shared(spell);
+    spell_text(spell, shares_vertex_data(spell) ? "static VertexData vd;\n" : "");
+    if (spell->shader->scatters)
+        write_results(spell);
 }
 
 /* ---- Main ---- */
 
-/* The separator before a parameter of main, which stands on a line of its own. */
+/* A parameter of main stands on a line of its own. */
 static void begin_parameter(struct spell *spell, bool *is_first)
 {
     spell_text(spell, *is_first ? "\n    " : ",\n    ");
     *is_first = false;
 }
 
-static void write_parameters(struct spell *spell, enum shader_block block, const char *mode,
-                             const char *suffix, bool *is_first)
+static void write_parameters(struct spell *spell, enum shader_block block, bool *is_first)
 {
     SPELL_EACH_OF_BLOCK(i, spell, block)
     {
@@ -246,25 +229,14 @@ static void write_parameters(struct spell *spell, enum shader_block block, const
             continue;
         begin_parameter(spell, is_first);
         write_location(spell, variable->location);
-        spell_text(spell, mode);
+        spell_text(spell, block == BLOCK_OUTPUTS ? "out " : "");
         spell_declare(spell, variable, name_of(spell, variable));
-        SPELL(spell, suffix, " : ");
-        if (block == BLOCK_OUTPUTS)
-            text_fmt(spell->out, "SV_Target%u", (unsigned)variable->location);
-        else
-            spell_text(spell, attribute_semantic(spell, i));
-    }
-}
-
-/* "    i_normal = i_normal_in;" */
-static void copy_attributes(struct spell *spell)
-{
-    SPELL_EACH_OF_BLOCK(i, spell, BLOCK_APP_DATA)
-    {
-        const struct shader_variable *variable = spell_interface_variable(spell, i);
-        const char *name = str_text(spell->shader->strings, variable->name);
-        if (spell_uses(spell, variable))
-            SPELL(spell, "    ", name, " = ", name, "_in;\n");
+        if (block == BLOCK_OUTPUTS) {
+            text_fmt(spell->out, " : SV_Target%u", (unsigned)variable->location);
+        } else {
+            spell_text(spell, " : ");
+            write_semantic(spell, i);
+        }
     }
 }
 
@@ -274,39 +246,31 @@ static void open_main(struct spell *spell)
         spell_text(spell, "void scatter()\n{\n");
         return;
     }
-    bool is_first = true, is_pixel = spell->stage_id == STAGE_PIXEL, shares = shares_streams(spell);
+    bool is_pixel = spell->stage_id == STAGE_PIXEL, shares = shares_vertex_data(spell),
+         is_first = true;
     spell_text(spell, "void main(");
     if (!is_pixel)
-        write_parameters(spell, BLOCK_APP_DATA, "", shares ? "_in" : "", &is_first);
+        write_parameters(spell, BLOCK_APP_DATA, &is_first);
     if (reads_vertex_data(spell)) {
         begin_parameter(spell, &is_first);
-        SPELL(spell, is_pixel ? "VertexData vd" : "out VertexData vd",
-              !shares    ? ""
-              : is_pixel ? "_in"
-                         : "_out");
+        SPELL(spell, is_pixel ? "" : "out ", "VertexData ",
+              !shares    ? "vd"
+              : is_pixel ? "vd_in"
+                         : "vd_out");
     }
     if (is_pixel)
-        write_parameters(spell, BLOCK_OUTPUTS, "out ", "", &is_first);
+        write_parameters(spell, BLOCK_OUTPUTS, &is_first);
     spell_text(spell, ")\n{\n");
-    if (!shares)
-        return;
-    if (is_pixel)
-        spell_text(spell, reads_vertex_data(spell) ? "    vd = vd_in;\n" : "");
-    else
-        copy_attributes(spell);
+    spell_text(spell, is_pixel && shares ? "    vd = vd_in;\n" : "");
 }
 
 static void close_main(struct spell *spell)
 {
-    bool copies =
-        !spell->shader->scatters && spell->stage_id == STAGE_VERTEX && shares_streams(spell);
-    spell_text(spell, copies ? "    vd_out = vd;\n" : "");
+    bool gives = spell->stage_id == STAGE_VERTEX && shares_vertex_data(spell);
+    spell_text(spell, gives ? "    vd_out = vd;\n" : "");
 }
 
-static const char *const names[] = {
-    "main",           "scatter",         "vd",         "vd_in",
-    "vd_out",         "u_lightData",     "LightData",  "LightData_block",
-    "PublicUniforms", "PrivateUniforms", "VertexData", NULL};
-
-const struct target_frame hlsl_frame = {
-    .names = names, .declare = declare, .open = open_main, .close = close_main};
+const struct target_frame hlsl_frame = {.names = (const char *const[]){"vd_in", "vd_out", NULL},
+                                        .declare = declare,
+                                        .open = open_main,
+                                        .close = close_main};

@@ -543,6 +543,12 @@ extern const struct lang_syntax lang_syntax_portable; /* prints what the parser 
 /* `names` may be NULL below: the names of the source. */
 void lang_print_type(const struct lang_style *style, const struct lang_names *names,
                      const struct lang_unit *unit, ir_type_id type, struct text *out);
+/*
+ * A member's name in the output: an underscore follows a word of the language. Built-in functions
+ * are none here, since a member hides nothing.
+ */
+const char *lang_member_name(const struct lang_style *style, const struct strpool *strings,
+                             str_id name);
 /* Ends the name of the sampler that stands beside a texture. No other name ends so. */
 #define LANG_SAMPLER_SUFFIX "_sampler"
 /* "float x[3]": a variable with its type. */

@@ -185,8 +185,8 @@ static void print_member(struct printer *p, const struct lang_node *node)
     const struct lang_unit *layer;
     const struct ir_user_type *user = lang_user_type(p->unit, whole->type, &layer);
     text_char(p->out, '.');
-    text_str(p->out,
-             str_text(p->unit->strings, layer->members.items[user->first_member + node->b].name));
+    text_str(p->out, lang_member_name(p->style, p->unit->strings,
+                                      layer->members.items[user->first_member + node->b].name));
 }
 
 static void print_type_name(struct printer *p, ir_type_id type)
@@ -559,9 +559,38 @@ static void print_do(struct printer *p, const struct lang_node *node)
     text_str(p->out, ");\n");
 }
 
+/*
+ * "{ float made[2] = {a, b}; x = made; }": braces initialise a variable, but they are no value that
+ * could be assigned.
+ */
+static bool print_array_assignment(struct printer *p, const struct lang_node *node)
+{
+    const struct lang_node *value = node->kind == LANG_ASSIGN ? node_at(p, node->b) : NULL;
+    bool is_array = value && value->kind == LANG_OP && value->op == IR_CONSTRUCT
+                    && ast_is_user_type(value->type)
+                    && lang_user_type(p->unit, value->type, NULL)->array_length;
+    if (!is_array || !p->style->syntax->array_braces)
+        return false;
+    struct text made;
+    text_init(&made, p->out->arena);
+    text_str(&made, "made");
+    for (uint32_t number = 1; is_taken(p, text_cstr(&made), made.len, 0); number++)
+        made = variant(p, "made", strlen("made"), number);
+    text_str(p->out, "{ ");
+    lang_print_variable(p->style, p->names, p->unit, value->type, text_cstr(&made), p->out);
+    text_str(p->out, " = ");
+    print_expression(p, value, LANG_PREC_ASSIGN);
+    text_str(p->out, "; ");
+    print_expression(p, node_at(p, node->a), LANG_PREC_UNARY);
+    text_fmt(p->out, " = %s; }\n", text_cstr(&made));
+    return true;
+}
+
 static void print_statement(struct printer *p, const struct lang_node *node)
 {
     print_indent(p);
+    if (print_array_assignment(p, node))
+        return;
     switch (node->kind) {
     case LANG_IF: print_if(p, node); break;
     case LANG_FOR: print_for(p, node); break;

@@ -229,6 +229,27 @@ void lang_print_constant(const struct lang_style *style, const struct lang_names
     text_str(out, defines ? "\n" : ";\n");
 }
 
+static bool is_builtin(const char *name)
+{
+    for (int op = 0; op < IR_NUM_OPS; op++)
+        if (ir_op_info((enum ir_op)op)->flags & OP_BUILTIN
+            && strcmp(ir_op_info((enum ir_op)op)->text, name) == 0)
+            return true;
+    return false;
+}
+
+const char *lang_member_name(const struct lang_style *style, const struct strpool *strings,
+                             str_id name)
+{
+    const char *text = str_text(strings, name);
+    if (!lang_syntax_is_reserved(style->syntax, text, str_len(strings, name)) || is_builtin(text))
+        return text;
+    struct text longer;
+    text_init(&longer, style->arena);
+    text_fmt(&longer, "%s_", text);
+    return text_cstr(&longer);
+}
+
 void lang_print_struct(const struct lang_style *style, const struct lang_names *names,
                        const struct lang_unit *unit, ir_type_id type, struct text *out)
 {
@@ -240,8 +261,8 @@ void lang_print_struct(const struct lang_style *style, const struct lang_names *
     for (uint32_t i = 0; i < user->num_members; i++) {
         const struct ir_member *member = &layer->members.items[user->first_member + i];
         text_str(out, "    ");
-        lang_print_variable(style, names, unit, member->type, str_text(unit->strings, member->name),
-                            out);
+        lang_print_variable(style, names, unit, member->type,
+                            lang_member_name(style, unit->strings, member->name), out);
         text_str(out, ";\n");
     }
     text_str(out, "};\n");

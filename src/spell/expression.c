@@ -81,9 +81,9 @@ static void write_member(struct spell *spell, ir_ref ref, uint32_t attr)
     spell_expression(spell, operand, LANG_PREC_POSTFIX);
     const struct ir_user_type *type = user_type(spell, ir_type_of(spell->shader->graph, operand));
     text_char(spell->out, '.');
-    spell_text(spell,
-               str_text(spell->shader->strings,
-                        spell->shader->graph->members.items[type->first_member + attr].name));
+    spell_text(spell, lang_member_name(
+                          spell->style, spell->shader->strings,
+                          spell->shader->graph->members.items[type->first_member + attr].name));
 }
 
 void spell_argument(struct spell *spell, ir_ref ref)

@@ -25,7 +25,7 @@ const struct spell_maker *spell_find_maker(const struct spell *spell, const char
 
 static const char *member_name(const struct spell *spell, const struct ir_member *member)
 {
-    return str_text(spell->shader->strings, member->name);
+    return lang_member_name(spell->style, spell->shader->strings, member->name);
 }
 
 /* "made", or a longer name that no member has. */

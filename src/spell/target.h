@@ -42,7 +42,7 @@ struct target_network { /* for hosts that put shaders together themselves */
  * be NULL: nothing stands there.
  */
 struct target_frame {
-    /* Names at file scope and of main's parameters that the hooks write; NULL-terminated. */
+    /* Names that the hooks write beside those of all languages (declare.c); NULL-terminated. */
     const char *const *names;
     /* Structs, uniforms, textures, stage inputs and outputs, below the language's first lines. */
     void (*declare)(struct spell *spell);
