@@ -22,17 +22,15 @@ static void write_location(struct spell *spell, uint32_t location)
 }
 
 /* " : register(t3)" */
-static void write_register(struct spell *spell, char kind, uint32_t binding, uint32_t set)
+static void write_register(struct spell *spell, char kind, uint32_t number)
 {
-    text_fmt(spell->out, " : register(%c%u", kind, (unsigned)binding);
-    if (set)
-        text_fmt(spell->out, ", space%u", (unsigned)set);
-    text_char(spell->out, ')');
+    text_fmt(spell->out, " : register(%c%u)", kind, (unsigned)number);
 }
 
-static struct spell_name name_of(const struct spell *spell, const struct shader_variable *variable)
+/* The variable under its own name. */
+static void write_variable(struct spell *spell, const struct shader_variable *variable)
 {
-    return spell_name_of(spell->shader->strings, variable->name);
+    spell_declare(spell, variable, spell_name_of(spell->shader->strings, variable->name));
 }
 
 /* ---- Buffers ---- */
@@ -42,7 +40,17 @@ static void write_member(struct spell *spell, const struct shader_variable *vari
     spell_indent(spell, 1);
     if (ir_type_is_matrix(variable->type))
         spell_text(spell, "row_major ");
-    spell_declare(spell, variable, name_of(spell, variable));
+    write_variable(spell, variable);
+}
+
+/* "cbuffer LightData_block : register(b2)" */
+static void open_buffer(struct spell *spell, enum shader_block block, const char *name)
+{
+    const struct shader_buffer *buffer = &spell->shader->buffers[block];
+    write_binding(spell, buffer->binding, buffer->set);
+    SPELL(spell, "cbuffer ", name);
+    write_register(spell, 'b', buffer->binding);
+    spell_text(spell, "\n{\n");
 }
 
 /* "float3 u_viewPosition : packoffset(c4.y);" */
@@ -50,17 +58,13 @@ static void write_buffer(struct spell *spell, enum shader_block block)
 {
     if (!spell_uses_block(spell, block))
         return;
-    const struct shader_buffer *buffer = &spell->shader->buffers[block];
-    write_binding(spell, buffer->binding, buffer->set);
-    SPELL(spell, "cbuffer ", shader_block_name(block));
-    write_register(spell, 'b', buffer->binding, buffer->set);
-    spell_text(spell, "\n{\n");
+    open_buffer(spell, block, shader_block_name(block));
     SPELL_EACH_OF_BLOCK(i, spell, block)
     {
         const struct shader_variable *variable = spell_interface_variable(spell, i);
-        unsigned row = variable->offset / 16, component = variable->offset / 4 % 4;
+        unsigned component = variable->offset / 4 % 4;
         write_member(spell, variable);
-        text_fmt(spell->out, " : packoffset(c%u", row);
+        text_fmt(spell->out, " : packoffset(c%u", (unsigned)variable->offset / 16);
         if (component)
             text_fmt(spell->out, ".%c", "xyzw"[component]);
         spell_text(spell, ");\n");
@@ -72,7 +76,6 @@ static void write_lights(struct spell *spell)
 {
     if (!spell->stage->has_lights)
         return;
-    const struct shader_buffer *buffer = &spell->shader->buffers[BLOCK_LIGHT_DATA];
     spell_text(spell, "struct LightData {\n");
     SPELL_EACH_OF_BLOCK(i, spell, BLOCK_LIGHT_DATA)
     {
@@ -80,10 +83,8 @@ static void write_lights(struct spell *spell)
         spell_text(spell, ";\n");
     }
     spell_text(spell, "};\n");
-    write_binding(spell, buffer->binding, buffer->set);
-    spell_text(spell, "cbuffer LightData_block");
-    write_register(spell, 'b', buffer->binding, buffer->set);
-    text_fmt(spell->out, "\n{\n    LightData u_lightData[%u];\n};\n",
+    open_buffer(spell, BLOCK_LIGHT_DATA, "LightData_block");
+    text_fmt(spell->out, "    LightData u_lightData[%u];\n};\n",
              (unsigned)spell->shader->max_lights);
 }
 
@@ -95,14 +96,13 @@ static void write_textures(struct spell *spell)
         if (!spell_uses(spell, variable))
             continue;
         write_binding(spell, variable->binding, variable->set);
-        spell_declare(spell, variable, name_of(spell, variable));
-        write_register(spell, 't', variable->binding, variable->set);
+        write_variable(spell, variable);
+        write_register(spell, 't', variable->binding);
         spell_text(spell, ";\n");
         write_binding(spell, variable->binding, variable->set);
-        SPELL(spell, spell->target->syntax->sampler_type, " ");
-        spell_name(spell, name_of(spell, variable));
-        spell_text(spell, LANG_SAMPLER_SUFFIX);
-        write_register(spell, 's', variable->binding, variable->set);
+        SPELL(spell, "SamplerState ", str_text(spell->shader->strings, variable->name),
+              LANG_SAMPLER_SUFFIX);
+        write_register(spell, 's', variable->binding);
         spell_text(spell, ";\n");
     }
 }
@@ -140,21 +140,15 @@ static void write_semantic(struct spell *spell, uint32_t place)
 /* One struct for both stages, whether they read all of it or not, so that they fit together. */
 static void write_vertex_data(struct spell *spell)
 {
-    spell_text(spell, "struct VertexData {\n");
-    if (!spell->shader->scatters)
-        spell_text(spell, "    float4 position : SV_Position;\n");
+    spell_text(spell, "struct VertexData {\n    float4 position : SV_Position;\n");
     SPELL_EACH_OF_BLOCK(i, spell, BLOCK_VERTEX_DATA)
     {
         const struct shader_variable *variable = spell_interface_variable(spell, i);
         spell_indent(spell, 1);
-        if (!spell->shader->scatters) {
-            write_location(spell, variable->location);
-            spell_text(spell, variable->flat ? "nointerpolation " : "");
-        }
-        spell_declare(spell, variable, name_of(spell, variable));
-        if (!spell->shader->scatters)
-            text_fmt(spell->out, " : TEXCOORD%u", (unsigned)variable->location);
-        spell_text(spell, ";\n");
+        write_location(spell, variable->location);
+        spell_text(spell, variable->flat ? "nointerpolation " : "");
+        write_variable(spell, variable);
+        text_fmt(spell->out, " : TEXCOORD%u;\n", (unsigned)variable->location);
     }
     spell_text(spell, "};\n");
 }
@@ -184,8 +178,7 @@ static void write_results(struct spell *spell)
     SPELL_EACH_OF_BLOCK(i, spell, BLOCK_OUTPUTS)
     {
         spell_text(spell, "static ");
-        spell_declare(spell, spell_interface_variable(spell, i),
-                      name_of(spell, spell_interface_variable(spell, i)));
+        write_variable(spell, spell_interface_variable(spell, i));
         spell_text(spell, ";\n");
     }
 }
@@ -230,7 +223,7 @@ static void write_parameters(struct spell *spell, enum shader_block block, bool 
         begin_parameter(spell, is_first);
         write_location(spell, variable->location);
         spell_text(spell, block == BLOCK_OUTPUTS ? "out " : "");
-        spell_declare(spell, variable, name_of(spell, variable));
+        write_variable(spell, variable);
         if (block == BLOCK_OUTPUTS) {
             text_fmt(spell->out, " : SV_Target%u", (unsigned)variable->location);
         } else {

@@ -15,6 +15,7 @@ static const struct lang_form forms[IR_NUM_OPS] = {
     CALL(ATAN2, "atan2($0, $1)"),
     CALL(RSQRT, "rsqrt($0)"),
     CALL(FRACT, "frac($0)"),
+    CALL(SIGN, "$T(sign($0))"), /* HLSL's own gives integers */
     CALL(MIX, "lerp($0, $1, $2)"),
     CALL(FLOAT_TO_INT_BITS, "asint($0)"),
     CALL(FLOAT_TO_UINT_BITS, "asuint($0)"),
