@@ -2,29 +2,32 @@
 #include "cli/args.h"
 
 #include "cli/cli.h"
+#include "cli/memory.h"
 
 #include <errno.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Programs end where there is no memory for their arguments. */
 static void *grow(void *items, size_t len, size_t item_size)
 {
     if (len & (len - 1)) /* room doubles at powers of two */
         return items;
-    void *more = realloc(items, (len ? len * 2 : 1) * item_size);
-    if (!more) {
-        fputs("mxgen: out of memory\n", stderr);
-        exit(1);
-    }
-    return more;
+    return memory_resize(items, (len ? len * 2 : 1) * item_size);
 }
 
 void args_append(struct arg_list *list, const char *item)
 {
     list->items = grow(list->items, list->len, sizeof *list->items);
     list->items[list->len++] = item;
+}
+
+void args_free(struct arg_list *list)
+{
+    for (size_t i = 0; i < list->len; ++i)
+        free((void *)(uintptr_t)list->items[i]);
+    free(list->items);
+    *list = (struct arg_list){0};
 }
 
 void args_forward(const struct arg *arg, struct arg_list *out)
@@ -46,6 +49,7 @@ void args_forward(const struct arg *arg, struct arg_list *out)
         for (size_t i = 0; i < list->len; ++i)
             args_append(out, cli_format("--%s=%s", arg->name, list->items[i]));
         break;
+    case ARG_HELP: break;
     }
 }
 
@@ -182,6 +186,7 @@ static bool store(const struct arg *arg, const struct written *option, const cha
 {
     switch (arg->kind) {
     case ARG_FLAG: break;
+    case ARG_HELP:
     case ARG_TEXT: *(const char **)arg->out = value; break;
     case ARG_SIZE: return store_size(option, value, arg->out);
     case ARG_LIST: args_append(arg->out, value); break;
@@ -233,6 +238,11 @@ static bool parse_option(struct arg_parser *parser, struct written option, int a
         return false;
     }
     const char *value = option.value;
+    if (arg && arg->kind == ARG_HELP && !value) {
+        bool is_all = *index + 1 < argc && strcmp(argv[*index + 1], "all") == 0;
+        *index += is_all;
+        return store(arg, &option, is_all ? "all" : "");
+    }
     if (!value && *index + 1 < argc)
         value = argv[++*index];
     if (!value || (arg && !*value)) {
@@ -269,48 +279,4 @@ bool args_parse(struct arg_parser *parser, int argc, char **argv)
         }
     }
     return true;
-}
-
-static void print_row(FILE *out, char letter, const char *name, const char *value, const char *help)
-{
-    char left[128];
-    int len = letter ? snprintf(left, sizeof left, "  -%c, --%s", letter, name)
-                     : snprintf(left, sizeof left, "      --%s", name);
-    if (value && *value && len > 0 && (size_t)len < sizeof left)
-        snprintf(left + len, sizeof left - (size_t)len, " %s", value);
-    if (strlen(left) < 34)
-        fprintf(out, "%-34s %s", left, help);
-    else
-        fprintf(out, "%s\n%35s%s", left, "", help);
-}
-
-static const char *option_value_text(const mxg_option *option)
-{
-    switch (option->type) {
-    case MXG_OPTION_BOOL: return "";
-    case MXG_OPTION_INT: return "N";
-    case MXG_OPTION_ENUM: return option->values;
-    default: return "TEXT";
-    }
-}
-
-void args_print_help(const struct arg_parser *parser, FILE *out)
-{
-    fputs("\nOptions:\n", out);
-    for (size_t i = 0; i < parser->num_args; ++i) {
-        const struct arg *arg = &parser->args[i];
-        print_row(out, arg->letter, arg->name, arg->value, arg->help);
-        fputc('\n', out);
-    }
-    if (!parser->generation)
-        return;
-    fputs("\nOptions of generation (flags: --key, --no-key):\n", out);
-    for (uint32_t i = 0; i < mxg_num_options(); ++i) {
-        mxg_option option = {sizeof option};
-        mxg_get_option(i, &option);
-        print_row(out, 0, option.key, option_value_text(&option), option.doc);
-        if (option.initial && *option.initial)
-            fprintf(out, " (default: %s)", option.initial);
-        fputc('\n', out);
-    }
 }

@@ -21,15 +21,20 @@ enum arg_kind {
     ARG_TEXT, /* out: const char ** */
     ARG_SIZE, /* out: size_t *; a count */
     ARG_LIST, /* out: struct arg_list *; may stand several times */
+    ARG_HELP, /* out: const char **; "" or the word "all" behind it */
 };
+
+/* The parts of --help; those of more options and of limits are shown by --help all. */
+enum arg_group { ARG_OWN, ARG_MORE, ARG_COMMON, ARG_LIMITS };
 
 struct arg {
     const char *name;
     char letter; /* 0: none */
     enum arg_kind kind;
-    const char *value; /* what stands behind it in the help: "DIR" */
+    const char *value; /* what stands behind it in the help: "DIR", "a|b"; NULL: it takes none */
     const char *help;
     void *out;
+    enum arg_group group;
     bool is_own; /* not passed on to other programs */
 };
 
@@ -52,13 +57,12 @@ bool args_parse(struct arg_parser *parser, int argc, char **argv);
 void args_finish(struct arg_parser *parser);
 
 void args_append(struct arg_list *list, const char *item);
+/* Frees the list and its items, which must be of cli_format or cli_copy. */
+void args_free(struct arg_list *list);
 
 /* Appends what an option was given, as it is written on a command line; nothing for a text that was
  * not given. The items are to be freed. */
 void args_forward(const struct arg *arg, struct arg_list *out);
-
-/* The options as a table for --help. */
-void args_print_help(const struct arg_parser *parser, FILE *out);
 
 /* The closest of the candidates by edit distance, NULL where none is near. */
 const char *args_closest(const char *word, const char *const *candidates, size_t num_candidates);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/cli.h"
 #include "cli/files.h"
+#include "cli/help.h"
+#include "cli/memory.h"
 #include "cli/warnings.h"
 
 #include <errno.h>
@@ -15,60 +17,61 @@
 static size_t add_common_args(struct cli *cli, struct arg *table)
 {
     const struct arg common[] = {
-        {"library", 0, ARG_LIST, "PATH", "adds a library: a folder, file or image",
-         &cli->library_paths},
-        {"no-builtin-library", 0, ARG_FLAG, NULL, "starts without the library that is built in",
-         &cli->no_builtin_library},
-        {"max-memory", 0, ARG_SIZE, "BYTES", "gives up beyond that (default: no limit)",
-         &cli->max_memory},
-        {"max-file-size", 0, ARG_SIZE, "MIB", "largest file that is read (default: 256)",
-         &cli->max_file_size},
-        {"max-elements", 0, ARG_SIZE, "N", "largest document (default: 16000000)",
-         &cli->max_elements},
-        {"max-nodes", 0, ARG_SIZE, "N", "largest graph of operations (default: 64000000)",
-         &cli->max_nodes},
-        {"max-output-size", 0, ARG_SIZE, "MIB", "largest shader (default: 256)",
-         &cli->max_output_size},
-        {"max-depth", 0, ARG_SIZE, "N", "deepest nesting of elements (default: 128)",
-         &cli->max_depth},
-        {"max-include-depth", 0, ARG_SIZE, "N", "deepest nesting of includes (default: 16)",
-         &cli->max_include_depth},
-        {"max-includes", 0, ARG_SIZE, "N", "most files that a document includes (default: 4096)",
-         &cli->max_includes},
-        {"trust", 0, ARG_FLAG, NULL, "accepts source for one target in documents", &cli->trust},
+        {"library", 0, ARG_LIST, "PATH", "adds a library: a folder, a file or an image",
+         &cli->library_paths, ARG_COMMON},
+        {"no-builtin-library", 0, ARG_FLAG, NULL, "does not load the built-in library",
+         &cli->no_builtin_library, ARG_COMMON},
+        {"max-memory", 0, ARG_SIZE, "BYTES", "limit of memory (default: none)", &cli->max_memory,
+         ARG_LIMITS},
+        {"max-file-size", 0, ARG_SIZE, "MIB", "limit of the size of an input file (default: 256)",
+         &cli->max_file_size, ARG_LIMITS},
+        {"max-elements", 0, ARG_SIZE, "N", "limit of elements of a document (default: 16000000)",
+         &cli->max_elements, ARG_LIMITS},
+        {"max-nodes", 0, ARG_SIZE, "N", "limit of IR nodes of a shader (default: 64000000)",
+         &cli->max_nodes, ARG_LIMITS},
+        {"max-output-size", 0, ARG_SIZE, "MIB", "limit of the size of a shader (default: 256)",
+         &cli->max_output_size, ARG_LIMITS},
+        {"max-depth", 0, ARG_SIZE, "N", "limit of nested elements (default: 128)", &cli->max_depth,
+         ARG_LIMITS},
+        {"max-include-depth", 0, ARG_SIZE, "N", "limit of nested includes (default: 16)",
+         &cli->max_include_depth, ARG_LIMITS},
+        {"max-includes", 0, ARG_SIZE, "N",
+         "limit of files that a document includes (default: 4096)", &cli->max_includes, ARG_LIMITS},
+        {"trust", 0, ARG_FLAG, NULL, "accepts source code for one target in documents", &cli->trust,
+         ARG_LIMITS},
         {"sandbox", 0, ARG_FLAG, NULL,
-         "documents may refer to files beside and below them only, and bring no source",
-         &cli->sandbox},
-        {"include-root", 0, ARG_LIST, "DIR",
-         "with --sandbox: documents may refer to files there, too", &cli->include_roots},
-        {"max-errors", 0, ARG_SIZE, "N", "errors told of a document; 0: all (default: 20)",
-         &cli->max_errors},
+         "accepts only files in and below the folder of the document, and no source code in it",
+         &cli->sandbox, ARG_LIMITS},
+        {"include-root", 0, ARG_LIST, "DIR", "another folder that --sandbox accepts",
+         &cli->include_roots, ARG_LIMITS},
+        {"max-errors", 0, ARG_SIZE, "N", "errors printed for a document; 0: all (default: 20)",
+         &cli->max_errors, ARG_COMMON},
         {"warning", 'W', ARG_LIST, "WORD",
-         "-WID, -Wno-ID: tells a warning or not; -Werror[=ID], -Wno-error=ID: as an error",
-         &cli->warnings},
-        {"quiet", 'q', ARG_FLAG, NULL, "prints errors only", &cli->quiet, .is_own = true},
-        {"verbose", 0, ARG_FLAG, NULL, "prints also how older documents were upgraded",
-         &cli->verbose},
-        {"version", 0, ARG_FLAG, NULL, "prints the version", &cli->version, .is_own = true},
-        {"help", 'h', ARG_FLAG, NULL, "prints this", &cli->help, .is_own = true},
+         "-WID and -Wno-ID switch a warning on and off; -Werror turns all warnings into errors, "
+         "-Werror=ID and -Wno-error=ID one of them",
+         &cli->warnings, ARG_COMMON},
+        {"quiet", 'q', ARG_FLAG, NULL, "prints errors only", &cli->quiet, ARG_COMMON,
+         .is_own = true},
+        {"verbose", 0, ARG_FLAG, NULL, "also prints the upgrades of older documents", &cli->verbose,
+         ARG_COMMON},
+        {"version", 0, ARG_FLAG, NULL, "prints the version", &cli->version, ARG_COMMON,
+         .is_own = true},
+        {"help", 'h', ARG_HELP, "[all]", "prints help; 'all' includes all options", &cli->help,
+         ARG_COMMON, .is_own = true},
     };
     memcpy(table, common, sizeof common);
     return sizeof common / sizeof *common;
 }
 
-static void print_usage(const struct cli *cli, const struct command *command)
-{
-    printf("Usage: mxgen %s\n%s\n", command->usage, command->brief);
-    args_print_help(&cli->parser, stdout);
-}
-
 /* True where the arguments ask for a text only. */
-static bool answer_help(const struct cli *cli, const struct command *command)
+static bool answer_help(const struct cli *cli, const struct command *command, int *out_exit)
 {
     if (cli->help)
-        print_usage(cli, command);
-    else if (cli->version)
+        *out_exit = help_print(command, &cli->parser, cli->help) ? EXIT_DONE : EXIT_USAGE;
+    else if (cli->version) {
         printf("mxgen %s\n", mxg_version_string());
+        *out_exit = EXIT_DONE;
+    }
     return cli->help || cli->version;
 }
 
@@ -140,6 +143,11 @@ bool cli_start(struct cli *cli, const struct command *command, const struct arg 
     cli->parser.generation = wants & CLI_GENERATES;
     report_init(&cli->report);
 
+    if (command->book) {
+        help_add(command->book, command, &cli->parser);
+        *out_exit = EXIT_DONE;
+        return false;
+    }
     *out_exit = EXIT_USAGE;
     bool parsed = args_parse(&cli->parser, argc, argv);
     cli->report.quiet = cli->quiet;
@@ -147,10 +155,8 @@ bool cli_start(struct cli *cli, const struct command *command, const struct arg 
     cli->report.max_errors = cli->max_errors;
     if (!parsed)
         return false;
-    if (answer_help(cli, command)) {
-        *out_exit = EXIT_DONE;
+    if (answer_help(cli, command, out_exit))
         return false;
-    }
     if (!warnings_check(&cli->warnings))
         return false;
     if ((wants & CLI_NEEDS_INPUT) && cli->parser.inputs.len == 0) {
@@ -251,11 +257,9 @@ char *cli_file_name(const char *element_path)
      * that names stay different.
      */
     enum { MAX_NAME = 200 };
-    uint32_t hash = 2166136261u; /* FNV-1a */
-    for (const char *c = element_path; *c; ++c)
-        hash = (hash ^ (unsigned char)*c) * 16777619u;
+    unsigned hash = (unsigned)cli_hash(CLI_HASH_OF_NOTHING, element_path);
     char *name = strlen(element_path) > MAX_NAME
-                     ? cli_format("%.*s-%08x", MAX_NAME, element_path, (unsigned)hash)
+                     ? cli_format("%.*s-%08x", MAX_NAME, element_path, hash)
                      : cli_format("%s", element_path);
     for (char *c = name; *c; ++c) {
         if (*c == '/')
@@ -264,21 +268,17 @@ char *cli_file_name(const char *element_path)
     return name;
 }
 
-static char *allocate_text(size_t len)
+uint64_t cli_hash(uint64_t hash, const char *text)
 {
-    char *text = malloc(len + 1);
-    if (!text) {
-        fputs("mxgen: out of memory\n", stderr);
-        exit(EXIT_FAULT);
-    }
-    return text;
+    for (; *text; ++text)
+        hash = (hash ^ (unsigned char)*text) * 0x100000001b3u;
+    return hash;
 }
 
 char *cli_copy(const char *text, size_t len)
 {
-    char *copy = memcpy(allocate_text(len), text, len);
-    copy[len] = '\0';
-    return copy;
+    char *copy = memory_alloc(len + 1);
+    return memcpy(copy, text, len);
 }
 
 char *cli_format(const char *format, ...)
@@ -287,7 +287,7 @@ char *cli_format(const char *format, ...)
     va_start(args, format);
     va_copy(again, args);
     int len = vsnprintf(NULL, 0, format, args);
-    char *text = allocate_text(len < 0 ? 0 : (size_t)len);
+    char *text = memory_alloc(len < 0 ? 1 : (size_t)len + 1);
     *text = '\0';
     if (len > 0)
         vsnprintf(text, (size_t)len + 1, format, again);

@@ -18,17 +18,22 @@
 
 enum exit_code { EXIT_DONE = 0, EXIT_FAULT = 1, EXIT_USAGE = 2 };
 
+struct help_book;
+
 struct command {
     const char *name;
     const char *usage; /* "FILE... [--target T] [options]" */
     const char *brief;
     int (*run)(const struct command *command, int argc, char **argv);
+    struct help_book
+        *book; /* that its options are added to, and nothing else is done; NULL: none */
 };
 
 struct cli {
     struct arg_parser parser;
     struct arg_list library_paths;
-    bool quiet, verbose, help, version, no_builtin_library;
+    bool quiet, verbose, version, no_builtin_library;
+    const char *help;         /* the word behind --help; NULL: help is not asked for */
     struct arg_list warnings; /* words of -W */
     struct arg_list include_roots;
     bool trust, sandbox;
@@ -81,6 +86,10 @@ __attribute__((format(printf, 1, 2)))
 #endif
 char *
 cli_format(const char *format, ...);
+
+/* FNV-1a of a text and of what was hashed before, at first CLI_HASH_OF_NOTHING. */
+#define CLI_HASH_OF_NOTHING 0xcbf29ce484222325u
+uint64_t cli_hash(uint64_t hash, const char *text);
 
 /*
  * A copy of `len` bytes with a NUL behind them, to be freed; ends the program where there is no

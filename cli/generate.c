@@ -223,13 +223,6 @@ static void write_depfile(struct generate *gen)
                      reason);
 }
 
-static void free_items(struct arg_list *list)
-{
-    for (size_t i = 0; i < list->len; ++i)
-        free((void *)(uintptr_t)list->items[i]);
-    free(list->items);
-}
-
 static int generate_all(struct generate *gen)
 {
     gen->several = gen->cli.parser.inputs.len > 1;
@@ -246,16 +239,15 @@ int command_generate(const struct command *command, int argc, char **argv)
 {
     struct generate gen = {.target = "glsl", .folder = "."};
     const struct arg args[] = {
-        {"target", 't', ARG_TEXT, "T", "the shading language to write (default: glsl)",
-         &gen.target},
+        {"target", 't', ARG_TEXT, "T", "target language (default: glsl)", &gen.target},
         {"element", 'e', ARG_LIST, "PATH",
-         "an element to generate (default: all that can be rendered)", &gen.elements},
-        {"output", 'o', ARG_TEXT, "DIR", "the folder to write to (default: the current one)",
+         "path of an element to generate (default: all renderable elements)", &gen.elements},
+        {"output", 'o', ARG_TEXT, "DIR", "output folder (default: the current folder)",
          &gen.folder},
-        {"reflect", 0, ARG_FLAG, NULL, "writes the reflection too, as JSON", &gen.reflect},
-        {"stdout", 0, ARG_FLAG, NULL, "prints instead of writing files", &gen.to_stdout},
+        {"reflect", 0, ARG_FLAG, NULL, "also writes the reflection as JSON", &gen.reflect},
+        {"stdout", 0, ARG_FLAG, NULL, "prints the files instead of writing them", &gen.to_stdout},
         {"depfile", 0, ARG_TEXT, "FILE",
-         "writes which files the output depends on, for make and ninja", &gen.depfile},
+         "writes the dependencies of the output, for make and ninja", &gen.depfile},
     };
     int code;
     if (cli_start(&gen.cli, command, args, sizeof args / sizeof *args,
@@ -265,8 +257,8 @@ int command_generate(const struct command *command, int argc, char **argv)
                    : EXIT_USAGE;
     cli_finish(&gen.cli);
     free(gen.elements.items);
-    free_items(&gen.outputs);
-    free_items(&gen.sources);
-    free_items(&gen.folders);
+    args_free(&gen.outputs);
+    args_free(&gen.sources);
+    args_free(&gen.folders);
     return code;
 }

@@ -48,18 +48,18 @@ int command_inspect(const struct command *command, int argc, char **argv)
 {
     struct inspect inspect = {.target = "glsl"};
     const struct arg args[] = {
-        {"elements", 0, ARG_FLAG, NULL, "the element tree and what can be rendered (the default)",
+        {"elements", 0, ARG_FLAG, NULL, "the element tree and the renderable elements (default)",
          &inspect.views[MXG_VIEW_ELEMENTS]},
         {"graph", 0, ARG_FLAG, NULL, "nodes and connections", &inspect.views[MXG_VIEW_GRAPH]},
-        {"dot", 0, ARG_FLAG, NULL, "the same for Graphviz", &inspect.views[MXG_VIEW_DOT]},
-        {"ir", 0, ARG_FLAG, NULL, "the optimised intermediate representation",
-         &inspect.views[MXG_VIEW_IR]},
-        {"closures", 0, ARG_FLAG, NULL, "closure leaves with their weights",
+        {"dot", 0, ARG_FLAG, NULL, "nodes and connections, for Graphviz",
+         &inspect.views[MXG_VIEW_DOT]},
+        {"ir", 0, ARG_FLAG, NULL, "the optimised IR", &inspect.views[MXG_VIEW_IR]},
+        {"closures", 0, ARG_FLAG, NULL, "closure leaves and their weights",
          &inspect.views[MXG_VIEW_CLOSURES]},
         {"statistics", 0, ARG_FLAG, NULL, "counts", &inspect.views[MXG_VIEW_STATISTICS]},
-        {"element", 'e', ARG_TEXT, "PATH", "the element to look at", &inspect.element},
-        {"target", 't', ARG_TEXT, "T", "the target to look at it for (default: glsl)",
-         &inspect.target},
+        {"element", 'e', ARG_TEXT, "PATH", "path of an element (default: the first renderable)",
+         &inspect.element},
+        {"target", 't', ARG_TEXT, "T", "target language (default: glsl)", &inspect.target},
     };
     struct cli cli;
     int code;

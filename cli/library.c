@@ -5,7 +5,7 @@
  */
 #define _POSIX_C_SOURCE 200809L
 #include "cli/files.h"
-#include "cli/library_doc.h"
+#include "doc/library.h"
 
 #include <string.h>
 #include <unistd.h>
@@ -108,11 +108,13 @@ int command_library(const struct command *command, int argc, char **argv)
     struct library_args values = {0};
     const struct arg args[] = {
         {"output", 'o', ARG_TEXT, "PATH",
-         "file to write (default: standard output); of doc the folder", &values.output},
-        {"html", 0, ARG_FLAG, NULL, "doc: writes index.html (default: both)", &values.html},
-        {"markdown", 0, ARG_FLAG, NULL, "doc: writes index.md", &values.markdown},
+         "output file, for doc a folder (default: standard output, the current folder)",
+         &values.output},
+        {"html", 0, ARG_FLAG, NULL, "doc: writes only index.html (default: both pages)",
+         &values.html},
+        {"markdown", 0, ARG_FLAG, NULL, "doc: writes only index.md", &values.markdown},
         {"pictures", 0, ARG_FLAG, NULL,
-         "doc: draws patterns, closures and shaders with mxgen-render", &values.pictures},
+         "doc: renders patterns, closures and shaders with mxgen-render", &values.pictures},
     };
     struct cli cli;
     int code;

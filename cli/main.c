@@ -6,6 +6,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "cli/cli.h"
 #include "cli/files.h"
+#include "cli/help.h"
 
 #include <string.h>
 #include <unistd.h>
@@ -16,19 +17,18 @@ static const struct command commands[] = {
     {"check",
      "check PATH... [--target T,...] [-j N] [--json FILE] [options]  |  check merge REPORT.json... "
      "[options]",
-     "Validates, generates and compiles every document in files, folders, patterns and @lists.",
+     "Validates, generates and compiles the documents of files, folders, patterns and @lists.",
      command_check},
     {"inspect", "inspect FILE [--graph | --dot | --ir | --closures | --statistics] [options]",
-     "Prints what mxgen sees: elements, graph, IR, closures with weights, statistics.",
-     command_inspect},
+     "Prints elements, graph, IR, closures or statistics of a document.", command_inspect},
     {"validate", "validate FILE...",
-     "Checks documents against the library: every node, connection and value.", command_validate},
+     "Checks documents against the specification and the node library.", command_validate},
     {"explain", "explain [ID...] [-o DIR | --markdown]",
-     "Tells cause, cure and example of a message; without an id, lists them all.", command_explain},
+     "Prints cause, cure and example of a message, or a list of all messages.", command_explain},
     {"render", "render FILE|FOLDER... -o PICTURE.png [options]",
-     "Draws materials, without a display.", command_render},
+     "Renders materials without a display: one picture, or a sheet of several.", command_render},
     {"library", "library pack|list|expand|doc [PATH...] [-o PATH]",
-     "Packs, lists, expands and documents node libraries.", command_library},
+     "Packs, lists, expands or documents node libraries.", command_library},
 };
 #define NUM_COMMANDS (sizeof commands / sizeof *commands)
 
@@ -43,8 +43,7 @@ static void print_overview(void)
         mxg_get_target(i, &target);
         printf("  %-8s %s\n", target.name, target.brief);
     }
-    puts(
-        "\n'mxgen COMMAND --help' tells the options of a command. The FILE '-' is standard input.");
+    puts("\n'mxgen COMMAND --help' prints the options of a command. A FILE '-' is standard input.");
 }
 
 static const struct command *find_command(const char *name)
@@ -91,12 +90,41 @@ static bool asks_for_help(const char *word)
     return strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0 || strcmp(word, "help") == 0;
 }
 
-/* "mxgen help check" is "mxgen check --help". */
-static int help_command(const char *name)
+/* Runs a command only for its table of options. */
+static void read_options(struct help_book *book, const struct command *command)
 {
-    char option[] = "--help", *argv[] = {option, option, NULL};
-    const struct command *command = find_command(name);
-    return command ? flush(command->run(command, 2, argv)) : fail_unknown_command(name);
+    char name[] = "mxgen", *argv[] = {name, NULL};
+    struct command reader = *command;
+    reader.book = book;
+    reader.run(&reader, 1, argv);
+}
+
+/* "--man", or "--completion" with the name of a shell. */
+static int write_book(const char *option, const char *shell)
+{
+    struct help_book book = {0};
+    int code = EXIT_DONE;
+    for (size_t i = 0; i < NUM_COMMANDS; ++i)
+        read_options(&book, &commands[i]);
+    if (strcmp(option, "--man") == 0) {
+        help_write_man(&book, stdout);
+    } else if (!shell || !help_write_completion(&book, shell, stdout)) {
+        fputs("usage: mxgen help --completion bash|zsh|fish\n", stderr);
+        code = EXIT_USAGE;
+    }
+    help_finish(&book);
+    return flush(code);
+}
+
+/* "mxgen help check" is "mxgen check --help". */
+static int help_command(int argc, char **argv)
+{
+    if (strcmp(argv[0], "--man") == 0 || strcmp(argv[0], "--completion") == 0)
+        return write_book(argv[0], argv[1]);
+    char option[] = "--help", *arguments[] = {option, option, argc > 1 ? argv[1] : NULL, NULL};
+    const struct command *command = find_command(argv[0]);
+    return command ? flush(command->run(command, argc > 1 ? 3 : 2, arguments))
+                   : fail_unknown_command(argv[0]);
 }
 
 int main(int argc, char **argv)
@@ -110,7 +138,7 @@ int main(int argc, char **argv)
         return flush(EXIT_DONE);
     }
     if (strcmp(argv[1], "help") == 0)
-        return help_command(argv[2]);
+        return help_command(argc - 2, argv + 2);
     const struct command *command = find_command(argv[1]);
     if (command)
         return flush(command->run(command, argc - 1, argv + 1));

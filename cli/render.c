@@ -4,15 +4,23 @@
  * own so that generation pays nothing for Vulkan and OpenImageIO.
  */
 #define _POSIX_C_SOURCE 200809L
-#include "cli/cli.h"
+#include "cli/render_options.h"
 
 #include <stdlib.h>
 #include <unistd.h>
 
 int command_render(const struct command *command, int argc, char **argv)
 {
-    (void)command;
-    (void)argc;
+    if (command->book) { /* the table of options is all that is asked for */
+        struct render_options options = RENDER_OPTIONS_DEFAULTS;
+        struct arg args[MAX_RENDER_ARGS];
+        struct cli cli;
+        int code;
+        cli_start(&cli, command, args, render_args(&options, args), CLI_GENERATES, argc, argv,
+                  &code);
+        cli_finish(&cli);
+        return code;
+    }
     char *path = cli_program("mxgen-render");
     execvp(path, argv);
     fprintf(stderr,

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/store.h"
 
-#include <stdio.h>
+#include "cli/memory.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -16,11 +17,7 @@ struct store_block {
 static struct store_block *add_block(struct store *store, size_t size)
 {
     size_t capacity = size > BLOCK_SIZE ? size : BLOCK_SIZE;
-    struct store_block *block = malloc(sizeof *block + capacity);
-    if (!block) {
-        fputs("mxgen: out of memory\n", stderr);
-        exit(1);
-    }
+    struct store_block *block = memory_resize(NULL, sizeof *block + capacity); /* not zeroed */
     block->used = 0;
     block->capacity = capacity;
     block->next = store->blocks;

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/utf8.h"
 
+#include "cli/memory.h"
+
+#include <string.h>
+
 size_t utf8_length(const char *bytes)
 {
     const unsigned char *text = (const unsigned char *)bytes;
@@ -26,4 +30,25 @@ size_t utf8_length(const char *bytes)
         high = 0xbf;
     }
     return len;
+}
+
+bool utf8_is_valid(const char *text)
+{
+    size_t len = 1;
+    for (; *text && len; text += len)
+        len = (unsigned char)*text < 0x80 ? 1 : utf8_length(text);
+    return len > 0;
+}
+
+char *utf8_repair(const char *text)
+{
+    static const char replacement[] = "\xef\xbf\xbd";
+    char *repaired = memory_alloc(strlen(text) * 3 + 1), *out = repaired;
+    while (*text) {
+        size_t len = utf8_length(text);
+        memcpy(out, len ? text : replacement, len ? len : 3);
+        out += len ? len : 3;
+        text += len ? len : 1;
+    }
+    return repaired;
 }

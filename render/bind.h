@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Binding as a host does it, from reflection alone: attributes, blocks and textures of a generated
- * shader are filled with the values of a scene, the document's defaults, and what the user sets.
+ * Binds a shader like any host, from the reflection alone: fills its attributes, blocks and
+ * textures with values of a scene, the document's defaults, and values of the user.
  */
 #ifndef MXG_RENDER_BIND_H
 #define MXG_RENDER_BIND_H
@@ -21,31 +21,30 @@ struct bind_value {
 struct bind {
     const mxg_result *result;
     const struct scene *scene;
-    const char *document; /* texture files are beside it */
+    const char *document; /* texture files are relative to it */
     const struct bind_value *values;
     size_t num_values;
-    bool is_opaque; /* colours replace what is behind, also those of transparent materials */
-    bool checker; /* what a texture that cannot be read is replaced by; otherwise it is an error */
+    bool is_opaque; /* replaces the background, also for transparent materials */
+    bool checker;   /* a checker replaces an unreadable texture; otherwise it is an error */
 
-    struct draw draw;                       /* the outcome */
-    struct image images[DRAW_MAX_TEXTURES]; /* read for it */
+    struct draw draw;                       /* the result */
+    struct image images[DRAW_MAX_TEXTURES]; /* images for the textures */
     uint32_t num_images;
-    uint32_t *order;     /* triangles from far to near, where the shader blends */
-    uint32_t max_lights; /* that the shader has room for */
-    const char *id;      /* of the failure: "missing-texture"… */
+    uint32_t *order;     /* triangles from far to near, if the shader blends */
+    uint32_t max_lights; /* array length in the shader */
+    const char *id;      /* id of the error: "missing-texture"… */
     char reason[512];    /* why it failed */
 };
 
 /*
- * Fills bind->draw but for its code and size. False: see bind->reason. bind_finish must follow in
- * any case.
+ * Fills bind->draw except its code and size. false: see bind->reason. Call bind_finish in any case.
  */
 bool bind_shader(struct bind *bind);
-/* Again what depends on the camera and other uniforms of the scene. */
+/* Updates the data that depends on the camera and other uniforms of the scene. */
 bool bind_scene(struct bind *bind);
 /*
- * texture_files.c: the image of a texture, to be finished; `file` is the user's, NULL: the
- * document's. *out_checker where a checker stands for a missing file. False: see bind->reason.
+ * texture_files.c: the image of a texture; the caller frees it. `file` is the user's file; NULL:
+ * the document's. *out_checker: a checker replaces a missing file. false: see bind->reason.
  */
 bool bind_read_texture(struct bind *bind, uint32_t index, const mxg_variable *variable,
                        const char *file, struct image *out, bool *out_checker);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* A tree of boxes around the triangles of a mesh, as path.glsl walks it. */
+/* A tree of boxes around the triangles of a mesh, for path.glsl. */
 #ifndef MXG_RENDER_BVH_H
 #define MXG_RENDER_BVH_H
 
@@ -7,28 +7,28 @@
 
 struct bvh_node {
     float low[3];
-    uint32_t first; /* of its triangles; of an inner node, the first of its two children */
+    uint32_t first; /* first triangle; of an inner node, the first of its two children */
     float high[3];
-    uint32_t count; /* of triangles; 0: an inner node */
+    uint32_t count; /* number of triangles; 0: an inner node */
 };
 
 struct bvh_corner {
     float position[3], s, normal[3], t, tangent[4];
-    /* the position before the surface was displaced, and the normal afterwards */
+    /* the position before displacement, and the normal after it */
     float rest[4], moved[4];
 };
 
 struct bvh {
     struct bvh_node *nodes;
-    struct bvh_corner *corners; /* three for each triangle, in the order of the leaves */
+    struct bvh_corner *corners; /* three per triangle, in the order of the leaves */
     uint32_t num_nodes, num_triangles;
 };
 
-/* False: out of memory. bvh_finish must follow in any case. */
+/* false: out of memory. Call bvh_finish in any case. */
 bool bvh_build(const struct mesh *mesh, struct bvh *out);
 /*
- * Moves the corners to `positions` (four floats each), and bends their normals as the triangles
- * around them turn.
+ * Moves the corners to `positions` (four floats each), and rotates their normals with the adjacent
+ * triangles.
  */
 bool bvh_move(struct bvh *bvh, const float *positions);
 void bvh_finish(struct bvh *bvh);

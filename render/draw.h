@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * One draw: a program, its inputs as plain data, a picture of floats. Knows nothing of MaterialX.
+ * One draw call: a program, its inputs as plain data, and a picture of floats. Independent of
+ * MaterialX.
  */
 #ifndef MXG_RENDER_DRAW_H
 #define MXG_RENDER_DRAW_H
@@ -14,8 +15,8 @@
 
 struct draw_attribute {
     uint32_t location;
-    VkFormat format; /* of 16 bytes for each vertex, as the shader reads it */
-    void *data;      /* 16 bytes for each vertex; malloc */
+    VkFormat format; /* of the 16 bytes per vertex, as the shader reads them */
+    void *data;      /* 16 bytes per vertex; malloc */
 };
 
 struct draw_block {
@@ -42,7 +43,7 @@ struct draw {
     struct draw_block blocks[DRAW_MAX_BLOCKS];
     struct draw_texture textures[DRAW_MAX_TEXTURES];
     uint32_t num_attributes, num_blocks, num_textures;
-    bool blend; /* colours are premultiplied, and triangles come from far to near */
+    bool blend; /* colours are premultiplied, and triangles are sorted from far to near */
     uint32_t width, height;
 };
 
@@ -52,8 +53,8 @@ struct draw_program;
 struct draw_program *draw_open(struct gpu *gpu, const struct draw *draw);
 
 /*
- * Draws with what blocks and indices hold now: to RGBA floats, first row on top, cleared to 0.
- * False: see gpu->reason.
+ * Draws with the current blocks and indices to RGBA floats, top row first, cleared to 0. false: see
+ * gpu->reason.
  */
 bool draw_frame(struct draw_program *program, float *out_pixels);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Vulkan 1.3 without a window: a device, its buffers and images, and commands that are waited for.
- * The first failure is kept in `reason`; functions return false from then on.
+ * Vulkan 1.3 without a window: a device, its buffers and images, and synchronous commands. `reason`
+ * keeps the first failure, and functions return false after it.
  */
 #ifndef MXG_RENDER_GPU_H
 #define MXG_RENDER_GPU_H
@@ -18,8 +18,8 @@ struct gpu {
     VkCommandPool pool;
     VkPhysicalDeviceMemoryProperties memory;
     uint32_t max_size; /* of pictures and textures, in pixels */
-    const char *id;    /* "device-lost"…: of the first failure */
-    char reason[256];  /* "" while all is well */
+    const char *id;    /* id of the first failure: "device-lost"… */
+    char reason[256];  /* "" without a failure */
 };
 
 struct gpu_buffer {
@@ -35,38 +35,32 @@ struct gpu_image {
     VkDeviceMemory memory;
     VkFormat format;
     uint32_t width, height, mips;
-    uint32_t layers; /* 0: it is no array */
+    uint32_t layers; /* 0: not an array */
 };
 
-/*
- * Opens the first device that can draw, a real one before the processor. gpu_close must follow in
- * any case.
- */
+/* Opens the first device that can draw, hardware before software. Call gpu_close in any case. */
 bool gpu_open(struct gpu *gpu);
 void gpu_close(struct gpu *gpu);
 
-/* Keeps why something failed; returns result == VK_SUCCESS. */
+/* Keeps the reason of a failure; returns result == VK_SUCCESS. */
 bool gpu_check(struct gpu *gpu, VkResult result, const char *what);
 
-/* Memory that the processor can write and read, mapped. `data` may be NULL. */
+/* Mapped memory that the processor can read and write. `data` may be NULL. */
 bool gpu_create_buffer(struct gpu *gpu, VkBufferUsageFlags usage, const void *data, size_t size,
                        struct gpu_buffer *out);
 void gpu_destroy_buffer(struct gpu *gpu, struct gpu_buffer *buffer);
 
-/* With layers above 0 it is an array. */
+/* An array if layers is above 0. */
 bool gpu_create_image(struct gpu *gpu, VkFormat format, uint32_t width, uint32_t height,
                       uint32_t layers, uint32_t mips, VkImageUsageFlags usage,
                       VkImageAspectFlags aspect, struct gpu_image *out);
 void gpu_destroy_image(struct gpu *gpu, struct gpu_image *image);
 
-/*
- * A texture with box-filtered mip levels, ready to be sampled. bottom_first: the picture's last row
- * becomes v = 0.
- */
+/* A texture with box-filtered mip levels. bottom_first: the last row of the image becomes v = 0. */
 bool gpu_upload_texture(struct gpu *gpu, const struct image *image, bool bottom_first,
                         struct gpu_image *out);
 
-/* Commands from begin to end run at once. NULL on failure. */
+/* The commands from begin to end run synchronously. NULL on failure. */
 VkCommandBuffer gpu_begin(struct gpu *gpu);
 bool gpu_end(struct gpu *gpu, VkCommandBuffer commands);
 

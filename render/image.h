@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Pictures: read and written by OpenImageIO, which has a C++ interface only (image_oiio.cpp). */
+/*
+ * Images in memory. OpenImageIO, which has only a C++ interface, reads and writes them
+ * (image_oiio.cpp).
+ */
 #ifndef MXG_RENDER_IMAGE_H
 #define MXG_RENDER_IMAGE_H
 
@@ -12,54 +15,46 @@
 extern "C" {
 #endif
 
-/*
- * Four channels, rows from the top. Grey is spread over red, green and blue; a missing alpha is 1.
- */
+/* Four channels, rows from the top. Grey fills red, green and blue; a missing alpha is 1. */
 struct image {
     uint32_t width, height;
-    bool is_float; /* float, else uint8_t of a whole */
+    bool is_float; /* float, otherwise uint8_t */
     void *pixels;  /* malloc; NULL: no image */
-    /*
-     * that many pictures of this size, one after another, for a texture array; 0: one, for a plain
-     * texture
-     */
+    /* number of consecutive array layers of this size; 0: one, not an array */
     uint32_t layers;
     /*
-     * that stand behind each other, each half the size of the one before, of a plain texture; 0:
-     * one
+     * number of consecutive mip levels, each half the size of the one before, of an image that is
+     * not an array; 0: one
      */
     uint32_t levels;
 };
 
 /*
- * Reads a picture; on failure false, with why in `reason`. Values are those of the file: no colour
- * space is changed. `layer` names a part of a file that has several, or the channels that have it
- * as prefix ("diffuse.R"); "" is the first.
+ * Reads an image file. On failure returns false and the reason. Does not convert colour spaces.
+ * `layer` names a part of a file, or the channels with this prefix ("diffuse.R"); "" is the first
+ * part.
  */
 bool image_read(const char *path, const char *layer, struct image *out, char *reason,
                 size_t capacity);
-/* The first part with the mip levels that the file has. */
+/* Reads the first part with its mip levels. */
 bool image_read_levels(const char *path, struct image *out, char *reason, size_t capacity);
 
-/*
- * layers.c: the pictures as layers of one, each at the size of the largest. False: there is no
- * memory.
- */
+/* layers.c: combines images as array layers of the largest size. false: out of memory. */
 bool image_stack(const struct image *parts, uint32_t count, struct image *out);
 
-/* Whether files of this name hold linear light as floats: EXR, HDR. */
+/* True if files of this name contain linear light as floats: EXR, HDR. */
 bool image_is_linear(const char *path);
 
 /*
- * Whether a picture could be written, before it is drawn: its format is known, its folder is there.
- * False: `reason` says why not.
+ * Checks before rendering that a picture can be written: its format is supported, its folder
+ * exists. On failure returns the reason.
  */
 bool image_can_write(const char *path, char *reason, size_t capacity);
 
 /*
- * Writes a picture, with its levels (EXR alone has them): floats of linear light, premultiplied, or
- * 8-bit sRGB, not premultiplied. The format follows from the name's ending. The file appears whole
- * or not at all.
+ * Writes a picture, with its levels (EXR only): floats of linear light, premultiplied, or 8-bit
+ * sRGB, not premultiplied. The ending of the name selects the format. Writes the file completely or
+ * not at all.
  */
 bool image_write(const char *path, const struct image *image, char *reason, size_t capacity);
 
@@ -74,7 +69,7 @@ static inline uint32_t image_level_size(uint32_t size, uint32_t level)
     return size >> level ? size >> level : 1;
 }
 
-/* Its own levels, or those down to a single texel. */
+/* Its own levels, or the number of levels down to one texel. */
 static inline uint32_t image_num_mips(const struct image *image)
 {
     if (image->levels)

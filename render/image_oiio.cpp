@@ -15,7 +15,7 @@
 namespace
 {
 
-/* Readers tell more than a line at times: the first is kept. */
+/* Some readers report several lines; this keeps the first. */
 bool fail(char *reason, size_t capacity, const std::string &text)
 {
     std::snprintf(reason, capacity, "%s",
@@ -23,7 +23,7 @@ bool fail(char *reason, size_t capacity, const std::string &text)
     return false;
 }
 
-/* Spreads what a pixel has over four channels: grey, grey and alpha, colour, colour and alpha. */
+/* Expands a pixel to four channels: grey, grey and alpha, colour, colour and alpha. */
 template <typename T> void spread(T *pixels, size_t count, int channels, T one)
 {
     for (size_t i = count; i-- > 0;) {
@@ -41,7 +41,10 @@ struct Part {
     int subimage = 0, begin = 0, end = 0;
 };
 
-/* A part of that name, or the channels "name.R", "name.G"… of one; "" is all of the first. */
+/*
+ * Finds the part of this name, or the channels "name.R", "name.G"… of a part; "" selects the first
+ * part.
+ */
 bool find_layer(OIIO::ImageInput &input, const std::string &layer, Part &out)
 {
     for (int subimage = 0; input.seek_subimage(subimage, 0); ++subimage) {
@@ -81,7 +84,7 @@ bool read_level(OIIO::ImageInput &input, int level, const Part &part, const stru
     return true;
 }
 
-/* How many levels the file has, each half the one before. */
+/* Number of levels in the file, each half the size of the one before. */
 uint32_t count_levels(OIIO::ImageInput &input, uint32_t width, uint32_t height)
 {
     uint32_t levels = 1;
@@ -167,7 +170,7 @@ OIIO::ImageSpec describe(const struct image &image, const OIIO::ImageOutput &out
     spec.attribute("CompressionQuality", 95);
     if (image.levels) {
         spec.tile_width = spec.tile_height = 64;
-        spec.attribute("textureformat", "Plain Texture"); /* what makes OpenEXR expect levels */
+        spec.attribute("textureformat", "Plain Texture"); /* makes OpenEXR read levels */
     }
     return spec;
 }
@@ -207,7 +210,7 @@ bool image_can_write(const char *path, char *reason, size_t capacity)
 
 bool image_write(const char *path, const struct image *image, char *reason, size_t capacity)
 {
-    /* The format is chosen by the ending, so the temporary name keeps it. */
+    /* The ending selects the format, so the temporary name keeps it. */
     std::string name(path);
     size_t base = name.rfind('/') + 1;
     std::string temporary = name.substr(0, base) + ".tmp-" + name.substr(base);

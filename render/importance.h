@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Sums of an environment map's light, by which path.glsl draws directions from it. */
+/* Cumulative sums of an environment map's light, from which path.glsl samples directions. */
 #ifndef MXG_RENDER_IMPORTANCE_H
 #define MXG_RENDER_IMPORTANCE_H
 
@@ -7,8 +7,8 @@
 
 /*
  * (height + 1) sums over rows, which rise from 0 to 1, then (width + 1) for each row over its
- * texels. malloc; NULL: there is no memory. Every texel has a share: its light, that of its
- * neighbours, which reaches into it when the map is filtered, and a little of the mean.
+ * texels. malloc; NULL: out of memory. Every texel has a share: its light, the light of adjacent
+ * texels, which filtering mixes in, and a little of the mean.
  */
 float *importance_of_map(const struct image *map, size_t *out_count);
 

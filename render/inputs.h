@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/*
- * Uniform blocks and textures of a program on the device, in descriptor sets that any pipeline can
- * bind.
- */
+/* Uniform blocks and textures of a program on the device, in descriptor sets for any pipeline. */
 #ifndef MXG_RENDER_INPUTS_H
 #define MXG_RENDER_INPUTS_H
 
@@ -18,9 +15,9 @@ struct inputs {
     uint32_t num_sets;
 };
 
-/* False: see gpu->reason. inputs_destroy must follow in any case; `out` is zeroed before. */
+/* false: see gpu->reason. Zeroes `out` first. Call inputs_destroy in any case. */
 bool inputs_create(struct gpu *gpu, const struct draw *draw, struct inputs *out);
-/* What the blocks hold now. */
+/* Uploads the current contents of the blocks. */
 void inputs_update(const struct draw *draw, struct inputs *inputs);
 void inputs_destroy(struct gpu *gpu, const struct draw *draw, struct inputs *inputs);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Pictures of several files as the layers of one image, as texture arrays need them: of one size
- * and format.
+ * Combines pictures from several files into the array layers of a texture array, with one size and
+ * format.
  */
 #include "render/image.h"
 
@@ -12,7 +12,8 @@ static float texel(const struct image *image, uint32_t x, uint32_t y, unsigned c
                            : (float)((const uint8_t *)image->pixels)[at] / 255.0f;
 }
 
-struct between { /* two texels of a row or column, and how far it is to the second */
+/* two adjacent texels of a row or column, and the fraction of the distance to the second */
+struct between {
     uint32_t first, second;
     float part;
 };
@@ -40,7 +41,7 @@ static float sample(const struct image *image, const struct between *x, const st
                y->part);
 }
 
-/* Writes a part as layer `layer`, larger by linear interpolation. */
+/* Writes a picture as array layer `layer`, enlarged by linear interpolation. */
 static void write_layer(const struct image *part, struct image *out, uint32_t layer)
 {
     size_t at = (size_t)layer * out->width * out->height * 4;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/* mxgen-render: pictures of materials, without a display. `mxgen render` starts it. */
+/* mxgen-render: renders pictures of materials without a display. `mxgen render` starts it. */
 #define _POSIX_C_SOURCE 200809L
 #include "cli/cli.h"
 #include "cli/files.h"
 #include "cli/folder.h"
+#include "cli/render_options.h"
 #include "render/bake.h"
 #include "render/picture.h"
 #include "render/sheet.h"
@@ -12,16 +13,17 @@
 #include <string.h>
 #include <unistd.h>
 
-#define OVERSAMPLING 2 /* samples for each pixel and axis */
+#define OVERSAMPLING 2 /* samples per pixel and axis */
 #define MAX_FRAMES 10000
 #define MAX_BOUNCES 64
 
-/* The studio takes any mesh; the others are fixed, for tests and for patterns. */
+/* The studio takes any mesh. The other scenes are fixed, for tests and patterns. */
 enum scene_kind { SCENE_STUDIO, SCENE_SPHERE, SCENE_PLANE, SCENE_GRID, NUM_SCENES };
 
 static const struct {
     const char *name;
-    double exposure; /* what a white surface in the scene's daylight needs; values as they are: 1 */
+    /* factor for a white surface in the daylight of the scene; 1 for unchanged values */
+    double exposure;
 } scene_kinds[NUM_SCENES] = {[SCENE_STUDIO] = {"studio", 0.6},
                              [SCENE_SPHERE] = {"sphere", 0.6},
                              [SCENE_PLANE] = {"plane", 1.0},
@@ -31,15 +33,11 @@ static const char *const background_names[] = {"backdrop", "environment", "none"
 
 struct job {
     struct cli cli;
+    struct render_options options;
     struct painter painter;
-    const char *output, *copy, *element, *look, *size, *camera, *scene, *background,
-        *missing_texture, *baked;
-    struct arg_list settings, environments;
-    size_t samples, frame, frames, paths, bounces;
-    bool path_trace, as_drawn;
     enum scene_kind scene_kind;
     struct bind_value *values;
-    struct arg_list found; /* documents, of folders too; allocated */
+    struct arg_list found; /* documents, including those in folders; allocated */
 };
 
 /* ---- Arguments ---- */
@@ -48,12 +46,12 @@ struct job {
 static bool parse_size(struct job *job)
 {
     char *end;
-    unsigned long width = strtoul(job->size, &end, 10), height = width;
+    unsigned long width = strtoul(job->options.size, &end, 10), height = width;
     if (*end == 'x')
         height = strtoul(end + 1, &end, 10);
     if (*end || width < 1 || height < 1 || width > UINT16_MAX || height > UINT16_MAX) {
-        fprintf(stderr, "mxgen: '%s' is not a size; write W or WxH, each from 1 to %d\n", job->size,
-                UINT16_MAX);
+        fprintf(stderr, "mxgen: '%s' is not a size; write W or WxH, each from 1 to %d\n",
+                job->options.size, UINT16_MAX);
         return false;
     }
     job->painter.width = (uint32_t)width;
@@ -61,7 +59,7 @@ static bool parse_size(struct job *job)
     return true;
 }
 
-/* Splits "path=value" in place; NULL after telling what is wrong. To be freed. */
+/* Splits "path=value" in place. NULL after reporting an error. The caller frees the result. */
 static struct bind_value *split_settings(const struct arg_list *settings)
 {
     struct bind_value *values = calloc(settings->len + 1, sizeof *values);
@@ -95,7 +93,7 @@ static bool is_set(const struct cli *cli, const char *key)
     return false;
 }
 
-/* The place of a word in a list; the list's length after telling that it has no such word. */
+/* The index of a word in a list; after reporting an unknown word, the length of the list. */
 static size_t find_word(const char *option, const char *word, const char *const *words)
 {
     size_t i = 0;
@@ -110,11 +108,11 @@ static size_t find_word(const char *option, const char *word, const char *const 
     return i;
 }
 
-/* "--environment" is a mode of generation, or the file of a map; it may stand once for each. */
+/* "--environment" takes a mode of generation or the file of a map, at most one of each. */
 static void apply_environments(struct job *job)
 {
-    for (size_t i = 0; i < job->environments.len; ++i) {
-        const char *word = job->environments.items[i];
+    for (size_t i = 0; i < job->options.environments.len; ++i) {
+        const char *word = job->options.environments.items[i];
         if (mxg_options_set(job->cli.options, "environment", word) != MXG_OK) {
             job->painter.studio.environment = word;
             continue;
@@ -124,10 +122,10 @@ static void apply_environments(struct job *job)
     }
 }
 
-/* Fewer uniforms, smaller shader: only what the user sets has to stay open. */
+/* Reduces the interface for a smaller shader: only the inputs that the user sets stay uniforms. */
 static bool apply_interface(struct job *job)
 {
-    if (job->settings.len || is_set(&job->cli, "interface"))
+    if (job->options.settings.len || is_set(&job->cli, "interface"))
         return true;
     return report_status(&job->cli.report,
                          mxg_options_set(job->cli.options, "interface", "reduced"));
@@ -138,54 +136,54 @@ static bool parse(struct job *job)
     const char *scene_names[NUM_SCENES + 1] = {0};
     for (size_t i = 0; i < NUM_SCENES; ++i)
         scene_names[i] = scene_kinds[i].name;
-    size_t scene = find_word("scene", job->scene, scene_names);
+    size_t scene = find_word("scene", job->options.scene, scene_names);
     size_t background =
-        scene < NUM_SCENES ? find_word("background", job->background, background_names) : 0;
+        scene < NUM_SCENES ? find_word("background", job->options.background, background_names) : 0;
     if (scene == NUM_SCENES || !background_names[background])
         return false;
     job->scene_kind = (enum scene_kind)scene;
     job->painter.background = (enum background)background;
     job->painter.exposure = scene_kinds[scene].exposure;
     job->painter.is_studio = scene == SCENE_STUDIO;
-    job->painter.checker = strcmp(job->missing_texture, "checker") == 0;
+    job->painter.checker = strcmp(job->options.missing_texture, "checker") == 0;
     if (!job->painter.checker
-        && find_word("missing-texture", job->missing_texture,
+        && find_word("missing-texture", job->options.missing_texture,
                      (const char *const[]){"error", "checker", NULL})
                != 0)
         return false;
-    if (job->camera && !studio_parse_camera(&job->painter.studio, job->camera)) {
+    if (job->options.camera && !studio_parse_camera(&job->painter.studio, job->options.camera)) {
         fprintf(stderr,
                 "mxgen: '%s' is no camera; write AZIMUTH,ELEVATION[,DISTANCE[,FOV]], with an "
                 "elevation between -90 and 90\n",
-                job->camera);
+                job->options.camera);
         return false;
     }
-    if (job->frames > MAX_FRAMES) {
+    if (job->options.frames > MAX_FRAMES) {
         fprintf(stderr, "mxgen: a turntable has at most %d pictures\n", MAX_FRAMES);
         return false;
     }
-    /* samplers here have neither borders of any colour nor cubic filters */
+    /* the device's samplers have neither arbitrary border colours nor cubic filters */
     if (!is_set(&job->cli, "texture-modes"))
         mxg_options_set(job->cli.options, "texture-modes", "shared");
-    if (!is_set(&job->cli, "sample-filter")) /* there is nothing to be like */
+    if (!is_set(&job->cli, "sample-filter")) /* no picture of MaterialX to match */
         mxg_options_set(job->cli.options, "sample-filter", "narrow");
-    bool is_sane =
-        job->paths && job->paths <= UINT32_MAX && job->bounces && job->bounces <= MAX_BOUNCES;
-    if (job->path_trace && (!job->painter.is_studio || job->frames || !is_sane)) {
+    bool is_sane = job->options.paths && job->options.paths <= UINT32_MAX && job->options.bounces
+                   && job->options.bounces <= MAX_BOUNCES;
+    if (job->options.path_trace && (!job->painter.is_studio || job->options.frames || !is_sane)) {
         fputs("mxgen: paths are traced in the studio, at least one through each pixel, with 1 to "
               "64 bounces, and for no turntable\n",
               stderr);
         return false;
     }
-    if (job->path_trace) {
+    if (job->options.path_trace) {
         mxg_options_set(job->cli.options, "integrator", "scatter");
-        job->painter.trace.paths = (uint32_t)job->paths;
-        job->painter.trace.bounces = (uint32_t)job->bounces;
-        job->painter.trace.as_drawn = job->as_drawn;
+        job->painter.trace.paths = (uint32_t)job->options.paths;
+        job->painter.trace.bounces = (uint32_t)job->options.bounces;
+        job->painter.trace.as_drawn = job->options.as_drawn;
     }
-    job->values = split_settings(&job->settings);
+    job->values = split_settings(&job->options.settings);
     job->painter.values = job->values;
-    job->painter.num_values = job->settings.len;
+    job->painter.num_values = job->options.settings.len;
     apply_environments(job);
     return job->values && apply_interface(job);
 }
@@ -247,14 +245,14 @@ static bool prepare(struct job *job)
     painter->oversampling = job->scene_kind == SCENE_GRID ? 1 : OVERSAMPLING;
     if (!make_scene(job))
         return false;
-    painter->scene.environment_samples = (uint32_t)job->samples;
-    painter->scene.frame = (int32_t)job->frame;
+    painter->scene.environment_samples = (uint32_t)job->options.samples;
+    painter->scene.frame = (int32_t)job->options.frame;
     return open_gpu(job);
 }
 
 /* ---- Work ---- */
 
-/* "[3/40] Gold" on a terminal, over what stood there; nothing in a pipe. */
+/* Prints "[3/40] Gold" on a terminal, over the previous line; prints nothing to a pipe. */
 static void tell_progress(const struct job *job, size_t done, size_t count, const char *name)
 {
     if (job->cli.quiet || count < 2 || !isatty(STDERR_FILENO))
@@ -270,9 +268,9 @@ static void draw_one(struct job *job, const struct subject *subject)
 {
     struct image picture;
     if (picture_draw(&job->painter, subject, &picture)) {
-        picture_write(&job->painter, job->output, &picture);
-        if (job->copy)
-            picture_write(&job->painter, job->copy, &picture);
+        picture_write(&job->painter, job->options.output, &picture);
+        if (job->options.copy)
+            picture_write(&job->painter, job->options.copy, &picture);
     }
     image_finish(&picture);
 }
@@ -290,18 +288,18 @@ static void draw_turntable(struct job *job, const struct subject *subject)
     struct painter *painter = &job->painter;
     struct painting painting;
     bool good = painting_open(painter, subject, &painting);
-    for (size_t i = 0; good && i < job->frames; ++i) {
+    for (size_t i = 0; good && i < job->options.frames; ++i) {
         struct image picture;
-        char *name = frame_name(job->output, i);
-        tell_progress(job, i, job->frames, name);
+        char *name = frame_name(job->options.output, i);
+        tell_progress(job, i, job->options.frames, name);
         studio_aim(&painter->studio, (double)painter->width / painter->height,
-                   360.0 * (double)i / (double)job->frames, &painter->scene);
+                   360.0 * (double)i / (double)job->options.frames, &painter->scene);
         painting_aim(&painting);
         good = painting_draw(&painting, &picture) && picture_write(painter, name, &picture);
         image_finish(&picture);
         free(name);
     }
-    tell_progress(job, job->frames, job->frames, "");
+    tell_progress(job, job->options.frames, job->options.frames, "");
     painting_close(&painting);
 }
 
@@ -328,27 +326,28 @@ static void add_item(struct items *list, const mxg_document *document, const cha
     more[list->len++] = (struct item){{document, path, element}, cli_format("%s", element)};
 }
 
-/* The materials of the look that is asked for, or what can be rendered. */
+/* Adds the materials of the requested look, or the renderables. */
 static void add_elements(struct job *job, struct items *list, const mxg_document *document,
                          const char *path)
 {
     mxg_renderable renderable = {sizeof renderable};
     uint32_t i = 0;
-    if (job->look) {
-        for (; mxg_document_look_material(document, job->look, i, &renderable) == MXG_OK; ++i)
+    if (job->options.look) {
+        for (; mxg_document_look_material(document, job->options.look, i, &renderable) == MXG_OK;
+             ++i)
             add_item(list, document, path, renderable.path);
         if (i == 0)
             report_error(&job->cli.report, "no-look",
-                         "'%s' has no look '%s' that assigns a material", path, job->look);
+                         "'%s' has no look '%s' that assigns a material", path, job->options.look);
         return;
     }
     for (; i < mxg_document_num_renderables(document); ++i) {
         mxg_document_renderable(document, i, &renderable);
-        if (!job->element || strcmp(job->element, renderable.path) == 0)
+        if (!job->options.element || strcmp(job->options.element, renderable.path) == 0)
             add_item(list, document, path, renderable.path);
     }
-    if (i == 0 || (list->len == 0 && job->element)) /* generation says what is wrong */
-        add_item(list, document, path, job->element);
+    if (i == 0 || (list->len == 0 && job->options.element)) /* generation reports the error */
+        add_item(list, document, path, job->options.element);
 }
 
 static void load_items(struct job *job, struct items *list)
@@ -396,15 +395,15 @@ static void draw_sheet(struct job *job, const struct items *list)
         place(job, &sheet, i, &list->items[i]);
     }
     tell_progress(job, list->len, list->len, "");
-    if (!image_write(job->output, &sheet.image, reason, sizeof reason))
-        report_error(&job->cli.report, "output-failed", "cannot write '%s': %s", job->output,
-                     reason);
+    if (!image_write(job->options.output, &sheet.image, reason, sizeof reason))
+        report_error(&job->cli.report, "output-failed", "cannot write '%s': %s",
+                     job->options.output, reason);
     sheet_finish(&sheet);
 }
 
 /* ---- Values ---- */
 
-/* Components of a document type that a pixel shows; what is no vector is shown as a colour. */
+/* Number of components that a pixel shows; a non-vector type becomes a colour. */
 static unsigned num_components(const char *type)
 {
     if (strcmp(type, "float") == 0)
@@ -425,15 +424,13 @@ static void print_values(const char *element, unsigned components, const struct 
     putchar('\n');
 }
 
-/*
- * A line for each element: its path, then the values of the 16 pixels row by row from the bottom.
- */
+/* Prints a line per element: its path, then the values of the 16 pixels in rows from the bottom. */
 static void draw_grid(struct job *job, const mxg_document *document, const char *path)
 {
     for (uint32_t i = 0; i < mxg_document_num_renderables(document); ++i) {
         mxg_renderable renderable = {sizeof renderable};
         mxg_document_renderable(document, i, &renderable);
-        if (job->element && strcmp(job->element, renderable.path) != 0)
+        if (job->options.element && strcmp(job->options.element, renderable.path) != 0)
             continue;
         const struct subject subject = {document, path, renderable.path};
         struct image pixels;
@@ -445,15 +442,15 @@ static void draw_grid(struct job *job, const mxg_document *document, const char 
 
 /* ---- Commands ---- */
 
-/* One picture of the first element, or of the one that is asked for. */
+/* Renders one picture of the first element, or of the requested one. */
 static void render_file(struct job *job, const char *path)
 {
     mxg_document *document = cli_load(&job->cli, path);
-    struct subject subject = {document, path, job->element};
+    struct subject subject = {document, path, job->options.element};
     if (document && prepare(job)) {
         if (job->scene_kind == SCENE_GRID)
             draw_grid(job, document, path);
-        else if (job->frames)
+        else if (job->options.frames)
             draw_turntable(job, &subject);
         else
             draw_one(job, &subject);
@@ -474,7 +471,7 @@ static void render_all(struct job *job)
     free_items(&list);
 }
 
-/* The documents: of folders, those in them. */
+/* Collects the documents, including those in folders. */
 static bool find_documents(struct job *job)
 {
     const struct arg_list *inputs = &job->cli.parser.inputs;
@@ -501,8 +498,9 @@ static int bake(struct job *job)
     struct baked baked = {0};
     struct image map = {0};
     char reason[256] = "out of memory";
-    struct studio studio = {.environment = strcmp(job->baked, "sky") == 0 ? NULL : job->baked};
-    if (!job->output) {
+    struct studio studio = {.environment =
+                                strcmp(job->options.baked, "sky") == 0 ? NULL : job->options.baked};
+    if (!job->options.output) {
         fputs("usage: mxgen render --bake-environment FILE -o FOLDER\n", stderr);
         return EXIT_USAGE;
     }
@@ -511,16 +509,16 @@ static int bake(struct job *job)
         report_error(&job->cli.report, fault.id, "%s", fault.text);
     else if (!bake_environment(&map, &baked))
         report_status(&job->cli.report, MXG_ERROR_MEMORY);
-    else if ((why = files_make_folder(job->output)) != NULL
-             || !baked_write(&baked, job->output, reason, sizeof reason))
-        report_error(&job->cli.report, "output-failed", "cannot write to '%s': %s", job->output,
-                     why ? why : reason);
+    else if ((why = files_make_folder(job->options.output)) != NULL
+             || !baked_write(&baked, job->options.output, reason, sizeof reason))
+        report_error(&job->cli.report, "output-failed", "cannot write to '%s': %s",
+                     job->options.output, why ? why : reason);
     baked_finish(&baked);
     image_finish(&map);
     return job->cli.report.errors ? EXIT_FAULT : EXIT_DONE;
 }
 
-/* Found out before anything is drawn, which may take long. */
+/* Checked before rendering, which may take long. */
 static bool can_write(struct job *job, const char *path)
 {
     char reason[256];
@@ -532,26 +530,27 @@ static bool can_write(struct job *job, const char *path)
 
 static int run(struct job *job)
 {
-    if (job->baked)
+    if (job->options.baked)
         return bake(job);
     if (job->cli.parser.inputs.len == 0) {
         fputs("usage: mxgen render FILE|FOLDER... -o PICTURE.png\n", stderr);
         return EXIT_USAGE;
     }
     const struct arg_list *inputs = &job->cli.parser.inputs;
-    bool is_grid = !strcmp(job->scene, "grid"),
-         is_one = inputs->len == 1 && !files_is_folder(inputs->items[0]) && !job->look;
-    if ((!job->output && !is_grid) || ((is_grid || job->frames) && !is_one)) {
-        fputs(job->output ? "mxgen: a turntable and a grid are of one document\n"
-                          : "mxgen: where to? say -o PICTURE.png\n",
+    bool is_grid = !strcmp(job->options.scene, "grid"),
+         is_one = inputs->len == 1 && !files_is_folder(inputs->items[0]) && !job->options.look;
+    if ((!job->options.output && !is_grid) || ((is_grid || job->options.frames) && !is_one)) {
+        fputs(job->options.output ? "mxgen: a turntable and a grid are of one document\n"
+                                  : "mxgen: where to? say -o PICTURE.png\n",
               stderr);
         return EXIT_USAGE;
     }
-    if (!job->size)
-        job->size = is_grid ? "4" : is_one ? "512" : "160";
+    if (!job->options.size)
+        job->options.size = is_grid ? "4" : is_one ? "512" : "160";
     if (!parse_size(job) || !parse(job))
         return EXIT_USAGE;
-    if (can_write(job, job->output) && can_write(job, job->copy) && find_documents(job)) {
+    if (can_write(job, job->options.output) && can_write(job, job->options.copy)
+        && find_documents(job)) {
         compile_begin();
         if (is_one)
             render_file(job, job->found.items[0]);
@@ -569,77 +568,26 @@ int main(int argc, char **argv)
 {
     static const struct command command = {
         "render", "render FILE|FOLDER... -o PICTURE.png [options]",
-        "Draws materials, without a display: one, or a sheet of many.", NULL};
-    struct job job = {.scene = "studio",
-                      .background = "backdrop",
-                      .missing_texture = "error",
-                      .samples = 32,
-                      .paths = 256,
-                      .bounces = 32,
-                      .frame = SCENE_FRAME,
-                      .painter.studio = STUDIO_DEFAULTS};
-    const struct arg args[] = {
-        {"output", 'o', ARG_TEXT, "FILE", "the picture to write; the ending chooses the format",
-         &job.output},
-        {"copy", 0, ARG_TEXT, "FILE",
-         "writes a single picture to this file too, in the format of its ending", &job.copy},
-        {"size", 's', ARG_TEXT, "W[xH]",
-         "its size in pixels (default: 512; 160 for each on a sheet)", &job.size},
-        {"element", 'e', ARG_TEXT, "PATH", "what to draw (default: the first that can be rendered)",
-         &job.element},
-        {"look", 0, ARG_TEXT, "NAME", "draws the materials that a look assigns", &job.look},
-        {"mesh", 'm', ARG_TEXT, "NAME|FILE",
-         "ball, sphere, plane, cube, cloth, or a file: OBJ, glTF… (default: ball)",
-         &job.painter.studio.mesh},
-        {"camera", 0, ARG_TEXT, "AZ,EL[,DIST[,FOV]]",
-         "degrees around and up, distance, field of view (default: 25,16)", &job.camera},
-        {"environment", 0, ARG_LIST, "FILE|MODE",
-         "a latitude-longitude map or a baked folder (default: a sky with three lights); none, "
-         "prefiltered or importance",
-         &job.environments},
-        {"bake-environment", 0, ARG_TEXT, "FILE",
-         "prefilters a map ('sky': the built-in one) into the folder of -o", &job.baked},
-        {"background", 0, ARG_TEXT, "NAME",
-         "backdrop, environment, or none: transparent (default: backdrop)", &job.background},
-        {"samples", 0, ARG_SIZE, "N", "samples of the environment for each lobe (default: 32)",
-         &job.samples},
-        {"set", 0, ARG_LIST, "PATH=VALUE", "another value for an input, or file for a texture",
-         &job.settings},
-        {"missing-texture", 0, ARG_TEXT, "error|checker",
-         "what to do without a texture: fail, or draw a checker in its place",
-         &job.missing_texture},
-        {"frame", 0, ARG_SIZE, "N",
-         "the frame: of images with {frame} in their names too (default: 33)", &job.frame},
-        {"path-trace", 0, ARG_FLAG, NULL, "traces paths: the reference", &job.path_trace},
-        {"paths", 0, ARG_SIZE, "N", "paths through each pixel (default: 256)", &job.paths},
-        {"bounces", 0, ARG_SIZE, "N", "how often a path may turn (default: 32)", &job.bounces},
-        {"as-drawn", 0, ARG_FLAG, NULL,
-         "paths turn once, as drawn light does, without shadows; for comparisons", &job.as_drawn},
-        {"turntable", 0, ARG_SIZE, "N",
-         "N pictures from around: FILE gets a number before its ending", &job.frames},
-        {"scene", 0, ARG_TEXT, "NAME",
-         "studio; sphere; plane, to see a pattern; grid: prints the values of 4x4 pixels for each "
-         "element (default: studio)",
-         &job.scene},
-    };
+        "Renders materials without a display: one picture, or a sheet of several.", NULL};
+    struct job job = {.options = RENDER_OPTIONS_DEFAULTS, .painter.studio = STUDIO_DEFAULTS};
+    struct arg args[MAX_RENDER_ARGS];
+    size_t num_args = render_args(&job.options, args);
     int code;
-    if (cli_start(&job.cli, &command, args, sizeof args / sizeof *args, CLI_GENERATES, argc, argv,
-                  &code)) {
+    if (cli_start(&job.cli, &command, args, num_args, CLI_GENERATES, argc, argv, &code)) {
         job.painter.cli = &job.cli;
+        job.painter.studio.mesh = job.options.mesh;
         /*
-         * llvmpipe's optimiser takes minutes for large shaders; without it pictures are the same,
-         * and seconds are enough.
+         * llvmpipe's optimiser takes minutes for large shaders. Without it the pictures are the
+         * same after seconds.
          */
-        if (!job.path_trace)
+        if (!job.options.path_trace)
             setenv("GALLIVM_PERF", "nopt", 0);
         code = run(&job);
     }
     cli_finish(&job.cli);
-    for (size_t i = 0; i < job.found.len; ++i)
-        free((void *)(uintptr_t)job.found.items[i]);
-    free(job.found.items);
-    free_values(job.values, job.settings.len);
-    free(job.settings.items);
-    free(job.environments.items);
+    args_free(&job.found);
+    free_values(job.values, job.options.settings.len);
+    free(job.options.settings.items);
+    free(job.options.environments.items);
     return code;
 }

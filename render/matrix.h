@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/* 4x4 matrices for column vectors, stored column by column as shaders have them; in double, rounded
- * when they are bound. */
+/*
+ * 4x4 matrices for column vectors, stored by column as in shaders; in double, rounded when they are
+ * bound.
+ */
 #ifndef MXG_RENDER_MATRIX_H
 #define MXG_RENDER_MATRIX_H
 
@@ -11,13 +13,13 @@ struct matrix {
 struct matrix matrix_identity(void);
 struct matrix matrix_multiply(struct matrix a, struct matrix b);
 struct matrix matrix_transpose(struct matrix a);
-struct matrix matrix_inverse(struct matrix a); /* of a matrix that has one */
+struct matrix matrix_inverse(struct matrix a); /* `a` must be invertible */
 struct matrix matrix_translation(double x, double y, double z);
 struct matrix matrix_scale(double x, double y, double z);
 struct matrix matrix_rotation(const double axis[3], double degrees); /* right-handed */
-/* From world to a camera at `eye` that looks along -z, y upwards. */
+/* From world space to a camera at `eye` that looks at `at` along its -z, with y upwards. */
 struct matrix matrix_look_at(const double eye[3], const double at[3]);
-/* Field of view in degrees; depth 0 at `near` to 1 at `far`, as Vulkan has it. */
+/* Field of view in degrees; depth 0 at `near` to 1 at `far`, as in Vulkan. */
 struct matrix matrix_perspective(double vertical_degrees, double aspect, double near, double far);
 
 void vector_normalize(double v[3]);

@@ -61,7 +61,7 @@ double mesh_area(const struct mesh *mesh)
 
 /* ---- Parts ---- */
 
-/* A direction as floats; `otherwise` where it has no length. */
+/* Stores a unit direction as floats; `otherwise` for a zero vector. */
 static void store_unit(const double v[3], const float otherwise[3], float out[3])
 {
     double length = sqrt(dot(v, v));
@@ -94,7 +94,10 @@ static bool make_normals(struct mesh *mesh)
     return true;
 }
 
-/* Corners of their own for each triangle: neighbours may be projected along different axes. */
+/*
+ * Gives each triangle its own corners, because adjacent triangles may be projected along different
+ * axes.
+ */
 static bool split_corners(struct mesh *mesh)
 {
     struct vertex *vertices = malloc(mesh->num_indices * sizeof *vertices);
@@ -121,7 +124,7 @@ static bool make_texcoords(struct mesh *mesh)
                       : fabs(n[1]) > fabs(n[2])                          ? 1
                                                                          : 2;
         size_t across = axis == 0 ? 2 : 0, up = axis == 1 ? 2 : 1;
-        double side = (n[axis] < 0) == (axis == 2) ? -1 : 1; /* pictures are not mirrored */
+        double side = (n[axis] < 0) == (axis == 2) ? -1 : 1; /* images are not mirrored */
         for (uint32_t k = 0; k < 3; ++k) {
             struct vertex *vertex = corner(mesh, first + k);
             double s = vertex->position[across], t = vertex->position[up];
@@ -222,7 +225,7 @@ void mesh_fit(struct mesh *mesh)
         }
 }
 
-/* Both triangles at an edge find the same middle, so the mesh stays closed. */
+/* Both triangles of an edge compute the same midpoint, so the mesh stays closed. */
 static struct vertex middle(const struct vertex *a, const struct vertex *b)
 {
     struct vertex out;

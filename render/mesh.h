@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/*
- * Triangles with what shaders read at their corners. Meshes are made by formulas (shapes.c) or read
- * from files (import.c).
- */
+/* Triangles with vertex attributes. Meshes come from formulas (shapes.c) or files (import.c). */
 #ifndef MXG_RENDER_MESH_H
 #define MXG_RENDER_MESH_H
 
@@ -13,50 +10,50 @@
 struct vertex {
     float position[3], normal[3], tangent[3];
     float texcoord[2];
-    float parameter[2]; /* of the surface: what attributes of no file are linear in */
+    float parameter[2]; /* surface coordinates; attributes without a file are linear in them */
 };
 
 struct mesh {
     struct vertex *vertices;
-    uint32_t *indices; /* triangles, counter-clockwise from outside */
+    uint32_t *indices; /* triangles, counter-clockwise seen from outside */
     uint32_t num_vertices, num_indices;
 };
 
-/* What a mesh may lack and gets made. */
+/* Parts that a mesh may lack; mesh_complete adds them. */
 enum mesh_part { MESH_NORMALS = 1, MESH_TEXCOORDS = 2, MESH_TANGENTS = 4 };
 
 bool mesh_allocate(struct mesh *mesh, uint32_t num_vertices, uint32_t num_indices);
 void mesh_finish(struct mesh *mesh);
 
 /*
- * Makes the parts of `missing`: normals are averaged over the triangles at a vertex, texture
- * coordinates projected along the axis that a triangle faces, tangents follow the texture
- * coordinates. False: out of memory.
+ * Adds the parts of `missing`: averages normals over the triangles at a vertex, projects texture
+ * coordinates along the axis that a triangle faces, derives tangents from texture coordinates.
+ * false: out of memory.
  */
 bool mesh_complete(struct mesh *mesh, unsigned missing);
 
-/* The sum of the triangles' areas. */
+/* The total area of the triangles. */
 double mesh_area(const struct mesh *mesh);
 
 /* Moves and scales the mesh into the unit sphere about the origin. */
 void mesh_fit(struct mesh *mesh);
 
-/* Cuts each triangle into four until there are `wanted` of them. False: out of memory. */
+/* Splits each triangle into four until there are `wanted` triangles. false: out of memory. */
 bool mesh_subdivide(struct mesh *mesh, uint32_t wanted);
 
 /*
- * Indices of the triangles from the farthest to the nearest to `eye`, in the mesh's space; malloc,
- * NULL: out of memory.
+ * The triangles sorted from far to near, seen from `eye` in the space of the mesh; malloc. NULL:
+ * out of memory.
  */
 uint32_t *mesh_sorted(const struct mesh *mesh, const double eye[3]);
 
-/* shapes.c: the shape of that name; `detail` multiplies its number of cells each way. */
-const char *const *shape_names(void); /* NULL behind the last */
+/* shapes.c: the shape of that name; `detail` multiplies its number of cells in each direction. */
+const char *const *shape_names(void); /* NULL after the last */
 bool shape_make(const char *name, unsigned detail, struct mesh *out);
 
 /*
- * import.c: reads a file of OBJ, glTF or another form that Assimp knows. Parts that it made are
- * told in *out_made. On failure false, with an id and a text of what is wrong.
+ * import.c: reads a file in OBJ, glTF or another format of Assimp. *out_made are the parts that it
+ * added. On failure returns false with an id and a reason.
  */
 struct mesh_fault {
     const char *id;

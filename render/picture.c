@@ -20,7 +20,7 @@ static bool generate(struct painter *painter, const struct subject *subject, mxg
 
 /* ---- Drawing ---- */
 
-/* A shader that moves the surface gets triangles that are small enough. */
+/* A displaced surface needs a mesh with small triangles. */
 static bool choose_mesh(struct painting *painting)
 {
     struct painter *painter = painting->painter;
@@ -70,7 +70,7 @@ bool painting_open(struct painter *painter, const struct subject *subject,
     *painting->bind = bind_of(painting, subject);
     if (!render_open(&painting->render, &painter->gpu, painting->bind, width, height))
         return fail(painting, subject);
-    if (painting->bind->reason[0]) /* it goes on with a checker */
+    if (painting->bind->reason[0]) /* a checker replaces the texture */
         report_warning(&painter->cli->report, painting->bind->id, "%s", painting->bind->reason);
     return true;
 }
@@ -127,7 +127,7 @@ void painting_close(struct painting *painting)
     mxg_result_destroy(painting->result);
 }
 
-/* The same picture by the reference integrator. */
+/* Renders the same picture with the path tracer. */
 static bool picture_trace(struct painter *painter, const struct subject *subject, struct image *out)
 {
     struct painting painting = {.painter = painter, .scene = painter->scene};
@@ -166,7 +166,7 @@ bool picture_draw(struct painter *painter, const struct subject *subject, struct
 
 /* ---- Background ---- */
 
-/* What is behind pixel (x, y). */
+/* The background of pixel (x, y). */
 static void background(const struct painter *painter, uint32_t x, uint32_t y, double out[4])
 {
     memset(out, 0, 4 * sizeof *out);
@@ -181,7 +181,7 @@ static void background(const struct painter *painter, uint32_t x, uint32_t y, do
         return;
     }
     for (size_t c = 0; c < 3; ++c)
-        out[c] = 0.18 - 0.12 * y / painter->height; /* grey, lighter on top */
+        out[c] = 0.18 - 0.12 * y / painter->height; /* grey, lighter at the top */
 }
 
 /* IEC 61966-2-1 */
@@ -204,7 +204,7 @@ bool picture_develop(const struct painter *painter, const struct image *linear, 
             double behind[4], through = 1 - fmin(in[3], 1);
             background(painter, x, y, behind);
             double alpha = fmin(in[3], 1) + through * behind[3];
-            for (size_t c = 0; c < 3; ++c) /* files of 8 bits are not premultiplied */
+            for (size_t c = 0; c < 3; ++c) /* 8-bit files are not premultiplied */
                 pixel[c] = encode_srgb((painter->exposure * in[c] + through * behind[c])
                                        / fmax(alpha, 1e-6));
             pixel[3] = (uint8_t)(alpha * 255 + 0.5);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * From an element of a document to a picture: generates, binds, draws, averages, and puts it over
- * its background.
+ * Renders a document element to a picture: generates, binds, draws, averages, and adds the
+ * background.
  */
 #ifndef MXG_RENDER_PICTURE_H
 #define MXG_RENDER_PICTURE_H
@@ -13,58 +13,61 @@
 
 enum background { BACKGROUND_BACKDROP, BACKGROUND_ENVIRONMENT, BACKGROUND_NONE };
 
-/* How pictures are made. */
+/* Settings for pictures. */
 struct painter {
     struct cli *cli;
     struct gpu gpu;
     struct studio studio;
     struct scene scene;
-    bool is_studio;   /* the scene is the studio's */
-    struct mesh fine; /* for shaders that displace it; made when first needed */
+    bool is_studio;   /* the scene is the studio */
+    struct mesh fine; /* for displaced materials; made on first use */
     const struct bind_value *values;
     size_t num_values;
-    bool checker; /* instead of a texture that is missing */
+    bool checker; /* replaces missing textures by a checker */
     enum background background;
     double exposure;
     uint32_t width, height;
-    unsigned oversampling;      /* samples for each pixel and axis */
-    struct trace_options trace; /* no paths: pictures are drawn */
+    unsigned oversampling;      /* samples per pixel and axis */
+    struct trace_options trace; /* no paths: use the rasteriser */
 };
 
 struct subject {
     const mxg_document *document;
-    const char *path;    /* of its file */
-    const char *element; /* NULL: the first that can be rendered */
+    const char *path;    /* of the file */
+    const char *element; /* NULL: the first renderable */
 };
 
 /* A subject on the device. */
 struct painting {
     struct painter *painter;
     mxg_result *result;
-    struct scene scene; /* the painter's, with the mesh that the shader needs */
+    struct scene scene; /* the scene of the painter, with the mesh for this shader */
     struct bind *bind;
     struct render render;
     float *samples;
 };
 
-/* False after telling why. painting_close must follow in both cases. */
+/* false after reporting an error. Call painting_close in any case. */
 bool painting_open(struct painter *painter, const struct subject *subject,
                    struct painting *painting);
-/* After the painter's camera has moved. */
+/* Call after moving the painter's camera. */
 void painting_aim(struct painting *painting);
-/* The picture in linear light, premultiplied, over nothing. False after telling why. */
+/*
+ * Renders the picture in linear light, premultiplied, without background. false after reporting an
+ * error.
+ */
 bool painting_draw(struct painting *painting, struct image *out);
 void painting_close(struct painting *painting);
 
 /* Open, draw and close. */
 bool picture_draw(struct painter *painter, const struct subject *subject, struct image *out);
 
-/* The picture as it is shown: exposed, over the background, in sRGB. False: out of memory. */
+/* Converts the picture for display: exposure, background, sRGB. false: out of memory. */
 bool picture_develop(const struct painter *painter, const struct image *linear, struct image *out);
 
 /*
- * Writes it: what the file's format keeps in linear light (EXR, HDR) as it was drawn, everything
- * else developed. False after telling why.
+ * Writes the picture: linear light for EXR and HDR, otherwise display values. false after reporting
+ * an error.
  */
 bool picture_write(struct painter *painter, const char *path, const struct image *linear);
 

@@ -3,7 +3,7 @@
 
 #include <stdio.h>
 
-/* The first error of the shader compiler: generated shaders should have none. */
+/* Reports the first error of the shader compiler: generated shaders should have none. */
 static bool compile(struct bind *bind, struct compiled *compiled)
 {
     const char *sources[MXG_NUM_STAGES];

@@ -12,7 +12,7 @@
 /* Attributes that are linear in (s, t): value = at[0] + at[1] s + at[2] t for each component. */
 struct linear {
     const char *name;
-    bool is_family; /* any name that begins so */
+    bool is_family; /* any name with this prefix */
     double at[4][3];
 };
 
@@ -83,7 +83,7 @@ static unsigned store_matrix(struct matrix matrix, float out[16])
     return 16;
 }
 
-/* Cuts `end` off the word; false where it does not end so. */
+/* Removes the suffix `end` from the word; false if it does not have it. */
 static bool strip_end(const char *word, size_t *len, const char *end)
 {
     size_t end_len = strlen(end);
@@ -237,13 +237,13 @@ void scene_backdrop(const struct scene *scene, double x, double y, double out[3]
 {
     const double ray[3] = {x / scene->projection.m[0][0], y / scene->projection.m[1][1], -1};
     double world[3], d[3];
-    transform_direction(matrix_transpose(scene->view), ray, world); /* a rotation's inverse */
+    transform_direction(matrix_transpose(scene->view), ray, world); /* the inverse of a rotation */
     transform_direction(scene->environment, world, d);
     vector_normalize(d);
     environment_lookup(&scene->radiance, d, out);
 }
 
-/* Maps begin behind the viewer, as MaterialX has it. */
+/* Maps begin behind the viewer, as in MaterialX. */
 static struct matrix half_turn(void)
 {
     return matrix_scale(-1, 1, -1);
@@ -263,7 +263,7 @@ bool scene_init_sphere(struct scene *scene, double aspect)
            && shape_make("sphere", 1, &scene->mesh);
 }
 
-/* A quad by (s, t), each part linear. The tangent is (n.z, 0, -n.x). */
+/* A quad by (s, t), with linear parts. The tangent is (n.z, 0, -n.x). */
 struct quad {
     double position[3][3], normal[3][3], texcoord[2][3];
 };
@@ -282,7 +282,10 @@ static void make_vertex(const struct quad *quad, float s, float t, struct vertex
     out->parameter[1] = t;
 }
 
-/* Each cell is four triangles that meet in its centre, so that the value there is the vertex's. */
+/*
+ * Each cell has four triangles that meet in its centre, so the value there is the value of the
+ * vertex.
+ */
 static bool make_quad(const struct quad *quad, struct mesh *mesh)
 {
     enum { CELLS = 4, CORNERS = (CELLS + 1) * (CELLS + 1) };
@@ -304,8 +307,8 @@ static bool make_quad(const struct quad *quad, struct mesh *mesh)
 }
 
 /*
- * The projection that puts the quad 0 <= s, t <= 1 over the whole picture, in front of the camera
- * or not.
+ * The projection that fits the quad 0 <= s, t <= 1 to the picture, in front of or behind the
+ * camera.
  */
 static struct matrix quad_projection(const struct scene *scene, const double position[3][3])
 {

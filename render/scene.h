@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * What is drawn, as a host of MaterialX sees it: a mesh with named attributes, a camera, lights, an
- * environment. Values are asked for by the names of the ShaderX convention, so a scene serves every
- * shader that keeps them.
+ * The data that a host of MaterialX provides: a mesh with named attributes, a camera, lights, an
+ * environment. Lookups use the names of the ShaderX convention, so a scene serves every shader with
+ * these names.
  */
 #ifndef MXG_RENDER_SCENE_H
 #define MXG_RENDER_SCENE_H
@@ -21,53 +21,56 @@ struct scene {
     uint32_t num_lights;
     uint32_t environment_samples;
     int32_t frame;
-    struct matrix environment;         /* from directions in the world to those in the map */
+    struct matrix environment;         /* rotates world directions to directions in the map */
     struct image radiance, irradiance; /* latitude-longitude, first row towards +y */
-    struct image albedo;               /* of GGX; only for shaders that look it up */
-    struct image texture;              /* what every texture of the document shows; may have none */
+    struct image albedo;               /* of GGX; only for shaders that read it */
+    struct image texture;              /* replaces every texture of the document; may be empty */
 };
 
 /*
- * A unit sphere in daylight with three lights, seen by a camera of the given aspect ratio: what
- * shading is compared on.
+ * A unit sphere in daylight with three lights, and a camera of the given aspect ratio: the scene of
+ * shading comparisons.
  */
 bool scene_init_sphere(struct scene *scene, double aspect);
 
 /*
- * A quad over the whole picture, 4x4 cells, whose attributes are linear; what values of nodes are
- * sampled on.
+ * A quad that fills the picture, 4x4 cells, with linear attributes: the scene of value comparisons.
  */
 bool scene_init_grid(struct scene *scene);
 
 /*
- * A quad over the whole picture, (s, t) from (0, 0) to (1, 1), with a texture instead of those of
- * the document.
+ * A quad that fills the picture, (s, t) from (0, 0) to (1, 1), with a texture in place of the
+ * document's.
  */
 bool scene_init_plane(struct scene *scene);
 
 void scene_finish(struct scene *scene);
 
-/* Where the camera stands, and what it looks at. */
+/* Moves the camera, and points it at the target. */
 void scene_set_camera(struct scene *scene, const double eye[3], const double target[3]);
 
-/* Attribute "i_texcoord_0", "i_geomprop_st"… of a vertex; unset components stay. False: the scene
- * has no such attribute. */
+/*
+ * Attribute "i_texcoord_0", "i_geomprop_st"… of a vertex; keeps other components. false: the scene
+ * has no such attribute.
+ */
 bool scene_attribute(const struct scene *scene, const char *name, uint32_t vertex, float out[4]);
 
 /*
- * Private uniform "u_worldMatrix"…; returns how many components it wrote, 0 where the scene has
+ * Private uniform "u_worldMatrix"…; returns the number of written components, 0 if the scene has
  * none.
  */
 unsigned scene_uniform(const struct scene *scene, const char *name, float out[16]);
 
-/* Member "direction"… of light `index` below num_lights; returns how many components it wrote, 0
- * where a light has none. */
+/*
+ * Member "direction"… of light `index` below num_lights; returns the number of written components,
+ * 0 if a light has none.
+ */
 unsigned scene_light(uint32_t index, const char *member, float out[3]);
 
-/* Texture "u_envRadiance"…; NULL where the scene has none. */
+/* Texture "u_envRadiance"…; NULL if the scene has none. */
 const struct image *scene_image(const struct scene *scene, const char *name);
 
-/* The environment's radiance seen at (x, y) of the picture, from -1 to 1, y upwards. */
+/* The radiance of the environment at (x, y) of the picture, from -1 to 1, y upwards. */
 void scene_backdrop(const struct scene *scene, double x, double y, double out[3]);
 
 /* environment.c: maps of a clear sky. False: out of memory. */
@@ -76,16 +79,16 @@ bool environment_make(struct image *radiance, struct image *irradiance);
 void environment_radiance(const double d[3], float out[3]);
 /* The direction of a texel's centre. */
 void environment_direction(const struct image *map, uint32_t x, uint32_t y, double out[3]);
-/* The map's radiance from direction d (unit), between texels. */
+/* The radiance of the map from direction d (unit), interpolated. */
 void environment_lookup(const struct image *map, const double d[3], double out[3]);
 /*
- * Reads a latitude-longitude map of linear values; 8-bit pictures are taken as sRGB. On failure
- * false, with why.
+ * Reads a latitude-longitude map of linear values; 8-bit files are sRGB. On failure returns false
+ * and the reason.
  */
 bool environment_read(const char *path, struct image *out, char *reason, size_t capacity);
 /* The cosine-weighted average of a map around each direction. */
 bool environment_irradiance(const struct image *radiance, struct image *out);
-/* A smooth texture without symmetry, so that a wrong orientation shows. */
+/* A smooth texture without symmetry, so that a wrong orientation is visible. */
 bool environment_make_test_texture(struct image *out);
 
 #endif

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Meshes by formulas: each shape is a few patches, each patch a grid over 0 <= u, v <= 1. Normals
- * and tangents follow from the derivatives of the formula, so a patch may be as bent as it likes.
+ * Meshes from formulas: a shape consists of a few patches, and a patch is a grid over 0 <= u, v <=
+ * 1. The derivatives of the formula give normals and tangents.
  */
 #include "render/matrix.h"
 #include "render/mesh.h"
@@ -30,7 +30,7 @@ static void set(double out[3], double x, double y, double z)
 
 /* ---- Formulas ---- */
 
-/* About y, v upwards; u = 0 looks along z. */
+/* Around y, v upwards; u = 0 points along z. */
 static void on_sphere(double u, double v, double out[3])
 {
     double theta = 2 * PI * u, phi = PI * v;
@@ -82,8 +82,8 @@ static void on_cube_bottom(double u, double v, double out[3])
 }
 
 /*
- * A square laid over a ball: by the distance r from its middle it follows the ball, then hangs down
- * in folds.
+ * A square laid over a ball: up to some distance r from its centre it follows the ball, then it
+ * hangs down in folds.
  */
 #define CLOTH_HALF 1.05   /* half of the square's side */
 #define CLOTH_RADIUS 0.52 /* of the ball */
@@ -113,7 +113,7 @@ static void on_ball(double u, double v, double out[3])
     set(out, radius * out[0], radius * out[1] + BALL_HEIGHT, radius * out[2]);
 }
 
-/* The foot's profile: (radius, height), from the middle of its top down to its rim and under it. */
+/* The profile of the foot: (radius, height), from the centre of its top to its rim and below. */
 static void on_foot(double u, double v, double out[3])
 {
     static const double profile[][2] = {{0, -0.5},     {0, -0.5},    {0.24, -0.5},  {0.32, -0.53},
@@ -158,7 +158,7 @@ const char *const *shape_names(void)
     return names;
 }
 
-/* dP/du or dP/dv, by differences inside of the patch. */
+/* dP/du or dP/dv, by differences inside the patch. */
 static void derivative(const struct patch *patch, double u, double v, double du, double dv,
                        double out[3])
 {

@@ -8,7 +8,7 @@
 
 enum { GAP = 4 };
 
-/* Letters grow with the pictures, so that about 24 of them stand under one. */
+/* The letters scale with the pictures, so that about 24 fit below one. */
 static unsigned label_scale(const struct sheet *sheet)
 {
     unsigned scale = sheet->width / (LABEL_ADVANCE * 24);

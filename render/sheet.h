@@ -6,16 +6,16 @@
 #include "render/image.h"
 
 struct sheet {
-    struct image image;     /* 8 bits */
+    struct image image;     /* 8-bit */
     uint32_t width, height; /* of a picture */
     uint32_t columns, count;
 };
 
-/* Room for `count` pictures. False: out of memory. */
+/* Makes a sheet for `count` pictures. false: out of memory. */
 bool sheet_init(struct sheet *sheet, uint32_t count, uint32_t width, uint32_t height);
 void sheet_finish(struct sheet *sheet);
 
-/* Places a picture of 8 bits; NULL: a cross, for one that could not be drawn. */
+/* Places an 8-bit picture. NULL: draws a cross for a failed picture. */
 void sheet_place(struct sheet *sheet, uint32_t index, const struct image *picture,
                  const char *name);
 

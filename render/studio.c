@@ -11,8 +11,8 @@
 #include <sys/stat.h>
 
 #define DEGREE (3.14159265358979323846 / 180.0)
-#define FINE_DETAIL 4             /* times the cells of a shape, each way */
-#define FINE_TRIANGLES (1u << 18) /* of a mesh from a file */
+#define FINE_DETAIL 4             /* multiplies the cells of a shape in each direction */
+#define FINE_TRIANGLES (1u << 18) /* for a mesh from a file */
 
 bool studio_parse_camera(struct studio *studio, const char *text)
 {
@@ -86,10 +86,7 @@ static bool is_folder(const char *path)
     return stat(path, &info) == 0 && S_ISDIR(info.st_mode);
 }
 
-/*
- * The maps as the shader wants them: baked before, baked now, or with mip levels that are plain
- * averages.
- */
+/* Provides the maps for the shader: baked before, baked now, or with box-averaged mip levels. */
 static bool open_environment(const struct studio *studio, struct scene *scene,
                              struct studio_fault *fault)
 {
@@ -116,7 +113,7 @@ static bool open_environment(const struct studio *studio, struct scene *scene,
     scene->irradiance = baked.irradiance;
     scene->albedo = baked.albedo;
     if (!studio->prefiltered)
-        scene->radiance.levels = 0; /* the map itself */
+        scene->radiance.levels = 0; /* the level 0 map only */
     return true;
 }
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * The files of a document's texture as one image: the frame at hand, its layer, its tiles; the
- * default colour where there is none.
+ * The files of a document's texture as one image: the current frame, its file layer, its tiles; the
+ * default colour if there is no file.
  */
 #include "render/bind.h"
 
 #include <stdio.h>
 #include <string.h>
 
-/* What a texture shows where there is no image: the default of its node, black otherwise. */
+/* Makes an image of the node's default colour, otherwise black. */
 static bool make_default(const mxg_variable *variable, struct image *out)
 {
     float *texel = calloc(4, sizeof *texel);
@@ -21,7 +21,7 @@ static bool make_default(const mxg_variable *variable, struct image *out)
     return true;
 }
 
-/* Magenta and black, so that it cannot be taken for a material. */
+/* Magenta and black, so that it does not look like a material. */
 static bool make_checker(struct image *out)
 {
     enum { SIZE = 8 };

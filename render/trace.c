@@ -4,7 +4,7 @@
 #include "render/bvh.h"
 #include "render/importance.h"
 #include "render/inputs.h"
-#include "validate/compile.h"
+#include "compile/compile.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -12,7 +12,7 @@
 
 enum { NUM_BUFFERS = 4, NUM_BINDINGS = NUM_BUFFERS + 1, GROUP = 8, SAMPLES_AT_ONCE = 16 };
 
-struct camera { /* as path.glsl has it */
+struct camera { /* layout as in path.glsl */
     float eye[4], right[4], up[4], forward[4], environment[3][4];
     uint32_t frame[4];
 };
@@ -59,7 +59,7 @@ static void append(struct source *source, const char *text)
         char *more = realloc(source->text, capacity);
         if (!more) {
             free(source->text);
-            *source = (struct source){.capacity = SIZE_MAX}; /* nothing is appended from here on */
+            *source = (struct source){.capacity = SIZE_MAX}; /* the source is complete */
             return;
         }
         source->text = more;
@@ -71,9 +71,7 @@ static void append(struct source *source, const char *text)
     }
 }
 
-/*
- * Vertex data by name, from what is known of a hit. The studio's mesh stands in the world as it is.
- */
+/* Vertex data by name, computed from a hit. The studio's mesh has no world transform. */
 static const struct {
     const char *name, *value;
     bool is_family;
@@ -116,7 +114,7 @@ static void append_fill(struct source *source, const mxg_result *result)
         if (variable.block != MXG_BLOCK_VERTEX_DATA)
             continue;
         char line[256];
-        /* of what no mesh has */
+        /* data that no mesh has */
         snprintf(line, sizeof line, "    vd.%s = %s(0);\n", variable.name, variable.type);
         for (size_t k = 0; k < sizeof hit_values / sizeof *hit_values; ++k) {
             const char *name = hit_values[k].name;
@@ -301,7 +299,7 @@ static struct camera make_camera(const struct tracer *tracer)
     return camera;
 }
 
-/* One invocation for each place of an area. */
+/* Runs one invocation per element of an area. */
 static bool run(struct tracer *tracer, const struct camera *camera, uint32_t width, uint32_t height)
 {
     VkCommandBuffer commands = gpu_begin(tracer->gpu);
@@ -319,7 +317,7 @@ static bool run(struct tracer *tracer, const struct camera *camera, uint32_t wid
     return gpu_end(tracer->gpu, commands);
 }
 
-/* Asks the shader where the corners go, and moves them there. */
+/* Evaluates the displacement of the corners in the shader, and moves them. */
 static bool displace(struct tracer *tracer)
 {
     enum { ROW = 1024 };

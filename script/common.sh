@@ -18,11 +18,12 @@ install_missing_packages() {
         sh "${missing[@]}" >&2
 }
 
-# Configures on first use, then builds. Prints only errors.
+# Configures $folder with $options on first use, then builds. Prints only errors.
+folder=build options=-Dcheck_ir=true
 build() {
     local output
-    if [ ! -f build/build.ninja ]; then
-        output=$(meson setup build 2>&1) || { echo "$output" >&2; return 1; }
+    if [ ! -f $folder/build.ninja ]; then
+        output=$(meson setup $folder $options 2>&1) || { echo "$output" >&2; return 1; }
     fi
-    output=$(ninja -C build "$@" 2>&1) || { echo "$output" >&2; return 1; }
+    output=$(ninja -C $folder "$@" 2>&1) || { echo "$output" >&2; return 1; }
 }

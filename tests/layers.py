@@ -36,7 +36,7 @@ def fault_of(path, included):
     return None
 
 
-for folder in "src", "generators", "cli", "validate", "render":
+for folder in "src", "generators", "cli", "check", "compile", "doc", "render":
     for path in sorted((ROOT / folder).rglob("*.[ch]")):
         for included in INCLUDE.findall(path.read_text(encoding="utf-8")):
             fault = fault_of(path, included)

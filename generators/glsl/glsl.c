@@ -5,8 +5,7 @@
  */
 #include "generators/glsl/glsl.h"
 
-static const struct lang_words reserved[] = {
-#define RESERVED(length, words) LANG_WORDS(length, words),
+static const char *const reserved[] = {
 #include "generators/glsl/reserved.def"
 };
 
@@ -20,7 +19,7 @@ const struct lang_syntax glsl_syntax = {
     .base = &lang_syntax_portable,
     .forms = forms,
     .reserved = reserved,
-    .max_reserved = sizeof reserved / sizeof *reserved - 1,
+    .num_reserved = sizeof reserved / sizeof *reserved,
     /* becomes a SPIR-V value; other parameters are variables, copied at every call */
     .param_in = "const ",
     .param_in_assigned = "",

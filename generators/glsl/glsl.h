@@ -10,6 +10,7 @@ extern const struct target_frame glsl_frame; /* frame.c */
 extern const struct target target_glsl, target_vulkan, target_essl;
 
 /* What every GLSL can do. */
-#define GLSL_CAPS (CAP_STAGES | CAP_OVERLOADS | CAP_BITWISE | CAP_IMPLICIT_LOD | CAP_TEXTURE_ARRAYS)
+#define GLSL_CAPS \
+    (CAP_VERTEX_STAGE | CAP_OVERLOADS | CAP_BITWISE | CAP_IMPLICIT_LOD | CAP_TEXTURE_ARRAYS)
 
 #endif

@@ -39,7 +39,7 @@ static const struct lang_pieces *form_of(struct spell *spell, const char *text,
                                          enum lang_precedence precedence)
 {
     struct lang_pieces *form = ARENA_NEW(spell->scratch, struct lang_pieces);
-    lang_form_split(&(struct lang_form){text, (uint8_t)precedence, false}, spell->scratch, form);
+    lang_form_split(&(struct lang_form){text, (uint8_t)precedence, false}, form);
     return form;
 }
 

@@ -2,8 +2,7 @@
 /* The tables of HLSL: words, types, forms (Microsoft's reference of shader model 5.1 and 6). */
 #include "generators/hlsl/hlsl.h"
 
-static const struct lang_words reserved[] = {
-#define RESERVED(length, words) LANG_WORDS(length, words),
+static const char *const reserved[] = {
 #include "generators/hlsl/reserved.def"
 };
 
@@ -55,7 +54,7 @@ static const struct lang_syntax syntax = {
     .forms = forms,
     .forms_alone = forms_alone,
     .reserved = reserved,
-    .max_reserved = sizeof reserved / sizeof *reserved - 1,
+    .num_reserved = sizeof reserved / sizeof *reserved,
     .param_in = "",
     .param_in_assigned = "",
     .param_out = "out ",
@@ -72,7 +71,7 @@ const struct target target_hlsl = {
     .name = "hlsl",
     .materialx_name = "genhlsl",
     .brief = "HLSL of shader model 5.1 and 6, for Direct3D 12 and Vulkan",
-    .caps = CAP_STAGES | CAP_OVERLOADS | CAP_BITWISE | CAP_IMPLICIT_LOD | CAP_TEXTURE_ARRAYS
+    .caps = CAP_VERTEX_STAGE | CAP_OVERLOADS | CAP_BITWISE | CAP_IMPLICIT_LOD | CAP_TEXTURE_ARRAYS
             | CAP_UNIFORM_BLOCKS | CAP_BINDINGS | CAP_BLOCK_STAGE_IO,
     .versions = versions,
     .syntax = &syntax,

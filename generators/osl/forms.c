@@ -11,36 +11,14 @@
 
 static const char parts[] = "xyzw";
 
-static bool is_struct(ir_type_id type)
-{
-    return type == IR_TYPE_VEC2 || type == IR_TYPE_VEC4 || type == IR_TYPE_IVEC2;
-}
-
 static bool is_vector(ir_type_id type)
 {
-    return is_struct(type) || type == IR_TYPE_VEC3;
+    return osl_is_struct(type) || type == IR_TYPE_VEC3;
 }
 
 static unsigned components(ir_type_id type)
 {
     return type < IR_NUM_TYPES ? ir_type_info(type)->components : 0;
-}
-
-static const char *type_name(ir_type_id type)
-{
-    return lang_syntax_type(&osl_syntax, type);
-}
-
-/* A type as one letter: helpers.def. */
-char osl_type_letter(ir_type_id type)
-{
-    static const char letters[IR_NUM_TYPES] = {
-        [IR_TYPE_BOOL] = 'b',   [IR_TYPE_INT] = 'i',  [IR_TYPE_UINT] = 'u', [IR_TYPE_FLOAT] = 'f',
-        [IR_TYPE_IVEC2] = 'I',  [IR_TYPE_VEC2] = '2', [IR_TYPE_VEC3] = '3', [IR_TYPE_VEC4] = '4',
-        [IR_TYPE_MAT2] = 'm',   [IR_TYPE_MAT3] = 'M', [IR_TYPE_MAT4] = 'N', [IR_TYPE_SAMPLER] = 's',
-        [IR_TYPE_STRING] = 't',
-    };
-    return type < IR_NUM_TYPES && letters[type] ? letters[type] : '?';
 }
 
 /* ---- Forms made here: they live as long as the file is written ---- */
@@ -49,8 +27,7 @@ static const struct lang_pieces *form_of(struct osl *osl, const char *text,
                                          enum lang_precedence precedence)
 {
     struct lang_pieces *form = ARENA_NEW(osl->spell->scratch, struct lang_pieces);
-    lang_form_split(&(struct lang_form){text, (uint8_t)precedence, false}, osl->spell->scratch,
-                    form);
+    lang_form_split(&(struct lang_form){text, (uint8_t)precedence, false}, form);
     return form;
 }
 
@@ -73,20 +50,6 @@ static const struct lang_pieces *call_form(struct osl *osl, const char *name, un
 }
 
 /* ---- Helpers ---- */
-
-static bool has_helper(const struct osl *osl, const char *text)
-{
-    for (uint32_t i = 0; i < osl->helpers.len; i++)
-        if (strcmp(osl->helpers.items[i], text) == 0)
-            return true;
-    return false;
-}
-
-void osl_add_helper(struct osl *osl, const char *text)
-{
-    if (!has_helper(osl, text))
-        vec_push(osl->spell->scratch, &osl->helpers, text);
-}
 
 struct helper_row {
     uint8_t op; /* enum ir_op */
@@ -124,10 +87,19 @@ static const struct helper_row *find_helper(const struct osl *osl, const struct 
     return NULL;
 }
 
+/* A helper's text names the types of its operands and of its result. */
+static void add_row(struct osl *osl, const struct helper_row *row, const struct lang_use *use)
+{
+    osl_type(osl, use->type);
+    for (unsigned i = 0; i < use->num_operands; i++)
+        osl_type(osl, use->operands[i]);
+    osl_add_helper(osl, row->text);
+}
+
 static const struct lang_pieces *helper_form(struct osl *osl, const struct helper_row *row,
                                              const struct lang_use *use)
 {
-    osl_add_helper(osl, row->text);
+    add_row(osl, row, use);
     if (strncmp(row->name, "__operator__", 12) == 0)
         return usual_form(osl, use->op);
     return call_form(osl, row->name, use->num_operands, use->op == IR_SELECT ? "210" : NULL);
@@ -167,8 +139,8 @@ static ir_type_id scalar_of(ir_type_id type)
  * A form of the operands themselves ("$0", where `named`) or of parameters a, b…; of those with
  * parts, of one.
  */
-static void write_part(const char *form, const struct lang_use *use, unsigned component, bool named,
-                       struct text *out)
+static void write_part(struct osl *osl, const char *form, const struct lang_use *use,
+                       unsigned component, bool named, struct text *out)
 {
     for (const char *p = form; *p; p++) {
         if (*p != '$') {
@@ -177,7 +149,7 @@ static void write_part(const char *form, const struct lang_use *use, unsigned co
         }
         p++;
         if (*p == 'T') {
-            text_str(out, type_name(scalar_of(use->type)));
+            text_str(out, osl_type(osl, scalar_of(use->type)));
             continue;
         }
         unsigned index = (unsigned)(*p - '0');
@@ -188,16 +160,16 @@ static void write_part(const char *form, const struct lang_use *use, unsigned co
 }
 
 /* "vector2 min(vector2 a, float b)\n{\n    return vector2(min(a.x, b), min(a.y, b));\n}\n" */
-static void write_component_function(const char *name, const struct lang_use *use,
+static void write_component_function(struct osl *osl, const char *name, const struct lang_use *use,
                                      const struct lang_pieces *scalar, struct text *out)
 {
-    text_fmt(out, "%s %s(", type_name(use->type), name);
+    text_fmt(out, "%s %s(", osl_type(osl, use->type), name);
     for (unsigned i = 0; i < use->num_operands; i++)
-        text_fmt(out, "%s%s %c", i ? ", " : "", type_name(use->operands[i]), (char)('a' + i));
-    text_fmt(out, ")\n{\n    return %s(", type_name(use->type));
+        text_fmt(out, "%s%s %c", i ? ", " : "", osl_type(osl, use->operands[i]), (char)('a' + i));
+    text_fmt(out, ")\n{\n    return %s(", osl_type(osl, use->type));
     for (unsigned i = 0; i < components(use->type); i++) {
         text_str(out, i ? ", " : "");
-        write_part(scalar->text, use, i, false, out);
+        write_part(osl, scalar->text, use, i, false, out);
     }
     text_str(out, ");\n}\n");
 }
@@ -214,10 +186,10 @@ static const struct lang_pieces *pair_form(struct osl *osl, const struct lang_us
         return NULL;
     struct text text;
     text_init(&text, osl->spell->scratch);
-    text_str(&text, "vector2(");
-    write_part(scalar->text, use, 0, true, &text);
+    text_fmt(&text, "%s(", osl_type(osl, use->type));
+    write_part(osl, scalar->text, use, 0, true, &text);
     text_str(&text, ", ");
-    write_part(scalar->text, use, 1, true, &text);
+    write_part(osl, scalar->text, use, 1, true, &text);
     text_char(&text, ')');
     return form_of(osl, text_cstr(&text), LANG_PREC_POSTFIX);
 }
@@ -243,7 +215,7 @@ static const struct lang_pieces *component_form(struct osl *osl, const struct la
                *name = word ? word : function_name(osl, use->op, scalar);
     struct text text;
     text_init(&text, osl->spell->scratch);
-    write_component_function(name, use, scalar, &text);
+    write_component_function(osl, name, use, scalar, &text);
     const char *body = text_cstr(&text);
     osl_add_helper(osl, body);
     return word ? usual_form(osl, use->op) : call_form(osl, name, use->num_operands, NULL);
@@ -268,7 +240,7 @@ static const struct lang_pieces *swizzle_form(struct osl *osl, const struct lang
     const char *letters = named && is_color_operand(osl, use, 0) ? "rgba" : parts,
                *whole = named ? "$0" : "v";
     if (count > 1)
-        text_fmt(&text, "%s(", type_name(use->type));
+        text_fmt(&text, "%s(", osl_type(osl, use->type));
     for (unsigned i = 0; i < count; i++) {
         unsigned index = use->attr >> 2 * i & 3;
         text_fmt(&text, "%s%s.%c", i ? ", " : "", whole, letters[index]);
@@ -280,8 +252,8 @@ static const struct lang_pieces *swizzle_form(struct osl *osl, const struct lang
         return form_of(osl, text_cstr(&text), LANG_PREC_POSTFIX);
     struct text function;
     text_init(&function, osl->spell->scratch);
-    text_fmt(&function, "%s %s_of(%s v)\n{\n    return %s;\n}\n", type_name(use->type),
-             text_cstr(&name), type_name(use->operands[0]), text_cstr(&text));
+    text_fmt(&function, "%s %s_of(%s v)\n{\n    return %s;\n}\n", osl_type(osl, use->type),
+             text_cstr(&name), osl_type(osl, use->operands[0]), text_cstr(&text));
     osl_add_helper(osl, text_cstr(&function));
     text_str(&name, "_of");
     return call_form(osl, text_cstr(&name), 1, NULL);
@@ -333,18 +305,18 @@ static const struct lang_pieces *construct_form(struct osl *osl, const struct la
     struct text text;
     text_init(&text, osl->spell->scratch);
     if (all_named(use)) {
-        text_fmt(&text, "%s(", type_name(use->type));
+        text_fmt(&text, "%s(", osl_type(osl, use->type));
         write_parts(osl, use, true, &text);
         text_char(&text, ')');
         return form_of(osl, text_cstr(&text), LANG_PREC_POSTFIX);
     }
     struct text name;
     text_init(&name, osl->spell->scratch);
-    text_fmt(&name, "make_%s", type_name(use->type));
-    text_fmt(&text, "%s %s(", type_name(use->type), text_cstr(&name));
+    text_fmt(&name, "make_%s", osl_type(osl, use->type));
+    text_fmt(&text, "%s %s(", osl_type(osl, use->type), text_cstr(&name));
     for (unsigned i = 0; i < use->num_operands; i++)
-        text_fmt(&text, "%s%s %c", i ? ", " : "", type_name(use->operands[i]), (char)('a' + i));
-    text_fmt(&text, ")\n{\n    return %s(", type_name(use->type));
+        text_fmt(&text, "%s%s %c", i ? ", " : "", osl_type(osl, use->operands[i]), (char)('a' + i));
+    text_fmt(&text, ")\n{\n    return %s(", osl_type(osl, use->type));
     write_parts(osl, use, false, &text);
     text_str(&text, ");\n}\n");
     osl_add_helper(osl, text_cstr(&text));
@@ -357,7 +329,7 @@ static const struct lang_pieces *convert_form(struct osl *osl, const struct lang
     if (to == IR_TYPE_BOOL)
         return form_of(osl, from == IR_TYPE_BOOL ? "$0" : "$0 != 0",
                        from == IR_TYPE_BOOL ? LANG_PREC_ASSIGN : LANG_PREC_EQUAL);
-    if (components(from) == 1 && strcmp(type_name(from), type_name(to)) == 0)
+    if (components(from) == 1 && strcmp(osl_type(osl, from), osl_type(osl, to)) == 0)
         return form_of(osl, "$0", LANG_PREC_ASSIGN); /* between int, uint and bool */
     if (from == IR_TYPE_MAT3 && to == IR_TYPE_MAT4)
         return form_of(osl, "$0", LANG_PREC_ASSIGN);
@@ -369,8 +341,9 @@ static const struct lang_pieces *convert_form(struct osl *osl, const struct lang
     }
     if (is_vector(from) && is_vector(to)) /* ivec2 and vec2 */
         return component_form(osl, use);
-    return is_struct(to) || (to == IR_TYPE_VEC3 && from != IR_TYPE_FLOAT) ? construct_form(osl, use)
-                                                                          : NULL;
+    return osl_is_struct(to) || (to == IR_TYPE_VEC3 && from != IR_TYPE_FLOAT)
+               ? construct_form(osl, use)
+               : NULL;
 }
 
 static const struct lang_pieces *index_form(struct osl *osl, const struct lang_use *use)
@@ -386,9 +359,9 @@ static const struct lang_pieces *index_form(struct osl *osl, const struct lang_u
 
 static bool touches_struct(const struct lang_use *use)
 {
-    bool any = is_struct(use->type);
+    bool any = osl_is_struct(use->type);
     for (unsigned i = 0; i < use->num_operands; i++)
-        any |= is_struct(use->operands[i]);
+        any |= osl_is_struct(use->operands[i]);
     return any;
 }
 
@@ -419,7 +392,7 @@ static const struct lang_pieces *turned_sum_form(struct osl *osl, const struct l
     const struct helper_row *row = find_helper(osl, &turned);
     if (!row)
         return NULL;
-    osl_add_helper(osl, row->text);
+    add_row(osl, row, use);
     return call_form(osl, row->name, 2, "10");
 }
 
@@ -450,7 +423,7 @@ static const struct lang_pieces *product_form(struct osl *osl, const struct lang
         ir_type_id turned[2] = {b, a};
         struct lang_use transform = *use;
         transform.operands = turned;
-        osl_add_helper(osl, find_helper(osl, &transform)->text);
+        add_row(osl, find_helper(osl, &transform), use);
         return form_of(osl, "transform(transpose($1), $0)", LANG_PREC_POSTFIX);
     }
     return NULL;
@@ -549,22 +522,4 @@ const struct lang_pieces *osl_form(void *user_data, const struct lang_use *use)
     if (by_component)
         return component_form(osl, use);
     return cast_form(osl, use);
-}
-
-/* Structs and small matrices, in which every part is written. */
-bool osl_write_value(const struct lang_style *style, ir_type_id type, const union ir_word *words,
-                     struct text *out)
-{
-    if (!is_struct(type) && type != IR_TYPE_MAT3)
-        return false;
-    const struct ir_type_info *info = ir_type_info(type);
-    text_fmt(out, "%s(", type_name(type));
-    for (unsigned i = 0; i < info->components; i++) {
-        text_str(out, i ? ", " : "");
-        lang_print_value(style, NULL, info->scalar, &words[i], LANG_PREC_COMMA, out);
-        if (type == IR_TYPE_MAT3 && i % 3 == 2)
-            text_str(out, ", 0");
-    }
-    text_str(out, type == IR_TYPE_MAT3 ? ", 0, 0, 0, 1)" : ")");
-    return true;
 }

@@ -25,9 +25,7 @@ static enum osl_kind kind_of_variable(const struct osl *osl, uint32_t index)
     const char *spelled = osl->spell->variables[index].text; /* NULL: nothing reads it */
     if (spelled && strcmp(spelled, "P") == 0)
         return OSL_POINT;
-    return strcmp(str_text(osl->spell->shader->strings, variable->doc_type), "color3") == 0
-               ? OSL_COLOR
-               : OSL_VECTOR;
+    return variable->doc_type == STR_color3 ? OSL_COLOR : OSL_VECTOR;
 }
 
 /* A call of the library's function, in whose place stands one of stdosl.h. */

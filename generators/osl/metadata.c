@@ -185,9 +185,8 @@ static void write_label(struct spell *spell, const char *name, const char *label
 /* Of colours and images; those in the working space need no word. */
 static const char *colorspace_of(const struct osl *osl, const struct shader_variable *variable)
 {
-    const char *space = text_of(osl, variable->colorspace),
-               *type = text_of(osl, variable->doc_type);
-    bool has_space = strcmp(type, "color3") == 0 || strcmp(type, "color4") == 0
+    const char *space = text_of(osl, variable->colorspace);
+    bool has_space = variable->doc_type == STR_color3 || variable->doc_type == STR_color4
                      || variable->type == IR_TYPE_SAMPLER;
     const char *working = osl->spell->options->colorspace;
     return has_space && !(working && strcmp(space, working) == 0) ? space : NULL;

@@ -5,7 +5,6 @@
 
 #include "spell/spell.h"
 
-extern const struct lang_syntax osl_syntax;
 extern const struct target target_osl;
 extern const struct target_network osl_network; /* network.c */
 
@@ -24,6 +23,10 @@ struct osl {
     /* the first row of helpers.def for an op, + 1; 0: there is none */
     uint8_t first_helper[IR_NUM_OPS];
     VEC(struct osl_macro) macros;
+    /* marked while text is written: what it names must stand above it */
+    bool *called;              /* per portable function */
+    bool *read;                /* per portable global */
+    uint32_t types;            /* 1 << type of each built-in type */
     VEC(const char *) helpers; /* functions that the file declares for itself, callees first */
 };
 
@@ -32,34 +35,38 @@ struct osl {
  */
 enum osl_kind { OSL_ANY, OSL_VECTOR, OSL_COLOR, OSL_POINT };
 
+/* syntax.c: tables, and marks of what is used */
+extern const struct lang_syntax osl_syntax;
+char osl_type_letter(ir_type_id type);                  /* as in helpers.def */
+void osl_note_type(void *user_data, ir_type_id type);   /* lang_names.type */
+const char *osl_type(struct osl *osl, ir_type_id type); /* a name that is written now */
+void osl_add_helper(struct osl *osl, const char *text); /* unless it is there */
+static inline bool osl_is_struct(ir_type_id type)
+{
+    return type == IR_TYPE_VEC2 || type == IR_TYPE_VEC4 || type == IR_TYPE_IVEC2;
+}
+
 /* kinds.c */
 void osl_find_kinds(struct osl *osl);
 /* "color"; NULL: as its type says */
 const char *osl_node_type(const struct spell *spell, ir_ref ref);
 
+/* forms.c */
 void osl_index_helpers(struct osl *osl);
-void osl_add_helper(struct osl *osl, const char *text); /* unless it is there */
-/* forms.c: lang_names.form; `user_data` is the spell, whose target_data the osl. */
+/* lang_names.form; `user_data` is the spell, whose target_data the osl. */
 const struct lang_pieces *osl_form(void *user_data, const struct lang_use *use);
-bool osl_write_value(const struct lang_style *style, ir_type_id type, const union ir_word *words,
-                     struct text *out);
 
-/* functions.c: those of the library that a shader's text needs */
-/* that stdosl.h has for one; NULL: none */
+/* functions.c: the library's functions that were called, and their constants */
+/* The function of stdosl.h that stands for one; NULL: none. */
 const char *osl_same_function(const struct spell *spell, uint32_t id);
 void osl_name_same_functions(struct spell *spell);
-void osl_write_functions(struct osl *osl, const char *shader, struct text *out);
-char osl_type_letter(ir_type_id type); /* as in helpers.def */
-bool osl_mentions(const char *text, const char *word);
+const char *osl_function_name(void *user_data, uint32_t id); /* lang_names.function */
+void osl_write_functions(struct osl *osl, struct text *out); /* below them nothing is called */
 
-/*
- * structs.c: those of the document's functions, with what puts them together where `functions` or
- * the shader calls it
- */
+/* structs.c: those of the document's functions, with the makers that were called */
 void osl_name_makers(struct osl *osl);
 const char *osl_maker(void *user_data, const char *type); /* lang_names.maker */
-void osl_write_structs(const struct osl *osl, const char *functions, const char *shader,
-                       struct text *out);
+void osl_write_structs(struct osl *osl, struct text *out);
 
 /*
  * textures.c: the form that reads a texture of the graph; NULL: it is one that a function was
@@ -67,14 +74,22 @@ void osl_write_structs(const struct osl *osl, const char *functions, const char 
  */
 const char *osl_texture_call(struct osl *osl, const struct lang_use *use);
 
+static inline const struct shader_variable *osl_interface_variable(const struct osl *osl,
+                                                                   uint32_t i)
+{
+    return &osl->spell->shader->variables.items[osl->spell->shader->interface.items[i]];
+}
+/* Does the stage at hand read it? */
+static inline bool osl_is_read(const struct osl *osl, const struct shader_variable *variable)
+{
+    return variable->stages >> osl->spell->stage_id & 1;
+}
+
 /* metadata.c */
 void osl_write_macros(struct osl *osl); /* above the shader */
 void osl_write_metadata(struct osl *osl, const struct shader_variable *variable);
 
 /* parameters.c */
-const struct shader_variable *osl_interface_variable(const struct osl *osl, uint32_t i);
-/* in the stage at hand */
-bool osl_is_read(const struct osl *osl, const struct shader_variable *variable);
 void osl_name_interface(struct osl *osl);
 const char *osl_global_name(void *user_data, uint32_t id); /* lang_names.global */
 void osl_write_parameters(struct osl *osl);

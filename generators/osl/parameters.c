@@ -9,31 +9,30 @@
  */
 #include "generators/osl/osl.h"
 
-struct expression_row {
-    const char *name, *expression;
+enum row_kind { VARIABLE, EXPRESSION };
+
+struct known_row {
+    const char *name, *text;
+    enum row_kind kind;
 };
 
-static const struct expression_row stream_rows[] = {
-#define STREAM(name, expression) {name, expression},
+static const struct known_row stream_rows[] = {
+#define STREAM(name, kind, text) {name, text, kind},
 #include "generators/osl/streams.def"
 };
 
-static const struct expression_row uniform_rows[] = {
-#define UNIFORM(semantic, expression) {semantic, expression},
+static const struct known_row uniform_rows[] = {
+#define UNIFORM(semantic, kind, text) {semantic, text, kind},
 #include "generators/osl/streams.def"
 };
 
-static const char *find_row(const struct expression_row *rows, size_t count, const char *name)
+static const struct known_row *find_row(const struct known_row *rows, size_t count,
+                                        const char *name)
 {
     for (size_t i = 0; i < count; i++)
         if (strcmp(rows[i].name, name) == 0)
-            return rows[i].expression;
+            return &rows[i];
     return NULL;
-}
-
-const struct shader_variable *osl_interface_variable(const struct osl *osl, uint32_t i)
-{
-    return &osl->spell->shader->variables.items[osl->spell->shader->interface.items[i]];
 }
 
 static const char *text_of(const struct osl *osl, str_id id)
@@ -41,8 +40,9 @@ static const char *text_of(const struct osl *osl, str_id id)
     return str_text(osl->spell->shader->strings, id);
 }
 
-/* The OSL expression that gives a variable; NULL: it is a parameter. */
-static const char *expression_of(const struct osl *osl, const struct shader_variable *variable)
+/* What OSL has for a variable; NULL: it is a parameter. */
+static const struct known_row *known_of(const struct osl *osl,
+                                        const struct shader_variable *variable)
 {
     if (variable->block == BLOCK_VERTEX_DATA)
         return find_row(stream_rows, sizeof stream_rows / sizeof *stream_rows,
@@ -51,11 +51,6 @@ static const char *expression_of(const struct osl *osl, const struct shader_vari
         return find_row(uniform_rows, sizeof uniform_rows / sizeof *uniform_rows,
                         text_of(osl, variable->semantic));
     return NULL;
-}
-
-bool osl_is_read(const struct osl *osl, const struct shader_variable *variable)
-{
-    return variable->stages >> osl->spell->stage_id & 1;
 }
 
 /* "st" of the stream "geomprop_st": the name of the primitive's variable. */
@@ -84,12 +79,6 @@ static bool is_stream(const struct shader_variable *variable)
     return variable->block == BLOCK_VERTEX_DATA || variable->block == BLOCK_PRIVATE_UNIFORMS;
 }
 
-/* P, dPdu: a variable of every shader, which needs no other name. */
-static bool is_global(const char *expression)
-{
-    return strlen(expression) <= 4 && !strpbrk(expression, "( ");
-}
-
 /* "st_value": the struct that an array is put into. */
 static const char *value_name(struct spell *spell, const char *stream)
 {
@@ -106,17 +95,17 @@ void osl_name_interface(struct osl *osl)
     for (uint32_t i = 0; i < spell->shader->interface.len; i++) {
         const struct shader_variable *variable = osl_interface_variable(osl, i);
         const char *name = text_of(osl, variable->name);
-        const char *expression = expression_of(osl, variable);
-        if (is_stream(variable) && !expression && array_length(variable))
+        const struct known_row *known = known_of(osl, variable);
+        if (is_stream(variable) && !known && array_length(variable))
             osl->arrays[i] =
                 names_unique(&spell->names, primitive_name(name), strlen(primitive_name(name)))
                     .text;
-        else if (is_stream(variable) && !expression)
+        else if (is_stream(variable) && !known)
             name = primitive_name(name);
         if (is_result(osl, variable))
             name = "Ci";
-        else if (expression && is_global(expression))
-            name = expression;
+        else if (known && known->kind == VARIABLE)
+            name = known->text;
         else if (osl->arrays[i])
             name = value_name(spell, name);
         else if (is_stream(variable))
@@ -131,26 +120,28 @@ void osl_name_interface(struct osl *osl)
 const char *osl_global_name(void *user_data, uint32_t id)
 {
     struct spell *spell = user_data;
-    const struct osl *osl = spell->target_data;
+    struct osl *osl = spell->target_data;
     uint32_t index = shader_global_variable(spell->shader, id);
+    osl->read[id] = true;
     if (index == UINT32_MAX)
         return NULL;
-    const char *expression = expression_of(osl, &spell->shader->variables.items[index]);
-    if (!expression || is_global(expression))
+    const struct shader_variable *variable = &spell->shader->variables.items[index];
+    const struct known_row *known = known_of(osl, variable);
+    osl_type(osl, variable->type);
+    if (!known || known->kind == VARIABLE)
         return spell->variables[index].text;
     struct text text;
     text_init(&text, spell->scratch);
-    text_fmt(&text, strchr(expression, ' ') ? "(%s)" : "%s", expression);
+    text_fmt(&text, strchr(known->text, ' ') ? "(%s)" : "%s", known->text);
     return text_cstr(&text);
 }
 
 /* ---- Parameters ---- */
 
-static const char *type_name(const struct osl *osl, const struct shader_variable *variable)
+static const char *type_name(struct osl *osl, const struct shader_variable *variable)
 {
-    if (variable->type == IR_TYPE_VEC3 && strcmp(text_of(osl, variable->doc_type), "color3") == 0)
-        return "color";
-    return lang_syntax_type(osl->spell->target->syntax, variable->type);
+    bool is_color = variable->type == IR_TYPE_VEC3 && variable->doc_type == STR_color3;
+    return is_color ? "color" : osl_type(osl, variable->type);
 }
 
 /* "0.5", "1": as people write what a parameter is at first. */
@@ -235,7 +226,7 @@ static void write_stream_parameters(struct osl *osl, unsigned *count)
     struct spell *spell = osl->spell;
     for (uint32_t i = 0; i < spell->shader->interface.len; i++) {
         const struct shader_variable *variable = osl_interface_variable(osl, i);
-        if (!is_stream(variable) || !osl_is_read(osl, variable) || expression_of(osl, variable))
+        if (!is_stream(variable) || !osl_is_read(osl, variable) || known_of(osl, variable))
             continue;
         next_parameter(spell, count);
         if (array_length(variable)) {
@@ -280,17 +271,17 @@ void osl_write_streams(struct osl *osl)
     struct spell *spell = osl->spell;
     for (uint32_t i = 0; i < spell->shader->interface.len; i++) {
         const struct shader_variable *variable = osl_interface_variable(osl, i);
-        const char *expression = expression_of(osl, variable),
-                   *name = spell->variables[spell->shader->interface.items[i]].text;
-        bool is_local = expression ? !is_global(expression) : array_length(variable) > 0;
+        const struct known_row *known = known_of(osl, variable);
+        const char *name = spell->variables[spell->shader->interface.items[i]].text;
+        bool is_local = known ? known->kind == EXPRESSION : array_length(variable) > 0;
         if (!is_stream(variable) || !osl_is_read(osl, variable) || !is_local)
             continue;
         SPELL(spell, "    ", type_name(osl, variable), " ", name, " = ");
-        if (expression) {
-            SPELL(spell, expression, ";\n");
+        if (known) {
+            SPELL(spell, known->text, ";\n");
             continue;
         }
-        SPELL(spell, lang_syntax_type(spell->target->syntax, variable->type), "(");
+        SPELL(spell, osl_type(osl, variable->type), "(");
         for (unsigned k = 0; k < array_length(variable); k++) {
             SPELL(spell, k ? ", " : "", osl->arrays[i], "[");
             spell_number(spell, k);

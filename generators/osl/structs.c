@@ -33,12 +33,13 @@ void osl_name_makers(struct osl *osl)
 
 const char *osl_maker(void *user_data, const char *type)
 {
-    const struct spell_maker *maker = spell_find_maker(user_data, type);
+    struct spell_maker *maker = spell_find_maker(user_data, type);
+    if (maker)
+        maker->is_called = true;
     return maker ? maker->name : NULL;
 }
 
-void osl_write_structs(const struct osl *osl, const char *functions, const char *shader,
-                       struct text *out)
+void osl_write_structs(struct osl *osl, struct text *out)
 {
     struct spell *spell = osl->spell;
     const struct lang_reach *reach = &spell->stage->reach;
@@ -47,7 +48,7 @@ void osl_write_structs(const struct osl *osl, const char *functions, const char 
         lang_print_struct(spell->style, &spell->lang_names, spell->shader->unit, type, out);
         const struct spell_maker *maker =
             spell_find_maker(spell, spell->user_types[type - IR_TYPE_FIRST_USER]);
-        if (maker && (osl_mentions(functions, maker->name) || osl_mentions(shader, maker->name))) {
+        if (maker && maker->is_called) {
             text_char(out, '\n');
             spell_write_maker(spell, maker, out);
         }

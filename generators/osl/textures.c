@@ -87,8 +87,7 @@ static void write_missing(const struct spell *spell, const struct shader_variabl
 
 static bool is_color(const struct spell *spell, uint32_t parameter)
 {
-    const struct shader_variable *variable = &spell->shader->variables.items[parameter];
-    return strcmp(str_text(spell->shader->strings, variable->doc_type), "color3") == 0;
+    return spell->shader->variables.items[parameter].doc_type == STR_color3;
 }
 
 /* One or three channels are what OSL's texture() gives by itself. */
@@ -131,6 +130,7 @@ static const char whole_texel[] =
 static void write_whole(struct osl *osl, const struct shader_variable *texture, struct text *out)
 {
     struct modes modes = modes_of(osl->spell, texture);
+    osl_type(osl, IR_TYPE_VEC4);
     osl_add_helper(osl, whole_texel);
     text_fmt(out, "texel($0, $1.x, %s1 - $1.y, \"%s\", \"%s\", \"%s\", ",
              has_tiles(osl->spell, texture) ? "2 * floor($1.y) + " : "", modes.swrap, modes.twrap,

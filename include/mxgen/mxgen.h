@@ -453,20 +453,6 @@ MXG_API mxg_status mxg_generate(mxg_context *context, const mxg_document *docume
 MXG_API void mxg_result_destroy(mxg_result *result);
 
 /*
- * What mxg_generate would make of the element, as a number that is found in a small part of its
- * time: equal numbers stand for shaders that differ at most in names, in values of uniforms, in
- * files of textures and in what is said of inputs for user interfaces. Unlike topology it is known
- * before, so a host that has the program already, or a generation of an equal element that had no
- * diagnostics, needs no other. *out_structure is 0 where only a generation can tell: of elements
- * with faults, and of what the numbers do not cover (definitions in documents, files named by
- * tokens or in tiles, profiles of light, networks of OSL, the options "uniform" and "constant").
- * Numbers are those of this version of mxgen, and of contexts with equal limits. Documents may be
- * asked by several threads, each with its context.
- */
-MXG_API mxg_status mxg_document_structure(mxg_context *context, const mxg_document *document,
-                                          const mxg_generate_desc *desc, uint64_t *out_structure);
-
-/*
  * The source of a stage; NULL if the shader has no such stage. OSL has a vertex stage only for
  * displacement.
  */

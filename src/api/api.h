@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * What the files of the api room share: the objects behind mxgen.h.
+ * Declarations that the files of the api room share: the objects behind mxgen.h.
  *
- * Every object has memory of its own, because the last reference to it may go on any thread. Work
- * on an object runs inside object_run, which is where running out of memory ends (base/mem.h); when
- * the work is done the object does not change any more, but for texts that are made when they are
- * first asked for, and what nodes of a document were found to match.
+ * Every object owns its memory, because any thread may drop the last reference. Work on an object
+ * runs inside object_run, which catches a lack of memory (base/mem.h). Afterwards the object is
+ * immutable, except for texts that the first use makes and for the cache of node matches in a
+ * document.
  */
 #ifndef MXG_API_API_H
 #define MXG_API_API_H
@@ -25,7 +25,7 @@ struct mxg_diagnostics {
     struct object *owner;
 };
 
-struct made_text { /* a text that stands in a block of its own */
+struct made_text { /* a text in its own block */
     struct mem mem;
     struct arena arena;
     const char *data;
@@ -36,52 +36,52 @@ enum { OBJECT_MAX_TEXTS = 2 };
 
 struct object {
     struct mxg_context *context;
-    /* what it stands on and keeps alive: the library of a document, the document of a result */
+    /*
+     * the object that it refers to and keeps alive: the library of a document, the document of a
+     * result
+     */
     struct object *below;
     atomic_uint refs;
-    size_t size;    /* of the block that begins here */
-    size_t counted; /* bytes that the context counts for it */
+    size_t size;    /* size of the block that begins here */
+    size_t counted; /* bytes that the context counts for this object */
     struct mem mem;
-    struct arena arena; /* everything it holds */
+    struct arena arena; /* owns all its data */
     struct mxg_diagnostics diagnostics;
     _Atomic(struct made_text *) texts[OBJECT_MAX_TEXTS];
 };
 
 /*
- * A zeroed block of `size` bytes that begins with a struct object; it holds a reference of `below`,
- * which may be NULL. NULL: no memory.
+ * A zeroed block of `size` bytes that begins with a struct object and holds a reference to `below`,
+ * which may be NULL. NULL: out of memory.
  */
 void *object_new(struct mxg_context *context, size_t size, struct object *below);
 void object_init(struct object *object, struct mxg_context *context, size_t size);
 void object_ref(struct object *object);
-void object_unref(struct object *object); /* NULL is allowed */
-/* frees all that it holds but the block: of an object that stands in another's */
+void object_unref(struct object *object); /* accepts NULL */
+/* frees all data except the block; for an object embedded in another */
 void object_empty(struct object *object);
 
-/*
- * Tells the context what the object holds now, and the object what of the context's limit is left
- * to it.
- */
+/* Updates the memory use of the object in the context, and the remaining limit in the object. */
 void object_settle(struct object *object);
 
-/* Runs work(arg) with the object's trap set: MXG_OK, or MXG_ERROR_MEMORY when it ran out. */
+/* Runs work(arg) with the trap of the object. Returns MXG_OK or MXG_ERROR_MEMORY. */
 mxg_status object_run(struct object *object, void (*work)(void *arg), void *arg);
 
 /*
- * Runs work(arg, scratch) with memory of its own, which is freed behind it: MXG_OK, or
- * MXG_ERROR_MEMORY when it ran out.
+ * Runs work(arg, scratch) with temporary memory, which it frees afterwards. Returns MXG_OK or
+ * MXG_ERROR_MEMORY.
  */
 mxg_status context_run(struct mxg_context *context, void (*work)(void *arg, struct arena *scratch),
                        void *arg);
 
 /*
- * Text `index` of the object, written by `write` when it is asked for first; any thread may ask.
- * NULL: no memory.
+ * Text `index` of the object. The first call writes it with `write`; any thread may call. NULL: out
+ * of memory.
  */
 const struct made_text *object_text(const struct object *object, unsigned index,
                                     void (*write)(const struct object *object, struct text *out));
 
-/* MXG_OK or, where errors were reported, MXG_ERROR_DOCUMENT. */
+/* MXG_OK, or MXG_ERROR_DOCUMENT if the object has errors. */
 static inline mxg_status object_status(const struct object *object)
 {
     return object->diagnostics.list.num_errors ? MXG_ERROR_DOCUMENT : MXG_OK;
@@ -90,13 +90,13 @@ static inline mxg_status object_status(const struct object *object)
 /* ---- Structs of the interface: structs.c ---- */
 
 /*
- * Copies a struct that the caller filled; false where it is of no known size, or sets what this
- * version does not know.
+ * Copies a struct of the caller. false if its size is unknown, or if it sets members that this
+ * version does not have.
  */
 bool struct_read(void *out, size_t out_size, const void *in);
 /*
- * Copies `from` as far as the caller's struct reaches and zeroes what lies beyond; both begin with
- * their size.
+ * Copies `from` up to the size of the caller's struct and zeroes the rest; both begin with their
+ * size.
  */
 mxg_status struct_write(void *out, const void *from, size_t from_size);
 
@@ -105,14 +105,14 @@ mxg_status struct_write(void *out, const void *from, size_t from_size);
 struct mxg_library {
     struct object object;
     struct library layer;
-    const void *image; /* the bytes that the layer was mapped from; NULL: it was read from files */
+    const void *image; /* the bytes of the mapped image; NULL for a layer from files */
     size_t image_size;
     VEC(const char *) files; /* that it was read from */
 };
 
 struct mxg_context {
-    struct mem mem;     /* of this block; every object has the same allocator */
-    atomic_size_t used; /* bytes of the objects made with it */
+    struct mem mem;     /* for this block; all objects have the same allocator */
+    atomic_size_t used; /* bytes of all its objects */
     size_t max_memory;  /* 0 = unlimited */
     mxg_resolver resolver;
     bool (*cancel)(void *user_data);
@@ -121,14 +121,14 @@ struct mxg_context {
     uint32_t max_nodes, max_output_mib, max_errors;
     struct diag_policy policy;
     bool sandbox;
-    enum library_trust trust;   /* in the source that documents bring */
+    enum library_trust trust;   /* for source in documents */
     struct sandbox_root *roots; /* canonical */
     struct mxg_library builtin; /* size 0: this build has none */
 };
 
 struct mxg_document {
     struct object object;
-    struct library layer; /* on its library's */
+    struct library layer; /* above the layers of its library */
     VEC(const char *) files;
     VEC(elem_id) renderables;
     const char **renderable_paths;
@@ -136,53 +136,57 @@ struct mxg_document {
 
 /* ---- Files: files.c ---- */
 
-/* The context's resolver as the readers of other rooms see it. */
+/* The resolver of the context, as an interface for other rooms. */
 struct file_source {
-    struct object *object; /* for which files are read; holds their names */
+    struct object *object; /* the object that reads the files; owns their names */
     const mxg_resolver *resolver;
-    struct arena scratch;    /* holds texts of sources */
-    VEC(const char *) names; /* canonical, of what was read, each once */
+    struct arena scratch;    /* owns texts of sources */
+    VEC(const char *) names; /* canonical names of all files, each once */
     mxg_blob blob;
-    bool is_open;    /* `blob` is to be released */
-    uint64_t digest; /* of the bytes of all files, where it is not 0 at first */
+    bool is_open;    /* `blob` must be released */
+    uint64_t digest; /* hash of the bytes of all files, unless it is 0 at the start */
 };
 
 void file_source_init(struct file_source *source, struct object *object);
 void file_source_finish(struct file_source *source); /* also after a jump */
 struct xml_files file_source_for_xml(struct file_source *source);
 struct lang_reader file_source_for_lang(struct file_source *source);
-/* The bytes of a file, which live until the object does; false after a diagnostic. */
+/* The bytes of a file, valid as long as the object; false after a diagnostic. */
 bool file_source_read(struct file_source *source, const char *path, const char **out_data,
                       size_t *out_size, struct diag_list *diags);
 
 /*
- * Files through stdio: what a context without resolver has. Its reason is stdio_no_memory itself
- * where that was the reason.
+ * The default resolver, which reads files with stdio. If a read runs out of memory, its reason is
+ * stdio_no_memory.
  */
 mxg_resolver stdio_resolver(struct mxg_context *context);
 extern const char stdio_no_memory[];
 
 /*
- * sandbox.c: what the caller names opens its folder to what documents refer to. False: no memory.
+ * sandbox.c: admits the folder of a file of the caller for the files of documents. false: out of
+ * memory.
  */
 bool sandbox_admit_file(struct mxg_context *context, const char *file);
 bool sandbox_admit_folder(struct mxg_context *context, const char *folder);
-/* Why a file that a document refers to is not opened; NULL: it may be. */
+/* The reason why a document may not read a file; NULL: it may. */
 const char *sandbox_fault(const struct mxg_context *context, const char *path);
 void sandbox_finish(struct mxg_context *context);
 
-/* folder.c: is the path a folder? And every file below it whose name ends with `suffix`, sorted. */
+/*
+ * folder.c: true if the path is a folder. Below: the files in it whose name ends with `suffix`,
+ * sorted.
+ */
 bool folder_exists(const char *path);
 /*
- * The names in a folder, each with its NUL, and the bytes that all need; those that do not fit are
- * left out. NULL, or why not.
+ * Writes the names in a folder, each with its NUL, as far as they fit, and the bytes that all names
+ * need. NULL or an error.
  */
 const char *folder_names(const char *folder, char *names, size_t capacity, size_t *out_size);
 struct path_list {
     const char **items;
     uint32_t len, cap;
 };
-/* NULL, or why a folder could not be read. */
+/* NULL, or the reason why the folder is unreadable. */
 const char *folder_list(struct arena *arena, const char *path, const char *suffix,
                         struct path_list *out);
 
@@ -202,19 +206,20 @@ struct option_value {
     bool is_set; /* not the default */
 };
 
-/* The defaults; they live in the arena. */
+/* The defaults; the arena owns them. */
 const struct option_value *options_default(struct arena *arena);
+const char *option_key(enum option_id option); /* "interface" */
 const struct option_value *options_values(const mxg_options *options);
 
 /* ---- Elements: renderable.c, element.c ---- */
 
-/* Finds what can be rendered. */
+/* Finds the renderables. */
 void document_find_renderables(struct mxg_document *document, struct arena *scratch);
 
 /*
- * The node or <output> that a path means to generation: itself, the only output of a graph, the
- * material of a look. NULL: the first that can be rendered. 0 after a diagnostic. Which output of a
- * node it means: its name, empty where the path says none, and its index.
+ * The node or <output> to generate for a path: the element, the only output of a nodegraph, or the
+ * material of a look. NULL: the first renderable. 0 after a diagnostic. Also the output of a node:
+ * its name (empty without one in the path) and index.
  */
 elem_id document_find_element(const struct mxg_document *document, const char *path,
                               struct diag_list *diags, str_id *out_output, unsigned *out_index);

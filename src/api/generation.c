@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "api/generation.h"
 
-#include "base/num.h"
-
 static struct diag_list *diags_of(struct generation *g)
 {
     return &g->result->object.diagnostics.list;
@@ -45,18 +43,25 @@ static bool check_version(struct generation *g)
         text_fmt(&list, "%s%s", list.len ? ", " : "", *known);
     }
     if (version)
-        diag_add(diags_of(g), DIAG_ID_bad_option, nowhere, version, "target-version",
+        diag_add(diags_of(g), DIAG_ID_bad_option, nowhere, version, option_key(OPTION_version),
                  list.len ? text_cstr(&list) : "no version");
     return !version;
 }
 
 static bool check_network(struct generation *g)
 {
-    bool is_possible = g->result->target->network || !g->options[OPTION_osl_network].number;
-    if (!is_possible)
-        diag_add(diags_of(g), DIAG_ID_bad_option, nowhere, "true", "osl-network",
-                 "false; only the target 'osl' has networks");
-    return is_possible;
+    struct text possible;
+    if (g->result->target->network || !g->options[OPTION_network].number)
+        return true;
+    text_init(&possible, &g->scratch);
+    text_str(&possible, "false; only the target");
+    for (const struct target *const *target = targets; *target; target++)
+        if ((*target)->network)
+            text_fmt(&possible, " '%s'", (*target)->name);
+    text_str(&possible, " has networks");
+    diag_add(diags_of(g), DIAG_ID_bad_option, nowhere, "true", option_key(OPTION_network),
+             text_cstr(&possible));
+    return false;
 }
 
 /* MaterialX names of the target and those it inherits, nearest first. */
@@ -82,6 +87,7 @@ static void set_build_options(struct generation *g)
 {
     const struct option_value *o = g->options;
     const mxg_context *context = g->result->object.context;
+    uint32_t caps = g->result->target->caps;
     g->build_options = (struct build_options){
         .interface = (enum build_interface)o[OPTION_interface].number,
         .uniform_globs = o[OPTION_uniform].list.items,
@@ -91,17 +97,17 @@ static void set_build_options(struct generation *g)
         .colorspace = option_name(g, OPTION_colorspace),
         .distance_unit = option_name(g, OPTION_distance_unit),
         .angle_unit = str_intern_z(&g->result->strings, "degree"),
-        .strings = g->result->target->caps & CAP_STRINGS,
+        .strings = caps & CAP_STRINGS,
         .neutral_names = o[OPTION_names].number != 0,
-        .short_names = !(g->result->target->caps & CAP_STAGES),
+        .short_names = caps & CAP_SCOPED_PARAMETERS,
         .environment = o[OPTION_environment].number,
         .albedo = o[OPTION_albedo].number,
         .sample_filter = o[OPTION_sample_filter].number,
-        .texture_modes = g->result->target->caps & CAP_STAGES ? o[OPTION_texture_modes].number
-                                                              : TEXTURE_MODES_BUT_BORDERS,
-        .missing_colors = g->result->target->caps & CAP_MISSING_COLORS,
-        .indexed_tangents = !(g->result->target->caps & CAP_STAGES),
-        .tiles = o[OPTION_tiles].number == 0 && g->result->target->caps & CAP_TEXTURE_ARRAYS,
+        .texture_modes =
+            caps & CAP_READS_SAY_MODES ? TEXTURE_MODES_BUT_BORDERS : o[OPTION_texture_modes].number,
+        .missing_colors = caps & CAP_MISSING_COLORS,
+        .indexed_tangents = caps & CAP_INDEXED_TANGENTS,
+        .tiles = o[OPTION_tiles].number == 0 && caps & CAP_TEXTURE_ARRAYS,
         .reader = &g->reader,
         .list_folder = context->resolver.list_folder,
         .list_user_data = context->resolver.user_data,
@@ -184,10 +190,9 @@ void generation_report_not_renderable(struct generation *g, const char *why)
     const struct document *doc = &g->document->layer.doc;
     struct text unknown;
     text_init(&unknown, &g->scratch);
-    if (g->result->shader.unknown_closure) {
+    if (g->unknown_leaf) {
         text_fmt(&unknown, "%s has no closure for '%s', and a function cannot replace it",
-                 g->result->target->name,
-                 str_text(doc->strings, g->result->shader.unknown_closure));
+                 g->result->target->name, str_text(doc->strings, g->unknown_leaf));
         why = text_cstr(&unknown);
     }
     diag_add(diags_of(g), DIAG_ID_not_renderable, doc_place(doc, g->element),
@@ -211,220 +216,15 @@ bool generation_build(struct generation *g)
 {
     g->builder =
         build_start(&g->document->layer, &g->build_options, &g->result->shader, diags_of(g));
-    if (g->options[OPTION_osl_network].number)
+    if (g->options[OPTION_network].number)
         build_record_network(g->builder, &g->result->network);
     g->root = build_element(g->builder, g->element, g->output);
+    ir_assert_valid(&g->result->graph, "after build");
     if (!is_good(g))
         return false;
     if (!g->root)
         generation_report_not_renderable(g, gives_nothing);
     return g->root != 0;
-}
-
-/* ---- Lights ---- */
-
-static bool gives_light(const struct library *layer, const struct nodedef *def)
-{
-    return def->num_outputs == 1
-           && layer->ports.items[def->first_port + def->num_inputs].type == DOC_TYPE_lightshader;
-}
-
-/* The definition of a light shader by the name of its node. */
-static uint32_t find_light(const struct generation *g, const char *node, size_t len)
-{
-    const struct library *lib = &g->document->layer;
-    str_id name = str_find(&g->result->strings, node, len);
-    for (const struct library *layer = name ? lib : NULL; layer; layer = layer->base)
-        for (uint32_t i = library_first_of_node(layer, name); i != LIBRARY_NONE;
-             i = layer->nodedefs.items[i].next_same_node)
-            if (gives_light(layer, &layer->nodedefs.items[i]))
-                return layer->base_nodedefs + i;
-    return LIBRARY_NONE;
-}
-
-/* Its inputs become members of LightData. */
-static struct shader_light start_light(struct generation *g, uint32_t nodedef, int32_t type)
-{
-    struct shader *shader = &g->result->shader;
-    const struct library *lib = &g->document->layer;
-    const struct nodedef *def = library_nodedef(lib, nodedef);
-    const struct port *ports = library_ports(lib, nodedef, NULL);
-    struct shader_light light = {.type = type,
-                                 .name = def->node,
-                                 .function = LANG_NONE,
-                                 .first_member = shader->light_members.len};
-    for (uint32_t i = 0; i < def->num_inputs; i++) {
-        ir_type_id ir_type = library_type_ir(lib, ports[i].type);
-        if (ir_type_is_closure(ir_type)) /* of the node `light`: nothing is connected to it */
-            continue;
-        vec_push(shader->arena, &shader->light_members,
-                 shader_light_member(shader, ports[i].name, ir_type));
-        light.num_members++;
-    }
-    return light;
-}
-
-/* Hosts that do not know a member leave it at what its definition says. */
-static void tell_defaults(struct generation *g, uint32_t nodedef, const struct shader_light *light)
-{
-    const struct library *lib = &g->document->layer;
-    const struct port *ports = library_ports(lib, nodedef, NULL);
-    for (uint32_t i = 0, m = light->first_member; m < light->first_member + light->num_members;
-         i++) {
-        if (ir_type_is_closure(library_type_ir(lib, ports[i].type)))
-            continue;
-        struct shader_variable *member =
-            &g->result->shader.variables.items[g->result->shader.light_members.items[m++]];
-        if (!member->has_default)
-            member->has_default = build_port_value(g->builder, &ports[i], &member->value);
-    }
-}
-
-/* A light made of nodes stands somewhere and faces something, which the host says. */
-static void place_light(struct generation *g, struct shader_light *light)
-{
-    light->position = shader_light_member(&g->result->shader, STR_position, IR_TYPE_VEC3);
-    light->direction = shader_light_member(&g->result->shader, STR_direction, IR_TYPE_VEC3);
-}
-
-static ir_ref read_member(struct generation *g, uint32_t variable)
-{
-    return ir_build(&g->result->graph, IR_CONTEXT, g->result->shader.variables.items[variable].type,
-                    variable, NULL, 0);
-}
-
-/* A light shader by its definition: a function, or nodes over the members. */
-static bool add_defined_light(struct generation *g, uint32_t nodedef, int32_t type)
-{
-    struct shader *shader = &g->result->shader;
-    uint32_t function = build_light_function(g->builder, nodedef);
-    struct shader_light light = start_light(g, nodedef, type);
-    light.function = function;
-    if (function == LIBRARY_NONE) {
-        const struct library *lib = &g->document->layer;
-        const struct nodedef *def = library_nodedef(lib, nodedef);
-        const struct port *ports = library_ports(lib, nodedef, NULL);
-        ir_ref *args = ARENA_ARRAY(shader->arena, ir_ref, def->num_inputs + 1);
-        for (uint32_t i = 0, m = light.first_member; i < def->num_inputs; i++)
-            if (!ir_type_is_closure(library_type_ir(lib, ports[i].type)))
-                args[i] = read_member(g, shader->light_members.items[m++]);
-        tell_defaults(g, nodedef, &light);
-        place_light(g, &light);
-        light.function = LANG_NONE;
-        light.shader = build_light_shader(g->builder, nodedef, lib->doc.root, args);
-        if (!light.shader)
-            return false;
-    }
-    vec_push(shader->arena, &shader->lights, light);
-    return true;
-}
-
-/*
- * A light of the document: a <light> with its EDF. Its inputs are those of the shader's interface.
- */
-static bool add_light_element(struct generation *g, const char *path, int32_t type)
-{
-    const struct document *doc = &g->document->layer.doc;
-    elem_id element = doc_find(doc, path, strlen(path));
-    if (!element || doc_attr_value(doc, element, STR_type) != STR_lightshader)
-        return false;
-    struct shader_light light = {
-        .type = type, .name = doc_element(doc, element)->name, .function = LANG_NONE};
-    light.shader = build_element(g->builder, element, 0);
-    if (!light.shader || ir_get(&g->result->graph, light.shader)->op != IR_LIGHT_SHADER
-        || !ir_arg(&g->result->graph, light.shader, 0))
-        return false;
-    place_light(g, &light);
-    vec_push(g->result->shader.arena, &g->result->shader.lights, light);
-    return true;
-}
-
-/* Whether hosts describe it, and no node is connected. */
-static bool stands_alone(const struct library *layer, const struct nodedef *def)
-{
-    const struct port *inputs = layer->ports.items + def->first_port;
-    for (uint32_t i = 0; i < def->num_inputs; i++)
-        if (inputs[i].type == DOC_TYPE_lightshader || inputs[i].type == DOC_TYPE_EDF)
-            return false;
-    return true;
-}
-
-/* The definitions of light shaders, for who named none of them. */
-static void put_lights(const struct generation *g, struct text *out)
-{
-    const char *separator = "; expected one of: ";
-    for (const struct library *layer = &g->document->layer; layer; layer = layer->base)
-        for (uint32_t i = 0; i < layer->nodedefs.len; i++) {
-            const struct nodedef *def = &layer->nodedefs.items[i];
-            if (!gives_light(layer, def) || !stands_alone(layer, def))
-                continue;
-            text_fmt(out, "%s%s", separator, str_text(&g->result->strings, def->node));
-            separator = ", ";
-        }
-}
-
-/* A node whose definition is a function is no light by itself, but its definition is. */
-static const char *light_hint(struct generation *g, const char *item, size_t len)
-{
-    const struct document *doc = &g->document->layer.doc;
-    elem_id element = doc_find(doc, item, len);
-    struct text hint;
-    text_init(&hint, &g->scratch);
-    if (!element || doc_attr_value(doc, element, STR_type) != STR_lightshader) {
-        put_lights(g, &hint);
-        return text_cstr(&hint);
-    }
-    const char *node = str_text(doc->strings, doc_element(doc, element)->category);
-    text_fmt(&hint,
-             strcmp(node, "light") == 0 ? "; the node has no EDF"
-                                        : "; bind '%s' and let the host set its members",
-             node);
-    return text_cstr(&hint);
-}
-
-static bool has_light(const struct shader *shader, int32_t type)
-{
-    for (uint32_t i = 0; i < shader->lights.len; i++)
-        if (shader->lights.items[i].type == type)
-            return true;
-    return false;
-}
-
-/*
- * "directional_light=1"; without a number, the next one. Lights of the default that the library
- * lacks are not bound.
- */
-static void bind_light(struct generation *g, const char *item, int32_t next_type)
-{
-    size_t len = strcspn(item, "="), number_len = item[len] ? strlen(item + len + 1) : 0;
-    int64_t type = next_type;
-    if (item[len]
-        && (number_len == 0 || num_parse_int(item + len + 1, number_len, &type) != number_len
-            || type < INT32_MIN || type > INT32_MAX)) {
-        diag_add(diags_of(g), DIAG_ID_bad_option, nowhere, item, "lights", "'node=number'");
-        return;
-    }
-    if (has_light(&g->result->shader, (int32_t)type)) {
-        diag_add(diags_of(g), DIAG_ID_bad_option, nowhere, item, "lights",
-                 "a number that no other light uses");
-        return;
-    }
-    uint32_t nodedef = find_light(g, item, len);
-    bool is_bound =
-        nodedef != LIBRARY_NONE
-            ? add_defined_light(g, nodedef, (int32_t)type)
-            : add_light_element(g, arena_strndup(&g->scratch, item, len), (int32_t)type);
-    if (!is_bound && g->options[OPTION_lights].is_set)
-        diag_add(diags_of(g), DIAG_ID_unknown_light, nowhere, arena_strndup(&g->scratch, item, len),
-                 light_hint(g, item, len));
-}
-
-static void bind_lights(struct generation *g)
-{
-    const struct option_value *lights = &g->options[OPTION_lights];
-    for (uint32_t i = 0; i < lights->list.len; i++)
-        if (strcmp(lights->list.items[i], "none") != 0)
-            bind_light(g, lights->list.items[i], (int32_t)i + 1);
 }
 
 /* ---- Emit ---- */
@@ -442,21 +242,20 @@ static const char *leaf_input(void *user_data, uint32_t callee, unsigned index)
     return build_leaf_input(user_data, callee, index);
 }
 
-struct closure_host generation_closure_host(const struct generation *g, struct builder *builder,
-                                            struct closure_point *point)
+struct closure_host generation_closure_host(struct builder *builder, struct closure_point *point)
 {
     return (struct closure_host){.user_data = builder,
                                  .point = point,
                                  .leaf_functions = leaf_functions,
                                  .leaf_input = leaf_input,
-                                 .rows = g->result->target->closures,
                                  .lang = build_lang_host(builder)};
 }
 
 void generation_start_closures(struct generation *g)
 {
-    bind_lights(g);
-    g->closure_host = generation_closure_host(g, g->builder, &g->point);
+    const struct option_value *lights = &g->options[OPTION_lights];
+    build_lights(g->builder, lights->list.items, lights->list.len, lights->is_set);
+    g->closure_host = generation_closure_host(g->builder, &g->point);
     g->lighting = (struct closure_lighting){
         .lights = g->result->shader.lights.len > 0 && g->result->shader.max_lights > 0,
         .environment = g->options[OPTION_environment].number != 0,
@@ -473,7 +272,7 @@ struct shader_layout_rules generation_layout_rules(const struct generation *g)
         .packing = g->result->target->packing,
         .bindings = caps & CAP_BINDINGS,
         .neutral_names = g->options[OPTION_names].number != 0,
-        .one_stage = !(caps & CAP_STAGES),
+        .one_stage = !(caps & CAP_VERTEX_STAGE),
         .typed_textures = caps & CAP_TYPED_TEXTURES,
         .names_wholes = caps & CAP_NAMED_WHOLES,
     };
@@ -482,8 +281,9 @@ struct shader_layout_rules generation_layout_rules(const struct generation *g)
 static bool emit(struct generation *g)
 {
     struct shader *shader = &g->result->shader;
-    if (g->result->target->caps & CAP_CLOSURES)
-        return closure_emit_tree(shader, &g->closure_host, g->root);
+    const struct target_closures *closures = g->result->target->closures;
+    if (closures)
+        return closures->emit(shader, &g->closure_host, g->root, &g->unknown_leaf);
     return closure_emit(shader, &g->closure_host, &g->lighting, g->root);
 }
 
@@ -494,7 +294,7 @@ static bool has_nothing_to_tell(const struct generation *g)
 {
     const struct ir_graph *graph = &g->result->graph;
     bool has_room = (uint64_t)graph->nodes.len * NODES_PER_NODE + MORE_NODES < graph->max_nodes;
-    return has_room && !(g->result->target->caps & CAP_CLOSURES)
+    return has_room && !g->result->target->closures
            && closure_is_surface(&g->result->shader, g->root);
 }
 
@@ -504,7 +304,9 @@ bool generation_emit(struct generation *g)
     g->result->shader.scatters = g->options[OPTION_integrator].number == 2;
     if (g->desc.only_diagnostics && has_nothing_to_tell(g))
         return is_good(g);
-    if (!emit(g))
+    bool is_emitted = emit(g);
+    ir_assert_valid(&g->result->graph, "after closures");
+    if (!is_emitted)
         generation_report_not_renderable(g, g->result->shader.scatters
                                                 ? "a path tracer draws only surfaces and values"
                                                 : gives_nothing);
@@ -574,7 +376,8 @@ static bool spell_one(struct generation *g, const struct spell_options *options,
 }
 
 /*
- * A vertex stage may have nothing to do: of what path tracers call, and in OSL where nothing moves.
+ * A vertex stage may have nothing to do: path tracers call a function, and a target without a
+ * vertex stage has only what moves the surface there.
  */
 static bool has_stage(const mxg_result *result, int stage)
 {
@@ -663,4 +466,43 @@ mxg_status generation_run(mxg_context *context, const mxg_document *document,
     }
     *out_result = result;
     return g->cancelled ? MXG_ERROR_CANCELLED : object_status(&result->object);
+}
+
+static void drop_source(mxg_result *result)
+{
+    for (int stage = 0; stage < NUM_STAGES; stage++)
+        result->stages[stage] = (struct stage_source){0};
+}
+
+static void generate(struct generation *g)
+{
+    bool built = generation_start(g) && generation_build(g);
+    if (g->result->network.arena)
+        g->result->has_shader = built && generation_make_network(g);
+    else
+        g->result->has_shader = built && generation_emit(g) && !g->desc.only_diagnostics
+                                && generation_finish(g)
+                                && (g->desc.without_source || generation_spell(g));
+    if (!g->result->has_shader)
+        drop_source(g->result);
+}
+
+mxg_status mxg_generate(mxg_context *context, const mxg_document *document,
+                        const mxg_generate_desc *desc, mxg_result **out_result)
+{
+    if (out_result)
+        *out_result = NULL;
+    if (!desc || !desc->target)
+        return MXG_ERROR_ARGUMENT;
+    return generation_run(context, document, desc, generate, NULL, out_result);
+}
+
+void mxg_result_destroy(mxg_result *result)
+{
+    object_unref(result ? &result->object : NULL);
+}
+
+const mxg_diagnostics *mxg_result_diagnostics(const mxg_result *result)
+{
+    return result ? &result->object.diagnostics : NULL;
 }

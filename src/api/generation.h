@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * A generation step by step, for generate.c, which takes all of them, and inspect.c, which stops on
- * the way.
+ * A generation step by step, for mxg_generate, which takes all of them, and inspect.c, which stops
+ * on the way.
  */
 #ifndef MXG_API_GENERATION_H
 #define MXG_API_GENERATION_H
@@ -9,9 +9,8 @@
 #include "api/api.h"
 #include "closure/closure.h"
 
-#define GENERATOR_NAME \
-    "mxgen 0.1" /* in comments and reflection: without the patch number, which changes no output \
-                 */
+/* For comments and reflection. The patch number, which does not affect output, is missing. */
+#define GENERATOR_NAME "mxgen 0.1"
 
 struct stage_source {
     const char *text; /* NULL: the target has no such stage */
@@ -20,27 +19,16 @@ struct stage_source {
     uint32_t num_marks;
 };
 
-struct network_part { /* a shader that layers of a network are of */
-    const char *name, *source;
-    size_t size;
-    const char *nodedef; /* "": of a group's end */
-};
-
 struct mxg_result {
-    struct object object; /* stands on the document */
+    struct object object; /* keeps the document alive */
     const mxg_document *document;
     const struct target *target;
-    struct strpool strings; /* these stand on the document's */
+    struct strpool strings; /* above the strings of the document */
     struct lang_unit unit;
     struct ir_graph graph;
     struct shader shader;
     struct stage_source stages[NUM_STAGES];
-    /* a line that was asked for lately and where it begins: the next one is near */
-    _Atomic uint64_t line_hints[NUM_STAGES];
-    struct network network; /* option osl-network: in the place of stages are lists of layers */
-    struct network_group groups[2];
-    uint32_t num_groups; /* 0: it is no network */
-    VEC(struct network_part) parts;
+    struct network network; /* option `network`: in the place of `shader`; arena NULL: it is none */
     VEC(const char *) files;   /* read for it */
     const char **origin_paths; /* of origins of graph, made when asked for during generation */
     bool has_shader;           /* generation ended well */
@@ -54,7 +42,7 @@ struct generation {
     mxg_generate_desc desc;
     const struct option_value *options;
     elem_id element;
-    str_id output_name; /* of a node, where the path says one; and its index */
+    str_id output_name; /* output of a node from the path, with its index */
     unsigned output;
     struct builder *builder;
     struct build_options build_options;
@@ -62,59 +50,59 @@ struct generation {
     struct closure_point point;
     struct closure_lighting lighting;
     ir_ref root;
+    str_id unknown_leaf; /* the family of a leaf that the target has no closure for; 0: none */
     struct arena scratch;
-    struct file_source files; /* what a generation reads beside the document */
+    struct file_source files; /* reads further files */
     struct lang_reader reader;
     bool cancelled;
-    void *user_data; /* of the caller's steps */
+    void *user_data; /* for the caller's steps */
 };
 
 /*
- * Makes a result by `steps`, which runs with the result's trap. `desc` may be NULL where nothing is
- * generated; MXG_ERROR_ARGUMENT where it is needed or bad.
+ * Makes a result with `steps`, which runs with the trap of the result. `desc` may be NULL for steps
+ * without generation; MXG_ERROR_ARGUMENT if it is missing or invalid.
  */
 mxg_status generation_run(mxg_context *context, const mxg_document *document,
                           const mxg_generate_desc *desc, void (*steps)(struct generation *),
                           void *user_data, mxg_result **out_result);
 
-/* The steps in order; each is false after a diagnostic. */
+/* The steps in order; each returns false after a diagnostic. */
 bool generation_start(struct generation *g); /* target, element, options */
 bool generation_build(struct generation *g); /* g->root */
-/* what the closure room asks for; generation_emit does it itself */
+/* prepares the closure room; generation_emit calls it itself */
 void generation_start_closures(struct generation *g);
-/* the stages' effects: behind these, nothing can fail */
+/* the effects of the stages; later steps cannot fail */
 bool generation_emit(struct generation *g);
-bool generation_finish(struct generation *g); /* the shader */
+bool generation_finish(struct generation *g); /* scheduling and layout */
 bool generation_spell(struct generation *g);  /* source */
 /* Instead of the last two. */
 bool generation_make_network(struct generation *g); /* network.c */
 
 /* What network.c shares with them. */
-struct closure_host generation_closure_host(const struct generation *g, struct builder *builder,
-                                            struct closure_point *point);
+struct closure_host generation_closure_host(struct builder *builder, struct closure_point *point);
 struct shader_layout_rules generation_layout_rules(const struct generation *g);
 struct spell_options generation_spell_options(const struct generation *g);
 void generation_report_not_renderable(struct generation *g, const char *why);
 
-/* frames.c: the frames of an image sequence, as a document says them: "10-99", "clamp". */
+/* frames.c: the frames of an image sequence, as in documents: "10-99", "clamp". */
 struct frame_sequence {
     const char *range, *end_action;
     int32_t offset;
 };
-/* Writes the file of a frame as mxg_result_texture_file does. */
+/* Writes the file of a frame like mxg_result_texture_file. */
 size_t frame_file(const char *file, const struct frame_sequence *sequence, int32_t frame, char *out,
                   size_t capacity);
 
-/*
- * reflect.c: what the document says about a variable for a user interface; user_data is the
- * mxg_result.
- */
+/* reflect.c: the user interface data of a variable; user_data is the mxg_result. */
 void result_ui(void *user_data, const struct shader_variable *variable, struct shader_ui *out);
 
-/* globs.c: warns of globs in the options that match nothing. */
+/* globs.c: warns about patterns in options that match nothing. */
 void generation_check_globs(struct generation *g);
 
-/* graph_view.c: nodes and connections, of the whole document or of what an element needs. */
+/*
+ * graph_view.c: prints nodes and connections, of the whole document or of the part that an element
+ * needs.
+ */
 void graph_view_text(struct generation *g, struct text *out);
 void graph_view_dot(struct generation *g, struct text *out);
 

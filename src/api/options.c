@@ -17,6 +17,11 @@ static const mxg_option table[NUM_OPTIONS] = {
 #undef OPTION
 };
 
+const char *option_key(enum option_id option)
+{
+    return table[option].key;
+}
+
 uint32_t mxg_num_options(void)
 {
     return NUM_OPTIONS;

@@ -233,8 +233,8 @@ enum { TEXT_REFLECTION, TEXT_TOPOLOGY };
 static void write_topology(const struct object *object, struct text *out)
 {
     const mxg_result *result = (const mxg_result *)object;
-    uint64_t topology = result->num_groups ? network_topology(result->groups, result->num_groups)
-                                           : shader_topology(&result->shader, out->arena);
+    uint64_t topology = result->network.arena ? result->target->network->topology(&result->network)
+                                              : shader_topology(&result->shader, out->arena);
     text_mem(out, (const char *)&topology, sizeof topology);
 }
 
@@ -276,9 +276,12 @@ static void write_json(const struct object *object, struct text *out)
         .generator = GENERATOR_NAME,
         .user_data = (void *)(uintptr_t)result,
         .ui = result_ui,
-        .groups = result->groups,
-        .num_groups = result->num_groups,
     };
+    if (result->network.arena) {
+        options.network = &result->network;
+        options.network_topology = result->target->network->topology(&result->network);
+        options.reflect_network = result->target->network->reflect;
+    }
     shader_reflect_json(&result->shader, &options, out);
 }
 

@@ -16,47 +16,25 @@ static inline uint64_t hash_mix(uint64_t h, uint64_t word)
     return h ^ (h >> 29);
 }
 
-static inline uint64_t hash_load64(const unsigned char *p)
-{
-    uint64_t word;
-    memcpy(&word, p, sizeof word);
-    return word;
-}
-
-static inline uint64_t hash_load32(const unsigned char *p)
-{
-    uint32_t word;
-    memcpy(&word, p, sizeof word);
-    return word;
-}
-
-/* The last word overlaps the one before it, which spares a loop over what is left. */
-static inline uint32_t hash_bytes(const void *data, size_t size)
-{
-    const unsigned char *p = data, *end = p + size;
-    uint64_t h = 0xcbf29ce484222325u ^ size, last = 0;
-    for (; end - p > 8; p += 8)
-        h = hash_mix(h, hash_load64(p));
-    if (size >= 8)
-        last = hash_load64(end - 8);
-    else if (size >= 4)
-        last = hash_load32(p) << 32 | hash_load32(end - 4);
-    else if (size > 0)
-        last = (uint64_t)p[0] << 16 | (uint64_t)p[size / 2] << 8 | end[-1];
-    h = hash_mix(h, last);
-    return (uint32_t)(h ^ (h >> 32));
-}
-
 /* All 64 bits: where equal numbers stand for equal bytes, and nothing compares the bytes. */
 static inline uint64_t hash_long(uint64_t h, const void *data, size_t size)
 {
     const unsigned char *p = data, *end = p + size;
-    uint64_t last = 0;
+    uint64_t word;
     h = hash_mix(h, size);
-    for (; end - p >= 8; p += 8)
-        h = hash_mix(h, hash_load64(p));
-    memcpy(&last, p, (size_t)(end - p));
-    return hash_mix(h, last);
+    for (; end - p >= 8; p += 8) {
+        memcpy(&word, p, sizeof word);
+        h = hash_mix(h, word);
+    }
+    for (word = 0; p < end; p++)
+        word = word << 8 | *p;
+    return hash_mix(h, word);
+}
+
+static inline uint32_t hash_bytes(const void *data, size_t size)
+{
+    uint64_t h = hash_long(0xcbf29ce484222325u, data, size);
+    return (uint32_t)(h ^ (h >> 32));
 }
 
 static inline uint32_t hash_pair(uint32_t a, uint32_t b)

@@ -38,21 +38,6 @@ static uint32_t shortest_digits(float value, int exponent, int *out_exponent)
     }
 }
 
-/*
- * The same for numbers that need all their digits before the point, since every integer below 2^24
- * is a float: so many digits of the result are behind the point.
- */
-static uint32_t shortest_fraction(float value, unsigned *out_places)
-{
-    for (unsigned places = 0;; places++) {
-        uint32_t digits = (uint32_t)((double)value * exact_pow10[places] + 0.5);
-        if ((float)((double)digits / exact_pow10[places]) == value || digits >= 100000000) {
-            *out_places = places;
-            return digits;
-        }
-    }
-}
-
 static size_t put(char *out, const char *text)
 {
     size_t len = strlen(text);
@@ -100,30 +85,6 @@ static size_t print_fixed(char *out, const char *digits, size_t num_digits, int 
     return n;
 }
 
-/*
- * A number of at least 1e-5, below 2^24: with a point, and at least one digit on both sides of it.
- */
-static size_t print_moderate(char *out, float value)
-{
-    unsigned places;
-    uint32_t digits = shortest_fraction(value, &places);
-    while (places > 0 && digits % 10 == 0) {
-        digits /= 10;
-        places--;
-    }
-    char buffer[NUM_FLOAT_MAX], *end = buffer + sizeof buffer, *p = end;
-    if (places == 0)
-        *--p = '0';
-    for (; places > 0; places--, digits /= 10)
-        *--p = (char)('0' + digits % 10);
-    *--p = '.';
-    do
-        *--p = (char)('0' + digits % 10);
-    while ((digits /= 10) != 0);
-    memcpy(out, p, (size_t)(end - p));
-    return (size_t)(end - p);
-}
-
 size_t num_print_float(char *out, float value)
 {
     if (isnan(value))
@@ -134,12 +95,8 @@ size_t num_print_float(char *out, float value)
     value = fabsf(value);
     if (isinf(value))
         return n + put(out + n, "inf");
-    if (value < 10.0f && value == (float)(int)value) { /* most numbers of a shader */
-        out[n] = (char)('0' + (int)value);
-        return n + 1 + put(out + n + 1, ".0");
-    }
-    if (value >= 1e-5f && value < 0x1p24f)
-        return n + print_moderate(out + n, value);
+    if (value == 0.0f)
+        return n + put(out + n, "0.0");
     int exponent;
     uint32_t integer = shortest_digits(value, (int)floor(log10((double)value)), &exponent);
     char buffer[20], *end = buffer + sizeof buffer, *digits = end;

@@ -24,13 +24,6 @@ void text_reserve(struct text *text, size_t more)
     text->cap = cap;
 }
 
-struct text_word text_word_of(struct arena *arena, const char *bytes, size_t len)
-{
-    char *copy = arena_alloc(arena, len + TEXT_BLOCK);
-    text_copy(copy, bytes, len);
-    return (struct text_word){copy, (uint32_t)len};
-}
-
 void text_u32(struct text *text, uint32_t value)
 {
     char digits[10];
@@ -54,7 +47,7 @@ void text_hex64(struct text *text, uint64_t value)
         text_char(text, "0123456789abcdef"[value >> shift & 15]);
 }
 
-void text_other_float(struct text *text, float value)
+void text_float(struct text *text, float value)
 {
     text_reserve(text, NUM_FLOAT_MAX);
     text->len += num_print_float(text->data + text->len, value);

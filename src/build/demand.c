@@ -230,10 +230,11 @@ static void convert_colors(struct builder *b, const struct frame *frame, ir_ref 
     }
 }
 
-static void set_origin(struct builder *b, const struct frame *frame)
+static void push_origin(struct builder *b, const struct frame *frame)
 {
-    b->graph->origin = ir_add_origin(b->graph, doc_element(doc_of(b), frame->node.element)->name,
-                                     frame->node.element, frame->scope->origin);
+    str_id name = doc_element(doc_of(b), frame->node.element)->name;
+    ir_push_origin(b->graph,
+                   ir_add_origin(b->graph, name, frame->node.element, frame->scope->origin));
 }
 
 /* "noise1", and "separate1_outr" where a node has several results. */
@@ -270,11 +271,10 @@ static void finish_graph(struct builder *b, struct frame *frame, ir_ref *results
 static void finish_call(struct builder *b, struct frame *frame, uint32_t function)
 {
     ir_ref results[BUILD_MAX_OUTPUTS];
-    uint32_t before = b->graph->origin;
-    set_origin(b, frame);
+    push_origin(b, frame);
     build_call_function(b, frame, function, results);
     finish_graph(b, frame, results);
-    b->graph->origin = before;
+    ir_pop_origin(b->graph);
 }
 
 static void enter_graph(struct builder *b, struct frame *frame)
@@ -329,8 +329,7 @@ static void step_inputs(struct builder *b)
                 return; /* this frame goes on when that one has answered */
         }
     }
-    uint32_t before = b->graph->origin;
-    set_origin(b, frame);
+    push_origin(b, frame);
     build_args(b, frame);
     if (frame->impl->kind == IMPL_GRAPH) {
         enter_graph(b, frame);
@@ -341,7 +340,7 @@ static void step_inputs(struct builder *b)
         name_results(b, frame, results);
         finish(b, add_results(b, results, def->num_outputs));
     }
-    b->graph->origin = before;
+    ir_pop_origin(b->graph);
 }
 
 /* The <output> of the inner graph that gives output `i` of the definition. */

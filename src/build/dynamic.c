@@ -293,16 +293,22 @@ static ir_ref build_volumematerial(const struct call *c)
 }
 
 /*
- * The inputs that may be shown follow the one that says which. Any value can be the root of a
- * shader.
+ * Not a node but a function of implementations: the first input is a number, from 0, and chooses
+ * among the inputs behind it. What is chosen for a material may be of any type, since any value can
+ * be the root of a shader.
  */
-static ir_ref build_osl_set_ci(const struct call *c)
+static ir_ref build_chosen_input(const struct call *c)
 {
-    struct ir_value mode;
-    if (!build_initial(c->b, arg(c, STR_output_mode), &mode))
-        return not_constant(c, STR_output_mode);
-    uint32_t input = mode.w[0].u + 1;
-    return input < c->def->num_inputs ? c->frame->args[input] : 0;
+    struct ir_value number = {.type = IR_TYPE_VOID};
+    if (c->def->num_inputs == 0)
+        return 0;
+    if (!build_initial(c->b, c->frame->args[0], &number) || number.type != IR_TYPE_INT)
+        return not_constant(c, c->ports[0].name);
+    uint32_t input = number.w[0].u + 1;
+    ir_ref chosen = number.w[0].u < c->def->num_inputs - 1u ? c->frame->args[input] : 0;
+    bool fits =
+        !chosen || c->type == IR_TYPE_MATERIAL || ir_type_of(c->b->graph, chosen) == c->type;
+    return fits ? chosen : ir_poison(c->b->graph, c->type);
 }
 
 static const struct {
@@ -328,7 +334,7 @@ static const struct {
     {STR_displacement, build_displacement},
     {STR_surfacematerial, build_surfacematerial},
     {STR_volumematerial, build_volumematerial},
-    {STR_osl_set_ci, build_osl_set_ci},
+    {STR_chosen_input, build_chosen_input},
 };
 
 bool build_dynamic(struct builder *b, const struct frame *frame, ir_ref *results)
@@ -336,8 +342,10 @@ bool build_dynamic(struct builder *b, const struct frame *frame, ir_ref *results
     struct call call = {b, frame, library_nodedef(b->lib, frame->node.nodedef),
                         library_ports(b->lib, frame->node.nodedef, NULL), IR_TYPE_VOID};
     call.type = library_type_ir(b->lib, call.ports[call.def->num_inputs].type);
+    bool is_chosen = frame->impl->ref == STR_chosen_input;
+    str_id name = is_chosen ? STR_chosen_input : call.def->node;
     for (size_t i = 0; i < sizeof dynamic_nodes / sizeof *dynamic_nodes; i++)
-        if (dynamic_nodes[i].node == call.def->node) {
+        if (dynamic_nodes[i].node == name) {
             results[0] = dynamic_nodes[i].build(&call);
             return true;
         }

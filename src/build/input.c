@@ -290,11 +290,10 @@ static ir_ref make_geomprop(struct builder *b, const struct geomprop *prop)
     ir_ref *args = ARENA_ARRAY(b->arena, ir_ref, def->num_inputs);
     for (uint32_t i = 0; i < def->num_inputs; i++)
         args[i] = geomprop_arg(b, prop, &ports[i]);
-    uint32_t before = b->graph->origin;
-    b->graph->origin = ir_add_origin(b->graph, b->recorder ? prop->name : prop->geomprop, 0, 0);
+    ir_push_name(b->graph, b->recorder ? prop->name : prop->geomprop);
     ir_ref results[BUILD_MAX_OUTPUTS];
     build_apply(b, prop->nodedef, prop->element, args, results);
-    b->graph->origin = before;
+    ir_pop_origin(b->graph);
     return results[0];
 }
 
@@ -333,12 +332,6 @@ ir_ref build_default(struct builder *b, const struct port *port)
     return port->flags & PORT_HAS_VALUE && port->value
                ? constant(b, port, port->value, port->element)
                : zero(b, type);
-}
-
-bool build_port_value(struct builder *b, const struct port *port, struct ir_value *out)
-{
-    ir_ref value = port->geomprop ? 0 : build_default(b, port);
-    return value && ir_get_const(b->graph, value, out);
 }
 
 /* ---- bindings ---- */

@@ -184,7 +184,7 @@ static bool uniform_value(void *user_data, const struct ir_graph *graph, ir_ref 
     return build_initial(user_data, ref, out);
 }
 
-struct network_input build_network_input(struct builder *b, ir_ref arg)
+static struct network_input input_of(struct builder *b, ir_ref arg)
 {
     struct recorder *r = b->recorder;
     struct network_input input = {.kind = NETWORK_DEFAULT};
@@ -220,7 +220,7 @@ static void add_input(struct builder *b, const struct frame *frame, const struct
 {
     struct network_input input = {.kind = NETWORK_DEFAULT};
     if (!is_settled(b, frame->impl, port))
-        input = build_network_input(b, arg);
+        input = input_of(b, arg);
     input.doc_type = library_type_name(b->lib, port->type);
     struct ir_value usual = default_value(b, port);
     bool is_usual = input.kind == NETWORK_VALUE && !input.path && !port->geomprop
@@ -344,7 +344,8 @@ static uint32_t definition_of(const struct builder *b, const char *node, str_id 
     return id ? library_nodedef_by_name(b->lib, id) : LIBRARY_NONE;
 }
 
-uint32_t build_constant_layer(struct builder *b, ir_ref value, str_id type)
+/* A layer that gives a value which is no layer's; UINT32_MAX: there is none of its type. */
+static uint32_t constant_layer(struct builder *b, ir_ref value, str_id type)
 {
     struct frame frame = {.node = {.nodedef = definition_of(b, "constant", type)}, .args = &value};
     if (frame.node.nodedef == LIBRARY_NONE
@@ -360,6 +361,36 @@ uint32_t build_constant_layer(struct builder *b, ir_ref value, str_id type)
     return network->layers.len - 1;
 }
 
+static enum network_result result_of(ir_type_id type)
+{
+    if (type == IR_TYPE_DISPLACEMENT)
+        return NETWORK_DISPLACEMENT;
+    if (type == IR_TYPE_VOLUME || type == IR_TYPE_VDF)
+        return NETWORK_VOLUME;
+    return ir_type_is_closure(type) || ir_type_is_shader(type) ? NETWORK_SURFACE
+                                                               : NETWORK_PLAIN_VALUE;
+}
+
+bool build_network_results(struct builder *b, ir_ref root, str_id type)
+{
+    struct network *network = b->recorder->network;
+    if (ir_get(b->graph, root)->op == IR_MATERIAL) {
+        for (unsigned i = 0; i < NETWORK_PLAIN_VALUE; i++)
+            network->results[i] = input_of(b, ir_arg(b->graph, root, i));
+        if (!ir_arg(b->graph, root, 0) && !ir_arg(b->graph, root, 1) && !ir_arg(b->graph, root, 3))
+            network->results[NETWORK_SURFACE].type = IR_TYPE_SURFACE; /* one that is black */
+        return true;
+    }
+    enum network_result result = result_of(ir_type_of(b->graph, root));
+    struct network_input *input = &network->results[result];
+    *input = input_of(b, root);
+    if (result == NETWORK_PLAIN_VALUE && input->kind != NETWORK_LAYER) {
+        input->layer = constant_layer(b, root, type);
+        input->kind = NETWORK_LAYER;
+    }
+    return input->kind != NETWORK_LAYER || input->layer < network->layers.len;
+}
+
 ir_ref build_property_layer(struct builder *b, const struct geomprop *prop)
 {
     uint32_t nodedef = definition_of(b, "geompropvalue", library_type_name(b->lib, prop->type));
@@ -371,10 +402,9 @@ ir_ref build_property_layer(struct builder *b, const struct geomprop *prop)
     for (unsigned i = 0; i < def->num_inputs; i++)
         args[i] = ports[i].name == STR_geomprop ? ir_const_string(b->graph, prop->name)
                                                 : build_default(b, &ports[i]);
-    uint32_t before = b->graph->origin;
-    b->graph->origin = ir_add_origin(b->graph, prop->name, 0, 0);
+    ir_push_name(b->graph, prop->name);
     build_apply(b, nodedef, prop->element, args, results);
-    b->graph->origin = before;
+    ir_pop_origin(b->graph);
     return results[0];
 }
 
@@ -432,11 +462,12 @@ void build_network_node(struct builder *b, struct network_node *node, ir_ref *re
     str_id *names = ARENA_ARRAY(b->arena, str_id, node->num_inputs);
     frame.args = ARENA_ARRAY(b->arena, ir_ref, node->num_inputs);
     frame.impl = build_choose(b, node->definition, frame.node.element);
-    b->graph->origin = ir_add_origin(b->graph, str_intern_z(b->shader->strings, "value"), 0, 0);
+    ir_push_name(b->graph, str_intern_z(b->shader->strings, "value"));
     for (uint32_t i = 0; i < node->num_inputs; i++)
         frame.args[i] = argument(b, frame.impl, &ports[i], &node->fixed[i], &names[i]);
     node->inputs = names;
     build_node(b, &frame, results);
+    ir_pop_origin(b->graph);
 }
 
 str_id build_network_output(struct builder *b, const struct network_node *node, uint32_t index,

@@ -87,7 +87,8 @@ static void call_expressions(struct builder *b, const struct implementation *imp
 uint32_t build_leaf_callee(struct builder *b, uint32_t family)
 {
     return ir_add_callee(b->graph,
-                         (struct ir_callee){.id = (uint64_t)1 << 32 | family,
+                         (struct ir_callee){.kind = IR_CALLEE_FAMILY,
+                                            .index = family,
                                             .name = library_family(b->lib, family)->name});
 }
 
@@ -129,7 +130,7 @@ static void build_leaf(struct builder *b, const struct implementation *impl, con
 
 const struct family *build_leaf_family(struct builder *b, uint32_t callee)
 {
-    return library_family(b->lib, (uint32_t)b->graph->callees.items[callee].id);
+    return library_family(b->lib, b->graph->callees.items[callee].index);
 }
 
 const char *build_leaf_input(struct builder *b, uint32_t callee, unsigned index)
@@ -201,7 +202,8 @@ static void call_verbatim(struct builder *b, const struct implementation *impl, 
     uint32_t index = verbatim_of(b, impl, outputs, def->num_outputs);
     bool function = b->shader->verbatim.items[index].function != 0;
     uint32_t callee = ir_add_callee(
-        b->graph, (struct ir_callee){.id = SHADER_VERBATIM_ID(index), .name = def->name});
+        b->graph,
+        (struct ir_callee){.kind = IR_CALLEE_VERBATIM, .index = index, .name = def->name});
     ir_type_id type = function ? IR_TYPE_VOID : library_type_ir(b->lib, outputs[0].type);
     ir_ref call = ir_build(b->graph, IR_VERBATIM, type, callee, args, def->num_inputs);
     for (uint32_t i = 0; i < def->num_outputs; i++)
@@ -275,11 +277,4 @@ uint32_t build_light_function(struct builder *b, uint32_t nodedef)
 {
     const struct implementation *impl = best_of(b, nodedef);
     return impl && impl->kind == IMPL_FUNCTION ? impl->ref : LIBRARY_NONE;
-}
-
-ir_ref build_light_shader(struct builder *b, uint32_t nodedef, elem_id where, const ir_ref *args)
-{
-    ir_ref result = 0;
-    build_apply(b, nodedef, where, args, &result);
-    return result && ir_get(b->graph, result)->op == IR_LIGHT_SHADER ? result : 0;
 }

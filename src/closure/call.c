@@ -33,10 +33,9 @@ static ir_ref position(struct shader *shader)
 static ir_ref known(struct shader *shader, ir_ref *place, str_id name, ir_ref make(struct shader *))
 {
     if (!*place) {
-        uint32_t before = shader->graph->origin;
-        shader->graph->origin = ir_add_origin(shader->graph, name, 0, 0);
+        ir_push_name(shader->graph, name);
         *place = make(shader);
-        shader->graph->origin = before;
+        ir_pop_origin(shader->graph);
     }
     return *place;
 }
@@ -94,12 +93,11 @@ bool closure_call_all(struct shader *shader, const struct closure_host *host, ir
         args[i] = i < num_inputs ? ir_arg(g, leaf, i + 1)
                                  : context_value(shader, host->point, slot->name, light);
     }
-    uint32_t before = g->origin;
-    g->origin = node.origin;
+    ir_push_origin(g, node.origin);
     struct lang_host see_through = *host->lang;
     see_through.max_outer_nodes = MAX_LEAF_NODES;
     lang_lower_call(shader->unit, g, &see_through, id, args, results);
-    g->origin = before;
+    ir_pop_origin(g);
     return true;
 }
 
@@ -117,7 +115,9 @@ void closure_name(struct shader *shader, ir_ref value, ir_ref closure, const cha
         return;
     struct text text;
     text_init(&text, shader->arena);
-    text_fmt(&text, "%s_%s", str_text(shader->strings, owner), role);
-    str_id name = str_intern(shader->strings, text_cstr(&text), text.len);
+    text_mem(&text, str_text(shader->strings, owner), str_len(shader->strings, owner));
+    text_char(&text, '_');
+    text_str(&text, role);
+    str_id name = str_intern(shader->strings, text.data, text.len);
     ir_suggest_name(shader->graph, value, name, IR_NAME_ROLE);
 }

@@ -67,7 +67,6 @@ static ir_ref rebuilt(struct differ *d, ir_ref ref, const ir_ref *became)
         args[i] = became[ir_arg(d->graph, ref, i)];
         changed |= args[i] != ir_arg(d->graph, ref, i);
     }
-    d->graph->origin = node.origin;
     return changed
                ? ir_build(d->graph, (enum ir_op)node.op, node.type, node.attr, args, node.num_args)
                : ref;
@@ -111,12 +110,13 @@ ir_ref closure_differentials(struct shader *shader, ir_ref root)
     d.here = ARENA_ARRAY(arena, ir_ref, d.num_nodes);
     for (unsigned axis = 0; axis < 2; axis++)
         d.next[axis] = ARENA_ARRAY(arena, ir_ref, d.num_nodes);
-    uint32_t before = d.graph->origin;
     for (ir_ref ref = 1; ref <= root; ref++) {
         d.here[ref] = d.next[0][ref] = d.next[1][ref] = ref;
-        if (needed[ref])
-            visit(&d, ref);
+        if (!needed[ref])
+            continue;
+        ir_push_origin_of(d.graph, ref);
+        visit(&d, ref);
+        ir_pop_origin(d.graph);
     }
-    d.graph->origin = before;
     return d.here[root];
 }

@@ -20,11 +20,6 @@ static ir_ref stream(struct shader *shader, str_id name)
     return shader_stream(shader, name, IR_TYPE_VEC3);
 }
 
-static uint32_t named(struct shader *shader, str_id name)
-{
-    return ir_add_origin(shader->graph, name, 0, 0);
-}
-
 /* A height along the normal, or (x, y, z) along tangent, bitangent and normal. 0: nothing moves. */
 static ir_ref offset_of_shader(struct shader *shader, ir_ref displacement, ir_ref scale)
 {
@@ -60,7 +55,7 @@ ir_ref closure_offset(struct shader *shader, ir_ref root)
         const struct ir_node node = *ir_get(g, ref);
         if (!needed[ref] || node.type != IR_TYPE_DISPLACEMENT)
             continue;
-        g->origin = node.origin;
+        ir_push_origin(g, node.origin);
         if (node.op == IR_DISPLACEMENT_SHADER)
             known[ref] = offset_of_shader(shader, ir_arg(g, ref, 0), ir_arg(g, ref, 1));
         else if (node.op == IR_UNIFORM) /* the offset, from another layer of a network */
@@ -68,8 +63,8 @@ ir_ref closure_offset(struct shader *shader, ir_ref root)
         else if (node.op == IR_SHADER_MIX)
             known[ref] =
                 mixed(g, known[ir_arg(g, ref, 0)], known[ir_arg(g, ref, 1)], ir_arg(g, ref, 2));
+        ir_pop_origin(g);
     }
-    g->origin = 0;
     return known[root];
 }
 
@@ -86,11 +81,10 @@ static ir_ref facet(struct shader *shader, ir_ref point, ir_ref normal)
 static ir_ref bent_normal(struct shader *shader, ir_ref before, ir_ref after)
 {
     struct ir_graph *g = shader->graph;
-    uint32_t origin = g->origin;
-    g->origin = named(shader, STR_facet);
+    ir_push_name(g, STR_facet);
     ir_ref normal = ir_op1(g, IR_NORMALIZE, stream(shader, STR_normalWorld));
     ir_ref bend = ir_op2(g, IR_SUB, facet(shader, after, normal), facet(shader, before, normal));
-    g->origin = origin;
+    ir_pop_origin(g);
     return ir_op1(g, IR_NORMALIZE, ir_op2(g, IR_ADD, normal, bend));
 }
 
@@ -141,20 +135,19 @@ ir_ref closure_displace(struct shader *shader, const struct closure_host *host, 
     shader->displaced = true;
     struct closure_point *point = host->point;
     ir_ref before = stream(shader, STR_positionWorld);
-    g->origin = named(shader, STR_P);
+    ir_push_name(g, STR_P);
     point->position = ir_op2(g, IR_ADD, before, offset);
-    g->origin = named(shader, STR_N);
+    ir_change_name(g, STR_N);
     point->normal = shader->scatters ? ir_op1(g, IR_NORMALIZE, stream(shader, STR_normalMoved))
                                      : bent_normal(shader, before, point->position);
-    if (shader->scatters) {
-        tell_offset(shader, offset);
-    } else {
-        g->origin = named(shader, STR_V);
+    ir_change_name(g, STR_V);
+    if (!shader->scatters)
         point->view = view_from(shader, point->position);
-        g->origin = 0;
+    ir_pop_origin(g);
+    if (shader->scatters)
+        tell_offset(shader, offset);
+    else
         move_vertices(shader, point->position);
-    }
-    g->origin = 0;
     return surface ? ir_replace(g, surface, stream(shader, STR_normalWorld), point->normal,
                                 shader->arena)
                    : 0;

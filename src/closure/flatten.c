@@ -136,12 +136,11 @@ static void want_throughputs(struct flattener *f, uint32_t num_nodes)
 
 static void find_throughputs(struct flattener *f, uint32_t num_nodes)
 {
-    uint32_t before = f->graph->origin;
     for (ir_ref ref = 1; ref < num_nodes; ref++) {
         if (!f->wanted[ref])
             continue;
         uint8_t op = ir_get(f->graph, ref)->op;
-        f->graph->origin = ir_get(f->graph, ref)->origin;
+        ir_push_origin_of(f->graph, ref);
         if (modified_base(f, ref)) /* a modifier hides as much as what it modifies */
             f->throughputs[ref] = f->throughputs[modified_base(f, ref)];
         else if (op == IR_LEAF)
@@ -149,8 +148,8 @@ static void find_throughputs(struct flattener *f, uint32_t num_nodes)
         else if (is_operator(ir_get(f->graph, ref)))
             f->throughputs[ref] = operator_throughput(f, ref);
         closure_name(f->shader, f->throughputs[ref], ref, "throughput");
+        ir_pop_origin(f->graph);
     }
-    f->graph->origin = before;
 }
 
 /*
@@ -269,10 +268,9 @@ static ir_ref unit_leaf(struct ir_graph *g, ir_ref ref, struct arena *arena)
     ir_ref *args = ARENA_ARRAY(arena, ir_ref, node.num_args);
     memcpy(args, ir_args(g, ref), node.num_args * sizeof *args);
     args[0] = ir_const_float(g, 1.0f);
-    uint32_t before = g->origin;
-    g->origin = node.origin;
+    ir_push_origin(g, node.origin);
     ir_ref unit = ir_build(g, IR_LEAF, node.type, node.attr, args, node.num_args);
-    g->origin = before;
+    ir_pop_origin(g);
     return unit;
 }
 
@@ -328,18 +326,17 @@ void closure_flatten(struct shader *shader, const struct closure_host *host, ir_
         add_way_in(&f, num_nodes);
     memset(f.weights, 0, num_nodes * sizeof *f.weights);
     f.weights[root].scalar = ir_const_float(shader->graph, 1.0f);
-    uint32_t before = shader->graph->origin;
     for (ir_ref ref = num_nodes; ref-- > 1;) {
         if (!f.weights[ref].scalar)
             continue;
         /* weights are named after the operator that makes them */
-        shader->graph->origin = ir_get(f.graph, ref)->origin;
+        ir_push_origin_of(f.graph, ref);
         if (is_operator(ir_get(f.graph, ref)))
             spread(&f, ref);
         else if (ir_get(f.graph, ref)->op == IR_LEAF)
             take_leaf(&f, ref, out);
+        ir_pop_origin(f.graph);
     }
-    shader->graph->origin = before;
     /* Found from the root downwards; shown as written: bases first. */
     for (uint32_t i = 0, j = out->leaves.len; i + 1 < j; i++) {
         struct closure_leaf swap = out->leaves.items[i];

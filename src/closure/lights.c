@@ -80,11 +80,6 @@ static void sample_emitter(struct shader *shader, const struct closure_host *hos
                          : ir_const_splat(g, IR_TYPE_VEC3, 0.0f);
 }
 
-static uint32_t named(struct shader *shader, str_id name)
-{
-    return ir_add_origin(shader->graph, name, 0, 0);
-}
-
 static ir_ref type_of_light(struct shader *shader)
 {
     return member(shader, shader_light_member(shader, STR_type, IR_TYPE_INT));
@@ -94,14 +89,13 @@ void closure_sample_light(struct shader *shader, const struct closure_host *host
                           struct closure_light *out)
 {
     struct ir_graph *g = shader->graph;
-    uint32_t before = g->origin;
     ir_ref type = type_of_light(shader);
     closure_position(shader, host); /* once, outside of the loop */
     *out = (struct closure_light){0, ir_const_splat(g, IR_TYPE_VEC3, 0.0f)};
     for (uint32_t i = shader->lights.len; i-- > 0;) {
         const struct shader_light *light = &shader->lights.items[i];
         ir_ref results[2];
-        g->origin = named(shader, light->name);
+        ir_push_name(g, light->name);
         if (light->shader)
             sample_emitter(shader, host, light, results);
         else
@@ -111,8 +105,8 @@ void closure_sample_light(struct shader *shader, const struct closure_host *host
                              ? ir_op3(g, IR_SELECT, is_this, results[0], out->direction)
                              : results[0];
         out->intensity = ir_op3(g, IR_SELECT, is_this, results[1], out->intensity);
+        ir_pop_origin(g);
     }
-    g->origin = before;
     ir_suggest_name(g, out->direction, STR_L, IR_NAME_ROLE);
     ir_suggest_name(g, out->intensity, STR_light, IR_NAME_ROLE);
 }

@@ -47,14 +47,13 @@ static ir_ref weighted(struct emitter *e, const struct closure_leaf *leaf, ir_re
     struct ir_graph *g = e->graph;
     if (!value || ir_const_is(g, value, 0.0f))
         return 0;
-    uint32_t before = g->origin;
-    g->origin = ir_get(g, leaf->leaf)->origin;
+    ir_push_origin_of(g, leaf->leaf);
     ir_ref weight = ir_const_is(g, leaf->scalar, 1.0f) ? leaf->color
                                                        : closure_mul(g, leaf->color, leaf->scalar);
     closure_name(e->shader, weight, leaf->leaf, "weight");
     value = closure_product(g, value, weight);
     closure_name(e->shader, value, leaf->leaf, "response");
-    g->origin = before;
+    ir_pop_origin(g);
     return value;
 }
 
@@ -77,10 +76,9 @@ static void add_part(struct emitter *e, enum closure_place place, const struct c
 
 static void accumulate(struct emitter *e, ir_ref factor, ir_ref value)
 {
-    uint32_t before = e->graph->origin;
-    e->graph->origin = ir_get(e->graph, value)->origin;
+    ir_push_origin_of(e->graph, value);
     effect(e, EFFECT_ACCUMULATE, e->lit.color, vec3_of(e, closure_mul(e->graph, factor, value)));
-    e->graph->origin = before;
+    ir_pop_origin(e->graph);
 }
 
 static void comment(struct emitter *e, str_id text)

@@ -80,26 +80,25 @@ void closure_volume(struct shader *shader, const struct closure_host *host, ir_r
     struct parts parts = parts_of(shader, root);
     *out = (struct closure_volume){.vdf = parts.vdf, .edf = parts.edf};
     closure_flatten(shader, host, parts.vdf, &out->scattering);
-    uint32_t before = g->origin;
-    g->origin = ir_add_origin(g, STR_depth, 0, 0);
+    ir_push_name(g, STR_depth);
     ir_ref diameter =
         shader_read(shader, shader_private_uniform(shader, STR_u_volumeDepth, IR_TYPE_FLOAT, 0));
     /* in an order that is not the compiler's */
     ir_ref view = closure_view(shader, host), normal = closure_normal(shader, host);
     ir_ref facing = ir_op2(g, IR_DOT, normal, view);
     ir_ref depth = ir_op2(g, IR_MUL, diameter, ir_op2(g, IR_MAX, facing, ir_const_float(g, 0.0f)));
-    g->origin = ir_add_origin(g, STR_optical_depth, 0, 0);
+    ir_change_name(g, STR_optical_depth);
     ir_ref optical = ir_op2(g, IR_MUL, extinction(shader, host, &out->scattering), depth);
-    g->origin = ir_add_origin(g, STR_lost, 0, 0);
+    ir_change_name(g, STR_lost);
     ir_ref lost = ir_op2(g, IR_SUB, splat(g, 1.0f), ir_op1(g, IR_EXP, ir_op1(g, IR_NEG, optical)));
-    g->origin = ir_add_origin(g, STR_path, 0, 0);
+    ir_change_name(g, STR_path);
     ir_ref gathered = ir_op2(g, IR_DIV, lost, ir_op2(g, IR_MAX, optical, splat(g, thin)));
     gathered =
         ir_op3(g, IR_MIX, splat(g, 1.0f), gathered, ir_op2(g, IR_STEP, splat(g, thin), optical));
     out->path = ir_op2(g, IR_MUL, gathered, depth);
-    g->origin = ir_add_origin(g, STR_alpha, 0, 0);
+    ir_change_name(g, STR_alpha);
     out->alpha = ir_op2(g, IR_DOT, lost, splat(g, 1.0f / 3.0f));
-    g->origin = before;
+    ir_pop_origin(g);
     for (uint32_t i = 0; i < out->scattering.leaves.len; i++) {
         struct closure_leaf *leaf = &out->scattering.leaves.items[i];
         leaf->color = leaf->color

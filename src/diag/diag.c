@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* diag: the catalogue and the list. */
+/* The catalogue and the list of diagnostics. */
 #include "diag/diag.h"
 
 #include <stdarg.h>
@@ -59,7 +59,7 @@ static const char *format_message(struct arena *arena, const char *format, va_li
     return message;
 }
 
-/* Messages in a row are often about one file. */
+/* Consecutive diagnostics often share a file. */
 static const char *keep_file(const struct diag_list *list, const char *file)
 {
     if (!file)
@@ -105,7 +105,7 @@ static void append(struct diag_list *list, enum diag_id id, struct diag_place pl
         list->trace(list->trace_data, list);
 }
 
-/* Counts the message; false where it is dropped. */
+/* Counts the diagnostic; false if it is dropped. */
 static bool is_kept(struct diag_list *list, enum diag_severity severity)
 {
     if (severity == DIAG_NOTE)

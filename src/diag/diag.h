@@ -113,9 +113,6 @@ void diag_render_text(const struct diag *diag, const char *source, size_t source
 void diag_render_line(const struct diag *diag, const char *line, size_t line_len, bool colour,
                       struct text *out);
 
-/* Renders the list as a JSON array with one object per diagnostic; notes are nested in it. */
-void diag_render_json(const struct diag_list *list, struct text *out);
-
 /*
  * A suggestion " (did you mean 'x'?)" for an unknown word: the candidate with the smallest edit
  * distance, the first of several, or "" if none is close. It lives in the arena of the list. Each

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* explain: what is behind each message. */
+/* The explanations of the messages. */
 #include "diag/diag.h"
 
 static const struct diag_explanation explanations[DIAG_NUM_IDS] = {
@@ -8,9 +8,7 @@ static const struct diag_explanation explanations[DIAG_NUM_IDS] = {
 #undef EXPLAIN
 };
 
-/*
- * Each id once, and none left out: the compiler refuses two of one name, and names what is missing.
- */
+/* Each id exactly once: the compiler rejects a repeated id and names a missing one. */
 enum {
 #define EXPLAIN(id, cause, cure, example) explanation_of_##id,
 #include "diag/explain.def"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* policy: which warnings are told, and which are errors (-W). */
+/* The policy of -W: which warnings are shown, and which are errors. */
 #include "diag/diag.h"
 
 enum choice { UNSAID, NO, YES };
@@ -19,7 +19,7 @@ static bool skip(const char **word, size_t *len, const char *prefix)
     return true;
 }
 
-/* Errors cannot be switched off, and notes belong to what they are under. */
+/* Errors cannot be disabled, and notes follow their diagnostic. */
 static bool find_choosable(const char *word, size_t len, enum diag_id *out_id)
 {
     if (!diag_id_find(word, len, out_id))

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/* render: messages for people (with the source line and a caret) and for programs (JSON). */
+/* render: a message with the source line and a caret. */
 #include "diag/diag.h"
 
 enum {
-    LINE_SHOWN = 160, /* code points of a source line that are shown */
-    LINE_BEFORE = 80, /* of these, before the column, where the line is longer */
+    LINE_SHOWN = 160, /* maximum of code points of a source line */
+    LINE_BEFORE = 80, /* of these, before the column, if the line is longer */
 };
 
 static const char *const colours[] = {[DIAG_ERROR] = "\x1b[1;31m",
@@ -24,7 +24,7 @@ static bool is_control(char c)
     return (unsigned char)c < 0x20 || c == 0x7f;
 }
 
-/* Text of a document may hold anything, terminal escapes too. */
+/* Text of a document may contain anything, including terminal escapes. */
 static void put_clean(struct text *out, const char *bytes, size_t len)
 {
     for (size_t i = 0; i < len; i++)
@@ -58,25 +58,10 @@ static bool begins_code_point(char byte)
     return (byte & 0xc0) != 0x80;
 }
 
-/* How many of eight bytes begin a code point: those that are not 10xxxxxx. */
-static uint32_t begun_in_word(const char *bytes)
-{
-    const uint64_t lowest = UINT64_C(0x0101010101010101);
-    uint64_t word;
-    memcpy(&word, bytes, sizeof word);
-    return 8 - (uint32_t)((((word >> 7) & ~(word >> 6) & lowest) * lowest) >> 56);
-}
-
-/*
- * Bytes of the first `count` code points, or all of them. A document may be one line of megabytes,
- * with many messages about it.
- */
+/* The bytes of the first `count` code points, or all. */
 static size_t bytes_of(struct line line, uint32_t count)
 {
     size_t at = 0;
-    for (uint32_t begun; at + 8 <= line.len && (begun = begun_in_word(line.text + at)) <= count;
-         at += 8)
-        count -= begun;
     for (; at < line.len; at++)
         if (begins_code_point(line.text[at]) && count-- == 0)
             break;
@@ -102,7 +87,7 @@ static uint32_t code_points(struct line line)
     return count;
 }
 
-/* White space as wide as `line`, tabs being tabs. */
+/* White space as wide as `line`; tabs stay tabs. */
 static void put_margin(struct text *out, struct line line)
 {
     for (size_t i = 0; i < line.len; i++)
@@ -117,7 +102,7 @@ static void render_source(const struct diag_place *place, struct line line, bool
     struct line rest = behind(line, near);
     const char *ellipsis = "";
     if (line.len == 0 || before - near > code_points(first(rest, LINE_SHOWN)))
-        return; /* the text is not the one that the message is about, or there is nothing to see */
+        return; /* the text does not match the diagnostic, or the line is empty */
     if (near && first(line, LINE_SHOWN).len < line.len) {
         line = rest;
         before = LINE_BEFORE;
@@ -173,46 +158,4 @@ void diag_render_text(const struct diag *diag, const char *source, size_t source
     struct line line = source && diag->place.line ? find_line(source, source_len, diag->place.line)
                                                   : (struct line){0};
     diag_render_line(diag, line.text, line.len, colour, out);
-}
-
-static void json_field(struct text *out, const char *name, const char *value)
-{
-    text_fmt(out, "\"%s\": ", name);
-    text_json_string(out, value, strlen(value));
-}
-
-/* The members of a message's object, without its braces. */
-static void json_members(const struct diag *diag, struct text *out)
-{
-    json_field(out, "severity", diag_severity_text(diag->severity));
-    text_str(out, ", ");
-    json_field(out, "id", diag_id_text(diag->id));
-    text_str(out, ", ");
-    json_field(out, "message", diag->message);
-    if (!diag->place.file)
-        return;
-    text_str(out, ", ");
-    json_field(out, "file", diag->place.file);
-    if (diag->place.line)
-        text_fmt(out, ", \"line\": %u, \"column\": %u, \"length\": %u", (unsigned)diag->place.line,
-                 (unsigned)diag->place.column,
-                 (unsigned)(diag->place.length ? diag->place.length : 1));
-}
-
-void diag_render_json(const struct diag_list *list, struct text *out)
-{
-    text_char(out, '[');
-    for (uint32_t i = 0; i < list->items.len;) {
-        text_str(out, i ? ",\n  {" : "\n  {");
-        json_members(&list->items.items[i], out);
-        uint32_t first = ++i;
-        for (; i < list->items.len && list->items.items[i].parent == first - 1; i++) {
-            text_str(out, i == first ? ", \"notes\": [" : ",");
-            text_str(out, "\n    {");
-            json_members(&list->items.items[i], out);
-            text_char(out, '}');
-        }
-        text_str(out, i > first ? "]}" : "}");
-    }
-    text_str(out, list->items.len ? "\n]\n" : "]\n");
 }

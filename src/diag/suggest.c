@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-/* suggest: the name that was probably meant. */
+/* Suggests the intended name for an unknown one. */
 #include "diag/diag.h"
 
 enum {
-    MAX_WORD = 64,    /* longer names are not compared: a place is a bit */
-    MAX_GUESSES = 64, /* of a list */
+    MAX_WORD = 64,    /* longer names are not compared: each position is a bit */
+    MAX_GUESSES = 64, /* per list */
 };
 
 /*
- * Edit distance where insertion, deletion, substitution and the swap of neighbours cost 1 ("optimal
- * string alignment"): a row of the table per character of `word`, as the differences between its
- * columns, a bit each. Hyyrö, "A Bit-Vector Algorithm for Computing Levenshtein and Damerau Edit
- * Distances", Nordic Journal of Computing 10, 2003. A character more changes it by 1 at most, so
- * what cannot become better than the best is not counted to its end.
+ * Edit distance with insertion, deletion, substitution and transposition of cost 1 ("optimal string
+ * alignment"). The algorithm keeps a row of the table as differences between columns, one bit each:
+ * Hyyrö, "A Bit-Vector Algorithm for Computing Levenshtein and Damerau Edit Distances", Nordic
+ * Journal of Computing 10, 2003. Each further character changes the distance by at most 1, so the
+ * loop stops when a candidate cannot become better than the best one.
  */
 static size_t edit_distance(const struct diag_guess *guess, const char *word, size_t len)
 {
@@ -22,9 +22,10 @@ static size_t edit_distance(const struct diag_guess *guess, const char *word, si
     for (size_t i = 0; i < len && distance < guess->best_distance + (len - i); i++) {
         uint64_t places = guess->places[(unsigned char)word[i]],
                  swapped = (~same & places) << 1 & before;
-        /* as far as diagonally before */
+        /* equal to the diagonal value */
         same = (((places & more) + more) ^ more) | places | less | swapped;
-        uint64_t grows = less | ~(same | more), shrinks = same & more; /* from the row above */
+        /* relative to the row above */
+        uint64_t grows = less | ~(same | more), shrinks = same & more;
         distance += (grows & last) != 0;
         distance -= (shrinks & last) != 0;
         grows = grows << 1 | 1;
@@ -35,7 +36,7 @@ static size_t edit_distance(const struct diag_guess *guess, const char *word, si
     return distance;
 }
 
-/* MaterialX names are mostly lower case; a wrong case is no difference. */
+/* MaterialX names are mostly lower case, so the comparison ignores case. */
 static void add_place(struct diag_guess *guess, unsigned char c, size_t place)
 {
     unsigned char lower = c | 0x20;
@@ -51,7 +52,7 @@ bool diag_may_guess(const struct diag_list *list)
 
 bool diag_guess_begin(struct diag_guess *guess, struct diag_list *list, const char *word)
 {
-    /* one per three letters, and one in a shorter word */
+    /* one per three letters, at least one */
     size_t len = strlen(word), mistakes = len / 3;
     *guess = (struct diag_guess){
         .list = list, .word = word, .best_distance = mistakes ? mistakes + 1 : 2};

@@ -99,7 +99,9 @@ elem_id doc_add_like(struct document *doc, elem_id parent, str_id category, str_
     return doc_add_element(doc, parent, category, name, like->file, like->line, like->column);
 }
 
-/* An element's attributes stand together: where others follow them, they move to the end first. */
+/*
+ * The attributes of an element are contiguous: if others follow them, they first move to the end.
+ */
 void doc_add_attr(struct document *doc, elem_id element, struct attribute attr)
 {
     struct element *e = own(doc, element);
@@ -320,7 +322,7 @@ static bool is_child(const struct document *doc, elem_id element, elem_id parent
     return e->parent == parent && e->name == name;
 }
 
-/* The slot of a name below a parent, or the free slot where it would stand. */
+/* The slot of a name below a parent, or the free slot for it. */
 static uint32_t find_slot(const struct document *doc, elem_id parent, str_id name)
 {
     uint32_t slot = hash_pair(parent, name) & doc->name_mask;
@@ -337,7 +339,7 @@ static elem_id find_narrow(const struct document *doc, elem_id parent, str_id na
     return doc->narrow_names[slot];
 }
 
-/* Two elements with equal content: the second adds nothing and may stand. */
+/* True if two elements have equal content, so that the second one is redundant. */
 static bool are_equal(const struct document *doc, elem_id a, elem_id b)
 {
     elem_id root_a = a, root_b = b;
@@ -396,7 +398,7 @@ void doc_index_element(struct document *doc, elem_id element)
     if (!is_named_child(doc, element))
         return;
     if (doc->num_names >= doc->name_mask / 4 * 3) {
-        doc_index_names(doc, NULL); /* makes room for at least a third more */
+        doc_index_names(doc, NULL); /* grows the table by at least a third */
         return;
     }
     const struct element *e = doc_element(doc, element);
@@ -420,7 +422,7 @@ elem_id doc_child_of_kind(const struct document *doc, elem_id parent, enum eleme
     return child && doc_element(doc, child)->kind == kind ? child : 0;
 }
 
-/* A top-level name with the namespace of the root before it; 0: no such text is known. */
+/* A top-level name prefixed with the namespace of the root; 0: no such string exists. */
 static str_id qualified(const struct document *doc, const char *name, size_t len)
 {
     str_id namespace = doc_attr_value(doc, doc->root, STR_namespace);

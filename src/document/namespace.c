@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * "MaterialX Namespaces" made static: definitions get the names that others use for them, and
- * references inside a namespace, which say the short name, get the name of what they mean. A name
- * of the namespace comes before a global one.
+ * Resolves "MaterialX Namespaces" statically: definitions get their qualified names, and references
+ * inside a namespace, which use the short name, get the qualified name of their target. A name of
+ * the namespace takes precedence over a global one.
  */
 #include "document/document.h"
 
-/* Attributes whose value names top-level elements, perhaps several with commas. */
+/* Attributes whose value names top-level elements; lists have commas. */
 static const str_id references[] = {
     STR_nodedef,           STR_nodegraph, STR_inherit, STR_material,   STR_collection,
     STR_includecollection, STR_look,      STR_looks,   STR_variantset, STR_geomprop,
@@ -40,7 +40,7 @@ static str_id add_qualified(struct qualifier *q, str_id name)
     return str_intern(q->doc->strings, q->scratch.data, q->scratch.len);
 }
 
-/* The qualified name where anything is called so; 0: nothing is. */
+/* The qualified name if an element has it, otherwise 0. */
 static str_id find_qualified(struct qualifier *q, const char *name, size_t len)
 {
     q->scratch.len = 0;
@@ -67,7 +67,7 @@ static void qualify_definition(struct qualifier *q, elem_id element)
         doc_set_attr(doc, element, STR_node, add_qualified(q, node));
 }
 
-/* One name after the other of a list: those that the namespace has are replaced. */
+/* Replaces the names of a list that exist in the namespace. */
 static void qualify_reference(struct qualifier *q, elem_id element, str_id attr)
 {
     struct document *doc = q->doc;
@@ -103,8 +103,8 @@ static void qualify_category(struct qualifier *q, elem_id element)
 }
 
 /*
- * References of an element and of all below it. Names of nodes are looked for at the top level only
- * by what stands there.
+ * Qualifies the references of an element and its descendants. Only top-level elements search for
+ * node names at the top level.
  */
 static void qualify_references(struct qualifier *q, elem_id top)
 {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * <template vars="a b" rows="x y; z w">: its children once per row, with @a@ and @b@ replaced
- * (docs/library.md).
+ * Expands <template vars="a b" rows="x y; z w">: copies its children once per row and replaces @a@
+ * and @b@ (docs/library.md).
  *
- * An outer template is expanded before the templates inside it, which are copied like everything
- * else, so these see its variables.
+ * An outer template expands first and copies the templates inside it, so these can use its
+ * variables.
  */
 #include "document/document.h"
 
@@ -40,7 +40,7 @@ static void fail(struct expansion *x, str_id attr, const char *format, struct sl
     x->failed = true;
 }
 
-/* The next word, separated by spaces; len 0 at the end. */
+/* The next word of a list with spaces; len 0 at the end. */
 static struct slice next_word(struct slice *rest)
 {
     static const char spaces[] = " \t\r\n";
@@ -70,7 +70,7 @@ static void print_components(struct text *out, doc_type type, const char *off_di
     }
 }
 
-/* Appends the constant `property` of a type, as in @type.zero@; false where there is none. */
+/* Appends the constant `property` of a type, as in @type.zero@; false if there is none. */
 static bool print_type_constant(struct text *out, doc_type type, const char *property, size_t len)
 {
     struct slice name = {property, len};
@@ -99,7 +99,7 @@ static bool print_type_constant(struct text *out, doc_type type, const char *pro
 
 enum token_result { TOKEN_REPLACED, TOKEN_OF_OTHERS, TOKEN_BAD };
 
-/* Appends what @token@ stands for. */
+/* Appends the replacement of @token@. */
 static enum token_result print_token(const struct expansion *x, struct slice token,
                                      struct text *out)
 {
@@ -120,7 +120,7 @@ static enum token_result print_token(const struct expansion *x, struct slice tok
 }
 
 /*
- * Length of a token behind its '@': name or name.constant, with an '@' behind it. 0: just an at
+ * Length of a token after its '@': a name or name.constant, followed by '@'. 0: an ordinary at
  * sign.
  */
 static size_t token_length(const char *text, size_t len)
@@ -134,8 +134,8 @@ static size_t token_length(const char *text, size_t len)
 }
 
 /*
- * A text with the row's words in it. `nested`: it stands in a template of its own, which knows the
- * tokens left over.
+ * Replaces the tokens in a text by the words of the row. `nested`: the text is inside an inner
+ * template, which handles the remaining tokens.
  */
 static str_id substitute(struct expansion *x, str_id value, bool nested)
 {
@@ -165,7 +165,8 @@ static str_id substitute(struct expansion *x, str_id value, bool nested)
 }
 
 /*
- * A variable of an inner template must not hide one of the outer, which has been replaced already.
+ * Reports a variable of an inner template that hides an outer one, because the outer one is already
+ * replaced.
  */
 static void check_hiding(struct expansion *x, elem_id inner)
 {
@@ -176,7 +177,7 @@ static void check_hiding(struct expansion *x, elem_id inner)
                 fail(x, STR_vars, "an inner template also has a variable '%.*s'", word);
 }
 
-/* One element without its children. */
+/* Copies one element without its children. */
 static elem_id copy_element(struct expansion *x, elem_id source, elem_id parent, bool nested)
 {
     struct document *doc = x->doc;
@@ -193,7 +194,7 @@ static elem_id copy_element(struct expansion *x, elem_id source, elem_id parent,
 static void copy_tree(struct expansion *x, elem_id source)
 {
     struct document *doc = x->doc;
-    elem_id template = 0; /* the outermost inner template that `from` stands in */
+    elem_id template = 0; /* the outermost inner template that contains `from` */
     elem_id copy = copy_element(x, source, doc_element(doc, x->template)->parent, false);
     doc_move_before(doc, copy, x->template);
     for (elem_id from = source; !doc_is_full(doc);) {
@@ -236,7 +237,7 @@ static bool read_vars(struct expansion *x)
     return x->num_vars > 0;
 }
 
-/* Splits the next row off `rest`; false at the end. Empty rows are passed over. */
+/* Splits the next row off `rest`; false at the end. Skips empty rows. */
 static bool read_row(struct expansion *x, struct slice *rest)
 {
     while (rest->len) {
@@ -268,7 +269,7 @@ static void expand(struct expansion *x)
             copy_tree(x, child);
 }
 
-/* In the tree, and not inside a template that is still to be expanded or was expanded. */
+/* True if the element is in the tree and not inside an unexpanded or expanded template. */
 static bool is_outermost(const struct document *doc, elem_id element)
 {
     elem_id parent = doc_element(doc, element)->parent;
@@ -283,7 +284,7 @@ void doc_expand_templates(struct document *doc, struct diag_list *diags)
         return;
     struct text scratch;
     text_init(&scratch, doc->arena);
-    /* copies of inner templates come up later */
+    /* the loop also reaches the copies of inner templates */
     for (uint32_t i = 0; i < doc->elements.len && !doc_is_full(doc); i++) {
         struct expansion x = {
             .doc = doc, .diags = diags, .template = doc->first_element + i, .scratch = &scratch};

@@ -2,7 +2,7 @@
 #include "document/document.h"
 
 /*
- * The words of the types stand in the order of types.def, so a type and its word differ by a
+ * types.def and words.def list the types in the same order, so a type and its word differ by a
  * constant.
  */
 enum { WORD_OF_FIRST_TYPE = STR_boolean, NUM_TABLE_TYPES = DOC_TYPE_material - DOC_TYPE_boolean };

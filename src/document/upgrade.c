@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Documents of MaterialX 1.22 to 1.38 become 1.39: one step per version in which something changed.
- * Renaming is data (the tables below); what changes the structure of a graph has functions in
- * upgrade_*.c.
+ * Upgrades documents of MaterialX 1.22 to 1.38 to 1.39, with one step per version that changed
+ * something. The tables below contain all renames; functions in upgrade_*.c change the structure of
+ * graphs.
  */
 #include "document/upgrade.h"
 
@@ -10,7 +10,7 @@
 
 enum { FIRST_MINOR = 22, CURRENT_MINOR = 39 };
 
-/* Types that have another name since 1.<minor>. */
+/* Types with a new name since 1.<minor>. */
 static const struct {
     int minor;
     const char *old, *new;
@@ -24,7 +24,7 @@ static const struct {
     int minor;
     const char *category; /* NULL: any */
     const char *old, *new;
-    bool only_if_absent; /* the new attribute, where it is there already, stays */
+    bool only_if_absent; /* keep the new attribute if it exists */
 } attr_renames[] = {
     {24, "shader", "shadername", "node", false},
     {25, "input", "graphname", "opgraph", false},
@@ -44,7 +44,7 @@ static const struct {
     {34, "geomattr", "geomprop"},     {37, "geomattr", "geomprop"},
 };
 
-/* Which nodes of a category a rename is for. */
+/* Restricts a rename to some nodes of a category. */
 enum condition {
     ALWAYS,
     TYPE_IS,      /* the node's type is `argument` */
@@ -53,7 +53,7 @@ enum condition {
     HAS_NO_SPACE, /* neither fromspace nor tospace */
 };
 
-/* The first row that fits a node counts. `inputs` is "old>new …", all at once. */
+/* The first matching row applies. `inputs` is "old>new …", all renamed at once. */
 static const struct node_rename {
     int minor;
     const char *old;
@@ -147,7 +147,7 @@ static bool fits(const struct upgrade *u, elem_id node, const struct node_rename
     return false;
 }
 
-/* Gives inputs their new names, all at once, so that two can change places. */
+/* Renames inputs, all at once, so that two can swap names. */
 static void rename_inputs(struct upgrade *u, elem_id node, const char *pairs)
 {
     enum { MAX_PAIRS = 4 };
@@ -212,7 +212,7 @@ static void name_assigned_materials(struct upgrade *u)
     }
 }
 
-/* Replaces one text by another in a value, wherever it stands. */
+/* Replaces all occurrences of a text in a value. */
 static void replace_in_value(struct upgrade *u, elem_id element, const char *old, const char *new)
 {
     struct document *doc = u->doc;
@@ -232,7 +232,7 @@ static void replace_in_value(struct upgrade *u, elem_id element, const char *old
 }
 
 /*
- * 1.36: every geometry is "/", not "*"; tile tokens stand in angle brackets; inheritance is an
+ * 1.36: "/" instead of "*" means all geometry; tile tokens use angle brackets; inheritance is an
  * attribute.
  */
 static void upgrade_values_and_inheritance(struct upgrade *u)
@@ -260,7 +260,7 @@ static void upgrade_values_and_inheritance(struct upgrade *u)
     upgrade_material_overrides(u);
 }
 
-/* 1.37: the type of a nodedef is that of its outputs. */
+/* 1.37: the outputs of a nodedef have its type. */
 static void move_nodedef_type(struct upgrade *u, elem_id nodedef)
 {
     struct document *doc = u->doc;
@@ -279,7 +279,7 @@ static void move_nodedef_type(struct upgrade *u, elem_id nodedef)
     upgrade_note(u, nodedef, "the type of a <nodedef> is that of its <output>");
 }
 
-/* 1.37: a backdrop is an element with attributes; it was a node with parameters. */
+/* 1.37: a backdrop is an element with attributes, instead of a node with parameters. */
 static void upgrade_backdrop(struct upgrade *u, elem_id backdrop)
 {
     struct document *doc = u->doc;
@@ -305,7 +305,7 @@ static void upgrade_definitions(struct upgrade *u)
     }
 }
 
-/* 1.38: parameters are inputs, which in a nodedef do not vary over a surface. */
+/* 1.38: parameters are inputs, and uniform inputs in a nodedef. */
 static void upgrade_parameters(struct upgrade *u)
 {
     struct document *doc = u->doc;
@@ -320,7 +320,7 @@ static void upgrade_parameters(struct upgrade *u)
     }
 }
 
-/* "name_node", longer where that is taken. */
+/* "name_node", with a number if that name exists. */
 static str_id name_beside(struct upgrade *u, elem_id scope, str_id name)
 {
     struct text text;
@@ -335,8 +335,8 @@ static str_id name_beside(struct upgrade *u, elem_id scope, str_id name)
 }
 
 /*
- * 1.38: nodes and interface inputs of a graph share one scope; a node called like an input gets
- * another name.
+ * 1.38: nodes and interface inputs of a nodegraph share one scope, so a node with the name of an
+ * input gets a new name.
  */
 static void rename_clashing_nodes(struct upgrade *u)
 {
@@ -408,7 +408,7 @@ static void upgrade_subsurface(struct upgrade *u, elem_id node)
     doc_set_attr(u->doc, radius, STR_type, STR_color3);
 }
 
-/* 1.39: <switch> has ten inputs; beyond the fifth it gave the first. */
+/* 1.39: <switch> has ten inputs; before, a value above 5 selected the first. */
 static void upgrade_switch(struct upgrade *u, elem_id node)
 {
     elem_id which = upgrade_child(u, node, "which");
@@ -423,7 +423,9 @@ static void upgrade_switch(struct upgrade *u, elem_id node)
     upgrade_note(u, which, "'which' beyond the five inputs of <switch> meant the first");
 }
 
-/* 1.39: <normalmap> is for tangent space; in object space it was in * 2 - 1, made a unit vector. */
+/*
+ * 1.39: <normalmap> only supports tangent space; in object space it computed normalize(in * 2 - 1).
+ */
 static void replace_object_normalmap(struct upgrade *u, elem_id node)
 {
     struct document *doc = u->doc;
@@ -442,8 +444,8 @@ static void replace_object_normalmap(struct upgrade *u, elem_id node)
 }
 
 /*
- * An input of the cross product; without a value it is the geometry's vector, as it was for the
- * normal map.
+ * Adds an input of the cross product. Without a value it is the geometric vector, the default of
+ * the normal map.
  */
 static void add_cross_input(struct upgrade *u, elem_id node, const char *name, elem_id cross,
                             const char *in)
@@ -507,7 +509,7 @@ static void upgrade_nodes(struct upgrade *u)
     }
 }
 
-/* What a step does beside its tables: before and after them. */
+/* The functions of a step, before and after its tables. */
 static const struct {
     int minor;
     void (*before)(struct upgrade *u), (*after)(struct upgrade *u);
@@ -525,7 +527,8 @@ static const struct {
 };
 
 /*
- * The minor version of 1.x; CURRENT_MINOR where there is nothing to upgrade, which may be reported.
+ * The minor version of 1.x. Reports an invalid version; CURRENT_MINOR if there is nothing to
+ * upgrade.
  */
 static int read_version(struct document *doc, elem_id root, struct diag_list *diags)
 {
@@ -569,8 +572,8 @@ void doc_upgrade(struct document *doc, elem_id root, elem_id end, struct diag_li
                         .end = end,
                         .first_added = doc->first_element + doc->elements.len};
     /*
-     * What 1.38 and 1.39 took out is still written in documents that say so; ignored, it would
-     * change what they show.
+     * Documents that declare 1.38 or 1.39 still contain constructs which these versions removed.
+     * Ignoring them would change the look.
      */
     u.outdated = minor >= CURRENT_MINOR;
     if (u.outdated && !is_outdated(doc, root, end))

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Selecting channels. Before 1.39 a port could say channels="bgr", and <swizzle> had a string of
- * channels: letters of either family (rgba, xyzw) and the constants 0 and 1. Both become <extract>,
- * <convert>, <combine> behind <separate>, or a constant.
+ * Channel selection. Before 1.39 a port had channels="bgr", and <swizzle> had a string of channels:
+ * letters of either family (rgba, xyzw) and the constants 0 and 1. Both become <extract>,
+ * <convert>, <combine> after <separate>, or a constant.
  */
 #include "document/upgrade.h"
 
 enum { MAX_CHANNELS = 4 };
 
-/* 0 to 3: a channel; CHANNEL_ZERO, CHANNEL_ONE: constants; CHANNEL_BAD: neither. */
+/* 0 to 3: a channel; CHANNEL_ZERO, CHANNEL_ONE: a constant; CHANNEL_BAD: invalid. */
 enum { CHANNEL_ZERO = 4, CHANNEL_ONE, CHANNEL_BAD };
 
 struct selection {
@@ -38,7 +38,7 @@ static unsigned channel_count(str_id type)
     }
 }
 
-/* A missing or unknown channel is the first one. false: the types have no channels. */
+/* A missing or unknown channel means the first one. false: the types have no channels. */
 static bool read_selection(const struct upgrade *u, str_id from, str_id to, str_id channels,
                            struct selection *out)
 {
@@ -63,11 +63,11 @@ static bool is_constant(const struct selection *s)
     return true;
 }
 
-/* All channels in their order, or the one channel of a float everywhere: what <convert> does. */
+/* True if <convert> is equivalent: all channels in order, or one float in all channels. */
 static bool is_conversion(const struct selection *s)
 {
     if (s->num_from == 1 && s->num_to == 4)
-        return false; /* <convert> to color4 has alpha 1 */
+        return false; /* <convert> to color4 sets alpha to 1 */
     for (unsigned i = 0; i < s->num_to; i++)
         if (s->channels[i] != (s->num_from == 1 ? 0 : i))
             return false;
@@ -88,7 +88,7 @@ static const char *combine_input(unsigned channel)
     return inputs[channel];
 }
 
-/* Adds the inputs of <combineN>, fed by a float or by the outputs of <separateN>. */
+/* Adds the inputs of <combineN>, connected to a float or to the outputs of <separateN>. */
 static void add_combine_inputs(struct upgrade *u, elem_id node, const struct selection *s,
                                elem_id in)
 {
@@ -112,7 +112,7 @@ static void add_combine_inputs(struct upgrade *u, elem_id node, const struct sel
     }
 }
 
-/* The components of a value of the source type, selected: "0.1, 0.2, 0.3" by bgr. */
+/* Selects components of a value of the source type: "0.1, 0.2, 0.3" by bgr. */
 static str_id select_value(struct upgrade *u, const struct selection *s, str_id value)
 {
     struct strpool *strings = u->doc->strings;
@@ -133,8 +133,8 @@ static str_id select_value(struct upgrade *u, const struct selection *s, str_id 
 }
 
 /*
- * Makes `node` compute a selection from what `in`, an input or output with a binding, says (0:
- * nothing, which is 0). The node has no inputs of its own.
+ * Makes `node`, which has no inputs, compute a selection from the binding of the port `in` (0: no
+ * binding, so the value 0).
  */
 static void build_selection(struct upgrade *u, elem_id node, const struct selection *s, elem_id in)
 {
@@ -160,7 +160,7 @@ static void build_selection(struct upgrade *u, elem_id node, const struct select
     }
 }
 
-/* What a port with channels is connected to, where the graph does not say: by the letters. */
+/* Derives the unknown type of a connection from the letters of `channels`. */
 static str_id guess_type(const struct upgrade *u, str_id channels, str_id to)
 {
     static const struct {
@@ -198,7 +198,7 @@ static void upgrade_port_channels(struct upgrade *u, elem_id port, str_id channe
         return;
     elem_id node = upgrade_add_node(u, is_output ? port : doc_element(doc, port)->parent,
                                     "channels", "convert", to);
-    doc_remove_attr(doc, port, STR_value); /* a connection goes before */
+    doc_remove_attr(doc, port, STR_value); /* a connection takes precedence */
     build_selection(u, node, &s, port);
     upgrade_connect(u, port, node, NULL);
 }
@@ -225,7 +225,7 @@ void upgrade_swizzles(struct upgrade *u)
         if ((channels && upgrade_is_connected(u, channels))
             || !read_selection(u, from, to,
                                channels ? doc_attr_value(doc, channels, STR_value) : STR_EMPTY, &s))
-            continue; /* no node of 1.39 does this: it is reported as unknown */
+            continue; /* 1.39 has no equivalent node: it is reported as unknown */
         while (doc_element(doc, e)->first_child)
             doc_remove_element(doc, doc_element(doc, e)->first_child);
         build_selection(u, e, &s, in);
@@ -234,7 +234,7 @@ void upgrade_swizzles(struct upgrade *u)
     }
 }
 
-/* 1.38: color2 is vector2, so its channels r and a are x and y. */
+/* 1.38: color2 became vector2, so the channels r and a become x and y. */
 
 static str_id rename_channels(struct upgrade *u, str_id channels)
 {
@@ -246,7 +246,7 @@ static str_id rename_channels(struct upgrade *u, str_id channels)
     return str_intern(u->doc->strings, text.data, text.len);
 }
 
-/* The type of the channels that a node takes apart: that of its input "in". */
+/* True if the node separates color2, the type of its input "in". */
 static bool takes_color2(const struct upgrade *u, elem_id node)
 {
     elem_id in = upgrade_child(u, node, "in");

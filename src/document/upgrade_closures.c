@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Nodes of the physically based library: what 1.38 and 1.39 changed in how closures are layered. */
+/* Changes of 1.38 and 1.39 to the layering of closures. */
 #include "document/upgrade.h"
 
 /*
- * Before 1.38 a BSDF had its base as an input; now <layer> puts one on the other. It gets the name
- * that others refer to.
+ * Before 1.38 a BSDF had its base as an input; now <layer> combines them. The <layer> gets the name
+ * that other elements use.
  */
 static void split_layer(struct upgrade *u, elem_id top)
 {
@@ -40,7 +40,7 @@ static void set_transmission(struct upgrade *u, elem_id node)
         upgrade_add_input(u, node, "scatter_mode", STR_string, upgrade_word(u, "T"));
 }
 
-/* Conductors have physical parameters now; <artistic_ior> converts the artistic ones. */
+/* Conductors have physical parameters since 1.38; <artistic_ior> converts the artistic ones. */
 static void add_artistic_ior(struct upgrade *u, elem_id conductor)
 {
     static const char *const artistic[] = {"reflectivity", "edge_color"}, *const physical[] = {
@@ -90,7 +90,7 @@ static void upgrade_closure(struct upgrade *u, elem_id node)
     }
 }
 
-/* The outputs of <artistic_ior> are colours; they were vectors. */
+/* The outputs of <artistic_ior> changed from vectors to colours. */
 static void convert_artistic_ior(struct upgrade *u, elem_id input)
 {
     struct document *doc = u->doc;
@@ -126,14 +126,14 @@ void upgrade_closures(struct upgrade *u)
 }
 
 /*
- * 1.39: a thin film is two inputs of the BSDF that it lies on, no longer a layer over it: layers
- * with a film on top go, and the BSDFs below them get the film's inputs.
+ * 1.39: a thin film is two inputs of the BSDF below it instead of a layer above it. Layers with a
+ * film on top disappear, and the BSDFs below them get the film's inputs.
  */
 struct films {
     struct upgrade *u;
-    elem_id *bypass; /* by element: what stands for a layer that is gone */
-    bool *visited;   /* a BSDF has one film: the outermost */
-    bool *needed;    /* films that something else refers to */
+    elem_id *bypass; /* by element: the replacement of a removed layer */
+    bool *visited;   /* a BSDF takes only the outermost film */
+    bool *needed;    /* films with other references */
     VEC(elem_id) stack;
 };
 
@@ -188,7 +188,7 @@ static elem_id connected(const struct upgrade *u, elem_id node, const char *inpu
     return port ? upgrade_upstream(u, port) : 0;
 }
 
-/* What stands for a node after all layers that are gone; the layers on the way remember it. */
+/* Follows the replacements of removed layers, with path compression. */
 static elem_id bypassed(struct films *f, elem_id node)
 {
     elem_id base = node, next;
@@ -216,7 +216,7 @@ void upgrade_thin_films(struct upgrade *u)
     struct document *doc = u->doc;
     if (!str_find(doc->strings, "thin_film_bsdf", 14))
         return;
-    uint32_t capacity = doc->elements.len * 3; /* each BSDF gets two inputs at most */
+    uint32_t capacity = doc->elements.len * 3; /* each BSDF gets at most two inputs */
     struct films f = {.u = u,
                       .bypass = ARENA_ARRAY(doc->arena, elem_id, capacity),
                       .visited = ARENA_ARRAY(doc->arena, bool, capacity),
@@ -228,7 +228,7 @@ void upgrade_thin_films(struct upgrade *u)
         if (!top || !base || !upgrade_is_category(u, top, "thin_film_bsdf"))
             continue;
         apply_film(&f, top, base);
-        if (bypassed(&f, base) != e) /* else the layers lie in a circle, which they keep */
+        if (bypassed(&f, base) != e) /* otherwise the layers form a cycle, which stays */
             f.bypass[own_index(&f, e)] = base;
     }
     for (elem_id e = upgrade_first(u); e; e = upgrade_next(u, e))

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Materials before 1.38 were elements: <material> held <shaderref>s, which bound values and graphs
- * to the inputs of a shader, at first through the shader's definition. Now both are nodes.
+ * Materials before 1.38 were elements: a <material> contained <shaderref>s, which bound values and
+ * graphs to the inputs of a shader, in the earliest versions through the shader's definition. Both
+ * are nodes now.
  */
 #include "document/upgrade.h"
 
@@ -28,7 +29,7 @@ static str_id nodedef_type(const struct document *doc, elem_id nodedef)
     return type;
 }
 
-/* The first definition of a node below a root, of the type where one is given. */
+/* The first definition of a node below a root, with this type if `type` is set. */
 static elem_id find_definition(const struct document *doc, elem_id root, str_id node, str_id type)
 {
     for (elem_id e = doc_element(doc, root)->first_child; e; e = doc_element(doc, e)->next)
@@ -38,10 +39,7 @@ static elem_id find_definition(const struct document *doc, elem_id root, str_id 
     return 0;
 }
 
-/*
- * The definition of the shader that a shaderref means, in the document or in its library; 0:
- * unknown.
- */
+/* The definition of the shader of a shaderref, from the document or its library; 0: unknown. */
 static elem_id shader_definition(const struct upgrade *u, elem_id shader_ref)
 {
     const struct document *doc = u->doc;
@@ -58,7 +56,7 @@ static elem_id shader_definition(const struct upgrade *u, elem_id shader_ref)
 
 /* 1.34 */
 
-/* Nodes were connected by parameters of type opgraphnode. */
+/* Parameters of type opgraphnode connected nodes. */
 static void connect_opgraph_node(struct upgrade *u, elem_id parameter)
 {
     struct document *doc = u->doc;
@@ -88,7 +86,7 @@ static void set_shader_type(struct upgrade *u, elem_id element)
         doc_remove_attr(doc, element, upgrade_word(u, "shadertype"));
 }
 
-/* A shaderref without a reference was called like its definition. */
+/* A shaderref without a reference had the name of its definition. */
 static void name_definition(struct upgrade *u, elem_id shader_ref)
 {
     struct document *doc = u->doc;
@@ -133,7 +131,7 @@ static void bind_graphs(struct upgrade *u, elem_id shader_ref)
     }
 }
 
-/* The tiles of all geometry together (spec 1.34: the geometry property "udimset"). */
+/* Collects the tiles of all geometry (spec 1.34: the geometry property "udimset"). */
 static void collect_udims(struct upgrade *u)
 {
     struct document *doc = u->doc;
@@ -215,8 +213,7 @@ void upgrade_material_overrides(struct upgrade *u)
 }
 
 /*
- * 1.37: definitions of shaders that came from <shader> say nothing that the shader's own definition
- * does not say.
+ * 1.37: removes definitions of former <shader> elements, which repeat the shader's own definition.
  */
 void upgrade_legacy_nodedefs(struct upgrade *u)
 {
@@ -255,19 +252,22 @@ static void convert_bindings(struct upgrade *u, elem_id shader)
     }
 }
 
-/* The category of the node that a shaderref was. */
+/* The category of the node for a shaderref. */
 static str_id shader_category(struct upgrade *u, elem_id shader_ref, elem_id nodedef)
 {
     str_id node = doc_attr_value(u->doc, shader_ref, STR_node);
     if (node || nodedef)
         return nodedef ? doc_attr_value(u->doc, nodedef, STR_node) : node;
-    /* By the usage of names, ND_standard_surface_surfaceshader defines standard_surface. */
+    /* By convention, ND_standard_surface_surfaceshader defines standard_surface. */
     const char *name = str_text(u->doc->strings, doc_attr_value(u->doc, shader_ref, STR_nodedef));
     const char *start = strncmp(name, "ND_", 3) == 0 ? name + 3 : name, *end = strrchr(start, '_');
     return str_intern(u->doc->strings, start, end ? (size_t)(end - start) : strlen(start));
 }
 
-/* The shaderref becomes a node before the material. Its type, or 0 where it names no shader. */
+/*
+ * Converts the shaderref to a node before the material. Returns its type, or 0 if it names no
+ * shader.
+ */
 static str_id convert_shader_ref(struct upgrade *u, elem_id shader_ref, elem_id material)
 {
     struct document *doc = u->doc;
@@ -294,7 +294,7 @@ static void convert_material(struct upgrade *u, elem_id material)
     struct document *doc = u->doc;
     bool volume = false;
     elem_id next = doc_element(doc, material)->first_child;
-    /* up to the inputs that it gets here */
+    /* up to the inputs that this loop adds */
     for (elem_id e; (e = next) != 0 && doc_element(doc, e)->kind != KIND_INPUT;) {
         next = doc_element(doc, e)->next;
         str_id type = is_shader_ref(u, e) ? convert_shader_ref(u, e, material) : STR_EMPTY;
@@ -313,10 +313,10 @@ static void convert_material(struct upgrade *u, elem_id material)
                  volume ? "volumematerial" : "surfacematerial");
 }
 
-/* A material has the shaders of those it inherits from, beside its own. */
+/* Gives a material the shaders of its ancestors, in addition to its own. */
 static void inherit_shaders(struct upgrade *u, elem_id material)
 {
-    enum { MAX_INHERITANCE = 64 }; /* more is a circle */
+    enum { MAX_INHERITANCE = 64 }; /* a longer chain is a cycle */
     struct document *doc = u->doc;
     str_id name = doc_attr_value(doc, material, STR_inherit);
     for (int depth = 0; name && depth < MAX_INHERITANCE; depth++) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Looking at and changing the tree of a document that is being upgraded. */
+/* Queries and changes of the tree during an upgrade. */
 #include "document/upgrade.h"
 
 #include <stdarg.h>
@@ -43,7 +43,7 @@ bool upgrade_is_category(const struct upgrade *u, elem_id element, const char *c
     return upgrade_is(u, doc_element(u->doc, element)->category, category);
 }
 
-/* Graphs were called <opgraph> before 1.34. */
+/* Before 1.34 a nodegraph was called <opgraph>. */
 bool upgrade_is_node(const struct upgrade *u, elem_id element)
 {
     const struct element *e = doc_element(u->doc, element);
@@ -93,7 +93,7 @@ str_id upgrade_free_name(struct upgrade *u, elem_id scope, const char *name)
 {
     struct text text;
     text_init(&text, u->doc->arena);
-    /* name, name2 … name9, and then numbers that nothing else has */
+    /* name, name2 … name9, then numbers that no other name has */
     for (uint32_t number = 1;; number++) {
         text.len = 0;
         text_str(&text, name);
@@ -159,7 +159,7 @@ elem_id upgrade_upstream(const struct upgrade *u, elem_id port)
     return name && scope ? doc_child(u->doc, scope, name) : 0;
 }
 
-/* Types of outputs of nodes that have several. */
+/* The type of one output of a node with several. */
 static str_id output_type(const struct upgrade *u, elem_id node, str_id output)
 {
     elem_id declared = doc_child_of_kind(u->doc, node, KIND_OUTPUT, output);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Checks of one element at a time: place, name, attributes, type, value. References are checked in
- * validate_links.c.
+ * Checks of single elements: place, name, attributes, type, value. validate_links.c checks
+ * references.
  */
 #include "document/validate.h"
 
@@ -9,8 +9,8 @@
 #define IN_INTERFACE (IN(NODEDEF) | IN(NODEGRAPH) | IN(NODE))
 
 /*
- * What MaterialX 1.39 says of each kind of element: where it may stand, whether it needs a name,
- * which attributes it needs.
+ * The rules of MaterialX 1.39 for each kind of element: valid parents, a required name, required
+ * attributes.
  */
 static const struct {
     uint64_t parents;
@@ -64,12 +64,12 @@ static bool is_digit(char c)
 
 static bool is_letter(char c)
 {
-    /* of either case; what lies before 'a' is large */
+    /* for both cases; characters before 'a' wrap to large values */
     unsigned letter = ((unsigned char)c | 0x20u) - 'a';
     return letter < 26 || c == '_';
 }
 
-/* Letters, digits and '_', no digit first ("MaterialX Names"); a namespace may stand before. */
+/* Letters, digits and '_', no digit first ("MaterialX Names"), with an optional namespace. */
 static bool is_name(const char *text)
 {
     for (; *text; text++) {
@@ -85,7 +85,7 @@ static bool is_name(const char *text)
     return false;
 }
 
-/* What is no element of MaterialX reads as a node. */
+/* The reader turns an unknown element into a node. */
 static bool is_foreign(const struct validation *v, elem_id element)
 {
     const struct element *e = doc_element(v->doc, element);
@@ -93,8 +93,8 @@ static bool is_foreign(const struct validation *v, elem_id element)
 }
 
 /*
- * Materials had elements of their own before 1.38, which the upgrade knows where the version says
- * so.
+ * True for elements of materials before 1.38 that the upgrade did not convert, because the document
+ * declares a later version.
  */
 static bool is_outdated(const struct validation *v, elem_id element)
 {
@@ -147,7 +147,7 @@ static void check_required(struct validation *v, elem_id element)
         && !doc_attr(v->doc, element, STR_nodegraph))
         diag_add(v->diags, DIAG_ID_missing_attribute, doc_place(v->doc, element),
                  text_of(v, e->category), "nodedef");
-    /* The outputs of an implementation have the types of the definition's. */
+    /* The outputs of an implementation have the types of the definition's outputs. */
     if (e->kind == KIND_OUTPUT && !doc_attr(v->doc, element, STR_type)
         && doc_element(v->doc, e->parent)->kind != KIND_IMPLEMENTATION)
         diag_add(v->diags, DIAG_ID_missing_attribute, doc_place(v->doc, element),
@@ -245,15 +245,14 @@ static void check_has_output(struct validation *v, elem_id element)
     for (elem_id child = e->first_child; child; child = doc_element(v->doc, child)->next)
         if (doc_element(v->doc, child)->kind == KIND_OUTPUT)
             return;
-    bool inherits = doc_attr_value(v->doc, element, STR_inherit) != 0; /* outputs too */
+    /* it inherits outputs, too */
+    bool inherits = doc_attr_value(v->doc, element, STR_inherit) != 0;
     if (!inherits)
         diag_add(v->diags, DIAG_ID_no_output, doc_place(v->doc, element), text_of(v, e->category),
                  text_of(v, e->name));
 }
 
-/*
- * Most ports: in one pass, that there is nothing to say of their place, attributes and connection.
- */
+/* A fast path for most ports: true if place, attributes and connection need no diagnostic. */
 static bool is_port_in_order(const struct document *doc, elem_id element)
 {
     const struct element *e = doc_element(doc, element);
@@ -294,11 +293,11 @@ void doc_check_children(const struct document *doc, elem_id parent, struct diag_
 
 static void check_element(struct validation *v, elem_id element)
 {
-    if (element != v->doc->root) /* the reader speaks of the version */
+    if (element != v->doc->root) /* the reader checks the version of the root */
         check_standing(v, element);
     check_name(v, element);
     check_type_and_values(v, element);
-    if (!is_foreign(v, element)) /* nothing of it counts */
+    if (!is_foreign(v, element)) /* its other attributes have no effect */
         validate_attributes(v, element);
     validate_geometry(v, element);
     if (doc_element(v->doc, element)->kind == KIND_NODEDEF)

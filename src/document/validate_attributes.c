@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Attributes that MaterialX does not know, or not on this kind of element. */
+/* Checks for attributes that MaterialX does not have, or not on this kind of element. */
 #include "document/validate.h"
 
 #define IN(KIND) ((uint64_t)1 << KIND_##KIND)
@@ -47,7 +47,7 @@ static void note_declared(struct validation *v)
                 v->declared[doc_attr_value(doc, e, STR_attrname)] = 1;
 }
 
-/* Does an <attributedef> declare it? ("Custom Attributes and Inputs") */
+/* True if an <attributedef> declares the attribute ("Custom Attributes and Inputs"). */
 static bool is_declared(struct validation *v, str_id name)
 {
     if (!v->declared)
@@ -55,7 +55,7 @@ static bool is_declared(struct validation *v, str_id name)
     return v->declared[name];
 }
 
-/* Those of this kind of element are meant more likely. */
+/* Prefers the attributes of this kind of element. */
 static const char *suggest(struct validation *v, enum element_kind kind, str_id name)
 {
     const char *names[NUM_ATTRIBUTES];
@@ -66,7 +66,7 @@ static const char *suggest(struct validation *v, enum element_kind kind, str_id 
     return diag_suggest(v->diags, text_of(v, name), names, count);
 }
 
-/* False after telling that it means nothing here. */
+/* false after reporting that the attribute has no meaning here. */
 static bool check_attribute(struct validation *v, elem_id element, str_id name)
 {
     const struct element *e = doc_element(v->doc, element);
@@ -74,7 +74,7 @@ static bool check_attribute(struct validation *v, elem_id element, str_id name)
     uint64_t kinds = 0;
     for (size_t i = 0; i < NUM_ATTRIBUTES && !kinds; i++)
         kinds = strcmp(attributes[i].name, text) == 0 ? attributes[i].kinds : 0;
-    /* a prefix is another program's */
+    /* a prefix marks the attribute of another program */
     if (kinds >> e->kind & 1 || strchr(text, ':') || is_declared(v, name))
         return true;
     struct diag_place place = doc_attr_place(v->doc, element, name);
@@ -87,8 +87,8 @@ static bool check_attribute(struct validation *v, elem_id element, str_id name)
 }
 
 /*
- * Documents use the same attributes on the same kinds over and over: what was found good is
- * remembered.
+ * Documents repeat the same attributes on the same kinds of elements, so a cache keeps the valid
+ * ones.
  */
 void validate_attributes(struct validation *v, elem_id element)
 {

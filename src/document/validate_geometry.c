@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Names and patterns of geometry (MaterialX Geometry Extensions, "Geometry Representation" and
+ * Geometry names and patterns (MaterialX Geometry Extensions, "Geometry Representation" and
  * "Geometry Name Expressions").
  */
 #include "document/validate.h"
 
-/* One name of a list, [text, end) without the blanks around it. */
+/* One name of a list: [text, end) without surrounding blanks. */
 struct geometry_name {
     const char *text, *end;
 };
 
-/* Behind the name at `text`: a comma inside of braces or brackets is the name's own. */
+/* The end of the name at `text`. A comma inside braces or brackets is part of the name. */
 static const char *name_end(const char *text)
 {
     char until = 0;
@@ -32,7 +32,7 @@ static struct geometry_name trimmed(const char *text, const char *end)
     return (struct geometry_name){text, end};
 }
 
-/* NULL: nothing is wrong with what stands between brackets of one kind. */
+/* The fault of the brackets of one kind; NULL: none. */
 static const char *bracket_fault(struct geometry_name name, char open, char close,
                                  const char *unclosed, const char *unopened, const char *empty)
 {
@@ -58,7 +58,7 @@ static bool has_blank(struct geometry_name name)
     return false;
 }
 
-/* '//' stands for any depth; more mean nothing, and one at the end says that a name is missing. */
+/* '//' matches any depth. Three slashes have no meaning, and a slash at the end lacks a name. */
 static const char *slash_fault(struct geometry_name name)
 {
     for (const char *c = name.text; c + 2 < name.end; c++)
@@ -83,7 +83,7 @@ static const char *fault_of(struct geometry_name name)
     return fault ? fault : slash_fault(name);
 }
 
-/* Of a list: the first name that is none. */
+/* The fault of the first invalid name in a list. */
 static const char *list_fault(const char *text)
 {
     for (;; text++) {

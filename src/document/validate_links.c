@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Checks of references: inheritance, looks; cycles in a graph. */
+/* Checks of references: inheritance, looks, and cycles in a nodegraph. */
 #include "document/validate.h"
 
 static const char *text_of(const struct validation *v, str_id id)
@@ -7,7 +7,7 @@ static const char *text_of(const struct validation *v, str_id id)
     return str_text(v->doc->strings, id);
 }
 
-/* A top-level element of a kind, in the document or in what it stands on; 0: none. */
+/* A top-level element of a kind in any layer; 0: none. */
 static elem_id find_top_level(const struct document *doc, enum element_kind kind, str_id name)
 {
     elem_id found = 0;
@@ -16,7 +16,7 @@ static elem_id find_top_level(const struct document *doc, enum element_kind kind
     return found;
 }
 
-/* References to top-level elements; lists have commas. */
+/* Attributes that refer to top-level elements; lists have commas. */
 static const struct {
     enum element_kind kind;
     str_id attr;
@@ -55,15 +55,15 @@ static void check_references(struct validation *v, elem_id element)
 {
     enum element_kind kind = (enum element_kind)doc_element(v->doc, element)->kind;
     if (kind == KIND_NODE || kind == KIND_INPUT || kind == KIND_OUTPUT)
-        return; /* most are, and are not in the table */
+        return; /* most attributes are not in the table */
     for (size_t i = 0; i < sizeof references / sizeof *references; i++)
         if (references[i].kind == kind && doc_attr_value(v->doc, element, references[i].attr))
             check_reference(v, element, references[i].attr, references[i].target);
 }
 
 /*
- * Inheritance: each element of the document is followed once. marks[element] is the element that
- * the walk began at; a walk that comes to its own mark went round.
+ * Inheritance. The walk visits each element of the document once. marks[element] is the start of
+ * the walk that visited it; a walk that meets its own mark found a cycle.
  */
 static void check_inheritance(struct validation *v, elem_id element, elem_id *marks)
 {
@@ -90,12 +90,12 @@ static void check_inheritance(struct validation *v, elem_id element, elem_id *ma
                  text_of(v, doc_element(doc, e)->name));
 }
 
-/* Cycles: a depth-first walk along the nodes of a graph, on a stack of its own. */
+/* Cycles: a depth-first walk along the nodes of a nodegraph, with an explicit stack. */
 
 enum { NEW, ON_PATH, DONE };
 
 struct path_step {
-    elem_id node, input; /* the input followed, or to follow next; 0: all done */
+    elem_id node, input; /* the current or next input; 0: all done */
 };
 
 struct walk {

@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/*
- * Values as documents write them: "0.5", "1, 0, 0", "true" (MaterialX 1.39, "MaterialX Data
- * Types").
- */
+/* Values in document syntax: "0.5", "1, 0, 0", "true" (MaterialX 1.39, "MaterialX Data Types"). */
 #include "base/num.h"
 #include "document/document.h"
 
@@ -19,8 +16,8 @@ static size_t skip_spaces(const char *text, size_t len, size_t at)
 }
 
 /*
- * Between two numbers: a comma with or without spaces; spaces alone, which MaterialX reads too. 0:
- * no separator.
+ * A separator between numbers: a comma with optional spaces, or only spaces, which MaterialX
+ * accepts, too. 0: none.
  */
 static size_t skip_separator(const char *text, size_t len, size_t at)
 {
@@ -44,8 +41,8 @@ static size_t parse_number(bool integer, const char *text, size_t len, union ir_
 }
 
 /*
- * Reads numbers up to the end of the text; returns how many, or -1 where what stands at *out_fault
- * is none.
+ * Reads numbers to the end of the text and returns their count, or -1 if the text at *out_fault is
+ * not a number.
  */
 static int64_t find_numbers(bool integer, const char *text, size_t len, union ir_word *out,
                             size_t max_kept, size_t *out_fault)
@@ -111,7 +108,7 @@ bool doc_value_is_valid(doc_type type, const char *text, size_t len)
     if (doc_type_components(type) || type == DOC_TYPE_boolean)
         return doc_parse_value(type, text, len, NULL, &value);
     if (type < DOC_TYPE_integerarray || type > DOC_TYPE_vector4array)
-        return true; /* text, or a type that has no values */
+        return true; /* a string, or a type without a value syntax */
     static const uint8_t group[] = {1, 1, 3, 4, 2, 3, 4};
     int64_t count = parse_numbers(type == DOC_TYPE_integerarray, text, len, NULL, 0);
     return count >= 0 && count % group[type - DOC_TYPE_integerarray] == 0;

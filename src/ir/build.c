@@ -76,21 +76,24 @@ static uint64_t equal_bit(const ir_ref *args, unsigned num_args)
     return 0;
 }
 
-/*
- * Whether a node is well formed takes about as long to find out as making it does: builds without
- * optimisation check everything at once, ir_check does so later.
- */
-#ifndef __OPTIMIZE__
-#define IS_WELL_FORMED(...) (!ir_node_problem(__VA_ARGS__))
+/* To look at all of a node takes about as long as making it: builds that test do so. */
+static void assert_well_formed(const struct ir_graph *graph, enum ir_op op, ir_type_id type,
+                               uint32_t attr, const ir_ref *args, unsigned num_args)
+{
+    assert(ir_op_info(op)->arity < 0 || num_args == (unsigned)ir_op_info(op)->arity);
+#ifdef MXG_CHECK_IR
+    const char *problem = ir_node_problem(graph, op, type, attr, args, num_args);
+    if (problem)
+        ir_fail("a new node", graph->nodes.len, op, problem);
 #else
-#define IS_WELL_FORMED(graph, op, type, attr, args, num_args) \
-    (ir_op_info(op)->arity < 0 || (num_args) == (unsigned)ir_op_info(op)->arity)
+    (void)graph, (void)op, (void)type, (void)attr, (void)args, (void)num_args;
 #endif
+}
 
 ir_ref ir_build(struct ir_graph *graph, enum ir_op op, ir_type_id type, uint32_t attr,
                 const ir_ref *args, unsigned num_args)
 {
-    assert(IS_WELL_FORMED(graph, op, type, attr, args, num_args));
+    assert_well_formed(graph, op, type, attr, args, num_args);
     if (graph->no_fold || num_args == 0 || num_args > MAX_FOLD_ARGS)
         return ir_intern(graph, op, type, attr, args, num_args);
     ir_ref own[MAX_FOLD_ARGS]; /* simplifying adds nodes, and `args` may lie in the graph */

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * check: what must hold of every node, and of the graph as a whole. ir_node_problem is the one
+ * check: the rules that every node keeps, and the graph as a whole. ir_node_problem is the one
  * definition of a well-formed node: the builder asserts it, the parser reports it, and ir_check
- * looks at each node with it.
+ * asks it for each node.
  */
 #include "ir/internal.h"
+
+#include <stdio.h>
+#include <stdlib.h>
 
 /*
  * Operand types of closures and shaders, one letter each: c closure, s shader, n float or vector, b
@@ -128,6 +131,16 @@ static bool is_call(const struct ir_graph *graph, ir_ref ref)
     return op == IR_CALL || op == IR_VERBATIM || op == IR_GRAPH_CALL;
 }
 
+static const char *callee_problem(const struct ir_graph *graph, enum ir_op op, uint32_t attr)
+{
+    if (attr >= graph->callees.len)
+        return "there is no such callee";
+    enum ir_callee_kind kind = graph->callees.items[attr].kind;
+    bool fits = op == IR_LEAF ? kind == IR_CALLEE_FAMILY || kind == IR_CALLEE_CLOSURE
+                              : kind == (op == IR_CALL ? IR_CALLEE_FUNCTION : IR_CALLEE_VERBATIM);
+    return fits ? NULL : "the callee is not of the op's kind";
+}
+
 static const char *graph_call_problem(const struct ir_graph *graph, ir_type_id type, uint32_t attr,
                                       const ir_ref *args, unsigned num_args)
 {
@@ -197,7 +210,7 @@ static const char *special_problem(const struct ir_graph *graph, enum ir_op op, 
                    : "the operand cannot be indexed so";
     case IR_CALL:
     case IR_VERBATIM:
-    case IR_LEAF: return attr < graph->callees.len ? NULL : "there is no such callee";
+    case IR_LEAF: return callee_problem(graph, op, attr);
     case IR_GRAPH_CALL: return graph_call_problem(graph, type, attr, args, num_args);
     case IR_RESULT: return result_problem(graph, type, attr, args[0]);
     default: break;
@@ -230,7 +243,8 @@ const char *ir_node_problem(const struct ir_graph *graph, enum ir_op op, ir_type
     ir_type_id result = ir_op_result(op, types, num_args);
     if (result == IR_TYPE_VOID)
         return "the operands do not fit the op";
-    return result == type ? NULL : "the operands give another type";
+    bool is_part = op == IR_TEX && (type == IR_TYPE_FLOAT || type == IR_TYPE_VEC3);
+    return result == type || is_part ? NULL : "the operands give another type";
 }
 
 static const char *const_problem(const struct ir_graph *graph, const struct ir_node *node)
@@ -243,56 +257,126 @@ static const char *const_problem(const struct ir_graph *graph, const struct ir_n
                : "a constant lies outside of the pool";
 }
 
+static const char *args_problem(const struct ir_graph *graph, ir_ref ref)
+{
+    const struct ir_node *node = ir_get(graph, ref);
+    if (node->num_args > graph->args.len || node->first_arg > graph->args.len - node->num_args)
+        return "the operands lie outside of the graph";
+    for (uint32_t i = 0; i < node->num_args; i++)
+        if (ir_arg(graph, ref, i) >= ref)
+            return "an operand is not older than the node";
+    return NULL;
+}
+
+/* The body of a function is older than its calls: whoever walks the nodes downwards sees it later.
+ */
+static bool has_body_below(const struct ir_graph *graph, ir_ref call)
+{
+    const struct ir_function *function = &graph->functions.items[ir_get(graph, call)->attr];
+    for (uint32_t i = 0; i < function->num_results; i++)
+        if (graph->function_results.items[function->first_result + i] >= call)
+            return false;
+    return true;
+}
+
 static const char *node_problem(const struct ir_graph *graph, ir_ref ref)
 {
     const struct ir_node *node = ir_get(graph, ref);
     if (node->op >= IR_NUM_OPS)
         return "there is no such op";
-    if (node->num_args > graph->args.len || node->first_arg > graph->args.len - node->num_args)
-        return "the operands lie outside of the graph";
-    const ir_ref *args = ir_args(graph, ref);
-    unsigned derivative = node->flags & IR_NODE_DERIVATIVE, loop = node->flags & IR_NODE_LOOP;
-    for (uint32_t i = 0; i < node->num_args; i++) {
-        if (args[i] >= ref)
-            return "an operand is not older than the node";
-        if ((ir_get(graph, args[i])->flags & IR_NODE_DERIVATIVE) && !derivative)
-            return "the node lacks the derivative flag of an operand";
-        if ((ir_get(graph, args[i])->flags & IR_NODE_LOOP) && !loop)
-            return "the node lacks the loop flag of an operand";
-    }
-    const char *problem = node->op == IR_CONST
-                              ? const_problem(graph, node)
-                              : ir_node_problem(graph, (enum ir_op)node->op, node->type, node->attr,
-                                                args, node->num_args);
+    const char *problem = args_problem(graph, ref);
+    if (!problem)
+        problem = node->op == IR_CONST
+                      ? const_problem(graph, node)
+                      : ir_node_problem(graph, (enum ir_op)node->op, node->type, node->attr,
+                                        ir_args(graph, ref), node->num_args);
     if (problem)
         return problem;
     if (node->origin >= graph->origins.len)
         return "the origin lies outside of the graph";
-    bool closure = ir_type_is_closure(node->type) || ir_type_is_shader(node->type);
-    if (closure != ((node->flags & IR_NODE_CLOSURE) != 0))
-        return "the closure flag is wrong";
-    if ((ir_op_info((enum ir_op)node->op)->flags & OP_DERIVATIVE) && !derivative)
-        return "the derivative flag is missing";
-    if ((node->op == IR_CONTEXT || node->op == IR_SAMPLE) && !loop)
-        return "the loop flag is missing";
-    if (node->op == IR_GRAPH_CALL) {
-        const struct ir_function *function = &graph->functions.items[node->attr];
-        for (uint32_t i = 0; i < function->num_results; i++)
-            if (graph->function_results.items[function->first_result + i] >= ref)
-                return "the body of a function is not older than its call";
-    }
+    if (node->op == IR_GRAPH_CALL && !has_body_below(graph, ref))
+        return "the body of a function is not older than its call";
+    if (node->flags != ir_flags_of(graph, ref))
+        return "the flags are not those of the op and its operands";
     return ir_find_equal(graph, ref) == ref ? NULL : "the node stands twice";
+}
+
+static const char *function_problem(const struct ir_graph *graph,
+                                    const struct ir_function *function)
+{
+    if (function->num_params > graph->param_types.len
+        || function->first_param_type > graph->param_types.len - function->num_params)
+        return "the parameters of a function lie outside of the graph";
+    if (function->num_results > graph->function_results.len
+        || function->first_result > graph->function_results.len - function->num_results)
+        return "the results of a function lie outside of the graph";
+    for (uint32_t i = 0; i < function->num_results; i++)
+        if (graph->function_results.items[function->first_result + i] - 1 >= graph->nodes.len - 1)
+            return "a result of a function is no node";
+    return NULL;
+}
+
+static const char *user_type_problem(const struct ir_graph *graph, uint32_t index)
+{
+    const struct ir_user_type *type = &graph->user_types.items[index];
+    ir_type_id own = (ir_type_id)(IR_TYPE_FIRST_USER + index);
+    if (type->array_length)
+        return is_type(graph, type->element) && type->element < own
+                   ? NULL
+                   : "the element type of an array is not older than the array";
+    if (type->num_members > graph->members.len
+        || type->first_member > graph->members.len - type->num_members)
+        return "the members of a struct lie outside of the graph";
+    for (uint32_t i = 0; i < type->num_members; i++) {
+        ir_type_id member = graph->members.items[type->first_member + i].type;
+        if (!is_type(graph, member) || member >= own)
+            return "the type of a member is not older than the struct";
+    }
+    return NULL;
+}
+
+/* What nodes refer to. */
+static const char *tables_problem(const struct ir_graph *graph)
+{
+    const char *problem = NULL;
+    for (uint32_t i = 0; i < graph->functions.len && !problem; i++)
+        problem = function_problem(graph, &graph->functions.items[i]);
+    for (uint32_t i = 0; i < graph->user_types.len && !problem; i++)
+        problem = user_type_problem(graph, i);
+    for (uint32_t i = 1; i < graph->origins.len && !problem; i++)
+        if (graph->origins.items[i].parent >= i)
+            problem = "the parent of an origin is not older than the origin";
+    if (!problem && graph->outer_origins.len)
+        problem = "an origin was pushed and not popped";
+    return problem;
 }
 
 const char *ir_check(const struct ir_graph *graph, ir_ref *out_node)
 {
-    for (ir_ref ref = 1; ref < graph->nodes.len; ref++) {
-        const char *problem = node_problem(graph, ref);
-        if (problem) {
-            *out_node = ref;
-            return problem;
-        }
-    }
     *out_node = 0;
-    return NULL;
+    const char *problem = tables_problem(graph);
+    for (ir_ref ref = 1; ref < graph->nodes.len && !problem; ref++)
+        if ((problem = node_problem(graph, ref)) != NULL)
+            *out_node = ref;
+    return problem;
+}
+
+void ir_fail(const char *where, ir_ref node, enum ir_op op, const char *problem)
+{
+    fprintf(stderr, "mxgen: internal error: IR, %s: node %u (%s): %s\n", where, (unsigned)node,
+            op < IR_NUM_OPS ? ir_op_info(op)->text : "?", problem);
+    abort();
+}
+
+void ir_assert_valid(const struct ir_graph *graph, const char *step)
+{
+#ifdef MXG_CHECK_IR
+    ir_ref node;
+    const char *problem = ir_check(graph, &node);
+    if (problem)
+        ir_fail(step, node, (enum ir_op)ir_get(graph, node)->op, problem);
+#else
+    (void)graph;
+    (void)step;
+#endif
 }

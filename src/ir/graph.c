@@ -93,14 +93,35 @@ ir_ref ir_find_equal(const struct ir_graph *graph, ir_ref ref)
     return *find_slot(graph, content_of(graph, ref));
 }
 
+/* Room for n more nodes; everyone else sees the array as constant. */
+static struct ir_node *reserve_nodes(struct ir_graph *graph, uint32_t n)
+{
+    struct ir_node *nodes = (struct ir_node *)(uintptr_t)graph->nodes.items;
+    if (graph->nodes.cap - graph->nodes.len < n)
+        graph->nodes.items = nodes = vec_more(graph->arena, nodes, &graph->nodes.cap, sizeof *nodes,
+                                              graph->nodes.len + n - graph->nodes.cap);
+    return nodes + graph->nodes.len;
+}
+
+/* The same for operands. */
+static ir_ref *reserve_args(struct ir_graph *graph, uint32_t n)
+{
+    ir_ref *args = (ir_ref *)(uintptr_t)graph->args.items;
+    if (graph->args.cap - graph->args.len < n)
+        graph->args.items = args = vec_more(graph->arena, args, &graph->args.cap, sizeof *args,
+                                            graph->args.len + n - graph->args.cap);
+    return args + graph->args.len;
+}
+
 void ir_graph_init(struct ir_graph *graph, struct arena *arena, struct strpool *strings)
 {
     *graph = (struct ir_graph){.arena = arena, .strings = strings};
-    vec_reserve(arena, &graph->nodes, FIRST_NODES);
-    vec_reserve(arena, &graph->args, 2 * FIRST_NODES);
     /* 0 is no node; it must not look like a constant */
-    vec_push(arena, &graph->nodes, (struct ir_node){.op = IR_POISON});
-    vec_push(arena, &graph->args, 0); /* so that there is something to point to */
+    *reserve_nodes(graph, FIRST_NODES) = (struct ir_node){.op = IR_POISON};
+    *reserve_args(graph, 2 * FIRST_NODES) = 0; /* so that there is something to point to */
+    graph->nodes.len = graph->args.len = 1;
+    vec_reserve(arena, &graph->labels, FIRST_NODES);
+    vec_push(arena, &graph->labels, (struct ir_label){0});
     vec_push(arena, &graph->words, (union ir_word){.u = 0});
     vec_push(arena, &graph->origins, (struct ir_origin){0});
     grow_table(graph);
@@ -138,7 +159,8 @@ static const uint8_t flags_of_ops[IR_NUM_OPS] = {
     [IR_POW] = IR_NODE_PARTIAL,       [IR_SQRT] = IR_NODE_PARTIAL,
     [IR_RSQRT] = IR_NODE_PARTIAL,     [IR_LOG] = IR_NODE_PARTIAL,
     [IR_LOG2] = IR_NODE_PARTIAL,      [IR_ASIN] = IR_NODE_PARTIAL,
-    [IR_ACOS] = IR_NODE_PARTIAL,
+    [IR_ACOS] = IR_NODE_PARTIAL,      [IR_ACOSH] = IR_NODE_PARTIAL,
+    [IR_ATANH] = IR_NODE_PARTIAL,
 };
 
 /* Of the node itself; those of its operands are added to them. */
@@ -157,6 +179,17 @@ static unsigned own_flags(const struct ir_graph *graph, struct content c)
     return flags | (ir_type_is_closure(c.type) || ir_type_is_shader(c.type) ? IR_NODE_CLOSURE : 0u);
 }
 
+unsigned ir_flags_of(const struct ir_graph *graph, ir_ref ref)
+{
+    const struct ir_node *node = ir_get(graph, ref);
+    if (node->op == IR_CONST)
+        return 0;
+    unsigned inherited = 0;
+    for (uint32_t i = 0; i < node->num_args; i++)
+        inherited |= ir_get(graph, ir_arg(graph, ref, i))->flags;
+    return own_flags(graph, content_of(graph, ref)) | (inherited & IR_NODE_INHERITED);
+}
+
 /*
  * Copies the operands to graph->args and returns their flags; they may lie there already, so that
  * growing would move them.
@@ -165,10 +198,9 @@ static unsigned push_args(struct ir_graph *graph, const ir_ref *args, uint32_t n
 {
     uint32_t len = graph->args.len;
     uintptr_t offset = (uintptr_t)args - (uintptr_t)graph->args.items;
-    vec_reserve(graph->arena, &graph->args, num_args);
+    ir_ref *to = reserve_args(graph, num_args);
     const ir_ref *from =
         offset < len * sizeof *args ? graph->args.items + offset / sizeof *args : args;
-    ir_ref *to = graph->args.items + len;
     const struct ir_node *nodes = graph->nodes.items;
     unsigned flags = 0;
     for (uint32_t i = 0; i < num_args; i++) {
@@ -197,7 +229,9 @@ static bool has_room(struct ir_graph *graph, enum ir_op op)
 static inline ir_ref add(struct ir_graph *graph, struct ir_node node, uint32_t *slot)
 {
     ir_ref ref = graph->nodes.len;
-    vec_push(graph->arena, &graph->nodes, node);
+    *reserve_nodes(graph, 1) = node;
+    graph->nodes.len++;
+    vec_push(graph->arena, &graph->labels, (struct ir_label){0});
     *slot = ref;
     if (ref >= graph->table_mask / 4 * 3)
         grow_table(graph);
@@ -211,8 +245,8 @@ ir_ref ir_intern(struct ir_graph *graph, enum ir_op op, ir_type_id type, uint32_
     struct content c = {op, type, attr, num_args, args};
     uint32_t *slot = find_slot(graph, c);
     if (*slot) {
-        struct ir_node *equal = &graph->nodes.items[*slot];
-        equal->is_shared |= graph->origin && equal->origin != graph->origin;
+        bool is_other = graph->origin && ir_get(graph, *slot)->origin != graph->origin;
+        graph->labels.items[*slot].is_shared |= is_other;
         return *slot;
     }
     if (!has_room(graph, op))
@@ -248,12 +282,14 @@ uint32_t ir_add_origin(struct ir_graph *graph, str_id name, uint32_t element, ui
     return index;
 }
 
-static uint32_t find_callee_slot(const struct ir_graph *graph, uint64_t id)
+static uint32_t find_callee_slot(const struct ir_graph *graph, const struct ir_callee *callee)
 {
-    uint32_t slot = hash_pair((uint32_t)(id >> 32), (uint32_t)id) & graph->callee_mask;
-    while (graph->callee_table[slot]
-           && graph->callees.items[graph->callee_table[slot] - 1].id != id)
-        slot = (slot + 1) & graph->callee_mask;
+    uint32_t slot = hash_pair(callee->kind, callee->index) & graph->callee_mask;
+    for (; graph->callee_table[slot]; slot = (slot + 1) & graph->callee_mask) {
+        const struct ir_callee *found = &graph->callees.items[graph->callee_table[slot] - 1];
+        if (found->kind == callee->kind && found->index == callee->index)
+            break;
+    }
     return slot;
 }
 
@@ -263,14 +299,14 @@ static void grow_callee_table(struct ir_graph *graph)
     graph->callee_table = ARENA_ARRAY(graph->arena, uint32_t, slots);
     graph->callee_mask = slots - 1;
     for (uint32_t i = 0; i < graph->callees.len; i++)
-        graph->callee_table[find_callee_slot(graph, graph->callees.items[i].id)] = i + 1;
+        graph->callee_table[find_callee_slot(graph, &graph->callees.items[i])] = i + 1;
 }
 
 uint32_t ir_add_callee(struct ir_graph *graph, struct ir_callee callee)
 {
     if (graph->callees.len >= graph->callee_mask / 4 * 3)
         grow_callee_table(graph);
-    uint32_t slot = find_callee_slot(graph, callee.id);
+    uint32_t slot = find_callee_slot(graph, &callee);
     if (!graph->callee_table[slot]) {
         vec_push(graph->arena, &graph->callees, callee);
         graph->callee_table[slot] = graph->callees.len;

@@ -2,9 +2,9 @@
 /*
  * The IR: an append-only, hash-consed, topologically ordered graph (docs/ir.md).
  *
- * A node's operands have smaller indices than the node; identical nodes are one node; the builder
- * folds. So topological order is array order, common subexpressions are shared by construction, and
- * nothing recurses. ir_check verifies it.
+ * The operands of a node have smaller indices than the node, equal nodes are one node, and the
+ * builder folds. So array order is topological order, common subexpressions are shared by
+ * construction, and no algorithm recurses. ir_check verifies this.
  */
 #ifndef MXG_IR_IR_H
 #define MXG_IR_IR_H
@@ -23,8 +23,8 @@ enum ir_type {
 #undef IR_TYPE
     IR_NUM_TYPES,
     /*
-     * From here on: structs and arrays of one graph or function unit, IR_TYPE_FIRST_USER + index in
-     * its ir_user_types.
+     * The first of the structs and arrays of one graph or function unit: IR_TYPE_FIRST_USER + index
+     * in its ir_user_types.
      */
     IR_TYPE_FIRST_USER = 64
 };
@@ -35,7 +35,7 @@ struct ir_type_info {
     uint8_t scalar, components, columns;
 };
 extern const struct ir_type_info ir_types[IR_NUM_TYPES];
-static inline const struct ir_type_info *ir_type_info(ir_type_id type) /* of a built-in type */
+static inline const struct ir_type_info *ir_type_info(ir_type_id type) /* for built-in types */
 {
     assert(type < IR_NUM_TYPES);
     return &ir_types[type];
@@ -58,7 +58,7 @@ static inline bool ir_type_is_float(ir_type_id type) /* float, vector or matrix 
 {
     return type == IR_TYPE_FLOAT || (type >= IR_TYPE_VEC2 && type <= IR_TYPE_MAT4);
 }
-ir_type_id ir_type_vector(ir_type_id scalar, unsigned components); /* VOID where there is none */
+ir_type_id ir_type_vector(ir_type_id scalar, unsigned components); /* VOID if there is none */
 
 struct ir_member {
     str_id name;
@@ -69,14 +69,14 @@ struct ir_member {
 struct ir_user_type {
     str_id name;
     uint32_t array_length;
-    ir_type_id element; /* of an array */
+    ir_type_id element; /* for arrays */
     uint16_t num_members;
-    uint32_t first_member; /* in the table's members */
+    uint32_t first_member; /* in the members of the table */
 };
 
 /*
- * values.c, fold.c: constants and their arithmetic, shared by the builder and by the language's
- * evaluator
+ * values.c, fold.c: constants and their arithmetic, for the builder and for the evaluator of the
+ * portable language
  */
 
 union ir_word {
@@ -103,10 +103,10 @@ enum ir_op {
 };
 
 enum ir_op_flags {
-    OP_PURE = 1, /* no effect, no hidden input: may be folded */
+    OP_PURE = 1, /* no effect and no hidden input: can fold */
     OP_COMMUTES = 2,
-    OP_DERIVATIVE = 4, /* needs its neighbours: must stay in uniform control flow */
-    OP_BUILTIN = 8,    /* a function of the portable language, called by its text */
+    OP_DERIVATIVE = 4, /* needs adjacent pixels: must stay in uniform control flow */
+    OP_BUILTIN = 8,    /* a function of the portable language with this text as its name */
     OP_OPERATOR = 16,  /* syntax of the portable language */
     OP_SIGNED = 32,    /* also over int and its vectors */
     OP_UNSIGNED = 64,  /* also over uint */
@@ -141,16 +141,16 @@ static inline const struct ir_op_info *ir_op_info(enum ir_op op)
 }
 
 /*
- * The result type of an op over built-in operand types by its rule; VOID where they do not fit or
- * where the rule is NONE and the op is not a built-in function (TEX gives VEC4, STEP the type of x,
- * …).
+ * The result type of an op for built-in operand types. VOID if the operands do not match, or if the
+ * rule is NONE and the op is not a built-in function (TEX gives VEC4, STEP the type of x, …).
  */
 ir_type_id ir_op_result(enum ir_op op, const ir_type_id *args, unsigned num_args);
 
 /*
- * Computes a pure op over constants in float32, with the semantics of GLSL 4.50; false where the
+ * Evaluates a pure op over constants in float32, with the semantics of GLSL 4.50. false if the
  * result is undefined (integer division by zero, a shift out of range, the logarithm of 0) or the
- * op is not computable. `attr` as in ir_node; `type` the result's. `out` must not be one of `args`.
+ * op cannot be evaluated. `attr` as in ir_node; `type` is the result type. `out` must not be one of
+ * `args`.
  */
 bool ir_eval_op(enum ir_op op, ir_type_id type, uint32_t attr, const struct ir_value *args,
                 unsigned num_args, struct ir_value *out);
@@ -166,48 +166,59 @@ struct ir_node {
     uint32_t num_args;
     uint32_t first_arg; /* in graph->args */
     uint32_t attr;
-    uint32_t origin;   /* what the node was built for: index in graph->origins; 0 = nothing */
-    str_id name;       /* what a reader calls it (names.c); 0 = nothing, or several things */
-    uint8_t name_rank; /* enum ir_name_rank; of two names the one of the higher rank wins */
-    bool is_shared;    /* it was asked for by more than one origin */
+    uint32_t origin; /* what the node was built for: index in graph->origins; 0 = nothing */
 };
 
 enum ir_node_flags {
-    IR_NODE_DERIVATIVE = 1, /* it or an operand has OP_DERIVATIVE, or calls something that has */
-    IR_NODE_CLOSURE = 2,    /* closure or shader type */
-    /* it or an operand is CONTEXT or SAMPLE: it has a value inside of their loop only */
+    /* it or an operand has OP_DERIVATIVE, or calls a function with derivatives */
+    IR_NODE_DERIVATIVE = 1,
+    IR_NODE_CLOSURE = 2, /* closure or shader type */
+    /* it or an operand is CONTEXT or SAMPLE, so it has a value only inside that loop */
     IR_NODE_LOOP = 4,
     IR_NODE_DEAR = 8, /* it or an operand is a call or reads a texture */
-    /* it or an operand may be undefined where its own operands are not: a quotient, a root */
+    /* it or an operand can be undefined for defined operands: a quotient, a root */
     IR_NODE_PARTIAL = 16,
-    /* from operands */
+    /* inherited from operands */
     IR_NODE_INHERITED = IR_NODE_DERIVATIVE | IR_NODE_LOOP | IR_NODE_DEAR | IR_NODE_PARTIAL
 };
 
+/* What readers call a node, which is no part of it: names.c. */
+struct ir_label {
+    str_id name;    /* 0 = nothing, or several things */
+    uint8_t rank;   /* enum ir_name_rank: of two names the one of the higher rank wins */
+    bool is_shared; /* more than one origin asked for the node */
+};
+
 /*
- * Where a node comes from: for names, comments and diagnostics. The IR carries it and does not look
- * inside.
+ * The source of a node, for names, comments and diagnostics. The IR stores it and never reads it.
  */
 struct ir_origin {
     str_id name;      /* a readable name for a local variable: "metal_ior" */
-    uint32_t element; /* element of the document or library; 0 = none */
-    uint32_t parent;  /* the origin of the instantiating node; 0 = none */
+    uint32_t element; /* element of a document or library; 0 = none */
+    uint32_t parent;  /* origin of the node that instantiates this one; 0 = none */
 };
 
-/*
- * A callee of CALL, VERBATIM or LEAF nodes. `id` is the owner's (a function id, a family id…):
- * equal ids are equal callees.
- */
+enum ir_callee_kind {
+    IR_CALLEE_FUNCTION, /* of CALL: a function of the portable language */
+    IR_CALLEE_VERBATIM, /* of VERBATIM: source of the target */
+    IR_CALLEE_FAMILY,   /* of LEAF: a family of functions of the portable language */
+    IR_CALLEE_CLOSURE,  /* of LEAF: a closure of the target */
+    IR_NUM_CALLEE_KINDS
+};
+extern const char *const ir_callee_kinds[IR_NUM_CALLEE_KINDS]; /* "function" … */
+
+/* A callee of CALL, VERBATIM or LEAF nodes. Equal kind and index is an equal callee. */
 struct ir_callee {
-    uint64_t id;
+    uint8_t kind;   /* enum ir_callee_kind */
+    uint32_t index; /* the owner's number: id of a function, of a family, of the closure's name… */
     str_id name;
     bool derivative; /* it contains derivatives or implicit-LOD texture reads */
-    bool pure;       /* its result depends on its arguments only (no uniform or stream inside) */
+    bool pure;       /* its result depends only on its arguments (no uniform or stream inside) */
 };
 
 /*
- * A function made of IR: a graph used often. Its body is what its results reach; its parameters are
- * PARAM nodes. It is called only after its results are set, so that the body stands before the
+ * A function in IR: a nodegraph with several uses. Its body is the part of the graph that its
+ * results reach; its parameters are PARAM nodes. Calls follow the results, so the body precedes all
  * calls.
  */
 struct ir_function {
@@ -218,9 +229,11 @@ struct ir_function {
 
 struct ir_graph {
     struct arena *arena;
-    struct strpool *strings;   /* may be NULL where no strings are built */
-    VEC(struct ir_node) nodes; /* [0] is unused */
-    VEC(ir_ref) args;          /* [0] is unused */
+    struct strpool *strings; /* may be NULL where no strings are built */
+    /* [0] of both is unused; only graph.c writes to them */
+    VEC(const struct ir_node) nodes;
+    VEC(const ir_ref) args;
+    VEC(struct ir_label) labels; /* by node */
     /* [0] is unused; constant pool: as many as the type has components */
     VEC(union ir_word) words;
     VEC(struct ir_origin) origins; /* [0] is nothing */
@@ -234,11 +247,12 @@ struct ir_graph {
     uint32_t table_mask;
     uint32_t *callee_table; /* the same over callee indices + 1 */
     uint32_t callee_mask;
-    uint32_t origin;    /* given to new nodes */
+    uint32_t origin;             /* of new nodes: ir_push_origin */
+    VEC(uint32_t) outer_origins; /* those below it on the stack */
     uint32_t max_nodes; /* 0 = unlimited; beyond it ->overflow is set and POISON returned */
     bool overflow;
-    bool exact;   /* apply only rules that hold for every input, infinities and NaN included */
-    bool no_fold; /* build exactly what is asked for: for tests */
+    bool exact;   /* only apply exact rules, which hold for infinities and NaN, too */
+    bool no_fold; /* do not fold; for tests */
 };
 
 void ir_graph_init(struct ir_graph *graph, struct arena *arena, struct strpool *strings);
@@ -261,25 +275,25 @@ static inline ir_type_id ir_type_of(const struct ir_graph *graph, ir_ref ref)
 }
 
 /*
- * build.c: the only way to make nodes. Folds, canonicalises commutative operands, applies
- * rules.def, hash-conses.
+ * build.c: the only way to make nodes. Folds, orders commutative operands, applies rules.def,
+ * hash-conses.
  */
 
 /*
- * Any op with its result type given. Operands must exist and fit; asserts otherwise. They may lie
- * in the graph itself. Pure ops over POISON are POISON. A constant result that is not a finite
- * number is not folded: no target can spell it.
+ * Builds any op with a given result type. Asserts that the operands exist and match. `args` may
+ * point into the graph. A pure op with a POISON operand is POISON. A constant result that is not
+ * finite does not fold, because no target can write it.
  */
 ir_ref ir_build(struct ir_graph *graph, enum ir_op op, ir_type_id type, uint32_t attr,
                 const ir_ref *args, unsigned num_args);
 
-/* An op whose rule gives the type; 0 where the operands do not fit. */
+/* Builds an op and derives the type by its rule; 0 if the operands do not match. */
 ir_ref ir_op1(struct ir_graph *graph, enum ir_op op, ir_ref a);
 ir_ref ir_op2(struct ir_graph *graph, enum ir_op op, ir_ref a, ir_ref b);
 ir_ref ir_op3(struct ir_graph *graph, enum ir_op op, ir_ref a, ir_ref b, ir_ref c);
 
 ir_ref ir_const(struct ir_graph *graph, const struct ir_value *value);
-/* the same of a value's components */
+/* from the components of a value */
 ir_ref ir_const_words(struct ir_graph *graph, ir_type_id type, const union ir_word *words);
 ir_ref ir_const_float(struct ir_graph *graph, float f);
 ir_ref ir_const_int(struct ir_graph *graph, int32_t i);
@@ -291,54 +305,87 @@ ir_ref ir_poison(struct ir_graph *graph, ir_type_id type);
 
 ir_ref ir_swizzle(struct ir_graph *graph, ir_ref a, const uint8_t *components, unsigned count);
 ir_ref ir_component(struct ir_graph *graph, ir_ref a, unsigned index);
-/* Parts of another scalar type are converted; 0 where the parts do not make the type. */
+/* Converts parts of another scalar type; 0 if the parts do not match the type. */
 ir_ref ir_construct(struct ir_graph *graph, ir_type_id type, const ir_ref *args, unsigned num_args);
 /*
- * Between scalars or vectors of equal size, a scalar to any vector (and a matrix's diagonal), a
- * vector to a smaller one, between matrices; 0 where there is no conversion.
+ * Converts between scalars or vectors of equal size, a scalar to a vector (or to the diagonal of a
+ * matrix), a vector to a smaller one, and between matrices; 0 if there is no conversion.
  */
 ir_ref ir_convert(struct ir_graph *graph, ir_type_id type, ir_ref a);
 
 bool ir_is_const(const struct ir_graph *graph, ir_ref ref);
 /*
- * The components of a constant of a built-in type, until the next node is built; NULL for anything
- * else.
+ * The components of a constant of a built-in type, valid until the next node is built; NULL for
+ * other nodes.
  */
 static inline const union ir_word *ir_constant_words(const struct ir_graph *graph, ir_ref ref)
 {
     const struct ir_node *node = ir_get(graph, ref);
     return node->op == IR_CONST ? graph->words.items + node->attr : NULL;
 }
-/* The value of such a constant; false for anything else. */
+/* The value of such a constant; false for other nodes. */
 bool ir_get_const(const struct ir_graph *graph, ir_ref ref, struct ir_value *out);
 bool ir_const_is(const struct ir_graph *graph, ir_ref ref, float f); /* all components equal f */
 
 /*
- * names.c: names for the locals of a shader. A library function that is lowered inside of another
- * one ranks lower by its depth. Of two document nodes with one result the first names it; a node
- * that functions of one rank call by several names has none.
+ * names.c: suggests names for the locals of a shader. The rank of a library function decreases with
+ * the depth of its inlining. If two document nodes have the same result, the first one names it. A
+ * node with several names of the same rank has no name.
  */
 enum ir_name_rank {
     IR_NAME_NONE = 0,
     IR_NAME_PARAMETER = 50, /* of a library function that takes the value */
     IR_NAME_FUNCTION = 100, /* of a library function that returns the value */
     IR_NAME_LOCAL = 150,    /* of a local variable of a library function */
-    IR_NAME_ROLE = 200,     /* what the compiler knows of it: a weight, a throughput */
+    IR_NAME_ROLE = 200,     /* its role in the shader: a weight, a throughput */
     IR_NAME_RESULT = 250,   /* of a document's node */
     IR_NAME_MAX_DEPTH = 49, /* deeper functions rank as this */
 };
 void ir_suggest_name(struct ir_graph *graph, ir_ref ref, str_id name, unsigned rank);
-/* The name of a node that `copy` replaces. */
-void ir_inherit_name(struct ir_graph *graph, ir_ref copy, const struct ir_node *original);
+static inline const struct ir_label *ir_label(const struct ir_graph *graph, ir_ref ref)
+{
+    assert(ref < graph->labels.len);
+    return &graph->labels.items[ref];
+}
 
 uint32_t ir_add_origin(struct ir_graph *graph, str_id name, uint32_t element, uint32_t parent);
-/* the same index for the same id */
+/*
+ * New nodes have the origin on top of a stack, whose lowest is nothing. Each push has its pop in
+ * the same step of a generation.
+ */
+static inline void ir_push_origin(struct ir_graph *graph, uint32_t origin)
+{
+    assert(origin < graph->origins.len);
+    vec_push(graph->arena, &graph->outer_origins, graph->origin);
+    graph->origin = origin;
+}
+static inline void ir_pop_origin(struct ir_graph *graph)
+{
+    assert(graph->outer_origins.len > 0);
+    graph->origin = vec_pop(&graph->outer_origins);
+}
+/* a new origin that is only a name */
+static inline void ir_push_name(struct ir_graph *graph, str_id name)
+{
+    ir_push_origin(graph, ir_add_origin(graph, name, 0, 0));
+}
+/* another name in the place of the top */
+static inline void ir_change_name(struct ir_graph *graph, str_id name)
+{
+    ir_pop_origin(graph);
+    ir_push_name(graph, name);
+}
+static inline void ir_push_origin_of(struct ir_graph *graph, ir_ref ref)
+{
+    ir_push_origin(graph, ir_get(graph, ref)->origin);
+}
+/* the same number for an equal callee */
 uint32_t ir_add_callee(struct ir_graph *graph, struct ir_callee callee);
 uint32_t ir_add_struct(struct ir_graph *graph, str_id name, const struct ir_member *members,
                        unsigned num_members);
 /* both return a type id */
 uint32_t ir_add_array(struct ir_graph *graph, ir_type_id element, uint32_t length);
-/* A new IR function; its results are set when its body stands. */
+/* Adds an IR function. The caller sets its results after it built the body. */
 uint32_t ir_add_function(struct ir_graph *graph, str_id name, const ir_type_id *param_types,
                          unsigned num_params);
 ir_ref ir_param(struct ir_graph *graph, uint32_t function, unsigned index);
@@ -346,39 +393,60 @@ void ir_set_results(struct ir_graph *graph, uint32_t function, const ir_ref *res
                     unsigned num_results);
 
 /*
- * mark.c: which nodes the roots need. Returns one byte per node: 0 or 1; bodies of called IR
- * functions included.
+ * mark.c: marks the nodes that the roots need. Returns one byte per node, 0 or 1, including the
+ * bodies of called IR functions.
  */
 uint8_t *ir_mark(const struct ir_graph *graph, const ir_ref *roots, uint32_t num_roots,
                  struct arena *arena);
 /*
- * How often each marked node is used as an operand of marked nodes (and as a root), saturating at
+ * Counts the uses of each marked node as an operand of marked nodes and as a root; saturates at
  * 255.
  */
 uint8_t *ir_count_uses(const struct ir_graph *graph, const uint8_t *marked, const ir_ref *roots,
                        uint32_t num_roots, struct arena *arena);
 
 /*
- * replace.c: the node `root` over `to` where it was over `from`, in IR functions, too; what does
- * not change is not copied.
+ * replace.c: rebuilds `root` with `to` in place of `from`, also in IR functions. Unchanged nodes
+ * are not copied.
  */
 ir_ref ir_replace(struct ir_graph *graph, ir_ref root, ir_ref from, ir_ref to, struct arena *arena);
+
+/*
+ * rebuild.c: makes the graph anew of the nodes that the roots need. Returns the new node per old
+ * one, 0 for those that are gone. Types, callees, origins and functions keep their indices.
+ */
+struct ir_pass {
+    void *user_data;
+    /*
+     * Builds the new node of the same type for the node `old` over `args`, the new operands, which
+     * it may overwrite; `node` is what stood there. Nothing is folded. Constants are not asked for.
+     */
+    ir_ref (*build)(void *user_data, struct ir_graph *graph, ir_ref old, const struct ir_node *node,
+                    ir_ref *args);
+};
+const ir_ref *ir_rebuild(struct ir_graph *graph, const ir_ref *roots, uint32_t num_roots,
+                         const struct ir_pass *pass, struct arena *arena);
 
 /* print.c, parse.c: the text form (docs/ir.md); what is printed parses back to an equal graph. */
 
 void ir_print(const struct ir_graph *graph, const ir_ref *roots, uint32_t num_roots,
               struct text *out);
-/* NULL, or why the text is not IR, with *out_line counted from 1. Roots named by "return" lines. */
+/* NULL, or the syntax error, with *out_line from 1. "return" lines list the roots. */
 const char *ir_parse(struct ir_graph *graph, const char *text, size_t len, ir_ref **out_roots,
                      uint32_t *out_num_roots, uint32_t *out_line);
 
 /*
- * check.c: NULL, or the first violated invariant, with the node's index. For tests and debug
- * builds.
+ * check.c: NULL, or the first broken rule of a graph, with the node that breaks it (0: no node
+ * does, but a table of the graph).
  */
 const char *ir_check(const struct ir_graph *graph, ir_ref *out_node);
+/*
+ * In builds with -Dcheck_ir=true: ends the program if ir_check finds a broken rule, and names the
+ * step after which, the node, and the rule. Other builds do nothing here.
+ */
+void ir_assert_valid(const struct ir_graph *graph, const char *step);
 
-/* eval.c: values of pure graphs, for tests and folding of whole graphs. */
+/* eval.c: evaluates pure graphs, for tests and for folding whole graphs. */
 
 struct ir_eval_env {
     void *user_data;

@@ -5,21 +5,20 @@
  */
 #include "ir/ir.h"
 
-#include <assert.h>
-
 static void suggest(struct ir_graph *graph, ir_ref ref, str_id name, unsigned rank)
 {
-    struct ir_node *node = &graph->nodes.items[ref];
-    if (node->op == IR_CONST || rank < node->name_rank)
+    const struct ir_node *node = ir_get(graph, ref);
+    struct ir_label *label = &graph->labels.items[ref];
+    if (node->op == IR_CONST || rank < label->rank)
         return;
     /* what a graph gives is called after the graph's node, not after the node inside */
     bool is_inside =
         node->origin && graph->origin && graph->origins.items[node->origin].parent == graph->origin;
-    if (rank > node->name_rank || (rank == IR_NAME_RESULT && is_inside)) {
-        node->name = name;
-        node->name_rank = (uint8_t)rank;
-    } else if (rank != IR_NAME_RESULT && node->name != name) {
-        node->name = 0;
+    if (rank > label->rank || (rank == IR_NAME_RESULT && is_inside)) {
+        label->name = name;
+        label->rank = (uint8_t)rank;
+    } else if (rank != IR_NAME_RESULT && label->name != name) {
+        label->name = 0;
     }
 }
 
@@ -35,9 +34,4 @@ void ir_suggest_name(struct ir_graph *graph, ir_ref ref, str_id name, unsigned r
     assert(rank <= IR_NAME_RESULT);
     for (; ref && name; ref = splatted(graph, ref))
         suggest(graph, ref, name, rank);
-}
-
-void ir_inherit_name(struct ir_graph *graph, ir_ref copy, const struct ir_node *original)
-{
-    ir_suggest_name(graph, copy, original->name, original->name_rank);
 }

@@ -108,21 +108,6 @@ static int hex_digit(char c)
     return c >= '0' && c <= '9' ? c - '0' : c >= 'a' && c <= 'f' ? c - 'a' + 10 : -1;
 }
 
-static bool read_hex64(struct parser *p, uint64_t *out)
-{
-    struct word word = read_word(p);
-    if (word.len < 3 || word.len > 18 || word.text[0] != '0' || word.text[1] != 'x')
-        return fail(p, "a callee's id was expected: 0x and up to 16 hexadecimal digits");
-    *out = 0;
-    for (size_t i = 2; i < word.len; i++) {
-        int digit = hex_digit(word.text[i]);
-        if (digit < 0)
-            return fail(p, "a callee's id was expected: 0x and up to 16 hexadecimal digits");
-        *out = *out << 4 | (uint64_t)digit;
-    }
-    return true;
-}
-
 /*
  * The character after a backslash, which is '"', '\' or u00XX, as text_json_string writes. 0 where
  * it is none.
@@ -442,7 +427,14 @@ static bool parse_callee(struct parser *p)
 {
     struct ir_callee callee = {0};
     uint32_t num_callees = p->graph->callees.len;
-    if (!read_string(p, &callee.name) || !read_hex64(p, &callee.id))
+    if (!read_string(p, &callee.name))
+        return false;
+    struct word kind = read_word(p);
+    while (callee.kind < IR_NUM_CALLEE_KINDS && !is_word(kind, ir_callee_kinds[callee.kind]))
+        callee.kind++;
+    if (callee.kind == IR_NUM_CALLEE_KINDS)
+        return fail(p, "a kind of callee was expected");
+    if (!read_u32(p, &callee.index))
         return false;
     callee.derivative = accept_word(p, "derivative");
     callee.pure = accept_word(p, "pure");

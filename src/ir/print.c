@@ -188,8 +188,7 @@ static void print_callees(struct printer *p)
         const struct ir_callee *callee = &p->graph->callees.items[i];
         text_str(p->out, "callee ");
         print_string(p, callee->name);
-        text_str(p->out, " 0x");
-        text_hex64(p->out, callee->id);
+        text_fmt(p->out, " %s %u", ir_callee_kinds[callee->kind], (unsigned)callee->index);
         text_str(p->out, callee->derivative ? " derivative" : "");
         text_str(p->out, callee->pure ? " pure\n" : "\n");
     }

@@ -63,8 +63,10 @@ static ir_ref copy_node(struct replacement *r, ir_ref ref, const ir_ref *copies,
         attr = r->copied[attr] - 1;
         args[num_args++] = to;
     }
-    r->graph->origin = node.origin;
-    return ir_build(r->graph, (enum ir_op)node.op, node.type, attr, args, num_args);
+    ir_push_origin(r->graph, node.origin);
+    ir_ref copy = ir_build(r->graph, (enum ir_op)node.op, node.type, attr, args, num_args);
+    ir_pop_origin(r->graph);
+    return copy;
 }
 
 /* What the roots are over, without the bodies of functions. */
@@ -168,14 +170,11 @@ ir_ref ir_replace(struct ir_graph *graph, ir_ref root, ir_ref from, ir_ref to, s
                             .to = to,
                             .num_nodes = graph->nodes.len,
                             .num_functions = graph->functions.len};
-    uint32_t before = graph->origin;
     r.reads = ARENA_ARRAY(arena, uint8_t, r.num_nodes);
     r.copied = ARENA_ARRAY(arena, uint32_t, r.num_functions);
     find_readers(&r);
     if (!r.reads[root])
         return root;
     copy_functions(&r, ir_mark(graph, &root, 1, arena));
-    root = copy_over(&r, &root, 1, 0, 0, to)[root];
-    graph->origin = before;
-    return root;
+    return copy_over(&r, &root, 1, 0, 0, to)[root];
 }

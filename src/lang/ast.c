@@ -61,14 +61,6 @@ uint32_t ast_target_slot(const struct lang_unit *layer, lang_ref target)
     return node->a;
 }
 
-bool ast_is_plain(const struct lang_unit *layer, const struct lang_function *fn)
-{
-    for (uint32_t i = 0; i < fn->num_slots; i++)
-        if (ast_is_user_type(ast_slot(layer, fn, i)->type))
-            return false;
-    return !ast_is_user_type(fn->return_type);
-}
-
 uint8_t ast_param_mode(const struct lang_unit *unit, uint32_t function, uint32_t param)
 {
     const struct lang_unit *layer;

@@ -71,9 +71,6 @@ uint32_t ast_member_offset(const struct lang_unit *unit, ir_type_id type, uint32
 /* The variable that a target expression (VAR, or SWIZZLE, INDEX, MEMBER of one) belongs to. */
 uint32_t ast_target_slot(const struct lang_unit *layer, lang_ref target);
 
-/* Are all variables of a function, and what it returns, of built-in types? */
-bool ast_is_plain(const struct lang_unit *layer, const struct lang_function *fn);
-
 /* enum lang_param_mode of a function's parameter. */
 uint8_t ast_param_mode(const struct lang_unit *unit, uint32_t function, uint32_t param);
 

@@ -186,8 +186,6 @@ static struct lang_function copy_version(struct copier *c, uint32_t version)
     fn.first_slot = fn.num_slots ? copy_slots(c, &fn) : 0;
     fn.first_callee = copy_refs(c, c->from, fn.first_callee, fn.num_callees, true);
     fn.first_global = copy_refs(c, c->from, fn.first_global, fn.num_globals, false);
-    if (ast_is_plain(c->to, &fn))
-        fn.flags |= LANG_FN_PLAIN;
     return fn;
 }
 

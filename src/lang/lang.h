@@ -90,11 +90,6 @@ enum lang_function_flags {
     /* an inline expression: no name, LANG_INPUT slots, body is RETURN expr */
     LANG_FN_EXPRESSION = 16,
     LANG_FN_FINAL = 32, /* nothing to specialise, unless arguments or callees are: canon.c */
-    /*
-     * its variables and what it returns are of built-in types; told of a library's functions:
-     * canon.c
-     */
-    LANG_FN_PLAIN = 64,
 };
 
 struct lang_function {
@@ -407,12 +402,6 @@ struct lang_form {
     bool infix;
 };
 
-struct lang_words { /* of one length, in a row and sorted by byte value */
-    const char *text;
-    uint32_t count;
-};
-#define LANG_WORDS(length, words) [length] = {words, (sizeof(words) - 1) / (length)}
-
 struct lang_style;
 
 struct lang_syntax {
@@ -426,8 +415,8 @@ struct lang_syntax {
      * screen, as vertex stages do not; NULL: from base.
      */
     const struct lang_form *forms_alone;
-    const struct lang_words *reserved; /* by length; identifiers that must be renamed */
-    uint32_t max_reserved;             /* the greatest length */
+    const char *const *reserved; /* identifiers that must be renamed, sorted by byte value */
+    uint32_t num_reserved;
     /* prefix of a parameter that is never assigned: "const " in GLSL, "" elsewhere */
     const char *param_in;
     const char *param_in_assigned;       /* prefix of one that is: "" in GLSL */
@@ -489,8 +478,7 @@ struct lang_pieces {
 struct lang_style {
     const struct lang_syntax *syntax;
     struct arena *arena;
-    bool plain_floats; /* floats are written as they are */
-    bool from_images;  /* functions are taken from there, where they are */
+    bool from_images; /* functions are taken from there, where they are */
     struct text_word types[IR_NUM_TYPES];
     struct lang_pieces *forms[IR_NUM_OPS]; /* each is made when it is first asked for */
 };
@@ -499,7 +487,7 @@ void lang_style_init(struct lang_style *style, const struct lang_syntax *syntax,
                      struct arena *arena);
 const struct lang_pieces *lang_style_split(struct lang_style *style, enum ir_op op);
 /* out->text NULL for no form */
-void lang_form_split(const struct lang_form *form, struct arena *arena, struct lang_pieces *out);
+void lang_form_split(const struct lang_form *form, struct lang_pieces *out);
 static inline const struct lang_pieces *lang_style_form(struct lang_style *style, enum ir_op op)
 {
     return style->forms[op] ? style->forms[op] : lang_style_split(style, op);
@@ -523,6 +511,8 @@ struct lang_use {
  */
 struct lang_names {
     void *user_data;
+    /* Told of each built-in type whose name is written; may be NULL. */
+    void (*type)(void *user_data, ir_type_id type);
     const char *(*function)(void *user_data, uint32_t id);
     const char *(*global)(void *user_data, uint32_t id);
     const char *(*user_type)(void *user_data, ir_type_id type);

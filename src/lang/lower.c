@@ -141,14 +141,7 @@ struct few { /* room for the frame of a usual function */
 
 static void find_offsets(struct lower *lo, struct lower_frame *frame, struct few *few)
 {
-    static const uint32_t one_each[FEW_SLOTS + 1] = {0,  1,  2,  3,  4,  5,  6,  7,  8,  9,  10,
-                                                     11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21,
-                                                     22, 23, 24, 25, 26, 27, 28, 29, 30, 31, 32};
     uint32_t num_slots = frame->fn->num_slots;
-    if (num_slots <= FEW_SLOTS && frame->fn->flags & LANG_FN_PLAIN) {
-        frame->offsets = one_each;
-        return;
-    }
     const struct lang_slot *slots = frame->layer->slots.items + frame->fn->first_slot;
     uint32_t *offsets = num_slots <= FEW_SLOTS
                             ? few->offsets
@@ -352,7 +345,8 @@ static uint32_t callee(struct lower *lo, uint32_t id)
 {
     const struct lang_function *fn = lang_function(lo->unit, id, NULL);
     return ir_add_callee(lo->graph,
-                         (struct ir_callee){.id = id,
+                         (struct ir_callee){.kind = IR_CALLEE_FUNCTION,
+                                            .index = id,
                                             .name = fn->name,
                                             .derivative = (fn->flags & LANG_FN_DERIVATIVE) != 0,
                                             .pure = (fn->flags & LANG_FN_PURE) != 0});
@@ -408,8 +402,6 @@ static void lower_inline_expression(struct lower *lo, const ir_ref *args, ir_ref
 static bool fits(const struct lower *lo)
 {
     const struct lang_function *fn = lo->frame->fn;
-    if (fn->flags & LANG_FN_PLAIN)
-        return fn->num_params < LOWER_MAX_LEAVES;
     uint32_t leaves = lower_leaves(lo, fn->return_type);
     for (uint32_t i = 0; i < fn->num_params; i++)
         leaves += lower_leaves(lo, ast_slot(lo->frame->layer, fn, i)->type);
@@ -423,19 +415,6 @@ static const ir_ref *join_result(struct lower *lo, ir_type_id type, const ir_ref
     if (!*out)
         *out = ir_poison(lo->graph, graph_type(lo, type));
     return leaves;
-}
-
-/* Without structs, arguments are their own leaves, and so are results. */
-static void lower_plain_function(struct lower *lo, uint32_t id, const ir_ref *args, ir_ref *results)
-{
-    const struct lang_function *fn = lo->frame->fn;
-    const struct lang_slot *slots = lo->frame->layer->slots.items + fn->first_slot;
-    lower_call(lo, id, args, results);
-    if (fn->return_type != IR_TYPE_VOID && !*results++)
-        results[-1] = ir_poison(lo->graph, fn->return_type);
-    for (uint32_t i = 0; i < fn->num_params; i++)
-        if (slots[i].mode != LANG_IN && !*results++)
-            results[-1] = ir_poison(lo->graph, slots[i].type);
 }
 
 static void lower_function(struct lower *lo, uint32_t id, const ir_ref *args, ir_ref *results)
@@ -483,8 +462,6 @@ void lang_lower_call(struct lang_unit *generated, struct ir_graph *graph,
         lower_inline_expression(&lo, args, results);
     else if (!fits(&lo))
         poison_whole_results(&lo, results);
-    else if (frame.fn->flags & LANG_FN_PLAIN)
-        lower_plain_function(&lo, id, args, results);
     else
         lower_function(&lo, id, args, results);
 }

@@ -17,24 +17,11 @@ static struct lang_plan *plan_of(struct lang_unit *unit)
     if (!unit->plan) {
         unit->plan = ARENA_NEW(unit->arena, struct lang_plan);
         unit->plan->num_ids = unit->base_functions + unit->functions.len;
-        unit->plan->first_variant = arena_alloc(
-            unit->arena, mem_array_size(unit->arena->mem, unit->plan->num_ids, sizeof(uint32_t)));
-        unit->plan->called = ARENA_ARRAY(unit->arena, uint8_t, unit->plan->num_ids / 8 + 1);
+        unit->plan->first_variant = ARENA_ARRAY(unit->arena, uint32_t, unit->plan->num_ids);
         unit->plan->spec = ARENA_NEW(unit->arena, struct spec);
         unit->plan->spec->unit = unit;
     }
     return unit->plan;
-}
-
-static bool is_called(const struct lang_plan *plan, uint32_t function)
-{
-    return plan->called[function / 8] >> function % 8 & 1;
-}
-
-/* The first variant of a function, + 1; 0: it is not called. */
-static uint32_t first_variant(const struct lang_plan *plan, uint32_t function)
-{
-    return is_called(plan, function) ? plan->first_variant[function] : 0;
 }
 
 static bool is_bindable(const struct lang_slot *param)
@@ -69,7 +56,6 @@ static uint32_t add_variant(struct lang_unit *unit, uint32_t function, uint32_t 
 {
     struct lang_plan *plan = unit->plan;
     struct variant variant = {.function = function, .first_fact = plan->facts.len};
-    plan->called[function / 8] |= (uint8_t)(1u << function % 8);
     fact *facts = vec_extend(unit->arena, &plan->facts, num_params);
     for (uint32_t i = 0; i < num_params; i++)
         facts[i] = FACT_UNSEEN;
@@ -82,7 +68,7 @@ static uint32_t note_anything(struct lang_unit *unit, uint32_t function)
 {
     struct lang_plan *plan = unit->plan;
     uint32_t num_params = lang_function(unit, function, NULL)->num_params;
-    if (is_called(plan, function))
+    if (plan->first_variant[function])
         return plan->first_variant[function] - 1;
     plan->first_variant[function] = add_variant(unit, function, num_params);
     struct variant *variant = &vec_last(&plan->variants);
@@ -101,7 +87,7 @@ uint32_t plan_note_call(struct lang_unit *unit, uint32_t function, const fact *a
     const struct lang_unit *layer;
     const struct lang_function *fn = lang_function(unit, function, &layer);
     const struct lang_slot *params = ast_slot(layer, fn, 0);
-    uint32_t num_params = fn->num_params, link = first_variant(plan, function), last = 0;
+    uint32_t num_params = fn->num_params, link = plan->first_variant[function], last = 0;
     while (link && !has_keys(unit, &plan->variants.items[link - 1], params, num_params, args)) {
         last = link;
         link = plan->variants.items[link - 1].next;
@@ -149,21 +135,17 @@ uint32_t plan_note_any(struct lang_unit *unit, uint32_t function)
     return plan_note_call(unit, function, NULL, true);
 }
 
-/* Few functions of a library are called: where none of eight is, they are passed over at once. */
 void lang_plan_finish(struct lang_unit *unit)
 {
     struct lang_plan *plan = plan_of(unit);
-    for (uint32_t eight = plan->num_ids / 8 + 1; eight-- > 0;)
-        /* callees are added to them on the way */
-        for (uint32_t id = eight * 8 + 8; plan->called[eight] && id-- > eight * 8;)
-            for (uint32_t link = first_variant(plan, id); link;
-                 link = plan->variants.items[link - 1].next)
-                spec_begin(unit, link - 1);
-    for (uint32_t eight = 0; eight <= plan->num_ids / 8; eight++)
-        for (uint32_t id = eight * 8; plan->called[eight] && id < eight * 8 + 8; id++)
-            for (uint32_t link = first_variant(plan, id); link;
-                 link = plan->variants.items[link - 1].next)
-                spec_finish(unit, link - 1);
+    for (uint32_t id = plan->num_ids; id-- > 0;) /* callees are added on the way */
+        for (uint32_t link = plan->first_variant[id]; link;
+             link = plan->variants.items[link - 1].next)
+            spec_begin(unit, link - 1);
+    for (uint32_t id = 0; id < plan->num_ids; id++)
+        for (uint32_t link = plan->first_variant[id]; link;
+             link = plan->variants.items[link - 1].next)
+            spec_finish(unit, link - 1);
 }
 
 uint32_t lang_plan_version(const struct lang_unit *unit, uint32_t call)

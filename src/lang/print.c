@@ -2,24 +2,15 @@
 /* Printing functions: statements and expressions of one tree in the syntax of a target. */
 #include "lang/print.h"
 
-struct local { /* what a slot is called in the output */
-    struct text_word name;
-    str_id id; /* of the name; 0 where it was changed */
-};
-
 struct printer {
     struct lang_style *style;
     const struct lang_names *names;
     const struct lang_unit *unit, *layer;
     const struct lang_function *fn;
     struct text *out;
-    struct local *locals; /* by slot */
-    uint32_t *visible;    /* slots in scope, innermost last */
+    struct text_word *locals; /* by slot: its name in the output */
+    uint32_t *visible;        /* slots in scope, innermost last */
     uint32_t num_visible;
-    bool any_changed; /* some local's name is not the source's */
-    /* of the names of the functions and globals in use, one bit each: few locals share one */
-    uint64_t initials;
-    uint64_t ids; /* of the names that have been in scope, one bit each likewise */
     unsigned indent;
     bool is_typed; /* the target is asked for forms by type */
 };
@@ -58,70 +49,46 @@ static const char *outer_name(const struct printer *p, uint32_t index)
                              refs[p->fn->first_global + index - p->fn->num_callees]);
 }
 
-static uint64_t initial(const char *name)
+static bool is_taken(const struct printer *p, struct text_word name)
 {
-    return 1ull << (name[0] & 63);
-}
-
-/* Equal names of the source have equal ids; the characters are compared where one was changed. */
-static bool is_visible(const struct printer *p, const char *name, str_id id)
-{
-    if (id && !p->any_changed && !(p->ids >> (id & 63) & 1))
-        return false;
-    for (uint32_t i = 0; i < p->num_visible; i++) {
-        const struct local *local = &p->locals[p->visible[i]];
-        if (p->any_changed || !id ? is_same(local->name.bytes, name) : local->id == id)
+    for (uint32_t i = 0; i < p->num_visible; i++)
+        if (is_same(p->locals[p->visible[i]].bytes, name.bytes))
             return true;
-    }
-    return false;
-}
-
-static bool is_taken(const struct printer *p, const char *name, size_t len, str_id id)
-{
-    if (is_visible(p, name, id))
-        return true;
-    for (uint32_t i = 0; i < num_outer(p) && p->initials & initial(name); i++)
-        if (is_same(outer_name(p, i), name))
+    for (uint32_t i = 0; i < num_outer(p); i++)
+        if (is_same(outer_name(p, i), name.bytes))
             return true;
-    return lang_syntax_is_reserved(p->style->syntax, name, len);
+    return lang_syntax_is_reserved(p->style->syntax, name.bytes, name.len);
 }
 
 /* "x_", "x_2", "x_3"… for x; "x_2" at once for x_, since "__" is reserved in GLSL. */
-static struct text variant(struct printer *p, const char *name, size_t len, uint32_t number)
+static struct text_word variant(struct printer *p, struct text_word name, uint32_t number)
 {
-    bool ends_low = len && name[len - 1] == '_';
+    bool ends_low = name.len && name.bytes[name.len - 1] == '_';
     struct text text;
     text_init(&text, p->out->arena);
-    text_mem(&text, name, len);
+    text_put(&text, name);
     if (!ends_low)
         text_char(&text, '_');
     if (ends_low || number > 1)
         text_u32(&text, number + ends_low);
     text_cstr(&text);
-    return text;
+    return (struct text_word){text.data, text.len};
 }
 
 static void bring_into_scope(struct printer *p, uint32_t slot)
 {
     str_id id = ast_slot(p->layer, p->fn, slot)->name;
-    const char *own = str_text(p->unit->strings, id), *name = own;
-    size_t own_len = str_len(p->unit->strings, id), len = own_len;
-    for (uint32_t number = 1; is_taken(p, name, len, name == own ? id : 0); number++) {
-        struct text text = variant(p, own, own_len, number);
-        name = text.data;
-        len = text.len;
-    }
-    p->locals[slot] =
-        (struct local){text_word_of(p->out->arena, name, len + 1), name == own ? id : 0};
-    p->locals[slot].name.len--; /* the NUL, for comparisons */
-    p->any_changed |= name != own;
-    p->ids |= 1ull << (id & 63);
+    struct text_word own = {str_text(p->unit->strings, id), str_len(p->unit->strings, id)};
+    struct text_word name = own;
+    for (uint32_t number = 1; is_taken(p, name); number++)
+        name = variant(p, own, number);
+    p->locals[slot] = name;
     p->visible[p->num_visible++] = slot;
 }
 
 static void print_local(struct printer *p, uint32_t slot)
 {
-    text_put(p->out, p->locals[slot].name);
+    text_put(p->out, p->locals[slot]);
 }
 
 static void print_variable(struct printer *p, uint32_t slot)
@@ -189,12 +156,6 @@ static void print_member(struct printer *p, const struct lang_node *node)
                                       layer->members.items[user->first_member + node->b].name));
 }
 
-static void print_type_name(struct printer *p, ir_type_id type)
-{
-    if (!ast_is_user_type(type))
-        text_put(p->out, p->style->types[type]);
-}
-
 /* A constant beside a vector is written as a vector where the style spreads constants (style.c). */
 static inline void print_operand(struct printer *p, const struct lang_node *operand,
                                  ir_type_id wide, enum lang_precedence least)
@@ -203,7 +164,7 @@ static inline void print_operand(struct printer *p, const struct lang_node *oper
         print_expression(p, operand, least);
         return;
     }
-    print_type_name(p, wide);
+    print_type_name(p->style, p->names, wide, p->out);
     text_char(p->out, '(');
     print_expression(p, operand, LANG_PREC_ASSIGN);
     text_char(p->out, ')');
@@ -219,7 +180,7 @@ static void print_form(struct printer *p, const struct lang_pieces *form, ir_typ
         if (piece->before.len)
             text_put(p->out, piece->before);
         if (piece->index == LANG_PIECE_TYPE)
-            print_type_name(p, type);
+            lang_print_type(p->style, p->names, p->unit, type, p->out);
         else
             print_operand(p, operands[piece->index], wide, (enum lang_precedence)piece->least);
     }
@@ -381,7 +342,7 @@ static void print_assignment(struct printer *p, const struct lang_node *node)
         node->op == IR_NUM_OPS ? NULL : lang_style_form(p->style, node->op);
     text_char(p->out, ' ');
     if (form && form->infix) /* the operator is what stands between "$0 " and " $1" */
-        text_mem(p->out, form->text + 3, form->pieces[1].before.len - 2u);
+        text_mem(p->out, form->text + 3, form->pieces[1].before.len - 2);
     text_mem(p->out, "= ", 2);
     if (form && !form->infix) { /* no such operator there: x = f(x, y) */
         print_form(p, form, node_at(p, node->a)->type,
@@ -571,18 +532,17 @@ static bool print_array_assignment(struct printer *p, const struct lang_node *no
                     && lang_user_type(p->unit, value->type, NULL)->array_length;
     if (!is_array || !p->style->syntax->array_braces)
         return false;
-    struct text made;
-    text_init(&made, p->out->arena);
-    text_str(&made, "made");
-    for (uint32_t number = 1; is_taken(p, text_cstr(&made), made.len, 0); number++)
-        made = variant(p, "made", strlen("made"), number);
+    const struct text_word wanted = {"made", strlen("made")};
+    struct text_word made = wanted;
+    for (uint32_t number = 1; is_taken(p, made); number++)
+        made = variant(p, wanted, number);
     text_str(p->out, "{ ");
-    lang_print_variable(p->style, p->names, p->unit, value->type, text_cstr(&made), p->out);
+    lang_print_variable(p->style, p->names, p->unit, value->type, made.bytes, p->out);
     text_str(p->out, " = ");
     print_expression(p, value, LANG_PREC_ASSIGN);
     text_str(p->out, "; ");
     print_expression(p, node_at(p, node->a), LANG_PREC_UNARY);
-    text_fmt(p->out, " = %s; }\n", text_cstr(&made));
+    text_fmt(p->out, " = %s; }\n", made.bytes);
     return true;
 }
 
@@ -616,8 +576,6 @@ static struct printer start(struct lang_style *style, const struct lang_names *n
     p.fn = lang_function(unit, id, &p.layer);
     p.locals = arena_alloc(out->arena, p.fn->num_slots * sizeof *p.locals);
     p.visible = arena_alloc(out->arena, p.fn->num_slots * sizeof *p.visible);
-    for (uint32_t i = 0; i < num_outer(&p); i++)
-        p.initials |= initial(outer_name(&p, i));
     for (uint32_t i = 0; i < p.fn->num_params; i++)
         bring_into_scope(&p, i);
     return p;
@@ -657,6 +615,19 @@ static void print_param(struct printer *p, uint32_t slot)
     text_str(p->out, "_in");
 }
 
+/* Arrays cannot be macros. */
+static void print_constant_arrays(struct printer *p)
+{
+    for (uint32_t i = 0; p->style->syntax->defines_constants && i < p->fn->num_globals; i++) {
+        uint32_t id = p->layer->refs.items[p->fn->first_global + i];
+        const struct lang_global *global = lang_global(p->unit, id, NULL);
+        if (!ast_is_user_type(global->type) || !global->num_words)
+            continue;
+        text_str(p->out, "    ");
+        lang_print_constant(p->style, p->names, p->unit, id, p->out);
+    }
+}
+
 static void print_copies(struct printer *p)
 {
     for (uint32_t i = 0; i < p->fn->num_params; i++) {
@@ -692,6 +663,7 @@ void lang_print_function(struct lang_style *style, const struct lang_names *name
     struct printer p = start(style, names, unit, id, out);
     print_head(&p, id);
     text_str(out, "\n{\n");
+    print_constant_arrays(&p);
     print_copies(&p);
     print_body(&p, node_at(&p, p.fn->body));
     text_str(out, "}\n");

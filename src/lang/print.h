@@ -20,6 +20,15 @@ const char *print_maker(const struct lang_names *names, const struct lang_unit *
  * A type in two parts, which stand around a variable's name: without the lengths of arrays, and
  * these.
  */
+/* The name of a built-in type. */
+static inline void print_type_name(const struct lang_style *style, const struct lang_names *names,
+                                   ir_type_id type, struct text *out)
+{
+    if (names && names->type)
+        names->type(names->user_data, type);
+    text_put(out, style->types[type]);
+}
+
 void print_base_type(const struct lang_style *style, const struct lang_names *names,
                      const struct lang_unit *unit, ir_type_id type, struct text *out);
 void print_lengths(const struct lang_unit *unit, ir_type_id type, struct text *out);

@@ -41,7 +41,7 @@ void print_base_type(const struct lang_style *style, const struct lang_names *na
     if (ast_is_user_type(type))
         text_str(out, print_struct_name(names, unit, type));
     else
-        text_put(out, style->types[type]);
+        print_type_name(style, names, type, out);
 }
 
 void print_lengths(const struct lang_unit *unit, ir_type_id type, struct text *out)
@@ -74,6 +74,8 @@ void lang_print_variable(const struct lang_style *style, const struct lang_names
     print_lengths(unit, type, out);
 }
 
+enum { SHORT_FLOAT = 7 }; /* characters of a number that cannot be shortened */
+
 /*
  * A number that folding made may miss a short one by its last bit: 1.0 - 0.8 gives 0.19999999. The
  * short one is written where it has six digits or less and is no whole number, which a bit may keep
@@ -81,10 +83,8 @@ void lang_print_variable(const struct lang_style *style, const struct lang_names
  */
 static float shortened(float f)
 {
-    int exponent;
-    frexpf(f, &exponent);
     double scale = 1.0;
-    for (int digits = 6 - (int)floor(exponent * 0.30103); digits > 0; digits--)
+    for (int digits = 5 - (int)floor(log10(fabs((double)f))); digits > 0; digits--)
         scale *= 10.0;
     double rounded = round((double)f * scale) / scale;
     float near = (float)rounded;
@@ -98,7 +98,12 @@ static void print_float(const struct lang_syntax *syntax, float f, struct text *
         text_str(out, isnan(f) ? "(0.0 / 0.0)" : f > 0 ? "(1.0 / 0.0)" : "(-1.0 / 0.0)");
         return;
     }
-    text_float(out, shortened(f));
+    size_t begin = out->len;
+    text_float(out, f);
+    if (out->len - begin > SHORT_FLOAT) {
+        out->len = begin;
+        text_float(out, shortened(f));
+    }
     if (syntax->float_literals_need_suffix)
         text_char(out, 'f');
 }
@@ -146,18 +151,10 @@ static bool has_sign(ir_type_id type, union ir_word word)
                                  : type == IR_TYPE_INT && word.i < 0 && word.i != INT32_MIN;
 }
 
-/* as bits, of which those of numbers that are neither negative nor infinite are less */
-enum { FLOAT_INFINITY = 0x7f800000 };
-
 void lang_print_value(const struct lang_style *style, const struct strpool *strings,
                       ir_type_id type, const union ir_word *words, enum lang_precedence least,
                       struct text *out)
 {
-    /* most values of a shader */
-    if (type == IR_TYPE_FLOAT && style->plain_floats && words->u < FLOAT_INFINITY) {
-        text_float(out, words->f);
-        return;
-    }
     const struct ir_type_info *info = ir_type_info(type);
     if (type == IR_TYPE_STRING) {
         text_json_string(out, str_text(strings, words->u), str_len(strings, words->u));

@@ -47,11 +47,9 @@ static void add_global(struct lang_reach *reach, const struct lang_unit *unit, u
 static void add_own_needs(struct lang_reach *reach, const struct lang_unit *unit,
                           const struct lang_unit *layer, const struct lang_function *fn)
 {
-    if (!(fn->flags & LANG_FN_PLAIN)) {
-        add_type(reach, unit, fn->return_type);
-        for (uint32_t i = 0; i < fn->num_slots; i++)
-            add_type(reach, unit, ast_slot(layer, fn, i)->type);
-    }
+    add_type(reach, unit, fn->return_type);
+    for (uint32_t i = 0; i < fn->num_slots; i++)
+        add_type(reach, unit, ast_slot(layer, fn, i)->type);
     for (uint32_t i = 0; i < fn->num_globals; i++)
         add_global(reach, unit, layer->refs.items[fn->first_global + i]);
 }

@@ -46,7 +46,6 @@ struct variant {         /* a function with the strings and flags that choose wh
 
 struct lang_plan {
     uint32_t *first_variant; /* by function id: 1 + index; 0 = not called */
-    uint8_t *called;         /* a bit for each function that has a variant */
     uint32_t num_ids;
     VEC(struct variant) variants;
     VEC(fact) facts;

@@ -14,9 +14,8 @@ void lang_style_init(struct lang_style *style, const struct lang_syntax *syntax,
         (struct lang_style){.syntax = syntax, .arena = arena, .from_images = syntax->in_images};
     for (ir_type_id type = 0; type < IR_NUM_TYPES; type++) {
         const char *name = lang_syntax_type(syntax, type);
-        style->types[type] = text_word_of(arena, name, strlen(name));
+        style->types[type] = (struct text_word){name, strlen(name)};
     }
-    style->plain_floats = !syntax->write_value && !syntax->float_literals_need_suffix;
 }
 
 /* Precedence an operand needs, by what stands around it in the form. */
@@ -46,7 +45,7 @@ static bool spreads_constants(const struct lang_syntax *syntax, enum ir_op op)
     return fits && syntax->wide_constants && op != IR_REFRACT;
 }
 
-void lang_form_split(const struct lang_form *form, struct arena *arena, struct lang_pieces *split)
+void lang_form_split(const struct lang_form *form, struct lang_pieces *split)
 {
     split->text = form ? form->text : NULL;
     split->num = 0;
@@ -63,20 +62,20 @@ void lang_form_split(const struct lang_form *form, struct arena *arena, struct l
         char before = p == form->text ? '\0' : p[-1] == ' ' ? p[-2] : p[-1];
         unsigned index = (unsigned)(p[1] - '0');
         split->pieces[split->num++] = (struct lang_piece){
-            .before = text_word_of(arena, from, (size_t)(p - from)),
+            .before = {from, (size_t)(p - from)},
             .index = p[1] == 'T' ? LANG_PIECE_TYPE : (uint8_t)index,
             .least = p[1] == 'T' ? 0 : (uint8_t)operand_precedence(form, index, before, p[2]),
         };
         from = p + 2;
         p++;
     }
-    split->rest = text_word_of(arena, from, (size_t)(p - from));
+    split->rest = (struct text_word){from, (size_t)(p - from)};
 }
 
 const struct lang_pieces *lang_style_split(struct lang_style *style, enum ir_op op)
 {
     struct lang_pieces *split = style->forms[op] = arena_alloc(style->arena, sizeof *split);
-    lang_form_split(lang_syntax_form(style->syntax, op), style->arena, split);
+    lang_form_split(lang_syntax_form(style->syntax, op), split);
     split->spreads = split->text && spreads_constants(style->syntax, op);
     return split;
 }

@@ -32,6 +32,7 @@ static const struct lang_form forms[IR_NUM_OPS] = {
     CALL1(SIN, "sin"), CALL1(COS, "cos"), CALL1(TAN, "tan"),
     CALL1(ASIN, "asin"), CALL1(ACOS, "acos"), CALL1(ATAN, "atan"), CALL2(ATAN2, "atan"),
     CALL1(SINH, "sinh"), CALL1(COSH, "cosh"), CALL1(TANH, "tanh"),
+    CALL1(ASINH, "asinh"), CALL1(ACOSH, "acosh"), CALL1(ATANH, "atanh"),
     CALL2(POW, "pow"), CALL1(EXP, "exp"), CALL1(LOG, "log"), CALL1(EXP2, "exp2"), CALL1(LOG2, "log2"),
     CALL1(SQRT, "sqrt"), CALL1(RSQRT, "inversesqrt"),
     CALL1(ABS, "abs"), CALL1(SIGN, "sign"), CALL1(FLOOR, "floor"), CALL1(TRUNC, "trunc"), CALL1(ROUND, "round"),
@@ -65,18 +66,11 @@ static const char *const type_names[IR_NUM_TYPES] = {
 #undef IR_TYPE
 };
 
-// clang-format off
-static const struct lang_words keywords[] = {
-    LANG_WORDS(2, "do" "if" "in"),
-    LANG_WORDS(3, "for" "int" "out"),
-    LANG_WORDS(4, "bool" "else" "mat2" "mat3" "mat4" "true" "uint" "vec2" "vec3" "vec4" "void"),
-    LANG_WORDS(5, "break" "const" "false" "float" "inout" "ivec2" "while"),
-    LANG_WORDS(6, "return" "string" "struct"),
-    LANG_WORDS(7, "uniform"),
-    LANG_WORDS(8, "continue"),
-    LANG_WORDS(9, "sampler2D"),
-};
-// clang-format on
+static const char *const keywords[] = {
+    "bool",    "break", "const",  "continue",  "do",     "else",   "false", "float",
+    "for",     "if",    "in",     "inout",     "int",    "ivec2",  "mat2",  "mat3",
+    "mat4",    "out",   "return", "sampler2D", "string", "struct", "true",  "uint",
+    "uniform", "vec2",  "vec3",   "vec4",      "void",   "while"};
 
 const struct lang_syntax lang_syntax_portable = {
     .name = "portable",
@@ -85,7 +79,7 @@ const struct lang_syntax lang_syntax_portable = {
     .forms_alone = forms_alone,
     .constant = "const ",
     .reserved = keywords,
-    .max_reserved = sizeof keywords / sizeof *keywords - 1,
+    .num_reserved = sizeof keywords / sizeof *keywords,
     .param_in = "",
     .param_in_assigned = "",
     .param_out = "out ",
@@ -130,17 +124,15 @@ bool lang_syntax_is_reserved(const struct lang_syntax *syntax, const char *name,
         return true;
     while (!syntax->reserved && syntax->base)
         syntax = syntax->base;
-    if (len > syntax->max_reserved)
-        return false;
-    const struct lang_words *words = &syntax->reserved[len];
-    for (uint32_t low = 0, high = words->count; low < high;) {
+    for (uint32_t low = 0, high = syntax->num_reserved; low < high;) {
         uint32_t middle = (low + high) / 2;
-        const char *word = words->text + middle * len;
-        int order = name[0] != word[0] ? (unsigned char)name[0] - (unsigned char)word[0]
-                                       : memcmp(name, word, len);
+        const char *word = syntax->reserved[middle];
+        int order = (unsigned char)name[0] - (unsigned char)word[0];
         if (order == 0)
+            order = strncmp(name, word, len);
+        if (order == 0 && word[len] == '\0')
             return true;
-        if (order < 0)
+        if (order <= 0)
             high = middle;
         else
             low = middle + 1;

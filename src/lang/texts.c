@@ -80,8 +80,6 @@ static bool has_own_type(const struct lang_names *names, const struct lang_unit 
 static bool has_own_types(const struct lang_names *names, const struct lang_unit *unit,
                           const struct lang_unit *layer, const struct lang_function *fn)
 {
-    if (fn->flags & LANG_FN_PLAIN)
-        return true;
     for (uint32_t i = 0; i < fn->num_slots; i++)
         if (!has_own_type(names, unit, ast_slot(layer, fn, i)->type))
             return false;

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Names of colour spaces. A transform is a node of the library (cmlib), `<space>_to_<space>`: the
- * set of spaces is the library's.
+ * Names of colour spaces. A transform is a node `<space>_to_<space>` of the library (cmlib), so the
+ * library defines the spaces.
  */
 #include "library/library.h"
 
 #include <stdio.h>
 
 /*
- * Other names of colour spaces: an alias of the specification ("Color Spaces and Color Management
- * Systems"), those of old documents, those that the ASWF's Color Interop Forum recommends, and
- * those of OpenColorIO's configuration for ACES.
+ * Other names of colour spaces: an alias in the specification ("Color Spaces and Color Management
+ * Systems"), names in old documents, recommendations of the ASWF's Color Interop Forum, and names
+ * in OpenColorIO's configuration for ACES.
  */
 static const char *const aliases[][2] = {
     {"lin_ap1", "acescg"},
@@ -72,7 +72,7 @@ uint32_t library_color_transform(const struct library *lib, const char *from, co
 
 const char *const library_color_hub = "lin_rec709";
 
-/* "lin_rec709, srgb_texture, …": what the library can convert to the hub. */
+/* "lin_rec709, srgb_texture, …": the spaces that the library can convert to the hub. */
 static const char *known_spaces(const struct library *lib, struct arena *arena)
 {
     struct text out;

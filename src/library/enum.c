@@ -7,7 +7,7 @@ static const char *text_of(const struct library *lib, str_id id)
     return str_text(&lib->strings, id);
 }
 
-/* The words of a list, without the spaces around them. */
+/* The words of a list without surrounding spaces. */
 struct words {
     const char **items;
     uint32_t len, cap;
@@ -25,7 +25,7 @@ static void split(const char *list, struct arena *arena, struct words *out)
     }
 }
 
-/* Most values are right: they are looked up without splitting the list. */
+/* Looks a word up without splitting the list, because most values are valid. */
 static bool has(const char *list, const char *word, size_t len)
 {
     for (const char *p = list; *p; p += *p == ',') {

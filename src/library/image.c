@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * The library image: the arrays of a layer, one behind another, as they stand in memory.
+ * The library image: the arrays of a layer in their memory layout, one after another.
  *
  *     header | section 0 | section 1 | …     each section aligned to 16 bytes
  *
- * Records refer to each other by index only, so mapping is setting one pointer per section. The
- * layout belongs to one build on one kind of machine; the header's fingerprint says which, and
- * another is refused, not converted.
+ * Records refer to each other by index, so mapping sets one pointer per section. The layout belongs
+ * to one build on one kind of machine. The header has a fingerprint of it; mxgen refuses an image
+ * with another fingerprint.
  */
 #include "library/library.h"
 
@@ -14,7 +14,7 @@
 
 enum { ALIGNMENT = 16 };
 
-struct any_vec { /* what every VEC looks like */
+struct any_vec { /* the layout of every VEC */
     void *items;
     uint32_t len, cap;
 };
@@ -41,7 +41,7 @@ static const struct section_info section_infos[] = {
 };
 enum {
     NUM_VECS = sizeof section_infos / sizeof *section_infos,
-    SECTION_NAME_TABLE = NUM_VECS, /* the document's name table */
+    SECTION_NAME_TABLE = NUM_VECS, /* the name table of the document */
     SECTION_ELEMENT_INFO,
     SECTION_STR_OFFSETS,
     SECTION_STR_BYTES,
@@ -51,9 +51,9 @@ enum {
 
 struct header {
     char magic[8];
-    uint64_t fingerprint; /* of the layout: sizes of the records, number of words, version */
-    uint64_t checksum;    /* of everything behind it */
-    uint64_t size;        /* of the whole image */
+    uint64_t fingerprint; /* hash of the layout: sizes of records, number of words, version */
+    uint64_t checksum;    /* of all following bytes */
+    uint64_t size;        /* of the image */
     uint32_t first_element, first_attr, first_file, root, name_mask;
     uint32_t num_strings, string_mask;
     uint32_t has_attributedefs;
@@ -73,7 +73,7 @@ static uint64_t checksum(const void *image, size_t size)
 static uint64_t fingerprint(void)
 {
     uint64_t h = HASH_STABLE_SEED;
-    uint32_t facts[NUM_VECS + 4] = {6 /* bumped when meanings change but sizes do not */,
+    uint32_t facts[NUM_VECS + 4] = {6 /* increase it when meanings change but sizes do not */,
                                     STR_NUM_WORDS, IR_NUM_OPS, NUM_ELEMENT_KINDS};
     for (unsigned i = 0; i < NUM_VECS; i++)
         facts[i + 4] = (uint32_t)section_infos[i].item_size;
@@ -95,7 +95,7 @@ static void put_section(struct text *out, struct header *header, unsigned sectio
     text_mem(out, items, len * item_size);
 }
 
-/* Tables of ids have 16 bits for each where all of them fit. */
+/* A table of ids has 16-bit entries if all ids fit. */
 static bool is_narrow(uint32_t max_id)
 {
     return max_id <= UINT16_MAX;
@@ -114,7 +114,7 @@ static void put_table(struct text *out, struct header *header, unsigned section,
     put_section(out, header, section, narrow, len, sizeof *narrow);
 }
 
-/* What an element_info says at most. */
+/* The maximum of element_info. */
 static uint32_t max_info(const struct library *lib)
 {
     uint32_t most =
@@ -122,7 +122,9 @@ static uint32_t max_info(const struct library *lib)
     return most > lib->geomprops.len ? most : lib->geomprops.len;
 }
 
-/* ---- Attributes: each run of them once, since template rows repeat most of theirs ---- */
+/*
+ * ---- Attributes: equal runs are stored once, because rows of templates repeat most of them ----
+ */
 
 struct runs {
     struct document *doc;
@@ -162,8 +164,8 @@ static void share_run(struct runs *runs, uint32_t index, struct arena *arena)
 }
 
 /*
- * Gives the document elements and attributes of its own, in which equal runs are one. Nothing may
- * be added to it after this.
+ * Copies elements and attributes and merges equal runs of attributes. No attribute can be added
+ * afterwards.
  */
 static void share_attributes(struct document *doc, struct arena *arena)
 {
@@ -185,8 +187,8 @@ static void share_attributes(struct document *doc, struct arena *arena)
 /* ---- Writing ---- */
 
 /*
- * Every string of a document is looked for in the image, which has few of them: half of the slots
- * are free, so that few are compared.
+ * Every string of a document is looked up in the image. Half of the slots are free, so a lookup
+ * compares few strings.
  */
 static uint32_t make_string_table(const struct strpool *pool, struct arena *arena,
                                   uint32_t **out_table)
@@ -306,7 +308,7 @@ static void map_element_info(struct library *lib, const struct header *header, c
 {
     void *table = base + header->sections[SECTION_ELEMENT_INFO].offset;
     if (header->sections[SECTION_ELEMENT_INFO].len < lib->doc.elements.len)
-        return; /* it was never indexed */
+        return; /* the name table was never built */
     if (is_narrow(max_info(lib)))
         lib->narrow_info = table;
     else
@@ -321,7 +323,7 @@ const char *library_map_image(struct library *lib, const void *data, size_t size
                                                     : check_header(header, data, size, check_bytes);
     if (fault)
         return fault;
-    /* The records are never written through these pointers: a mapped layer does not change. */
+    /* No code writes through these pointers: a mapped layer does not change. */
     char *base = (char *)(uintptr_t)data;
     memset(lib, 0, sizeof *lib);
     lib->digest = header->checksum;

@@ -34,7 +34,7 @@ static bool has_type(struct indexer *ix, elem_id element, doc_type *out_type)
     return false;
 }
 
-/* Under which own index an element stands in the table of its kind. */
+/* Stores the index of an element in the table of its kind. */
 static void set_info(struct indexer *ix, elem_id element, uint32_t own)
 {
     ix->lib->element_info.items[element - ix->lib->doc.first_element] = own + 1;
@@ -103,7 +103,8 @@ static bool port_exists(const struct library *lib, uint32_t first, str_id name)
     return false;
 }
 
-enum { MAX_PORTS = 1024 }; /* inputs, and outputs, of a definition: they are searched one by one */
+/* limit for the inputs and for the outputs of a definition, because lookups are linear */
+enum { MAX_PORTS = 1024 };
 
 static void add_ports_of(struct indexer *ix, elem_id nodedef, enum element_kind kind,
                          uint32_t first)
@@ -124,7 +125,7 @@ static void add_ports_of(struct indexer *ix, elem_id nodedef, enum element_kind 
 }
 
 /*
- * Own ports first, then inherited ones that are not redeclared (specification, "NodeDef
+ * Adds own ports first, then inherited ports without a redeclaration (specification, "NodeDef
  * Inheritance").
  */
 static uint16_t add_ports(struct indexer *ix, elem_id nodedef, enum element_kind kind)
@@ -175,7 +176,7 @@ static void make_node_table(struct indexer *ix)
         slots *= 2;
     uint32_t *table = vec_extend(ix->arena, &lib->node_table, slots);
     memset(table, 0, slots * sizeof *table);
-    /* from the last, so that the first of a node leads */
+    /* backwards, so that the first definition of a node becomes the head */
     for (uint32_t i = lib->nodedefs.len; i-- > 0;)
         link_by_node(ix, i);
 }
@@ -198,7 +199,7 @@ static void add_nodedef(struct indexer *ix, elem_id element)
         diag_add(ix->diags, DIAG_ID_nodedef_nodename,
                  doc_attr_place(&lib->doc, element, STR_nodename));
     if (!def.node)
-        return; /* definitions of options and the like */
+        return; /* nodedefs without a node, for example of options */
     def.num_inputs = add_ports(ix, element, KIND_INPUT);
     uint32_t before = lib->ports.len;
     add_ports(ix, element, KIND_OUTPUT);
@@ -211,7 +212,7 @@ static void add_nodedef(struct indexer *ix, elem_id element)
 
 static uint32_t default_nodedef(const struct library *lib, str_id node, doc_type type)
 {
-    enum { MAX_TRIED = 1024 }; /* standard nodes have a handful */
+    enum { MAX_TRIED = 1024 }; /* standard nodes have few definitions */
     uint32_t tried = 0;
     for (; lib; lib = lib->base)
         for (uint32_t i = library_first_of_node(lib, node); i != LIBRARY_NONE && tried < MAX_TRIED;
@@ -308,7 +309,7 @@ static const char *file_of(const struct indexer *ix, elem_id element)
     return name ? name : "";
 }
 
-/* One inline expression per output: of the <implementation> itself, or of its <output> children. */
+/* Parses one inline expression per output: of the <implementation>, or of its <output> children. */
 static bool parse_expressions(struct indexer *ix, struct implementation *impl, str_id source,
                               uint32_t file, struct diag_list *diags)
 {
@@ -386,7 +387,7 @@ static const char *check_signature(const struct indexer *ix, const struct implem
     const struct port *ports = library_ports(ix->lib, impl->nodedef, NULL);
     uint32_t outs = fn->return_type == IR_TYPE_VOID ? def->num_outputs : 0u;
     if (library_type_ir(ix->lib, ports[def->num_inputs].type) == IR_TYPE_LIGHT)
-        return NULL; /* lights have a signature of their own: see library.md */
+        return NULL; /* lights have a different signature, see library.md */
     if (fn->num_params != def->num_inputs + outs)
         return "it needs one parameter per input, then one `out` parameter per output (or a return "
                "value)";
@@ -475,10 +476,7 @@ static void refuse_source(struct indexer *ix, const struct implementation *impl,
              text_of(ix->lib, impl->name), reason);
 }
 
-/*
- * What does not parse is kept as it is for the targets it is written for; a portable implementation
- * must parse.
- */
+/* Source for a target that does not parse stays verbatim; a portable implementation must parse. */
 static void parse_implementation(struct indexer *ix, struct implementation *impl)
 {
     struct diag_list faults;
@@ -522,7 +520,7 @@ static void add_impl(struct indexer *ix, struct implementation impl)
     vec_push(ix->arena, &lib->impls, impl);
 }
 
-/* From the last, so that the first of a definition leads. */
+/* Backwards, so that the first implementation of a definition becomes the head. */
 static void link_implementations(struct library *lib)
 {
     for (uint32_t i = lib->impls.len; i-- > 0;) {
@@ -552,7 +550,7 @@ static void add_implementation(struct indexer *ix, elem_id element)
         .name = e->name, .target = attr(ix, element, STR_target), .element = element};
     str_id nodedef = attr(ix, element, STR_nodedef);
     if (!nodedef)
-        return; /* of nothing, as validation tells */
+        return; /* validation reports the missing nodedef */
     impl.nodedef = library_nodedef_by_name(lib, nodedef);
     if (impl.nodedef == LIBRARY_NONE) {
         diag_add(ix->diags, DIAG_ID_implementation_unknown_nodedef,
@@ -561,7 +559,7 @@ static void add_implementation(struct indexer *ix, elem_id element)
         return;
     }
     if (!library_nodedef(lib, impl.nodedef)->num_outputs)
-        return; /* of nothing, too: no-output or unknown-type */
+        return; /* reported as no-output or unknown-type */
     str_id graph = attr(ix, element, STR_nodegraph);
     bool outputs = false;
     for (elem_id c = e->first_child; c; c = doc_element(&lib->doc, c)->next)
@@ -578,6 +576,7 @@ static void add_implementation(struct indexer *ix, elem_id element)
         parse_implementation(ix, &impl);
     } else {
         impl.kind = IMPL_DYNAMIC;
+        impl.ref = attr(ix, element, STR_function);
     }
     add_impl(ix, impl);
 }
@@ -638,8 +637,8 @@ void library_index(struct library *lib, const struct lang_reader *reader, struct
 }
 
 /*
- * What a graph's nodes read from its interface is found by number, unless another definition shares
- * the graph.
+ * Stores the indices of interface inputs in the bindings of a nodegraph, unless another definition
+ * shares the nodegraph.
  */
 static void number_interface(const struct library *lib, uint32_t nodedef, struct binding *bindings,
                              uint32_t n)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Graphs that implement definitions: what `interfacename` means inside of them. */
+/* Nodegraphs that implement definitions: resolves `interfacename` inside them. */
 #include "library/library.h"
 
 static const char *text_of(const struct library *lib, str_id id)
@@ -25,10 +25,7 @@ uint32_t library_implemented_nodedef(const struct library *lib, elem_id graph)
     return LIBRARY_NONE;
 }
 
-/*
- * " (did you mean 'x'?)" among the interface inputs of a graph, which its definition says where it
- * has one.
- */
+/* Suggests an interface input of the nodegraph, or of its definition if it has one. */
 static const char *suggest(const struct library *lib, elem_id graph, uint32_t nodedef, str_id name,
                            struct diag_list *diags)
 {

@@ -72,7 +72,7 @@ uint32_t library_element_info(const struct library *lib, elem_id element,
     return own < lib->element_info.len ? lib->element_info.items[own] - 1 : LIBRARY_NONE;
 }
 
-/* Of a layer's own top-level element; LIBRARY_NONE: there is no such, or it counts for nothing. */
+/* The index of a top-level element in its layer; LIBRARY_NONE: it does not exist or is invalid. */
 static uint32_t own_index(const struct library *layer, enum element_kind kind, str_id name)
 {
     elem_id element = name ? doc_child_of_kind(&layer->doc, layer->doc.root, kind, name) : 0;

@@ -2,11 +2,10 @@
 /*
  * Node definitions and their implementations, indexed for lookup.
  *
- * A `library` is one layer: the compiled library image, an extra library, or a user's document.
- * Each stands on the one below and sees it; ids (of elements, nodedefs, functions…) count through
- * the layers, so a reference needs no layer beside it. A layer does not change once library_index
- * has run, and holds no pointers between its records, so that it can be written as an image and
- * mapped.
+ * A `library` is one library layer: the library image, an extra library, or a document. A layer
+ * stacks on the layer below and reads it. Ids (of elements, nodedefs, functions…) count through the
+ * layers, so a reference is an id without a layer. A layer does not change after library_index and
+ * has no pointers between its records, so mxgen can write it as an image and map it.
  */
 #ifndef MXG_LIBRARY_LIBRARY_H
 #define MXG_LIBRARY_LIBRARY_H
@@ -17,9 +16,9 @@
 #define LIBRARY_NONE UINT32_MAX
 
 enum port_flags {
-    PORT_UNIFORM = 1,   /* uniform="true": may not be connected to something that varies */
-    PORT_HAS_VALUE = 2, /* a default value stands in the definition */
-    PORT_ENUM = 4,      /* has a list of allowed values */
+    PORT_UNIFORM = 1,   /* uniform="true": the source of a connection must not vary */
+    PORT_HAS_VALUE = 2, /* the definition has a default value */
+    PORT_ENUM = 4,      /* has an enumeration */
 };
 
 struct port { /* an input or output of a definition */
@@ -36,7 +35,7 @@ struct nodedef {
     elem_id element;
     uint32_t first_port; /* inputs first, then outputs */
     uint16_t num_inputs, num_outputs;
-    uint32_t first_impl;     /* of the same layer, chained by next; LIBRARY_NONE */
+    uint32_t first_impl;     /* of the same layer, linked by next; LIBRARY_NONE */
     uint32_t next_same_node; /* next definition of the same node in this layer; LIBRARY_NONE */
     bool is_default_version;
 };
@@ -44,10 +43,11 @@ struct nodedef {
 enum impl_kind {
     IMPL_EXPRESSION, /* ref: first of num_outputs expression functions in the layer's refs */
     IMPL_FUNCTION,   /* ref: lang function id */
-    IMPL_FAMILY,     /* a closure leaf: ref: family index */
+    IMPL_FAMILY,     /* ref: index of the leaf family */
     IMPL_GRAPH,      /* ref: element of the nodegraph */
-    IMPL_DYNAMIC,    /* built by C code chosen by the node's name */
-    IMPL_VERBATIM,   /* ref: verbatim source */
+    /* built by C code, chosen by the node's name, or by `ref` where that is chosen_input */
+    IMPL_DYNAMIC,
+    IMPL_VERBATIM, /* ref: verbatim source */
     /* its diagnostics were deferred: [ref, ref + count) of the layer's deferred list */
     IMPL_BROKEN,
 };
@@ -61,7 +61,7 @@ struct implementation {
     uint8_t kind;    /* enum impl_kind */
 };
 
-/* Members of a closure leaf's family of functions (docs/library.md); LIBRARY_NONE where absent. */
+/* The functions of a leaf family (docs/library.md); LIBRARY_NONE if absent. */
 enum family_member {
     FAMILY_EVAL,
     FAMILY_ENVIRONMENT,
@@ -86,30 +86,30 @@ struct family {
 };
 
 struct verbatim {
-    str_id source;   /* the text of the file with its includes */
+    str_id source;   /* the text of the file, including the files that it includes */
     str_id function; /* 0: the text is an inline expression */
 };
 
-/* How an input of a node in a graph gets its value. */
+/* The source of the value of a node's input. */
 enum binding_kind {
-    BIND_DEFAULT, /* as the definition says */
+    BIND_DEFAULT, /* the default of the definition */
     BIND_VALUE,   /* attribute `value` of `element` */
     BIND_NODE,    /* output `output` of node `ref` (an element) */
-    /* the input named `ref` of the definition that the enclosing graph implements */
+    /* the input named `ref` of the definition that the enclosing nodegraph implements */
     BIND_INTERFACE,
-    BIND_ERROR, /* reported; poison */
+    BIND_ERROR, /* reported; use poison */
 };
 
 struct binding {
     uint8_t kind;   /* enum binding_kind */
     uint8_t output; /* BIND_NODE: which output */
-    /* BIND_INTERFACE: where the definition has it, as far as that is known ahead */
+    /* BIND_INTERFACE: a guess of the input's index in the definition */
     uint16_t input;
     uint32_t ref;
-    elem_id element; /* the <input>; 0 where the node has none */
+    elem_id element; /* the <input>; 0 if the node does not have it */
 };
 
-/* A node of a graph whose definition and connections are found. */
+/* A node of a nodegraph with its resolved definition and connections. */
 struct graph_node {
     elem_id element;
     uint32_t nodedef;       /* LIBRARY_NONE after an error */
@@ -121,13 +121,13 @@ struct geomprop { /* <geompropdef> */
     doc_type type;
     uint16_t index;
     str_id geomprop, space; /* "normal", "world" */
-    uint32_t nodedef;       /* the node that gives it; LIBRARY_NONE: a named stream */
+    uint32_t nodedef;       /* the node that computes it; LIBRARY_NONE: a named stream */
     elem_id element;
 };
 
 struct unit { /* <unit> of a <unitdef> */
     str_id name, type;
-    float scale; /* to the base unit of its type; 0: it has none that counts */
+    float scale; /* factor to the base unit of its type; 0: no valid scale */
     elem_id element;
 };
 
@@ -137,15 +137,15 @@ struct user_type { /* <typedef> that is not a standard type */
     elem_id element;
 };
 
-enum library_trust { /* in the source of implementations */
+enum library_trust { /* which source of implementations a layer may contain */
                      LIBRARY_TRUST_ALL,
-                     LIBRARY_TRUST_PORTABLE, /* not in what would be emitted as it is */
-                     LIBRARY_TRUST_GRAPHS,   /* in none */
+                     LIBRARY_TRUST_PORTABLE, /* only source in the portable language */
+                     LIBRARY_TRUST_GRAPHS,   /* no source */
 };
 
 struct library {
     struct library *base;
-    /* of the bytes that the layer and those below it were read from; not of a document's */
+    /* hash of the bytes of this layer and the layers below; unused for documents */
     uint64_t digest;
     enum library_trust trust;
     struct strpool strings;
@@ -157,26 +157,30 @@ struct library {
     VEC(struct implementation) impls;
     VEC(struct family) families;
     VEC(struct verbatim) verbatims;
-    /* nodes of functional graphs, resolved ahead; image layers only */
+    /* nodes of nodegraphs with a nodedef, resolved before use; image layers only */
     VEC(struct graph_node) graph_nodes;
     VEC(struct binding) bindings;
     VEC(struct geomprop) geomprops;
     VEC(struct user_type) types;
-    VEC(struct unit) units; /* by name, then as they stand in the document */
+    VEC(struct unit) units; /* sorted by name, then by document order */
     VEC(uint32_t) refs;
-    /* open addressing by node name: first nodedef of that node (own index + 1) */
+    /* open addressing by node name: first nodedef of the node (index in this layer + 1) */
     VEC(uint32_t) node_table;
-    /* per own element: 1 + own index of its nodedef, type, geomprop or graph_node; 0 = none */
+    /*
+     * per element of this layer: 1 + the index in this layer of its nodedef, type, geomprop or
+     * graph_node; 0 = none
+     */
     VEC(uint32_t) element_info;
-    /* in place of `element_info` in an image layer of few definitions */
+    /* replaces `element_info` in an image layer whose indices fit in 16 bits */
     const uint16_t *narrow_info;
     /*
-     * per own element: 1 + the definition that it was found to be without a message; 0: not asked.
-     * NULL: not kept
+     * per element of this layer: 1 + its definition, if it matched without a diagnostic; 0:
+     * unknown. NULL: no cache
      */
     _Atomic uint32_t *matches;
-    VEC(uint32_t) overrides;    /* impl indices (own) for nodedefs of lower layers */
-    struct diag_list *deferred; /* faults of implementations, told when one is used */
+    /* indices of implementations in this layer for nodedefs of lower layers */
+    VEC(uint32_t) overrides;
+    struct diag_list *deferred; /* errors of implementations, which appear when a node uses one */
 };
 
 /* library.c */
@@ -189,10 +193,10 @@ const struct implementation *library_impl(const struct library *lib, uint32_t id
 const struct family *library_family(const struct library *lib, uint32_t id);
 const struct verbatim *library_verbatim(const struct library *lib, uint32_t id);
 const struct geomprop *library_geomprop(const struct library *lib, str_id name);
-uint32_t library_num_nodedefs(const struct library *lib); /* with lower layers */
+uint32_t library_num_nodedefs(const struct library *lib); /* including lower layers */
 /*
- * The first definition of a node in one layer, by its own index; LIBRARY_NONE. `next_same_node`
- * leads on.
+ * The first definition of a node in one layer, as an index in this layer; LIBRARY_NONE.
+ * `next_same_node` links the others.
  */
 uint32_t library_first_of_node(const struct library *layer, str_id node);
 
@@ -202,50 +206,53 @@ const struct port *library_ports(const struct library *lib, uint32_t nodedef,
 int library_find_input(const struct library *lib, uint32_t nodedef, str_id name);  /* -1: none */
 int library_find_output(const struct library *lib, uint32_t nodedef, str_id name); /* -1: none */
 
-/* The layer that owns an element, and what its element_info says (own index; LIBRARY_NONE). */
+/*
+ * The layer of an element, and the element's element_info (an index in this layer; LIBRARY_NONE).
+ */
 const struct library *library_of_element(const struct library *lib, elem_id element);
 uint32_t library_element_info(const struct library *lib, elem_id element,
                               const struct library **out_layer);
 
-/* The id of the definition with this name; LIBRARY_NONE. */
+/* The id of the definition of this name; LIBRARY_NONE. */
 uint32_t library_nodedef_by_name(const struct library *lib, str_id name);
 
-/* A type by name, standard or from a typedef; 0: unknown. And back. */
+/* A type by name, standard or from a typedef; 0: unknown. And the inverse. */
 doc_type library_type(const struct library *lib, str_id name);
 str_id library_type_name(const struct library *lib, doc_type type);
 ir_type_id library_type_ir(const struct library *lib, doc_type type);
 
-/* unit.c: enters the units of a <unitdef>; to be sorted once all are in. */
+/* unit.c: adds the units of a <unitdef>. The caller sorts the units afterwards. */
 void library_index_units(struct library *lib, elem_id unitdef);
 void library_sort_units(struct library *lib);
 
 /*
- * index.c: fills a layer from its document: definitions, implementations (sources are read by
- * `reader`), types, geomprops.
+ * index.c: fills a layer from its document: definitions, implementations (`reader` reads their
+ * source), types, geomprops.
  */
 void library_index(struct library *lib, const struct lang_reader *reader, struct diag_list *diags);
-/* Resolves every functional graph of the layer ahead of time (what an image stores). */
+/* Resolves every nodegraph with a nodedef in the layer. An image stores the result. */
 void library_resolve_graphs(struct library *lib, struct diag_list *diags);
 
 /* match.c */
 
 /*
- * From now on what nodes of the layer match is kept, so that it is found once for all who ask, on
- * any thread. The tree stands.
+ * Switches on the cache of matches for the nodes of the layer, which any thread can use. The tree
+ * must be complete.
  */
 void library_keep_matches(struct library *lib, struct arena *arena);
 
 /*
- * The definition of a node element: by its `nodedef` attribute, else by name, version, types and
- * target. LIBRARY_NONE after reporting why: unknown node, or each candidate with its reason.
+ * The definition of a node element: by its `nodedef` attribute, otherwise by name, version, types
+ * and target. LIBRARY_NONE after a diagnostic: unknown node, or each candidate with the reason why
+ * it does not match.
  */
 uint32_t library_match(const struct library *lib, elem_id node, struct diag_list *diags);
 
 /* resolve.c */
 
 /*
- * Finds definition and bindings of a node; bindings are written to `bindings` (room for the
- * definition's inputs).
+ * Resolves the definition and the bindings of a node. `bindings` needs room for the inputs of the
+ * definition.
  */
 struct resolve_out {
     struct arena *arena;
@@ -255,8 +262,8 @@ struct graph_node library_resolve_node(const struct library *lib, elem_id node,
                                        struct resolve_out *out, struct diag_list *diags);
 
 /*
- * How an <input> or <output> element gets its value. Outputs and interface inputs of graphs that
- * define no node are followed to what stands behind them. `type` is what the port needs.
+ * The source of the value of an <input> or <output> element. Looks through outputs and interface
+ * inputs of nodegraphs without a nodedef. `type` is the type of the port.
  */
 struct binding library_resolve_connection(const struct library *lib, elem_id port, doc_type type,
                                           struct diag_list *diags);
@@ -266,24 +273,24 @@ const char *library_suggest_nodedef(const struct library *lib, str_id name,
                                     struct diag_list *diags);
 
 /*
- * The output of a node element that `output` names; without a name the only one or, with a warning,
- * the first of the type. -1 after an error. `port` is who asks.
+ * The output of a node element with the name `output`. Without a name, the only output or, with a
+ * warning, the first of the type. -1 after an error. `port` is the connected port.
  */
 int library_resolve_output(const struct library *lib, elem_id port, elem_id node, str_id output,
                            doc_type type, struct diag_list *diags);
 
 /* interface.c */
 
-/* the nodegraph, 0: none */
+/* The enclosing nodegraph; 0: none. */
 elem_id library_graph_around(const struct library *lib, elem_id element);
 /*
- * The definition that a graph of this layer implements, by its own word or that of an
+ * The definition that a nodegraph of this layer implements, by its own attribute or by an
  * <implementation>. LIBRARY_NONE.
  */
 uint32_t library_implemented_nodedef(const struct library *lib, elem_id graph);
 /*
- * Which input of a graph's definition `asker` takes its value from, a BIND_INTERFACE, for `port`.
- * -1 after reporting that there is none or that it has another type.
+ * The input of a nodegraph's definition that `asker` refers to with interfacename (BIND_INTERFACE)
+ * for `port`. -1 after reporting that it is missing or has another type.
  */
 int library_resolve_interface(const struct library *lib, elem_id asker, uint32_t nodedef,
                               const struct binding *binding, const struct port *port,
@@ -291,12 +298,12 @@ int library_resolve_interface(const struct library *lib, elem_id asker, uint32_t
 
 /* colorspace.c */
 
-/* The name by which the library knows a colour space: `space` itself, or what it is an alias of. */
+/* The canonical name of a colour space: `space` itself, or the name that it is an alias of. */
 const char *library_canonical_space(const char *space);
-/* The definition that converts colours of a type; LIBRARY_NONE: the library knows none. */
+/* The definition that converts colours of a type; LIBRARY_NONE if there is none. */
 uint32_t library_color_transform(const struct library *lib, const char *from, const char *to,
                                  const char *type);
-extern const char *const library_color_hub; /* every space can be converted to it */
+extern const char *const library_color_hub; /* the library can convert every space to this one */
 void library_report_space(const struct library *lib, const char *space, struct diag_place place,
                           struct diag_list *diags);
 
@@ -304,10 +311,10 @@ void library_report_space(const struct library *lib, const char *space, struct d
 
 /* The first type that has a unit of this name; 0: none. */
 str_id library_unit_type_of(const struct library *lib, str_id unit);
-/* Tells that a unit is none, or none of its type. */
+/* Reports that a unit is unknown or belongs to another type. */
 void library_report_unit(const struct library *lib, str_id type, str_id unit,
                          struct diag_place place, struct diag_list *diags);
-/* The scale of a unit to its type's base unit; type 0: of any. False: unknown. */
+/* The scale of a unit to the base unit of its type; type 0: any type. false: unknown. */
 bool library_unit_scale(const struct library *lib, str_id type, str_id unit, float *out_scale);
 bool library_has_unit_type(const struct library *lib, str_id type);
 const char *library_suggest_unit_type(const struct library *lib, str_id type,
@@ -315,14 +322,14 @@ const char *library_suggest_unit_type(const struct library *lib, str_id type,
 const char *library_suggest_unit(const struct library *lib, str_id unit, struct diag_list *diags);
 
 /*
- * validate.c: checks a document's layer against the definitions below it and its own, and
- * doc_validate's. `scratch` may be freed behind it.
+ * validate.c: checks the layer of a document against the definitions, after doc_validate. The
+ * caller may free `scratch` afterwards.
  */
 void library_validate(const struct library *lib, struct arena *scratch, struct diag_list *diags);
 
 /*
- * enum.c: a string with an enum accepts its words only; others are reported. Not set, 0, is no
- * word.
+ * enum.c: reports a string outside the words of its input's enumeration. 0 means an unset value,
+ * which is valid.
  */
 void library_check_enum(const struct library *lib, const struct port *port, str_id text,
                         struct diag_place place, struct diag_list *diags);
@@ -337,8 +344,8 @@ void library_check_enum(const struct library *lib, const struct port *port, str_
 void library_write_image(const struct library *lib, const struct lang_syntax *syntax,
                          struct text *out);
 /*
- * Makes `lib` refer into a mapped image, which must outlive it; NULL or why it was refused.
- * check_bytes: verify the checksum, for files.
+ * Makes `lib` refer to a mapped image, which must outlive it. Returns NULL or the reason of a
+ * failure. check_bytes: verify the checksum, for files.
  */
 const char *library_map_image(struct library *lib, const void *data, size_t size, bool check_bytes);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* From a node element to its definition. */
+/* Finds the definition of a node element. */
 #include "library/library.h"
 
 #include "base/hash.h"
@@ -29,7 +29,7 @@ enum fit { FIT_EXACT, FIT_EXTRA_INPUTS, FIT_NOT };
 
 struct candidate {
     enum fit fit;
-    const char *reason; /* of FIT_NOT, a format of up to two strings */
+    const char *reason; /* for FIT_NOT: a format with up to two strings */
     str_id a, b, c;
 };
 
@@ -67,22 +67,17 @@ static struct candidate fit_outputs(const struct library *lib, const struct node
     return misfit("its output is %s, but the node has type %s", has, type, 0);
 }
 
-static struct candidate fit_inputs(const struct library *lib, const struct nodedef *def,
-                                   const struct port *ports, elem_id node)
+static struct candidate fit_inputs(const struct library *lib, uint32_t id, const struct port *ports,
+                                   elem_id node)
 {
     struct candidate result = {FIT_EXACT, NULL, 0, 0, 0};
-    unsigned at = 0; /* most nodes have their inputs in the definition's order */
     for (elem_id child = doc_element(&lib->doc, node)->first_child; child;
          child = doc_element(&lib->doc, child)->next) {
         const struct element *input = doc_element(&lib->doc, child);
         if (input->kind != KIND_INPUT)
             continue;
-        const struct port *port = NULL;
-        for (unsigned tried = 0; tried < def->num_inputs && !port; tried++, at++) {
-            at = at < def->num_inputs ? at : 0;
-            if (ports[at].name == input->name)
-                port = &ports[at];
-        }
+        int index = library_find_input(lib, id, input->name);
+        const struct port *port = index < 0 ? NULL : &ports[index];
         str_id type = doc_attr_value(&lib->doc, child, STR_type);
         if (!port)
             result =
@@ -101,7 +96,7 @@ static struct candidate fit(const struct library *lib, uint32_t id, elem_id node
     struct candidate c = fit_outputs(lib, def, ports, node);
     if (c.fit == FIT_NOT)
         return c;
-    struct candidate inputs = fit_inputs(lib, def, ports, node);
+    struct candidate inputs = fit_inputs(lib, id, ports, node);
     if (inputs.fit == FIT_NOT || any_version)
         return inputs;
     c = fit_version(lib, def, node);
@@ -152,8 +147,8 @@ struct misfits {
 };
 
 /*
- * The definitions of the node's name that do not fit it, among those that give its type or the
- * others.
+ * Collects the definitions of the node's name that do not match: either those with the node's type,
+ * or the others.
  */
 static void collect_misfits(const struct library *lib, elem_id node, bool of_type,
                             struct arena *arena, struct misfits *misfits)
@@ -171,12 +166,9 @@ static void collect_misfits(const struct library *lib, elem_id node, bool of_typ
         }
 }
 
-enum { MAX_CANDIDATES = 5 }; /* that are shown */
+enum { MAX_CANDIDATES = 5 }; /* in one report */
 
-/*
- * Where there are some that give the node's type, only these: what keeps them from fitting is what
- * the author wants to know.
- */
+/* If some candidates have the node's type, reports only these. */
 static void report_candidates(const struct library *lib, elem_id node, struct diag_list *diags)
 {
     str_id category = doc_element(&lib->doc, node)->category;
@@ -222,7 +214,7 @@ const char *library_suggest_nodedef(const struct library *lib, str_id name, stru
     return diag_guess_text(&guess);
 }
 
-/* ---- What was found before ---- */
+/* ---- Cache ---- */
 
 void library_keep_matches(struct library *lib, struct arena *arena)
 {
@@ -237,7 +229,7 @@ static _Atomic uint32_t *match_of(const struct library *lib, elem_id node)
                : NULL;
 }
 
-/* Whoever comes first: all find the same. */
+/* Threads may race: all compute the same value. */
 static void keep(const struct library *lib, elem_id node, uint32_t nodedef)
 {
     _Atomic uint32_t *match = match_of(lib, node);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* From names to elements: what a node's inputs are connected to. */
+/* Resolves names to elements: the connections of a node's inputs. */
 #include "library/library.h"
 
 static const char *text_of(const struct library *lib, str_id id)
@@ -8,7 +8,7 @@ static const char *text_of(const struct library *lib, str_id id)
 }
 
 /*
- * A child by name as `from` means it: names inside of a namespace are tried with it first
+ * A child by name, as `from` refers to it: inside a namespace the qualified name takes precedence
  * (specification, "Namespaces").
  */
 static elem_id find_named(const struct library *lib, elem_id scope, str_id name, elem_id from)
@@ -37,12 +37,12 @@ static elem_id root_of(const struct library *lib, elem_id element)
 }
 
 /*
- * elements of a scope, for what makes a message more helpful: each generation of a large document
- * may ask
+ * limit of elements to search for suggestions, because each generation of a large document may
+ * search
  */
 enum { MAX_SEARCHED = 4096 };
 
-/* "(did you mean …)" among the named children of a scope. */
+/* A suggestion from the named children of a scope. */
 static const char *suggest_child(const struct library *lib, elem_id scope, int kind, str_id name,
                                  struct diag_list *diags)
 {
@@ -59,7 +59,9 @@ static const char *suggest_child(const struct library *lib, elem_id scope, int k
     return diag_guess_text(&guess);
 }
 
-/* Connections do not reach into graphs, but authors try. */
+/*
+ * Reports a node in another nodegraph: connections do not reach into nodegraphs, but authors try.
+ */
 static void report_elsewhere(const struct library *lib, elem_id root, elem_id scope, str_id name,
                              struct diag_list *diags)
 {
@@ -87,8 +89,8 @@ static void report_assumed(const struct library *lib, elem_id port, const char *
 }
 
 /*
- * Which output of several is meant where the document does not say: the first of the type, else the
- * first, as for MaterialX.
+ * Chooses an output if the document does not: the first one of the type, otherwise the first, as in
+ * MaterialX.
  */
 static int assume_output(const struct port *outputs, unsigned num_outputs, doc_type type)
 {
@@ -138,7 +140,7 @@ static str_id output_type(const struct library *lib, elem_id node, int output,
                              library_ports(lib, id, NULL)[def->num_inputs + (uint32_t)output].type);
 }
 
-/* Where a port says what it is connected to. */
+/* The place of a port's connection. */
 static struct diag_place connection_place(const struct document *doc, elem_id port)
 {
     static const str_id attrs[] = {STR_nodename, STR_nodegraph, STR_interfacename};
@@ -187,7 +189,7 @@ static struct binding bind_node(const struct library *lib, elem_id asker, elem_i
         .kind = BIND_NODE, .output = (uint8_t)output, .ref = node, .element = port};
 }
 
-/* The <output> of a graph that `port` means by its `output` attribute, or by its type. */
+/* The <output> of a nodegraph that `port` selects with its `output` attribute, or by its type. */
 static elem_id graph_output(const struct library *lib, elem_id port, elem_id graph, doc_type type,
                             struct diag_list *diags)
 {
@@ -220,7 +222,7 @@ static elem_id graph_output(const struct library *lib, elem_id port, elem_id gra
     return assumed;
 }
 
-/* What a port says of its connection. */
+/* The connection attributes of a port. */
 struct said {
     str_id node, graph, interface, output;
     bool has_value;
@@ -244,7 +246,7 @@ static struct said read_port(const struct document *doc, elem_id port)
     return said;
 }
 
-/* Of a port that names a node or a graph: the output of the graph, or 0 with *out. */
+/* For a port with a nodename or nodegraph: the output of the nodegraph, or 0 with *out. */
 static elem_id follow_name(const struct library *lib, elem_id asker, elem_id port, elem_id scope,
                            const struct said *said, doc_type type, struct binding *out,
                            struct diag_list *diags)
@@ -269,7 +271,7 @@ static elem_id follow_name(const struct library *lib, elem_id asker, elem_id por
     return 0;
 }
 
-/* The same of one that names an output of the document. */
+/* The same for a port that names an output of the document. */
 static elem_id follow_output(const struct library *lib, elem_id port, str_id output,
                              struct diag_list *diags)
 {
@@ -282,7 +284,7 @@ static elem_id follow_output(const struct library *lib, elem_id port, str_id out
     return target;
 }
 
-/* The next port to look at, or 0 with *out telling the end of the chain. */
+/* The next port of the chain, or 0 with *out at its end. */
 static elem_id follow(const struct library *lib, elem_id asker, elem_id port, doc_type type,
                       struct binding *out, struct diag_list *diags)
 {
@@ -290,9 +292,9 @@ static elem_id follow(const struct library *lib, elem_id asker, elem_id port, do
     const struct element *element = doc_element(doc, port);
     const struct element *owner = doc_element(doc, element->parent);
     /*
-     * The scope of an input of a node is the node's graph; of an interface input, what is around
-     * the graph; an output's scope is its graph. There is nothing around a document, should a port
-     * stand at its top by mistake.
+     * The scope of a node's input is the nodegraph of the node; of an interface input, the parent
+     * of the nodegraph; of an output, its nodegraph. A port at the top of a document has no parent
+     * scope.
      */
     elem_id scope =
         element->kind == KIND_OUTPUT || !owner->parent ? element->parent : owner->parent;
@@ -319,7 +321,7 @@ struct binding library_resolve_connection(const struct library *lib, elem_id por
 {
     struct binding result = bind_error;
     elem_id asker = port;
-    /* Outputs and interface inputs may chain; a chain longer than this is a cycle. */
+    /* Outputs and interface inputs may chain; a longer chain is a cycle. */
     for (uint32_t steps = 0; port && steps < 10000; steps++) {
         elem_id next = follow(lib, asker, port, type, &result, diags);
         if (next && type != DOC_TYPE_NONE) {
@@ -350,20 +352,15 @@ struct graph_node library_resolve_node(const struct library *lib, elem_id node,
     struct binding *bindings = vec_extend(out->arena, &out->bindings, def->num_inputs);
     for (unsigned i = 0; i < def->num_inputs; i++)
         bindings[i] = (struct binding){.kind = BIND_DEFAULT};
-    unsigned port = 0; /* most nodes have their inputs in the definition's order */
     for (elem_id e = doc_element(&lib->doc, node)->first_child; e;
          e = doc_element(&lib->doc, e)->next) {
         const struct element *input = doc_element(&lib->doc, e);
-        if (input->kind != KIND_INPUT)
+        int port =
+            input->kind == KIND_INPUT ? library_find_input(lib, result.nodedef, input->name) : -1;
+        if (port < 0)
             continue;
-        for (unsigned tried = 0; tried < def->num_inputs; tried++, port++) {
-            port = port < def->num_inputs ? port : 0;
-            if (ports[port].name != input->name)
-                continue;
-            struct binding b = library_resolve_connection(lib, e, ports[port].type, diags);
-            out->bindings.items[result.first_binding + port] = b;
-            break;
-        }
+        struct binding b = library_resolve_connection(lib, e, ports[port].type, diags);
+        out->bindings.items[result.first_binding + (unsigned)port] = b;
     }
     return result;
 }

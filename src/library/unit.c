@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Units (specification, "Units"): scales to the base unit of their type, from <unitdef> elements of
- * any layer.
+ * Units (specification, "Units"): scales to the base unit of their type, from the <unitdef>
+ * elements of all layers.
  */
 #include "library/library.h"
 
@@ -48,7 +48,7 @@ void library_sort_units(struct library *lib)
         qsort(lib->units.items, lib->units.len, sizeof *lib->units.items, compare);
 }
 
-/* The first of a layer with this name; behind the last where there is none. */
+/* The first unit of a layer with this name, or the end of the array. */
 static const struct unit *first_unit(const struct library *layer, str_id name)
 {
     uint32_t first = 0, end = layer->units.len;
@@ -62,7 +62,10 @@ static const struct unit *first_unit(const struct library *layer, str_id name)
     return layer->units.items + first;
 }
 
-/* One of this name and type (0: any) that has a scale, unless any will do. NULL: there is none. */
+/*
+ * A unit of this name and type (0: any type) with a valid scale, unless `any` accepts all. NULL:
+ * none.
+ */
 static const struct unit *find_unit(const struct library *lib, str_id type, str_id name,
                                     bool needs_scale)
 {

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/*
- * Checks of a document against the definitions: every node, every connection, and what nobody uses.
- */
+/* Checks a document against the definitions: nodes, connections, unused nodes. */
 #include "library/validate.h"
 
 static const char *text_of(const struct validate *v, str_id id)
@@ -37,9 +35,7 @@ static void check_binding(struct validate *v, const struct port *port,
         check_interface(v, port, binding);
 }
 
-/*
- * A port that no definition describes; of type NONE where its own word is what is wrong, perhaps.
- */
+/* Checks a port without a definition. The type is NONE if the port's own type may be wrong. */
 static void check_connection(struct validate *v, elem_id element, doc_type type)
 {
     struct port port = {
@@ -95,12 +91,9 @@ static void check_element(struct validate *v, elem_id element)
     validate_declaration(v, element);
 }
 
-/* ---- What nobody uses ---- */
+/* ---- Unused nodes ---- */
 
-/*
- * Materials, shaders, and what has a look or an output of its own are there to be used from
- * outside.
- */
+/* Materials, shaders, and nodes that a look or an output uses are entry points. */
 static bool is_end(const struct validate *v, elem_id node)
 {
     doc_type type = library_type(v->lib, doc_attr_value(v->doc, node, STR_type));
@@ -132,7 +125,7 @@ void library_validate(const struct library *lib, struct arena *scratch, struct d
     for (elem_id e = v.doc->root; e; e = doc_next_in_tree(v.doc, v.doc->root, e))
         check_element(&v, e);
     validate_implementations(&v, scratch);
-    if (diags->num_errors == 0) /* what was meant to be connected is not known otherwise */
+    if (diags->num_errors == 0) /* errors hide connections */
         check_use(&v);
     for (uint32_t i = 0; lib->deferred && i < lib->deferred->items.len; i++)
         diag_repeat(diags, &lib->deferred->items.items[i]);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Checks of values: against the definition of the input, and of what an element says of them
- * itself.
+ * Checks values against the definition of the input, and against other attributes of the element.
  */
 #include "library/validate.h"
 
@@ -16,7 +15,7 @@ static bool parse(const struct validate *v, doc_type type, str_id text, struct i
            && doc_parse_value(type, text_of(v, text), str_len(&v->lib->strings, text), NULL, out);
 }
 
-/* Is a component of `a` above that of `b`? */
+/* True if a component of `a` is greater than that of `b`. */
 static bool is_above(doc_type type, const struct ir_value *a, const struct ir_value *b)
 {
     for (unsigned i = 0; i < doc_type_components(type); i++)
@@ -43,9 +42,8 @@ static void check_range(struct validate *v, elem_id element, const struct port *
 }
 
 /*
- * "Node Definition Elements": an input without a value must be given one. A closure that is not
- * connected is none, which the definitions of our own library say by an empty value; an image
- * without a file is hardly meant.
+ * "Node Definition Elements": an input without a default needs a value. Closures are exempt:
+ * definitions of our own library give them an empty value. An image needs a file.
  */
 static bool must_be_given(const struct validate *v, uint32_t nodedef, const struct port *port)
 {
@@ -78,7 +76,7 @@ void validate_input(struct validate *v, elem_id node, uint32_t nodedef, const st
     validate_unit(v, node, port, binding->element);
 }
 
-/* ---- What elements say ---- */
+/* ---- Attributes ---- */
 
 static void check_unit(struct validate *v, elem_id element)
 {
@@ -93,10 +91,7 @@ static void check_unit(struct validate *v, elem_id element)
                             v->diags);
 }
 
-/*
- * A library may have no colour transforms at all: then no space is known, and none can be told to
- * be wrong.
- */
+/* A library without colour transforms knows no spaces, so the check needs at least one. */
 static void check_space(struct validate *v, elem_id element)
 {
     str_id said = doc_attr_value(v->doc, element, STR_colorspace);
@@ -134,7 +129,7 @@ static uint32_t count_words(const char *list)
     return count;
 }
 
-/* Values of several numbers take as many places in the list. */
+/* A value of several numbers takes as many places in the list. */
 static void check_enum_values(struct validate *v, elem_id element)
 {
     str_id words = doc_attr_value(v->doc, element, STR_enum),
@@ -165,7 +160,7 @@ static bool is_version(const char *text)
     }
 }
 
-/* Few elements say more than a type and a value. */
+/* Few elements have more than a type and a value. */
 static bool has_more_to_say(const struct document *doc, elem_id element)
 {
     const struct attribute *attrs = doc_attrs(doc, element);

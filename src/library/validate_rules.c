@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Rules of the MaterialX specification that generation does not need: it takes what was probably
- * meant, other programs may not. Section names are those of its main document.
+ * Rules of the MaterialX specification that generation does not need: mxgen assumes the most likely
+ * meaning, but other programs may not. The section names are those of the main document.
  */
 #include "library/validate.h"
 
@@ -17,7 +17,7 @@ static bool is_array(doc_type type)
     return type >= DOC_TYPE_integerarray && type <= DOC_TYPE_geomnamearray;
 }
 
-/* "Inputs": strings, files and lists do not vary over a surface. */
+/* "Inputs": strings, filenames and arrays do not vary over a surface. */
 static bool is_uniform_type(doc_type type)
 {
     return type == DOC_TYPE_string || type == DOC_TYPE_filename || is_array(type);
@@ -33,7 +33,7 @@ static elem_id child_input(const struct validate *v, elem_id node, const char *n
     return 0;
 }
 
-/* Through <dot>, which passes its input on. 0: none. */
+/* Looks through <dot>, which passes its input on. 0: no source. */
 static elem_id source_of_dots(struct validate *v, elem_id node)
 {
     for (unsigned depth = 0;
@@ -50,7 +50,7 @@ static elem_id source_of_dots(struct validate *v, elem_id node)
 static bool gives_uniform(struct validate *v, elem_id node, unsigned output)
 {
     const char *category = text_of(v, doc_element(v->doc, node)->category);
-    struct diag_list unheard; /* the node is checked by itself */
+    struct diag_list unheard; /* discarded: the check of the node itself reports these */
     diag_list_init(&unheard, v->resolved.arena);
     if (strcmp(category, "constant") == 0 || strcmp(category, "geompropvalueuniform") == 0)
         return true;
@@ -67,7 +67,7 @@ static bool is_uniform_interface(const struct validate *v, const struct binding 
     uint32_t nodedef = graph ? library_implemented_nodedef(v->lib, graph) : LIBRARY_NONE;
     int input = nodedef == LIBRARY_NONE ? -1 : library_find_input(v->lib, nodedef, binding->ref);
     if (input < 0)
-        return true; /* of a compound graph, or told already */
+        return true; /* of a compound nodegraph, or reported already */
     const struct port *port = &library_ports(v->lib, nodedef, NULL)[input];
     return port->flags & PORT_UNIFORM || is_uniform_type(port->type);
 }
@@ -85,7 +85,7 @@ void validate_uniform(struct validate *v, elem_id node, const struct port *port,
         if (source && !gives_uniform(v, source, source == binding->ref ? binding->output : 0))
             varies = doc_element(v->doc, source)->name;
     }
-    /* not the output of a graph between */
+    /* 0 for the output of a nodegraph between them */
     elem_id input = varies ? child_input(v, node, text_of(v, port->name)) : 0;
     if (input)
         diag_add(v->diags, DIAG_ID_uniform_connected, doc_place(v->doc, input),
@@ -154,7 +154,7 @@ static void check_nodedef(struct validate *v, elem_id nodedef)
     }
 }
 
-/* "Functional Nodegraphs": the definition says what goes in and out. */
+/* "Functional Nodegraphs": the definition declares the inputs and outputs. */
 static void check_functional_graph(struct validate *v, elem_id graph, uint32_t id)
 {
     const struct nodedef *def = library_nodedef(v->lib, id);
@@ -170,7 +170,7 @@ static void check_functional_graph(struct validate *v, elem_id graph, uint32_t i
         elem_id output = doc_child_of_kind(v->doc, graph, KIND_OUTPUT, outputs[i].name);
         for (elem_id e = doc_element(v->doc, graph)->first_child;
              e && !output && def->num_outputs == 1; e = doc_element(v->doc, e)->next)
-            /* the only one may have any name */
+            /* a single output may have any name */
             output = doc_element(v->doc, e)->kind == KIND_OUTPUT ? e : 0;
         if (!output)
             tell(v, graph, "lacks an output of the nodedef that it implements");
@@ -245,14 +245,15 @@ void validate_declaration(struct validate *v, elem_id element)
 /* ---- Implementations ---- */
 
 /*
- * "Custom Node Definition Using Node Graphs": what may not be said twice; code and a graph may
- * stand side by side.
+ * "Custom Node Definition Using Node Graphs": a definition cannot have two of the same kind; source
+ * and a nodegraph can coexist.
  */
 struct claim {
     uint32_t nodedef;
     str_id target, format;
     bool is_graph;
-    uint32_t graph; /* which may be said twice, by its own attribute and by an <implementation> */
+    /* the nodegraph may be claimed by its own attribute and by an <implementation> */
+    uint32_t graph;
     elem_id element;
 };
 
@@ -297,7 +298,7 @@ void validate_implementations(struct validate *v, struct arena *scratch)
                      text_of(v, doc_element(v->doc, claims[i - 1].element)->name));
 }
 
-/* "Units": floats and vectors have them, and files of such. */
+/* "Units": floats, vectors and filenames. */
 static bool can_have_unit(doc_type type)
 {
     return type == DOC_TYPE_float || type == DOC_TYPE_vector2 || type == DOC_TYPE_vector3
@@ -316,8 +317,8 @@ void validate_unit_type(struct validate *v, elem_id element)
 }
 
 /*
- * The node or the definition says of which type a unit is; where both do not, the first that has it
- * is taken.
+ * The input or the definition has the type of a unit; otherwise the first type with this unit
+ * applies.
  */
 void validate_unit(struct validate *v, elem_id node, const struct port *port, elem_id input)
 {
@@ -326,7 +327,7 @@ void validate_unit(struct validate *v, elem_id node, const struct port *port, el
     float scale;
     if (!unit || has(v, input, STR_unittype) || !can_have_unit(port->type)
         || !library_unit_type_of(v->lib, unit))
-        return; /* which is told, or good, by itself */
+        return; /* reported, or valid without a definition */
     if (!type)
         diag_add(v->diags, DIAG_ID_unit_without_type, doc_attr_place(v->doc, input, STR_unit),
                  text_of(v, unit), text_of(v, doc_element(v->doc, node)->category),

@@ -1,60 +1,46 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
  * The shader stands: every call that is left is known. Each portable function now gets the one
- * version that its calls share (lang/plan.c), and the calls lose the arguments that the version
- * takes for granted.
+ * version that its calls share (lang/plan.c), and the graph is built anew with calls of it, which
+ * lose the arguments that the version does not take. Where the target has it, a texture is read in
+ * the type that is wanted of it.
  */
 #include "shader/shader.h"
 
-static void mark_roots(const struct shader *shader, uint8_t *needed)
+struct final_pass {
+    struct shader *shader;
+    const uint32_t *planned; /* by call: the number that lang_plan_call gave */
+    bool typed_textures;
+};
+
+/* The value of each effect, of all stages. */
+static void for_each_root(struct shader *shader, void (*visit)(void *user_data, ir_ref *root),
+                          void *user_data)
 {
     for (unsigned stage = 0; stage < NUM_STAGES; stage++) {
         const struct effect_list *effects = &shader->stages[stage].effects;
         for (uint32_t i = 0; i < effects->len; i++)
-            needed[effects->items[i].value] = 1;
+            visit(user_data, &effects->items[i].value);
     }
 }
 
-static void mark_results(const struct ir_graph *graph, uint32_t function, uint8_t *needed)
-{
-    const struct ir_function *fn = &graph->functions.items[function];
-    for (uint32_t i = 0; i < fn->num_results; i++)
-        needed[graph->function_results.items[fn->first_result + i]] = 1;
-}
-
-struct call {
-    ir_ref node;
-    uint32_t planned;
-};
-
-struct calls { /* a vector */
-    struct call *items;
+struct ref_list { /* a vector */
+    struct arena *arena;
+    ir_ref *items;
     uint32_t len, cap;
 };
 
-/*
- * Those that the stages need, the newest first: operands and the bodies of functions are older than
- * what needs them.
- */
-static struct calls find_calls(const struct shader *shader)
+static void add_root(void *user_data, ir_ref *root)
 {
-    const struct ir_graph *graph = shader->graph;
-    struct calls calls = {0};
-    uint8_t *needed = ARENA_ARRAY(shader->arena, uint8_t, graph->nodes.len);
-    mark_roots(shader, needed);
-    for (ir_ref ref = graph->nodes.len; --ref > 0;) {
-        if (!needed[ref])
-            continue;
-        const struct ir_node *node = &graph->nodes.items[ref];
-        const ir_ref *args = graph->args.items + node->first_arg, *end = args + node->num_args;
-        for (; args < end; args++)
-            needed[*args] = 1;
-        if (node->op == IR_CALL)
-            vec_push(shader->arena, &calls, (struct call){.node = ref});
-        else if (node->op == IR_GRAPH_CALL)
-            mark_results(graph, node->attr, needed);
-    }
-    return calls;
+    struct ref_list *roots = user_data;
+    vec_push(roots->arena, roots, *root);
+}
+
+static void move_root(void *user_data, ir_ref *root)
+{
+    const ir_ref *copies = user_data;
+    assert(!*root == !copies[*root]);
+    *root = copies[*root];
 }
 
 /* `in` and `inout` parameters have an operand each, in order. */
@@ -65,7 +51,7 @@ static bool has_operand(const struct lang_unit *layer, const struct lang_functio
 }
 
 /* Returns what lang_plan_version is asked for. */
-static uint32_t tell_plan(struct shader *shader, ir_ref call)
+static uint32_t plan_call(struct shader *shader, ir_ref call)
 {
     const struct ir_graph *graph = shader->graph;
     const struct lang_unit *layer;
@@ -73,51 +59,77 @@ static uint32_t tell_plan(struct shader *shader, ir_ref call)
     const struct lang_function *fn = lang_function(shader->unit, id, &layer);
     const union ir_word **known = ARENA_ARRAY(shader->arena, const union ir_word *, fn->num_params);
     const ir_ref *args = ir_args(graph, call);
-    for (uint32_t i = 0; i < fn->num_params; i++) {
-        const struct ir_node *arg = has_operand(layer, fn, i) ? ir_get(graph, *args++) : NULL;
-        if (arg && arg->op == IR_CONST)
-            known[i] = graph->words.items + arg->attr;
-    }
+    for (uint32_t i = 0; i < fn->num_params; i++)
+        if (has_operand(layer, fn, i))
+            known[i] = ir_constant_words(graph, *args++);
+    assert(args == ir_args(graph, call) + ir_get(graph, call)->num_args);
     return lang_plan_call(shader->unit, id, known);
 }
 
-/* In place: nothing is built after this, so sharing of equal nodes need not be kept up. */
-static void call_version(struct shader *shader, ir_ref call, uint32_t version)
+static const uint32_t *plan_calls(struct shader *shader, const struct ref_list *roots)
 {
-    struct ir_graph *graph = shader->graph;
-    const struct lang_unit *layer;
-    uint32_t given = shader_callee(shader, call);
-    if (version == given)
-        return;
-    const struct lang_function *fn = lang_function(shader->unit, given, &layer);
-    struct ir_node *node = &graph->nodes.items[call];
-    ir_ref *args = graph->args.items + node->first_arg;
-    uint32_t read = 0, kept = 0;
+    const struct ir_graph *graph = shader->graph;
+    const uint8_t *needed = ir_mark(graph, roots->items, roots->len, shader->arena);
+    uint32_t *planned = ARENA_ARRAY(shader->arena, uint32_t, graph->nodes.len), num_calls = 0;
+    for (ir_ref ref = 1; ref < graph->nodes.len; ref++)
+        if (needed[ref] && ir_get(graph, ref)->op == IR_CALL) {
+            planned[ref] = plan_call(shader, ref);
+            num_calls++;
+        }
+    if (num_calls)
+        lang_plan_finish(shader->unit);
+    return planned;
+}
+
+static ir_ref build_call(const struct final_pass *pass, struct ir_graph *graph, ir_ref old,
+                         const struct ir_node *node, ir_ref *args)
+{
+    const struct lang_unit *unit = pass->shader->unit, *layer;
+    struct ir_callee callee = graph->callees.items[node->attr];
+    uint32_t given = callee.index, version = lang_plan_version(unit, pass->planned[old]), read = 0,
+             kept = 0;
+    const struct lang_function *fn = lang_function(unit, given, &layer);
     for (uint32_t i = 0; i < fn->num_params; i++) {
         if (!has_operand(layer, fn, i))
             continue;
         ir_ref arg = args[read++];
-        if (!lang_param_dropped(shader->unit, version, given, i))
+        if (!lang_param_dropped(unit, version, given, i))
             args[kept++] = arg;
     }
-    node->num_args = kept;
-    struct ir_callee callee = graph->callees.items[node->attr];
-    uint16_t flags = lang_function(shader->unit, version, NULL)->flags;
-    callee.id = version;
+    assert(read == node->num_args);
+    uint16_t flags = lang_function(unit, version, NULL)->flags;
+    callee.index = version;
     callee.derivative = (flags & LANG_FN_DERIVATIVE) != 0;
     callee.pure = (flags & LANG_FN_PURE) != 0;
-    node->attr = ir_add_callee(graph, callee);
+    return ir_build(graph, IR_CALL, node->type, ir_add_callee(graph, callee), args, kept);
 }
 
-void shader_specialise_calls(struct shader *shader)
+/* x or xyz of the texture that is read */
+static bool is_first_part(const struct ir_node *swizzle)
 {
-    struct calls calls = find_calls(shader);
-    if (!calls.len)
-        return;
-    for (uint32_t i = calls.len; i-- > 0;)
-        calls.items[i].planned = tell_plan(shader, calls.items[i].node);
-    lang_plan_finish(shader->unit);
-    for (uint32_t i = calls.len; i-- > 0;)
-        call_version(shader, calls.items[i].node,
-                     lang_plan_version(shader->unit, calls.items[i].planned));
+    return swizzle->attr == 0x100 || swizzle->attr == (0x300 | 0x24);
+}
+
+static ir_ref build_node(void *user_data, struct ir_graph *graph, ir_ref old,
+                         const struct ir_node *node, ir_ref *args)
+{
+    const struct final_pass *pass = user_data;
+    if (node->op == IR_CALL)
+        return build_call(pass, graph, old, node, args);
+    if (node->op == IR_SWIZZLE && pass->typed_textures && is_first_part(node)
+        && ir_get(graph, *args)->op == IR_TEX)
+        return ir_build(graph, IR_TEX, node->type, 0, ir_args(graph, *args), 2);
+    return ir_build(graph, (enum ir_op)node->op, node->type, node->attr, args, node->num_args);
+}
+
+void shader_specialise_calls(struct shader *shader, bool typed_textures)
+{
+    struct ref_list roots = {.arena = shader->arena};
+    for_each_root(shader, add_root, &roots);
+    struct final_pass pass = {
+        .shader = shader, .planned = plan_calls(shader, &roots), .typed_textures = typed_textures};
+    const ir_ref *copies =
+        ir_rebuild(shader->graph, roots.items, roots.len,
+                   &(struct ir_pass){.user_data = &pass, .build = build_node}, shader->arena);
+    for_each_root(shader, move_root, (void *)(uintptr_t)copies);
 }

@@ -106,26 +106,6 @@ static void name_neutrally(struct shader *shader)
     }
 }
 
-/*
- * Reads of one or three channels of a texture become reads of that type. In place, as in calls.c.
- */
-static void narrow_textures(struct shader *shader)
-{
-    struct ir_graph *graph = shader->graph;
-    for (ir_ref ref = 1; ref < graph->nodes.len; ref++) {
-        struct ir_node *node = &graph->nodes.items[ref];
-        const struct ir_node *texel =
-            node->op == IR_SWIZZLE ? ir_get(graph, ir_arg(graph, ref, 0)) : NULL;
-        bool is_first = node->attr == 0x100 || node->attr == (0x300 | 0x24); /* x, xyz */
-        if (!texel || texel->op != IR_TEX || !is_first)
-            continue;
-        node->op = IR_TEX;
-        node->num_args = texel->num_args;
-        node->first_arg = texel->first_arg;
-        node->flags |= texel->flags;
-    }
-}
-
 static void finish_vertex_stage(struct shader *shader)
 {
     if (!shader->scatters) {
@@ -158,9 +138,7 @@ void shader_finish(struct shader *shader, const struct shader_layout_rules *rule
 {
     shader->names_wholes = rules->names_wholes;
     shader->in_blocks = rules->blocks;
-    shader_specialise_calls(shader);
-    if (rules->typed_textures)
-        narrow_textures(shader);
+    shader_specialise_calls(shader, rules->typed_textures);
     complete_loops(shader, STAGE_PIXEL);
     mark_outputs(shader, STAGE_PIXEL);
     shader_schedule(shader, STAGE_PIXEL);
@@ -169,6 +147,7 @@ void shader_finish(struct shader *shader, const struct shader_layout_rules *rule
         finish_displacement(shader);
     else
         finish_vertex_stage(shader);
+    ir_assert_valid(shader->graph, "after the last pass");
     shader_layout(shader, rules);
     shader->local_of = ARENA_ARRAY(shader->arena, uint32_t, shader->graph->nodes.len);
     if (rules->neutral_names)

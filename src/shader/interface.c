@@ -496,11 +496,9 @@ ir_ref shader_stream(struct shader *shader, str_id name, ir_type_id type)
         variable.flat = is_flat(carried);
         variable.semantic = stream_semantic(shader, row, suffix);
         index = bind(shader, &variable);
-        uint32_t origin = shader->graph->origin;
-        /* names the vertex stage's locals */
-        shader->graph->origin = ir_add_origin(shader->graph, name, 0, 0);
+        ir_push_name(shader->graph, name); /* of the vertex stage's locals */
         ir_ref value = vertex_expression(shader, row, suffix, carried);
-        shader->graph->origin = origin;
+        ir_pop_origin(shader->graph);
         shader_effect(shader, STAGE_VERTEX,
                       (struct effect){.kind = EFFECT_OUTPUT, .index = index, .value = value});
     }

@@ -102,7 +102,7 @@ static unsigned locals_below(const struct scheduler *s, const struct ir_node *no
 /* What the node depends on follows from its operands, which are reached before. */
 static inline void reach_node(struct scheduler *s, ir_ref ref)
 {
-    const struct ir_node *node = &s->graph->nodes.items[ref];
+    const struct ir_node *node = ir_get(s->graph, ref);
     unsigned flags = note_needs(s, ref, node) | (node->flags & PLAN_LOOP);
     if (s->any_local)
         flags |= locals_below(s, node);
@@ -314,15 +314,10 @@ static void write_statements(struct scheduler *s, const struct effect_list *effe
         statements[first[i] + i] = effects->items[i];
 }
 
-/* In one go where that costs no more than one by one. */
 static void forget_reached(struct scheduler *s)
 {
-    uint32_t num_nodes = s->graph->nodes.len;
-    if (s->reached.len > num_nodes / 16)
-        memset(s->is_reached + 1, false, num_nodes - 1);
-    else
-        for (uint32_t i = 0; i < s->reached.len; i++)
-            s->is_reached[s->reached.items[i]] = false;
+    for (uint32_t i = 0; i < s->reached.len; i++)
+        s->is_reached[s->reached.items[i]] = false;
 }
 
 static void schedule_effects(struct scheduler *s, const struct effect_list *effects,

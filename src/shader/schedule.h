@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Inside the scheduler: what is known of each node (schedule.c), from which its locals are chosen
- * (locals.c).
+ * Declarations that schedule.c and locals.c share: the data of each node from which the scheduler
+ * chooses the locals.
  */
 #ifndef MXG_SHADER_SCHEDULE_H
 #define MXG_SHADER_SCHEDULE_H
@@ -13,23 +13,23 @@
 #define MANY_EFFECTS (UINT32_MAX - 1)
 
 enum plan_flags {
-    PLAN_LOCAL = 1,           /* reads a LOCAL: may be shared within one effect only */
-    PLAN_IN_ARM = 2,          /* some use stands in an expression that is not always evaluated */
-    PLAN_LOOP = IR_NODE_LOOP, /* reads the light or sample at hand: may not leave its loop */
-    PLAN_MOVED = 8,           /* its region lies outside of that of a use */
-    PLAN_STATEMENT = 16,      /* a call that cannot stand in an expression */
+    PLAN_LOCAL = 1,           /* reads a LOCAL: sharing is limited to one effect */
+    PLAN_IN_ARM = 2,          /* some use is in an expression that is evaluated conditionally */
+    PLAN_LOOP = IR_NODE_LOOP, /* reads the current light or sample: must stay in its loop */
+    PLAN_MOVED = 8,           /* its region is outside the region of a use */
+    PLAN_STATEMENT = 16,      /* a call that must be a statement */
     PLAN_LET = 32,
-    PLAN_NEIGHBOURS = 64, /* to be evaluated by all pixels together */
+    PLAN_NEIGHBOURS = 64, /* all pixels must evaluate it together */
 };
 
-struct plan { /* what is known of a reached node, and what of the node itself is often asked for */
+struct plan { /* scheduling data of a reached node, with frequently used data of the node itself */
     uint32_t uses;
     uint32_t region;
-    uint32_t first;  /* the first effect that needs it */
-    uint32_t effect; /* where it reads a LOCAL: the only effect that needs it, or MANY_EFFECTS */
+    uint32_t first;  /* the first effect that uses it */
+    uint32_t effect; /* if it reads a LOCAL: the only effect that uses it, or MANY_EFFECTS */
     uint32_t num_args, first_arg;
     uint16_t cost;  /* instructions to compute it from locals and interface variables */
-    uint16_t chars; /* its length as an expression, about */
+    uint16_t chars; /* approximate length as an expression */
     ir_type_id type;
     uint8_t op;
     uint8_t flags; /* enum plan_flags */
@@ -37,13 +37,13 @@ struct plan { /* what is known of a reached node, and what of the node itself is
 
 struct region {
     uint32_t parent, header, depth; /* header: the effect that opens it */
-    /* the innermost region around it that is in no loop: itself where it is in none */
+    /* the innermost enclosing region outside all loops; the region itself if it is in none */
     uint32_t outside;
 };
 
-struct visit { /* a node whose operands are being collected */
+struct visit { /* a node during the traversal of its operands */
     ir_ref ref;
-    const ir_ref *next, *end; /* those that are left */
+    const ir_ref *next, *end; /* the remaining operands */
 };
 
 struct scheduler {
@@ -53,14 +53,14 @@ struct scheduler {
     struct shader_stage *stage;
     uint8_t stage_bit;
     bool *is_reached;    /* by node */
-    bool any_local;      /* a node that reads a LOCAL has been reached */
-    struct plan *plans;  /* by node; of reached nodes only, and of the absent one */
-    VEC(ir_ref) reached; /* operands before users; there is room for all nodes */
-    VEC(ir_ref) lets;    /* those of them that become locals */
+    bool any_local;      /* some reached node reads a LOCAL */
+    struct plan *plans;  /* by node; valid for reached nodes, and for the absent one */
+    VEC(ir_ref) reached; /* operands before users; with capacity for all nodes */
+    VEC(ir_ref) lets;    /* the reached nodes that become locals */
     VEC(struct visit) visits;
     VEC(struct region) regions;
-    VEC(uint32_t) region_of; /* the region that each effect stands in */
-    VEC(uint32_t) called;    /* IR functions called from the effects at hand */
+    VEC(uint32_t) region_of; /* the region of each effect */
+    VEC(uint32_t) called;    /* IR functions that the current effects call */
     uint32_t first_discard;
 };
 
@@ -71,7 +71,7 @@ static inline struct plan *plan_of(const struct scheduler *s, ir_ref ref)
 
 static inline const struct ir_node *node_of(const struct scheduler *s, const struct plan *plan)
 {
-    return &s->graph->nodes.items[plan - s->plans];
+    return ir_get(s->graph, (ir_ref)(plan - s->plans));
 }
 
 static inline const ir_ref *args_of(const struct scheduler *s, const struct plan *plan)

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * A shader between IR and text: interface variables in blocks, and per stage a list of statements
- * that a target spells.
+ * A shader between IR and text: interface variables in blocks, and a list of statements per stage,
+ * which a target prints.
  *
- *     build + closure ─→ shader (variables, effects) ─layout→ offsets, locations ─schedule→
- * statements ─spell→ text └→ reflection
+ *     build + closure ─→ variables, effects ─schedule→ statements ─layout→ offsets ─spell→ text
+ *                                                                         └→ reflection
  */
 #ifndef MXG_SHADER_SHADER_H
 #define MXG_SHADER_SHADER_H
@@ -12,11 +12,11 @@
 #include "ir/ir.h"
 #include "lang/lang.h"
 
-/* Blocks of the ShaderX convention; docs/reflection.md tells of their contents. */
+/* Blocks of the ShaderX convention; docs/reflection.md describes their contents. */
 enum shader_block {
     BLOCK_PUBLIC_UNIFORMS,
     BLOCK_PRIVATE_UNIFORMS,
-    BLOCK_LIGHT_DATA,  /* members of struct LightData, elements of the array u_lightData */
+    BLOCK_LIGHT_DATA,  /* members of struct LightData, the element type of the array u_lightData */
     BLOCK_TEXTURES,    /* samplers, public (from file inputs) or private (environment) */
     BLOCK_APP_DATA,    /* vertex attributes */
     BLOCK_VERTEX_DATA, /* vertex stage to pixel stage */
@@ -25,113 +25,101 @@ enum shader_block {
 };
 const char *shader_block_name(enum shader_block block); /* "PublicUniforms" … */
 
-/* What the alpha that is written may be: 1, 0 or 1, anything. */
+/* The possible values of the alpha output: 1; 0 or 1; any. */
 enum shader_alpha { ALPHA_OPAQUE, ALPHA_MASK, ALPHA_BLEND };
 
 enum shader_stage_id { STAGE_VERTEX, STAGE_PIXEL, NUM_STAGES };
 
-/* What a host must do when the value of an input changes. */
+/* The reaction of a host to a new value of an input. */
 enum shader_update {
     UPDATE_UNIFORM, /* set the variable */
-    UPDATE_SHADER,  /* generate again: the value is compiled in */
+    UPDATE_SHADER,  /* generate again, because the value is compiled in */
 };
 
-/* How a node reads a texture: what its inputs of these names say; 0: nothing. */
+/* The mode in which a node reads a texture, from its inputs of these names; 0: absent. */
 struct shader_sampling {
     str_id uaddressmode, vaddressmode, filtertype;
-    str_id layer;                      /* of the file, by name; "layerx" of "filex" */
-    str_id framerange, frameendaction; /* which frames of a sequence there are: "10-99" */
-    int32_t frameoffset;               /* added to the current frame */
+    str_id layer;                      /* name of the file layer; "layerx" for input "filex" */
+    str_id framerange, frameendaction; /* the available frames of a sequence: "10-99" */
+    int32_t frameoffset;               /* offset from the current frame */
 };
 
-/* One file of an image that is made of several, each for a unit square of texture coordinates. */
+/* A tile: one of several files of an image, which covers a unit square of texture coordinates. */
 struct shader_tile {
     str_id file;
     int32_t u, v; /* its lower left corner */
 };
 
 struct shader_variable {
-    /* as spelled: "u_viewPosition", "SR_gold_base_color"; unique among what stands at file scope */
+    /* as printed: "u_viewPosition", "SR_gold_base_color"; unique at file scope */
     str_id name;
     uint8_t block; /* enum shader_block */
-    /*
-     * 1 << STAGE_… of each stage that reads it, or writes it; 0: nothing does, it is not declared
-     */
+    /* 1 << STAGE_… for each stage that reads or writes it; 0: unused and not declared */
     uint8_t stages;
     uint8_t update; /* enum shader_update */
     bool has_default;
-    bool has_reader; /* of textures: `sampling` and the default are those of a node */
+    bool has_reader; /* for textures: `sampling` and the default belong to a node */
     bool flat;       /* not interpolated (integer streams) */
-    uint16_t rank;   /* place within its block: the row of streams.def; equal ranks by index */
+    uint16_t rank;   /* order within the block: the row of streams.def; equal ranks by index */
     ir_type_id type;
     uint16_t array_length; /* 0: not an array */
-    str_id doc_type;       /* "color3"; 0 where the document has no say */
+    str_id doc_type;       /* "color3"; 0 for variables without a document type */
     str_id path;           /* element path of the document's input; 0 for private variables */
-    uint32_t element;      /* document element that the variable comes from; 0 = none */
-    uint32_t definition;   /* element of the nodedef's input: ui attributes; 0 = none */
+    uint32_t element;      /* document element of the variable; 0 = none */
+    uint32_t definition;   /* element of the nodedef's input, for ui attributes; 0 = none */
     str_id colorspace, unit, unittype;
-    /* of private uniforms and streams: "worldMatrix", "position:world", "geomprop:st" … */
+    /* for private uniforms and streams: "worldMatrix", "position:world", "geomprop:st" … */
     str_id semantic;
-    struct ir_value value; /* default; type VOID where there is none */
+    struct ir_value value; /* default; type VOID if there is none */
     /* textures */
-    /* resolved file name, with fileprefix; tokens of geometry and host kept: <UDIM>, {frame} */
+    /* resolved filename with fileprefix; contains tokens of geometry and host: <UDIM>, {frame} */
     str_id file;
     struct shader_sampling sampling;
-    /* variable that the default is, + 1, where the target reads it with the texture; 0: `value` */
+    /* variable of the default + 1, if the target reads the default with the texture; 0: `value` */
     uint32_t fallback;
-    /*
-     * uniform that the default is, + 1: reads are told apart by it and not by its value, which may
-     * change
-     */
+    /* uniform of the default + 1: it identifies the default, because its value can change */
     uint32_t default_from;
-    /* in shader->tiles, which are the layers of a SAMPLER_ARRAY in this order */
+    /* in shader->tiles: the array layers of a SAMPLER_ARRAY, in order */
     uint32_t first_tile, num_tiles;
     /* layout.c */
     uint32_t set, binding, location;
     uint32_t offset, size, array_stride, matrix_stride; /* in a block, in bytes */
 };
 
-/* What a shader of a target without stages is. */
+/* The kind of a shader for targets without stages. */
 enum shader_kind { SHADER_VALUE, SHADER_SURFACE, SHADER_VOLUME };
 
-/*
- * Inputs whose value is compiled in: reported to hosts, which must know that a change needs a new
- * shader.
- */
+/* An input whose value is compiled in. A host needs a new shader when it changes. */
 struct shader_compiled_input {
     str_id path, doc_type, value;
     uint32_t element;
 };
 
-/* A light shader bound by the host: its number in u_lightData[].type and what samples it. */
+/* A bound light shader: its number in u_lightData[].type and its code. */
 struct shader_light {
     int32_t type;
-    str_id name; /* of its node, for comments and reflection */
-    /* lang function: inputs, P, out direction, out intensity; LANG_NONE: */
+    str_id name; /* of the node, for comments and reflection */
+    /* lang function: inputs, P, out direction, out intensity; or LANG_NONE with */
     uint32_t function;
-    /* a LIGHT_SHADER over members of LightData: it stands at a position and faces a direction */
+    /* a LIGHT_SHADER over members of LightData, with a position and a direction */
     ir_ref shader;
-    uint32_t position, direction; /* variables; only of a LIGHT_SHADER */
-    /* its inputs as LightData members: in shader->light_members (variable indices) */
+    uint32_t position, direction; /* variables, for a LIGHT_SHADER */
+    /* its inputs: indices of variables in shader->light_members */
     uint32_t first_member, num_members;
 };
 
-/*
- * Target source that mxgen does not parse: what a VERBATIM node calls. The id of the node's callee
- * is its index.
- */
+/* Verbatim source, the callee of a VERBATIM node. The id of the callee is its index. */
 struct shader_verbatim {
-    str_id source; /* definitions that the call needs: written once, above; 0 = none */
-    /* called with the operands, then an `out` argument for each RESULT; or 0, and then */
+    str_id source; /* definitions that the call needs, written once before it; 0 = none */
+    /* the function, with the operands and an `out` argument per RESULT; 0: use `expression` */
     str_id function;
-    str_id expression; /* operand i stands where {{i}} is written */
+    str_id expression; /* {{i}} stands for operand i */
     /* types of a function's results, in shader->result_types; RESULT 1 is the first */
     uint32_t num_results, first_result;
 };
 
 /*
- * Effects: what a stage does, in order, before scheduling. Structured: IF, LIGHTS and SAMPLES end
- * with END.
+ * Effects: the actions of a stage in order, before scheduling. END closes IF, LIGHTS and SAMPLES.
  */
 enum effect_kind {
     EFFECT_VAR,        /* declares mutable variable `index` with initial value `value` */
@@ -140,15 +128,15 @@ enum effect_kind {
     EFFECT_OUTPUT,     /* interface variable `index` (pixel output or vertex data) = value */
     EFFECT_POSITION,   /* the vertex's clip position = value */
     EFFECT_IF,         /* if (value) { */
-    EFFECT_LIGHTS,     /* for each active light {; CONTEXT nodes inside read its data */
-    EFFECT_SAMPLES,    /* for each sample of the environment {; SAMPLE inside is its index */
+    EFFECT_LIGHTS,     /* for each active light {; CONTEXT nodes read its data */
+    EFFECT_SAMPLES,    /* for each environment sample {; a SAMPLE node is its index */
     EFFECT_END,        /* } */
     EFFECT_COMMENT,    /* a line of comment: text */
     EFFECT_DISCARD,    /* alpha test: if (value) discard */
     /* added by schedule.c */
-    /* local constant for node `value`; of a call with several results, locals for all of them */
+    /* a local for node `value`; for a call with several results, a local for each */
     EFFECT_LET,
-    /* result `index` of an IR function = value; the returned one, 0, comes last */
+    /* result `index` of an IR function = value; result 0, the return value, comes last */
     EFFECT_RESULT,
 };
 
@@ -164,7 +152,7 @@ struct shader_local { /* a mutable variable: EFFECT_VAR, read by LOCAL nodes */
     ir_type_id type;
 };
 
-struct effect_list { /* a vector, as of VEC(struct effect) */
+struct effect_list { /* layout of VEC(struct effect) */
     struct effect *items;
     uint32_t len, cap;
 };
@@ -176,34 +164,34 @@ struct shader_function {           /* an IR function that a stage needs */
 
 struct shader_stage {
     struct effect_list effects;    /* as built */
-    struct effect_list statements; /* scheduled: effects with LETs between them */
+    struct effect_list statements; /* scheduled: effects and LETs */
     struct lang_reach reach;       /* portable functions and globals that the statements need */
-    VEC(struct shader_function) functions; /* IR functions needed, callees first */
-    VEC(uint32_t) verbatim;                /* verbatim sources needed, each once, in order of use */
-    bool has_lights;                       /* it loops over lights */
+    VEC(struct shader_function) functions; /* required IR functions, callees first */
+    VEC(uint32_t) verbatim; /* required verbatim sources, each once, in order of use */
+    bool has_lights;        /* contains a light loop */
 };
 
-/* a stream, attribute or private uniform by the name that it was asked for */
+/* a stream, attribute or private uniform under its requested name */
 struct shader_binding {
     str_id asked;
     uint8_t block;
-    ir_type_id scalar; /* streams of one name may differ in this */
+    ir_type_id scalar; /* streams of one name may differ in type */
     uint32_t variable;
 };
 
 struct shader_buffer {
     uint32_t set, binding;
     uint32_t size;   /* in bytes; of LightData: of the whole array */
-    uint32_t stride; /* of LightData: from light to light */
+    uint32_t stride; /* distance between lights in LightData */
 };
 
 struct shader {
     struct arena *arena;
     struct strpool *strings;
     struct ir_graph *graph;
-    /* the generation's unit: specialisations, on the library's units */
+    /* the unit of the generation, above the units of the library: contains the specialisations */
     struct lang_unit *unit;
-    struct lang_style *style; /* whose reserved words variables must not have; NULL: none */
+    struct lang_style *style; /* its reserved words are not valid for variables; NULL: none */
     VEC(struct shader_variable) variables;
     VEC(struct shader_tile) tiles;
     VEC(struct shader_compiled_input) compiled;
@@ -212,39 +200,37 @@ struct shader {
     VEC(uint32_t) light_members;
     VEC(struct shader_verbatim) verbatim;
     VEC(ir_type_id) result_types; /* of verbatim functions */
-    /* variables that stages use, block by block, in the order of their layout */
+    /* used variables, block by block, in the order of their layout */
     VEC(uint32_t) interface;
-    /* in `interface`: where each block begins, and where the last one ends */
+    /* start of each block in `interface`, and the end of the last */
     uint32_t first_of_block[NUM_BLOCKS + 1];
-    /* open addressing: names at file scope to variables, see interface.c */
+    /* open addressing: from names at file scope to variables, see interface.c */
     uint32_t *names;
     uint32_t names_mask;
     VEC(struct shader_binding) bindings;
-    /* of blocks of uniforms; size 0 where there is none */
+    /* uniform blocks; size 0 if absent */
     struct shader_buffer buffers[NUM_BLOCKS];
     struct shader_stage stages[NUM_STAGES];
     uint32_t max_lights; /* elements of u_lightData */
     str_id name;         /* of the element: "Gold" */
     str_id element_type; /* "surfacematerial" */
     str_id path;
-    VEC(uint32_t) closures; /* that are evaluated, by the origins of their leaves */
+    VEC(uint32_t) closures; /* the evaluated closures, as origins of their leaves */
     uint8_t kind;           /* enum shader_kind */
-    /* of the document: what the element gives, where that is a plain value */
+    /* document type of a shader for a plain value */
     str_id value_type;
-    /* only variables have parts that can be named: from the rules of layout */
+    /* only parts of variables can have names: from the layout rules */
     bool names_wholes;
-    bool transparent; /* found by analysis: the alpha written may be below 1 */
+    bool transparent; /* by analysis: the alpha output may be below 1 */
     uint8_t alpha;    /* enum shader_alpha */
     bool lit;         /* reads lights or environment */
     bool displaced;   /* the vertex stage moves the surface */
-    /* it is no program but a function of path tracers: there is no vertex stage */
+    /* a function for path tracers, without a vertex stage */
     bool scatters;
-    /* uniforms stand in blocks: each reading costs an access beside the load */
+    /* uniforms are in blocks, so each read needs an access chain before the load */
     bool in_blocks;
-    /* the speller's: by node, 0 between the lists of statements; from shader_finish */
+    /* for the speller, from shader_finish: by node; 0 between the statement lists */
     uint32_t *local_of;
-    /* the function of a leaf that the target has no closure for; 0: there is none */
-    str_id unknown_closure;
     bool numbered; /* sets, bindings and locations are given */
 };
 
@@ -254,62 +240,61 @@ void shader_init(struct shader *shader, struct arena *arena, struct strpool *str
 /* interface.c */
 
 /*
- * Adds a variable; the name is made a valid identifier, and unique by a number behind it. Returns
- * its index.
+ * Adds a variable. Converts the name to a valid identifier and makes it unique with a number.
+ * Returns its index.
  */
 uint32_t shader_add_variable(struct shader *shader, const struct shader_variable *variable);
-/* at file scope, but for the underscore of reserved words */
+/* At file scope, apart from the underscore for reserved words. */
 bool shader_name_is_free(struct shader *shader, str_id name);
-/* UINT32_MAX: none */
+/* UINT32_MAX: none. */
 uint32_t shader_find_variable(const struct shader *shader, enum shader_block block, str_id name);
 
 /* The IR node that reads a variable: UNIFORM, TEXTURE or STREAM by its block. */
 ir_ref shader_read(struct shader *shader, uint32_t variable);
 
 /*
- * The member of LightData with this name and type, added where there is none; `type` is there from
- * the first call on.
+ * The member of LightData with this name and type; adds it if absent. `type` exists from the first
+ * call.
  */
 uint32_t shader_light_member(struct shader *shader, str_id name, ir_type_id type);
 
 /*
- * The private uniform or texture of a ShaderX name ("u_worldMatrix"), added at first use with the
- * type, default and semantic of streams.def; the type is the caller's for names that the table does
- * not have.
+ * The private uniform or texture with a ShaderX name ("u_worldMatrix"). The first use adds it with
+ * the type, default and semantic of streams.def; a name outside the table takes the type of the
+ * caller.
  */
 uint32_t shader_private_uniform(struct shader *shader, str_id name, ir_type_id type,
                                 uint16_t array_length);
 
 /*
- * IR node for a geometric stream as the pixel stage reads it ("normalWorld", "texcoord_0",
- * "geomprop_st"…): adds the vertex data, the attributes and matrices it needs, and the vertex
- * stage's computation of it. `type` VOID means the stream's own; texcoord_N may be asked for as
- * VEC3 and color_N as FLOAT or VEC3; geomprop_* is of any type that is asked for. 0: there is no
- * such stream.
+ * The IR node of a geometric stream in the pixel stage ("normalWorld", "texcoord_0",
+ * "geomprop_st"…). Adds the vertex data, the attributes and matrices that it needs, and its
+ * computation in the vertex stage. `type` VOID means the type of the stream; texcoord_N may also be
+ * VEC3, color_N FLOAT or VEC3, and geomprop_* any type. 0: there is no such stream.
  */
 ir_ref shader_stream(struct shader *shader, str_id name, ir_type_id type);
-/* The vertex attribute that a stream of that index is as it is; false: it is computed. */
+/* The vertex attribute that a stream copies; false: the vertex stage computes the stream. */
 bool shader_attribute(const struct shader *shader, uint32_t stream, uint32_t *out_index);
-/* The same seen from inside the vertex stage: the expression itself (for displacement). */
+/* The expression of the stream in the vertex stage, for displacement. */
 ir_ref shader_vertex_stream(struct shader *shader, str_id name, ir_type_id type);
 
 void shader_effect(struct shader *shader, enum shader_stage_id stage, struct effect effect);
 
-/* Counts a leaf among the closures that are evaluated. */
+/* Adds a leaf to the evaluated closures. */
 void shader_add_closure(struct shader *shader, ir_ref leaf);
 uint32_t shader_add_local(struct shader *shader, str_id name, ir_type_id type);
 
 /*
- * identifier.c: text as an identifier: other characters become '_', no leading digit, no "__", no
- * "gl_" in front; "x" for nothing; what is very long is cut. The text itself where it is one
- * already.
+ * identifier.c: converts text to an identifier: other characters become '_', no leading digit, no
+ * "__", no prefix "gl_"; "x" for an empty text; long texts are cut. Returns the text itself if it
+ * is an identifier.
  */
 const char *identifier_from(const char *text, size_t len, struct arena *arena, size_t *out_len);
 
 /*
- * finish.c: the last step before spelling. Adds what the stages' statements need from the host,
- * drops vertex data that the pixel stage does not read, schedules both stages and lays the
- * interface out. Nothing may be added after it.
+ * finish.c: the last step before spelling. Adds the interface variables that the statements need,
+ * removes vertex data that the pixel stage does not read, schedules both stages and lays out the
+ * interface. Nothing can be added afterwards.
  */
 /* Where the members of a block of uniforms stand. */
 enum shader_packing {
@@ -335,10 +320,11 @@ struct shader_layout_rules { /* from the target's table and the options */
 void shader_finish(struct shader *shader, const struct shader_layout_rules *rules);
 
 /*
- * calls.c: gives each portable function the one version that all its calls share. Part of
- * shader_finish.
+ * calls.c: gives each portable function the one version that all its calls share, and builds the
+ * graph anew of what the effects need; refs from before are gone. With typed_textures, TEX gives
+ * one or three channels where no more are wanted. Part of shader_finish.
  */
-void shader_specialise_calls(struct shader *shader);
+void shader_specialise_calls(struct shader *shader, bool typed_textures);
 
 /*
  * The variable of a uniform or stream that a portable function reads; UINT32_MAX for constants, and
@@ -346,44 +332,36 @@ void shader_specialise_calls(struct shader *shader);
  */
 uint32_t shader_global_variable(const struct shader *shader, uint32_t global_id);
 
-/*
- * topology.c: a hash of everything but names and uniform values, of a finished shader; computed
- * when asked for.
- */
+/* topology.c: a hash of a finished shader without names and uniform values. */
 uint64_t shader_topology(const struct shader *shader, struct arena *scratch);
 
 /* layout.c: sizes and alignments of std140 (OpenGL 4.5 core, section 7.6.2.2). */
 uint32_t std140_align(ir_type_id type, bool array);
-/* of an array: with the padding behind its last element */
+/* For an array with the padding after its last element. */
 uint32_t std140_size(ir_type_id type, uint16_t array_length);
 /*
- * Fills shader->interface and, with the rules, offsets, bindings and locations, from the variables'
- * stages.
+ * Fills shader->interface from the stages of the variables and, by the rules, offsets, bindings and
+ * locations.
  */
 void shader_layout(struct shader *shader, const struct shader_layout_rules *rules);
 
 /*
- * schedule.c: decides which nodes become locals and where, and collects what the stage needs:
- * functions, and the stage's bit in the variables that it reads. A node used more than once, or one
- * that would make an expression too long, is a LET in the innermost region that dominates its uses
- * (IF, LIGHTS, SAMPLES). What does not change from turn to turn is moved out of loops, and nodes
- * with derivatives stay outside of IF and loops, of the arms of SELECT, and before any DISCARD.
- * Nodes that read a LOCAL belong to the effect that uses them.
+ * schedule.c: decides which nodes become locals, and in which region. Collects the functions of the
+ * stage, and sets the bit of the stage in its variables. A node with several uses, or a node that
+ * would make an expression too long, becomes a LET in the innermost region (IF, LIGHTS, SAMPLES)
+ * that dominates its uses. Loop-invariant nodes move out of loops. Nodes with derivatives stay
+ * outside IF, loops and the arms of SELECT, and before any DISCARD. Nodes that read a LOCAL belong
+ * to the effect that uses them.
  */
 void shader_schedule(struct shader *shader, enum shader_stage_id stage);
 
-/*
- * Results of a call that it hands out through arguments, beside what it returns; such a call is a
- * statement.
- */
+/* The number of results that a call returns through out arguments. Such a call is a statement. */
 unsigned shader_call_outs(const struct shader *shader, ir_ref call);
 /* What a CALL (a lang function) or a VERBATIM node (an index in shader->verbatim) calls. */
 static inline uint32_t shader_callee(const struct shader *shader, ir_ref call)
 {
-    return (uint32_t)shader->graph->callees.items[ir_get(shader->graph, call)->attr].id;
+    return shader->graph->callees.items[ir_get(shader->graph, call)->attr].index;
 }
-/* The id of the callee of VERBATIM nodes, apart from those of functions. */
-#define SHADER_VERBATIM_ID(index) ((uint64_t)2 << 32 | (index))
 
 /* json.c: the reflection as JSON (docs/reflection.md). */
 
@@ -393,13 +371,16 @@ struct shader_ui {
         *enum_values;
     bool advanced;
 };
+struct reflect; /* reflect.h */
+struct network;
 struct shader_reflect_options {
     const char *target, *generator; /* "vulkan", "mxgen 0.1.0" */
     void *user_data;
     /* Fills the strings for a variable, which is zeroed before; NULL: none. */
     void (*ui)(void *user_data, const struct shader_variable *variable, struct shader_ui *out);
-    const struct network_group *groups; /* num_groups: it is a network, and no more */
-    uint32_t num_groups;
+    const struct network *network; /* described in the place of the shader; NULL: it is none */
+    uint64_t network_topology;
+    void (*reflect_network)(const struct network *network, struct reflect *r);
 };
 void shader_reflect_json(const struct shader *shader, const struct shader_reflect_options *options,
                          struct text *out);

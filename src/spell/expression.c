@@ -45,7 +45,7 @@ static void write_base_type(struct spell *spell, ir_type_id type)
     if (user)
         spell_text(spell, struct_name(spell, user->name));
     else
-        text_put(spell->out, spell->style->types[type]);
+        lang_print_type(spell->style, &spell->lang_names, spell->shader->unit, type, spell->out);
 }
 
 void spell_type(struct spell *spell, ir_type_id type)
@@ -56,10 +56,7 @@ void spell_type(struct spell *spell, ir_type_id type)
 
 void spell_variable(struct spell *spell, ir_type_id type, struct spell_name name)
 {
-    if (type >= IR_TYPE_FIRST_USER)
-        write_base_type(spell, type);
-    else
-        text_put(spell->out, spell->style->types[type]);
+    write_base_type(spell, type);
     text_char(spell->out, ' ');
     spell_name(spell, name);
     if (type >= IR_TYPE_FIRST_USER)
@@ -154,7 +151,7 @@ static const char *callee_name(const struct spell *spell, ir_ref call)
     uint32_t callee = shader_callee(spell->shader, call);
     if (node->op == IR_VERBATIM)
         return str_text(spell->shader->strings, spell->shader->verbatim.items[callee].function);
-    return spell->functions[callee];
+    return spell_function_name(spell, callee);
 }
 
 unsigned spell_call_open(struct spell *spell, ir_ref call)

@@ -141,12 +141,13 @@ static struct spell_name bare_name(const struct spell *spell, str_id id)
 static struct spell_name operand_name(const struct spell *spell, ir_ref ref)
 {
     const struct ir_node *node = ir_get(spell->shader->graph, ref);
+    str_id own = ir_label(spell->shader->graph, ref)->name;
     /* a description of a description says nothing */
-    if (spell->local_of[ref] && (node->name || node->op == IR_CONTEXT))
+    if (spell->local_of[ref] && (own || node->op == IR_CONTEXT))
         return spell->let_names.items[spell->local_of[ref] - 1];
     if (node->op == IR_UNIFORM)
         return input_name(spell, &spell->shader->variables.items[node->attr]);
-    return node->name ? bare_name(spell, node->name) : (struct spell_name){0};
+    return own ? bare_name(spell, own) : (struct spell_name){0};
 }
 
 /* The only operand that is no constant; 0: there are several. */
@@ -225,7 +226,7 @@ void spell_plan_locals(struct spell *spell, const struct effect_list *statements
     for (uint32_t i = 0; i < statements->len; i++) {
         const struct effect *effect = &statements->items[i];
         str_id name =
-            effect->kind == EFFECT_LET ? ir_get(spell->shader->graph, effect->value)->name : 0;
+            effect->kind == EFFECT_LET ? ir_label(spell->shader->graph, effect->value)->name : 0;
         if (name)
             vec_push(spell->scratch, &spell->wanted_names, name);
     }
@@ -241,11 +242,11 @@ static bool is_wanted_twice(const struct spell *spell, str_id name)
 }
 
 /* "coat_alpha" of the alpha of the node "coat". */
-static struct spell_name with_origin(struct spell *spell, const struct ir_node *node,
-                                     struct spell_name name)
+static struct spell_name with_origin(struct spell *spell, ir_ref ref, struct spell_name name)
 {
-    str_id origin = spell->shader->graph->origins.items[node->origin].name;
-    if (!origin || node->is_shared)
+    const struct ir_graph *graph = spell->shader->graph;
+    str_id origin = graph->origins.items[ir_get(graph, ref)->origin].name;
+    if (!origin || ir_label(graph, ref)->is_shared)
         return name;
     struct spell_name owner = spell_name_of(spell->shader->strings, origin);
     bool is_in_it = name.len >= owner.len && memcmp(name.text, owner.text, owner.len) == 0;
@@ -254,9 +255,10 @@ static struct spell_name with_origin(struct spell *spell, const struct ir_node *
 
 struct spell_name spell_call_base(struct spell *spell, ir_ref call)
 {
-    const struct ir_node *node = ir_get(spell->shader->graph, call);
-    str_id origin = spell->shader->graph->origins.items[node->origin].name;
-    bool is_own = origin && !node->name && !node->is_shared && !spell->options->neutral_names;
+    const struct ir_graph *graph = spell->shader->graph;
+    const struct ir_label *label = ir_label(graph, call);
+    str_id origin = graph->origins.items[ir_get(graph, call)->origin].name;
+    bool is_own = origin && !label->name && !label->is_shared && !spell->options->neutral_names;
     return is_own ? spell_name_of(spell->shader->strings, origin) : spell_local_base(spell, call);
 }
 
@@ -270,11 +272,12 @@ struct spell_name spell_local_base(struct spell *spell, ir_ref ref)
         return node->op == IR_UNIFORM ? input_name(spell, variable)
                                       : spell_name_of(spell->shader->strings, variable->name);
     }
-    if (node->name) {
-        struct spell_name name = bare_name(spell, node->name);
-        bool is_own = node->name_rank == IR_NAME_RESULT || !is_wanted_twice(spell, node->name);
-        return is_own ? name : with_origin(spell, node, name);
+    const struct ir_label *label = ir_label(spell->shader->graph, ref);
+    if (label->name) {
+        struct spell_name name = bare_name(spell, label->name);
+        bool is_own = label->rank == IR_NAME_RESULT || !is_wanted_twice(spell, label->name);
+        return is_own ? name : with_origin(spell, ref, name);
     }
     struct spell_name name = name_by_operand(spell, ref);
-    return name.len ? name : with_origin(spell, node, name_by_operation(spell, ref));
+    return name.len ? name : with_origin(spell, ref, name_by_operation(spell, ref));
 }

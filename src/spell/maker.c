@@ -12,10 +12,11 @@ void spell_name_maker(struct spell *spell, ir_type_id type)
     text_init(&name, spell->scratch);
     text_fmt(&name, "make_%s", type_name);
     const char *unique = names_unique(&spell->names, text_cstr(&name), name.len).text;
-    vec_push(spell->scratch, &spell->makers, (struct spell_maker){type, type_name, unique});
+    vec_push(spell->scratch, &spell->makers,
+             (struct spell_maker){.type = type, .type_name = type_name, .name = unique});
 }
 
-const struct spell_maker *spell_find_maker(const struct spell *spell, const char *type_name)
+struct spell_maker *spell_find_maker(const struct spell *spell, const char *type_name)
 {
     for (uint32_t i = 0; i < spell->makers.len; i++)
         if (strcmp(spell->makers.items[i].type_name, type_name) == 0)

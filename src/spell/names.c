@@ -7,16 +7,12 @@
 #include "base/hash.h"
 #include "spell/spell.h"
 
-/* at first: those of usual stages are not moved while they come */
-enum { SLOTS = 512, FEW_SLOTS = 64 };
+enum { FIRST_SLOTS = 64 };
 
-void names_init(struct name_set *names, struct arena *arena, const struct lang_style *style,
-                bool few)
+void names_init(struct name_set *names, struct arena *arena, const struct lang_style *style)
 {
-    *names =
-        (struct name_set){.arena = arena, .style = style, .mask = (few ? FEW_SLOTS : SLOTS) - 1};
-    names->table = ARENA_ARRAY(arena, uint32_t, names->mask + 1);
-    vec_reserve(arena, &names->entries, names->mask / 3);
+    *names = (struct name_set){.arena = arena, .style = style, .mask = FIRST_SLOTS - 1};
+    names->table = ARENA_ARRAY(arena, uint32_t, FIRST_SLOTS);
 }
 
 void names_open_scope(struct name_set *names)
@@ -95,7 +91,7 @@ static struct spell_name add_number(struct name_set *names, uint32_t first)
     const struct name_entry *base = &names->entries.items[first];
     size_t len = base->len;
     char *numbered = arena_alloc(names->arena, len + sizeof "_4294967295");
-    text_copy(numbered, base->text, len);
+    memcpy(numbered, base->text, len);
     if (numbered[len - 1] != '_')
         numbered[len++] = '_';
     bool is_new;
@@ -116,7 +112,7 @@ static struct spell_name add_underscore(struct name_set *names, uint32_t reserve
     if (base->text[len - 1] == '_')
         return add_number(names, reserved);
     char *longer = arena_alloc(names->arena, len + sizeof "_");
-    text_copy(longer, base->text, len);
+    memcpy(longer, base->text, len);
     longer[len++] = '_';
     longer[len] = '\0';
     return names_take(names, longer, len) ? (struct spell_name){longer, len}
@@ -125,20 +121,11 @@ static struct spell_name add_underscore(struct name_set *names, uint32_t reserve
 
 struct spell_name names_unique(struct name_set *names, const char *text, size_t len)
 {
-    unsigned slot = (unsigned)((uintptr_t)text ^ (uintptr_t)text >> 6) % NAMES_RECENT;
-    if (names->recent[slot].text == text && names->recent[slot].len == len) {
-        uint32_t scope = names->entries.items[names->recent[slot].entry].scope;
-        if (scope == 0 || scope == names->scope)
-            return add_number(names, names->recent[slot].entry);
-    }
     size_t base_len;
     const char *base = identifier_from(text, len, names->arena, &base_len);
     bool is_new;
     uint32_t entry =
         (uint32_t)(take(names, base, (uint32_t)base_len, &is_new) - names->entries.items);
-    names->recent[slot].text = text;
-    names->recent[slot].len = (uint32_t)len;
-    names->recent[slot].entry = entry;
     if (lang_syntax_is_reserved(names->style->syntax, base, base_len))
         return add_underscore(names, entry);
     return is_new ? (struct spell_name){base, base_len} : add_number(names, entry);

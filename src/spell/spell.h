@@ -26,8 +26,6 @@ struct spell_name { /* as it is written */
     size_t len;
 };
 
-enum { NAMES_RECENT = 64 };
-
 struct name_set {
     struct arena *arena;
     const struct lang_style *style;
@@ -35,15 +33,9 @@ struct name_set {
     uint32_t *table; /* open addressing: entry + 1 */
     uint32_t mask;
     uint32_t scope; /* of the function at hand; 0 outside */
-    struct { /* names that were asked for lately, by address: most locals are called like others */
-        const char *text;
-        uint32_t len, entry;
-    } recent[NAMES_RECENT];
 };
 
-/* `few`: less names are to be expected than a pixel stage has. */
-void names_init(struct name_set *names, struct arena *arena, const struct lang_style *style,
-                bool few);
+void names_init(struct name_set *names, struct arena *arena, const struct lang_style *style);
 /* a new function: the names of the one before are free again */
 void names_open_scope(struct name_set *names);
 /* Texts given to these two must live as long as the set. */
@@ -57,6 +49,7 @@ bool names_take(struct name_set *names, const char *text, size_t len);
 struct spell_maker {
     ir_type_id type;
     const char *type_name, *name;
+    bool is_called; /* for who writes it beside the struct */
 };
 
 /* ---- The state ---- */
@@ -118,6 +111,12 @@ void spell_type(struct spell *spell, ir_type_id type);
 /* "float x[3]" */
 void spell_variable(struct spell *spell, ir_type_id type, struct spell_name name);
 
+/* The name of a portable function, which the text at hand calls. */
+static inline const char *spell_function_name(const struct spell *spell, uint32_t function)
+{
+    return spell->lang_names.function(spell->lang_names.user_data, function);
+}
+
 /* ---- local.c ---- */
 
 /* Before a function's statements: which names several of its locals want. */
@@ -156,7 +155,7 @@ void spell_structs(struct spell *spell);
 /* Gives a struct of the stage a maker, which is named at file scope: "make_Outer". */
 void spell_name_maker(struct spell *spell, ir_type_id type);
 /* By the struct's name in the output; NULL: it has none. */
-const struct spell_maker *spell_find_maker(const struct spell *spell, const char *type_name);
+struct spell_maker *spell_find_maker(const struct spell *spell, const char *type_name);
 /* "Outer make_Outer(vec2 a, float b) { Outer made; made.a = a; … return made; }" */
 void spell_write_maker(const struct spell *spell, const struct spell_maker *maker,
                        struct text *out);

@@ -138,10 +138,11 @@ static void write_plural(struct text *out, uint32_t n, const char *what)
 /* "Gold · surfacematerial · mxgen 0.1 · vulkan · reduced · 1 closure · 0 textures" */
 void spell_comment(struct spell *spell, const char *text, size_t len)
 {
-    for (size_t i = 0; i < len; i++) {
-        bool is_harmful = (unsigned char)text[i] < 0x20 || text[i] == 0x7f || text[i] == '\\';
-        text_char(spell->out, is_harmful ? '?' : text[i]);
-    }
+    size_t begin = spell->out->len;
+    text_mem(spell->out, text, len);
+    for (char *c = spell->out->data + begin; len > 0; c++, len--)
+        if ((unsigned char)*c < 0x20 || *c == 0x7f || *c == '\\')
+            *c = '?';
 }
 
 void spell_title(struct spell *spell)
@@ -298,9 +299,9 @@ static void init(struct spell *spell)
     if (spell->style != shader->style)
         lang_style_init(spell->style, has_neighbours ? spell->target->syntax : syntax_alone(spell),
                         arena);
-    names_init(&spell->names, arena, spell->style, spell->stage_id == STAGE_VERTEX);
+    names_init(&spell->names, arena, spell->style);
     if (spell->options->comments && spell->options->path && !spell->options->neutral_names) {
-        names_init(&spell->paths, arena, spell->style, true);
+        names_init(&spell->paths, arena, spell->style);
         spell->origins_seen = ARENA_ARRAY(arena, uint8_t, shader->graph->origins.len);
     }
     if (spell->options->shader_name)

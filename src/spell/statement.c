@@ -145,7 +145,7 @@ static void write_call_arguments(struct spell *spell, ir_ref call, uint32_t firs
                                  unsigned outs)
 {
     if (ir_get(spell->shader->graph, call)->op == IR_CALL) {
-        spell_text(spell, spell->functions[shader_callee(spell->shader, call)]);
+        spell_text(spell, spell_function_name(spell, shader_callee(spell->shader, call)));
         text_char(spell->out, '(');
         write_portable_arguments(spell, call, first_name);
         return;

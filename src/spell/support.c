@@ -48,7 +48,7 @@ enum spell_support spell_support(const struct target *target, enum ir_op op)
     if (is_structural(op))
         return SPELL_YES;
     if (op >= IR_LEAF)
-        return target->caps & CAP_CLOSURES ? SPELL_YES : SPELL_LOWERED;
+        return target->closures ? SPELL_YES : SPELL_LOWERED;
     const struct lang_form *form = lang_syntax_form(target->syntax, op);
     if (!form || !form->text)
         return SPELL_NO;

@@ -10,31 +10,65 @@
 #include "shader/network.h"
 
 enum target_caps {
-    CAP_STAGES = 1,           /* vertex and pixel stages; else one shader */
-    CAP_UNIFORM_BLOCKS = 2,   /* uniforms must stand in blocks */
-    CAP_BLOCK_OPTION = 4,     /* uniforms may stand in blocks: --uniform-blocks */
-    CAP_UNIFORM_DEFAULTS = 8, /* uniforms may have initial values */
-    CAP_BINDINGS = 16,        /* layout(set, binding) and locations */
-    CAP_BLOCK_STAGE_IO = 32,  /* stage inputs and outputs may stand in an interface block */
-    CAP_PRECISION = 64,       /* needs default precision statements */
-    CAP_OVERLOADS = 128,      /* functions may be overloaded */
-    CAP_BITWISE = 256,        /* unsigned integers and bit operators */
-    CAP_IMPLICIT_LOD = 512,   /* texture() in pixel stages */
-    CAP_CLOSURES = 1024,      /* the language has closures: keep the tree */
-    CAP_STRINGS = 2048,       /* the language has strings */
+    /* a vertex stage computes what the pixel stage reads; else shaders read the geometry itself */
+    CAP_VERTEX_STAGE = 1 << 0,
+    CAP_UNIFORM_BLOCKS = 1 << 1,   /* uniforms must stand in blocks */
+    CAP_BLOCK_OPTION = 1 << 2,     /* uniforms may stand in blocks: --uniform-blocks */
+    CAP_UNIFORM_DEFAULTS = 1 << 3, /* uniforms may have initial values */
+    CAP_BINDINGS = 1 << 4,         /* layout(set, binding) and locations */
+    CAP_BLOCK_STAGE_IO = 1 << 5,   /* stage inputs and outputs may stand in an interface block */
+    CAP_PRECISION = 1 << 6,        /* needs default precision statements */
+    CAP_OVERLOADS = 1 << 7,        /* functions may be overloaded */
+    CAP_BITWISE = 1 << 8,          /* unsigned integers and bit operators */
+    CAP_IMPLICIT_LOD = 1 << 9,     /* texture() in pixel stages */
+    CAP_STRINGS = 1 << 10,         /* the language has strings */
     /* the tiles of an image are layers of one texture; else its host, or texture(), finds them */
-    CAP_TEXTURE_ARRAYS = 4096,
+    CAP_TEXTURE_ARRAYS = 1 << 11,
+    CAP_NAMED_WHOLES = 1 << 12, /* parts are taken of variables only: v.x, but not (a + b).x */
     /* texture() gives as many channels as are wanted: one, three or four */
-    CAP_TYPED_TEXTURES = 16384,
-    CAP_MISSING_COLORS = 32768, /* texture() is told what to give where there is no image */
-    CAP_NAMED_WHOLES = 8192,    /* parts are taken of variables only: v.x, but not (a + b).x */
+    CAP_TYPED_TEXTURES = 1 << 13,
+    CAP_MISSING_COLORS = 1 << 14, /* texture() is told what to give where there is no image */
+    /* texture() is told address modes and filters, but no borders of a colour; else samplers are */
+    CAP_READS_SAY_MODES = 1 << 15,
+    /* each shader has a scope of its own for its parameters: names need no node in front */
+    CAP_SCOPED_PARAMETERS = 1 << 16,
+    /* tangents follow the coordinates of their index; else, as in MaterialX, the first */
+    CAP_INDEXED_TANGENTS = 1 << 17,
 };
 
 struct spell; /* spell/spell.h */
 
-struct target_network { /* for hosts that put shaders together themselves */
-    struct network_end ends[NUM_NETWORK_USES];
-    void (*write)(const struct network_group *group, struct text *out);
+/* Of a language with closures: the renderer knows lights, layers and weights. */
+struct target_closures {
+    /*
+     * Writes the effects for a root of any type, in the place of closure_emit. False where the type
+     * has no meaning, or where a leaf has no closure in the language: *out_unknown is its family
+     * then, else it stays.
+     */
+    bool (*emit)(struct shader *shader, const struct closure_host *host, ir_ref root,
+                 str_id *out_unknown);
+};
+
+struct reflect; /* shader/reflect.h */
+
+/* Of a language whose hosts put a shader together of one per node: option `network`. */
+struct target_network {
+    /* Decides by network->results what the program is, and which nodes it needs. */
+    void (*plan)(struct network *network);
+    /*
+     * The effects of one node's shader, whose outputs have these names: closures and shaders of any
+     * kind are closures, those of other layers are uniforms, and a displacement is the offset.
+     * False as target_closures.emit.
+     */
+    bool (*emit_node)(struct shader *shader, const struct closure_host *host,
+                      const struct network_output *outputs, unsigned n, str_id *out_unknown);
+    /* Adds the shaders that are of no node, once those of nodes stand. */
+    void (*add_parts)(struct network *network);
+    /* The text of a stage; nothing: there is no such stage. */
+    void (*write)(const struct network *network, enum shader_stage_id stage, struct text *out);
+    uint64_t (*topology)(const struct network *network); /* of everything but values */
+    /* Keys of the object at hand (docs/reflection.md). */
+    void (*reflect)(const struct network *network, struct reflect *r);
 };
 
 /*
@@ -59,9 +93,9 @@ struct target {
     /* values of the option `version`, first is the default; "#version" is written with it */
     const char *const *versions;
     const struct lang_syntax *syntax;
-    const struct closure_rows *closures;  /* with CAP_CLOSURES: the language's own */
-    const struct target_network *network; /* NULL: shaders of the target are whole */
-    const struct target_frame *frame;     /* of spell_stage; NULL: from base */
+    const struct target_closures *closures; /* NULL: the language has none */
+    const struct target_network *network;   /* NULL: shaders of the target are whole */
+    const struct target_frame *frame;       /* of spell_stage; NULL: from base */
     /*
      * The form of an op where types decide (struct lang_names); user_data is the spell. NULL: the
      * syntax says all.

@@ -15,6 +15,7 @@ struct wrapper {
     struct text out;
     uint32_t next_mark;
     struct spell_mark *marks;
+    const char *copied; /* what stands in front of this is in `out` */
 };
 
 /* Does the operator or comma at `at` allow a break? The break replaces the space. */
@@ -29,44 +30,63 @@ static bool may_break(const char *at, const char *end)
     return is_operator && ends && !(at[1] == '=' && at[2] == ' ');
 }
 
+/* The closing quote of the string that begins at `at`. */
+static const char *end_of_string(const char *at, const char *end)
+{
+    for (at++; at < end && (*at != '"' || at[-1] == '\\'); at++)
+        ;
+    return at;
+}
+
 /*
  * Where to break [from, end), which begins at column `column`: of the places that leave no more
  * than MAX_COLUMNS, the last of those with the fewest open brackets; NULL: nowhere.
  */
 static const char *find_break(const char *from, const char *end, size_t column)
 {
-    const char *best = NULL;
+    const char *best = NULL, *first = column < MIN_COLUMNS ? from + (MIN_COLUMNS - column) : from,
+               *last = from + (MAX_COLUMNS - column);
     int depth = 0, best_depth = 0;
-    bool in_string = false;
-    for (const char *at = from; at < end && column + (size_t)(at - from) <= MAX_COLUMNS; at++) {
-        if (*at == '"' && at[-1] != '\\')
-            in_string = !in_string;
-        if (in_string)
-            continue;
-        if (at[0] == '/' && at + 1 < end && at[1] == '/')
-            return NULL;
-        depth += strchr("([{", *at) != NULL;
-        depth -= strchr(")]}", *at) != NULL;
-        bool is_far = column + (size_t)(at - from) >= MIN_COLUMNS;
-        if (is_far && at > from && may_break(at, end) && (!best || depth <= best_depth)) {
-            best = at;
-            best_depth = depth;
+    for (const char *at = from; at < end && at <= last; at++) {
+        switch (*at) {
+        case '"': at = end_of_string(at, end); break;
+        case '(':
+        case '[':
+        case '{': depth++; break;
+        case ')':
+        case ']':
+        case '}': depth--; break;
+        case '/':
+            if (at + 1 < end && at[1] == '/')
+                return NULL;
+            break;
+        case ' ':
+            if (at >= first && at > from && (!best || depth <= best_depth) && may_break(at, end)) {
+                best = at;
+                best_depth = depth;
+            }
+            break;
+        default: break;
         }
     }
     return best;
 }
 
-static void copy(struct wrapper *w, const char *from, const char *to, const char *base)
+/* Copies what stands in front of `to` and is not copied yet. */
+static void copy(struct wrapper *w, const char *to)
 {
     const struct spell *spell = w->spell;
+    const char *base = spell->out->data;
+    size_t start = (size_t)(w->copied - base);
     for (; w->next_mark < spell->marks.len; w->next_mark++) {
         size_t at = spell->marks.items[w->next_mark].at;
         if (at >= (size_t)(to - base))
             break;
-        size_t start = (size_t)(from - base); /* a mark may stand on the space that went */
+        /* a mark may stand on the space that went */
         w->marks[w->next_mark].at = w->out.len + (at > start ? at - start : 0);
     }
-    text_mem(&w->out, from, (size_t)(to - from));
+    text_mem(&w->out, w->copied, (size_t)(to - w->copied));
+    w->copied = to;
 }
 
 /* A comment of its own line goes on in the next one, broken at a space. */
@@ -78,7 +98,7 @@ static const char *comment_break(const char *from, const char *end, size_t inden
     return *at == ' ' ? at : NULL;
 }
 
-static void wrap_line(struct wrapper *w, const char *line, const char *end, const char *base)
+static void wrap_line(struct wrapper *w, const char *line, const char *end)
 {
     size_t indent = 0, column = 0;
     while (line + indent < end && line[indent] == ' ')
@@ -90,7 +110,7 @@ static void wrap_line(struct wrapper *w, const char *line, const char *end, cons
             is_comment ? comment_break(from, end, column) : find_break(from, end, column);
         if (!at || at <= line + indent)
             break;
-        copy(w, from, at, base);
+        copy(w, at);
         text_char(&w->out, '\n');
         column = is_comment ? indent : indent + INDENT;
         for (size_t i = 0; i < column; i++)
@@ -98,30 +118,25 @@ static void wrap_line(struct wrapper *w, const char *line, const char *end, cons
         if (is_comment)
             text_str(&w->out, "// ");
         column += is_comment ? strlen("// ") : 0;
-        from = at + 1;
+        w->copied = from = at + 1;
     }
-    copy(w, from, end, base);
 }
 
 void spell_wrap(struct spell *spell, size_t begin)
 {
     const char *base = spell->out->data, *end = base + spell->out->len;
-    struct wrapper w = {.spell = spell, .marks = spell->marks.items};
+    struct wrapper w = {.spell = spell, .marks = spell->marks.items, .copied = base};
     text_init(&w.out, spell->out->arena);
     text_reserve(&w.out, spell->out->len + spell->out->len / 16);
     const char *kept = base + spell->verbatim_begin, *kept_end = base + spell->verbatim_end;
-    copy(&w, base, base + begin, base);
     for (const char *line = base + begin; line < end;) {
         const char *newline = memchr(line, '\n', (size_t)(end - line));
         const char *stop = newline ? newline : end;
         bool is_kept = line >= kept && line < kept_end;
-        if (is_kept)
-            copy(&w, line, stop, base);
-        else
-            wrap_line(&w, line, stop, base);
-        if (newline)
-            copy(&w, newline, newline + 1, base);
+        if (!is_kept && stop - line > MAX_COLUMNS)
+            wrap_line(&w, line, stop);
         line = newline ? newline + 1 : end;
     }
+    copy(&w, end);
     *spell->out = w.out;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * XInclude (W3C, 1.1) as MaterialX uses it: whole documents, whose top-level elements take the
- * place of the <xi:include>.
+ * XInclude (W3C, 1.1) as MaterialX uses it: the top-level elements of a whole document replace the
+ * <xi:include>.
  */
 #include "xml/internal.h"
 
@@ -19,13 +19,13 @@ static str_id attr_by_text(const struct document *doc, elem_id element, const ch
     return id ? doc_attr_value(doc, element, id) : STR_EMPTY;
 }
 
-/* The place of href, or of the element where it has none. */
+/* The place of the attribute href, or of the element if it is absent. */
 static struct diag_place href_place(const struct document *doc, elem_id include)
 {
     return doc_attr_place(doc, include, str_find(doc->strings, "href", 4));
 }
 
-/* "a.mtlx, b.mtlx, a.mtlx": the files being read from the one that is included again. */
+/* Reports "a.mtlx, b.mtlx, a.mtlx": the open files from the one that is included again. */
 static void report_cycle(struct xml_reader *reader, elem_id include, const char *name)
 {
     struct strpool *strings = reader->doc->strings;
@@ -45,7 +45,7 @@ static void report_cycle(struct xml_reader *reader, elem_id include, const char 
              text_cstr(&path));
 }
 
-/* What stands in <xi:fallback> replaces an include that cannot be read. */
+/* Replaces an unreadable include by the content of its <xi:fallback>. */
 static bool use_fallback(struct document *doc, elem_id include)
 {
     str_id fallback = str_find(doc->strings, "xi:fallback", 11);
@@ -69,7 +69,7 @@ static void include_opened(struct xml_reader *reader, elem_id include, const cha
         xml_close_file(reader);
         if (opened->open)
             report_cycle(reader, include, name);
-        return; /* else it has been included: once is enough */
+        return; /* otherwise the file is already included */
     }
     uint32_t index = reader->opened.len, num_errors = reader->diags->num_errors;
     vec_push(&reader->scratch, &reader->opened, (struct xml_file){id, true});
@@ -108,7 +108,7 @@ static void process(struct xml_reader *reader, const struct xml_source *source, 
         diag_add(reader->diags, DIAG_ID_include_missing, href_place(doc, include), href, reason);
 }
 
-/* An include inside a fallback that was not used has left the tree with it. */
+/* False if the include was inside an unused fallback, which is no longer in the tree. */
 static bool is_below(const struct document *doc, elem_id element, elem_id root)
 {
     while (element && element != root)

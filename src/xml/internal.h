@@ -13,12 +13,6 @@ struct xml_position {
     uint32_t line; /* 0: unknown */
 };
 
-/* A name that libxml2 stores once, with its id. */
-struct xml_name {
-    const char *text;
-    str_id id;
-};
-
 /* The current file. Its text is UTF-8 without a byte-order mark; mxgen converts other encodings. */
 struct xml_source {
     const char *name; /* canonical; includes in the file are relative to it */
@@ -48,15 +42,6 @@ struct xml_file {
     bool open;   /* the parser is inside this file: including it is a cycle */
 };
 
-/* A cached short value. The length and the first and last bytes form its key. */
-struct xml_word {
-    uint64_t bytes;
-    uint32_t len;
-    str_id id;
-};
-
-enum { XML_NUM_NAMES = 128, XML_NUM_WORDS = 128 /* powers of two */ };
-
 struct xml_reader {
     struct document *doc;
     struct mem *mem;
@@ -68,9 +53,6 @@ struct xml_reader {
     void *handle; /* of the open file, for files->release */
     bool handle_open;
     struct xml_source *source;
-    /* recent names of `parser`, hashed by address */
-    struct xml_name names[XML_NUM_NAMES];
-    struct xml_word words[XML_NUM_WORDS]; /* recent values, hashed by content */
     /*
      * <xi:include> elements of the open files, innermost last; replaced after the parse of the file
      */

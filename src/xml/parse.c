@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Text to elements by libxml2's SAX2 interface. No jump crosses a frame of libxml2: each callback
- * runs under mem_try.
+ * Converts text to elements with libxml2's SAX2 interface. No jump crosses a frame of libxml2: each
+ * callback runs under mem_try.
  */
 #include "xml/internal.h"
 
@@ -16,14 +16,14 @@ void xml_startup(void)
     xmlInitParser();
 }
 
-/* Stops libxml2; what it reports from now on is a consequence of stopping. */
+/* Stops libxml2. Later callbacks and errors are consequences of the stop. */
 static void stop(struct xml_reader *reader)
 {
     reader->stopped = true;
     xmlStopParser(reader->parser);
 }
 
-/* Bytes of the source that libxml2 has passed. */
+/* Number of source bytes that libxml2 has consumed. */
 static size_t parser_offset(const struct xml_reader *reader)
 {
     const xmlParserInput *input = reader->parser->input;
@@ -41,25 +41,12 @@ struct start_tag {
     const xmlChar **attrs;      /* name, prefix, URI, value, end of the value */
 };
 
-/*
- * A name from libxml2's dictionary, which has each text at one address for as long as the reader's
- * parser lives.
- */
-static str_id plain_name(struct xml_reader *reader, const char *name)
-{
-    struct xml_name *known =
-        &reader->names[((uintptr_t)name ^ (uintptr_t)name >> 7) & (XML_NUM_NAMES - 1)];
-    if (known->text != name)
-        *known = (struct xml_name){name, str_intern_z(reader->doc->strings, name)};
-    return known->id;
-}
-
 /* "prefix:name" or "name", interned. */
 static str_id qualified_name(struct xml_reader *reader, const char *prefix, const char *name)
 {
     struct strpool *strings = reader->doc->strings;
     if (!prefix)
-        return plain_name(reader, name);
+        return str_intern_z(strings, name);
     char small[128];
     size_t prefix_len = strlen(prefix), name_len = strlen(name), len = prefix_len + 1 + name_len;
     char *text = len <= sizeof small ? small : arena_alloc(&reader->scratch, len);
@@ -69,32 +56,12 @@ static str_id qualified_name(struct xml_reader *reader, const char *prefix, cons
     return str_intern(strings, text, len);
 }
 
-/*
- * Types, names of ports and round numbers stand in a document over and over: a value of up to eight
- * bytes is looked for here first.
- */
-static str_id intern_value(struct xml_reader *reader, const char *text, size_t len)
-{
-    struct strpool *strings = reader->doc->strings;
-    if (len < 4 || len > 8)
-        return str_intern(strings, text, len);
-    uint32_t first, last;
-    memcpy(&first, text, sizeof first);
-    memcpy(&last, text + len - sizeof last, sizeof last);
-    uint64_t bytes = (uint64_t)first << 32 | last;
-    struct xml_word *known =
-        &reader->words[(bytes * 0x9e3779b97f4a7c15u >> 32) & (XML_NUM_WORDS - 1)];
-    if (known->bytes != bytes || known->len != len)
-        *known = (struct xml_word){bytes, (uint32_t)len, str_intern(strings, text, len)};
-    return known->id;
-}
-
 static str_id attr_value(struct xml_reader *reader, const xmlChar *value, const xmlChar *end)
 {
     const char *text = (const char *)value;
     size_t len = (size_t)(end - value);
     if (!reader->source->raw_less.len || !memchr(text, XML_RAW_LESS, len))
-        return intern_value(reader, text, len);
+        return str_intern(reader->doc->strings, text, len);
     char *copy = arena_strndup(&reader->scratch, text, len);
     for (char *p = copy; (p = memchr(p, XML_RAW_LESS, (size_t)(copy + len - p))) != NULL;)
         *p = '<';
@@ -106,7 +73,7 @@ static bool is_blank(char c)
     return c == ' ' || c == '\t' || c == '\r' || c == '\n';
 }
 
-/* Where a run of characters ends that is_in holds for; at the end of the text at the latest. */
+/* The end of a run of characters for which is_in is true, at most the end of the text. */
 static size_t skip_while(const struct xml_source *source, size_t at, bool (*is_in)(char))
 {
     while (at < source->size && is_in(source->text[at]))
@@ -125,8 +92,8 @@ static bool is_no_quote(char c)
 }
 
 /*
- * Offset of the value of the next attribute in a start tag, `at` moved behind it. libxml2 has read
- * the tag as far as its last good attribute; what follows may be anything.
+ * Offset of the next attribute's value in a start tag; moves `at` behind it. libxml2 has parsed the
+ * tag up to its last valid attribute; the rest may be invalid.
  */
 static size_t next_value(const struct xml_source *source, size_t *at, bool *out_is_namespace)
 {
@@ -156,8 +123,7 @@ static void add_attr(struct xml_reader *reader, elem_id element, str_id name, st
 }
 
 /*
- * Offset of the value of an attribute where it stands as it is in the input of libxml2; SIZE_MAX
- * where it is a copy.
+ * Offset of an attribute's value if it points into the input of libxml2; SIZE_MAX if it is a copy.
  */
 static size_t value_offset(const struct xml_reader *reader, const xmlChar *value)
 {
@@ -167,7 +133,7 @@ static size_t value_offset(const struct xml_reader *reader, const xmlChar *value
     return is_inside ? reader->source->start + input->consumed + (size_t)(at - base) : SIZE_MAX;
 }
 
-/* The name is kept apart. */
+/* Except the name, which the element stores. */
 static void add_plain_attr(const struct start_tag *tag, int index, elem_id element,
                            struct diag_place place, size_t offset)
 {
@@ -181,7 +147,8 @@ static void add_plain_attr(const struct start_tag *tag, int index, elem_id eleme
 }
 
 /*
- * Attributes in the order of the text. Namespace declarations other than XInclude's are attributes.
+ * Adds attributes in the order of the text. Namespace declarations except XInclude's are
+ * attributes.
  */
 static void add_attrs(const struct start_tag *tag, elem_id element, struct diag_place place,
                       size_t at)
@@ -213,7 +180,7 @@ static bool is_xinclude(const struct start_tag *tag)
            || (tag->prefix && strcmp(tag->prefix, "xi") == 0);
 }
 
-/* The root is there already; every other element is new. 0: a limit was reached. */
+/* Adds an element; the root exists already. 0: a limit was reached. */
 static elem_id add_element(const struct start_tag *tag, struct diag_place place)
 {
     struct xml_reader *reader = tag->reader;
@@ -239,8 +206,8 @@ static elem_id add_element(const struct start_tag *tag, struct diag_place place)
 }
 
 /*
- * The offset of the first value, where those of all are known and nothing else stands between them;
- * SIZE_MAX where they are not.
+ * The offset of the first value, if all values have offsets and only attributes lie between them;
+ * otherwise SIZE_MAX.
  */
 static size_t known_values(const struct start_tag *tag)
 {
@@ -262,8 +229,8 @@ static void start_element(void *arg)
     at -= at == source->size;
     while (at > source->start && text[at] != '<')
         /*
-         * from the first value or from behind the attributes: the tag's start is the last '<',
-         * which cannot stand inside one
+         * From the first value, or from the end of the attributes, the tag begins at the last '<',
+         * because an attribute cannot contain one.
          */
         at--;
     struct diag_place place = xml_place(reader, at);
@@ -303,7 +270,7 @@ static void on_start_element(void *user, const xmlChar *name, const xmlChar *pre
                              const xmlChar *uri, int num_namespaces, const xmlChar **namespaces,
                              int num_attrs, int num_defaulted, const xmlChar **attrs)
 {
-    (void)num_defaulted; /* only a DOCTYPE could have defaults */
+    (void)num_defaulted; /* only a DOCTYPE can set defaults */
     struct start_tag tag = {
         user,           (const char *)name, (const char *)prefix, (const char *)uri,
         num_namespaces, num_attrs,          namespaces,           attrs};
@@ -371,7 +338,7 @@ static const char *message_of(struct xml_reader *reader, const xmlError *error)
     return arena_strndup(&reader->scratch, message, len);
 }
 
-/* Text behind </materialx> in which no element begins: the tree is complete. */
+/* True for text after </materialx> without an element: the tree is complete. */
 static bool is_trailing_text(const struct xml_reader *reader, const xmlError *error, size_t offset)
 {
     const struct xml_source *source = reader->source;
@@ -391,7 +358,7 @@ static void report_error(void *arg)
         reader->raw_less = true;
         reader->raw_less_place = place;
     } else if (source->raw_less.len) {
-        reader->repair_failed = true; /* what the repaired text says is not what the author wrote */
+        reader->repair_failed = true; /* the author did not write the repaired text */
     } else if (is_trailing_text(reader, e->error, offset)) {
         diag_add(reader->diags, DIAG_ID_xml_text_after, place);
         return;
@@ -418,7 +385,7 @@ static void on_error(void *user, const xmlError *error)
         reader->mem->over_limit = false;
         stop(reader);
     }
-    /* MaterialX qualifies node names by its own namespaces, which no xmlns declares. */
+    /* MaterialX qualifies node names with its own namespaces, which no xmlns declares. */
     bool is_undeclared_prefix =
         error->domain == XML_FROM_NAMESPACE && error->code == XML_NS_ERR_UNDEFINED_NAMESPACE;
     if (error->level >= XML_ERR_ERROR && !is_undeclared_prefix)
@@ -471,12 +438,12 @@ static void parse_once(struct xml_reader *reader)
     source->current = 0;
     source->depth = 0;
     /*
-     * NOENT for the right text of character references; no entity can be declared, because a
-     * DOCTYPE is refused. IGNORE_ENC because the text is UTF-8 whatever its declaration says.
+     * NOENT gives the text of character references; no entity can exist, because DOCTYPE is
+     * refused. IGNORE_ENC, because the text is UTF-8 in spite of its declaration.
      */
     /*
-     * What goes wrong while a declared encoding is looked at is told to the thread's handler, which
-     * prints unless it is ours.
+     * libxml2 reports errors in a declared encoding to the handler of the thread, which prints by
+     * default.
      */
     xmlStructuredErrorFunc handler = xmlStructuredError;
     void *handler_data = xmlStructuredErrorContext;
@@ -527,7 +494,7 @@ bool xml_parse_source(struct xml_reader *reader)
         report_raw_less(reader);
     }
     bool parsed = !reader->stopped && !reader->repair_failed;
-    if (!parsed) /* half a document is none */
+    if (!parsed) /* a partial document does not count */
         doc_rollback(reader->doc, source->root, &mark);
     return parsed;
 }

@@ -9,7 +9,7 @@ static uint32_t count_code_points(const struct xml_source *source, size_t begin,
 {
     uint32_t count = (uint32_t)(end - begin);
     for (size_t at = begin; at < end && !source->is_ascii; at++)
-        /* continuation bytes of UTF-8 are no code points */
+        /* continuation bytes do not count */
         count -= ((unsigned char)source->text[at] & 0xc0) == 0x80;
     return count;
 }
@@ -61,8 +61,8 @@ void xml_close_file(struct xml_reader *reader)
 static const str_id scope_attrs[] = {STR_colorspace, STR_fileprefix, STR_geomprefix, STR_namespace};
 
 /*
- * What a root says about its scope, said by a child. No namespace means the global one, even inside
- * a document that has one.
+ * Moves the scope attributes of a root to a child. An absent namespace means the global one, even
+ * inside a document with a namespace.
  */
 static void carry_scope(struct document *doc, elem_id root, elem_id child, bool into_namespace)
 {
@@ -107,7 +107,7 @@ elem_id xml_read_text(struct xml_reader *reader, const char *name, uint16_t file
     reader->source = &source;
     bool parsed = xml_prepare_text(reader, data, size) && xml_parse_source(reader);
     reader->source = outer;
-    xml_close_file(reader); /* its text is not needed any more: one file is open at a time */
+    xml_close_file(reader); /* the text is no longer needed; only one file is open at a time */
     elem_id end = doc->first_element + doc->elements.len;
     if (parsed) {
         xml_process_includes(reader, &source, first_include);
@@ -129,7 +129,7 @@ static void set_defaults(struct xml_limits *limits, const struct xml_limits *giv
 {
     *limits = given ? *given : (struct xml_limits){0};
     if (limits->max_depth == 0 || limits->max_depth > 200)
-        limits->max_depth = limits->max_depth ? 200 : 128; /* libxml2 itself stops at 256 */
+        limits->max_depth = limits->max_depth ? 200 : 128; /* libxml2 has a limit of 256 */
     if (limits->max_include_depth == 0 || limits->max_include_depth > 200)
         limits->max_include_depth = limits->max_include_depth ? 200 : 16;
     if (limits->max_includes == 0)
@@ -141,8 +141,8 @@ static void set_defaults(struct xml_limits *limits, const struct xml_limits *giv
 }
 
 /*
- * The first file of a document gives it its root; a further one joins its children, as an included
- * one does.
+ * The first file of a document fills its root; the children of further files join them, like an
+ * include.
  */
 static void read_data(struct reading *reading, const char *name, uint16_t file)
 {

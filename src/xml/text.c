@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * The bytes of a file as UTF-8 text: encodings, byte-order marks, what stands before the XML, raw
+ * Converts the bytes of a file to UTF-8 text: encodings, byte-order marks, text before the XML, raw
  * '<' in attribute values.
  */
 #include "xml/internal.h"
@@ -45,7 +45,7 @@ static char *put_utf8(char *out, uint32_t code)
     return out;
 }
 
-/* UTF-16 (RFC 2781); false where a surrogate stands alone or half a unit is left over. */
+/* UTF-16 (RFC 2781); false for an unpaired surrogate or an incomplete unit. */
 static bool decode_utf16(struct xml_reader *reader, const unsigned char *bytes, size_t size,
                          bool big_endian)
 {
@@ -79,7 +79,7 @@ static void decode_latin1(struct xml_reader *reader)
     source->size = (size_t)(out - text);
 }
 
-/* The encoding that the XML declaration names, in lower case. */
+/* The encoding in the XML declaration, in lower case. */
 static void declared_encoding(const struct xml_source *source, char *out, size_t out_size)
 {
     const char *text = source->text + source->start;
@@ -111,8 +111,8 @@ static bool apply_declared_encoding(struct xml_reader *reader)
 }
 
 /*
- * libxml2 looks at the first four bytes itself and takes zeros for an encoding of wider units,
- * whatever it was told.
+ * libxml2 inspects the first four bytes and takes zeros for an encoding with wider units, even if
+ * the encoding is set.
  */
 static bool check_first_bytes(struct xml_reader *reader)
 {
@@ -124,7 +124,7 @@ static bool check_first_bytes(struct xml_reader *reader)
     return false;
 }
 
-/* Finds where the XML begins: at '<?xml', or at '<materialx' behind text that is not XML. */
+/* Finds the start of the XML: '<?xml', or '<materialx' after other text. */
 static bool find_start(struct xml_reader *reader)
 {
     struct xml_source *source = reader->source;
@@ -177,7 +177,7 @@ bool xml_prepare_text(struct xml_reader *reader, const char *data, size_t size)
     return find_start(reader) && apply_declared_encoding(reader);
 }
 
-/* Replaces every '<' of one quoted value that begins at `at`; returns where the value ends. */
+/* Replaces every '<' in the quoted value at `at`; returns the end of the value. */
 static size_t repair_value(struct xml_reader *reader, char *text, size_t len, size_t at, char quote)
 {
     for (; at < len && text[at] != quote; at++) {

@@ -141,17 +141,8 @@ static void test_refused_calls(const struct objects *o)
     REFUSED(mxg_document_validate(o->context, NULL, &result));
     REFUSED(mxg_document_validate(NULL, o->document, &result));
     REFUSED(mxg_document_validate(o->context, o->document, NULL));
-    uint64_t structure = 1;
-    REFUSED(mxg_document_structure(NULL, o->document, &desc, &structure));
-    REFUSED(mxg_document_structure(o->context, NULL, &desc, &structure));
-    REFUSED(mxg_document_structure(o->context, o->document, NULL, &structure));
-    REFUSED(mxg_document_structure(o->context, o->document, &desc, NULL));
-    desc.target = NULL;
-    REFUSED(mxg_document_structure(o->context, o->document, &desc, &structure));
-    REQUIRE_EQ(structure, 0);
     desc.target = "glsl";
     desc.size = 0;
-    REFUSED(mxg_document_structure(o->context, o->document, &desc, &structure));
     REFUSED(mxg_generate(o->context, o->document, &desc, &result));
     REQUIRE(!result);
 }

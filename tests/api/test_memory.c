@@ -15,35 +15,12 @@ static mxg_status use_result(const mxg_result *result)
     return mxg_result_reflection_json(result, &size) ? MXG_OK : MXG_ERROR_MEMORY;
 }
 
-/* Of a document with definitions of its own, as the fixture is, and of one that can be told of. */
-static mxg_status use_structures(mxg_context *context, const mxg_document *document)
-{
-    static const char text[] = "<materialx version=\"1.39\"><surface_unlit name=\"S\" "
-                               "type=\"surfaceshader\"/></materialx>";
-    mxg_generate_desc desc = {sizeof desc, "glsl", NULL, NULL};
-    uint64_t structure;
-    mxg_library *builtin = mxg_library_builtin(context);
-    mxg_document *plain = NULL;
-    mxg_status status = mxg_document_structure(context, document, &desc, &structure);
-    if (status == MXG_OK)
-        status = mxg_document_parse(context, builtin, "plain.mtlx", text, sizeof text - 1, &plain);
-    if (status == MXG_OK)
-        status = mxg_document_structure(context, plain, &desc, &structure);
-    if (status == MXG_OK)
-        REQUIRE(structure != 0);
-    mxg_document_destroy(plain);
-    mxg_library_unref(builtin);
-    return status;
-}
-
 static mxg_status generate(mxg_context *context, mxg_library *library, const mxg_options *options)
 {
     mxg_document *document = NULL;
     mxg_result *result = NULL, *view = NULL;
     mxg_generate_desc desc = {sizeof desc, "glsl", NULL, options};
     mxg_status status = mxg_document_load(context, library, "main.mtlx", &document);
-    if (status == MXG_OK)
-        status = use_structures(context, document);
     if (status == MXG_OK)
         status = mxg_generate(context, document, &desc, &result);
     if (status == MXG_OK)

@@ -21,7 +21,6 @@ struct shared {
     mxg_document *documents[MAX_DOCUMENTS];
     mxg_result *results[MAX_DOCUMENTS]; /* whose reflection is asked for by threads first */
     char *expected[MAX_DOCUMENTS][NUM_TARGETS];
-    uint64_t structures[MAX_DOCUMENTS][NUM_TARGETS];
     unsigned num_documents;
 };
 
@@ -64,13 +63,6 @@ static mxg_document *load(mxg_context *context, mxg_library *library, const char
     return mxg_document_load(context, library, path, &document) == MXG_OK ? document : NULL;
 }
 
-static uint64_t structure_of(mxg_context *context, const mxg_document *document, const char *target)
-{
-    mxg_generate_desc desc = {sizeof desc, target, NULL, NULL};
-    uint64_t structure = 0;
-    return mxg_document_structure(context, document, &desc, &structure) == MXG_OK ? structure : 1;
-}
-
 static bool gives(mxg_context *context, const mxg_document *document, const char *target,
                   const char *expected)
 {
@@ -102,9 +94,6 @@ static void *work(void *arg)
         worker->num_wrong += i % 2 && !own;
         worker->num_wrong += !gives(context, own ? own : shared->documents[at], targets[target],
                                     shared->expected[at][target]);
-        worker->num_wrong +=
-            structure_of(context, own ? own : shared->documents[at], targets[target])
-            != shared->structures[at][target];
         mxg_document_destroy(own);
         char *text = i < shared->num_documents ? all_of(shared->results[at]) : NULL;
         worker->num_wrong += text && strcmp(text, shared->expected[at][0]) != 0;
@@ -127,8 +116,6 @@ static void prepare(struct shared *shared, mxg_context *context, const char *pat
         mxg_result *result = generate(context, shared->documents[at], targets[target]);
         shared->expected[at][target] = all_of(result);
         REQUIRE(*shared->expected[at][target]);
-        shared->structures[at][target] =
-            structure_of(context, shared->documents[at], targets[target]);
         mxg_result_destroy(result);
     }
     shared->results[at] = generate(context, shared->documents[at], targets[0]);

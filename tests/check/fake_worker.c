@@ -5,8 +5,8 @@
  * all others pass.
  */
 #define _POSIX_C_SOURCE 200809L
-#include "cli/check/packed.h"
-#include "cli/check/protocol.h"
+#include "check/protocol.h"
+#include "check/record_io.h"
 
 #include <signal.h>
 #include <stdlib.h>
@@ -16,18 +16,16 @@
 
 static void answer(struct channel *channel, const char *path)
 {
-    struct store store = {0};
-    struct packed record = {0};
-    check_pack_document(&record, &store, &(struct check_document){.file = path});
+    struct record_bytes record = {0};
+    record_to_bytes(&record, &(struct check_document){.file = path});
     if (strstr(path, "dies"))
         raise(SIGKILL);
     while (strstr(path, "hangs"))
         pause();
     if (strstr(path, "slow"))
         nanosleep(&(struct timespec){.tv_nsec = 200000000}, NULL);
-    channel_answer(channel, record.bytes, strstr(path, "lies") ? record.size / 2 : record.size);
-    free(record.bytes);
-    store_finish(&store);
+    channel_answer(channel, record.data, strstr(path, "lies") ? record.size / 2 : record.size);
+    free(record.data);
 }
 
 int main(void)

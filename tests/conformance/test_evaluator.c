@@ -105,7 +105,7 @@ static bool call(void *user_data, const struct ir_graph *graph, ir_ref ref,
 {
     struct run *run = user_data;
     const struct lang_unit *unit = &run->generation->result->unit;
-    uint32_t function = (uint32_t)graph->callees.items[ir_get(graph, ref)->attr].id;
+    uint32_t function = graph->callees.items[ir_get(graph, ref)->attr].index;
     bool returns = lang_function(unit, function, NULL)->return_type != IR_TYPE_VOID;
     struct ir_value results[MAX_RESULTS];
     if (ir_get(graph, ref)->op != IR_CALL || (result == 0 && !returns)

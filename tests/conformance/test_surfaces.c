@@ -15,7 +15,7 @@
 #include "deviations.h"
 #include "lines.h"
 #include "render/render.h"
-#include "validate/compile.h"
+#include "compile/compile.h"
 
 #include <math.h>
 #include <stdio.h>

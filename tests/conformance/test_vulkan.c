@@ -8,7 +8,7 @@
  */
 #include "render/render.h"
 #include "rows.h"
-#include "validate/compile.h"
+#include "compile/compile.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -111,9 +111,6 @@ static void generate(struct machine *m, unsigned slot, unsigned argument)
 {
     mxg_generate_desc desc = {sizeof desc, name_of(10 + argument % 7), name_of(argument / 7),
                               m->options[argument % NUM_SLOTS]};
-    uint64_t structure;
-    mxg_document_structure(m->context, m->documents[argument / 3 % NUM_SLOTS], &desc,
-                           argument & 128 ? NULL : &structure);
     mxg_result_destroy(m->results[slot]);
     mxg_generate(m->context, m->documents[argument / 3 % NUM_SLOTS], argument & 128 ? NULL : &desc,
                  &m->results[slot]);

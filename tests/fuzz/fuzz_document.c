@@ -51,8 +51,6 @@ static void use(mxg_context *context, const mxg_document *document, const struct
         mxg_renderable renderable = {sizeof renderable};
         FUZZ_REQUIRE(mxg_document_renderable(document, i, &renderable) == MXG_OK);
         desc.element = renderable.path;
-        uint64_t structure;
-        FUZZ_REQUIRE(is_expected(mxg_document_structure(context, document, &desc, &structure)));
         generate(context, document, &desc, files);
     }
     FUZZ_REQUIRE(

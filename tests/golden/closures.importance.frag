@@ -113,7 +113,7 @@ float mx_ggx_light(const mx_GgxLobe lobe, const vec3 L, const vec3 H)
 // Unpolarised Fresnel equations of a dielectric; the clamped root makes total internal reflection come out as 1.
 float mx_fresnel_dielectric(const float cosine)
 {
-    float g = sqrt(max(2.1025002 + cosine * cosine - 1.0, 0.0));
+    float g = sqrt(max(2.1025 + cosine * cosine - 1.0, 0.0));
     vec2 a = cosine * vec2(1.0, 2.1025);
     vec2 r = (a - g) / (a + g);
     return 0.5 * dot(r, r);

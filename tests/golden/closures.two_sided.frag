@@ -96,7 +96,7 @@ float mx_ggx_light(const mx_GgxLobe lobe, const vec3 L, const vec3 H)
 // Unpolarised Fresnel equations of a dielectric; the clamped root makes total internal reflection come out as 1.
 float mx_fresnel_dielectric(const float cosine)
 {
-    float g = sqrt(max(2.1025002 + cosine * cosine - 1.0, 0.0));
+    float g = sqrt(max(2.1025 + cosine * cosine - 1.0, 0.0));
     vec2 a = cosine * vec2(1.0, 2.1025);
     vec2 r = (a - g) / (a + g);
     return 0.5 * dot(r, r);
@@ -119,7 +119,7 @@ vec2 mx_ggx_albedo(const float c)
 vec3 mx_ggx_prefiltered(const vec3 N, const vec3 V)
 {
     vec2 albedo = mx_ggx_albedo(max(abs(dot(N, V)), 1e-8));
-    return mix(vec3(0.03373595), vec3(1.0), albedo.y) * albedo.x
+    return mix(vec3(0.033735953), vec3(1.0), albedo.y) * albedo.x
         * (textureLod(u_envRadiance, mx_latlong(reflect(-V, faceforward(N, -V, N))), 0.2
         * float(u_envRadianceMips - 1)).xyz * u_envLightIntensity);
 }

@@ -12,8 +12,8 @@ struct VertexData {
 
 float2 wave(float x, float frequency)
 {
-    float phase = 6.283185 * frequency * x;
-    return float2(sin(phase), 6.283185 * frequency * cos(phase)) / frequency;
+    float phase = 6.2831855 * frequency * x;
+    return float2(sin(phase), 6.2831855 * frequency * cos(phase)) / frequency;
 }
 
 void waves(float2 uv, int count, out float height, out float slope)

@@ -43,7 +43,7 @@ void main(
         float3 lamp_product = conical_edf_emission * (60.0 / (magnitude * magnitude));
         float bulb_ratio = u_lightData[i].power / (magnitude * magnitude);
         float3 bulb_product = u_lightData[i].tint * (u_lightData[i].type == 4 ? bulb_ratio : 0.0);
-        float bsdf_response = max(dot(difference / magnitude, bsdf_facing), 1e-8) / 3.141593 * 0.8;
+        float bsdf_response = max(dot(difference / magnitude, bsdf_facing), 1e-8) / 3.1415927 * 0.8;
         color += (u_lightData[i].type == 2 ? lamp_product : bulb_product) * bsdf_response;
     }
     out1 = float4(color, 1.0);

@@ -516,7 +516,7 @@ void main()
     vec3 base_positive = max(SR_open_pbr_surface_base_color, 0.0);
     vec3 diffuse_product = base_positive * (body_weight * diffuse_weight);
     float diffuse_sum = SR_open_pbr_surface_base_diffuse_roughness * 0.28779334 + 1.0;
-    float mean = (SR_open_pbr_surface_base_diffuse_roughness * 0.07248821 + 1.0) / diffuse_sum;
+    float mean = (SR_open_pbr_surface_base_diffuse_roughness * 0.0724882 + 1.0) / diffuse_sum;
     vec3 fujii_multiple = base_positive * mean / (vec3(1.0) - base_positive * max(1.0 - mean, 0.0));
     float diffuse_fujii_albedo = mx_fujii_albedo(cos_v, SR_open_pbr_surface_base_diffuse_roughness);
     float diffuse_greater = max(1.0 - diffuse_fujii_albedo, 1e-8);

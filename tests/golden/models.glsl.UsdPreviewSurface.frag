@@ -290,7 +290,7 @@ void main()
     vec3 metal_ior, metal_extinction;
     mx_artistic_ior(SR_UsdPreviewSurface_diffuseColor, SR_UsdPreviewSurface_diffuseColor, metal_ior, metal_extinction);
     float coating_difference = 1.0 - SR_UsdPreviewSurface_clearcoat
-        * dot(mix(coating_n, 1.0, coating_albedo.y) * coating_albedo.x * coating_scale, vec3(0.3333333));
+        * dot(mix(coating_n, 1.0, coating_albedo.y) * coating_albedo.x * coating_scale, vec3(0.33333334));
     vec3 metal_product = (difference * mix(mx_fresnel_conductor(1.0, metal_ior, metal_extinction), vec3(1.0),
         0.04761905) + vec3(1.0)) * (metal_weight * coating_difference);
     mx_GgxLobe lobe = mx_ggx_lobe(vec2(specular_roughness), N, tangent_direction, V);
@@ -302,7 +302,7 @@ void main()
     vec3 reflection_scale = mix(mx_fresnel_schlick(1.0, reflection_n, f90), f90, 0.04761905) * difference + vec3(1.0);
     vec3 reflection_product = reflection_scale * (diffuse_weight * coating_difference);
     float body_weight = coating_difference
-        * (1.0 - dot(mix(reflection_n, f90, albedo.y) * albedo.x * reflection_scale, vec3(0.3333333)));
+        * (1.0 - dot(mix(reflection_n, f90, albedo.y) * albedo.x * reflection_scale, vec3(0.33333334)));
     float opaque_transparent = SR_UsdPreviewSurface_opacityThreshold > 0.0 ? 1.0 : SR_UsdPreviewSurface_opacity;
     float opaque_weight = 1 > SR_UsdPreviewSurface_opacityMode ? opaque_transparent : 2
         > SR_UsdPreviewSurface_opacityMode ? 1.0 : 0.0;

@@ -144,7 +144,7 @@ mx_GgxLobe mx_ggx_lobe(float2 roughness, float3 N, float3 X, float3 V)
 // sphere; `area` is the product of the roughness along x and y.
 float mx_ggx_distribution(float3 e, float area)
 {
-    return 1.0 / (3.141593 * area * dot(e, e) * dot(e, e));
+    return 1.0 / (3.1415927 * area * dot(e, e) * dot(e, e));
 }
 
 // Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v; half is left of the divisor of the
@@ -326,7 +326,7 @@ void main(
     mx_artistic_ior(SR_UsdPreviewSurface_diffuseColor, SR_UsdPreviewSurface_diffuseColor, metal_ior, metal_extinction);
     float coating_difference = 1.0 - SR_UsdPreviewSurface_clearcoat
         * dot(lerp(coating_n, 1.0, coating_albedo.y) * coating_albedo.x * coating_scale,
-        float3(0.3333333, 0.3333333, 0.3333333));
+        float3(0.33333334, 0.33333334, 0.33333334));
     float3 metal_product = (difference * lerp(mx_fresnel_conductor(1.0, metal_ior, metal_extinction),
         float3(1.0, 1.0, 1.0), 0.04761905) + float3(1.0, 1.0, 1.0)) * (metal_weight * coating_difference);
     mx_GgxLobe lobe = mx_ggx_lobe((float2)specular_roughness, N, tangent_direction, V);
@@ -341,7 +341,7 @@ void main(
     float3 reflection_product = reflection_scale * (diffuse_weight * coating_difference);
     float body_weight = coating_difference
         * (1.0 - dot(lerp(reflection_n, f90, albedo.y) * albedo.x * reflection_scale,
-        float3(0.3333333, 0.3333333, 0.3333333)));
+        float3(0.33333334, 0.33333334, 0.33333334)));
     float opaque_transparent = SR_UsdPreviewSurface_opacityThreshold > 0.0 ? 1.0 : SR_UsdPreviewSurface_opacity;
     float opaque_weight = 1 > SR_UsdPreviewSurface_opacityMode ? opaque_transparent : 2
         > SR_UsdPreviewSurface_opacityMode ? 1.0 : 0.0;
@@ -376,7 +376,7 @@ void main(
         if (diffuse_weight > 0.0)
             color += light * (reflection_product * (ggx_light * mx_fresnel_schlick(cosine, reflection_n, f90)));
         // diffuse
-        color += light * (max(dot(L, N), 1e-8) / 3.141593 * diffuse_product);
+        color += light * (max(dot(L, N), 1e-8) / 3.1415927 * diffuse_product);
     }
     // environment
     // coating

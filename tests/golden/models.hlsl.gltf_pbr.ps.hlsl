@@ -139,7 +139,7 @@ mx_GgxLobe mx_ggx_lobe(float2 roughness, float3 N, float3 X, float3 V)
 // sphere; `area` is the product of the roughness along x and y.
 float mx_ggx_distribution(float3 e, float area)
 {
-    return 1.0 / (3.141593 * area * dot(e, e) * dot(e, e));
+    return 1.0 / (3.1415927 * area * dot(e, e) * dot(e, e));
 }
 
 // Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v; half is left of the divisor of the
@@ -378,9 +378,9 @@ void main(
         + float3(1.0, 1.0, 1.0);
     float3 reflection_product = reflection_scale * (substrate_weight * reflection_weight);
     float3 product = lerp(n, f90, albedo.y) * albedo.x;
-    float reflection_throughput = 1.0 - dot(product * reflection_scale, float3(0.3333333, 0.3333333, 0.3333333));
+    float reflection_throughput = 1.0 - dot(product * reflection_scale, float3(0.33333334, 0.33333334, 0.33333334));
     float body_weight = lerp(reflection_throughput, 1.0
-        - dot(product * reflection_film_scale, float3(0.3333333, 0.3333333, 0.3333333)), SR_gltf_pbr_iridescence)
+        - dot(product * reflection_film_scale, float3(0.33333334, 0.33333334, 0.33333334)), SR_gltf_pbr_iridescence)
         * substrate_weight;
     float3 diffuse_product = SR_gltf_pbr_base_color
         * (body_weight * (dielectric_weight * (1.0 - SR_gltf_pbr_transmission)));
@@ -408,7 +408,7 @@ void main(
         float cos_l = max(dot(L, Nf), 1e-8);
         if (sheen_weight > 0.0) {
             float cos_h = dot(H, Nf);
-            float fuzz_product_2 = cos_l * ((s + 2.0) * pow(max(1.0 - cos_h * cos_h, 0.0), s * 0.5) / 6.283185);
+            float fuzz_product_2 = cos_l * ((s + 2.0) * pow(max(1.0 - cos_h * cos_h, 0.0), s * 0.5) / 6.2831855);
             color += light * (fuzz_product_2 / ((cos_v + cos_l - cos_v * cos_l) * 4.0) * fuzz_product);
         }
         // metal_film
@@ -429,7 +429,7 @@ void main(
         if (reflection_weight > 0.0)
             color += light * (reflection_product * (ggx_light * mx_fresnel_schlick(cosine, n, f90)));
         // diffuse
-        color += light * (cos_l / 3.141593 * diffuse_product);
+        color += light * (cos_l / 3.1415927 * diffuse_product);
     }
     // environment
     // coating

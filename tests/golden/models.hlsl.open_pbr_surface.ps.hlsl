@@ -129,7 +129,7 @@ float mx_sheen_zeltner(float3 N, float3 V, float3 L, float c, float r)
     float3 l = mx_enter_frame(L, N, mx_tangent(N, V + 0.00001 * N.yzx));
     float3 w = float3(m.x * l.x + m.y * l.z, m.x * l.y, l.z);
     float scale = m.x / dot(w, w);
-    return max(w.z, 0.0) / 3.141593 * scale * scale;
+    return max(w.z, 0.0) / 3.1415927 * scale * scale;
 }
 
 // Unpolarised Fresnel equations of a dielectric; the clamped root makes total internal reflection come out as 1.
@@ -196,7 +196,7 @@ mx_GgxLobe mx_ggx_lobe(float2 roughness, float3 N, float3 X, float3 V)
 // sphere; `area` is the product of the roughness along x and y.
 float mx_ggx_distribution(float3 e, float area)
 {
-    return 1.0 / (3.141593 * area * dot(e, e) * dot(e, e));
+    return 1.0 / (3.1415927 * area * dot(e, e) * dot(e, e));
 }
 
 // Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v; half is left of the divisor of the
@@ -319,14 +319,14 @@ float3 mx_subsurface_light(float3 falloff, float cos_l)
     float theta = acos(cos_l);
     float3 light = float3(0.0, 0.0, 0.0);
     float3 sum = float3(0.0, 0.0, 0.0);
-    for (float x = -3.043418; x < 3.141593; x += 0.19634955) {
+    for (float x = -3.043418; x < 3.1415927; x += 0.19634955) {
         float d = abs(sin(0.5 * x));
         float3 e = exp(falloff * d);
         float3 profile = (e + e * e * e) / d;
         light += profile * max(cos(theta + x), 0.0);
         sum += profile;
     }
-    return light / (3.141593 * sum);
+    return light / (3.1415927 * sum);
 }
 
 // Directional albedo of Fujii's lobe.
@@ -335,7 +335,7 @@ float mx_fujii_albedo(float cosine, float r)
     float sine = sqrt(max(1.0 - cosine * cosine, 0.0));
     float g = sine * (acos(min(cosine, 1.0)) - sine * cosine) + 0.6666667
         * (sine / cosine * (1.0 - sine * sine * sine) - sine);
-    return (1.0 + r * g / 3.141593) / (1.0 + 0.2877933 * r);
+    return (1.0 + r * g / 3.1415927) / (1.0 + 0.28779334 * r);
 }
 
 // Where the light from a direction of the world lies in the environment's picture.
@@ -466,7 +466,7 @@ void main(
     float r = clamp(SR_open_pbr_surface_fuzz_roughness, 0.01, 1.0);
     float width = r * (r * 1.58491 + 0.0206607) / (r * (r + 1.32227) + 0.0379424);
     float x = (cos_v - r * (r * (r * (1.7932 - r * (r * 0.95943)) - 1.14885) - 0.193854) / (r + 0.046391)) / width;
-    float fuzz_ratio = exp(x * (x * -0.5)) / (width * 2.506628);
+    float fuzz_ratio = exp(x * (x * -0.5)) / (width * 2.5066283);
     float fuzz_product = r * (r * (r * 0.119681 - 0.0207818) + 0.000654023);
     float sheen_albedo = max(fuzz_ratio + fuzz_product / (r * (r - 1.92021) + 1.26264), 0.0);
     float3 fuzz_product_2 = SR_open_pbr_surface_fuzz_color * (SR_open_pbr_surface_fuzz_weight * sheen_albedo);
@@ -549,7 +549,7 @@ void main(
     float3 base_positive = max(SR_open_pbr_surface_base_color, 0.0);
     float3 diffuse_product = base_positive * (body_weight * diffuse_weight);
     float base_diffuse_roughness = SR_open_pbr_surface_base_diffuse_roughness;
-    float diffuse_sum = base_diffuse_roughness * 0.2877933 + 1.0;
+    float diffuse_sum = base_diffuse_roughness * 0.28779334 + 1.0;
     float mean = (base_diffuse_roughness * 0.0724882 + 1.0) / diffuse_sum;
     float3 fujii_multiple = base_positive * mean / (float3(1.0, 1.0, 1.0) - base_positive * max(1.0 - mean, 0.0));
     float diffuse_fujii_albedo = mx_fujii_albedo(cos_v, base_diffuse_roughness);
@@ -617,13 +617,13 @@ void main(
                 * (diffuse_greater * max(1.0 - mx_fujii_albedo(cos_l, base_diffuse_roughness), 1e-8)
                 / diffuse_greater_2);
             color += light * (diffuse_product
-                * (cos_l / 3.141593 * ((base_diffuse_roughness * (s > 0.0 ? diffuse_s : s) + 1.0) / diffuse_sum
+                * (cos_l / 3.1415927 * ((base_diffuse_roughness * (s > 0.0 ? diffuse_s : s) + 1.0) / diffuse_sum
                 + diffuse_product_2)));
         }
         // sheet_front, sheet_back
         float3 sheet_front_response = subsurface_positive * sheet_front_weight
-            * (cos_l / 3.141593 * (ab.x + ab.y * max(s, 0.0) / greater));
-        color += light * (sheet_front_response + max(-l_dot_nf, 0.0) / 3.141593 * sheet_back_product);
+            * (cos_l / 3.1415927 * (ab.x + ab.y * max(s, 0.0) / greater));
+        color += light * (sheet_front_response + max(-l_dot_nf, 0.0) / 3.1415927 * sheet_back_product);
     }
     // environment
     // coating

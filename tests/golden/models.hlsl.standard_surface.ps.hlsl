@@ -176,7 +176,7 @@ mx_GgxLobe mx_ggx_lobe(float2 roughness, float3 N, float3 X, float3 V)
 // sphere; `area` is the product of the roughness along x and y.
 float mx_ggx_distribution(float3 e, float area)
 {
-    return 1.0 / (3.141593 * area * dot(e, e) * dot(e, e));
+    return 1.0 / (3.1415927 * area * dot(e, e) * dot(e, e));
 }
 
 // Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v; half is left of the divisor of the
@@ -304,14 +304,14 @@ float3 mx_subsurface_light(float3 falloff, float cos_l)
     float theta = acos(cos_l);
     float3 light = float3(0.0, 0.0, 0.0);
     float3 sum = float3(0.0, 0.0, 0.0);
-    for (float x = -3.043418; x < 3.141593; x += 0.19634955) {
+    for (float x = -3.043418; x < 3.1415927; x += 0.19634955) {
         float d = abs(sin(0.5 * x));
         float3 e = exp(falloff * d);
         float3 profile = (e + e * e * e) / d;
         light += profile * max(cos(theta + x), 0.0);
         sum += profile;
     }
-    return light / (3.141593 * sum);
+    return light / (3.1415927 * sum);
 }
 
 // Where the light from a direction of the world lies in the environment's picture.
@@ -517,12 +517,12 @@ void main(
             color += light * (mx_subsurface_light(subsurface_falloff, l_dot_nf) * scatter_product);
         // fuzz, translucent, diffuse
         float cos_l = max(l_dot_nf, 1e-8);
-        float diffuse_product = cos_l / 3.141593
+        float diffuse_product = cos_l / 3.1415927
             * (ab.x + ab.y * max(dot(V, L) - cos_v * cos_l, 0.0) / max(cos_l, cos_v));
         float cos_h = dot(H, Nf);
-        float fuzz_product_2 = cos_l * ((s + 2.0) * pow(max(1.0 - cos_h * cos_h, 0.0), s * 0.5) / 6.283185);
+        float fuzz_product_2 = cos_l * ((s + 2.0) * pow(max(1.0 - cos_h * cos_h, 0.0), s * 0.5) / 6.2831855);
         float3 fuzz_response = fuzz_product_2 / ((cos_v + cos_l - cos_v * cos_l) * 4.0) * fuzz_product;
-        float3 sum = fuzz_response + max(-l_dot_nf, 0.0) / 3.141593 * translucent_product;
+        float3 sum = fuzz_response + max(-l_dot_nf, 0.0) / 3.1415927 * translucent_product;
         color += light * (diffuse_color * diffuse_weight * diffuse_product + sum);
     }
     // environment

@@ -311,7 +311,7 @@ void main()
     float sheen_rough = SR_gltf_pbr_sheen_roughness * SR_gltf_pbr_sheen_roughness;
     float s = 1.0 / max(sheen_rough, 0.005);
     float coating_difference = 1.0 - SR_gltf_pbr_clearcoat
-        * (mix(0.040000003, 1.0, coating_albedo.y) * coating_albedo.x * coating_scale);
+        * (mix(0.04, 1.0, coating_albedo.y) * coating_albedo.x * coating_scale);
     vec3 fuzz_product = SR_gltf_pbr_sheen_color / sheen_weight * (sheen_weight * coating_difference);
     float metal_film_weight = SR_gltf_pbr_metallic * SR_gltf_pbr_iridescence;
     float alpha_bitangent = SR_gltf_pbr_roughness * SR_gltf_pbr_roughness;
@@ -350,8 +350,8 @@ void main()
     vec3 reflection_scale = difference * mix(mx_fresnel_schlick(1.0, n, f90), f90, 0.04761905) + vec3(1.0);
     vec3 reflection_product = reflection_scale * (substrate_weight * reflection_weight);
     vec3 product = mix(n, f90, albedo.y) * albedo.x;
-    float reflection_throughput = 1.0 - dot(product * reflection_scale, vec3(0.3333333));
-    float body_weight = mix(reflection_throughput, 1.0 - dot(product * reflection_film_scale, vec3(0.3333333)),
+    float reflection_throughput = 1.0 - dot(product * reflection_scale, vec3(0.33333334));
+    float body_weight = mix(reflection_throughput, 1.0 - dot(product * reflection_film_scale, vec3(0.33333334)),
         SR_gltf_pbr_iridescence) * substrate_weight;
     vec3 diffuse_product = SR_gltf_pbr_base_color
         * (body_weight * (dielectric_weight * (1.0 - SR_gltf_pbr_transmission)));

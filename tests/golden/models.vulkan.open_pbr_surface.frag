@@ -521,7 +521,7 @@ void main()
     vec3 diffuse_product = base_positive * (body_weight * diffuse_weight);
     float base_diffuse_roughness = SR_open_pbr_surface_base_diffuse_roughness;
     float diffuse_sum = base_diffuse_roughness * 0.28779334 + 1.0;
-    float mean = (base_diffuse_roughness * 0.07248821 + 1.0) / diffuse_sum;
+    float mean = (base_diffuse_roughness * 0.0724882 + 1.0) / diffuse_sum;
     vec3 fujii_multiple = base_positive * mean / (vec3(1.0) - base_positive * max(1.0 - mean, 0.0));
     float diffuse_fujii_albedo = mx_fujii_albedo(cos_v, base_diffuse_roughness);
     float diffuse_greater = max(1.0 - diffuse_fujii_albedo, 1e-8);

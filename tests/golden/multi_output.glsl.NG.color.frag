@@ -8,5 +8,5 @@ out vec4 out1;
 
 void main()
 {
-    out1 = vec4(vd.texcoord_0.y * vec3(0.1675754, 0.4238123, 1.3732965), 1.0);
+    out1 = vec4(vd.texcoord_0.y * vec3(0.16757542, 0.42381233, 1.3732965), 1.0);
 }

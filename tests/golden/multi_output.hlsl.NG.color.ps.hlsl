@@ -10,5 +10,5 @@ void main(
     VertexData vd,
     out float4 out1 : SV_Target0)
 {
-    out1 = float4(vd.texcoord_0.y * float3(0.1675754, 0.4238123, 1.3732965), 1.0);
+    out1 = float4(vd.texcoord_0.y * float3(0.16757542, 0.42381233, 1.3732965), 1.0);
 }

@@ -55,12 +55,11 @@ vec2 mx_ggx_albedo_fit(const float u, const float c)
 
 mx_GgxLobe mx_ggx_lobe_at(const mat3 frame, const vec3 v)
 {
-    float masking = sqrt(mix(v.z * v.z, 1.0, 9.999999e-9));
+    float masking = sqrt(mix(v.z * v.z, 1.0, 1e-8));
     float step_ = 1.0 / float(max(u_envRadianceSamples, 1));
     float weight = step_ * (v.z + masking);
-    return mx_GgxLobe(frame, vec3(0.0001, 0.0001, 1.0), 9.999999e-9, v, masking,
-        normalize(v * vec3(0.0001, 0.0001, 1.0)), step_, weight * u_envLightIntensity, weight * 9.999999e-9
-        * exp2(2.0 * float(u_envRadianceMips) - 2.3485));
+    return mx_GgxLobe(frame, vec3(0.0001, 0.0001, 1.0), 1e-8, v, masking, normalize(v * vec3(0.0001, 0.0001, 1.0)),
+        step_, weight * u_envLightIntensity, weight * 1e-8 * exp2(2.0 * float(u_envRadianceMips) - 2.3485));
 }
 
 // Axes of the tangent space around N with x along X: `w * frame` enters it, `frame * w` leaves it.

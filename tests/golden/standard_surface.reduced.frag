@@ -60,7 +60,7 @@ void main()
         vec3 directional_light_to_light = -u_lightData[i].direction;
         vec3 L = type == 1 ? directional_light_to_light : to_light;
         float cos_l = max(dot(L, N), 1e-8);
-        float diffuse_sum = max(dot(L, V) - cos_l * cos_v, 0.0) * 0.35999998 / max(cos_l, cos_v) + 0.73913044;
+        float diffuse_sum = max(dot(L, V) - cos_l * cos_v, 0.0) * 0.36 / max(cos_l, cos_v) + 0.73913044;
         color += light * (cos_l / 3.1415927 * vec3(0.5, 0.25, 0.15) * diffuse_sum);
     }
     // environment

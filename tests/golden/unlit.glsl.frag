@@ -15,7 +15,7 @@ void main()
 {
     // opacity
     float opacity = SR_unlit_opacity * (1.0
-        - dot(SR_unlit_transmission * SR_unlit_transmission_color, vec3(0.3333333)));
+        - dot(SR_unlit_transmission * SR_unlit_transmission_color, vec3(0.33333334)));
     if (opacity < u_alphaThreshold)
         discard;
     out1 = vec4(vec3(vd.texcoord_0, 0.0) * (SR_unlit_emission * SR_unlit_opacity), opacity);

@@ -52,5 +52,5 @@ void main()
         float smoke_d = dot(V, type == 1 ? directional_light_to_light : to_light) * 0.8 + 1.16;
         color += light * (0.84 / (smoke_d * 12.566371 * sqrt(smoke_d)) * smoke_product);
     }
-    out1 = vec4(color, dot(lost_difference, vec3(0.3333333)));
+    out1 = vec4(color, dot(lost_difference, vec3(0.33333334)));
 }

@@ -3,7 +3,7 @@
  * Every definition of the built-in library has the interface that MaterialX 1.39 (interfaces.tsv)
  * or ShaderX 2018 (shaderx.tsv; its surface, volume, displacement and blackbody are MaterialX's,
  * and what it leaves open is as in the node it stands on) gives it, is of OSL generators (osl.tsv),
- * or is listed as ours (colorspaces.tsv). A row per definition:
+ * or is listed as ours (colorspaces.tsv, own.tsv). A row per definition:
  *
  *     name  node  library  version  isdefault  group  inherit  inputs  outputs
  *

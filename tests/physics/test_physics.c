@@ -8,7 +8,7 @@
  */
 #define _POSIX_C_SOURCE 200809L
 #include "render/render.h"
-#include "validate/compile.h"
+#include "compile/compile.h"
 
 #include <math.h>
 #include <stdio.h>

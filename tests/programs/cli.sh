@@ -187,7 +187,6 @@ for command in generate inspect validate library; do
     check "help $command" exits 0 "$mxgen" help "$command"
     check 'is the same, too' cmp out by_option
 done
-check 'help has the options of generation' eval '"$mxgen" generate --help | grep -q -- --interface'
 
 # Materials that differ in names and in values of uniforms share a program
 one_material() { # NAME VALUE of the shader

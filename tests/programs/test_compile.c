@@ -3,7 +3,7 @@
  * The judge of shaders must itself be right: it accepts what is valid, and tells stage and line of
  * what is not.
  */
-#include "validate/compile.h"
+#include "compile/compile.h"
 
 #include "unit/test.h"
 

@@ -12,7 +12,7 @@ from checks import check, finish
 
 ROOT = pathlib.Path(sys.argv[1])
 COMPILER = sys.argv[2:]
-CODE = "src generators cli validate render bench tests examples fits include".split()
+CODE = "src generators cli check compile doc render bench tests examples fits include".split()
 
 
 def files(folder, *endings):
@@ -81,7 +81,7 @@ def check_texts():
 def check_headers():
     """A header includes what it uses."""
     command = [*COMPILER, *"-std=c17 -Wall -Wextra -Wno-unused-function -Werror -fsyntax-only -Iinclude -Isrc -I. -x c -".split()]
-    for folder in "include", "src", "generators", "cli":
+    for folder in "include", "src", "generators", "cli", "check", "doc":
         for path in files(folder, ".h"):
             source = f'#include "{path.relative_to(ROOT)}"\n'
             result = subprocess.run(command, input=source, cwd=ROOT, capture_output=True, text=True, check=False)

@@ -112,7 +112,7 @@ static inline ir_ref call(struct fixture *f, const char *text, const ir_ref *arg
         id = lang_find_function(&f->unit, f->file, word(f, text), types, num_args);
     const struct lang_function *fn = lang_function(&f->unit, id, NULL);
     struct ir_callee callee = {
-        .id = id, .name = fn->name, .derivative = (fn->flags & LANG_FN_DERIVATIVE) != 0};
+        .index = id, .name = fn->name, .derivative = (fn->flags & LANG_FN_DERIVATIVE) != 0};
     return ir_build(&f->graph, IR_CALL, fn->return_type, ir_add_callee(&f->graph, callee), args,
                     num_args);
 }

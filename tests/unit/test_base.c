@@ -4,6 +4,7 @@
  * text.
  */
 #include "base/hash.h"
+#include "base/json.h"
 #include "base/mem.h"
 #include "base/num.h"
 #include "base/strpool.h"
@@ -466,6 +467,45 @@ static void test_json_strings(struct arena *arena)
     }
 }
 
+/* An item on each line, but for what is flat; what says nothing is left out where that is asked
+ * for. */
+static void test_json(struct arena *arena)
+{
+    struct text text;
+    text_init(&text, arena);
+    struct json json = {.out = &text};
+    json_open(&json, '{');
+    json_put_text(&json, "text", "a\"b");
+    json_put_text(&json, "empty", "");
+    json_put_text(&json, "none", NULL);
+    json_put_nonzero(&json, "zero", 0);
+    json_key(&json, "flat");
+    json_open_flat(&json, '[');
+    json_item(&json);
+    json_open(&json, '{');
+    json_put_number(&json, "n", 0);
+    json_put_bool(&json, "is", true);
+    json_close(&json, '}');
+    json_item(&json);
+    json_open_flat(&json, '[');
+    json_close(&json, ']');
+    json_close(&json, ']');
+    json_key(&json, "items");
+    json_open(&json, '[');
+    json_item(&json);
+    json_open(&json, '{');
+    json_close(&json, '}');
+    json_close(&json, ']');
+    json_close(&json, '}');
+    REQUIRE_STR(text_cstr(&text), "{\n"
+                                  "  \"text\": \"a\\\"b\",\n"
+                                  "  \"flat\": [{\"n\": 0, \"is\": true}, []],\n"
+                                  "  \"items\": [\n"
+                                  "    {}\n"
+                                  "  ]\n"
+                                  "}");
+}
+
 /* The reference values of FNV-1a (64 bits). */
 static void test_hashes(void)
 {
@@ -496,6 +536,7 @@ int main(void)
     test_integers();
     test_text(&arena);
     test_json_strings(&arena);
+    test_json(&arena);
     test_hashes();
     arena_finish(&arena);
     return test_report("base");

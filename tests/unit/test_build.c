@@ -179,7 +179,10 @@ static const char standard[] =
                                                                                                         "float",
                                                                                                         "")
                                                                                                         OUTPUT) "<nodegraph name='NG_self' nodedef='ND_self'><self name='s' type='float'/>"
-                                                                                                                "<output name='out' type='float' nodename='s'/></nodegraph>";
+                                                                                                                "<output name='out' type='float' nodename='s'/></nodegraph>"
+                                                                                                                "<nodedef name='ND_lamp' node='lamp'><input name='power' type='float' value='3'/>"
+                                                                                                                "<output name='light' type='lightshader'/></nodedef>"
+                                                                                                                "<implementation name='IM_lamp' nodedef='ND_lamp' file='lamp.glsl' function='lamp'/>";
 
 struct work {
     struct layers layers;
@@ -621,20 +624,40 @@ static void test_leaves(void)
     work_close(&w);
 }
 
-static void test_port_values(void)
+/* Lights that a host binds: definitions by their node, with numbers. */
+static void test_lights(void)
 {
-    struct work w;
-    struct ir_value value;
-    work_open(&w, "<gain name='n' type='float'/>");
-    work_build(&w, "n");
-    const struct library *lib = &w.layers.lib;
-    const struct port *gain = library_ports(lib, 0, NULL), *plus = library_ports(lib, 1, NULL);
-    REQUIRE(build_port_value(w.builder, &gain[1], &value) && value.w[0].f == 2);
-    REQUIRE(build_port_value(w.builder, &plus[0], &value) && value.w[0].f == 0);
-    struct port property = gain[0];
-    property.geomprop = layers_word(&w.layers, "wear");
-    REQUIRE(!build_port_value(w.builder, &property, &value));
-    work_close(&w);
+    static const struct {
+        const char *items[2];
+        unsigned num_lights;
+        int32_t type; /* of the last */
+        const char *messages;
+    } cases[] = {
+        {{"lamp"}, 1, 1, ""},
+        {{"lamp=7"}, 1, 7, ""},
+        {{"none", "lamp"}, 1, 2, ""},
+        {{"lamp", "lamp=1"}, 1, 1, "bad-option"},
+        {{"lamp=", "lamp=x"}, 0, 0, "bad-option, bad-option"},
+        {{"lamp=5000000000"}, 0, 0, "bad-option"},
+        {{"torch"}, 0, 0, "unknown-light"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        struct work w;
+        work_open(&w, "<gain name='n' type='float'/>");
+        work_build(&w, "n");
+        build_lights(w.builder, cases[i].items, cases[i].items[1] ? 2 : 1, true);
+        REQUIRE_EQ(w.shader.lights.len, cases[i].num_lights);
+        REQUIRE_STR(layers_messages(&w.layers), cases[i].messages);
+        if (w.shader.lights.len) {
+            const struct shader_light *light = &vec_last(&w.shader.lights);
+            const uint32_t *members = w.shader.light_members.items + light->first_member;
+            const struct shader_variable *member = &w.shader.variables.items[members[0]];
+            REQUIRE_EQ(light->type, cases[i].type);
+            REQUIRE(light->function != LANG_NONE && light->num_members == 1);
+            REQUIRE_STR(str_text(&w.strings, member->name), "power");
+        }
+        work_close(&w);
+    }
 }
 
 int main(void)
@@ -653,6 +676,6 @@ int main(void)
     test_cancel();
     test_targets();
     test_leaves();
-    test_port_values();
+    test_lights();
     return test_report("build");
 }

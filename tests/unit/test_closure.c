@@ -78,8 +78,10 @@ static void scene_open(struct scene *s, bool variable)
             snprintf(name, sizeof name, "%s_%s", families[i].name, members[k].suffix);
             s->functions[i][members[k].which] = function(f, name);
         }
-        s->callees[i] = ir_add_callee(
-            &f->graph, (struct ir_callee){.id = i + 1, .name = word(f, families[i].name)});
+        s->callees[i] =
+            ir_add_callee(&f->graph, (struct ir_callee){.kind = IR_CALLEE_FAMILY,
+                                                        .index = i + 1,
+                                                        .name = word(f, families[i].name)});
     }
     s->lang.max_inline_nodes = 1000;
     s->point = (struct closure_point){vec3(s, 0, 0, 0), vec3(s, 0, 0, 1), vec3(s, 0, 0, 1)};

@@ -160,37 +160,6 @@ static void test_columns(void)
     REQUIRE(strstr(shown, "---...\n    ^\n") != NULL);
 }
 
-static void test_json(void)
-{
-    struct diag_list list;
-    struct text text;
-    diag_list_init(&list, &arena);
-    text_init(&text, &arena);
-    diag_render_json(&list, &text);
-    REQUIRE_STR(text_cstr(&text), "[]\n");
-    diag_add(&list, DIAG_ID_unknown_node, at(3, 5, 4), "a\"b", "");
-    diag_add(&list, DIAG_ID_defined_here, at(1, 1, 0), "x");
-    diag_add(&list, DIAG_ID_connected_here, (struct diag_place){0}, "y");
-    diag_add(&list, DIAG_ID_version_missing, at(0, 0, 0));
-    text_init(&text, &arena);
-    diag_render_json(&list, &text);
-    REQUIRE_STR(
-        text_cstr(&text),
-        "[\n"
-        "  {\"severity\": \"error\", \"id\": \"unknown-node\", \"message\": \"unknown node "
-        "<a\\\"b>; no loaded library defines it; '--library' adds a library\", "
-        "\"file\": \"wood.mtlx\", \"line\": 3, \"column\": 5, \"length\": 4, \"notes\": [\n"
-        "    {\"severity\": \"note\", \"id\": \"defined-here\", \"message\": \"'x' is defined "
-        "here\", "
-        "\"file\": \"wood.mtlx\", \"line\": 1, \"column\": 1, \"length\": 1},\n"
-        "    {\"severity\": \"note\", \"id\": \"connected-here\", \"message\": \"'y' is "
-        "here\"}]},\n"
-        "  {\"severity\": \"warning\", \"id\": \"version-missing\", "
-        "\"message\": \"<materialx> has no version and is read as 1.39\", \"file\": "
-        "\"wood.mtlx\"}\n"
-        "]\n");
-}
-
 static const char *suggest(const char *word, const char *const *candidates, size_t count)
 {
     struct diag_list list;
@@ -250,7 +219,6 @@ int main(void)
     test_limit();
     test_text();
     test_columns();
-    test_json();
     test_suggest();
     test_suggestions_end();
     arena_finish(&arena);

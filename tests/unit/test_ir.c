@@ -232,9 +232,9 @@ static void test_sharing(void)
     REQUIRE_EQ(ir_op2(g, IR_ADD, x, ir_const_int(g, 1)), 0); /* types do not fit */
     REQUIRE_EQ(ir_op1(g, IR_NOT, x), 0);
 
-    g->origin = ir_add_origin(g, str_intern_z(&f.strings, "roughness"), 7, 0);
+    ir_push_origin(g, ir_add_origin(g, str_intern_z(&f.strings, "roughness"), 7, 0));
     ir_ref product = ir_op2(g, IR_MUL, x, y);
-    g->origin = 0;
+    ir_pop_origin(g);
     REQUIRE_EQ(ir_op2(g, IR_MUL, x, y), product);
     REQUIRE_EQ(g->origins.items[ir_get(g, product)->origin].element, 7);
 
@@ -242,9 +242,10 @@ static void test_sharing(void)
     REQUIRE(!(ir_get(g, product)->flags & IR_NODE_DERIVATIVE));
     REQUIRE(ir_get(g, slope)->flags & IR_NODE_DERIVATIVE);
     REQUIRE(ir_get(g, ir_op2(g, IR_ADD, slope, x))->flags & IR_NODE_DERIVATIVE);
-    uint32_t callee = ir_add_callee(g, (struct ir_callee){.id = 3, .derivative = true});
-    REQUIRE_EQ(ir_add_callee(g, (struct ir_callee){.id = 3}), callee);
-    REQUIRE(ir_add_callee(g, (struct ir_callee){.id = 4}) != callee);
+    uint32_t callee = ir_add_callee(
+        g, (struct ir_callee){.kind = IR_CALLEE_FAMILY, .index = 3, .derivative = true});
+    REQUIRE_EQ(ir_add_callee(g, (struct ir_callee){.kind = IR_CALLEE_FAMILY, .index = 3}), callee);
+    REQUIRE(ir_add_callee(g, (struct ir_callee){.index = 4}) != callee);
     ir_ref leaf = ir_build(g, IR_LEAF, IR_TYPE_BSDF, callee, &x, 1);
     REQUIRE_EQ(ir_get(g, leaf)->flags, IR_NODE_DERIVATIVE | IR_NODE_CLOSURE);
 
@@ -331,8 +332,8 @@ static const char *const round_trips[] = {
     "return 1.0, -0.0, 1e-45, 3.4028235e38, inf, -inf, nan#2143289344, 7, -2147483648, "
     "4294967295u, true, \"a\\\"b\\\\\\u0001\"\n",
     "return vec3(1.0, 2.0, 3.0), ivec2(1, -2), mat2(1.0, 0.0, 0.0, 1.0)\n",
-    "callee \"mx_noise\" 0x00000000000000ff derivative pure\n"
-    "callee \"oren\" 0xfedcba9876543210\n"
+    "callee \"mx_noise\" function 255 derivative pure\n"
+    "callee \"oren\" family 4294967295\n"
     "%1 = stream vec3 @4\n"
     "%2 = call void %1, 0.5\n"
     "%3 = result float %2\n"
@@ -403,8 +404,9 @@ static const struct {
     {"array float 0", "1: an array has elements"},
     {"array float 2\narray float 2", "2: the type stands twice"},
     {"%1 = call void @3 1.0", "1: there is no such callee"},
-    {"callee \"f\" 0x1\ncallee \"g\" 0x1", "2: the callee stands twice"},
-    {"callee \"f\" 1", "1: a callee's id was expected: 0x and up to 16 hexadecimal digits"},
+    {"callee \"f\" function 1\ncallee \"g\" function 1", "2: the callee stands twice"},
+    {"callee \"f\" 1", "1: a kind of callee was expected"},
+    {"callee \"f\" verbatim 1\n%1 = call float", "2: the callee is not of the op's kind"},
     {"%1 = param float @0:0", "1: there is no such function"},
     {"function \"f\" float\n%1 = param float @0:1", "2: the function has fewer parameters"},
     {"function \"f\"\n%1 = graph_call void",
@@ -551,10 +553,10 @@ static const struct {
      "2.0\nreturn %d",
      1.0f},
     /* calls */
-    {"callee \"f\" 0x1\n%a = uniform float @2\n%b = call void %a, 1.0\n%c = result float @5 "
+    {"callee \"f\" function 1\n%a = uniform float @2\n%b = call void %a, 1.0\n%c = result float @5 "
      "%b\nreturn %c",
      17.0f},
-    {"callee \"f\" 0x1\n%a = uniform float @2\n%b = call float %a\nreturn %b", 12.0f},
+    {"callee \"f\" function 1\n%a = uniform float @2\n%b = call float %a\nreturn %b", 12.0f},
     {"function \"f\" float\n%p = param float @0:0\n%q = mul float %p, 2.0\n%s = add float %p, "
      "1.0\nresults 0 = %q, %s\n"
      "function \"g\" float, float\n%x = param float @1:0\n%y = param float @1:1\n"

@@ -141,6 +141,11 @@ static const struct {
     {"sinh float 1.0", "1.1752012"},
     {"cosh float 1.0", "1.5430807"},
     {"tanh float 1.0", "0.7615942"},
+    {"asinh float 1.0", "0.8813736"},
+    {"acosh float 2.0", "1.316958"},
+    {"acosh float 0.5", "undefined"},
+    {"atanh float 0.5", "0.54930615"},
+    {"atanh float 1.0", "undefined"},
     /* exponentials */
     {"pow float 2.0, 0.5", "1.4142135"},
     {"pow vec2 vec2(0.5, 3.0), vec2(3.0, 2.0)", "vec2(0.125, 9.0)"},
@@ -357,10 +362,41 @@ static void test_typing(void)
     REQUIRE_EQ(ir_type_vector(IR_TYPE_VEC2, 1), IR_TYPE_VOID);
 }
 
+/* Functions of one number that are undefined for more than single ones: IR_NODE_PARTIAL. */
+static void test_partial(void)
+{
+    static const float numbers[] = {-2, -1.5f, -0.5f, 0.5f, 1.5f, 2};
+    struct mem mem;
+    struct arena arena;
+    struct ir_graph graph;
+    mem_init(&mem, NULL, NULL);
+    arena_init(&arena, &mem);
+    ir_graph_init(&graph, &arena, NULL);
+    ir_ref any = ir_build(&graph, IR_UNIFORM, IR_TYPE_FLOAT, 0, NULL, 0);
+    for (unsigned op = 0; op < IR_NUM_OPS; op++) {
+        const struct ir_op_info *info = ir_op_info((enum ir_op)op);
+        unsigned num_undefined = 0;
+        if (info->rule != IR_RULE_SAME || info->arity != 1)
+            continue;
+        for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) {
+            struct ir_value in = ir_value_float(numbers[i]), out;
+            num_undefined += !ir_eval_op((enum ir_op)op, IR_TYPE_FLOAT, 0, &in, 1, &out);
+        }
+        if (num_undefined == sizeof numbers / sizeof *numbers) /* not to be computed */
+            continue;
+        const struct ir_node *node = ir_get(&graph, ir_op1(&graph, (enum ir_op)op, any));
+        bool is_partial = node->flags & IR_NODE_PARTIAL;
+        if (node->op == op && !REQUIRE_EQ(is_partial, num_undefined > 0))
+            printf("    %s\n", info->text);
+    }
+    arena_finish(&arena);
+}
+
 int main(void)
 {
     test_values();
     test_coverage();
     test_typing();
+    test_partial();
     return test_report("ir_fold");
 }

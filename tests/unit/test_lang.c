@@ -158,8 +158,7 @@ static const char *other_name(void *user_data, uint32_t id)
 /* A target with words of its own, no operator for a remainder, and another name for a type. */
 static void test_print_target(void)
 {
-    static const struct lang_words reserved[] = {LANG_WORDS(4, "half"), LANG_WORDS(6, "sample"),
-                                                 LANG_WORDS(7, "texture")};
+    static const char *const reserved[] = {"half", "sample", "texture"};
     static const char *const type_names[IR_NUM_TYPES] = {[IR_TYPE_VEC3] = "float3"};
     static const struct lang_form forms[IR_NUM_OPS] = {
         [IR_REM] = {"rem($0, $1)", LANG_PREC_POSTFIX, false},
@@ -173,7 +172,7 @@ static void test_print_target(void)
         .type_names = type_names,
         .forms = forms,
         .reserved = reserved,
-        .max_reserved = 7,
+        .num_reserved = 3,
         .param_in = "const ",
         .param_in_assigned = "",
         .param_out = "out ",
@@ -789,8 +788,8 @@ static void test_lower_call_in_branch(void)
            "float h(float x) { if (x > 0.0) return sum(x); return x; }\n"
            "float f(float x) { return sum(x) + h(x); }",
            "f", 24, ARGS("x"),
-           "callee \"sum\" 0x0000000000000000 pure\n"
-           "callee \"h\" 0x0000000000000001 pure\n"
+           "callee \"sum\" function 0 pure\n"
+           "callee \"h\" function 1 pure\n"
            "%1 = uniform float\n"
            "%2 = call float %1\n"
            "%3 = call float @1 %1\n"
@@ -808,7 +807,7 @@ static void test_lower_calls(void)
            "%3 = texture vec4 %1, %2\n"
            "return %3\n");
     lowers(texture_source, "f", 24, ARGS("map", "uv", "on"),
-           "callee \"f\" 0x0000000000000000 derivative\n"
+           "callee \"f\" function 0 derivative\n"
            "%1 = texture_input sampler2D\n"
            "%2 = uniform vec2 @1\n"
            "%3 = uniform bool @2\n"
@@ -818,7 +817,7 @@ static void test_lower_calls(void)
            "s; }\n"
            "float f(float x) { return sum(x, 3) + sum(2.0, 3); }",
            "f", 24, ARGS("x"),
-           "callee \"sum\" 0x0000000000000000 pure\n"
+           "callee \"sum\" function 0 pure\n"
            "%1 = uniform float\n"
            "%2 = call float %1, 3\n"
            "%3 = add float %2, 6.0\n"
@@ -826,7 +825,7 @@ static void test_lower_calls(void)
     lowers("vec2 big(vec2 x, float k, out float y, bool b) { y = k; for (int i = 0; i < 3; ++i) x "
            "+= k; return b ? x.yx : x; }",
            "big", 0, ARGS("x", "k", "1"),
-           "callee \"big\" 0x0000000000000000 pure\n"
+           "callee \"big\" function 0 pure\n"
            "%1 = uniform vec2\n"
            "%2 = uniform float @1\n"
            "%3 = call vec2 %1, %2, true\n"
@@ -835,7 +834,7 @@ static void test_lower_calls(void)
            "return %4, %5\n");
     lowers("float f(float x, float y) { return sin(x) * cos(y) + sin(y) * cos(x) + sqrt(x); }", "f",
            4, ARGS("x", "y"),
-           "callee \"f\" 0x0000000000000000 pure\n"
+           "callee \"f\" function 0 pure\n"
            "%1 = uniform float\n"
            "%2 = uniform float @1\n"
            "%3 = call float %1, %2\n"

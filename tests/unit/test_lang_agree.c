@@ -133,7 +133,7 @@ static bool call_value(void *user_data, const struct ir_graph *graph, ir_ref cal
                        const struct ir_value *args, uint32_t result, struct ir_value *out)
 {
     struct agree *a = user_data;
-    uint32_t id = (uint32_t)graph->callees.items[ir_get(graph, call)->attr].id;
+    uint32_t id = graph->callees.items[ir_get(graph, call)->attr].index;
     struct ir_value results[MAX_ARGS];
     if (!lang_eval_call(&a->generated, id, args, results, MAX_STEPS, &a->scratch))
         return false;

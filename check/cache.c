@@ -1,0 +1,288 @@
+// SPDX-License-Identifier: Apache-2.0
+#define _POSIX_C_SOURCE 200809L
+#include "check/cache.h"
+
+#include "check/json.h"
+#include "check/record_io.h"
+#include "cli/cli.h"
+#include "cli/files.h"
+
+#include <dirent.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+enum { NUM_FILES = 1024 }; /* whose hashes are remembered: includes that many documents share */
+
+struct cached_file {
+    char *path;
+    struct cache_hash hash;
+};
+
+/* ---- Hashes ---- */
+
+/* A text with its length before it, so that two texts are not taken for one. */
+static void add_text(SHA2_CTX *sha, const char *text)
+{
+    size_t len = strlen(text);
+    SHA256Update(sha, (const uint8_t *)&len, sizeof len);
+    SHA256Update(sha, (const uint8_t *)text, len);
+}
+
+static struct cache_hash end_hash(SHA2_CTX *sha)
+{
+    struct cache_hash hash;
+    SHA256End(sha, hash.hex);
+    return hash;
+}
+
+/* Of the bytes of a file; "" where it cannot be read. */
+static struct cache_hash hash_file(const char *path)
+{
+    SHA2_CTX sha;
+    size_t size = 0;
+    char *data = files_is_regular(path) ? files_read(path, &size) : NULL;
+    if (!data)
+        return (struct cache_hash){""};
+    SHA256Init(&sha);
+    SHA256Update(&sha, (const uint8_t *)data, size);
+    free(data);
+    return end_hash(&sha);
+}
+
+static int compare_names(const void *a, const void *b)
+{
+    return strcmp(*(const char *const *)a, *(const char *const *)b);
+}
+
+/* A folder by the names in it; one that is not there has none. */
+static struct cache_hash hash_folder(const char *path)
+{
+    SHA2_CTX sha;
+    struct arg_list names = {0};
+    DIR *folder = opendir(path);
+    for (const struct dirent *entry; folder && (entry = readdir(folder)) != NULL;)
+        args_append(&names, cli_format("%s", entry->d_name));
+    if (folder)
+        closedir(folder);
+    if (names.len)
+        qsort(names.items, names.len, sizeof *names.items, compare_names);
+    SHA256Init(&sha);
+    for (size_t i = 0; i < names.len; ++i)
+        add_text(&sha, names.items[i]);
+    args_free(&names);
+    return end_hash(&sha);
+}
+
+static bool is_folder_name(const char *path)
+{
+    size_t len = strlen(path);
+    return len && path[len - 1] == '/';
+}
+
+/* The hash of a file or folder that may have been asked for before in this run. */
+static const char *remembered_hash(struct cache *cache, const char *path)
+{
+    struct cached_file *file = &cache->files[cli_hash(CLI_HASH_OF_NOTHING, path) % NUM_FILES];
+    if (!file->path || strcmp(file->path, path) != 0) {
+        free(file->path);
+        file->path = cli_format("%s", path);
+        file->hash = is_folder_name(path) ? hash_folder(path) : hash_file(path);
+    }
+    return file->hash.hex;
+}
+
+/* A program by its version, size and time: another build is another program. */
+static void add_program(SHA2_CTX *sha, const char *path)
+{
+    struct stat info = {0};
+    stat(path, &info);
+    int64_t numbers[] = {info.st_size, info.st_mtim.tv_sec, info.st_mtim.tv_nsec};
+    add_text(sha, mxg_version_string());
+    SHA256Update(sha, (const uint8_t *)numbers, sizeof numbers);
+}
+
+static void add_renderer(SHA2_CTX *sha)
+{
+    char *program = cli_program("mxgen-render");
+    add_program(sha, program);
+    free(program);
+}
+
+void cache_init(struct cache *cache, const char *folder, const struct arg_list *args,
+                const mxg_library *library)
+{
+    *cache = (struct cache){.folder = folder, .begin = time(NULL)};
+    if (!folder)
+        return;
+    SHA2_CTX sha;
+    const uint8_t version = CHECK_FORMAT_VERSION;
+    cache->files = calloc(NUM_FILES, sizeof *cache->files);
+    SHA256Init(&sha);
+    SHA256Update(&sha, &version, sizeof version);
+    add_program(&sha, args->items[0]);
+    for (size_t i = 1; i < args->len && args->items[i]; ++i) {
+        add_text(&sha, args->items[i]);
+        if (strcmp(args->items[i], "--render") == 0)
+            add_renderer(&sha);
+    }
+    for (uint32_t i = 0; i < mxg_library_num_files(library); ++i) {
+        add_text(&sha, mxg_library_file(library, i));
+        add_text(&sha, hash_file(mxg_library_file(library, i)).hex);
+    }
+    cache->configuration = end_hash(&sha);
+    if (!cache->files)
+        cache->folder = NULL;
+}
+
+void cache_finish(struct cache *cache)
+{
+    for (size_t i = 0; cache->files && i < NUM_FILES; ++i)
+        free(cache->files[i].path);
+    free(cache->files);
+}
+
+/* ---- Entries ---- */
+
+static struct cache_key make_key(const struct cache *cache, const char *path)
+{
+    SHA2_CTX sha;
+    struct cache_key key = {.document = hash_file(path)};
+    if (!key.document.hex[0])
+        return key;
+    SHA256Init(&sha);
+    add_text(&sha, cache->configuration.hex);
+    add_text(&sha, path);
+    add_text(&sha, key.document.hex);
+    key.name = end_hash(&sha);
+    return key;
+}
+
+static char *entry_path(const struct cache *cache, const struct cache_key *key)
+{
+    return cli_format("%s/%.2s/%s.json", cache->folder, key->name.hex, key->name.hex + 2);
+}
+
+/* Images are large: size and time stand for what is in them. */
+static struct cache_hash stamp_image(const char *path)
+{
+    struct stat info;
+    struct cache_hash stamp = {"none"};
+    if (stat(path, &info) == 0)
+        snprintf(stamp.hex, sizeof stamp.hex, "%jd %jd.%09ld", (intmax_t)info.st_size,
+                 (intmax_t)info.st_mtim.tv_sec, info.st_mtim.tv_nsec);
+    return stamp;
+}
+
+/*
+ * An entry is an object: "files" has the hash of each file that was read besides the document, and
+ * of the names in each folder of textures; "images" has the stamp of each image that a picture
+ * shows; "record" is the record.
+ */
+static bool is_current(struct cache *cache, json_t *entry)
+{
+    const char *path;
+    json_t *value;
+    json_object_foreach(json_object_get(entry, "files"), path, value)
+    {
+        const char *hash = json_string_value(value);
+        if (!hash || !*hash || strcmp(hash, remembered_hash(cache, path)) != 0)
+            return false;
+    }
+    json_object_foreach(json_object_get(entry, "images"), path, value)
+    {
+        const char *stamp = json_string_value(value);
+        if (!stamp || strcmp(stamp, stamp_image(path).hex) != 0)
+            return false;
+    }
+    return json_object_get(entry, "files") && json_object_get(entry, "images");
+}
+
+json_t *cache_find(struct cache *cache, const char *path, struct cache_key *out_key)
+{
+    *out_key = (struct cache_key){0};
+    if (!cache->folder)
+        return NULL;
+    *out_key = make_key(cache, path);
+    if (!out_key->name.hex[0])
+        return NULL;
+    char *file = entry_path(cache, out_key);
+    json_t *entry = json_load_file(file, 0, NULL), *record = NULL;
+    free(file);
+    if (is_current(cache, entry))
+        record = json_incref(json_object_get(entry, "record"));
+    json_decref(entry);
+    return record;
+}
+
+/* Since the run began: a worker may have read what it was before. */
+static bool may_have_changed(const struct cache *cache, const char *path)
+{
+    struct stat info;
+    return stat(path, &info) != 0 || info.st_mtim.tv_sec >= cache->begin;
+}
+
+/* What was looked for and not found may be there next time, and no folder tells. */
+static bool is_about_absence(const char *id)
+{
+    static const char *const ids[] = {"failed", "file-missing", "file-unreadable", "no-profile"};
+    for (size_t i = 0; i < sizeof ids / sizeof *ids; ++i)
+        if (strcmp(id, ids[i]) == 0)
+            return true;
+    return false;
+}
+
+static bool follows_from_files(const struct cache *cache, const struct check_document *document)
+{
+    for (size_t i = 1; i < document->num_files; ++i)
+        if (may_have_changed(cache, document->files[i]))
+            return false;
+    for (size_t i = 0; i < document->num_images; ++i)
+        if (files_is_regular(document->images[i]) && may_have_changed(cache, document->images[i]))
+            return false;
+    if (document->failed == CHECK_CRASH || document->failed == CHECK_TIMEOUT
+        || document->num_files == 0)
+        return false;
+    for (size_t i = 0; i < document->num_messages; ++i)
+        if (is_about_absence(document->messages[i].id))
+            return false;
+    return true;
+}
+
+static char *make_entry(struct cache *cache, const struct check_document *document)
+{
+    json_t *entry = json_object(), *files = json_object(), *images = json_object();
+    for (size_t i = 1; i < document->num_files; ++i)
+        json_set(files, document->files[i],
+                 json_string(remembered_hash(cache, document->files[i])));
+    for (size_t i = 0; i < document->num_folders; ++i)
+        json_set(files, document->folders[i],
+                 json_string(remembered_hash(cache, document->folders[i])));
+    for (size_t i = 0; i < document->num_images; ++i)
+        json_set(images, document->images[i], json_string(stamp_image(document->images[i]).hex));
+    json_object_set_new(entry, "files", files);
+    json_object_set_new(entry, "images", images);
+    json_object_set_new(entry, "record", record_to_json(document, true));
+    char *text = json_dumps(entry, JSON_STYLE);
+    json_decref(entry);
+    return text;
+}
+
+void cache_put(struct cache *cache, const struct cache_key *key,
+               const struct check_document *document)
+{
+    if (!cache->folder || !key->name.hex[0] || cache->fault || !follows_from_files(cache, document))
+        return;
+    struct cache_key now = make_key(cache, document->file);
+    if (strcmp(now.name.hex, key->name.hex) != 0)
+        return;
+    char *path = entry_path(cache, key), *slash = strrchr(path, '/');
+    *slash = '\0';
+    cache->fault = files_make_folder(path);
+    *slash = '/';
+    char *entry = make_entry(cache, document);
+    if (entry && !cache->fault)
+        cache->fault = files_write(path, entry, strlen(entry));
+    free(entry);
+    free(path);
+}

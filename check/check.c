@@ -1,0 +1,471 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * mxgen check: documents in, verdicts out. Workers (pool.h) make a record of each document; here
+ * they are put in order, judged and reported.
+ */
+#define _POSIX_C_SOURCE 200809L
+#include "check/baseline.h"
+#include "check/budget.h"
+#include "check/cache.h"
+#include "check/check.h"
+#include "check/inputs.h"
+#include "check/json.h"
+#include "check/pool.h"
+#include "check/protocol.h"
+#include "check/record_io.h"
+#include "cli/files.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#define MAX_JOBS 1024
+#define MAX_TIME_LIMIT 86400 /* seconds */
+
+/* A document between being given out and being told of. */
+struct slot {
+    char *path;
+    uint64_t index; /* among all documents */
+    struct cache_key key;
+    json_t *cached; /* its record where it was not given out */
+    char *record;   /* a worker's answer; NULL: not there yet */
+    size_t size;
+    bool is_done;
+    enum check_stage failed; /* without a record */
+    char *reason;
+};
+
+struct check {
+    struct cli cli;
+    struct arg_list target_args, files_from, targets, worker_args;
+    size_t jobs, time_limit;
+    bool no_compile, render, stats;
+    bool needs_measures;    /* of every document */
+    bool needs_errors_only; /* of the messages, how they are printed */
+    struct check_reports reports;
+    struct check_inputs inputs;
+    struct pool pool;
+    struct cache cache;
+    struct budget budget;
+    struct baseline baseline;
+    bool update_baseline;
+    const char *baseline_path;
+    const char *budget_args[NUM_MEASURES];
+    const char *cache_folder, *shard;
+    uint64_t num_found; /* documents, those of other shards too */
+
+    /* a ring: documents are given out at most this far ahead of the one told next */
+    struct slot *slots;
+    size_t num_slots;
+    uint64_t first, last; /* documents in the ring: told next, and behind the one given out last */
+};
+
+static struct slot *slot_of(struct check *check, uint64_t number)
+{
+    return &check->slots[number % check->num_slots];
+}
+
+/* ---- Records ---- */
+
+/* In place of a record where the worker did not live to make one. */
+static struct check_document *make_failure(struct store *store, const struct slot *slot)
+{
+    struct check_document *document = store_alloc(store, sizeof *document);
+    const char *id = slot->failed == CHECK_TIMEOUT ? "check-timeout" : "check-crashed";
+    char *rendered = cli_format("%s: error: %s [%s]\n", slot->path, slot->reason, id);
+    document->file = slot->path;
+    document->failed = slot->failed;
+    check_add_message(
+        store, document,
+        &(struct check_message){.id = id,
+                                .text = slot->reason,
+                                .file = slot->path,
+                                .element = "",
+                                .target = "",
+                                .rendered = store_text(store, rendered, strlen(rendered))});
+    free(rendered);
+    return document;
+}
+
+static void forget_times(struct check_document *document)
+{
+    document->load_ms = document->validate_ms = document->render_ms = 0.0;
+    for (size_t i = 0; i < document->num_elements; ++i)
+        for (size_t k = 0; k < document->elements[i].num_shaders; ++k)
+            document->elements[i].shaders[k].generate_ms =
+                document->elements[i].shaders[k].compile_ms = 0.0;
+}
+
+/*
+ * The record as it was made, before anything is judged: what the cache keeps. NULL: there is none.
+ */
+static struct check_document *read_record(struct check *check, struct store *store,
+                                          const struct slot *slot)
+{
+    struct check_document *document = NULL;
+    if (slot->cached)
+        document = record_from_json(store, slot->cached);
+    else if (slot->record)
+        document = record_from_bytes(store, slot->record, slot->size);
+    if (document && slot->cached)
+        forget_times(document);
+    else if (document)
+        cache_put(&check->cache, &slot->key, document);
+    return document;
+}
+
+static void finish_slot(struct slot *slot)
+{
+    json_decref(slot->cached);
+    free(slot->path);
+    free(slot->record);
+    free(slot->reason);
+    *slot = (struct slot){0};
+}
+
+static void tell_document(struct check *check, struct slot *slot)
+{
+    struct store store = {0};
+    struct check_document *document = read_record(check, &store, slot);
+    if (!document) {
+        if (!slot->failed)
+            slot->failed = CHECK_CRASH;
+        if (!slot->reason)
+            slot->reason = cli_format("mxgen-check gave no readable record");
+        document = make_failure(&store, slot);
+    }
+    document->index = slot->index;
+    budget_judge(&check->budget, &store, document);
+    if (check->reports.run.is_compared)
+        baseline_compare(&check->baseline, &store, document);
+    check->reports.totals.cached += slot->cached != NULL;
+    reports_document(&check->reports, document);
+    store_finish(&store);
+    finish_slot(slot);
+}
+
+static void tell_done(struct check *check)
+{
+    for (; check->first < check->last && slot_of(check, check->first)->is_done; ++check->first)
+        tell_document(check, slot_of(check, check->first));
+}
+
+/* ---- Work ---- */
+
+/* The next document of this shard; NULL at the end. */
+static const char *next_path(struct check *check)
+{
+    const struct check_run *run = &check->reports.run;
+    const char *path;
+    do
+        path = inputs_next(&check->inputs);
+    while (path
+           && check->num_found++ % (run->num_shards ? run->num_shards : 1) + 1
+                  != (run->num_shards ? run->shard : 1));
+    return path;
+}
+
+/* What of a document no report, and no budget of its own, is about. */
+static uint32_t task_note(struct check *check, const char *path)
+{
+    bool is_brief = !check->needs_measures && !budget_has_file(&check->budget, path);
+    return (is_brief ? TASK_BRIEF : 0) | (check->needs_errors_only ? TASK_ERRORS_ONLY : 0);
+}
+
+/* Gives the next document out, or finds its record; false where there is no more. */
+static bool give_next(struct check *check)
+{
+    const char *path = next_path(check);
+    if (!path)
+        return false;
+    struct slot *slot = slot_of(check, check->last++);
+    *slot = (struct slot){.path = cli_copy(path, strlen(path)), .index = check->num_found - 1};
+    slot->cached = cache_find(&check->cache, path, &slot->key);
+    slot->is_done = slot->cached != NULL;
+    if (!slot->is_done)
+        pool_give(&check->pool, (struct pool_task){slot->path, task_note(check, path),
+                                                   (size_t)(check->last - 1)});
+    return true;
+}
+
+static bool take_answer(struct check *check)
+{
+    struct pool_answer answer;
+    if (!pool_wait(&check->pool, &answer))
+        return false;
+    struct slot *slot = slot_of(check, answer.ticket);
+    slot->record = answer.record;
+    slot->size = answer.size;
+    slot->failed = answer.failed;
+    slot->reason = answer.reason;
+    slot->is_done = true;
+    return true;
+}
+
+static void check_all(struct check *check)
+{
+    bool more = true;
+    while (!check->pool.fault && (more || check->pool.num_open)) {
+        while (more && pool_wants(&check->pool) && check->last - check->first < check->num_slots)
+            more = give_next(check);
+        if (check->pool.num_open)
+            take_answer(check);
+        tell_done(check);
+    }
+    if (check->pool.fault)
+        report_error(&check->cli.report, "check-failed", "%s", check->pool.fault);
+}
+
+/* ---- What is asked for ---- */
+
+/* Splits "glsl,vulkan" and finds every name among the targets. */
+static bool find_targets(struct check *check)
+{
+    for (size_t i = 0; i < check->target_args.len; ++i) {
+        for (const char *at = check->target_args.items[i]; *at;) {
+            size_t len = strcspn(at, ",");
+            mxg_target target;
+            if (!cli_find_target(at, len, &target))
+                return false;
+            if (check->targets.len == MAX_TARGETS) {
+                fprintf(stderr, "mxgen: more than %d targets\n", MAX_TARGETS);
+                return false;
+            }
+            args_append(&check->targets, target.name);
+            at += len + (at[len] == ',');
+        }
+    }
+    if (check->targets.len == 0)
+        args_append(&check->targets, "glsl");
+    return true;
+}
+
+static void add_worker_arg(struct check *check, const char *name, const char *value)
+{
+    args_append(&check->worker_args,
+                value ? cli_format("--%s=%s", name, value) : cli_format("%s", name));
+}
+
+/* "2/8" */
+static bool parse_shard(struct check *check)
+{
+    char *end = NULL;
+    struct check_run *run = &check->reports.run;
+    if (!check->shard)
+        return true;
+    run->shard = strtoul(check->shard, &end, 10);
+    run->num_shards = *end == '/' ? strtoul(end + 1, &end, 10) : 0;
+    if (*end == '\0' && run->shard >= 1 && run->shard <= run->num_shards
+        && run->num_shards <= MAX_SHARDS)
+        return true;
+    fprintf(stderr, "mxgen: '%s' is not a shard; write K/N, from 1/N to N/N\n", check->shard);
+    return false;
+}
+
+static bool parse_budgets(struct check *check)
+{
+    for (int i = 0; i < NUM_MEASURES; ++i)
+        if (check->budget_args[i]
+            && !budget_add(&check->budget, (enum measure)i, check->budget_args[i]))
+            return false;
+    return true;
+}
+
+/* The worker's command line: the same library, limits and options as here. */
+static void make_worker_args(struct check *check)
+{
+    char *program = cli_program("mxgen-check");
+    args_append(&check->worker_args, program);
+    for (size_t i = 0; i < check->targets.len; ++i)
+        add_worker_arg(check, "target", check->targets.items[i]);
+    if (check->no_compile)
+        add_worker_arg(check, "--no-compile", NULL);
+    if (check->render)
+        add_worker_arg(check, "--render", NULL);
+    cli_forward(&check->cli, &check->worker_args);
+    args_append(&check->worker_args, NULL);
+}
+
+/* A baseline that is there is compared with; one that is not, or is to be new, is written. */
+static bool prepare_baseline(struct check *check)
+{
+    const char **path = &check->reports.paths[SINK_BASELINE];
+    if (!*path || !files_is_regular(*path))
+        return true;
+    check->baseline_path = *path;
+    check->reports.run.is_compared = baseline_open(&check->baseline, *path);
+    if (!check->reports.run.is_compared)
+        report_error(&check->cli.report, "report-unreadable", "cannot read '%s': %s", *path,
+                     check->baseline.reader.fault);
+    if (!check->update_baseline)
+        *path = NULL;
+    return check->reports.run.is_compared;
+}
+
+/* What all documents depend on, for the depfile. */
+static void name_inputs(struct check *check)
+{
+    struct arg_list *inputs = &check->reports.run.inputs;
+    for (uint32_t i = 0; i < mxg_library_num_files(check->cli.library); ++i)
+        args_append(inputs, mxg_library_file(check->cli.library, i));
+    for (size_t i = 0; i < check->files_from.len; ++i)
+        if (strcmp(check->files_from.items[i], "-") != 0)
+            args_append(inputs, check->files_from.items[i]);
+    for (size_t i = 0; i < check->cli.parser.inputs.len; ++i)
+        if (check->cli.parser.inputs.items[i][0] == '@')
+            args_append(inputs, check->cli.parser.inputs.items[i] + 1);
+    if (check->reports.run.is_compared)
+        args_append(inputs, check->baseline_path);
+}
+
+static bool prepare(struct check *check)
+{
+    const struct cli *cli = &check->cli;
+    long cores = sysconf(_SC_NPROCESSORS_ONLN);
+    if (check->jobs == 0)
+        check->jobs = cores > 0 ? (size_t)cores : 1;
+    if (check->jobs > MAX_JOBS)
+        check->jobs = MAX_JOBS;
+    if (check->time_limit == 0 || check->time_limit > MAX_TIME_LIMIT)
+        check->time_limit = MAX_TIME_LIMIT;
+    struct check_run *run = &check->reports.run;
+    run->targets = check->targets.items;
+    run->num_targets = check->targets.len;
+    run->quiet = cli->quiet;
+    run->verbose = cli->verbose;
+    run->compiles = !check->no_compile;
+    run->with_times = check->stats;
+    if (!prepare_baseline(check))
+        return false;
+    name_inputs(check);
+    const char *const *paths = check->reports.paths;
+    check->needs_measures = check->stats || check->cache_folder || check->budget.command_line.len
+                            || run->is_compared || paths[SINK_JSON] || paths[SINK_HTML]
+                            || paths[SINK_BASELINE];
+    check->needs_errors_only =
+        cli->quiet && !check->needs_measures && !paths[SINK_SARIF] && !paths[SINK_JUNIT];
+    check->num_slots = 2 * pool_capacity(check->jobs) + 64;
+    check->slots = calloc(check->num_slots, sizeof *check->slots);
+    return check->slots && reports_begin(&check->reports, &check->cli.report);
+}
+
+/* Said once, and not of every element. */
+static bool find_renderer(struct check *check)
+{
+    char *program = check->render ? cli_program("mxgen-render") : NULL;
+    bool found = !program || files_find_program(program);
+    if (!found)
+        report_error(&check->cli.report, "no-renderer",
+                     "there is no '%s': it is built where Vulkan and OpenImageIO are installed",
+                     program);
+    free(program);
+    return found;
+}
+
+/* Exit code 1 where anything failed, or nothing was there to check. */
+static int run(struct check *check)
+{
+    struct report *report = &check->cli.report;
+    const struct check_totals *totals = &check->reports.totals;
+    if (!find_renderer(check) || !prepare(check))
+        return EXIT_FAULT;
+    make_worker_args(check);
+    inputs_init(&check->inputs, &check->cli.parser.inputs, &check->files_from);
+    cache_init(&check->cache, check->cache_folder, &check->worker_args, check->cli.library);
+    pool_init(&check->pool, (char *const *)(uintptr_t)check->worker_args.items, check->jobs,
+              (double)check->time_limit);
+    check_all(check);
+    if (check->reports.run.is_compared && !check->reports.run.num_shards)
+        check->reports.totals.changes[CHANGE_GONE] +=
+            baseline_list_gone(&check->baseline, check->reports.text.out);
+    reports_end(&check->reports, report, !check->pool.fault);
+    if (check->cache.fault)
+        fprintf(stderr, "warning: the cache '%s' cannot be written: %s [output-failed]\n",
+                check->cache_folder, check->cache.fault);
+    if (totals->documents == 0 && !check->num_found && !check->inputs.failed && !check->pool.fault)
+        report_error(report, "nothing-to-check", "found no document to check");
+    bool good = !report->errors && !check->inputs.failed && reports_are_good(&check->reports);
+    return good ? EXIT_DONE : EXIT_FAULT;
+}
+
+static void finish(struct check *check)
+{
+    for (; check->slots && check->first < check->last; ++check->first) /* after a fault */
+        finish_slot(slot_of(check, check->first));
+    free(check->slots);
+    pool_finish(&check->pool);
+    cache_finish(&check->cache);
+    budget_finish(&check->budget);
+    baseline_close(&check->baseline);
+    inputs_finish(&check->inputs);
+    args_free(&check->worker_args);
+    free(check->target_args.items);
+    free(check->files_from.items);
+    free(check->targets.items);
+    free(check->reports.run.inputs.items);
+    cli_finish(&check->cli);
+}
+
+static const char *find_misuse(const struct check *check)
+{
+    if (check->cli.parser.inputs.len == 0 && check->files_from.len == 0)
+        return "nothing to check is named; see --help";
+    bool has_report = false;
+    for (size_t i = 0; i < SINK_DEPFILE; ++i)
+        has_report = has_report || check->reports.paths[i];
+    if (check->reports.paths[SINK_DEPFILE] && !has_report)
+        return "a depfile tells what a report depends on: write one too, --json FILE";
+    return reports_misuse(&check->reports);
+}
+
+static int run_if_sensible(struct check *check)
+{
+    const char *misuse = find_misuse(check);
+    if (misuse)
+        fprintf(stderr, "mxgen: %s\n", misuse);
+    return !misuse && find_targets(check) && parse_shard(check) && parse_budgets(check)
+               ? run(check)
+               : EXIT_USAGE;
+}
+
+int command_check(const struct command *command, int argc, char **argv)
+{
+    json_use_memory();
+    if (argc > 1 && strcmp(argv[1], "merge") == 0)
+        return check_merge(command, argc - 1, argv + 1);
+    struct check check = {.time_limit = 120};
+    struct arg args[16 + NUM_SINK_KINDS + NUM_MEASURES] = {
+        {"target", 't', ARG_LIST, "T,...", "targets (default: glsl)", &check.target_args},
+        {"jobs", 'j', ARG_SIZE, "N",
+         "documents checked at the same time (default: number of cores)", &check.jobs},
+        {"files-from", 0, ARG_LIST, "FILE",
+         "reads paths from a file, one on each line; '-' is standard input", &check.files_from},
+        {"no-compile", 0, ARG_FLAG, NULL, "does not compile the shaders", &check.no_compile},
+        {"render", 0, ARG_FLAG, NULL,
+         "renders each element, for the gallery and for comparison with a baseline", &check.render},
+        {"time-limit", 0, ARG_SIZE, "S",
+         "limit in seconds for one step: one element for one target; 0: none (default: 120)",
+         &check.time_limit},
+        {"cache", 0, ARG_TEXT, "DIR", "keeps results, and checks only changed documents again",
+         &check.cache_folder},
+        {"shard", 0, ARG_TEXT, "K/N",
+         "checks part K of N; 'mxgen check merge' joins the JSON reports", &check.shard},
+        {"update-baseline", 0, ARG_FLAG, NULL, "replaces the baseline after the comparison",
+         &check.update_baseline},
+        {"stats", 0, ARG_FLAG, NULL, "prints times, the slowest documents and the largest shaders",
+         &check.stats},
+    };
+    size_t num_args = 0;
+    while (args[num_args].name)
+        ++num_args;
+    num_args += reports_args(&check.reports, args + num_args);
+    for (int i = 0; i < NUM_MEASURES; ++i)
+        args[num_args++] = (struct arg){
+            measure_infos[i].option, 0,       ARG_TEXT, "N | T=N,...", measure_infos[i].meaning,
+            &check.budget_args[i],   ARG_MORE};
+    int code;
+    if (cli_start(&check.cli, command, args, num_args, CLI_GENERATES, argc, argv, &code))
+        code = run_if_sensible(&check);
+    finish(&check);
+    return code;
+}

@@ -1,0 +1,300 @@
+// SPDX-License-Identifier: Apache-2.0
+#define _POSIX_C_SOURCE 200809L
+#include "check/examine.h"
+
+#include "compile/compile.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+double examine_clock(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec * 1e3 + (double)now.tv_nsec * 1e-6;
+}
+
+/* ---- Messages ---- */
+
+static const char *copy(struct examiner *examiner, const char *text)
+{
+    return text ? store_text(&examiner->store, text, strlen(text)) : "";
+}
+
+/* The place of an equal message, or the free one where it belongs. */
+static uint32_t *find_place(const struct examiner *examiner, const struct check_message *message)
+{
+    uint64_t hash = cli_hash(CLI_HASH_OF_NOTHING ^ message->line, message->id);
+    size_t mask = examiner->capacity - 1, at = (size_t)cli_hash(hash, message->text) & mask;
+    while (examiner->messages[at]
+           && !check_is_same_message(&examiner->document->messages[examiner->messages[at] - 1],
+                                     message))
+        at = (at + 1) & mask;
+    return &examiner->messages[at];
+}
+
+/* The index of an equal message; how many there are where there is none. */
+static uint32_t find_message(const struct examiner *examiner, const struct check_message *message)
+{
+    uint32_t found = examiner->capacity ? *find_place(examiner, message) : 0;
+    return found ? found - 1 : (uint32_t)examiner->document->num_messages;
+}
+
+static void add_message(struct examiner *examiner, const struct check_message *message)
+{
+    struct check_document *document = examiner->document;
+    check_add_message(&examiner->store, document, message);
+    size_t first = document->num_messages - 1;
+    if (document->num_messages * 2 > examiner->capacity) {
+        examiner->capacity = examiner->capacity ? examiner->capacity * 2 : 64;
+        examiner->messages =
+            store_alloc(&examiner->store, examiner->capacity * sizeof *examiner->messages);
+        first = 0;
+    }
+    for (size_t i = first; i < document->num_messages; ++i)
+        *find_place(examiner, &document->messages[i]) = (uint32_t)i + 1;
+}
+
+static void refer(struct examiner *examiner, struct check_shader *shader, uint32_t index)
+{
+    for (size_t i = 0; i < shader->num_messages; ++i)
+        if (shader->messages[i] == index)
+            return;
+    shader->messages =
+        store_grow(&examiner->store, shader->messages, shader->num_messages, sizeof index);
+    shader->messages[shader->num_messages++] = index;
+}
+
+static bool is_beyond_limit(const struct examiner *examiner, const struct check_message *message)
+{
+    size_t most = examiner->cli->max_errors;
+    return message->severity == MXG_SEVERITY_ERROR && most && examiner->num_errors >= most;
+}
+
+static void count_error(struct examiner *examiner, const struct check_message *message,
+                        uint32_t index)
+{
+    if (message->severity != MXG_SEVERITY_ERROR)
+        return;
+    ++examiner->num_errors;
+    examiner->last_error = index;
+}
+
+/* The last error speaks for those behind it. */
+static void tell_rest(struct examiner *examiner, struct check_message *last)
+{
+    if (strstr(last->rendered, "the rest is not shown"))
+        return;
+    char *text = cli_format("%snote: more than %zu errors; the rest is not shown\n", last->rendered,
+                            examiner->cli->max_errors);
+    last->rendered = copy(examiner, text);
+    free(text);
+}
+
+void examine_add(struct examiner *examiner, struct check_shader *shader,
+                 struct check_message message)
+{
+    message.file = message.file ? message.file : "";
+    uint32_t index = find_message(examiner, &message);
+    if (index == examiner->document->num_messages && is_beyond_limit(examiner, &message)) {
+        index = examiner->last_error;
+        tell_rest(examiner, &examiner->document->messages[index]);
+    } else if (index == examiner->document->num_messages) {
+        message.id = copy(examiner, message.id);
+        message.text = copy(examiner, message.text);
+        message.file = copy(examiner, message.file);
+        message.element = copy(examiner, message.element);
+        message.target = copy(examiner, message.target);
+        message.rendered = copy(examiner, message.rendered);
+        add_message(examiner, &message);
+        count_error(examiner, &message, index);
+    }
+    if (shader)
+        refer(examiner, shader, index);
+}
+
+static bool is_told(const struct examiner *examiner, const mxg_diagnostic *diagnostic,
+                    uint32_t index)
+{
+    if (diagnostic->parent != index)
+        return false; /* part of the one before */
+    return diagnostic->severity != MXG_SEVERITY_NOTE || examiner->cli->verbose;
+}
+
+static bool is_about_absence(const char *id)
+{
+    static const char *const ids[] = {"missing-texture", "missing-tiles", "include-missing",
+                                      "missing-source-file"};
+    for (size_t i = 0; i < sizeof ids / sizeof *ids; ++i)
+        if (strcmp(id, ids[i]) == 0)
+            return true;
+    return false;
+}
+
+/* Of "there is no file 'a/b.png'": once it is there, the message does not stand. */
+static void add_quoted_place(struct examiner *examiner, const mxg_diagnostic *diagnostic)
+{
+    const char *quote = strchr(diagnostic->message, '\'');
+    size_t len = quote ? strcspn(quote + 1, "'") : 0;
+    if (len && diagnostic->file)
+        check_add_place(&examiner->store, examiner->document, diagnostic->file,
+                        store_text(&examiner->store, quote + 1, len));
+}
+
+static void add_diagnostics(struct examiner *examiner, const mxg_diagnostics *list,
+                            struct check_shader *shader, const char *element)
+{
+    for (uint32_t i = 0; i < mxg_diagnostics_count(list); ++i) {
+        mxg_diagnostic diagnostic = {sizeof diagnostic};
+        mxg_diagnostics_get(list, i, &diagnostic);
+        if (!is_told(examiner, &diagnostic, i))
+            continue;
+        if (is_about_absence(diagnostic.id))
+            add_quoted_place(examiner, &diagnostic);
+        struct check_message message = {.severity = diagnostic.severity,
+                                        .id = diagnostic.id,
+                                        .text = diagnostic.message,
+                                        .file = diagnostic.file ? diagnostic.file : "",
+                                        .line = diagnostic.line,
+                                        .column = diagnostic.column,
+                                        .length = diagnostic.length,
+                                        .element = element,
+                                        .target = shader ? shader->target : NULL};
+        bool is_read = message.severity == MXG_SEVERITY_ERROR || !examiner->errors_only;
+        if (is_read && find_message(examiner, &message) == examiner->document->num_messages)
+            message.rendered = report_render(&examiner->cli->report, list, i);
+        examine_add(examiner, shader, message);
+    }
+}
+
+/* What a status says beyond diagnostics. */
+static void add_status(struct examiner *examiner, mxg_status status, struct check_shader *shader,
+                       const char *element)
+{
+    if (status == MXG_OK || status == MXG_ERROR_DOCUMENT)
+        return;
+    char *rendered =
+        cli_format("%s: error: %s [failed]\n", examiner->document->file, mxg_status_string(status));
+    examine_add(examiner, shader,
+                (struct check_message){.id = "failed",
+                                       .text = mxg_status_string(status),
+                                       .file = examiner->document->file,
+                                       .element = element,
+                                       .target = shader ? shader->target : NULL,
+                                       .rendered = rendered});
+    free(rendered);
+}
+
+/* ---- Stages ---- */
+
+static mxg_document *load(struct examiner *examiner, const char *path)
+{
+    double begin = examine_clock();
+    mxg_document *document = NULL;
+    channel_mark(&examiner->channel, CHECK_LOAD, "", "");
+    mxg_status status =
+        mxg_document_load(examiner->cli->context, examiner->cli->library, path, &document);
+    add_diagnostics(examiner, mxg_document_diagnostics(document), NULL, NULL);
+    add_status(examiner, status, NULL, NULL);
+    if (status != MXG_OK)
+        check_fail(&examiner->document->failed, CHECK_LOAD);
+    uint32_t count = mxg_document_num_files(document);
+    for (uint32_t i = 0; i < count; ++i)
+        check_add_file(&examiner->store, examiner->document, mxg_document_file(document, i));
+    examiner->document->load_ms = examine_clock() - begin;
+    return document;
+}
+
+static void validate(struct examiner *examiner, const mxg_document *document)
+{
+    double begin = examine_clock();
+    mxg_result *result = NULL;
+    channel_mark(&examiner->channel, CHECK_VALIDATE, "", "");
+    mxg_status status = mxg_document_validate(examiner->cli->context, document, &result);
+    add_diagnostics(examiner, mxg_result_diagnostics(result), NULL, NULL);
+    add_status(examiner, status, NULL, NULL);
+    if (status != MXG_OK)
+        check_fail(&examiner->document->failed, CHECK_VALIDATE);
+    mxg_result_destroy(result);
+    examiner->document->validate_ms = examine_clock() - begin;
+}
+
+static void generate(struct examiner *examiner, const mxg_document *document, const char *element,
+                     struct check_shader *shader)
+{
+    double begin = examine_clock();
+    mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
+    desc.target = shader->target;
+    desc.element = element;
+    desc.options = examiner->cli->options;
+    /* nobody would read it */
+    desc.without_source =
+        examiner->is_brief && !examiner->compile && !examiner->cli->max_output_size;
+    desc.only_diagnostics = desc.without_source && !examiner->render;
+    mxg_result *result = NULL;
+    channel_mark(&examiner->channel, CHECK_GENERATE, element, shader->target);
+    mxg_status status = mxg_generate(examiner->cli->context, document, &desc, &result);
+    add_diagnostics(examiner, mxg_result_diagnostics(result), shader, element);
+    add_status(examiner, status, shader, element);
+    if (status != MXG_OK)
+        check_fail(&shader->failed, CHECK_GENERATE);
+    shader->generate_ms = examine_clock() - begin;
+    if (status == MXG_OK)
+        examine_shader(examiner, result, shader, element);
+    if (status == MXG_OK && examiner->render)
+        examine_images(examiner, result);
+    check_fail(&examiner->document->failed, shader->failed);
+    mxg_result_destroy(result);
+}
+
+static void examine_element(struct examiner *examiner, const mxg_document *document,
+                            struct check_element *element)
+{
+    element->picture = element->signature = "";
+    element->shaders =
+        store_array(&examiner->store, examiner->targets.len, sizeof *element->shaders);
+    for (size_t i = 0; i < examiner->targets.len; ++i) {
+        struct check_shader *shader = &element->shaders[element->num_shaders++];
+        shader->target = examiner->targets.items[i];
+        shader->topology = "";
+        generate(examiner, document, element->path, shader);
+    }
+    if (examiner->render && element->num_shaders && element->shaders[0].failed != CHECK_GENERATE)
+        examine_picture(examiner, element);
+}
+
+const struct check_document *examine(struct examiner *examiner, const char *path)
+{
+    store_finish(&examiner->store);
+    struct check_document *record = examiner->document =
+        store_alloc(&examiner->store, sizeof *record);
+    record->file = copy(examiner, path);
+    examiner->num_errors = examiner->capacity = 0;
+    mxg_document *document = load(examiner, path);
+    if (document && record->num_files)
+        validate(examiner, document);
+    uint32_t count = mxg_document_num_renderables(document);
+    record->elements = store_array(&examiner->store, count, sizeof *record->elements);
+    for (uint32_t i = 0; i < count; ++i) {
+        mxg_renderable renderable = {sizeof renderable};
+        mxg_document_renderable(document, i, &renderable);
+        struct check_element *element = &record->elements[record->num_elements++];
+        element->path = copy(examiner, renderable.path);
+        element->type = copy(examiner, renderable.type);
+        examine_element(examiner, document, element);
+    }
+    mxg_document_destroy(document);
+    return record;
+}
+
+void examiner_finish(struct examiner *examiner)
+{
+    store_finish(&examiner->store);
+    if (examiner->is_compiler_ready)
+        compile_end();
+    if (examiner->folder)
+        rmdir(examiner->folder);
+    free(examiner->folder);
+}

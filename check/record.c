@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "check/record.h"
+
+#include <string.h>
+
+const char *const check_stage_names[NUM_CHECK_STAGES] = {
+#define STAGE(name, text) text,
+    CHECK_STAGES(STAGE)
+#undef STAGE
+};
+
+const struct measure_info measure_infos[NUM_MEASURES] = {
+#define MEASURE(name, key, option, noun, meaning) {key, option, noun, meaning},
+#include "check/measures.def"
+#undef MEASURE
+};
+
+const char *const check_change_names[NUM_CHECK_CHANGES] = {
+#define CHANGE(name, text) text,
+    CHECK_CHANGES(CHANGE)
+#undef CHANGE
+};
+
+void check_fail(enum check_stage *failed, enum check_stage stage)
+{
+    if (stage != CHECK_PASSED && (*failed == CHECK_PASSED || stage < *failed))
+        *failed = stage;
+}
+
+bool check_is_same_message(const struct check_message *a, const struct check_message *b)
+{
+    return a->line == b->line && a->column == b->column && strcmp(a->id, b->id) == 0
+           && strcmp(a->text, b->text) == 0 && strcmp(a->file, b->file) == 0;
+}
+
+uint32_t check_add_message(struct store *store, struct check_document *document,
+                           const struct check_message *message)
+{
+    document->messages =
+        store_grow(store, document->messages, document->num_messages, sizeof *message);
+    document->messages[document->num_messages] = *message;
+    return (uint32_t)document->num_messages++;
+}
+
+static bool has_text(const char *const *texts, size_t count, const char *text)
+{
+    for (size_t i = 0; i < count; ++i)
+        if (strcmp(texts[i], text) == 0)
+            return true;
+    return false;
+}
+
+static void add_folder(struct store *store, struct check_document *document, const char *folder)
+{
+    if (has_text(document->folders, document->num_folders, folder))
+        return;
+    document->folders =
+        store_grow(store, document->folders, document->num_folders, sizeof *document->folders);
+    document->folders[document->num_folders++] = folder;
+}
+
+void check_add_file(struct store *store, struct check_document *document, const char *path)
+{
+    if (has_text(document->files, document->num_files, path))
+        return;
+    document->files =
+        store_grow(store, document->files, document->num_files, sizeof *document->files);
+    document->files[document->num_files++] = store_text(store, path, strlen(path));
+}
+
+void check_add_image(struct store *store, struct check_document *document, const char *path)
+{
+    if (has_text(document->images, document->num_images, path))
+        return;
+    document->images =
+        store_grow(store, document->images, document->num_images, sizeof *document->images);
+    document->images[document->num_images++] = store_text(store, path, strlen(path));
+}
+
+/* The part of a path that ends with its last '/'. */
+static size_t folder_length(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return slash ? (size_t)(slash - path) + 1 : 0;
+}
+
+void check_add_place(struct store *store, struct check_document *document, const char *from,
+                     const char *file)
+{
+    size_t len = folder_length(file), from_len = file[0] == '/' ? 0 : folder_length(from);
+    char *folder = store_alloc(store, from_len + len + 3);
+    memcpy(folder, from, from_len);
+    memcpy(folder + from_len, file, len);
+    add_folder(store, document, *folder ? folder : "./");
+    if (from_len && len)
+        add_folder(store, document, store_text(store, file, len));
+}

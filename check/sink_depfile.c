@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * --depfile: "reports: files", for make and ninja, so that the check runs again when something it
+ * read has changed.
+ */
+#include "check/sink.h"
+
+static void begin(struct sink *sink)
+{
+    for (size_t i = 0; i < sink->run->num_outputs; ++i) {
+        if (i)
+            putc(' ', sink->out);
+        files_put_make_name(sink->out, sink->run->outputs[i]);
+    }
+    putc(':', sink->out);
+}
+
+static void put_input(struct sink *sink, const char *path)
+{
+    fputs(" \\\n ", sink->out);
+    files_put_make_name(sink->out, path);
+}
+
+/* An image that is not there is nothing that a rule could wait for. */
+static void write_document(struct sink *sink, const struct check_document *document)
+{
+    for (size_t i = 0; i < document->num_files; ++i)
+        put_input(sink, document->files[i]);
+    for (size_t i = 0; i < document->num_images; ++i)
+        if (files_is_regular(document->images[i]))
+            put_input(sink, document->images[i]);
+}
+
+static void end(struct sink *sink, const struct check_totals *totals)
+{
+    (void)totals;
+    for (size_t i = 0; i < sink->run->inputs.len; ++i)
+        put_input(sink, sink->run->inputs.items[i]);
+    putc('\n', sink->out);
+}
+
+const struct sink_kind sink_depfile = {"depfile",
+                                       "writes the dependencies of the reports, for make and ninja",
+                                       begin, write_document, end};

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * For people: what failed and why, and a summary at the end. With --stats also what is slow and
+ * what is large.
+ */
+#include "check/sink.h"
+
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { NUM_TOP = 10 };
+
+/* The largest by one measure, kept in order. */
+struct top {
+    struct top_row {
+        double value;
+        char *name;
+    } rows[NUM_TOP];
+    size_t len;
+};
+
+struct text_state {
+    struct top slowest, largest;
+};
+
+static void begin(struct sink *sink)
+{
+    sink->state = calloc(1, sizeof(struct text_state));
+}
+
+/* ---- Rankings ---- */
+
+static void rank(struct top *top, double value, const char *file, const char *element,
+                 const char *target)
+{
+    size_t at = top->len;
+    while (at > 0 && top->rows[at - 1].value < value)
+        --at;
+    if (at == NUM_TOP)
+        return;
+    size_t room = strlen(file) + strlen(element) + strlen(target) + 8;
+    char *name = malloc(room);
+    if (!name)
+        return;
+    snprintf(name, room, *element ? "%s '%s', %s" : "%s", file, element, target);
+    if (top->len == NUM_TOP)
+        free(top->rows[--top->len].name);
+    memmove(top->rows + at + 1, top->rows + at, (top->len - at) * sizeof *top->rows);
+    top->rows[at] = (struct top_row){value, name};
+    ++top->len;
+}
+
+static void print_top(FILE *out, struct top *top, const char *title, const char *unit)
+{
+    if (top->len)
+        fprintf(out, "%s\n", title);
+    for (size_t i = 0; i < top->len; ++i) {
+        fprintf(out, "%12.1f %s  %s\n", top->rows[i].value, unit, top->rows[i].name);
+        free(top->rows[i].name);
+    }
+}
+
+/*
+ * Time is that of the document; size that of a shader: instructions, or bytes where nothing was
+ * compiled.
+ */
+static void rank_document(struct text_state *state, const struct check_document *document)
+{
+    double total = document->load_ms + document->validate_ms + document->render_ms;
+    for (size_t i = 0; i < document->num_elements; ++i) {
+        const struct check_element *element = &document->elements[i];
+        for (size_t k = 0; k < element->num_shaders; ++k) {
+            const struct check_shader *shader = &element->shaders[k];
+            total += shader->generate_ms + shader->compile_ms;
+            rank(&state->largest, (double)shader->measures[MEASURE_SOURCE_BYTES] / 1e3,
+                 document->file, element->path, shader->target);
+        }
+    }
+    rank(&state->slowest, total, document->file, "", "");
+}
+
+/* ---- Documents ---- */
+
+static bool has_warning(const struct check_document *document)
+{
+    for (size_t i = 0; i < document->num_messages; ++i)
+        if (document->messages[i].severity == MXG_SEVERITY_WARNING)
+            return true;
+    return false;
+}
+
+/* "topology: 'Gold', glsl: another shader: …" */
+static void print_changes(FILE *out, const struct check_document *document)
+{
+    for (size_t i = 0; i < document->num_changes; ++i) {
+        const struct check_change *change = &document->changes[i];
+        fprintf(out, "changed %s (%s)", document->file, check_change_names[change->kind]);
+        if (*change->element)
+            fprintf(out, " '%s'", change->element);
+        fprintf(out, "%s%s: %s\n", *change->target ? " for " : "", change->target, change->text);
+    }
+}
+
+static void print_document(struct sink *sink, const struct check_document *document)
+{
+    const struct check_run *run = sink->run;
+    if (run->with_times && sink->state)
+        rank_document(sink->state, document);
+    if (document->failed)
+        fprintf(sink->out, "FAILED %s (%s)\n", document->file, check_stage_names[document->failed]);
+    else if (run->verbose || (has_warning(document) && !run->quiet))
+        fprintf(sink->out, "passed %s\n", document->file);
+    for (size_t i = 0; i < document->num_messages; ++i)
+        if (document->messages[i].severity == MXG_SEVERITY_ERROR || !run->quiet)
+            fputs(document->messages[i].rendered, sink->out);
+    print_changes(sink->out, document);
+}
+
+static void print_comparison(FILE *out, const struct check_totals *totals)
+{
+    fputs("since the baseline:", out);
+    for (int kind = 0; kind < NUM_CHECK_CHANGES; ++kind)
+        fprintf(out, "%s %s %" PRIu64, kind ? "," : "", check_change_names[kind],
+                totals->changes[kind]);
+    fputs(" (documents)\n", out);
+}
+
+/* ---- Summary ---- */
+
+/* "1 document", "2 documents" */
+static void print_count(FILE *out, const char *before, uint64_t count, const char *what)
+{
+    fprintf(out, "%s%" PRIu64 " %s%s", before, count, what, count == 1 ? "" : "s");
+}
+
+static void print_failures(FILE *out, const struct check_totals *totals)
+{
+    uint64_t passed = totals->failed[CHECK_PASSED], failed = totals->documents - passed;
+    fprintf(out, "%" PRIu64 " passed, %" PRIu64 " failed", passed, failed);
+    const char *separator = " (";
+    for (int stage = CHECK_PASSED + 1; stage < NUM_CHECK_STAGES; ++stage) {
+        if (!totals->failed[stage])
+            continue;
+        fprintf(out, "%s%s %" PRIu64, separator, check_stage_names[stage], totals->failed[stage]);
+        separator = ", ";
+    }
+    print_count(out, failed ? "), " : ", ", totals->errors, "error");
+    print_count(out, ", ", totals->warnings, "warning");
+    fputc('\n', out);
+}
+
+static void print_times(FILE *out, const struct check_totals *totals)
+{
+    const struct {
+        const char *what;
+        double ms;
+    } rows[] = {{"load", totals->load_ms},
+                {"validate", totals->validate_ms},
+                {"generate", totals->generate_ms},
+                {"compile", totals->compile_ms},
+                {"render", totals->render_ms}};
+    double sum = 0.0;
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; ++i)
+        sum += rows[i].ms;
+    fputs("time:", out);
+    for (size_t i = 0; i < sizeof rows / sizeof *rows && sum > 0.0; ++i)
+        if (rows[i].ms > 0.0)
+            fprintf(out, "%s %s %.2f s (%.0f %%)", i ? "," : "", rows[i].what, rows[i].ms / 1e3,
+                    100.0 * rows[i].ms / sum);
+    fputc('\n', out);
+}
+
+static void end(struct sink *sink, const struct check_totals *totals)
+{
+    struct text_state *state = sink->state;
+    if (state && sink->run->with_times) {
+        print_top(sink->out, &state->slowest, "slowest documents:", "ms");
+        print_top(sink->out, &state->largest, "largest shaders:", "kB");
+        print_times(sink->out, totals);
+    }
+    free(state);
+    for (size_t i = 0; i < totals->num_uncompiled; ++i)
+        fprintf(sink->out,
+                "note: shaders for '%s' were not compiled: no compiler for it is installed\n",
+                totals->uncompiled[i]);
+    print_count(sink->out, "", totals->documents, "document");
+    print_count(sink->out, ", ", totals->elements, "element");
+    print_count(sink->out, ", ", totals->shaders, "shader");
+    if (totals->empty)
+        print_count(sink->out, "; ", totals->empty, "document");
+    fputs(totals->empty ? " without an element to generate" : "", sink->out);
+    if (totals->cached)
+        print_count(sink->out, "; ", totals->cached, "document");
+    fputs(totals->cached ? " unchanged since last checked\n" : "\n", sink->out);
+    if (sink->run->is_compared)
+        print_comparison(sink->out, totals);
+    print_failures(sink->out, totals);
+}
+
+const struct sink_kind sink_text = {"text", NULL, begin, print_document, end};

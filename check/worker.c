@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * mxgen-check: a worker of `mxgen check`, which starts several of them and gives each one document
+ * after the other (check/protocol.h). It is a program of its own so that what goes wrong in a
+ * document, or in a compiler, ends nothing but its check, and so that plain generation pays nothing
+ * for compilers.
+ */
+#define _POSIX_C_SOURCE 200809L
+#include "check/examine.h"
+#include "check/record_io.h"
+
+#include <malloc.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+/*
+ * What compilers print must not mix with the frames: standard output becomes another name of
+ * stderr.
+ */
+static int take_output(void)
+{
+    int fd = dup(STDOUT_FILENO);
+    dup2(STDERR_FILENO, STDOUT_FILENO);
+    return fd;
+}
+
+/*
+ * One document follows another: what the first needed the next one needs again, and the system need
+ * not clear it anew.
+ */
+static void keep_memory(void)
+{
+    mallopt(M_MMAP_THRESHOLD, 4 << 20);
+    mallopt(M_TRIM_THRESHOLD, 16 << 20);
+    mallopt(M_TOP_PAD, 256 << 10);
+}
+
+static bool serve(struct examiner *examiner, int output)
+{
+    struct frame task;
+    struct record_bytes record = {0};
+    if (!channel_open(&examiner->channel, STDIN_FILENO, output)) {
+        fputs("mxgen: this program is started by 'mxgen check'\n", stderr);
+        return false;
+    }
+    while (channel_next(&examiner->channel, &task)) {
+        examiner->is_brief = task.note & TASK_BRIEF;
+        examiner->errors_only = task.note & TASK_ERRORS_ONLY;
+        const struct check_document *document = examine(examiner, task.body);
+        record_to_bytes(&record, document);
+        channel_answer(&examiner->channel, record.data, record.size);
+    }
+    free(record.data);
+    channel_close(&examiner->channel);
+    return true;
+}
+
+int main(int argc, char **argv)
+{
+    static const struct command command = {"check", "-check (a worker, which `mxgen check` starts)",
+                                           "Checks documents.", NULL};
+    struct cli cli;
+    bool no_compile = false;
+    struct examiner examiner = {.cli = &cli};
+    int output = take_output();
+    keep_memory();
+    const struct arg args[] = {
+        {"target", 't', ARG_LIST, "T", "a target", &examiner.targets},
+        {"no-compile", 0, ARG_FLAG, NULL, "does not compile the shaders", &no_compile},
+        {"render", 0, ARG_FLAG, NULL, "renders each element", &examiner.render},
+    };
+    int code;
+    if (cli_start(&cli, &command, args, sizeof args / sizeof *args, CLI_GENERATES, argc, argv,
+                  &code)) {
+        examiner.compile = !no_compile;
+        cli.report.colour = false;
+        code = serve(&examiner, output) ? EXIT_DONE : EXIT_USAGE;
+    }
+    examiner_finish(&examiner);
+    cli_finish(&cli);
+    free(examiner.targets.items);
+    return code;
+}

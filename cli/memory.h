@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+/* Memory of the programs, which end where there is none. It is freed with free. */
+#ifndef MXG_CLI_MEMORY_H
+#define MXG_CLI_MEMORY_H
+
+#include <stddef.h>
+
+/* Zeroed, and aligned for any object. */
+void *memory_alloc(size_t size);
+/* As realloc. */
+void *memory_resize(void *memory, size_t size);
+
+#endif

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/render_options.h"
+
+#include <string.h>
+
+size_t render_args(struct render_options *options, struct arg args[MAX_RENDER_ARGS])
+{
+    const struct arg table[] = {
+        {"output", 'o', ARG_TEXT, "FILE", "output picture; the extension selects the format",
+         &options->output},
+        {"copy", 0, ARG_TEXT, "FILE",
+         "also writes a single picture to this file, in the format of its extension",
+         &options->copy, ARG_MORE},
+        {"size", 's', ARG_TEXT, "W[xH]",
+         "size in pixels (default: 512, or 160 for each picture of a sheet)", &options->size},
+        {"element", 'e', ARG_TEXT, "PATH",
+         "path of the element to render (default: the first renderable)", &options->element},
+        {"look", 0, ARG_TEXT, "NAME", "renders the materials that a look assigns", &options->look},
+        {"mesh", 'm', ARG_TEXT, "NAME|FILE",
+         "ball, sphere, plane, cube, cloth, or a file such as OBJ or glTF (default: ball)",
+         &options->mesh},
+        {"camera", 0, ARG_TEXT, "AZ,EL[,DIST[,FOV]]",
+         "azimuth and elevation in degrees, distance, field of view (default: 25,16)",
+         &options->camera},
+        {"environment", 0, ARG_LIST, "FILE|MODE",
+         "a latitude-longitude map, or a folder of --bake-environment (default: a sky with three "
+         "lights); or a mode: none, prefiltered or importance",
+         &options->environments},
+        {"bake-environment", 0, ARG_TEXT, "FILE",
+         "prefilters a map, or the built-in map 'sky', into the folder of -o", &options->baked,
+         ARG_MORE},
+        {"background", 0, ARG_TEXT, "NAME",
+         "backdrop, environment, or none for transparency (default: backdrop)",
+         &options->background},
+        {"samples", 0, ARG_SIZE, "N", "samples of the environment for each lobe (default: 32)",
+         &options->samples},
+        {"set", 0, ARG_LIST, "PATH=VALUE", "sets an input to a value, or a texture to a file",
+         &options->settings},
+        {"missing-texture", 0, ARG_TEXT, "error|checker",
+         "for a missing texture: fail, or draw a checker (default: error)",
+         &options->missing_texture},
+        {"frame", 0, ARG_SIZE, "N",
+         "frame, also of images with {frame} in their names (default: 33)", &options->frame},
+        {"path-trace", 0, ARG_FLAG, NULL, "renders by path tracing, as a reference",
+         &options->path_trace},
+        {"paths", 0, ARG_SIZE, "N", "paths for each pixel (default: 256)", &options->paths,
+         ARG_MORE},
+        {"bounces", 0, ARG_SIZE, "N", "limit of bounces of a path (default: 32)", &options->bounces,
+         ARG_MORE},
+        {"as-drawn", 0, ARG_FLAG, NULL,
+         "path tracing with one bounce and without shadows, for comparison with the raster",
+         &options->as_drawn, ARG_MORE},
+        {"turntable", 0, ARG_SIZE, "N",
+         "renders N pictures from around, with a number before the extension of FILE",
+         &options->frames},
+        {"scene", 0, ARG_TEXT, "studio|sphere|plane|grid",
+         "studio; sphere; plane, for patterns; or grid, which prints the values of 4x4 pixels for "
+         "each element (default: studio)",
+         &options->scene, ARG_MORE},
+    };
+    _Static_assert(sizeof table / sizeof *table <= MAX_RENDER_ARGS, "more options than room");
+    memcpy(args, table, sizeof table);
+    return sizeof table / sizeof *table;
+}

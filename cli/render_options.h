@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+/* The options of `mxgen render`, which the program mxgen-render reads. */
+#ifndef MXG_CLI_RENDER_OPTIONS_H
+#define MXG_CLI_RENDER_OPTIONS_H
+
+#include "cli/cli.h"
+
+struct render_options {
+    const char *output, *copy, *element, *look, *size, *mesh, *camera, *scene, *background,
+        *missing_texture, *baked;
+    struct arg_list settings, environments;
+    size_t samples, frame, frames, paths, bounces;
+    bool path_trace, as_drawn;
+};
+
+#define RENDER_OPTIONS_DEFAULTS \
+    { \
+        .mesh = "ball", .scene = "studio", .background = "backdrop", .missing_texture = "error", \
+        .samples = 32, .frame = 33, .paths = 256, .bounces = 32 \
+    }
+
+enum { MAX_RENDER_ARGS = 24 };
+
+/* Fills the table of options, which refers to the values; returns how many there are. */
+size_t render_args(struct render_options *options, struct arg args[MAX_RENDER_ARGS]);
+
+#endif

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * Compiles shaders with glslang, to be sure that what mxgen writes is what it says: valid GLSL
+ * whose stages fit together, and valid SPIR-V. Messages carry the line of the shader;
+ * mxg_result_source_place maps it to the document.
+ */
+#ifndef MXG_COMPILE_COMPILE_H
+#define MXG_COMPILE_COMPILE_H
+
+#include <mxgen/mxgen.h>
+
+struct compile_message {
+    mxg_stage stage;
+    mxg_severity severity;
+    uint32_t line; /* of the stage's source; 0 = none (linking, SPIR-V) */
+    char *text;
+};
+
+struct compiled_stage {
+    uint32_t *words; /* SPIR-V as glslang writes it, not optimised; NULL where it failed */
+    size_t num_words;
+    /* inside of functions: what an optimiser or driver has to go through */
+    uint32_t body_instructions;
+};
+
+struct compiled {
+    struct compiled_stage stages[MXG_NUM_STAGES];
+    struct compile_message *messages;
+    size_t num_messages;
+    uint32_t errors;
+};
+
+/* Sets glslang up and down; once for the whole process. */
+void compile_begin(void);
+void compile_end(void);
+
+/*
+ * Whether shaders of the target can be compiled here: "glsl", "vulkan", "essl"; "osl" where there
+ * is an oslc.
+ */
+bool compile_knows_target(const char *target);
+
+/*
+ * Compiles and links the stages of a program. True without errors. compiled_finish must follow in
+ * both cases.
+ */
+bool compile_program(const char *target, const char *const sources[MXG_NUM_STAGES],
+                     struct compiled *out);
+void compiled_finish(struct compiled *compiled);
+
+/*
+ * compiled.c: the same of what was generated, the stages of a shader, or the shaders of a network
+ * each by itself.
+ */
+bool compile_result(const char *target, const mxg_result *result, struct compiled *out);
+
+/*
+ * The same for the source of a compute shader for Vulkan; code and messages stand in the place of
+ * the pixel stage.
+ */
+bool compile_compute(const char *source, struct compiled *out);
+
+/* compiled.c: adds a message, for what compiles. */
+void compiled_add(struct compiled *compiled, mxg_stage stage, mxg_severity severity, uint32_t line,
+                  const char *text, size_t len);
+
+#endif

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * mxgen-compile: generates every renderable element of documents for several targets and interface
+ * modes, compiles what came out, and prints a line for each with its sizes. Errors of the compiler
+ * are shown at the line of the document that they come from.
+ */
+#include "cli/cli.h"
+#include "cli/files.h"
+#include "compile/compile.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+struct check {
+    struct cli cli;
+    const char *targets, *interfaces; /* lists with commas */
+    struct arg_list elements;
+    bool no_compile;
+    const char *input;
+};
+
+/* The next word of a list with commas; false behind the last. */
+static bool next_word(const char **list, char *word, size_t capacity)
+{
+    *list += strspn(*list, ",");
+    size_t len = strcspn(*list, ",");
+    if (len == 0 || len >= capacity)
+        return false;
+    memcpy(word, *list, len);
+    word[len] = '\0';
+    *list += len;
+    return true;
+}
+
+static size_t count_lines(const char *text, size_t size)
+{
+    size_t lines = 0;
+    for (size_t i = 0; i < size; ++i)
+        lines += text[i] == '\n';
+    return lines;
+}
+
+static void print_source_line(const char *source, uint32_t line)
+{
+    while (source && --line)
+        source = strchr(source, '\n') ? strchr(source, '\n') + 1 : NULL;
+    if (source)
+        fprintf(stderr, "    %.*s\n", (int)strcspn(source, "\n"), source);
+}
+
+/* "gold.mtlx:12:9: error: glsl fragment stage, line 240: 'x' : undeclared identifier
+ * [shader-invalid]", and the shader's line. */
+static void print_message(struct check *check, const mxg_result *result, const char *element,
+                          const char *target, const struct compile_message *message)
+{
+    static const char *const stages[MXG_NUM_STAGES] = {"vertex", "pixel"};
+    const char *file = NULL, *path = NULL;
+    uint32_t line = 0, column = 0;
+    if (message->line
+        && mxg_result_source_place(result, message->stage, message->line, &file, &line, &column,
+                                   &path)
+        && file)
+        fprintf(stderr, "%s:%u:%u: ", file, line, column);
+    else
+        fprintf(stderr, "%s: ", check->input);
+    bool is_error = message->severity == MXG_SEVERITY_ERROR;
+    fprintf(stderr, "%s: '%s', %s, %s stage", is_error ? "error" : "warning", path ? path : element,
+            target, stages[message->stage]);
+    if (message->line)
+        fprintf(stderr, ", line %u", message->line);
+    fprintf(stderr, ": %s [shader-invalid]\n", message->text);
+    if (message->line)
+        print_source_line(mxg_result_source(result, message->stage, NULL), message->line);
+    check->cli.report.errors += is_error;
+}
+
+/* Columns: file, element, target, interface, bytes and lines of the pixel stage, body instructions
+ * of pixel and vertex stage. */
+static void print_sizes(const struct check *check, const char *element, const char *target,
+                        const char *interface, const mxg_result *result,
+                        const struct compiled *compiled)
+{
+    size_t size = 0;
+    const char *source = mxg_result_source(result, MXG_STAGE_PIXEL, &size);
+    printf("%s\t%s\t%s\t%s\t%zu\t%zu\t%u\t%u\n", check->input, element, target, interface, size,
+           source ? count_lines(source, size) : 0,
+           compiled->stages[MXG_STAGE_PIXEL].body_instructions,
+           compiled->stages[MXG_STAGE_VERTEX].body_instructions);
+}
+
+static void check_result(struct check *check, const char *target, const char *interface,
+                         const mxg_result *result)
+{
+    mxg_shader_info info = {sizeof info};
+    mxg_result_info(result, &info);
+    struct compiled compiled = {0};
+    if (!check->no_compile && compile_knows_target(target))
+        compile_result(target, result, &compiled);
+    for (size_t i = 0; i < compiled.num_messages; ++i)
+        print_message(check, result, info.path, target, &compiled.messages[i]);
+    print_sizes(check, info.path, target, interface, result, &compiled);
+    compiled_finish(&compiled);
+}
+
+static void check_element(struct check *check, const mxg_document *document, const char *element,
+                          const char *target, const char *interface)
+{
+    mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
+    desc.target = target;
+    desc.element = element;
+    desc.options = check->cli.options;
+    mxg_result *result = NULL;
+    mxg_status status = mxg_generate(check->cli.context, document, &desc, &result);
+    if (result)
+        report_list(&check->cli.report, mxg_result_diagnostics(result));
+    if (report_status(&check->cli.report, status))
+        check_result(check, target, interface, result);
+    mxg_result_destroy(result);
+}
+
+static void check_elements(struct check *check, const mxg_document *document, const char *target,
+                           const char *interface)
+{
+    for (size_t i = 0; i < check->elements.len; ++i)
+        check_element(check, document, check->elements.items[i], target, interface);
+    for (uint32_t i = 0; check->elements.len == 0 && i < mxg_document_num_renderables(document);
+         ++i) {
+        mxg_renderable renderable = {sizeof renderable};
+        mxg_document_renderable(document, i, &renderable);
+        check_element(check, document, renderable.path, target, interface);
+    }
+}
+
+static void check_document(struct check *check)
+{
+    mxg_document *document = cli_load(&check->cli, check->input);
+    char target[32], interface[32];
+    for (const char *targets = check->targets;
+         document && next_word(&targets, target, sizeof target);) {
+        for (const char *interfaces = check->interfaces;
+             next_word(&interfaces, interface, sizeof interface);) {
+            if (mxg_options_set(check->cli.options, "interface", interface) == MXG_OK)
+                check_elements(check, document, target, interface);
+            else
+                report_error(&check->cli.report, "bad-option", "%s",
+                             mxg_options_error(check->cli.options));
+        }
+    }
+    mxg_document_destroy(document);
+}
+
+int main(int argc, char **argv)
+{
+    static const struct command command = {
+        "compile", "-compile FILE... [--targets T,...] [--interfaces I,...] [options]",
+        "Generates and compiles every renderable element. Prints: file, element, target, "
+        "interface,\n"
+        "bytes and lines of the pixel stage, SPIR-V body instructions of pixel and vertex stage.",
+        NULL};
+    struct check check = {.targets = "glsl,vulkan,essl", .interfaces = "complete,authored,reduced"};
+    const struct arg args[] = {
+        {"targets", 't', ARG_TEXT, "T,...", "targets (default: glsl,vulkan,essl)", &check.targets},
+        {"interfaces", 'i', ARG_TEXT, "I,...",
+         "interface modes (default: complete,authored,reduced)", &check.interfaces},
+        {"element", 'e', ARG_LIST, "PATH", "path of an element (default: all renderable elements)",
+         &check.elements},
+        {"no-compile", 0, ARG_FLAG, NULL, "does not compile the shaders", &check.no_compile},
+    };
+    int code;
+    if (cli_start(&check.cli, &command, args, sizeof args / sizeof *args,
+                  CLI_GENERATES | CLI_NEEDS_INPUT, argc, argv, &code)) {
+        compile_begin();
+        for (size_t i = 0; i < check.cli.parser.inputs.len; ++i) {
+            check.input = check.cli.parser.inputs.items[i];
+            check_document(&check);
+        }
+        compile_end();
+        code = check.cli.report.errors ? EXIT_FAULT : EXIT_DONE;
+    }
+    cli_finish(&check.cli);
+    free(check.elements.items);
+    return code;
+}

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+#define _POSIX_C_SOURCE 200809L
+#include "compile/oslc.h"
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+extern char **environ;
+
+enum { PATH_CAPACITY = 4096 };
+
+bool oslc_is_installed(void)
+{
+    const char *folder = getenv("PATH");
+    while (folder && *folder) {
+        size_t len = strcspn(folder, ":");
+        char path[PATH_CAPACITY];
+        int written = snprintf(path, sizeof path, "%.*s/oslc", (int)len, folder);
+        if (written > 0 && (size_t)written < sizeof path && access(path, X_OK) == 0)
+            return true;
+        folder += len + (folder[len] == ':');
+    }
+    return false;
+}
+
+/* ---- Files: oslc reads one and writes one ---- */
+
+struct work { /* in a folder of its own */
+    char folder[PATH_CAPACITY];
+    char source[PATH_CAPACITY + 16], object[PATH_CAPACITY + 16], log[PATH_CAPACITY + 16];
+};
+
+static bool make_work(struct work *work, const char *source)
+{
+    const char *place = getenv("TMPDIR");
+    int written = snprintf(work->folder, sizeof work->folder, "%s/mxgen-XXXXXX",
+                           place && *place ? place : "/tmp");
+    if (written < 0 || (size_t)written >= sizeof work->folder || !mkdtemp(work->folder))
+        return false;
+    snprintf(work->source, sizeof work->source, "%s/shader.osl", work->folder);
+    snprintf(work->object, sizeof work->object, "%s/shader.oso", work->folder);
+    snprintf(work->log, sizeof work->log, "%s/log", work->folder);
+    FILE *file = fopen(work->source, "w");
+    if (!file)
+        return false;
+    bool whole = fputs(source, file) >= 0;
+    return fclose(file) == 0 && whole;
+}
+
+static void remove_work(const struct work *work)
+{
+    remove(work->source);
+    remove(work->object);
+    remove(work->log);
+    rmdir(work->folder);
+}
+
+/* Its exit code; -1 where it did not run. */
+static int run(const struct work *work)
+{
+    posix_spawn_file_actions_t actions;
+    if (posix_spawn_file_actions_init(&actions) != 0)
+        return -1;
+    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, work->log,
+                                     O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
+    char *argv[] = {(char[]){"oslc"},
+                    (char[]){"-q"},
+                    (char[]){"-O2"},
+                    (char[]){"-o"},
+                    (char *)(uintptr_t)work->object,
+                    (char *)(uintptr_t)work->source,
+                    NULL};
+    pid_t process;
+    int status = -1;
+    if (posix_spawnp(&process, argv[0], &actions, NULL, argv, environ) != 0
+        || waitpid(process, &status, 0) != process)
+        status = -1;
+    posix_spawn_file_actions_destroy(&actions);
+    return status >= 0 && WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+/* ---- What it says ---- */
+
+/*
+ * "shader.osl:12: error: text"; lines without a place go on from the one before and are left out.
+ */
+static void read_line(struct compiled *out, mxg_stage stage, const char *text)
+{
+    static const char *const severities[] = {": error: ", ": warning: "};
+    for (int i = 0; i < 2; ++i) {
+        const char *at = strstr(text, severities[i]);
+        if (!at)
+            continue;
+        const char *number = at;
+        while (number > text && number[-1] >= '0' && number[-1] <= '9')
+            --number;
+        const char *message = at + strlen(severities[i]);
+        compiled_add(out, stage, i == 0 ? MXG_SEVERITY_ERROR : MXG_SEVERITY_WARNING,
+                     (uint32_t)strtoul(number, NULL, 10), message, strcspn(message, "\n"));
+        return;
+    }
+}
+
+static void read_log(struct compiled *out, mxg_stage stage, const char *path)
+{
+    char line[1024];
+    FILE *file = fopen(path, "r");
+    while (file && fgets(line, sizeof line, file))
+        read_line(out, stage, line);
+    if (file)
+        fclose(file);
+}
+
+/* Instructions of an .oso stand behind a tab. */
+static uint32_t count_instructions(const char *path)
+{
+    uint32_t count = 0;
+    FILE *file = fopen(path, "r");
+    int before = '\n';
+    for (int c = file ? getc(file) : EOF; c != EOF; before = c, c = getc(file))
+        count += c == '\t' && before == '\n';
+    if (file)
+        fclose(file);
+    return count;
+}
+
+static void add_fault(struct compiled *out, mxg_stage stage, const char *text)
+{
+    compiled_add(out, stage, MXG_SEVERITY_ERROR, 0, text, strlen(text));
+}
+
+static void compile(struct compiled *out, mxg_stage stage, const char *source)
+{
+    struct work work;
+    if (!make_work(&work, source)) {
+        add_fault(out, stage, "no temporary file can be written");
+        return;
+    }
+    uint32_t before = out->errors;
+    int code = run(&work);
+    read_log(out, stage, work.log);
+    if (code != 0 && out->errors == before)
+        add_fault(out, stage, "oslc failed without a message");
+    out->stages[stage].body_instructions = count_instructions(work.object);
+    remove_work(&work);
+}
+
+bool oslc_compile_program(const char *const sources[MXG_NUM_STAGES], struct compiled *out)
+{
+    for (int stage = 0; stage < MXG_NUM_STAGES; ++stage)
+        if (sources[stage])
+            compile(out, (mxg_stage)stage, sources[stage]);
+    return out->errors == 0;
+}

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+/* What a module of SPIR-V holds: instructions in functions, and whose they are. */
+#ifndef MXG_COMPILE_SPIRV_H
+#define MXG_COMPILE_SPIRV_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+/* Instructions of a function; of the entry point, those of one line. */
+struct spirv_part {
+    /* its name and '(' with the types of its parameters, in the words; "" where it has none */
+    const char *function;
+    /* of the source, in the entry point; 0 elsewhere and where it is unknown */
+    uint32_t line;
+    uint32_t instructions;
+};
+
+/*
+ * Counts the instructions between OpFunction and OpFunctionEnd, the marks of lines left out: what
+ * an optimiser or driver has to go through. *out_parts (may be NULL) gets them in order, to be
+ * freed; NULL without memory.
+ */
+uint32_t spirv_count(const uint32_t *words, size_t num_words, struct spirv_part **out_parts,
+                     size_t *out_num_parts);
+
+#endif

@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * The effects of a shader in OSL, which has closures of its own: one output, or the two of a
+ * surface with a back. Every node is older than its users, so one pass upwards rewrites the tree.
+ */
+#include "generators/osl/tree.h"
+
+#include <assert.h>
+
+/* ---- Shaders ---- */
+
+static ir_ref seen_through(struct osl_tree *t, ir_ref closure, ir_ref opacity)
+{
+    if (!opacity || ir_const_is(t->graph, opacity, 1.0f))
+        return closure;
+    t->shader->transparent = true;
+    return osl_mixed(t, osl_transparent(t), closure, opacity);
+}
+
+static ir_ref unlit(struct osl_tree *t, ir_ref emitted, ir_ref transmitted, ir_ref opacity)
+{
+    ir_ref glow = osl_emission(t, ir_convert(t->graph, IR_TYPE_VEC3, emitted)), through = 0;
+    if (!ir_const_is(t->graph, transmitted, 0.0f)) {
+        t->shader->transparent = true;
+        through =
+            osl_scaled(t, osl_transparent(t), ir_convert(t->graph, IR_TYPE_VEC3, transmitted));
+    }
+    return seen_through(t, osl_sum(t, glow, through), opacity);
+}
+
+/* intensity · 2^exposure of the emitted light */
+static ir_ref light(struct osl_tree *t, ir_ref edf, ir_ref intensity, ir_ref exposure)
+{
+    ir_ref scale = ir_op2(t->graph, IR_MUL, intensity, ir_op1(t->graph, IR_EXP2, exposure));
+    return osl_scaled(t, edf, scale);
+}
+
+static ir_ref rewrite(struct osl_tree *t, ir_ref ref)
+{
+    ir_ref a[4] = {0};
+    const struct ir_node *node = ir_get(t->graph, ref);
+    if (node->op == IR_LEAF)
+        return osl_leaf(t, ref);
+    memcpy(a, ir_args(t->graph, ref), (node->num_args < 4 ? node->num_args : 4) * sizeof *a);
+    switch (node->op) {
+    case IR_LAYER: return osl_layered(t, t->of[a[0]], t->of[a[1]]);
+    case IR_CLOSURE_MIX:
+    case IR_SHADER_MIX: return osl_mixed(t, t->of[a[0]], t->of[a[1]], a[2]);
+    case IR_CLOSURE_ADD: return osl_sum(t, t->of[a[0]], t->of[a[1]]);
+    case IR_CLOSURE_SCALE: return osl_scaled(t, t->of[a[0]], a[1]);
+    case IR_SURFACE_SHADER: return seen_through(t, osl_sum(t, t->of[a[0]], t->of[a[1]]), a[2]);
+    case IR_SURFACE_UNLIT: return unlit(t, a[0], a[1], a[2]);
+    case IR_VOLUME_SHADER: return osl_sum(t, t->of[a[0]], t->of[a[1]]);
+    case IR_LIGHT_SHADER: return light(t, t->of[a[0]], a[1], a[2]);
+    case IR_UNIFORM: /* another layer of a network gives it */
+        return ir_build(t->graph, IR_UNIFORM, IR_TYPE_BSDF, node->attr, NULL, 0);
+    default: return 0;
+    }
+}
+
+static ir_ref closure_of(struct osl_tree *t, ir_ref root)
+{
+    if (!root)
+        return 0;
+    t->of = ARENA_ARRAY(t->shader->arena, ir_ref, root + 1);
+    bool is_thin = ir_get(t->graph, root)->op == IR_SURFACE_SHADER
+                   && !osl_is_false(t, ir_arg(t->graph, root, 3));
+    t->thin = is_thin ? ir_arg(t->graph, root, 3) : 0;
+    uint8_t *needed = ir_mark(t->graph, &root, 1, t->shader->arena);
+    for (ir_ref ref = 1; ref <= root; ref++) {
+        if (!needed[ref] || !(ir_get(t->graph, ref)->flags & IR_NODE_CLOSURE))
+            continue;
+        ir_push_origin_of(t->graph, ref);
+        t->of[ref] = rewrite(t, ref);
+        ir_pop_origin(t->graph);
+        assert(!t->of[ref] || ir_type_is_closure(ir_type_of(t->graph, t->of[ref])));
+    }
+    return t->of[root];
+}
+
+/* ---- Effects ---- */
+
+static ir_ref incident(struct shader *shader)
+{
+    str_id name = str_intern_z(shader->strings, "u_incident");
+    return shader_read(shader, shader_private_uniform(shader, name, IR_TYPE_VEC3, 0));
+}
+
+/* An OSL shader is given the way from the eye. */
+static ir_ref with_incident(struct shader *shader, ir_ref root)
+{
+    uint32_t eye = shader_find_variable(shader, BLOCK_PRIVATE_UNIFORMS, STR_u_viewPosition);
+    if (eye == UINT32_MAX)
+        return root;
+    ir_ref point = shader_stream(shader, STR_positionWorld, IR_TYPE_VEC3),
+           from = shader_read(shader, eye), way = incident(shader);
+    root = ir_replace(shader->graph, root, ir_op2(shader->graph, IR_SUB, point, from), way,
+                      shader->arena);
+    ir_ref back = ir_op1(shader->graph, IR_NEG, way);
+    return ir_replace(shader->graph, root, ir_op2(shader->graph, IR_SUB, from, point), back,
+                      shader->arena);
+}
+
+/* It is given a unit normal, too: nothing came between it and the surface. */
+static ir_ref with_unit_normal(struct shader *shader, ir_ref root)
+{
+    ir_ref normal = shader_stream(shader, STR_normalWorld, IR_TYPE_VEC3),
+           unit = ir_op1(shader->graph, IR_NORMALIZE, normal);
+    return ir_replace(shader->graph, root, unit, normal, shader->arena);
+}
+
+static void effect(struct osl_tree *t, enum effect_kind kind, uint32_t index, ir_ref value)
+{
+    if (kind == EFFECT_OUTPUT)
+        value = with_unit_normal(t->shader, with_incident(t->shader, value));
+    shader_effect(t->shader, STAGE_PIXEL,
+                  (struct effect){.kind = (uint8_t)kind, .index = index, .value = value});
+}
+
+static uint32_t output(struct osl_tree *t, str_id name, ir_type_id type, str_id doc_type)
+{
+    return shader_add_variable(
+        t->shader, &(struct shader_variable){
+                       .name = name, .block = BLOCK_OUTPUTS, .type = type, .doc_type = doc_type});
+}
+
+/* No closure at all is black. */
+static ir_ref or_black(struct osl_tree *t, ir_ref closure)
+{
+    ir_ref black = ir_const_splat(t->graph, IR_TYPE_VEC3, 0.0f);
+    return closure ? closure : osl_emission(t, black);
+}
+
+/* Counts the leaves that are left: weights of 0 have dropped some. */
+static void add_closures(const struct osl_tree *t, const ir_ref *roots, uint32_t num_roots)
+{
+    const uint8_t *needed = ir_mark(t->graph, roots, num_roots, t->shader->arena);
+    for (ir_ref ref = 1; ref < t->graph->nodes.len; ref++)
+        if (needed[ref] && ir_get(t->graph, ref)->op == IR_LEAF)
+            shader_add_closure(t->shader, ref);
+}
+
+static void emit_sides(struct osl_tree *t, ir_ref front, ir_ref back)
+{
+    struct ir_graph *g = t->graph;
+    uint32_t out = output(t, str_intern_z(t->shader->strings, "Ci"), IR_TYPE_BSDF, 0);
+    front = or_black(t, closure_of(t, front));
+    if (!back) {
+        add_closures(t, &front, 1);
+        effect(t, EFFECT_OUTPUT, out, front);
+        return;
+    }
+    str_id name = str_intern_z(t->shader->strings, "u_backfacing");
+    ir_ref behind =
+        shader_read(t->shader, shader_private_uniform(t->shader, name, IR_TYPE_BOOL, 0));
+    back = or_black(t, closure_of(t, back));
+    add_closures(t, (ir_ref[]){front, back}, 2);
+    effect(t, EFFECT_IF, 0, ir_op1(g, IR_NOT, behind));
+    effect(t, EFFECT_OUTPUT, out, front);
+    effect(t, EFFECT_END, 0, 0);
+    effect(t, EFFECT_IF, 0, behind);
+    effect(t, EFFECT_OUTPUT, out, back);
+    effect(t, EFFECT_END, 0, 0);
+}
+
+/* A shader of its own moves the point: the vertex stage. */
+static void emit_displacement(struct osl_tree *t, ir_ref displacement)
+{
+    ir_ref offset = displacement ? closure_offset(t->shader, displacement) : 0;
+    if (!offset)
+        return;
+    ir_ref before = shader_stream(t->shader, STR_positionWorld, IR_TYPE_VEC3);
+    ir_ref moved = with_unit_normal(t->shader, ir_op2(t->graph, IR_ADD, before, offset));
+    t->shader->displaced = true;
+    shader_effect(t->shader, STAGE_VERTEX,
+                  (struct effect){.kind = EFFECT_POSITION, .value = moved});
+}
+
+static bool emit_value(struct osl_tree *t, ir_ref root)
+{
+    ir_type_id type = ir_type_of(t->graph, root);
+    if (type >= IR_NUM_TYPES || type == IR_TYPE_SAMPLER || type == IR_TYPE_VOID)
+        return false;
+    t->shader->kind = SHADER_VALUE;
+    uint32_t out = output(t, str_intern_z(t->shader->strings, "out"), type, t->shader->value_type);
+    effect(t, EFFECT_OUTPUT, out, root);
+    return true;
+}
+
+/* ---- Hooks ---- */
+
+/* The shaded point is seen along a ray, which OSL knows. */
+static struct osl_tree start(struct shader *shader, const struct closure_host *host)
+{
+    struct ir_graph *g = shader->graph;
+    ir_push_name(g, str_intern_z(shader->strings, "incident"));
+    ir_ref way = ir_op1(g, IR_NORMALIZE, incident(shader));
+    ir_change_name(g, STR_V);
+    host->point->view = ir_op1(g, IR_NEG, way);
+    ir_pop_origin(g);
+    return (struct osl_tree){.shader = shader, .graph = g, .host = host};
+}
+
+static bool emit(struct shader *shader, const struct closure_host *host, ir_ref root,
+                 str_id *out_unknown)
+{
+    struct osl_tree t = start(shader, host);
+    ir_ref front = root, back = 0,
+           displacement = root && ir_type_of(t.graph, root) == IR_TYPE_DISPLACEMENT ? root : 0;
+    if (root && ir_get(t.graph, root)->op == IR_MATERIAL) {
+        front = ir_arg(t.graph, root, 0);
+        back = ir_arg(t.graph, root, 1);
+        displacement = ir_arg(t.graph, root, 2);
+        if (!front)
+            front = ir_arg(t.graph, root, 3);
+    }
+    emit_displacement(&t, displacement);
+    if (displacement == root)
+        return shader->displaced;
+    ir_type_id type = front ? ir_type_of(t.graph, front) : IR_TYPE_SURFACE;
+    if (!ir_type_is_closure(type) && !ir_type_is_shader(type))
+        return emit_value(&t, front);
+    shader->kind = type == IR_TYPE_VOLUME || type == IR_TYPE_VDF ? SHADER_VOLUME : SHADER_SURFACE;
+    emit_sides(&t, front, back);
+    *out_unknown = t.unknown;
+    return !t.unknown;
+}
+
+const struct target_closures osl_closures = {.emit = emit};
+
+/* The value of a node's output; a displacement is the offset there, any shader a closure. */
+static void emit_output(struct osl_tree *t, const struct network_output *of)
+{
+    ir_type_id type = ir_type_of(t->graph, of->value);
+    ir_ref value = of->value;
+    str_id doc_type = of->doc_type;
+    if (type == IR_TYPE_DISPLACEMENT) {
+        value = closure_offset(t->shader, value);
+        type = IR_TYPE_VEC3;
+        doc_type = 0;
+    } else if (ir_type_is_closure(type) || ir_type_is_shader(type)) {
+        value = closure_of(t, value);
+        type = IR_TYPE_BSDF;
+    }
+    uint32_t out = output(t, of->name, type, doc_type);
+    if (!value && type == IR_TYPE_VEC3)
+        value = ir_const_splat(t->graph, type, 0.0f);
+    if (value) /* an output is no closure at all at first */
+        effect(t, EFFECT_OUTPUT, out, value);
+    else
+        t->shader->variables.items[out].stages = 1 << STAGE_PIXEL;
+}
+
+bool osl_emit_node(struct shader *shader, const struct closure_host *host,
+                   const struct network_output *outputs, unsigned n, str_id *out_unknown)
+{
+    struct osl_tree t = start(shader, host);
+    shader->kind = SHADER_VALUE;
+    bool good = true;
+    for (unsigned i = 0; i < n; i++) {
+        good &= outputs[i].value != 0;
+        if (outputs[i].value)
+            emit_output(&t, &outputs[i]);
+    }
+    const struct effect_list *effects = &shader->stages[STAGE_PIXEL].effects;
+    for (uint32_t i = 0; i < effects->len; i++)
+        add_closures(&t, &effects->items[i].value, 1);
+    *out_unknown = t.unknown;
+    return good && !t.unknown;
+}

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * Shader groups, which a network becomes: the layers that a result of the network needs, and behind
+ * them a shader that takes the result.
+ */
+#ifndef MXG_GENERATORS_OSL_GROUPS_H
+#define MXG_GENERATORS_OSL_GROUPS_H
+
+#include "spell/target.h"
+
+#define OSL_END_LAYER "root" /* the last layer's name */
+enum { OSL_MAX_ENDS = 2 };   /* results that a group can take */
+
+/* A kind of group, and the shader that it ends in. */
+struct osl_end {
+    enum shader_stage_id stage;
+    const char *use;  /* "surface" */
+    const char *name; /* of the shader; NULL: the group ends in the result's own layer */
+    const char *source;
+    struct {
+        enum network_result result;
+        const char *parameter; /* NULL: behind the last */
+    } inputs[OSL_MAX_ENDS];
+};
+
+struct osl_group {
+    const struct osl_end *end;
+    const bool *needed; /* per layer */
+};
+
+struct osl_program { /* network->program */
+    struct osl_group groups[OSL_MAX_ENDS];
+    unsigned num_groups;
+};
+
+static inline const struct osl_program *osl_program_of(const struct network *network)
+{
+    return (const struct osl_program *)network->program;
+}
+
+/* groups.c */
+void osl_plan_network(struct network *network);
+void osl_add_network_parts(struct network *network);
+uint64_t osl_network_topology(const struct network *network);
+
+/* group_json.c */
+void osl_reflect_network(const struct network *network, struct reflect *r);
+
+#endif

@@ -1,0 +1,400 @@
+// SPDX-License-Identifier: Apache-2.0
+/* Leaves as calls of OSL's closures: a row of closures.def says which, and with what. */
+#include "generators/osl/tree.h"
+
+#include <assert.h>
+
+/* ---- The table ---- */
+
+enum leaf_input {
+#define INPUT(name) INPUT_##name,
+#include "generators/osl/closures.def"
+    NUM_INPUTS,
+    INPUT_white = NUM_INPUTS, /* in the place of a tint */
+};
+
+static const char *const input_names[NUM_INPUTS] = {
+#define INPUT(name) #name,
+#include "generators/osl/closures.def"
+};
+
+enum argument_kind {
+    ARGUMENT_END,
+    ARGUMENT_INPUT,
+    ARGUMENT_X,
+    ARGUMENT_Y,
+    ARGUMENT_FACING,
+    ARGUMENT_REFLECTED,
+    ARGUMENT_TRANSMITTED,
+    ARGUMENT_BENT,
+    ARGUMENT_TEXT,
+    ARGUMENT_INT,
+};
+
+struct argument {
+    enum argument_kind kind;
+    enum leaf_input input;
+    const char *text;
+    int number;
+};
+
+/* Further arguments of a closure, given where an input says something. */
+struct option {
+    enum leaf_input input;
+    const char *word; /* of a text: the only one that says something */
+    const struct argument *arguments;
+};
+
+struct row {
+    const char *family; /* of the leaf's functions: "mx_dielectric_bsdf" */
+    const char *closure;
+    const struct argument *arguments;
+    struct option option; /* arguments NULL: there is none */
+};
+
+#define ARG(name) \
+    { \
+        .kind = ARGUMENT_INPUT, .input = INPUT_##name \
+    }
+#define ARG_X(name) \
+    { \
+        .kind = ARGUMENT_X, .input = INPUT_##name \
+    }
+#define ARG_Y(name) \
+    { \
+        .kind = ARGUMENT_Y, .input = INPUT_##name \
+    }
+#define ARG_FACING(name) \
+    { \
+        .kind = ARGUMENT_FACING, .input = INPUT_##name \
+    }
+#define ARG_REFLECTED(name) \
+    { \
+        .kind = ARGUMENT_REFLECTED, .input = INPUT_##name \
+    }
+#define ARG_TRANSMITTED(name) \
+    { \
+        .kind = ARGUMENT_TRANSMITTED, .input = INPUT_##name \
+    }
+#define ARG_BENT(name) \
+    { \
+        .kind = ARGUMENT_BENT, .input = INPUT_##name \
+    }
+#define ARG_TEXT(word) \
+    { \
+        .kind = ARGUMENT_TEXT, .text = word \
+    }
+#define ARG_INT(value) \
+    { \
+        .kind = ARGUMENT_INT, .number = value \
+    }
+#define ARG_KEYWORD(name) ARG_TEXT(#name), ARG(name)
+#define ARGUMENTS(...) ((const struct argument[]){__VA_ARGS__, {.kind = ARGUMENT_END}})
+#define GIVEN(name, ...) \
+    { \
+        INPUT_##name, NULL, ARGUMENTS(__VA_ARGS__) \
+    }
+#define GIVEN_AS(name, word, ...) \
+    { \
+        INPUT_##name, word, ARGUMENTS(__VA_ARGS__) \
+    }
+#define NO_OPTION \
+    { \
+        .arguments = NULL \
+    }
+
+static const struct row rows[] = {
+#define CLOSURE(leaf, closure, arguments, ...) {"mx_" #leaf, closure, arguments, __VA_ARGS__},
+#include "generators/osl/closures.def"
+};
+
+static const struct row *find_row(const char *family)
+{
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        if (strcmp(rows[i].family, family) == 0)
+            return &rows[i];
+    return NULL;
+}
+
+/* ---- Inputs of the leaf at hand ---- */
+
+enum side { BOTH_SIDES, REFLECTED, TRANSMITTED };
+
+struct leaf {
+    struct osl_tree *tree;
+    ir_ref ref;
+    ir_ref inputs[NUM_INPUTS]; /* 0: it has no such input */
+    ir_ref turned;  /* whether it reflects back to where the light came from; 0: it does not */
+    enum side side; /* the one that its closure is for */
+};
+
+static void find_inputs(struct leaf *leaf)
+{
+    const struct closure_host *host = leaf->tree->host;
+    const struct ir_node *node = ir_get(leaf->tree->graph, leaf->ref);
+    for (unsigned i = 0; i + 1u < node->num_args; i++) {
+        const char *name = host->leaf_input(host->user_data, node->attr, i);
+        for (unsigned k = 0; name && k < NUM_INPUTS; k++)
+            if (strcmp(input_names[k], name) == 0)
+                leaf->inputs[k] = ir_arg(leaf->tree->graph, leaf->ref, i + 1);
+    }
+}
+
+static bool is_string(const struct osl_tree *t, ir_ref value, const char *text)
+{
+    struct ir_value constant;
+    return value && ir_get_const(t->graph, value, &constant) && constant.type == IR_TYPE_STRING
+           && strcmp(str_text(t->shader->strings, constant.w[0].u), text) == 0;
+}
+
+bool osl_is_false(const struct osl_tree *t, ir_ref value)
+{
+    struct ir_value constant;
+    return !value || (ir_get_const(t->graph, value, &constant) && constant.w[0].u == 0);
+}
+
+static bool scatters(const struct leaf *leaf, enum side side)
+{
+    return !is_string(leaf->tree, leaf->inputs[INPUT_scatter_mode], side == REFLECTED ? "T" : "R");
+}
+
+/* ---- Arguments ---- */
+
+/* Facets that mirror about the view direction send light back along it. */
+static ir_ref facing(const struct leaf *leaf, ir_ref normal)
+{
+    struct osl_tree *t = leaf->tree;
+    ir_ref args[3] = {leaf->turned, leaf->turned ? closure_view(t->shader, t->host) : 0, normal};
+    return leaf->turned ? ir_build(t->graph, IR_SELECT, IR_TYPE_VEC3, 0, args, 3) : normal;
+}
+
+/* A tint that counts on the side that it is for; black where the closure at hand is for another. */
+static ir_ref scattered(const struct leaf *leaf, ir_ref tint, enum side side)
+{
+    bool counts = scatters(leaf, side) && (leaf->side == BOTH_SIDES || leaf->side == side);
+    return counts ? tint : ir_const_splat(leaf->tree->graph, IR_TYPE_VEC3, 0.0f);
+}
+
+/*
+ * Schlick's curve F is bent by color82 at 82 degrees (Hoffman 2019, "Fresnel Equations Considered
+ * Harmful"). Closures know no such colour, so the one at 90 degrees is chosen for which the plain
+ * curve passes through the same reflectance there, with q = (6/7)^exponent:
+ *
+ *     F'(82) = color82 · F(82)    color90' = color90 - (1 - color82) · F(82) / q
+ */
+static ir_ref bent_edge(const struct leaf *leaf, ir_ref color90)
+{
+    struct ir_graph *g = leaf->tree->graph;
+    ir_ref color82 = leaf->inputs[INPUT_color82], color0 = leaf->inputs[INPUT_color0];
+    if (ir_const_is(g, color82, 1.0f))
+        return color90;
+    ir_ref q = ir_op2(g, IR_POW, ir_const_float(g, 6.0f / 7.0f), leaf->inputs[INPUT_exponent]);
+    ir_ref at82 =
+        ir_op2(g, IR_MUL, closure_one_minus(g, color82), ir_op3(g, IR_MIX, color0, color90, q));
+    ir_ref edge = ir_op2(g, IR_SUB, color90, ir_op2(g, IR_DIV, at82, q));
+    return ir_op2(g, IR_MAX, edge, ir_const_float(g, 0.0f));
+}
+
+/* Ops that work component by component, and have no other meaning for scalars. */
+static bool is_componentwise(enum ir_op op)
+{
+    uint8_t rule = ir_op_info(op)->rule;
+    return rule == IR_RULE_SAME
+               ? op != IR_NORMALIZE && op != IR_CROSS && op != IR_REFLECT && op != IR_FACEFORWARD
+           : rule == IR_RULE_SPLAT ? op != IR_REFRACT
+                                   : rule == IR_RULE_ARITH || op == IR_SELECT;
+}
+
+enum { MAX_DEPTH = 12 };
+
+/*
+ * A component of a vector, taken of the operands as far down as that goes: OSL has no vectors of
+ * two components, which roughness is, and is spared the struct.
+ */
+static ir_ref component(struct ir_graph *g, ir_ref value, unsigned index, unsigned depth)
+{
+    const struct ir_node node = *ir_get(g, value);
+    bool is_plain = depth && is_componentwise(node.op) && ir_type_info(node.type)->columns == 1;
+    for (uint32_t i = 0; i < node.num_args; i++)
+        is_plain &= !ir_type_is_matrix(ir_type_of(g, ir_arg(g, value, i)));
+    if (!is_plain || node.num_args > 3)
+        return ir_component(g, value, index);
+    ir_ref args[3];
+    for (uint32_t i = 0; i < node.num_args; i++) {
+        args[i] = ir_arg(g, value, i);
+        if (ir_type_info(ir_type_of(g, args[i]))->components > 1)
+            args[i] = component(g, args[i], index, depth - 1);
+    }
+    ir_push_origin(g, node.origin);
+    ir_ref built = ir_build(g, (enum ir_op)node.op, ir_type_info(node.type)->scalar, node.attr,
+                            args, node.num_args);
+    ir_pop_origin(g);
+    return built;
+}
+
+static ir_ref argument(const struct leaf *leaf, const struct argument *argument)
+{
+    struct ir_graph *g = leaf->tree->graph;
+    struct strpool *strings = leaf->tree->shader->strings;
+    if (argument->kind == ARGUMENT_TEXT)
+        return ir_const_string(g, str_intern_z(strings, argument->text));
+    if (argument->kind == ARGUMENT_INT)
+        return ir_const_int(g, argument->number);
+    ir_ref value = argument->input == INPUT_white ? ir_const_splat(g, IR_TYPE_VEC3, 1.0f)
+                                                  : leaf->inputs[argument->input];
+    assert(value); /* the library's leaf has every input that its row names */
+    switch (argument->kind) {
+    case ARGUMENT_X: return component(g, value, 0, MAX_DEPTH);
+    case ARGUMENT_Y: return component(g, value, 1, MAX_DEPTH);
+    case ARGUMENT_FACING: return facing(leaf, value);
+    case ARGUMENT_REFLECTED: return scattered(leaf, value, REFLECTED);
+    case ARGUMENT_TRANSMITTED: return scattered(leaf, value, TRANSMITTED);
+    case ARGUMENT_BENT: return bent_edge(leaf, value);
+    default: assert(argument->kind == ARGUMENT_INPUT); return value;
+    }
+}
+
+struct argument_list {
+    ir_ref refs[32];
+    unsigned len;
+};
+
+static void add_arguments(const struct leaf *leaf, const struct argument *from,
+                          struct argument_list *out)
+{
+    for (; from->kind != ARGUMENT_END; from++) {
+        assert(out->len < sizeof out->refs / sizeof *out->refs);
+        out->refs[out->len++] = argument(leaf, from);
+    }
+}
+
+/* ---- Closures of the table ---- */
+
+static bool is_given(const struct leaf *leaf, const struct option *option)
+{
+    const struct osl_tree *t = leaf->tree;
+    ir_ref value = leaf->inputs[option->input];
+    struct ir_value constant;
+    if (!value || !ir_get_const(t->graph, value, &constant))
+        return value != 0;
+    assert((constant.type == IR_TYPE_STRING) == (option->word != NULL));
+    return option->word ? is_string(t, value, option->word)
+                        : !osl_is_false(t, value) && !ir_const_is(t->graph, value, 0.0f);
+}
+
+static ir_ref side_call(struct leaf *leaf, const struct row *row, enum side side)
+{
+    struct argument_list list = {.len = 0};
+    leaf->side = side;
+    add_arguments(leaf, row->arguments, &list);
+    if (row->option.arguments && is_given(leaf, &row->option))
+        add_arguments(leaf, row->option.arguments, &list);
+    return osl_call(leaf->tree, row->closure, ir_type_of(leaf->tree->graph, leaf->ref), list.refs,
+                    list.len);
+}
+
+/*
+ * Facets that mirror about the view direction are met head-on, whatever the angle to the surface
+ * is: they reflect as much more as they would at that angle.
+ */
+static ir_ref turned_factor(const struct leaf *leaf)
+{
+    struct ir_graph *g = leaf->tree->graph;
+    ir_ref view = closure_view(leaf->tree->shader, leaf->tree->host);
+    ir_ref cosine = ir_op1(g, IR_ABS, ir_op2(g, IR_DOT, leaf->inputs[INPUT_normal], view));
+    struct osl_interface interface = {.color0 = leaf->inputs[INPUT_color0],
+                                      .color90 = leaf->inputs[INPUT_color90],
+                                      .exponent = leaf->inputs[INPUT_exponent],
+                                      .ior = leaf->inputs[INPUT_ior],
+                                      .extinction = leaf->inputs[INPUT_extinction]};
+    ir_ref more =
+        osl_fresnel_rise(g, &interface, ir_op2(g, IR_MIN, cosine, ir_const_float(g, 1.0f)));
+    ir_ref one = ir_const_splat(g, ir_type_of(g, more), 1.0f);
+    return ir_build(g, IR_SELECT, ir_type_of(g, more), 0, (ir_ref[]){leaf->turned, more, one}, 3);
+}
+
+/* The tint of transmission; NULL: the row's leaf has no other side. */
+static const struct argument *transmitted_argument(const struct row *row)
+{
+    const struct argument *at = row->arguments;
+    while (at->kind != ARGUMENT_END && at->kind != ARGUMENT_TRANSMITTED)
+        at++;
+    return at->kind == ARGUMENT_END ? NULL : at;
+}
+
+/*
+ * One closure; of leaves that transmit one for each side, where the sides differ in more than in
+ * tints. Through a shell without an inside light goes on as it came, in the colour of transmission.
+ */
+static ir_ref row_call(struct leaf *leaf, const struct row *row)
+{
+    struct osl_tree *t = leaf->tree;
+    const struct argument *tint = transmitted_argument(row);
+    bool transmits = tint && scatters(leaf, TRANSMITTED),
+         reflects = !tint || scatters(leaf, REFLECTED);
+    ir_ref turned = reflects ? leaf->inputs[INPUT_retroreflective] : 0,
+           thin = transmits ? t->thin : 0;
+    leaf->turned = osl_is_false(t, turned) ? 0 : turned;
+    ir_ref whole = leaf->turned && transmits ? 0 : side_call(leaf, row, BOTH_SIDES);
+    ir_ref reflected = reflects && (!whole || thin) ? side_call(leaf, row, REFLECTED) : 0;
+    if (leaf->turned) {
+        ir_ref factor = turned_factor(leaf);
+        whole = osl_scaled(t, whole, factor);
+        reflected = osl_scaled(t, reflected, factor);
+    }
+    leaf->turned = 0;
+    if (!whole)
+        whole = osl_sum(t, reflected, side_call(leaf, row, TRANSMITTED));
+    if (!thin)
+        return whole;
+    leaf->side = BOTH_SIDES;
+    ir_ref color = argument(leaf, tint), straight = osl_scaled(t, osl_transparent(t), color),
+           shell = osl_layered(t, reflected, straight);
+    return osl_mixed(t, whole, shell, ir_convert(t->graph, IR_TYPE_FLOAT, thin));
+}
+
+/* ---- Leaves without a row: what their own functions give for the view at hand ---- */
+
+static ir_ref emission(struct osl_tree *t, ir_ref leaf)
+{
+    ir_ref radiance = closure_call(t->shader, t->host, leaf, LEAF_EMISSION, NULL);
+    return radiance && !ir_const_is(t->graph, radiance, 0.0f) ? osl_emission(t, radiance) : 0;
+}
+
+static ir_ref medium(struct osl_tree *t, ir_ref leaf)
+{
+    struct ir_graph *g = t->graph;
+    ir_ref zero = ir_const_splat(g, IR_TYPE_VEC3, 0.0f);
+    ir_ref absorption = closure_call(t->shader, t->host, leaf, LEAF_ABSORPTION, NULL);
+    ir_ref scattering = closure_call(t->shader, t->host, leaf, LEAF_SCATTERING, NULL);
+    ir_ref anisotropy = closure_call(t->shader, t->host, leaf, LEAF_ANISOTROPY, NULL);
+    absorption = absorption ? absorption : zero;
+    ir_ref extinction = scattering ? ir_op2(g, IR_ADD, absorption, scattering) : absorption;
+    ir_ref albedo = scattering ? ir_op2(g, IR_DIV, scattering, extinction) : zero;
+    ir_ref args[3] = {albedo, extinction, anisotropy ? anisotropy : ir_const_float(g, 0.0f)};
+    return osl_call(t, "anisotropic_vdf", IR_TYPE_VDF, args, 3);
+}
+
+ir_ref osl_leaf(struct osl_tree *t, ir_ref ref)
+{
+    const struct ir_node node = *ir_get(t->graph, ref);
+    const uint32_t *functions = t->host->leaf_functions(t->host->user_data, node.attr);
+    if (functions[LEAF_FACTOR] != LANG_NONE)
+        return osl_scaled(t, t->of[ir_arg(t->graph, ref, node.num_args - 1)],
+                          closure_call(t->shader, t->host, ref, LEAF_FACTOR, NULL));
+    str_id family = t->graph->callees.items[node.attr].name;
+    const struct row *row = find_row(str_text(t->shader->strings, family));
+    ir_ref result = 0;
+    if (row) {
+        struct leaf leaf = {.tree = t, .ref = ref};
+        find_inputs(&leaf);
+        result = row_call(&leaf, row);
+    } else if (node.type == IR_TYPE_EDF) {
+        result = emission(t, ref);
+    } else if (node.type == IR_TYPE_VDF) {
+        result = medium(t, ref);
+    } else {
+        t->unknown = family;
+    }
+    return osl_scaled(t, result, ir_arg(t->graph, ref, 0));
+}

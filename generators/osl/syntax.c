@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+/* The syntax of OSL by tables, and its types. */
+#include "generators/osl/osl.h"
+
+#include <assert.h>
+
+static const char *const reserved[] = {
+#include "generators/osl/reserved.def"
+};
+
+#define CALL(op, text) [IR_##op] = {text, LANG_PREC_POSTFIX, false}
+
+static const struct lang_form forms[IR_NUM_OPS] = {
+    [IR_LXOR] = {"$0 != $1", LANG_PREC_EQUAL, true},
+    CALL(ATAN2, "atan2($0, $1)"),
+    CALL(RSQRT, "inversesqrt($0)"),
+    CALL(INVERSE, "(1 / $0)"),
+    CALL(DFDX, "Dx($0)"),
+    CALL(DFDY, "Dy($0)"),
+    CALL(LAYER, "layer($0, $1)"),
+    CALL(CLOSURE_MIX, "mix($0, $1, $2)"),
+    [IR_CLOSURE_ADD] = {"$0 + $1", LANG_PREC_SUM, true},
+    [IR_CLOSURE_SCALE] = {"$0 * $1", LANG_PREC_PRODUCT, true},
+};
+
+static const char *const type_names[IR_NUM_TYPES] = {
+    [IR_TYPE_BOOL] = "int",          [IR_TYPE_INT] = "int",
+    [IR_TYPE_UINT] = "int",          [IR_TYPE_FLOAT] = "float",
+    [IR_TYPE_IVEC2] = "ivector2",    [IR_TYPE_VEC2] = "vector2",
+    [IR_TYPE_VEC3] = "vector",       [IR_TYPE_VEC4] = "vector4",
+    [IR_TYPE_MAT2] = "matrix",       [IR_TYPE_MAT3] = "matrix",
+    [IR_TYPE_MAT4] = "matrix",       [IR_TYPE_STRING] = "string",
+    [IR_TYPE_SAMPLER] = "string",    [IR_TYPE_BSDF] = "closure color",
+    [IR_TYPE_EDF] = "closure color", [IR_TYPE_VDF] = "closure color",
+};
+
+/* Structs and small matrices, in which every part is written. */
+static bool write_value(const struct lang_style *style, ir_type_id type, const union ir_word *words,
+                        struct text *out)
+{
+    if (!osl_is_struct(type) && type != IR_TYPE_MAT3)
+        return false;
+    const struct ir_type_info *info = ir_type_info(type);
+    text_fmt(out, "%s(", lang_syntax_type(&osl_syntax, type));
+    for (unsigned i = 0; i < info->components; i++) {
+        text_str(out, i ? ", " : "");
+        lang_print_value(style, NULL, info->scalar, &words[i], LANG_PREC_COMMA, out);
+        if (type == IR_TYPE_MAT3 && i % 3 == 2)
+            text_str(out, ", 0");
+    }
+    text_str(out, type == IR_TYPE_MAT3 ? ", 0, 0, 0, 1)" : ")");
+    return true;
+}
+
+const struct lang_syntax osl_syntax = {
+    .name = "osl",
+    .base = &lang_syntax_portable,
+    .type_names = type_names,
+    .forms = forms,
+    .reserved = reserved,
+    .num_reserved = sizeof reserved / sizeof *reserved,
+    .param_in = "",
+    .param_in_assigned = "",
+    .param_out = "output ",
+    .param_inout = "output ",
+    .copies_params = true,
+    .plain_scalars = true,
+    .defines_constants = true,
+    .array_braces = true,
+    .write_value = write_value,
+};
+
+/* ---- Marks of use ---- */
+
+void osl_note_type(void *user_data, ir_type_id type)
+{
+    struct osl *osl = ((struct spell *)user_data)->target_data;
+    assert(type < IR_NUM_TYPES);
+    osl->types |= 1u << type;
+}
+
+const char *osl_type(struct osl *osl, ir_type_id type)
+{
+    osl_note_type(osl->spell, type);
+    return lang_syntax_type(&osl_syntax, type);
+}
+
+static bool has_helper(const struct osl *osl, const char *text)
+{
+    for (uint32_t i = 0; i < osl->helpers.len; i++)
+        if (strcmp(osl->helpers.items[i], text) == 0)
+            return true;
+    return false;
+}
+
+void osl_add_helper(struct osl *osl, const char *text)
+{
+    if (!has_helper(osl, text))
+        vec_push(osl->spell->scratch, &osl->helpers, text);
+}
+
+/* ---- Letters of types ---- */
+
+/* A type as one letter: helpers.def. */
+char osl_type_letter(ir_type_id type)
+{
+    static const char letters[IR_NUM_TYPES] = {
+        [IR_TYPE_BOOL] = 'b',   [IR_TYPE_INT] = 'i',  [IR_TYPE_UINT] = 'u', [IR_TYPE_FLOAT] = 'f',
+        [IR_TYPE_IVEC2] = 'I',  [IR_TYPE_VEC2] = '2', [IR_TYPE_VEC3] = '3', [IR_TYPE_VEC4] = '4',
+        [IR_TYPE_MAT2] = 'm',   [IR_TYPE_MAT3] = 'M', [IR_TYPE_MAT4] = 'N', [IR_TYPE_SAMPLER] = 's',
+        [IR_TYPE_STRING] = 't',
+    };
+    return type < IR_NUM_TYPES && letters[type] ? letters[type] : '?';
+}

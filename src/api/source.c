@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+/* The source of a result, and the places of the document that its lines come from. */
+#include "api/generation.h"
+
+#include <stdio.h>
+
+const char *mxg_result_source(const mxg_result *result, mxg_stage stage, size_t *out_size)
+{
+    bool known = result && (unsigned)stage < NUM_STAGES;
+    if (out_size)
+        *out_size = known ? result->stages[stage].size : 0;
+    return known ? result->stages[stage].text : NULL;
+}
+
+/* Where a line (from 1) begins; the end of the source where it has fewer. */
+static size_t start_of_line(const struct stage_source *source, uint32_t line)
+{
+    const char *start = source->text, *end = start + source->size;
+    for (uint32_t at = 1; at < line && start < end; at++) {
+        const char *newline = memchr(start, '\n', (size_t)(end - start));
+        start = newline ? newline + 1 : end;
+    }
+    return (size_t)(start - source->text);
+}
+
+/* The first origin that a line was marked with; 0: none. */
+static uint32_t origin_of_line(const mxg_result *result, mxg_stage stage, uint32_t line)
+{
+    const struct stage_source *source = &result->stages[stage];
+    if (line == 0 || !source->text)
+        return 0;
+    size_t start = start_of_line(source, line), end = start_of_line(source, line + 1);
+    uint32_t low = 0, high = source->num_marks;
+    while (low < high) {
+        uint32_t middle = low + (high - low) / 2;
+        if (source->marks[middle].at < start)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low < source->num_marks && source->marks[low].at < end ? source->marks[low].origin : 0;
+}
+
+/* The innermost element of the document itself that the origin belongs to; 0: none. */
+static elem_id document_element(const mxg_result *result, uint32_t origin)
+{
+    const struct ir_origin *origins = result->graph.origins.items;
+    while (origin && origins[origin].element < result->document->layer.doc.first_element)
+        origin = origins[origin].parent;
+    return origin ? origins[origin].element : 0;
+}
+
+bool mxg_result_source_place(const mxg_result *result, mxg_stage stage, uint32_t line,
+                             const char **out_file, uint32_t *out_line, uint32_t *out_column,
+                             const char **out_path)
+{
+    uint32_t origin =
+        result && (unsigned)stage < NUM_STAGES ? origin_of_line(result, stage, line) : 0;
+    elem_id element = origin ? document_element(result, origin) : 0;
+    if (!element)
+        return false;
+    struct diag_place place = doc_place(&result->document->layer.doc, element);
+    if (out_file)
+        *out_file = place.file;
+    if (out_line)
+        *out_line = place.line;
+    if (out_column)
+        *out_column = place.column;
+    if (out_path)
+        *out_path = result->origin_paths[origin] ? result->origin_paths[origin] : "";
+    return true;
+}
+
+enum { MAX_NAMES = 64 }; /* of a path; outer ones are left out beyond */
+
+struct names {
+    const char *items[MAX_NAMES]; /* the innermost first */
+    uint32_t len;
+};
+
+static void add_name(struct names *names, const struct document *doc, elem_id element)
+{
+    const char *name = str_text(doc->strings, doc_element(doc, element)->name);
+    if (names->len < MAX_NAMES && *name)
+        names->items[names->len++] = name;
+}
+
+/* Names of what was instantiated in what, then those of the elements around the outermost. */
+static void collect_names(const mxg_result *result, uint32_t origin, struct names *out)
+{
+    const struct document *doc = origin ? &result->document->layer.doc : NULL;
+    const struct ir_origin *origins = origin ? result->graph.origins.items : NULL;
+    for (; origin; origin = origins[origin].parent) {
+        elem_id element = origins[origin].element;
+        if (element)
+            add_name(out, doc, element);
+        for (;
+             element && !origins[origin].parent && doc_element(doc, element)->parent != doc->root;)
+            if ((element = doc_element(doc, element)->parent) != 0)
+                add_name(out, doc, element);
+    }
+}
+
+static size_t write_path(const mxg_result *result, uint32_t origin, char *buffer, size_t capacity)
+{
+    struct names names = {.len = 0};
+    size_t len = 0;
+    if (capacity)
+        *buffer = '\0';
+    collect_names(result, origin, &names);
+    while (names.len--) {
+        const char *name = names.items[names.len];
+        int n = snprintf(len < capacity ? buffer + len : NULL, len < capacity ? capacity - len : 0,
+                         "%s%s", len ? "/" : "", name);
+        len += n > 0 ? (size_t)n : 0;
+    }
+    return len;
+}
+
+size_t mxg_result_source_path(const mxg_result *result, mxg_stage stage, uint32_t line,
+                              char *buffer, size_t capacity)
+{
+    bool is_there = result && (unsigned)stage < NUM_STAGES && result->has_shader;
+    return write_path(result, is_there ? origin_of_line(result, stage, line) : 0, buffer, capacity);
+}
+
+size_t mxg_result_closure_path(const mxg_result *result, uint32_t index, char *buffer,
+                               size_t capacity)
+{
+    bool is_there = result && result->has_shader && index < result->shader.closures.len;
+    return write_path(result, is_there ? result->shader.closures.items[index] : 0, buffer,
+                      capacity);
+}

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+/* The list of targets, for callers. */
+#include "api/api.h"
+
+uint32_t mxg_num_targets(void)
+{
+    uint32_t count = 0;
+    while (targets[count])
+        count++;
+    return count;
+}
+
+mxg_status mxg_get_target(uint32_t index, mxg_target *out)
+{
+    if (index >= mxg_num_targets())
+        return MXG_ERROR_ARGUMENT;
+    const struct target *target = targets[index];
+    mxg_target full = {
+        .name = target->name,
+        .materialx_name = target->materialx_name,
+        .brief = target->brief,
+        .stage_suffix = {target->stage_suffix[STAGE_VERTEX], target->stage_suffix[STAGE_PIXEL]}};
+    return struct_write(out, &full, sizeof full);
+}

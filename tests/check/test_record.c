@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * A record that is written as JSON or as bytes and read again is as it was; what is no record is
+ * none, whatever it is.
+ */
+#define _POSIX_C_SOURCE 200809L
+#include "check/json.h"
+#include "check/record_io.h"
+#include "unit/test.h"
+
+#include <stdlib.h>
+
+static struct check_document *make_document(void)
+{
+    static struct check_message messages[] = {
+        {MXG_SEVERITY_WARNING, "unused-node", "nobody uses 'a'", "a.mtlx", 4, 7, 2, "", NULL,
+         "a.mtlx:4:7: warning: …\n"},
+        {MXG_SEVERITY_ERROR, "bad-value", "'x' is no number", "a.mtlx", 5, 1, 0, "M", "glsl", NULL},
+    };
+    static struct check_part parts[] = {{MEASURE_TEXTURES, "wood", 1},
+                                        {MEASURE_UNIFORM_BYTES, "", 1ull << 40}};
+    static uint32_t indices[] = {1, 0};
+    static struct check_shader shaders[] = {{"glsl",
+                                             CHECK_COMPILE,
+                                             true,
+                                             "0123456789abcdef",
+                                             {1, 2, 3},
+                                             parts,
+                                             2,
+                                             indices,
+                                             2,
+                                             0.5,
+                                             12.25},
+                                            {.target = "osl"}};
+    static struct check_element elements[] = {{"M", "material", shaders, 2, "cGljdHVyZQ==", "1,2"},
+                                              {.path = "N"}};
+    static const char *files[] = {"a.mtlx", "b.mtlx"}, *folders[] = {"./"}, *images[] = {"c.png"};
+    static struct check_document document = {.file = "a.mtlx",
+                                             .failed = CHECK_COMPILE,
+                                             .messages = messages,
+                                             .num_messages = 2,
+                                             .files = files,
+                                             .num_files = 2,
+                                             .folders = folders,
+                                             .num_folders = 1,
+                                             .images = images,
+                                             .num_images = 1,
+                                             .elements = elements,
+                                             .num_elements = 2,
+                                             .load_ms = 1.0};
+    return &document;
+}
+
+static char *text_of(const struct check_document *document, bool with_times)
+{
+    json_t *json = record_to_json(document, with_times);
+    char *text = json_dumps(json, JSON_STYLE);
+    json_decref(json);
+    return text;
+}
+
+static struct check_document *read(struct store *store, const char *text, size_t size)
+{
+    json_t *json = json_loadb(text, size, 0, NULL);
+    struct check_document *document = record_from_json(store, json);
+    json_decref(json);
+    return document;
+}
+
+static void test_arrives(void)
+{
+    struct store store = {0};
+    char *before = text_of(make_document(), true);
+    struct check_document *document = read(&store, before, strlen(before));
+    REQUIRE(document != NULL);
+    char *after = document ? text_of(document, true) : NULL;
+    REQUIRE_STR(after, before);
+    REQUIRE_STR(document ? document->messages[1].rendered : NULL, "");
+    REQUIRE_EQ(document ? document->elements[0].shaders[0].parts[1].count : 0, 1ull << 40);
+    free(before);
+    free(after);
+    store_finish(&store);
+}
+
+static void test_bytes_arrive(void)
+{
+    struct store store = {0};
+    struct record_bytes bytes = {0};
+    record_to_bytes(&bytes, make_document());
+    record_to_bytes(&bytes, make_document()); /* in place of the first */
+    struct check_document *document = record_from_bytes(&store, bytes.data, bytes.size);
+    REQUIRE(document != NULL);
+    char *before = text_of(make_document(), true),
+         *after = document ? text_of(document, true) : NULL;
+    REQUIRE_STR(after, before);
+    REQUIRE_STR(document ? document->messages[1].rendered : NULL, "");
+    free(before);
+    free(after);
+    free(bytes.data);
+    store_finish(&store);
+}
+
+static void test_bytes_no_record(void)
+{
+    struct store store = {0};
+    struct record_bytes bytes = {0};
+    record_to_bytes(&bytes, make_document());
+    for (size_t size = 0; size < bytes.size; ++size)
+        REQUIRE(!record_from_bytes(&store, bytes.data, size));
+    /* any byte another: a record or none, and nothing beyond the bytes is read */
+    for (size_t at = 0; at < bytes.size; ++at) {
+        char was = bytes.data[at];
+        bytes.data[at] = (char)~was;
+        struct check_document *document = record_from_bytes(&store, bytes.data, bytes.size);
+        free(document ? text_of(document, true) : NULL);
+        bytes.data[at] = was;
+    }
+    free(bytes.data);
+    store_finish(&store);
+}
+
+static void test_bytes_no_utf8(void)
+{
+    struct store store = {0};
+    struct record_bytes bytes = {0};
+    record_to_bytes(&bytes, &(struct check_document){.file = "a\xff\xc3\xa4.mtlx"});
+    const struct check_document *document = record_from_bytes(&store, bytes.data, bytes.size);
+    REQUIRE_STR(document ? document->file : NULL, "a\xef\xbf\xbd\xc3\xa4.mtlx");
+    free(bytes.data);
+    store_finish(&store);
+}
+
+static void test_times(void)
+{
+    char *text = text_of(make_document(), false);
+    REQUIRE(!strstr(text, "Ms"));
+    free(text);
+    text = text_of(make_document(), true);
+    REQUIRE(strstr(text, "\"compileMs\":12.25") != NULL);
+    free(text);
+}
+
+static void test_no_utf8(void)
+{
+    struct store store = {0};
+    struct check_part part = {MEASURE_TEXTURES, "\x80", 1};
+    struct check_shader shader = {.target = "glsl", .parts = &part, .num_parts = 1};
+    struct check_element element = {.path = "M", .shaders = &shader, .num_shaders = 1};
+    char *text = text_of(&(struct check_document){.file = "a\xff\xc3\xa4.mtlx",
+                                                  .elements = &element,
+                                                  .num_elements = 1},
+                         true);
+    const struct check_document *document = read(&store, text, strlen(text));
+    REQUIRE_STR(document ? document->file : NULL, "a\xef\xbf\xbd\xc3\xa4.mtlx");
+    REQUIRE_STR(document ? document->elements[0].shaders[0].parts[0].name : NULL, "\xef\xbf\xbd");
+    free(text);
+    store_finish(&store);
+}
+
+/* Members of other kinds and of any size are absent, or as large as they can be. */
+static void test_odd_members(void)
+{
+    static const char text[] =
+        "{\"file\":\"a\",\"index\":-1,\"status\":\"failed\",\"stage\":\"?\",\"messages\":[1,"
+        "{\"line\":5000000000,\"severity\":{}}],\"files\":{},\"elements\":[{\"shaders\":[{"
+        "\"messages\":[2,-1,0.5,\"1\",1],\"parts\":{\"textures\":[1]},\"closures\":1e300}]}]}";
+    struct store store = {0};
+    const struct check_document *document = read(&store, text, sizeof text - 1);
+    REQUIRE(document != NULL);
+    if (!document)
+        return;
+    const struct check_shader *shader = &document->elements[0].shaders[0];
+    REQUIRE_EQ(document->index, 0);
+    REQUIRE_EQ(document->failed, CHECK_LOAD);
+    REQUIRE_EQ(document->num_messages, 2);
+    REQUIRE_EQ(document->messages[1].line, UINT32_MAX);
+    REQUIRE_EQ(document->num_files, 0);
+    REQUIRE(shader->num_messages == 1 && shader->messages[0] == 1);
+    REQUIRE_EQ(shader->num_parts, 0);
+    REQUIRE_EQ(shader->measures[MEASURE_CLOSURES], 0);
+    store_finish(&store);
+}
+
+static void test_no_record(void)
+{
+    static const char *const none[] = {"[]", "{}", "{\"file\":1}", "{\"file\":\"\"}", "1"};
+    struct store store = {0};
+    for (size_t i = 0; i < sizeof none / sizeof *none; ++i)
+        REQUIRE(!read(&store, none[i], strlen(none[i])));
+    char *text = text_of(make_document(), true);
+    for (size_t size = strlen(text), len = 0; len < size; ++len)
+        REQUIRE(!read(&store, text, len));
+    /* any byte another: a record or none, and nothing beyond the text is read */
+    for (char *at = text; *at; ++at) {
+        char was = *at;
+        *at = (char)~was;
+        struct check_document *document = read(&store, text, strlen(text));
+        free(document ? text_of(document, true) : NULL);
+        *at = was;
+    }
+    free(text);
+    store_finish(&store);
+}
+
+int main(void)
+{
+    test_arrives();
+    test_times();
+    test_no_utf8();
+    test_odd_members();
+    test_no_record();
+    test_bytes_arrive();
+    test_bytes_no_utf8();
+    test_bytes_no_record();
+    return test_report("record");
+}
