@@ -118,12 +118,6 @@ static const struct lang_pieces *choice(struct spell *spell, const struct lang_u
 
 /* ---- Built-in functions ---- */
 
-static const struct lang_pieces *modulo(struct spell *spell, const struct lang_use *use)
-{
-    add_helper(spell, use, HELPER_MOD);
-    return call_of(spell, "mod($0, $1)");
-}
-
 static const struct lang_pieces *inverse(struct spell *spell, const struct lang_use *use)
 {
     add_helper(spell, use, HELPER_INVERSE_2 + rows_of(use->type) - 2);
@@ -199,13 +193,28 @@ static const struct lang_pieces *convert(struct spell *spell, const struct lang_
 typedef const struct lang_pieces *form_writer(struct spell *spell, const struct lang_use *use);
 
 static form_writer *const writers[IR_NUM_OPS] = {
-    [IR_MUL] = product,           [IR_EQ] = equality,     [IR_NE] = equality,
-    [IR_SELECT] = choice,         [IR_MOD] = modulo,      [IR_INVERSE] = inverse,
-    [IR_TEX_SIZE] = texture_size, [IR_CONVERT] = convert, [IR_CONSTRUCT] = construct,
+    [IR_MUL] = product,           [IR_EQ] = equality,         [IR_NE] = equality,
+    [IR_SELECT] = choice,         [IR_INVERSE] = inverse,     [IR_CONVERT] = convert,
+    [IR_TEX_SIZE] = texture_size, [IR_CONSTRUCT] = construct,
+};
+
+/* Built-in functions that are helpers for all types. */
+static const struct {
+    uint8_t helper; /* enum helper */
+    const char *call;
+} helped[IR_NUM_OPS] = {
+    [IR_ASINH] = {HELPER_ASINH, "asinh($0)"},
+    [IR_ACOSH] = {HELPER_ACOSH, "acosh($0)"},
+    [IR_ATANH] = {HELPER_ATANH, "atanh($0)"},
+    [IR_MOD] = {HELPER_MOD, "mod($0, $1)"},
 };
 
 const struct lang_pieces *hlsl_form(void *user_data, const struct lang_use *use)
 {
+    if (helped[use->op].call) {
+        add_helper(user_data, use, helped[use->op].helper);
+        return call_of(user_data, helped[use->op].call);
+    }
     return writers[use->op] ? writers[use->op](user_data, use) : NULL;
 }
 
