@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Measures mxgen and prints counts and ratios, never times: instructions by callgrind, peak memory, sizes of what is emitted,
-growth with the size of a graph. Arguments: the build folder, a document, and a folder of materials whose shaders are counted."""
+"""Measures mxgen and prints counts and ratios, never times: instructions by callgrind, peak memory, sizes of shaders,
+growth with the size of a graph. Arguments: the build folder, a document, and a folder of materials for the shader counts."""
 import glob
 import os
 import pathlib

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* bench-parse FILE: what any program pays that is linked to libxml2 and parses the file. */
+/* bench-parse FILE: the minimum cost of a program that links libxml2 and parses the file. */
 #include <libxml/parser.h>
 
 int main(int argc, char **argv)

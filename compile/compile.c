@@ -19,13 +19,17 @@ struct dialect {
     glslang_profile_t profile;
     bool is_spirv_source; /* written for SPIR-V: every location and binding stands in the source */
     int spirv_version;    /* #version under which SPIR-V is made; 0: the source's own */
+    spv_target_env environment; /* whose rules the SPIR-V keeps, if the source is written for it */
 };
 
 static const struct dialect dialects[] = {
-    {"glsl", GLSLANG_CLIENT_OPENGL, GLSLANG_TARGET_OPENGL_450, GLSLANG_CORE_PROFILE, false, 0},
-    {"vulkan", GLSLANG_CLIENT_VULKAN, GLSLANG_TARGET_VULKAN_1_0, GLSLANG_CORE_PROFILE, true, 0},
+    {"glsl", GLSLANG_CLIENT_OPENGL, GLSLANG_TARGET_OPENGL_450, GLSLANG_CORE_PROFILE, false, 0, 0},
+    {"vulkan", GLSLANG_CLIENT_VULKAN, GLSLANG_TARGET_VULKAN_1_0, GLSLANG_CORE_PROFILE, true, 0,
+     SPV_ENV_VULKAN_1_0},
     /* There is no SPIR-V of ESSL 3.00; 3.10 contains it. */
-    {"essl", GLSLANG_CLIENT_OPENGL, GLSLANG_TARGET_OPENGL_450, GLSLANG_ES_PROFILE, false, 310},
+    {"essl", GLSLANG_CLIENT_OPENGL, GLSLANG_TARGET_OPENGL_450, GLSLANG_ES_PROFILE, false, 310, 0},
+    {"essl310", GLSLANG_CLIENT_OPENGL, GLSLANG_TARGET_OPENGL_450, GLSLANG_ES_PROFILE, true, 0,
+     SPV_ENV_OPENGL_4_5},
 };
 
 static const glslang_stage_t glslang_stages[MXG_NUM_STAGES] = {GLSLANG_STAGE_VERTEX,
@@ -181,7 +185,7 @@ static void generate_spirv(const struct dialect *dialect, glslang_program_t *pro
     memcpy(code->words, words, num_words * sizeof *code->words);
     code->body_instructions = spirv_count(code->words, code->num_words, NULL, NULL);
     if (dialect->is_spirv_source)
-        validate_spirv(stage, SPV_ENV_VULKAN_1_0, out);
+        validate_spirv(stage, dialect->environment, out);
 }
 
 static const char unexplained[] = "the stages do not link";

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 
-// Distance to the nearest joint along one axis, in bricks; joints lie at whole numbers.
+// Distance to the closest joint along one axis, in bricks; joints are at whole numbers.
 float joint_distance(float x)
 {
     return min(fract(x), 1.0 - fract(x));

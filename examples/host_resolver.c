@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * A host that has documents elsewhere than in files (here: in a table) gives mxgen a resolver. It
- * names what is referred to, hands out the bytes, and is told when they are no longer needed.
- * Prints the pixel stage of a material whose parts lie in three "files".
+ * A host that stores documents outside the file system (here: in a table) provides a resolver. The
+ * resolver maps references to names and bytes, and releases them. The program prints the pixel
+ * stage of a material that consists of three "files".
  */
 #include <mxgen/mxgen.h>
 
@@ -31,7 +31,7 @@ static const struct asset {
     {"asset:stripes.glsl", "float stripes(vec2 p) { return step(0.5, fract(10.0 * p.x)); }"},
 };
 
-/* Everything lies in one place, so `from` does not matter. */
+/* All names are absolute, so `from` does not matter. */
 static bool open_asset(void *user_data, const char *from, const char *ref, mxg_blob *out_blob,
                        const char **out_reason)
 {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
  * A material as an OSL shader group: writes the shaders of its nodes into a folder, and prints the
- * list of layers that makes a group of them, as ShadingSystem::ShaderGroupBegin takes it. Compiled
- * with oslc, and with the list in a file, testshade takes them, too:
+ * list of layers for ShadingSystem::ShaderGroupBegin. testshade also accepts the list, after oslc
+ * compiled the shaders:
  *
  *     osl_network marble.mtlx folder >folder/marble.oslgroup
  *     cd folder && for f in *.osl; do oslc $f; done && testshade --group marble.oslgroup
@@ -40,7 +40,7 @@ static bool write_network(const mxg_result *result, const char *folder)
         if (mxg_result_part(result, i, &part) != MXG_OK || !write_part(&part, folder))
             return false;
     }
-    /* that of the vertex stage moves the surface, if anything does */
+    /* the vertex stage is the group of the displacement, if there is one */
     puts(mxg_result_source(result, MXG_STAGE_PIXEL, NULL));
     return true;
 }

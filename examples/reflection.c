@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Prints what a host must bind for a material: uniforms with their defaults and user interface,
- * textures, vertex attributes.
+ * Prints the bindings of a material: uniforms with their defaults and user interface, textures,
+ * vertex attributes.
  *
  *     reflection MATERIAL.mtlx [TARGET]
  */

@@ -20,7 +20,7 @@ double fit_form(const double p[FIT_PARAMETERS], double u, double v)
     return sum;
 }
 
-/* A column for each power of v. */
+/* One column per power of v. */
 void fit_print_form(const char *name, const double p[FIT_PARAMETERS], double scale)
 {
     printf("const mat4 %s = mat4(", name);
@@ -76,7 +76,7 @@ static void multiply(struct system *s, const double *jacobian, const double *r)
     }
 }
 
-/* (JᵀJ + damping · diag) step = -Jᵀr, by Gauss with pivots. */
+/* (JᵀJ + damping · diag) step = -Jᵀr, by Gaussian elimination with pivots. */
 static void solve(const struct system *s, double damping, double *step)
 {
     double a[FIT_PARAMETERS][FIT_PARAMETERS + 1];
@@ -138,7 +138,7 @@ static double least_squares(double *p, size_t n, fit_residuals residuals, size_t
     return sqrt(best / (double)m);
 }
 
-/* Residuals under weights. */
+/* Weighted residuals. */
 struct weighted {
     fit_residuals residuals;
     void *user_data;

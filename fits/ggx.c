@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * The GGX lobe over all directions, for mx_ggx_albedo of libraries/pbrlib/shaders/ggx.glsl: what a
- * white one reflects after one scattering, and the cosine at which Schlick's curve has its mean.
- * Prints the constants of the function.
+ * Integrates the GGX lobe over all directions for mx_ggx_albedo in
+ * libraries/pbrlib/shaders/ggx.glsl: the directional albedo of a white lobe with single scattering,
+ * and the cosine at which Schlick's curve has its mean. Prints the constants of the function.
  */
 #include "fit.h"
 
@@ -12,12 +12,12 @@
 enum { STEPS = 24, CELLS = STEPS * STEPS, SAMPLES = 1 << 13 };
 
 static const double pi = 3.14159265358979323846;
-#define LEAST_COSINE 0.03 /* below, where next to nothing is seen, the fit only goes on */
-#define SLACK 7e-4        /* that the albedo may be too small by */
+#define LEAST_COSINE 0.03 /* the fit extrapolates below, where a surface is hardly visible */
+#define SLACK 7e-4        /* maximum error below the albedo */
 
 struct cell {
     double alpha, cosine;
-    double albedo, at_grazing; /* all, and the part that (1 - cosine)^5 is the mean of */
+    double albedo, at_grazing; /* the total, and the part weighted by (1 - cosine)^5 */
 };
 
 static double masking(double cosine, double alpha)
@@ -25,7 +25,7 @@ static double masking(double cosine, double alpha)
     return sqrt(cosine * cosine + alpha * alpha * (1.0 - cosine * cosine));
 }
 
-/* By visible normals (Heitz 2018): each weighs G2 / G1. */
+/* Samples visible normals (Heitz 2018), with the weight G2 / G1. */
 static void measure(struct cell *cell)
 {
     double c = cell->cosine, a = cell->alpha, sine = sqrt(1.0 - c * c), length = masking(c, a);
@@ -47,7 +47,7 @@ static void measure(struct cell *cell)
     }
 }
 
-/* Follows what happens where the light grazes the facets. */
+/* A variable for the limit of light that grazes the facets. */
 static double grazing(const struct cell *cell)
 {
     return cell->alpha / (cell->alpha + cell->cosine);

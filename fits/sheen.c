@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Directional albedo of Conty and Kulla's sheen, for mx_sheen_albedo of
+ * Fits the directional albedo of Conty and Kulla's sheen for mx_sheen_albedo in
  * libraries/pbrlib/shaders/sheen.glsl. Prints the constants of the function.
  */
 #include "fit.h"
@@ -11,7 +11,7 @@
 enum { STEPS = 24, CELLS = STEPS * STEPS, POINTS = 160 };
 
 static const double pi = 3.14159265358979323846;
-#define LEAST 0.05 /* cosine and roughness: below, the fit only goes on */
+#define LEAST 0.05 /* the fit extrapolates below this cosine and roughness */
 
 struct cell {
     double roughness, cosine, albedo;

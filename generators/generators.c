@@ -4,7 +4,7 @@
 #include "generators/hlsl/hlsl.h"
 #include "generators/osl/osl.h"
 
-const struct target *const targets[] = {&target_glsl, &target_vulkan, &target_essl,
+const struct target *const targets[] = {&target_glsl, &target_vulkan, &target_essl, &target_essl310,
                                         &target_hlsl, &target_osl,    NULL};
 
 const struct target *target_find(const char *name)

@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What tests written in Python share: `check` counts, `skip` says what was left out, `finish` prints the line that script/test sums up
-and ends the program, with 77 (skipped) where nothing was checked."""
+"""Shared by the tests in Python: `check` counts, `skip` reports an omission, `finish` prints the line that script/test sums up
+and ends the program, with 77 (skipped) if nothing was checked."""
 import sys
 
 _passed, _failures, _skipped = 0, [], 0
 
 
 def check(good, what):
-    """Counts whether something holds; `what` is told where it does not."""
+    """Counts a check; prints `what` if it fails."""
     global _passed
     if good:
         _passed += 1

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Checks the house: a room of src/ includes only rooms above it, the back never looks at the front, libxml2 is included in one
-room, and programs see nothing but the public header. Argument: the root of the project."""
+"""Checks the includes: a room of src/ includes only earlier rooms, the back end does not include the front end, one room includes
+libxml2, and programs include only the public header. Argument: the root of the project."""
 import pathlib
 import re
 import sys

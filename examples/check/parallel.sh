@@ -1,11 +1,11 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
-# Spreads a check over hosts with GNU parallel. The hosts share the folder that this is started in, and have mxgen in PATH.
+# Distributes a check over hosts with GNU parallel. The hosts share the working directory and have mxgen in PATH.
 #
 #     parallel.sh HOSTS SHARDS PATH...     HOSTS: "4/alpha,4/beta", at most four shards at a time on each; ":" is this machine
 #
-# A shard that finds failures ends with exit code 1, as it should; the exit code of the whole is that of the merge, which
-# also notices shards that are missing.
+# A shard with failures exits with 1. The exit code of the script is the exit code of the merge, which also detects missing
+# shards.
 hosts=$1 count=$2
 shift 2
 rm -rf shards && mkdir -p shards || exit

@@ -23,16 +23,21 @@ static void write_header(struct spell *spell)
     spell_text(spell, "\n");
 }
 
-/* "layout(set = 0, binding = 1, std140) "; nothing where neither is asked for. */
+/* "layout(set = 0, binding = 1, std140) ", as far as the target can; nothing where neither is asked
+ * for. */
 static void write_layout(struct spell *spell, uint32_t set, uint32_t binding, bool std140)
 {
     if (!spell_can(spell, CAP_BINDINGS)) {
         spell_text(spell, std140 ? "layout(std140) " : "");
         return;
     }
-    spell_text(spell, "layout(set = ");
-    spell_number(spell, set);
-    spell_text(spell, ", binding = ");
+    spell_text(spell, "layout(");
+    if (spell_can(spell, CAP_SETS)) {
+        spell_text(spell, "set = ");
+        spell_number(spell, set);
+        spell_text(spell, ", ");
+    }
+    spell_text(spell, "binding = ");
     spell_number(spell, binding);
     spell_text(spell, std140 ? ", std140) " : ") ");
 }

@@ -72,7 +72,7 @@ const struct target target_hlsl = {
     .materialx_name = "genhlsl",
     .brief = "HLSL of shader model 5.1 and 6, for Direct3D 12 and Vulkan",
     .caps = CAP_VERTEX_STAGE | CAP_OVERLOADS | CAP_BITWISE | CAP_IMPLICIT_LOD | CAP_TEXTURE_ARRAYS
-            | CAP_UNIFORM_BLOCKS | CAP_BINDINGS | CAP_BLOCK_STAGE_IO,
+            | CAP_UNIFORM_BLOCKS | CAP_BINDINGS | CAP_SETS | CAP_BLOCK_STAGE_IO,
     .versions = versions,
     .syntax = &syntax,
     .frame = &hlsl_frame,

@@ -28,11 +28,12 @@ struct mxg_result {
     struct ir_graph graph;
     struct shader shader;
     struct stage_source stages[NUM_STAGES];
-    struct network network; /* option `network`: in the place of `shader`; arena NULL: it is none */
-    VEC(const char *) files;   /* read for it */
-    const char **origin_paths; /* of origins of graph, made when asked for during generation */
-    bool has_shader;           /* generation ended well */
-    const char *text;          /* of an inspection; NULL */
+    struct network network;  /* option `network`: replaces `shader`; arena NULL: no network */
+    VEC(const char *) files; /* files read during the generation */
+    const char *
+        *origin_paths; /* paths by origin of the graph; filled on demand during generation */
+    bool has_shader;   /* the generation succeeded */
+    const char *text;  /* the text of mxg_inspect, or NULL */
     size_t text_size;
 };
 

@@ -6,13 +6,14 @@
 #include <stdlib.h>
 
 enum {
-    CHUNK_FIRST = 16 << 10, /* bytes of an arena's first chunk; each next one is twice as large … */
-    CHUNK_MAX = 1 << 20,    /* … up to this */
+    /* bytes of an arena's first chunk; each further chunk is twice as large … */
+    CHUNK_FIRST = 16 << 10,
+    CHUNK_MAX = 1 << 20, /* … up to this */
 };
 
 struct arena_chunk {
     struct arena_chunk *next, *prev; /* prev only in the list of large blocks */
-    size_t size;                     /* with this header */
+    size_t size;                     /* including this header */
     alignas(max_align_t) char data[];
 };
 
@@ -35,7 +36,7 @@ void mem_init(struct mem *mem, mem_realloc_fn *fn, void *user_data)
 void mem_fail(struct mem *mem)
 {
     if (!mem->trap)
-        abort(); /* a call outside of any public entry point: a bug of ours, not of the caller */
+        abort(); /* a call outside all public entry points: a bug in mxgen, not in the caller */
     longjmp(*mem->trap, 1);
 }
 
@@ -127,7 +128,7 @@ static void add_chunk(struct arena *arena)
 }
 
 /*
- * Blocks from this size on stand alone, so that vectors grow by realloc and nothing is left behind.
+ * Larger blocks have their own chunk, so that vectors grow with realloc and leave no copies behind.
  */
 static bool is_large(size_t size)
 {
@@ -185,6 +186,22 @@ void *arena_grow(struct arena *arena, void *block, size_t old_size, size_t new_s
         return block;
     }
     return memcpy(arena_alloc(arena, new_size), block, old_size);
+}
+
+void arena_release(struct arena *arena, void *block, size_t size)
+{
+    if (!block || !is_large(round_up(size)))
+        return;
+    struct arena_chunk *chunk =
+        (struct arena_chunk *)((char *)block - offsetof(struct arena_chunk, data));
+    assert(chunk->size == sizeof *chunk + round_up(size));
+    if (chunk->prev)
+        chunk->prev->next = chunk->next;
+    else
+        arena->large = chunk->next;
+    if (chunk->next)
+        chunk->next->prev = chunk->prev;
+    mem_realloc(arena->mem, chunk, chunk->size, 0);
 }
 
 char *arena_strndup(struct arena *arena, const char *text, size_t len)

@@ -83,6 +83,9 @@ void *arena_zalloc(struct arena *arena, size_t size);
  */
 void *arena_grow(struct arena *arena, void *block, size_t old_size, size_t new_size);
 
+/* Gives a block back early. A small one stays where it is until arena_finish. */
+void arena_release(struct arena *arena, void *block, size_t size);
+
 char *arena_strndup(struct arena *arena, const char *text, size_t len);
 
 #define ARENA_NEW(arena, T) ((T *)arena_zalloc((arena), sizeof(T)))

@@ -5,8 +5,8 @@
 #include <string.h>
 
 /*
- * Powers of ten that a double holds exactly: their products and quotients with integers below 2^53
- * round once.
+ * Powers of ten that are exact in double: a product or quotient with an integer below 2^53 rounds
+ * once.
  */
 static const double exact_pow10[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
                                      1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
@@ -24,8 +24,8 @@ static double scale_pow10(double value, int exponent)
 }
 
 /*
- * Fewest digits (as an integer) and the exponent of their last one, so that digits * 10^exponent ==
- * value > 0. Nine digits tell all floats apart.
+ * The fewest digits (as an integer), and the exponent of the last one, with digits * 10^exponent ==
+ * value > 0. Nine digits distinguish all floats.
  */
 static uint32_t shortest_digits(float value, int exponent, int *out_exponent)
 {

@@ -3,48 +3,24 @@
 
 #include "base/hash.h"
 
-static inline bool is_own_text(const struct strpool *pool, str_id id, const char *text, size_t len,
-                               uint32_t hash)
+/* Texts of an image have no hash of their own beside them. */
+static inline bool is_text(const struct strpool *pool, str_id id, const char *text, size_t len)
 {
+    assert(id >= pool->first && id - pool->first < pool->num);
+    if (pool->offsets) {
+        const uint32_t *at = &pool->offsets[id - pool->first];
+        return at[1] - at[0] - 1 == len && memcmp(pool->bytes + at[0], text, len) == 0;
+    }
     const struct str_entry *e = &pool->entries.items[id - pool->first];
-    return e->hash == hash && e->len == len && memcmp(e->text, text, len) == 0;
-}
-
-static inline bool is_image_text(const struct strpool *pool, str_id id, const char *text,
-                                 size_t len)
-{
-    const uint32_t *at = &pool->offsets[id - pool->first];
-    return at[1] - at[0] - 1 == len && memcmp(pool->bytes + at[0], text, len) == 0;
-}
-
-static str_id find_in_image(const struct strpool *pool, const char *text, size_t len, uint32_t hash)
-{
-    const uint32_t *wide = pool->table;
-    const uint16_t *narrow = pool->narrow;
-    uint32_t mask = pool->table_mask, slot = hash & mask;
-    str_id id;
-    if (narrow)
-        while ((id = narrow[slot]) && !is_image_text(pool, id, text, len))
-            slot = (slot + 1) & mask;
-    else
-        while ((id = wide[slot]) && !is_image_text(pool, id, text, len))
-            slot = (slot + 1) & mask;
-    return id;
+    return e->len == len && memcmp(e->text, text, len) == 0;
 }
 
 static str_id find_hashed(const struct strpool *pool, const char *text, size_t len, uint32_t hash)
 {
-    for (; pool; pool = pool->base) {
-        if (pool->offsets)
-            return find_in_image(pool, text, len, hash); /* which stands on nothing */
-        if (!pool->table)
-            continue;
-        str_id id;
-        for (uint32_t slot = hash & pool->table_mask; (id = pool->table[slot]);
-             slot = (slot + 1) & pool->table_mask)
-            if (is_own_text(pool, id, text, len, hash))
+    for (; pool; pool = pool->base)
+        for (uint32_t at = hash, id; (id = table_next(&pool->table, hash, &at));)
+            if (is_text(pool, id, text, len))
                 return id;
-    }
     return 0;
 }
 
@@ -53,37 +29,16 @@ str_id str_find(const struct strpool *pool, const char *text, size_t len)
     return len ? find_hashed(pool, text, len, hash_bytes(text, len)) : 0;
 }
 
-static void grow_table(struct strpool *pool)
-{
-    uint32_t slots = pool->table ? (pool->table_mask + 1) * 2 : 64;
-    uint32_t *table = ARENA_ARRAY(pool->arena, uint32_t, slots);
-    for (uint32_t i = 0; i < pool->entries.len; i++) {
-        if (pool->first + i == 0)
-            continue;
-        uint32_t slot = pool->entries.items[i].hash & (slots - 1);
-        while (table[slot])
-            slot = (slot + 1) & (slots - 1);
-        table[slot] = pool->first + i;
-    }
-    pool->table = table;
-    pool->table_mask = slots - 1;
-}
-
 static str_id add(struct strpool *pool, const char *text, size_t len, uint32_t hash)
 {
     if (len > UINT32_MAX - 1 || pool->first + pool->num == UINT32_MAX)
         mem_fail(pool->arena->mem);
-    if (!pool->table || (pool->num + 1) * 4 > (pool->table_mask + 1) * 3)
-        grow_table(pool);
     str_id id = pool->first + pool->num;
     vec_push(pool->arena, &pool->entries,
-             (struct str_entry){arena_strndup(pool->arena, text, len), (uint32_t)len, hash});
+             (struct str_entry){arena_strndup(pool->arena, text, len), (uint32_t)len});
     pool->num++;
-    uint32_t *table = (uint32_t *)(uintptr_t)pool->table; /* ours: a growing layer owns its table */
-    uint32_t slot = hash & pool->table_mask;
-    while (table[slot])
-        slot = (slot + 1) & pool->table_mask;
-    table[slot] = id;
+    assert(pool->num == pool->entries.len);
+    table_add(&pool->table, pool->arena, hash, id);
     return id;
 }
 
@@ -108,7 +63,7 @@ void strpool_init(struct strpool *pool, struct arena *arena, const struct strpoo
         pool->first = base->first + base->num;
         return;
     }
-    vec_push(arena, &pool->entries, (struct str_entry){"", 0, 0});
+    vec_push(arena, &pool->entries, (struct str_entry){"", 0});
     pool->num = 1;
     static const char *const words[] = {
 #define WORD(id, text) text,
@@ -117,5 +72,5 @@ void strpool_init(struct strpool *pool, struct arena *arena, const struct strpoo
     };
     for (size_t i = 0; i < sizeof words / sizeof *words; i++)
         str_intern_z(pool, words[i]);
-    assert(pool->num == STR_NUM_WORDS); /* a word stands twice in words.def */
+    assert(pool->num == STR_NUM_WORDS); /* words.def has a duplicate word */
 }

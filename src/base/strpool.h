@@ -13,7 +13,7 @@
 #ifndef MXG_BASE_STRPOOL_H
 #define MXG_BASE_STRPOOL_H
 
-#include "base/mem.h"
+#include "base/table.h"
 
 #include <assert.h>
 
@@ -30,21 +30,18 @@ enum str_word {
 struct str_entry {
     const char *text; /* NUL-terminated */
     uint32_t len;
-    uint32_t hash;
 };
 
 struct strpool {
     const struct strpool *base; /* the pool below; NULL for the lowest */
     uint32_t first;             /* id of this pool's first string */
     uint32_t num;               /* number of strings in this pool */
-    uint32_t table_mask;   /* slots - 1; the number of slots is a power of two; 0 = no table yet */
-    const uint32_t *table; /* open addressing: id or 0 */
+    struct table table;
     /* growing pool */
     struct arena *arena;
     VEC(struct str_entry) entries;
     /* image: text i is at bytes + offsets[i], its NUL at offsets[i + 1] - 1 */
     const uint32_t *offsets; /* num + 1 entries; NULL in a growing pool */
-    const uint16_t *narrow;  /* replaces `table` if all ids fit in 16 bits */
     const char *bytes;
 };
 

@@ -69,7 +69,7 @@ void text_fmt(struct text *text, const char *format, ...)
     va_end(args);
 }
 
-/* Length of the UTF-8 sequence at p (1 to 4), or 0 where it is not well formed (RFC 3629). */
+/* Length of the UTF-8 sequence at p (1 to 4), or 0 if it is invalid (RFC 3629). */
 static size_t utf8_length(const unsigned char *p, size_t len)
 {
     static const uint32_t least[5] = {0, 0, 0x80, 0x800, 0x10000};

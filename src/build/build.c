@@ -86,6 +86,7 @@ struct builder *build_start(const struct library *lib, const struct build_option
     diags->trace = build_trace; /* the builder lives as long as the list: both are the result's */
     diags->trace_data = b;
     b->resolved.arena = b->arena;
+    b->apply = build_apply_definition;
     b->globals =
         ARENA_ARRAY(b->arena, ir_ref, shader->unit->base_globals + shader->unit->globals.len);
     b->host = (struct lang_host){.user_data = b,

@@ -5,6 +5,8 @@
 
 #include "build/build.h"
 
+#include <assert.h>
+
 /*
  * A scope whose nodes the builder visits: the document, or one use of a nodegraph with a nodedef.
  */
@@ -67,6 +69,9 @@ struct builder {
     struct ir_graph *graph;
     struct arena *arena;
     struct diag_list *diags;
+    /* build_apply: demand.c asks for inputs, and an input may need a definition applied */
+    void (*apply)(struct builder *b, uint32_t nodedef, elem_id where, const ir_ref *args,
+                  ir_ref *results);
     struct lang_host host;
     struct instance *document;
     VEC(struct frame) frames;
@@ -91,23 +96,47 @@ static inline const char *build_text(const struct builder *b, str_id id)
     return str_text(b->shader->strings, id);
 }
 
+/* Types whose values are numbers: what parameters and uniforms can be. */
+static inline bool build_is_number(ir_type_id type)
+{
+    return type >= IR_TYPE_BOOL && type <= IR_TYPE_MAT4;
+}
+
 enum { BUILD_MAX_OUTPUTS = 64 };
 
-/* demand.c: builds the results of a node; afterwards its slot is SLOT_ERROR or holds results. */
-void build_demand(struct builder *b, struct instance *scope, elem_id node);
-/* Output `output` of a built node; POISON of `type` after an error. */
+/* scope.c */
+static inline uint32_t *build_slot(struct instance *scope, elem_id node)
+{
+    assert(node - scope->first < scope->num_slots);
+    return &scope->slots[node - scope->first];
+}
+/* The scope of a graph within another. */
+struct instance *build_new_instance(struct builder *b, struct instance *parent, elem_id graph);
+/* Output `output` of a node that was asked for; POISON of `type` after an error. */
 ir_ref build_result(struct builder *b, struct instance *scope, elem_id node, unsigned output,
                     doc_type type);
+
+/* demand.c: asks for a node's results; afterwards its slot is SLOT_ERROR or holds results. */
+void build_demand(struct builder *b, struct instance *scope, elem_id node);
+/* builder->apply */
+void build_apply_definition(struct builder *b, uint32_t nodedef, elem_id where, const ir_ref *args,
+                            ir_ref *results);
 
 /*
  * Applies a definition to arguments without a document node, for geometric properties and colour
  * transforms. `where` is the element that needs it, for diagnostics. Writes one ref per output;
  * poison after an error.
  */
-void build_apply(struct builder *b, uint32_t nodedef, elem_id where, const ir_ref *args,
-                 ir_ref *results);
+static inline void build_apply(struct builder *b, uint32_t nodedef, elem_id where,
+                               const ir_ref *args, ir_ref *results)
+{
+    b->apply(b, nodedef, where, args, results);
+}
 
-/* The memo of a nodegraph with these arguments; adds it if absent. A later addition moves it. */
+/*
+ * memo.c: the memo of a nodegraph with these arguments; adds it if absent. A later addition moves
+ * it.
+ */
 struct memo *build_memo(struct builder *b, uint32_t impl, const ir_ref *args, uint32_t n);
 
 /* outline.c: the memo of the function for a nodegraph, or LIBRARY_NONE to inline it. */
@@ -129,6 +158,28 @@ void build_trace(void *builder, struct diag_list *list);
 /* The value of a binding. A bound node must be built already. `node` owns the input. */
 ir_ref build_input(struct builder *b, struct instance *scope, elem_id node, const struct port *port,
                    const struct binding *binding);
+
+/* interface.c */
+
+/* The variable that an input of a node would be; `element` says its value, 0: none does. */
+struct shader_variable build_describe(struct builder *b, elem_id node, const struct port *port,
+                                      elem_id element, str_id input, str_id path);
+/*
+ * A literal or default of an input of a node of the document: uniform or constant as the interface
+ * mode says. `authored`: the document says it.
+ */
+ir_ref build_publish(struct builder *b, elem_id node, const struct port *port, elem_id element,
+                     str_id input, ir_ref value, bool authored);
+/* The path of an input: "SR_gold/base_color". */
+str_id build_input_path(struct builder *b, elem_id node, str_id input, elem_id element);
+
+/* value.c */
+
+/*
+ * The constant that attribute `value` of an element says, as `text`; poison and a diagnostic where
+ * it does not parse.
+ */
+ir_ref build_constant(struct builder *b, const struct port *port, str_id text, elem_id element);
 /* The default of an input: default value, geometric property, or absent (0 for closures). */
 ir_ref build_default(struct builder *b, const struct port *port);
 /* The value of a geometric property by name: defaultgeomprop. */
@@ -138,8 +189,6 @@ ir_ref build_geomprop(struct builder *b, str_id name, doc_type type, struct diag
  * for other nodes.
  */
 bool build_initial(const struct builder *b, ir_ref value, struct ir_value *out);
-/* The path of an input: "SR_gold/base_color". */
-str_id build_input_path(struct builder *b, elem_id node, str_id input, elem_id element);
 
 /*
  * color.c: converts a color3 or color4 from `space` to the working space, with the transform nodes
@@ -180,14 +229,19 @@ str_id build_file_name(struct builder *b, const struct instance *scope, elem_id 
 /* True if a node sets tokens, so that its results cannot be shared. */
 bool build_has_tokens(const struct builder *b, elem_id node);
 
-/* node.c: the function that a definition is for the target; LIBRARY_NONE: it is none. */
+/* choose.c */
+
+/* The implementation of a definition for the target; NULL after a diagnostic. */
+const struct implementation *build_choose(struct builder *b, uint32_t nodedef, elem_id node);
+/* The function that a definition is for the target; LIBRARY_NONE: it is none. */
 uint32_t build_light_function(struct builder *b, uint32_t nodedef);
+/* "ND_constant_color3" of "constant"; LIBRARY_NONE: the library has none of the type. */
+uint32_t build_definition_of(const struct builder *b, const char *node, str_id type);
+
 /* node.c: results of a node from its arguments, except graphs. Writes one ref per output. */
 void build_node(struct builder *b, const struct frame *frame, ir_ref *results);
 /* The callee index of a leaf family, for a LEAF. */
 uint32_t build_leaf_callee(struct builder *b, uint32_t family);
-/* The implementation of a definition for the target; NULL after a diagnostic. */
-const struct implementation *build_choose(struct builder *b, uint32_t nodedef, elem_id node);
 /* Calls an expression or function implementation. */
 void build_call(struct builder *b, const struct implementation *impl, const ir_ref *args,
                 ir_ref *results);
@@ -207,8 +261,8 @@ ir_ref build_measured_edf(struct builder *b, ir_ref color, ir_ref normal, ir_ref
  * values; they become sources that stand for it.
  */
 void build_record_node(struct builder *b, const struct frame *frame, ir_ref *results);
-/* A geometric property that no node gives, by a node that reads it. */
-ir_ref build_property_layer(struct builder *b, const struct geomprop *prop);
+/* The default of an input, as its layers have it; type VOID or 0: it has no number. */
+struct ir_value build_network_default(struct builder *b, const struct port *port);
 
 /* dynamic.c: builds nodes in C; false if the definition has no such code. */
 bool build_dynamic(struct builder *b, const struct frame *frame, ir_ref *results);

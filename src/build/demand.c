@@ -11,20 +11,6 @@ enum { MAX_DEFINITION_DEPTH = 200 };
 
 enum frame_phase { PHASE_INPUTS, PHASE_OUTPUTS };
 
-static uint32_t *slot_of(struct instance *scope, elem_id node)
-{
-    return &scope->slots[node - scope->first];
-}
-
-ir_ref build_result(struct builder *b, struct instance *scope, elem_id node, unsigned output,
-                    doc_type type)
-{
-    uint32_t slot = *slot_of(scope, node);
-    if (slot < SLOT_RESULTS)
-        return ir_poison(b->graph, library_type_ir(b->lib, type));
-    return b->results.items[slot - SLOT_RESULTS + output];
-}
-
 static const struct document *doc_of(const struct builder *b)
 {
     return &b->lib->doc;
@@ -78,63 +64,6 @@ static void report_recursion(struct builder *b, const struct instance *scope, el
              text_cstr(&path));
 }
 
-static uint32_t hash_args(uint32_t impl, const ir_ref *args, uint32_t n)
-{
-    uint64_t h = hash_mix(0, impl);
-    for (uint32_t i = 0; i < n; i++)
-        h = hash_mix(h, args[i]);
-    return (uint32_t)(h ^ (h >> 32));
-}
-
-static void grow_memos(struct builder *b)
-{
-    uint32_t slots = b->memo_table ? (b->memo_mask + 1) * 2 : 32;
-    b->memo_table = ARENA_ARRAY(b->arena, uint32_t, slots);
-    b->memo_mask = slots - 1;
-    for (uint32_t i = 0; i < b->memos.len; i++) {
-        uint32_t slot = b->memos.items[i].hash & b->memo_mask;
-        while (b->memo_table[slot])
-            slot = (slot + 1) & b->memo_mask;
-        b->memo_table[slot] = i + 1;
-    }
-}
-
-struct memo *build_memo(struct builder *b, uint32_t impl, const ir_ref *args, uint32_t n)
-{
-    if (!b->memo_table || b->memos.len * 2 > b->memo_mask)
-        grow_memos(b);
-    uint32_t hash = hash_args(impl, args, n);
-    uint32_t slot = hash & b->memo_mask;
-    for (; b->memo_table[slot]; slot = (slot + 1) & b->memo_mask) {
-        struct memo *m = &b->memos.items[b->memo_table[slot] - 1];
-        if (m->hash == hash && m->impl == impl
-            && (n == 0 || memcmp(m->args, args, n * sizeof *args) == 0))
-            return m;
-    }
-    vec_push(b->arena, &b->memos,
-             (struct memo){.hash = hash, .impl = impl, .args = args, .num_args = n});
-    b->memo_table[slot] = b->memos.len;
-    return &vec_last(&b->memos);
-}
-
-static struct instance *new_instance(struct builder *b, struct instance *parent, elem_id graph)
-{
-    struct instance *inner = ARENA_NEW(b->arena, struct instance);
-    inner->parent = parent;
-    inner->graph = graph;
-    inner->depth = parent->depth + 1;
-    elem_id low = UINT32_MAX, high = 0;
-    for (elem_id e = doc_element(doc_of(b), graph)->first_child; e;
-         e = doc_element(doc_of(b), e)->next) {
-        low = e < low ? e : low;
-        high = e > high ? e : high;
-    }
-    inner->first = low;
-    inner->num_slots = high >= low ? high - low + 1 : 0;
-    inner->slots = ARENA_ARRAY(b->arena, uint32_t, inner->num_slots);
-    return inner;
-}
-
 /* Finds definition and bindings, from the library's own tables or now. */
 static void resolve(struct builder *b, struct frame *frame, elem_id node)
 {
@@ -161,7 +90,7 @@ static void resolve(struct builder *b, struct frame *frame, elem_id node)
 
 static void push(struct builder *b, struct instance *scope, elem_id node)
 {
-    uint32_t *slot = slot_of(scope, node);
+    uint32_t *slot = build_slot(scope, node);
     if (*slot == SLOT_BUSY) {
         report_cycle(b, scope, node);
         *slot = SLOT_ERROR;
@@ -183,7 +112,7 @@ static void push(struct builder *b, struct instance *scope, elem_id node)
 static void finish(struct builder *b, uint32_t first_result)
 {
     struct frame *frame = &vec_last(&b->frames);
-    uint32_t *slot = slot_of(frame->scope, frame->node.element);
+    uint32_t *slot = build_slot(frame->scope, frame->node.element);
     if (*slot == SLOT_BUSY)
         *slot = SLOT_RESULTS + first_result;
     b->frames.len--;
@@ -287,7 +216,7 @@ static void enter_graph(struct builder *b, struct frame *frame)
                      MAX_DEFINITION_DEPTH);
         else
             report_recursion(b, frame->scope, graph, frame->node.element);
-        *slot_of(frame->scope, frame->node.element) = SLOT_ERROR;
+        *build_slot(frame->scope, frame->node.element) = SLOT_ERROR;
         b->frames.len--;
         return;
     }
@@ -305,7 +234,7 @@ static void enter_graph(struct builder *b, struct frame *frame)
         finish_call(b, frame, function - 1);
         return;
     }
-    frame->inner = new_instance(b, frame->scope, graph);
+    frame->inner = build_new_instance(b, frame->scope, graph);
     frame->inner->nodedef = frame->node.nodedef;
     frame->inner->args = frame->args;
     frame->inner->node = frame->node.element;
@@ -322,7 +251,7 @@ static void step_inputs(struct builder *b)
     const struct nodedef *def = library_nodedef(b->lib, frame->node.nodedef);
     while (frame->next < def->num_inputs) {
         const struct binding *binding = &frame->bindings[frame->next++];
-        if (binding->kind == BIND_NODE && *slot_of(frame->scope, binding->ref) <= SLOT_BUSY) {
+        if (binding->kind == BIND_NODE && *build_slot(frame->scope, binding->ref) <= SLOT_BUSY) {
             uint32_t before = b->frames.len;
             push(b, frame->scope, binding->ref);
             if (b->frames.len > before)
@@ -389,7 +318,7 @@ static void step_outputs(struct builder *b)
             continue;
         struct binding binding =
             library_resolve_connection(b->lib, output, DOC_TYPE_NONE, &ignored);
-        if (binding.kind == BIND_NODE && *slot_of(frame->inner, binding.ref) == SLOT_EMPTY) {
+        if (binding.kind == BIND_NODE && *build_slot(frame->inner, binding.ref) == SLOT_EMPTY) {
             uint32_t before = b->frames.len;
             push(b, frame->inner, binding.ref);
             if (b->frames.len > before)
@@ -418,8 +347,8 @@ void build_demand(struct builder *b, struct instance *scope, elem_id node)
     }
 }
 
-void build_apply(struct builder *b, uint32_t nodedef, elem_id where, const ir_ref *args,
-                 ir_ref *results)
+void build_apply_definition(struct builder *b, uint32_t nodedef, elem_id where, const ir_ref *args,
+                            ir_ref *results)
 {
     const struct nodedef *def = library_nodedef(b->lib, nodedef);
     const struct port *outputs = library_ports(b->lib, nodedef, NULL) + def->num_inputs;
@@ -434,7 +363,7 @@ void build_apply(struct builder *b, uint32_t nodedef, elem_id where, const ir_re
         results[i] = ir_poison(b->graph, library_type_ir(b->lib, outputs[i].type));
     if (!frame.impl)
         return;
-    struct instance *inner = new_instance(b, b->document, frame.impl->ref);
+    struct instance *inner = build_new_instance(b, b->document, frame.impl->ref);
     inner->nodedef = nodedef;
     inner->args = args;
     inner->origin = b->graph->origin;

@@ -87,7 +87,7 @@ static struct ir_value settled_value(struct builder *b, const struct implementat
     return value;
 }
 
-static struct ir_value default_value(struct builder *b, const struct port *port)
+struct ir_value build_network_default(struct builder *b, const struct port *port)
 {
     struct ir_value value = {.type = library_type_ir(b->lib, port->type)};
     if (value.type == IR_TYPE_STRING || value.type == IR_TYPE_SAMPLER)
@@ -95,11 +95,6 @@ static struct ir_value default_value(struct builder *b, const struct port *port)
     else if (!port->geomprop && port->value && (port->flags & PORT_HAS_VALUE))
         build_initial(b, build_default(b, port), &value);
     return value;
-}
-
-static bool has_numbers(ir_type_id type)
-{
-    return type >= IR_TYPE_BOOL && type <= IR_TYPE_MAT4;
 }
 
 static void add_word(struct text *name, const char *word)
@@ -128,7 +123,7 @@ static str_id node_name(struct builder *b, const struct nodedef *def, const stru
     text_init(&name, b->arena);
     text_str(&name, build_text(b, def->name));
     for (unsigned i = 0; i < def->num_inputs; i++) {
-        struct ir_value usual = default_value(b, &ports[i]);
+        struct ir_value usual = build_network_default(b, &ports[i]);
         if (fixed[i].type == IR_TYPE_VOID || fixed[i].w[0].u == usual.w[0].u)
             continue;
         struct text number;
@@ -222,9 +217,9 @@ static void add_input(struct builder *b, const struct frame *frame, const struct
     if (!is_settled(b, frame->impl, port))
         input = input_of(b, arg);
     input.doc_type = library_type_name(b->lib, port->type);
-    struct ir_value usual = default_value(b, port);
+    struct ir_value usual = build_network_default(b, port);
     bool is_usual = input.kind == NETWORK_VALUE && !input.path && !port->geomprop
-                    && has_numbers(usual.type) && ir_value_equal(&input.value, &usual);
+                    && build_is_number(usual.type) && ir_value_equal(&input.value, &usual);
     if (is_usual)
         input.kind = NETWORK_DEFAULT;
     vec_push(b->arena, &b->recorder->network->inputs, input);
@@ -334,20 +329,11 @@ void build_record_node(struct builder *b, const struct frame *frame, ir_ref *res
     }
 }
 
-/* "ND_constant_color3"; LIBRARY_NONE */
-static uint32_t definition_of(const struct builder *b, const char *node, str_id type)
-{
-    struct text name;
-    text_init(&name, b->arena);
-    text_fmt(&name, "ND_%s_%s", node, build_text(b, type));
-    str_id id = str_find(b->shader->strings, text_cstr(&name), name.len);
-    return id ? library_nodedef_by_name(b->lib, id) : LIBRARY_NONE;
-}
-
 /* A layer that gives a value which is no layer's; UINT32_MAX: there is none of its type. */
 static uint32_t constant_layer(struct builder *b, ir_ref value, str_id type)
 {
-    struct frame frame = {.node = {.nodedef = definition_of(b, "constant", type)}, .args = &value};
+    struct frame frame = {.node = {.nodedef = build_definition_of(b, "constant", type)},
+                          .args = &value};
     if (frame.node.nodedef == LIBRARY_NONE
         || !(frame.impl = build_choose(b, frame.node.nodedef, 0)))
         return UINT32_MAX;
@@ -389,92 +375,4 @@ bool build_network_results(struct builder *b, ir_ref root, str_id type)
         input->kind = NETWORK_LAYER;
     }
     return input->kind != NETWORK_LAYER || input->layer < network->layers.len;
-}
-
-ir_ref build_property_layer(struct builder *b, const struct geomprop *prop)
-{
-    uint32_t nodedef = definition_of(b, "geompropvalue", library_type_name(b->lib, prop->type));
-    if (nodedef == LIBRARY_NONE)
-        return ir_poison(b->graph, library_type_ir(b->lib, prop->type));
-    const struct nodedef *def = library_nodedef(b->lib, nodedef);
-    const struct port *ports = library_ports(b->lib, nodedef, NULL);
-    ir_ref *args = ARENA_ARRAY(b->arena, ir_ref, def->num_inputs), results[BUILD_MAX_OUTPUTS];
-    for (unsigned i = 0; i < def->num_inputs; i++)
-        args[i] = ports[i].name == STR_geomprop ? ir_const_string(b->graph, prop->name)
-                                                : build_default(b, &ports[i]);
-    ir_push_name(b->graph, prop->name);
-    build_apply(b, nodedef, prop->element, args, results);
-    ir_pop_origin(b->graph);
-    return results[0];
-}
-
-/* ---- The shader of a node ---- */
-
-/* What comes from another layer is a closure of any kind; of displacements, the offset. */
-static ir_type_id parameter_type(ir_type_id type)
-{
-    return type == IR_TYPE_DISPLACEMENT                          ? IR_TYPE_VEC3
-           : ir_type_is_closure(type) || ir_type_is_shader(type) ? IR_TYPE_BSDF
-                                                                 : type;
-}
-
-static ir_ref add_parameter(struct builder *b, const struct port *port, str_id file,
-                            str_id *out_name)
-{
-    ir_type_id type = library_type_ir(b->lib, port->type);
-    struct shader_variable v = {.name = port->name,
-                                .block = BLOCK_PUBLIC_UNIFORMS,
-                                .type = parameter_type(type),
-                                .doc_type = library_type_name(b->lib, port->type),
-                                .definition = port->element};
-    if (type == IR_TYPE_SAMPLER) {
-        v.file = file;
-        ir_ref texture = build_texture(b, v, port->element);
-        *out_name = b->shader->variables.items[ir_get(b->graph, texture)->attr].name;
-        return texture;
-    }
-    v.has_default = has_numbers(type);
-    v.value = default_value(b, port);
-    uint32_t variable = shader_add_variable(b->shader, &v);
-    *out_name = b->shader->variables.items[variable].name;
-    return ir_build(b->graph, IR_UNIFORM, type, variable, NULL, 0);
-}
-
-static ir_ref argument(struct builder *b, const struct implementation *impl,
-                       const struct port *port, const struct ir_value *value, str_id *out_name)
-{
-    if (value->type == IR_TYPE_VOID
-        || (value->type == IR_TYPE_SAMPLER && impl->kind != IMPL_DYNAMIC))
-        return add_parameter(b, port, value->type == IR_TYPE_VOID ? port->value : value->w[0].u,
-                             out_name);
-    if (value->type == IR_TYPE_STRING)
-        return ir_const_string(b->graph, value->w[0].u);
-    if (value->type != IR_TYPE_SAMPLER)
-        return ir_const(b->graph, value);
-    struct shader_variable v = {.name = port->name, .type = IR_TYPE_SAMPLER, .file = value->w[0].u};
-    return build_texture(b, v, b->document->node);
-}
-
-void build_network_node(struct builder *b, struct network_node *node, ir_ref *results)
-{
-    const struct port *ports = library_ports(b->lib, node->definition, NULL);
-    struct frame frame = {.node = {.nodedef = node->definition, .element = b->document->node}};
-    str_id *names = ARENA_ARRAY(b->arena, str_id, node->num_inputs);
-    frame.args = ARENA_ARRAY(b->arena, ir_ref, node->num_inputs);
-    frame.impl = build_choose(b, node->definition, frame.node.element);
-    ir_push_name(b->graph, str_intern_z(b->shader->strings, "value"));
-    for (uint32_t i = 0; i < node->num_inputs; i++)
-        frame.args[i] = argument(b, frame.impl, &ports[i], &node->fixed[i], &names[i]);
-    node->inputs = names;
-    build_node(b, &frame, results);
-    ir_pop_origin(b->graph);
-}
-
-str_id build_network_output(struct builder *b, const struct network_node *node, uint32_t index,
-                            str_id *out_type)
-{
-    const struct port *port =
-        library_ports(b->lib, node->definition, NULL) + node->num_inputs + index;
-    *out_type = library_type_name(b->lib, port->type);
-    return port->name;
 }

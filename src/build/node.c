@@ -2,79 +2,6 @@
 /* From a node's arguments to its results, by the implementation for the target. */
 #include "build/build_priv.h"
 
-/* ---- choosing ---- */
-
-/* 0: not for this target; more is nearer: own target before inherited ones before portable. */
-static unsigned fitness(const struct builder *b, const struct implementation *impl)
-{
-    if (!impl->target)
-        return 1;
-    for (unsigned i = 0; i < b->options->num_targets; i++)
-        if (b->options->targets[i] == impl->target)
-            return 2 + b->options->num_targets - i;
-    return 0;
-}
-
-static void consider(const struct builder *b, const struct implementation *impl,
-                     const struct implementation **best, unsigned *best_fitness)
-{
-    unsigned f = fitness(b, impl);
-    if (f > *best_fitness) {
-        *best = impl;
-        *best_fitness = f;
-    }
-}
-
-static const struct implementation *best_of(const struct builder *b, uint32_t nodedef)
-{
-    const struct implementation *best = NULL;
-    unsigned best_fitness = 0;
-    /* Higher layers first: a document's implementation wins over the library's of equal fitness. */
-    for (const struct library *layer = b->lib; layer; layer = layer->base) {
-        for (uint32_t i = 0; nodedef < layer->base_nodedefs && i < layer->overrides.len; i++) {
-            const struct implementation *impl = &layer->impls.items[layer->overrides.items[i]];
-            if (impl->nodedef == nodedef)
-                consider(b, impl, &best, &best_fitness);
-        }
-    }
-    for (uint32_t i = library_nodedef(b->lib, nodedef)->first_impl; i != LIBRARY_NONE;) {
-        const struct implementation *impl = library_impl(b->lib, i, NULL);
-        consider(b, impl, &best, &best_fitness);
-        i = impl->next;
-    }
-    return best;
-}
-
-static void tell_deferred(struct builder *b, const struct implementation *impl)
-{
-    const struct library *layer = library_of_element(b->lib, impl->element);
-    for (uint32_t i = 0; i < impl->count; i++) {
-        const struct diag *d = &layer->deferred->items.items[impl->ref + i];
-        diag_repeat(b->diags, d);
-    }
-}
-
-const struct implementation *build_choose(struct builder *b, uint32_t nodedef, elem_id node)
-{
-    const struct implementation *impl = best_of(b, nodedef);
-    if (impl && impl->kind == IMPL_BROKEN) {
-        tell_deferred(b, impl);
-        return NULL;
-    }
-    if (!impl) {
-        const struct nodedef *def = library_nodedef(b->lib, nodedef);
-        diag_add(b->diags, DIAG_ID_missing_implementation, doc_place(&b->lib->doc, node),
-                 build_text(b, def->name),
-                 b->options->num_targets ? build_text(b, b->options->targets[0]) : "",
-                 "; add a <nodegraph> or <implementation> with this 'nodedef'");
-        diag_add(b->diags, DIAG_ID_defined_here, doc_place(&b->lib->doc, def->element),
-                 build_text(b, def->name));
-    }
-    return impl;
-}
-
-/* ---- building ---- */
-
 static void call_expressions(struct builder *b, const struct implementation *impl,
                              const ir_ref *args, ir_ref *results)
 {
@@ -271,10 +198,4 @@ void build_node(struct builder *b, const struct frame *frame, ir_ref *results)
     build_by_implementation(b, frame, results);
     if (b->recorder)
         build_record_node(b, frame, results);
-}
-
-uint32_t build_light_function(struct builder *b, uint32_t nodedef)
-{
-    const struct implementation *impl = best_of(b, nodedef);
-    return impl && impl->kind == IMPL_FUNCTION ? impl->ref : LIBRARY_NONE;
 }

@@ -10,11 +10,6 @@
 
 enum { INLINE_USES = 16, MAX_FUNCTIONS = 60000 };
 
-static bool is_number(ir_type_id type)
-{
-    return type >= IR_TYPE_BOOL && type <= IR_TYPE_MAT4;
-}
-
 /*
  * Numbers are parameters. Anything else is part of the function, and so are constants that choose
  * (an index, a switch), because nodes may ask to know them.
@@ -23,14 +18,14 @@ static bool is_parameter(const struct builder *b, ir_ref arg)
 {
     ir_type_id type = arg ? ir_type_of(b->graph, arg) : IR_TYPE_VOID;
     bool chooses = type == IR_TYPE_BOOL || type == IR_TYPE_INT || type == IR_TYPE_UINT;
-    return is_number(type) && !(chooses && ir_is_const(b->graph, arg));
+    return build_is_number(type) && !(chooses && ir_is_const(b->graph, arg));
 }
 
 static bool gives_numbers(const struct builder *b, const struct nodedef *def,
                           const struct port *outputs)
 {
     for (uint32_t i = 0; i < def->num_outputs; i++)
-        if (!is_number(library_type_ir(b->lib, outputs[i].type)))
+        if (!build_is_number(library_type_ir(b->lib, outputs[i].type)))
             return false;
     return true;
 }

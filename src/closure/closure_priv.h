@@ -11,7 +11,7 @@ ir_ref closure_position(struct shader *shader, const struct closure_host *host);
 /* Its unit normal. */
 ir_ref closure_normal(struct shader *shader, const struct closure_host *host);
 
-/* The same for functions that give several values; false where the family has none. */
+/* The same for functions with several results; false if the family does not have it. */
 bool closure_call_all(struct shader *shader, const struct closure_host *host, ir_ref leaf,
                       enum leaf_function which, const ir_ref *light, ir_ref *results);
 
@@ -83,7 +83,7 @@ ir_ref closure_mul(struct ir_graph *graph, ir_ref a, ir_ref b);
 ir_ref closure_product(struct ir_graph *graph, ir_ref value, ir_ref weight);
 /* guard.c: finds the parts that need a branch. in_loop: considers only code inside the loop. */
 void closure_find_guarded(struct shader *shader, struct closure_parts *list, bool in_loop);
-/* Two closures of one type, either of which may be 0: none. */
+/* Mixes two closures of one type; 0 is an absent closure. */
 ir_ref closure_mixed(struct ir_graph *graph, ir_ref bg, ir_ref fg, ir_ref mix);
 
 /* Names a value after its role for a leaf or operator: "coat_weight" of the leaf "coat". */

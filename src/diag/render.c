@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* render: a message with the source line and a caret. */
+/* Renders diagnostics for people, with the source line and a caret. */
 #include "diag/diag.h"
 
 enum {

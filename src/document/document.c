@@ -322,21 +322,14 @@ static bool is_child(const struct document *doc, elem_id element, elem_id parent
     return e->parent == parent && e->name == name;
 }
 
-/* The slot of a name below a parent, or the free slot for it. */
-static uint32_t find_slot(const struct document *doc, elem_id parent, str_id name)
+/* The element of this name below a parent; 0: none. *at is its place in the table. */
+static elem_id find_name(const struct document *doc, elem_id parent, str_id name, uint32_t *at)
 {
-    uint32_t slot = hash_pair(parent, name) & doc->name_mask;
-    while (doc->name_table[slot] && !is_child(doc, doc->name_table[slot], parent, name))
-        slot = (slot + 1) & doc->name_mask;
-    return slot;
-}
-
-static elem_id find_narrow(const struct document *doc, elem_id parent, str_id name)
-{
-    uint32_t slot = hash_pair(parent, name) & doc->name_mask;
-    while (doc->narrow_names[slot] && !is_child(doc, doc->narrow_names[slot], parent, name))
-        slot = (slot + 1) & doc->name_mask;
-    return doc->narrow_names[slot];
+    uint32_t hash = *at = hash_pair(parent, name);
+    elem_id found;
+    while ((found = table_next(&doc->names, hash, at)) && !is_child(doc, found, parent, name))
+        ;
+    return found;
 }
 
 /* True if two elements have equal content, so that the second one is redundant. */
@@ -373,23 +366,19 @@ static void report_duplicate(struct document *doc, elem_id first, elem_id second
 
 void doc_index_names(struct document *doc, struct diag_list *diags)
 {
-    uint32_t slots = 16;
-    while (slots / 4 * 3 <= doc->elements.len)
-        slots *= 2;
-    doc->name_table = ARENA_ARRAY(doc->arena, uint32_t, slots);
-    doc->name_mask = slots - 1;
-    doc->num_names = 0;
+    doc->names = (struct table){0};
+    table_reserve(&doc->names, doc->arena, doc->elements.len / 3 * 2); /* three of four are used */
     for (uint32_t i = 0; i < doc->elements.len; i++) {
         elem_id element = doc->first_element + i;
         if (!is_named_child(doc, element))
             continue;
         const struct element *e = &doc->elements.items[i];
-        uint32_t slot = find_slot(doc, e->parent, e->name);
-        if (doc->name_table[slot] && diags)
-            report_duplicate(doc, doc->name_table[slot], element, diags);
-        doc->num_names += !doc->name_table[slot];
-        if (!doc->name_table[slot])
-            doc->name_table[slot] = element;
+        uint32_t at;
+        elem_id first = find_name(doc, e->parent, e->name, &at);
+        if (first && diags)
+            report_duplicate(doc, first, element, diags);
+        if (!first)
+            table_add(&doc->names, doc->arena, hash_pair(e->parent, e->name), element);
     }
 }
 
@@ -397,22 +386,19 @@ void doc_index_element(struct document *doc, elem_id element)
 {
     if (!is_named_child(doc, element))
         return;
-    if (doc->num_names >= doc->name_mask / 4 * 3) {
-        doc_index_names(doc, NULL); /* grows the table by at least a third */
-        return;
-    }
     const struct element *e = doc_element(doc, element);
-    uint32_t slot = find_slot(doc, e->parent, e->name);
-    doc->num_names += !doc->name_table[slot];
-    doc->name_table[slot] = element;
+    uint32_t at;
+    if (find_name(doc, e->parent, e->name, &at))
+        table_replace(&doc->names, at, element);
+    else
+        table_add(&doc->names, doc->arena, hash_pair(e->parent, e->name), element);
 }
 
 elem_id doc_child(const struct document *doc, elem_id parent, str_id name)
 {
+    uint32_t at;
     doc = doc_layer(doc, parent);
-    if (doc->narrow_names)
-        return name ? find_narrow(doc, parent, name) : 0;
-    return doc->name_table && name ? doc->name_table[find_slot(doc, parent, name)] : 0;
+    return name ? find_name(doc, parent, name, &at) : 0;
 }
 
 elem_id doc_child_of_kind(const struct document *doc, elem_id parent, enum element_kind kind,

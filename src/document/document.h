@@ -102,11 +102,7 @@ struct document {
     VEC(struct attribute) attrs;
     VEC(str_id) files;          /* names from the user or from includes */
     VEC(struct doc_link) links; /* parallel to `elements`; empty in an image layer */
-    uint32_t *name_table;       /* hash table (parent, name) → element; doc_index_names */
-    /* replaces name_table in an image whose element ids fit in 16 bits */
-    const uint16_t *narrow_names;
-    uint32_t name_mask;
-    uint32_t num_names; /* used slots */
+    struct table names;         /* (parent, name) → element: doc_index_names */
 };
 
 /* Makes an empty document with a root element <materialx>. */

@@ -7,7 +7,7 @@
 #include <assert.h>
 
 /* a shading model has some hundred nodes */
-enum { FIRST_SLOTS = 1024, FIRST_NODES = FIRST_SLOTS / 4 * 3 };
+enum { FIRST_NODES = 768 };
 
 /* What makes a node the node it is: all of struct ir_node but its flags and origin. */
 struct content {
@@ -61,36 +61,19 @@ static inline bool has_content(const struct ir_graph *graph, ir_ref ref, struct 
     return true;
 }
 
-/* The slot where a node of this content is, or the empty one where it belongs. */
-static inline uint32_t *find_slot(const struct ir_graph *graph, struct content c)
+/* The node of this content; 0: there is none. */
+static inline ir_ref find(const struct ir_graph *graph, struct content c, uint32_t hash)
 {
-    uint32_t i = hash_content(c) & graph->table_mask;
-    while (graph->table[i] && !has_content(graph, graph->table[i], c))
-        i = (i + 1) & graph->table_mask;
-    return &graph->table[i];
-}
-
-static void grow_table(struct ir_graph *graph)
-{
-    uint32_t old = graph->table ? graph->table_mask + 1 : 0;
-    uint32_t slots = old ? old * 2 : FIRST_SLOTS;
-    if (slots < old)
-        mem_fail(graph->arena->mem);
-    graph->table = arena_grow(graph->arena, graph->table, old * sizeof *graph->table,
-                              mem_array_size(graph->arena->mem, slots, sizeof *graph->table));
-    graph->table_mask = slots - 1;
-    memset(graph->table, 0, slots * sizeof *graph->table);
-    for (ir_ref ref = 1; ref < graph->nodes.len; ref++) {
-        uint32_t i = hash_content(content_of(graph, ref)) & graph->table_mask;
-        while (graph->table[i])
-            i = (i + 1) & graph->table_mask;
-        graph->table[i] = ref;
-    }
+    for (uint32_t at = hash, ref; (ref = table_next(&graph->table, hash, &at));)
+        if (has_content(graph, ref, c))
+            return ref;
+    return 0;
 }
 
 ir_ref ir_find_equal(const struct ir_graph *graph, ir_ref ref)
 {
-    return *find_slot(graph, content_of(graph, ref));
+    struct content c = content_of(graph, ref);
+    return find(graph, c, hash_content(c));
 }
 
 /* Room for n more nodes; everyone else sees the array as constant. */
@@ -124,7 +107,7 @@ void ir_graph_init(struct ir_graph *graph, struct arena *arena, struct strpool *
     vec_push(arena, &graph->labels, (struct ir_label){0});
     vec_push(arena, &graph->words, (union ir_word){.u = 0});
     vec_push(arena, &graph->origins, (struct ir_origin){0});
-    grow_table(graph);
+    table_reserve(&graph->table, arena, FIRST_NODES / 2);
 }
 
 /* What calls of an IR function have of its body. */
@@ -226,15 +209,14 @@ static bool has_room(struct ir_graph *graph, enum ir_op op)
     return !is_full;
 }
 
-static inline ir_ref add(struct ir_graph *graph, struct ir_node node, uint32_t *slot)
+static inline ir_ref add(struct ir_graph *graph, struct ir_node node, uint32_t hash)
 {
     ir_ref ref = graph->nodes.len;
     *reserve_nodes(graph, 1) = node;
     graph->nodes.len++;
     vec_push(graph->arena, &graph->labels, (struct ir_label){0});
-    *slot = ref;
-    if (ref >= graph->table_mask / 4 * 3)
-        grow_table(graph);
+    table_add(&graph->table, graph->arena, hash, ref);
+    assert(graph->nodes.len == graph->labels.len);
     return ref;
 }
 
@@ -243,11 +225,12 @@ ir_ref ir_intern(struct ir_graph *graph, enum ir_op op, ir_type_id type, uint32_
 {
     assert(op != IR_CONST);
     struct content c = {op, type, attr, num_args, args};
-    uint32_t *slot = find_slot(graph, c);
-    if (*slot) {
-        bool is_other = graph->origin && ir_get(graph, *slot)->origin != graph->origin;
-        graph->labels.items[*slot].is_shared |= is_other;
-        return *slot;
+    uint32_t hash = hash_content(c);
+    ir_ref equal = find(graph, c, hash);
+    if (equal) {
+        bool is_other = graph->origin && ir_get(graph, equal)->origin != graph->origin;
+        graph->labels.items[equal].is_shared |= is_other;
+        return equal;
     }
     if (!has_room(graph, op))
         return ir_poison(graph, type);
@@ -258,21 +241,22 @@ ir_ref ir_intern(struct ir_graph *graph, enum ir_op op, ir_type_id type, uint32_
                            .num_args = num_args,
                            .first_arg = graph->args.len};
     node.flags = (uint8_t)(own_flags(graph, c) | push_args(graph, args, num_args));
-    return add(graph, node, slot);
+    return add(graph, node, hash);
 }
 
 ir_ref ir_intern_const(struct ir_graph *graph, ir_type_id type, const union ir_word *words)
 {
     struct content c = {IR_CONST, type, 0, ir_type_info(type)->components, &words->u};
-    uint32_t *slot = find_slot(graph, c);
-    if (*slot)
-        return *slot;
+    uint32_t hash = hash_content(c);
+    ir_ref equal = find(graph, c, hash);
+    if (equal)
+        return equal;
     if (!has_room(graph, IR_CONST))
         return ir_poison(graph, type);
     struct ir_node node = {
         .op = IR_CONST, .type = type, .attr = graph->words.len, .origin = graph->origin};
     push_words(graph, c.data, c.count);
-    return add(graph, node, slot);
+    return add(graph, node, hash);
 }
 
 uint32_t ir_add_origin(struct ir_graph *graph, str_id name, uint32_t element, uint32_t parent)
@@ -282,36 +266,17 @@ uint32_t ir_add_origin(struct ir_graph *graph, str_id name, uint32_t element, ui
     return index;
 }
 
-static uint32_t find_callee_slot(const struct ir_graph *graph, const struct ir_callee *callee)
-{
-    uint32_t slot = hash_pair(callee->kind, callee->index) & graph->callee_mask;
-    for (; graph->callee_table[slot]; slot = (slot + 1) & graph->callee_mask) {
-        const struct ir_callee *found = &graph->callees.items[graph->callee_table[slot] - 1];
-        if (found->kind == callee->kind && found->index == callee->index)
-            break;
-    }
-    return slot;
-}
-
-static void grow_callee_table(struct ir_graph *graph)
-{
-    uint32_t slots = graph->callee_table ? (graph->callee_mask + 1) * 2 : 16;
-    graph->callee_table = ARENA_ARRAY(graph->arena, uint32_t, slots);
-    graph->callee_mask = slots - 1;
-    for (uint32_t i = 0; i < graph->callees.len; i++)
-        graph->callee_table[find_callee_slot(graph, &graph->callees.items[i])] = i + 1;
-}
-
 uint32_t ir_add_callee(struct ir_graph *graph, struct ir_callee callee)
 {
-    if (graph->callees.len >= graph->callee_mask / 4 * 3)
-        grow_callee_table(graph);
-    uint32_t slot = find_callee_slot(graph, &callee);
-    if (!graph->callee_table[slot]) {
-        vec_push(graph->arena, &graph->callees, callee);
-        graph->callee_table[slot] = graph->callees.len;
+    uint32_t hash = hash_pair(callee.kind, callee.index);
+    for (uint32_t at = hash, found; (found = table_next(&graph->callee_table, hash, &at));) {
+        const struct ir_callee *have = &graph->callees.items[found - 1];
+        if (have->kind == callee.kind && have->index == callee.index)
+            return found - 1;
     }
-    return graph->callee_table[slot] - 1;
+    vec_push(graph->arena, &graph->callees, callee);
+    table_add(&graph->callee_table, graph->arena, hash, graph->callees.len);
+    return graph->callees.len - 1;
 }
 
 static uint32_t add_user_type(struct ir_graph *graph, struct ir_user_type type)

@@ -11,6 +11,7 @@
 
 #include "base/mem.h"
 #include "base/strpool.h"
+#include "base/table.h"
 #include "base/text.h"
 
 #include <assert.h>
@@ -243,10 +244,8 @@ struct ir_graph {
     VEC(ir_ref) function_results;
     VEC(struct ir_user_type) user_types;
     VEC(struct ir_member) members;
-    uint32_t *table; /* hash-consing: open addressing over node indices */
-    uint32_t table_mask;
-    uint32_t *callee_table; /* the same over callee indices + 1 */
-    uint32_t callee_mask;
+    struct table table;          /* hash-consing: of nodes */
+    struct table callee_table;   /* callee indices + 1 */
     uint32_t origin;             /* of new nodes: ir_push_origin */
     VEC(uint32_t) outer_origins; /* those below it on the stack */
     uint32_t max_nodes; /* 0 = unlimited; beyond it ->overflow is set and POISON returned */

@@ -21,7 +21,6 @@ static void keep_tables(struct ir_graph *graph, const struct ir_graph *old)
     graph->origins = old->origins;
     graph->callees = old->callees;
     graph->callee_table = old->callee_table;
-    graph->callee_mask = old->callee_mask;
     graph->param_types = old->param_types;
     graph->user_types = old->user_types;
     graph->members = old->members;

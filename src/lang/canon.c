@@ -17,8 +17,7 @@ struct copier {
     VEC(lang_ref) calls;          /* of the function, arguments before the call that they are for */
     uint8_t *is_used;             /* by slot */
     /* open addressing: 1 + a function, of each distinct run of slots */
-    uint32_t *runs;
-    uint32_t runs_mask;
+    struct table runs;
     uint32_t num_effects; /* calls so far that assign to their arguments */
     bool is_simple;       /* no call has arguments with effects, or very many */
 };
@@ -162,14 +161,15 @@ static bool is_final(const struct copier *c, const struct lang_function *fn)
 static uint32_t copy_slots(struct copier *c, const struct lang_function *fn)
 {
     const struct lang_slot *slots = ast_slot(c->from, fn, 0);
-    uint32_t i = hash_bytes(slots, fn->num_slots * sizeof *slots) & c->runs_mask;
-    for (; c->runs[i]; i = (i + 1) & c->runs_mask) {
-        const struct lang_function *other = &c->to->functions.items[c->runs[i] - 1];
+    uint32_t hash = hash_bytes(slots, fn->num_slots * sizeof *slots);
+    for (uint32_t at = hash, found; (found = table_next(&c->runs, hash, &at));) {
+        const struct lang_function *other = &c->to->functions.items[found - 1];
         if (other->num_slots == fn->num_slots
             && memcmp(ast_slot(c->to, other, 0), slots, fn->num_slots * sizeof *slots) == 0)
             return other->first_slot;
     }
-    c->runs[i] = c->to->functions.len + 1; /* which this one is going to be */
+    /* the number of the function that this one becomes, + 1 */
+    table_add(&c->runs, c->to->arena, hash, c->to->functions.len + 1);
     uint32_t first = c->to->slots.len;
     memcpy(vec_extend(c->to->arena, &c->to->slots, fn->num_slots), slots,
            fn->num_slots * sizeof *slots);
@@ -224,10 +224,7 @@ void lang_make_canonical(struct lang_unit *unit)
     struct lang_unit made, to = *unit;
     lang_unit_init(&made, unit->arena, unit->strings, unit);
     const uint32_t *versions = make_versions(&made, unit->base_functions, unit->functions.len);
-    struct copier c = {.to = &to, .made = &made, .runs_mask = 15};
-    while (c.runs_mask < 2 * unit->functions.len)
-        c.runs_mask = 2 * c.runs_mask + 1;
-    c.runs = ARENA_ARRAY(unit->arena, uint32_t, c.runs_mask + 1);
+    struct copier c = {.to = &to, .made = &made};
     memset(&to.nodes, 0, sizeof to.nodes);
     memset(&to.slots, 0, sizeof to.slots);
     memset(&to.words, 0, sizeof to.words);

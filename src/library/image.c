@@ -12,6 +12,8 @@
 
 #include "base/hash.h"
 
+#include <assert.h>
+
 enum { ALIGNMENT = 16 };
 
 struct any_vec { /* the layout of every VEC */
@@ -37,11 +39,12 @@ static const struct section_info section_infos[] = {
     SECTION(ports),        SECTION(impls),           SECTION(families),
     SECTION(verbatims),    SECTION(graph_nodes),     SECTION(bindings),
     SECTION(geomprops),    SECTION(types),           SECTION(units),
-    SECTION(refs),         SECTION(node_table),
+    SECTION(refs),
 };
 enum {
     NUM_VECS = sizeof section_infos / sizeof *section_infos,
     SECTION_NAME_TABLE = NUM_VECS, /* the name table of the document */
+    SECTION_NODE_TABLE,
     SECTION_ELEMENT_INFO,
     SECTION_STR_OFFSETS,
     SECTION_STR_BYTES,
@@ -54,9 +57,8 @@ struct header {
     uint64_t fingerprint; /* hash of the layout: sizes of records, number of words, version */
     uint64_t checksum;    /* of all following bytes */
     uint64_t size;        /* of the image */
-    uint32_t first_element, first_attr, first_file, root, name_mask;
-    uint32_t num_strings, string_mask;
-    uint32_t has_attributedefs;
+    uint32_t first_element, first_attr, first_file, root;
+    uint32_t num_strings, has_attributedefs;
     struct {
         uint32_t offset, len;
     } sections[NUM_SECTIONS];
@@ -73,7 +75,7 @@ static uint64_t checksum(const void *image, size_t size)
 static uint64_t fingerprint(void)
 {
     uint64_t h = HASH_STABLE_SEED;
-    uint32_t facts[NUM_VECS + 4] = {6 /* increase it when meanings change but sizes do not */,
+    uint32_t facts[NUM_VECS + 4] = {7 /* increase it when meanings change but sizes do not */,
                                     STR_NUM_WORDS, IR_NUM_OPS, NUM_ELEMENT_KINDS};
     for (unsigned i = 0; i < NUM_VECS; i++)
         facts[i + 4] = (uint32_t)section_infos[i].item_size;
@@ -95,23 +97,45 @@ static void put_section(struct text *out, struct header *header, unsigned sectio
     text_mem(out, items, len * item_size);
 }
 
-/* A table of ids has 16-bit entries if all ids fit. */
-static bool is_narrow(uint32_t max_id)
+/* Arrays of numbers have 16 bits for each if all of them fit. */
+static bool is_narrow(uint32_t max_number)
 {
-    return max_id <= UINT16_MAX;
+    return max_number <= UINT16_MAX;
 }
 
-static void put_table(struct text *out, struct header *header, unsigned section,
-                      const uint32_t *ids, uint32_t len, uint32_t max_id)
+static void put_numbers(struct text *out, struct header *header, unsigned section,
+                        const uint32_t *numbers, uint32_t len, uint32_t max_number)
 {
-    if (!is_narrow(max_id)) {
-        put_section(out, header, section, ids, len, sizeof *ids);
+    if (!is_narrow(max_number)) {
+        put_section(out, header, section, numbers, len, sizeof *numbers);
         return;
     }
     uint16_t *narrow = ARENA_ARRAY(out->arena, uint16_t, len);
-    for (uint32_t i = 0; i < len; i++)
-        narrow[i] = (uint16_t)ids[i];
+    for (uint32_t i = 0; i < len; i++) {
+        assert(numbers[i] <= max_number);
+        narrow[i] = (uint16_t)numbers[i];
+    }
     put_section(out, header, section, narrow, len, sizeof *narrow);
+}
+
+/* Narrow tables have no hashes, wide ones stay as they are. */
+static void put_table(struct text *out, struct header *header, unsigned section,
+                      const struct table *table, uint32_t max_number)
+{
+    uint32_t num_slots = table->slots ? table->mask + 1 : 0;
+    if (!is_narrow(max_number)) {
+        put_section(out, header, section, table->slots, num_slots, sizeof *table->slots);
+        return;
+    }
+    uint32_t *numbers = ARENA_ARRAY(out->arena, uint32_t, num_slots);
+    for (uint32_t i = 0; i < num_slots; i++)
+        numbers[i] = table->slots[i].number;
+    put_numbers(out, header, section, numbers, num_slots, max_number);
+}
+
+static uint32_t max_element(const struct library *lib)
+{
+    return lib->doc.first_element + lib->doc.elements.len;
 }
 
 /* The maximum of element_info. */
@@ -129,38 +153,27 @@ static uint32_t max_info(const struct library *lib)
 struct runs {
     struct document *doc;
     const struct attribute *from; /* of the original */
-    /* open addressing: 1 + an element whose attributes are in `doc` */
-    uint32_t *table;
-    uint32_t mask;
+    struct table table;           /* 1 + an element whose attributes are in `doc` */
 };
-
-/* The slot of an element with equal attributes, or a free one. */
-static uint32_t *find_run(const struct runs *runs, const struct attribute *attrs, uint16_t n)
-{
-    uint32_t i = hash_bytes(attrs, n * sizeof *attrs) & runs->mask;
-    for (; runs->table[i]; i = (i + 1) & runs->mask) {
-        const struct element *e = &runs->doc->elements.items[runs->table[i] - 1];
-        const struct attribute *have =
-            runs->doc->attrs.items + (e->first_attr - runs->doc->first_attr);
-        if (e->num_attrs == n && memcmp(have, attrs, n * sizeof *attrs) == 0)
-            break;
-    }
-    return &runs->table[i];
-}
 
 static void share_run(struct runs *runs, uint32_t index, struct arena *arena)
 {
     struct document *doc = runs->doc;
     struct element *e = &doc->elements.items[index];
     const struct attribute *attrs = runs->from + (e->first_attr - doc->first_attr);
-    uint32_t *slot = find_run(runs, attrs, e->num_attrs);
-    if (*slot) {
-        e->first_attr = doc->elements.items[*slot - 1].first_attr;
-        return;
+    uint32_t hash = hash_bytes(attrs, e->num_attrs * sizeof *attrs);
+    for (uint32_t at = hash, found; (found = table_next(&runs->table, hash, &at));) {
+        const struct element *other = &doc->elements.items[found - 1];
+        const struct attribute *have = doc->attrs.items + (other->first_attr - doc->first_attr);
+        if (other->num_attrs == e->num_attrs
+            && memcmp(have, attrs, e->num_attrs * sizeof *attrs) == 0) {
+            e->first_attr = other->first_attr;
+            return;
+        }
     }
+    table_add(&runs->table, arena, hash, index + 1);
     e->first_attr = doc->first_attr + doc->attrs.len;
     memcpy(vec_extend(arena, &doc->attrs, e->num_attrs), attrs, e->num_attrs * sizeof *attrs);
-    *slot = index + 1;
 }
 
 /*
@@ -169,12 +182,9 @@ static void share_run(struct runs *runs, uint32_t index, struct arena *arena)
  */
 static void share_attributes(struct document *doc, struct arena *arena)
 {
-    struct runs runs = {.doc = doc, .from = doc->attrs.items, .mask = 15};
+    struct runs runs = {.doc = doc, .from = doc->attrs.items};
     uint32_t num_elements = doc->elements.len;
     const struct element *elements = doc->elements.items;
-    while (runs.mask < 2 * num_elements)
-        runs.mask = 2 * runs.mask + 1;
-    runs.table = ARENA_ARRAY(arena, uint32_t, runs.mask + 1);
     memset(&doc->elements, 0, sizeof doc->elements);
     memset(&doc->attrs, 0, sizeof doc->attrs);
     memcpy(vec_extend(arena, &doc->elements, num_elements), elements,
@@ -186,29 +196,13 @@ static void share_attributes(struct document *doc, struct arena *arena)
 
 /* ---- Writing ---- */
 
-/*
- * Every string of a document is looked up in the image. Half of the slots are free, so a lookup
- * compares few strings.
- */
-static uint32_t make_string_table(const struct strpool *pool, struct arena *arena,
-                                  uint32_t **out_table)
-{
-    uint32_t slots = 64;
-    while (slots < 2 * pool->num)
-        slots *= 2;
-    *out_table = ARENA_ARRAY(arena, uint32_t, slots);
-    for (str_id id = 1; id < pool->num; id++) {
-        uint32_t slot = hash_bytes(str_text(pool, id), str_len(pool, id)) & (slots - 1);
-        while ((*out_table)[slot])
-            slot = (slot + 1) & (slots - 1);
-        (*out_table)[slot] = id;
-    }
-    return slots - 1;
-}
-
 static void put_strings(const struct strpool *pool, struct text *out, struct header *header)
 {
-    uint32_t *table, mask = make_string_table(pool, out->arena, &table);
+    /* Every string of a document is looked for here: half of the slots are free. */
+    struct table table = {0};
+    table_reserve(&table, out->arena, pool->num);
+    for (str_id id = 1; id < pool->num; id++)
+        table_add(&table, out->arena, hash_bytes(str_text(pool, id), str_len(pool, id)), id);
     struct text bytes;
     text_init(&bytes, out->arena);
     uint32_t *offsets = ARENA_ARRAY(out->arena, uint32_t, pool->num + 1);
@@ -219,8 +213,7 @@ static void put_strings(const struct strpool *pool, struct text *out, struct hea
     offsets[pool->num] = (uint32_t)bytes.len;
     put_section(out, header, SECTION_STR_OFFSETS, offsets, pool->num + 1, sizeof *offsets);
     put_section(out, header, SECTION_STR_BYTES, bytes.data, (uint32_t)bytes.len, 1);
-    put_table(out, header, SECTION_STR_TABLE, table, mask + 1, pool->num);
-    header->string_mask = mask;
+    put_table(out, header, SECTION_STR_TABLE, &table, pool->num);
 }
 
 void library_write_image(const struct library *lib, const struct lang_syntax *syntax,
@@ -232,7 +225,6 @@ void library_write_image(const struct library *lib, const struct lang_syntax *sy
         .first_attr = lib->doc.first_attr,
         .first_file = lib->doc.first_file,
         .root = lib->doc.root,
-        .name_mask = lib->doc.name_mask,
         .has_attributedefs = lib->doc.has_attributedefs,
         .num_strings = lib->strings.num,
     };
@@ -247,11 +239,10 @@ void library_write_image(const struct library *lib, const struct lang_syntax *sy
         const struct any_vec *vec = (const void *)((const char *)&packed + section_infos[i].offset);
         put_section(out, &header, i, vec->items, vec->len, section_infos[i].item_size);
     }
-    put_table(out, &header, SECTION_NAME_TABLE, lib->doc.name_table,
-              lib->doc.name_table ? lib->doc.name_mask + 1 : 0,
-              lib->doc.first_element + lib->doc.elements.len);
-    put_table(out, &header, SECTION_ELEMENT_INFO, lib->element_info.items, lib->element_info.len,
-              max_info(lib));
+    put_table(out, &header, SECTION_NAME_TABLE, &lib->doc.names, max_element(lib));
+    put_table(out, &header, SECTION_NODE_TABLE, &lib->node_table, lib->nodedefs.len);
+    put_numbers(out, &header, SECTION_ELEMENT_INFO, lib->element_info.items, lib->element_info.len,
+                max_info(lib));
     put_strings(&lib->strings, out, &header);
     begin_section(out);
     header.size = out->len - start;
@@ -276,32 +267,25 @@ static const char *check_header(const struct header *header, const void *data, s
 
 /* ---- Mapping ---- */
 
-static void map_strings(struct strpool *strings, const struct header *header, const char *base)
+/* Nobody writes to it: a mapped layer does not change. */
+static struct table map_table(const struct header *header, unsigned section, char *base,
+                              uint32_t max_number)
 {
-    const void *table = base + header->sections[SECTION_STR_TABLE].offset;
+    uint32_t len = header->sections[section].len;
+    void *slots = len ? base + header->sections[section].offset : NULL;
+    assert((len & (len - 1)) == 0);
+    return is_narrow(max_number) ? (struct table){.narrow = slots, .mask = len - 1}
+                                 : (struct table){.slots = slots, .mask = len - 1};
+}
+
+static void map_strings(struct strpool *strings, const struct header *header, char *base)
+{
     *strings = (struct strpool){
         .num = header->num_strings,
-        .table_mask = header->string_mask,
+        .table = map_table(header, SECTION_STR_TABLE, base, header->num_strings),
         .offsets = (const void *)(base + header->sections[SECTION_STR_OFFSETS].offset),
         .bytes = base + header->sections[SECTION_STR_BYTES].offset,
     };
-    if (is_narrow(header->num_strings))
-        strings->narrow = table;
-    else
-        strings->table = table;
-}
-
-static void map_names(struct document *doc, const struct header *header, char *base)
-{
-    void *table = base + header->sections[SECTION_NAME_TABLE].offset;
-    doc->name_mask = header->name_mask;
-    doc->has_attributedefs = header->has_attributedefs;
-    if (header->sections[SECTION_NAME_TABLE].len == 0)
-        return;
-    if (is_narrow(header->first_element + doc->elements.len))
-        doc->narrow_names = table;
-    else
-        doc->name_table = table;
 }
 
 static void map_element_info(struct library *lib, const struct header *header, char *base)
@@ -338,7 +322,9 @@ const char *library_map_image(struct library *lib, const void *data, size_t size
     lib->doc.first_attr = header->first_attr;
     lib->doc.first_file = header->first_file;
     lib->doc.root = header->root;
-    map_names(&lib->doc, header, base);
+    lib->doc.has_attributedefs = header->has_attributedefs;
+    lib->doc.names = map_table(header, SECTION_NAME_TABLE, base, max_element(lib));
+    lib->node_table = map_table(header, SECTION_NODE_TABLE, base, lib->nodedefs.len);
     map_element_info(lib, header, base);
     lib->unit.strings = &lib->strings;
     return NULL;

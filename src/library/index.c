@@ -155,29 +155,22 @@ static uint16_t add_ports(struct indexer *ix, elem_id nodedef, enum element_kind
 static void link_by_node(struct indexer *ix, uint32_t own)
 {
     struct library *lib = ix->lib;
-    uint32_t mask = lib->node_table.len - 1;
-    str_id node = lib->nodedefs.items[own].node;
-    uint32_t slot = hash_pair(node, 0) & mask;
-    while (lib->node_table.items[slot]
-           && lib->nodedefs.items[lib->node_table.items[slot] - 1].node != node)
-        slot = (slot + 1) & mask;
-    /* LIBRARY_NONE: 0 - 1 */
-    lib->nodedefs.items[own].next_same_node = lib->node_table.items[slot] - 1;
-    lib->node_table.items[slot] = own + 1;
+    struct nodedef *def = &lib->nodedefs.items[own];
+    uint32_t hash = hash_pair(def->node, 0), at = hash, first;
+    while ((first = table_next(&lib->node_table, hash, &at))
+           && lib->nodedefs.items[first - 1].node != def->node)
+        ;
+    def->next_same_node = first - 1; /* LIBRARY_NONE: 0 - 1 */
+    if (first)
+        table_replace(&lib->node_table, at, own + 1);
+    else
+        table_add(&lib->node_table, ix->arena, hash, own + 1);
 }
 
+/* From the last, so that the first of a node leads. */
 static void make_node_table(struct indexer *ix)
 {
-    struct library *lib = ix->lib;
-    if (!lib->nodedefs.len)
-        return;
-    uint32_t slots = 16;
-    while (slots < lib->nodedefs.len * 2)
-        slots *= 2;
-    uint32_t *table = vec_extend(ix->arena, &lib->node_table, slots);
-    memset(table, 0, slots * sizeof *table);
-    /* backwards, so that the first definition of a node becomes the head */
-    for (uint32_t i = lib->nodedefs.len; i-- > 0;)
+    for (uint32_t i = ix->lib->nodedefs.len; i-- > 0;)
         link_by_node(ix, i);
 }
 

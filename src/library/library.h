@@ -45,10 +45,10 @@ enum impl_kind {
     IMPL_FUNCTION,   /* ref: lang function id */
     IMPL_FAMILY,     /* ref: index of the leaf family */
     IMPL_GRAPH,      /* ref: element of the nodegraph */
-    /* built by C code, chosen by the node's name, or by `ref` where that is chosen_input */
+    /* C code builds it; the node's name selects the code, or `ref` if that is chosen_input */
     IMPL_DYNAMIC,
     IMPL_VERBATIM, /* ref: verbatim source */
-    /* its diagnostics were deferred: [ref, ref + count) of the layer's deferred list */
+    /* its diagnostics are deferred: [ref, ref + count) of the layer's deferred list */
     IMPL_BROKEN,
 };
 
@@ -164,12 +164,9 @@ struct library {
     VEC(struct user_type) types;
     VEC(struct unit) units; /* sorted by name, then by document order */
     VEC(uint32_t) refs;
-    /* open addressing by node name: first nodedef of the node (index in this layer + 1) */
-    VEC(uint32_t) node_table;
-    /*
-     * per element of this layer: 1 + the index in this layer of its nodedef, type, geomprop or
-     * graph_node; 0 = none
-     */
+    /* node name → first nodedef of that node (own index + 1) */
+    struct table node_table;
+    /* per own element: 1 + own index of its nodedef, type, geomprop or graph_node; 0 = none */
     VEC(uint32_t) element_info;
     /* replaces `element_info` in an image layer whose indices fit in 16 bits */
     const uint16_t *narrow_info;

@@ -13,15 +13,10 @@ static const char *text_of(const struct library *lib, str_id id)
 
 uint32_t library_first_of_node(const struct library *layer, str_id node)
 {
-    if (!layer->node_table.len)
-        return LIBRARY_NONE;
-    uint32_t mask = layer->node_table.len - 1;
-    for (uint32_t slot = hash_pair(node, 0) & mask; layer->node_table.items[slot];
-         slot = (slot + 1) & mask) {
-        uint32_t own = layer->node_table.items[slot] - 1;
-        if (layer->nodedefs.items[own].node == node)
-            return own;
-    }
+    uint32_t hash = hash_pair(node, 0);
+    for (uint32_t at = hash, found; (found = table_next(&layer->node_table, hash, &at));)
+        if (layer->nodedefs.items[found - 1].node == node)
+            return found - 1;
     return LIBRARY_NONE;
 }
 
@@ -195,11 +190,9 @@ static void report_unknown_node(const struct library *lib, elem_id node, struct 
     struct diag_guess guess;
     bool may_guess = diag_guess_begin(&guess, diags, name);
     for (const struct library *layer = may_guess ? lib : NULL; layer; layer = layer->base)
-        for (uint32_t i = 0; i < layer->node_table.len; i++)
-            if (layer->node_table.items[i])
-                diag_guess_add(
-                    &guess,
-                    text_of(lib, layer->nodedefs.items[layer->node_table.items[i] - 1].node));
+        for (uint32_t i = 0; i < layer->nodedefs.len; i++)
+            if (library_first_of_node(layer, layer->nodedefs.items[i].node) == i)
+                diag_guess_add(&guess, text_of(lib, layer->nodedefs.items[i].node));
     diag_add(diags, DIAG_ID_unknown_node, doc_place(&lib->doc, node), name,
              diag_guess_text(&guess));
 }

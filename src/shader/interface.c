@@ -48,27 +48,16 @@ static uint32_t name_scope(enum shader_block block)
     return block == BLOCK_LIGHT_DATA || block == BLOCK_VERTEX_DATA ? (uint32_t)block : NUM_BLOCKS;
 }
 
-/* The slot that holds a variable of this name and scope, or the free one where it belongs. */
-static uint32_t *find_slot(const struct shader *shader, uint32_t scope, str_id name)
+/* The variable of this name and scope, + 1; 0: there is none. */
+static uint32_t find(const struct shader *shader, uint32_t scope, str_id name)
 {
-    uint32_t i = hash_pair(name, scope) & shader->names_mask;
-    for (; shader->names[i]; i = (i + 1) & shader->names_mask) {
-        const struct shader_variable *found = &shader->variables.items[shader->names[i] - 1];
-        if (found->name == name && name_scope(found->block) == scope)
-            break;
+    uint32_t hash = hash_pair(name, scope);
+    for (uint32_t at = hash, found; (found = table_next(&shader->names, hash, &at));) {
+        const struct shader_variable *variable = &shader->variables.items[found - 1];
+        if (variable->name == name && name_scope(variable->block) == scope)
+            return found;
     }
-    return &shader->names[i];
-}
-
-static void grow_names(struct shader *shader)
-{
-    uint32_t slots = shader->names_mask ? (shader->names_mask + 1) * 2 : 256;
-    shader->names = ARENA_ARRAY(shader->arena, uint32_t, slots);
-    shader->names_mask = slots - 1;
-    for (uint32_t i = 0; i < shader->variables.len; i++) {
-        const struct shader_variable *variable = &shader->variables.items[i];
-        *find_slot(shader, name_scope(variable->block), variable->name) = i + 1;
-    }
+    return 0;
 }
 
 /* Names that the speller needs at file scope. */
@@ -98,8 +87,7 @@ static bool is_reserved(const struct shader *shader, str_id name)
 
 static bool is_taken(const struct shader *shader, uint32_t scope, str_id name)
 {
-    return is_speller_name(name) || (shader->names && *find_slot(shader, scope, name))
-           || is_reserved(shader, name);
+    return is_speller_name(name) || find(shader, scope, name) || is_reserved(shader, name);
 }
 
 /*
@@ -140,12 +128,10 @@ static str_id unique_name(struct shader *shader, uint32_t scope, str_id wanted)
 
 uint32_t shader_add_variable(struct shader *shader, const struct shader_variable *variable)
 {
-    if (shader->variables.len * 2 >= shader->names_mask)
-        grow_names(shader);
     uint32_t scope = name_scope(variable->block);
     str_id name = unique_name(shader, scope, variable->name);
     uint32_t index = shader->variables.len;
-    *find_slot(shader, scope, name) = index + 1;
+    table_add(&shader->names, shader->arena, hash_pair(name, scope), index + 1);
     vec_push(shader->arena, &shader->variables, *variable);
     vec_last(&shader->variables).name = name;
     return index;
@@ -153,10 +139,8 @@ uint32_t shader_add_variable(struct shader *shader, const struct shader_variable
 
 uint32_t shader_find_variable(const struct shader *shader, enum shader_block block, str_id name)
 {
-    if (!shader->names)
-        return UINT32_MAX;
-    uint32_t slot = *find_slot(shader, name_scope(block), name);
-    return slot && shader->variables.items[slot - 1].block == block ? slot - 1 : UINT32_MAX;
+    uint32_t found = find(shader, name_scope(block), name);
+    return found && shader->variables.items[found - 1].block == block ? found - 1 : UINT32_MAX;
 }
 
 /*

@@ -204,9 +204,7 @@ struct shader {
     VEC(uint32_t) interface;
     /* start of each block in `interface`, and the end of the last */
     uint32_t first_of_block[NUM_BLOCKS + 1];
-    /* open addressing: from names at file scope to variables, see interface.c */
-    uint32_t *names;
-    uint32_t names_mask;
+    struct table names; /* names to variables + 1: interface.c */
     VEC(struct shader_binding) bindings;
     /* uniform blocks; size 0 if absent */
     struct shader_buffer buffers[NUM_BLOCKS];
@@ -231,7 +229,7 @@ struct shader {
     bool in_blocks;
     /* for the speller, from shader_finish: by node; 0 between the statement lists */
     uint32_t *local_of;
-    bool numbered; /* sets, bindings and locations are given */
+    bool numbered; /* sets, bindings and locations are assigned */
 };
 
 void shader_init(struct shader *shader, struct arena *arena, struct strpool *strings,

@@ -7,12 +7,9 @@
 #include "base/hash.h"
 #include "spell/spell.h"
 
-enum { FIRST_SLOTS = 64 };
-
 void names_init(struct name_set *names, struct arena *arena, const struct lang_style *style)
 {
-    *names = (struct name_set){.arena = arena, .style = style, .mask = FIRST_SLOTS - 1};
-    names->table = ARENA_ARRAY(arena, uint32_t, FIRST_SLOTS);
+    *names = (struct name_set){.arena = arena, .style = style};
 }
 
 void names_open_scope(struct name_set *names)
@@ -20,38 +17,15 @@ void names_open_scope(struct name_set *names)
     names->scope++;
 }
 
-static uint32_t *find_slot(const struct name_set *names, const char *text, uint32_t len,
-                           uint32_t hash)
-{
-    uint32_t i = hash & names->mask;
-    for (; names->table[i]; i = (i + 1) & names->mask) {
-        const struct name_entry *entry = &names->entries.items[names->table[i] - 1];
-        if (entry->hash == hash && entry->len == len && memcmp(entry->text, text, len) == 0)
-            break;
-    }
-    return &names->table[i];
-}
-
-static void grow(struct name_set *names)
-{
-    names->mask = names->mask * 2 + 1;
-    names->table = ARENA_ARRAY(names->arena, uint32_t, names->mask + 1);
-    for (uint32_t i = 0; i < names->entries.len; i++) {
-        uint32_t at = names->entries.items[i].hash & names->mask;
-        while (names->table[at])
-            at = (at + 1) & names->mask;
-        names->table[at] = i + 1;
-    }
-}
-
 /* The entry of a name in the current scope; *out_new tells whether it was free. */
 static struct name_entry *take(struct name_set *names, const char *text, uint32_t len,
                                bool *out_new)
 {
     uint32_t hash = hash_bytes(text, len);
-    uint32_t *slot = find_slot(names, text, len, hash);
-    if (*slot) {
-        struct name_entry *entry = &names->entries.items[*slot - 1];
+    for (uint32_t at = hash, found; (found = table_next(&names->table, hash, &at));) {
+        struct name_entry *entry = &names->entries.items[found - 1];
+        if (entry->len != len || memcmp(entry->text, text, len) != 0)
+            continue;
         *out_new = entry->scope != 0 && entry->scope != names->scope;
         if (*out_new) {
             entry->scope = names->scope;
@@ -60,12 +34,9 @@ static struct name_entry *take(struct name_set *names, const char *text, uint32_
         return entry;
     }
     *out_new = true;
-    vec_push(names->arena, &names->entries, (struct name_entry){text, len, hash, names->scope, 2});
-    *slot = names->entries.len;
-    uint32_t index = names->entries.len - 1;
-    if (names->entries.len * 2 > names->mask)
-        grow(names);
-    return &names->entries.items[index];
+    vec_push(names->arena, &names->entries, (struct name_entry){text, len, names->scope, 2});
+    table_add(&names->table, names->arena, hash, names->entries.len);
+    return &vec_last(&names->entries);
 }
 
 bool names_take(struct name_set *names, const char *text, size_t len)

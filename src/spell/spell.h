@@ -12,7 +12,7 @@
 
 struct name_entry {
     const char *text;
-    uint32_t len, hash;
+    uint32_t len;
     /*
      * 0: file scope; else the function that uses it, which has passed where it is not the current
      * one
@@ -30,9 +30,8 @@ struct name_set {
     struct arena *arena;
     const struct lang_style *style;
     VEC(struct name_entry) entries;
-    uint32_t *table; /* open addressing: entry + 1 */
-    uint32_t mask;
-    uint32_t scope; /* of the function at hand; 0 outside */
+    struct table table; /* entry + 1 */
+    uint32_t scope;     /* of the function at hand; 0 outside */
 };
 
 void names_init(struct name_set *names, struct arena *arena, const struct lang_style *style);

@@ -15,7 +15,7 @@ enum target_caps {
     CAP_UNIFORM_BLOCKS = 1 << 1,   /* uniforms must stand in blocks */
     CAP_BLOCK_OPTION = 1 << 2,     /* uniforms may stand in blocks: --uniform-blocks */
     CAP_UNIFORM_DEFAULTS = 1 << 3, /* uniforms may have initial values */
-    CAP_BINDINGS = 1 << 4,         /* layout(set, binding) and locations */
+    CAP_BINDINGS = 1 << 4,         /* layout(binding) and locations */
     CAP_BLOCK_STAGE_IO = 1 << 5,   /* stage inputs and outputs may stand in an interface block */
     CAP_PRECISION = 1 << 6,        /* needs default precision statements */
     CAP_OVERLOADS = 1 << 7,        /* functions may be overloaded */
@@ -34,6 +34,7 @@ enum target_caps {
     CAP_SCOPED_PARAMETERS = 1 << 16,
     /* tangents follow the coordinates of their index; else, as in MaterialX, the first */
     CAP_INDEXED_TANGENTS = 1 << 17,
+    CAP_SETS = 1 << 18, /* with CAP_BINDINGS: layout(set, binding) */
 };
 
 struct spell; /* spell/spell.h */

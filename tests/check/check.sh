@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# mxgen check: which documents are found, what is told of them, exit codes, and that nothing stops the rest. Arguments: mxgen, a
-# worker that does what names say (fake_worker.c), whether shaders can be compiled (yes or no).
+# mxgen check: the selection of documents, the report, exit codes, and isolation of failures. Arguments: mxgen, a worker whose
+# behaviour follows the names of documents (fake_worker.c), whether shaders can be compiled (yes or no).
 mxgen=$(realpath "$1") fake=$(realpath "$2") compiles=$3
 here=$(cd "$(dirname "$0")" && pwd)
 . "$here/../programs/common.sh"

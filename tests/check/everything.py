@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Real documents (shared/materials/README.md) in one mxgen check: it survives all of them, each failure is explained, and the errors are
-those that ../materials/expected.tsv knows. Then the same from the cache, and ten times as many names of the same files, in the memory that
-one run takes. Arguments: mxgen, the folder shared/materials."""
+"""Checks real documents (shared/materials/README.md) in one run: no crash, an explanation for each failure, and exactly the errors of
+../materials/expected.tsv. Repeats the run from the cache, and with ten times as many names of the same files in the memory of one run.
+Arguments: mxgen, the folder shared/materials."""
 import csv
 import json
 import os

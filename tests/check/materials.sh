@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Sourced by the tests of `mxgen check`: documents to check, and questions to ask a JSON report.
+# The tests of `mxgen check` source this file. It makes documents, and queries JSON reports.
 
 # material NAME [ROUGHNESS]: a document with a material
 material() {

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Reads reports of one run of mxgen check in all formats and compares what they say. Arguments: JSON, SARIF, JUnit, HTML."""
+"""Reads the reports of one run of mxgen check in all formats and compares their contents. Arguments: JSON, SARIF, JUnit, HTML."""
 import html.parser
 import json
 import pathlib

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# The reports of mxgen check: each is what its format says, and all tell the same. Arguments: mxgen.
+# The reports of mxgen check: each conforms to its format, and all have the same content. Arguments: mxgen.
 mxgen=$(realpath "$1")
 here=$(cd "$(dirname "$0")" && pwd)
 . "$here/../programs/common.sh"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# mxgen check, incremental and spread out: the cache, what kill -9 leaves of it, depfiles, shards, GNU parallel and Slurm. Arguments: mxgen
+# Incremental and distributed runs of mxgen check: the cache, also after kill -9, depfiles, shards, GNU parallel and Slurm. Arguments: mxgen
 mxgen=$(realpath "$1")
 here=$(cd "$(dirname "$0")" && pwd)
 examples=$here/../../examples/check

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""examples/check/github.yml as GitHub Actions would run it, but here: the steps of every job of the matrix in folders of their own, with the
-actions that it uses played by copying files. Two runs: the second has the caches of the first. Arguments: mxgen, the workflow, a document."""
+"""Runs examples/check/github.yml like GitHub Actions: the steps of each job of the matrix in a separate folder. Copies of files simulate
+the actions. The second run uses the caches of the first. Arguments: mxgen, the workflow, a document."""
 import fnmatch
 import json
 import os

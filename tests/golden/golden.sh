@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Documents beside what they generate. A document begins with a line per run:
+# Compares generated files with golden files beside the documents. A document begins with a line per run:
 #
-#     <!-- mxgen: NAME key=value ... -->     options of mxgen; files=frag,json says which are kept (default: frag)
+#     <!-- mxgen: NAME key=value ... -->     options of mxgen; files=frag,json selects the golden files (default: frag)
 #
-# which gives DOCUMENT.NAME.frag and so on. Arguments: mxgen, mxgen-compile ('' to compile nothing), and perhaps --update, which rewrites
-# what differs and prints the difference for review.
+# A run makes DOCUMENT.NAME.frag and so on. Arguments: mxgen, mxgen-compile ('' to compile nothing), and optionally --update, which
+# rewrites golden files and prints the differences for review.
 mxgen=$(realpath "$1") compile=${2:+$(realpath "$2")} update=${3:-}
 golden=$(cd "$(dirname "$0")" && pwd)
 . "$golden/../programs/common.sh"

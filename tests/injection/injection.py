@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""No word of a document becomes code: hostile names, values and file names in every place that has a way into a shader, for every
-target. What is left of the source without its comments and string literals must not hold the payload, and it must compile.
+"""A document injects no code: hostile names, values and filenames in every place that reaches a shader, for every
+target. The source without its comments and string literals must not contain the payload, and it must compile.
 Arguments: mxgen, mxgen-compile or '', the template."""
 import pathlib
 import re

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Faults as they are met in the wild, and every word that their authors read: DOCUMENT.mtlx and DOCUMENT.txt, what `mxgen validate` and then
-# generation say. Arguments: the program, the folder; --update rewrites the texts.
+# Typical faults with their complete messages: DOCUMENT.mtlx, and DOCUMENT.txt with the output of `mxgen validate` and of generation.
+# Arguments: the program, the folder; --update rewrites the texts.
 mxgen=$(realpath "$1") folder=$(realpath "$2") update=${3:-}
 . "$folder/../programs/common.sh"
 

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Closures of OSL, rendered: balls under an even sky by OSL's testrender and by mxgen's path tracer, whose means agree within 3 percent. Rows of
-furnace.tsv: a material of furnace.mtlx or a document of the examples; the ratio of the means where the models differ; what makes both alike
-(then the ratio is 1, which proves the reason); the reason. Some are rendered as shader groups, too. Arguments: mxgen, the folder of examples
-('' or absent: none), and perhaps names. Skipped (77) without oslc and testrender, or a Vulkan device."""
+"""Renders OSL closures on balls under a uniform sky with OSL's testrender and with mxgen's path tracer; the means agree within 3 percent.
+Rows of furnace.tsv: a material of furnace.mtlx or a document of the examples; the ratio of the means if the models differ; settings that
+make them agree (then the ratio is 1, which proves the reason); the reason. Some are also rendered as shader groups. Arguments: mxgen, the
+folder of examples ('' or absent: none), and optionally names. Skipped (77) without oslc and testrender, or a Vulkan device."""
 import math
 import pathlib
 import re

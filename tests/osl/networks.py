@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Networks of OSL: rows of tests/conformance as shader groups give the values that whole shaders do; and materials make groups that OSL takes,
-of shaders that compile. Arguments: mxgen, the folder of the rows, deviations.tsv, a folder of materials ('' or absent: none), and perhaps
+"""OSL networks: rows of tests/conformance have the same values as shader groups and as whole shaders, and the shaders and groups of materials
+compile. Arguments: mxgen, the folder of the rows, deviations.tsv, a folder of materials ('' or absent: none), and optionally
 document names, or --all for every document and material. Skipped (77) without oslc and testshade."""
 import json
 import pathlib

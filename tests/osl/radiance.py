@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Pictures in Radiance's format (Ward, "Real Pixels", Graphics Gems II): a mantissa of 8 bits for each colour, and one exponent."""
+"""Reads pictures in Radiance's format (Ward, "Real Pixels", Graphics Gems II): a mantissa of 8 bits for each colour, and one exponent."""
 import math
 import re
 

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The scene of tests/conformance for OSL: what streams are at testshade's 4x4 points, put into shaders in place of OSL's own."""
+"""The scene of tests/conformance for OSL: replaces the streams in shaders by their values at testshade's 4x4 points."""
 import re
 import struct
 import subprocess
 
-# The grid of render/scene.c as functions of u and v, which testshade gives the centres of 4x4 pixels.
+# The grid of render/scene.c as functions of u and v; testshade sets these to the centres of 4x4 pixels.
 SCENE = """
 point grid_Po() { return point(-0.83 + 1.71 * u + 0.09 * v, -0.57 + 0.12 * u + 1.37 * v, 0.31 + 0.43 * u - 0.58 * v); }
 vector grid_No() { return vector(-0.25 + 0.61 * u + 0.07 * v, 0.35 - 0.11 * u - 0.53 * v, 0.91 + 0.08 * u - 0.05 * v); }

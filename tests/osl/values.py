@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""The rows of tests/conformance by OSL: generates the documents, puts the scene's streams in place of the renderer's, and lets
-testshade print what comes out. Arguments: mxgen, the folder of the rows, deviations.tsv, and perhaps document names and --all
-(every row; else the first with varying inputs of each graph), and --modes (images have address modes, which the reference of
-tests/conformance has not). Skipped (77) without oslc and testshade."""
+"""Computes the rows of tests/conformance with OSL: generates the documents, replaces the renderer's streams by those of the scene, and
+reads the output of testshade. Arguments: mxgen, the folder of the rows, deviations.tsv, and optionally document names, --all
+(every row; by default the first with varying inputs of each nodegraph), and --modes (images with address modes, which the reference of
+tests/conformance lacks). Skipped (77) without oslc and testshade."""
 import pathlib
 import re
 import shutil

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Sourced by the tests of programs: `check` counts, `finish NAME` prints the line that script/test sums up and ends the test, with 77
-# (skipped) where nothing was checked.
+# The tests of programs source this file. `check` counts; `finish NAME` prints the line that script/test sums up and ends the test, with
+# 77 (skipped) if nothing was checked.
 set -u
 passed=0 failed=0 skipped=0
 work=$(mktemp -d)

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Documents and programs of examples/ do what they say. Arguments: mxgen, mxgen-compile ('' to compile nothing), the programs.
+# The documents and programs of examples/ work as documented. Arguments: mxgen, mxgen-compile ('' to compile nothing), the programs.
 mxgen=$(realpath "$1") compile=${2:+$(realpath "$2")}
 here=$(cd "$(dirname "$0")" && pwd)
 examples=$here/../../examples

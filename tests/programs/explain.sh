@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Every message's example: what is wrong gives the message, what is right does not; and the table of messages in the documentation.
+# The example of every message: the wrong version reports the message, the right one does not. Also checks docs/messages.md.
 # Arguments: the program, the documentation, the root of the project.
 mxgen=$(realpath "$1")
 documentation=$(realpath "$2")
@@ -8,7 +8,7 @@ root=$(realpath "$3")
 here=$(cd "$(dirname "$0")" && pwd)
 . "$here/common.sh"
 
-# Files that cannot be in an example; elsewhere (tests/diag/elsewhere.txt) they are tested.
+# Files that an example cannot contain; tests/diag/elsewhere.txt names their tests.
 without_example='blur-left-out check-crashed check-failed check-timeout file-too-large graph-depth output-limit too-many-ports render-failed shader-invalid
 failed no-renderer no-device device-lost device-memory size-limit bad-mesh empty-mesh bad-environment bad-shader no-look no-uniform no-picture'
 

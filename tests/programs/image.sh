@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# A library that is read from its sources gives the same shaders as its image. Arguments: mxgen.
+# A library from its sources gives the same shaders as its library image. Arguments: mxgen.
 mxgen=$(realpath "$1")
 here=$(cd "$(dirname "$0")" && pwd)
 root=$here/../..
 . "$here/common.sh"
 
-# Models with variable inputs, images, their channels and products, a normal map, a node that is connected twice, constants.
+# Shading models with varying inputs, images, channels, products, a normal map, a node with two connections, constants.
 {
     echo '<materialx version="1.39">'
     for model in standard_surface open_pbr_surface gltf_pbr UsdPreviewSurface disney_principled; do

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Killed at any moment, mxgen leaves whole files or none: each that bears its final name is what an undisturbed run writes.
+# Killed at any moment, mxgen leaves complete files or none: each file with its final name equals the file of an undisturbed run.
 # Argument: the program.
 mxgen=$(realpath "$1")
 here=$(cd "$(dirname "$0")" && pwd)

@@ -1,12 +1,13 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Real documents (shared/materials/README.md): how many elements of each are generated, that all of these compile, and which errors the
-# others give. ../materials/expected.tsv says so:
+# Real documents (shared/materials/README.md): counts the generated elements, compiles them, and compares the errors of the others with
+# ../materials/expected.tsv:
 #
-#     document   elements generated   ids of errors, with commas   reason where MaterialX generates more, or where not all of `resources` is
+#     document   elements generated   ids of errors, with commas   reason if MaterialX generates more, or if `resources` is incomplete
 #
-# What MaterialX itself ships is compiled for all targets, complete and reduced; what others wrote for glsl. Standard Surface is drawn, too.
-# Arguments: mxgen-compile, mxgen-render ('' to draw nothing), the folder shared/materials, and perhaps --update, which rewrites the table.
+# MaterialX's own documents compile for all targets, complete and reduced; others compile for glsl. Also renders Standard Surface.
+# Arguments: mxgen-compile, mxgen-render ('' to render nothing), the folder shared/materials, and optionally --update, which rewrites the
+# table.
 export compile=$(realpath "$1") materials=$(realpath -m "$3")
 render=${2:+$(realpath "$2")} update=${4:-}
 here=$(cd "$(dirname "$0")" && pwd)

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# The drawn picture against the traced one, on a sphere in the light of the sky: means within 3 percent. ../materials/paths.tsv lists the
-# exceptions among MaterialX's examples: their ratio, what makes both alike (then they agree, which proves the reason), and the reason.
+# Raster pictures against path-traced ones, of a sphere under the sky: the means agree within 3 percent. ../materials/paths.tsv lists the
+# exceptions among MaterialX's examples: their ratio, options that make them agree (which proves the reason), and the reason.
 # Arguments: mxgen-render, mean_ratio, the folder shared/materials.
 render=$(realpath "$1") mean_ratio=$(realpath "$2") materials=$(realpath -m "$3")
 here=$(cd "$(dirname "$0")" && pwd)

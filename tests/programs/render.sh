@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Pictures, and that uniforms drive them. Arguments: mxgen-render, mean_ratio, the module lost_device.
+# Pictures, and the effect of uniforms on them. Arguments: mxgen-render, mean_ratio, the module lost_device.
 render=$(realpath "$1") mean_ratio=$(realpath "$2") lost_device=$(realpath "$3")
 here=$(cd "$(dirname "$0")" && pwd)
 . "$here/common.sh"
 
-# The driver's cache would be written to the home folder.
+# The driver would write its cache to the home folder.
 export MESA_SHADER_CACHE_DISABLE=true
 
 cat >plain.mtlx <<'X'

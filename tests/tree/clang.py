@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""clang reads every C source that the build compiles, with the build's own flags, and must have nothing to say.
+"""clang compiles every C source of the build, with the build's flags, without warnings.
 Argument: the build folder, with its compile_commands.json."""
 import json
 import pathlib

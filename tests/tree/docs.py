@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""What the project says of itself. Documentation: links lead somewhere, every page can be reached from README.md, its commands run as they
-stand there and its program compiles. Documentation, comments and messages: every file and folder that they name exists.
+"""Documentation: every link has a target, README.md links to every page, its commands run and its program compiles. Documentation,
+comments and messages: every file and folder that they name exists.
 Arguments: the root of the project, the program, a C compiler."""
 import pathlib
 import re

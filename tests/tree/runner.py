@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""What script/summary.py makes of logs: a test that checks nothing is never a success. And how tests that check nothing end.
+"""script/summary.py: a test that checks nothing is never a success. Also checks the exit code of such tests.
 Arguments: the root of the project, a C compiler."""
 import json
 import pathlib

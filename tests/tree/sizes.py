@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""How large things are, and what stands in files: lengths of files and functions, the budget of the node library, licence lines,
-machine paths, headers that stand alone. Arguments: the root of the project, a C compiler."""
+"""Sizes and contents of files: lengths of files and functions, the budget of the node library, licence lines, machine paths,
+self-contained headers. Arguments: the root of the project, a C compiler."""
 import pathlib
 import re
 import subprocess

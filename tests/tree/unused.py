@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Every node of the library, alone in a graph with its defaults: the shader has no function, uniform, stream, struct or variable that
-is not used. Arguments: mxgen, a target."""
+"""Generates every node of the library alone with its defaults: the shader has no unused function, uniform, stream, struct or
+variable. Arguments: mxgen, a target."""
 import re
 import subprocess
 import sys

@@ -208,6 +208,35 @@ static void test_strings(struct arena *arena)
     REQUIRE_STR(str_text(&top, pine), "pine");
 }
 
+/* Numbers of one hash are all found; a table that has grown gives its memory back. */
+static void test_table(void)
+{
+    enum { NUM = 20000 };
+    struct mem mem;
+    struct arena arena;
+    struct table table = {0};
+    mem_init(&mem, NULL, NULL);
+    arena_init(&arena, &mem);
+    for (uint32_t number = 1; number <= NUM; number++)
+        table_add(&table, &arena, hash_pair(number / 4, 0), number);
+    REQUIRE_EQ(table.num, NUM);
+    for (uint32_t number = 1; number <= NUM + 8; number++) {
+        uint32_t hash = hash_pair(number / 4, 0), at = hash, found, num_same = 0;
+        bool is_there = false;
+        for (; (found = table_next(&table, hash, &at)); num_same += found / 4 == number / 4)
+            is_there |= found == number;
+        REQUIRE(is_there == (number <= NUM) && num_same <= 4);
+    }
+    uint32_t hash = hash_pair(0, 0), at = hash;
+    REQUIRE_EQ(table_next(&table, hash, &at), 1);
+    table_replace(&table, at, NUM + 1);
+    at = hash;
+    REQUIRE_EQ(table_next(&table, hash, &at), NUM + 1);
+    REQUIRE(mem.used < 3 * (table.mask + 1) * sizeof *table.slots / 2);
+    arena_finish(&arena);
+    REQUIRE_EQ(mem.used, 0);
+}
+
 /*
  * A layer as a library image has it: offsets into one block of bytes, and ids of 16 bits where they
  * fit.
@@ -217,21 +246,16 @@ static void test_image_layer(struct arena *arena, bool is_narrow)
     struct strpool growing, document;
     static const char bytes[] = "\0oak\0pine";
     static const uint32_t offsets[] = {0, 1, 5, 10};
-    uint32_t table[8] = {0};
-    for (uint32_t id = 1; id < 3; id++) {
-        uint32_t slot = hash_bytes(bytes + offsets[id], offsets[id + 1] - offsets[id] - 1) & 7;
-        while (table[slot])
-            slot = (slot + 1) & 7;
-        table[slot] = id;
-    }
-    uint16_t narrow[8];
-    for (uint32_t slot = 0; slot < 8; slot++)
-        narrow[slot] = (uint16_t)table[slot];
-    struct strpool image = {.num = 3, .table_mask = 7, .offsets = offsets, .bytes = bytes};
+    struct strpool image = {.num = 3, .offsets = offsets, .bytes = bytes};
+    for (uint32_t id = 1; id < 3; id++)
+        table_add(&image.table, arena,
+                  hash_bytes(bytes + offsets[id], offsets[id + 1] - offsets[id] - 1), id);
+    uint16_t narrow[16];
+    REQUIRE_EQ(image.table.mask, 15);
+    for (uint32_t slot = 0; slot < 16; slot++)
+        narrow[slot] = (uint16_t)image.table.slots[slot].number;
     if (is_narrow)
-        image.narrow = narrow;
-    else
-        image.table = table;
+        image.table = (struct table){.narrow = narrow, .mask = 15};
     REQUIRE_EQ(str_find(&image, "oak", 3), 1);
     REQUIRE_EQ(str_find(&image, "pine", 4), 2);
     REQUIRE_EQ(str_find(&image, "pin", 3), 0);
@@ -528,6 +552,7 @@ int main(void)
     test_failures();
     test_overflow();
     test_strings(&arena);
+    test_table();
     test_image_layer(&arena, false);
     test_image_layer(&arena, true);
     test_float_forms();

@@ -647,14 +647,23 @@ static const char *refusal(struct image image)
 /* What the header has in front of all else: magic, fingerprint, checksum and size. */
 enum { IMAGE_MAGIC = 8, IMAGE_FINGERPRINT = 16, IMAGE_CHECKSUM = 24, IMAGE_SIZE = 32 };
 
+/* A word of the reason. */
 static const char *expected_refusal(size_t damaged)
 {
-    return damaged < IMAGE_MAGIC ? "it does not begin like one"
-           : damaged < IMAGE_FINGERPRINT
-               ? "it was packed by another version of mxgen; pack it again"
-           : damaged < IMAGE_CHECKSUM ? "it is damaged (the checksum differs)"
-           : damaged < IMAGE_SIZE     ? "it is truncated"
-                                      : "it is damaged (the checksum differs)";
+    return damaged < IMAGE_MAGIC         ? "" /* it is something else */
+           : damaged < IMAGE_FINGERPRINT ? "version"
+           : damaged < IMAGE_CHECKSUM    ? "checksum"
+           : damaged < IMAGE_SIZE        ? "truncated"
+                                         : "checksum";
+}
+
+static bool is_refused(struct image image, const char *word)
+{
+    const char *reason = refusal(image);
+    bool good = strcmp(reason, "mapped") != 0 && strstr(reason, word);
+    if (!good)
+        printf("    the image is %s, not refused for '%s'\n", reason, word);
+    return good;
 }
 
 /* A flipped bit anywhere, an end that is missing, a place that no file is mapped to. */
@@ -666,14 +675,14 @@ static void test_damage(void)
     REQUIRE_STR(refusal(image), "mapped");
     for (size_t i = 0; i < image.size; i += i < 1024 ? 1 : 61) {
         image.data[i] ^= (char)(1 << i % 8);
-        if (!REQUIRE_STR(refusal(image), expected_refusal(i)))
+        if (!REQUIRE(is_refused(image, expected_refusal(i))))
             printf("    byte %zu\n", i);
         image.data[i] ^= (char)(1 << i % 8);
     }
     for (size_t size = 0; size < image.size; size += size < 1024 ? 1 : 997)
-        REQUIRE(strcmp(refusal((struct image){image.data, size}), "mapped") != 0);
-    REQUIRE_STR(refusal((struct image){image.data, image.size - 1}), "it is truncated");
-    REQUIRE_STR(refusal((struct image){image.data + 8, image.size - 8}), "it is not aligned");
+        REQUIRE(is_refused((struct image){image.data, size}, ""));
+    REQUIRE(is_refused((struct image){image.data, image.size - 1}, "truncated"));
+    REQUIRE(is_refused((struct image){image.data + 8, image.size - 8}, "aligned"));
     struct library lib; /* unchecked bytes are for what was built in */
     image.data[image.size - 1] ^= 1;
     REQUIRE(!library_map_image(&lib, image.data, image.size, false));

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+/* Inputs of the shader's interface: names, paths, and which of them stay variable. */
+#include "build/build_priv.h"
+
+static const struct document *doc_of(const struct builder *b)
+{
+    return &b->lib->doc;
+}
+
+/*
+ * Goes back to what stands in front of the names of an owner's inputs; true where that is to be
+ * written.
+ */
+static bool begin_text(struct builder *b, struct build_prefix *prefix, elem_id owner)
+{
+    bool is_known = prefix->text.arena && prefix->owner == owner;
+    if (!prefix->text.arena)
+        text_init(&prefix->text, b->arena);
+    prefix->text.len = is_known ? prefix->len : 0;
+    prefix->owner = owner;
+    return !is_known;
+}
+
+static str_id end_text(struct builder *b, struct text *text, str_id name)
+{
+    text_mem(text, build_text(b, name), str_len(b->shader->strings, name));
+    return str_intern(b->shader->strings, text->data, text->len);
+}
+
+str_id build_input_path(struct builder *b, elem_id node, str_id input, elem_id element)
+{
+    struct text *path = &b->path.text;
+    elem_id owner = element ? doc_element(doc_of(b), element)->parent : node;
+    if (begin_text(b, &b->path, owner)) {
+        doc_path(doc_of(b), owner, '/', path);
+        if (path->len)
+            text_char(path, '/');
+        b->path.len = path->len;
+    }
+    return end_text(b, path, element ? doc_element(doc_of(b), element)->name : input);
+}
+
+struct glob_retry { /* where to go on when what stands behind a star does not match */
+    const char *glob, *path;
+};
+
+bool build_glob_matches(const char *glob, const char *path)
+{
+    struct glob_retry star = {0}, deep = {0}; /* the last '*' since the last '**', and that */
+    while (*glob || *path) {
+        if (*glob == '*') {
+            bool is_deep = glob[1] == '*';
+            glob += is_deep ? 2 : 1;
+            *(is_deep ? &deep : &star) = (struct glob_retry){glob, path};
+            if (is_deep)
+                star.glob = NULL;
+        } else if (*path && (*glob == *path || (*glob == '?' && *path != '/'))) {
+            glob++;
+            path++;
+        } else if (star.glob && *star.path && *star.path != '/') {
+            glob = star.glob;
+            path = ++star.path;
+        } else if (deep.glob && *deep.path) {
+            star.glob = NULL;
+            glob = deep.glob;
+            path = ++deep.path;
+        } else {
+            return false;
+        }
+    }
+    return true;
+}
+
+static bool any_glob(const char *const *globs, unsigned n, const char *path)
+{
+    for (unsigned i = 0; i < n; i++)
+        if (build_glob_matches(globs[i], path))
+            return true;
+    return false;
+}
+
+/*
+ * True for inputs of the shader nodes and of the document's graphs: those that the interface mode
+ * is about.
+ */
+static bool is_public(const struct builder *b, elem_id node)
+{
+    if (doc_element(doc_of(b), node)->kind == KIND_NODEGRAPH)
+        return true;
+    for (uint32_t i = 0; i < b->public_nodes.len; i++)
+        if (b->public_nodes.items[i] == node)
+            return true;
+    return false;
+}
+
+static bool stays_variable(const struct builder *b, elem_id node, bool authored, str_id path)
+{
+    const struct build_options *o = b->options;
+    if (o->num_constant_globs
+        && any_glob(o->constant_globs, o->num_constant_globs, build_text(b, path)))
+        return false;
+    if (o->num_uniform_globs
+        && any_glob(o->uniform_globs, o->num_uniform_globs, build_text(b, path)))
+        return true;
+    if (o->interface == INTERFACE_REDUCED || !is_public(b, node))
+        return false;
+    return o->interface == INTERFACE_COMPLETE || authored;
+}
+
+/*
+ * "SR_gold_base_color": the path's last two names; or "base_color", as long as there is one of it.
+ */
+static str_id variable_name(struct builder *b, elem_id node, str_id input)
+{
+    if (b->options->short_names && shader_name_is_free(b->shader, input))
+        return input;
+    struct text *name = &b->name.text;
+    if (begin_text(b, &b->name, node)) {
+        text_str(name, build_text(b, doc_element(doc_of(b), node)->name));
+        text_char(name, '_');
+        b->name.len = name->len;
+    }
+    return end_text(b, name, input);
+}
+
+static str_id element_attr(const struct builder *b, elem_id element, str_id name)
+{
+    return element ? doc_attr_value(doc_of(b), element, name) : 0;
+}
+
+struct shader_variable build_describe(struct builder *b, elem_id node, const struct port *port,
+                                      elem_id element, str_id input, str_id path)
+{
+    return (struct shader_variable){
+        .name = variable_name(b, node, input),
+        .type = library_type_ir(b->lib, port->type),
+        .doc_type = library_type_name(b->lib, port->type),
+        .path = path,
+        .element = element ? element : node,
+        .definition = port->element,
+        .colorspace = element ? doc_inherited_attr(doc_of(b), element, STR_colorspace) : 0,
+        .unit = element_attr(b, element, STR_unit),
+        .unittype = element_attr(b, element, STR_unittype),
+    };
+}
+
+static ir_ref add_uniform(struct builder *b, struct shader_variable v, ir_ref initial)
+{
+    v.block = BLOCK_PUBLIC_UNIFORMS;
+    v.update = UPDATE_UNIFORM;
+    v.has_default = ir_get_const(b->graph, initial, &v.value);
+    uint32_t index = shader_add_variable(b->shader, &v);
+    return ir_build(b->graph, IR_UNIFORM, v.type, index, NULL, 0);
+}
+
+ir_ref build_publish(struct builder *b, elem_id node, const struct port *port, elem_id element,
+                     str_id input, ir_ref value, bool authored)
+{
+    ir_type_id type = ir_type_of(b->graph, value);
+    bool can_vary = type != IR_TYPE_STRING && ir_is_const(b->graph, value);
+    if (!can_vary && !(type == IR_TYPE_STRING && is_public(b, node)))
+        return value;
+    str_id path = build_input_path(b, node, input, element);
+    if (can_vary && stays_variable(b, node, authored, path))
+        return add_uniform(b, build_describe(b, node, port, element, input, path), value);
+    if (authored && is_public(b, node))
+        vec_push(b->arena, &b->shader->compiled,
+                 (struct shader_compiled_input){path, library_type_name(b->lib, port->type),
+                                                element_attr(b, element, STR_value), element});
+    return value;
+}

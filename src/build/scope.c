@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+/* Scopes: the nodes of the document, or of one use of a graph, and their results. */
+#include "build/build_priv.h"
+
+struct instance *build_new_instance(struct builder *b, struct instance *parent, elem_id graph)
+{
+    struct instance *inner = ARENA_NEW(b->arena, struct instance);
+    inner->parent = parent;
+    inner->graph = graph;
+    inner->depth = parent->depth + 1;
+    elem_id low = UINT32_MAX, high = 0;
+    for (elem_id e = doc_element(&b->lib->doc, graph)->first_child; e;
+         e = doc_element(&b->lib->doc, e)->next) {
+        low = e < low ? e : low;
+        high = e > high ? e : high;
+    }
+    inner->first = low;
+    inner->num_slots = high >= low ? high - low + 1 : 0;
+    inner->slots = ARENA_ARRAY(b->arena, uint32_t, inner->num_slots);
+    return inner;
+}
+
+ir_ref build_result(struct builder *b, struct instance *scope, elem_id node, unsigned output,
+                    doc_type type)
+{
+    uint32_t slot = *build_slot(scope, node);
+    if (slot < SLOT_RESULTS)
+        return ir_poison(b->graph, library_type_ir(b->lib, type));
+    return b->results.items[slot - SLOT_RESULTS + output];
+}

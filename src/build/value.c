@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+/* Values without a connection: constants, defaults and geometric properties. */
+#include "build/build_priv.h"
+
+static const struct document *doc_of(const struct builder *b)
+{
+    return &b->lib->doc;
+}
+
+/* An enum's name stands for the value in the same place of enumvalues. */
+static str_id enum_value(struct builder *b, const struct port *port, str_id text)
+{
+    str_id names = doc_attr_value(doc_of(b), port->element, STR_enum);
+    str_id values = doc_attr_value(doc_of(b), port->element, STR_enumvalues);
+    if (!names || !values)
+        return 0;
+    const char *name = build_text(b, names), *value = build_text(b, values),
+               *word = build_text(b, text);
+    size_t len = strlen(word);
+    while (*name) {
+        size_t n = strcspn(name, ","), m = strcspn(value, ",");
+        while (*name == ' ') {
+            name++;
+            n--;
+        }
+        if (n == len && memcmp(name, word, len) == 0)
+            return str_intern(b->shader->strings, value, m);
+        name += n + (name[n] == ',');
+        value += m + (value[m] == ',');
+    }
+    return 0;
+}
+
+static bool parse(struct builder *b, doc_type type, str_id text, const struct port *port,
+                  struct ir_value *out)
+{
+    const char *z = build_text(b, text);
+    if (doc_parse_value(type, z, str_len(b->shader->strings, text), b->shader->strings, out))
+        return true;
+    str_id value = port && (port->flags & PORT_ENUM) ? enum_value(b, port, text) : 0;
+    return value
+           && doc_parse_value(type, build_text(b, value), str_len(b->shader->strings, value), NULL,
+                              out);
+}
+
+ir_ref build_constant(struct builder *b, const struct port *port, str_id text, elem_id element)
+{
+    ir_type_id ir = library_type_ir(b->lib, port->type);
+    struct ir_value value;
+    if (ir == IR_TYPE_STRING) {
+        library_check_enum(b->lib, port, text, doc_attr_place(doc_of(b), element, STR_value),
+                           b->diags);
+        return ir_const_string(b->graph, text);
+    }
+    if (parse(b, port->type, text, port, &value))
+        return ir_const(b->graph, &value);
+    diag_add(b->diags, DIAG_ID_bad_value, doc_attr_place(doc_of(b), element, STR_value),
+             build_text(b, text), build_text(b, library_type_name(b->lib, port->type)),
+             doc_value_fault(port->type, build_text(b, text), str_len(&b->lib->strings, text),
+                             b->diags->arena));
+    return ir_poison(b->graph, ir);
+}
+
+bool build_initial(const struct builder *b, ir_ref value, struct ir_value *out)
+{
+    const struct ir_node *node = ir_get(b->graph, value);
+    const struct shader_variable *uniform =
+        node->op == IR_UNIFORM ? &b->shader->variables.items[node->attr] : NULL;
+    if (uniform)
+        *out = uniform->value;
+    return uniform ? uniform->has_default : ir_get_const(b->graph, value, out);
+}
+
+/* ---- defaults ---- */
+
+static ir_ref geomprop_arg(struct builder *b, const struct geomprop *prop, const struct port *port)
+{
+    if (port->name == STR_space && prop->space)
+        return ir_const_string(b->graph, prop->space);
+    if (port->name == STR_index)
+        return ir_const_int(b->graph, prop->index);
+    if (port->name == STR_geomprop && prop->nodedef == LIBRARY_NONE)
+        return ir_const_string(b->graph, prop->name);
+    return build_default(b, port);
+}
+
+static ir_ref property_stream(struct builder *b, const struct geomprop *prop)
+{
+    struct text name;
+    text_init(&name, b->arena);
+    text_fmt(&name, "geomprop_%s", build_text(b, prop->name));
+    return shader_stream(b->shader, str_intern(b->shader->strings, name.data, name.len),
+                         library_type_ir(b->lib, prop->type));
+}
+
+/*
+ * A property that a node gives is that node with the property's space and index. Any other is a
+ * stream of its name, or in a network the node that reads it.
+ */
+static ir_ref make_geomprop(struct builder *b, const struct geomprop *prop)
+{
+    uint32_t nodedef = prop->nodedef;
+    if (nodedef == LIBRARY_NONE && !b->recorder)
+        return property_stream(b, prop);
+    if (nodedef == LIBRARY_NONE)
+        nodedef = build_definition_of(b, "geompropvalue", library_type_name(b->lib, prop->type));
+    if (nodedef == LIBRARY_NONE)
+        return ir_poison(b->graph, library_type_ir(b->lib, prop->type));
+    const struct nodedef *def = library_nodedef(b->lib, nodedef);
+    const struct port *ports = library_ports(b->lib, nodedef, NULL);
+    ir_ref *args = ARENA_ARRAY(b->arena, ir_ref, def->num_inputs);
+    for (uint32_t i = 0; i < def->num_inputs; i++)
+        args[i] = geomprop_arg(b, prop, &ports[i]);
+    ir_push_name(b->graph, b->recorder ? prop->name : prop->geomprop);
+    ir_ref results[BUILD_MAX_OUTPUTS];
+    build_apply(b, nodedef, prop->element, args, results);
+    ir_pop_origin(b->graph);
+    return results[0];
+}
+
+ir_ref build_geomprop(struct builder *b, str_id name, doc_type type, struct diag_place place)
+{
+    for (uint32_t i = 0; i < b->geomprops.len; i += 2)
+        if (b->geomprops.items[i] == name)
+            return b->geomprops.items[i + 1];
+    const struct geomprop *prop = library_geomprop(b->lib, name);
+    if (!prop) {
+        diag_add(b->diags, DIAG_ID_unknown_geomprop, place, build_text(b, name), "");
+        return ir_poison(b->graph, library_type_ir(b->lib, type));
+    }
+    ir_ref value = make_geomprop(b, prop);
+    vec_push(b->arena, &b->geomprops, name);
+    vec_push(b->arena, &b->geomprops, value);
+    return value;
+}
+
+static ir_ref zero(struct builder *b, ir_type_id type)
+{
+    struct ir_value value = {.type = type};
+    return ir_const(b->graph, &value);
+}
+
+ir_ref build_default(struct builder *b, const struct port *port)
+{
+    if (port->geomprop)
+        return build_geomprop(b, port->geomprop, port->type,
+                              doc_attr_place(doc_of(b), port->element, STR_defaultgeomprop));
+    ir_type_id type = library_type_ir(b->lib, port->type);
+    if (type == IR_TYPE_STRING)
+        return ir_const_string(b->graph, port->value);
+    if (type >= IR_NUM_TYPES || !ir_type_info(type)->components) /* of no value */
+        return 0;
+    return port->flags & PORT_HAS_VALUE && port->value
+               ? build_constant(b, port, port->value, port->element)
+               : zero(b, type);
+}

@@ -1,0 +1,454 @@
+#version 310 es
+// gltf_pbr · surfacematerial · mxgen 0.1 · essl310 · complete · 9 closures · 0 textures
+precision highp float;
+precision highp int;
+precision highp sampler2D;
+
+struct mx_GgxLobe {
+    mat3 frame;
+    vec3 stretch;
+    float area;
+    vec3 v;
+    float masking;
+    vec3 cap;
+    float step;
+    float weight;
+    float level;
+};
+layout(binding = 1, std140) uniform PublicUniforms {
+    vec3 SR_gltf_pbr_base_color;
+    float SR_gltf_pbr_metallic;
+    float SR_gltf_pbr_roughness;
+    float SR_gltf_pbr_transmission;
+    float SR_gltf_pbr_specular;
+    vec3 SR_gltf_pbr_specular_color;
+    float SR_gltf_pbr_ior;
+    float SR_gltf_pbr_alpha;
+    int SR_gltf_pbr_alpha_mode;
+    float SR_gltf_pbr_alpha_cutoff;
+    float SR_gltf_pbr_iridescence;
+    float SR_gltf_pbr_iridescence_ior;
+    float SR_gltf_pbr_iridescence_thickness;
+    vec3 SR_gltf_pbr_sheen_color;
+    float SR_gltf_pbr_sheen_roughness;
+    float SR_gltf_pbr_clearcoat;
+    float SR_gltf_pbr_clearcoat_roughness;
+    vec3 SR_gltf_pbr_emissive;
+    float SR_gltf_pbr_emissive_strength;
+    float SR_gltf_pbr_anisotropy_strength;
+    float SR_gltf_pbr_anisotropy_rotation;
+};
+layout(binding = 0, std140) uniform PrivateUniforms {
+    mat4 u_worldMatrix;
+    mat4 u_worldInverseTransposeMatrix;
+    mat4 u_viewProjectionMatrix;
+    vec3 u_viewPosition;
+    int u_numActiveLightSources;
+    mat4 u_envMatrix;
+    int u_envRadianceMips;
+    int u_envRadianceSamples;
+    float u_envLightIntensity;
+    float u_alphaThreshold;
+    bool u_refractionTwoSided;
+};
+struct LightData {
+    int type;
+    vec3 direction;
+    vec3 color;
+    float intensity;
+    vec3 position;
+    float decay_rate;
+    float inner_angle;
+    float outer_angle;
+};
+layout(binding = 2, std140) uniform LightData_block { LightData u_lightData[3]; };
+layout(binding = 3) uniform sampler2D u_envRadiance;
+layout(binding = 4) uniform sampler2D u_envIrradiance;
+layout(location = 0) in vec3 vd_positionWorld;
+layout(location = 1) in vec3 vd_normalWorld;
+layout(location = 2) in vec3 vd_tangentWorld;
+layout(location = 0) out vec4 out1;
+
+// A polynomial of two variables, what directional albedos are fitted by (the programs in fits/).
+float mx_bicubic(const mat4 m, const float x, const float y)
+{
+    return dot(vec4(1.0, x, x * x, x * x * x), m * vec4(1.0, y, y * y, y * y * y));
+}
+
+// The program fits/ggx.c makes the constants. x is never too small by more than 0.001, so that giving lost energy back
+// adds none. `u` follows what happens where light grazes the facets.
+vec2 mx_ggx_albedo_fit(const float a, const float u, const float c)
+{
+    float x = clamp(1.0 - c - a * mx_bicubic(mat4(-0.2006, 5.2916, -3.7565, 0.218, -10.2439, 6.6203, -0.9657, 2.5694,
+        38.3042, -80.8059, 71.731, -28.5214, -34.2, 89.1079, -88.4065, 33.782), u, a), 0.0, 1.0);
+    return vec2(min(1.0046 - u * mx_bicubic(mat4(-0.1447, 2.759, -5.4314, 2.8497, -0.9366, 1.4766, 0.5911, -1.0905,
+        11.8506, -30.2645, 27.3289, -8.9414, -4.3199, 8.2596, -3.1648, -0.8054), u, a), 1.0), x * x * x * x * x);
+}
+
+mx_GgxLobe mx_ggx_lobe_at(const mat3 frame, const vec2 alpha, const vec3 v)
+{
+    float area = alpha.x * alpha.y;
+    float masking = sqrt(mix(v.z * v.z, 1.0, area));
+    float step_ = 1.0 / float(max(u_envRadianceSamples, 1));
+    float weight = step_ * (v.z + masking);
+    return mx_GgxLobe(frame, vec3(alpha, 1.0), area, v, masking, normalize(v * vec3(alpha, 1.0)), step_, weight
+        * u_envLightIntensity, weight * area * exp2(2.0 * float(u_envRadianceMips) - 2.3485));
+}
+
+// Axes of the tangent space around N with x along X: `w * frame` enters it, `frame * w` leaves it.
+mat3 mx_frame(const vec3 N, const vec3 X)
+{
+    mat3 frame;
+    frame[0] = normalize(X - dot(X, N) * N);
+    frame[1] = cross(N, frame[0]);
+    frame[2] = N;
+    return frame;
+}
+
+// N faces V.
+mx_GgxLobe mx_ggx_lobe(const vec2 roughness, const vec3 N, const vec3 X, const vec3 V)
+{
+    mat3 frame = mx_frame(N, X);
+    return mx_ggx_lobe_at(frame, clamp(roughness, vec2(1e-8), vec2(1.0)), max(V * frame, vec3(-1.0, -1.0, 1e-8)));
+}
+
+// Distribution of normals (Burley 2012, appendix B.2, equation 13) at a normal that is stretched to that of a unit
+// sphere; `area` is the product of the roughness along x and y.
+float mx_ggx_distribution(const vec3 e, const float area)
+{
+    return 1.0 / (3.1415927 * area * dot(e, e) * dot(e, e));
+}
+
+// Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v; half is left of the divisor of the
+// reflection model.
+float mx_ggx_visibility(const mx_GgxLobe lobe, const float cos_l)
+{
+    return cos_l / (lobe.v.z * sqrt(mix(cos_l * cos_l, 1.0, lobe.area)) + cos_l * lobe.masking);
+}
+
+// The lobe towards L, but for Fresnel's factor.
+float mx_ggx_light(const mx_GgxLobe lobe, const vec3 L, const vec3 H)
+{
+    return 0.5 * mx_ggx_distribution(H * lobe.frame / lobe.stretch, lobe.area)
+        * mx_ggx_visibility(lobe, max(dot(L, lobe.frame[2]), 1e-8));
+}
+
+// Unpolarised Fresnel equations of a dielectric; the clamped root makes total internal reflection come out as 1.
+float mx_fresnel_dielectric(const float cosine, const float ior)
+{
+    float g = sqrt(max(ior * ior + cosine * cosine - 1.0, 0.0));
+    vec2 a = cosine * vec2(1.0, ior * ior);
+    vec2 r = (a - g) / (a + g);
+    return 0.5 * dot(r, r);
+}
+
+vec3 mx_fresnel_schlick(const float cosine, const vec3 f0, const vec3 f90)
+{
+    float x = 1.0 - cosine;
+    return mix(f0, f90, x * x * x * x * x);
+}
+
+// XYZ of light that has gone further by d / (2 pi) micrometre and changed by the amplitude re + i im: the Fourier
+// transform of the CIE sensitivities, a sum of Gaussians.
+vec3 mx_film_response(const float d, const vec3 re)
+{
+    vec4 xyzx = vec4(0.84659, 1.000222, 1.001122, 0.153868)
+        * exp(vec4(-0.0043278, -0.0093046, -0.0066121, -0.0045282) * (d * d))
+        * (vec4(re, re.x) * cos(vec4(1.681, 1.7953, 2.2084, 2.2399) * d));
+    return xyzx.xyz + vec3(xyzx.w, 0.0, 0.0);
+}
+
+// XYZ after interference of one polarisation: real amplitude `a` of the film's own interface, which from behind is -a,
+// and re + i im of the one below; two terms of the series (section 3.3).
+vec3 mx_film_series(const float a, const vec3 re, const float d)
+{
+    vec3 r23 = re * re;
+    float r12 = a * a;
+    float t = 1.0 - r12;
+    vec3 constant = t * t * r23 / (vec3(1.0) - r12 * r23);
+    return r12 + constant + 2.0 * (constant - t)
+        * (r12 * mx_film_response(2.0 * d, re * re) - a * mx_film_response(d, re));
+}
+
+// Amplitudes of the film's own interface: perpendicular, parallel.
+vec2 mx_film_amplitudes(const float cosine, const float inside, const float ior)
+{
+    vec2 x = vec2(cosine, ior * cosine);
+    vec2 u = vec2(ior * inside, inside);
+    return (x - u) / (x + u);
+}
+
+// A film on a colour, which has no phase: light turns where its colour says that the index behind the film is lower.
+vec3 mx_film_schlick(const float cosine, const vec3 f0, const vec3 f90, const float film, const float film_ior)
+{
+    float ior = max(film_ior, 1.0);
+    float c = sqrt(1.0 - (1.0 - cosine * cosine) / (ior * ior));
+    vec2 a = mx_film_amplitudes(cosine, c, ior);
+    float d = 0.012566372 * ior * c * film;
+    vec3 r = (vec3(1.0) - 2.0 * step(sqrt(clamp(f0, vec3(0.01), vec3(0.99))), vec3((ior - 1.0) / (ior + 1.0))))
+        * sqrt(max(0.5 * mx_fresnel_schlick(c, f0, f90), vec3(0.0)));
+    return clamp(mat3(2.3706744, -0.513885, 0.0052982, -0.9000405, 1.4253036, -0.0146949, -0.4706338, 0.0885814,
+        1.0093968) * (0.5 * (mx_film_series(a.x, -r, d) + mx_film_series(a.y, r, d))), vec3(0.0), vec3(1.0));
+}
+
+vec3 mx_fresnel(const float cosine, const vec3 n, const vec3 f90, const float film, const float film_ior)
+{
+    if (film > 0.0)
+        return mx_film_schlick(cosine, n, f90, film, film_ior);
+    return mx_fresnel_schlick(cosine, n, f90);
+}
+
+// Rodrigues' formula; the axis has unit length.
+vec3 mx_rotate3d(const vec3 v, const float angle, const vec3 axis)
+{
+    float c = cos(angle);
+    return v * c + cross(v, axis) * sin(angle) + axis * (dot(axis, v) * (1.0 - c));
+}
+
+// Where the light from a direction of the world lies in the environment's picture.
+vec2 mx_latlong(const vec3 direction)
+{
+    vec3 d = normalize((u_envMatrix * vec4(direction, 0.0)).xyz);
+    return vec2(atan(d.x, -d.z), -2.0 * asin(clamp(d.y, -1.0, 1.0))) * 0.15915494 + vec2(0.5);
+}
+
+// Light of a direction, filtered over the solid angle of a sample (Krivanek and Colbert 2008; the mip level is equation
+// 13 of GPU Gems 3, section 20.4).
+vec3 mx_filtered_light(const vec3 L, const float level)
+{
+    return textureLod(u_envRadiance, mx_latlong(L), max(0.25 * log2(level * level / dot(L.xz, L.xz)), 0.0)).xyz;
+}
+
+// Direction of the ray -v after it has entered the sphere at normal h and left it again.
+vec3 mx_refract_sphere(const vec3 v, const vec3 h, const float ior)
+{
+    vec3 inside = refract(-v, h, 1.0 / ior);
+    return refract(inside, normalize(inside * dot(inside, h) - 0.5 * h), ior);
+}
+
+// The light of a sample, and in the fourth component the cosine at its facet h.
+vec4 mx_ggx_sample_at(const mx_GgxLobe lobe, const vec3 h, const float level, const float refract_ior)
+{
+    vec3 l = reflect(-lobe.v, h);
+    float weight = mx_ggx_visibility(lobe, max(l.z, 1e-8));
+    if (refract_ior > 0.0) {
+        l = mx_refract_sphere(lobe.v, h, refract_ior);
+        weight = 0.5 / lobe.v.z;
+    }
+    return vec4(weight * mx_filtered_light(lobe.frame * l, level), clamp(dot(lobe.v, h), 1e-8, 1.0));
+}
+
+// A normal of those visible from v, which is stretched by the roughness, before it is scaled to length 1 (Dupuy and
+// Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps"): (cos, sin) of its turn around z, and how far the
+// cap is below its top.
+vec3 mx_ggx_cap(const vec2 around, const float depth, const vec3 v)
+{
+    return vec3(v.xy + sqrt(depth * (2.0 - depth)) * around, v.z + 1.0 - depth);
+}
+
+vec4 mx_ggx_sample(const mx_GgxLobe lobe, const vec2 around, const float xi, const float refract_ior)
+{
+    vec3 cap = mx_ggx_cap(around, xi * (1.0 + lobe.cap.z), lobe.cap);
+    vec3 h = cap * lobe.stretch;
+    float s = dot(cap, cap) / dot(h, h);
+    return mx_ggx_sample_at(lobe, normalize(h), s * s * lobe.level, refract_ior);
+}
+
+// A function for each interface: what has nothing left to choose needs no version of its own.
+vec3 mx_ggx_gather_dielectric(const mx_GgxLobe lobe, const float refract_ior, const float ior)
+{
+    vec2 around = vec2(1.0, 0.0);
+    vec3 sum = vec3(0.0);
+    for (float xi = 0.5 * lobe.step; xi < 1.0; xi += lobe.step) {
+        vec4 light = mx_ggx_sample(lobe, around, xi, refract_ior);
+        float f = mx_fresnel_dielectric(light.w, ior);
+        sum += (refract_ior > 0.0 ? 1.0 - f : f) * light.xyz;
+        around = mat2(-0.7373689, 0.6754903, -0.6754903, -0.7373689) * around;
+    }
+    return lobe.weight * sum;
+}
+
+// Any other: on a colour, or what it lets through.
+vec3 mx_ggx_gather_film(const mx_GgxLobe lobe, const float limit, const vec3 n, const vec3 f90, const float film,
+    const float film_ior)
+{
+    vec2 around = vec2(1.0, 0.0);
+    vec3 sum = vec3(0.0);
+    for (float xi = 0.5 * lobe.step; xi < limit; xi += lobe.step) {
+        vec4 light = mx_ggx_sample(lobe, around, xi, 0.0);
+        sum += mx_film_schlick(light.w, n, f90, film, film_ior) * light.xyz;
+        around = mat2(-0.7373689, 0.6754903, -0.6754903, -0.7373689) * around;
+    }
+    return lobe.weight * sum;
+}
+
+vec3 mx_ggx_gather_schlick(const mx_GgxLobe lobe, const float limit, const vec3 f0, const vec3 f90)
+{
+    vec2 around = vec2(1.0, 0.0);
+    vec3 sum = vec3(0.0);
+    for (float xi = 0.5 * lobe.step; xi < limit; xi += lobe.step) {
+        vec4 light = mx_ggx_sample(lobe, around, xi, 0.0);
+        sum += mx_fresnel_schlick(light.w, f0, f90) * light.xyz;
+        around = mat2(-0.7373689, 0.6754903, -0.6754903, -0.7373689) * around;
+    }
+    return lobe.weight * sum;
+}
+
+void main()
+{
+    vec3 color = SR_gltf_pbr_emissive * SR_gltf_pbr_emissive_strength;
+    // lights
+    // SR_gltf_pbr
+    float coat_lobe = clamp(SR_gltf_pbr_clearcoat_roughness * SR_gltf_pbr_clearcoat_roughness, 1e-8, 1.0);
+    vec3 N = normalize(vd_normalWorld);
+    vec3 V = normalize(u_viewPosition - vd_positionWorld);
+    float cos_v = max(abs(dot(N, V)), 1e-8);
+    vec2 coating_albedo = mx_ggx_albedo_fit(coat_lobe, coat_lobe / (coat_lobe + cos_v), cos_v);
+    float coating_scale = (1.0 / coating_albedo.x - 1.0) * 0.08571429 + 1.0;
+    vec3 Nf = faceforward(N, -V, N);
+    vec3 X = normalize(vd_tangentWorld);
+    mx_GgxLobe coating_lobe = mx_ggx_lobe(vec2(coat_lobe), Nf, X, V);
+    float sheen_weight = max(max(SR_gltf_pbr_sheen_color.x, SR_gltf_pbr_sheen_color.y), SR_gltf_pbr_sheen_color.z);
+    float sheen_rough = SR_gltf_pbr_sheen_roughness * SR_gltf_pbr_sheen_roughness;
+    float s = 1.0 / max(sheen_rough, 0.005);
+    float coating_difference = 1.0 - SR_gltf_pbr_clearcoat
+        * (mix(0.04, 1.0, coating_albedo.y) * coating_albedo.x * coating_scale);
+    vec3 fuzz_product = SR_gltf_pbr_sheen_color / sheen_weight * (sheen_weight * coating_difference);
+    float metal_film_weight = SR_gltf_pbr_metallic * SR_gltf_pbr_iridescence;
+    float alpha_bitangent = SR_gltf_pbr_roughness * SR_gltf_pbr_roughness;
+    vec2 specular_roughness = clamp(vec2(mix(alpha_bitangent, 1.0, SR_gltf_pbr_anisotropy_strength
+        * SR_gltf_pbr_anisotropy_strength), alpha_bitangent), 0.00001, 1.0);
+    vec2 alpha = clamp(specular_roughness, 1e-8, 1.0);
+    float a = sqrt(alpha.x * alpha.y);
+    vec2 albedo = mx_ggx_albedo_fit(a, a / (cos_v + a), cos_v);
+    float difference = 1.0 / albedo.x - 1.0;
+    vec3 limited_base_color = max(SR_gltf_pbr_base_color, 0.0);
+    float iridescence_thickness = SR_gltf_pbr_iridescence_thickness;
+    float iridescence_ior = SR_gltf_pbr_iridescence_ior;
+    float sheen_albedo = clamp(mx_bicubic(mat4(3.7341, -15.9587, 23.621, -11.0989, -8.2265, 35.1081, -49.7137, 23.2945,
+        4.0691, -17.882, 25.6639, -12.0167, -0.5833, 2.6552, -3.9393, 1.8999), 1.0 / (cos_v + 1.0), 1.0
+        / (sheen_rough + 0.2)), 0.0, 1.0);
+    float substrate_weight = coating_difference * (1.0 - sheen_weight * sheen_albedo);
+    vec3 metal_film_product = (difference
+        * mix(mx_fresnel(1.0, limited_base_color, vec3(1.0), iridescence_thickness, iridescence_ior), vec3(1.0),
+        0.04761905) + vec3(1.0)) * (substrate_weight * metal_film_weight);
+    vec3 specular_tangent = mx_rotate3d(X, radians(SR_gltf_pbr_anisotropy_rotation * -57.29578), N);
+    mx_GgxLobe lobe = mx_ggx_lobe(specular_roughness, Nf, specular_tangent, V);
+    float metal_bare_weight = SR_gltf_pbr_metallic * (1.0 - SR_gltf_pbr_iridescence);
+    vec3 metal_bare_product = (difference
+        * mix(mx_fresnel_schlick(1.0, limited_base_color, vec3(1.0)), vec3(1.0), 0.04761905) + vec3(1.0))
+        * (substrate_weight * metal_bare_weight);
+    float dielectric_weight = 1.0 - SR_gltf_pbr_metallic;
+    bool reflection_film_visible = SR_gltf_pbr_iridescence * dielectric_weight > 0.0;
+    float amplitude = (1.0 - SR_gltf_pbr_ior) / (SR_gltf_pbr_ior + 1.0);
+    vec3 n = max(SR_gltf_pbr_specular * min(SR_gltf_pbr_specular_color * (amplitude * amplitude), 1.0), 0.0);
+    vec3 f90 = vec3(max(SR_gltf_pbr_specular, 0.0));
+    vec3 reflection_film_scale = mix(mx_fresnel(1.0, n, f90, iridescence_thickness, iridescence_ior), f90, 0.04761905)
+        * difference + vec3(1.0);
+    vec3 reflection_film_product = reflection_film_scale
+        * (substrate_weight * (SR_gltf_pbr_iridescence * dielectric_weight));
+    float reflection_weight = dielectric_weight * (1.0 - SR_gltf_pbr_iridescence);
+    vec3 reflection_scale = difference * mix(mx_fresnel_schlick(1.0, n, f90), f90, 0.04761905) + vec3(1.0);
+    vec3 reflection_product = reflection_scale * (substrate_weight * reflection_weight);
+    vec3 product = mix(n, f90, albedo.y) * albedo.x;
+    float reflection_throughput = 1.0 - dot(product * reflection_scale, vec3(0.33333334));
+    float body_weight = mix(reflection_throughput, 1.0 - dot(product * reflection_film_scale, vec3(0.33333334)),
+        SR_gltf_pbr_iridescence) * substrate_weight;
+    vec3 diffuse_product = SR_gltf_pbr_base_color
+        * (body_weight * (dielectric_weight * (1.0 - SR_gltf_pbr_transmission)));
+    for (int i = 0; i < min(u_numActiveLightSources, 3); ++i) {
+        // coating
+        int type = u_lightData[i].type;
+        float intensity = u_lightData[i].intensity;
+        vec3 d = u_lightData[i].position - vd_positionWorld;
+        float ratio = intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
+        float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
+        vec3 to_light = normalize(d);
+        float spot_light_product = smoothstep(spot_light_difference, u_lightData[i].inner_angle,
+            -dot(u_lightData[i].direction, to_light)) * ratio;
+        float spot_light_choice = type == 3 ? spot_light_product : 0.0;
+        float point_light_choice = type == 2 ? ratio : spot_light_choice;
+        vec3 light = u_lightData[i].color * (type == 1 ? intensity : point_light_choice);
+        vec3 directional_light_to_light = -u_lightData[i].direction;
+        vec3 L = type == 1 ? directional_light_to_light : to_light;
+        vec3 H = normalize(V + L);
+        float cosine = clamp(dot(V, H), 1e-8, 1.0);
+        if (SR_gltf_pbr_clearcoat > 0.0)
+            color += light * (SR_gltf_pbr_clearcoat * coating_scale
+                * (mx_ggx_light(coating_lobe, L, H) * mx_fresnel_dielectric(cosine, 1.5)));
+        // fuzz
+        float cos_l = max(dot(L, Nf), 1e-8);
+        if (sheen_weight > 0.0) {
+            float cos_h = dot(H, Nf);
+            float fuzz_product_2 = cos_l * ((s + 2.0) * pow(max(1.0 - cos_h * cos_h, 0.0), s * 0.5) / 6.2831855);
+            color += light * (fuzz_product_2 / ((cos_v + cos_l - cos_v * cos_l) * 4.0) * fuzz_product);
+        }
+        // metal_film
+        float ggx_light = mx_ggx_light(lobe, L, H);
+        if (metal_film_weight > 0.0)
+            color += light * (metal_film_product
+                * (ggx_light * mx_fresnel(cosine, limited_base_color, vec3(1.0), iridescence_thickness,
+                iridescence_ior)));
+        // metal_bare
+        if (metal_bare_weight > 0.0)
+            color += light * (metal_bare_product
+                * (ggx_light * mx_fresnel_schlick(cosine, limited_base_color, vec3(1.0))));
+        // reflection_film
+        if (reflection_film_visible)
+            color += light * (reflection_film_product
+                * (ggx_light * mx_fresnel(cosine, n, f90, iridescence_thickness, iridescence_ior)));
+        // reflection
+        if (reflection_weight > 0.0)
+            color += light * (reflection_product * (ggx_light * mx_fresnel_schlick(cosine, n, f90)));
+        // diffuse
+        color += light * (cos_l / 3.1415927 * diffuse_product);
+    }
+    // environment
+    // coating
+    if (SR_gltf_pbr_clearcoat > 0.0)
+        color += SR_gltf_pbr_clearcoat * coating_scale * mx_ggx_gather_dielectric(coating_lobe, 0.0, 1.5);
+    // fuzz
+    vec3 environment_irradiance = textureLod(u_envIrradiance, mx_latlong(Nf), 0.0).xyz * u_envLightIntensity;
+    if (sheen_weight > 0.0)
+        color += environment_irradiance * (SR_gltf_pbr_sheen_color / sheen_weight
+            * (sheen_albedo * (sheen_weight * coating_difference)));
+    // metal_film
+    float filmed = iridescence_thickness > 0.0 ? 1.0 : 0.0;
+    float limit = iridescence_thickness > 0.0 ? 0.0 : 1.0;
+    if (metal_film_weight > 0.0) {
+        vec3 metal_film_ggx_gather_film = mx_ggx_gather_film(lobe, filmed, limited_base_color, vec3(1.0),
+            iridescence_thickness, iridescence_ior);
+        vec3 metal_film_bare = mx_ggx_gather_schlick(lobe, limit, limited_base_color, vec3(1.0));
+        color += metal_film_product * (iridescence_thickness > 0.0 ? metal_film_ggx_gather_film : metal_film_bare);
+    }
+    // metal_bare
+    if (metal_bare_weight > 0.0)
+        color += metal_bare_product * mx_ggx_gather_schlick(lobe, 1.0, limited_base_color, vec3(1.0));
+    // reflection_film
+    if (reflection_film_visible) {
+        vec3 reflection_film_ggx_gather_film = mx_ggx_gather_film(lobe, filmed, n, f90, iridescence_thickness,
+            iridescence_ior);
+        vec3 reflection_film_bare = mx_ggx_gather_schlick(lobe, limit, n, f90);
+        color += reflection_film_product
+            * (iridescence_thickness > 0.0 ? reflection_film_ggx_gather_film : reflection_film_bare);
+    }
+    // reflection
+    if (reflection_weight > 0.0)
+        color += reflection_product * mx_ggx_gather_schlick(lobe, 1.0, n, f90);
+    // refraction
+    if (SR_gltf_pbr_transmission * dielectric_weight > 0.0) {
+        vec3 ggx_refraction = mx_ggx_gather_dielectric(lobe, SR_gltf_pbr_ior, SR_gltf_pbr_ior);
+        vec3 dielectric_bsdf_transmission = limited_base_color * (u_refractionTwoSided ? limited_base_color : vec3(1.0))
+            * ggx_refraction;
+        color += dielectric_bsdf_transmission * (body_weight * (SR_gltf_pbr_transmission * dielectric_weight));
+    }
+    // diffuse
+    color += diffuse_product * environment_irradiance;
+    // opacity
+    float mask = SR_gltf_pbr_alpha >= SR_gltf_pbr_alpha_cutoff ? 1.0 : 0.0;
+    float opacity = 1 > SR_gltf_pbr_alpha_mode ? 1.0 : 2 > SR_gltf_pbr_alpha_mode ? mask : 3 > SR_gltf_pbr_alpha_mode
+        ? SR_gltf_pbr_alpha : 0.0;
+    if (opacity < u_alphaThreshold)
+        discard;
+    out1 = vec4(opacity * color, opacity);
+}
