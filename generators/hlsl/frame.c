@@ -263,7 +263,4 @@ static void close_main(struct spell *spell)
     spell_text(spell, gives ? "    vd_out = vd;\n" : "");
 }
 
-const struct target_frame hlsl_frame = {.names = (const char *const[]){"vd_in", "vd_out", NULL},
-                                        .declare = declare,
-                                        .open = open_main,
-                                        .close = close_main};
+const struct target_frame hlsl_frame = {.declare = declare, .open = open_main, .close = close_main};

@@ -60,76 +60,36 @@ static uint32_t find(const struct shader *shader, uint32_t scope, str_id name)
     return 0;
 }
 
-/* Names that the speller needs at file scope. */
-static bool is_speller_name(str_id name)
+/* Names that are taken in a scope; the language is known by the time of the first variable. */
+static struct name_set *names_of(struct shader *shader, uint32_t scope)
 {
-    switch (name) {
-    case STR_main:
-    case STR_scatter:
-    case STR_vd:
-    case STR_u_lightData:
-    case STR_LightData:
-    case STR_LightData_block:
-    case STR_PublicUniforms:
-    case STR_PrivateUniforms:
-    case STR_VertexData: return true;
-    default: return false;
+    struct name_set *names = &shader->taken[scope];
+    if (!names->arena) {
+        names_init(names, shader->arena, shader->style ? shader->style->syntax : NULL);
+        names_take_frame(names);
     }
-}
-
-/* A word that the language has for itself. */
-static bool is_reserved(const struct shader *shader, str_id name)
-{
-    return shader->style
-           && lang_syntax_is_reserved(shader->style->syntax, str_text(shader->strings, name),
-                                      str_len(shader->strings, name));
-}
-
-static bool is_taken(const struct shader *shader, uint32_t scope, str_id name)
-{
-    return is_speller_name(name) || find(shader, scope, name) || is_reserved(shader, name);
-}
-
-/*
- * "normal_", where the language has "normal" for itself, and "normal_2" where that is taken;
- * "roughness_2".
- */
-static str_id variant(struct shader *shader, str_id name, uint32_t number)
-{
-    struct text text;
-    text_init(&text, shader->arena);
-    text_mem(&text, str_text(shader->strings, name), str_len(shader->strings, name));
-    if (text.data[text.len - 1] != '_')
-        text_char(&text, '_');
-    if (number > 1)
-        text_u32(&text, number);
-    return str_intern(shader->strings, text.data, text.len);
+    return names;
 }
 
 bool shader_name_is_free(struct shader *shader, str_id name)
 {
-    return !is_taken(shader, NUM_BLOCKS,
-                     is_reserved(shader, name) ? variant(shader, name, 1) : name);
+    return names_is_free(names_of(shader, NUM_BLOCKS), str_text(shader->strings, name),
+                         str_len(shader->strings, name));
 }
 
 static str_id unique_name(struct shader *shader, uint32_t scope, str_id wanted)
 {
     const char *text = str_text(shader->strings, wanted);
-    size_t base_len;
-    const char *base =
-        identifier_from(text, str_len(shader->strings, wanted), shader->arena, &base_len);
-    str_id first = base == text ? wanted : str_intern(shader->strings, base, base_len),
-           name = first;
-    for (uint32_t number = is_reserved(shader, first) ? 1 : 2; is_taken(shader, scope, name);
-         number++)
-        name = variant(shader, first, number);
-    return name;
+    struct spell_name name =
+        names_unique(names_of(shader, scope), text, str_len(shader->strings, wanted));
+    return name.text == text ? wanted : str_intern(shader->strings, name.text, name.len);
 }
 
 uint32_t shader_add_variable(struct shader *shader, const struct shader_variable *variable)
 {
     uint32_t scope = name_scope(variable->block);
     str_id name = unique_name(shader, scope, variable->name);
+    assert(!find(shader, scope, name));
     uint32_t index = shader->variables.len;
     table_add(&shader->names, shader->arena, hash_pair(name, scope), index + 1);
     vec_push(shader->arena, &shader->variables, *variable);

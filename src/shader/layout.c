@@ -125,13 +125,13 @@ static void rank_light_members(struct shader *shader)
     }
 }
 
-void shader_layout(struct shader *shader, const struct shader_layout_rules *rules)
+void shader_layout(struct shader *shader)
 {
+    const struct shader_layout_rules *rules = &shader->rules;
     if (rules->packing == PACKING_CBUFFER)
         rank_light_members(shader);
     order_interface(shader);
     memset(shader->buffers, 0, sizeof shader->buffers);
-    shader->numbered = rules->bindings;
     if (rules->bindings) {
         for (int block = 0; block < NUM_BLOCKS; block++)
             shader->buffers[block].set = rules->set;

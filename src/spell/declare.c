@@ -29,26 +29,9 @@ bool spell_uses(const struct spell *spell, const struct shader_variable *variabl
 
 /* ---- Names ---- */
 
-static void take_all(struct spell *spell, const char *const *names)
-{
-    for (; *names; names++)
-        names_take(&spell->names, *names, strlen(*names));
-}
-
 void spell_name_interface(struct spell *spell)
 {
-    static const char *const common[] = {"main",
-                                         "vd",
-                                         "u_lightData",
-                                         "LightData",
-                                         "LightData_block",
-                                         "PublicUniforms",
-                                         "PrivateUniforms",
-                                         "VertexData",
-                                         NULL};
-    take_all(spell, common);
-    if (spell->frame && spell->frame->names)
-        take_all(spell, spell->frame->names);
+    names_take_frame(&spell->names);
     bool io_block = spell_can(spell, CAP_BLOCK_STAGE_IO);
     for (uint32_t i = 0; i < spell->shader->interface.len; i++) {
         const struct shader_variable *variable = spell_interface_variable(spell, i);

@@ -6,42 +6,8 @@
 #ifndef MXG_SPELL_SPELL_H
 #define MXG_SPELL_SPELL_H
 
+#include "shader/names.h"
 #include "spell/target.h"
-
-/* ---- names.c: names that are taken, at file scope and in the function at hand ---- */
-
-struct name_entry {
-    const char *text;
-    uint32_t len;
-    /*
-     * 0: file scope; else the function that uses it, which has passed where it is not the current
-     * one
-     */
-    uint32_t scope;
-    uint32_t next; /* the number to try for the next of this name */
-};
-
-struct spell_name { /* as it is written */
-    const char *text;
-    size_t len;
-};
-
-struct name_set {
-    struct arena *arena;
-    const struct lang_style *style;
-    VEC(struct name_entry) entries;
-    struct table table; /* entry + 1 */
-    uint32_t scope;     /* of the function at hand; 0 outside */
-};
-
-void names_init(struct name_set *names, struct arena *arena, const struct lang_style *style);
-/* a new function: the names of the one before are free again */
-void names_open_scope(struct name_set *names);
-/* Texts given to these two must live as long as the set. */
-/* `text` made an identifier, with a number behind it where that is reserved or taken. */
-struct spell_name names_unique(struct name_set *names, const char *text, size_t len);
-/* Takes a name as it is; false where it is taken already. */
-bool names_take(struct name_set *names, const char *text, size_t len);
 
 /* ---- maker.c: functions that put structs together ---- */
 

@@ -285,7 +285,7 @@ static void init(struct spell *spell)
     spell->user_types =
         ARENA_ARRAY(arena, const char *, unit->base_user_types + unit->user_types.len + 1);
     spell->locals = ARENA_ARRAY(arena, struct spell_name, shader->locals.len + 1);
-    spell->local_of = shader->local_of;
+    spell->local_of = ARENA_ARRAY(arena, uint32_t, shader->graph->nodes.len);
     spell->write_node = spell->target->form ? spell_typed_node : spell_node;
     spell->lang_names = (struct lang_names){.user_data = spell,
                                             .function = function_name,
@@ -299,9 +299,9 @@ static void init(struct spell *spell)
     if (spell->style != shader->style)
         lang_style_init(spell->style, has_neighbours ? spell->target->syntax : syntax_alone(spell),
                         arena);
-    names_init(&spell->names, arena, spell->style);
+    names_init(&spell->names, arena, spell->style->syntax);
     if (spell->options->comments && spell->options->path && !spell->options->neutral_names) {
-        names_init(&spell->paths, arena, spell->style);
+        names_init(&spell->paths, arena, NULL);
         spell->origins_seen = ARENA_ARRAY(arena, uint8_t, shader->graph->origins.len);
     }
     if (spell->options->shader_name)

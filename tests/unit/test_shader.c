@@ -58,8 +58,9 @@ static void check_packing(enum shader_packing packing, const struct member_case 
                                     .stages = 1 << STAGE_PIXEL};
         shader_add_variable(&f.shader, &v);
     }
-    shader_layout(&f.shader, &(struct shader_layout_rules){
-                                 .blocks = true, .packing = packing, .bindings = true, .set = 2});
+    f.shader.rules = (struct shader_layout_rules){
+        .blocks = true, .packing = packing, .bindings = true, .set = 2};
+    shader_layout(&f.shader);
     for (size_t i = 0; i < n; i++) {
         const struct shader_variable *v = &f.shader.variables.items[i];
         REQUIRE_EQ(v->offset, cases[i].offset);
@@ -98,8 +99,8 @@ static void test_cbuffer_lights(void)
         uint32_t v = shader_light_member(&f.shader, word(&f, members[i].name), members[i].type);
         f.shader.variables.items[v].stages = 1 << STAGE_PIXEL;
     }
-    shader_layout(&f.shader,
-                  &(struct shader_layout_rules){.blocks = true, .packing = PACKING_CBUFFER});
+    f.shader.rules = (struct shader_layout_rules){.blocks = true, .packing = PACKING_CBUFFER};
+    shader_layout(&f.shader);
     for (size_t i = 0; i < sizeof members / sizeof *members; i++) {
         uint32_t v = shader_find_variable(&f.shader, BLOCK_LIGHT_DATA, word(&f, members[i].name));
         REQUIRE_EQ(f.shader.variables.items[v].offset, members[i].offset);

@@ -1,0 +1,96 @@
+#version 450
+// surface · surface · mxgen 0.1 · glsl · complete · 1 closure · 0 textures
+
+uniform float surface_opacity = 1.0;
+uniform vec3 u_viewPosition = vec3(0.0);
+uniform int u_numActiveLightSources = 0;
+uniform mat4 u_envMatrix = mat4(-1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 0.0, 0.0, 0.0, 1.0);
+uniform float u_envLightIntensity = 1.0;
+uniform float u_alphaThreshold = 0.001;
+struct LightData {
+    int type;
+    vec3 direction;
+    vec3 color;
+    float intensity;
+    vec3 position;
+    float decay_rate;
+    float inner_angle;
+    float outer_angle;
+};
+uniform LightData u_lightData[3];
+uniform sampler2D u_envIrradiance;
+in VertexData {
+    vec3 positionWorld;
+    vec3 normalWorld;
+    vec2 texcoord_0;
+} vd;
+out vec4 out1;
+
+// SPDX-License-Identifier: Apache-2.0 Functions with names that shaders need for themselves.
+float scatter_2(const float x)
+{
+    float sum = 0.0;
+    for (int i = 0; i < 3; ++i)
+        sum += sin(x * float(i));
+    return sum;
+}
+
+float vd_2(const float x)
+{
+    float product = 1.0;
+    for (int i = 0; i < 4; ++i)
+        product *= cos(x * float(i));
+    return product;
+}
+
+// Where the light from a direction of the world lies in the environment's picture.
+vec2 mx_latlong(const vec3 direction)
+{
+    vec3 d = normalize((u_envMatrix * vec4(direction, 0.0)).xyz);
+    return vec2(atan(d.x, -d.z), -2.0 * asin(clamp(d.y, -1.0, 1.0))) * 0.15915494 + vec2(0.5);
+}
+
+void main()
+{
+    vec3 color = vec3(0.0);
+    // lights
+    float LightData_2 = scatter_2(vd.texcoord_0.x);
+    vec3 normal_N = normalize(vd.normalWorld);
+    vec3 V = normalize(u_viewPosition - vd.positionWorld);
+    vec3 diffuse_N = faceforward(normal_N, -V, normal_N);
+    float PublicUniforms_2 = vd_2(vd.texcoord_0.y);
+    vec2 ab = PublicUniforms_2 * PublicUniforms_2 * vec2(-0.5, 0.45)
+        / (PublicUniforms_2 * PublicUniforms_2 + vec2(0.33, 0.09)) + vec2(1.0, 0.0);
+    float cos_v = max(abs(dot(normal_N, V)), 1e-8);
+    for (int i = 0; i < min(u_numActiveLightSources, 3); ++i) {
+        // diffuse
+        int type = u_lightData[i].type;
+        float intensity = u_lightData[i].intensity;
+        vec3 d = u_lightData[i].position - vd.positionWorld;
+        float ratio = intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
+        float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
+        vec3 to_light = normalize(d);
+        float spot_light_product = smoothstep(spot_light_difference, u_lightData[i].inner_angle,
+            -dot(u_lightData[i].direction, to_light)) * ratio;
+        float spot_light_choice = type == 3 ? spot_light_product : 0.0;
+        float point_light_choice = type == 2 ? ratio : spot_light_choice;
+        vec3 directional_light_to_light = -u_lightData[i].direction;
+        vec3 L = type == 1 ? directional_light_to_light : to_light;
+        float cos_l = max(dot(L, diffuse_N), 1e-8);
+        float diffuse_response = LightData_2 * 0.18
+            * (cos_l / 3.1415927 * (ab.x + ab.y * max(dot(L, V) - cos_l * cos_v, 0.0) / max(cos_l, cos_v)));
+        color += u_lightData[i].color * (type == 1 ? intensity : point_light_choice) * diffuse_response;
+    }
+    // environment
+    // diffuse
+    if (LightData_2 > 0.0) {
+        vec2 fit = PublicUniforms_2 * (cos_v * vec2(-0.7632, -0.4993) - vec2(0.4297, 0.6076) + PublicUniforms_2
+            * vec2(1.4385, 2.0315)) + vec2(1.0);
+        float diffuse_product = LightData_2 * (clamp(fit.x / fit.y, 0.0, 1.0) * 0.18 * u_envLightIntensity);
+        color += textureLod(u_envIrradiance, mx_latlong(diffuse_N), 0.0).xyz * diffuse_product;
+    }
+    // opacity
+    if (surface_opacity < u_alphaThreshold)
+        discard;
+    out1 = vec4(surface_opacity * color, surface_opacity);
+}

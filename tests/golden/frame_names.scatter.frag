@@ -1,0 +1,145 @@
+#version 450
+// surface · surface · mxgen 0.1 · glsl · reduced · 1 closure · 0 textures
+
+uniform int u_numActiveLightSources = 0;
+struct LightData {
+    int type;
+    vec3 direction;
+    vec3 color;
+    float intensity;
+    vec3 position;
+    float decay_rate;
+    float inner_angle;
+    float outer_angle;
+};
+uniform LightData u_lightData[3];
+struct VertexData {
+    vec3 positionWorld;
+    vec3 normalWorld;
+    vec3 viewWorld;
+    vec4 random;
+    vec4 lightWorld;
+    vec2 texcoord_0;
+};
+VertexData vd;
+vec4 out1;
+vec4 out2;
+vec4 out3;
+vec4 out4;
+vec4 out5;
+vec4 out6;
+vec4 out7;
+
+// SPDX-License-Identifier: Apache-2.0 Functions with names that shaders need for themselves.
+float scatter_2(const float x)
+{
+    float sum = 0.0;
+    for (int i = 0; i < 3; ++i)
+        sum += sin(x * float(i));
+    return sum;
+}
+
+float vd_2(const float x)
+{
+    float product = 1.0;
+    for (int i = 0; i < 4; ++i)
+        product *= cos(x * float(i));
+    return product;
+}
+
+// Axes of the tangent space around N with x along X: `w * frame` enters it, `frame * w` leaves it.
+mat3 mx_frame(const vec3 N, const vec3 X)
+{
+    mat3 frame;
+    frame[0] = normalize(X - dot(X, N) * N);
+    frame[1] = cross(N, frame[0]);
+    frame[2] = N;
+    return frame;
+}
+
+void scatter()
+{
+    float LightData_2 = scatter_2(vd.texcoord_0.x);
+    float PublicUniforms_2 = vd_2(vd.texcoord_0.y);
+    vec3 normal_N = normalize(vd.normalWorld);
+    float cos_v = max(abs(dot(normal_N, vd.viewWorld)), 1e-8);
+    vec2 fit = PublicUniforms_2 * (cos_v * vec2(-0.7632, -0.4993) - vec2(0.4297, 0.6076) + PublicUniforms_2
+        * vec2(1.4385, 2.0315)) + vec2(1.0);
+    float greater = max(dot(vec3(LightData_2 * (clamp(fit.x / fit.y, 0.0, 1.0) * 0.18 * 0.9 + 0.1)), vec3(0.33333334)),
+        0.0);
+    float pick = greater * vd.random.w;
+    vec3 L = vec3(0.0);
+    float inside = 0.0;
+    vec3 weight = vec3(0.0);
+    float density = 0.0;
+    vec3 medium = vec3(1.0);
+    vec3 diffuse_N = faceforward(normal_N, -vd.viewWorld, normal_N);
+    float ratio = greater / greater;
+    vec2 ab = PublicUniforms_2 * PublicUniforms_2 * vec2(-0.5, 0.45)
+        / (PublicUniforms_2 * PublicUniforms_2 + vec2(0.33, 0.09)) + vec2(1.0, 0.0);
+    if (pick < greater && pick >= 0.0) {
+        mat3 any_frame = mx_frame(diffuse_N, abs(diffuse_N.x) < 0.7 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0));
+        vec2 diffuse_product = sqrt(vd.random.x) * cos((vd.random.y - vec2(0.0, 0.25)) * 6.2831855);
+        vec3 diffuse_L = any_frame * vec3(diffuse_product, sqrt(1.0 - vd.random.x));
+        L = diffuse_L;
+        float diffuse_n_dot_diffuse_l = dot(diffuse_N, diffuse_L);
+        float diffuse_cos_l = max(diffuse_n_dot_diffuse_l, 1e-8);
+        float diffuse_sum = ab.x + ab.y * max(dot(vd.viewWorld, diffuse_L) - cos_v * diffuse_cos_l, 0.0)
+            / max(diffuse_cos_l, cos_v);
+        float pdf = max(diffuse_n_dot_diffuse_l, 0.0) / 3.1415927;
+        weight = vec3(ratio * (LightData_2 * (diffuse_cos_l / 3.1415927 * 0.18 * diffuse_sum / max(pdf, 1e-8))));
+        density = pdf * ratio;
+    }
+    pick += -greater;
+    out1 = vec4(0.0, 0.0, 0.0, 1.0);
+    out2 = vec4(L, inside);
+    out3 = vec4(weight, density);
+    out4 = vec4(medium, 0.0);
+    float diffuse_n_dot_l = dot(diffuse_N, vd.lightWorld.xyz);
+    float diffuse_cos_l_2 = max(diffuse_n_dot_l, 1e-8);
+    float diffuse_sum_2 = ab.x + ab.y * max(dot(vd.viewWorld, vd.lightWorld.xyz) - cos_v * diffuse_cos_l_2, 0.0)
+        / max(diffuse_cos_l_2, cos_v);
+    float sum = vd.lightWorld.w * (ratio * (max(diffuse_n_dot_l, 0.0) / 3.1415927)) + 1.0;
+    float ratio_2 = LightData_2 * (diffuse_cos_l_2 / 3.1415927 * 0.18 * diffuse_sum_2) / sum;
+    out5 = vec4(ratio_2, ratio_2, ratio_2, 0.0);
+    float chance = fract(vd.random.w * 4096.0);
+    float sum_2 = 0.0;
+    vec3 light = vec3(0.0);
+    vec3 L_2 = vec3(0.0);
+    float distance_ = 0.0;
+    for (int i = 0; i < min(u_numActiveLightSources, 3); ++i) {
+        int type = u_lightData[i].type;
+        float intensity = u_lightData[i].intensity;
+        vec3 d = u_lightData[i].position - vd.positionWorld;
+        float magnitude_d = length(d);
+        float ratio_3 = intensity / pow(magnitude_d + 1.0, u_lightData[i].decay_rate);
+        float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
+        vec3 to_light = normalize(d);
+        float spot_light_product = smoothstep(spot_light_difference, u_lightData[i].inner_angle,
+            -dot(u_lightData[i].direction, to_light)) * ratio_3;
+        float spot_light_choice = type == 3 ? spot_light_product : 0.0;
+        float point_light_choice = type == 2 ? ratio_3 : spot_light_choice;
+        vec3 light_2 = u_lightData[i].color * (type == 1 ? intensity : point_light_choice);
+        vec3 directional_light_to_light = -u_lightData[i].direction;
+        vec3 directional_light_L = type == 1 ? directional_light_to_light : to_light;
+        float diffuse_cos_l_3 = max(dot(diffuse_N, directional_light_L), 1e-8);
+        float diffuse_sum_3 = ab.x + ab.y * max(dot(vd.viewWorld, directional_light_L) - cos_v * diffuse_cos_l_3, 0.0)
+            / max(diffuse_cos_l_3, cos_v);
+        vec3 product = light_2 * (LightData_2 * (diffuse_cos_l_3 / 3.1415927 * 0.18 * diffuse_sum_3));
+        float greater_2 = max(dot(product, vec3(0.33333334)), 0.0);
+        sum_2 += greater_2;
+        if (sum_2 * chance < greater_2) {
+            L_2 = directional_light_L;
+            float choice = type == 3 ? magnitude_d : 1e30;
+            float choice_2 = type == 2 ? magnitude_d : choice;
+            distance_ = type == 1 ? 1e30 : choice_2;
+            light = product / greater_2;
+        }
+        if (greater_2 > 0.0) {
+            float ratio_4 = (sum_2 * chance - greater_2) / (sum_2 - greater_2);
+            chance = sum_2 * chance < greater_2 ? sum_2 * chance / greater_2 : ratio_4;
+        }
+    }
+    out6 = vec4(L_2, distance_);
+    out7 = vec4(sum_2 * light, 0.0);
+}
