@@ -3,6 +3,8 @@
 
 #include "tree/ast.h"
 
+#include <assert.h>
+
 /* Was `index` new to the set of bytes, which grows to hold it? */
 static bool mark(struct arena *arena, uint8_t **seen, uint32_t *cap, uint32_t index)
 {
@@ -72,6 +74,7 @@ void lang_reach_add(struct lang_reach *reach, const struct lang_unit *unit, uint
         struct visit *top = &vec_last(&stack);
         const struct lang_unit *layer;
         const struct lang_function *fn = lang_function(unit, top->id, &layer);
+        assert(top->next_callee <= fn->num_callees);
         if (top->next_callee == fn->num_callees) {
             add_own_needs(reach, unit, layer, fn);
             vec_push(reach->arena, &reach->functions, top->id);
