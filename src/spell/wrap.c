@@ -52,10 +52,11 @@ static const uint8_t meanings[256] = {
  */
 static const char *find_break(const char *from, const char *end, size_t column)
 {
-    const char *best = NULL, *first = column < MIN_COLUMNS ? from + (MIN_COLUMNS - column) : from,
-               *last = from + (MAX_COLUMNS - column);
+    const char *best = NULL, *first = column < MIN_COLUMNS ? from + (MIN_COLUMNS - column) : from;
+    size_t room = column < MAX_COLUMNS ? MAX_COLUMNS - column + 1 : 0;
+    const char *stop = (size_t)(end - from) < room ? end : from + room;
     int depth = 0, best_depth = 0;
-    for (const char *at = from; at < end && at <= last; at++) {
+    for (const char *at = from; at < stop; at++) {
         enum meaning meaning = meanings[(unsigned char)*at];
         if (meaning == PLAIN)
             continue;
