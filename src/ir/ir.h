@@ -411,8 +411,8 @@ uint8_t *ir_count_uses(const struct ir_graph *graph, const uint8_t *marked, cons
 ir_ref ir_replace(struct ir_graph *graph, ir_ref root, ir_ref from, ir_ref to, struct arena *arena);
 
 /*
- * rebuild.c: makes the graph anew of the nodes that the roots need. Returns the new node per old
- * one, 0 for those that are gone. Types, callees, origins and functions keep their indices.
+ * rebuild.c: makes the graph anew of the nodes that are needed (ir_mark). Returns the new node per
+ * old one, 0 for those that are gone. Types, callees, origins and functions keep their indices.
  */
 struct ir_pass {
     void *user_data;
@@ -423,8 +423,8 @@ struct ir_pass {
     ir_ref (*build)(void *user_data, struct ir_graph *graph, ir_ref old, const struct ir_node *node,
                     ir_ref *args);
 };
-const ir_ref *ir_rebuild(struct ir_graph *graph, const ir_ref *roots, uint32_t num_roots,
-                         const struct ir_pass *pass, struct arena *arena);
+const ir_ref *ir_rebuild(struct ir_graph *graph, const uint8_t *needed, const struct ir_pass *pass,
+                         struct arena *arena);
 
 /* print.c, parse.c: the text form (docs/ir.md); what is printed parses back to an equal graph. */
 
