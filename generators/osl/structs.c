@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * The structs of a shader's functions. Constructors of oslc (1.15.6) lose what stands for a member
- * that is a struct itself, unless it is a constructor or call: such structs have a function that
- * puts them together member by member.
+ * The structs of a shader's functions. oslc (1.15.6) drops a constructor's argument for a struct
+ * member unless the argument is a constructor or call. So such structs have a function that assigns
+ * each member.
  */
 #include "generators/osl/osl.h"
 
@@ -74,7 +74,7 @@ static const char *member_name(const struct spell *spell, const struct ir_member
     return str_text(spell->shader->strings, member->name);
 }
 
-/* "made", or what no member is called. */
+/* "made", or another name that no member has. */
 static const char *local_name(const struct spell *spell, const struct ir_member *members,
                               uint32_t count)
 {
@@ -85,7 +85,7 @@ static const char *local_name(const struct spell *spell, const struct ir_member 
         if (strcmp(member_name(spell, &members[i]), text_cstr(&name)) != 0)
             continue;
         text_char(&name, '_');
-        i = UINT32_MAX; /* from the first one */
+        i = UINT32_MAX; /* restarts the search */
     }
     return text_cstr(&name);
 }
@@ -114,7 +114,7 @@ void osl_write_structs(struct osl *osl, struct text *out)
 {
     struct spell *spell = osl->spell;
     const struct lang_reach *reach = &spell->stage->reach;
-    uint32_t next = 0; /* makers are in the order of their types */
+    uint32_t next = 0; /* makers follow the order of their types */
     for (uint32_t i = 0; i < reach->user_types.len; i++) {
         ir_type_id type = reach->user_types.items[i];
         lang_print_struct(spell->style, &spell->lang_names, spell->shader->unit, type, out);
