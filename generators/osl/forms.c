@@ -332,14 +332,13 @@ static const struct lang_pieces *convert_form(struct osl *osl, const struct lang
         return form_of(osl, "$0", LANG_PREC_ASSIGN); /* conversion between int, uint and bool */
     if (from == IR_TYPE_MAT3 && to == IR_TYPE_MAT4)
         return form_of(osl, "$0", LANG_PREC_ASSIGN);
-    if (is_vector(from) && is_vector(to)
-        && scalar_of(from) == scalar_of(to)) { /* cuts the vector */
+    if (is_vector(from) && is_vector(to) && scalar_of(from) == scalar_of(to)) { /* cut */
         struct lang_use cut = *use;
         cut.op = IR_SWIZZLE;
         cut.attr = components(to) << 8 | 0xe4; /* xyzw */
         return swizzle_form(osl, &cut);
     }
-    if (is_vector(from) && is_vector(to)) /* conversion between ivec2 and vec2 */
+    if (is_vector(from) && is_vector(to)) /* ivec2 and vec2 */
         return component_form(osl, use);
     return osl_is_struct(to) || (to == IR_TYPE_VEC3 && from != IR_TYPE_FLOAT)
                ? construct_form(osl, use)

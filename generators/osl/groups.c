@@ -61,8 +61,7 @@ static const bool *find_needed(struct network *network, const struct osl_end *en
         struct network_node *node = &network->nodes.items[layer->node];
         for (uint32_t k = 0; needed[i] && k < node->num_inputs; k++) {
             const struct network_input *input = &network->inputs.items[layer->first_input + k];
-            assert(input->kind != NETWORK_LAYER
-                   || input->layer < i); /* layers come after their sources */
+            assert(input->kind != NETWORK_LAYER || input->layer < i); /* sources come first */
             need(needed, input);
         }
         node->is_needed |= needed[i];

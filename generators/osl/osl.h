@@ -44,10 +44,9 @@ enum osl_kind { OSL_ANY, OSL_VECTOR, OSL_COLOR, OSL_POINT };
 
 /* syntax.c: tables, and marks of use */
 extern const struct lang_syntax osl_syntax;
-char osl_type_letter(ir_type_id type);                /* the letter in helpers.def */
-void osl_note_type(void *user_data, ir_type_id type); /* lang_names.type */
-const char *osl_type(struct osl *osl,
-                     ir_type_id type); /* the name of a type, which it marks as used */
+char osl_type_letter(ir_type_id type);                  /* the letter in helpers.def */
+void osl_note_type(void *user_data, ir_type_id type);   /* lang_names.type */
+const char *osl_type(struct osl *osl, ir_type_id type); /* its name; marks it as used */
 void osl_add_helper(struct osl *osl, const char *text); /* adds a helper once */
 static inline bool osl_is_struct(ir_type_id type)
 {
@@ -69,8 +68,7 @@ const struct lang_pieces *osl_form(void *user_data, const struct lang_use *use);
 const char *osl_same_function(const struct spell *spell, uint32_t id);
 void osl_name_same_functions(struct spell *spell);
 const char *osl_function_name(void *user_data, uint32_t id); /* lang_names.function */
-void osl_write_functions(
-    struct osl *osl, struct text *out); /* call this last: it reads the marks of all other code */
+void osl_write_functions(struct osl *osl, struct text *out); /* call this last */
 
 /* structs.c: the structs of the document's functions, with the makers that are called */
 void osl_name_makers(struct osl *osl);

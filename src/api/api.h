@@ -105,8 +105,7 @@ mxg_status struct_write(void *out, const void *from, size_t from_size);
 struct mxg_library {
     struct object object;
     struct library layer;
-    const void
-        *image; /* the bytes of the mapped library image; NULL for a library layer from files */
+    const void *image; /* the mapped library image; NULL for a layer from files */
     size_t image_size;
     VEC(const char *) files; /* names of the files that it was read from */
 };

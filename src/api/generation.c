@@ -356,9 +356,7 @@ static bool spell_one(struct generation *g, const struct spell_options *options,
     struct spell_mark *marks;
     struct stage_source *out = &result->stages[stage];
     text_init(&source, &result->object.arena);
-    text_reserve(
-        &source,
-        USUAL_SOURCE); /* reserves the usual size, so that the text does not move while it grows */
+    text_reserve(&source, USUAL_SOURCE); /* avoids moves while it grows */
     spell_shader_stage(result->target, options, &result->shader, stage, &g->scratch, &source,
                        &marks, &out->num_marks);
     uint32_t limit = result->object.context->max_output_mib;

@@ -69,9 +69,7 @@ static struct block *join(struct mxg_context *context, const char *from, const c
             parent--;
         if (memcmp(name->bytes + parent, "../", 3) == 0)
             break; /* `ref` leads above the first folder of `from` */
-        ref += memcmp(name->bytes + parent, "./", 2) == 0
-                   ? 0
-                   : 3; /* the parent "./" is no folder name that ".." removes */
+        ref += memcmp(name->bytes + parent, "./", 2) == 0 ? 0 : 3; /* "./" is no folder to leave */
         folder = parent;
     }
     memcpy(name->bytes + folder, ref, strlen(ref) + 1);

@@ -46,8 +46,7 @@ struct glob_retry { /* the position to retry from, if the text after a star does
 
 bool build_glob_matches(const char *glob, const char *path)
 {
-    struct glob_retry star = {0},
-                      deep = {0}; /* the last '*' since the last '**', and the last '**' */
+    struct glob_retry star = {0}, deep = {0}; /* the last '*' since the last '**'; the last '**' */
     while (*glob || *path) {
         if (*glob == '*') {
             bool is_deep = glob[1] == '*';

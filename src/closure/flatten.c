@@ -127,8 +127,7 @@ static void want_throughputs(struct flattener *f, uint32_t num_nodes)
         unsigned closures = node->op == IR_CLOSURE_SCALE ? 1 : 2;
         for (unsigned i = 0; i < closures; i++) {
             if (args[i] && f->weights[ref].scalar)
-                f->weights[args[i]].scalar =
-                    1; /* marks the node as reached; a later step sets the weight */
+                f->weights[args[i]].scalar = 1; /* reached; the weight comes later */
             if (args[i] && (f->wanted[ref] || (node->op == IR_LAYER && i == 0)))
                 f->wanted[args[i]] = 1;
         }

@@ -154,8 +154,7 @@ static const struct signature {
 
 static ir_type_id result_builtin(enum ir_op op, const ir_type_id *args, unsigned num_args)
 {
-    if (op == IR_STEP
-        || op == IR_SMOOTHSTEP) { /* edges first: all have the type of x, or all are scalar */
+    if (op == IR_STEP || op == IR_SMOOTHSTEP) { /* edges of the type of x, or scalar */
         ir_type_id x = args[num_args - 1];
         bool fits = in_domain(op, x) && all_equal(args, num_args - 1)
                     && (args[0] == x || args[0] == IR_TYPE_FLOAT);

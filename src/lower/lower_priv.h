@@ -58,8 +58,7 @@ static inline uint32_t lower_leaves(const struct lower *lo, ir_type_id type)
 
 /* expression.c */
 void lower_expression(struct lower *lo, const struct lang_node *node, ir_ref *out);
-ir_ref lower_single(struct lower *lo,
-                    const struct lang_node *node); /* the value of an expression of built-in type */
+ir_ref lower_single(struct lower *lo, const struct lang_node *node); /* for a built-in type */
 void lower_assign(struct lower *lo, lang_ref target, const ir_ref *leaves);
 
 /* lower.c: the graph's form of a type of the language. */

@@ -132,9 +132,7 @@ static bool visit_top(struct order *order)
     while (order->next_callee[top] < function->num_callees) {
         uint32_t callee =
             unit->refs.items[function->first_callee + order->next_callee[top]++] - order->first;
-        bool own =
-            callee
-            < order->num; /* for a function of a lower file the index wraps to a large number */
+        bool own = callee < order->num; /* wraps for other files */
         if (!own || order->new_id[callee] != LANG_NONE)
             continue;
         if (holds(order->stack.items, order->stack.len, callee)) {

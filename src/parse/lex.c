@@ -223,8 +223,7 @@ static bool lex_input(struct lexer *lexer, struct token *token)
     while (at < lexer->end && *at == ' ')
         at++;
     const char *name = at;
-    while (at < lexer->end
-           && (is_word(*at) || *at == ':')) /* a name in a namespace contains a colon */
+    while (at < lexer->end && (is_word(*at) || *at == ':')) /* NAMESPACE:NAME */
         at++;
     const char *name_end = at;
     while (at < lexer->end && *at == ' ')

@@ -222,8 +222,7 @@ bool parse_expect(struct parser *p, enum token_kind kind);
 /* parse_expect for a whole construct: "an expression" */
 void parse_unexpected(struct parser *p, const char *expected);
 struct token parse_peek(const struct parser *p); /* the token after the current one */
-bool parse_is_word(const struct token *token,
-                   const char *word); /* true if the token is a name with this text */
+bool parse_is_word(const struct token *token, const char *word); /* a name with this text */
 /* expects a name and consumes it; 0 after an error */
 str_id parse_name(struct parser *p);
 /*
@@ -334,8 +333,7 @@ ir_type_id check_scalar(ir_type_id type);
 unsigned check_rank_of(ir_type_id type); /* rank of its components */
 /* The type of equal shape with components of a higher rank; VOID if there is none. */
 ir_type_id check_with_rank(ir_type_id type, unsigned rank);
-bool check_converts(ir_type_id from,
-                    ir_type_id to); /* true for equal types, and for implicit conversions */
+bool check_converts(ir_type_id from, ir_type_id to); /* implicitly, or equal */
 bool check_is_array(const struct parser *p, ir_type_id type, ir_type_id *out_element,
                     uint32_t *out_length);
 

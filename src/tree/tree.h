@@ -80,9 +80,8 @@ struct lang_slot { /* a parameter or local variable */
 enum lang_function_flags {
     /* it or a callee reads derivatives, or textures with implicit level of detail */
     LANG_FN_DERIVATIVE = 1,
-    LANG_FN_PURE = 2, /* it and its callees read no uniform, stream, option or sampler */
-    LANG_FN_STRAIGHT =
-        4, /* neither it nor its callees have loops: lowering can turn it into nodes */
+    LANG_FN_PURE = 2,     /* it and its callees read no uniform, stream, option or sampler */
+    LANG_FN_STRAIGHT = 4, /* no loops, also in callees: lowering makes nodes */
     /* it has string parameters: targets without strings need a specialised copy */
     LANG_FN_STRINGS = 8,
     /* an inline expression: no name, LANG_INPUT slots, body is RETURN expr */
