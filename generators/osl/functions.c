@@ -6,6 +6,8 @@
  */
 #include "generators/osl/osl.h"
 
+#include <assert.h>
+
 static const struct {
     const char *function, *types, *name;
 } same[] = {
@@ -94,28 +96,33 @@ static void write_constants(const struct osl *osl, struct text *out)
     }
 }
 
-/*
- * Callees stand above their callers. The loop makes the text of callers first, so a callee is
- * marked before its turn.
- */
+struct written {
+    uint32_t id;
+    struct text text;
+};
+
+/* Callees stand above their callers, so a function is written after all its calls. */
 void osl_write_functions(struct osl *osl, struct text *out)
 {
     struct spell *spell = osl->spell;
+    assert(spell->out == out);
     const struct lang_reach *reach = &spell->stage->reach;
-    VEC(struct text) kept = {0};
+    VEC(struct written) kept = {0};
     for (uint32_t i = reach->functions.len; i-- > 0;) {
         uint32_t id = reach->functions.items[i];
         if (!osl->called[id] || osl_same_function(spell, id))
             continue;
-        struct text text;
-        text_init(&text, spell->scratch);
-        if (!write_native(osl, id, &text))
-            lang_print_function(spell->style, &spell->lang_names, spell->shader->unit, id, &text);
-        vec_push(spell->scratch, &kept, text);
+        struct written function = {.id = id};
+        struct text *text = &function.text;
+        text_init(text, spell->scratch);
+        if (!write_native(osl, id, text))
+            lang_print_function(spell->style, &spell->lang_names, spell->shader->unit, id, text);
+        vec_push(spell->scratch, &kept, function);
     }
     write_constants(osl, out);
     for (uint32_t i = kept.len; i-- > 0;) {
-        text_mem(out, kept.items[i].data, kept.items[i].len);
+        spell_function_doc(spell, kept.items[i].id);
+        text_mem(out, kept.items[i].text.data, kept.items[i].text.len);
         text_char(out, '\n');
     }
 }

@@ -3,6 +3,7 @@
 
 #include "base/num.h"
 
+#include <assert.h>
 #include <stdarg.h>
 #include <stdio.h>
 
@@ -22,6 +23,7 @@ void text_reserve(struct text *text, size_t more)
         cap *= 2;
     text->data = arena_grow(text->arena, text->data, text->cap, cap);
     text->cap = cap;
+    assert(text->cap - text->len >= more);
 }
 
 void text_u32(struct text *text, uint32_t value)

@@ -7,6 +7,8 @@
 
 #include "base/hash.h"
 
+#include <assert.h>
+
 enum { MAX_DEFINITION_DEPTH = 200 };
 
 enum frame_phase { PHASE_INPUTS, PHASE_OUTPUTS };
@@ -84,6 +86,7 @@ static void resolve(struct builder *b, struct frame *frame, elem_id node)
     struct binding *copy = ARENA_ARRAY(b->arena, struct binding, n);
     if (n)
         memcpy(copy, b->resolved.bindings.items + before, n * sizeof *copy);
+    assert(b->resolved.bindings.len >= before);
     b->resolved.bindings.len = before;
     frame->bindings = copy;
 }
@@ -113,6 +116,7 @@ static void finish(struct builder *b, uint32_t first_result)
 {
     struct frame *frame = &vec_last(&b->frames);
     uint32_t *slot = build_slot(frame->scope, frame->node.element);
+    assert(first_result <= b->results.len && (*slot == SLOT_BUSY || *slot == SLOT_ERROR));
     if (*slot == SLOT_BUSY)
         *slot = SLOT_RESULTS + first_result;
     b->frames.len--;
@@ -250,6 +254,7 @@ static void step_inputs(struct builder *b)
     struct frame *frame = &vec_last(&b->frames);
     const struct nodedef *def = library_nodedef(b->lib, frame->node.nodedef);
     while (frame->next < def->num_inputs) {
+        assert(frame->phase != PHASE_OUTPUTS);
         const struct binding *binding = &frame->bindings[frame->next++];
         if (binding->kind == BIND_NODE && *build_slot(frame->scope, binding->ref) <= SLOT_BUSY) {
             uint32_t before = b->frames.len;
@@ -301,6 +306,7 @@ static void leave_graph(struct builder *b)
         finish_graph(b, frame, results);
         return;
     }
+    assert(!b->memos.items[frame->outline].function);
     ir_set_results(b->graph, frame->function, results, def->num_outputs);
     b->memos.items[frame->outline].function = frame->function + 1;
     finish_call(b, frame, frame->function);

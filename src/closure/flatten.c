@@ -14,6 +14,8 @@
  */
 #include "closure/closure_priv.h"
 
+#include <assert.h>
+
 struct weight {
     ir_ref scalar, color; /* scalar 0: the node is not reached */
     ir_ref medium;        /* transmittance of the volume behind for refracted light; 0 = 1 */
@@ -191,6 +193,7 @@ static void add_weight(struct flattener *f, ir_ref ref, struct weight add)
     ir_ref scalar = add.scalar, color = add.color;
     if (!ref || ir_const_is(g, scalar, 0.0f) || (color && ir_const_is(g, color, 0.0f)))
         return;
+    assert(ref <= f->root && ir_get(g, ref)->flags & IR_NODE_CLOSURE);
     struct weight *w = &f->weights[ref];
     if (!w->scalar) {
         *w = add;
@@ -240,6 +243,7 @@ static void spread(struct flattener *f, ir_ref ref)
     struct ir_graph *g = f->graph;
     struct weight w = f->weights[ref];
     uint8_t op = ir_get(g, ref)->op;
+    assert(w.scalar && ir_type_of(g, w.scalar) == IR_TYPE_FLOAT);
     ir_ref a = ir_arg(g, ref, 0), b = ir_arg(g, ref, 1);
     if (op == IR_LAYER) {
         /* a volume behind changes only refracted light */
@@ -296,6 +300,7 @@ static void take_leaf(struct flattener *f, ir_ref ref, struct closure_list *out)
     struct ir_graph *g = f->graph;
     struct weight w = f->weights[ref];
     ir_ref base = modified_base(f, ref);
+    assert(w.scalar && (!base || base < ref));
     if (base) {
         add_scaled(f, base, w, closure_call(f->shader, f->host, ref, LEAF_FACTOR, NULL));
         return;

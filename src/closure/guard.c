@@ -7,6 +7,8 @@
  */
 #include "closure/closure_priv.h"
 
+#include <assert.h>
+
 enum { SHARED = UINT16_MAX };
 
 static bool is_dear(enum ir_op op)
@@ -18,6 +20,7 @@ static bool is_dear(enum ir_op op)
 /* Returns true if no other part has claimed the node. */
 static bool claim(uint16_t *owner, uint16_t by)
 {
+    assert(by > 0);
     bool is_new = *owner == 0;
     *owner = is_new || *owner == by ? by : SHARED;
     return is_new;
@@ -42,6 +45,7 @@ static void guard_dear(struct shader *shader, struct closure_part *parts, uint32
     for (ir_ref ref = last; ref > 0 && num_open > 0; ref--) {
         if (!owners[ref])
             continue;
+        assert(num_open > 0);
         num_open--;
         const struct ir_node *node = ir_get(g, ref);
         if ((node->flags & wanted) != wanted)

@@ -59,6 +59,7 @@ void doc_init(struct document *doc, struct arena *arena, struct strpool *strings
 static void link_last(struct document *doc, elem_id parent, elem_id element)
 {
     struct doc_link *link = link_of(doc, parent);
+    assert(!link->last_child == !own(doc, parent)->first_child);
     if (link->last_child)
         own(doc, link->last_child)->next = element;
     else
@@ -86,6 +87,7 @@ elem_id doc_add_element(struct document *doc, elem_id parent, str_id category, s
     vec_push(doc->arena, &doc->links, (struct doc_link){0});
     doc->has_templates |= category == STR_template;
     doc->has_attributedefs |= category == STR_attributedef;
+    assert(doc->links.len == doc->elements.len && parent < doc->first_element + index);
     elem_id element = doc->first_element + index;
     if (parent)
         link_last(doc, parent, element);
@@ -114,6 +116,7 @@ void doc_add_attr(struct document *doc, elem_id element, struct attribute attr)
             memcpy(moved, doc->attrs.items + at, e->num_attrs * sizeof *moved);
         e->first_attr = doc->first_attr + doc->attrs.len - e->num_attrs;
     }
+    assert(e->first_attr + e->num_attrs == doc->first_attr + doc->attrs.len);
     vec_push(doc->arena, &doc->attrs, attr);
     e->num_attrs++;
 }
@@ -138,6 +141,7 @@ void doc_remove_attr(struct document *doc, elem_id element, str_id name)
     struct attribute *attr = &doc->attrs.items[found - doc->attrs.items];
     const struct attribute *end =
         doc->attrs.items + (e->first_attr - doc->first_attr) + e->num_attrs;
+    assert(attr < end);
     memmove(attr, attr + 1, (size_t)(end - attr - 1) * sizeof *attr);
     e->num_attrs--;
 }
@@ -169,6 +173,8 @@ void doc_remove_element(struct document *doc, elem_id element)
     if (!e->parent)
         return;
     elem_id previous = link_of(doc, element)->previous;
+    assert(previous ? own(doc, previous)->next == element
+                    : own(doc, e->parent)->first_child == element);
     if (previous)
         own(doc, previous)->next = e->next;
     else
@@ -192,6 +198,7 @@ void doc_move_before(struct document *doc, elem_id element, elem_id sibling)
     doc_remove_element(doc, element);
     struct element *e = own(doc, element);
     elem_id previous = link_of(doc, sibling)->previous;
+    assert(element != sibling && own(doc, sibling)->parent);
     e->parent = own(doc, sibling)->parent;
     e->next = sibling;
     if (previous)
@@ -221,6 +228,7 @@ struct doc_mark doc_mark(const struct document *doc, elem_id root)
 
 void doc_rollback(struct document *doc, elem_id root, const struct doc_mark *mark)
 {
+    assert(mark->num_elements <= doc->elements.len && mark->num_attrs <= doc->attrs.len);
     doc->elements.len = doc->links.len = mark->num_elements;
     doc->attrs.len = mark->num_attrs;
     *own(doc, root) = mark->root;
@@ -287,6 +295,7 @@ const char *doc_file_name(const struct document *doc, uint16_t file)
         return NULL;
     while (file < doc->first_file)
         doc = doc->base;
+    assert(file - doc->first_file < (int64_t)doc->files.len);
     return str_text(doc->strings, doc->files.items[file - doc->first_file]);
 }
 

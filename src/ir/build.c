@@ -28,6 +28,7 @@ static ir_ref fold(struct ir_graph *graph, enum ir_op op, ir_type_id type, uint3
         ir_get_const(graph, args[i], &values[i]);
     if (!ir_eval_op(op, type, attr, values, num_args, &result) || !is_finite(&result))
         return 0;
+    assert(result.type == type);
     return ir_intern_const(graph, type, result.w);
 }
 
@@ -137,6 +138,7 @@ static ir_ref build_by_rule(struct ir_graph *graph, enum ir_op op, const ir_ref 
     ir_type_id types[3];
     for (unsigned i = 0; i < num_args; i++)
         types[i] = ir_type_of(graph, args[i]);
+    assert(num_args <= sizeof types / sizeof *types);
     ir_type_id type = ir_op_result(op, types, num_args);
     return type == IR_TYPE_VOID ? 0 : ir_build(graph, op, type, 0, args, num_args);
 }
@@ -201,6 +203,7 @@ ir_ref ir_const_splat(struct ir_graph *graph, ir_type_id type, float f)
 ir_ref ir_swizzle(struct ir_graph *graph, ir_ref a, const uint8_t *components, unsigned count)
 {
     uint32_t attr = count << 8;
+    assert(count >= 1 && count <= 4);
     for (unsigned i = 0; i < count; i++)
         attr |= (uint32_t)components[i] << (2 * i);
     ir_type_id scalar = ir_type_info(ir_type_of(graph, a))->scalar;
@@ -210,6 +213,7 @@ ir_ref ir_swizzle(struct ir_graph *graph, ir_ref a, const uint8_t *components, u
 ir_ref ir_component(struct ir_graph *graph, ir_ref a, unsigned index)
 {
     uint8_t component = (uint8_t)index;
+    assert(index < ir_type_info(ir_type_of(graph, a))->components);
     return ir_swizzle(graph, a, &component, 1);
 }
 

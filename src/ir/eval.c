@@ -6,6 +6,8 @@
  */
 #include "ir/ir.h"
 
+#include <assert.h>
+
 struct frame {
     ir_ref at, end;  /* next node, and end of the range */
     uint8_t *needed; /* per node */
@@ -88,6 +90,7 @@ static bool eval_source(const struct evaluator *e, ir_ref ref, struct ir_value *
     const struct ir_node *node = ir_get(e->graph, ref);
     if (node->op == IR_PARAM && frame->call) {
         const struct frame *caller = frame - 1;
+        assert((node->attr & 0xffff) < ir_get(e->graph, frame->call)->num_args);
         return value_of(e, caller, ir_arg(e->graph, frame->call, node->attr & 0xffff), out);
     }
     return e->env && e->env->source && e->env->source(e->env->user_data, e->graph, ref, out);
@@ -150,6 +153,7 @@ static void return_to_caller(struct evaluator *e)
 {
     const struct frame *frame = &vec_last(&e->frames);
     struct frame *caller = &e->frames.items[e->frames.len - 2];
+    assert(e->frames.len >= 2 && frame->at == frame->end && caller->at > frame->call);
     const struct ir_function *function =
         &e->graph->functions.items[ir_get(e->graph, frame->call)->attr];
     caller->places[frame->call] = e->results.len;
@@ -166,6 +170,7 @@ static void step(struct evaluator *e)
 {
     struct frame *frame = &vec_last(&e->frames);
     ir_ref ref = frame->at++;
+    assert(ref < frame->end);
     const struct ir_node *node = ir_get(e->graph, ref);
     if (!frame->needed[ref] || node->op == IR_CONST)
         return;

@@ -22,13 +22,16 @@ static struct content content_of(const struct ir_graph *graph, ir_ref ref)
 {
     const struct ir_node *node = ir_get(graph, ref);
     struct content c = {.op = (enum ir_op)node->op, .type = node->type};
+    assert(node->op < IR_NUM_OPS);
     if (node->op == IR_CONST) {
         c.count = ir_type_info(node->type)->components;
         c.data = &graph->words.items[node->attr].u;
+        assert(node->attr + c.count <= graph->words.len);
     } else {
         c.attr = node->attr;
         c.count = node->num_args;
         c.data = graph->args.items + node->first_arg;
+        assert(node->first_arg + c.count <= graph->args.len);
     }
     return c;
 }
@@ -190,6 +193,7 @@ static unsigned push_args(struct ir_graph *graph, const ir_ref *args, uint32_t n
         to[i] = from[i];
         flags |= nodes[from[i]].flags;
     }
+    assert(graph->args.len == len);
     graph->args.len = len + num_args;
     return flags & IR_NODE_INHERITED;
 }
@@ -228,6 +232,7 @@ ir_ref ir_intern(struct ir_graph *graph, enum ir_op op, ir_type_id type, uint32_
 {
     assert(op != IR_CONST);
     struct content c = {op, type, attr, num_args, args};
+    assert(op < IR_NUM_OPS && type < IR_TYPE_FIRST_USER + graph->user_types.len);
     uint32_t hash = hash_content(c);
     ir_ref equal = find(graph, c, hash);
     if (equal) {
@@ -249,6 +254,7 @@ ir_ref ir_intern(struct ir_graph *graph, enum ir_op op, ir_type_id type, uint32_
 
 ir_ref ir_intern_const(struct ir_graph *graph, ir_type_id type, const union ir_word *words)
 {
+    assert(ir_type_info(type)->components > 0);
     struct content c = {IR_CONST, type, 0, ir_type_info(type)->components, &words->u};
     uint32_t hash = hash_content(c);
     ir_ref equal = find(graph, c, hash);
@@ -264,6 +270,7 @@ ir_ref ir_intern_const(struct ir_graph *graph, ir_type_id type, const union ir_w
 
 uint32_t ir_add_origin(struct ir_graph *graph, str_id name, uint32_t element, uint32_t parent)
 {
+    assert(parent < graph->origins.len);
     uint32_t index = graph->origins.len;
     vec_push(graph->arena, &graph->origins, (struct ir_origin){name, element, parent});
     return index;
@@ -271,6 +278,7 @@ uint32_t ir_add_origin(struct ir_graph *graph, str_id name, uint32_t element, ui
 
 uint32_t ir_add_callee(struct ir_graph *graph, struct ir_callee callee)
 {
+    assert(callee.kind < IR_NUM_CALLEE_KINDS);
     uint32_t hash = hash_pair(callee.kind, callee.index);
     for (uint32_t at = hash, found; (found = table_next(&graph->callee_table, hash, &at));) {
         const struct ir_callee *have = &graph->callees.items[found - 1];
@@ -302,6 +310,8 @@ uint32_t ir_add_struct(struct ir_graph *graph, str_id name, const struct ir_memb
                        unsigned num_members)
 {
     assert(num_members > 0 && num_members <= UINT16_MAX);
+    for (unsigned i = 0; i < num_members; i++)
+        assert(members[i].type < IR_TYPE_FIRST_USER + graph->user_types.len);
     for (uint32_t i = 0; i < graph->user_types.len; i++) {
         const struct ir_user_type *type = &graph->user_types.items[i];
         if (type->array_length == 0 && type->name == name && type->num_members == num_members
@@ -319,6 +329,7 @@ uint32_t ir_add_struct(struct ir_graph *graph, str_id name, const struct ir_memb
 uint32_t ir_add_array(struct ir_graph *graph, ir_type_id element, uint32_t length)
 {
     assert(length > 0);
+    assert(element < IR_TYPE_FIRST_USER + graph->user_types.len);
     for (uint32_t i = 0; i < graph->user_types.len; i++)
         if (graph->user_types.items[i].array_length == length
             && graph->user_types.items[i].element == element)
@@ -341,6 +352,7 @@ uint32_t ir_add_function(struct ir_graph *graph, str_id name, const ir_type_id *
 
 ir_ref ir_param(struct ir_graph *graph, uint32_t function, unsigned index)
 {
+    assert(function < graph->functions.len);
     const struct ir_function *f = &graph->functions.items[function];
     assert(index < f->num_params);
     ir_type_id type = graph->param_types.items[f->first_param_type + index];
@@ -352,6 +364,8 @@ void ir_set_results(struct ir_graph *graph, uint32_t function, const ir_ref *res
 {
     struct ir_function *f = &graph->functions.items[function];
     assert(f->num_results == 0 && num_results > 0);
+    for (unsigned i = 0; i < num_results; i++)
+        assert(results[i] && results[i] < graph->nodes.len);
     f->num_results = num_results;
     f->first_result = graph->function_results.len;
     memcpy(vec_extend(graph->arena, &graph->function_results, num_results), results,

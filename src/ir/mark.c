@@ -5,6 +5,8 @@
  */
 #include "ir/ir.h"
 
+#include <assert.h>
+
 static void mark_results(const struct ir_graph *graph, const struct ir_function *function,
                          uint8_t *marked)
 {
@@ -16,8 +18,10 @@ uint8_t *ir_mark(const struct ir_graph *graph, const ir_ref *roots, uint32_t num
                  struct arena *arena)
 {
     uint8_t *marked = ARENA_ARRAY(arena, uint8_t, graph->nodes.len);
-    for (uint32_t i = 0; i < num_roots; i++)
+    for (uint32_t i = 0; i < num_roots; i++) {
+        assert(roots[i] < graph->nodes.len);
         marked[roots[i]] = 1;
+    }
     for (ir_ref ref = graph->nodes.len; --ref > 0;) {
         if (!marked[ref])
             continue;
@@ -51,6 +55,7 @@ uint8_t *ir_count_uses(const struct ir_graph *graph, const uint8_t *marked, cons
         count_all(uses, ir_args(graph, ref), node->num_args);
         if (node->op == IR_GRAPH_CALL && !called[node->attr]) {
             const struct ir_function *function = &graph->functions.items[node->attr];
+            assert(marked[graph->function_results.items[function->first_result]]);
             count_all(uses, graph->function_results.items + function->first_result,
                       function->num_results);
             called[node->attr] = 1;

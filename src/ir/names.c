@@ -5,10 +5,13 @@
  */
 #include "ir/ir.h"
 
+#include <assert.h>
+
 static void suggest(struct ir_graph *graph, ir_ref ref, str_id name, unsigned rank)
 {
     const struct ir_node *node = ir_get(graph, ref);
     struct ir_label *label = &graph->labels.items[ref];
+    assert(graph->labels.len == graph->nodes.len);
     if (node->op == IR_CONST || rank < label->rank)
         return;
     /* the name of the nodegraph wins over the name of the node inside */

@@ -71,6 +71,7 @@ static void label_copy(struct rebuild *r, ir_ref ref)
 {
     const struct ir_label *old = ir_label(&r->old, ref);
     struct ir_label *label = &r->graph->labels.items[r->copies[ref]];
+    assert(r->copies[ref] && r->copies[ref] < r->graph->labels.len);
     if (!label->rank)
         *label = (struct ir_label){old->name, old->rank, label->is_shared};
     else if (old->name)
@@ -97,6 +98,7 @@ const ir_ref *ir_rebuild(struct ir_graph *graph, const ir_ref *roots, uint32_t n
         label_copy(&r, ref);
         assert(ir_type_of(graph, r.copies[ref]) == ir_type_of(&r.old, ref));
     }
+    assert(graph->outer_origins.len == 0 && graph->nodes.len <= r.old.nodes.len);
     graph->no_fold = r.old.no_fold;
     graph->exact = r.old.exact;
     graph->max_nodes = r.old.max_nodes;

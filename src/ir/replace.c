@@ -10,6 +10,7 @@
  */
 #include "ir/ir.h"
 
+#include <assert.h>
 #include <stdlib.h>
 
 enum { MAX_FUNCTIONS = 1 << 16 };
@@ -58,11 +59,13 @@ static void find_readers(struct replacement *r)
 static ir_ref copy_node(struct replacement *r, ir_ref ref, const ir_ref *copies, ir_ref to)
 {
     const struct ir_node node = *ir_get(r->graph, ref);
+    assert(ref < r->num_nodes && ref != r->from);
     ir_ref *args = ARENA_ARRAY(r->arena, ir_ref, node.num_args + 1u);
     for (uint32_t i = 0; i < node.num_args; i++)
         args[i] = copies[ir_arg(r->graph, ref, i)];
     uint32_t attr = node.attr, num_args = node.num_args;
     if (node.op == IR_GRAPH_CALL && r->copied[attr]) {
+        assert(r->copied[attr] - 1 >= r->num_functions);
         attr = r->copied[attr] - 1;
         args[num_args++] = to;
     }
@@ -128,6 +131,7 @@ static void copy_function(struct replacement *r, uint32_t index)
     for (uint32_t i = 0; i < function.num_results; i++)
         results[i] = copies[results[i]];
     ir_set_results(g, copy, results, function.num_results);
+    assert(!r->copied[index] && copy >= r->num_functions);
     r->copied[index] = copy + 1;
 }
 
@@ -173,6 +177,8 @@ ir_ref ir_replace(struct ir_graph *graph, ir_ref root, ir_ref from, ir_ref to, s
                             .to = to,
                             .num_nodes = graph->nodes.len,
                             .num_functions = graph->functions.len};
+    assert(root < r.num_nodes && from < r.num_nodes && to < r.num_nodes);
+    assert(ir_type_of(graph, from) == ir_type_of(graph, to));
     r.reads = ARENA_ARRAY(arena, uint8_t, r.num_nodes);
     r.copied = ARENA_ARRAY(arena, uint32_t, r.num_functions);
     find_readers(&r);

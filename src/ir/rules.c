@@ -103,6 +103,7 @@ static bool match_constant(const struct match *m, unsigned token, const struct i
 static bool match_leaf(struct match *m, unsigned token, ir_ref ref)
 {
     if (token < RULE_K) {
+        assert(token >= RULE_A);
         ir_ref *bound = &m->bound[token - RULE_A];
         if (!*bound)
             *bound = ref;
@@ -125,6 +126,7 @@ static bool match(struct match *m, const struct rule *rule, const ir_ref *args, 
             continue;
         }
         const struct ir_node *inner = ir_get(m->graph, args[i]);
+        assert(t < IR_NUM_OPS);
         if (inner->op != t)
             return false;
         const ir_ref *inner_args = m->graph->args.items + inner->first_arg;
@@ -176,14 +178,17 @@ static ir_ref replace(struct ir_graph *graph, const struct rule *rule, ir_type_i
         }
         if (!ref) /* the types do not fit, for example if A is a vector and B a scalar */
             return 0;
+        assert(top > 0);
         stack[--top] = ref;
     }
+    assert(top == RULE_LENGTH - 1);
     return widen(graph, type, stack[top]);
 }
 
 /* The tokens that a constant may match, by its first component. */
 uint64_t ir_constant_bits(const struct ir_graph *graph, const struct ir_node *node)
 {
+    assert(node->op == IR_CONST && node->attr < graph->words.len);
     union ir_word w = graph->words.items[node->attr];
     ir_type_id scalar = ir_type_info(node->type)->scalar;
     float value = scalar == IR_TYPE_FLOAT ? w.f : scalar == IR_TYPE_INT ? (float)w.i : (float)w.u;

@@ -39,6 +39,7 @@ static unsigned components_of(const struct ir_graph *graph, ir_ref ref)
 static struct component component_of_const(struct ir_graph *graph, ir_ref ref, unsigned index)
 {
     const struct ir_node *node = ir_get(graph, ref);
+    assert(index < ir_type_info(node->type)->components);
     union ir_word word = graph->words.items[node->attr + index];
     return (struct component){.source =
                                   ir_intern_const(graph, ir_type_info(node->type)->scalar, &word)};
@@ -101,6 +102,7 @@ static ir_ref join_run(struct ir_graph *graph, const struct component *list, uns
         whole = whole && list[i].index == i;
     }
     ir_type_id result = ir_type_vector(ir_type_info(type)->scalar, count);
+    assert(result != IR_TYPE_VOID);
     return whole ? source : ir_intern(graph, IR_SWIZZLE, result, attr, &source, 1);
 }
 
@@ -130,6 +132,7 @@ static ir_ref join(struct ir_graph *graph, ir_type_id type, const struct compone
         length = run_length(graph, list + at, count - at);
         parts[num_parts++] = join_run(graph, list + at, length);
     }
+    assert(num_parts >= 2 && num_parts <= count);
     return ir_intern(graph, IR_CONSTRUCT, type, 0, parts, num_parts);
 }
 
@@ -140,6 +143,7 @@ static ir_ref simplify_swizzle(struct ir_graph *graph, ir_type_id type, uint32_t
     unsigned count = ir_type_info(type)->components;
     for (unsigned i = 0; i < count; i++)
         list[i] = component_of(graph, a, attr >> (2 * i) & 3);
+    assert(count == attr >> 8);
     union ir_word words[4];
     for (unsigned i = 0; i < count; i++) {
         const struct ir_node *node = ir_get(graph, list[i].source);
@@ -184,6 +188,7 @@ static ir_ref simplify_construct(struct ir_graph *graph, ir_type_id type, const 
     for (unsigned k = 0; at < count; k++)
         for (unsigned i = 0, n = components_of(graph, args[k]); i < n; i++)
             list[at++] = component_of(graph, args[k], i);
+    assert(at == count);
     return join(graph, type, list, count);
 }
 

@@ -5,8 +5,11 @@
  */
 #include "shader/shader.h"
 
+#include <assert.h>
+
 static void mark_read(struct shader *shader, uint32_t variable, enum shader_stage_id stage)
 {
+    assert(variable < shader->variables.len && stage < NUM_STAGES);
     shader->variables.items[variable].stages |= (uint8_t)(1u << stage);
 }
 
@@ -83,6 +86,7 @@ static void complete_vertex_stage(struct shader *shader)
     struct ir_graph *graph = shader->graph;
     ir_ref world = shader_vertex_stream(shader, STR_positionWorld, IR_TYPE_VOID);
     ir_ref homogeneous = ir_arg(graph, world, 0); /* the stream is this, cut to xyz */
+    assert(ir_type_of(graph, homogeneous) == IR_TYPE_VEC4);
     ir_ref matrix = shader_read(
         shader, shader_private_uniform(shader, STR_u_viewProjectionMatrix, IR_TYPE_MAT4, 0));
     ir_ref position = ir_build(graph, IR_MUL, IR_TYPE_VEC4, 0, (ir_ref[]){matrix, homogeneous}, 2);

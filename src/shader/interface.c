@@ -109,6 +109,7 @@ uint32_t shader_find_variable(const struct shader *shader, enum shader_block blo
  */
 ir_ref shader_read(struct shader *shader, uint32_t variable)
 {
+    assert(variable < shader->variables.len);
     const struct shader_variable *v = &shader->variables.items[variable];
     enum ir_op op = v->block == BLOCK_TEXTURES                                    ? IR_TEXTURE
                     : v->block == BLOCK_APP_DATA || v->block == BLOCK_VERTEX_DATA ? IR_STREAM
@@ -140,6 +141,8 @@ static ir_type_id scalar_of(ir_type_id type)
 static uint32_t bind(struct shader *shader, const struct shader_variable *variable)
 {
     uint32_t index = shader_add_variable(shader, variable);
+    assert(find_binding(shader, variable->block, variable->name, scalar_of(variable->type))
+           == UINT32_MAX);
     vec_push(
         shader->arena, &shader->bindings,
         (struct shader_binding){variable->name, variable->block, scalar_of(variable->type), index});
@@ -451,6 +454,7 @@ ir_ref shader_stream(struct shader *shader, str_id name, ir_type_id type)
 
 void shader_effect(struct shader *shader, enum shader_stage_id stage, struct effect effect)
 {
+    assert(effect.value < shader->graph->nodes.len);
     vec_push(shader->arena, &shader->stages[stage].effects, effect);
 }
 

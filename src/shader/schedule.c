@@ -169,15 +169,18 @@ static void find_regions(struct scheduler *s, const struct effect_list *effects)
         bool in_loop = s->regions.items[current].outside != current;
         if (loop || in_loop)
             inner.outside = s->regions.items[current].outside;
+        assert(inner.depth <= s->regions.len);
         current = s->regions.len;
         vec_push(s->arena, &s->regions, inner);
     }
     assert(current == 0);
+    assert(s->region_of.len == effects->len);
 }
 
 static uint32_t common_region(const struct scheduler *s, uint32_t a, uint32_t b)
 {
     while (a != b) {
+        assert(a < s->regions.len && b < s->regions.len);
         if (s->regions.items[a].depth >= s->regions.items[b].depth)
             a = s->regions.items[a].parent;
         else
@@ -191,6 +194,7 @@ static uint32_t lift(const struct scheduler *s, uint32_t effect, uint32_t region
 {
     for (uint32_t r = s->region_of.items[effect]; r != region; r = s->regions.items[r].parent)
         effect = s->regions.items[r].header;
+    assert(s->region_of.items[effect] == region);
     return effect;
 }
 
@@ -289,6 +293,7 @@ static void find_lets(struct scheduler *s)
         if (!(plan->flags & PLAN_LET))
             continue;
         plan->first = lift(s, plan->first, plan->region);
+        assert(plan->first < s->region_of.len && plan->region < s->regions.len);
         vec_push(s->arena, &s->lets, *reached);
     }
 }
@@ -303,10 +308,12 @@ static void write_statements(struct scheduler *s, const struct effect_list *effe
         first[plan_of(s, s->lets.items[i])->first + 1]++;
     for (uint32_t i = 1; i <= effects->len; i++)
         first[i] += first[i - 1];
+    assert(first[effects->len] == s->lets.len);
     out->len = 0;
     struct effect *statements = vec_extend(s->arena, out, s->lets.len + effects->len);
     for (uint32_t i = 0; i < s->lets.len; i++) {
         uint32_t effect = plan_of(s, s->lets.items[i])->first;
+        assert(first[effect] + effect < out->len);
         statements[first[effect]++ + effect] =
             (struct effect){.kind = EFFECT_LET, .value = s->lets.items[i]};
     }
@@ -341,6 +348,7 @@ static void schedule_function(struct scheduler *s, uint32_t function, struct eff
 {
     const struct ir_function *fn = &s->graph->functions.items[function];
     struct effect_list effects = {0};
+    assert(fn->num_results > 0);
     for (uint32_t i = fn->num_results; i-- > 0;) {
         ir_ref result = s->graph->function_results.items[fn->first_result + i];
         vec_push(s->arena, &effects,
@@ -374,6 +382,7 @@ static void schedule_functions(struct scheduler *s)
         }
         if (next != UINT32_MAX) {
             seen[next] = 1;
+            assert(next < s->graph->functions.len);
             struct caller callee = {.function = {.function = next}};
             schedule_function(s, next, &callee.function.statements);
             vec_push(s->arena, &stack, callee);

@@ -12,6 +12,8 @@
  */
 #include "specialise/spec.h"
 
+#include <assert.h>
+
 struct lang_plan *plan_of(struct lang_unit *unit)
 {
     if (!unit->plan) {
@@ -55,6 +57,7 @@ static bool has_keys(const struct lang_unit *unit, const struct variant *variant
 static uint32_t add_variant(struct lang_unit *unit, uint32_t function, uint32_t num_params)
 {
     struct lang_plan *plan = unit->plan;
+    assert(function < plan->num_ids);
     struct variant variant = {.function = function, .first_fact = plan->facts.len};
     fact *facts = vec_extend(unit->arena, &plan->facts, num_params);
     for (uint32_t i = 0; i < num_params; i++)
@@ -106,6 +109,7 @@ uint32_t plan_note_call(struct lang_unit *unit, uint32_t function, const fact *a
             facts[i] = args[i];
         else if (!is_same(unit, params[i].type, facts[i], args[i]))
             facts[i] = FACT_VARIES;
+    assert(variant->function == function && index < plan->variants.len);
     variant->keeps_unused |= args_have_effects;
     return index;
 }
@@ -137,6 +141,7 @@ uint32_t plan_note_any(struct lang_unit *unit, uint32_t function)
 
 uint32_t lang_plan_version(const struct lang_unit *unit, uint32_t call)
 {
+    assert(call < unit->plan->variants.len);
     return unit->plan->variants.items[call].version;
 }
 

@@ -2,6 +2,8 @@
 /* Makes the version of a variant. The other files of this room hold the steps. */
 #include "specialise/spec.h"
 
+#include <assert.h>
+
 static struct variant *variant_of(const struct spec *s)
 {
     return &s->unit->plan->variants.items[s->variant];
@@ -21,6 +23,7 @@ static struct spec *open_variant(struct lang_unit *unit, uint32_t variant)
     struct spec *s = unit->plan->spec;
     s->variant = variant;
     s->fn = *lang_function(unit, variant_of(s)->function, &s->layer);
+    assert(variant < unit->plan->variants.len && s->fn.num_params <= s->fn.num_slots);
     reserve_slots(s);
     return s;
 }
@@ -108,6 +111,7 @@ static void forward(struct spec *s)
     v->body = statements.first;
     v->changed = s->changed;
     v->first_call = first_call;
+    assert(s->unit->plan->calls.len >= first_call);
     v->num_calls = s->unit->plan->calls.len - first_call;
 }
 

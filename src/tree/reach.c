@@ -3,6 +3,8 @@
 
 #include "tree/ast.h"
 
+#include <assert.h>
+
 /* Adds `index` to a set of bytes, which grows as needed. True if it is new. */
 static bool mark(struct arena *arena, uint8_t **seen, uint32_t *cap, uint32_t index)
 {
@@ -71,6 +73,7 @@ void lang_reach_add(struct lang_reach *reach, const struct lang_unit *unit, uint
         struct visit *top = &vec_last(&stack);
         const struct lang_unit *layer;
         const struct lang_function *fn = lang_function(unit, top->id, &layer);
+        assert(top->next_callee <= fn->num_callees);
         if (top->next_callee == fn->num_callees) {
             add_own_needs(reach, unit, layer, fn);
             vec_push(reach->arena, &reach->functions, top->id);

@@ -3,6 +3,7 @@
 
 uniform float surface_opacity = 1.0;
 uniform vec3 u_viewPosition = vec3(0.0);
+uniform float u_time = 0.0;
 uniform int u_numActiveLightSources = 0;
 uniform mat4 u_envMatrix = mat4(-1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 0.0, 0.0, 0.0, 1.0);
 uniform float u_envLightIntensity = 1.0;
@@ -26,12 +27,11 @@ in VertexData {
 } vd;
 out vec4 out1;
 
-// SPDX-License-Identifier: Apache-2.0 Functions with names that shaders need for themselves.
-float scatter_2(const float x)
+float scatter_2()
 {
     float sum = 0.0;
     for (int i = 0; i < 3; ++i)
-        sum += sin(x * float(i));
+        sum += sin(u_time * float(i));
     return sum;
 }
 
@@ -54,7 +54,7 @@ void main()
 {
     vec3 color = vec3(0.0);
     // lights
-    float LightData_2 = scatter_2(vd.texcoord_0.x);
+    float LightData_2 = scatter_2();
     vec3 normal_N = normalize(vd.normalWorld);
     vec3 V = normalize(u_viewPosition - vd.positionWorld);
     vec3 diffuse_N = faceforward(normal_N, -V, normal_N);

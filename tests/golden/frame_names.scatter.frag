@@ -1,6 +1,7 @@
 #version 450
 // surface · surface · mxgen 0.1 · glsl · reduced · 1 closure · 0 textures
 
+uniform float u_time = 0.0;
 uniform int u_numActiveLightSources = 0;
 struct LightData {
     int type;
@@ -30,12 +31,11 @@ vec4 out5;
 vec4 out6;
 vec4 out7;
 
-// SPDX-License-Identifier: Apache-2.0 Functions with names that shaders need for themselves.
-float scatter_2(const float x)
+float scatter_2()
 {
     float sum = 0.0;
     for (int i = 0; i < 3; ++i)
-        sum += sin(x * float(i));
+        sum += sin(u_time * float(i));
     return sum;
 }
 
@@ -59,7 +59,7 @@ mat3 mx_frame(const vec3 N, const vec3 X)
 
 void scatter()
 {
-    float LightData_2 = scatter_2(vd.texcoord_0.x);
+    float LightData_2 = scatter_2();
     float PublicUniforms_2 = vd_2(vd.texcoord_0.y);
     vec3 normal_N = normalize(vd.normalWorld);
     float cos_v = max(abs(dot(normal_N, vd.viewWorld)), 1e-8);

@@ -12,6 +12,7 @@ golden=$(cd "$(dirname "$0")" && pwd)
 
 [ -n "$compile" ] || skip 'without glslang nothing is compiled'
 command -v oslc >/dev/null || skip 'without oslc no OSL is compiled'
+command -v glslangValidator >/dev/null || skip 'without glslangValidator no function of path tracers is compiled'
 compiles() { [ -n "$compile" ] && { [ "$1" != osl ] || command -v oslc >/dev/null; }; } # TARGET
 
 # same KEPT NEW: whether they are equal; with --update they are then.
@@ -43,6 +44,17 @@ run_line() {
             [ -z "$update" ] || cat check.log
         done
     done
+    if [[ " ${options[*]} " = *' --integrator=scatter '* ]]; then # a function without a program around it
+        for file in "$title"/*.frag; do
+            echo 'void main() { scatter(); }' >>"$file"
+            if command -v glslangValidator >/dev/null; then
+                check "$file compiles" glslangValidator "$file"
+            else
+                skip "without glslangValidator $file is not compiled"
+            fi
+        done
+        return
+    fi
     compiles "$target" && check "$title compiles" "$compile" "$document" --targets "$target" --interfaces "$interface" "${options[@]}"
 }
 
@@ -59,7 +71,7 @@ check 'there are targets' test -n "$targets"
 for target in $targets; do # the shading models in every language
     check "models.mtlx has a run '$target'" ls "$golden/models.$target".standard_surface.*
 done
-for file in "$golden"/*.vert "$golden"/*.frag "$golden"/*.osl "$golden"/*.oslgroup "$golden"/*.json; do # what no run makes any more
+for file in "$golden"/*.vert "$golden"/*.frag "$golden"/*.hlsl "$golden"/*.osl "$golden"/*.oslgroup "$golden"/*.json; do # what no run makes any more
     [ -n "${kept[${file##*/}]:-}" ] && continue
     [ -n "$update" ] && rm -v "$file" || check "${file##*/} is made by a run" false
 done
