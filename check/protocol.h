@@ -56,7 +56,7 @@ struct desk {
     atomic_uint is_ready;       /* the worker has loaded its library */
     atomic_uint num_begun;      /* number of started tasks */
     atomic_ullong step_begin;   /* desk_clock, in nanoseconds */
-    atomic_uint stage;          /* of the step: enum check_stage */
+    atomic_uint stage;          /* enum check_stage of the step */
     char element[DESK_ELEMENT]; /* "": the document */
     char target[DESK_TARGET];
 };

@@ -87,7 +87,7 @@ struct check_element {
     struct check_shader *shaders;
     size_t num_shaders;
     const char *picture;   /* a PNG in base64; "": none */
-    const char *signature; /* of the picture, see picture.h */
+    const char *signature; /* signature of the picture, see picture.h */
 };
 
 /* Differences from a baseline. */

@@ -64,7 +64,7 @@ struct manual_node {
 
 struct manual {
     const mxg_library *library;
-    struct manual_node *nodes; /* by group, then by name */
+    struct manual_node *nodes; /* in order of group, then name */
     size_t num_nodes, num_variants;
     uint32_t num_targets;
     struct store store; /* owns all memory of the reference */

@@ -48,7 +48,7 @@ struct option {
 };
 
 struct row {
-    const char *family; /* of the leaf's functions: "mx_dielectric_bsdf" */
+    const char *family; /* family of the leaf: "mx_dielectric_bsdf" */
     const char *closure;
     const struct argument *arguments;
     struct option option; /* arguments NULL: no option */

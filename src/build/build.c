@@ -12,7 +12,7 @@ static const struct document *doc_of(const struct builder *b)
 /* The options that library functions can read. */
 static const struct known_option {
     const char *name;
-    size_t offset; /* of an int in struct build_options */
+    size_t offset; /* offset of an int in struct build_options */
 } known_options[] = {{"option_environment", offsetof(struct build_options, environment)},
                      {"option_albedo", offsetof(struct build_options, albedo)},
                      {"option_texture_modes", offsetof(struct build_options, texture_modes)},

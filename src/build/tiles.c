@@ -12,7 +12,7 @@
 
 #include <limits.h>
 
-enum { MAX_CELLS = 1000 }; /* of the rectangle around the tiles: four digits number no more */
+enum { MAX_CELLS = 1000 }; /* cells of the rectangle around the tiles: four digits number no more */
 
 static const struct tile_token {
     const char *text;

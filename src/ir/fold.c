@@ -36,7 +36,7 @@ static float hermite_step(float low, float high, float x)
     return t * t * (3.0f - 2.0f * t);
 }
 
-/* w: three operand words, 0 where the op has fewer. */
+/* w: three operand words, 0 if the op has fewer. */
 typedef bool kernel_fn(const union ir_word *w, union ir_word *out);
 
 #define KERNEL(name, T, member, defined, assignment) \

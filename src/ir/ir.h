@@ -247,7 +247,7 @@ struct ir_graph {
     struct table table;          /* hash-consing: of nodes */
     struct table callee_table;   /* callee indices + 1 */
     uint32_t origin;             /* of new nodes: ir_push_origin */
-    VEC(uint32_t) outer_origins; /* those below it on the stack */
+    VEC(uint32_t) outer_origins; /* origins below it on the stack */
     uint32_t max_nodes; /* 0 = unlimited; beyond it ->overflow is set and POISON returned */
     bool overflow;
     bool exact;   /* only apply exact rules, which hold for infinities and NaN, too */

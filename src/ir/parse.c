@@ -14,9 +14,9 @@ struct parser {
     const char *at, *end;
     const char *problem; /* the first problem; all later reads fail */
     struct strpool labels;
-    VEC(ir_ref) label_refs; /* by id of the label; 0 = not defined */
+    VEC(ir_ref) label_refs; /* node by label id; 0 = not defined */
     VEC(ir_ref) roots;
-    VEC(ir_ref) operands; /* of the current statement */
+    VEC(ir_ref) operands; /* operands of the current statement */
 };
 
 static bool fail(struct parser *p, const char *problem)

@@ -58,7 +58,7 @@ bool ir_is_linear_mul(ir_type_id a, ir_type_id b)
     return (ir_type_is_matrix(a) && !is_scalar(b)) || (ir_type_is_matrix(b) && !is_scalar(a));
 }
 
-/* Whether SAME, SPLAT and REDUCE ops compute over `type`. */
+/* True if SAME, SPLAT and REDUCE ops compute over `type`. */
 static bool in_domain(enum ir_op op, ir_type_id type)
 {
     unsigned flags = ir_ops[op].flags;

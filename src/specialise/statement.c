@@ -98,7 +98,7 @@ static lang_ref fold_assignment(struct spec *s, const struct lang_node *node, la
     if (!args[0] || spec_node(s, args[0])->kind != LANG_CONST
         || spec_node(s, value)->kind != LANG_CONST)
         return 0;
-    for (unsigned i = 0; i < 2; i++) /* the originals stay where they are */
+    for (unsigned i = 0; i < 2; i++) /* the originals stay unchanged */
         args[i] = spec_add(s, *spec_node(s, args[i]));
     struct lang_node op = {.kind = LANG_OP, .op = node->op, .type = spec_node(s, args[0])->type};
     return spec_fold(s, &op, args, 2);

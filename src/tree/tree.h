@@ -129,7 +129,7 @@ struct lang_global {
      */
     uint32_t words;
     uint32_t num_words;
-    uint32_t array_length; /* of a uniform array; 0 = none */
+    uint32_t array_length; /* length of a uniform array; 0 = none */
     uint32_t file;
 };
 
