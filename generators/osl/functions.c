@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * The library's functions above the shader, those that were called. The ones that OSL has of itself
- * (natives.def) call it, so the functions that only these would call are left out.
+ * Writes the called library functions above the shader. A function with a native counterpart
+ * (natives.def) calls it instead of running library code, so functions that only this code calls
+ * are left out.
  */
 #include "generators/osl/osl.h"
 
@@ -61,7 +62,7 @@ const char *osl_function_name(void *user_data, uint32_t id)
 }
 
 /*
- * "float mx_noise_float(vector p) {…}" by what OSL has; false: the function is the library's alone.
+ * "float mx_noise_float(vector p) {…}" with OSL's native function; false: there is none.
  */
 static bool write_native(struct osl *osl, uint32_t id, struct text *out)
 {
@@ -81,7 +82,7 @@ static bool write_native(struct osl *osl, uint32_t id, struct text *out)
     return false;
 }
 
-/* Those that functions read; arrays stand in the functions (lang_syntax.defines_constants). */
+/* Constants that functions read; arrays are local to functions (lang_syntax.defines_constants). */
 static void write_constants(const struct osl *osl, struct text *out)
 {
     const struct spell *spell = osl->spell;

@@ -91,7 +91,7 @@ static bool array_words(struct parser *p, lang_ref ref)
         const struct lang_global *global = lang_global(p->unit, node->a, &layer);
         if (global->kind != LANG_GLOBAL_CONST)
             return false;
-        for (uint32_t i = 0; i < global->num_words; i++) { /* pushing may move what is copied */
+        for (uint32_t i = 0; i < global->num_words; i++) { /* pushing may move the words */
             union ir_word word = layer->words.items[global->words + i];
             vec_push(p->unit->arena, &p->unit->words, word);
         }

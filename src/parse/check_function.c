@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * What bodies use: callees, globals, flags. And an order in which callees come before callers,
- * which refuses recursion.
+ * Collects the callees, globals and flags of bodies. Sorts callees before callers, and rejects
+ * recursion.
  */
 #include "parse/parse_priv.h"
 #include "tree/ast.h"
@@ -49,7 +49,7 @@ static void use_node(struct uses *uses, const struct lang_node *node)
     }
 }
 
-/* Recursion is bounded: statements and expressions are nested at most PARSE_MAX_DEPTH deep each. */
+/* Statements and expressions are at most PARSE_MAX_DEPTH deep each, so recursion is bounded. */
 static void use_tree(struct uses *uses, lang_ref ref)
 {
     for (; ref; ref = tree_node(uses->p, ref)->next) {
@@ -94,8 +94,8 @@ static void find_uses(struct uses *uses, struct lang_function *function)
 struct order {
     struct parser *p;
     uint32_t first, num;   /* functions of the file */
-    uint32_t *new_id;      /* of each; LANG_NONE: not placed yet */
-    uint32_t *next_callee; /* of each: how far its callees are visited */
+    uint32_t *new_id;      /* per function; LANG_NONE: no place yet */
+    uint32_t *next_callee; /* per function: the next callee to visit */
     VEC(uint32_t) stack;   /* functions being visited, by index */
     uint32_t num_placed;
 };
@@ -120,7 +120,10 @@ static void refuse_recursion(struct order *order, uint32_t index)
                 text_cstr(&path));
 }
 
-/* Goes on with the function on top of the stack: into a callee that is not placed, or places it. */
+/*
+ * Continues with the function on top of the stack: visits its next callee, or gives the function
+ * its place.
+ */
 static bool visit_top(struct order *order)
 {
     const struct lang_unit *unit = order->p->unit;
@@ -128,7 +131,7 @@ static bool visit_top(struct order *order)
     const struct lang_function *function = ordered(order, top);
     while (order->next_callee[top] < function->num_callees) {
         uint32_t callee = ast_callees(unit, function)[order->next_callee[top]++] - order->first;
-        bool own = callee < order->num; /* of a file below: wraps to a large number */
+        bool own = callee < order->num; /* wraps for other files */
         if (!own || order->new_id[callee] != LANG_NONE)
             continue;
         if (holds(order->stack.items, order->stack.len, callee)) {
@@ -193,7 +196,7 @@ static bool order_functions(struct parser *p, uint32_t first, uint32_t num)
     return true;
 }
 
-/* Flags of callees come before those of callers. */
+/* Adds the flags of callees; callees come first. */
 static void inherit_flags(const struct lang_unit *unit, struct lang_function *function)
 {
     const uint16_t all_of = LANG_FN_PURE | LANG_FN_STRAIGHT, any_of = LANG_FN_DERIVATIVE;

@@ -1,25 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * What specialising does to a function where nothing is known of its arguments is the same in every
- * shader. It is done once, when a library is packed: trees are replaced by those of the versions
- * (plan.c), so that a generation can take them as they are.
+ * Specialising a function without constant arguments gives the same result in every shader. So the
+ * packer of a library does it once: it replaces trees by the trees of the versions (plan.c), which
+ * a generation can use unchanged.
  *
- * Functions keep their ids and parameters. All arrays that trees refer to are written anew, without
- * what has been dropped.
+ * Functions keep their ids and parameters. The step rewrites all arrays that trees refer to,
+ * without the dropped parts.
  */
 #include "base/hash.h"
 #include "specialise/spec.h"
 
 struct copier {
-    const struct lang_unit *from; /* of the tree being copied */
+    const struct lang_unit *from; /* unit of the tree that is copied */
     struct lang_unit *to;
-    const struct lang_unit *made; /* the layer of the versions */
-    VEC(lang_ref) calls;          /* of the function, arguments before the call that they are for */
-    uint8_t *is_used;             /* by slot */
-    /* open addressing: 1 + a function, of each distinct run of slots */
+    const struct lang_unit *made; /* layer of the versions */
+    VEC(lang_ref) calls; /* calls of the function; a call comes after the calls in its arguments */
+    uint8_t *is_used;    /* by slot */
+    /* open addressing: 1 + a function, for each distinct sequence of slots */
     struct table runs;
-    uint32_t num_effects; /* calls so far that assign to their arguments */
-    bool is_simple;       /* no call has arguments with effects, or very many */
+    uint32_t num_effects; /* number of calls so far that assign to their arguments */
+    bool is_simple;       /* no call has very many arguments, or arguments with effects */
 };
 
 static lang_ref copy_list(struct copier *c, lang_ref first);
@@ -140,8 +140,8 @@ static bool reads_option(const struct copier *c, const struct lang_function *fn)
 }
 
 /*
- * A function whose tree is what a generation would make of it, as long as it knows nothing of the
- * arguments and callees.
+ * True if a generation would not change the tree of a function, unless arguments or callees are
+ * constant.
  */
 static bool is_final(const struct copier *c, const struct lang_function *fn)
 {
@@ -153,7 +153,9 @@ static bool is_final(const struct copier *c, const struct lang_function *fn)
     return true;
 }
 
-/* Equal runs of slots are one: expressions of many nodes have inputs of equal names and types. */
+/*
+ * Shares equal sequences of slots, because many expressions have inputs of equal names and types.
+ */
 static uint32_t copy_slots(struct copier *c, const struct lang_function *fn)
 {
     const struct lang_slot *slots = ast_slot(c->from, fn, 0);
@@ -164,7 +166,7 @@ static uint32_t copy_slots(struct copier *c, const struct lang_function *fn)
             && memcmp(ast_slot(c->to, other, 0), slots, fn->num_slots * sizeof *slots) == 0)
             return other->first_slot;
     }
-    /* the number of the function that this one becomes, + 1 */
+    /* the index of the function that this one becomes, + 1 */
     table_add(&c->runs, c->to->arena, hash, c->to->functions.len + 1);
     uint32_t first = c->to->slots.len;
     memcpy(vec_extend(c->to->arena, &c->to->slots, fn->num_slots), slots,
@@ -200,8 +202,8 @@ static struct lang_function copy_function(struct copier *c, uint32_t id, uint32_
 }
 
 /*
- * Each function's version where nothing is known and no parameter may go. Inline expressions are
- * always seen through.
+ * Makes the version of each function without constant arguments, with all parameters. Inline
+ * expressions are always inlined.
  */
 static uint32_t *make_versions(struct lang_unit *made, uint32_t first, uint32_t count)
 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Making the version of a variant. The steps are in spec_*.c. */
+/* Makes the version of a variant. The other files of this room hold the steps. */
 #include "specialise/spec.h"
 
 #include <assert.h>
@@ -34,7 +34,7 @@ static bool is_bound(const struct spec *s, uint32_t param)
     return known != FACT_UNSEEN && known != FACT_VARIES;
 }
 
-/* Bound parameters become what is known at the start; one that is assigned becomes a local. */
+/* Bound parameters start as constants; an assigned one becomes a local. */
 static void bind(struct spec *s, struct chain *out)
 {
     for (uint32_t i = 0; i < s->fn.num_params; i++) {
@@ -50,7 +50,7 @@ static void bind(struct spec *s, struct chain *out)
     }
 }
 
-/* What a function passes whose tree is taken as it is. */
+/* Records the arguments of a function whose tree stays unchanged. */
 static void note_call(struct spec *s, const struct lang_node *call)
 {
     struct lang_unit *unit = s->unit;
@@ -85,7 +85,7 @@ static bool begin_final(struct spec *s)
     return true;
 }
 
-/* Does it call what other functions are, too? */
+/* True if all callees keep their trees too. */
 static bool stays_final(const struct spec *s)
 {
     const struct lang_plan *plan = s->unit->plan;
@@ -122,7 +122,7 @@ static void begin(struct lang_unit *unit, uint32_t variant)
         forward(s);
 }
 
-/* Slots of the result: the parameters that are left, then what else is named. */
+/* Slots of the result: the remaining parameters, then the other named slots. */
 
 static bool is_dropped(const struct spec *s, uint32_t param)
 {
@@ -182,7 +182,7 @@ static uint32_t add_version(struct spec *s, lang_ref body)
     fn.num_globals = s->globals.len;
     push_refs(unit, s->callees.items, s->callees.len);
     push_refs(unit, s->globals.items, s->globals.len);
-    while (unit->versions.len < unit->functions.len) /* functions that were written */
+    while (unit->versions.len < unit->functions.len) /* functions that the parser wrote */
         vec_push(unit->arena, &unit->versions, (struct lang_version){LANG_NONE});
     vec_push(unit->arena, &unit->functions, fn);
     vec_push(unit->arena, &unit->versions, version);
@@ -209,7 +209,7 @@ static void finish(struct lang_unit *unit, uint32_t variant)
             variant_of(s)->version = variant_of(s)->function;
             return;
         }
-        forward(s); /* its calls have been noted: nothing new is said of the callees */
+        forward(s); /* the plan has its calls already, so this pass adds no arguments */
     }
     s->changed = variant_of(s)->changed;
     start_backward(s);
@@ -223,7 +223,7 @@ static void finish(struct lang_unit *unit, uint32_t variant)
 void lang_plan_finish(struct lang_unit *unit)
 {
     struct lang_plan *plan = plan_of(unit);
-    for (uint32_t id = plan->num_ids; id-- > 0;) /* callees are added on the way */
+    for (uint32_t id = plan->num_ids; id-- > 0;) /* the loop adds callees with smaller ids */
         for (uint32_t link = plan->first_variant[id]; link;
              link = plan->variants.items[link - 1].next)
             begin(unit, link - 1);
