@@ -411,7 +411,7 @@ uint8_t *ir_count_uses(const struct ir_graph *graph, const uint8_t *marked, cons
 ir_ref ir_replace(struct ir_graph *graph, ir_ref root, ir_ref from, ir_ref to, struct arena *arena);
 
 /*
- * rebuild.c: makes a new graph from the nodes that the roots need. Returns the new node per old
+ * rebuild.c: makes a new graph from the needed nodes (ir_mark). Returns the new node per old
  * node, 0 for removed nodes. Types, callees, origins and functions keep their indices.
  */
 struct ir_pass {
@@ -424,8 +424,8 @@ struct ir_pass {
     ir_ref (*build)(void *user_data, struct ir_graph *graph, ir_ref old, const struct ir_node *node,
                     ir_ref *args);
 };
-const ir_ref *ir_rebuild(struct ir_graph *graph, const ir_ref *roots, uint32_t num_roots,
-                         const struct ir_pass *pass, struct arena *arena);
+const ir_ref *ir_rebuild(struct ir_graph *graph, const uint8_t *needed, const struct ir_pass *pass,
+                         struct arena *arena);
 
 /*
  * print.c, parse.c: the text form (docs/ir.md). ir_parse reads the output of ir_print back to an

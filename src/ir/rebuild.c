@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
  * rebuild: a pass that changes some nodes of a graph. It makes a new graph, node by node, and drops
- * the nodes that the roots do not need. Nodes keep their order, so an unchanged node keeps the
+ * the nodes that are not needed. Nodes keep their order, so an unchanged node keeps the
  * order of its operands.
  */
 #include "ir/internal.h"
@@ -79,12 +79,11 @@ static void label_copy(struct rebuild *r, ir_ref ref)
     label->is_shared |= old->is_shared;
 }
 
-const ir_ref *ir_rebuild(struct ir_graph *graph, const ir_ref *roots, uint32_t num_roots,
-                         const struct ir_pass *pass, struct arena *arena)
+const ir_ref *ir_rebuild(struct ir_graph *graph, const uint8_t *needed, const struct ir_pass *pass,
+                         struct arena *arena)
 {
     struct rebuild r = {.graph = graph, .old = *graph, .pass = pass, .arena = arena};
     assert(graph->outer_origins.len == 0);
-    const uint8_t *needed = ir_mark(graph, roots, num_roots, arena);
     r.copies = ARENA_ARRAY(arena, ir_ref, graph->nodes.len);
     ir_graph_init(graph, r.old.arena, r.old.strings);
     keep_tables(graph, &r.old);

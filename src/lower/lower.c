@@ -217,8 +217,7 @@ static enum known known_of(const struct lower *lo, const struct lang_unit *layer
 {
     enum known known = NOTHING_KNOWN;
     for (uint32_t i = 0; i < fn->num_globals; i++)
-        if (lang_global(lo->unit, layer->refs.items[fn->first_global + i], NULL)->kind
-            == LANG_GLOBAL_OPTION)
+        if (lang_global(lo->unit, ast_globals(layer, fn)[i], NULL)->kind == LANG_GLOBAL_OPTION)
             return A_CHOICE_KNOWN;
     for (uint32_t i = 0; i < fn->num_params; i++) {
         const struct lang_slot *slot = ast_slot(layer, fn, i);

@@ -4,6 +4,7 @@
  * recursion.
  */
 #include "parse/parse_priv.h"
+#include "tree/ast.h"
 
 struct uses {
     struct parser *p;
@@ -79,11 +80,10 @@ static void find_uses(struct uses *uses, struct lang_function *function)
     }
     function->flags |= uses->flags;
     function->num_nodes = uses->num_nodes;
-    function->first_callee = unit->refs.len;
+    function->first_ref = unit->refs.len;
     function->num_callees = uses->callees.len;
     for (uint32_t i = 0; i < uses->callees.len; i++)
         vec_push(unit->arena, &unit->refs, uses->callees.items[i]);
-    function->first_global = unit->refs.len;
     function->num_globals = uses->globals.len;
     for (uint32_t i = 0; i < uses->globals.len; i++)
         vec_push(unit->arena, &unit->refs, uses->globals.items[i]);
@@ -130,8 +130,7 @@ static bool visit_top(struct order *order)
     uint32_t top = vec_last(&order->stack);
     const struct lang_function *function = ordered(order, top);
     while (order->next_callee[top] < function->num_callees) {
-        uint32_t callee =
-            unit->refs.items[function->first_callee + order->next_callee[top]++] - order->first;
+        uint32_t callee = ast_callees(unit, function)[order->next_callee[top]++] - order->first;
         bool own = callee < order->num; /* wraps for other files */
         if (!own || order->new_id[callee] != LANG_NONE)
             continue;
@@ -173,8 +172,8 @@ static void apply_order(struct order *order)
     for (uint32_t i = 0; i < order->num; i++) {
         struct lang_function *function = ordered(order, i);
         for (uint32_t k = 0; k < function->num_callees; k++)
-            unit->refs.items[function->first_callee + k] =
-                renamed(order, unit->refs.items[function->first_callee + k]);
+            unit->refs.items[function->first_ref + k] =
+                renamed(order, unit->refs.items[function->first_ref + k]);
         sorted[order->new_id[i] - order->first] = *function;
     }
     if (order->num)
@@ -202,8 +201,7 @@ static void inherit_flags(const struct lang_unit *unit, struct lang_function *fu
 {
     const uint16_t all_of = LANG_FN_PURE | LANG_FN_STRAIGHT, any_of = LANG_FN_DERIVATIVE;
     for (uint32_t i = 0; i < function->num_callees; i++) {
-        uint16_t flags =
-            lang_function(unit, unit->refs.items[function->first_callee + i], NULL)->flags;
+        uint16_t flags = lang_function(unit, ast_callees(unit, function)[i], NULL)->flags;
         function->flags &= (uint16_t)(flags | ~all_of);
         function->flags |= flags & any_of;
     }

@@ -123,22 +123,18 @@ static lang_ref copy_list(struct copier *c, lang_ref first)
     return copy;
 }
 
-static uint32_t copy_refs(struct copier *c, const struct lang_unit *from, uint32_t first,
-                          uint32_t count, bool are_functions)
+static uint32_t copy_refs(struct copier *c, const uint32_t *ids, uint32_t count, bool are_functions)
 {
     uint32_t at = c->to->refs.len;
-    for (uint32_t i = 0; i < count; i++) {
-        uint32_t id = from->refs.items[first + i];
-        vec_push(c->to->arena, &c->to->refs, are_functions ? given_function(c, id) : id);
-    }
+    for (uint32_t i = 0; i < count; i++)
+        vec_push(c->to->arena, &c->to->refs, are_functions ? given_function(c, ids[i]) : ids[i]);
     return at;
 }
 
 static bool reads_option(const struct copier *c, const struct lang_function *fn)
 {
     for (uint32_t i = 0; i < fn->num_globals; i++)
-        if (lang_global(c->made, c->to->refs.items[fn->first_global + i], NULL)->kind
-            == LANG_GLOBAL_OPTION)
+        if (lang_global(c->made, ast_globals(c->to, fn)[i], NULL)->kind == LANG_GLOBAL_OPTION)
             return true;
     return false;
 }
@@ -186,8 +182,9 @@ static struct lang_function copy_version(struct copier *c, uint32_t version)
     c->is_used = arena_zalloc(c->to->arena, fn.num_slots);
     fn.body = copy_node(c, fn.body);
     fn.first_slot = fn.num_slots ? copy_slots(c, &fn) : 0;
-    fn.first_callee = copy_refs(c, c->from, fn.first_callee, fn.num_callees, true);
-    fn.first_global = copy_refs(c, c->from, fn.first_global, fn.num_globals, false);
+    const uint32_t *callees = ast_callees(c->from, &fn), *globals = ast_globals(c->from, &fn);
+    fn.first_ref = copy_refs(c, callees, fn.num_callees, true);
+    copy_refs(c, globals, fn.num_globals, false);
     return fn;
 }
 
@@ -195,7 +192,7 @@ static struct lang_function copy_function(struct copier *c, uint32_t id, uint32_
 {
     struct lang_function fn = copy_version(c, version);
     fn.num_calls = c->calls.len;
-    fn.first_call = c->to->refs.len;
+    assert(ast_calls(c->to, &fn) == c->to->refs.items + c->to->refs.len);
     for (uint32_t i = 0; i < c->calls.len; i++)
         vec_push(c->to->arena, &c->to->refs, c->calls.items[i]);
     fn.flags |= lang_function(c->made, id, NULL)->flags & LANG_FN_STRINGS;
@@ -243,7 +240,8 @@ void lang_make_canonical(struct lang_unit *unit)
     }
     for (uint32_t i = 0; i < unit->files.len; i++) {
         struct lang_file *file = &unit->files.items[i];
-        file->first_include = copy_refs(&c, unit, file->first_include, file->num_includes, false);
+        file->first_include =
+            copy_refs(&c, unit->refs.items + file->first_include, file->num_includes, false);
     }
     *unit = to;
 }

@@ -78,7 +78,7 @@ static bool begin_final(struct spec *s)
             return false;
     uint32_t first_call = s->unit->plan->calls.len;
     for (uint32_t i = 0; i < s->fn.num_calls; i++)
-        note_call(s, ast_node(s->layer, s->layer->refs.items[s->fn.first_call + i]));
+        note_call(s, ast_node(s->layer, ast_calls(s->layer, &s->fn)[i]));
     struct variant *v = variant_of(s);
     v->is_final = true;
     v->first_call = first_call;
@@ -162,12 +162,10 @@ static void finish_slots(struct spec *s, struct lang_function *out, struct lang_
     }
 }
 
-static uint32_t push_refs(struct lang_unit *unit, const uint32_t *ids, uint32_t count)
+static void push_refs(struct lang_unit *unit, const uint32_t *ids, uint32_t count)
 {
-    uint32_t first = unit->refs.len;
     if (count)
         memcpy(vec_extend(unit->arena, &unit->refs, count), ids, count * sizeof *ids);
-    return first;
 }
 
 static uint32_t add_version(struct spec *s, lang_ref body)
@@ -179,10 +177,11 @@ static uint32_t add_version(struct spec *s, lang_ref body)
     fn.flags = s->flags;
     fn.body = spec_add(s, (struct lang_node){.kind = LANG_BLOCK, .a = body});
     fn.num_nodes = s->num_nodes;
+    fn.first_ref = unit->refs.len;
     fn.num_callees = s->callees.len;
-    fn.first_callee = push_refs(unit, s->callees.items, s->callees.len);
     fn.num_globals = s->globals.len;
-    fn.first_global = push_refs(unit, s->globals.items, s->globals.len);
+    push_refs(unit, s->callees.items, s->callees.len);
+    push_refs(unit, s->globals.items, s->globals.len);
     while (unit->versions.len < unit->functions.len) /* functions that the parser wrote */
         vec_push(unit->arena, &unit->versions, (struct lang_version){LANG_NONE});
     vec_push(unit->arena, &unit->functions, fn);

@@ -24,6 +24,27 @@ static inline const struct lang_slot *ast_slot(const struct lang_unit *layer,
     return &layer->slots.items[fn->first_slot + slot];
 }
 
+/* Ids of the functions that it calls directly. */
+static inline const uint32_t *ast_callees(const struct lang_unit *layer,
+                                          const struct lang_function *fn)
+{
+    return layer->refs.items + fn->first_ref;
+}
+
+/* Ids of the globals that it reads directly. */
+static inline const uint32_t *ast_globals(const struct lang_unit *layer,
+                                          const struct lang_function *fn)
+{
+    return ast_callees(layer, fn) + fn->num_callees;
+}
+
+/* The CALL nodes of a LANG_FN_FINAL. */
+static inline const lang_ref *ast_calls(const struct lang_unit *layer,
+                                        const struct lang_function *fn)
+{
+    return ast_globals(layer, fn) + fn->num_globals;
+}
+
 static inline const union ir_word *ast_words(const struct lang_unit *layer,
                                              const struct lang_node *constant)
 {

@@ -55,7 +55,7 @@ static void add_own_needs(struct lang_reach *reach, const struct lang_unit *unit
     for (uint32_t i = 0; i < fn->num_slots; i++)
         add_type(reach, unit, ast_slot(layer, fn, i)->type);
     for (uint32_t i = 0; i < fn->num_globals; i++)
-        add_global(reach, unit, layer->refs.items[fn->first_global + i]);
+        add_global(reach, unit, ast_globals(layer, fn)[i]);
 }
 
 /*
@@ -80,7 +80,7 @@ void lang_reach_add(struct lang_reach *reach, const struct lang_unit *unit, uint
             (void)vec_pop(&stack);
             continue;
         }
-        uint32_t callee = layer->refs.items[fn->first_callee + top->next_callee++];
+        uint32_t callee = ast_callees(layer, fn)[top->next_callee++];
         if (mark(reach->arena, &reach->seen_functions, &reach->cap_functions, callee))
             vec_push(reach->arena, &stack, (struct visit){callee, 0});
     }

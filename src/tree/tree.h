@@ -100,11 +100,11 @@ struct lang_function {
     uint32_t file;                  /* index in unit->files */
     uint32_t place;
     uint32_t num_nodes; /* size of the body: for inlining decisions */
-    /* in unit->refs: function ids called directly, each once */
-    uint32_t first_callee, num_callees;
-    uint32_t first_global, num_globals; /* in unit->refs: globals read directly, each once */
-    /* in unit->refs, with LANG_FN_FINAL: its CALL nodes, arguments first */
-    uint32_t first_call, num_calls;
+    /*
+     * in unit->refs, in sequence: the functions that it calls directly and the globals that it
+     * reads directly, each once; with LANG_FN_FINAL also its CALL nodes, arguments first
+     */
+    uint32_t first_ref, num_callees, num_globals, num_calls;
 };
 
 struct lang_version {    /* the origin of a function in a generation's layer (plan.c) */
