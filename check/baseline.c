@@ -9,66 +9,24 @@
 #include <stdlib.h>
 #include <string.h>
 
-struct baseline_entry {
-    uint64_t hash; /* of the document's name; 0: free */
-    uint64_t offset;
-    bool is_compared;
-};
-
 /* ---- The index ---- */
-
-/* Never 0, which is a free entry. */
-static uint64_t hash_name(const char *name)
-{
-    uint64_t hash = cli_hash(CLI_HASH_OF_NOTHING, name);
-    return hash ? hash : 1;
-}
-
-/* The entry of a hash, or the free one where it belongs. */
-static struct baseline_entry *find_entry(struct baseline_entry *entries, size_t capacity,
-                                         uint64_t hash)
-{
-    size_t at = hash & (capacity - 1);
-    while (entries[at].hash && entries[at].hash != hash)
-        at = (at + 1) & (capacity - 1);
-    return &entries[at];
-}
-
-static bool grow(struct baseline *baseline)
-{
-    size_t capacity = baseline->capacity ? baseline->capacity * 2 : 64;
-    struct baseline_entry *entries = calloc(capacity, sizeof *entries);
-    if (!entries) {
-        baseline->reader.fault = "out of memory";
-        return false;
-    }
-    for (size_t i = 0; i < baseline->capacity; ++i)
-        if (baseline->entries[i].hash)
-            *find_entry(entries, capacity, baseline->entries[i].hash) = baseline->entries[i];
-    free(baseline->entries);
-    baseline->entries = entries;
-    baseline->capacity = capacity;
-    return true;
-}
 
 static bool add_entry(struct baseline *baseline, uint64_t offset)
 {
+    bool is_new;
     const char *file = json_text_of(baseline->reader.document, "file");
-    if (!*file)
+    if (!*file) {
         baseline->reader.fault = "a document in it cannot be read";
-    if (!*file || (baseline->num_entries * 2 >= baseline->capacity && !grow(baseline)))
         return false;
-    uint64_t hash = hash_name(file);
-    struct baseline_entry *entry = find_entry(baseline->entries, baseline->capacity, hash);
-    baseline->num_entries += entry->hash == 0;
-    *entry = (struct baseline_entry){hash, offset, false};
+    }
+    names_add(&baseline->offsets, file, &is_new)->value = offset;
     return true;
 }
 
 bool baseline_open(struct baseline *baseline, const char *path)
 {
     *baseline = (struct baseline){.is_open = true};
-    if (!reader_open(&baseline->reader, path) || !grow(baseline))
+    if (!reader_open(&baseline->reader, path))
         return false;
     uint64_t offset;
     while (reader_next(&baseline->reader, &offset) && add_entry(baseline, offset)) {
@@ -80,24 +38,25 @@ void baseline_close(struct baseline *baseline)
 {
     if (baseline->is_open)
         reader_close(&baseline->reader);
-    free(baseline->entries);
+    names_finish(&baseline->offsets);
 }
 
 static int compare_offsets(const void *a, const void *b)
 {
-    const struct baseline_entry *left = a, *right = b;
-    return left->offset < right->offset ? -1 : left->offset > right->offset;
+    const struct name_entry *left = a, *right = b;
+    return left->value < right->value ? -1 : left->value > right->value;
 }
 
 /* The table is no table any more then. */
 uint64_t baseline_list_gone(struct baseline *baseline, FILE *out)
 {
     uint64_t count = 0;
-    if (baseline->capacity)
-        qsort(baseline->entries, baseline->capacity, sizeof *baseline->entries, compare_offsets);
-    for (size_t i = 0; i < baseline->capacity; ++i) {
-        const struct baseline_entry *entry = &baseline->entries[i];
-        if (!entry->hash || entry->is_compared || !reader_read_at(&baseline->reader, entry->offset))
+    struct name_table *table = &baseline->offsets;
+    if (table->capacity)
+        qsort(table->entries, table->capacity, sizeof *table->entries, compare_offsets);
+    for (size_t i = 0; i < table->capacity; ++i) {
+        const struct name_entry *entry = &table->entries[i];
+        if (!entry->hash || entry->is_marked || !reader_read_at(&baseline->reader, entry->value))
             continue;
         fprintf(out, "changed %s (gone): it is no longer there\n",
                 json_text_of(baseline->reader.document, "file"));
@@ -109,11 +68,10 @@ uint64_t baseline_list_gone(struct baseline *baseline, FILE *out)
 static const struct check_document *find_document(struct baseline *baseline, struct store *store,
                                                   const char *file)
 {
-    struct baseline_entry *entry =
-        find_entry(baseline->entries, baseline->capacity, hash_name(file));
-    if (!entry->hash || !reader_read_at(&baseline->reader, entry->offset))
+    struct name_entry *entry = names_find(&baseline->offsets, file);
+    if (!entry || !reader_read_at(&baseline->reader, entry->value))
         return NULL;
-    entry->is_compared = true;
+    entry->is_marked = true;
     return record_from_json(store, baseline->reader.document);
 }
 

@@ -6,15 +6,15 @@
 #ifndef MXG_CHECK_BASELINE_H
 #define MXG_CHECK_BASELINE_H
 
+#include "check/names.h"
 #include "check/record.h"
 #include "check/report_reader.h"
 
 struct baseline {
     struct report_reader reader;
     bool is_open;
-    /* of each document, by the hash of its name: memory of 24 bytes each */
-    struct baseline_entry *entries;
-    size_t num_entries, capacity;
+    /* the places of the documents in the report; those that were compared are marked */
+    struct name_table offsets;
 };
 
 /* False: baseline->reader.fault says why. baseline_close must follow in both cases. */

@@ -62,45 +62,17 @@ void inputs_finish(struct check_inputs *inputs)
 {
     while (inputs->sources)
         pop(inputs);
-    free(inputs->seen);
+    names_finish(&inputs->seen);
     free(inputs->path);
 }
 
 /* ---- Each once ---- */
 
-static uint64_t hash_path(const char *path)
-{
-    uint64_t hash = cli_hash(CLI_HASH_OF_NOTHING, path);
-    return hash ? hash : 1;
-}
-
-/* The place of a hash, or the free one where it belongs. */
-static uint64_t *find_seen(uint64_t *table, size_t capacity, uint64_t hash)
-{
-    size_t at = hash & (capacity - 1);
-    while (table[at] && table[at] != hash)
-        at = (at + 1) & (capacity - 1);
-    return &table[at];
-}
-
 static bool is_new(struct check_inputs *inputs, const char *path)
 {
-    if (inputs->num_seen * 2 >= inputs->capacity) {
-        size_t capacity = inputs->capacity ? inputs->capacity * 2 : 64;
-        uint64_t *table = memory_alloc(capacity * sizeof *table);
-        for (size_t i = 0; i < inputs->capacity; ++i)
-            if (inputs->seen[i])
-                *find_seen(table, capacity, inputs->seen[i]) = inputs->seen[i];
-        free(inputs->seen);
-        inputs->seen = table;
-        inputs->capacity = capacity;
-    }
-    uint64_t hash = hash_path(path), *place = find_seen(inputs->seen, inputs->capacity, hash);
-    if (*place)
-        return false;
-    *place = hash;
-    ++inputs->num_seen;
-    return true;
+    bool is_new;
+    names_add(&inputs->seen, path, &is_new);
+    return is_new;
 }
 
 /* ---- What a path stands for ---- */

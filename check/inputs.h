@@ -7,15 +7,12 @@
 #ifndef MXG_CHECK_INPUTS_H
 #define MXG_CHECK_INPUTS_H
 
+#include "check/names.h"
 #include "cli/args.h"
-
-#include <stdbool.h>
-#include <stdint.h>
 
 struct check_inputs {
     struct input_source *sources; /* the innermost first */
-    uint64_t *seen;               /* hashes of the paths, in an open table */
-    size_t num_seen, capacity;
+    struct name_table seen;       /* paths that were given out */
     char *path;
     bool failed; /* a list could not be read */
 };

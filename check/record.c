@@ -42,39 +42,25 @@ uint32_t check_add_message(struct store *store, struct check_document *document,
     return (uint32_t)document->num_messages++;
 }
 
-static bool has_text(const char *const *texts, size_t count, const char *text)
+/* Appends a text that is not there yet; it must live in the store. */
+static void add_once(struct store *store, const char ***texts, size_t *num_texts, const char *text)
 {
-    for (size_t i = 0; i < count; ++i)
-        if (strcmp(texts[i], text) == 0)
-            return true;
-    return false;
-}
-
-static void add_folder(struct store *store, struct check_document *document, const char *folder)
-{
-    if (has_text(document->folders, document->num_folders, folder))
-        return;
-    document->folders =
-        store_grow(store, document->folders, document->num_folders, sizeof *document->folders);
-    document->folders[document->num_folders++] = folder;
+    for (size_t i = 0; i < *num_texts; ++i)
+        if (strcmp((*texts)[i], text) == 0)
+            return;
+    *texts = store_grow(store, *texts, *num_texts, sizeof **texts);
+    (*texts)[(*num_texts)++] = text;
 }
 
 void check_add_file(struct store *store, struct check_document *document, const char *path)
 {
-    if (has_text(document->files, document->num_files, path))
-        return;
-    document->files =
-        store_grow(store, document->files, document->num_files, sizeof *document->files);
-    document->files[document->num_files++] = store_text(store, path, strlen(path));
+    add_once(store, &document->files, &document->num_files, store_text(store, path, strlen(path)));
 }
 
 void check_add_image(struct store *store, struct check_document *document, const char *path)
 {
-    if (has_text(document->images, document->num_images, path))
-        return;
-    document->images =
-        store_grow(store, document->images, document->num_images, sizeof *document->images);
-    document->images[document->num_images++] = store_text(store, path, strlen(path));
+    add_once(store, &document->images, &document->num_images,
+             store_text(store, path, strlen(path)));
 }
 
 /* The part of a path that ends with its last '/'. */
@@ -91,7 +77,7 @@ void check_add_place(struct store *store, struct check_document *document, const
     char *folder = store_alloc(store, from_len + len + 3);
     memcpy(folder, from, from_len);
     memcpy(folder + from_len, file, len);
-    add_folder(store, document, *folder ? folder : "./");
+    add_once(store, &document->folders, &document->num_folders, *folder ? folder : "./");
     if (from_len && len)
-        add_folder(store, document, store_text(store, file, len));
+        add_once(store, &document->folders, &document->num_folders, store_text(store, file, len));
 }

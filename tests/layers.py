@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Checks the includes: a room of src/ includes only earlier rooms, the back end does not include the front end, one room includes
-libxml2, and programs include only the public header. Argument: the root of the project."""
+libxml2, programs include only the public header, and at most three files of a room call each other in a circle. Argument: the
+root of the project."""
 import pathlib
 import re
 import sys
@@ -10,9 +11,9 @@ sys.path.append(str(pathlib.Path(__file__).resolve().parent))
 from checks import check, finish
 
 ROOT = pathlib.Path(sys.argv[1])
-ROOMS = "base diag ir document xml lang shader closure library build spell bind api".split()
-FRONT = {"document", "xml", "library", "build", "bind"}
-BACK = {"ir", "closure", "shader", "spell"}
+ROOMS = "base diag ir document xml tree parse lower specialise print shader closure library build spell bind api".split()
+FRONT = {"document", "xml", "parse", "library", "build", "bind"}
+BACK = {"ir", "lower", "specialise", "print", "closure", "shader", "spell"}
 INCLUDE = re.compile(r'^\s*#\s*include\s*["<]([^">]+)[">]', re.MULTILINE)
 
 
@@ -35,6 +36,34 @@ def fault_of(path, included):
         return f"{room} is in the back of the house, {used} in front"
     return None
 
+
+DEFINITION = re.compile(r"^(?!static|typedef|#)[A-Za-z_][\w \t*]*?[ *](\w+)\((?:[^;{}])*?\)\n\{", re.MULTILINE)
+COMMENT = re.compile(r"/\*.*?\*/|//[^\n]*", re.DOTALL)
+
+
+def calls_of(room):
+    """The files of a room by name; each with the files whose functions it names."""
+    texts = {path.name: COMMENT.sub("", path.read_text(encoding="utf-8")) for path in (ROOT / "src" / room).glob("*.c")}
+    owners = {name: file for file, text in texts.items() for name in DEFINITION.findall(text)}
+    return {file: {owners[word] for word in re.findall(r"\w+", text) if word in owners} - {file} for file, text in texts.items()}
+
+
+def reached(calls, file):
+    """Every file that `file` calls, over others, too."""
+    found, new = set(), {file}
+    while new:
+        new = {called for name in new for called in calls[name]} - found
+        found |= new
+    return found
+
+
+MAX_CIRCLE = 3
+for room in sorted(path.name for path in (ROOT / "src").iterdir() if path.is_dir()):
+    calls = calls_of(room)
+    below = {file: reached(calls, file) for file in calls}
+    circles = {frozenset(other for other in below[file] if file in below[other]) for file in calls}
+    for circle in circles:
+        check(len(circle) <= MAX_CIRCLE, f"src/{room}: a circle of {len(circle)} files: {' '.join(sorted(circle))}")
 
 for folder in "src", "generators", "cli", "check", "compile", "doc", "render":
     for path in sorted((ROOT / folder).rglob("*.[ch]")):

@@ -3,6 +3,7 @@
 #include "api/api.h"
 
 #include "base/hash.h"
+#include "specialise/specialise.h"
 
 mxg_library *mxg_library_ref(mxg_library *library)
 {

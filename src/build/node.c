@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /* From a node's arguments to its results, by the implementation for the target. */
 #include "build/build_priv.h"
+#include "lower/lower.h"
 
 static void call_expressions(struct builder *b, const struct implementation *impl,
                              const ir_ref *args, ir_ref *results)

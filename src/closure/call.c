@@ -4,6 +4,7 @@
  * the shaded point.
  */
 #include "closure/closure_priv.h"
+#include "lower/lower.h"
 
 static ir_ref stream(struct shader *shader, str_id name)
 {

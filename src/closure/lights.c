@@ -8,6 +8,7 @@
  * type is dark
  */
 #include "closure/closure_priv.h"
+#include "lower/lower.h"
 
 /* Light functions are seen through: there is one call of each. */
 enum { MAX_LIGHT_NODES = 400 };

@@ -368,3 +368,41 @@ void ir_set_results(struct ir_graph *graph, uint32_t function, const ir_ref *res
     memcpy(vec_extend(graph->arena, &graph->function_results, num_results), results,
            num_results * sizeof *results);
 }
+
+ir_ref ir_poison(struct ir_graph *graph, ir_type_id type)
+{
+    return ir_intern(graph, IR_POISON, type, 0, NULL, 0);
+}
+
+bool ir_is_const(const struct ir_graph *graph, ir_ref ref)
+{
+    return ir_get(graph, ref)->op == IR_CONST;
+}
+
+bool ir_get_const(const struct ir_graph *graph, ir_ref ref, struct ir_value *out)
+{
+    const struct ir_node *node = ir_get(graph, ref);
+    if (node->op != IR_CONST)
+        return false;
+    out->type = node->type;
+    memcpy(out->w, graph->words.items + node->attr,
+           ir_type_info(node->type)->components * sizeof *out->w);
+    return true;
+}
+
+bool ir_const_is(const struct ir_graph *graph, ir_ref ref, float f)
+{
+    struct ir_value value;
+    if (!ir_get_const(graph, ref, &value) || value.type == IR_TYPE_STRING)
+        return false;
+    const struct ir_type_info *info = ir_type_info(value.type);
+    for (unsigned i = 0; i < info->components; i++) {
+        union ir_word w = value.w[i];
+        float component = info->scalar == IR_TYPE_FLOAT ? w.f
+                          : info->scalar == IR_TYPE_INT ? (float)w.i
+                                                        : (float)w.u;
+        if (component != f)
+            return false;
+    }
+    return true;
+}

@@ -11,7 +11,8 @@
 #define MXG_LIBRARY_LIBRARY_H
 
 #include "document/document.h"
-#include "lang/lang.h"
+#include "parse/parse.h"
+#include "print/print.h"
 
 #define LIBRARY_NONE UINT32_MAX
 

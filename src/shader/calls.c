@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
  * The shader stands: every call that is left is known. Each portable function now gets the one
- * version that its calls share (lang/plan.c), and the graph is built anew with calls of it, which
- * lose the arguments that the version does not take. Where the target has it, a texture is read in
- * the type that is wanted of it.
+ * version that its calls share (specialise/plan.c), and the graph is built anew with calls of it,
+ * which lose the arguments that the version does not take. Where the target has it, a texture is
+ * read in the type that is wanted of it.
  */
 #include "shader/shader.h"
+#include "specialise/specialise.h"
 
 struct final_pass {
     struct shader *shader;

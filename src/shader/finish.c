@@ -140,8 +140,7 @@ static void finish_displacement(struct shader *shader)
 
 void shader_finish(struct shader *shader, const struct shader_layout_rules *rules)
 {
-    shader->names_wholes = rules->names_wholes;
-    shader->in_blocks = rules->blocks;
+    shader->rules = *rules;
     shader_specialise_calls(shader, rules->typed_textures);
     complete_loops(shader, STAGE_PIXEL);
     mark_outputs(shader, STAGE_PIXEL);
@@ -152,8 +151,7 @@ void shader_finish(struct shader *shader, const struct shader_layout_rules *rule
     else
         finish_vertex_stage(shader);
     ir_assert_valid(shader->graph, "after the last pass");
-    shader_layout(shader, rules);
-    shader->local_of = ARENA_ARRAY(shader->arena, uint32_t, shader->graph->nodes.len);
+    shader_layout(shader);
     if (rules->neutral_names)
         name_neutrally(shader);
 }

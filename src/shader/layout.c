@@ -100,11 +100,11 @@ static void finish_buffers(struct shader *shader)
     lights->size *= shader->max_lights;
 }
 
-void shader_layout(struct shader *shader, const struct shader_layout_rules *rules)
+void shader_layout(struct shader *shader)
 {
+    const struct shader_layout_rules *rules = &shader->rules;
     order_interface(shader);
     memset(shader->buffers, 0, sizeof shader->buffers);
-    shader->numbered = rules->bindings;
     if (rules->bindings) {
         for (int block = 0; block < NUM_BLOCKS; block++)
             shader->buffers[block].set = rules->set;

@@ -66,7 +66,7 @@ static bool is_source(const struct scheduler *s, struct plan *plan)
     case IR_UNIFORM:
         plan->cost = 2;
         plan->chars = clamp16(NAME_CHARS + 3);
-        return !s->shader->in_blocks || plan->uses < MIN_USES_OF_COPY
+        return !s->shader->rules.blocks || plan->uses < MIN_USES_OF_COPY
                || ir_type_is_matrix(node->type);
     case IR_STREAM:
     case IR_TEXTURE:
@@ -260,7 +260,7 @@ static bool is_wanted(const struct plan *plan)
 /* Operands first. */
 void choose_locals(struct scheduler *s)
 {
-    bool names_wholes = s->shader->names_wholes;
+    bool names_wholes = s->shader->rules.names_wholes;
     for (uint32_t i = 0; i < s->reached.len; i++) {
         struct plan *plan = plan_of(s, s->reached.items[i]);
         if (plan->num_args == 0 && is_source(s, plan))

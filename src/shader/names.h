@@ -10,7 +10,7 @@
 #define MXG_SHADER_NAMES_H
 
 #include "base/table.h"
-#include "lang/lang.h"
+#include "print/print.h"
 
 struct name_entry {
     const char *text;

@@ -74,13 +74,13 @@ static void put_place(struct reflect *r, const struct shader_variable *variable)
         json_put_nonzero(&r->json, "matrixStride", variable->matrix_stride);
         break;
     case BLOCK_TEXTURES:
-        if (r->shader->numbered) {
+        if (r->shader->rules.bindings) {
             json_put_number(&r->json, "set", variable->set);
             json_put_number(&r->json, "binding", variable->binding);
         }
         break;
     default:
-        if (r->shader->numbered)
+        if (r->shader->rules.bindings)
             json_put_number(&r->json, "location", variable->location);
     }
 }
@@ -190,7 +190,7 @@ static void put_block(struct reflect *r, enum shader_block block)
     json_open(&r->json, '{');
     json_put_text(&r->json, "name", shader_block_name(block));
     if (buffer->size) {
-        if (shader->numbered) {
+        if (shader->rules.bindings) {
             json_put_number(&r->json, "set", buffer->set);
             json_put_number(&r->json, "binding", buffer->binding);
         }

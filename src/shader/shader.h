@@ -10,8 +10,9 @@
 #define MXG_SHADER_SHADER_H
 
 #include "ir/ir.h"
-#include "lang/lang.h"
+#include "print/print.h"
 #include "shader/names.h"
+#include "tree/reach.h"
 
 /* Blocks of the ShaderX convention; docs/reflection.md describes their contents. */
 enum shader_block {
@@ -186,6 +187,17 @@ struct shader_buffer {
     uint32_t stride; /* distance between lights in LightData */
 };
 
+/* The needs of a target, from its table and the options. */
+struct shader_layout_rules {
+    bool blocks;         /* uniforms stand in std140 blocks */
+    bool bindings;       /* sets and bindings are numbered, locations given */
+    bool neutral_names;  /* public variables are numbered: equal topology, equal names */
+    bool one_stage;      /* there is no vertex stage */
+    bool typed_textures; /* texture() gives one or three channels where no more are wanted */
+    bool names_wholes;   /* parts are taken of variables only: v.x, but not (a + b).x */
+    uint32_t set;        /* descriptor set of everything */
+};
+
 struct shader {
     struct arena *arena;
     struct strpool *strings;
@@ -219,19 +231,13 @@ struct shader {
     uint8_t kind;           /* enum shader_kind */
     /* document type of a shader for a plain value */
     str_id value_type;
-    /* only parts of variables can have names: from the layout rules */
-    bool names_wholes;
     bool transparent; /* by analysis: the alpha output may be below 1 */
     uint8_t alpha;    /* enum shader_alpha */
     bool lit;         /* reads lights or environment */
     bool displaced;   /* the vertex stage moves the surface */
     /* a function for path tracers, without a vertex stage */
     bool scatters;
-    /* uniforms are in blocks, so each read needs an access chain before the load */
-    bool in_blocks;
-    /* for the speller, from shader_finish: by node; 0 between the statement lists */
-    uint32_t *local_of;
-    bool numbered; /* sets, bindings and locations are assigned */
+    struct shader_layout_rules rules; /* of shader_finish */
 };
 
 void shader_init(struct shader *shader, struct arena *arena, struct strpool *strings,
@@ -296,15 +302,6 @@ const char *identifier_from(const char *text, size_t len, struct arena *arena, s
  * removes vertex data that the pixel stage does not read, schedules both stages and lays out the
  * interface. Nothing can be added afterwards.
  */
-struct shader_layout_rules { /* from the target's table and the options */
-    bool blocks;             /* uniforms stand in std140 blocks */
-    bool bindings;           /* sets and bindings are numbered, locations given */
-    bool neutral_names;      /* public variables are numbered: equal topology, equal names */
-    bool one_stage;          /* there is no vertex stage */
-    bool typed_textures;     /* texture() gives one or three channels where no more are wanted */
-    bool names_wholes;       /* parts are taken of variables only: v.x, but not (a + b).x */
-    uint32_t set;            /* descriptor set of everything */
-};
 void shader_finish(struct shader *shader, const struct shader_layout_rules *rules);
 
 /*
@@ -331,7 +328,7 @@ uint32_t std140_size(ir_type_id type, uint16_t array_length);
  * Fills shader->interface from the stages of the variables and, by the rules, offsets, bindings and
  * locations.
  */
-void shader_layout(struct shader *shader, const struct shader_layout_rules *rules);
+void shader_layout(struct shader *shader);
 
 /*
  * schedule.c: decides which nodes become locals, and in which region. Collects the functions of the

@@ -283,7 +283,7 @@ static void init(struct spell *spell)
     spell->user_types =
         ARENA_ARRAY(arena, const char *, unit->base_user_types + unit->user_types.len + 1);
     spell->locals = ARENA_ARRAY(arena, struct spell_name, shader->locals.len + 1);
-    spell->local_of = shader->local_of;
+    spell->local_of = ARENA_ARRAY(arena, uint32_t, shader->graph->nodes.len);
     spell->write_node = spell_node;
     spell->lang_names = (struct lang_names){.user_data = spell,
                                             .function = function_name,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * A target: a table with inheritance and few hooks. Passes lower by capability bits; a back end
- * only spells.
+ * A target: a table with inheritance and a few hooks. Passes lower the graph by capability bits; a
+ * back end only prints.
  */
 #ifndef MXG_SPELL_TARGET_H
 #define MXG_SPELL_TARGET_H
@@ -10,41 +10,48 @@
 #include "shader/network.h"
 
 enum target_caps {
-    /* a vertex stage computes what the pixel stage reads; else shaders read the geometry itself */
+    /* a vertex stage computes the inputs of the pixel stage; otherwise shaders read the geometry */
     CAP_VERTEX_STAGE = 1 << 0,
-    CAP_UNIFORM_BLOCKS = 1 << 1,   /* uniforms must stand in blocks */
-    CAP_BLOCK_OPTION = 1 << 2,     /* uniforms may stand in blocks: --uniform-blocks */
-    CAP_UNIFORM_DEFAULTS = 1 << 3, /* uniforms may have initial values */
+    CAP_UNIFORM_BLOCKS = 1 << 1,   /* uniforms must be in blocks */
+    CAP_BLOCK_OPTION = 1 << 2,     /* uniforms can be in blocks: --uniform-blocks */
+    CAP_UNIFORM_DEFAULTS = 1 << 3, /* uniforms can have initial values */
     CAP_BINDINGS = 1 << 4,         /* layout(binding) and locations */
-    CAP_BLOCK_STAGE_IO = 1 << 5,   /* stage inputs and outputs may stand in an interface block */
+    CAP_BLOCK_STAGE_IO = 1 << 5,   /* stage inputs and outputs can be in an interface block */
     CAP_PRECISION = 1 << 6,        /* needs default precision statements */
     CAP_OVERLOADS = 1 << 7,        /* functions may be overloaded */
     CAP_BITWISE = 1 << 8,          /* unsigned integers and bit operators */
     CAP_IMPLICIT_LOD = 1 << 9,     /* texture() in pixel stages */
     CAP_STRINGS = 1 << 10,         /* the language has strings */
-    /* the tiles of an image are layers of one texture; else its host, or texture(), finds them */
+    /* the tiles of an image are array layers; otherwise the host or texture() selects the tile */
     CAP_TEXTURE_ARRAYS = 1 << 11,
-    CAP_NAMED_WHOLES = 1 << 12, /* parts are taken of variables only: v.x, but not (a + b).x */
-    /* texture() gives as many channels as are wanted: one, three or four */
+    CAP_NAMED_WHOLES = 1 << 12, /* only variables have parts: v.x, but not (a + b).x */
+    /* texture() returns the required number of channels: one, three or four */
     CAP_TYPED_TEXTURES = 1 << 13,
-    CAP_MISSING_COLORS = 1 << 14, /* texture() is told what to give where there is no image */
-    /* texture() is told address modes and filters, but no borders of a colour; else samplers are */
+    /* texture() takes the default of a missing image as an argument */
+    CAP_MISSING_COLORS = 1 << 14,
+    /*
+     * texture() takes address modes and filters, but no border colours; otherwise samplers have
+     * them
+     */
     CAP_READS_SAY_MODES = 1 << 15,
-    /* each shader has a scope of its own for its parameters: names need no node in front */
+    /* each shader has its own scope of parameters, so names need no prefix */
     CAP_SCOPED_PARAMETERS = 1 << 16,
-    /* tangents follow the coordinates of their index; else, as in MaterialX, the first */
+    /*
+     * a tangent belongs to the texture coordinates of its index; otherwise to the first ones, as in
+     * MaterialX
+     */
     CAP_INDEXED_TANGENTS = 1 << 17,
     CAP_SETS = 1 << 18, /* with CAP_BINDINGS: layout(set, binding) */
 };
 
 struct spell; /* spell/spell.h */
 
-/* Of a language with closures: the renderer knows lights, layers and weights. */
+/* For a language with closures: the renderer handles lights, layers and weights. */
 struct target_closures {
     /*
-     * Writes the effects for a root of any type, in the place of closure_emit. False where the type
-     * has no meaning, or where a leaf has no closure in the language: *out_unknown is its family
-     * then, else it stays.
+     * Replaces closure_emit: writes the effects for a root of any type. false if the type has no
+     * meaning, or if the language has no closure for a leaf; *out_unknown is then the family of the
+     * leaf, otherwise unchanged.
      */
     bool (*emit)(struct shader *shader, const struct closure_host *host, ir_ref root,
                  str_id *out_unknown);
@@ -52,42 +59,42 @@ struct target_closures {
 
 struct reflect; /* shader/reflect.h */
 
-/* Of a language whose hosts put a shader together of one per node: option `network`. */
+/* For a language whose hosts combine one shader per node: option `network`. */
 struct target_network {
-    /* Decides by network->results what the program is, and which nodes it needs. */
+    /* Decides the kind of program and the required nodes, from network->results. */
     void (*plan)(struct network *network);
     /*
-     * The effects of one node's shader, whose outputs have these names: closures and shaders of any
+     * The effects of one node's shader, whose outputs have these names. Closures and shaders of any
      * kind are closures, those of other layers are uniforms, and a displacement is the offset.
-     * False as target_closures.emit.
+     * false as for target_closures.emit.
      */
     bool (*emit_node)(struct shader *shader, const struct closure_host *host,
                       const struct network_output *outputs, unsigned n, str_id *out_unknown);
-    /* Adds the shaders that are of no node, once those of nodes stand. */
+    /* Adds the shaders that do not belong to a node, after the shaders of nodes. */
     void (*add_parts)(struct network *network);
-    /* The text of a stage; nothing: there is no such stage. */
+    /* The text of a stage; empty: there is no such stage. */
     void (*write)(const struct network *network, enum shader_stage_id stage, struct text *out);
-    uint64_t (*topology)(const struct network *network); /* of everything but values */
-    /* Keys of the object at hand (docs/reflection.md). */
+    uint64_t (*topology)(const struct network *network); /* hash without values */
+    /* Writes keys of the current object (docs/reflection.md). */
     void (*reflect)(const struct network *network, struct reflect *r);
 };
 
 struct target {
     const char *name;           /* "glsl": --target */
-    const char *materialx_name; /* "genglsl": target of implementations */
-    const struct target *base;  /* hooks and rows absent here come from there */
+    const char *materialx_name; /* "genglsl": the target of implementations */
+    const struct target *base;  /* provides missing hooks and rows */
     const char *brief;          /* one line for --help and introspection */
     uint32_t caps;
-    /* values of the option `version`, first is the default; "#version" is written with it */
+    /* values of the option `version`, the default first; "#version" takes it */
     const char *const *versions;
     const struct lang_syntax *syntax;
-    const struct target_closures *closures; /* NULL: the language has none */
-    const struct target_network *network;   /* NULL: shaders of the target are whole */
-    const char *position; /* what the vertex stage writes the position to; NULL: gl_Position */
-    const char *stage_suffix[NUM_STAGES]; /* "vert", "frag"; file endings */
+    const struct target_closures *closures; /* NULL: no closures */
+    const struct target_network *network;   /* NULL: no networks */
+    const char *position;                   /* variable of the vertex position; NULL: gl_Position */
+    const char *stage_suffix[NUM_STAGES];   /* file endings: "vert", "frag" */
     /*
-     * The type of a node's local, or of each result of a call, where it does not follow from the
-     * IR's type; may be NULL, and return it.
+     * The type of a node's local, or of each result of a call, if it differs from the IR's type.
+     * May be NULL, and may return NULL for the IR's type.
      */
     const char *(*node_type)(const struct spell *spell, ir_ref ref);
     /* Writes one stage. NULL: from base; the C-like targets share spell_stage. */
@@ -96,44 +103,49 @@ struct target {
 
 /* generators/generators.c: every target, NULL-terminated. */
 extern const struct target *const targets[];
-const struct target *target_find(const char *name); /* by name or MaterialX name; NULL */
-/* True where `target` is `name` or inherits it by MaterialX name ("essl" inherits "genglsl"). */
+const struct target *target_find(const char *name); /* by name or MaterialX name; NULL: unknown */
+/*
+ * True if `target` is `name` or inherits from it, by MaterialX name ("essl" inherits from
+ * "genglsl").
+ */
 bool target_is_a(const struct target *target, const char *materialx_name);
 
-/* Can the target write an op? */
+/* Support of a target for an op. */
 enum spell_support {
-    SPELL_NO, /* documents that need it cannot be generated */
-    /* gone before spelling: closures become sums, strings are compared at compile time */
+    SPELL_NO, /* a document with this op is an error */
+    /* lowered before spelling: closures become sums, string comparisons become constants */
     SPELL_LOWERED,
     SPELL_YES,
 };
 enum spell_support spell_support(const struct target *target, enum ir_op op);
 
 struct spell_options {
-    const char *version;    /* of the target; NULL = default */
+    const char *version;    /* of the language; NULL: the default */
     const char *generator;  /* for the first comment: "mxgen 0.1" */
     const char *interface;  /* "complete", "authored", "reduced" */
-    const char *colorspace; /* the working space */
-    /* of parameters: 0 none, 1 what user interfaces need, 2 with their documentation */
+    const char *colorspace; /* working colour space */
+    /* metadata of parameters: 0 none, 1 for user interfaces, 2 with documentation */
     int metadata;
     bool uniform_blocks;
     bool neutral_names;
-    const char *shader_name; /* no other function or shader has it; NULL: from the element's path */
-    bool comments;           /* paths as comments */
+    const char *shader_name; /* unique among functions and shaders; NULL: from the element's path */
+    bool comments;           /* write element paths as comments */
     void *user_data;
-    /* The element path that a comment shows for an origin; NULL: none. The function may be NULL. */
+    /* The element path for the comment of an origin; NULL: none. May be NULL. */
     const char *(*path)(void *user_data, uint32_t origin);
-    /* What the document says about a variable for a user interface; may be NULL. */
+    /* The user interface data of a variable; may be NULL. */
     void (*ui)(void *user_data, const struct shader_variable *variable, struct shader_ui *out);
 };
 
-/* Where in the source the text of an origin begins: for mapping compiler messages back. */
+/*
+ * The position in the source at which the text of an origin begins, to map compiler messages back.
+ */
 struct spell_mark {
     size_t at;
     uint32_t origin;
 };
 
-/* Writes one stage's source to `out`; its marks, in order, go to `*out_marks`. */
+/* Writes the source of one stage to `out`, and its marks in order to `*out_marks`. */
 void spell_shader_stage(const struct target *target, const struct spell_options *options,
                         const struct shader *shader, enum shader_stage_id stage,
                         struct arena *scratch, struct text *out, struct spell_mark **out_marks,

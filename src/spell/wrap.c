@@ -13,8 +13,8 @@ enum { MAX_COLUMNS = 120, MIN_COLUMNS = 40, INDENT = 4 };
 struct wrapper {
     const struct spell *spell;
     struct text out;
-    uint32_t next_mark;
-    struct spell_mark *marks;
+    uint32_t next_mark; /* the first mark of the spell that is not in `marks` */
+    VEC(struct spell_mark) marks;
     const char *copied; /* what stands in front of this is in `out` */
 };
 
@@ -83,10 +83,23 @@ static void copy(struct wrapper *w, const char *to)
         if (at >= (size_t)(to - base))
             break;
         /* a mark may stand on the space that went */
-        w->marks[w->next_mark].at = w->out.len + (at > start ? at - start : 0);
+        struct spell_mark mark = {w->out.len + (at > start ? at - start : 0),
+                                  spell->marks.items[w->next_mark].origin};
+        vec_push(spell->scratch, &w->marks, mark);
     }
     text_mem(&w->out, w->copied, (size_t)(to - w->copied));
     w->copied = to;
+}
+
+/* A line goes on in the next one, which comes from the same origin. */
+static void break_line(struct wrapper *w, size_t line_begin)
+{
+    const struct spell_mark *last = w->marks.len ? &w->marks.items[w->marks.len - 1] : NULL;
+    text_char(&w->out, '\n');
+    if (last && last->at >= line_begin) {
+        struct spell_mark mark = {w->out.len, last->origin};
+        vec_push(w->spell->scratch, &w->marks, mark);
+    }
 }
 
 /* A comment of its own line goes on in the next one, broken at a space. */
@@ -103,7 +116,9 @@ static void wrap_line(struct wrapper *w, const char *line, const char *end)
     size_t indent = 0, column = 0;
     while (line + indent < end && line[indent] == ' ')
         indent++;
+    copy(w, line);
     const char *from = line;
+    size_t line_begin = w->out.len;
     bool is_comment = end - line > (ptrdiff_t)indent + 2 && memcmp(line + indent, "//", 2) == 0;
     while (column + (size_t)(end - from) > MAX_COLUMNS && line[indent] != '#') {
         const char *at =
@@ -111,7 +126,7 @@ static void wrap_line(struct wrapper *w, const char *line, const char *end)
         if (!at || at <= line + indent)
             break;
         copy(w, at);
-        text_char(&w->out, '\n');
+        break_line(w, line_begin);
         column = is_comment ? indent : indent + INDENT;
         for (size_t i = 0; i < column; i++)
             text_char(&w->out, ' ');
@@ -125,7 +140,7 @@ static void wrap_line(struct wrapper *w, const char *line, const char *end)
 void spell_wrap(struct spell *spell, size_t begin)
 {
     const char *base = spell->out->data, *end = base + spell->out->len;
-    struct wrapper w = {.spell = spell, .marks = spell->marks.items, .copied = base};
+    struct wrapper w = {.spell = spell, .copied = base};
     text_init(&w.out, spell->out->arena);
     text_reserve(&w.out, spell->out->len + spell->out->len / 16);
     const char *kept = base + spell->verbatim_begin, *kept_end = base + spell->verbatim_end;
@@ -139,4 +154,6 @@ void spell_wrap(struct spell *spell, size_t begin)
     }
     copy(&w, end);
     *spell->out = w.out;
+    spell->marks.items = w.marks.items;
+    spell->marks.len = w.marks.len;
 }

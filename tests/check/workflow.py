@@ -46,7 +46,7 @@ class Runner:
             run(inputs, workspace)
 
     def checkout(self, _, workspace):
-        shutil.copytree(self.folder / "tree", workspace, dirs_exist_ok=True)
+        shutil.copytree(self.folder / "shots", workspace, dirs_exist_ok=True)
 
     def cache(self, inputs, workspace):
         """The newest one whose key begins as asked; what is there at the end of the job is kept."""
@@ -104,9 +104,9 @@ def run_workflow(runner, workflow, commit):
 def make_tree(folder):
     """Twenty materials, one with a fault."""
     text = DOCUMENT.read_text(encoding="utf-8")
-    (folder / "tree/materials").mkdir(parents=True)
+    (folder / "shots/materials").mkdir(parents=True)
     for number in range(20):
-        path = folder / f"tree/materials/{number:02}.mtlx"
+        path = folder / f"shots/materials/{number:02}.mtlx"
         path.write_text(text if number != 7 else re.sub(r'value="0\.', 'value="x.', text), encoding="utf-8")
         os.utime(path, (1, 1))
 
@@ -119,7 +119,7 @@ with tempfile.TemporaryDirectory() as work:
     check({"push", "pull_request"} <= set(parsed[True]), "it runs at a push and for a request") # "on" is a truth of YAML 1.1
     actions = Runner(root)
     whole = subprocess.run([MXGEN, "check", "materials", "--target", "glsl,vulkan", "--json", root / "whole.json", "--junit", root / "whole.xml"],
-                           cwd=root / "tree", capture_output=True, text=True, check=False)
+                           cwd=root / "shots", capture_output=True, text=True, check=False)
     check(whole.returncode == 1, "a material has a fault")
     for commit in "first", "second":
         jobs = run_workflow(actions, parsed, commit)

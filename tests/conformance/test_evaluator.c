@@ -10,6 +10,8 @@
 #include "api/generation.h"
 #include "render/scene.h"
 #include "rows.h"
+#include "lower/lower.h"
+#include "tree/eval.h"
 
 #include <stdio.h>
 #include <stdlib.h>

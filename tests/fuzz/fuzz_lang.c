@@ -6,7 +6,12 @@
  */
 #include "fuzz.h"
 
-#include "lang/lang.h"
+#include "lower/lower.h"
+#include "parse/parse.h"
+#include "print/print.h"
+#include "specialise/specialise.h"
+#include "tree/eval.h"
+#include "tree/reach.h"
 
 enum { MAX_STEPS = 20000 };
 

@@ -58,8 +58,10 @@ def reached(page):
 
 FOLDERS = [path.name for path in ROOT.iterdir() if path.is_dir() and not path.name.startswith((".", "build"))]
 ROOMS = [path.name for path in (ROOT / "src").iterdir()]
-# "src/ir/ops.def", "lang/lang.h", "tests/fuzz/regression"; not what stands in another path, an address or a placeholder.
+# "src/ir/ops.def", "tree/tree.h", "tests/fuzz/regression"; not what stands in another path, an address or a placeholder.
 PATH = re.compile(rf"(?<![\w./<>$*{{}}-])((?:{'|'.join(FOLDERS + ROOMS)})/[\w./-]*\w)(?![\w/<>*{{}}…])")
+# A source file in a folder that is there no more.
+OLD_PATH = re.compile(r"(?<![\w./<>$*{}%@\"-])((?:\w+/)+\w+\.(?:c|h|cpp|def|sh|py|md))\b")
 FILE = re.compile(r"(?<![\w./<>$*%@\"-])(\w+\.(?:c|h|def))\b(?!\.)")
 COMMENT = re.compile(r"/\*.*?\*/|//[^\n]*", re.DOTALL)
 TEXTS = (".c", ".h", ".cpp", ".def", ".glsl", ".mtlx", ".py", ".sh", ".build", ".md", ".txt", "")
@@ -85,6 +87,9 @@ def check_references():
         for found in PATH.finditer(text):
             exists = any((place / f"{found[1]}{program}").exists() for place in [*PLACES, path.parent] for program in ("", ".c"))
             check(exists or found[1].startswith("build/"), f"{where}:{text.count(chr(10), 0, found.start()) + 1}: there is no {found[1]}")
+        prose = [text] if path.suffix == ".md" else COMMENT.findall(text) if path.suffix in (".c", ".h", ".cpp", ".def") else []
+        for found in OLD_PATH.findall("\n".join(prose)):
+            check(any((place / found).exists() for place in [*PLACES, path.parent]), f"{where}: there is no {found}")
         if path.suffix in (".c", ".h", ".cpp", ".def"):
             for comment in COMMENT.finditer(text):
                 for name in FILE.findall(comment[0]):

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""script/summary.py: a test that checks nothing is never a success. Also checks the exit code of such tests.
-Arguments: the root of the project, a C compiler."""
+"""script/summary.py: a test that checks nothing is never a success. Also checks the exit code of such tests, and that each test is in one
+suite. Arguments: the root of the project, the build folder, a C compiler."""
 import json
 import pathlib
 import subprocess
@@ -11,7 +11,8 @@ import tempfile
 sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent))
 from checks import check, finish
 
-ROOT, COMPILER = pathlib.Path(sys.argv[1]), sys.argv[2:]
+ROOT, BUILD, COMPILER = pathlib.Path(sys.argv[1]), sys.argv[2], sys.argv[3:]
+SUITES = {"unit", "tree", "golden", "programs", "device", "slow"}
 SKIPPED = 77
 
 
@@ -83,6 +84,14 @@ def check_endings(folder):
     check(got.returncode == SKIPPED and "a tool" in got.stdout, "absent.sh is skipped, with its reason")
 
 
+def check_suites():
+    introspection = subprocess.run(["meson", "introspect", "--tests", BUILD], capture_output=True, text=True, check=True)
+    for test in json.loads(introspection.stdout):
+        suites = {suite.rpartition(":")[2] for suite in test["suite"]}
+        check(len(suites) == 1 and suites <= SUITES, f"{test['name']} is in the suites {suites}")
+
+
+check_suites()
 with tempfile.TemporaryDirectory() as work:
     check_summary(work)
     check_endings(work)

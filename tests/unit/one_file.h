@@ -3,7 +3,12 @@
 #ifndef MXG_TESTS_ONE_FILE_H
 #define MXG_TESTS_ONE_FILE_H
 
-#include "lang/lang.h"
+#include "lower/lower.h"
+#include "parse/parse.h"
+#include "print/print.h"
+#include "specialise/specialise.h"
+#include "tree/eval.h"
+#include "tree/reach.h"
 
 #include <stdio.h>
 

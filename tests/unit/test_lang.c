@@ -3,7 +3,12 @@
  * The back half of the language: printing, reaching, evaluating, specialising and lowering what the
  * parser has read.
  */
-#include "lang/lang.h"
+#include "lower/lower.h"
+#include "parse/parse.h"
+#include "print/print.h"
+#include "specialise/specialise.h"
+#include "tree/eval.h"
+#include "tree/reach.h"
 
 #include "one_file.h"
 #include "test.h"

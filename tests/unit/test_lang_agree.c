@@ -4,7 +4,12 @@
  * arguments bound, the one version of a planned shader, and the IR that a call becomes. They must
  * agree for whatever is bound.
  */
-#include "lang/lang.h"
+#include "lower/lower.h"
+#include "parse/parse.h"
+#include "print/print.h"
+#include "specialise/specialise.h"
+#include "tree/eval.h"
+#include "tree/reach.h"
 
 #include "one_file.h"
 #include "test.h"

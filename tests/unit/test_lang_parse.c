@@ -5,7 +5,12 @@
  *
  *     test_lang_parse [ROUNDS [FILE...]]    more rounds of mutation, and files to mutate
  */
-#include "lang/lang.h"
+#include "lower/lower.h"
+#include "parse/parse.h"
+#include "print/print.h"
+#include "specialise/specialise.h"
+#include "tree/eval.h"
+#include "tree/reach.h"
 
 #include "test.h"
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /* The library room: definitions, what nodes match, what ports are connected to, the image. */
 #include "layers_fixture.h"
+#include "specialise/specialise.h"
+#include "tree/eval.h"
 
 #include <math.h>
 #include <stdlib.h>

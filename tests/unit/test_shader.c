@@ -43,8 +43,8 @@ static void test_std140(void)
                                     .stages = 1 << STAGE_PIXEL};
         shader_add_variable(&f.shader, &v);
     }
-    shader_layout(&f.shader,
-                  &(struct shader_layout_rules){.blocks = true, .bindings = true, .set = 2});
+    f.shader.rules = (struct shader_layout_rules){.blocks = true, .bindings = true, .set = 2};
+    shader_layout(&f.shader);
     for (size_t i = 0; i < sizeof member_cases / sizeof *member_cases; i++) {
         const struct shader_variable *v = &f.shader.variables.items[i];
         REQUIRE_EQ(v->offset, member_cases[i].offset);

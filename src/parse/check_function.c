@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * What bodies use: callees, globals, flags. And an order in which callees come before callers,
+ * which refuses recursion.
+ */
+#include "parse/parse_priv.h"
+
+struct uses {
+    struct parser *p;
+    uint32_t num_nodes;
+    uint16_t flags;
+    VEC(uint32_t) callees, globals;
+};
+
+static bool holds(const uint32_t *ids, uint32_t num, uint32_t id)
+{
+    for (uint32_t i = 0; i < num; i++)
+        if (ids[i] == id)
+            return true;
+    return false;
+}
+
+static void use_op(struct uses *uses, enum ir_op op)
+{
+    if (ir_op_info(op)->flags & OP_DERIVATIVE)
+        uses->flags |= LANG_FN_DERIVATIVE;
+    if (op >= IR_TEX && op <= IR_TEX_FETCH)
+        uses->flags &= (uint16_t)~LANG_FN_PURE;
+}
+
+static void use_node(struct uses *uses, const struct lang_node *node)
+{
+    struct arena *arena = uses->p->unit->arena;
+    switch ((enum lang_kind)node->kind) {
+    case LANG_OP: use_op(uses, (enum ir_op)node->op); break;
+    case LANG_CALL:
+        if (!holds(uses->callees.items, uses->callees.len, node->a))
+            vec_push(arena, &uses->callees, node->a);
+        break;
+    case LANG_GLOBAL:
+        if (!holds(uses->globals.items, uses->globals.len, node->a))
+            vec_push(arena, &uses->globals, node->a);
+        break;
+    case LANG_FOR:
+    case LANG_WHILE:
+    case LANG_DO: uses->flags &= (uint16_t)~LANG_FN_STRAIGHT; break;
+    default: break;
+    }
+}
+
+/* Recursion is bounded: statements and expressions are nested at most PARSE_MAX_DEPTH deep each. */
+static void use_tree(struct uses *uses, lang_ref ref)
+{
+    for (; ref; ref = tree_node(uses->p, ref)->next) {
+        const struct lang_node node = *tree_node(uses->p, ref);
+        uses->num_nodes++;
+        use_node(uses, &node);
+        unsigned fields = lang_child_fields[node.kind];
+        const uint32_t refs[3] = {node.a, node.b, node.c};
+        for (unsigned i = 0; i < 3; i++)
+            if (fields >> i & 1)
+                use_tree(uses, refs[i]);
+    }
+}
+
+static void find_uses(struct uses *uses, struct lang_function *function)
+{
+    struct lang_unit *unit = uses->p->unit;
+    uses->callees.len = uses->globals.len = uses->num_nodes = 0;
+    uses->flags = LANG_FN_PURE | LANG_FN_STRAIGHT;
+    use_tree(uses, function->body);
+    for (unsigned i = 0; i < function->num_params; i++)
+        if (unit->slots.items[function->first_slot + i].type == IR_TYPE_STRING)
+            uses->flags |= LANG_FN_STRINGS;
+    for (uint32_t i = 0; i < uses->globals.len; i++) {
+        uint8_t kind = lang_global(unit, uses->globals.items[i], NULL)->kind;
+        if (kind != LANG_GLOBAL_CONST)
+            uses->flags &= (uint16_t)~LANG_FN_PURE;
+    }
+    function->flags |= uses->flags;
+    function->num_nodes = uses->num_nodes;
+    function->first_callee = unit->refs.len;
+    function->num_callees = uses->callees.len;
+    for (uint32_t i = 0; i < uses->callees.len; i++)
+        vec_push(unit->arena, &unit->refs, uses->callees.items[i]);
+    function->first_global = unit->refs.len;
+    function->num_globals = uses->globals.len;
+    for (uint32_t i = 0; i < uses->globals.len; i++)
+        vec_push(unit->arena, &unit->refs, uses->globals.items[i]);
+}
+
+/* Order */
+
+struct order {
+    struct parser *p;
+    uint32_t first, num;   /* functions of the file */
+    uint32_t *new_id;      /* of each; LANG_NONE: not placed yet */
+    uint32_t *next_callee; /* of each: how far its callees are visited */
+    VEC(uint32_t) stack;   /* functions being visited, by index */
+    uint32_t num_placed;
+};
+
+static struct lang_function *ordered(const struct order *order, uint32_t index)
+{
+    return &order->p->unit->functions.items[order->first - order->p->unit->base_functions + index];
+}
+
+static void refuse_recursion(struct order *order, uint32_t index)
+{
+    struct parser *p = order->p;
+    struct text path;
+    text_init(&path, p->diags->arena);
+    uint32_t i = 0;
+    while (order->stack.items[i] != index)
+        i++;
+    for (; i < order->stack.len; i++)
+        text_fmt(&path, "'%s' calls ", parse_text(p, ordered(order, order->stack.items[i])->name));
+    text_fmt(&path, "'%s'", parse_text(p, ordered(order, index)->name));
+    PARSE_ERROR(p, parse_where_function(p, ordered(order, index)), lang_recursion,
+                text_cstr(&path));
+}
+
+/* Goes on with the function on top of the stack: into a callee that is not placed, or places it. */
+static bool visit_top(struct order *order)
+{
+    const struct lang_unit *unit = order->p->unit;
+    uint32_t top = vec_last(&order->stack);
+    const struct lang_function *function = ordered(order, top);
+    while (order->next_callee[top] < function->num_callees) {
+        uint32_t callee =
+            unit->refs.items[function->first_callee + order->next_callee[top]++] - order->first;
+        bool own = callee < order->num; /* of a file below: wraps to a large number */
+        if (!own || order->new_id[callee] != LANG_NONE)
+            continue;
+        if (holds(order->stack.items, order->stack.len, callee)) {
+            refuse_recursion(order, callee);
+            return false;
+        }
+        vec_push(unit->arena, &order->stack, callee);
+        return true;
+    }
+    order->new_id[top] = order->first + order->num_placed++;
+    order->stack.len--;
+    return true;
+}
+
+static bool find_order(struct order *order)
+{
+    for (uint32_t i = 0; i < order->num; i++) {
+        if (order->new_id[i] != LANG_NONE)
+            continue;
+        vec_push(order->p->unit->arena, &order->stack, i);
+        while (order->stack.len)
+            if (!visit_top(order))
+                return false;
+    }
+    return true;
+}
+
+static uint32_t renamed(const struct order *order, uint32_t id)
+{
+    return id >= order->first && id - order->first < order->num ? order->new_id[id - order->first]
+                                                                : id;
+}
+
+static void apply_order(struct order *order)
+{
+    struct lang_unit *unit = order->p->unit;
+    struct lang_function *sorted = ARENA_ARRAY(unit->arena, struct lang_function, order->num);
+    for (uint32_t i = 0; i < order->num; i++) {
+        struct lang_function *function = ordered(order, i);
+        for (uint32_t k = 0; k < function->num_callees; k++)
+            unit->refs.items[function->first_callee + k] =
+                renamed(order, unit->refs.items[function->first_callee + k]);
+        sorted[order->new_id[i] - order->first] = *function;
+    }
+    if (order->num)
+        memcpy(ordered(order, 0), sorted, order->num * sizeof *sorted);
+    for (uint32_t i = order->p->first_node; i < unit->nodes.len; i++)
+        if (unit->nodes.items[i].kind == LANG_CALL)
+            unit->nodes.items[i].a = renamed(order, unit->nodes.items[i].a);
+}
+
+static bool order_functions(struct parser *p, uint32_t first, uint32_t num)
+{
+    struct order order = {.p = p, .first = first, .num = num};
+    order.new_id = ARENA_ARRAY(p->unit->arena, uint32_t, num);
+    order.next_callee = ARENA_ARRAY(p->unit->arena, uint32_t, num);
+    for (uint32_t i = 0; i < num; i++)
+        order.new_id[i] = LANG_NONE;
+    if (!find_order(&order))
+        return false;
+    apply_order(&order);
+    return true;
+}
+
+/* Flags of callees come before those of callers. */
+static void inherit_flags(const struct lang_unit *unit, struct lang_function *function)
+{
+    const uint16_t all_of = LANG_FN_PURE | LANG_FN_STRAIGHT, any_of = LANG_FN_DERIVATIVE;
+    for (uint32_t i = 0; i < function->num_callees; i++) {
+        uint16_t flags =
+            lang_function(unit, unit->refs.items[function->first_callee + i], NULL)->flags;
+        function->flags &= (uint16_t)(flags | ~all_of);
+        function->flags |= flags & any_of;
+    }
+}
+
+bool check_finish_functions(struct parser *p, uint32_t first_function)
+{
+    struct lang_unit *unit = p->unit;
+    uint32_t first = first_function - unit->base_functions, num = unit->functions.len - first;
+    struct uses uses = {.p = p};
+    for (uint32_t i = 0; i < num; i++) {
+        struct lang_function *function = &unit->functions.items[first + i];
+        if (!function->body)
+            PARSE_TYPE_ERROR(p, function->place, "'%s' is declared here but nowhere defined",
+                             parse_text(p, function->name));
+        find_uses(&uses, function);
+    }
+    if (p->num_errors || !order_functions(p, first_function, num))
+        return false;
+    for (uint32_t i = 0; i < num; i++)
+        inherit_flags(unit, &unit->functions.items[first + i]);
+    return true;
+}

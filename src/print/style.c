@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * A syntax made ready for printing: what would be looked up and taken apart again for each word is
+ * looked up once.
+ */
+#include "print/print.h"
+
+#include <assert.h>
+
+void lang_style_init(struct lang_style *style, const struct lang_syntax *syntax,
+                     struct arena *arena)
+{
+    *style =
+        (struct lang_style){.syntax = syntax, .arena = arena, .from_images = syntax->in_images};
+    for (ir_type_id type = 0; type < IR_NUM_TYPES; type++) {
+        const char *name = lang_syntax_type(syntax, type);
+        style->types[type] = (struct text_word){name, strlen(name)};
+    }
+}
+
+/* Precedence an operand needs, by what stands around it in the form. */
+static enum lang_precedence operand_precedence(const struct lang_form *form, unsigned index,
+                                               char before, char after)
+{
+    enum lang_precedence own = (enum lang_precedence)form->precedence;
+    if (form->infix)
+        return index == 0 ? own : own + 1;
+    bool opens = before == '(' || before == '[' || before == ',' || before == '{';
+    bool closes = after == ')' || after == ']' || after == ',' || after == '}';
+    if (opens && closes)
+        return LANG_PREC_ASSIGN;
+    if (own == LANG_PREC_TERNARY)
+        return index == 0 ? LANG_PREC_LOR : LANG_PREC_TERNARY;
+    return LANG_PREC_POSTFIX;
+}
+
+/*
+ * Compilers of some languages would fill a vector when the shader runs. Products have an operation
+ * of their own for a scalar.
+ */
+static bool spreads_constants(const struct lang_syntax *syntax, enum ir_op op)
+{
+    uint8_t rule = ir_op_info(op)->rule;
+    bool fits = rule == IR_RULE_SPLAT || (rule == IR_RULE_ARITH && op != IR_MUL);
+    return fits && syntax->wide_constants && op != IR_REFRACT;
+}
+
+void lang_form_split(const struct lang_form *form, struct lang_pieces *split)
+{
+    split->text = form ? form->text : NULL;
+    split->num = 0;
+    split->spreads = false;
+    if (!split->text)
+        return;
+    split->precedence = form->precedence;
+    split->infix = form->infix;
+    const char *from = form->text, *p = from;
+    for (; *p; p++) {
+        if (*p != '$')
+            continue;
+        assert(split->num < LANG_MAX_PIECES);
+        char before = p == form->text ? '\0' : p[-1] == ' ' ? p[-2] : p[-1];
+        unsigned index = (unsigned)(p[1] - '0');
+        split->pieces[split->num++] = (struct lang_piece){
+            .before = {from, (size_t)(p - from)},
+            .index = p[1] == 'T' ? LANG_PIECE_TYPE : (uint8_t)index,
+            .least = p[1] == 'T' ? 0 : (uint8_t)operand_precedence(form, index, before, p[2]),
+        };
+        from = p + 2;
+        p++;
+    }
+    split->rest = (struct text_word){from, (size_t)(p - from)};
+}
+
+const struct lang_pieces *lang_style_split(struct lang_style *style, enum ir_op op)
+{
+    struct lang_pieces *split = style->forms[op] = arena_alloc(style->arena, sizeof *split);
+    lang_form_split(lang_syntax_form(style->syntax, op), split);
+    split->spreads = split->text && spreads_constants(style->syntax, op);
+    return split;
+}

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * The portable language's own spelling, which is also GLSL's, and look-ups through a chain of
+ * syntax tables.
+ */
+#include "print/print.h"
+
+#include <assert.h>
+
+#define PREFIX(op, text) [IR_##op] = {text "$0", LANG_PREC_UNARY, false}
+#define INFIX(op, text, level) [IR_##op] = {"$0 " text " $1", LANG_PREC_##level, true}
+#define CALL1(op, text) [IR_##op] = {text "($0)", LANG_PREC_POSTFIX, false}
+#define CALL2(op, text) [IR_##op] = {text "($0, $1)", LANG_PREC_POSTFIX, false}
+#define CALL3(op, text) [IR_##op] = {text "($0, $1, $2)", LANG_PREC_POSTFIX, false}
+#define CALL4(op, text) [IR_##op] = {text "($0, $1, $2, $3)", LANG_PREC_POSTFIX, false}
+
+/* Related operations stand on one line. */
+// clang-format off
+static const struct lang_form forms[IR_NUM_OPS] = {
+    PREFIX(NEG, "-"), PREFIX(NOT, "!"), PREFIX(BITNOT, "~"),
+    INFIX(ADD, "+", SUM), INFIX(SUB, "-", SUM),
+    INFIX(MUL, "*", PRODUCT), INFIX(DIV, "/", PRODUCT), INFIX(REM, "%", PRODUCT),
+    INFIX(SHL, "<<", SHIFT), INFIX(SHR, ">>", SHIFT),
+    INFIX(AND, "&", AND), INFIX(OR, "|", OR), INFIX(XOR, "^", XOR),
+    INFIX(LT, "<", COMPARE), INFIX(LE, "<=", COMPARE), INFIX(GT, ">", COMPARE), INFIX(GE, ">=", COMPARE),
+    INFIX(EQ, "==", EQUAL), INFIX(NE, "!=", EQUAL),
+    INFIX(LAND, "&&", LAND), INFIX(LOR, "||", LOR), INFIX(LXOR, "^^", LXOR),
+    [IR_SELECT] = {"$0 ? $1 : $2", LANG_PREC_TERNARY, false},
+    [IR_CONVERT] = {"$T($0)", LANG_PREC_POSTFIX, false},
+    [IR_INDEX] = {"$0[$1]", LANG_PREC_POSTFIX, false},
+    CALL1(RADIANS, "radians"), CALL1(DEGREES, "degrees"),
+    CALL1(SIN, "sin"), CALL1(COS, "cos"), CALL1(TAN, "tan"),
+    CALL1(ASIN, "asin"), CALL1(ACOS, "acos"), CALL1(ATAN, "atan"), CALL2(ATAN2, "atan"),
+    CALL1(SINH, "sinh"), CALL1(COSH, "cosh"), CALL1(TANH, "tanh"),
+    CALL1(ASINH, "asinh"), CALL1(ACOSH, "acosh"), CALL1(ATANH, "atanh"),
+    CALL2(POW, "pow"), CALL1(EXP, "exp"), CALL1(LOG, "log"), CALL1(EXP2, "exp2"), CALL1(LOG2, "log2"),
+    CALL1(SQRT, "sqrt"), CALL1(RSQRT, "inversesqrt"),
+    CALL1(ABS, "abs"), CALL1(SIGN, "sign"), CALL1(FLOOR, "floor"), CALL1(TRUNC, "trunc"), CALL1(ROUND, "round"),
+    CALL1(CEIL, "ceil"), CALL1(FRACT, "fract"), CALL2(MOD, "mod"),
+    CALL2(MIN, "min"), CALL2(MAX, "max"), CALL3(CLAMP, "clamp"), CALL3(MIX, "mix"), CALL2(STEP, "step"),
+    CALL3(SMOOTHSTEP, "smoothstep"), CALL1(ISNAN, "isnan"), CALL1(ISINF, "isinf"),
+    CALL1(LENGTH, "length"), CALL2(DISTANCE, "distance"), CALL2(DOT, "dot"), CALL2(CROSS, "cross"),
+    CALL1(NORMALIZE, "normalize"), CALL3(FACEFORWARD, "faceforward"), CALL2(REFLECT, "reflect"),
+    CALL3(REFRACT, "refract"),
+    CALL2(MATCOMPMULT, "matrixCompMult"), CALL1(TRANSPOSE, "transpose"), CALL1(DETERMINANT, "determinant"),
+    CALL1(INVERSE, "inverse"),
+    CALL1(FLOAT_TO_INT_BITS, "floatBitsToInt"), CALL1(FLOAT_TO_UINT_BITS, "floatBitsToUint"),
+    CALL1(INT_BITS_TO_FLOAT, "intBitsToFloat"), CALL1(UINT_BITS_TO_FLOAT, "uintBitsToFloat"),
+    CALL1(DFDX, "dFdx"), CALL1(DFDY, "dFdy"), CALL1(FWIDTH, "fwidth"),
+    CALL2(TEX, "texture"), CALL3(TEX_LOD, "textureLod"), CALL4(TEX_GRAD, "textureGrad"),
+    CALL2(TEX_SIZE, "textureSize"), CALL3(TEX_FETCH, "texelFetch"),
+};
+// clang-format on
+
+static const char *const type_names[IR_NUM_TYPES] = {
+#define IR_TYPE(ID, text, scalar, components, columns) text,
+#include "ir/types.def"
+#undef IR_TYPE
+};
+
+static const char *const keywords[] = {
+    "bool",    "break", "const",  "continue",  "do",     "else",   "false", "float",
+    "for",     "if",    "in",     "inout",     "int",    "ivec2",  "mat2",  "mat3",
+    "mat4",    "out",   "return", "sampler2D", "string", "struct", "true",  "uint",
+    "uniform", "vec2",  "vec3",   "vec4",      "void",   "while"};
+
+const struct lang_syntax lang_syntax_portable = {
+    .name = "portable",
+    .type_names = type_names,
+    .forms = forms,
+    .reserved = keywords,
+    .num_reserved = sizeof keywords / sizeof *keywords,
+    .param_in = "",
+    .param_in_assigned = "",
+    .param_out = "out ",
+    .param_inout = "inout ",
+};
+
+const struct lang_form *lang_syntax_form(const struct lang_syntax *syntax, enum ir_op op)
+{
+    const struct lang_form *form = NULL;
+    for (; syntax; syntax = syntax->base) {
+        if (!syntax->forms)
+            continue;
+        form = &syntax->forms[op];
+        if (form->text)
+            break;
+    }
+    return form;
+}
+
+const char *lang_syntax_type(const struct lang_syntax *syntax, ir_type_id type)
+{
+    assert(type < IR_NUM_TYPES);
+    for (; syntax; syntax = syntax->base)
+        if (syntax->type_names && syntax->type_names[type])
+            return syntax->type_names[type];
+    return ir_type_text(type);
+}
+
+/* A target's list stands for itself: what its base reserves may be free there. */
+bool lang_syntax_is_reserved(const struct lang_syntax *syntax, const char *name, size_t len)
+{
+    while (!syntax->reserved && syntax->base)
+        syntax = syntax->base;
+    for (uint32_t low = 0, high = syntax->num_reserved; low < high;) {
+        uint32_t middle = (low + high) / 2;
+        const char *word = syntax->reserved[middle];
+        int order = (unsigned char)name[0] - (unsigned char)word[0];
+        if (order == 0)
+            order = strncmp(name, word, len);
+        if (order == 0 && word[len] == '\0')
+            return true;
+        if (order <= 0)
+            high = middle;
+        else
+            low = middle + 1;
+    }
+    return false;
+}

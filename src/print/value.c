@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: Apache-2.0
+/* Printing what has no control flow: types, values and the declarations at file scope. */
+#include "print/print_priv.h"
+
+#include <math.h>
+
+const char *print_function_name(const struct lang_names *names, const struct lang_unit *unit,
+                                uint32_t id)
+{
+    const char *name = names && names->function ? names->function(names->user_data, id) : NULL;
+    return name ? name : str_text(unit->strings, lang_function(unit, id, NULL)->name);
+}
+
+const char *print_global_name(const struct lang_names *names, const struct lang_unit *unit,
+                              uint32_t id)
+{
+    const char *name = names && names->global ? names->global(names->user_data, id) : NULL;
+    return name ? name : str_text(unit->strings, lang_global(unit, id, NULL)->name);
+}
+
+const char *print_struct_name(const struct lang_names *names, const struct lang_unit *unit,
+                              ir_type_id type)
+{
+    const char *name = names && names->user_type ? names->user_type(names->user_data, type) : NULL;
+    return name ? name : str_text(unit->strings, lang_user_type(unit, type, NULL)->name);
+}
+
+const char *print_maker(const struct lang_names *names, const struct lang_unit *unit,
+                        ir_type_id type)
+{
+    return names && names->maker
+               ? names->maker(names->user_data, print_struct_name(names, unit, type))
+               : NULL;
+}
+
+void print_base_type(const struct lang_style *style, const struct lang_names *names,
+                     const struct lang_unit *unit, ir_type_id type, struct text *out)
+{
+    while (ast_is_user_type(type) && lang_user_type(unit, type, NULL)->array_length)
+        type = lang_user_type(unit, type, NULL)->element;
+    if (ast_is_user_type(type))
+        text_str(out, print_struct_name(names, unit, type));
+    else
+        print_type_name(style, names, type, out);
+}
+
+void print_lengths(const struct lang_unit *unit, ir_type_id type, struct text *out)
+{
+    while (ast_is_user_type(type)) {
+        const struct ir_user_type *user = lang_user_type(unit, type, NULL);
+        if (!user->array_length)
+            return;
+        text_char(out, '[');
+        text_u32(out, user->array_length);
+        text_char(out, ']');
+        type = user->element;
+    }
+}
+
+void lang_print_type(const struct lang_style *style, const struct lang_names *names,
+                     const struct lang_unit *unit, ir_type_id type, struct text *out)
+{
+    print_base_type(style, names, unit, type, out);
+    print_lengths(unit, type, out);
+}
+
+void lang_print_variable(const struct lang_style *style, const struct lang_names *names,
+                         const struct lang_unit *unit, ir_type_id type, const char *name,
+                         struct text *out)
+{
+    print_base_type(style, names, unit, type, out);
+    text_char(out, ' ');
+    text_str(out, name);
+    print_lengths(unit, type, out);
+}
+
+enum { SHORT_FLOAT = 7 }; /* characters of a number that cannot be shortened */
+
+/*
+ * A number that folding made may miss a short one by its last bit: 1.0 - 0.8 gives 0.19999999. The
+ * short one is written where it has six digits or less and is no whole number, which a bit may keep
+ * apart from its neighbours on purpose (0.99999994).
+ */
+static float shortened(float f)
+{
+    double scale = 1.0;
+    for (int digits = 5 - (int)floor(log10(fabs((double)f))); digits > 0; digits--)
+        scale *= 10.0;
+    double rounded = round((double)f * scale) / scale;
+    float near = (float)rounded;
+    bool is_neighbour = near == nextafterf(f, near) && near != truncf(near);
+    return is_neighbour && isfinite(near) ? near : f;
+}
+
+static void print_float(const struct lang_syntax *syntax, float f, struct text *out)
+{
+    if (isnan(f) || isinf(f)) { /* no target has literals for these */
+        text_str(out, isnan(f) ? "(0.0 / 0.0)" : f > 0 ? "(1.0 / 0.0)" : "(-1.0 / 0.0)");
+        return;
+    }
+    size_t begin = out->len;
+    text_float(out, f);
+    if (out->len - begin > SHORT_FLOAT) {
+        out->len = begin;
+        text_float(out, shortened(f));
+    }
+    if (syntax->float_literals_need_suffix)
+        text_char(out, 'f');
+}
+
+static void print_scalar(const struct lang_syntax *syntax, ir_type_id type, union ir_word word,
+                         struct text *out)
+{
+    if (syntax->plain_scalars && (type == IR_TYPE_BOOL || type == IR_TYPE_UINT))
+        type = IR_TYPE_INT;
+    switch (type) {
+    case IR_TYPE_BOOL: text_str(out, word.u ? "true" : "false"); break;
+    case IR_TYPE_INT:
+        if (word.i == INT32_MIN) /* its digits alone are out of range */
+            text_str(out, "(-2147483647 - 1)");
+        else
+            text_i32(out, word.i);
+        break;
+    case IR_TYPE_UINT:
+        text_u32(out, word.u);
+        text_char(out, 'u');
+        break;
+    default: print_float(syntax, word.f, out);
+    }
+}
+
+/*
+ * How many scalars a constructor needs to build the value: 1 for a splat or a multiple of the
+ * identity.
+ */
+static unsigned count_needed(const struct ir_type_info *info, const union ir_word *w)
+{
+    unsigned rows = info->components / info->columns;
+    for (unsigned i = 1; i < info->components; i++) {
+        bool on_diagonal = info->columns == 1 || i / rows == i % rows;
+        if (w[i].u != (on_diagonal ? w[0].u : 0u))
+            return info->components;
+    }
+    return 1;
+}
+
+/* A literal with a sign binds less tightly than other ones. */
+static bool has_sign(ir_type_id type, union ir_word word)
+{
+    return type == IR_TYPE_FLOAT ? signbit(word.f) && isfinite(word.f)
+                                 : type == IR_TYPE_INT && word.i < 0 && word.i != INT32_MIN;
+}
+
+void lang_print_value(const struct lang_style *style, const struct strpool *strings,
+                      ir_type_id type, const union ir_word *words, enum lang_precedence least,
+                      struct text *out)
+{
+    const struct ir_type_info *info = ir_type_info(type);
+    if (type == IR_TYPE_STRING) {
+        text_json_string(out, str_text(strings, words->u), str_len(strings, words->u));
+        return;
+    }
+    if (style->syntax->write_value && style->syntax->write_value(style, type, words, out))
+        return;
+    bool parentheses = least > LANG_PREC_UNARY && has_sign(type, *words);
+    unsigned count = 1;
+    if (info->components > 1) {
+        count = count_needed(info, words);
+        text_put(out, style->types[type]);
+        parentheses = true;
+    }
+    if (parentheses)
+        text_char(out, '(');
+    for (unsigned i = 0; i < count; i++) {
+        if (i)
+            text_mem(out, ", ", 2);
+        print_scalar(style->syntax, info->scalar, words[i], out);
+    }
+    if (parentheses)
+        text_char(out, ')');
+}
+
+/* A value of any type but structs from consecutive words; returns the word behind it. */
+static const union ir_word *print_words(const struct lang_style *style,
+                                        const struct lang_unit *unit, ir_type_id type,
+                                        const union ir_word *words, struct text *out)
+{
+    if (!ast_is_user_type(type)) {
+        lang_print_value(style, unit->strings, type, words, LANG_PREC_COMMA, out);
+        return words + ir_type_info(type)->components;
+    }
+    const struct ir_user_type *user = lang_user_type(unit, type, NULL);
+    print_open_array(style, NULL, unit, type, out);
+    for (uint32_t i = 0; i < user->array_length; i++) {
+        if (i)
+            text_mem(out, ", ", 2);
+        words = print_words(style, unit, user->element, words, out);
+    }
+    text_char(out, style->syntax->array_braces ? '}' : ')');
+    return words;
+}
+
+void print_open_array(const struct lang_style *style, const struct lang_names *names,
+                      const struct lang_unit *unit, ir_type_id type, struct text *out)
+{
+    if (!style->syntax->array_braces)
+        lang_print_type(style, names, unit, type, out);
+    text_char(out, style->syntax->array_braces ? '{' : '(');
+}
+
+void lang_print_constant(const struct lang_style *style, const struct lang_names *names,
+                         const struct lang_unit *unit, uint32_t global_id, struct text *out)
+{
+    const struct lang_unit *layer;
+    const struct lang_global *global = lang_global(unit, global_id, &layer);
+    const char *name = print_global_name(names, unit, global_id);
+    bool is_local = style->syntax->defines_constants && ast_is_user_type(global->type);
+    bool defines = style->syntax->defines_constants && !is_local;
+    text_str(out, defines ? "#define " : is_local ? "" : "const ");
+    if (defines)
+        text_str(out, name);
+    else
+        lang_print_variable(style, names, unit, global->type, name, out);
+    text_str(out, defines ? " " : " = ");
+    print_words(style, unit, global->type, layer->words.items + global->words, out);
+    text_str(out, defines ? "\n" : ";\n");
+}
+
+void lang_print_struct(const struct lang_style *style, const struct lang_names *names,
+                       const struct lang_unit *unit, ir_type_id type, struct text *out)
+{
+    const struct lang_unit *layer;
+    const struct ir_user_type *user = lang_user_type(unit, type, &layer);
+    text_str(out, "struct ");
+    text_str(out, print_struct_name(names, unit, type));
+    text_str(out, " {\n");
+    for (uint32_t i = 0; i < user->num_members; i++) {
+        const struct ir_member *member = &layer->members.items[user->first_member + i];
+        text_str(out, "    ");
+        lang_print_variable(style, names, unit, member->type, str_text(unit->strings, member->name),
+                            out);
+        text_str(out, ";\n");
+    }
+    text_str(out, "};\n");
+}

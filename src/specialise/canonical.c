@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * What specialising does to a function where nothing is known of its arguments is the same in every
+ * shader. It is done once, when a library is packed: trees are replaced by those of the versions
+ * (plan.c), so that a generation can take them as they are.
+ *
+ * Functions keep their ids and parameters. All arrays that trees refer to are written anew, without
+ * what has been dropped.
+ */
+#include "base/hash.h"
+#include "specialise/spec.h"
+
+struct copier {
+    const struct lang_unit *from; /* of the tree being copied */
+    struct lang_unit *to;
+    const struct lang_unit *made; /* the layer of the versions */
+    VEC(lang_ref) calls;          /* of the function, arguments before the call that they are for */
+    uint8_t *is_used;             /* by slot */
+    /* open addressing: 1 + a function, of each distinct run of slots */
+    struct table runs;
+    uint32_t num_effects; /* calls so far that assign to their arguments */
+    bool is_simple;       /* no call has arguments with effects, or very many */
+};
+
+static lang_ref copy_list(struct copier *c, lang_ref first);
+
+static uint32_t copy_words(struct copier *c, const struct lang_unit *from, uint32_t first,
+                           uint32_t count)
+{
+    uint32_t at = c->to->words.len;
+    if (count)
+        memcpy(vec_extend(c->to->arena, &c->to->words, count), from->words.items + first,
+               count * sizeof(union ir_word));
+    return at;
+}
+
+static bool has_outputs(const struct copier *c, uint32_t function)
+{
+    const struct lang_unit *layer;
+    const struct lang_function *fn = lang_function(c->made, function, &layer);
+    for (uint32_t i = 0; i < fn->num_params; i++)
+        if (ast_slot(layer, fn, i)->mode != LANG_IN)
+            return true;
+    return false;
+}
+
+static uint32_t given_function(const struct copier *c, uint32_t id)
+{
+    if (id < c->made->base_functions)
+        return id;
+    id -= c->made->base_functions;
+    return c->made->versions.items[id].origin;
+}
+
+static void copy_call(struct copier *c, struct lang_node *node)
+{
+    uint32_t num_effects = c->num_effects;
+    node->b = copy_list(c, node->b);
+    c->is_simple &= c->num_effects == num_effects
+                    && lang_function(c->made, node->a, NULL)->num_params <= SPEC_MAX_PARAMS;
+    c->num_effects += has_outputs(c, node->a);
+    node->a = given_function(c, node->a);
+}
+
+static lang_ref copy_node(struct copier *c, lang_ref ref)
+{
+    if (!ref)
+        return 0;
+    struct lang_node node = *ast_node(c->from, ref);
+    node.next = 0;
+    switch (node.kind) {
+    case LANG_CONST:
+        node.a = copy_words(c, c->from, node.a, ir_type_info(node.type)->components);
+        node.c = 0;
+        break;
+    case LANG_VAR: c->is_used[node.a] = true; break;
+    case LANG_OP: node.a = copy_list(c, node.a); break;
+    case LANG_BLOCK:
+        node.a = copy_list(c, node.a);
+        node.b = copy_list(c, node.b);
+        break;
+    case LANG_CALL: copy_call(c, &node); break;
+    case LANG_DECLARE: node.b = copy_node(c, node.b); break;
+    case LANG_ASSIGN:
+        node.a = copy_node(c, node.a);
+        node.b = copy_node(c, node.b);
+        node.c = 0;
+        break;
+    case LANG_EXPR:
+    case LANG_RETURN: node.a = copy_node(c, node.a); break;
+    case LANG_IF:
+        node.a = copy_node(c, node.a);
+        node.b = copy_node(c, node.b);
+        node.c = copy_node(c, node.c);
+        break;
+    case LANG_FOR:
+    case LANG_WHILE:
+    case LANG_DO:
+        node.a = copy_list(c, node.a);
+        node.b = copy_node(c, node.b);
+        node.c = copy_node(c, node.c);
+        break;
+    default: break;
+    }
+    lang_ref copy = c->to->nodes.len;
+    vec_push(c->to->arena, &c->to->nodes, node);
+    if (node.kind == LANG_CALL)
+        vec_push(c->to->arena, &c->calls, copy);
+    return copy;
+}
+
+static lang_ref copy_list(struct copier *c, lang_ref first)
+{
+    lang_ref copy = 0, last = 0;
+    for (lang_ref ref = first; ref; ref = ast_node(c->from, ref)->next) {
+        lang_ref item = copy_node(c, ref);
+        if (last)
+            c->to->nodes.items[last].next = item;
+        else
+            copy = item;
+        last = item;
+    }
+    return copy;
+}
+
+static uint32_t copy_refs(struct copier *c, const struct lang_unit *from, uint32_t first,
+                          uint32_t count, bool are_functions)
+{
+    uint32_t at = c->to->refs.len;
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t id = from->refs.items[first + i];
+        vec_push(c->to->arena, &c->to->refs, are_functions ? given_function(c, id) : id);
+    }
+    return at;
+}
+
+static bool reads_option(const struct copier *c, const struct lang_function *fn)
+{
+    for (uint32_t i = 0; i < fn->num_globals; i++)
+        if (lang_global(c->made, c->to->refs.items[fn->first_global + i], NULL)->kind
+            == LANG_GLOBAL_OPTION)
+            return true;
+    return false;
+}
+
+/*
+ * A function whose tree is what a generation would make of it, as long as it knows nothing of the
+ * arguments and callees.
+ */
+static bool is_final(const struct copier *c, const struct lang_function *fn)
+{
+    if (fn->flags & LANG_FN_EXPRESSION || !c->is_simple || reads_option(c, fn))
+        return false;
+    for (uint32_t i = 0; i < fn->num_params; i++)
+        if (!c->is_used[i] && ast_slot(c->to, fn, i)->mode == LANG_IN)
+            return false;
+    return true;
+}
+
+/* Equal runs of slots are one: expressions of many nodes have inputs of equal names and types. */
+static uint32_t copy_slots(struct copier *c, const struct lang_function *fn)
+{
+    const struct lang_slot *slots = ast_slot(c->from, fn, 0);
+    uint32_t hash = hash_bytes(slots, fn->num_slots * sizeof *slots);
+    for (uint32_t at = hash, found; (found = table_next(&c->runs, hash, &at));) {
+        const struct lang_function *other = &c->to->functions.items[found - 1];
+        if (other->num_slots == fn->num_slots
+            && memcmp(ast_slot(c->to, other, 0), slots, fn->num_slots * sizeof *slots) == 0)
+            return other->first_slot;
+    }
+    /* the number of the function that this one becomes, + 1 */
+    table_add(&c->runs, c->to->arena, hash, c->to->functions.len + 1);
+    uint32_t first = c->to->slots.len;
+    memcpy(vec_extend(c->to->arena, &c->to->slots, fn->num_slots), slots,
+           fn->num_slots * sizeof *slots);
+    return first;
+}
+
+static struct lang_function copy_version(struct copier *c, uint32_t version)
+{
+    struct lang_function fn = *lang_function(c->made, version, &c->from);
+    c->calls.len = 0;
+    c->is_simple = true;
+    c->is_used = arena_zalloc(c->to->arena, fn.num_slots);
+    fn.body = copy_node(c, fn.body);
+    fn.first_slot = fn.num_slots ? copy_slots(c, &fn) : 0;
+    fn.first_callee = copy_refs(c, c->from, fn.first_callee, fn.num_callees, true);
+    fn.first_global = copy_refs(c, c->from, fn.first_global, fn.num_globals, false);
+    return fn;
+}
+
+static struct lang_function copy_function(struct copier *c, uint32_t id, uint32_t version)
+{
+    struct lang_function fn = copy_version(c, version);
+    fn.num_calls = c->calls.len;
+    fn.first_call = c->to->refs.len;
+    for (uint32_t i = 0; i < c->calls.len; i++)
+        vec_push(c->to->arena, &c->to->refs, c->calls.items[i]);
+    fn.flags |= lang_function(c->made, id, NULL)->flags & LANG_FN_STRINGS;
+    if (is_final(c, &fn))
+        fn.flags |= LANG_FN_FINAL;
+    return fn;
+}
+
+/*
+ * Each function's version where nothing is known and no parameter may go. Inline expressions are
+ * always seen through.
+ */
+static uint32_t *make_versions(struct lang_unit *made, uint32_t first, uint32_t count)
+{
+    uint32_t *versions = ARENA_ARRAY(made->arena, uint32_t, count);
+    for (uint32_t i = 0; i < count; i++) {
+        bool is_called = !(lang_function(made, first + i, NULL)->flags & LANG_FN_EXPRESSION);
+        versions[i] = is_called ? plan_note_any(made, first + i) : LANG_NONE;
+    }
+    lang_plan_finish(made);
+    for (uint32_t i = 0; i < count; i++)
+        versions[i] = versions[i] != LANG_NONE ? lang_plan_version(made, versions[i]) : first + i;
+    return versions;
+}
+
+void lang_make_canonical(struct lang_unit *unit)
+{
+    struct lang_unit made, to = *unit;
+    lang_unit_init(&made, unit->arena, unit->strings, unit);
+    const uint32_t *versions = make_versions(&made, unit->base_functions, unit->functions.len);
+    struct copier c = {.to = &to, .made = &made};
+    memset(&to.nodes, 0, sizeof to.nodes);
+    memset(&to.slots, 0, sizeof to.slots);
+    memset(&to.words, 0, sizeof to.words);
+    memset(&to.refs, 0, sizeof to.refs);
+    memset(&to.functions, 0, sizeof to.functions);
+    vec_push(unit->arena, &to.nodes, (struct lang_node){0});
+    for (uint32_t i = 0; i < unit->functions.len; i++) {
+        struct lang_function fn = copy_function(&c, unit->base_functions + i, versions[i]);
+        vec_push(unit->arena, &to.functions, fn);
+    }
+    for (uint32_t i = 0; i < unit->globals.len; i++) {
+        struct lang_global *global = &unit->globals.items[i];
+        global->words = copy_words(&c, unit, global->words, global->num_words);
+    }
+    for (uint32_t i = 0; i < unit->files.len; i++) {
+        struct lang_file *file = &unit->files.items[i];
+        file->first_include = copy_refs(&c, unit, file->first_include, file->num_includes, false);
+    }
+    *unit = to;
+}

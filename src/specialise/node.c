@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+/* Nodes of the result: how they are made and read. */
+#include "specialise/spec.h"
+
+lang_ref spec_add(struct spec *s, struct lang_node node)
+{
+    node.next = 0;
+    lang_ref ref = s->unit->nodes.len;
+    vec_push(s->unit->arena, &s->unit->nodes, node);
+    return ref;
+}
+
+void spec_append(struct spec *s, struct chain *chain, lang_ref ref)
+{
+    if (chain->last)
+        spec_node(s, chain->last)->next = ref;
+    else
+        chain->first = ref;
+    chain->last = ref;
+}
+
+lang_ref spec_constant_words(struct spec *s, ir_type_id type, const union ir_word *words)
+{
+    uint32_t count = ir_type_info(type)->components, at = s->unit->words.len;
+    union ir_word copy[16]; /* the words may be of this unit, which moves when it grows */
+    memcpy(copy, words, count * sizeof *copy);
+    union ir_word *to = vec_extend(s->unit->arena, &s->unit->words, count);
+    memcpy(to, copy, count * sizeof *copy);
+    return spec_add(s, (struct lang_node){.kind = LANG_CONST, .type = type, .a = at});
+}
+
+lang_ref spec_constant(struct spec *s, const struct ir_value *value)
+{
+    return spec_constant_words(s, value->type, value->w);
+}
+
+bool spec_get(const struct spec *s, lang_ref ref, struct ir_value *out)
+{
+    const struct lang_node *node = ast_node(s->unit, ref);
+    if (node->kind != LANG_CONST)
+        return false;
+    *out = ast_value(node->type, ast_words(s->unit, node));
+    return true;
+}
+
+static bool calls_with_outputs(const struct spec *s, const struct lang_node *node)
+{
+    if (node->kind != LANG_CALL)
+        return false;
+    const struct lang_unit *layer;
+    const struct lang_function *fn = lang_function(s->unit, node->a, &layer);
+    for (uint32_t i = 0; i < fn->num_params; i++)
+        if (ast_slot(layer, fn, i)->mode != LANG_IN)
+            return true;
+    return false;
+}
+
+static lang_ref first_child(const struct lang_node *node)
+{
+    return node->kind == LANG_OP ? node->a : node->kind == LANG_CALL ? node->b : 0;
+}
+
+bool spec_has_effects(const struct spec *s, lang_ref ref)
+{
+    const struct lang_node *node = ast_node(s->unit, ref);
+    if (calls_with_outputs(s, node))
+        return true;
+    for (lang_ref child = first_child(node); child; child = ast_node(s->unit, child)->next)
+        if (spec_has_effects(s, child))
+            return true;
+    return false;
+}

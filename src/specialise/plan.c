@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * Whole-shader specialisation: which constants a function may take for granted.
+ *
+ * A version for each set of constant arguments would be text for each. So calls are made with all
+ * their arguments first, and when the shader stands, each function gets one version: a parameter is
+ * bound where every call that is left passes the same constant (interprocedural constant
+ * propagation). Only strings and flags, which choose what a function *is*, make variants of it.
+ * Callees have smaller ids than callers: one pass from the highest id down sees every call of a
+ * function before the function, and one from the lowest up has every callee's version before its
+ * calls.
+ */
+#include "specialise/spec.h"
+
+#include <assert.h>
+
+struct lang_plan *plan_of(struct lang_unit *unit)
+{
+    if (!unit->plan) {
+        unit->plan = ARENA_NEW(unit->arena, struct lang_plan);
+        unit->plan->num_ids = unit->base_functions + unit->functions.len;
+        unit->plan->first_variant = ARENA_ARRAY(unit->arena, uint32_t, unit->plan->num_ids);
+        unit->plan->spec = ARENA_NEW(unit->arena, struct spec);
+        unit->plan->spec->unit = unit;
+    }
+    return unit->plan;
+}
+
+static bool is_bindable(const struct lang_slot *param)
+{
+    return param->mode == LANG_IN && !ast_is_user_type(param->type);
+}
+
+static bool is_key(const struct lang_slot *param)
+{
+    return param->mode == LANG_IN && (param->type == IR_TYPE_BOOL || param->type == IR_TYPE_STRING);
+}
+
+static bool is_same(const struct lang_unit *unit, ir_type_id type, fact a, fact b)
+{
+    if (a == b || a == FACT_VARIES || b == FACT_VARIES)
+        return a == b;
+    const union ir_word *words = unit->words.items - 1;
+    return memcmp(words + a, words + b, ir_type_info(type)->components * sizeof *words) == 0;
+}
+
+static bool has_keys(const struct lang_unit *unit, const struct variant *variant,
+                     const struct lang_slot *params, uint32_t num_params, const fact *args)
+{
+    const fact *facts = unit->plan->facts.items + variant->first_fact;
+    for (uint32_t i = 0; i < num_params; i++)
+        if (is_key(&params[i]) && !is_same(unit, params[i].type, facts[i], args[i]))
+            return false;
+    return true;
+}
+
+static uint32_t add_variant(struct lang_unit *unit, uint32_t function, uint32_t num_params)
+{
+    struct lang_plan *plan = unit->plan;
+    assert(function < plan->num_ids);
+    struct variant variant = {.function = function, .first_fact = plan->facts.len};
+    fact *facts = vec_extend(unit->arena, &plan->facts, num_params);
+    for (uint32_t i = 0; i < num_params; i++)
+        facts[i] = FACT_UNSEEN;
+    vec_push(unit->arena, &plan->variants, variant);
+    return plan->variants.len;
+}
+
+/* In an open plan, the only variant of a function. */
+static uint32_t note_anything(struct lang_unit *unit, uint32_t function)
+{
+    struct lang_plan *plan = unit->plan;
+    uint32_t num_params = lang_function(unit, function, NULL)->num_params;
+    if (plan->first_variant[function])
+        return plan->first_variant[function] - 1;
+    plan->first_variant[function] = add_variant(unit, function, num_params);
+    struct variant *variant = &vec_last(&plan->variants);
+    variant->keeps_unused = true;
+    for (uint32_t i = 0; i < num_params; i++)
+        plan->facts.items[variant->first_fact + i] = FACT_VARIES;
+    return plan->variants.len - 1;
+}
+
+uint32_t plan_note_call(struct lang_unit *unit, uint32_t function, const fact *args,
+                        bool args_have_effects)
+{
+    struct lang_plan *plan = unit->plan;
+    if (plan->is_open)
+        return note_anything(unit, function);
+    const struct lang_unit *layer;
+    const struct lang_function *fn = lang_function(unit, function, &layer);
+    const struct lang_slot *params = ast_slot(layer, fn, 0);
+    uint32_t num_params = fn->num_params, link = plan->first_variant[function], last = 0;
+    while (link && !has_keys(unit, &plan->variants.items[link - 1], params, num_params, args)) {
+        last = link;
+        link = plan->variants.items[link - 1].next;
+    }
+    if (!link) {
+        link = add_variant(unit, function, num_params);
+        *(last ? &plan->variants.items[last - 1].next : &plan->first_variant[function]) = link;
+    }
+    uint32_t index = link - 1;
+    struct variant *variant = &plan->variants.items[index];
+    fact *facts = plan->facts.items + variant->first_fact;
+    for (uint32_t i = 0; i < num_params; i++)
+        if (!is_bindable(&params[i]))
+            facts[i] = FACT_VARIES;
+        else if (facts[i] == FACT_UNSEEN)
+            facts[i] = args[i];
+        else if (!is_same(unit, params[i].type, facts[i], args[i]))
+            facts[i] = FACT_VARIES;
+    assert(variant->function == function && index < plan->variants.len);
+    variant->keeps_unused |= args_have_effects;
+    return index;
+}
+
+uint32_t lang_plan_call(struct lang_unit *unit, uint32_t id, const union ir_word *const *args)
+{
+    plan_of(unit);
+    const struct lang_unit *layer;
+    const struct lang_function *fn = lang_function(unit, id, &layer);
+    fact few[SPEC_MAX_PARAMS];
+    fact *facts =
+        fn->num_params <= SPEC_MAX_PARAMS ? few : ARENA_ARRAY(unit->arena, fact, fn->num_params);
+    for (uint32_t i = 0; i < fn->num_params; i++) {
+        bool is_known = args[i] && i < SPEC_MAX_PARAMS;
+        uint32_t count = is_known ? ast_type_words(unit, ast_slot(layer, fn, i)->type) : 0;
+        facts[i] = is_known ? unit->words.len + 1 : FACT_VARIES;
+        if (count)
+            memcpy(vec_extend(unit->arena, &unit->words, count), args[i], count * sizeof **args);
+    }
+    return plan_note_call(unit, id, facts, false);
+}
+
+uint32_t plan_note_any(struct lang_unit *unit, uint32_t function)
+{
+    plan_of(unit);
+    unit->plan->is_open = true;
+    return plan_note_call(unit, function, NULL, true);
+}
+
+uint32_t lang_plan_version(const struct lang_unit *unit, uint32_t call)
+{
+    assert(call < unit->plan->variants.len);
+    return unit->plan->variants.items[call].version;
+}
+
+bool lang_param_dropped(const struct lang_unit *unit, uint32_t version, uint32_t given,
+                        unsigned index)
+{
+    if (version == given || index >= SPEC_MAX_PARAMS)
+        return false;
+    const uint32_t *dropped = unit->versions.items[version - unit->base_functions].dropped;
+    return dropped[index / 32] >> index % 32 & 1;
+}

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+/* Calls get the versions of their callees, or become what these stand for. */
+#include "specialise/spec.h"
+
+/* Arguments that the version of the callee still takes. */
+static lang_ref remaining_arguments(struct spec *s, uint32_t given, uint32_t version,
+                                    lang_ref first)
+{
+    struct chain chain = {0};
+    unsigned i = 0;
+    for (lang_ref ref = first, next; ref; ref = next, i++) {
+        next = spec_node(s, ref)->next;
+        if (lang_param_dropped(s->unit, version, given, i))
+            continue;
+        spec_node(s, ref)->next = 0;
+        spec_append(s, &chain, ref);
+    }
+    return chain.first;
+}
+
+/* Is every parameter of a wrapper handed on once, as what it is, and is nothing else computed? */
+static bool hands_on(const struct spec *s, const struct lang_unit *layer,
+                     const struct lang_function *wrapper, const struct lang_node *inner)
+{
+    uint32_t handed = 0, index = 0;
+    uint64_t seen = 0;
+    for (lang_ref ref = inner->b; ref; ref = ast_node(layer, ref)->next, index++) {
+        const struct lang_node *arg = ast_node(layer, ref);
+        if (arg->kind == LANG_CONST)
+            continue;
+        if (arg->kind != LANG_VAR || arg->a >= wrapper->num_params || arg->a >= SPEC_MAX_PARAMS
+            || seen >> arg->a & 1
+            || ast_slot(layer, wrapper, arg->a)->mode != ast_param_mode(s->unit, inner->a, index))
+            return false;
+        seen |= 1ull << arg->a;
+        handed++;
+    }
+    return handed == wrapper->num_params;
+}
+
+/* A constant of the layer's, in the generation's. */
+static lang_ref copy_constant(struct spec *s, const struct lang_unit *layer,
+                              const struct lang_node *constant)
+{
+    struct ir_value value = ast_value(constant->type, ast_words(layer, constant));
+    return spec_constant(s, &value);
+}
+
+static lang_ref call_inner(struct spec *s, const struct lang_unit *layer,
+                           const struct lang_node *call, struct lang_node inner)
+{
+    lang_ref args[SPEC_MAX_PARAMS];
+    struct chain chain = {0};
+    ast_list(s->unit, call->b, args, SPEC_MAX_PARAMS);
+    for (lang_ref ref = inner.b; ref; ref = ast_node(layer, ref)->next) {
+        const struct lang_node node = *ast_node(layer, ref);
+        lang_ref arg = node.kind == LANG_VAR ? args[node.a] : copy_constant(s, layer, &node);
+        spec_node(s, arg)->next = 0;
+        spec_append(s, &chain, arg);
+    }
+    inner.b = chain.first;
+    return spec_add(s, inner);
+}
+
+/*
+ * A version that was left with `return constant;` or `return g(its parameters, constants);` is not
+ * worth a name: the constant, or the call of g, stands in its place. `call` has the version's
+ * arguments. 0 where it is none of these.
+ */
+static lang_ref skip_wrapper(struct spec *s, const struct lang_node *call)
+{
+    const struct lang_unit *layer;
+    struct lang_function wrapper = *lang_function(s->unit, call->a, &layer);
+    lang_ref returned = ast_returned(layer, &wrapper);
+    if (layer != s->unit || !returned)
+        return 0;
+    const struct lang_node inner = *ast_node(layer, returned);
+    if (inner.kind == LANG_CONST && wrapper.num_params == 0)
+        return copy_constant(s, layer, &inner);
+    return inner.kind == LANG_CALL && hands_on(s, layer, &wrapper, &inner)
+               ? call_inner(s, layer, call, inner)
+               : 0;
+}
+
+static void resolve(struct spec *s, lang_ref ref)
+{
+    struct lang_node call = *spec_node(s, ref);
+    const struct variant *variant = &s->unit->plan->variants.items[call.c - 1];
+    call.c = 0;
+    if (variant->version != call.a) {
+        s->changed = true;
+        call.b = remaining_arguments(s, call.a, variant->version, call.b);
+        call.a = variant->version;
+    }
+    lang_ref shorter = skip_wrapper(s, &call);
+    if (!shorter)
+        shorter = spec_inline(s, &call);
+    s->changed |= shorter != 0;
+    struct lang_node node = shorter ? *spec_node(s, shorter) : call;
+    node.next = call.next;
+    *spec_node(s, ref) = node;
+}
+
+void spec_resolve(struct spec *s)
+{
+    const struct variant *variant = &s->unit->plan->variants.items[s->variant];
+    for (uint32_t i = 0; i < variant->num_calls; i++)
+        resolve(s, s->unit->plan->calls.items[variant->first_call + i]);
+}

@@ -1,0 +1,422 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * The backward step: statements are visited last to first, so that all uses of a variable are known
+ * where it is assigned. The language has no effects but assignments, by statements and by `out`
+ * arguments: what assigns only to variables that nobody reads later is dropped. In a loop "later"
+ * includes the whole loop, whose reads are collected first.
+ */
+#include "specialise/spec.h"
+
+static bool holds(const uint32_t *items, uint32_t len, uint32_t id)
+{
+    for (uint32_t i = 0; i < len; i++)
+        if (items[i] == id)
+            return true;
+    return false;
+}
+
+/* What stays: uses, and what the function's description will say */
+
+static void use_expression(struct spec *s, lang_ref ref);
+
+/* An assigned expression: its variable is written, indices in it are read. */
+static void use_target(struct spec *s, lang_ref ref, unsigned use)
+{
+    struct lang_node *node = spec_node(s, ref);
+    s->num_nodes++;
+    if (node->kind == LANG_VAR) {
+        s->slots[node->a].uses |= (uint8_t)use;
+        s->slots[node->a].mention = s->statement;
+        vec_push(s->unit->arena, &s->vars, ref);
+        return;
+    }
+    use_target(s, node->a, use);
+    for (lang_ref index = spec_node(s, node->a)->next; index; index = spec_node(s, index)->next)
+        use_expression(s, index);
+}
+
+static void use_arguments(struct spec *s, const struct lang_node *call)
+{
+    uint32_t i = 0;
+    for (lang_ref ref = call->b; ref; ref = spec_node(s, ref)->next, i++) {
+        uint8_t mode = ast_param_mode(s->unit, call->a, i);
+        if (mode == LANG_IN)
+            use_expression(s, ref);
+        else
+            use_target(s, ref, mode == LANG_OUT ? SLOT_WRITTEN : SLOT_WRITTEN | SLOT_READ);
+    }
+}
+
+static void use_callee(struct spec *s, uint32_t id)
+{
+    const struct lang_function *callee = lang_function(s->unit, id, NULL);
+    s->flags |= callee->flags & LANG_FN_DERIVATIVE;
+    s->flags &= (uint16_t)(callee->flags | ~(LANG_FN_PURE | LANG_FN_STRAIGHT));
+    if (!holds(s->callees.items, s->callees.len, id))
+        vec_push(s->unit->arena, &s->callees, id);
+}
+
+static void use_global(struct spec *s, const struct lang_node *node)
+{
+    uint8_t kind = lang_global(s->unit, node->a, NULL)->kind;
+    if (kind != LANG_GLOBAL_CONST)
+        s->flags &= (uint16_t)~LANG_FN_PURE;
+    if (!holds(s->globals.items, s->globals.len, node->a))
+        vec_push(s->unit->arena, &s->globals, node->a);
+}
+
+static void use_expression(struct spec *s, lang_ref ref)
+{
+    struct lang_node node = *spec_node(s, ref);
+    s->num_nodes++;
+    switch (node.kind) {
+    case LANG_CONST:
+        if (node.c) {
+            vec_push(s->unit->arena, &s->longs, ref);
+            struct spec_slot *slot = &s->slots[node.c - 1];
+            slot->literals = (uint8_t)(slot->literals + (slot->literals < 2));
+        }
+        break;
+    case LANG_VAR:
+        s->slots[node.a].uses |= SLOT_READ;
+        s->slots[node.a].mention = s->statement;
+        vec_push(s->unit->arena, &s->vars, ref);
+        break;
+    case LANG_GLOBAL: use_global(s, &node); break;
+    case LANG_CALL:
+        use_callee(s, node.a);
+        use_arguments(s, &node);
+        break;
+    default:
+        if (ir_op_info(node.op)->flags & OP_DERIVATIVE)
+            s->flags |= LANG_FN_DERIVATIVE;
+        if (node.op >= IR_TEX && node.op <= IR_TEX_FETCH)
+            s->flags &= (uint16_t)~LANG_FN_PURE;
+        for (lang_ref operand = node.a; operand; operand = spec_node(s, operand)->next)
+            use_expression(s, operand);
+    }
+}
+
+/* Effects on variables that are read later */
+
+static bool is_live(const struct spec *s, lang_ref target)
+{
+    return s->slots[ast_target_slot(s->unit, target)].uses & SLOT_READ;
+}
+
+static bool has_live_effects(const struct spec *s, lang_ref ref)
+{
+    const struct lang_node *node = ast_node(s->unit, ref);
+    uint32_t i = 0;
+    if (node->kind == LANG_CALL) {
+        for (lang_ref arg = node->b; arg; arg = ast_node(s->unit, arg)->next, i++)
+            if (ast_param_mode(s->unit, node->a, i) == LANG_IN ? has_live_effects(s, arg)
+                                                               : is_live(s, arg))
+                return true;
+    } else if (node->kind == LANG_OP) {
+        for (lang_ref arg = node->a; arg; arg = ast_node(s->unit, arg)->next)
+            if (has_live_effects(s, arg))
+                return true;
+    }
+    return false;
+}
+
+/* Everything that a loop reads, before it is swept. */
+
+static void read_expression(struct spec *s, lang_ref ref)
+{
+    const struct lang_node *node = spec_node(s, ref);
+    if (node->kind == LANG_VAR) {
+        s->slots[node->a].uses |= SLOT_READ;
+    } else if (node->kind == LANG_OP) {
+        for (lang_ref arg = node->a; arg; arg = spec_node(s, arg)->next)
+            read_expression(s, arg);
+    } else if (node->kind == LANG_CALL) {
+        uint32_t i = 0;
+        for (lang_ref arg = node->b; arg; arg = spec_node(s, arg)->next, i++)
+            if (ast_param_mode(s->unit, node->a, i) != LANG_OUT
+                || spec_node(s, arg)->kind != LANG_VAR)
+                read_expression(s, arg);
+    }
+}
+
+static void read_statement(struct spec *s, lang_ref ref)
+{
+    if (!ref)
+        return;
+    const struct lang_node *node = spec_node(s, ref);
+    switch (node->kind) {
+    case LANG_ASSIGN:
+        if (spec_node(s, node->a)->kind != LANG_VAR)
+            read_expression(s, node->a); /* the variable too: a part is assigned, the rest stays */
+        read_expression(s, node->b);
+        break;
+    case LANG_DECLARE:
+        if (node->b)
+            read_expression(s, node->b);
+        break;
+    case LANG_EXPR:
+    case LANG_RETURN:
+        if (node->a)
+            read_expression(s, node->a);
+        break;
+    case LANG_IF:
+        read_expression(s, node->a);
+        read_statement(s, node->b);
+        read_statement(s, node->c);
+        break;
+    case LANG_BLOCK:
+        for (lang_ref inner = node->a; inner; inner = spec_node(s, inner)->next)
+            read_statement(s, inner);
+        break;
+    case LANG_BREAK:
+    case LANG_CONTINUE: break;
+    default: /* loops */
+        if (node->kind == LANG_FOR)
+            read_statement(s, node->a);
+        if (node->b)
+            read_expression(s, node->b);
+        read_statement(s, node->c);
+        read_statement(s, ast_step(s->unit, node));
+    }
+}
+
+/* Statements; each returns whether it stays */
+
+static lang_ref sweep_list(struct spec *s, lang_ref first, unsigned loops);
+
+/*
+ * A value that nobody wants but whose computation has effects: the call remains, or else the
+ * statement as it is.
+ */
+static bool becomes_call(struct spec *s, lang_ref ref, lang_ref value)
+{
+    if (spec_node(s, value)->kind != LANG_CALL)
+        return false;
+    struct lang_node *node = spec_node(s, ref);
+    node->kind = LANG_EXPR;
+    node->a = value;
+    node->b = 0;
+    use_expression(s, value);
+    return true;
+}
+
+/*
+ * Literals that stand for a variable, and are long, stand for it no more where there are two of
+ * them.
+ */
+static void name_literals(struct spec *s, uint32_t slot)
+{
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < s->longs.len; i++) {
+        lang_ref ref = s->longs.items[i];
+        struct lang_node *node = spec_node(s, ref);
+        if (node->c != slot + 1) {
+            s->longs.items[kept++] = ref;
+            continue;
+        }
+        node->kind = LANG_VAR;
+        node->a = slot;
+        node->c = 0;
+        vec_push(s->unit->arena, &s->vars, ref);
+    }
+    s->longs.len = kept;
+    s->slots[slot].uses |= SLOT_READ;
+}
+
+static bool names_slot(const struct spec *s, lang_ref ref, uint32_t slot)
+{
+    const struct lang_node *node = ast_node(s->unit, ref);
+    if (node->kind == LANG_VAR)
+        return node->a == slot;
+    lang_ref child = node->kind == LANG_OP ? node->a : node->kind == LANG_CALL ? node->b : 0;
+    for (; child; child = ast_node(s->unit, child)->next)
+        if (names_slot(s, child, slot))
+            return true;
+    return false;
+}
+
+/*
+ * Is the next thing that happens to a variable that it gets a new value, by the statement this
+ * returns?
+ */
+static lang_ref overwriting(const struct spec *s, uint32_t slot, uint32_t list)
+{
+    lang_ref ref = s->slots[slot].mention;
+    const struct lang_node *next = ast_node(s->unit, ref);
+    bool overwrites = next->kind == LANG_ASSIGN && next->op == IR_NUM_OPS && next->c == list
+                      && ast_node(s->unit, next->a)->kind == LANG_VAR
+                      && !names_slot(s, next->b, slot);
+    return overwrites ? ref : 0;
+}
+
+/* Then the variable declares itself there. */
+static bool moves_down(struct spec *s, uint32_t slot, uint32_t list)
+{
+    lang_ref next = overwriting(s, slot, list);
+    if (!next)
+        return false;
+    spec_node(s, next)->kind = LANG_DECLARE;
+    spec_node(s, next)->a = slot;
+    vec_push(s->unit->arena, &s->vars, next);
+    return true;
+}
+
+static bool sweep_declare(struct spec *s, lang_ref ref, uint32_t list)
+{
+    struct lang_node *node = spec_node(s, ref);
+    uint32_t slot = node->a;
+    if (s->slots[slot].literals > 1)
+        name_literals(s, slot);
+    bool is_read = s->slots[slot].uses & SLOT_READ;
+    bool is_written = s->slots[slot].uses & SLOT_WRITTEN;
+    lang_ref value = node->b && (is_read || has_live_effects(s, node->b)) ? node->b : 0;
+    if (!is_read && !is_written)
+        if (!value || becomes_call(s, ref, value))
+            return value != 0;
+    if ((!value || !has_live_effects(s, value)) && moves_down(s, slot, list))
+        return false;
+    spec_node(s, ref)->b = value;
+    if (value) {
+        use_expression(s, value);
+        s->slots[slot].uses |= is_read ? 0 : SLOT_WRITTEN; /* it has a place among the slots */
+    }
+    vec_push(s->unit->arena, &s->vars, ref);
+    return true;
+}
+
+static bool sweep_assign(struct spec *s, lang_ref ref, unsigned loops, uint32_t list)
+{
+    struct lang_node node = *spec_node(s, ref);
+    spec_node(s, ref)->c = list;
+    uint32_t slot = ast_target_slot(s->unit, node.a);
+    bool is_local = slot >= s->fn.num_params || ast_slot(s->layer, &s->fn, slot)->mode == LANG_IN;
+    bool is_lost = is_local && loops == 0 && spec_node(s, node.a)->kind == LANG_VAR
+                   && overwriting(s, slot, list);
+    if (is_lost || !is_live(s, node.a)) {
+        if (!has_live_effects(s, node.b) && !has_live_effects(s, node.a))
+            return false;
+        if (!has_live_effects(s, node.a) && becomes_call(s, ref, node.b))
+            return true;
+    }
+    use_target(s, node.a, SLOT_WRITTEN);
+    use_expression(s, node.b);
+    return true;
+}
+
+static void invert_condition(struct spec *s, lang_ref ref)
+{
+    struct lang_node node = *spec_node(s, ref);
+    lang_ref not = spec_add(
+        s, (struct lang_node){.kind = LANG_OP, .op = IR_NOT, .type = IR_TYPE_BOOL, .a = node.a});
+    spec_node(s, ref)->a = not ;
+    spec_node(s, ref)->b = node.c;
+    spec_node(s, ref)->c = 0;
+}
+
+static lang_ref sweep_block(struct spec *s, lang_ref block, unsigned loops)
+{
+    lang_ref first = sweep_list(s, spec_node(s, block)->a, loops);
+    spec_node(s, block)->a = first;
+    return first;
+}
+
+static bool sweep_if(struct spec *s, lang_ref ref, unsigned loops)
+{
+    struct lang_node node = *spec_node(s, ref);
+    bool has_else = node.c && sweep_block(s, node.c, loops);
+    bool has_then = sweep_block(s, node.b, loops);
+    if (!has_else)
+        spec_node(s, ref)->c = 0;
+    if (!has_then && !has_else && !has_live_effects(s, node.a))
+        return false;
+    if (!has_then && has_else)
+        invert_condition(s, ref);
+    s->statement = ref;
+    use_expression(s, spec_node(s, ref)->a);
+    return true;
+}
+
+/* Does the head of an empty loop do nothing but count a variable of its own? */
+static bool is_idle(const struct spec *s, const struct lang_node *loop)
+{
+    if (loop->b && has_live_effects(s, loop->b))
+        return false;
+    if (!ast_step(s->unit, loop))
+        return true;
+    const struct lang_node *init = loop->a ? ast_node(s->unit, loop->a) : NULL;
+    const struct lang_node *step = ast_node(s->unit, ast_step(s->unit, loop));
+    return init && init->kind == LANG_DECLARE && step->kind == LANG_ASSIGN && !step->next
+           && ast_target_slot(s->unit, step->a) == init->a && !has_live_effects(s, step->b);
+}
+
+static bool sweep_loop(struct spec *s, lang_ref ref, unsigned loops)
+{
+    struct lang_node node = *spec_node(s, ref);
+    if (loops == 0)
+        read_statement(s, ref);
+    bool has_body = sweep_block(s, node.c, loops + 1);
+    if (!has_body && is_idle(s, &node))
+        return false;
+    s->flags &= (uint16_t)~LANG_FN_STRAIGHT;
+    s->statement = ref;
+    if (node.kind == LANG_FOR) {
+        lang_ref step = sweep_list(s, ast_step(s->unit, &node), loops + 1);
+        spec_node(s, node.c)->b = step;
+    }
+    if (node.b)
+        use_expression(s, node.b);
+    if (node.kind == LANG_FOR)
+        spec_node(s, ref)->a = sweep_list(s, node.a, loops + 1);
+    return true;
+}
+
+static bool sweep_statement(struct spec *s, lang_ref ref, unsigned loops, uint32_t list)
+{
+    struct lang_node node = *spec_node(s, ref);
+    switch (node.kind) {
+    case LANG_DECLARE: return sweep_declare(s, ref, list);
+    case LANG_ASSIGN: return sweep_assign(s, ref, loops, list);
+    case LANG_EXPR:
+        if (!has_live_effects(s, node.a))
+            return false;
+        use_expression(s, node.a);
+        return true;
+    case LANG_IF: return sweep_if(s, ref, loops);
+    case LANG_RETURN:
+        if (node.a)
+            use_expression(s, node.a);
+        return true;
+    case LANG_BREAK:
+    case LANG_CONTINUE: return true;
+    default:
+        assert(node.kind == LANG_FOR || node.kind == LANG_WHILE || node.kind == LANG_DO);
+        return sweep_loop(s, ref, loops);
+    }
+}
+
+static lang_ref sweep_list(struct spec *s, lang_ref first, unsigned loops)
+{
+    uint32_t begin = s->stack.len, list = ++s->num_lists;
+    for (lang_ref ref = first; ref; ref = spec_node(s, ref)->next)
+        vec_push(s->unit->arena, &s->stack, ref);
+    lang_ref next = 0;
+    for (uint32_t i = s->stack.len; i > begin; i--) {
+        lang_ref ref = s->stack.items[i - 1];
+        s->statement = ref;
+        if (!sweep_statement(s, ref, loops, list)) {
+            s->changed = true;
+            continue;
+        }
+        s->num_nodes++;
+        spec_node(s, ref)->next = next;
+        next = ref;
+    }
+    s->stack.len = begin;
+    return next;
+}
+
+lang_ref spec_sweep(struct spec *s, lang_ref first)
+{
+    return sweep_list(s, first, 0);
+}

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tree/ast.h"
+
+const uint8_t lang_child_fields[LANG_NUM_KINDS] = {
+    [LANG_OP] = LANG_CHILD_A,
+    [LANG_CALL] = LANG_CHILD_B,
+    [LANG_DECLARE] = LANG_CHILD_B,
+    [LANG_ASSIGN] = LANG_CHILD_A | LANG_CHILD_B,
+    [LANG_EXPR] = LANG_CHILD_A,
+    [LANG_IF] = LANG_CHILD_A | LANG_CHILD_B | LANG_CHILD_C,
+    [LANG_FOR] = LANG_CHILD_A | LANG_CHILD_B | LANG_CHILD_C,
+    [LANG_WHILE] = LANG_CHILD_B | LANG_CHILD_C,
+    [LANG_DO] = LANG_CHILD_B | LANG_CHILD_C,
+    [LANG_BLOCK] = LANG_CHILD_A | LANG_CHILD_B,
+    [LANG_RETURN] = LANG_CHILD_A,
+};
+
+static uint32_t type_size(const struct lang_unit *unit, ir_type_id type,
+                          uint32_t (*size_of)(const struct lang_unit *, ir_type_id))
+{
+    const struct lang_unit *layer;
+    const struct ir_user_type *user = lang_user_type(unit, type, &layer);
+    if (user->array_length)
+        return user->array_length * size_of(unit, user->element);
+    uint32_t size = 0;
+    for (uint32_t i = 0; i < user->num_members; i++)
+        size += size_of(unit, layer->members.items[user->first_member + i].type);
+    return size;
+}
+
+uint32_t ast_user_type_words(const struct lang_unit *unit, ir_type_id type)
+{
+    return type_size(unit, type, ast_type_words);
+}
+
+uint32_t ast_user_type_leaves(const struct lang_unit *unit, ir_type_id type)
+{
+    return type_size(unit, type, ast_type_leaves);
+}
+
+uint32_t ast_member_offset(const struct lang_unit *unit, ir_type_id type, uint32_t index,
+                           uint32_t (*size_of)(const struct lang_unit *, ir_type_id),
+                           ir_type_id *out_type)
+{
+    const struct lang_unit *layer;
+    const struct ir_user_type *user = lang_user_type(unit, type, &layer);
+    const struct ir_member *members = layer->members.items + user->first_member;
+    uint32_t offset = 0;
+    for (uint32_t i = 0; i < index; i++)
+        offset += size_of(unit, members[i].type);
+    *out_type = members[index].type;
+    return offset;
+}
+
+uint32_t ast_target_slot(const struct lang_unit *layer, lang_ref target)
+{
+    const struct lang_node *node = ast_node(layer, target);
+    while (node->kind == LANG_OP)
+        node = ast_node(layer, node->a);
+    assert(node->kind == LANG_VAR);
+    return node->a;
+}
+
+uint8_t ast_param_mode(const struct lang_unit *unit, uint32_t function, uint32_t param)
+{
+    const struct lang_unit *layer;
+    const struct lang_function *fn = lang_function(unit, function, &layer);
+    return ast_slot(layer, fn, param)->mode;
+}
+
+unsigned ast_list(const struct lang_unit *layer, lang_ref first, lang_ref *out, unsigned max)
+{
+    unsigned count = 0;
+    for (lang_ref ref = first; ref; ref = ast_node(layer, ref)->next, count++)
+        if (count < max)
+            out[count] = ref;
+    return count;
+}
+
+lang_ref ast_returned(const struct lang_unit *layer, const struct lang_function *fn)
+{
+    const struct lang_node *body = ast_node(layer, fn->body);
+    const struct lang_node *first = body->a ? ast_node(layer, body->a) : NULL;
+    return first && first->kind == LANG_RETURN ? first->a : 0;
+}

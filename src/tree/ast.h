@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+/* Walking trees: shared by what consumes them (lower, specialise, evaluate, reach, print). */
+#ifndef MXG_TREE_AST_H
+#define MXG_TREE_AST_H
+
+#include "tree/tree.h"
+
+#include <assert.h>
+
+static inline const struct lang_node *ast_node(const struct lang_unit *layer, lang_ref ref)
+{
+    return &layer->nodes.items[ref];
+}
+
+/* The step statement of a loop; 0: it has none. */
+static inline lang_ref ast_step(const struct lang_unit *layer, const struct lang_node *loop)
+{
+    return loop->kind == LANG_FOR ? ast_node(layer, loop->c)->b : 0;
+}
+
+static inline const struct lang_slot *ast_slot(const struct lang_unit *layer,
+                                               const struct lang_function *fn, uint32_t slot)
+{
+    return &layer->slots.items[fn->first_slot + slot];
+}
+
+static inline const union ir_word *ast_words(const struct lang_unit *layer,
+                                             const struct lang_node *constant)
+{
+    return layer->words.items + constant->a;
+}
+
+static inline bool ast_is_user_type(ir_type_id type)
+{
+    return type >= IR_TYPE_FIRST_USER;
+}
+
+/* A constant of a built-in type from its words. */
+static inline struct ir_value ast_value(ir_type_id type, const union ir_word *words)
+{
+    struct ir_value value = {.type = type};
+    memcpy(value.w, words, ir_type_info(type)->components * sizeof *words);
+    return value;
+}
+
+/* Scalars in a value of a type, structs and arrays counted through; 0 for opaque types. */
+uint32_t ast_user_type_words(const struct lang_unit *unit, ir_type_id type);
+static inline uint32_t ast_type_words(const struct lang_unit *unit, ir_type_id type)
+{
+    return ast_is_user_type(type) ? ast_user_type_words(unit, type)
+                                  : ir_type_info(type)->components;
+}
+
+/*
+ * Values of built-in type in one of a type: 1 for a vector, the sum over the members of a struct.
+ */
+uint32_t ast_user_type_leaves(const struct lang_unit *unit, ir_type_id type);
+static inline uint32_t ast_type_leaves(const struct lang_unit *unit, ir_type_id type)
+{
+    return ast_is_user_type(type) ? ast_user_type_leaves(unit, type) : type != IR_TYPE_VOID;
+}
+
+/*
+ * Where member `index` of a struct begins, counted by `size_of` (one of the two above), and its
+ * type.
+ */
+uint32_t ast_member_offset(const struct lang_unit *unit, ir_type_id type, uint32_t index,
+                           uint32_t (*size_of)(const struct lang_unit *, ir_type_id),
+                           ir_type_id *out_type);
+
+/* The variable that a target expression (VAR, or SWIZZLE, INDEX, MEMBER of one) belongs to. */
+uint32_t ast_target_slot(const struct lang_unit *layer, lang_ref target);
+
+/* enum lang_param_mode of a function's parameter. */
+uint8_t ast_param_mode(const struct lang_unit *unit, uint32_t function, uint32_t param);
+
+enum { AST_MAX_OPERANDS = 16 }; /* of a CONSTRUCT of a built-in type */
+
+/* Operands or arguments into out[], at most `max`; returns how many there are. */
+unsigned ast_list(const struct lang_unit *layer, lang_ref first, lang_ref *out, unsigned max);
+
+/* The expression of a function that consists of `return expression;`, or 0. */
+lang_ref ast_returned(const struct lang_unit *layer, const struct lang_function *fn);
+
+#endif

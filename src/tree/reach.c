@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tree/reach.h"
+
+#include "tree/ast.h"
+
+#include <assert.h>
+
+/* Was `index` new to the set of bytes, which grows to hold it? */
+static bool mark(struct arena *arena, uint8_t **seen, uint32_t *cap, uint32_t index)
+{
+    if (index >= *cap) {
+        uint32_t old = *cap, want = index + 1 > old * 2 ? index + 64 : old * 2;
+        *seen = arena_grow(arena, *seen, old, want);
+        memset(*seen + old, 0, want - old);
+        *cap = want;
+    }
+    bool is_new = !(*seen)[index];
+    (*seen)[index] = 1;
+    return is_new;
+}
+
+/*
+ * Members before the struct that holds them. Types nest as deep as their declarations, which cannot
+ * be recursive.
+ */
+static void add_type(struct lang_reach *reach, const struct lang_unit *unit, ir_type_id type)
+{
+    if (!ast_is_user_type(type)
+        || !mark(reach->arena, &reach->seen_types, &reach->cap_types,
+                 (uint32_t)type - IR_TYPE_FIRST_USER))
+        return;
+    const struct lang_unit *layer;
+    const struct ir_user_type *user = lang_user_type(unit, type, &layer);
+    if (user->array_length) {
+        add_type(reach, unit, user->element);
+        return;
+    }
+    for (uint32_t i = 0; i < user->num_members; i++)
+        add_type(reach, unit, layer->members.items[user->first_member + i].type);
+    vec_push(reach->arena, &reach->user_types, type);
+}
+
+static void add_global(struct lang_reach *reach, const struct lang_unit *unit, uint32_t id)
+{
+    if (!mark(reach->arena, &reach->seen_globals, &reach->cap_globals, id))
+        return;
+    add_type(reach, unit, lang_global(unit, id, NULL)->type);
+    vec_push(reach->arena, &reach->globals, id);
+}
+
+static void add_own_needs(struct lang_reach *reach, const struct lang_unit *unit,
+                          const struct lang_unit *layer, const struct lang_function *fn)
+{
+    add_type(reach, unit, fn->return_type);
+    for (uint32_t i = 0; i < fn->num_slots; i++)
+        add_type(reach, unit, ast_slot(layer, fn, i)->type);
+    for (uint32_t i = 0; i < fn->num_globals; i++)
+        add_global(reach, unit, layer->refs.items[fn->first_global + i]);
+}
+
+/*
+ * Calls nest as deep as the author's functions call each other, which has no bound: hence a stack
+ * of our own.
+ */
+void lang_reach_add(struct lang_reach *reach, const struct lang_unit *unit, uint32_t id)
+{
+    struct visit {
+        uint32_t id, next_callee;
+    };
+    VEC(struct visit) stack = {0};
+    if (mark(reach->arena, &reach->seen_functions, &reach->cap_functions, id))
+        vec_push(reach->arena, &stack, (struct visit){id, 0});
+    while (stack.len) {
+        struct visit *top = &vec_last(&stack);
+        const struct lang_unit *layer;
+        const struct lang_function *fn = lang_function(unit, top->id, &layer);
+        assert(top->next_callee <= fn->num_callees);
+        if (top->next_callee == fn->num_callees) {
+            add_own_needs(reach, unit, layer, fn);
+            vec_push(reach->arena, &reach->functions, top->id);
+            (void)vec_pop(&stack);
+            continue;
+        }
+        uint32_t callee = layer->refs.items[fn->first_callee + top->next_callee++];
+        if (mark(reach->arena, &reach->seen_functions, &reach->cap_functions, callee))
+            vec_push(reach->arena, &stack, (struct visit){callee, 0});
+    }
+}
