@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "compile/compile.h"
+#include "compile/hlsl.h"
 #include "compile/oslc.h"
 #include "compile/spirv.h"
 
@@ -55,7 +56,8 @@ static const struct dialect *find_dialect(const char *target)
 
 bool compile_knows_target(const char *target)
 {
-    return find_dialect(target) || (strcmp(target, "osl") == 0 && oslc_is_installed());
+    return find_dialect(target) || strcmp(target, "hlsl") == 0
+           || (strcmp(target, "osl") == 0 && oslc_is_installed());
 }
 
 /* ---- Messages ---- */
@@ -147,10 +149,10 @@ static glslang_shader_t *parse_stage(const struct dialect *dialect, mxg_stage st
  * Only of shaders that are written for SPIR-V: glslang has no valid form for a loose uniform that
  * is a bool.
  */
-static void validate_spirv(const struct dialect *dialect, mxg_stage stage, struct compiled *out)
+static void validate_spirv(mxg_stage stage, spv_target_env environment, struct compiled *out)
 {
     const struct compiled_stage *code = &out->stages[stage];
-    spv_context context = spvContextCreate(dialect->environment);
+    spv_context context = spvContextCreate(environment);
     spv_diagnostic diagnostic = NULL;
     if (spvValidateBinary(context, code->words, code->num_words, &diagnostic) != SPV_SUCCESS) {
         const char *text = diagnostic ? diagnostic->error : "invalid SPIR-V";
@@ -183,8 +185,10 @@ static void generate_spirv(const struct dialect *dialect, glslang_program_t *pro
     memcpy(code->words, words, num_words * sizeof *code->words);
     code->body_instructions = spirv_count(code->words, code->num_words, NULL, NULL);
     if (dialect->is_spirv_source)
-        validate_spirv(dialect, stage, out);
+        validate_spirv(stage, dialect->environment, out);
 }
+
+static const char unexplained[] = "the stages do not link";
 
 static bool link_stages(const struct dialect *dialect, glslang_program_t *program, bool to_spirv,
                         struct compiled *out)
@@ -195,7 +199,6 @@ static bool link_stages(const struct dialect *dialect, glslang_program_t *progra
         linked = glslang_program_map_io(program);
     if (linked)
         return true;
-    static const char unexplained[] = "the stages do not link";
     add_log(out, MXG_STAGE_PIXEL, glslang_program_get_info_log(program));
     if (out->errors == 0)
         compiled_add(out, MXG_STAGE_PIXEL, MXG_SEVERITY_ERROR, 0, unexplained,
@@ -230,12 +233,38 @@ static void compile_once(const struct dialect *dialect, const char *const source
     }
 }
 
+/* Vulkan 1.1 is the first to allow the packing of constant buffers. */
+static bool compile_hlsl(const char *const sources[MXG_NUM_STAGES], struct compiled *out)
+{
+    struct hlsl_module modules[MXG_NUM_STAGES];
+    bool good = hlsl_compile(sources, modules);
+    for (int stage = 0; stage < MXG_NUM_STAGES; ++stage) {
+        struct hlsl_module *module = &modules[stage];
+        struct compiled_stage *code = &out->stages[stage];
+        add_log(out, (mxg_stage)stage, module->log);
+        if (good && module->words) {
+            code->words = module->words;
+            code->num_words = module->num_words;
+            module->words = NULL;
+            code->body_instructions = spirv_count(code->words, code->num_words, NULL, NULL);
+            validate_spirv((mxg_stage)stage, SPV_ENV_VULKAN_1_1, out);
+        }
+        hlsl_module_free(module);
+    }
+    if (!good && out->errors == 0)
+        compiled_add(out, MXG_STAGE_PIXEL, MXG_SEVERITY_ERROR, 0, unexplained,
+                     sizeof unexplained - 1);
+    return out->errors == 0;
+}
+
 bool compile_program(const char *target, const char *const sources[MXG_NUM_STAGES],
                      struct compiled *out)
 {
     *out = (struct compiled){0};
     if (strcmp(target, "osl") == 0)
         return oslc_compile_program(sources, out);
+    if (strcmp(target, "hlsl") == 0)
+        return compile_hlsl(sources, out);
     const struct dialect *dialect = find_dialect(target);
     if (!dialect) {
         compiled_add(out, MXG_STAGE_PIXEL, MXG_SEVERITY_ERROR, 0, "unknown dialect", 15);

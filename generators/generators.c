@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /* The list of targets. */
 #include "generators/glsl/glsl.h"
+#include "generators/hlsl/hlsl.h"
 #include "generators/osl/osl.h"
 
-const struct target *const targets[] = {&target_glsl,    &target_vulkan, &target_essl,
-                                        &target_essl310, &target_osl,    NULL};
+const struct target *const targets[] = {&target_glsl, &target_vulkan, &target_essl, &target_essl310,
+                                        &target_hlsl, &target_osl,    NULL};
 
 const struct target *target_find(const char *name)
 {

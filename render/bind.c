@@ -32,22 +32,25 @@ fail_as(struct bind *bind, const char *id, const char *format, ...)
 /* ---- Types by name ---- */
 
 struct shape {
-    const char *name;
+    const char *name, *hlsl_name;
     unsigned columns, rows;
     bool is_float;
 };
 
 static const struct shape shapes[] = {
-    {"float", 1, 1, true},  {"vec2", 1, 2, true},   {"vec3", 1, 3, true},   {"vec4", 1, 4, true},
-    {"mat2", 2, 2, true},   {"mat3", 3, 3, true},   {"mat4", 4, 4, true},   {"int", 1, 1, false},
-    {"ivec2", 1, 2, false}, {"ivec3", 1, 3, false}, {"ivec4", 1, 4, false}, {"uint", 1, 1, false},
-    {"bool", 1, 1, false},
+    {"float", "float", 1, 1, true},   {"vec2", "float2", 1, 2, true},
+    {"vec3", "float3", 1, 3, true},   {"vec4", "float4", 1, 4, true},
+    {"mat2", "float2x2", 2, 2, true}, {"mat3", "float3x3", 3, 3, true},
+    {"mat4", "float4x4", 4, 4, true}, {"int", "int", 1, 1, false},
+    {"ivec2", "int2", 1, 2, false},   {"ivec3", "int3", 1, 3, false},
+    {"ivec4", "int4", 1, 4, false},   {"uint", "uint", 1, 1, false},
+    {"bool", "bool", 1, 1, false},
 };
 
 static const struct shape *find_shape(const char *type)
 {
     for (size_t i = 0; i < sizeof shapes / sizeof *shapes; ++i) {
-        if (strcmp(type, shapes[i].name) == 0)
+        if (strcmp(type, shapes[i].name) == 0 || strcmp(type, shapes[i].hlsl_name) == 0)
             return &shapes[i];
     }
     return NULL;

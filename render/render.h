@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Renders a generated shader of the target "vulkan" to floats: compiles, binds, draws. */
+/* Renders a generated shader of a target for Vulkan to floats: compiles, binds, draws. */
 #ifndef MXG_RENDER_RENDER_H
 #define MXG_RENDER_RENDER_H
 

@@ -23,7 +23,9 @@ const struct lang_syntax glsl_syntax = {
     /* becomes a SPIR-V value; other parameters are variables, copied at every call */
     .param_in = "const ",
     .param_in_assigned = "",
+    .constant = "const ",
     .wide_constants = true,
+    .sizes_count_layers = true,
     .in_images = true,
     .param_out = "out ",
     .param_inout = "inout ",
@@ -39,5 +41,6 @@ const struct target target_glsl = {
     .caps = GLSL_CAPS | CAP_UNIFORM_DEFAULTS | CAP_BLOCK_OPTION | CAP_BLOCK_STAGE_IO,
     .versions = versions,
     .syntax = &glsl_syntax,
+    .frame = &glsl_frame,
     .stage_suffix = {"vert", "frag"},
 };

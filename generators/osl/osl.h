@@ -14,12 +14,6 @@ struct osl_macro {
     uint32_t uses;
 };
 
-struct osl_maker { /* structs.c: the function that puts a struct together */
-    ir_type_id type;
-    const char *name;
-    bool is_called;
-};
-
 /* What is known while a file is written. */
 struct osl {
     struct spell *spell;
@@ -29,7 +23,6 @@ struct osl {
     /* the first row of helpers.def for an op, + 1; 0: there is none */
     uint8_t first_helper[IR_NUM_OPS];
     VEC(struct osl_macro) macros;
-    VEC(struct osl_maker) makers;
     /* marked while text is written: what it names must stand above it */
     bool *called;              /* per portable function */
     bool *read;                /* per portable global */

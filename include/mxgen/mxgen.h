@@ -522,7 +522,7 @@ typedef struct mxg_variable {
     const char *colorspace, *unit;
     uint32_t array_length; /* 0: not an array */
     uint32_t set, binding, location;
-    uint32_t offset, byte_size, array_stride, matrix_stride; /* std140 */
+    uint32_t offset, byte_size, array_stride, matrix_stride; /* in a block */
     uint32_t num_values; /* components of the default; 0: none */
     float values[16];    /* integers and booleans as numbers */
     /* textures */

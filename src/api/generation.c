@@ -269,6 +269,7 @@ struct shader_layout_rules generation_layout_rules(const struct generation *g)
     return (struct shader_layout_rules){
         .blocks = (caps & CAP_UNIFORM_BLOCKS)
                   || ((caps & CAP_BLOCK_OPTION) && g->options[OPTION_uniform_blocks].number),
+        .packing = g->result->target->packing,
         .bindings = caps & CAP_BINDINGS,
         .neutral_names = g->options[OPTION_names].number != 0,
         .one_stage = !(caps & CAP_VERTEX_STAGE),
@@ -396,6 +397,7 @@ struct spell_options generation_spell_options(const struct generation *g)
         .colorspace = g->options[OPTION_colorspace].text,
         .metadata = (int)g->options[OPTION_metadata].number,
         .uniform_blocks = g->options[OPTION_uniform_blocks].number,
+        .vulkan_attributes = g->options[OPTION_hlsl_vulkan].number,
         .neutral_names = g->options[OPTION_names].number,
         .comments = g->options[OPTION_comments].number,
         .user_data = result,

@@ -107,6 +107,11 @@ static void print_list(struct printer *p, lang_ref ref)
     while (ref) {
         const struct lang_node *node = node_at(p, ref);
         print_expression(p, node, LANG_PREC_ASSIGN);
+        if (node->type == IR_TYPE_SAMPLER && p->style->syntax->sampler_type) {
+            text_str(p->out, ", ");
+            print_expression(p, node, LANG_PREC_POSTFIX);
+            text_str(p->out, LANG_SAMPLER_SUFFIX);
+        }
         ref = node->next;
         if (ref)
             text_mem(p->out, ", ", 2);
@@ -147,8 +152,8 @@ static void print_member(struct printer *p, const struct lang_node *node)
     const struct lang_unit *layer;
     const struct ir_user_type *user = lang_user_type(p->unit, whole->type, &layer);
     text_char(p->out, '.');
-    text_str(p->out,
-             str_text(p->unit->strings, layer->members.items[user->first_member + node->b].name));
+    text_str(p->out, lang_member_name(p->style, p->unit->strings,
+                                      layer->members.items[user->first_member + node->b].name));
 }
 
 /* A constant beside a vector is written as a vector where the style spreads constants (style.c). */
@@ -515,9 +520,37 @@ static void print_do(struct printer *p, const struct lang_node *node)
     text_str(p->out, ");\n");
 }
 
+/*
+ * "{ float made[2] = {a, b}; x = made; }": braces initialise a variable, but they are no value that
+ * could be assigned.
+ */
+static bool print_array_assignment(struct printer *p, const struct lang_node *node)
+{
+    const struct lang_node *value = node->kind == LANG_ASSIGN ? node_at(p, node->b) : NULL;
+    bool is_array = value && value->kind == LANG_OP && value->op == IR_CONSTRUCT
+                    && ast_is_user_type(value->type)
+                    && lang_user_type(p->unit, value->type, NULL)->array_length;
+    if (!is_array || !p->style->syntax->array_braces)
+        return false;
+    const struct text_word wanted = {"made", strlen("made")};
+    struct text_word made = wanted;
+    for (uint32_t number = 1; is_taken(p, made); number++)
+        made = variant(p, wanted, number);
+    text_str(p->out, "{ ");
+    lang_print_variable(p->style, p->names, p->unit, value->type, made.bytes, p->out);
+    text_str(p->out, " = ");
+    print_expression(p, value, LANG_PREC_ASSIGN);
+    text_str(p->out, "; ");
+    print_expression(p, node_at(p, node->a), LANG_PREC_UNARY);
+    text_fmt(p->out, " = %s; }\n", made.bytes);
+    return true;
+}
+
 static void print_statement(struct printer *p, const struct lang_node *node)
 {
     print_indent(p);
+    if (print_array_assignment(p, node))
+        return;
     switch (node->kind) {
     case LANG_IF: print_if(p, node); break;
     case LANG_FOR: print_for(p, node); break;
@@ -569,6 +602,11 @@ static void print_param(struct printer *p, uint32_t slot)
     text_str(p->out, param_prefix(p->style->syntax, param));
     if (!is_copied(p, param)) {
         print_variable(p, slot);
+        if (param->type == IR_TYPE_SAMPLER && p->style->syntax->sampler_type) {
+            text_fmt(p->out, ", %s ", p->style->syntax->sampler_type);
+            print_local(p, slot);
+            text_str(p->out, LANG_SAMPLER_SUFFIX);
+        }
         return;
     }
     lang_print_type(p->style, p->names, p->unit, param->type, p->out);

@@ -32,7 +32,12 @@ struct lang_syntax {
     const struct lang_syntax *base;
     const char *const *type_names; /* [IR_NUM_TYPES], NULL entries: from base */
     const struct lang_form *forms; /* [IR_NUM_OPS], text NULL: from base */
-    const char *const *reserved;   /* identifiers that must be renamed, sorted by byte value */
+    /*
+     * [IR_NUM_OPS], text NULL: from `forms`. The forms of a shader that knows no neighbours on the
+     * screen, as vertex stages do not; NULL: from base.
+     */
+    const struct lang_form *forms_alone;
+    const char *const *reserved; /* identifiers that must be renamed, sorted by byte value */
     uint32_t num_reserved;
     /* prefix of a parameter that is never assigned: "const " in GLSL, "" elsewhere */
     const char *param_in;
@@ -43,9 +48,16 @@ struct lang_syntax {
     bool plain_scalars; /* neither bool nor uint: their literals are those of int */
     /* no variables at file scope: "#define X 1.0"; arrays are declared in functions */
     bool defines_constants;
+    const char *constant;            /* prefix of a constant at file scope: "const " */
     bool float_literals_need_suffix; /* 1.0f */
     bool wide_constants;             /* max(v, vec3(0.0)), where a target has max(v, 0.0), too */
     bool array_braces;               /* arrays are built as {a, b}, not float[2](a, b) */
+    /*
+     * The type of a sampler that stands beside each texture, "SamplerState t_sampler" beside
+     * "Texture2D t", also among parameters and arguments; NULL: textures are samplers.
+     */
+    const char *sampler_type;
+    bool sizes_count_layers; /* the size of a texture array has the number of layers behind it */
     /* library images hold functions as text in it: of one syntax, which others may take over */
     bool in_images;
     /* what a pixel learns of its neighbours is spelled otherwise than in those texts */
@@ -59,6 +71,7 @@ struct lang_syntax {
 };
 
 const struct lang_form *lang_syntax_form(const struct lang_syntax *syntax, enum ir_op op);
+const struct lang_form *lang_syntax_forms_alone(const struct lang_syntax *syntax);
 const char *lang_syntax_type(const struct lang_syntax *syntax, ir_type_id type);
 bool lang_syntax_is_reserved(const struct lang_syntax *syntax, const char *name, size_t len);
 
@@ -142,6 +155,14 @@ extern const struct lang_syntax lang_syntax_portable; /* prints what the parser 
 /* `names` may be NULL below: the names of the source. */
 void lang_print_type(const struct lang_style *style, const struct lang_names *names,
                      const struct lang_unit *unit, ir_type_id type, struct text *out);
+/*
+ * A member's name in the output: an underscore follows a word of the language. Built-in functions
+ * are none here, since a member hides nothing.
+ */
+const char *lang_member_name(const struct lang_style *style, const struct strpool *strings,
+                             str_id name);
+/* Ends the name of the sampler that stands beside a texture. No other name ends so. */
+#define LANG_SAMPLER_SUFFIX "_sampler"
 /* "float x[3]": a variable with its type. */
 void lang_print_variable(const struct lang_style *style, const struct lang_names *names,
                          const struct lang_unit *unit, ir_type_id type, const char *name,

@@ -52,6 +52,14 @@ static const struct lang_form forms[IR_NUM_OPS] = {
 };
 // clang-format on
 
+/* Nothing differs from neighbours that are not known. */
+static const struct lang_form forms_alone[IR_NUM_OPS] = {
+    [IR_DFDX] = {"$T(0.0)", LANG_PREC_POSTFIX, false},
+    [IR_DFDY] = {"$T(0.0)", LANG_PREC_POSTFIX, false},
+    [IR_FWIDTH] = {"$T(0.0)", LANG_PREC_POSTFIX, false},
+    [IR_TEX] = {"textureLod($0, $1, 0.0)", LANG_PREC_POSTFIX, false},
+};
+
 static const char *const type_names[IR_NUM_TYPES] = {
 #define IR_TYPE(ID, text, scalar, components, columns) text,
 #include "ir/types.def"
@@ -68,6 +76,8 @@ const struct lang_syntax lang_syntax_portable = {
     .name = "portable",
     .type_names = type_names,
     .forms = forms,
+    .forms_alone = forms_alone,
+    .constant = "const ",
     .reserved = keywords,
     .num_reserved = sizeof keywords / sizeof *keywords,
     .param_in = "",
@@ -89,6 +99,13 @@ const struct lang_form *lang_syntax_form(const struct lang_syntax *syntax, enum 
     return form;
 }
 
+const struct lang_form *lang_syntax_forms_alone(const struct lang_syntax *syntax)
+{
+    while (!syntax->forms_alone)
+        syntax = syntax->base;
+    return syntax->forms_alone;
+}
+
 const char *lang_syntax_type(const struct lang_syntax *syntax, ir_type_id type)
 {
     assert(type < IR_NUM_TYPES);
@@ -101,6 +118,10 @@ const char *lang_syntax_type(const struct lang_syntax *syntax, ir_type_id type)
 /* A target's list stands for itself: what its base reserves may be free there. */
 bool lang_syntax_is_reserved(const struct lang_syntax *syntax, const char *name, size_t len)
 {
+    size_t suffix = strlen(LANG_SAMPLER_SUFFIX);
+    if (syntax->sampler_type && len > suffix
+        && memcmp(name + len - suffix, LANG_SAMPLER_SUFFIX, suffix) == 0)
+        return true;
     while (!syntax->reserved && syntax->base)
         syntax = syntax->base;
     for (uint32_t low = 0, high = syntax->num_reserved; low < high;) {

@@ -216,7 +216,7 @@ void lang_print_constant(const struct lang_style *style, const struct lang_names
     const char *name = print_global_name(names, unit, global_id);
     bool is_local = style->syntax->defines_constants && ast_is_user_type(global->type);
     bool defines = style->syntax->defines_constants && !is_local;
-    text_str(out, defines ? "#define " : is_local ? "" : "const ");
+    text_str(out, defines ? "#define " : is_local ? "" : style->syntax->constant);
     if (defines)
         text_str(out, name);
     else
@@ -224,6 +224,27 @@ void lang_print_constant(const struct lang_style *style, const struct lang_names
     text_str(out, defines ? " " : " = ");
     print_words(style, unit, global->type, layer->words.items + global->words, out);
     text_str(out, defines ? "\n" : ";\n");
+}
+
+static bool is_builtin(const char *name)
+{
+    for (int op = 0; op < IR_NUM_OPS; op++)
+        if (ir_op_info((enum ir_op)op)->flags & OP_BUILTIN
+            && strcmp(ir_op_info((enum ir_op)op)->text, name) == 0)
+            return true;
+    return false;
+}
+
+const char *lang_member_name(const struct lang_style *style, const struct strpool *strings,
+                             str_id name)
+{
+    const char *text = str_text(strings, name);
+    if (!lang_syntax_is_reserved(style->syntax, text, str_len(strings, name)) || is_builtin(text))
+        return text;
+    struct text longer;
+    text_init(&longer, style->arena);
+    text_fmt(&longer, "%s_", text);
+    return text_cstr(&longer);
 }
 
 void lang_print_struct(const struct lang_style *style, const struct lang_names *names,
@@ -237,8 +258,8 @@ void lang_print_struct(const struct lang_style *style, const struct lang_names *
     for (uint32_t i = 0; i < user->num_members; i++) {
         const struct ir_member *member = &layer->members.items[user->first_member + i];
         text_str(out, "    ");
-        lang_print_variable(style, names, unit, member->type, str_text(unit->strings, member->name),
-                            out);
+        lang_print_variable(style, names, unit, member->type,
+                            lang_member_name(style, unit->strings, member->name), out);
         text_str(out, ";\n");
     }
     text_str(out, "};\n");

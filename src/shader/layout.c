@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * layout: the order of the interface, byte offsets by the rules of std140 (OpenGL 4.5 core
- * specification, section 7.6.2.2), bindings and locations.
+ * layout: the order of the interface, byte offsets by the packing of the target's blocks, bindings
+ * and locations.
  */
 #include "shader/shader.h"
 
@@ -72,11 +72,25 @@ static void order_interface(struct shader *shader)
         assert(ends[block] == starts[block + 1]);
 }
 
-static void place_in_buffer(struct shader_buffer *buffer, struct shader_variable *variable)
+static uint32_t next_offset(const struct shader_variable *variable, enum shader_packing packing,
+                            uint32_t end)
+{
+    uint32_t align = std140_align(variable->type, variable->array_length > 0);
+    bool is_vector = !variable->array_length && !ir_type_is_matrix(variable->type);
+    if (packing == PACKING_STD140 || !is_vector)
+        return round_up(end, align);
+    return end % STD140_ROUND + variable->size > STD140_ROUND ? round_up(end, STD140_ROUND) : end;
+}
+
+static void place_in_buffer(struct shader_buffer *buffer, enum shader_packing packing,
+                            struct shader_variable *variable)
 {
     bool array = variable->array_length > 0, matrix = ir_type_is_matrix(variable->type);
-    variable->offset = round_up(buffer->size, std140_align(variable->type, array));
     variable->size = std140_size(variable->type, variable->array_length);
+    variable->offset = next_offset(variable, packing, buffer->size);
+    assert(variable->offset >= buffer->size && variable->offset % 4 == 0);
+    assert(variable->block != BLOCK_LIGHT_DATA
+           || variable->offset == next_offset(variable, PACKING_STD140, buffer->size));
     variable->array_stride = array ? variable->size / variable->array_length : 0;
     variable->matrix_stride = matrix ? STD140_ROUND : 0;
     assert(variable->offset >= buffer->size && variable->size > 0);
@@ -100,9 +114,25 @@ static void finish_buffers(struct shader *shader)
     lights->size *= shader->max_lights;
 }
 
+/*
+ * Long vectors first and matrices last: in this order std140 and constant buffers agree on each
+ * offset. Members of a struct have no packoffset, and glslang takes the size of HLSL's from std140.
+ */
+static void rank_light_members(struct shader *shader)
+{
+    for (uint32_t i = 0; i < shader->variables.len; i++) {
+        struct shader_variable *variable = &shader->variables.items[i];
+        const struct ir_type_info *info = ir_type_info(variable->type);
+        if (variable->block == BLOCK_LIGHT_DATA)
+            variable->rank = info->columns > 1 ? 4 : (uint16_t)(4 - info->components);
+    }
+}
+
 void shader_layout(struct shader *shader)
 {
     const struct shader_layout_rules *rules = &shader->rules;
+    if (rules->packing == PACKING_CBUFFER)
+        rank_light_members(shader);
     order_interface(shader);
     memset(shader->buffers, 0, sizeof shader->buffers);
     if (rules->bindings) {
@@ -120,7 +150,7 @@ void shader_layout(struct shader *shader)
         case BLOCK_PRIVATE_UNIFORMS:
         case BLOCK_LIGHT_DATA:
             if (rules->blocks)
-                place_in_buffer(&shader->buffers[variable->block], variable);
+                place_in_buffer(&shader->buffers[variable->block], rules->packing, variable);
             break;
         case BLOCK_TEXTURES:
             if (rules->bindings) {

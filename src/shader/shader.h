@@ -85,7 +85,7 @@ struct shader_variable {
     uint32_t first_tile, num_tiles;
     /* layout.c */
     uint32_t set, binding, location;
-    uint32_t offset, size, array_stride, matrix_stride; /* std140, in bytes */
+    uint32_t offset, size, array_stride, matrix_stride; /* in a block, in bytes */
 };
 
 /* The kind of a shader for targets without stages. */
@@ -183,13 +183,25 @@ struct shader_binding {
 
 struct shader_buffer {
     uint32_t set, binding;
-    uint32_t size;   /* in bytes, std140; of LightData: of the whole array */
+    uint32_t size;   /* in bytes; of LightData: of the whole array */
     uint32_t stride; /* distance between lights in LightData */
+};
+
+/* Where the members of a block of uniforms stand. */
+enum shader_packing {
+    PACKING_STD140, /* OpenGL 4.5 core specification, section 7.6.2.2 */
+    /*
+     * Constant buffers of Direct3D: a vector does not cross a row of 16 bytes and is aligned to
+     * its components otherwise. What follows an array or a matrix begins a row, which Direct3D
+     * leaves to packoffset and Vulkan asks for.
+     */
+    PACKING_CBUFFER,
 };
 
 /* The needs of a target, from its table and the options. */
 struct shader_layout_rules {
-    bool blocks;         /* uniforms stand in std140 blocks */
+    bool blocks; /* uniforms stand in blocks */
+    enum shader_packing packing;
     bool bindings;       /* sets and bindings are numbered, locations given */
     bool neutral_names;  /* public variables are numbered: equal topology, equal names */
     bool one_stage;      /* there is no vertex stage */

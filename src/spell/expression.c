@@ -78,9 +78,19 @@ static void write_member(struct spell *spell, ir_ref ref, uint32_t attr)
     spell_expression(spell, operand, LANG_PREC_POSTFIX);
     const struct ir_user_type *type = user_type(spell, ir_type_of(spell->shader->graph, operand));
     text_char(spell->out, '.');
-    spell_text(spell,
-               str_text(spell->shader->strings,
-                        spell->shader->graph->members.items[type->first_member + attr].name));
+    spell_text(spell, lang_member_name(
+                          spell->style, spell->shader->strings,
+                          spell->shader->graph->members.items[type->first_member + attr].name));
+}
+
+void spell_argument(struct spell *spell, ir_ref ref)
+{
+    spell_expression(spell, ref, LANG_PREC_ASSIGN);
+    if (!spell_has_sampler(spell, ir_type_of(spell->shader->graph, ref)))
+        return;
+    text_mem(spell->out, ", ", 2);
+    spell_expression(spell, ref, LANG_PREC_POSTFIX);
+    spell_text(spell, LANG_SAMPLER_SUFFIX);
 }
 
 static void write_list(struct spell *spell, ir_ref ref)
@@ -89,7 +99,7 @@ static void write_list(struct spell *spell, ir_ref ref)
     for (uint32_t i = 0; i < node->num_args; i++) {
         if (i)
             text_mem(spell->out, ", ", 2);
-        spell_expression(spell, ir_arg(spell->shader->graph, ref, i), LANG_PREC_ASSIGN);
+        spell_argument(spell, ir_arg(spell->shader->graph, ref, i));
     }
 }
 
@@ -214,7 +224,7 @@ static void write_form(struct spell *spell, const struct ir_node *node,
     }
     if (form->rest.len)
         text_put(spell->out, form->rest);
-    if (node->op == IR_TEX_SIZE
+    if (node->op == IR_TEX_SIZE && spell->target->syntax->sizes_count_layers
         && ir_type_of(spell->shader->graph, args[0]) == IR_TYPE_SAMPLER_ARRAY)
         spell_text(spell, ".xy"); /* the third is the number of layers */
     if (parentheses)

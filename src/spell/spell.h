@@ -9,10 +9,19 @@
 #include "shader/names.h"
 #include "spell/target.h"
 
+/* ---- maker.c: functions that put structs together ---- */
+
+struct spell_maker {
+    ir_type_id type;
+    const char *type_name, *name;
+    bool is_called; /* for who writes it beside the struct */
+};
+
 /* ---- The state ---- */
 
 struct spell {
     const struct target *target;
+    const struct target_frame *frame; /* the target's or its base's; NULL: there is none */
     const struct spell_options *options;
     const struct shader *shader;
     const struct shader_stage *stage;
@@ -40,11 +49,13 @@ struct spell {
     /* node of a LET to its first name in let_names, + 1; 0: it is an expression */
     uint32_t *local_of;
     VEC(struct spell_name) let_names;
-    VEC(str_id) wanted_names; /* of the function's locals, sorted */
-    const char *loop_index;   /* in LIGHTS and SAMPLES: the loop's variable */
-    struct name_set paths;    /* shown in comments so far */
-    void *target_data;        /* the target's own, while its hook runs */
-    uint8_t *origins_seen;    /* origins whose path was asked for; NULL: no comments */
+    VEC(str_id) wanted_names;  /* of the function's locals, sorted */
+    const char *loop_index;    /* in LIGHTS and SAMPLES: the loop's variable */
+    struct name_set paths;     /* shown in comments so far */
+    VEC(const char *) helpers; /* spell_helper */
+    VEC(struct spell_maker) makers;
+    void *target_data;     /* the target's own, while its hook runs */
+    uint8_t *origins_seen; /* origins whose path was asked for; NULL: no comments */
 };
 
 /* ---- expression.c ---- */
@@ -55,6 +66,8 @@ void spell_node(struct spell *spell, ir_ref ref, const struct ir_node *node,
                 enum lang_precedence least);
 void spell_typed_node(struct spell *spell, ir_ref ref, const struct ir_node *node,
                       enum lang_precedence least);
+/* An argument of a call: a texture with its sampler, where the language has these apart. */
+void spell_argument(struct spell *spell, ir_ref ref);
 /*
  * "f(a, b": the name and operands of a call, unfinished. Returns how many arguments were written.
  */
@@ -84,10 +97,33 @@ struct spell_name spell_local_base(struct spell *spell, ir_ref ref);
 void spell_statements(struct spell *spell, const struct effect_list *statements, unsigned indent);
 void spell_graph_function(struct spell *spell, const struct shader_function *function);
 
-/* ---- declare.c: what stands above the functions ---- */
+/* ---- declare.c: what frames need to declare what stands above the functions ---- */
 
 void spell_name_interface(struct spell *spell);
-void spell_interface(struct spell *spell);
+/* Loops over the places in the interface of a block's variables. */
+#define SPELL_EACH_OF_BLOCK(i, spell, block) \
+    for (uint32_t i = (spell)->shader->first_of_block[block]; \
+         i < (spell)->shader->first_of_block[(block) + 1]; i++)
+/* The variable at a place in the interface. */
+const struct shader_variable *spell_interface_variable(const struct spell *spell, uint32_t place);
+/* Does the stage use the variable; or one of the block's? */
+bool spell_uses(const struct spell *spell, const struct shader_variable *variable);
+bool spell_uses_block(const struct spell *spell, enum shader_block block);
+/* "vec3 name[4]": a variable with its type, under a name that may differ from its own. */
+void spell_declare(struct spell *spell, const struct shader_variable *variable,
+                   struct spell_name name);
+/* The structs of the stage's functions. */
+void spell_structs(struct spell *spell);
+
+/* ---- maker.c ---- */
+
+/* Gives a struct of the stage a maker, which is named at file scope: "make_Outer". */
+void spell_name_maker(struct spell *spell, ir_type_id type);
+/* By the struct's name in the output; NULL: it has none. */
+struct spell_maker *spell_find_maker(const struct spell *spell, const char *type_name);
+/* "Outer make_Outer(vec2 a, float b) { Outer made; made.a = a; … return made; }" */
+void spell_write_maker(const struct spell *spell, const struct spell_maker *maker,
+                       struct text *out);
 
 /* ---- wrap.c ---- */
 
@@ -96,6 +132,11 @@ void spell_wrap(struct spell *spell, size_t begin);
 
 /* ---- stage.c ---- */
 
+/*
+ * A function of the text that the language lacks, declared once above those of the shader. Texts
+ * live as long as the stage is written.
+ */
+void spell_helper(struct spell *spell, const char *text);
 void spell_title(struct spell *spell); /* "Gold · surfacematerial · …", without a newline */
 void spell_verbatim_sources(struct spell *spell); /* each once */
 
@@ -143,6 +184,12 @@ static inline void spell_mark(struct spell *spell, uint32_t origin)
 {
     if (origin)
         vec_push(spell->scratch, &spell->marks, (struct spell_mark){spell->out->len, origin});
+}
+/* Does a sampler of its own belong to what has this type? */
+static inline bool spell_has_sampler(const struct spell *spell, ir_type_id type)
+{
+    return spell->target->syntax->sampler_type
+           && (type == IR_TYPE_SAMPLER || type == IR_TYPE_SAMPLER_ARRAY);
 }
 static inline bool spell_can(const struct spell *spell, uint32_t cap)
 {

@@ -168,22 +168,6 @@ void spell_title(struct spell *spell)
     write_plural(spell->out, textures, "texture");
 }
 
-static void write_header(struct spell *spell)
-{
-    const char *version =
-        spell->options->version ? spell->options->version : spell->target->versions[0];
-    SPELL(spell, "#version ", version, "\n// ");
-    spell_title(spell);
-    spell_text(spell, "\n");
-    if (spell_can(spell, CAP_PRECISION)
-        && (spell->stage_id == STAGE_PIXEL || spell->shader->displaced))
-        spell_text(spell,
-                   "precision highp float;\nprecision highp int;\nprecision highp sampler2D;\n");
-    if (spell_can(spell, CAP_PRECISION) && spell->shader->tiles.len)
-        spell_text(spell, "precision highp sampler2DArray;\n");
-    spell_text(spell, "\n");
-}
-
 void spell_verbatim_sources(struct spell *spell)
 {
     const struct shader *shader = spell->shader;
@@ -233,37 +217,55 @@ static void write_functions(struct spell *spell)
         spell_graph_function(spell, &spell->stage->functions.items[i]);
 }
 
+void spell_helper(struct spell *spell, const char *text)
+{
+    for (uint32_t i = 0; i < spell->helpers.len; i++)
+        if (strcmp(spell->helpers.items[i], text) == 0)
+            return;
+    vec_push(spell->scratch, &spell->helpers, text);
+}
+
+/* The helpers, then the functions and main, which were written first: they ask for helpers. */
+static void join(struct spell *spell, struct text *out, const struct text *body)
+{
+    spell->out = out;
+    for (uint32_t i = 0; i < spell->helpers.len; i++)
+        SPELL(spell, spell->helpers.items[i], "\n");
+    for (uint32_t i = 0; i < spell->marks.len; i++)
+        spell->marks.items[i].at += (uint32_t)out->len;
+    text_mem(out, body->data, body->len);
+}
+
 void spell_stage(struct spell *spell, enum shader_stage_id stage)
 {
     (void)stage;
-    write_header(spell);
-    spell_interface(spell);
+    struct text *out = spell->out, body;
+    spell->frame->declare(spell);
     spell_text(spell, "\n");
+    if (spell->lang_names.form || spell->lang_names.maker) {
+        text_init(&body, spell->scratch);
+        spell->out = &body;
+    }
     write_functions(spell);
-    spell_text(spell, spell->shader->scatters ? "void scatter()\n{\n" : "void main()\n{\n");
+    spell->frame->open(spell);
     names_open_scope(&spell->names);
     spell_statements(spell, &spell->stage->statements, 1);
+    if (spell->frame->close)
+        spell->frame->close(spell);
     spell_text(spell, "}\n");
+    if (spell->out != out)
+        join(spell, out, &body);
 }
 
 /* ---- Entry ---- */
 
-/*
- * The target's syntax for a stage that knows no neighbours on the screen: nothing differs from
- * them.
- */
-static const struct lang_syntax *syntax_of_one(struct spell *spell)
+/* The target's syntax for a stage that knows no neighbours on the screen. */
+static const struct lang_syntax *syntax_alone(struct spell *spell)
 {
-    static const struct lang_form forms[IR_NUM_OPS] = {
-        [IR_DFDX] = {"$T(0.0)", LANG_PREC_POSTFIX, false},
-        [IR_DFDY] = {"$T(0.0)", LANG_PREC_POSTFIX, false},
-        [IR_FWIDTH] = {"$T(0.0)", LANG_PREC_POSTFIX, false},
-        [IR_TEX] = {"textureLod($0, $1, 0.0)", LANG_PREC_POSTFIX, false},
-    };
     struct lang_syntax *syntax = ARENA_NEW(spell->scratch, struct lang_syntax);
     *syntax = *spell->target->syntax;
     syntax->base = spell->target->syntax;
-    syntax->forms = forms;
+    syntax->forms = lang_syntax_forms_alone(syntax);
     syntax->without_neighbours = true;
     return syntax;
 }
@@ -284,16 +286,18 @@ static void init(struct spell *spell)
         ARENA_ARRAY(arena, const char *, unit->base_user_types + unit->user_types.len + 1);
     spell->locals = ARENA_ARRAY(arena, struct spell_name, shader->locals.len + 1);
     spell->local_of = ARENA_ARRAY(arena, uint32_t, shader->graph->nodes.len);
-    spell->write_node = spell_node;
+    spell->write_node = spell->target->form ? spell_typed_node : spell_node;
     spell->lang_names = (struct lang_names){.user_data = spell,
                                             .function = function_name,
                                             .global = global_name,
-                                            .user_type = user_type_name};
+                                            .user_type = user_type_name,
+                                            .maker = spell->target->maker,
+                                            .form = spell->target->form};
     bool has_neighbours = spell->stage_id == STAGE_PIXEL ? !shader->scatters : !shader->displaced;
     spell->style =
         shader->style && has_neighbours ? shader->style : arena_alloc(arena, sizeof *spell->style);
     if (spell->style != shader->style)
-        lang_style_init(spell->style, has_neighbours ? spell->target->syntax : syntax_of_one(spell),
+        lang_style_init(spell->style, has_neighbours ? spell->target->syntax : syntax_alone(spell),
                         arena);
     names_init(&spell->names, arena, spell->style->syntax);
     if (spell->options->comments && spell->options->path && !spell->options->neutral_names) {
@@ -322,10 +326,11 @@ void spell_shader_stage(const struct target *target, const struct spell_options 
         .out = out,
     };
     size_t begin = out->len;
-    init(&spell);
     const struct target *writer = target;
-    while (!writer->stage && writer->base)
+    while (!writer->stage && !writer->frame)
         writer = writer->base;
+    spell.frame = writer->frame;
+    init(&spell);
     (writer->stage ? writer->stage : spell_stage)(&spell, stage);
     spell_wrap(&spell, begin);
     *out_marks = spell.marks.items;

@@ -134,7 +134,7 @@ static void write_portable_arguments(struct spell *spell, ir_ref call, uint32_t 
         if (i)
             text_mem(spell->out, ", ", 2);
         if (mode == LANG_IN)
-            spell_expression(spell, ir_arg(spell->shader->graph, call, operand), LANG_PREC_ASSIGN);
+            spell_argument(spell, ir_arg(spell->shader->graph, call, operand));
         else
             spell_name(spell, spell->let_names.items[first_name + 1 + out++]);
         operand += mode != LANG_OUT;
@@ -432,6 +432,8 @@ void spell_graph_function(struct spell *spell, const struct shader_function *fun
                           : type == IR_TYPE_SAMPLER ? ""
                                                     : syntax->param_in);
         spell_variable(spell, type, (struct spell_name){name, len});
+        if (spell_has_sampler(spell, type))
+            SPELL(spell, ", ", syntax->sampler_type, " ", name, LANG_SAMPLER_SUFFIX);
     }
     text_mem(spell->out, ")\n{\n", 4);
     spell_statements(spell, &function->statements, 1);

@@ -79,6 +79,17 @@ struct target_network {
     void (*reflect)(const struct network *network, struct reflect *r);
 };
 
+/*
+ * What stands around the functions and statements of a stage, which spell_stage writes. Hooks may
+ * be NULL: nothing stands there.
+ */
+struct target_frame {
+    /* Structs, uniforms, textures, stage inputs and outputs, below the language's first lines. */
+    void (*declare)(struct spell *spell);
+    void (*open)(struct spell *spell);  /* "void main()\n{\n", and what main begins with */
+    void (*close)(struct spell *spell); /* what main ends with, before its brace */
+};
+
 struct target {
     const char *name;           /* "glsl": --target */
     const char *materialx_name; /* "genglsl": the target of implementations */
@@ -90,8 +101,18 @@ struct target {
     const struct lang_syntax *syntax;
     const struct target_closures *closures; /* NULL: no closures */
     const struct target_network *network;   /* NULL: no networks */
-    const char *position;                   /* variable of the vertex position; NULL: gl_Position */
-    const char *stage_suffix[NUM_STAGES];   /* file endings: "vert", "frag" */
+    const struct target_frame *frame;       /* of spell_stage; NULL: from base */
+    /*
+     * The form of an op where types decide (struct lang_names); user_data is the spell. NULL: the
+     * syntax says all.
+     */
+    const struct lang_pieces *(*form)(void *user_data, const struct lang_use *use);
+    /* The function that puts a struct together (struct lang_names), where there is no constructor
+     */
+    const char *(*maker)(void *user_data, const char *type);
+    enum shader_packing packing;          /* of blocks of uniforms */
+    const char *position;                 /* variable of the vertex position; NULL: gl_Position */
+    const char *stage_suffix[NUM_STAGES]; /* file endings: "vert", "frag" */
     /*
      * The type of a node's local, or of each result of a call, if it differs from the IR's type.
      * May be NULL, and may return NULL for the IR's type.
@@ -127,6 +148,7 @@ struct spell_options {
     /* metadata of parameters: 0 none, 1 for user interfaces, 2 with documentation */
     int metadata;
     bool uniform_blocks;
+    bool vulkan_attributes; /* of HLSL: [[vk::binding(3, 0)]] */
     bool neutral_names;
     const char *shader_name; /* unique among functions and shaders; NULL: from the element's path */
     bool comments;           /* write element paths as comments */

@@ -11,7 +11,7 @@
 
 enum { NUM_THREADS = 8, MAX_DOCUMENTS = 32 };
 
-static const char *const targets[] = {"glsl", "vulkan", "essl", "osl"};
+static const char *const targets[] = {"glsl", "vulkan", "essl", "hlsl", "osl"};
 enum { NUM_TARGETS = sizeof targets / sizeof *targets };
 
 struct shared {

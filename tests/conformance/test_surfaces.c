@@ -3,13 +3,13 @@
  * Materials drawn and compared with what MaterialX's own GLSL draws of them (README.md,
  * "Surfaces").
  *
- *     test_surfaces [KEY=VALUE...] DEVIATIONS FOLDER [DOCUMENTS [NAME...]]
+ *     test_surfaces TARGET [KEY=VALUE...] DEVIATIONS FOLDER [DOCUMENTS [NAME...]]
  *
- * KEY=VALUE is an option of generation, to see what a variant of the shaders would be. Images are
- * those of FOLDER/expected/surfaces/index.tsv (of materials NAME… only), documents are relative to
- * FOLDER. MaterialX's own ("example") are relative to DOCUMENTS, and left out where there is no
- * such folder. Reference images may hold the middle pixels of larger cells only; the shader is
- * drawn whole in any case.
+ * TARGET is "vulkan" or "hlsl". KEY=VALUE is an option of generation, to see what a variant of the
+ * shaders would be. Images are those of FOLDER/expected/surfaces/index.tsv (of materials NAME…
+ * only), documents are relative to FOLDER. MaterialX's own ("example") are relative to DOCUMENTS,
+ * and left out where there is no such folder. Reference images may hold the middle pixels of larger
+ * cells only; the shader is drawn whole in any case.
  */
 #define _POSIX_C_SOURCE 200809L
 #include "deviations.h"
@@ -41,7 +41,7 @@ struct errors {
 };
 
 struct run {
-    const char *folder, *documents; /* "": none */
+    const char *target, *folder, *documents; /* documents "": none */
     char **names;
     size_t num_names;
     mxg_context *context;
@@ -165,7 +165,7 @@ static bool draw(struct run *run, const char *path, const char *element, enum im
     mxg_document *document = NULL;
     mxg_result *result = NULL;
     mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
-    desc.target = "vulkan";
+    desc.target = run->target;
     desc.element = element;
     desc.options = run->options;
     bool good = mxg_document_load(run->context, run->library, path, &document) == MXG_OK
@@ -291,17 +291,19 @@ static void check_all(struct run *run)
 
 int main(int argc, char **argv)
 {
+    const char *target = argc > 1 ? *++argv : "";
     char **settings = argv + 1;
+    --argc;
     while (argc > 1 && strchr(argv[1], '=')) {
         ++argv;
         --argc;
     }
     if (argc < 3) {
-        fprintf(stderr, "usage: %s [KEY=VALUE...] DEVIATIONS FOLDER [DOCUMENTS [NAME...]]\n",
-                argv[0]);
+        fprintf(stderr, "usage: test_surfaces TARGET [KEY=VALUE...] DEVIATIONS FOLDER"
+                        " [DOCUMENTS [NAME...]]\n");
         return 2;
     }
-    struct run run = {.folder = argv[2], .documents = argc > 3 ? argv[3] : ""};
+    struct run run = {.target = target, .folder = argv[2], .documents = argc > 3 ? argv[3] : ""};
     int code = 1;
     if (argc > 4) {
         run.names = argv + 4;

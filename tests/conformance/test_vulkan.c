@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Every row drawn: the generated Vulkan shader runs on the grid scene, on whatever device there is,
- * and its pixels are compared.
+ * Every row drawn: the generated shader of a target that compiles to SPIR-V for Vulkan runs on the
+ * grid scene, on whatever device there is, and its pixels are compared.
  *
- *     test_vulkan FOLDER INTERFACE [PART PARTS]      the documents of one part of several, counted
- * from 1
+ *     test_vulkan TARGET FOLDER INTERFACE [PART PARTS]      the documents of one part of several,
+ * counted from 1
  */
 #include "render/render.h"
 #include "rows.h"
@@ -18,6 +18,7 @@ enum { EXIT_SKIPPED = 77, WIDTH = 4, HEIGHT = 4 };
 
 struct run {
     struct suite suite;
+    const char *target;
     mxg_context *context;
     mxg_library *library;
     mxg_options *options;
@@ -53,7 +54,7 @@ static bool draw(struct run *run, const mxg_document *document, const char *path
 {
     float pixels[WIDTH * HEIGHT][4];
     mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
-    desc.target = "vulkan";
+    desc.target = run->target;
     desc.element = row->name;
     desc.options = run->options;
     mxg_result *result = NULL;
@@ -115,22 +116,22 @@ static void stop(struct run *run)
 
 int main(int argc, char **argv)
 {
-    if (argc != 3 && argc != 5) {
-        fprintf(stderr, "usage: %s FOLDER INTERFACE [PART PARTS]\n", argv[0]);
+    if (argc != 4 && argc != 6) {
+        fprintf(stderr, "usage: %s TARGET FOLDER INTERFACE [PART PARTS]\n", argv[0]);
         return 2;
     }
-    size_t part = argc == 5 ? strtoul(argv[3], NULL, 10) : 1,
-           parts = argc == 5 ? strtoul(argv[4], NULL, 10) : 1;
-    struct run run = {.suite = {.folder = argv[1]}};
+    size_t part = argc == 6 ? strtoul(argv[4], NULL, 10) : 1,
+           parts = argc == 6 ? strtoul(argv[5], NULL, 10) : 1;
+    struct run run = {.suite = {.folder = argv[2]}, .target = argv[1]};
     int code = 1;
     if (!gpu_open(&run.gpu)) {
         printf("skip: there is no Vulkan device: %s\n", run.gpu.reason);
         code = EXIT_SKIPPED;
-    } else if (start(&run, argv[1], argv[2])) {
+    } else if (start(&run, argv[2], argv[3])) {
         for (size_t i = part - 1; i < run.suite.num_documents; i += parts)
             check_document(&run, i);
         char name[64];
-        snprintf(name, sizeof name, "conformance-vulkan-%s-%zu/%zu", argv[2], part, parts);
+        snprintf(name, sizeof name, "conformance-%s-%s-%zu/%zu", run.target, argv[3], part, parts);
         code = suite_report(&run.suite, name, parts == 1);
     }
     stop(&run);

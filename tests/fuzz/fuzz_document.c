@@ -8,7 +8,7 @@
 
 enum { MAX_RENDERABLES = 3 };
 
-static const char *const targets[] = {"glsl", "vulkan", "essl"};
+static const char *const targets[] = {"glsl", "vulkan", "essl", "hlsl"};
 static const char *const interfaces[] = {"complete", "authored", "reduced"};
 
 static bool is_expected(mxg_status status)
@@ -46,7 +46,7 @@ static void use(mxg_context *context, const mxg_document *document, const struct
     FUZZ_REQUIRE(is_expected(mxg_document_validate(context, document, &result)));
     format_all(mxg_result_diagnostics(result), files);
     mxg_result_destroy(result);
-    mxg_generate_desc desc = {sizeof desc, targets[choice / 64 % 3], NULL, options};
+    mxg_generate_desc desc = {sizeof desc, targets[choice / 64 % 4], NULL, options};
     for (uint32_t i = 0; i < mxg_document_num_renderables(document) && i < MAX_RENDERABLES; i++) {
         mxg_renderable renderable = {sizeof renderable};
         FUZZ_REQUIRE(mxg_document_renderable(document, i, &renderable) == MXG_OK);

@@ -23,7 +23,7 @@ fi
 # compile_document DOCUMENT: a folder of its own for what came of it.
 compile_document() {
     local modes=(--targets glsl --interfaces complete) code=0
-    [[ $1 == resources/* ]] && modes=(--targets glsl,vulkan,essl --interfaces complete,reduced)
+    [[ $1 == resources/* ]] && modes=(--targets glsl,vulkan,essl,hlsl --interfaces complete,reduced)
     mkdir -p "made/$1"
     timeout 120 "$compile" "$materials/$1" "${modes[@]}" --max-errors 1000 >"made/$1/out" 2>"made/$1/err" || code=$?
     echo "$code" >"made/$1/code"

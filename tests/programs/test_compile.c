@@ -23,6 +23,14 @@ static const char *const es_pixel = "#version 300 es\nprecision highp float;\nun
                                     "void main()\n{\n    o = vec4(u_color * 2.0, 1.0);\n}\n";
 static const char *const broken_pixel = "#version 450\nlayout(location = 0) out vec4 o;\nvoid "
                                         "main()\n{\n    o = vec4(missing, 1.0);\n}\n";
+static const char *const hlsl_vertex = "void main(float3 p : POSITION, out float4 position : "
+                                       "SV_Position)\n{\n    position = float4(p, "
+                                       "1.0);\n}\n";
+static const char *const hlsl_pixel =
+    "cbuffer B : register(b0) { float gain : packoffset(c0); float3 tint : packoffset(c0.y); };\n"
+    "void main(out float4 o : SV_Target0)\n{\n    o = float4(tint * gain, 1.0);\n}\n";
+static const char *const broken_hlsl =
+    "void main(out float4 o : SV_Target0)\n{\n    o = float4(missing, 1.0);\n}\n";
 static struct compiled compile(const char *target, const char *vertex, const char *pixel)
 {
     struct compiled compiled;
@@ -67,11 +75,14 @@ int main(void)
     accepts("glsl", desktop_vertex, desktop_pixel, 9);
     accepts("vulkan", desktop_vertex, vulkan_pixel, 10);
     accepts("essl", es_vertex, es_pixel, 9);
+    /* main calls the source's main, and a tint that is not aligned to 16 bytes is valid */
+    accepts("hlsl", hlsl_vertex, hlsl_pixel, 22);
+    refuses("hlsl", hlsl_vertex, broken_hlsl, 3, "missing");
     refuses("glsl", desktop_vertex, broken_pixel, 5, "missing");
     refuses("vulkan", desktop_vertex, broken_pixel, 5, "missing");
     /* loose uniforms are not Vulkan's */
     refuses("vulkan", desktop_vertex, desktop_pixel, 2, "outside a block");
-    REQUIRE(compile_knows_target("essl"));
+    REQUIRE(compile_knows_target("essl") && compile_knows_target("hlsl"));
     REQUIRE(!compile_knows_target("msl"));
     compile_end();
     return test_report("compile");

@@ -3,7 +3,7 @@
 #include "test.h"
 #include "shader_fixture.h"
 
-/* ---- std140 ---- */
+/* ---- Packing of blocks ---- */
 
 /*
  * Offsets and sizes worked out by hand from the rules of OpenGL 4.5, 7.6.2.2, for one block that
@@ -31,30 +31,81 @@ static const struct member_case {
     {IR_TYPE_UINT, 0, 336, 4, 0, 0},
 };
 
-static void test_std140(void)
+/*
+ * The same for constant buffers: "Packing rules for constant variables" of Microsoft's reference,
+ * and a row begins behind an array or matrix.
+ */
+static const struct member_case cbuffer_cases[] = {
+    {IR_TYPE_FLOAT, 0, 0, 4, 0, 0},   {IR_TYPE_VEC3, 0, 4, 12, 0, 0},
+    {IR_TYPE_VEC2, 0, 16, 8, 0, 0},   {IR_TYPE_BOOL, 0, 24, 4, 0, 0},
+    {IR_TYPE_VEC2, 0, 32, 8, 0, 0}, /* would cross a row */
+    {IR_TYPE_INT, 0, 40, 4, 0, 0},    {IR_TYPE_MAT3, 0, 48, 48, 0, 16},
+    {IR_TYPE_FLOAT, 0, 96, 4, 0, 0},  {IR_TYPE_FLOAT, 3, 112, 48, 16, 0},
+    {IR_TYPE_VEC3, 0, 160, 12, 0, 0}, {IR_TYPE_VEC4, 0, 176, 16, 0, 0},
+    {IR_TYPE_IVEC2, 0, 192, 8, 0, 0}, {IR_TYPE_VEC3, 0, 208, 12, 0, 0},
+};
+
+static void check_packing(enum shader_packing packing, const struct member_case *cases, size_t n,
+                          uint32_t size)
 {
     struct fixture f;
     fixture_open(&f, NULL);
-    for (size_t i = 0; i < sizeof member_cases / sizeof *member_cases; i++) {
+    for (size_t i = 0; i < n; i++) {
         struct shader_variable v = {.name = word(&f, "v"),
                                     .block = BLOCK_PUBLIC_UNIFORMS,
-                                    .type = member_cases[i].type,
-                                    .array_length = member_cases[i].array_length,
+                                    .type = cases[i].type,
+                                    .array_length = cases[i].array_length,
                                     .stages = 1 << STAGE_PIXEL};
         shader_add_variable(&f.shader, &v);
     }
-    f.shader.rules = (struct shader_layout_rules){.blocks = true, .bindings = true, .set = 2};
+    f.shader.rules = (struct shader_layout_rules){
+        .blocks = true, .packing = packing, .bindings = true, .set = 2};
     shader_layout(&f.shader);
-    for (size_t i = 0; i < sizeof member_cases / sizeof *member_cases; i++) {
+    for (size_t i = 0; i < n; i++) {
         const struct shader_variable *v = &f.shader.variables.items[i];
-        REQUIRE_EQ(v->offset, member_cases[i].offset);
-        REQUIRE_EQ(v->size, member_cases[i].size);
-        REQUIRE_EQ(v->array_stride, member_cases[i].array_stride);
-        REQUIRE_EQ(v->matrix_stride, member_cases[i].matrix_stride);
+        REQUIRE_EQ(v->offset, cases[i].offset);
+        REQUIRE_EQ(v->size, cases[i].size);
+        REQUIRE_EQ(v->array_stride, cases[i].array_stride);
+        REQUIRE_EQ(v->matrix_stride, cases[i].matrix_stride);
         REQUIRE_EQ(v->set, 2);
     }
-    REQUIRE_EQ(f.shader.buffers[BLOCK_PUBLIC_UNIFORMS].size, 352);
+    REQUIRE_EQ(f.shader.buffers[BLOCK_PUBLIC_UNIFORMS].size, size);
     REQUIRE_EQ(f.shader.buffers[BLOCK_PRIVATE_UNIFORMS].size, 0);
+    fixture_close(&f);
+}
+
+static void test_packing(void)
+{
+    check_packing(PACKING_STD140, member_cases, sizeof member_cases / sizeof *member_cases, 352);
+    check_packing(PACKING_CBUFFER, cbuffer_cases, sizeof cbuffer_cases / sizeof *cbuffer_cases,
+                  224);
+}
+
+/* Long members come first and matrices last, so that glslang, dxc and fxc agree (layout.c). */
+static void test_cbuffer_lights(void)
+{
+    struct fixture f;
+    fixture_open(&f, NULL);
+    static const struct {
+        const char *name;
+        ir_type_id type;
+        uint32_t offset;
+    } members[] = {{"frame", IR_TYPE_MAT3, 48},
+                   {"color", IR_TYPE_VEC3, 0},
+                   {"intensity", IR_TYPE_FLOAT, 40},
+                   {"direction", IR_TYPE_VEC3, 16},
+                   {"angles", IR_TYPE_VEC2, 32}};
+    for (size_t i = 0; i < sizeof members / sizeof *members; i++) {
+        uint32_t v = shader_light_member(&f.shader, word(&f, members[i].name), members[i].type);
+        f.shader.variables.items[v].stages = 1 << STAGE_PIXEL;
+    }
+    f.shader.rules = (struct shader_layout_rules){.blocks = true, .packing = PACKING_CBUFFER};
+    shader_layout(&f.shader);
+    for (size_t i = 0; i < sizeof members / sizeof *members; i++) {
+        uint32_t v = shader_find_variable(&f.shader, BLOCK_LIGHT_DATA, word(&f, members[i].name));
+        REQUIRE_EQ(f.shader.variables.items[v].offset, members[i].offset);
+    }
+    REQUIRE_EQ(f.shader.buffers[BLOCK_LIGHT_DATA].stride, 96);
     fixture_close(&f);
 }
 
@@ -587,7 +638,8 @@ static void test_json(void)
 
 int main(void)
 {
-    test_std140();
+    test_packing();
+    test_cbuffer_lights();
     test_light_layout();
     test_schedule();
     test_random_schedules();

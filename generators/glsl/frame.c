@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * The frame of a GLSL stage: version and precision, uniforms loose or in blocks, what comes into
+ * the stage and goes out, main.
+ */
+#include "generators/glsl/glsl.h"
+
+#include "spell/spell.h"
+
+static void write_header(struct spell *spell)
+{
+    const char *version =
+        spell->options->version ? spell->options->version : spell->target->versions[0];
+    SPELL(spell, "#version ", version, "\n// ");
+    spell_title(spell);
+    spell_text(spell, "\n");
+    if (spell_can(spell, CAP_PRECISION)
+        && (spell->stage_id == STAGE_PIXEL || spell->shader->displaced))
+        spell_text(spell,
+                   "precision highp float;\nprecision highp int;\nprecision highp sampler2D;\n");
+    if (spell_can(spell, CAP_PRECISION) && spell->shader->tiles.len)
+        spell_text(spell, "precision highp sampler2DArray;\n");
+    spell_text(spell, "\n");
+}
+
+/* "layout(set = 0, binding = 1, std140) ", as far as the target can; nothing where neither is asked
+ * for. */
+static void write_layout(struct spell *spell, uint32_t set, uint32_t binding, bool std140)
+{
+    if (!spell_can(spell, CAP_BINDINGS)) {
+        spell_text(spell, std140 ? "layout(std140) " : "");
+        return;
+    }
+    spell_text(spell, "layout(");
+    if (spell_can(spell, CAP_SETS)) {
+        spell_text(spell, "set = ");
+        spell_number(spell, set);
+        spell_text(spell, ", ");
+    }
+    spell_text(spell, "binding = ");
+    spell_number(spell, binding);
+    spell_text(spell, std140 ? ", std140) " : ") ");
+}
+
+static void write_location(struct spell *spell, uint32_t location)
+{
+    if (!spell_can(spell, CAP_BINDINGS))
+        return;
+    spell_text(spell, "layout(location = ");
+    spell_number(spell, location);
+    spell_text(spell, ") ");
+}
+
+static void write_members(struct spell *spell, enum shader_block block)
+{
+    SPELL_EACH_OF_BLOCK(i, spell, block)
+    {
+        const struct shader_variable *variable = spell_interface_variable(spell, i);
+        spell_indent(spell, 1);
+        if (variable->flat && !spell->shader->scatters)
+            spell_text(spell, "flat ");
+        spell_declare(spell, variable, spell_name_of(spell->shader->strings, variable->name));
+        spell_text(spell, ";\n");
+    }
+}
+
+/* Blocks are declared whole in every stage that reads a member: their layout is shared. */
+static void write_uniform_block(struct spell *spell, enum shader_block block)
+{
+    const struct shader_buffer *buffer = &spell->shader->buffers[block];
+    write_layout(spell, buffer->set, buffer->binding, true);
+    SPELL(spell, "uniform ", shader_block_name(block), " {\n");
+    write_members(spell, block);
+    spell_text(spell, "};\n");
+}
+
+static void write_uniform(struct spell *spell, const struct shader_variable *variable)
+{
+    spell_text(spell, "uniform ");
+    spell_declare(spell, variable, spell_name_of(spell->shader->strings, variable->name));
+    bool fixed = variable->block == BLOCK_PRIVATE_UNIFORMS || !spell->options->neutral_names;
+    if (variable->has_default && variable->block != BLOCK_TEXTURES && fixed
+        && spell_can(spell, CAP_UNIFORM_DEFAULTS)) {
+        spell_text(spell, " = ");
+        lang_print_value(spell->style, spell->shader->strings, variable->value.type,
+                         variable->value.w, LANG_PREC_COMMA, spell->out);
+    }
+    spell_text(spell, ";\n");
+}
+
+static void write_uniforms(struct spell *spell, enum shader_block block)
+{
+    if (!spell_uses_block(spell, block))
+        return;
+    if (spell->blocks) {
+        write_uniform_block(spell, block);
+        return;
+    }
+    SPELL_EACH_OF_BLOCK(i, spell, block)
+    if (spell_uses(spell, spell_interface_variable(spell, i)))
+        write_uniform(spell, spell_interface_variable(spell, i));
+}
+
+static void write_light_data(struct spell *spell)
+{
+    if (!spell->stage->has_lights)
+        return;
+    const struct shader_buffer *buffer = &spell->shader->buffers[BLOCK_LIGHT_DATA];
+    spell_text(spell, "struct LightData {\n");
+    write_members(spell, BLOCK_LIGHT_DATA);
+    spell_text(spell, "};\n");
+    if (spell->blocks)
+        write_layout(spell, buffer->set, buffer->binding, true);
+    spell_text(spell, spell->blocks ? "uniform LightData_block { LightData u_lightData["
+                                    : "uniform LightData u_lightData[");
+    spell_number(spell, spell->shader->max_lights);
+    spell_text(spell, spell->blocks ? "]; };\n" : "];\n");
+}
+
+static void write_textures(struct spell *spell)
+{
+    SPELL_EACH_OF_BLOCK(i, spell, BLOCK_TEXTURES)
+    {
+        const struct shader_variable *variable = spell_interface_variable(spell, i);
+        if (!spell_uses(spell, variable))
+            continue;
+        write_layout(spell, variable->set, variable->binding, false);
+        write_uniform(spell, variable);
+    }
+}
+
+static void write_attributes(struct spell *spell, enum shader_block block, const char *qualifier)
+{
+    SPELL_EACH_OF_BLOCK(i, spell, block)
+    {
+        const struct shader_variable *variable = spell_interface_variable(spell, i);
+        if (!spell_uses(spell, variable))
+            continue;
+        if (*qualifier)
+            write_location(spell, variable->location);
+        if (variable->flat)
+            spell_text(spell, "flat ");
+        spell_text(spell, qualifier);
+        spell_declare(spell, variable, spell->variables[spell->shader->interface.items[i]]);
+        spell_text(spell, ";\n");
+    }
+}
+
+static void write_vertex_data(struct spell *spell)
+{
+    const char *qualifier = spell->stage_id == STAGE_VERTEX ? "out " : "in ";
+    if (!spell_uses_block(spell, BLOCK_VERTEX_DATA))
+        return;
+    if (spell->shader->scatters) {
+        spell_text(spell, "struct VertexData {\n");
+        write_members(spell, BLOCK_VERTEX_DATA);
+        spell_text(spell, "};\nVertexData vd;\n");
+        return;
+    }
+    if (!spell_can(spell, CAP_BLOCK_STAGE_IO)) {
+        write_attributes(spell, BLOCK_VERTEX_DATA, qualifier);
+        return;
+    }
+    write_location(spell, 0);
+    SPELL(spell, qualifier, "VertexData {\n");
+    write_members(spell, BLOCK_VERTEX_DATA);
+    spell_text(spell, "} vd;\n");
+}
+
+static void declare(struct spell *spell)
+{
+    write_header(spell);
+    spell_structs(spell);
+    write_uniforms(spell, BLOCK_PUBLIC_UNIFORMS);
+    write_uniforms(spell, BLOCK_PRIVATE_UNIFORMS);
+    write_light_data(spell);
+    write_textures(spell);
+    if (spell->stage_id == STAGE_VERTEX)
+        write_attributes(spell, BLOCK_APP_DATA, "in ");
+    write_vertex_data(spell);
+    if (spell->stage_id == STAGE_PIXEL)
+        write_attributes(spell, BLOCK_OUTPUTS, spell->shader->scatters ? "" : "out ");
+}
+
+static void open_main(struct spell *spell)
+{
+    spell_text(spell, spell->shader->scatters ? "void scatter()\n{\n" : "void main()\n{\n");
+}
+
+const struct target_frame glsl_frame = {.declare = declare, .open = open_main};

@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: Apache-2.0
+/* How HLSL writes what depends on types, and the functions that it lacks (helpers). */
+#include "generators/hlsl/hlsl.h"
+
+#include <math.h>
+
+static const char parts[] = "xyzw";
+
+static unsigned components(ir_type_id type)
+{
+    return type < IR_NUM_TYPES ? ir_type_info(type)->components : 0;
+}
+
+static bool is_matrix(ir_type_id type)
+{
+    return type < IR_NUM_TYPES && ir_type_is_matrix(type);
+}
+
+static bool is_vector(ir_type_id type)
+{
+    return components(type) > 1 && !is_matrix(type);
+}
+
+static unsigned rows_of(ir_type_id matrix)
+{
+    return ir_type_info(matrix)->columns;
+}
+
+/* ---- Forms and helpers made here live as long as the stage is written ---- */
+
+static struct text *new_text(struct spell *spell)
+{
+    struct text *text = ARENA_NEW(spell->scratch, struct text);
+    text_init(text, spell->scratch);
+    return text;
+}
+
+static const struct lang_pieces *form_of(struct spell *spell, const char *text,
+                                         enum lang_precedence precedence)
+{
+    struct lang_pieces *form = ARENA_NEW(spell->scratch, struct lang_pieces);
+    lang_form_split(&(struct lang_form){text, (uint8_t)precedence, false}, form);
+    return form;
+}
+
+static const struct lang_pieces *call_of(struct spell *spell, const char *text)
+{
+    return form_of(spell, text, LANG_PREC_POSTFIX);
+}
+
+/* Structs of a tree are of the unit's types, those of the graph of its own. */
+static void put_type(struct spell *spell, const struct lang_use *use, ir_type_id type,
+                     struct text *out)
+{
+    struct text *before = spell->out;
+    spell->out = out;
+    if (type < IR_TYPE_FIRST_USER || use->node)
+        spell_type(spell, type);
+    else
+        spell_text(spell, spell->user_types[type - IR_TYPE_FIRST_USER]);
+    spell->out = before;
+}
+
+enum helper {
+#define HELPER(ID, text) HELPER_##ID,
+#include "generators/hlsl/helpers.def"
+#undef HELPER
+};
+
+static void add_helper(struct spell *spell, const struct lang_use *use, unsigned helper)
+{
+    static const char *const declarations[] = {
+#define HELPER(ID, text) text,
+#include "generators/hlsl/helpers.def"
+    };
+    struct text *text = new_text(spell);
+    for (const char *p = declarations[helper]; *p; p++) {
+        if (*p != '$')
+            text_char(text, *p);
+        else if (*++p == 'T')
+            put_type(spell, use, use->type, text);
+        else
+            put_type(spell, use, use->operands[*p - '0'], text);
+    }
+    spell_helper(spell, text_cstr(text));
+}
+
+/* ---- Operators ---- */
+
+/* Matrices are transposes: hlsl.h. */
+static const struct lang_pieces *product(struct spell *spell, const struct lang_use *use)
+{
+    ir_type_id a = use->operands[0], b = use->operands[1];
+    bool is_linear = (is_matrix(a) && components(b) > 1) || (components(a) > 1 && is_matrix(b));
+    return is_linear ? call_of(spell, "mul($1, $0)") : NULL;
+}
+
+static const struct lang_pieces *equality(struct spell *spell, const struct lang_use *use)
+{
+    ir_type_id type = use->operands[0];
+    bool same = use->op == IR_EQ;
+    if (is_vector(type))
+        return call_of(spell, same ? "all($0 == $1)" : "any($0 != $1)");
+    if (!is_matrix(type))
+        return NULL;
+    add_helper(spell, use, HELPER_EQUAL_2 + rows_of(type) - 2);
+    return same ? call_of(spell, "equal($0, $1)")
+                : form_of(spell, "!equal($0, $1)", LANG_PREC_UNARY);
+}
+
+static const struct lang_pieces *choice(struct spell *spell, const struct lang_use *use)
+{
+    if (use->type < IR_TYPE_FIRST_USER)
+        return NULL;
+    add_helper(spell, use, HELPER_CHOOSE);
+    return call_of(spell, "choose($0, $1, $2)");
+}
+
+/* ---- Built-in functions ---- */
+
+static const struct lang_pieces *inverse(struct spell *spell, const struct lang_use *use)
+{
+    add_helper(spell, use, HELPER_INVERSE_2 + rows_of(use->type) - 2);
+    return call_of(spell, "inverse($0)");
+}
+
+/* ---- Textures ---- */
+
+static const struct lang_pieces *texture_size(struct spell *spell, const struct lang_use *use)
+{
+    bool is_array = use->operands[0] == IR_TYPE_SAMPLER_ARRAY;
+    add_helper(spell, use, is_array ? HELPER_ARRAY_SIZE : HELPER_SIZE);
+    return call_of(spell, "texture_size($0, $1)");
+}
+
+/* ---- Constructors and conversions ---- */
+
+/* "(float3)$0", or a multiple of the identity. */
+static const struct lang_pieces *from_scalar(struct spell *spell, ir_type_id type)
+{
+    static const char *const by_rows[] = {
+        [2] = "$0 * $T(1.0, 0.0, 0.0, 1.0)",
+        [3] = "$0 * $T(1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)",
+        [4] = "$0 * $T(1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, "
+              "1.0)",
+    };
+    return is_vector(type) ? form_of(spell, "($T)$0", LANG_PREC_UNARY)
+                           : form_of(spell, by_rows[rows_of(type)], LANG_PREC_PRODUCT);
+}
+
+/* The last operand may have more components than are left: HLSL wants these cut off. */
+static const struct lang_pieces *construct(struct spell *spell, const struct lang_use *use)
+{
+    unsigned left = components(use->type), last = use->num_operands - 1;
+    if (left <= 1)
+        return NULL;
+    if (use->num_operands == 1 && components(use->operands[0]) == 1)
+        return from_scalar(spell, use->type);
+    for (unsigned i = 0; i < last; i++)
+        left -= components(use->operands[i]);
+    if (components(use->operands[last]) == left)
+        return NULL;
+    struct text *text = new_text(spell);
+    text_str(text, "$T(");
+    for (unsigned i = 0; i < last; i++)
+        text_fmt(text, "$%u, ", i);
+    text_fmt(text, "$%u.%.*s)", last, (int)left, parts);
+    return call_of(spell, text_cstr(text));
+}
+
+static const struct lang_pieces *grow(struct spell *spell, const struct lang_use *use)
+{
+    bool is_small = rows_of(use->operands[0]) == 2, is_3 = rows_of(use->type) == 3;
+    add_helper(spell, use, is_3 ? HELPER_GROW_2_3 : is_small ? HELPER_GROW_2_4 : HELPER_GROW_3_4);
+    return call_of(spell, is_3 ? "grow_3($0)" : "grow_4($0)");
+}
+
+static const struct lang_pieces *convert(struct spell *spell, const struct lang_use *use)
+{
+    ir_type_id from = use->operands[0], to = use->type;
+    if (is_matrix(from) && is_matrix(to))
+        return rows_of(from) < rows_of(to) ? grow(spell, use)
+                                           : form_of(spell, "($T)$0", LANG_PREC_UNARY);
+    if (components(from) <= components(to) || !is_vector(to))
+        return NULL;
+    struct text *text = new_text(spell);
+    text_fmt(text, "$0.%.*s", (int)components(to), parts);
+    return call_of(spell, text_cstr(text));
+}
+
+/* ---- Hooks ---- */
+
+typedef const struct lang_pieces *form_writer(struct spell *spell, const struct lang_use *use);
+
+static form_writer *const writers[IR_NUM_OPS] = {
+    [IR_MUL] = product,           [IR_EQ] = equality,         [IR_NE] = equality,
+    [IR_SELECT] = choice,         [IR_INVERSE] = inverse,     [IR_CONVERT] = convert,
+    [IR_TEX_SIZE] = texture_size, [IR_CONSTRUCT] = construct,
+};
+
+/* Built-in functions that are helpers for all types. */
+static const struct {
+    uint8_t helper; /* enum helper */
+    const char *call;
+} helped[IR_NUM_OPS] = {
+    [IR_ASINH] = {HELPER_ASINH, "asinh($0)"},
+    [IR_ACOSH] = {HELPER_ACOSH, "acosh($0)"},
+    [IR_ATANH] = {HELPER_ATANH, "atanh($0)"},
+    [IR_MOD] = {HELPER_MOD, "mod($0, $1)"},
+};
+
+const struct lang_pieces *hlsl_form(void *user_data, const struct lang_use *use)
+{
+    if (helped[use->op].call) {
+        add_helper(user_data, use, helped[use->op].helper);
+        return call_of(user_data, helped[use->op].call);
+    }
+    return writers[use->op] ? writers[use->op](user_data, use) : NULL;
+}
+
+const char *hlsl_maker(void *user_data, const char *type)
+{
+    struct spell *spell = user_data;
+    const struct spell_maker *maker = spell_find_maker(spell, type);
+    struct text *text = new_text(spell);
+    spell_write_maker(spell, maker, text);
+    spell_helper(spell, text_cstr(text));
+    return maker->name;
+}
+
+/* Every component is written; no literal is infinite or no number. */
+bool hlsl_write_value(const struct lang_style *style, ir_type_id type, const union ir_word *words,
+                      struct text *out)
+{
+    const struct ir_type_info *info = ir_type_info(type);
+    if (info->components == 1) {
+        bool is_written = type == IR_TYPE_FLOAT && !isfinite(words->f);
+        if (is_written)
+            text_fmt(out, "asfloat(0x%08xu)", (unsigned)words->u);
+        return is_written;
+    }
+    text_put(out, style->types[type]);
+    for (unsigned i = 0; i < info->components; i++) {
+        text_str(out, i ? ", " : "(");
+        lang_print_value(style, NULL, info->scalar, &words[i], LANG_PREC_COMMA, out);
+    }
+    text_char(out, ')');
+    return true;
+}

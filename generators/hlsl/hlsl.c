@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+/* The tables of HLSL: words, types, forms (Microsoft's reference of shader model 5.1 and 6). */
+#include "generators/hlsl/hlsl.h"
+
+static const char *const reserved[] = {
+#include "generators/hlsl/reserved.def"
+};
+
+#define CALL(op, text) [IR_##op] = {text, LANG_PREC_POSTFIX, false}
+
+static const struct lang_form forms[IR_NUM_OPS] = {
+    [IR_LXOR] = {"$0 != $1", LANG_PREC_EQUAL, true},
+    [IR_MATCOMPMULT] = {"$0 * $1", LANG_PREC_PRODUCT, true},
+    CALL(ATAN2, "atan2($0, $1)"),
+    CALL(RSQRT, "rsqrt($0)"),
+    CALL(FRACT, "frac($0)"),
+    CALL(SIGN, "$T(sign($0))"), /* HLSL's own gives integers */
+    CALL(MIX, "lerp($0, $1, $2)"),
+    CALL(FLOAT_TO_INT_BITS, "asint($0)"),
+    CALL(FLOAT_TO_UINT_BITS, "asuint($0)"),
+    CALL(INT_BITS_TO_FLOAT, "asfloat($0)"),
+    CALL(UINT_BITS_TO_FLOAT, "asfloat($0)"),
+    CALL(DFDX, "ddx($0)"),
+    CALL(DFDY, "ddy($0)"),
+    CALL(TEX, "$0.Sample($0" LANG_SAMPLER_SUFFIX ", $1)"),
+    CALL(TEX_LOD, "$0.SampleLevel($0" LANG_SAMPLER_SUFFIX ", $1, $2)"),
+    CALL(TEX_GRAD, "$0.SampleGrad($0" LANG_SAMPLER_SUFFIX ", $1, $2, $3)"),
+    CALL(TEX_FETCH, "$0.Load(int3($1, $2))"),
+};
+
+static const struct lang_form forms_alone[IR_NUM_OPS] = {
+    [IR_DFDX] = {"($T)0.0", LANG_PREC_UNARY, false},
+    [IR_DFDY] = {"($T)0.0", LANG_PREC_UNARY, false},
+    [IR_FWIDTH] = {"($T)0.0", LANG_PREC_UNARY, false},
+    CALL(TEX, "$0.SampleLevel($0" LANG_SAMPLER_SUFFIX ", $1, 0.0)"),
+};
+
+static const char *const type_names[IR_NUM_TYPES] = {
+    [IR_TYPE_IVEC2] = "int2",
+    [IR_TYPE_VEC2] = "float2",
+    [IR_TYPE_VEC3] = "float3",
+    [IR_TYPE_VEC4] = "float4",
+    [IR_TYPE_MAT2] = "float2x2",
+    [IR_TYPE_MAT3] = "float3x3",
+    [IR_TYPE_MAT4] = "float4x4",
+    [IR_TYPE_SAMPLER] = "Texture2D",
+    [IR_TYPE_SAMPLER_ARRAY] = "Texture2DArray",
+};
+
+static const struct lang_syntax syntax = {
+    .name = "hlsl",
+    .base = &lang_syntax_portable,
+    .type_names = type_names,
+    .forms = forms,
+    .forms_alone = forms_alone,
+    .reserved = reserved,
+    .num_reserved = sizeof reserved / sizeof *reserved,
+    .param_in = "",
+    .param_in_assigned = "",
+    .param_out = "out ",
+    .param_inout = "inout ",
+    .constant = "static const ",
+    .array_braces = true,
+    .sampler_type = "SamplerState",
+    .write_value = hlsl_write_value,
+};
+
+static const char *const versions[] = {"6.0", "5.1", NULL};
+
+const struct target target_hlsl = {
+    .name = "hlsl",
+    .materialx_name = "genhlsl",
+    .brief = "HLSL of shader model 5.1 and 6, for Direct3D 12 and Vulkan",
+    .caps = CAP_VERTEX_STAGE | CAP_OVERLOADS | CAP_BITWISE | CAP_IMPLICIT_LOD | CAP_TEXTURE_ARRAYS
+            | CAP_UNIFORM_BLOCKS | CAP_BINDINGS | CAP_SETS | CAP_BLOCK_STAGE_IO,
+    .versions = versions,
+    .syntax = &syntax,
+    .frame = &hlsl_frame,
+    .form = hlsl_form,
+    .maker = hlsl_maker,
+    .packing = PACKING_CBUFFER,
+    .position = "vd.position",
+    .stage_suffix = {"vs.hlsl", "ps.hlsl"},
+};

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * maker: functions that put structs together member by member, for languages without constructors
+ * of structs, or with bad ones.
+ */
+#include "spell/spell.h"
+
+void spell_name_maker(struct spell *spell, ir_type_id type)
+{
+    const char *type_name = spell->user_types[type - IR_TYPE_FIRST_USER];
+    struct text name;
+    text_init(&name, spell->scratch);
+    text_fmt(&name, "make_%s", type_name);
+    const char *unique = names_unique(&spell->names, text_cstr(&name), name.len).text;
+    vec_push(spell->scratch, &spell->makers,
+             (struct spell_maker){.type = type, .type_name = type_name, .name = unique});
+}
+
+struct spell_maker *spell_find_maker(const struct spell *spell, const char *type_name)
+{
+    for (uint32_t i = 0; i < spell->makers.len; i++)
+        if (strcmp(spell->makers.items[i].type_name, type_name) == 0)
+            return &spell->makers.items[i];
+    return NULL;
+}
+
+static const char *member_name(const struct spell *spell, const struct ir_member *member)
+{
+    return lang_member_name(spell->style, spell->shader->strings, member->name);
+}
+
+/* "made", or a longer name that no member has. */
+static const char *local_name(const struct spell *spell, const struct ir_member *members,
+                              uint32_t count)
+{
+    struct text name;
+    text_init(&name, spell->scratch);
+    text_str(&name, "made");
+    for (uint32_t i = 0; i < count; i++) {
+        if (strcmp(member_name(spell, &members[i]), text_cstr(&name)) != 0)
+            continue;
+        text_char(&name, '_');
+        i = UINT32_MAX; /* from the first one */
+    }
+    return text_cstr(&name);
+}
+
+void spell_write_maker(const struct spell *spell, const struct spell_maker *maker, struct text *out)
+{
+    const struct lang_unit *unit = spell->shader->unit, *layer;
+    const struct ir_user_type *user = lang_user_type(unit, maker->type, &layer);
+    const struct ir_member *members = layer->members.items + user->first_member;
+    const char *made = local_name(spell, members, user->num_members);
+    text_fmt(out, "%s %s(", maker->type_name, maker->name);
+    for (uint32_t i = 0; i < user->num_members; i++) {
+        text_str(out, i ? ", " : "");
+        lang_print_variable(spell->style, &spell->lang_names, unit, members[i].type,
+                            member_name(spell, &members[i]), out);
+    }
+    text_fmt(out, ")\n{\n    %s %s;\n", maker->type_name, made);
+    for (uint32_t i = 0; i < user->num_members; i++) {
+        const char *member = member_name(spell, &members[i]);
+        text_fmt(out, "    %s.%s = %s;\n", made, member, member);
+    }
+    text_fmt(out, "    return %s;\n}\n", made);
+}

@@ -1,0 +1,93 @@
+// out · output · mxgen 0.1 · hlsl · complete · 0 closures · 0 textures
+// shader model 6.0
+
+cbuffer PublicUniforms : register(b1)
+{
+    float NG_limit : packoffset(c0);
+    int NG_mode : packoffset(c0.y);
+};
+struct VertexData {
+    float4 position : SV_Position;
+    float3 positionObject : TEXCOORD0;
+    float2 texcoord_0 : TEXCOORD1;
+};
+
+float mod(float x, float y)
+{
+    return x - y * floor(x / y);
+}
+
+// The dot product of p with a vector to the middle of an edge of a cube.
+float mx_gradient(uint hash, float3 p)
+{
+    uint h = hash & 15u;
+    float u = h < 8u ? p.x : p.y;
+    float v = h < 4u ? p.y : h == 12u || h == 14u ? p.x : p.z;
+    return ((h & 1u) != 0u ? -u : u) + ((h & 2u) != 0u ? -v : v);
+}
+
+float3 mx_gradient_vec3(uint hash, float3 p)
+{
+    return float3(mx_gradient(hash, p), mx_gradient(hash >> 8, p), mx_gradient(hash >> 16, p));
+}
+
+uint mx_hash_final(uint x, uint y, uint z)
+{
+    uint a = x;
+    uint b = y;
+    uint c = z;
+    c ^= b;
+    c -= b << 14 | b >> 18;
+    a ^= c;
+    a -= c << 11 | c >> 21;
+    b ^= a;
+    b -= a << 25 | a >> 7;
+    c ^= b;
+    c -= b << 16 | b >> 16;
+    a ^= c;
+    a -= c << 4 | c >> 28;
+    b ^= a;
+    b -= a << 14 | a >> 18;
+    c ^= b;
+    c -= b << 24 | b >> 8;
+    return c;
+}
+
+float3 mx_noise_face_vec3(int x, int y, int z, float3 f, float3 w)
+{
+    return lerp(lerp(mx_gradient_vec3(mx_hash_final(3735928584u + uint(x), 3735928584u + uint(y), 3735928584u
+        + uint(z)), f), mx_gradient_vec3(mx_hash_final(3735928584u + uint(x + 1), 3735928584u + uint(y), 3735928584u
+        + uint(z)), f - float3(1.0, 0.0, 0.0)), w.x),
+        lerp(mx_gradient_vec3(mx_hash_final(3735928584u + uint(x), 3735928584u + uint(y + 1), 3735928584u + uint(z)), f
+        - float3(0.0, 1.0, 0.0)), mx_gradient_vec3(mx_hash_final(3735928584u + uint(x + 1), 3735928584u + uint(y + 1),
+        3735928584u + uint(z)), f - float3(1.0, 1.0, 0.0)), w.x), w.y);
+}
+
+float3 mx_fade(float3 t)
+{
+    return t * t * t * (t * (t * 6.0 - 15.0) + 10.0);
+}
+
+float3 mx_noise_vec3(float3 p)
+{
+    float3 cell = floor(p);
+    float3 f = p - cell;
+    float3 w = mx_fade(f);
+    int x = int(cell.x);
+    int y = int(cell.y);
+    int z = int(cell.z);
+    return 0.982 * lerp(mx_noise_face_vec3(x, y, z, f, w),
+        mx_noise_face_vec3(x, y, z + 1, f - float3(0.0, 0.0, 1.0), w), w.z);
+}
+
+void main(
+    VertexData vd,
+    out float4 out1 : SV_Target0)
+{
+    // NG
+    float2 cell = floor(vd.texcoord_0 * 8.0);
+    float3 board = (float3)mod(cell.x + cell.y, 2.0);
+    float3 chosen_choice = 2 > NG_mode ? vd.texcoord_0.x > NG_limit ? board : float3(1.0, 0.0, 0.0)
+        : float3(0.0, 0.0, 0.0);
+    out1 = float4(1 > NG_mode ? mx_noise_vec3(vd.positionObject) : chosen_choice, 1.0);
+}

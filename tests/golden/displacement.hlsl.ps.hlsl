@@ -1,0 +1,56 @@
+// Moved · surfacematerial · mxgen 0.1 · hlsl · reduced · 1 closure · 1 texture
+// shader model 6.0
+
+cbuffer PrivateUniforms : register(b0)
+{
+    row_major float4x4 u_worldMatrix : packoffset(c0);
+    row_major float4x4 u_worldInverseTransposeMatrix : packoffset(c4);
+    row_major float4x4 u_viewProjectionMatrix : packoffset(c8);
+    float3 u_viewPosition : packoffset(c12);
+    row_major float4x4 u_envMatrix : packoffset(c13);
+    float u_envLightIntensity : packoffset(c17);
+};
+Texture2D height_file : register(t3);
+SamplerState height_file_sampler : register(s3);
+Texture2D u_envIrradiance : register(t4);
+SamplerState u_envIrradiance_sampler : register(s4);
+struct VertexData {
+    float4 position : SV_Position;
+    float3 positionWorld : TEXCOORD0;
+    float3 normalWorld : TEXCOORD1;
+    float3 tangentWorld : TEXCOORD2;
+    float2 texcoord_0 : TEXCOORD3;
+};
+
+float mx_line(float2 p)
+{
+    float2 from = p - float2(0.25, 0.25);
+    return distance(from, float2(0.5, 0.5) * clamp(dot(from, float2(0.5, 0.5)) / 0.5, 0.0, 1.0)) > 0.1 ? 0.0 : 1.0;
+}
+
+// Where the light from a direction of the world lies in the environment's picture.
+float2 mx_latlong(float3 direction)
+{
+    float3 d = normalize(mul(float4(direction, 0.0), u_envMatrix).xyz);
+    return float2(atan2(d.x, -d.z), -2.0 * asin(clamp(d.y, -1.0, 1.0))) * 0.15915494 + 0.5;
+}
+
+void main(
+    VertexData vd,
+    out float4 out1 : SV_Target0)
+{
+    float3 color = float3(0.0, 0.0, 0.0);
+    // environment
+    // bsdf
+    float3 direction = normalize(vd.normalWorld);
+    float both = height_file.Sample(height_file_sampler, vd.texcoord_0).x * mx_line(vd.texcoord_0);
+    float3 D1_sum = normalize(vd.tangentWorld) * 0.1 + direction * both;
+    float3 P_sum = lerp(D1_sum, direction * (both * 0.5), 0.25) + vd.positionWorld;
+    float3 facet_direction = normalize(cross(ddx(P_sum), ddy(P_sum)));
+    float3 facet_facing = faceforward(facet_direction, -direction, facet_direction);
+    float3 facet_direction_2 = normalize(cross(ddx(vd.positionWorld), ddy(vd.positionWorld)));
+    float3 N = normalize(direction + (facet_facing - faceforward(facet_direction_2, -direction, facet_direction_2)));
+    color += u_envIrradiance.SampleLevel(u_envIrradiance_sampler,
+        mx_latlong(faceforward(N, -normalize(u_viewPosition - P_sum), N)), 0.0).xyz * (u_envLightIntensity * 0.18);
+    out1 = float4(color, 1.0);
+}

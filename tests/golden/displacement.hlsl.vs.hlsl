@@ -1,0 +1,45 @@
+// Moved · surfacematerial · mxgen 0.1 · hlsl · reduced · 1 closure · 1 texture
+// shader model 6.0
+
+cbuffer PrivateUniforms : register(b0)
+{
+    row_major float4x4 u_worldMatrix : packoffset(c0);
+    row_major float4x4 u_worldInverseTransposeMatrix : packoffset(c4);
+    row_major float4x4 u_viewProjectionMatrix : packoffset(c8);
+    float3 u_viewPosition : packoffset(c12);
+    row_major float4x4 u_envMatrix : packoffset(c13);
+    float u_envLightIntensity : packoffset(c17);
+};
+Texture2D height_file : register(t3);
+SamplerState height_file_sampler : register(s3);
+struct VertexData {
+    float4 position : SV_Position;
+    float3 positionWorld : TEXCOORD0;
+    float3 normalWorld : TEXCOORD1;
+    float3 tangentWorld : TEXCOORD2;
+    float2 texcoord_0 : TEXCOORD3;
+};
+
+float mx_line(float2 p)
+{
+    float2 from = p - float2(0.25, 0.25);
+    return distance(from, float2(0.5, 0.5) * clamp(dot(from, float2(0.5, 0.5)) / 0.5, 0.0, 1.0)) > 0.1 ? 0.0 : 1.0;
+}
+
+void main(
+    float3 i_position : POSITION,
+    float3 i_normal : NORMAL,
+    float3 i_tangent : TANGENT,
+    float2 i_texcoord_0 : TEXCOORD0,
+    out VertexData vd)
+{
+    vd.normalWorld = normalize(mul(float4(i_normal, 0.0), u_worldInverseTransposeMatrix).xyz);
+    vd.texcoord_0 = i_texcoord_0;
+    vd.tangentWorld = normalize(mul(float4(i_tangent, 0.0), u_worldMatrix).xyz);
+    vd.positionWorld = mul(float4(i_position, 1.0), u_worldMatrix).xyz;
+    float3 direction = normalize(vd.normalWorld);
+    float both = height_file.SampleLevel(height_file_sampler, vd.texcoord_0, 0.0).x * mx_line(vd.texcoord_0);
+    float3 D1_sum = normalize(vd.tangentWorld) * 0.1 + direction * both;
+    vd.position = mul(float4(lerp(D1_sum, direction * (both * 0.5), 0.25) + vd.positionWorld, 1.0),
+        u_viewProjectionMatrix);
+}

@@ -1,0 +1,21 @@
+// uv · output · mxgen 0.1 · hlsl · complete · 0 closures · 0 textures
+// shader model 6.0
+
+cbuffer PrivateUniforms : register(b0)
+{
+    row_major float4x4 u_worldMatrix : packoffset(c0);
+    row_major float4x4 u_viewProjectionMatrix : packoffset(c4);
+};
+struct VertexData {
+    float4 position : SV_Position;
+    float2 texcoord_1 : TEXCOORD0;
+};
+
+void main(
+    float3 i_position : POSITION,
+    float2 i_texcoord_1 : TEXCOORD1,
+    out VertexData vd)
+{
+    vd.texcoord_1 = i_texcoord_1;
+    vd.position = mul(mul(float4(i_position, 1.0), u_worldMatrix), u_viewProjectionMatrix);
+}

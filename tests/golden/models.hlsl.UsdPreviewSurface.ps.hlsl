@@ -1,0 +1,411 @@
+// UsdPreviewSurface · surfacematerial · mxgen 0.1 · hlsl · complete · 6 closures · 0 textures
+// shader model 6.0
+
+struct mx_GgxLobe {
+    float3x3 frame;
+    float3 stretch;
+    float area;
+    float3 v;
+    float masking;
+    float3 cap;
+    float step;
+    float weight;
+    float level;
+};
+cbuffer PublicUniforms : register(b1)
+{
+    float3 SR_UsdPreviewSurface_diffuseColor : packoffset(c0);
+    float3 SR_UsdPreviewSurface_emissiveColor : packoffset(c1);
+    int SR_UsdPreviewSurface_useSpecularWorkflow : packoffset(c1.w);
+    float3 SR_UsdPreviewSurface_specularColor : packoffset(c2);
+    float SR_UsdPreviewSurface_metallic : packoffset(c2.w);
+    float SR_UsdPreviewSurface_roughness : packoffset(c3);
+    float SR_UsdPreviewSurface_clearcoat : packoffset(c3.y);
+    float SR_UsdPreviewSurface_clearcoatRoughness : packoffset(c3.z);
+    float SR_UsdPreviewSurface_opacity : packoffset(c3.w);
+    int SR_UsdPreviewSurface_opacityMode : packoffset(c4);
+    float SR_UsdPreviewSurface_opacityThreshold : packoffset(c4.y);
+    float SR_UsdPreviewSurface_ior : packoffset(c4.z);
+    float3 SR_UsdPreviewSurface_normal : packoffset(c5);
+};
+cbuffer PrivateUniforms : register(b0)
+{
+    row_major float4x4 u_worldMatrix : packoffset(c0);
+    row_major float4x4 u_worldInverseTransposeMatrix : packoffset(c4);
+    row_major float4x4 u_viewProjectionMatrix : packoffset(c8);
+    float3 u_viewPosition : packoffset(c12);
+    int u_numActiveLightSources : packoffset(c12.w);
+    row_major float4x4 u_envMatrix : packoffset(c13);
+    int u_envRadianceMips : packoffset(c17);
+    int u_envRadianceSamples : packoffset(c17.y);
+    float u_envLightIntensity : packoffset(c17.z);
+    float u_alphaThreshold : packoffset(c17.w);
+};
+struct LightData {
+    float3 direction;
+    float3 color;
+    float3 position;
+    int type;
+    float intensity;
+    float decay_rate;
+    float inner_angle;
+    float outer_angle;
+};
+cbuffer LightData_block : register(b2)
+{
+    LightData u_lightData[3];
+};
+Texture2D u_envRadiance : register(t3);
+SamplerState u_envRadiance_sampler : register(s3);
+Texture2D u_envIrradiance : register(t4);
+SamplerState u_envIrradiance_sampler : register(s4);
+struct VertexData {
+    float4 position : SV_Position;
+    float3 positionWorld : TEXCOORD0;
+    float3 normalWorld : TEXCOORD1;
+    float3 tangentWorld : TEXCOORD2;
+    float3 bitangentWorld : TEXCOORD3;
+};
+
+mx_GgxLobe make_mx_GgxLobe(float3x3 frame, float3 stretch, float area, float3 v, float masking, float3 cap, float step,
+    float weight, float level)
+{
+    mx_GgxLobe made;
+    made.frame = frame;
+    made.stretch = stretch;
+    made.area = area;
+    made.v = v;
+    made.masking = masking;
+    made.cap = cap;
+    made.step = step;
+    made.weight = weight;
+    made.level = level;
+    return made;
+}
+
+float3 mx_fresnel_schlick(float cosine, float3 f0, float3 f90)
+{
+    float x = 1.0 - cosine;
+    return lerp(f0, f90, x * x * x * x * x);
+}
+
+// A texel of zeros is a missing map, and means the normal itself.
+float3 mx_normalmap(float3 texel, float3 normal, float3 tangent, float3 bitangent)
+{
+    float3 n = dot(texel, texel) == 0.0 ? float3(0.0, 0.0, 1.0) : texel * 2.0 - 1.0;
+    return normalize(tangent * n.x + bitangent * n.y + normal * n.z);
+}
+
+// A polynomial of two variables, what directional albedos are fitted by (the programs in fits/).
+float mx_bicubic(float4x4 m, float x, float y)
+{
+    return dot(float4(1.0, x, x * x, x * x * x), mul(float4(1.0, y, y * y, y * y * y), m));
+}
+
+// The program fits/ggx.c makes the constants. x is never too small by more than 0.001, so that giving lost energy back
+// adds none. `u` follows what happens where light grazes the facets.
+float2 mx_ggx_albedo_fit(float a, float u, float c)
+{
+    float x = clamp(1.0 - c - a * mx_bicubic(float4x4(-0.2006, 5.2916, -3.7565, 0.218, -10.2439, 6.6203, -0.9657,
+        2.5694, 38.3042, -80.8059, 71.731, -28.5214, -34.2, 89.1079, -88.4065, 33.782), u, a), 0.0, 1.0);
+    return float2(min(1.0046 - u * mx_bicubic(float4x4(-0.1447, 2.759, -5.4314, 2.8497, -0.9366, 1.4766, 0.5911,
+        -1.0905, 11.8506, -30.2645, 27.3289, -8.9414, -4.3199, 8.2596, -3.1648, -0.8054), u, a), 1.0), x * x * x * x
+        * x);
+}
+
+mx_GgxLobe mx_ggx_lobe_at(float3x3 frame, float2 alpha, float3 v)
+{
+    float area = alpha.x * alpha.y;
+    float masking = sqrt(lerp(v.z * v.z, 1.0, area));
+    float step_ = 1.0 / float(max(u_envRadianceSamples, 1));
+    float weight = step_ * (v.z + masking);
+    return make_mx_GgxLobe(frame, float3(alpha, 1.0), area, v, masking, normalize(v * float3(alpha, 1.0)), step_, weight
+        * u_envLightIntensity, weight * area * exp2(2.0 * float(u_envRadianceMips) - 2.3485));
+}
+
+// Axes of the tangent space around N with x along X: `w * frame` enters it, `frame * w` leaves it.
+float3x3 mx_frame(float3 N, float3 X)
+{
+    float3x3 frame;
+    frame[0] = normalize(X - dot(X, N) * N);
+    frame[1] = cross(N, frame[0]);
+    frame[2] = N;
+    return frame;
+}
+
+// N faces V.
+mx_GgxLobe mx_ggx_lobe(float2 roughness, float3 N, float3 X, float3 V)
+{
+    float3x3 frame = mx_frame(N, X);
+    return mx_ggx_lobe_at(frame, clamp(roughness, 1e-8, 1.0), max(mul(frame, V), float3(-1.0, -1.0, 1e-8)));
+}
+
+// Distribution of normals (Burley 2012, appendix B.2, equation 13) at a normal that is stretched to that of a unit
+// sphere; `area` is the product of the roughness along x and y.
+float mx_ggx_distribution(float3 e, float area)
+{
+    return 1.0 / (3.1415927 * area * dot(e, e) * dot(e, e));
+}
+
+// Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v; half is left of the divisor of the
+// reflection model.
+float mx_ggx_visibility(mx_GgxLobe lobe, float cos_l)
+{
+    return cos_l / (lobe.v.z * sqrt(lerp(cos_l * cos_l, 1.0, lobe.area)) + cos_l * lobe.masking);
+}
+
+// The lobe towards L, but for Fresnel's factor.
+float mx_ggx_light(mx_GgxLobe lobe, float3 L, float3 H)
+{
+    return 0.5 * mx_ggx_distribution(mul(lobe.frame, H) / lobe.stretch, lobe.area)
+        * mx_ggx_visibility(lobe, max(dot(L, lobe.frame[2]), 1e-8));
+}
+
+// Gulbrandsen 2014, "Artist Friendly Metallic Fresnel": his r (n + 1)^2 - (n - 1)^2 is 0 at the greatest n and at 1
+// over it, hence factors.
+void mx_artistic_ior(float3 reflectivity, float3 edge_color, out float3 ior, out float3 extinction)
+{
+    float3 s = sqrt(clamp(reflectivity, 0.0, 0.99));
+    float3 greatest = (1.0 + s) / (1.0 - s);
+    ior = lerp(greatest, (1.0 - s * s) / (1.0 + s * s), edge_color);
+    extinction = sqrt(max((greatest - ior) * (ior - 1.0 / greatest), 0.0));
+}
+
+// The index n + ik times the cosine behind its interface: (u + iv)^2 = (n + ik)^2 - sin^2.
+void mx_fresnel_refract(float cosine, float3 n, float3 k, out float3 u, out float3 v)
+{
+    float3 t = n * n - k * k + (cosine * cosine - 1.0);
+    float3 norm = sqrt(t * t + 4.0 * n * n * k * k);
+    u = sqrt(max(0.5 * (norm + t), 0.0));
+    v = sqrt(max(0.5 * (norm - t), 0.0));
+}
+
+// |(x + iy - u - iv) / (x + iy + u + iv)|^2
+float3 mx_fresnel_ratio(float3 x, float3 y, float3 u, float3 v)
+{
+    return ((x - u) * (x - u) + (y - v) * (y - v)) / ((x + u) * (x + u) + (y + v) * (y + v));
+}
+
+// Fresnel equations for the index n + ik (Pharr et al. 2023, section 9.3.6): against u + iv stands the cosine in the
+// perpendicular part, (n + ik)^2 times the cosine in the parallel part.
+float3 mx_fresnel_conductor(float cosine, float3 n, float3 k)
+{
+    float3 u;
+    float3 v;
+    mx_fresnel_refract(cosine, n, k, u, v);
+    return 0.5 * (mx_fresnel_ratio((float3)cosine, float3(0.0, 0.0, 0.0), u, v)
+        + mx_fresnel_ratio(cosine * (n * n - k * k), 2.0 * cosine * n * k, u, v));
+}
+
+// Where the light from a direction of the world lies in the environment's picture.
+float2 mx_latlong(float3 direction)
+{
+    float3 d = normalize(mul(float4(direction, 0.0), u_envMatrix).xyz);
+    return float2(atan2(d.x, -d.z), -2.0 * asin(clamp(d.y, -1.0, 1.0))) * 0.15915494 + 0.5;
+}
+
+// Light of a direction, filtered over the solid angle of a sample (Krivanek and Colbert 2008; the mip level is equation
+// 13 of GPU Gems 3, section 20.4).
+float3 mx_filtered_light(float3 L, float level)
+{
+    return u_envRadiance.SampleLevel(u_envRadiance_sampler, mx_latlong(L),
+        max(0.25 * log2(level * level / dot(L.xz, L.xz)), 0.0)).xyz;
+}
+
+// Direction of the ray -v after it has entered the sphere at normal h and left it again.
+float3 mx_refract_sphere(float3 v, float3 h, float ior)
+{
+    float3 inside = refract(-v, h, 1.0 / ior);
+    return refract(inside, normalize(inside * dot(inside, h) - 0.5 * h), ior);
+}
+
+// The light of a sample, and in the fourth component the cosine at its facet h.
+float4 mx_ggx_sample_at(mx_GgxLobe lobe, float3 h, float level, float refract_ior)
+{
+    float3 l = reflect(-lobe.v, h);
+    float weight = mx_ggx_visibility(lobe, max(l.z, 1e-8));
+    if (refract_ior > 0.0) {
+        l = mx_refract_sphere(lobe.v, h, refract_ior);
+        weight = 0.5 / lobe.v.z;
+    }
+    return float4(weight * mx_filtered_light(mul(l, lobe.frame), level), clamp(dot(lobe.v, h), 1e-8, 1.0));
+}
+
+// A normal of those visible from v, which is stretched by the roughness, before it is scaled to length 1 (Dupuy and
+// Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps"): (cos, sin) of its turn around z, and how far the
+// cap is below its top.
+float3 mx_ggx_cap(float2 around, float depth, float3 v)
+{
+    return float3(v.xy + sqrt(depth * (2.0 - depth)) * around, v.z + 1.0 - depth);
+}
+
+float4 mx_ggx_sample(mx_GgxLobe lobe, float2 around, float xi, float refract_ior)
+{
+    float3 cap = mx_ggx_cap(around, xi * (1.0 + lobe.cap.z), lobe.cap);
+    float3 h = cap * lobe.stretch;
+    float s = dot(cap, cap) / dot(h, h);
+    return mx_ggx_sample_at(lobe, normalize(h), s * s * lobe.level, refract_ior);
+}
+
+float3 mx_ggx_gather_schlick(mx_GgxLobe lobe, float3 f0, float3 f90)
+{
+    float2 around = float2(1.0, 0.0);
+    float3 sum = float3(0.0, 0.0, 0.0);
+    for (float xi = 0.5 * lobe.step; xi < 1.0; xi += lobe.step) {
+        float4 light = mx_ggx_sample(lobe, around, xi, 0.0);
+        sum += mx_fresnel_schlick(light.w, f0, f90) * light.xyz;
+        around = mul(around, float2x2(-0.7373689, 0.6754903, -0.6754903, -0.7373689));
+    }
+    return lobe.weight * sum;
+}
+
+float3 mx_ggx_gather_conductor(mx_GgxLobe lobe, float3 n, float3 k)
+{
+    float2 around = float2(1.0, 0.0);
+    float3 sum = float3(0.0, 0.0, 0.0);
+    for (float xi = 0.5 * lobe.step; xi < 1.0; xi += lobe.step) {
+        float4 light = mx_ggx_sample(lobe, around, xi, 0.0);
+        sum += mx_fresnel_conductor(light.w, n, k) * light.xyz;
+        around = mul(around, float2x2(-0.7373689, 0.6754903, -0.6754903, -0.7373689));
+    }
+    return lobe.weight * sum;
+}
+
+// Unpolarised Fresnel equations of a dielectric; the clamped root makes total internal reflection come out as 1.
+float mx_fresnel_dielectric(float cosine, float ior)
+{
+    float g = sqrt(max(ior * ior + cosine * cosine - 1.0, 0.0));
+    float2 a = cosine * float2(1.0, ior * ior);
+    float2 r = (a - g) / (a + g);
+    return 0.5 * dot(r, r);
+}
+
+// A function for each interface: what has nothing left to choose needs no version of its own.
+float3 mx_ggx_gather_dielectric(mx_GgxLobe lobe, float refract_ior, float ior)
+{
+    float2 around = float2(1.0, 0.0);
+    float3 sum = float3(0.0, 0.0, 0.0);
+    for (float xi = 0.5 * lobe.step; xi < 1.0; xi += lobe.step) {
+        float4 light = mx_ggx_sample(lobe, around, xi, refract_ior);
+        float f = mx_fresnel_dielectric(light.w, ior);
+        sum += (refract_ior > 0.0 ? 1.0 - f : f) * light.xyz;
+        around = mul(around, float2x2(-0.7373689, 0.6754903, -0.6754903, -0.7373689));
+    }
+    return lobe.weight * sum;
+}
+
+void main(
+    VertexData vd,
+    out float4 out1 : SV_Target0)
+{
+    float3 color = SR_UsdPreviewSurface_emissiveColor;
+    // lights
+    // SR_UsdPreviewSurface
+    float amplitude = (1.0 - SR_UsdPreviewSurface_ior) / (SR_UsdPreviewSurface_ior + 1.0);
+    float coating_n = max(amplitude * amplitude, 0.0);
+    float3 blended_fresnel = lerp(mx_fresnel_schlick(1.0, (float3)coating_n, float3(1.0, 1.0, 1.0)),
+        float3(1.0, 1.0, 1.0), 0.04761905);
+    float coat_roughness = clamp(SR_UsdPreviewSurface_clearcoatRoughness * SR_UsdPreviewSurface_clearcoatRoughness,
+        1e-8, 1.0);
+    float3 tangent_direction = normalize(vd.tangentWorld);
+    float3 shading_normal = mx_normalmap(SR_UsdPreviewSurface_normal * 0.5 + float3(0.5, 0.5, 0.5),
+        normalize(vd.normalWorld), tangent_direction, normalize(vd.bitangentWorld));
+    float3 V = normalize(u_viewPosition - vd.positionWorld);
+    float cos_v = max(abs(dot(shading_normal, V)), 1e-8);
+    float2 coating_albedo = mx_ggx_albedo_fit(coat_roughness, coat_roughness / (coat_roughness + cos_v), cos_v);
+    float3 coating_scale = blended_fresnel * (1.0 / coating_albedo.x - 1.0) + float3(1.0, 1.0, 1.0);
+    float3 coating_product = SR_UsdPreviewSurface_clearcoat * coating_scale;
+    float3 N = faceforward(shading_normal, -V, shading_normal);
+    mx_GgxLobe coating_lobe = mx_ggx_lobe((float2)coat_roughness, N, tangent_direction, V);
+    bool is_equal_useSpecularWorkflow = SR_UsdPreviewSurface_useSpecularWorkflow == 1;
+    float metal_weight = is_equal_useSpecularWorkflow ? 0.0 : SR_UsdPreviewSurface_metallic;
+    float specular_roughness = clamp(SR_UsdPreviewSurface_roughness * SR_UsdPreviewSurface_roughness, 1e-8, 1.0);
+    float2 albedo = mx_ggx_albedo_fit(specular_roughness, specular_roughness / (specular_roughness + cos_v), cos_v);
+    float difference = 1.0 / albedo.x - 1.0;
+    float3 metal_ior, metal_extinction;
+    mx_artistic_ior(SR_UsdPreviewSurface_diffuseColor, SR_UsdPreviewSurface_diffuseColor, metal_ior, metal_extinction);
+    float coating_difference = 1.0 - SR_UsdPreviewSurface_clearcoat
+        * dot(lerp(coating_n, 1.0, coating_albedo.y) * coating_albedo.x * coating_scale,
+        float3(0.33333334, 0.33333334, 0.33333334));
+    float3 metal_product = (difference * lerp(mx_fresnel_conductor(1.0, metal_ior, metal_extinction),
+        float3(1.0, 1.0, 1.0), 0.04761905) + float3(1.0, 1.0, 1.0)) * (metal_weight * coating_difference);
+    mx_GgxLobe lobe = mx_ggx_lobe((float2)specular_roughness, N, tangent_direction, V);
+    float diffuse_weight = 1.0 - metal_weight;
+    float3 grazing_metallic = lerp(float3(1.0, 1.0, 1.0), SR_UsdPreviewSurface_diffuseColor,
+        SR_UsdPreviewSurface_metallic);
+    float3 reflection_n = max(is_equal_useSpecularWorkflow ? SR_UsdPreviewSurface_specularColor
+        : lerp(amplitude * amplitude * grazing_metallic, grazing_metallic, SR_UsdPreviewSurface_metallic), 0.0);
+    float3 f90 = max(is_equal_useSpecularWorkflow ? float3(1.0, 1.0, 1.0) : grazing_metallic, 0.0);
+    float3 reflection_scale = lerp(mx_fresnel_schlick(1.0, reflection_n, f90), f90, 0.04761905) * difference
+        + float3(1.0, 1.0, 1.0);
+    float3 reflection_product = reflection_scale * (diffuse_weight * coating_difference);
+    float body_weight = coating_difference
+        * (1.0 - dot(lerp(reflection_n, f90, albedo.y) * albedo.x * reflection_scale,
+        float3(0.33333334, 0.33333334, 0.33333334)));
+    float opaque_transparent = SR_UsdPreviewSurface_opacityThreshold > 0.0 ? 1.0 : SR_UsdPreviewSurface_opacity;
+    float opaque_weight = 1 > SR_UsdPreviewSurface_opacityMode ? opaque_transparent : 2
+        > SR_UsdPreviewSurface_opacityMode ? 1.0 : 0.0;
+    float diffuse_weight_2 = diffuse_weight * (diffuse_weight * opaque_weight);
+    float3 diffuse_product = SR_UsdPreviewSurface_diffuseColor * (body_weight * diffuse_weight_2);
+    for (int i = 0; i < min(u_numActiveLightSources, 3); ++i) {
+        // coating
+        int type = u_lightData[i].type;
+        float intensity = u_lightData[i].intensity;
+        float3 d = u_lightData[i].position - vd.positionWorld;
+        float ratio = intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
+        float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
+        float3 to_light = normalize(d);
+        float spot_light_product = smoothstep(spot_light_difference, u_lightData[i].inner_angle,
+            -dot(u_lightData[i].direction, to_light)) * ratio;
+        float spot_light_choice = type == 3 ? spot_light_product : 0.0;
+        float point_light_choice = type == 2 ? ratio : spot_light_choice;
+        float3 light = u_lightData[i].color * (type == 1 ? intensity : point_light_choice);
+        float3 directional_light_to_light = -u_lightData[i].direction;
+        float3 L = type == 1 ? directional_light_to_light : to_light;
+        float3 H = normalize(V + L);
+        float cosine = clamp(dot(V, H), 1e-8, 1.0);
+        if (SR_UsdPreviewSurface_clearcoat > 0.0) {
+            float3 fresnel = mx_fresnel_schlick(cosine, (float3)coating_n, float3(1.0, 1.0, 1.0));
+            color += light * (coating_product * (mx_ggx_light(coating_lobe, L, H) * fresnel));
+        }
+        // metal
+        float ggx_light = mx_ggx_light(lobe, L, H);
+        if (metal_weight > 0.0)
+            color += light * (metal_product * (ggx_light * mx_fresnel_conductor(cosine, metal_ior, metal_extinction)));
+        // reflection
+        if (diffuse_weight > 0.0)
+            color += light * (reflection_product * (ggx_light * mx_fresnel_schlick(cosine, reflection_n, f90)));
+        // diffuse
+        color += light * (max(dot(L, N), 1e-8) / 3.1415927 * diffuse_product);
+    }
+    // environment
+    // coating
+    if (SR_UsdPreviewSurface_clearcoat > 0.0)
+        color += SR_UsdPreviewSurface_clearcoat
+            * (coating_scale * mx_ggx_gather_schlick(coating_lobe, (float3)coating_n, float3(1.0, 1.0, 1.0)));
+    // metal
+    if (metal_weight > 0.0)
+        color += metal_product * mx_ggx_gather_conductor(lobe, metal_ior, metal_extinction);
+    // reflection
+    if (diffuse_weight > 0.0)
+        color += reflection_product * mx_ggx_gather_schlick(lobe, reflection_n, f90);
+    // diffuse
+    if (diffuse_weight_2 > 0.0)
+        color += diffuse_product * (u_envIrradiance.SampleLevel(u_envIrradiance_sampler, mx_latlong(N), 0.0).xyz
+            * u_envLightIntensity);
+    // refraction
+    float refraction_weight = diffuse_weight * (1.0 - opaque_weight);
+    if (refraction_weight > 0.0) {
+        mx_GgxLobe refraction_lobe = mx_ggx_lobe(float2(0.0, 0.0), N, tangent_direction, V);
+        color += mx_ggx_gather_dielectric(refraction_lobe, SR_UsdPreviewSurface_ior, SR_UsdPreviewSurface_ior)
+            * (body_weight * refraction_weight);
+    }
+    // opacity
+    float mask = SR_UsdPreviewSurface_opacity >= SR_UsdPreviewSurface_opacityThreshold ? 1.0 : 0.0;
+    float coverage_choice = 2 > SR_UsdPreviewSurface_opacityMode ? SR_UsdPreviewSurface_opacityThreshold > 0.0 ? mask
+        : SR_UsdPreviewSurface_opacity : 0.0;
+    float coverage = 1 > SR_UsdPreviewSurface_opacityMode ? mask : coverage_choice;
+    if (coverage < u_alphaThreshold)
+        discard;
+    out1 = float4(coverage * color, coverage);
+}

@@ -1,0 +1,483 @@
+// gltf_pbr · surfacematerial · mxgen 0.1 · hlsl · complete · 9 closures · 0 textures
+// shader model 6.0
+
+struct mx_GgxLobe {
+    float3x3 frame;
+    float3 stretch;
+    float area;
+    float3 v;
+    float masking;
+    float3 cap;
+    float step;
+    float weight;
+    float level;
+};
+cbuffer PublicUniforms : register(b1)
+{
+    float3 SR_gltf_pbr_base_color : packoffset(c0);
+    float SR_gltf_pbr_metallic : packoffset(c0.w);
+    float SR_gltf_pbr_roughness : packoffset(c1);
+    float SR_gltf_pbr_transmission : packoffset(c1.y);
+    float SR_gltf_pbr_specular : packoffset(c1.z);
+    float3 SR_gltf_pbr_specular_color : packoffset(c2);
+    float SR_gltf_pbr_ior : packoffset(c2.w);
+    float SR_gltf_pbr_alpha : packoffset(c3);
+    int SR_gltf_pbr_alpha_mode : packoffset(c3.y);
+    float SR_gltf_pbr_alpha_cutoff : packoffset(c3.z);
+    float SR_gltf_pbr_iridescence : packoffset(c3.w);
+    float SR_gltf_pbr_iridescence_ior : packoffset(c4);
+    float SR_gltf_pbr_iridescence_thickness : packoffset(c4.y);
+    float3 SR_gltf_pbr_sheen_color : packoffset(c5);
+    float SR_gltf_pbr_sheen_roughness : packoffset(c5.w);
+    float SR_gltf_pbr_clearcoat : packoffset(c6);
+    float SR_gltf_pbr_clearcoat_roughness : packoffset(c6.y);
+    float3 SR_gltf_pbr_emissive : packoffset(c7);
+    float SR_gltf_pbr_emissive_strength : packoffset(c7.w);
+    float SR_gltf_pbr_anisotropy_strength : packoffset(c8);
+    float SR_gltf_pbr_anisotropy_rotation : packoffset(c8.y);
+};
+cbuffer PrivateUniforms : register(b0)
+{
+    row_major float4x4 u_worldMatrix : packoffset(c0);
+    row_major float4x4 u_worldInverseTransposeMatrix : packoffset(c4);
+    row_major float4x4 u_viewProjectionMatrix : packoffset(c8);
+    float3 u_viewPosition : packoffset(c12);
+    int u_numActiveLightSources : packoffset(c12.w);
+    row_major float4x4 u_envMatrix : packoffset(c13);
+    int u_envRadianceMips : packoffset(c17);
+    int u_envRadianceSamples : packoffset(c17.y);
+    float u_envLightIntensity : packoffset(c17.z);
+    float u_alphaThreshold : packoffset(c17.w);
+    bool u_refractionTwoSided : packoffset(c18);
+};
+struct LightData {
+    float3 direction;
+    float3 color;
+    float3 position;
+    int type;
+    float intensity;
+    float decay_rate;
+    float inner_angle;
+    float outer_angle;
+};
+cbuffer LightData_block : register(b2)
+{
+    LightData u_lightData[3];
+};
+Texture2D u_envRadiance : register(t3);
+SamplerState u_envRadiance_sampler : register(s3);
+Texture2D u_envIrradiance : register(t4);
+SamplerState u_envIrradiance_sampler : register(s4);
+struct VertexData {
+    float4 position : SV_Position;
+    float3 positionWorld : TEXCOORD0;
+    float3 normalWorld : TEXCOORD1;
+    float3 tangentWorld : TEXCOORD2;
+};
+
+mx_GgxLobe make_mx_GgxLobe(float3x3 frame, float3 stretch, float area, float3 v, float masking, float3 cap, float step,
+    float weight, float level)
+{
+    mx_GgxLobe made;
+    made.frame = frame;
+    made.stretch = stretch;
+    made.area = area;
+    made.v = v;
+    made.masking = masking;
+    made.cap = cap;
+    made.step = step;
+    made.weight = weight;
+    made.level = level;
+    return made;
+}
+
+// A polynomial of two variables, what directional albedos are fitted by (the programs in fits/).
+float mx_bicubic(float4x4 m, float x, float y)
+{
+    return dot(float4(1.0, x, x * x, x * x * x), mul(float4(1.0, y, y * y, y * y * y), m));
+}
+
+// The program fits/ggx.c makes the constants. x is never too small by more than 0.001, so that giving lost energy back
+// adds none. `u` follows what happens where light grazes the facets.
+float2 mx_ggx_albedo_fit(float a, float u, float c)
+{
+    float x = clamp(1.0 - c - a * mx_bicubic(float4x4(-0.2006, 5.2916, -3.7565, 0.218, -10.2439, 6.6203, -0.9657,
+        2.5694, 38.3042, -80.8059, 71.731, -28.5214, -34.2, 89.1079, -88.4065, 33.782), u, a), 0.0, 1.0);
+    return float2(min(1.0046 - u * mx_bicubic(float4x4(-0.1447, 2.759, -5.4314, 2.8497, -0.9366, 1.4766, 0.5911,
+        -1.0905, 11.8506, -30.2645, 27.3289, -8.9414, -4.3199, 8.2596, -3.1648, -0.8054), u, a), 1.0), x * x * x * x
+        * x);
+}
+
+mx_GgxLobe mx_ggx_lobe_at(float3x3 frame, float2 alpha, float3 v)
+{
+    float area = alpha.x * alpha.y;
+    float masking = sqrt(lerp(v.z * v.z, 1.0, area));
+    float step_ = 1.0 / float(max(u_envRadianceSamples, 1));
+    float weight = step_ * (v.z + masking);
+    return make_mx_GgxLobe(frame, float3(alpha, 1.0), area, v, masking, normalize(v * float3(alpha, 1.0)), step_, weight
+        * u_envLightIntensity, weight * area * exp2(2.0 * float(u_envRadianceMips) - 2.3485));
+}
+
+// Axes of the tangent space around N with x along X: `w * frame` enters it, `frame * w` leaves it.
+float3x3 mx_frame(float3 N, float3 X)
+{
+    float3x3 frame;
+    frame[0] = normalize(X - dot(X, N) * N);
+    frame[1] = cross(N, frame[0]);
+    frame[2] = N;
+    return frame;
+}
+
+// N faces V.
+mx_GgxLobe mx_ggx_lobe(float2 roughness, float3 N, float3 X, float3 V)
+{
+    float3x3 frame = mx_frame(N, X);
+    return mx_ggx_lobe_at(frame, clamp(roughness, 1e-8, 1.0), max(mul(frame, V), float3(-1.0, -1.0, 1e-8)));
+}
+
+// Distribution of normals (Burley 2012, appendix B.2, equation 13) at a normal that is stretched to that of a unit
+// sphere; `area` is the product of the roughness along x and y.
+float mx_ggx_distribution(float3 e, float area)
+{
+    return 1.0 / (3.1415927 * area * dot(e, e) * dot(e, e));
+}
+
+// Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v; half is left of the divisor of the
+// reflection model.
+float mx_ggx_visibility(mx_GgxLobe lobe, float cos_l)
+{
+    return cos_l / (lobe.v.z * sqrt(lerp(cos_l * cos_l, 1.0, lobe.area)) + cos_l * lobe.masking);
+}
+
+// The lobe towards L, but for Fresnel's factor.
+float mx_ggx_light(mx_GgxLobe lobe, float3 L, float3 H)
+{
+    return 0.5 * mx_ggx_distribution(mul(lobe.frame, H) / lobe.stretch, lobe.area)
+        * mx_ggx_visibility(lobe, max(dot(L, lobe.frame[2]), 1e-8));
+}
+
+// Unpolarised Fresnel equations of a dielectric; the clamped root makes total internal reflection come out as 1.
+float mx_fresnel_dielectric(float cosine, float ior)
+{
+    float g = sqrt(max(ior * ior + cosine * cosine - 1.0, 0.0));
+    float2 a = cosine * float2(1.0, ior * ior);
+    float2 r = (a - g) / (a + g);
+    return 0.5 * dot(r, r);
+}
+
+float3 mx_fresnel_schlick(float cosine, float3 f0, float3 f90)
+{
+    float x = 1.0 - cosine;
+    return lerp(f0, f90, x * x * x * x * x);
+}
+
+// XYZ of light that has gone further by d / (2 pi) micrometre and changed by the amplitude re + i im: the Fourier
+// transform of the CIE sensitivities, a sum of Gaussians.
+float3 mx_film_response(float d, float3 re)
+{
+    float4 xyzx = float4(0.84659, 1.000222, 1.001122, 0.153868)
+        * exp(float4(-0.0043278, -0.0093046, -0.0066121, -0.0045282) * (d * d))
+        * (float4(re, re.x) * cos(float4(1.681, 1.7953, 2.2084, 2.2399) * d));
+    return xyzx.xyz + float3(xyzx.w, 0.0, 0.0);
+}
+
+// XYZ after interference of one polarisation: real amplitude `a` of the film's own interface, which from behind is -a,
+// and re + i im of the one below; two terms of the series (section 3.3).
+float3 mx_film_series(float a, float3 re, float d)
+{
+    float3 r23 = re * re;
+    float r12 = a * a;
+    float t = 1.0 - r12;
+    float3 constant = t * t * r23 / (1.0 - r12 * r23);
+    return r12 + constant + 2.0 * (constant - t)
+        * (r12 * mx_film_response(2.0 * d, re * re) - a * mx_film_response(d, re));
+}
+
+// Amplitudes of the film's own interface: perpendicular, parallel.
+float2 mx_film_amplitudes(float cosine, float inside, float ior)
+{
+    float2 x = float2(cosine, ior * cosine);
+    float2 u = float2(ior * inside, inside);
+    return (x - u) / (x + u);
+}
+
+// A film on a colour, which has no phase: light turns where its colour says that the index behind the film is lower.
+float3 mx_film_schlick(float cosine, float3 f0, float3 f90, float film, float film_ior)
+{
+    float ior = max(film_ior, 1.0);
+    float c = sqrt(1.0 - (1.0 - cosine * cosine) / (ior * ior));
+    float2 a = mx_film_amplitudes(cosine, c, ior);
+    float d = 0.012566372 * ior * c * film;
+    float3 r = (1.0 - 2.0 * step(sqrt(clamp(f0, 0.01, 0.99)), (float3)((ior - 1.0) / (ior + 1.0))))
+        * sqrt(max(0.5 * mx_fresnel_schlick(c, f0, f90), 0.0));
+    return clamp(mul(0.5 * (mx_film_series(a.x, -r, d) + mx_film_series(a.y, r, d)),
+        float3x3(2.3706744, -0.513885, 0.0052982, -0.9000405, 1.4253036, -0.0146949, -0.4706338, 0.0885814, 1.0093968)),
+        0.0, 1.0);
+}
+
+float3 mx_fresnel(float cosine, float3 n, float3 f90, float film, float film_ior)
+{
+    if (film > 0.0)
+        return mx_film_schlick(cosine, n, f90, film, film_ior);
+    return mx_fresnel_schlick(cosine, n, f90);
+}
+
+// Rodrigues' formula; the axis has unit length.
+float3 mx_rotate3d(float3 v, float angle, float3 axis)
+{
+    float c = cos(angle);
+    return v * c + cross(v, axis) * sin(angle) + axis * (dot(axis, v) * (1.0 - c));
+}
+
+// Where the light from a direction of the world lies in the environment's picture.
+float2 mx_latlong(float3 direction)
+{
+    float3 d = normalize(mul(float4(direction, 0.0), u_envMatrix).xyz);
+    return float2(atan2(d.x, -d.z), -2.0 * asin(clamp(d.y, -1.0, 1.0))) * 0.15915494 + 0.5;
+}
+
+// Light of a direction, filtered over the solid angle of a sample (Krivanek and Colbert 2008; the mip level is equation
+// 13 of GPU Gems 3, section 20.4).
+float3 mx_filtered_light(float3 L, float level)
+{
+    return u_envRadiance.SampleLevel(u_envRadiance_sampler, mx_latlong(L),
+        max(0.25 * log2(level * level / dot(L.xz, L.xz)), 0.0)).xyz;
+}
+
+// Direction of the ray -v after it has entered the sphere at normal h and left it again.
+float3 mx_refract_sphere(float3 v, float3 h, float ior)
+{
+    float3 inside = refract(-v, h, 1.0 / ior);
+    return refract(inside, normalize(inside * dot(inside, h) - 0.5 * h), ior);
+}
+
+// The light of a sample, and in the fourth component the cosine at its facet h.
+float4 mx_ggx_sample_at(mx_GgxLobe lobe, float3 h, float level, float refract_ior)
+{
+    float3 l = reflect(-lobe.v, h);
+    float weight = mx_ggx_visibility(lobe, max(l.z, 1e-8));
+    if (refract_ior > 0.0) {
+        l = mx_refract_sphere(lobe.v, h, refract_ior);
+        weight = 0.5 / lobe.v.z;
+    }
+    return float4(weight * mx_filtered_light(mul(l, lobe.frame), level), clamp(dot(lobe.v, h), 1e-8, 1.0));
+}
+
+// A normal of those visible from v, which is stretched by the roughness, before it is scaled to length 1 (Dupuy and
+// Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps"): (cos, sin) of its turn around z, and how far the
+// cap is below its top.
+float3 mx_ggx_cap(float2 around, float depth, float3 v)
+{
+    return float3(v.xy + sqrt(depth * (2.0 - depth)) * around, v.z + 1.0 - depth);
+}
+
+float4 mx_ggx_sample(mx_GgxLobe lobe, float2 around, float xi, float refract_ior)
+{
+    float3 cap = mx_ggx_cap(around, xi * (1.0 + lobe.cap.z), lobe.cap);
+    float3 h = cap * lobe.stretch;
+    float s = dot(cap, cap) / dot(h, h);
+    return mx_ggx_sample_at(lobe, normalize(h), s * s * lobe.level, refract_ior);
+}
+
+// A function for each interface: what has nothing left to choose needs no version of its own.
+float3 mx_ggx_gather_dielectric(mx_GgxLobe lobe, float refract_ior, float ior)
+{
+    float2 around = float2(1.0, 0.0);
+    float3 sum = float3(0.0, 0.0, 0.0);
+    for (float xi = 0.5 * lobe.step; xi < 1.0; xi += lobe.step) {
+        float4 light = mx_ggx_sample(lobe, around, xi, refract_ior);
+        float f = mx_fresnel_dielectric(light.w, ior);
+        sum += (refract_ior > 0.0 ? 1.0 - f : f) * light.xyz;
+        around = mul(around, float2x2(-0.7373689, 0.6754903, -0.6754903, -0.7373689));
+    }
+    return lobe.weight * sum;
+}
+
+// Any other: on a colour, or what it lets through.
+float3 mx_ggx_gather_film(mx_GgxLobe lobe, float limit, float3 n, float3 f90, float film, float film_ior)
+{
+    float2 around = float2(1.0, 0.0);
+    float3 sum = float3(0.0, 0.0, 0.0);
+    for (float xi = 0.5 * lobe.step; xi < limit; xi += lobe.step) {
+        float4 light = mx_ggx_sample(lobe, around, xi, 0.0);
+        sum += mx_film_schlick(light.w, n, f90, film, film_ior) * light.xyz;
+        around = mul(around, float2x2(-0.7373689, 0.6754903, -0.6754903, -0.7373689));
+    }
+    return lobe.weight * sum;
+}
+
+float3 mx_ggx_gather_schlick(mx_GgxLobe lobe, float limit, float3 f0, float3 f90)
+{
+    float2 around = float2(1.0, 0.0);
+    float3 sum = float3(0.0, 0.0, 0.0);
+    for (float xi = 0.5 * lobe.step; xi < limit; xi += lobe.step) {
+        float4 light = mx_ggx_sample(lobe, around, xi, 0.0);
+        sum += mx_fresnel_schlick(light.w, f0, f90) * light.xyz;
+        around = mul(around, float2x2(-0.7373689, 0.6754903, -0.6754903, -0.7373689));
+    }
+    return lobe.weight * sum;
+}
+
+void main(
+    VertexData vd,
+    out float4 out1 : SV_Target0)
+{
+    float3 color = SR_gltf_pbr_emissive * SR_gltf_pbr_emissive_strength;
+    // lights
+    // SR_gltf_pbr
+    float coat_lobe = clamp(SR_gltf_pbr_clearcoat_roughness * SR_gltf_pbr_clearcoat_roughness, 1e-8, 1.0);
+    float3 N = normalize(vd.normalWorld);
+    float3 V = normalize(u_viewPosition - vd.positionWorld);
+    float cos_v = max(abs(dot(N, V)), 1e-8);
+    float2 coating_albedo = mx_ggx_albedo_fit(coat_lobe, coat_lobe / (coat_lobe + cos_v), cos_v);
+    float coating_scale = (1.0 / coating_albedo.x - 1.0) * 0.08571429 + 1.0;
+    float3 Nf = faceforward(N, -V, N);
+    float3 X = normalize(vd.tangentWorld);
+    mx_GgxLobe coating_lobe = mx_ggx_lobe((float2)coat_lobe, Nf, X, V);
+    float sheen_weight = max(max(SR_gltf_pbr_sheen_color.x, SR_gltf_pbr_sheen_color.y), SR_gltf_pbr_sheen_color.z);
+    float sheen_rough = SR_gltf_pbr_sheen_roughness * SR_gltf_pbr_sheen_roughness;
+    float s = 1.0 / max(sheen_rough, 0.005);
+    float coating_difference = 1.0 - SR_gltf_pbr_clearcoat
+        * (lerp(0.04, 1.0, coating_albedo.y) * coating_albedo.x * coating_scale);
+    float3 fuzz_product = SR_gltf_pbr_sheen_color / sheen_weight * (sheen_weight * coating_difference);
+    float metal_film_weight = SR_gltf_pbr_metallic * SR_gltf_pbr_iridescence;
+    float alpha_bitangent = SR_gltf_pbr_roughness * SR_gltf_pbr_roughness;
+    float2 specular_roughness = clamp(float2(lerp(alpha_bitangent, 1.0, SR_gltf_pbr_anisotropy_strength
+        * SR_gltf_pbr_anisotropy_strength), alpha_bitangent), 0.00001, 1.0);
+    float2 alpha = clamp(specular_roughness, 1e-8, 1.0);
+    float a = sqrt(alpha.x * alpha.y);
+    float2 albedo = mx_ggx_albedo_fit(a, a / (cos_v + a), cos_v);
+    float difference = 1.0 / albedo.x - 1.0;
+    float3 limited_base_color = max(SR_gltf_pbr_base_color, 0.0);
+    float iridescence_thickness = SR_gltf_pbr_iridescence_thickness;
+    float iridescence_ior = SR_gltf_pbr_iridescence_ior;
+    float sheen_albedo = clamp(mx_bicubic(float4x4(3.7341, -15.9587, 23.621, -11.0989, -8.2265, 35.1081, -49.7137,
+        23.2945, 4.0691, -17.882, 25.6639, -12.0167, -0.5833, 2.6552, -3.9393, 1.8999), 1.0 / (cos_v + 1.0), 1.0
+        / (sheen_rough + 0.2)), 0.0, 1.0);
+    float substrate_weight = coating_difference * (1.0 - sheen_weight * sheen_albedo);
+    float3 metal_film_product = (difference
+        * lerp(mx_fresnel(1.0, limited_base_color, float3(1.0, 1.0, 1.0), iridescence_thickness, iridescence_ior),
+        float3(1.0, 1.0, 1.0), 0.04761905) + float3(1.0, 1.0, 1.0)) * (substrate_weight * metal_film_weight);
+    float3 specular_tangent = mx_rotate3d(X, radians(SR_gltf_pbr_anisotropy_rotation * -57.29578), N);
+    mx_GgxLobe lobe = mx_ggx_lobe(specular_roughness, Nf, specular_tangent, V);
+    float metal_bare_weight = SR_gltf_pbr_metallic * (1.0 - SR_gltf_pbr_iridescence);
+    float3 metal_bare_product = (difference
+        * lerp(mx_fresnel_schlick(1.0, limited_base_color, float3(1.0, 1.0, 1.0)), float3(1.0, 1.0, 1.0), 0.04761905)
+        + float3(1.0, 1.0, 1.0)) * (substrate_weight * metal_bare_weight);
+    float dielectric_weight = 1.0 - SR_gltf_pbr_metallic;
+    bool reflection_film_visible = SR_gltf_pbr_iridescence * dielectric_weight > 0.0;
+    float amplitude = (1.0 - SR_gltf_pbr_ior) / (SR_gltf_pbr_ior + 1.0);
+    float3 n = max(SR_gltf_pbr_specular * min(SR_gltf_pbr_specular_color * (amplitude * amplitude), 1.0), 0.0);
+    float3 f90 = (float3)max(SR_gltf_pbr_specular, 0.0);
+    float3 reflection_film_scale = lerp(mx_fresnel(1.0, n, f90, iridescence_thickness, iridescence_ior), f90,
+        0.04761905) * difference + float3(1.0, 1.0, 1.0);
+    float3 reflection_film_product = reflection_film_scale
+        * (substrate_weight * (SR_gltf_pbr_iridescence * dielectric_weight));
+    float reflection_weight = dielectric_weight * (1.0 - SR_gltf_pbr_iridescence);
+    float3 reflection_scale = difference * lerp(mx_fresnel_schlick(1.0, n, f90), f90, 0.04761905)
+        + float3(1.0, 1.0, 1.0);
+    float3 reflection_product = reflection_scale * (substrate_weight * reflection_weight);
+    float3 product = lerp(n, f90, albedo.y) * albedo.x;
+    float reflection_throughput = 1.0 - dot(product * reflection_scale, float3(0.33333334, 0.33333334, 0.33333334));
+    float body_weight = lerp(reflection_throughput, 1.0
+        - dot(product * reflection_film_scale, float3(0.33333334, 0.33333334, 0.33333334)), SR_gltf_pbr_iridescence)
+        * substrate_weight;
+    float3 diffuse_product = SR_gltf_pbr_base_color
+        * (body_weight * (dielectric_weight * (1.0 - SR_gltf_pbr_transmission)));
+    for (int i = 0; i < min(u_numActiveLightSources, 3); ++i) {
+        // coating
+        int type = u_lightData[i].type;
+        float intensity = u_lightData[i].intensity;
+        float3 d = u_lightData[i].position - vd.positionWorld;
+        float ratio = intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
+        float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
+        float3 to_light = normalize(d);
+        float spot_light_product = smoothstep(spot_light_difference, u_lightData[i].inner_angle,
+            -dot(u_lightData[i].direction, to_light)) * ratio;
+        float spot_light_choice = type == 3 ? spot_light_product : 0.0;
+        float point_light_choice = type == 2 ? ratio : spot_light_choice;
+        float3 light = u_lightData[i].color * (type == 1 ? intensity : point_light_choice);
+        float3 directional_light_to_light = -u_lightData[i].direction;
+        float3 L = type == 1 ? directional_light_to_light : to_light;
+        float3 H = normalize(V + L);
+        float cosine = clamp(dot(V, H), 1e-8, 1.0);
+        if (SR_gltf_pbr_clearcoat > 0.0)
+            color += light * (SR_gltf_pbr_clearcoat * coating_scale
+                * (mx_ggx_light(coating_lobe, L, H) * mx_fresnel_dielectric(cosine, 1.5)));
+        // fuzz
+        float cos_l = max(dot(L, Nf), 1e-8);
+        if (sheen_weight > 0.0) {
+            float cos_h = dot(H, Nf);
+            float fuzz_product_2 = cos_l * ((s + 2.0) * pow(max(1.0 - cos_h * cos_h, 0.0), s * 0.5) / 6.2831855);
+            color += light * (fuzz_product_2 / ((cos_v + cos_l - cos_v * cos_l) * 4.0) * fuzz_product);
+        }
+        // metal_film
+        float ggx_light = mx_ggx_light(lobe, L, H);
+        if (metal_film_weight > 0.0)
+            color += light * (metal_film_product
+                * (ggx_light * mx_fresnel(cosine, limited_base_color, float3(1.0, 1.0, 1.0), iridescence_thickness,
+                iridescence_ior)));
+        // metal_bare
+        if (metal_bare_weight > 0.0)
+            color += light * (metal_bare_product
+                * (ggx_light * mx_fresnel_schlick(cosine, limited_base_color, float3(1.0, 1.0, 1.0))));
+        // reflection_film
+        if (reflection_film_visible)
+            color += light * (reflection_film_product
+                * (ggx_light * mx_fresnel(cosine, n, f90, iridescence_thickness, iridescence_ior)));
+        // reflection
+        if (reflection_weight > 0.0)
+            color += light * (reflection_product * (ggx_light * mx_fresnel_schlick(cosine, n, f90)));
+        // diffuse
+        color += light * (cos_l / 3.1415927 * diffuse_product);
+    }
+    // environment
+    // coating
+    if (SR_gltf_pbr_clearcoat > 0.0)
+        color += SR_gltf_pbr_clearcoat * coating_scale * mx_ggx_gather_dielectric(coating_lobe, 0.0, 1.5);
+    // fuzz
+    float3 environment_irradiance = u_envIrradiance.SampleLevel(u_envIrradiance_sampler, mx_latlong(Nf), 0.0).xyz
+        * u_envLightIntensity;
+    if (sheen_weight > 0.0)
+        color += environment_irradiance * (SR_gltf_pbr_sheen_color / sheen_weight
+            * (sheen_albedo * (sheen_weight * coating_difference)));
+    // metal_film
+    float filmed = iridescence_thickness > 0.0 ? 1.0 : 0.0;
+    float limit = iridescence_thickness > 0.0 ? 0.0 : 1.0;
+    if (metal_film_weight > 0.0) {
+        float3 metal_film_ggx_gather_film = mx_ggx_gather_film(lobe, filmed, limited_base_color, float3(1.0, 1.0, 1.0),
+            iridescence_thickness, iridescence_ior);
+        float3 metal_film_bare = mx_ggx_gather_schlick(lobe, limit, limited_base_color, float3(1.0, 1.0, 1.0));
+        color += metal_film_product * (iridescence_thickness > 0.0 ? metal_film_ggx_gather_film : metal_film_bare);
+    }
+    // metal_bare
+    if (metal_bare_weight > 0.0)
+        color += metal_bare_product * mx_ggx_gather_schlick(lobe, 1.0, limited_base_color, float3(1.0, 1.0, 1.0));
+    // reflection_film
+    if (reflection_film_visible) {
+        float3 reflection_film_ggx_gather_film = mx_ggx_gather_film(lobe, filmed, n, f90, iridescence_thickness,
+            iridescence_ior);
+        float3 reflection_film_bare = mx_ggx_gather_schlick(lobe, limit, n, f90);
+        color += reflection_film_product
+            * (iridescence_thickness > 0.0 ? reflection_film_ggx_gather_film : reflection_film_bare);
+    }
+    // reflection
+    if (reflection_weight > 0.0)
+        color += reflection_product * mx_ggx_gather_schlick(lobe, 1.0, n, f90);
+    // refraction
+    if (SR_gltf_pbr_transmission * dielectric_weight > 0.0) {
+        float3 ggx_refraction = mx_ggx_gather_dielectric(lobe, SR_gltf_pbr_ior, SR_gltf_pbr_ior);
+        float3 dielectric_bsdf_transmission = limited_base_color
+            * (u_refractionTwoSided ? limited_base_color : float3(1.0, 1.0, 1.0)) * ggx_refraction;
+        color += dielectric_bsdf_transmission * (body_weight * (SR_gltf_pbr_transmission * dielectric_weight));
+    }
+    // diffuse
+    color += diffuse_product * environment_irradiance;
+    // opacity
+    float mask = SR_gltf_pbr_alpha >= SR_gltf_pbr_alpha_cutoff ? 1.0 : 0.0;
+    float opacity = 1 > SR_gltf_pbr_alpha_mode ? 1.0 : 2 > SR_gltf_pbr_alpha_mode ? mask : 3 > SR_gltf_pbr_alpha_mode
+        ? SR_gltf_pbr_alpha : 0.0;
+    if (opacity < u_alphaThreshold)
+        discard;
+    out1 = float4(opacity * color, opacity);
+}

@@ -1,0 +1,690 @@
+// open_pbr_surface · surfacematerial · mxgen 0.1 · hlsl · complete · 12 closures · 0 textures
+// shader model 6.0
+
+struct mx_GgxLobe {
+    float3x3 frame;
+    float3 stretch;
+    float area;
+    float3 v;
+    float masking;
+    float3 cap;
+    float step;
+    float weight;
+    float level;
+};
+cbuffer PublicUniforms : register(b1)
+{
+    float SR_open_pbr_surface_base_weight : packoffset(c0);
+    float3 SR_open_pbr_surface_base_color : packoffset(c0.y);
+    float SR_open_pbr_surface_base_diffuse_roughness : packoffset(c1);
+    float SR_open_pbr_surface_base_metalness : packoffset(c1.y);
+    float SR_open_pbr_surface_specular_weight : packoffset(c1.z);
+    float3 SR_open_pbr_surface_specular_color : packoffset(c2);
+    float SR_open_pbr_surface_specular_roughness : packoffset(c2.w);
+    float SR_open_pbr_surface_specular_ior : packoffset(c3);
+    float SR_open_pbr_surface_specular_roughness_anisotropy : packoffset(c3.y);
+    float SR_open_pbr_surface_transmission_weight : packoffset(c3.z);
+    float3 SR_open_pbr_surface_transmission_color : packoffset(c4);
+    float SR_open_pbr_surface_transmission_depth : packoffset(c4.w);
+    float3 SR_open_pbr_surface_transmission_scatter : packoffset(c5);
+    float SR_open_pbr_surface_subsurface_weight : packoffset(c5.w);
+    float3 SR_open_pbr_surface_subsurface_color : packoffset(c6);
+    float SR_open_pbr_surface_subsurface_radius : packoffset(c6.w);
+    float3 SR_open_pbr_surface_subsurface_radius_scale : packoffset(c7);
+    float SR_open_pbr_surface_subsurface_scatter_anisotropy : packoffset(c7.w);
+    float SR_open_pbr_surface_fuzz_weight : packoffset(c8);
+    float3 SR_open_pbr_surface_fuzz_color : packoffset(c8.y);
+    float SR_open_pbr_surface_fuzz_roughness : packoffset(c9);
+    float SR_open_pbr_surface_coat_weight : packoffset(c9.y);
+    float3 SR_open_pbr_surface_coat_color : packoffset(c10);
+    float SR_open_pbr_surface_coat_roughness : packoffset(c10.w);
+    float SR_open_pbr_surface_coat_roughness_anisotropy : packoffset(c11);
+    float SR_open_pbr_surface_coat_ior : packoffset(c11.y);
+    float SR_open_pbr_surface_coat_darkening : packoffset(c11.z);
+    float SR_open_pbr_surface_thin_film_weight : packoffset(c11.w);
+    float SR_open_pbr_surface_thin_film_thickness : packoffset(c12);
+    float SR_open_pbr_surface_thin_film_ior : packoffset(c12.y);
+    float SR_open_pbr_surface_emission_luminance : packoffset(c12.z);
+    float3 SR_open_pbr_surface_emission_color : packoffset(c13);
+    float SR_open_pbr_surface_geometry_opacity : packoffset(c13.w);
+    bool SR_open_pbr_surface_geometry_thin_walled : packoffset(c14);
+};
+cbuffer PrivateUniforms : register(b0)
+{
+    row_major float4x4 u_worldMatrix : packoffset(c0);
+    row_major float4x4 u_worldInverseTransposeMatrix : packoffset(c4);
+    row_major float4x4 u_viewProjectionMatrix : packoffset(c8);
+    float3 u_viewPosition : packoffset(c12);
+    int u_numActiveLightSources : packoffset(c12.w);
+    row_major float4x4 u_envMatrix : packoffset(c13);
+    int u_envRadianceMips : packoffset(c17);
+    int u_envRadianceSamples : packoffset(c17.y);
+    float u_envLightIntensity : packoffset(c17.z);
+    float u_alphaThreshold : packoffset(c17.w);
+    bool u_refractionTwoSided : packoffset(c18);
+};
+struct LightData {
+    float3 direction;
+    float3 color;
+    float3 position;
+    int type;
+    float intensity;
+    float decay_rate;
+    float inner_angle;
+    float outer_angle;
+};
+cbuffer LightData_block : register(b2)
+{
+    LightData u_lightData[3];
+};
+Texture2D u_envRadiance : register(t3);
+SamplerState u_envRadiance_sampler : register(s3);
+Texture2D u_envIrradiance : register(t4);
+SamplerState u_envIrradiance_sampler : register(s4);
+struct VertexData {
+    float4 position : SV_Position;
+    float3 positionWorld : TEXCOORD0;
+    float3 normalWorld : TEXCOORD1;
+    float3 tangentWorld : TEXCOORD2;
+};
+
+mx_GgxLobe make_mx_GgxLobe(float3x3 frame, float3 stretch, float area, float3 v, float masking, float3 cap, float step,
+    float weight, float level)
+{
+    mx_GgxLobe made;
+    made.frame = frame;
+    made.stretch = stretch;
+    made.area = area;
+    made.v = v;
+    made.masking = masking;
+    made.cap = cap;
+    made.step = step;
+    made.weight = weight;
+    made.level = level;
+    return made;
+}
+
+// Zeltner et al.: clamped cosine under the linear transform M^-1 = [a 0 b; 0 a 0; 0 0 1] in the plane of V and N.
+float2 mx_sheen_transform(float c, float r)
+{
+    return float2((2.58126 * c + 0.813703 * r) * r / (1.0 + 0.310327 * c * c + 2.60994 * c * r), sqrt(1.0 - c)
+        * (r - 1.0) * r * r * r / (0.0000254053 + 1.71228 * c - 1.71506 * c * r + 1.34174 * r * r));
+}
+
+// Into the tangent space around N with x along the unit tangent `x`, and out of it.
+float3 mx_enter_frame(float3 w, float3 N, float3 x)
+{
+    return float3(dot(w, x), dot(w, cross(N, x)), dot(w, N));
+}
+
+// Unit tangent along X.
+float3 mx_tangent(float3 N, float3 X)
+{
+    return normalize(X - dot(X, N) * N);
+}
+
+float mx_sheen_zeltner(float3 N, float3 V, float3 L, float c, float r)
+{
+    float2 m = mx_sheen_transform(c, r);
+    float3 l = mx_enter_frame(L, N, mx_tangent(N, V + 0.00001 * N.yzx));
+    float3 w = float3(m.x * l.x + m.y * l.z, m.x * l.y, l.z);
+    float scale = m.x / dot(w, w);
+    return max(w.z, 0.0) / 3.1415927 * scale * scale;
+}
+
+// Unpolarised Fresnel equations of a dielectric; the clamped root makes total internal reflection come out as 1.
+float mx_fresnel_dielectric(float cosine, float ior)
+{
+    float g = sqrt(max(ior * ior + cosine * cosine - 1.0, 0.0));
+    float2 a = cosine * float2(1.0, ior * ior);
+    float2 r = (a - g) / (a + g);
+    return 0.5 * dot(r, r);
+}
+
+// OpenPBR Surface specification, "Microfacet model".
+float2 mx_open_pbr_anisotropy(float roughness, float anisotropy)
+{
+    float aspect = 1.0 - anisotropy;
+    return roughness * roughness * sqrt(2.0 / (1.0 + aspect * aspect)) * float2(1.0, aspect);
+}
+
+// A polynomial of two variables, what directional albedos are fitted by (the programs in fits/).
+float mx_bicubic(float4x4 m, float x, float y)
+{
+    return dot(float4(1.0, x, x * x, x * x * x), mul(float4(1.0, y, y * y, y * y * y), m));
+}
+
+// The program fits/ggx.c makes the constants. x is never too small by more than 0.001, so that giving lost energy back
+// adds none. `u` follows what happens where light grazes the facets.
+float2 mx_ggx_albedo_fit(float a, float u, float c)
+{
+    float x = clamp(1.0 - c - a * mx_bicubic(float4x4(-0.2006, 5.2916, -3.7565, 0.218, -10.2439, 6.6203, -0.9657,
+        2.5694, 38.3042, -80.8059, 71.731, -28.5214, -34.2, 89.1079, -88.4065, 33.782), u, a), 0.0, 1.0);
+    return float2(min(1.0046 - u * mx_bicubic(float4x4(-0.1447, 2.759, -5.4314, 2.8497, -0.9366, 1.4766, 0.5911,
+        -1.0905, 11.8506, -30.2645, 27.3289, -8.9414, -4.3199, 8.2596, -3.1648, -0.8054), u, a), 1.0), x * x * x * x
+        * x);
+}
+
+mx_GgxLobe mx_ggx_lobe_at(float3x3 frame, float2 alpha, float3 v)
+{
+    float area = alpha.x * alpha.y;
+    float masking = sqrt(lerp(v.z * v.z, 1.0, area));
+    float step_ = 1.0 / float(max(u_envRadianceSamples, 1));
+    float weight = step_ * (v.z + masking);
+    return make_mx_GgxLobe(frame, float3(alpha, 1.0), area, v, masking, normalize(v * float3(alpha, 1.0)), step_, weight
+        * u_envLightIntensity, weight * area * exp2(2.0 * float(u_envRadianceMips) - 2.3485));
+}
+
+// Axes of the tangent space around N with x along X: `w * frame` enters it, `frame * w` leaves it.
+float3x3 mx_frame(float3 N, float3 X)
+{
+    float3x3 frame;
+    frame[0] = normalize(X - dot(X, N) * N);
+    frame[1] = cross(N, frame[0]);
+    frame[2] = N;
+    return frame;
+}
+
+// N faces V.
+mx_GgxLobe mx_ggx_lobe(float2 roughness, float3 N, float3 X, float3 V)
+{
+    float3x3 frame = mx_frame(N, X);
+    return mx_ggx_lobe_at(frame, clamp(roughness, 1e-8, 1.0), max(mul(frame, V), float3(-1.0, -1.0, 1e-8)));
+}
+
+// Distribution of normals (Burley 2012, appendix B.2, equation 13) at a normal that is stretched to that of a unit
+// sphere; `area` is the product of the roughness along x and y.
+float mx_ggx_distribution(float3 e, float area)
+{
+    return 1.0 / (3.1415927 * area * dot(e, e) * dot(e, e));
+}
+
+// Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v; half is left of the divisor of the
+// reflection model.
+float mx_ggx_visibility(mx_GgxLobe lobe, float cos_l)
+{
+    return cos_l / (lobe.v.z * sqrt(lerp(cos_l * cos_l, 1.0, lobe.area)) + cos_l * lobe.masking);
+}
+
+// The lobe towards L, but for Fresnel's factor.
+float mx_ggx_light(mx_GgxLobe lobe, float3 L, float3 H)
+{
+    return 0.5 * mx_ggx_distribution(mul(lobe.frame, H) / lobe.stretch, lobe.area)
+        * mx_ggx_visibility(lobe, max(dot(L, lobe.frame[2]), 1e-8));
+}
+
+float3 mx_fresnel_schlick(float cosine, float3 f0, float3 bend)
+{
+    float x = 1.0 - cosine;
+    float x3 = x * x * x;
+    return lerp(f0, float3(1.0, 1.0, 1.0), x3 * x * x) - bend * (cosine * x3 * x3);
+}
+
+// XYZ of light that has gone further by d / (2 pi) micrometre and changed by the amplitude re + i im: the Fourier
+// transform of the CIE sensitivities, a sum of Gaussians.
+float3 mx_film_response(float d, float3 re, float3 im)
+{
+    float4 a = float4(1.681, 1.7953, 2.2084, 2.2399) * d;
+    float4 xyzx = float4(0.84659, 1.000222, 1.001122, 0.153868)
+        * exp(float4(-0.0043278, -0.0093046, -0.0066121, -0.0045282) * (d * d))
+        * (float4(re, re.x) * cos(a) - float4(im, im.x) * sin(a));
+    return xyzx.xyz + float3(xyzx.w, 0.0, 0.0);
+}
+
+// XYZ after interference of one polarisation: real amplitude `a` of the film's own interface, which from behind is -a,
+// and re + i im of the one below; two terms of the series (section 3.3).
+float3 mx_film_series(float a, float3 re, float3 im, float d)
+{
+    float3 r23 = re * re + im * im;
+    float r12 = a * a;
+    float t = 1.0 - r12;
+    float3 constant = t * t * r23 / (1.0 - r12 * r23);
+    float3 terms = r12 * mx_film_response(2.0 * d, re * re - im * im, 2.0 * re * im) - a * mx_film_response(d, re, im);
+    return r12 + constant + 2.0 * (constant - t) * terms;
+}
+
+// Amplitudes of the film's own interface: perpendicular, parallel.
+float2 mx_film_amplitudes(float cosine, float inside, float ior)
+{
+    float2 x = float2(cosine, ior * cosine);
+    float2 u = float2(ior * inside, inside);
+    return (x - u) / (x + u);
+}
+
+// A film on a colour, which has no phase: light turns where its colour says that the index behind the film is lower.
+float3 mx_film_schlick(float cosine, float3 f0, float3 bend, float film, float film_ior)
+{
+    float ior = max(film_ior, 1.0);
+    float c = sqrt(1.0 - (1.0 - cosine * cosine) / (ior * ior));
+    float2 a = mx_film_amplitudes(cosine, c, ior);
+    float d = 0.012566372 * ior * c * film;
+    float3 r = (1.0 - 2.0 * step(sqrt(clamp(f0, 0.01, 0.99)), (float3)((ior - 1.0) / (ior + 1.0))))
+        * sqrt(max(0.5 * mx_fresnel_schlick(c, f0, bend), 0.0));
+    return clamp(mul(0.5 * (mx_film_series(a.x, -r, float3(0.0, 0.0, 0.0), d)
+        + mx_film_series(a.y, r, float3(0.0, 0.0, 0.0), d)),
+        float3x3(2.3706744, -0.513885, 0.0052982, -0.9000405, 1.4253036, -0.0146949, -0.4706338, 0.0885814, 1.0093968)),
+        0.0, 1.0);
+}
+
+float3 mx_fresnel(float cosine, float3 n, float3 k, float film, float film_ior)
+{
+    if (film > 0.0)
+        return mx_film_schlick(cosine, n, k, film, film_ior);
+    return mx_fresnel_schlick(cosine, n, k);
+}
+
+// The same with the amplitude (x + iy - u - iv) / (x + iy + u + iv).
+float3 mx_film_polarized(float a, float3 x, float3 y, float3 u, float3 v, float d)
+{
+    float3 norm = (x + u) * (x + u) + (y + v) * (y + v);
+    return mx_film_series(a, (x * x + y * y - u * u - v * v) / norm, 2.0 * (y * u - x * v) / norm, d);
+}
+
+// The index n + ik times the cosine behind its interface: (u + iv)^2 = (n + ik)^2 - sin^2.
+void mx_fresnel_refract(float cosine, float3 n, float3 k, out float3 u, out float3 v)
+{
+    float3 t = n * n - k * k + (cosine * cosine - 1.0);
+    float3 norm = sqrt(t * t + 4.0 * n * n * k * k);
+    u = sqrt(max(0.5 * (norm + t), 0.0));
+    v = sqrt(max(0.5 * (norm - t), 0.0));
+}
+
+// A film on the index n + ik.
+float3 mx_film_index(float cosine, float3 n, float film, float film_ior)
+{
+    float ior = max(film_ior, 1.0);
+    float c = sqrt(1.0 - (1.0 - cosine * cosine) / (ior * ior));
+    float2 a = mx_film_amplitudes(cosine, c, ior);
+    float d = 0.012566372 * ior * c * film;
+    float3 m = n / ior;
+    float3 l = float3(0.0, 0.0, 0.0) / ior;
+    float3 u;
+    float3 v;
+    mx_fresnel_refract(c, m, l, u, v);
+    return clamp(mul(0.5 * (mx_film_polarized(a.x, (float3)c, float3(0.0, 0.0, 0.0), u, v, d)
+        + mx_film_polarized(a.y, c * (m * m - l * l), 2.0 * c * m * l, u, v, d)),
+        float3x3(2.3706744, -0.513885, 0.0052982, -0.9000405, 1.4253036, -0.0146949, -0.4706338, 0.0885814, 1.0093968)),
+        0.0, 1.0);
+}
+
+float3 mx_fresnel(float cosine, float3 n, float film, float film_ior)
+{
+    if (film > 0.0)
+        return mx_film_index(cosine, n, film, film_ior);
+    return (float3)mx_fresnel_dielectric(cosine, n.x);
+}
+
+float3 mx_subsurface_light(float3 falloff, float cos_l)
+{
+    float theta = acos(cos_l);
+    float3 light = float3(0.0, 0.0, 0.0);
+    float3 sum = float3(0.0, 0.0, 0.0);
+    for (float x = -3.043418; x < 3.1415927; x += 0.19634955) {
+        float d = abs(sin(0.5 * x));
+        float3 e = exp(falloff * d);
+        float3 profile = (e + e * e * e) / d;
+        light += profile * max(cos(theta + x), 0.0);
+        sum += profile;
+    }
+    return light / (3.1415927 * sum);
+}
+
+// Directional albedo of Fujii's lobe.
+float mx_fujii_albedo(float cosine, float r)
+{
+    float sine = sqrt(max(1.0 - cosine * cosine, 0.0));
+    float g = sine * (acos(min(cosine, 1.0)) - sine * cosine) + 0.6666667
+        * (sine / cosine * (1.0 - sine * sine * sine) - sine);
+    return (1.0 + r * g / 3.1415927) / (1.0 + 0.28779334 * r);
+}
+
+// Where the light from a direction of the world lies in the environment's picture.
+float2 mx_latlong(float3 direction)
+{
+    float3 d = normalize(mul(float4(direction, 0.0), u_envMatrix).xyz);
+    return float2(atan2(d.x, -d.z), -2.0 * asin(clamp(d.y, -1.0, 1.0))) * 0.15915494 + 0.5;
+}
+
+// Light of a direction, filtered over the solid angle of a sample (Krivanek and Colbert 2008; the mip level is equation
+// 13 of GPU Gems 3, section 20.4).
+float3 mx_filtered_light(float3 L, float level)
+{
+    return u_envRadiance.SampleLevel(u_envRadiance_sampler, mx_latlong(L),
+        max(0.25 * log2(level * level / dot(L.xz, L.xz)), 0.0)).xyz;
+}
+
+// Direction of the ray -v after it has entered the sphere at normal h and left it again.
+float3 mx_refract_sphere(float3 v, float3 h, float ior)
+{
+    float3 inside = refract(-v, h, 1.0 / ior);
+    return refract(inside, normalize(inside * dot(inside, h) - 0.5 * h), ior);
+}
+
+// The light of a sample, and in the fourth component the cosine at its facet h.
+float4 mx_ggx_sample_at(mx_GgxLobe lobe, float3 h, float level, float refract_ior)
+{
+    float3 l = reflect(-lobe.v, h);
+    float weight = mx_ggx_visibility(lobe, max(l.z, 1e-8));
+    if (refract_ior > 0.0) {
+        l = mx_refract_sphere(lobe.v, h, refract_ior);
+        weight = 0.5 / lobe.v.z;
+    }
+    return float4(weight * mx_filtered_light(mul(l, lobe.frame), level), clamp(dot(lobe.v, h), 1e-8, 1.0));
+}
+
+// A normal of those visible from v, which is stretched by the roughness, before it is scaled to length 1 (Dupuy and
+// Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps"): (cos, sin) of its turn around z, and how far the
+// cap is below its top.
+float3 mx_ggx_cap(float2 around, float depth, float3 v)
+{
+    return float3(v.xy + sqrt(depth * (2.0 - depth)) * around, v.z + 1.0 - depth);
+}
+
+float4 mx_ggx_sample(mx_GgxLobe lobe, float2 around, float xi, float refract_ior)
+{
+    float3 cap = mx_ggx_cap(around, xi * (1.0 + lobe.cap.z), lobe.cap);
+    float3 h = cap * lobe.stretch;
+    float s = dot(cap, cap) / dot(h, h);
+    return mx_ggx_sample_at(lobe, normalize(h), s * s * lobe.level, refract_ior);
+}
+
+// A function for each interface: what has nothing left to choose needs no version of its own.
+float3 mx_ggx_gather_dielectric(mx_GgxLobe lobe, float limit, float refract_ior, float ior)
+{
+    float2 around = float2(1.0, 0.0);
+    float3 sum = float3(0.0, 0.0, 0.0);
+    for (float xi = 0.5 * lobe.step; xi < limit; xi += lobe.step) {
+        float4 light = mx_ggx_sample(lobe, around, xi, refract_ior);
+        float f = mx_fresnel_dielectric(light.w, ior);
+        sum += (refract_ior > 0.0 ? 1.0 - f : f) * light.xyz;
+        around = mul(around, float2x2(-0.7373689, 0.6754903, -0.6754903, -0.7373689));
+    }
+    return lobe.weight * sum;
+}
+
+// Any other: on a colour, or what it lets through.
+float3 mx_ggx_gather_film(mx_GgxLobe lobe, float limit, float3 n, float3 k, float film, float film_ior)
+{
+    float2 around = float2(1.0, 0.0);
+    float3 sum = float3(0.0, 0.0, 0.0);
+    for (float xi = 0.5 * lobe.step; xi < limit; xi += lobe.step) {
+        float4 light = mx_ggx_sample(lobe, around, xi, 0.0);
+        sum += mx_film_schlick(light.w, n, k, film, film_ior) * light.xyz;
+        around = mul(around, float2x2(-0.7373689, 0.6754903, -0.6754903, -0.7373689));
+    }
+    return lobe.weight * sum;
+}
+
+float3 mx_ggx_gather_schlick(mx_GgxLobe lobe, float limit, float3 f0, float3 bend)
+{
+    float2 around = float2(1.0, 0.0);
+    float3 sum = float3(0.0, 0.0, 0.0);
+    for (float xi = 0.5 * lobe.step; xi < limit; xi += lobe.step) {
+        float4 light = mx_ggx_sample(lobe, around, xi, 0.0);
+        sum += mx_fresnel_schlick(light.w, f0, bend) * light.xyz;
+        around = mul(around, float2x2(-0.7373689, 0.6754903, -0.6754903, -0.7373689));
+    }
+    return lobe.weight * sum;
+}
+
+// A film on an index of refraction, reflection alone: what most films are.
+float3 mx_ggx_gather_film_index(mx_GgxLobe lobe, float limit, float3 n, float film, float film_ior)
+{
+    float2 around = float2(1.0, 0.0);
+    float3 sum = float3(0.0, 0.0, 0.0);
+    for (float xi = 0.5 * lobe.step; xi < limit; xi += lobe.step) {
+        float4 light = mx_ggx_sample(lobe, around, xi, 0.0);
+        sum += mx_film_index(light.w, n, film, film_ior) * light.xyz;
+        around = mul(around, float2x2(-0.7373689, 0.6754903, -0.6754903, -0.7373689));
+    }
+    return lobe.weight * sum;
+}
+
+// Albedo of what the lobe scatters more than once, relative to `color`.
+float3 mx_fujii_multiple(float3 color, float mean)
+{
+    return color * mean / (1.0 - color * max(1.0 - mean, 0.0));
+}
+
+void main(
+    VertexData vd,
+    out float4 out1 : SV_Target0)
+{
+    float coat_weight = SR_open_pbr_surface_coat_weight;
+    float coat_ior = SR_open_pbr_surface_coat_ior;
+    float coat_front = coat_ior * 4.0 / ((coat_ior + 1.0) * (coat_ior + 1.0));
+    float3 N = normalize(vd.normalWorld);
+    float3 V = normalize(u_viewPosition - vd.positionWorld);
+    float absolute = abs(dot(N, V));
+    float3 color = SR_open_pbr_surface_emission_luminance * SR_open_pbr_surface_emission_color
+        * (1.0 - coat_weight + SR_open_pbr_surface_coat_color
+        * (coat_weight * (coat_front * (1.0 - pow(1.0 - min(absolute, 1.0), 5.0)))));
+    // lights
+    float3 Nf = faceforward(N, -V, N);
+    float cos_v = max(absolute, 1e-8);
+    float limited_cos_v = min(cos_v, 1.0);
+    float r = clamp(SR_open_pbr_surface_fuzz_roughness, 0.01, 1.0);
+    float width = r * (r * 1.58491 + 0.0206607) / (r * (r + 1.32227) + 0.0379424);
+    float x = (cos_v - r * (r * (r * (1.7932 - r * (r * 0.95943)) - 1.14885) - 0.193854) / (r + 0.046391)) / width;
+    float fuzz_ratio = exp(x * (x * -0.5)) / (width * 2.5066283);
+    float fuzz_product = r * (r * (r * 0.119681 - 0.0207818) + 0.000654023);
+    float sheen_albedo = max(fuzz_ratio + fuzz_product / (r * (r - 1.92021) + 1.26264), 0.0);
+    float3 fuzz_product_2 = SR_open_pbr_surface_fuzz_color * (SR_open_pbr_surface_fuzz_weight * sheen_albedo);
+    float coating_fresnel_bare = mx_fresnel_dielectric(1.0, coat_ior);
+    float2 coat_lobe = mx_open_pbr_anisotropy(SR_open_pbr_surface_coat_roughness,
+        SR_open_pbr_surface_coat_roughness_anisotropy);
+    float2 coating_alpha = clamp(coat_lobe, 1e-8, 1.0);
+    float coating_a = sqrt(coating_alpha.x * coating_alpha.y);
+    float2 coating_albedo = mx_ggx_albedo_fit(coating_a, coating_a / (cos_v + coating_a), cos_v);
+    float coating_scale = lerp(coating_fresnel_bare, 1.0, 0.04761905) * (1.0 / coating_albedo.x - 1.0) + 1.0;
+    float fuzz_difference = 1.0 - SR_open_pbr_surface_fuzz_weight * sheen_albedo;
+    float coating_product = coating_scale * (coat_weight * fuzz_difference);
+    float3 X = normalize(vd.tangentWorld);
+    mx_GgxLobe coating_lobe = mx_ggx_lobe(coat_lobe, Nf, X, V);
+    float metal_film_weight = SR_open_pbr_surface_specular_weight
+        * (SR_open_pbr_surface_base_metalness * SR_open_pbr_surface_thin_film_weight);
+    float2 roughness = mx_open_pbr_anisotropy(lerp(SR_open_pbr_surface_specular_roughness,
+        pow(min(pow(SR_open_pbr_surface_coat_roughness, 4.0) * 2.0 + pow(SR_open_pbr_surface_specular_roughness, 4.0),
+        1.0), 0.25), coat_weight), SR_open_pbr_surface_specular_roughness_anisotropy);
+    float2 alpha = clamp(roughness, 1e-8, 1.0);
+    float a = sqrt(alpha.x * alpha.y);
+    float2 albedo = mx_ggx_albedo_fit(a, a / (cos_v + a), cos_v);
+    float difference = 1.0 / albedo.x - 1.0;
+    float3 n = max(SR_open_pbr_surface_base_weight * SR_open_pbr_surface_base_color, 0.0);
+    float3 limited_specular_color = max(SR_open_pbr_surface_specular_color, 0.0);
+    float3 schlick_bend = lerp(n, float3(1.0, 1.0, 1.0), 0.4626644) * (float3(1.0, 1.0, 1.0) - limited_specular_color)
+        * 17.651384;
+    float film_thickness = SR_open_pbr_surface_thin_film_thickness * 1000.0;
+    float thin_film_ior = SR_open_pbr_surface_thin_film_ior;
+    float coated_weight = fuzz_difference
+        * (1.0 - coat_weight * (lerp(coating_fresnel_bare, 1.0, coating_albedo.y) * coating_albedo.x * coating_scale));
+    float3 substrate_darkened_weight = coated_weight
+        * clamp(lerp(float3(1.0, 1.0, 1.0), SR_open_pbr_surface_coat_color, coat_weight), 0.0, 1.0);
+    float coat_escape = coat_front / (coat_ior * coat_ior);
+    float3 darkening = coat_escape / (float3(1.0, 1.0, 1.0)
+        - lerp(lerp(SR_open_pbr_surface_base_color, SR_open_pbr_surface_subsurface_color,
+        SR_open_pbr_surface_subsurface_weight), SR_open_pbr_surface_base_color * SR_open_pbr_surface_specular_weight,
+        SR_open_pbr_surface_base_metalness) * (1.0 - coat_escape));
+    float3 substrate_weight = substrate_darkened_weight
+        * clamp(lerp(float3(1.0, 1.0, 1.0), darkening, coat_weight * SR_open_pbr_surface_coat_darkening), 0.0, 1.0);
+    float3 metal_film_product = (difference
+        * lerp(mx_fresnel(1.0, n, schlick_bend, film_thickness, thin_film_ior), float3(1.0, 1.0, 1.0), 0.04761905)
+        + float3(1.0, 1.0, 1.0)) * (substrate_weight * metal_film_weight);
+    mx_GgxLobe lobe = mx_ggx_lobe(roughness, Nf, X, V);
+    float metal_bare_weight = SR_open_pbr_surface_specular_weight
+        * (SR_open_pbr_surface_base_metalness * (1.0 - SR_open_pbr_surface_thin_film_weight));
+    float3 metal_bare_product = (difference
+        * lerp(mx_fresnel_schlick(1.0, n, schlick_bend), float3(1.0, 1.0, 1.0), 0.04761905) + float3(1.0, 1.0, 1.0))
+        * (substrate_weight * metal_bare_weight);
+    float dielectric_weight = 1.0 - SR_open_pbr_surface_base_metalness;
+    bool reflection_film_visible = SR_open_pbr_surface_thin_film_weight * dielectric_weight > 0.0;
+    float ior_relative = lerp(SR_open_pbr_surface_specular_ior,
+        max(SR_open_pbr_surface_specular_ior / coat_ior, coat_ior / SR_open_pbr_surface_specular_ior), coat_weight);
+    float amplitude_bound = clamp((ior_relative - 1.0) / (ior_relative + 1.0)
+        * sqrt(SR_open_pbr_surface_specular_weight), -0.999995, 0.999995);
+    float ior = (amplitude_bound + 1.0) / (1.0 - amplitude_bound);
+    float3 reflection_film_scale = lerp(mx_fresnel(1.0, (float3)ior, film_thickness, thin_film_ior),
+        float3(1.0, 1.0, 1.0), 0.04761905) * difference + float3(1.0, 1.0, 1.0);
+    float3 reflection_film_product = substrate_weight * (SR_open_pbr_surface_thin_film_weight * dielectric_weight)
+        * (reflection_film_scale * limited_specular_color);
+    float reflection_weight = dielectric_weight * (1.0 - SR_open_pbr_surface_thin_film_weight);
+    float fresnel_bare = mx_fresnel_dielectric(1.0, ior);
+    float reflection_scale = difference * lerp(fresnel_bare, 1.0, 0.04761905) + 1.0;
+    float3 reflection_product = limited_specular_color * (substrate_weight * reflection_weight);
+    float opaque_weight = dielectric_weight * (1.0 - SR_open_pbr_surface_transmission_weight);
+    float thin = float(SR_open_pbr_surface_geometry_thin_walled);
+    float scatter_weight = SR_open_pbr_surface_subsurface_weight * opaque_weight * (1.0 - thin);
+    float scaled_curvature = max(length(fwidth(Nf)) / length(fwidth(vd.positionWorld)), 0.01) * 3.0;
+    float3 subsurface_falloff = float3(-2.0, -2.0, -2.0)
+        / (scaled_curvature * max(SR_open_pbr_surface_subsurface_radius * SR_open_pbr_surface_subsurface_radius_scale,
+        0.1));
+    float3 subsurface_positive = max(SR_open_pbr_surface_subsurface_color, 0.0);
+    float product = lerp(fresnel_bare, 1.0, albedo.y) * albedo.x;
+    float3 reflection_throughput = (float3)(1.0 - product * reflection_scale);
+    float3 body_weight = lerp(reflection_throughput, float3(1.0, 1.0, 1.0) - product * reflection_film_scale,
+        SR_open_pbr_surface_thin_film_weight) * substrate_weight;
+    float3 scatter_product = subsurface_positive * (body_weight * scatter_weight);
+    float diffuse_weight = SR_open_pbr_surface_base_weight
+        * (opaque_weight * (1.0 - SR_open_pbr_surface_subsurface_weight));
+    float3 base_positive = max(SR_open_pbr_surface_base_color, 0.0);
+    float3 diffuse_product = base_positive * (body_weight * diffuse_weight);
+    float base_diffuse_roughness = SR_open_pbr_surface_base_diffuse_roughness;
+    float diffuse_sum = base_diffuse_roughness * 0.28779334 + 1.0;
+    float mean = (base_diffuse_roughness * 0.0724882 + 1.0) / diffuse_sum;
+    float3 fujii_multiple = base_positive * mean / (float3(1.0, 1.0, 1.0) - base_positive * max(1.0 - mean, 0.0));
+    float diffuse_fujii_albedo = mx_fujii_albedo(cos_v, base_diffuse_roughness);
+    float diffuse_greater = max(1.0 - diffuse_fujii_albedo, 1e-8);
+    float diffuse_greater_2 = max(1.0 - mean, 1e-8);
+    float scaled_sheet_weight = thin * (SR_open_pbr_surface_subsurface_weight * opaque_weight) * 0.5;
+    float3 sheet_front_weight = scaled_sheet_weight
+        * (body_weight * clamp(SR_open_pbr_surface_subsurface_color
+        * (1.0 - SR_open_pbr_surface_subsurface_scatter_anisotropy), 0.0, 1.0));
+    float2 ab = base_diffuse_roughness * base_diffuse_roughness * float2(-0.5, 0.45)
+        / (base_diffuse_roughness * base_diffuse_roughness + float2(0.33, 0.09)) + float2(1.0, 0.0);
+    float3 sheet_back_product = subsurface_positive
+        * (scaled_sheet_weight * (body_weight
+        * clamp(SR_open_pbr_surface_subsurface_color * (SR_open_pbr_surface_subsurface_scatter_anisotropy + 1.0), 0.0,
+        1.0)));
+    for (int i = 0; i < min(u_numActiveLightSources, 3); ++i) {
+        // fuzz
+        int type = u_lightData[i].type;
+        float intensity = u_lightData[i].intensity;
+        float3 d = u_lightData[i].position - vd.positionWorld;
+        float ratio = intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
+        float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
+        float3 to_light = normalize(d);
+        float spot_light_product = smoothstep(spot_light_difference, u_lightData[i].inner_angle,
+            -dot(u_lightData[i].direction, to_light)) * ratio;
+        float spot_light_choice = type == 3 ? spot_light_product : 0.0;
+        float point_light_choice = type == 2 ? ratio : spot_light_choice;
+        float3 light = u_lightData[i].color * (type == 1 ? intensity : point_light_choice);
+        float3 directional_light_to_light = -u_lightData[i].direction;
+        float3 L = type == 1 ? directional_light_to_light : to_light;
+        if (SR_open_pbr_surface_fuzz_weight > 0.0)
+            color += light * (mx_sheen_zeltner(Nf, V, L, limited_cos_v, r) * fuzz_product_2);
+        // coating
+        float3 H = normalize(V + L);
+        float cosine = clamp(dot(V, H), 1e-8, 1.0);
+        if (coat_weight > 0.0)
+            color += light * (coating_product
+                * (mx_ggx_light(coating_lobe, L, H) * mx_fresnel_dielectric(cosine, coat_ior)));
+        // metal_film
+        float ggx_light = mx_ggx_light(lobe, L, H);
+        if (metal_film_weight > 0.0)
+            color += light * (metal_film_product
+                * (ggx_light * mx_fresnel(cosine, n, schlick_bend, film_thickness, thin_film_ior)));
+        // metal_bare
+        if (metal_bare_weight > 0.0)
+            color += light * (metal_bare_product * (ggx_light * mx_fresnel_schlick(cosine, n, schlick_bend)));
+        // reflection_film
+        if (reflection_film_visible)
+            color += light * (reflection_film_product
+                * (ggx_light * mx_fresnel(cosine, (float3)ior, film_thickness, thin_film_ior)));
+        // reflection
+        if (reflection_weight > 0.0)
+            color += light * (reflection_scale * reflection_product * (ggx_light * mx_fresnel_dielectric(cosine, ior)));
+        // scatter
+        float l_dot_nf = dot(L, Nf);
+        if (scatter_weight > 0.0)
+            color += light * (mx_subsurface_light(subsurface_falloff, l_dot_nf) * scatter_product);
+        // diffuse
+        float cos_l = max(l_dot_nf, 1e-8);
+        float s = dot(V, L) - cos_v * cos_l;
+        float greater = max(cos_l, cos_v);
+        if (diffuse_weight > 0.0) {
+            float diffuse_s = s / greater;
+            float3 diffuse_product_2 = fujii_multiple
+                * (diffuse_greater * max(1.0 - mx_fujii_albedo(cos_l, base_diffuse_roughness), 1e-8)
+                / diffuse_greater_2);
+            color += light * (diffuse_product
+                * (cos_l / 3.1415927 * ((base_diffuse_roughness * (s > 0.0 ? diffuse_s : s) + 1.0) / diffuse_sum
+                + diffuse_product_2)));
+        }
+        // sheet_front, sheet_back
+        float3 sheet_front_response = subsurface_positive * sheet_front_weight
+            * (cos_l / 3.1415927 * (ab.x + ab.y * max(s, 0.0) / greater));
+        color += light * (sheet_front_response + max(-l_dot_nf, 0.0) / 3.1415927 * sheet_back_product);
+    }
+    // environment
+    // coating
+    if (coat_weight > 0.0)
+        color += coating_product * mx_ggx_gather_dielectric(coating_lobe, 1.0, 0.0, coat_ior);
+    // metal_film
+    float filmed = film_thickness > 0.0 ? 1.0 : 0.0;
+    float limit = film_thickness > 0.0 ? 0.0 : 1.0;
+    if (metal_film_weight > 0.0) {
+        float3 metal_film_ggx_gather_film = mx_ggx_gather_film(lobe, filmed, n, schlick_bend, film_thickness,
+            thin_film_ior);
+        float3 metal_film_bare = mx_ggx_gather_schlick(lobe, limit, n, schlick_bend);
+        color += metal_film_product * (film_thickness > 0.0 ? metal_film_ggx_gather_film : metal_film_bare);
+    }
+    // metal_bare
+    if (metal_bare_weight > 0.0)
+        color += metal_bare_product * mx_ggx_gather_schlick(lobe, 1.0, n, schlick_bend);
+    // reflection_film
+    if (reflection_film_visible) {
+        float3 reflection_film_ggx_gather_film_index = mx_ggx_gather_film_index(lobe, filmed, (float3)ior,
+            film_thickness, thin_film_ior);
+        float3 reflection_film_bare = mx_ggx_gather_dielectric(lobe, limit, 0.0, ior);
+        color += reflection_film_product
+            * (film_thickness > 0.0 ? reflection_film_ggx_gather_film_index : reflection_film_bare);
+    }
+    // reflection
+    if (reflection_weight > 0.0)
+        color += reflection_product * (reflection_scale * mx_ggx_gather_dielectric(lobe, 1.0, 0.0, ior));
+    // refraction
+    if (SR_open_pbr_surface_transmission_weight * dielectric_weight > 0.0) {
+        float3 ggx_refraction = mx_ggx_gather_dielectric(lobe, 1.0, ior, ior);
+        float3 tint = max(SR_open_pbr_surface_transmission_depth > 0.0 ? float3(1.0, 1.0, 1.0)
+            : SR_open_pbr_surface_transmission_color, 0.0);
+        float3 absorbed = -(SR_open_pbr_surface_transmission_scatter + log(SR_open_pbr_surface_transmission_color))
+            / SR_open_pbr_surface_transmission_depth;
+        float3 refraction_product = exp(-(SR_open_pbr_surface_transmission_depth > 0.0 ? absorbed
+            - min(min(min(absorbed.x, absorbed.y), absorbed.z), 0.0) : float3(0.0, 0.0, 0.0))) * tint;
+        float3 refraction_product_2 = ggx_refraction
+            * ((u_refractionTwoSided ? tint : float3(1.0, 1.0, 1.0)) * refraction_product);
+        color += body_weight * (SR_open_pbr_surface_transmission_weight * dielectric_weight) * refraction_product_2;
+    }
+    // sheet_back
+    if (scaled_sheet_weight > 0.0)
+        color += sheet_back_product * (u_envLightIntensity
+            * u_envIrradiance.SampleLevel(u_envIrradiance_sampler, mx_latlong(-Nf), 0.0).xyz);
+    // diffuse
+    float3 environment_irradiance = u_envIrradiance.SampleLevel(u_envIrradiance_sampler, mx_latlong(Nf), 0.0).xyz
+        * u_envLightIntensity;
+    if (diffuse_weight > 0.0)
+        color += lerp(mx_fujii_multiple(base_positive, mean), float3(1.0, 1.0, 1.0), diffuse_fujii_albedo)
+            * (diffuse_product * environment_irradiance);
+    // fuzz, sheet_front, scatter
+    float2 fit = base_diffuse_roughness * (cos_v * float2(-0.7632, -0.4993) - float2(0.4297, 0.6076)
+        + base_diffuse_roughness * float2(1.4385, 2.0315)) + float2(1.0, 1.0);
+    float3 sheet_front_response_2 = subsurface_positive * clamp(fit.x / fit.y, 0.0, 1.0)
+        * (sheet_front_weight * environment_irradiance);
+    color += scatter_product * environment_irradiance
+        + (SR_open_pbr_surface_fuzz_weight * (SR_open_pbr_surface_fuzz_color * sheen_albedo * environment_irradiance)
+        + sheet_front_response_2);
+    // opacity
+    if (SR_open_pbr_surface_geometry_opacity < u_alphaThreshold)
+        discard;
+    out1 = float4(SR_open_pbr_surface_geometry_opacity * color, SR_open_pbr_surface_geometry_opacity);
+}

@@ -1,0 +1,579 @@
+// standard_surface · surfacematerial · mxgen 0.1 · hlsl · complete · 9 closures · 0 textures
+// shader model 6.0
+
+struct mx_GgxLobe {
+    float3x3 frame;
+    float3 stretch;
+    float area;
+    float3 v;
+    float masking;
+    float3 cap;
+    float step;
+    float weight;
+    float level;
+};
+cbuffer PublicUniforms : register(b1)
+{
+    float SR_standard_surface_base : packoffset(c0);
+    float3 SR_standard_surface_base_color : packoffset(c0.y);
+    float SR_standard_surface_diffuse_roughness : packoffset(c1);
+    float SR_standard_surface_metalness : packoffset(c1.y);
+    float SR_standard_surface_specular : packoffset(c1.z);
+    float3 SR_standard_surface_specular_color : packoffset(c2);
+    float SR_standard_surface_specular_roughness : packoffset(c2.w);
+    float SR_standard_surface_specular_IOR : packoffset(c3);
+    float SR_standard_surface_specular_anisotropy : packoffset(c3.y);
+    float SR_standard_surface_specular_rotation : packoffset(c3.z);
+    float SR_standard_surface_transmission : packoffset(c3.w);
+    float3 SR_standard_surface_transmission_color : packoffset(c4);
+    float SR_standard_surface_transmission_extra_roughness : packoffset(c4.w);
+    float SR_standard_surface_subsurface : packoffset(c5);
+    float3 SR_standard_surface_subsurface_color : packoffset(c5.y);
+    float3 SR_standard_surface_subsurface_radius : packoffset(c6);
+    float SR_standard_surface_subsurface_scale : packoffset(c6.w);
+    float SR_standard_surface_sheen : packoffset(c7);
+    float3 SR_standard_surface_sheen_color : packoffset(c7.y);
+    float SR_standard_surface_sheen_roughness : packoffset(c8);
+    float SR_standard_surface_coat : packoffset(c8.y);
+    float3 SR_standard_surface_coat_color : packoffset(c9);
+    float SR_standard_surface_coat_roughness : packoffset(c9.w);
+    float SR_standard_surface_coat_anisotropy : packoffset(c10);
+    float SR_standard_surface_coat_rotation : packoffset(c10.y);
+    float SR_standard_surface_coat_IOR : packoffset(c10.z);
+    float SR_standard_surface_coat_affect_color : packoffset(c10.w);
+    float SR_standard_surface_coat_affect_roughness : packoffset(c11);
+    float SR_standard_surface_thin_film_thickness : packoffset(c11.y);
+    float SR_standard_surface_thin_film_IOR : packoffset(c11.z);
+    float SR_standard_surface_emission : packoffset(c11.w);
+    float3 SR_standard_surface_emission_color : packoffset(c12);
+    float3 SR_standard_surface_opacity : packoffset(c13);
+    bool SR_standard_surface_thin_walled : packoffset(c13.w);
+};
+cbuffer PrivateUniforms : register(b0)
+{
+    row_major float4x4 u_worldMatrix : packoffset(c0);
+    row_major float4x4 u_worldInverseTransposeMatrix : packoffset(c4);
+    row_major float4x4 u_viewProjectionMatrix : packoffset(c8);
+    float3 u_viewPosition : packoffset(c12);
+    int u_numActiveLightSources : packoffset(c12.w);
+    row_major float4x4 u_envMatrix : packoffset(c13);
+    int u_envRadianceMips : packoffset(c17);
+    int u_envRadianceSamples : packoffset(c17.y);
+    float u_envLightIntensity : packoffset(c17.z);
+    float u_alphaThreshold : packoffset(c17.w);
+    bool u_refractionTwoSided : packoffset(c18);
+};
+struct LightData {
+    float3 direction;
+    float3 color;
+    float3 position;
+    int type;
+    float intensity;
+    float decay_rate;
+    float inner_angle;
+    float outer_angle;
+};
+cbuffer LightData_block : register(b2)
+{
+    LightData u_lightData[3];
+};
+Texture2D u_envRadiance : register(t3);
+SamplerState u_envRadiance_sampler : register(s3);
+Texture2D u_envIrradiance : register(t4);
+SamplerState u_envIrradiance_sampler : register(s4);
+struct VertexData {
+    float4 position : SV_Position;
+    float3 positionWorld : TEXCOORD0;
+    float3 normalWorld : TEXCOORD1;
+    float3 tangentWorld : TEXCOORD2;
+};
+
+mx_GgxLobe make_mx_GgxLobe(float3x3 frame, float3 stretch, float area, float3 v, float masking, float3 cap, float step,
+    float weight, float level)
+{
+    mx_GgxLobe made;
+    made.frame = frame;
+    made.stretch = stretch;
+    made.area = area;
+    made.v = v;
+    made.masking = masking;
+    made.cap = cap;
+    made.step = step;
+    made.weight = weight;
+    made.level = level;
+    return made;
+}
+
+// Unpolarised Fresnel equations of a dielectric; the clamped root makes total internal reflection come out as 1.
+float mx_fresnel_dielectric(float cosine, float ior)
+{
+    float g = sqrt(max(ior * ior + cosine * cosine - 1.0, 0.0));
+    float2 a = cosine * float2(1.0, ior * ior);
+    float2 r = (a - g) / (a + g);
+    return 0.5 * dot(r, r);
+}
+
+// Burley 2012, section 5.4: the aspect ratio stretches one axis and shrinks the other.
+float2 mx_roughness_anisotropy(float roughness, float anisotropy)
+{
+    float squared = clamp(roughness * roughness, 1e-8, 1.0);
+    float aspect = sqrt(1.0 - clamp(anisotropy, 0.0, 0.98));
+    return float2(min(squared / aspect, 1.0), squared * aspect);
+}
+
+// A polynomial of two variables, what directional albedos are fitted by (the programs in fits/).
+float mx_bicubic(float4x4 m, float x, float y)
+{
+    return dot(float4(1.0, x, x * x, x * x * x), mul(float4(1.0, y, y * y, y * y * y), m));
+}
+
+// The program fits/ggx.c makes the constants. x is never too small by more than 0.001, so that giving lost energy back
+// adds none. `u` follows what happens where light grazes the facets.
+float2 mx_ggx_albedo_fit(float a, float u, float c)
+{
+    float x = clamp(1.0 - c - a * mx_bicubic(float4x4(-0.2006, 5.2916, -3.7565, 0.218, -10.2439, 6.6203, -0.9657,
+        2.5694, 38.3042, -80.8059, 71.731, -28.5214, -34.2, 89.1079, -88.4065, 33.782), u, a), 0.0, 1.0);
+    return float2(min(1.0046 - u * mx_bicubic(float4x4(-0.1447, 2.759, -5.4314, 2.8497, -0.9366, 1.4766, 0.5911,
+        -1.0905, 11.8506, -30.2645, 27.3289, -8.9414, -4.3199, 8.2596, -3.1648, -0.8054), u, a), 1.0), x * x * x * x
+        * x);
+}
+
+// Rodrigues' formula; the axis has unit length.
+float3 mx_rotate3d(float3 v, float angle, float3 axis)
+{
+    float c = cos(angle);
+    return v * c + cross(v, axis) * sin(angle) + axis * (dot(axis, v) * (1.0 - c));
+}
+
+mx_GgxLobe mx_ggx_lobe_at(float3x3 frame, float2 alpha, float3 v)
+{
+    float area = alpha.x * alpha.y;
+    float masking = sqrt(lerp(v.z * v.z, 1.0, area));
+    float step_ = 1.0 / float(max(u_envRadianceSamples, 1));
+    float weight = step_ * (v.z + masking);
+    return make_mx_GgxLobe(frame, float3(alpha, 1.0), area, v, masking, normalize(v * float3(alpha, 1.0)), step_, weight
+        * u_envLightIntensity, weight * area * exp2(2.0 * float(u_envRadianceMips) - 2.3485));
+}
+
+// Axes of the tangent space around N with x along X: `w * frame` enters it, `frame * w` leaves it.
+float3x3 mx_frame(float3 N, float3 X)
+{
+    float3x3 frame;
+    frame[0] = normalize(X - dot(X, N) * N);
+    frame[1] = cross(N, frame[0]);
+    frame[2] = N;
+    return frame;
+}
+
+// N faces V.
+mx_GgxLobe mx_ggx_lobe(float2 roughness, float3 N, float3 X, float3 V)
+{
+    float3x3 frame = mx_frame(N, X);
+    return mx_ggx_lobe_at(frame, clamp(roughness, 1e-8, 1.0), max(mul(frame, V), float3(-1.0, -1.0, 1e-8)));
+}
+
+// Distribution of normals (Burley 2012, appendix B.2, equation 13) at a normal that is stretched to that of a unit
+// sphere; `area` is the product of the roughness along x and y.
+float mx_ggx_distribution(float3 e, float area)
+{
+    return 1.0 / (3.1415927 * area * dot(e, e) * dot(e, e));
+}
+
+// Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v; half is left of the divisor of the
+// reflection model.
+float mx_ggx_visibility(mx_GgxLobe lobe, float cos_l)
+{
+    return cos_l / (lobe.v.z * sqrt(lerp(cos_l * cos_l, 1.0, lobe.area)) + cos_l * lobe.masking);
+}
+
+// The lobe towards L, but for Fresnel's factor.
+float mx_ggx_light(mx_GgxLobe lobe, float3 L, float3 H)
+{
+    return 0.5 * mx_ggx_distribution(mul(lobe.frame, H) / lobe.stretch, lobe.area)
+        * mx_ggx_visibility(lobe, max(dot(L, lobe.frame[2]), 1e-8));
+}
+
+// Gulbrandsen 2014, "Artist Friendly Metallic Fresnel": his r (n + 1)^2 - (n - 1)^2 is 0 at the greatest n and at 1
+// over it, hence factors.
+void mx_artistic_ior(float3 reflectivity, float3 edge_color, out float3 ior, out float3 extinction)
+{
+    float3 s = sqrt(clamp(reflectivity, 0.0, 0.99));
+    float3 greatest = (1.0 + s) / (1.0 - s);
+    ior = lerp(greatest, (1.0 - s * s) / (1.0 + s * s), edge_color);
+    extinction = sqrt(max((greatest - ior) * (ior - 1.0 / greatest), 0.0));
+}
+
+// The index n + ik times the cosine behind its interface: (u + iv)^2 = (n + ik)^2 - sin^2.
+void mx_fresnel_refract(float cosine, float3 n, float3 k, out float3 u, out float3 v)
+{
+    float3 t = n * n - k * k + (cosine * cosine - 1.0);
+    float3 norm = sqrt(t * t + 4.0 * n * n * k * k);
+    u = sqrt(max(0.5 * (norm + t), 0.0));
+    v = sqrt(max(0.5 * (norm - t), 0.0));
+}
+
+// |(x + iy - u - iv) / (x + iy + u + iv)|^2
+float3 mx_fresnel_ratio(float3 x, float3 y, float3 u, float3 v)
+{
+    return ((x - u) * (x - u) + (y - v) * (y - v)) / ((x + u) * (x + u) + (y + v) * (y + v));
+}
+
+// Fresnel equations for the index n + ik (Pharr et al. 2023, section 9.3.6): against u + iv stands the cosine in the
+// perpendicular part, (n + ik)^2 times the cosine in the parallel part.
+float3 mx_fresnel_conductor(float cosine, float3 n, float3 k)
+{
+    float3 u;
+    float3 v;
+    mx_fresnel_refract(cosine, n, k, u, v);
+    return 0.5 * (mx_fresnel_ratio((float3)cosine, float3(0.0, 0.0, 0.0), u, v)
+        + mx_fresnel_ratio(cosine * (n * n - k * k), 2.0 * cosine * n * k, u, v));
+}
+
+// XYZ of light that has gone further by d / (2 pi) micrometre and changed by the amplitude re + i im: the Fourier
+// transform of the CIE sensitivities, a sum of Gaussians.
+float3 mx_film_response(float d, float3 re, float3 im)
+{
+    float4 a = float4(1.681, 1.7953, 2.2084, 2.2399) * d;
+    float4 xyzx = float4(0.84659, 1.000222, 1.001122, 0.153868)
+        * exp(float4(-0.0043278, -0.0093046, -0.0066121, -0.0045282) * (d * d))
+        * (float4(re, re.x) * cos(a) - float4(im, im.x) * sin(a));
+    return xyzx.xyz + float3(xyzx.w, 0.0, 0.0);
+}
+
+// XYZ after interference of one polarisation: real amplitude `a` of the film's own interface, which from behind is -a,
+// and re + i im of the one below; two terms of the series (section 3.3).
+float3 mx_film_series(float a, float3 re, float3 im, float d)
+{
+    float3 r23 = re * re + im * im;
+    float r12 = a * a;
+    float t = 1.0 - r12;
+    float3 constant = t * t * r23 / (1.0 - r12 * r23);
+    float3 terms = r12 * mx_film_response(2.0 * d, re * re - im * im, 2.0 * re * im) - a * mx_film_response(d, re, im);
+    return r12 + constant + 2.0 * (constant - t) * terms;
+}
+
+// The same with the amplitude (x + iy - u - iv) / (x + iy + u + iv).
+float3 mx_film_polarized(float a, float3 x, float3 y, float3 u, float3 v, float d)
+{
+    float3 norm = (x + u) * (x + u) + (y + v) * (y + v);
+    return mx_film_series(a, (x * x + y * y - u * u - v * v) / norm, 2.0 * (y * u - x * v) / norm, d);
+}
+
+// Amplitudes of the film's own interface: perpendicular, parallel.
+float2 mx_film_amplitudes(float cosine, float inside, float ior)
+{
+    float2 x = float2(cosine, ior * cosine);
+    float2 u = float2(ior * inside, inside);
+    return (x - u) / (x + u);
+}
+
+// A film on the index n + ik.
+float3 mx_film_index(float cosine, float3 n, float3 k, float film, float film_ior)
+{
+    float ior = max(film_ior, 1.0);
+    float c = sqrt(1.0 - (1.0 - cosine * cosine) / (ior * ior));
+    float2 a = mx_film_amplitudes(cosine, c, ior);
+    float d = 0.012566372 * ior * c * film;
+    float3 m = n / ior;
+    float3 l = k / ior;
+    float3 u;
+    float3 v;
+    mx_fresnel_refract(c, m, l, u, v);
+    return clamp(mul(0.5 * (mx_film_polarized(a.x, (float3)c, float3(0.0, 0.0, 0.0), u, v, d)
+        + mx_film_polarized(a.y, c * (m * m - l * l), 2.0 * c * m * l, u, v, d)),
+        float3x3(2.3706744, -0.513885, 0.0052982, -0.9000405, 1.4253036, -0.0146949, -0.4706338, 0.0885814, 1.0093968)),
+        0.0, 1.0);
+}
+
+float3 mx_fresnel(float cosine, float3 n, float3 k, float film, float film_ior)
+{
+    if (film > 0.0)
+        return mx_film_index(cosine, n, k, film, film_ior);
+    return mx_fresnel_conductor(cosine, n, k);
+}
+
+float3 mx_fresnel(float cosine, float3 n, float film, float film_ior)
+{
+    if (film > 0.0)
+        return mx_film_index(cosine, n, float3(0.0, 0.0, 0.0), film, film_ior);
+    return (float3)mx_fresnel_dielectric(cosine, n.x);
+}
+
+float3 mx_subsurface_light(float3 falloff, float cos_l)
+{
+    float theta = acos(cos_l);
+    float3 light = float3(0.0, 0.0, 0.0);
+    float3 sum = float3(0.0, 0.0, 0.0);
+    for (float x = -3.043418; x < 3.1415927; x += 0.19634955) {
+        float d = abs(sin(0.5 * x));
+        float3 e = exp(falloff * d);
+        float3 profile = (e + e * e * e) / d;
+        light += profile * max(cos(theta + x), 0.0);
+        sum += profile;
+    }
+    return light / (3.1415927 * sum);
+}
+
+// Where the light from a direction of the world lies in the environment's picture.
+float2 mx_latlong(float3 direction)
+{
+    float3 d = normalize(mul(float4(direction, 0.0), u_envMatrix).xyz);
+    return float2(atan2(d.x, -d.z), -2.0 * asin(clamp(d.y, -1.0, 1.0))) * 0.15915494 + 0.5;
+}
+
+// Light of a direction, filtered over the solid angle of a sample (Krivanek and Colbert 2008; the mip level is equation
+// 13 of GPU Gems 3, section 20.4).
+float3 mx_filtered_light(float3 L, float level)
+{
+    return u_envRadiance.SampleLevel(u_envRadiance_sampler, mx_latlong(L),
+        max(0.25 * log2(level * level / dot(L.xz, L.xz)), 0.0)).xyz;
+}
+
+// Direction of the ray -v after it has entered the sphere at normal h and left it again.
+float3 mx_refract_sphere(float3 v, float3 h, float ior)
+{
+    float3 inside = refract(-v, h, 1.0 / ior);
+    return refract(inside, normalize(inside * dot(inside, h) - 0.5 * h), ior);
+}
+
+// The light of a sample, and in the fourth component the cosine at its facet h.
+float4 mx_ggx_sample_at(mx_GgxLobe lobe, float3 h, float level, float refract_ior)
+{
+    float3 l = reflect(-lobe.v, h);
+    float weight = mx_ggx_visibility(lobe, max(l.z, 1e-8));
+    if (refract_ior > 0.0) {
+        l = mx_refract_sphere(lobe.v, h, refract_ior);
+        weight = 0.5 / lobe.v.z;
+    }
+    return float4(weight * mx_filtered_light(mul(l, lobe.frame), level), clamp(dot(lobe.v, h), 1e-8, 1.0));
+}
+
+// A normal of those visible from v, which is stretched by the roughness, before it is scaled to length 1 (Dupuy and
+// Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps"): (cos, sin) of its turn around z, and how far the
+// cap is below its top.
+float3 mx_ggx_cap(float2 around, float depth, float3 v)
+{
+    return float3(v.xy + sqrt(depth * (2.0 - depth)) * around, v.z + 1.0 - depth);
+}
+
+float4 mx_ggx_sample(mx_GgxLobe lobe, float2 around, float xi, float refract_ior)
+{
+    float3 cap = mx_ggx_cap(around, xi * (1.0 + lobe.cap.z), lobe.cap);
+    float3 h = cap * lobe.stretch;
+    float s = dot(cap, cap) / dot(h, h);
+    return mx_ggx_sample_at(lobe, normalize(h), s * s * lobe.level, refract_ior);
+}
+
+// A function for each interface: what has nothing left to choose needs no version of its own.
+float3 mx_ggx_gather_dielectric(mx_GgxLobe lobe, float limit, float refract_ior, float ior)
+{
+    float2 around = float2(1.0, 0.0);
+    float3 sum = float3(0.0, 0.0, 0.0);
+    for (float xi = 0.5 * lobe.step; xi < limit; xi += lobe.step) {
+        float4 light = mx_ggx_sample(lobe, around, xi, refract_ior);
+        float f = mx_fresnel_dielectric(light.w, ior);
+        sum += (refract_ior > 0.0 ? 1.0 - f : f) * light.xyz;
+        around = mul(around, float2x2(-0.7373689, 0.6754903, -0.6754903, -0.7373689));
+    }
+    return lobe.weight * sum;
+}
+
+// A film on an index of refraction, reflection alone: what most films are.
+float3 mx_ggx_gather_film_index(mx_GgxLobe lobe, float limit, float3 n, float3 k, float film, float film_ior)
+{
+    float2 around = float2(1.0, 0.0);
+    float3 sum = float3(0.0, 0.0, 0.0);
+    for (float xi = 0.5 * lobe.step; xi < limit; xi += lobe.step) {
+        float4 light = mx_ggx_sample(lobe, around, xi, 0.0);
+        sum += mx_film_index(light.w, n, k, film, film_ior) * light.xyz;
+        around = mul(around, float2x2(-0.7373689, 0.6754903, -0.6754903, -0.7373689));
+    }
+    return lobe.weight * sum;
+}
+
+float3 mx_ggx_gather_conductor(mx_GgxLobe lobe, float limit, float3 n, float3 k)
+{
+    float2 around = float2(1.0, 0.0);
+    float3 sum = float3(0.0, 0.0, 0.0);
+    for (float xi = 0.5 * lobe.step; xi < limit; xi += lobe.step) {
+        float4 light = mx_ggx_sample(lobe, around, xi, 0.0);
+        sum += mx_fresnel_conductor(light.w, n, k) * light.xyz;
+        around = mul(around, float2x2(-0.7373689, 0.6754903, -0.6754903, -0.7373689));
+    }
+    return lobe.weight * sum;
+}
+
+void main(
+    VertexData vd,
+    out float4 out1 : SV_Target0)
+{
+    float coat = SR_standard_surface_coat;
+    float coat_IOR = SR_standard_surface_coat_IOR;
+    float coat_front = coat_IOR * 4.0 / ((coat_IOR + 1.0) * (coat_IOR + 1.0));
+    float3 N = normalize(vd.normalWorld);
+    float3 V = normalize(u_viewPosition - vd.positionWorld);
+    float absolute = abs(dot(N, V));
+    float3 color = SR_standard_surface_emission * SR_standard_surface_emission_color
+        * (1.0 - coat + SR_standard_surface_coat_color
+        * (coat * (coat_front * (1.0 - pow(1.0 - min(absolute, 1.0), 5.0)))));
+    // lights
+    float fresnel_bare = mx_fresnel_dielectric(1.0, coat_IOR);
+    float2 coat_lobe = mx_roughness_anisotropy(SR_standard_surface_coat_roughness, SR_standard_surface_coat_anisotropy);
+    float2 coating_alpha = clamp(coat_lobe, 1e-8, 1.0);
+    float coating_a = sqrt(coating_alpha.x * coating_alpha.y);
+    float cos_v = max(absolute, 1e-8);
+    float2 coating_albedo = mx_ggx_albedo_fit(coating_a, coating_a / (cos_v + coating_a), cos_v);
+    float coating_scale = lerp(fresnel_bare, 1.0, 0.04761905) * (1.0 / coating_albedo.x - 1.0) + 1.0;
+    float3 Nf = faceforward(N, -V, N);
+    float3 tangent_direction = normalize(vd.tangentWorld);
+    float3 coat_tangent = mx_rotate3d(tangent_direction, radians(SR_standard_surface_coat_rotation * 360.0), N);
+    mx_GgxLobe coating_lobe = mx_ggx_lobe(coat_lobe, Nf, coat_tangent, V);
+    float coat_blur = SR_standard_surface_coat_roughness * (coat * SR_standard_surface_coat_affect_roughness);
+    float2 roughness = mx_roughness_anisotropy(lerp(SR_standard_surface_specular_roughness, 1.0, coat_blur),
+        SR_standard_surface_specular_anisotropy);
+    float2 alpha = clamp(roughness, 1e-8, 1.0);
+    float a = sqrt(alpha.x * alpha.y);
+    float2 albedo = mx_ggx_albedo_fit(a, a / (cos_v + a), cos_v);
+    float difference = 1.0 / albedo.x - 1.0;
+    float3 metal_ior, metal_extinction;
+    mx_artistic_ior(SR_standard_surface_base * SR_standard_surface_base_color, SR_standard_surface_specular
+        * SR_standard_surface_specular_color, metal_ior, metal_extinction);
+    float thin_film_thickness = SR_standard_surface_thin_film_thickness;
+    float thin_film_IOR = SR_standard_surface_thin_film_IOR;
+    float3 metal_scale = difference * lerp(mx_fresnel(1.0, metal_ior, metal_extinction, thin_film_thickness,
+        thin_film_IOR), float3(1.0, 1.0, 1.0), 0.04761905) + float3(1.0, 1.0, 1.0);
+    float3 clamped_coat_tint = clamp(lerp(float3(1.0, 1.0, 1.0), SR_standard_surface_coat_color, coat), 0.0, 1.0);
+    float coating_difference = 1.0 - coat
+        * (lerp(fresnel_bare, 1.0, coating_albedo.y) * coating_albedo.x * coating_scale);
+    float3 metal_product = metal_scale * (clamped_coat_tint * (SR_standard_surface_metalness * coating_difference));
+    float3 specular_tangent = mx_rotate3d(tangent_direction, radians(SR_standard_surface_specular_rotation * 360.0), N);
+    mx_GgxLobe lobe = mx_ggx_lobe(roughness, Nf, specular_tangent, V);
+    float dielectric_weight = 1.0 - SR_standard_surface_metalness;
+    bool reflection_visible = SR_standard_surface_specular * dielectric_weight > 0.0;
+    float3 reflection_weight = clamped_coat_tint
+        * (coating_difference * (SR_standard_surface_specular * dielectric_weight));
+    float specular_IOR = SR_standard_surface_specular_IOR;
+    float3 reflection_scale = lerp(mx_fresnel(1.0, (float3)specular_IOR, thin_film_thickness, thin_film_IOR),
+        float3(1.0, 1.0, 1.0), 0.04761905) * difference + float3(1.0, 1.0, 1.0);
+    float3 reflection_product = reflection_weight * (reflection_scale * max(SR_standard_surface_specular_color, 0.0));
+    float opaque_weight = dielectric_weight * (1.0 - SR_standard_surface_transmission);
+    float thin = float(SR_standard_surface_thin_walled);
+    float scatter_weight = SR_standard_surface_subsurface * opaque_weight * (1.0 - thin);
+    float scaled_curvature = max(length(fwidth(Nf)) / length(fwidth(vd.positionWorld)), 0.01) * 3.0;
+    float3 subsurface_falloff = float3(-2.0, -2.0, -2.0)
+        / (scaled_curvature * max(SR_standard_surface_subsurface_radius * SR_standard_surface_subsurface_scale, 0.1));
+    float3 vector_coat_gamma = (float3)(SR_standard_surface_coat_affect_color * clamp(coat, 0.0, 1.0) + 1.0);
+    float3 scatter_color = pow(max(SR_standard_surface_subsurface_color, 0.0), vector_coat_gamma);
+    float3 body_weight = (float3(1.0, 1.0, 1.0) - reflection_scale
+        * (SR_standard_surface_specular * (lerp(mx_fresnel_dielectric(1.0, specular_IOR), 1.0, albedo.y) * albedo.x)))
+        * (coating_difference * clamped_coat_tint);
+    float sheen_albedo = clamp(mx_bicubic(float4x4(3.7341, -15.9587, 23.621, -11.0989, -8.2265, 35.1081, -49.7137,
+        23.2945, 4.0691, -17.882, 25.6639, -12.0167, -0.5833, 2.6552, -3.9393, 1.8999), 1.0 / (cos_v + 1.0), 1.0
+        / (SR_standard_surface_sheen_roughness + 0.2)), 0.0, 1.0);
+    float fuzz_throughput = 1.0 - SR_standard_surface_sheen * sheen_albedo;
+    float3 scatter_product = scatter_color * (body_weight * (fuzz_throughput * scatter_weight));
+    float3 diffuse_color = pow(max(SR_standard_surface_base_color, 0.0), vector_coat_gamma);
+    float3 diffuse_weight = body_weight * (fuzz_throughput
+        * (SR_standard_surface_base * (opaque_weight * (1.0 - SR_standard_surface_subsurface))));
+    float r2 = SR_standard_surface_diffuse_roughness * SR_standard_surface_diffuse_roughness;
+    float2 ab = r2 * float2(-0.5, 0.45) / (r2 + float2(0.33, 0.09)) + float2(1.0, 0.0);
+    float s = 1.0 / max(SR_standard_surface_sheen_roughness, 0.005);
+    float3 fuzz_weight = body_weight * (SR_standard_surface_sheen * opaque_weight);
+    float3 fuzz_product = SR_standard_surface_sheen_color * fuzz_weight;
+    float translucent_weight = thin * (SR_standard_surface_subsurface * opaque_weight);
+    float3 translucent_product = scatter_color * (body_weight * (fuzz_throughput * translucent_weight));
+    for (int i = 0; i < min(u_numActiveLightSources, 3); ++i) {
+        // coating
+        int type = u_lightData[i].type;
+        float intensity = u_lightData[i].intensity;
+        float3 d = u_lightData[i].position - vd.positionWorld;
+        float ratio = intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
+        float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
+        float3 to_light = normalize(d);
+        float spot_light_product = smoothstep(spot_light_difference, u_lightData[i].inner_angle,
+            -dot(u_lightData[i].direction, to_light)) * ratio;
+        float spot_light_choice = type == 3 ? spot_light_product : 0.0;
+        float point_light_choice = type == 2 ? ratio : spot_light_choice;
+        float3 light = u_lightData[i].color * (type == 1 ? intensity : point_light_choice);
+        float3 directional_light_to_light = -u_lightData[i].direction;
+        float3 L = type == 1 ? directional_light_to_light : to_light;
+        float3 H = normalize(V + L);
+        float cosine = clamp(dot(V, H), 1e-8, 1.0);
+        if (coat > 0.0)
+            color += light * (coat * coating_scale
+                * (mx_ggx_light(coating_lobe, L, H) * mx_fresnel_dielectric(cosine, coat_IOR)));
+        // metal
+        float ggx_light = mx_ggx_light(lobe, L, H);
+        if (SR_standard_surface_metalness > 0.0)
+            color += light * (metal_product
+                * (ggx_light * mx_fresnel(cosine, metal_ior, metal_extinction, thin_film_thickness, thin_film_IOR)));
+        // reflection
+        if (reflection_visible)
+            color += light * (reflection_product
+                * (ggx_light * mx_fresnel(cosine, (float3)specular_IOR, thin_film_thickness, thin_film_IOR)));
+        // scatter
+        float l_dot_nf = dot(L, Nf);
+        if (scatter_weight > 0.0)
+            color += light * (mx_subsurface_light(subsurface_falloff, l_dot_nf) * scatter_product);
+        // fuzz, translucent, diffuse
+        float cos_l = max(l_dot_nf, 1e-8);
+        float diffuse_product = cos_l / 3.1415927
+            * (ab.x + ab.y * max(dot(V, L) - cos_v * cos_l, 0.0) / max(cos_l, cos_v));
+        float cos_h = dot(H, Nf);
+        float fuzz_product_2 = cos_l * ((s + 2.0) * pow(max(1.0 - cos_h * cos_h, 0.0), s * 0.5) / 6.2831855);
+        float3 fuzz_response = fuzz_product_2 / ((cos_v + cos_l - cos_v * cos_l) * 4.0) * fuzz_product;
+        float3 sum = fuzz_response + max(-l_dot_nf, 0.0) / 3.1415927 * translucent_product;
+        color += light * (diffuse_color * diffuse_weight * diffuse_product + sum);
+    }
+    // environment
+    // coating
+    if (coat > 0.0)
+        color += coat * coating_scale * mx_ggx_gather_dielectric(coating_lobe, 1.0, 0.0, coat_IOR);
+    // metal
+    float filmed = thin_film_thickness > 0.0 ? 1.0 : 0.0;
+    float limit = thin_film_thickness > 0.0 ? 0.0 : 1.0;
+    if (SR_standard_surface_metalness > 0.0) {
+        float3 metal_ggx_gather_film_index = mx_ggx_gather_film_index(lobe, filmed, metal_ior, metal_extinction,
+            thin_film_thickness, thin_film_IOR);
+        float3 metal_bare = mx_ggx_gather_conductor(lobe, limit, metal_ior, metal_extinction);
+        color += metal_product * (thin_film_thickness > 0.0 ? metal_ggx_gather_film_index : metal_bare);
+    }
+    // reflection
+    if (reflection_visible) {
+        float3 reflection_ggx_gather_film_index = mx_ggx_gather_film_index(lobe, filmed, (float3)specular_IOR,
+            float3(0.0, 0.0, 0.0), thin_film_thickness, thin_film_IOR);
+        float3 reflection_bare = mx_ggx_gather_dielectric(lobe, limit, 0.0, specular_IOR);
+        color += reflection_product * (thin_film_thickness > 0.0 ? reflection_ggx_gather_film_index : reflection_bare);
+    }
+    // refraction
+    if (SR_standard_surface_transmission * dielectric_weight > 0.0) {
+        float3 tint = max(SR_standard_surface_transmission_color, 0.0);
+        float transmission_blurred = lerp(clamp(SR_standard_surface_specular_roughness
+            + SR_standard_surface_transmission_extra_roughness, 0.0, 1.0), 1.0, coat_blur);
+        mx_GgxLobe refraction_lobe = mx_ggx_lobe(mx_roughness_anisotropy(transmission_blurred,
+            SR_standard_surface_specular_anisotropy), Nf, specular_tangent, V);
+        float3 ggx_refraction = mx_ggx_gather_dielectric(refraction_lobe, 1.0, specular_IOR, specular_IOR);
+        float3 dielectric_bsdf_transmission = tint * (u_refractionTwoSided ? tint : float3(1.0, 1.0, 1.0))
+            * ggx_refraction;
+        color += dielectric_bsdf_transmission * (body_weight * (SR_standard_surface_transmission * dielectric_weight));
+    }
+    // translucent
+    if (translucent_weight > 0.0)
+        color += translucent_product * (u_envLightIntensity
+            * u_envIrradiance.SampleLevel(u_envIrradiance_sampler, mx_latlong(-Nf), 0.0).xyz);
+    // fuzz, scatter, diffuse
+    float2 fit = SR_standard_surface_diffuse_roughness
+        * (cos_v * float2(-0.7632, -0.4993) - float2(0.4297, 0.6076) + SR_standard_surface_diffuse_roughness
+        * float2(1.4385, 2.0315)) + float2(1.0, 1.0);
+    float3 environment_irradiance = u_envIrradiance.SampleLevel(u_envIrradiance_sampler, mx_latlong(Nf), 0.0).xyz
+        * u_envLightIntensity;
+    float3 diffuse_response = diffuse_color * clamp(fit.x / fit.y, 0.0, 1.0)
+        * (diffuse_weight * environment_irradiance);
+    color += diffuse_response + (environment_irradiance
+        * (fuzz_weight * (SR_standard_surface_sheen_color * sheen_albedo)) + scatter_product * environment_irradiance);
+    // opacity
+    float opacity_grey = dot(SR_standard_surface_opacity, float3(0.2722287, 0.6740818, 0.0536895));
+    if (opacity_grey < u_alphaThreshold)
+        discard;
+    out1 = float4(opacity_grey * color, opacity_grey);
+}

@@ -1,0 +1,81 @@
+// Clay · surfacematerial · mxgen 0.1 · hlsl · reduced · 1 closure · 0 textures
+// shader model 6.0
+
+[[vk::binding(0, 0)]] cbuffer PrivateUniforms : register(b0)
+{
+    row_major float4x4 u_worldMatrix : packoffset(c0);
+    row_major float4x4 u_worldInverseTransposeMatrix : packoffset(c4);
+    row_major float4x4 u_viewProjectionMatrix : packoffset(c8);
+    float3 u_viewPosition : packoffset(c12);
+    int u_numActiveLightSources : packoffset(c12.w);
+    row_major float4x4 u_envMatrix : packoffset(c13);
+    float u_envLightIntensity : packoffset(c17);
+};
+struct LightData {
+    float3 direction;
+    float3 color;
+    float3 position;
+    int type;
+    float intensity;
+    float decay_rate;
+    float inner_angle;
+    float outer_angle;
+};
+[[vk::binding(2, 0)]] cbuffer LightData_block : register(b2)
+{
+    LightData u_lightData[3];
+};
+[[vk::binding(3, 0)]] Texture2D u_envIrradiance : register(t3);
+[[vk::binding(3, 0)]] SamplerState u_envIrradiance_sampler : register(s3);
+struct VertexData {
+    float4 position : SV_Position;
+    [[vk::location(0)]] float3 positionWorld : TEXCOORD0;
+    [[vk::location(1)]] float3 normalWorld : TEXCOORD1;
+};
+
+// Where the light from a direction of the world lies in the environment's picture.
+float2 mx_latlong(float3 direction)
+{
+    float3 d = normalize(mul(float4(direction, 0.0), u_envMatrix).xyz);
+    return float2(atan2(d.x, -d.z), -2.0 * asin(clamp(d.y, -1.0, 1.0))) * 0.15915494 + 0.5;
+}
+
+void main(
+    VertexData vd,
+    [[vk::location(0)]] out float4 out1 : SV_Target0)
+{
+    float3 color = float3(0.0, 0.0, 0.0);
+    // lights
+    float3 direction = normalize(vd.normalWorld);
+    float3 V = normalize(u_viewPosition - vd.positionWorld);
+    // SR_clay
+    float3 N = faceforward(direction, -V, direction);
+    float cos_v = max(abs(dot(direction, V)), 1e-8);
+    for (int i = 0; i < min(u_numActiveLightSources, 3); ++i) {
+        // diffuse
+        int type = u_lightData[i].type;
+        float intensity = u_lightData[i].intensity;
+        float3 d = u_lightData[i].position - vd.positionWorld;
+        float ratio = intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
+        float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
+        float3 to_light = normalize(d);
+        float spot_light_product = smoothstep(spot_light_difference, u_lightData[i].inner_angle,
+            -dot(u_lightData[i].direction, to_light)) * ratio;
+        float spot_light_choice = type == 3 ? spot_light_product : 0.0;
+        float point_light_choice = type == 2 ? ratio : spot_light_choice;
+        float3 light = u_lightData[i].color * (type == 1 ? intensity : point_light_choice);
+        float3 directional_light_to_light = -u_lightData[i].direction;
+        float3 L = type == 1 ? directional_light_to_light : to_light;
+        float cos_l = max(dot(L, N), 1e-8);
+        float diffuse_sum = max(dot(L, V) - cos_l * cos_v, 0.0) * 0.36 / max(cos_l, cos_v) + 0.73913044;
+        color += light * (cos_l / 3.1415927 * float3(0.5, 0.25, 0.15) * diffuse_sum);
+    }
+    // environment
+    // diffuse
+    float2 fit = (cos_v * float2(-0.7632, -0.4993) - float2(0.4297, 0.6076) + float2(0.8631, 1.2189)) * 0.6
+        + float2(1.0, 1.0);
+    float3 oren_nayar_diffuse_bsdf_albedo = clamp(fit.x / fit.y, 0.0, 1.0) * float3(0.5, 0.25, 0.15);
+    color += oren_nayar_diffuse_bsdf_albedo
+        * (u_envIrradiance.SampleLevel(u_envIrradiance_sampler, mx_latlong(N), 0.0).xyz * u_envLightIntensity);
+    out1 = float4(color, 1.0);
+}
