@@ -2,6 +2,7 @@
 /* Versions, status texts, contexts. */
 #include "api/api.h"
 
+#include <assert.h>
 #include <stdlib.h>
 
 #define TEXT_OF(number) #number
@@ -107,6 +108,7 @@ void mxg_context_destroy(mxg_context *context)
 {
     if (!context)
         return;
+    assert(atomic_load(&context->used) >= sizeof *context);
     object_empty(&context->builtin.object);
     sandbox_finish(context);
     context->mem.realloc(context->mem.user_data, context, sizeof *context, 0);

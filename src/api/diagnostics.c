@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "api/api.h"
 
+#include <assert.h>
+
 uint32_t mxg_diagnostics_count(const mxg_diagnostics *list)
 {
     return list ? list->list.items.len : 0;
@@ -26,6 +28,8 @@ mxg_status mxg_diagnostics_get(const mxg_diagnostics *list, uint32_t index, mxg_
     if (index >= mxg_diagnostics_count(list))
         return MXG_ERROR_ARGUMENT;
     const struct diag *diag = &list->list.items.items[index];
+    assert(diag->parent <= index);
+    assert((size_t)diag->severity < sizeof severities / sizeof *severities);
     mxg_diagnostic full = {
         .severity = severities[diag->severity],
         .id = diag_id_text(diag->id),
@@ -84,7 +88,7 @@ static size_t format(const mxg_diagnostics *list, uint32_t index, struct format_
         *buffer = '\0';
     if (index >= mxg_diagnostics_count(list))
         return 0;
-    struct object scratch;
+    struct object scratch = {.size = 0};
     object_init(&scratch, list->owner->context, 0);
     job->diag = &list->list.items.items[index];
     text_init(&job->text, &scratch.arena);
@@ -92,6 +96,7 @@ static size_t format(const mxg_diagnostics *list, uint32_t index, struct format_
     if (object_run(&scratch, run_job, job) == MXG_OK) {
         len = job->text.len;
         size_t copied = len < capacity ? len : capacity - 1;
+        assert(capacity == 0 || copied < capacity);
         if (capacity) {
             memcpy(buffer, job->text.data, copied);
             buffer[copied] = '\0';

@@ -2,6 +2,8 @@
 /* Documents: a library layer above the library's, and its renderables. */
 #include "api/api.h"
 
+#include <assert.h>
+
 struct load {
     mxg_document *document;
     struct library *base;
@@ -106,6 +108,7 @@ mxg_status mxg_document_renderable(const mxg_document *document, uint32_t index,
         return MXG_ERROR_ARGUMENT;
     const struct document *doc = &document->layer.doc;
     elem_id element = document->renderables.items[index];
+    assert(element > document->layer.doc.root);
     mxg_renderable full = {
         .path = document->renderable_paths[index],
         .type = str_text(doc->strings, doc_attr_value(doc, element, STR_type)),

@@ -2,6 +2,8 @@
 /* Finds the element to generate from a path in the form that users write. */
 #include "api/api.h"
 
+#include <assert.h>
+
 struct search {
     const mxg_document *document;
     const struct document *doc;
@@ -145,6 +147,8 @@ static bool assigns(const struct search *s, elem_id look, elem_id material, unsi
  */
 static elem_id find_in_look(const struct search *s, elem_id look)
 {
+    assert(doc_element(s->doc, look)->kind == KIND_LOOK
+           || doc_element(s->doc, look)->kind == KIND_LOOKGROUP);
     struct choices materials = {0};
     elem_id usual = doc_child_of_kind(s->doc, s->doc->root, KIND_LOOK,
                                       doc_attr_value(s->doc, look, STR_default));
@@ -157,6 +161,7 @@ static elem_id find_in_look(const struct search *s, elem_id look)
 /* A nodegraph with one output stands for this output. */
 static elem_id find_in_graph(const struct search *s, elem_id graph)
 {
+    assert(doc_element(s->doc, graph)->kind == KIND_NODEGRAPH);
     struct choices outputs = {0};
     for (elem_id e = doc_element(s->doc, graph)->first_child; e; e = doc_element(s->doc, e)->next)
         if (doc_element(s->doc, e)->kind == KIND_OUTPUT)
@@ -265,6 +270,7 @@ elem_id document_find_element(const struct mxg_document *document, const char *p
     if (element && doc_element(s.doc, element)->kind == KIND_NODE
         && !find_output(&s, element, *out_output, out_index))
         return 0;
+    assert(!element || element > s.doc->root);
     return element;
 }
 

@@ -4,6 +4,8 @@
 
 #include "base/hash.h"
 
+#include <assert.h>
+
 void file_source_init(struct file_source *source, struct object *object)
 {
     *source = (struct file_source){.object = object, .resolver = &object->context->resolver};
@@ -40,6 +42,7 @@ static const char *remember(struct file_source *source, const char *name)
 static bool open_file(struct file_source *source, const char *from, const char *ref,
                       const char **out_reason)
 {
+    assert(!source->is_open);
     const char *reason = NULL;
     source->blob = (mxg_blob){0};
     object_settle(source->object);
@@ -77,6 +80,7 @@ static bool open_for_xml(void *user_data, const char *from, const char *ref, con
 
 static void release_for_xml(void *user_data, void *handle)
 {
+    assert(((const struct file_source *)user_data)->is_open);
     (void)handle; /* one file is open at a time */
     close_file(user_data);
 }

@@ -3,6 +3,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "api/api.h"
 
+#include <assert.h>
 #include <dirent.h>
 #include <errno.h>
 #include <stdlib.h>
@@ -77,6 +78,7 @@ const char *folder_list(struct arena *arena, const char *path, const char *suffi
     VEC(const char *) folders = {0};
     vec_push(arena, &folders, path);
     uint32_t first = out->len;
+    assert(folders.len == 1);
     for (uint32_t i = 0; i < folders.len; i++) {
         struct path_list found = {0};
         const char *reason = list_one(arena, folders.items[i], &found);

@@ -7,6 +7,7 @@
  */
 #include "api/generation.h"
 
+#include <assert.h>
 #include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -27,6 +28,7 @@ static bool read_range(const char *text, int64_t *out_first, int64_t *out_last)
 
 static int64_t modulo(int64_t a, int64_t b)
 {
+    assert(b > 0);
     return (a % b + b) % b;
 }
 
@@ -47,6 +49,7 @@ static bool find_frame(const struct frame_sequence *sequence, int64_t *frame)
     } else { /* end action "constant" */
         return false;
     }
+    assert(*frame >= first && *frame <= last);
     return true;
 }
 
@@ -59,6 +62,7 @@ static void put(struct out *out, const char *text, size_t len)
 {
     size_t room = out->capacity > out->len + 1 ? out->capacity - out->len - 1 : 0,
            kept = len < room ? len : room;
+    assert(out->len + kept < out->capacity || kept == 0);
     if (kept) {
         memcpy(out->data + out->len, text, kept);
         out->data[out->len + kept] = '\0';
@@ -72,6 +76,7 @@ static void put(struct out *out, const char *text, size_t len)
  */
 static const char *read_token(const char *p, int *out_digits)
 {
+    assert(*p == '{');
     const char *name = p + 1 + strspn(p + 1, "0123456789");
     *out_digits = p[1] == '0' && name - p == 3 ? p[2] - '0' : 0;
     bool is_frame = (name == p + 1 || *out_digits) && strncmp(name, "frame}", 6) == 0;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "api/generation.h"
 
+#include <assert.h>
+
 static struct diag_list *diags_of(struct generation *g)
 {
     return &g->result->object.diagnostics.list;
@@ -74,6 +76,7 @@ static const str_id *target_names(struct generation *g, unsigned *out_count)
     unsigned i = 0;
     for (const struct target *target = g->result->target; target; target = target->base)
         names[i++] = str_intern_z(&g->result->strings, target->materialx_name);
+    assert(i == count);
     *out_count = count;
     return names;
 }
@@ -122,6 +125,7 @@ static void set_build_options(struct generation *g)
 static void init_layers(struct generation *g)
 {
     mxg_result *result = g->result;
+    assert(result->strings.num == 0 && result->graph.nodes.len == 0);
     struct arena *arena = &result->object.arena;
     const struct library *layer = &g->document->layer;
     strpool_init(&result->strings, arena, &layer->strings);
@@ -219,6 +223,7 @@ bool generation_build(struct generation *g)
     if (g->options[OPTION_network].number)
         build_record_network(g->builder, &g->result->network);
     g->root = build_element(g->builder, g->element, g->output);
+    assert(g->root < g->result->graph.nodes.len);
     ir_assert_valid(&g->result->graph, "after build");
     if (!is_good(g))
         return false;
@@ -300,6 +305,7 @@ static bool has_nothing_to_tell(const struct generation *g)
 
 bool generation_emit(struct generation *g)
 {
+    assert(g->root > 0 && g->root < g->result->graph.nodes.len);
     generation_start_closures(g);
     g->result->shader.scatters = g->options[OPTION_integrator].number == 2;
     if (g->desc.only_diagnostics && has_nothing_to_tell(g))
@@ -330,11 +336,13 @@ bool generation_finish(struct generation *g)
  */
 static const char *origin_path(void *user_data, uint32_t origin)
 {
+    assert(origin < ((const mxg_result *)user_data)->graph.origins.len);
     mxg_result *result = user_data;
     const struct document *doc = &result->document->layer.doc;
     if (result->origin_paths[origin])
         return result->origin_paths[origin];
     const struct ir_origin *o = &result->graph.origins.items[origin];
+    assert(o->parent == 0 || o->parent < origin);
     const char *outer = o->parent ? origin_path(result, o->parent) : NULL;
     if (!o->element)
         return outer;
@@ -357,6 +365,7 @@ static bool spell_one(struct generation *g, const struct spell_options *options,
     struct spell_mark *marks;
     struct stage_source *out = &result->stages[stage];
     text_init(&source, &result->object.arena);
+    assert(out->size == 0 && out->num_marks == 0);
     text_reserve(&source, USUAL_SOURCE); /* avoids moves while it grows */
     spell_shader_stage(result->target, options, &result->shader, stage, &g->scratch, &source,
                        &marks, &out->num_marks);
@@ -409,6 +418,7 @@ struct spell_options generation_spell_options(const struct generation *g)
 bool generation_spell(struct generation *g)
 {
     mxg_result *result = g->result;
+    assert(result->graph.max_nodes == 0);
     struct spell_options options = generation_spell_options(g);
     result->origin_paths =
         ARENA_ARRAY(&result->object.arena, const char *, result->graph.origins.len);
@@ -485,6 +495,7 @@ static void generate(struct generation *g)
                                 && (g->desc.without_source || generation_spell(g));
     if (!g->result->has_shader)
         drop_source(g->result);
+    assert(!g->result->has_shader || diags_of(g)->num_errors == 0);
 }
 
 mxg_status mxg_generate(mxg_context *context, const mxg_document *document,

@@ -4,6 +4,8 @@
  */
 #include "api/generation.h"
 
+#include <assert.h>
+
 struct graph_view {
     struct generation *g;
     const struct library *layer;
@@ -20,6 +22,7 @@ static const char *text_of(const struct graph_view *view, str_id id)
 
 static bool is_shown(const struct graph_view *view, elem_id element)
 {
+    assert(element - view->doc->first_element < view->doc->elements.len);
     const struct element *e = doc_element(view->doc, element);
     bool in_graph = e->parent == view->doc->root
                     || (e->parent && doc_element(view->doc, e->parent)->kind == KIND_NODEGRAPH);
@@ -35,6 +38,7 @@ static void write_path(const struct graph_view *view, elem_id element)
 /* The name of a node's output if the node has several; else NULL. */
 static const char *output_name(const struct graph_view *view, const struct binding *binding)
 {
+    assert(binding->kind == BIND_NODE);
     struct diag_list ignored;
     diag_list_init(&ignored, &view->g->scratch);
     uint32_t id = doc_attr_value(view->doc, binding->ref, STR_type) == STR_multioutput
@@ -117,6 +121,8 @@ static void write_output(struct graph_view *view, elem_id output)
 static void write_edge(struct graph_view *view, elem_id to, const char *input,
                        const struct binding *binding)
 {
+    assert(binding->kind != BIND_NODE
+           || binding->ref - view->doc->first_element < view->doc->elements.len);
     if (binding->kind == BIND_NODE)
         text_fmt(view->out, "    n%u -> n%u [label=\"%s\"]\n", (unsigned)binding->ref, (unsigned)to,
                  input);
@@ -156,6 +162,7 @@ static void mark_upstream(struct graph_view *view, elem_id root)
     vec_push(scratch, &open, root);
     while (open.len) {
         elem_id element = vec_pop(&open);
+        assert(element - view->doc->first_element < view->doc->elements.len);
         if (view->wanted[element - view->doc->first_element])
             continue;
         view->wanted[element - view->doc->first_element] = 1;

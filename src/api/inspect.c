@@ -2,6 +2,8 @@
 /* The views of mxg_inspect: each is a text. */
 #include "api/generation.h"
 
+#include <assert.h>
+
 static struct diag_list *diags_of(struct generation *g)
 {
     return &g->result->object.diagnostics.list;
@@ -52,6 +54,7 @@ static void view_elements(struct generation *g, struct text *out)
             depth -= !next;
         }
     }
+    assert(depth == 0);
 }
 
 /* ---- The optimised graph ---- */

@@ -5,6 +5,8 @@
 #include "base/hash.h"
 #include "specialise/specialise.h"
 
+#include <assert.h>
+
 mxg_library *mxg_library_ref(mxg_library *library)
 {
     if (library)
@@ -47,6 +49,7 @@ static void map_image(void *arg)
 {
     struct load *load = arg;
     mxg_library *library = load->library;
+    assert(load->num_paths == 1 && library->layer.doc.elements.len == 0);
     const char *data;
     size_t size;
     if (!file_source_read(&load->files, load->paths[0], &data, &size,
@@ -235,6 +238,7 @@ mxg_status mxg_library_image(mxg_library *library, const void **out_data, size_t
     const struct made_text *made = object_text(&library->object, TEXT_IMAGE, write_image);
     if (!made)
         return MXG_ERROR_MEMORY;
+    assert(made->size % 16 == 0);
     *out_data = made->data;
     *out_size = made->size;
     return MXG_OK;
@@ -281,12 +285,14 @@ static bool has_implementation(const struct library *lib, uint32_t id, const str
 {
     for (const struct library *layer = lib; id < layer->base_nodedefs; layer = layer->base)
         for (uint32_t i = 0; i < layer->overrides.len; i++) {
+            assert(layer->overrides.items[i] < layer->impls.len);
             const struct implementation *impl = &layer->impls.items[layer->overrides.items[i]];
             if (impl->nodedef == id && serves(lib, impl, target))
                 return true;
         }
     for (uint32_t i = library_nodedef(lib, id)->first_impl; i != LIBRARY_NONE;) {
         const struct implementation *impl = library_impl(lib, i, NULL);
+        assert(impl->nodedef == id);
         if (serves(lib, impl, target))
             return true;
         i = impl->next;

@@ -5,6 +5,8 @@
  */
 #include "api/generation.h"
 
+#include <assert.h>
+
 /* ---- Shaders of nodes ---- */
 
 static struct shader *new_shader(struct generation *g, const struct network_node *node)
@@ -54,6 +56,7 @@ static bool emit_node(struct generation *g, struct shader *shader, struct networ
     for (uint32_t i = 0; i < shader->interface.len; i++)
         if (shader->variables.items[shader->interface.items[i]].block == BLOCK_OUTPUTS)
             names[n++] = shader->variables.items[shader->interface.items[i]].name;
+    assert(n <= node->num_outputs);
     node->outputs = names;
     return n == node->num_outputs;
 }
@@ -110,6 +113,7 @@ static bool make_parts(struct generation *g)
 
 static void write_stage(mxg_result *result, enum shader_stage_id stage)
 {
+    assert(result->stages[stage].size == 0);
     struct text text;
     text_init(&text, &result->object.arena);
     result->target->network->write(&result->network, stage, &text);
@@ -144,6 +148,7 @@ mxg_status mxg_result_part(const mxg_result *result, uint32_t index, mxg_part *o
     if (index >= mxg_result_num_parts(result))
         return MXG_ERROR_ARGUMENT;
     const struct network_part *part = &result->network.parts.items[index];
+    assert(part->size > 0);
     mxg_part full = {.name = part->name,
                      .source = part->source,
                      .source_size = part->size,

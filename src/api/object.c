@@ -2,6 +2,8 @@
 /* Memory and lifetime of objects. */
 #include "api/api.h"
 
+#include <assert.h>
+
 /* Sets the memory limit of an object: the rest of the context's limit after the other objects. */
 static void init_mem(struct mem *mem, struct mxg_context *context)
 {
@@ -47,6 +49,7 @@ void object_settle(struct object *object)
     size_t now = object->mem.used + object->size, more = now - object->counted;
     size_t others = atomic_fetch_add(&context->used, more) + more - object->mem.used;
     object->counted = now;
+    assert(others >= object->size);
     if (!context->max_memory)
         return;
     size_t left = others < context->max_memory ? context->max_memory - others : 1;
@@ -56,6 +59,7 @@ void object_settle(struct object *object)
 
 void *object_new(struct mxg_context *context, size_t size, struct object *below)
 {
+    assert(size >= sizeof(struct object));
     struct mem mem;
     init_mem(&mem, context);
     struct allocation allocation = {&mem, size, NULL};
@@ -72,6 +76,7 @@ void *object_new(struct mxg_context *context, size_t size, struct object *below)
 
 void object_ref(struct object *object)
 {
+    assert(atomic_load(&object->refs) > 0);
     atomic_fetch_add_explicit(&object->refs, 1, memory_order_relaxed);
 }
 
@@ -82,6 +87,7 @@ static void free_text(struct mxg_context *context, struct made_text *text)
     atomic_fetch_sub(&context->used, mem.used);
     struct arena arena = text->arena;
     arena_finish(&arena);
+    assert(mem.used == 0);
 }
 
 void object_empty(struct object *object)
@@ -98,6 +104,8 @@ static void free_object(struct object *object)
 {
     struct mxg_context *context = object->context;
     object_empty(object);
+    assert(object->mem.used == 0 && atomic_load(&object->refs) == 0);
+    assert(atomic_load(&context->used) >= object->counted);
     atomic_fetch_sub(&context->used, object->counted);
     struct mem mem = object->mem;
     mem.used = object->size;
@@ -142,6 +150,7 @@ mxg_status context_run(struct mxg_context *context, void (*work)(void *arg, stru
     arena_init(&job.scratch, &mem);
     bool done = mem_try(&mem, run_scratch_job, &job);
     arena_finish(&job.scratch);
+    assert(mem.used == 0);
     return done ? MXG_OK : MXG_ERROR_MEMORY;
 }
 
@@ -167,6 +176,7 @@ static void write_text(void *arg)
 const struct made_text *object_text(const struct object *object, unsigned index,
                                     void (*write)(const struct object *object, struct text *out))
 {
+    assert(index < OBJECT_MAX_TEXTS);
     /* objects themselves are never const */
     struct object *owner = (struct object *)(uintptr_t)object;
     struct made_text *found = atomic_load(&owner->texts[index]);

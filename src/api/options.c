@@ -14,11 +14,14 @@ static const mxg_option table[NUM_OPTIONS] = {
 #define OPTION(id, key, type, values, initial, doc) \
     {sizeof(mxg_option), key, MXG_OPTION_##type, values, initial, doc},
 #include "api/options.def"
+
+#include <assert.h>
 #undef OPTION
 };
 
 const char *option_key(enum option_id option)
 {
+    assert((unsigned)option < NUM_OPTIONS);
     return table[option].key;
 }
 
@@ -49,8 +52,10 @@ static bool parse_int(const mxg_option *option, const char *text, struct option_
            low_len = num_parse_int(option->values, strlen(option->values), &low);
     const char *rest = option->values + low_len + 2;
     num_parse_int(rest, strlen(rest), &high);
+    assert(low_len > 0 && low < high);
     if (len == 0 || num_parse_int(text, len, &value) != len || value < low || value > high)
         return false;
+    assert(value >= INT32_MIN && value <= INT32_MAX);
     out->number = (int32_t)value;
     return true;
 }
@@ -58,6 +63,7 @@ static bool parse_int(const mxg_option *option, const char *text, struct option_
 static bool parse_enum(struct arena *arena, const mxg_option *option, const char *text,
                        struct option_value *out)
 {
+    assert(option->type == MXG_OPTION_ENUM);
     size_t len = strlen(text);
     const char *word = option->values;
     for (int32_t number = 0; *word; number++) {

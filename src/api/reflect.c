@@ -4,6 +4,8 @@
  */
 #include "api/generation.h"
 
+#include <assert.h>
+
 static const char *text_of(const mxg_result *result, str_id id)
 {
     return str_text(&result->strings, id);
@@ -30,6 +32,7 @@ uint32_t mxg_result_num_variables(const mxg_result *result)
 
 static const struct shader_variable *variable_at(const mxg_result *result, uint32_t index)
 {
+    assert(result->shader.interface.items[index] < result->shader.variables.len);
     return &result->shader.variables.items[result->shader.interface.items[index]];
 }
 
@@ -99,6 +102,7 @@ static void set_default(const struct shader_variable *variable, mxg_variable *ou
         return;
     const struct ir_type_info *info = ir_type_info(variable->value.type);
     out->num_values = info->components;
+    assert(out->num_values <= sizeof out->values / sizeof *out->values);
     for (uint32_t i = 0; i < out->num_values && i < 16; i++) {
         union ir_word word = variable->value.w[i];
         out->values[i] = info->scalar == IR_TYPE_FLOAT ? word.f
@@ -114,6 +118,7 @@ mxg_status mxg_result_variable(const mxg_result *result, uint32_t index, mxg_var
     if (index >= mxg_result_num_variables(result))
         return MXG_ERROR_ARGUMENT;
     const struct shader_variable *v = variable_at(result, index);
+    assert(v->block < NUM_BLOCKS);
     mxg_variable full = {
         .name = text_of(result, v->name),
         .block = (mxg_block)v->block,
@@ -154,6 +159,7 @@ static const struct shader_tile *tile_at(const mxg_result *result, uint32_t vari
     if (variable >= mxg_result_num_variables(result)
         || tile >= variable_at(result, variable)->num_tiles)
         return NULL;
+    assert(variable_at(result, variable)->first_tile + tile < result->shader.tiles.len);
     return &result->shader.tiles.items[variable_at(result, variable)->first_tile + tile];
 }
 
@@ -261,6 +267,7 @@ mxg_status mxg_result_info(const mxg_result *result, mxg_shader_info *out)
             object_text(&result->object, TEXT_TOPOLOGY, write_topology);
         if (!topology)
             return MXG_ERROR_MEMORY;
+        assert(topology->size == sizeof full.topology);
         memcpy(&full.topology, topology->data, sizeof full.topology);
     }
     return struct_write(out, &full, sizeof full);

@@ -6,6 +6,8 @@
  */
 #include "api/api.h"
 
+#include <assert.h>
+
 struct scan {
     const struct document *doc;
     uint8_t *used; /* per own element */
@@ -21,6 +23,7 @@ static void mark_connection(struct scan *scan, elem_id port)
         node ? doc_child(
             doc, e->kind == KIND_OUTPUT ? e->parent : doc_element(doc, e->parent)->parent, node)
              : 0;
+    assert(target < doc->first_element + doc->elements.len);
     if (target >= doc->first_element)
         scan->used[target - doc->first_element] = 1;
 }
@@ -39,6 +42,7 @@ static void mark_used(struct scan *scan)
 
 static bool is_used(const struct scan *scan, elem_id element)
 {
+    assert(element - scan->doc->first_element < scan->doc->elements.len);
     return scan->used[element - scan->doc->first_element];
 }
 
@@ -87,6 +91,7 @@ static bool is_renderable_output(const struct document *doc, elem_id output)
 
 static void add(mxg_document *document, elem_id element)
 {
+    assert(element > document->layer.doc.root);
     vec_push(&document->object.arena, &document->renderables, element);
 }
 
@@ -119,6 +124,7 @@ static void add_shaders_and_outputs(mxg_document *document, const struct scan *s
 
 void document_find_renderables(struct mxg_document *document, struct arena *scratch)
 {
+    assert(document->renderables.len == 0);
     const struct document *doc = &document->layer.doc;
     struct arena *arena = &document->object.arena;
     add_materials(document);

@@ -2,6 +2,7 @@
 /* The source of a result, and the places in the document that its lines come from. */
 #include "api/generation.h"
 
+#include <assert.h>
 #include <stdio.h>
 
 const char *mxg_result_source(const mxg_result *result, mxg_stage stage, size_t *out_size)
@@ -20,6 +21,7 @@ static size_t start_of_line(const struct stage_source *source, uint32_t line)
         const char *newline = memchr(start, '\n', (size_t)(end - start));
         start = newline ? newline + 1 : end;
     }
+    assert(start <= end);
     return (size_t)(start - source->text);
 }
 
@@ -30,6 +32,7 @@ static uint32_t origin_of_line(const mxg_result *result, mxg_stage stage, uint32
     if (line == 0 || !source->text)
         return 0;
     size_t start = start_of_line(source, line), end = start_of_line(source, line + 1);
+    assert(start <= end && end <= source->size);
     uint32_t low = 0, high = source->num_marks;
     while (low < high) {
         uint32_t middle = low + (high - low) / 2;
@@ -38,12 +41,15 @@ static uint32_t origin_of_line(const mxg_result *result, mxg_stage stage, uint32
         else
             high = middle;
     }
+    assert(low == source->num_marks || source->marks[low].at >= start);
+    assert(low == 0 || source->marks[low - 1].at < start);
     return low < source->num_marks && source->marks[low].at < end ? source->marks[low].origin : 0;
 }
 
 /* The innermost element of the document itself for an origin; 0: none. */
 static elem_id document_element(const mxg_result *result, uint32_t origin)
 {
+    assert(origin < result->graph.origins.len || origin == 0);
     const struct ir_origin *origins = result->graph.origins.items;
     while (origin && origins[origin].element < result->document->layer.doc.first_element)
         origin = origins[origin].parent;
@@ -80,6 +86,7 @@ struct names {
 
 static void add_name(struct names *names, const struct document *doc, elem_id element)
 {
+    assert(names->len <= MAX_NAMES);
     const char *name = str_text(doc->strings, doc_element(doc, element)->name);
     if (names->len < MAX_NAMES && *name)
         names->items[names->len++] = name;

@@ -5,6 +5,7 @@
  */
 #include "api/api.h"
 
+#include <assert.h>
 #include <errno.h>
 #include <stdio.h>
 
@@ -43,6 +44,7 @@ static void release(struct mxg_context *context, struct block *block)
 {
     if (!block)
         return;
+    assert(atomic_load(&context->used) >= block->size);
     atomic_fetch_sub(&context->used, block->size);
     context->mem.realloc(context->mem.user_data, block, block->size, 0);
 }

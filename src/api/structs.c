@@ -5,6 +5,8 @@
  */
 #include "api/api.h"
 
+#include <assert.h>
+
 static size_t size_of(const void *with_size)
 {
     size_t size;
@@ -14,6 +16,7 @@ static size_t size_of(const void *with_size)
 
 bool struct_read(void *out, size_t out_size, const void *in)
 {
+    assert(out_size > sizeof(size_t));
     size_t size = size_of(in);
     if (size <= sizeof size)
         return false;
@@ -30,6 +33,7 @@ mxg_status struct_write(void *out, const void *from, size_t from_size)
     if (!out || size_of(out) <= sizeof(size_t))
         return MXG_ERROR_ARGUMENT;
     size_t size = size_of(out), known = size < from_size ? size : from_size;
+    assert(known >= sizeof size && known <= from_size);
     memcpy((char *)out + sizeof size, (const char *)from + sizeof size, known - sizeof size);
     memset((char *)out + known, 0, size - known);
     return MXG_OK;

@@ -37,6 +37,7 @@ static ir_ref make_global(struct builder *b, struct ir_graph *graph, const struc
 {
     const struct lang_unit *layer;
     const struct lang_global *global = lang_global(unit, global_id, &layer);
+    assert(global->words + global->num_words <= layer->words.len);
     switch ((enum lang_global_kind)global->kind) {
     case LANG_GLOBAL_STREAM: return shader_stream(b->shader, global->name, global->type);
     case LANG_GLOBAL_UNIFORM: {
@@ -62,6 +63,7 @@ static ir_ref global_node(void *user_data, struct ir_graph *graph, const struct 
                           uint32_t global_id)
 {
     struct builder *b = user_data;
+    assert(global_id < b->shader->unit->base_globals + b->shader->unit->globals.len);
     if (!b->globals[global_id])
         b->globals[global_id] = make_global(b, graph, unit, global_id);
     return b->globals[global_id];
@@ -76,6 +78,8 @@ enum { INLINE_NODES = 14 };
 struct builder *build_start(const struct library *lib, const struct build_options *options,
                             struct shader *shader, struct diag_list *diags)
 {
+    assert(shader->unit->base_globals == lib->unit.base_globals + lib->unit.globals.len);
+    assert(shader->strings->base == &lib->strings && shader->unit->strings == shader->strings);
     struct builder *b = ARENA_NEW(shader->arena, struct builder);
     b->lib = lib;
     b->options = options;
@@ -129,8 +133,10 @@ static void publish_nodes(struct builder *b, elem_id node)
 
 static ir_ref build_node_element(struct builder *b, elem_id node, unsigned output)
 {
+    assert(node - b->document->first < b->document->num_slots);
     publish_nodes(b, node);
     build_demand(b, b->document, node);
+    assert(b->frames.len == 0);
     if (b->document->slots[node - b->document->first] < SLOT_RESULTS)
         return 0;
     return build_result(b, b->document, node, output, DOC_TYPE_NONE);
@@ -162,6 +168,7 @@ static ir_ref build_output_element(struct builder *b, elem_id output)
 
 ir_ref build_element(struct builder *b, elem_id element, unsigned output)
 {
+    assert(b->frames.len == 0);
     bool is_node = doc_element(doc_of(b), element)->kind == KIND_NODE;
     return is_node ? build_node_element(b, element, output) : build_output_element(b, element);
 }

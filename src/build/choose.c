@@ -33,6 +33,7 @@ static const struct implementation *best_of(const struct builder *b, uint32_t no
     /* Higher layers first: a document's implementation wins over the library's of equal fitness. */
     for (const struct library *layer = b->lib; layer; layer = layer->base) {
         for (uint32_t i = 0; nodedef < layer->base_nodedefs && i < layer->overrides.len; i++) {
+            assert(layer->overrides.items[i] < layer->impls.len);
             const struct implementation *impl = &layer->impls.items[layer->overrides.items[i]];
             if (impl->nodedef == nodedef)
                 consider(b, impl, &best, &best_fitness);
@@ -40,6 +41,7 @@ static const struct implementation *best_of(const struct builder *b, uint32_t no
     }
     for (uint32_t i = library_nodedef(b->lib, nodedef)->first_impl; i != LIBRARY_NONE;) {
         const struct implementation *impl = library_impl(b->lib, i, NULL);
+        assert(impl->nodedef == nodedef);
         consider(b, impl, &best, &best_fitness);
         i = impl->next;
     }
@@ -49,6 +51,8 @@ static const struct implementation *best_of(const struct builder *b, uint32_t no
 static void tell_deferred(struct builder *b, const struct implementation *impl)
 {
     const struct library *layer = library_of_element(b->lib, impl->element);
+    assert(impl->ref + impl->count <= layer->deferred->items.len);
+    assert(impl->kind == IMPL_BROKEN);
     for (uint32_t i = 0; i < impl->count; i++) {
         const struct diag *d = &layer->deferred->items.items[impl->ref + i];
         diag_repeat(b->diags, d);
@@ -71,6 +75,7 @@ const struct implementation *build_choose(struct builder *b, uint32_t nodedef, e
         diag_add(b->diags, DIAG_ID_defined_here, doc_place(&b->lib->doc, def->element),
                  build_text(b, def->name));
     }
+    assert(!impl || impl->nodedef == nodedef);
     return impl;
 }
 

@@ -56,6 +56,7 @@ void build_check_distance_unit(struct builder *b)
 ir_ref build_color_transform(struct builder *b, ir_ref value, doc_type type, str_id space,
                              struct diag_place place)
 {
+    assert(type == DOC_TYPE_color3 || type == DOC_TYPE_color4);
     const char *from = build_text(b, space),
                *to = build_text(b, canonical_space(b, b->options->colorspace)),
                *hub = library_color_hub;

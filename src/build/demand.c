@@ -74,6 +74,7 @@ static void resolve(struct builder *b, struct frame *frame, elem_id node)
     if (own != LIBRARY_NONE && own < layer->graph_nodes.len
         && layer->graph_nodes.items[own].element == node) {
         frame->node = layer->graph_nodes.items[own];
+        assert(frame->node.first_binding <= layer->bindings.len);
         frame->bindings = layer->bindings.items + frame->node.first_binding;
         return;
     }
@@ -108,6 +109,7 @@ static void push(struct builder *b, struct instance *scope, elem_id node)
         *slot = SLOT_ERROR;
         return;
     }
+    assert(frame.impl->nodedef == frame.node.nodedef);
     *slot = SLOT_BUSY;
     vec_push(b->arena, &b->frames, frame);
 }
@@ -116,6 +118,8 @@ static void finish(struct builder *b, uint32_t first_result)
 {
     struct frame *frame = &vec_last(&b->frames);
     uint32_t *slot = build_slot(frame->scope, frame->node.element);
+    assert(frame->phase == PHASE_OUTPUTS
+           || frame->next >= library_nodedef(b->lib, frame->node.nodedef)->num_inputs);
     assert(first_result <= b->results.len && (*slot == SLOT_BUSY || *slot == SLOT_ERROR));
     if (*slot == SLOT_BUSY)
         *slot = SLOT_RESULTS + first_result;
@@ -133,6 +137,7 @@ static uint32_t add_results(struct builder *b, const ir_ref *results, uint32_t n
 static void build_args(struct builder *b, struct frame *frame)
 {
     const struct nodedef *def = library_nodedef(b->lib, frame->node.nodedef);
+    assert(frame->next == def->num_inputs);
     const struct port *ports = library_ports(b->lib, frame->node.nodedef, NULL);
     frame->args = ARENA_ARRAY(b->arena, ir_ref, def->num_inputs);
     for (uint32_t i = 0; i < def->num_inputs; i++)
@@ -146,6 +151,7 @@ static void build_args(struct builder *b, struct frame *frame)
  */
 static void convert_colors(struct builder *b, const struct frame *frame, ir_ref *results)
 {
+    assert(frame->impl->nodedef == frame->node.nodedef);
     const struct nodedef *def = library_nodedef(b->lib, frame->node.nodedef);
     const struct port *ports = library_ports(b->lib, frame->node.nodedef, NULL);
     for (uint32_t i = 0; i < def->num_inputs; i++) {
@@ -192,6 +198,7 @@ static void name_results(struct builder *b, const struct frame *frame, const ir_
 /* The results of a graph for these arguments are complete; the memo keeps them for equal uses. */
 static void finish_graph(struct builder *b, struct frame *frame, ir_ref *results)
 {
+    assert(frame->has_tokens || frame->memo_key < b->memos.len);
     convert_colors(b, frame, results);
     name_results(b, frame, results);
     uint32_t first =
@@ -212,6 +219,7 @@ static void finish_call(struct builder *b, struct frame *frame, uint32_t functio
 
 static void enter_graph(struct builder *b, struct frame *frame)
 {
+    assert(frame->impl->kind == IMPL_GRAPH && frame->phase == PHASE_INPUTS);
     const struct nodedef *def = library_nodedef(b->lib, frame->node.nodedef);
     elem_id graph = frame->impl->ref;
     if (is_recursive(frame->scope, graph) || frame->scope->depth >= MAX_DEFINITION_DEPTH) {
@@ -281,6 +289,7 @@ static void step_inputs(struct builder *b)
 static elem_id inner_output(const struct builder *b, const struct frame *frame, uint32_t i)
 {
     const struct nodedef *def = library_nodedef(b->lib, frame->node.nodedef);
+    assert(i < def->num_outputs);
     const struct port *port =
         library_ports(b->lib, frame->node.nodedef, NULL) + def->num_inputs + i;
     return doc_child_of_kind(doc_of(b), frame->inner->graph, KIND_OUTPUT, port->name);
@@ -290,6 +299,7 @@ static void leave_graph(struct builder *b)
 {
     struct frame *frame = &vec_last(&b->frames);
     const struct nodedef *def = library_nodedef(b->lib, frame->node.nodedef);
+    assert(frame->phase == PHASE_OUTPUTS && frame->next == def->num_outputs);
     const struct port *outputs = library_ports(b->lib, frame->node.nodedef, NULL) + def->num_inputs;
     ir_ref results[BUILD_MAX_OUTPUTS];
     for (uint32_t i = 0; i < def->num_outputs; i++) {

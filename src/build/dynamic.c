@@ -95,6 +95,7 @@ static ir_ref build_geomcolor(const struct call *c)
 /* The change of a value, or of a part of it, from pixel to pixel. */
 static ir_ref change(const struct call *c, enum ir_op axis, ir_ref value, int part)
 {
+    assert(part < (int)ir_type_info(ir_type_of(c->b->graph, value))->components);
     ir_ref all = ir_op1(c->b->graph, axis, value);
     return part < 0 ? all : ir_component(c->b->graph, all, (unsigned)part);
 }
@@ -152,6 +153,7 @@ static ir_ref build_bitangent(const struct call *c)
 /* Records the value that hosts bind if the geometry lacks the property. */
 static void tell_default(const struct call *c, uint32_t index)
 {
+    assert(index < c->b->shader->variables.len);
     struct shader_variable *variable = &c->b->shader->variables.items[index];
     struct ir_value value;
     if (!variable->has_default && build_initial(c->b, arg(c, STR_default), &value)
@@ -311,6 +313,7 @@ static ir_ref build_chosen_input(const struct call *c)
     ir_ref chosen = number.w[0].u < c->def->num_inputs - 1u ? c->frame->args[input] : 0;
     bool fits =
         !chosen || c->type == IR_TYPE_MATERIAL || ir_type_of(c->b->graph, chosen) == c->type;
+    assert(!chosen || input < c->def->num_inputs);
     return fits ? chosen : ir_poison(c->b->graph, c->type);
 }
 
@@ -342,6 +345,7 @@ static const struct {
 
 bool build_dynamic(struct builder *b, const struct frame *frame, ir_ref *results)
 {
+    assert(frame->impl->kind == IMPL_DYNAMIC && frame->impl->nodedef == frame->node.nodedef);
     struct call call = {b, frame, library_nodedef(b->lib, frame->node.nodedef),
                         library_ports(b->lib, frame->node.nodedef, NULL), IR_TYPE_VOID};
     call.type = library_type_ir(b->lib, call.ports[call.def->num_inputs].type);

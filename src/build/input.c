@@ -80,6 +80,7 @@ static ir_ref interface_arg(struct builder *b, struct instance *scope, const str
     if (index < 0)
         return ir_poison(b->graph, library_type_ir(b->lib, port->type));
     const struct port *have = library_ports(b->lib, nodedef, NULL) + index;
+    assert(have->name == binding->ref);
     return alone ? unset(b, scope, alone, have, 0, true) : scope->args[index];
 }
 
@@ -97,6 +98,8 @@ static ir_ref end_of_chain(struct builder *b, struct instance *scope, elem_id no
                         ? doc_element(doc_of(b), element)->parent
                         : node;
     uint32_t *slot = element && outermost ? &scope->slots[element - scope->first] : NULL;
+    assert(!slot || *slot < SLOT_RESULTS + b->results.len);
+    assert(!slot || element - scope->first < scope->num_slots);
     if (slot && *slot >= SLOT_RESULTS)
         return b->results.items[*slot - SLOT_RESULTS];
     bool says_value = binding->kind == BIND_VALUE;
@@ -109,6 +112,7 @@ static ir_ref end_of_chain(struct builder *b, struct instance *scope, elem_id no
     ir_ref value = says_value ? literal(b, scope, owner, port, element, outermost)
                               : unset(b, scope, owner, port, element, outermost);
     if (slot) {
+        assert(*slot == SLOT_EMPTY);
         *slot = SLOT_RESULTS + b->results.len;
         vec_push(b->arena, &b->results, value);
     }

@@ -14,6 +14,7 @@ static const struct document *doc_of(const struct builder *b)
 static bool begin_text(struct builder *b, struct build_prefix *prefix, elem_id owner)
 {
     bool is_known = prefix->text.arena && prefix->owner == owner;
+    assert(!is_known || prefix->len <= prefix->text.len);
     if (!prefix->text.arena)
         text_init(&prefix->text, b->arena);
     prefix->text.len = is_known ? prefix->len : 0;
@@ -147,6 +148,7 @@ struct shader_variable build_describe(struct builder *b, elem_id node, const str
 
 static ir_ref add_uniform(struct builder *b, struct shader_variable v, ir_ref initial)
 {
+    assert(ir_is_const(b->graph, initial) && ir_type_of(b->graph, initial) == v.type);
     v.block = BLOCK_PUBLIC_UNIFORMS;
     v.update = UPDATE_UNIFORM;
     v.has_default = ir_get_const(b->graph, initial, &v.value);

@@ -51,12 +51,14 @@ static struct shader_light start_light(struct builder *b, uint32_t nodedef, int3
                 b->arena, &shader->light_members,
                 shader_light_member(shader, ports[i].name, library_type_ir(b->lib, ports[i].type)));
     light.num_members = shader->light_members.len - light.first_member;
+    assert(light.num_members <= def->num_inputs);
     return light;
 }
 
 /* Hosts that do not set a member leave it at the default of its definition. */
 static void set_default(struct builder *b, const struct port *input, uint32_t member)
 {
+    assert(member < b->shader->variables.len);
     struct shader_variable *variable = &b->shader->variables.items[member];
     ir_ref value = variable->has_default || input->geomprop ? 0 : build_default(b, input);
     if (value)
@@ -72,6 +74,7 @@ static void place_light(struct builder *b, struct shader_light *light)
 
 static ir_ref read_member(struct builder *b, uint32_t variable)
 {
+    assert(variable < b->shader->variables.len);
     return ir_build(b->graph, IR_CONTEXT, b->shader->variables.items[variable].type, variable, NULL,
                     0);
 }
@@ -79,6 +82,7 @@ static ir_ref read_member(struct builder *b, uint32_t variable)
 /* The LIGHT_SHADER of a definition made of nodes, over the light's members; 0 after an error. */
 static ir_ref shader_of(struct builder *b, uint32_t nodedef, const struct shader_light *light)
 {
+    assert(light->first_member + light->num_members <= b->shader->light_members.len);
     const struct nodedef *def = library_nodedef(b->lib, nodedef);
     const struct port *ports = library_ports(b->lib, nodedef, NULL);
     const uint32_t *members = b->shader->light_members.items + light->first_member;

@@ -17,6 +17,7 @@ static void grow_memos(struct builder *b)
     uint32_t slots = b->memo_table ? (b->memo_mask + 1) * 2 : 32;
     b->memo_table = ARENA_ARRAY(b->arena, uint32_t, slots);
     b->memo_mask = slots - 1;
+    assert(b->memos.len * 2 <= b->memo_mask);
     for (uint32_t i = 0; i < b->memos.len; i++) {
         uint32_t slot = b->memos.items[i].hash & b->memo_mask;
         while (b->memo_table[slot])
@@ -30,6 +31,7 @@ struct memo *build_memo(struct builder *b, uint32_t impl, const ir_ref *args, ui
     if (!b->memo_table || b->memos.len * 2 > b->memo_mask)
         grow_memos(b);
     uint32_t hash = hash_args(impl, args, n);
+    assert(b->memos.len <= b->memo_mask);
     uint32_t slot = hash & b->memo_mask;
     for (; b->memo_table[slot]; slot = (slot + 1) & b->memo_mask) {
         struct memo *m = &b->memos.items[b->memo_table[slot] - 1];

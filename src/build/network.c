@@ -38,6 +38,7 @@ static uint32_t *at(struct arena *arena, uint32_t **items, uint32_t *len, uint32
             memcpy(grown, *items, *len * sizeof *grown);
         *items = grown;
         *len = more;
+        assert(index < *len);
     }
     return &(*items)[index];
 }
@@ -146,6 +147,7 @@ static str_id node_name(struct builder *b, const struct nodedef *def, const stru
 
 static uint32_t node_of(struct builder *b, const struct frame *frame)
 {
+    assert(frame->impl->nodedef == frame->node.nodedef);
     struct network *network = b->recorder->network;
     const struct nodedef *def = library_nodedef(b->lib, frame->node.nodedef);
     const struct port *ports = library_ports(b->lib, frame->node.nodedef, NULL);
@@ -268,6 +270,7 @@ static str_id path_of(struct builder *b, const struct frame *frame, char between
 static ir_ref add_source(struct builder *b, str_id name, ir_type_id type, uint32_t layer,
                          unsigned output)
 {
+    assert(output < BUILD_MAX_OUTPUTS && layer <= b->recorder->network->layers.len);
     struct recorder *r = b->recorder;
     uint32_t variable = shader_add_variable(
         b->shader,
@@ -276,6 +279,7 @@ static ir_ref add_source(struct builder *b, str_id name, ir_type_id type, uint32
     while (r->output_of.len <= variable)
         vec_push(b->arena, &r->output_of, 0);
     r->output_of.items[variable] = (uint8_t)output;
+    assert(variable < r->num_layers_of && variable < r->output_of.len);
     return ir_build(b->graph, IR_STREAM, type, variable, NULL, 0);
 }
 
@@ -320,6 +324,8 @@ void build_record_node(struct builder *b, const struct frame *frame, ir_ref *res
                                      .first_input = r->network->inputs.len};
         for (unsigned i = 0; i < def->num_inputs; i++)
             add_input(b, frame, &ports[i], frame->args[i]);
+        assert(made.node < r->network->nodes.len);
+        assert(r->network->inputs.len == made.first_input + def->num_inputs);
         vec_push(b->arena, &r->network->layers, made);
     }
     for (unsigned i = 0; i < def->num_outputs; i++) {
@@ -327,6 +333,7 @@ void build_record_node(struct builder *b, const struct frame *frame, ir_ref *res
             continue;
         ir_ref source = known_source(r, results[i]);
         if (!source) {
+            assert(is_new && layer + 1 == r->network->layers.len);
             source = add_source(b, name, ir_type_of(b->graph, results[i]), layer, i);
             *at(b->arena, &r->source_of, &r->num_sources, results[i]) = source;
             if (!r->network->layers.items[layer].name)

@@ -52,11 +52,13 @@ static ir_ref argument(struct builder *b, const struct implementation *impl,
 
 void build_network_node(struct builder *b, struct network_node *node, ir_ref *results)
 {
+    assert(node->num_inputs == library_nodedef(b->lib, node->definition)->num_inputs);
     const struct port *ports = library_ports(b->lib, node->definition, NULL);
     struct frame frame = {.node = {.nodedef = node->definition, .element = b->document->node}};
     str_id *names = ARENA_ARRAY(b->arena, str_id, node->num_inputs);
     frame.args = ARENA_ARRAY(b->arena, ir_ref, node->num_inputs);
     frame.impl = build_choose(b, node->definition, frame.node.element);
+    assert(frame.impl->nodedef == node->definition);
     ir_push_name(b->graph, str_intern_z(b->shader->strings, "value"));
     for (uint32_t i = 0; i < node->num_inputs; i++)
         frame.args[i] = argument(b, frame.impl, &ports[i], &node->fixed[i], &names[i]);
@@ -68,6 +70,7 @@ void build_network_node(struct builder *b, struct network_node *node, ir_ref *re
 str_id build_network_output(struct builder *b, const struct network_node *node, uint32_t index,
                             str_id *out_type)
 {
+    assert(index < node->num_outputs);
     const struct port *port =
         library_ports(b->lib, node->definition, NULL) + node->num_inputs + index;
     *out_type = library_type_name(b->lib, port->type);

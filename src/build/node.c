@@ -7,6 +7,8 @@ static void call_expressions(struct builder *b, const struct implementation *imp
                              const ir_ref *args, ir_ref *results)
 {
     const struct library *layer = library_of_element(b->lib, impl->element);
+    assert(impl->count == library_nodedef(b->lib, impl->nodedef)->num_outputs);
+    assert(impl->ref + impl->count <= layer->refs.len);
     for (uint32_t i = 0; i < impl->count; i++)
         lang_lower_call(b->shader->unit, b->graph, &b->host, layer->refs.items[impl->ref + i], args,
                         &results[i]);
@@ -29,6 +31,7 @@ static void build_leaf(struct builder *b, const struct implementation *impl, con
 {
     const struct family *family = library_family(b->lib, impl->ref);
     const struct nodedef *def = library_nodedef(b->lib, impl->nodedef);
+    assert(family->nodedef == impl->nodedef);
     const struct port *ports = library_ports(b->lib, impl->nodedef, NULL);
     ir_ref operands[256], base = 0;
     unsigned n = 1;
@@ -57,6 +60,7 @@ static void build_leaf(struct builder *b, const struct implementation *impl, con
 
 const struct family *build_leaf_family(struct builder *b, uint32_t callee)
 {
+    assert(b->graph->callees.items[callee].kind == IR_CALLEE_FAMILY);
     return library_family(b->lib, b->graph->callees.items[callee].index);
 }
 
@@ -111,6 +115,7 @@ static uint32_t verbatim_of(struct builder *b, const struct implementation *impl
         v.expression =
             number_inputs(b, library_nodedef(b->lib, impl->nodedef), ports, source->source);
     }
+    assert(v.first_result + v.num_results == b->shader->result_types.len);
     for (uint32_t i = 0; i < b->shader->verbatim.len; i++) {
         const struct shader_verbatim *have = &b->shader->verbatim.items[i];
         if (have->source == v.source && have->function == v.function
@@ -127,6 +132,7 @@ static void call_verbatim(struct builder *b, const struct implementation *impl, 
     const struct nodedef *def = library_nodedef(b->lib, impl->nodedef);
     const struct port *outputs = library_ports(b->lib, impl->nodedef, NULL) + def->num_inputs;
     uint32_t index = verbatim_of(b, impl, outputs, def->num_outputs);
+    assert(index < b->shader->verbatim.len);
     bool function = b->shader->verbatim.items[index].function != 0;
     uint32_t callee = ir_add_callee(
         b->graph,
@@ -160,6 +166,7 @@ static void call(struct builder *b, const struct frame *frame, ir_ref *results)
     }
     uint32_t first_node = b->graph->nodes.len;
     bool has_tiles = build_note_textures(b, frame);
+    assert(frame->node.nodedef == impl->nodedef);
     if (impl->kind == IMPL_EXPRESSION)
         call_expressions(b, impl, frame->args, results);
     else if (impl->kind == IMPL_FUNCTION)

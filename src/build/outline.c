@@ -54,6 +54,7 @@ uint32_t build_outlined(struct builder *b, const struct frame *frame)
 
 void build_begin_function(struct builder *b, struct frame *frame)
 {
+    assert(b->memos.items[frame->outline].function == 0);
     const struct nodedef *def = library_nodedef(b->lib, frame->node.nodedef);
     ir_type_id *types = ARENA_ARRAY(b->arena, ir_type_id, def->num_inputs);
     unsigned n = 0;
@@ -66,6 +67,7 @@ void build_begin_function(struct builder *b, struct frame *frame)
     for (uint32_t i = 0; i < def->num_inputs; i++)
         args[i] = is_parameter(b, frame->args[i]) ? ir_param(b->graph, frame->function, n++)
                                                   : frame->args[i];
+    assert(n <= def->num_inputs);
     frame->inner->args = args;
     /* The nodes belong to the definition instead of this use. */
     frame->inner->origin = ir_add_origin(
@@ -75,6 +77,7 @@ void build_begin_function(struct builder *b, struct frame *frame)
 void build_call_function(struct builder *b, const struct frame *frame, uint32_t function,
                          ir_ref *results)
 {
+    assert(function < b->graph->functions.len);
     const struct nodedef *def = library_nodedef(b->lib, frame->node.nodedef);
     const struct port *outputs = library_ports(b->lib, frame->node.nodedef, NULL) + def->num_inputs;
     ir_ref *args = ARENA_ARRAY(b->arena, ir_ref, def->num_inputs);

@@ -91,6 +91,7 @@ static void read_measurement(struct measurement *m, struct arena *arena)
     if (next_number(m) != 1.0f && !m->fault)
         m->fault = "it is not of photometric type C";
     next_numbers(m, arena, BEHIND_TYPE);
+    assert(m->fault || (m->num_vertical <= MAX_ANGLES && m->num_horizontal <= MAX_ANGLES));
     m->vertical = next_numbers(m, arena, m->num_vertical);
     m->horizontal = next_numbers(m, arena, m->num_horizontal);
     m->candela =
@@ -105,6 +106,7 @@ static void read_measurement(struct measurement *m, struct arena *arena)
 /* The part of the circle for a horizontal angle: half the way to each neighbour. */
 static float share(const struct measurement *m, unsigned i)
 {
+    assert(i < m->num_horizontal);
     if (m->num_horizontal == 1)
         return 1.0f;
     float before = m->horizontal[i > 0 ? i - 1 : i],
@@ -115,6 +117,7 @@ static float share(const struct measurement *m, unsigned i)
 /* The mean around the axis, at a measured vertical angle. */
 static float mean(const struct measurement *m, unsigned vertical)
 {
+    assert(vertical < m->num_vertical);
     float sum = 0.0f;
     for (unsigned i = 0; i < m->num_horizontal; i++)
         sum += share(m, i) * m->candela[(size_t)i * m->num_vertical + vertical];
@@ -186,6 +189,7 @@ static ir_ref look_up(struct builder *b, const float table[LENGTH], ir_ref norma
     struct ir_graph *g = b->graph;
     ir_ref entries[LENGTH];
     unsigned length = used_length(table);
+    assert(length >= 2 && length <= LENGTH);
     for (unsigned i = 0; i < length; i++)
         entries[i] = ir_const_float(g, table[i]);
     ir_ref array =

@@ -4,6 +4,7 @@
 
 struct instance *build_new_instance(struct builder *b, struct instance *parent, elem_id graph)
 {
+    assert(doc_element(&b->lib->doc, graph)->kind == KIND_NODEGRAPH);
     struct instance *inner = ARENA_NEW(b->arena, struct instance);
     inner->parent = parent;
     inner->graph = graph;
@@ -26,5 +27,6 @@ ir_ref build_result(struct builder *b, struct instance *scope, elem_id node, uns
     uint32_t slot = *build_slot(scope, node);
     if (slot < SLOT_RESULTS)
         return ir_poison(b->graph, library_type_ir(b->lib, type));
+    assert(slot - SLOT_RESULTS + output < b->results.len);
     return b->results.items[slot - SLOT_RESULTS + output];
 }

@@ -101,6 +101,7 @@ static bool reads_alike(const struct shader_variable *a, const struct shader_var
 static uint32_t variable_for(struct builder *b, uint32_t index,
                              const struct shader_variable *wanted)
 {
+    assert(index < b->shader->variables.len);
     struct shader_variable *first = &b->shader->variables.items[index];
     if (!first->has_reader) {
         *first = *wanted;
@@ -118,6 +119,7 @@ static uint32_t variable_for(struct builder *b, uint32_t index,
 static void note_reader(struct builder *b, const struct nodedef *def, const struct port *ports,
                         ir_ref *args, uint32_t file)
 {
+    assert(file < def->num_inputs && ir_get(b->graph, args[file])->op == IR_TEXTURE);
     uint32_t index = ir_get(b->graph, args[file])->attr;
     struct shader_variable wanted = b->shader->variables.items[index];
     wanted.has_reader = true;
@@ -190,6 +192,7 @@ ir_ref build_read_tiles(void *user_data, enum ir_op op, const ir_ref *args)
 {
     struct builder *b = user_data;
     struct ir_graph *g = b->graph;
+    assert(ir_type_of(g, args[0]) == IR_TYPE_SAMPLER_ARRAY);
     if (op == IR_TEX_SIZE)
         return 0; /* all array layers have one size */
     const struct shader_variable *texture = &b->shader->variables.items[ir_get(g, args[0])->attr];
@@ -211,6 +214,7 @@ ir_ref build_read_tiles(void *user_data, enum ir_op op, const ir_ref *args)
 /* Functions with loops, and verbatim functions, do not become nodes. */
 void build_check_tiles(struct builder *b, const struct frame *frame, uint32_t first_node)
 {
+    assert(first_node <= b->graph->nodes.len);
     for (ir_ref ref = first_node; ref < b->graph->nodes.len; ref++) {
         const struct ir_node *node = ir_get(b->graph, ref);
         bool is_call = node->op == IR_CALL || node->op == IR_VERBATIM;

@@ -170,11 +170,13 @@ struct cells { /* the rectangle around tiles */
 
 static struct cells cells_of(const struct shader_tile *tiles, uint32_t n)
 {
+    assert(n > 0);
     int32_t right = INT32_MIN, bottom = tiles[0].v, top = tiles[n - 1].v, left = INT32_MAX;
     for (uint32_t i = 0; i < n; i++) {
         left = tiles[i].u < left ? tiles[i].u : left;
         right = tiles[i].u > right ? tiles[i].u : right;
     }
+    assert(left <= right && bottom <= top);
     return (struct cells){left, bottom, right - left + 1, top - bottom + 1};
 }
 
@@ -210,6 +212,7 @@ bool build_find_tiles(struct builder *b, elem_id element, struct shader_variable
         tiles.items[i].file = file_of(b, token, file, &tiles.items[i]);
         vec_push(b->shader->arena, &b->shader->tiles, tiles.items[i]);
     }
+    assert(texture->first_tile + texture->num_tiles == b->shader->tiles.len);
     return true;
 }
 
@@ -220,6 +223,7 @@ static ir_ref layer_table(struct builder *b, const struct shader_tile *tiles, ui
                           const struct cells *cells, ir_ref cell)
 {
     uint32_t length = (uint32_t)(cells->width * cells->height);
+    assert(n <= length && length <= MAX_CELLS);
     ir_ref *layers = ARENA_ARRAY(b->arena, ir_ref, length);
     for (uint32_t i = 0; i < length; i++)
         layers[i] = ir_const_float(b->graph, -1.0f);
@@ -246,6 +250,7 @@ static ir_ref is_between(struct ir_graph *g, ir_ref x, int32_t length)
 ir_ref build_tile_layer(struct builder *b, const struct shader_variable *texture, ir_ref uv,
                         ir_ref *out_inside)
 {
+    assert(texture->first_tile + texture->num_tiles <= b->shader->tiles.len);
     struct ir_graph *g = b->graph;
     const struct shader_tile *tiles = b->shader->tiles.items + texture->first_tile;
     struct cells cells = cells_of(tiles, texture->num_tiles);

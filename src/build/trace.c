@@ -12,6 +12,7 @@ static const struct instance *current_scope(const struct builder *b)
     if (b->frames.len == 0)
         return b->document;
     const struct frame *frame = &vec_last(&b->frames);
+    assert(!frame->inner || frame->inner->parent == frame->scope);
     return frame->inner ? frame->inner : frame->scope;
 }
 

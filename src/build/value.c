@@ -64,6 +64,7 @@ ir_ref build_constant(struct builder *b, const struct port *port, str_id text, e
 bool build_initial(const struct builder *b, ir_ref value, struct ir_value *out)
 {
     const struct ir_node *node = ir_get(b->graph, value);
+    assert(node->op != IR_UNIFORM || node->attr < b->shader->variables.len);
     const struct shader_variable *uniform =
         node->op == IR_UNIFORM ? &b->shader->variables.items[node->attr] : NULL;
     if (uniform)
@@ -100,6 +101,7 @@ static ir_ref property_stream(struct builder *b, const struct geomprop *prop)
 static ir_ref make_geomprop(struct builder *b, const struct geomprop *prop)
 {
     uint32_t nodedef = prop->nodedef;
+    assert(nodedef == LIBRARY_NONE || nodedef < library_num_nodedefs(b->lib));
     if (nodedef == LIBRARY_NONE && !b->recorder)
         return property_stream(b, prop);
     if (nodedef == LIBRARY_NONE)
@@ -120,6 +122,7 @@ static ir_ref make_geomprop(struct builder *b, const struct geomprop *prop)
 
 ir_ref build_geomprop(struct builder *b, str_id name, doc_type type, struct diag_place place)
 {
+    assert(b->geomprops.len % 2 == 0);
     for (uint32_t i = 0; i < b->geomprops.len; i += 2)
         if (b->geomprops.items[i] == name)
             return b->geomprops.items[i + 1];
