@@ -2,6 +2,8 @@
 /* Calls: built-in functions by the op table, the file's own functions by overload resolution. */
 #include "parse/parse_priv.h"
 
+#include <assert.h>
+
 /* IR_NUM_OPS where there is no such built-in. GLSL's name of ATAN2 is `atan` too. */
 static enum ir_op find_builtin(const char *name, size_t len, unsigned num_args)
 {
@@ -24,6 +26,7 @@ static ir_type_id builtin_type(struct parser *p, enum ir_op op, const lang_ref *
                                unsigned num_args)
 {
     ir_type_id types[4] = {0};
+    assert(num_args <= sizeof types / sizeof *types);
     for (unsigned i = 0; i < num_args; i++)
         types[i] = tree_type(p, args[i]);
     return ir_op_result(op, types, num_args);
@@ -128,6 +131,7 @@ static uint32_t find_overload(struct parser *p, str_id name, const lang_ref *arg
 static lang_ref call_function(struct parser *p, uint32_t id, lang_ref *args, unsigned num_args,
                               uint32_t place)
 {
+    assert(num_args == lang_function(p->unit, id, NULL)->num_params);
     for (unsigned i = 0; i < num_args; i++) {
         const struct lang_slot *param = lookup_param(p->unit, id, i);
         ir_type_id type = param->type;

@@ -5,6 +5,8 @@
  */
 #include "parse/parse_priv.h"
 
+#include <assert.h>
+
 struct uses {
     struct parser *p;
     uint32_t num_nodes;
@@ -85,6 +87,7 @@ static void find_uses(struct uses *uses, struct lang_function *function)
         vec_push(unit->arena, &unit->refs, uses->callees.items[i]);
     function->first_global = unit->refs.len;
     function->num_globals = uses->globals.len;
+    assert(function->first_callee + function->num_callees == function->first_global);
     for (uint32_t i = 0; i < uses->globals.len; i++)
         vec_push(unit->arena, &unit->refs, uses->globals.items[i]);
 }
@@ -113,6 +116,7 @@ static void refuse_recursion(struct order *order, uint32_t index)
     uint32_t i = 0;
     while (order->stack.items[i] != index)
         i++;
+    assert(i < order->stack.len);
     for (; i < order->stack.len; i++)
         text_fmt(&path, "'%s' calls ", parse_text(p, ordered(order, order->stack.items[i])->name));
     text_fmt(&path, "'%s'", parse_text(p, ordered(order, index)->name));
@@ -126,6 +130,7 @@ static bool visit_top(struct order *order)
     const struct lang_unit *unit = order->p->unit;
     uint32_t top = vec_last(&order->stack);
     const struct lang_function *function = ordered(order, top);
+    assert(order->next_callee[top] <= function->num_callees);
     while (order->next_callee[top] < function->num_callees) {
         uint32_t callee =
             unit->refs.items[function->first_callee + order->next_callee[top]++] - order->first;
@@ -139,6 +144,7 @@ static bool visit_top(struct order *order)
         vec_push(unit->arena, &order->stack, callee);
         return true;
     }
+    assert(order->new_id[top] == LANG_NONE && order->num_placed < order->num);
     order->new_id[top] = order->first + order->num_placed++;
     order->stack.len--;
     return true;
@@ -154,6 +160,7 @@ static bool find_order(struct order *order)
             if (!visit_top(order))
                 return false;
     }
+    assert(order->num_placed == order->num);
     return true;
 }
 
@@ -172,6 +179,7 @@ static void apply_order(struct order *order)
         for (uint32_t k = 0; k < function->num_callees; k++)
             unit->refs.items[function->first_callee + k] =
                 renamed(order, unit->refs.items[function->first_callee + k]);
+        assert(order->new_id[i] - order->first < order->num);
         sorted[order->new_id[i] - order->first] = *function;
     }
     if (order->num)
@@ -209,6 +217,7 @@ static void inherit_flags(const struct lang_unit *unit, struct lang_function *fu
 bool check_finish_functions(struct parser *p, uint32_t first_function)
 {
     struct lang_unit *unit = p->unit;
+    assert(first_function >= unit->base_functions);
     uint32_t first = first_function - unit->base_functions, num = unit->functions.len - first;
     struct uses uses = {.p = p};
     for (uint32_t i = 0; i < num; i++) {
