@@ -47,7 +47,7 @@ static int compare_offsets(const void *a, const void *b)
     return left->value < right->value ? -1 : left->value > right->value;
 }
 
-/* The table is no table any more then. */
+/* This sorts the entries in place; lookups do not work afterwards. */
 uint64_t baseline_list_gone(struct baseline *baseline, FILE *out)
 {
     uint64_t count = 0;
@@ -75,15 +75,15 @@ static const struct check_document *find_document(struct baseline *baseline, str
     return record_from_json(store, baseline->reader.document);
 }
 
-/* ---- What differs ---- */
+/* ---- Differences ---- */
 
 struct comparison {
     struct store *store;
     struct check_document *document;
-    const char *element, *target; /* at hand */
+    const char *element, *target; /* the current pair */
 };
 
-/* The text is freed. */
+/* Appends a change and frees the text. */
 static void add(struct comparison *c, enum check_change_kind kind, char *text)
 {
     struct check_document *document = c->document;
@@ -124,7 +124,7 @@ static void compare_shader(struct comparison *c, const struct check_shader *befo
 {
     compare_verdicts(c, before->failed, now->failed);
     if (!*before->topology || !*now->topology)
-        return; /* the verdict says it */
+        return; /* the verdict already shows it */
     if (strcmp(before->topology, now->topology) != 0)
         add(c, CHANGE_TOPOLOGY,
             cli_format("another shader: topology %s, before %s", now->topology, before->topology));
@@ -191,7 +191,7 @@ static void find_gone(struct comparison *c, const struct check_document *before)
     }
 }
 
-/* What is a failure of the document and not of its elements. */
+/* The stage at which the document itself failed, without failures of its elements. */
 static enum check_stage own_failure(const struct check_document *document)
 {
     bool is_own = document->failed == CHECK_LOAD || document->failed == CHECK_VALIDATE

@@ -12,7 +12,7 @@
 #include <sys/stat.h>
 
 #define FILE_NAME "mxgen.toml"
-enum { NUM_PARTS = 5 }; /* that a message names */
+enum { NUM_PARTS = 5 }; /* number of parts in a message */
 
 void budget_add_rule(struct store *store, struct budget_rules *rules, struct budget_rule rule)
 {
@@ -65,7 +65,7 @@ static bool is_same_folder(const char *a, const char *b)
            || (first.st_dev == second.st_dev && first.st_ino == second.st_ino);
 }
 
-/* The folder above, "" being the current one; NULL above the root. */
+/* The parent folder, "" for the current one; NULL above the root. */
 static char *folder_above(const char *folder)
 {
     const char *slash = strrchr(folder, '/'), *name = slash ? slash + 1 : folder;
@@ -85,8 +85,7 @@ static struct budget_folder *place_of(struct budget *budget, const char *folder)
 }
 
 /*
- * The nearest file in the folder and those above it, valid until the next call; NULL where there is
- * none.
+ * The nearest file in the folder or its parents, valid until the next call; NULL if there is none.
  */
 static const char *find_file(struct budget *budget, const char *folder)
 {
@@ -121,7 +120,7 @@ static void load_file(struct budget *budget, struct budget_file *file)
     free(text);
 }
 
-/* Documents come folder by folder: `file` is mostly the one already. */
+/* Documents come folder by folder, so `file` is usually the right one already. */
 static const struct budget_file *file_of(struct budget *budget, struct budget_file *file,
                                          const char *document)
 {
@@ -144,7 +143,7 @@ bool budget_has_file(struct budget *budget, const char *document)
 
 /* ---- Verdicts ---- */
 
-/* The last rule about a measure for this target, else the last one for all. */
+/* The last rule about a measure for this target, else the last rule for all targets. */
 static const struct budget_rule *find_rule(const struct budget_rules *rules, enum measure measure,
                                            const char *target)
 {

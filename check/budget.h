@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Budgets: how much a shader may have of what is measured (measures.def), by the command line or by
- * the file mxgen.toml that lies nearest above a document. What the command line says about a
- * measure holds; otherwise what the file says; for a target before what is said for all.
+ * Budgets: upper limits for the measures of a shader (measures.def), from the command line or from
+ * the nearest mxgen.toml in a document's folder or its parents. A limit on the command line
+ * overrides the file; a limit for one target overrides a limit for all.
  */
 #ifndef MXG_CHECK_BUDGET_H
 #define MXG_CHECK_BUDGET_H
@@ -11,7 +11,7 @@
 
 struct budget_rule {
     enum measure measure;
-    const char *target; /* "": all */
+    const char *target; /* "": all targets */
     uint64_t limit;
 };
 
@@ -25,35 +25,40 @@ enum { NUM_BUDGET_FOLDERS = 256 };
 struct budget {
     struct store store;
     struct budget_folder {
-        char *name; /* NULL: free */
-        char *file; /* the nearest in it and above it; NULL: there is none */
-        /* that were looked into lately, each where its hash says: nothing changes during a run */
+        char *name; /* NULL: free entry */
+        char *file; /* the nearest file in or above the folder; NULL: none */
+        /*
+         * recently used folders, at the index from their hash; a run assumes that they do not
+         * change
+         */
     } folders[NUM_BUDGET_FOLDERS];
     struct budget_rules command_line;
     struct budget_file {
         struct store store;
-        char *folder;     /* of the documents that it is for; NULL: none was looked for yet */
-        const char *path; /* NULL: there is none */
+        char *folder;     /* the folder of its documents; NULL: no search yet */
+        const char *path; /* NULL: no file */
         struct budget_rules rules;
-        struct check_message fault; /* id: NULL where there is none */
-        /* those of the folders of the last document that was given out, and that was judged */
+        struct check_message fault; /* id: NULL without a fault */
+        /*
+         * files for the last document that went to a worker, and for the last one that was judged
+         */
     } given, judged;
 };
 
-/* Takes "2000" or "glsl=2000,essl=1500". False after telling what is wrong. */
+/* Parses "2000" or "glsl=2000,essl=1500". False after a message. */
 bool budget_add(struct budget *budget, enum measure measure, const char *text);
 void budget_finish(struct budget *budget);
 
-/* Whether a file has budgets, or a fault, for a document. */
+/* True if a document has a budget file, even a faulty one. */
 bool budget_has_file(struct budget *budget, const char *document);
 
-/* Fails what is over its budget, with a message that names what it is made of. */
+/* Fails shaders that exceed their budget, with a message that names their largest parts. */
 void budget_judge(struct budget *budget, struct store *store, struct check_document *document);
 
-/* toml.c: the fault of a file that cannot be read. */
+/* toml.c: reports that a file cannot be read. */
 void budget_refuse_toml(struct store *store, const char *path, const char *reason,
                         struct check_message *fault);
-/* toml.c: reads rules from the text of a file; *fault gets the first error, in the store. */
+/* toml.c: reads rules from the text of a file; *fault receives the first error, in the store. */
 void budget_read_toml(struct store *store, const char *path, const char *text,
                       struct budget_rules *out, struct check_message *fault);
 

@@ -12,7 +12,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-enum { NUM_FILES = 1024 }; /* whose hashes are remembered: includes that many documents share */
+enum { NUM_FILES = 1024 }; /* capacity for remembered hashes: many documents share includes */
 
 struct cached_file {
     char *path;
@@ -21,7 +21,7 @@ struct cached_file {
 
 /* ---- Hashes ---- */
 
-/* A text with its length before it, so that two texts are not taken for one. */
+/* Hashes a text with its length before it, so that two texts never hash like one. */
 static void add_text(SHA2_CTX *sha, const char *text)
 {
     size_t len = strlen(text);
@@ -36,7 +36,7 @@ static struct cache_hash end_hash(SHA2_CTX *sha)
     return hash;
 }
 
-/* Of the bytes of a file; "" where it cannot be read. */
+/* Hash of the bytes of a file; "" if it cannot be read. */
 static struct cache_hash hash_file(const char *path)
 {
     SHA2_CTX sha;
@@ -55,7 +55,7 @@ static int compare_names(const void *a, const void *b)
     return strcmp(*(const char *const *)a, *(const char *const *)b);
 }
 
-/* A folder by the names in it; one that is not there has none. */
+/* Hash of the names in a folder; a missing folder has no names. */
 static struct cache_hash hash_folder(const char *path)
 {
     SHA2_CTX sha;
@@ -80,7 +80,7 @@ static bool is_folder_name(const char *path)
     return len && path[len - 1] == '/';
 }
 
-/* The hash of a file or folder that may have been asked for before in this run. */
+/* The hash of a file or folder, remembered for this run. */
 static const char *remembered_hash(struct cache *cache, const char *path)
 {
     struct cached_file *file = &cache->files[cli_hash(CLI_HASH_OF_NOTHING, path) % NUM_FILES];
@@ -92,7 +92,7 @@ static const char *remembered_hash(struct cache *cache, const char *path)
     return file->hash.hex;
 }
 
-/* A program by its version, size and time: another build is another program. */
+/* Hashes version, size and time of a program: another build is another program. */
 static void add_program(SHA2_CTX *sha, const char *path)
 {
     struct stat info = {0};
@@ -163,7 +163,7 @@ static char *entry_path(const struct cache *cache, const struct cache_key *key)
     return cli_format("%s/%.2s/%s.json", cache->folder, key->name.hex, key->name.hex + 2);
 }
 
-/* Images are large: size and time stand for what is in them. */
+/* Size and time stand for the content of an image, because images are large. */
 static struct cache_hash stamp_image(const char *path)
 {
     struct stat info;
@@ -175,9 +175,9 @@ static struct cache_hash stamp_image(const char *path)
 }
 
 /*
- * An entry is an object: "files" has the hash of each file that was read besides the document, and
- * of the names in each folder of textures; "images" has the stamp of each image that a picture
- * shows; "record" is the record.
+ * True if an entry is valid. "files" has the hash of each file that the check read besides the
+ * document, and of the names in each folder of textures; "images" has the stamp of each image in a
+ * picture; "record" is the record.
  */
 static bool is_current(struct cache *cache, json_t *entry)
 {
@@ -215,14 +215,16 @@ json_t *cache_find(struct cache *cache, const char *path, struct cache_key *out_
     return record;
 }
 
-/* Since the run began: a worker may have read what it was before. */
+/* True if a file has changed since the run began: a worker may have read the older content. */
 static bool may_have_changed(const struct cache *cache, const char *path)
 {
     struct stat info;
     return stat(path, &info) != 0 || info.st_mtim.tv_sec >= cache->begin;
 }
 
-/* What was looked for and not found may be there next time, and no folder tells. */
+/*
+ * True for messages about missing files: these may appear later, and no folder listing shows this.
+ */
 static bool is_about_absence(const char *id)
 {
     static const char *const ids[] = {"failed", "file-missing", "file-unreadable", "no-profile"};

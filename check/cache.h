@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Records of documents that were checked before. An entry is named after all that its record
- * follows from: the document's bytes and name, what the workers are told, their program and the
- * libraries; inside it says which other files were read, with the hashes of these, and for images
- * that pictures show size and time. Entries appear whole or not at all, so that several runs may
- * share a cache and one that is killed leaves nothing broken; what cannot be read counts as absent.
+ * Records of earlier checks. The name of an entry is a hash of everything that the record depends
+ * on: the document's bytes and name, the workers' arguments, their program and the libraries. The
+ * entry lists the other files with their hashes, and images in pictures with size and time. Each
+ * entry appears as a whole, so several runs can share a cache, and a killed run leaves no broken
+ * entry. An unreadable entry counts as absent.
  */
 #ifndef MXG_CHECK_CACHE_H
 #define MXG_CHECK_CACHE_H
@@ -22,30 +22,30 @@ struct cache_hash {
 };
 
 struct cache_key {
-    struct cache_hash name;     /* of the entry; "": the document cannot be read */
-    struct cache_hash document; /* of its bytes */
+    struct cache_hash name;     /* name of the entry; "": the document cannot be read */
+    struct cache_hash document; /* hash of the document's bytes */
 };
 
 struct cache {
     const char *folder; /* NULL: no cache */
     struct cache_hash configuration;
-    struct cached_file *files; /* hashes of files that were met lately */
-    const char *fault;         /* entries cannot be written: why */
+    struct cached_file *files; /* hashes of recently read files */
+    const char *fault;         /* the reason why entries cannot be written */
     time_t begin;
 };
 
-/* `args` are those of the workers, the program first. */
+/* `args` are the arguments of the workers, the program first. */
 void cache_init(struct cache *cache, const char *folder, const struct arg_list *args,
                 const mxg_library *library);
 void cache_finish(struct cache *cache);
 
 /*
- * The key of a document as it is now, and its record as JSON, to be unreferenced; NULL where there
- * is none.
+ * The key of a document in its current state, and its record as JSON, which the caller
+ * unreferences; NULL if there is none.
  */
 json_t *cache_find(struct cache *cache, const char *path, struct cache_key *out_key);
 
-/* Keeps a record, if it follows from files alone and these are still what they were. */
+/* Stores a record if it depends only on files and these have not changed. */
 void cache_put(struct cache *cache, const struct cache_key *key,
                const struct check_document *document);
 

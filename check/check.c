@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * mxgen check: documents in, verdicts out. Workers (pool.h) make a record of each document; here
- * they are put in order, judged and reported.
+ * mxgen check: reads documents and writes verdicts. Workers (pool.h) make a record of each
+ * document; this file orders, judges and reports the records.
  */
 #define _POSIX_C_SOURCE 200809L
 #include "check/baseline.h"
@@ -22,16 +22,16 @@
 #define MAX_JOBS 1024
 #define MAX_TIME_LIMIT 86400 /* seconds */
 
-/* A document between being given out and being told of. */
+/* A document from its assignment to its report. */
 struct slot {
     char *path;
-    uint64_t index; /* among all documents */
+    uint64_t index; /* index among all documents */
     struct cache_key key;
-    json_t *cached; /* its record where it was not given out */
-    char *record;   /* a worker's answer; NULL: not there yet */
+    json_t *cached; /* its record from the cache */
+    char *record;   /* a worker's answer; NULL: not yet */
     size_t size;
     bool is_done;
-    enum check_stage failed; /* without a record */
+    enum check_stage failed; /* the reason for a missing record */
     char *reason;
 };
 
@@ -40,8 +40,8 @@ struct check {
     struct arg_list target_args, files_from, targets, worker_args;
     size_t jobs, time_limit;
     bool no_compile, render, stats;
-    bool needs_measures;    /* of every document */
-    bool needs_errors_only; /* of the messages, how they are printed */
+    bool needs_measures;    /* every document needs measures */
+    bool needs_errors_only; /* only errors need their printed form */
     struct check_reports reports;
     struct check_inputs inputs;
     struct pool pool;
@@ -52,12 +52,12 @@ struct check {
     const char *baseline_path;
     const char *budget_args[NUM_MEASURES];
     const char *cache_folder, *shard;
-    uint64_t num_found; /* documents, those of other shards too */
+    uint64_t num_found; /* number of documents, including other shards */
 
-    /* a ring: documents are given out at most this far ahead of the one told next */
+    /* a ring: limits how far workers can be ahead of the report */
     struct slot *slots;
     size_t num_slots;
-    uint64_t first, last; /* documents in the ring: told next, and behind the one given out last */
+    uint64_t first, last; /* documents in the ring: the next one to report, and the end */
 };
 
 static struct slot *slot_of(struct check *check, uint64_t number)
@@ -67,7 +67,7 @@ static struct slot *slot_of(struct check *check, uint64_t number)
 
 /* ---- Records ---- */
 
-/* In place of a record where the worker did not live to make one. */
+/* The record of a document whose worker died or timed out. */
 static struct check_document *make_failure(struct store *store, const struct slot *slot)
 {
     struct check_document *document = store_alloc(store, sizeof *document);
@@ -97,7 +97,7 @@ static void forget_times(struct check_document *document)
 }
 
 /*
- * The record as it was made, before anything is judged: what the cache keeps. NULL: there is none.
+ * The record before any judgement, which the cache stores. NULL: there is none.
  */
 static struct check_document *read_record(struct check *check, struct store *store,
                                           const struct slot *slot)
@@ -165,14 +165,14 @@ static const char *next_path(struct check *check)
     return path;
 }
 
-/* What of a document no report, and no budget of its own, is about. */
+/* The parts of the record that neither a report nor the document's budget needs. */
 static uint32_t task_note(struct check *check, const char *path)
 {
     bool is_brief = !check->needs_measures && !budget_has_file(&check->budget, path);
     return (is_brief ? TASK_BRIEF : 0) | (check->needs_errors_only ? TASK_ERRORS_ONLY : 0);
 }
 
-/* Gives the next document out, or finds its record; false where there is no more. */
+/* Assigns the next document, or takes its record from the cache; false at the end. */
 static bool give_next(struct check *check)
 {
     const char *path = next_path(check);
@@ -216,9 +216,9 @@ static void check_all(struct check *check)
         report_error(&check->cli.report, "check-failed", "%s", check->pool.fault);
 }
 
-/* ---- What is asked for ---- */
+/* ---- Arguments ---- */
 
-/* Splits "glsl,vulkan" and finds every name among the targets. */
+/* Splits "glsl,vulkan" and finds each name among the targets. */
 static bool find_targets(struct check *check)
 {
     for (size_t i = 0; i < check->target_args.len; ++i) {
@@ -271,7 +271,7 @@ static bool parse_budgets(struct check *check)
     return true;
 }
 
-/* The worker's command line: the same library, limits and options as here. */
+/* The command line of a worker: the same library, limits and options. */
 static void make_worker_args(struct check *check)
 {
     char *program = cli_program("mxgen-check");
@@ -286,7 +286,7 @@ static void make_worker_args(struct check *check)
     args_append(&check->worker_args, NULL);
 }
 
-/* A baseline that is there is compared with; one that is not, or is to be new, is written. */
+/* Compares with an existing baseline; writes a missing one, or a new one on demand. */
 static bool prepare_baseline(struct check *check)
 {
     const char **path = &check->reports.paths[SINK_BASELINE];
@@ -302,7 +302,7 @@ static bool prepare_baseline(struct check *check)
     return check->reports.run.is_compared;
 }
 
-/* What all documents depend on, for the depfile. */
+/* Names the inputs of all documents, for the depfile. */
 static void name_inputs(struct check *check)
 {
     struct arg_list *inputs = &check->reports.run.inputs;
@@ -349,7 +349,7 @@ static bool prepare(struct check *check)
     return check->slots && reports_begin(&check->reports, &check->cli.report);
 }
 
-/* Said once, and not of every element. */
+/* Reports a missing renderer once instead of for every element. */
 static bool find_renderer(struct check *check)
 {
     char *program = check->render ? cli_program("mxgen-render") : NULL;
@@ -362,7 +362,7 @@ static bool find_renderer(struct check *check)
     return found;
 }
 
-/* Exit code 1 where anything failed, or nothing was there to check. */
+/* Exit code 1 if anything failed, or if there was nothing to check. */
 static int run(struct check *check)
 {
     struct report *report = &check->cli.report;

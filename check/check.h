@@ -1,37 +1,38 @@
 // SPDX-License-Identifier: Apache-2.0
-/* mxgen check, in parts: what is asked for, and the reports of what came of it. */
+/* The parts of mxgen check: arguments and reports. */
 #ifndef MXG_CHECK_CHECK_H
 #define MXG_CHECK_CHECK_H
 
 #include "check/sink.h"
 #include "cli/cli.h"
 
-/* The reports asked for, and the sums. */
+/* The requested reports, and the totals. */
 struct check_reports {
     struct check_run run;
-    const char *paths[NUM_SINK_KINDS]; /* NULL: not asked for */
+    const char *paths[NUM_SINK_KINDS]; /* NULL: not requested */
     struct sink text, files[NUM_SINK_KINDS];
     struct check_totals totals;
 };
 
-/* Fills in the options of reports; returns how many: NUM_SINK_KINDS. */
+/* Fills in the options of reports; returns their number, NUM_SINK_KINDS. */
 size_t reports_args(struct check_reports *reports, struct arg *args);
-/* What is wrong with what was asked for, NULL: nothing. */
+/* The reason why the arguments are invalid; NULL if they are valid. */
 const char *reports_misuse(const struct check_reports *reports);
 
-/* Opens the files. False after telling which cannot be written. */
+/* Opens the files. False after a message about a file that cannot be written. */
 bool reports_begin(struct check_reports *reports, struct report *report);
 
-/* Tells all reports of a document. Documents come in order. */
+/* Passes a document to all reports. Documents come in order. */
 void reports_document(struct check_reports *reports, const struct check_document *document);
 
 /*
- * Whether the run passes: all documents do, or with a baseline, nothing fails that did not fail
- * before.
+ * True if the run passes: all documents pass, or, with a baseline, no new failures occur.
  */
 bool reports_are_good(const struct check_reports *reports);
 
-/* Finishes the files, or takes them away. False after telling which could not be written. */
+/*
+ * Completes the files, or removes them. False after a message about a file that cannot be written.
+ */
 bool reports_end(struct check_reports *reports, struct report *report, bool keep);
 
 /* merge.c: "mxgen check merge". */

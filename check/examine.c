@@ -23,7 +23,7 @@ static const char *copy(struct examiner *examiner, const char *text)
     return text ? store_text(&examiner->store, text, strlen(text)) : "";
 }
 
-/* The place of an equal message, or the free one where it belongs. */
+/* The place of an equal message, or the free place for it. */
 static uint32_t *find_place(const struct examiner *examiner, const struct check_message *message)
 {
     uint64_t hash = cli_hash(CLI_HASH_OF_NOTHING ^ message->line, message->id);
@@ -35,7 +35,7 @@ static uint32_t *find_place(const struct examiner *examiner, const struct check_
     return &examiner->messages[at];
 }
 
-/* The index of an equal message; how many there are where there is none. */
+/* The index of an equal message; the number of messages if there is none. */
 static uint32_t find_message(const struct examiner *examiner, const struct check_message *message)
 {
     uint32_t found = examiner->capacity ? *find_place(examiner, message) : 0;
@@ -82,7 +82,7 @@ static void count_error(struct examiner *examiner, const struct check_message *m
     examiner->last_error = index;
 }
 
-/* The last error speaks for those behind it. */
+/* Adds the number of further errors to the last one. */
 static void tell_rest(struct examiner *examiner, struct check_message *last)
 {
     if (strstr(last->rendered, "the rest is not shown"))
@@ -119,7 +119,7 @@ static bool is_told(const struct examiner *examiner, const mxg_diagnostic *diagn
                     uint32_t index)
 {
     if (diagnostic->parent != index)
-        return false; /* part of the one before */
+        return false; /* it belongs to the message before it */
     return diagnostic->severity != MXG_SEVERITY_NOTE || examiner->cli->verbose;
 }
 
@@ -133,7 +133,10 @@ static bool is_about_absence(const char *id)
     return false;
 }
 
-/* Of "there is no file 'a/b.png'": once it is there, the message does not stand. */
+/*
+ * For "there is no file 'a/b.png'": notes the place, because the message ends when the file
+ * appears.
+ */
 static void add_quoted_place(struct examiner *examiner, const mxg_diagnostic *diagnostic)
 {
     const char *quote = strchr(diagnostic->message, '\'');
@@ -169,7 +172,7 @@ static void add_diagnostics(struct examiner *examiner, const mxg_diagnostics *li
     }
 }
 
-/* What a status says beyond diagnostics. */
+/* Adds a message for a status without a diagnostic. */
 static void add_status(struct examiner *examiner, mxg_status status, struct check_shader *shader,
                        const char *element)
 {
@@ -229,7 +232,7 @@ static void generate(struct examiner *examiner, const mxg_document *document, co
     desc.target = shader->target;
     desc.element = element;
     desc.options = examiner->cli->options;
-    /* nobody would read it */
+    /* no report needs the source */
     desc.without_source =
         examiner->is_brief && !examiner->compile && !examiner->cli->max_output_size;
     desc.only_diagnostics = desc.without_source && !examiner->render;

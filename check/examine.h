@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* What a worker does with a document: everything that a record tells. */
+/* Checks one document in a worker and fills its record. */
 #ifndef MXG_CHECK_EXAMINE_H
 #define MXG_CHECK_EXAMINE_H
 
@@ -11,36 +11,36 @@ struct examiner {
     struct arg_list targets;
     bool compile, render;
     struct channel channel;
-    bool is_brief;    /* nobody asks for measures */
-    bool errors_only; /* nobody reads how other messages are printed */
+    bool is_brief;    /* no report needs measures */
+    bool errors_only; /* only errors need their printed form */
 
-    struct store store; /* of the document at hand */
+    struct store store; /* memory for the current document */
     struct check_document *document;
-    uint32_t *messages;  /* of it, in a table by what they tell: indices from 1, 0: free */
-    size_t capacity;     /* of the table */
-    size_t num_errors;   /* that are told */
-    uint32_t last_error; /* the message of the last of them */
+    uint32_t *messages;  /* hash table of the document's messages: indices from 1; 0: free */
+    size_t capacity;     /* capacity of the table */
+    size_t num_errors;   /* number of reported errors */
+    uint32_t last_error; /* message index of the last one */
     bool is_compiler_ready;
-    char *folder; /* for pictures; NULL: not needed yet */
+    char *folder; /* folder for pictures; NULL: not needed yet */
 };
 
 /* The record lives until the next call. */
 const struct check_document *examine(struct examiner *examiner, const char *path);
 void examiner_finish(struct examiner *examiner);
 
-/* examine_shader.c: what was generated is measured and compiled. */
+/* examine_shader.c: measures and compiles a generated shader. */
 void examine_shader(struct examiner *examiner, const mxg_result *result,
                     struct check_shader *shader, const char *element);
 
-/* examine_picture.c: which images its picture shows; draws an element. */
+/* examine_picture.c: lists the images in an element's picture; draws the picture. */
 void examine_images(struct examiner *examiner, const mxg_result *result);
 void examine_picture(struct examiner *examiner, struct check_element *element);
 
-/* Adds a message of the current document for a shader; its text is copied. */
+/* Adds a message of the current document for a shader and copies its text. */
 void examine_add(struct examiner *examiner, struct check_shader *shader,
                  struct check_message message);
 
-/* Milliseconds of a clock that only goes forward. */
+/* Milliseconds of a monotonic clock. */
 double examine_clock(void);
 
 #endif

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* --render: a picture of an element by mxgen-render, which is a program of its own. */
+/* --render: a picture of an element, which the program mxgen-render draws. */
 #define _POSIX_C_SOURCE 200809L
 #include "check/picture.h"
 #include "cli/files.h"
@@ -23,7 +23,7 @@ static char *path_in(const struct examiner *examiner, const char *name)
     return cli_format("%s/%s", examiner->folder, name);
 }
 
-/* Where pictures go on their way here; made when it is needed first. */
+/* Makes the temporary folder for pictures, on first use. */
 static bool make_folder(struct examiner *examiner)
 {
     const char *root = getenv("TMPDIR");
@@ -38,8 +38,8 @@ static bool make_folder(struct examiner *examiner)
 }
 
 /*
- * What the renderer prints goes to a file. Returns 0, its exit code, or -1 where it cannot be
- * started or died.
+ * Runs the renderer with its output in a file. Returns 0, its exit code, or -1 if it cannot start
+ * or dies.
  */
 static int run(struct examiner *examiner, const char *element)
 {
@@ -99,7 +99,7 @@ static void fail(struct examiner *examiner, const struct check_element *element,
     free(text);
 }
 
-/* Beside the document, as the renderer looks for it. */
+/* Resolves an image relative to the document, as the renderer does. */
 static void add_image(struct examiner *examiner, const char *file)
 {
     const char *document = examiner->document->file, *slash = strrchr(document, '/');

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/* A shader that was generated: measured, compiled, and what its instructions are for. */
+/*
+ * Measures a generated shader, compiles it, and attributes its instructions to nodes and functions.
+ */
 #define _POSIX_C_SOURCE 200809L
 #include "compile/compile.h"
 #include "check/examine.h"
@@ -9,13 +11,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define MAX_PARTS 8 /* that a record tells of each measure */
+#define MAX_PARTS 8 /* parts per measure in a record */
 
 /* ---- Measures ---- */
 
-enum { STD140_ROUND = 16 }; /* what blocks are aligned to */
+enum { STD140_ROUND = 16 }; /* alignment of blocks */
 
-/* Bytes of a uniform that stands in no block, as its type's name tells: "vec3", "mat4", "int". */
+/* Bytes of a uniform outside blocks, from the name of its type: "vec3", "mat4", "int". */
 static uint64_t loose_size(const mxg_variable *variable)
 {
     size_t len = strlen(variable->type);
@@ -26,8 +28,7 @@ static uint64_t loose_size(const mxg_variable *variable)
 }
 
 /*
- * Blocks end behind their last member, of the lights one is counted; what stands in no block is
- * added up.
+ * A block ends after its last member, and light data counts one light; sizes outside blocks add up.
  */
 static void add_uniform(const mxg_variable *variable, uint64_t *size)
 {
@@ -67,7 +68,7 @@ static int compare_parts(const void *a, const void *b)
     return strcmp(left->name, right->name);
 }
 
-/* Keeps the largest of each measure, in order. */
+/* Keeps the largest parts of each measure, in order. */
 static void rank_parts(struct check_shader *shader)
 {
     size_t kept = 0, num_of_measure = 0;
@@ -82,7 +83,7 @@ static void rank_parts(struct check_shader *shader)
     shader->num_parts = kept;
 }
 
-/* Textures one by one, uniforms by the node that they belong to. */
+/* One part per texture; one part per node for uniforms. */
 static void add_variable_part(struct examiner *examiner, struct check_shader *shader,
                               const mxg_variable *variable)
 {
@@ -111,16 +112,16 @@ static void add_closure_parts(struct examiner *examiner, const mxg_result *resul
             add_part(examiner, shader, MEASURE_CLOSURES, path, strlen(path), 1);
 }
 
-/* Where a reader of a source stands. */
+/* The position in a source. */
 struct listing {
-    const char *before; /* the line above */
-    const char *name;   /* of the function around; NULL: none */
+    const char *before; /* the previous line */
+    const char *name;   /* name of the enclosing function; NULL: none */
     size_t name_len;
 };
 
 /*
- * "vec3 mx_rotate(vec3 v)" stands above the bracket that its body begins with; the shader itself
- * has a line of parameters there.
+ * The line "vec3 mx_rotate(vec3 v)" precedes the brace of the body; for the shader itself this line
+ * contains parameters.
  */
 static void enter_function(struct listing *at)
 {
@@ -133,8 +134,7 @@ static void enter_function(struct listing *at)
 }
 
 /*
- * Functions as a whole, lines of main by the node that they were written for, and what stands
- * around them.
+ * Parts of a source: whole functions, lines of main by their node, and the lines around them.
  */
 static void add_source_parts(struct examiner *examiner, const mxg_result *result, mxg_stage stage,
                              const char *source, struct check_shader *shader)
@@ -185,7 +185,7 @@ static void measure(struct examiner *examiner, const mxg_result *result,
     }
 }
 
-/* A function by its name; a line of main by the node that it was written for. */
+/* A part of SPIR-V: a function by its name, a line of main by its node. */
 static void add_spirv_part(struct examiner *examiner, const mxg_result *result, mxg_stage stage,
                            const struct spirv_part *part, struct check_shader *shader)
 {
@@ -214,7 +214,7 @@ static void count_parts(struct examiner *examiner, const mxg_result *result,
 
 /* ---- Compilation ---- */
 
-/* A line of the shader, below the message about it. */
+/* A line of the shader, printed below its message. */
 static void print_source_line(FILE *out, const char *source, uint32_t line)
 {
     while (source && --line)
@@ -223,7 +223,7 @@ static void print_source_line(FILE *out, const char *source, uint32_t line)
         fprintf(out, "    %.*s\n", (int)strcspn(source, "\n"), source);
 }
 
-/* A message of the compiler stands at the place in the document that its line comes from. */
+/* Reports a compiler message at the place in the document that its line comes from. */
 static void add_compile_message(struct examiner *examiner, const mxg_result *result,
                                 const struct compile_message *message, struct check_shader *shader,
                                 const char *element)

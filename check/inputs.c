@@ -12,13 +12,13 @@
 #include <string.h>
 #include <sys/stat.h>
 
-/* Something that has paths: names in memory, or the lines of a file. */
+/* A source of paths: names in memory, or the lines of a file. */
 struct input_source {
     struct input_source *outer;
     const char *const *items;
     size_t num_items, at;
-    const char *mark; /* stands before each item: '@' for a list of lists */
-    char **owned;     /* the items, where they are to be freed */
+    const char *mark; /* prefix of each item: '@' for a list of lists */
+    char **owned;     /* the items, if the source must free them */
     FILE *lines;
     char *line;
     size_t capacity;
@@ -75,7 +75,7 @@ static bool is_new(struct check_inputs *inputs, const char *path)
     return is_new;
 }
 
-/* ---- What a path stands for ---- */
+/* ---- Expansion of paths ---- */
 
 static bool is_document_name(const char *name)
 {
@@ -94,7 +94,7 @@ static int compare_texts(const void *a, const void *b)
     return strcmp(*(char *const *)a, *(char *const *)b);
 }
 
-/* What cannot be read is not left out in silence. */
+/* Reports an unreadable path. */
 static void fail(struct check_inputs *inputs, const char *what, const char *name)
 {
     fprintf(stderr, "error: cannot read %s '%s': %s [file-unreadable]\n", what, name,
@@ -102,7 +102,10 @@ static void fail(struct check_inputs *inputs, const char *what, const char *name
     inputs->failed = true;
 }
 
-/* Documents and folders in a folder. A link to a folder is not followed: it may lead back. */
+/*
+ * Adds the documents and folders in a folder. It does not follow links to folders, because they may
+ * form a cycle.
+ */
 static void push_folder(struct check_inputs *inputs, const char *path)
 {
     struct input_source *source = push(inputs);
@@ -140,7 +143,7 @@ static void push_list(struct check_inputs *inputs, const char *name)
         fail(inputs, "the list", name);
 }
 
-/* False where it is none. */
+/* False if the name is no pattern. */
 static bool push_pattern(struct check_inputs *inputs, const char *pattern)
 {
     glob_t found;
@@ -160,7 +163,7 @@ static bool push_pattern(struct check_inputs *inputs, const char *pattern)
     return true;
 }
 
-/* True where the path is a document's; else the sources have grown. */
+/* True if the path is a document; otherwise adds sources for it. */
 static bool expand(struct check_inputs *inputs, const char *path)
 {
     struct stat info;
@@ -176,9 +179,9 @@ static bool expand(struct check_inputs *inputs, const char *path)
     return false;
 }
 
-/* ---- One after the other ---- */
+/* ---- Iteration ---- */
 
-/* The next item of the innermost source; NULL behind the last. */
+/* The next item of the innermost source; NULL at the end. */
 static char *next_item(struct input_source *source)
 {
     if (!source->lines && source->at == source->num_items)

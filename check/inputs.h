@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Which documents are checked, one after the other and each once: files; folders, all of whose
- * .mtlx below are meant, in order of their names; patterns of glob(7); and lists with a path on
- * each line, "@list". Memory follows from the folder at hand, not from all that there is.
+ * The documents to check, each once: files; all .mtlx files below folders, in the order of their
+ * names; patterns of glob(7); and lists with one path per line, "@list". Memory depends on the
+ * current folder, not on the number of documents.
  */
 #ifndef MXG_CHECK_INPUTS_H
 #define MXG_CHECK_INPUTS_H
@@ -12,19 +12,19 @@
 
 struct check_inputs {
     struct input_source *sources; /* the innermost first */
-    struct name_table seen;       /* paths that were given out */
+    struct name_table seen;       /* paths that were returned already */
     char *path;
     bool failed; /* a list could not be read */
 };
 
-/* `files_from` are names of lists, "-" is standard input. The lists must live on. */
+/* `files_from` are names of lists, "-" is standard input. The caller keeps the lists alive. */
 void inputs_init(struct check_inputs *inputs, const struct arg_list *paths,
                  const struct arg_list *files_from);
 void inputs_finish(struct check_inputs *inputs);
 
 /*
- * The next document's path, valid until the next call; NULL at the end. What does not exist is
- * given out as it is.
+ * The path of the next document, valid until the next call; NULL at the end. Returns names of
+ * missing files unchanged.
  */
 const char *inputs_next(struct check_inputs *inputs);
 

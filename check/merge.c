@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * mxgen check merge: the JSON reports of shards become one run, told in any format. Documents go by
- * their index.
+ * mxgen check merge: merges the JSON reports of shards into one run and writes any report from it.
+ * Documents follow their index.
  */
 #include "check/check.h"
 #include "check/record_io.h"
@@ -15,7 +15,7 @@ struct part {
     const char *path;
     struct report_reader reader;
     struct store store;
-    struct check_document *document; /* told next; NULL: no more */
+    struct check_document *document; /* the next document; NULL: no more */
 };
 
 struct merge {
@@ -45,7 +45,7 @@ static void advance(struct merge *merge, struct part *part)
         fail(merge, part->path, part->reader.fault);
 }
 
-/* "shard": {"number": 2, "count": 8}; 0 where the report is no part. */
+/* "shard": {"number": 2, "count": 8}; 0 if the report is no shard. */
 static uint64_t shard_of(const struct part *part, const char *key)
 {
     return json_count_of(json_object_get(part->reader.header, "shard"), key);
@@ -60,7 +60,7 @@ static void read_targets(struct merge *merge)
     }
 }
 
-/* Whether the parts are all shards of one run. */
+/* True if the parts are all shards of one run. */
 static bool are_complete(struct merge *merge)
 {
     uint64_t expected = shard_of(&merge->parts[0], "count");
@@ -102,7 +102,7 @@ static bool open_parts(struct merge *merge)
     return true;
 }
 
-/* The part whose document comes next. */
+/* The part with the next document. */
 static struct part *find_next(const struct merge *merge)
 {
     struct part *found = NULL;

@@ -13,7 +13,7 @@ static uint64_t hash_of(const char *name)
     return hash ? hash : 1;
 }
 
-/* The entry of a hash, or the free one where it belongs. */
+/* The entry for a hash, or the free entry for it. */
 static struct name_entry *place_of(const struct name_table *table, uint64_t hash)
 {
     assert(table->num_entries < table->capacity);

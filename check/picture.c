@@ -27,7 +27,7 @@ char *picture_base64(struct store *store, const void *data, size_t size)
     return text;
 }
 
-/* A signature is a multiple of 3 bytes: there is no padding. */
+/* A signature is a multiple of 3 bytes, so it has no padding. */
 static bool read_signature(const char *text, unsigned char out[SIGNATURE_BYTES])
 {
     if (strlen(text) != SIGNATURE_BYTES / 3 * 4)
@@ -80,7 +80,7 @@ static double lab_curve(double t)
 
 static void to_lab(const unsigned char *srgb, double lab[3])
 {
-    static const double to_xyz[3][3] = {/* IEC 61966-2-1, by the white point D65 */
+    static const double to_xyz[3][3] = {/* IEC 61966-2-1, relative to the white point D65 */
                                         {0.4124 / 0.9505, 0.3576 / 0.9505, 0.1805 / 0.9505},
                                         {0.2126, 0.7152, 0.0722},
                                         {0.0193 / 1.0890, 0.1192 / 1.0890, 0.9505 / 1.0890}};

@@ -18,20 +18,20 @@
 #include <unistd.h>
 
 enum {
-    MAX_TASKS = 16 /* of a worker */,
-    MAX_TASK_BYTES = 32 << 10 /* on their way to it: what a pipe surely holds */
+    MAX_TASKS = 16 /* per worker */,
+    MAX_TASK_BYTES = 32 << 10 /* in the pipe of a worker; a pipe holds at least this */
 };
-#define WORK_AHEAD 0.010 /* seconds of work that a worker has to do */
+#define WORK_AHEAD 0.010 /* seconds of work in a worker's queue */
 
 struct pool_worker {
     pid_t pid; /* 0: not started */
     struct frame_stream tasks, answers;
     struct desk *desk;
-    struct pool_task queue[MAX_TASKS]; /* what it has to do, and does; the first is done first */
+    struct pool_task queue[MAX_TASKS]; /* its tasks in order; it works on the first */
     size_t num_tasks, task_bytes;
     unsigned num_answered;
-    double busy_since; /* it had nothing to do before */
-    bool is_late;      /* and was ended for it */
+    double busy_since; /* the time when its first task began */
+    bool is_late;      /* and the pool killed it for this */
 };
 
 static double now(void)
@@ -51,7 +51,7 @@ void pool_init(struct pool *pool, char *const *argv, size_t num_workers, double 
     pool->waiting = calloc(pool_capacity(num_workers), sizeof *pool->waiting);
     if (!pool->workers || !pool->waiting)
         pool->fault = "out of memory";
-    signal(SIGPIPE, SIG_IGN); /* a worker that died is seen when it is read */
+    signal(SIGPIPE, SIG_IGN); /* the pool notices a dead worker when it reads */
 }
 
 /* ---- Processes ---- */
@@ -64,7 +64,7 @@ static bool fail(struct pool *pool, const char *what, int reason)
     return false;
 }
 
-/* The ends of two pipes and the desk, each -1 where it is not open. */
+/* The ends of two pipes and the desk; -1: closed. */
 struct ends {
     int task_input, task_output, answer_input, answer_output, desk;
 };
@@ -156,7 +156,7 @@ void pool_finish(struct pool *pool)
 
 /* ---- Tasks ---- */
 
-/* How many tasks a worker does in a short while. */
+/* The number of tasks that a worker does in WORK_AHEAD. */
 static size_t depth(const struct pool *pool)
 {
     double count = pool->task_time > 0.0 ? WORK_AHEAD / pool->task_time : 1.0;
@@ -174,7 +174,7 @@ void pool_give(struct pool *pool, struct pool_task task)
     ++pool->num_open;
 }
 
-/* The one with the least to do; of several one that runs already. */
+/* The worker with the fewest tasks; among equals one that runs already. */
 static struct pool_worker *find_worker(const struct pool *pool)
 {
     struct pool_worker *found = NULL;
@@ -188,7 +188,7 @@ static struct pool_worker *find_worker(const struct pool *pool)
 }
 
 /*
- * Gives what waits to workers. A pipe holds what is on its way to one: nobody waits for the other.
+ * Assigns waiting tasks to workers. Tasks on their way fit into a pipe, so neither side blocks.
  */
 static bool hand_out(struct pool *pool)
 {
@@ -216,7 +216,7 @@ static bool hand_out(struct pool *pool)
     return true;
 }
 
-/* Takes a task off a worker. */
+/* Removes a task from a worker's queue. */
 static struct pool_task take_task(struct pool *pool, struct pool_worker *worker, size_t index)
 {
     struct pool_task task = worker->queue[index];
@@ -236,7 +236,7 @@ static char *copy_body(const struct frame *frame)
     return copy ? memcpy(copy, frame->body, (size_t)frame->size + 1) : NULL;
 }
 
-/* An answer that was read. */
+/* Handles an answer. */
 static bool take_answer(struct pool *pool, struct pool_worker *worker, struct pool_answer *out)
 {
     struct frame frame;
@@ -260,9 +260,9 @@ static char *describe_end(const char *mark, int status)
 }
 
 /*
- * The worker's pipe ended: the task that it was at is blamed. Those before it are done, but the
- * answers were not written; they and those behind it wait again. Before it was ready, other workers
- * would not fare better.
+ * Handles the end of a worker's pipe: the current task gets the blame. Tasks before it are done,
+ * but without answers, so they and the tasks after it wait again. If the worker was not ready yet,
+ * other workers would fail too.
  */
 static bool answer_end(struct pool *pool, struct pool_worker *worker, struct pool_answer *out)
 {
@@ -300,11 +300,11 @@ static void end_late(struct pool *pool)
         if (!worker->num_tasks || worker->is_late || time <= deadline(pool, worker))
             continue;
         worker->is_late = true;
-        kill(worker->pid, SIGKILL); /* its pipe ends */
+        kill(worker->pid, SIGKILL); /* this ends its pipe */
     }
 }
 
-/* Waits for news of busy workers until the next deadline. */
+/* Waits for output of busy workers until the next deadline. */
 static bool poll_workers(const struct pool *pool, struct pollfd *polls)
 {
     double next = HUGE_VAL;
@@ -323,7 +323,7 @@ static bool poll_workers(const struct pool *pool, struct pollfd *polls)
     return count > 0;
 }
 
-/* What was read, then what can be read. */
+/* Handles buffered answers first, then reads more. */
 static bool find_answer(struct pool *pool, struct pollfd *polls, struct pool_answer *out)
 {
     for (size_t i = 0; i < pool->num_workers; ++i)

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Worker processes, each of which checks one document after the other. One that dies or does not
- * end in time is told of and replaced; what else it had to do is given to others. Workers start
- * when they are needed first.
+ * Worker processes, each of which checks one document after the other. If one dies or exceeds the
+ * time limit, the pool reports this, replaces the worker, and gives its other tasks to other
+ * workers. Workers start on first use.
  *
- * A worker has so many documents to do as it does in a short while: it need not wait for the next
- * one, and documents that take long wait for the worker that has time first.
+ * A worker's queue holds the documents that it can check in a short time. So it need not wait for
+ * the next one, and slow documents go to the first free worker.
  */
 #ifndef MXG_CHECK_POOL_H
 #define MXG_CHECK_POOL_H
@@ -16,46 +16,46 @@
 #include <stddef.h>
 
 struct pool_task {
-    const char *path; /* valid until it is answered */
+    const char *path; /* valid until the answer */
     uint32_t note;    /* enum task_note */
     size_t ticket;
 };
 
 struct pool {
-    char *const *argv; /* of a worker; the first is the program */
+    char *const *argv; /* command line of a worker; the program first */
     struct pool_worker *workers;
     size_t num_workers;
-    struct pool_task *waiting;    /* for a worker; the first is given next */
-    size_t num_waiting, num_open; /* tasks that are not answered, those that wait too */
-    double task_time;             /* of the last tasks, in seconds; 0: not known */
-    double time_limit;            /* seconds for a step of a document */
-    const char *fault;            /* workers cannot be started: why; nothing more can be done */
+    struct pool_task *waiting;    /* tasks for workers; the first is next */
+    size_t num_waiting, num_open; /* waiting, and without an answer */
+    double task_time;             /* mean of the last tasks, in seconds; 0: unknown */
+    double time_limit;            /* seconds per step of a document */
+    const char *fault;            /* the reason why workers cannot start; the pool is unusable */
     char reason[256];
 };
 
 struct pool_answer {
     size_t ticket;
-    char *record; /* to be freed; NULL: the worker died, or took too long */
+    char *record; /* the caller frees it; NULL: the worker died or exceeded the time limit */
     size_t size;
     enum check_stage failed; /* CHECK_CRASH or CHECK_TIMEOUT */
-    char *reason;            /* to be freed; why there is no record */
+    char *reason;            /* the caller frees it; why there is no record */
 };
 
-/* argv must live on. */
+/* The caller keeps argv alive. */
 void pool_init(struct pool *pool, char *const *argv, size_t num_workers, double time_limit);
 /* Ends all workers. */
 void pool_finish(struct pool *pool);
 
-/* How many tasks there may be at a time. */
+/* The maximum number of tasks at a time. */
 size_t pool_capacity(size_t num_workers);
 
-/* Whether more work would be done soon. */
+/* True if a worker would soon start another task. */
 bool pool_wants(const struct pool *pool);
 
-/* Where it wants work. */
+/* Adds a task; only valid if pool_wants. */
 void pool_give(struct pool *pool, struct pool_task task);
 
-/* Waits until a task is done. False: pool->fault says why. There must be one. */
+/* Waits for the end of a task; there must be one. False: pool->fault has the reason. */
 bool pool_wait(struct pool *pool, struct pool_answer *out);
 
 #endif

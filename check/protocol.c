@@ -14,8 +14,8 @@
 
 enum { FIRST_CAPACITY = 64 << 10, READ_SIZE = 32 << 10 };
 enum {
-    MAX_WAIT = 10000000 /* nanoseconds that an answer may lie about */,
-    MAX_LYING = 256 << 10 /* bytes of answers */
+    MAX_WAIT = 10000000 /* nanoseconds that an answer may wait in the buffer */,
+    MAX_LYING = 256 << 10 /* bytes of buffered answers */
 };
 
 struct frame_header {
@@ -24,7 +24,7 @@ struct frame_header {
 
 /* ---- Frames ---- */
 
-/* Room for `size` more bytes and a NUL behind them. */
+/* Reserves `size` more bytes and a NUL after them. */
 static void reserve(struct frame_stream *stream, size_t size)
 {
     if (stream->begin == stream->end)
@@ -117,7 +117,7 @@ char *desk_describe(const struct desk *desk)
                           : cli_format("%s", name);
 }
 
-/* Of a long text the beginning. */
+/* Copies the beginning of a text that may be too long. */
 static void put_text(char *to, size_t capacity, const char *text)
 {
     size_t len = strlen(text);
@@ -126,7 +126,7 @@ static void put_text(char *to, size_t capacity, const char *text)
     to[len] = '\0';
 }
 
-/* ---- A worker's end ---- */
+/* ---- The worker's side ---- */
 
 bool channel_open(struct channel *channel, int input, int output)
 {
@@ -171,7 +171,7 @@ void channel_answer(struct channel *channel, const void *record, size_t size)
 {
     uint64_t now = desk_clock(), microseconds = (now - channel->task_begin) / 1000;
     frame_put(&channel->answers, microseconds < UINT32_MAX ? (uint32_t)microseconds : UINT32_MAX,
-              record, size < UINT32_MAX ? size : 0); /* nothing is no record */
+              record, size < UINT32_MAX ? size : 0); /* too large: send none */
     if (!channel->oldest_answer)
         channel->oldest_answer = now;
     if (now - channel->oldest_answer > MAX_WAIT

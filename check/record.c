@@ -42,7 +42,7 @@ uint32_t check_add_message(struct store *store, struct check_document *document,
     return (uint32_t)document->num_messages++;
 }
 
-/* Appends a text that is not there yet; it must live in the store. */
+/* Appends a text if it is new; the text must live in the store. */
 static void add_once(struct store *store, const char ***texts, size_t *num_texts, const char *text)
 {
     for (size_t i = 0; i < *num_texts; ++i)
@@ -63,7 +63,7 @@ void check_add_image(struct store *store, struct check_document *document, const
              store_text(store, path, strlen(path)));
 }
 
-/* The part of a path that ends with its last '/'. */
+/* The length of a path up to its last '/'. */
 static size_t folder_length(const char *path)
 {
     const char *slash = strrchr(path, '/');

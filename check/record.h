@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * The outcome of a document. Workers make such records, the cache keeps them, and every report is
- * written from them. As text a record is one JSON object (docs/check.md).
+ * The outcome of a document. Workers make records, the cache stores them, and all reports come from
+ * them. As text a record is one JSON object (docs/check.md).
  */
 #ifndef MXG_CHECK_RECORD_H
 #define MXG_CHECK_RECORD_H
@@ -13,19 +13,19 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#define CHECK_FORMAT_VERSION 1 /* of records and reports in JSON */
+#define CHECK_FORMAT_VERSION 1 /* version of records and reports in JSON */
 
-/* Where something failed first, in order. */
+/* The stage of the first failure, in order. */
 #define CHECK_STAGES(X) \
-    X(PASSED, "passed")     /* nowhere */ \
-    X(LOAD, "load")         /* it is no document, or a part of it is missing */ \
-    X(VALIDATE, "validate") /* against the library */ \
+    X(PASSED, "passed")     /* no failure */ \
+    X(LOAD, "load")         /* the file is no document, or a part of it is missing */ \
+    X(VALIDATE, "validate") /* validation against the library */ \
     X(GENERATE, "generate") \
     X(COMPILE, "compile") \
     X(RENDER, "render") \
     X(BUDGET, "budget") \
     X(CRASH, "crash")     /* the program that checked it died */ \
-    X(TIMEOUT, "timeout") /* or did not end */
+    X(TIMEOUT, "timeout") /* or exceeded the time limit */
 
 enum check_stage {
 #define STAGE(name, text) CHECK_##name,
@@ -54,13 +54,13 @@ struct check_message {
     const char *id, *text;
     const char *file;              /* "": none */
     uint32_t line, column, length; /* 0: unknown */
-    const char *element, *target;  /* that it was met first for; "": the document */
-    const char *rendered;          /* as a compiler shows it, with notes and the source line */
+    const char *element, *target;  /* the first place of the message; "": the document */
+    const char *rendered; /* printed like a compiler message, with notes and the source line */
 };
 
 /*
- * What a shader has so much for: a function or node with its instructions, a node with its bytes of
- * uniforms, a texture.
+ * A part of a measure: a function or node with its instructions, a node with its bytes of uniforms,
+ * a texture.
  */
 struct check_part {
     enum measure measure;
@@ -72,12 +72,12 @@ struct check_part {
 struct check_shader {
     const char *target;
     enum check_stage failed;
-    bool compiled;        /* there was a compiler for the target */
-    const char *topology; /* hexadecimal; "" where nothing was generated, or in a brief record */
+    bool compiled;        /* the target has a compiler */
+    const char *topology; /* hexadecimal; "" without a shader, or in a brief record */
     uint64_t measures[NUM_MEASURES];
-    struct check_part *parts; /* of each measure the largest first; some are left out */
+    struct check_part *parts; /* per measure the largest parts, in order */
     size_t num_parts;
-    uint32_t *messages; /* indices into those of the document */
+    uint32_t *messages; /* indices of messages of the document */
     size_t num_messages;
     double generate_ms, compile_ms;
 };
@@ -86,13 +86,13 @@ struct check_element {
     const char *path, *type;
     struct check_shader *shaders;
     size_t num_shaders;
-    const char *picture;   /* a PNG in base64; "": none was drawn */
-    const char *signature; /* of the picture, see picture.h */
+    const char *picture;   /* a PNG in base64; "": none */
+    const char *signature; /* signature of the picture, see picture.h */
 };
 
-/* What differs from a baseline. */
+/* Differences from a baseline. */
 #define CHECK_CHANGES(X) \
-    X(FAILS, "fails") /* newly */ \
+    X(FAILS, "fails") /* a new failure */ \
     X(FIXED, "fixed") \
     X(TOPOLOGY, "topology") \
     X(SIZE, "size") \
@@ -116,30 +116,33 @@ struct check_change {
 };
 
 struct check_document {
-    uint64_t index; /* among all documents, those of other shards too */
+    uint64_t index; /* index among all documents, including other shards */
     const char *file;
     enum check_stage failed;
     struct check_message *messages; /* each once, in order of discovery */
     size_t num_messages;
-    const char **files; /* that were read, itself first */
+    const char **files; /* files that were read, the document first */
     size_t num_files;
-    /* of textures and of what is missing, with a '/' behind: the names in them matter */
+    /*
+     * folders of textures and of missing files, with a '/' at the end: the record depends on the
+     * names in them
+     */
     const char **folders;
     size_t num_folders;
-    /* that the pictures show, whether they are there or not: what is in them matters */
+    /* images in the pictures, existing or not: the record depends on their content */
     const char **images;
     size_t num_images;
     struct check_element *elements;
     size_t num_elements;
     double load_ms, validate_ms, render_ms;
-    struct check_change *changes; /* since the baseline */
+    struct check_change *changes; /* differences from the baseline */
     size_t num_changes;
 };
 
-/* The document's failure becomes that of the stage, unless it failed earlier. */
+/* Sets the stage of a failure, unless an earlier one is set. */
 void check_fail(enum check_stage *failed, enum check_stage stage);
 
-/* Whether two messages tell the same. */
+/* True if two messages are equal. */
 bool check_is_same_message(const struct check_message *a, const struct check_message *b);
 
 /* Appends a message; returns its index. */
@@ -147,13 +150,13 @@ uint32_t check_add_message(struct store *store, struct check_document *document,
                            const struct check_message *message);
 
 /*
- * Appends the folders that a file may lie in: beside the one that names it, and in the working
- * directory.
+ * Appends the folders that may contain a file: the folder of the file that names it, and the
+ * working directory.
  */
 void check_add_place(struct store *store, struct check_document *document, const char *from,
                      const char *file);
 
-/* Appends a file, or an image, once; the name is copied. */
+/* Appends a file or an image once and copies its name. */
 void check_add_file(struct store *store, struct check_document *document, const char *path);
 void check_add_image(struct store *store, struct check_document *document, const char *path);
 

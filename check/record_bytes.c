@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Records as bytes: numbers as the machine has them, texts with their length and a NUL behind them.
- * Nothing names the members, so both sides must be of one build.
+ * Records as bytes: numbers in the machine's form, texts with their length and a NUL after them.
+ * Members have no names, so both sides must come from one build.
  */
 #include "check/record_io.h"
 #include "cli/utf8.h"
@@ -12,7 +12,7 @@
 struct bytes_io {
     struct record_io io;
     char *data;
-    size_t at, size; /* of room, or of what there is to read */
+    size_t at, size; /* size of the buffer or of the input */
     bool failed;
 };
 
@@ -33,7 +33,7 @@ static bool make_room(struct bytes_io *bytes, size_t size)
 }
 
 /*
- * The next `size` bytes. NULL where there are not so many: then there will never be any.
+ * The next `size` bytes. NULL if there are fewer; then later calls fail too.
  */
 static char *claim(struct bytes_io *bytes, size_t size)
 {
@@ -114,7 +114,7 @@ static void write_time(struct record_io *io, const char *key, double *millisecon
     plain(io, milliseconds, sizeof *milliseconds);
 }
 
-/* Each item has a byte at least. */
+/* Each item has at least one byte. */
 static size_t begin_array(struct record_io *io, const char *key, size_t num)
 {
     struct bytes_io *bytes = self(io);
@@ -155,7 +155,7 @@ static const struct record_coding coding = {
 void record_to_bytes(struct record_bytes *out, const struct check_document *document)
 {
     struct bytes_io bytes = {{.coding = &coding}, out->data, .size = out->capacity};
-    struct check_document copy = *document; /* arrays stay as they are */
+    struct check_document copy = *document; /* the arrays are shared */
     record_members(&bytes.io, &copy);
     *out = (struct record_bytes){bytes.data, bytes.failed ? 0 : bytes.at, bytes.size};
 }

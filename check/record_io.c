@@ -13,7 +13,10 @@ static void small_count(struct record_io *io, const char *key, uint32_t *value)
     *value = count > UINT32_MAX ? UINT32_MAX : (uint32_t)count;
 }
 
-/* Begins an array; returns its items: those that were given, or room for those to be read. */
+/*
+ * Begins an array; returns its items: the given items when writing, memory for new ones when
+ * reading.
+ */
 static void *begin_array(struct record_io *io, const char *key, void *items, size_t *num,
                          size_t item_size)
 {
@@ -45,7 +48,7 @@ static void texts(struct record_io *io, const char *key, bool is_required, const
     io->coding->end_array(io, key, is_required);
 }
 
-/* "status" and, of what failed, "stage". */
+/* "status", and for failures "stage". */
 static void outcome(struct record_io *io, enum check_stage *failed)
 {
     static const char *const statuses[] = {"passed", "failed"};
@@ -55,7 +58,7 @@ static void outcome(struct record_io *io, enum check_stage *failed)
     }
     *failed = (enum check_stage)io->coding->name(io, "stage", *failed, check_stage_names,
                                                  NUM_CHECK_STAGES);
-    if (*failed == CHECK_PASSED) /* of no name that is known */
+    if (*failed == CHECK_PASSED) /* an unknown name */
         *failed = CHECK_LOAD;
 }
 
@@ -116,7 +119,7 @@ static void change(struct record_io *io, void *item)
     text(io, "text", &change->text);
 }
 
-/* Takes out indices that are of no message. */
+/* Removes message indices that are out of range. */
 static void drop_bad_indices(struct check_shader *shader, size_t num_messages)
 {
     size_t kept = 0;

@@ -6,15 +6,15 @@
 #include <math.h>
 #include <string.h>
 
-enum { MAX_DEPTH = 8 }; /* of arrays and objects in a record */
+enum { MAX_DEPTH = 8 }; /* depth of arrays and objects in a record */
 
 struct json_io {
     struct record_io io;
     bool with_times;
-    /* the arrays and objects that are open; the last is at hand */
+    /* the open arrays and objects; the last is the current one */
     struct {
         json_t *value;
-        size_t num_read; /* items of an array */
+        size_t num_read; /* number of items read */
     } open[MAX_DEPTH];
     unsigned depth;
 };
@@ -75,7 +75,7 @@ static void count(struct record_io *io, const char *key, uint64_t *value)
 {
     if (io->store) {
         const json_t *read = get(io, key);
-        /* what is no count is no index of an item either */
+        /* any other value is no valid index either */
         *value = json_is_integer(read) && json_integer_value(read) >= 0
                      ? (uint64_t)json_integer_value(read)
                  : key ? 0
@@ -187,7 +187,7 @@ static const struct record_coding coding = {
 json_t *record_to_json(const struct check_document *document, bool with_times)
 {
     struct json_io json = {.io = {.coding = &coding}, .with_times = with_times};
-    struct check_document copy = *document; /* arrays stay as they are */
+    struct check_document copy = *document; /* the arrays are shared */
     json_t *object = json_object();
     enter(&json.io, object);
     put(&json.io, "index", json_integer((json_int_t)document->index));

@@ -23,8 +23,8 @@ static int next_char(FILE *in)
 }
 
 /*
- * Reads the report up to the documents, without white space, and closes what is open then: JSON of
- * its own. False: there are no documents.
+ * Reads the report up to the documents, without white space, and closes the open braces, so that
+ * the text is complete JSON. False: there are no documents.
  */
 static bool read_header(FILE *in, char *text)
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Reports. Each kind is told of the documents one by one, in order, writes what it has to say at
- * once and keeps nothing of them: memory does not grow with their number.
+ * Reports. Each kind receives the documents one by one, in order, writes its output at once and
+ * keeps no document, so memory does not grow with their number.
  */
 #ifndef MXG_CHECK_SINK_H
 #define MXG_CHECK_SINK_H
@@ -15,26 +15,29 @@ enum { MAX_TARGETS = 16, MAX_SHARDS = 1000000 };
 /* Sums over all documents. */
 struct check_totals {
     uint64_t documents, empty /* no elements */, elements, shaders, errors, warnings, cached;
-    /* documents, by the stage; at CHECK_PASSED those that passed */
+    /* documents by stage; at CHECK_PASSED: documents that passed */
     uint64_t failed[NUM_CHECK_STAGES];
-    /* since a baseline: documents with such a change; CHANGE_GONE: those that are not there too */
+    /*
+     * differences from a baseline: documents with such a change; CHANGE_GONE includes documents
+     * that the run lacks
+     */
     uint64_t changes[NUM_CHECK_CHANGES];
-    const char *uncompiled[MAX_TARGETS]; /* targets that there is no compiler for */
+    const char *uncompiled[MAX_TARGETS]; /* targets without a compiler */
     size_t num_uncompiled;
-    double load_ms, validate_ms, generate_ms, compile_ms, render_ms; /* of all workers */
+    double load_ms, validate_ms, generate_ms, compile_ms, render_ms; /* sums over all workers */
 };
 
-/* What all reports are about. */
+/* Facts about the run, for all reports. */
 struct check_run {
     const char *const *targets;
     size_t num_targets;
     bool quiet, verbose, compiles;
-    bool is_compared;           /* with a baseline */
-    bool with_times;            /* reports tell times, which differ from run to run */
-    uint64_t shard, num_shards; /* from 1; 0: this is all */
-    const char *outputs[8];     /* the reports that are written to files */
+    bool is_compared;           /* the run compares with a baseline */
+    bool with_times;            /* reports include times, which differ from run to run */
+    uint64_t shard, num_shards; /* from 1; 0: the run has no shards */
+    const char *outputs[8];     /* names of the report files */
     size_t num_outputs;
-    /* files that were read for the run as a whole: libraries, lists, the baseline */
+    /* files that the whole run depends on: libraries, lists, the baseline */
     struct arg_list inputs;
 };
 
@@ -42,9 +45,9 @@ struct sink {
     const struct sink_kind *kind;
     const struct check_run *run;
     struct files_stream stream;
-    FILE *out; /* of the stream */
+    FILE *out; /* the file of the report */
     uint64_t num_documents;
-    void *state; /* of the kind; freed by its end */
+    void *state; /* private state; `end` frees it */
 };
 
 struct sink_kind {
@@ -54,7 +57,10 @@ struct sink_kind {
     void (*end)(struct sink *sink, const struct check_totals *totals);
 };
 
-/* All kinds that write files; text is always written. What a depfile is about comes before it. */
+/*
+ * The kinds that write files; the text report always exists. The depfile is last because it names
+ * the others.
+ */
 enum { SINK_JSON, SINK_SARIF, SINK_JUNIT, SINK_HTML, SINK_DEPFILE, SINK_BASELINE, NUM_SINK_KINDS };
 extern const struct sink_kind *const sink_kinds[NUM_SINK_KINDS];
 extern const struct sink_kind sink_text, sink_json, sink_sarif, sink_junit, sink_html, sink_depfile,

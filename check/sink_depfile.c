@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * --depfile: "reports: files", for make and ninja, so that the check runs again when something it
- * read has changed.
+ * --depfile: "reports: files", for make and ninja, so that they repeat the check when one of its
+ * files changes.
  */
 #include "check/sink.h"
 
@@ -21,7 +21,7 @@ static void put_input(struct sink *sink, const char *path)
     files_put_make_name(sink->out, path);
 }
 
-/* An image that is not there is nothing that a rule could wait for. */
+/* Omits missing images, because a rule cannot depend on them. */
 static void write_document(struct sink *sink, const struct check_document *document)
 {
     for (size_t i = 0; i < document->num_files; ++i)

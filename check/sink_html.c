@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * --html: a gallery in one page that needs nothing but itself, to look through, filter and sort. It
- * is well-formed XML too. gallery.js moves and hides the cards; without it the page is a page.
+ * --html: a gallery in one self-contained page, with filters and sorting. The page is well-formed
+ * XML too. gallery.js sorts and hides the cards; without it the page shows all of them.
  */
 #include "check/sink.h"
 #include "cli/markup.h"
@@ -48,13 +48,13 @@ static const char *stage_of(const struct check_document *document,
     enum check_stage failed = CHECK_PASSED;
     for (size_t i = 0; element && i < element->num_shaders; ++i)
         check_fail(&failed, element->shaders[i].failed);
-    /* a fault of the document is one of all its elements */
+    /* a fault of the document counts for all its elements */
     check_fail(&failed,
                element && document->failed > CHECK_VALIDATE ? CHECK_PASSED : document->failed);
     return check_stage_names[failed];
 }
 
-/* A change of the document is one of all its elements. */
+/* A change of the document counts for all its elements. */
 static bool is_change_of(const struct check_change *change, const struct check_element *element)
 {
     return !element || !*change->element || strcmp(change->element, element->path) == 0;
@@ -127,7 +127,7 @@ static void write_table(FILE *out, const struct check_element *element)
     fputs("</table>", out);
 }
 
-/* Messages of the document itself stand on every card, those of elements on their own. */
+/* Messages of the document stand on every card, messages of an element on its own card. */
 static bool is_about(const struct check_message *message, const struct check_element *element)
 {
     return !element || !*message->element || strcmp(message->element, element->path) == 0;

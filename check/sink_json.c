@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * --json: everything, with a document on each line (docs/check.md, docs/check.schema.json). The
- * report is one object, whose members are written as they come.
+ * --json: all data, with one document per line (docs/check.md, docs/check.schema.json). The report
+ * is one object, and the sink writes its members as they arrive.
  */
 #include "check/json.h"
 #include "check/record_io.h"
@@ -43,7 +43,7 @@ static void write_document(struct sink *sink, const struct check_document *docum
     json_decref(record);
 }
 
-/* An object with the counts that are not 0, by their names. */
+/* An object with the nonzero counts, by their names. */
 static json_t *make_counts(const char *const *names, const uint64_t *counts, size_t num)
 {
     json_t *object = json_object();
@@ -71,8 +71,8 @@ static void end(struct sink *sink, const struct check_totals *totals)
 }
 
 /*
- * A baseline: the same without pictures, of which signatures are enough, and without what came of a
- * comparison.
+ * A baseline: a report without pictures, because their signatures are enough, and without the
+ * results of a comparison.
  */
 static void write_plain(struct sink *sink, const struct check_document *document)
 {

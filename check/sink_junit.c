@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * --junit: a suite for each document, a case for itself and for each element and target, as CI
- * servers show them.
+ * --junit: one suite per document, with one case for the document and one per element and target,
+ * in the form that CI servers show.
  */
 #include "check/sink.h"
 #include "cli/markup.h"
@@ -44,7 +44,7 @@ static void begin_case(struct sink *sink, const struct check_document *document,
         fprintf(sink->out, " time=\"%.3f\"", ms / 1e3);
 }
 
-/* The document itself: failed where it, or the whole of it, did. */
+/* The case of the document: it fails if the document, or its worker, failed. */
 static void write_document_case(struct sink *sink, const struct check_document *document)
 {
     const struct check_message *first = NULL;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * --sarif: the messages, for code review tools. OASIS SARIF 2.1.0; section numbers below are its
- * own.
+ * --sarif: the messages, for code review tools. OASIS SARIF 2.1.0; section numbers below refer to
+ * it.
  */
 #include "check/json.h"
 #include "check/sink.h"
@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The ids that were met, for the list of rules. */
+/* The message ids so far, for the list of rules. */
 struct sarif_state {
     struct store store;
     const char **ids;
@@ -50,7 +50,7 @@ static char *uri_of(struct store *store, const char *path)
     return uri;
 }
 
-/* Section 3.27.12; the end of a region is the column behind it (3.30.8). */
+/* Section 3.27.12; a region ends at the column after its last character (3.30.8). */
 static json_t *make_location(const struct check_message *message)
 {
     struct store store = {0};
@@ -90,7 +90,7 @@ static void write_document(struct sink *sink, const struct check_document *docum
         write_result(sink, &document->messages[i]);
 }
 
-/* The cause and the cure that 'mxgen explain' gives (3.49). */
+/* The cause and the cure from 'mxgen explain' (3.49). */
 static json_t *make_rule(const char *id)
 {
     mxg_diagnostic_kind kind = {sizeof kind};

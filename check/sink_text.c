@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * For people: what failed and why, and a summary at the end. With --stats also what is slow and
- * what is large.
+ * The report for people: failures with their reasons, and a summary at the end. --stats adds the
+ * slowest and the largest.
  */
 #include "check/sink.h"
 
@@ -11,7 +11,7 @@
 
 enum { NUM_TOP = 10 };
 
-/* The largest by one measure, kept in order. */
+/* The largest items by one measure, in order. */
 struct top {
     struct top_row {
         double value;
@@ -62,8 +62,7 @@ static void print_top(FILE *out, struct top *top, const char *title, const char 
 }
 
 /*
- * Time is that of the document; size that of a shader: instructions, or bytes where nothing was
- * compiled.
+ * Times belong to documents, sizes to shaders: instructions, or bytes if nothing was compiled.
  */
 static void rank_document(struct text_state *state, const struct check_document *document)
 {
@@ -90,7 +89,7 @@ static bool has_warning(const struct check_document *document)
     return false;
 }
 
-/* "topology: 'Gold', glsl: another shader: …" */
+/* Prints lines such as "topology: 'Gold', glsl: another shader: …". */
 static void print_changes(FILE *out, const struct check_document *document)
 {
     for (size_t i = 0; i < document->num_changes; ++i) {

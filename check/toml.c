@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * mxgen.toml. Of TOML 1.0 it reads comments, tables and keys with whole numbers, which is all that
- * a budget is made of:
+ * mxgen.toml. The reader supports the part of TOML 1.0 that budgets need: comments, tables and keys
+ * with whole numbers:
  *
  *     [budget]
  *     max-instructions = 3_000
  *     [budget.essl]
  *     max-instructions = 2_000
  *
- * Other tables are somebody else's, and passed over.
+ * The reader skips tables of other programs.
  */
 #include "check/budget.h"
 #include "cli/cli.h"
@@ -22,8 +22,8 @@ struct toml {
     struct store *store;
     const char *path;
     uint32_t line;
-    bool is_ours;       /* the table at hand */
-    const char *target; /* that it is about; "": all */
+    bool is_ours;       /* the current table is a budget */
+    const char *target; /* target of the table; "": all */
     struct budget_rules *rules;
     struct check_message *fault;
 };
@@ -55,7 +55,7 @@ static bool is_target(const char *name)
     return false;
 }
 
-/* Behind '[', which a line begins with. */
+/* Reads the rest of a line that begins with '['. */
 static void read_table(struct toml *toml, char *text)
 {
     size_t len = strlen(TABLE);
@@ -118,7 +118,7 @@ static void read_key(struct toml *toml, char *text)
 
 static void read_line(struct toml *toml, char *text)
 {
-    text[strcspn(text, "#\r")] = '\0'; /* no string that is read here has one inside */
+    text[strcspn(text, "#\r")] = '\0'; /* values are no strings */
     for (size_t len = strlen(text); len && (text[len - 1] == ' ' || text[len - 1] == '\t');)
         text[--len] = '\0';
     text += strspn(text, " \t");

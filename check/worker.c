@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * mxgen-check: a worker of `mxgen check`, which starts several of them and gives each one document
- * after the other (check/protocol.h). It is a program of its own so that what goes wrong in a
- * document, or in a compiler, ends nothing but its check, and so that plain generation pays nothing
- * for compilers.
+ * mxgen-check: a worker of `mxgen check`, which starts several of them and sends each one document
+ * after the other (check/protocol.h). It is a separate program for two reasons: a crash in a
+ * document or a compiler ends only one check, and plain generation does not load compilers.
  */
 #define _POSIX_C_SOURCE 200809L
 #include "check/examine.h"
@@ -15,8 +14,7 @@
 #include <unistd.h>
 
 /*
- * What compilers print must not mix with the frames: standard output becomes another name of
- * stderr.
+ * Output of compilers must not mix with the frames, so standard output becomes a copy of stderr.
  */
 static int take_output(void)
 {
@@ -26,8 +24,8 @@ static int take_output(void)
 }
 
 /*
- * One document follows another: what the first needed the next one needs again, and the system need
- * not clear it anew.
+ * Keeps freed memory in the process: the next document needs it again, and the system need not
+ * clear it.
  */
 static void keep_memory(void)
 {

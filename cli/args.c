@@ -11,7 +11,7 @@
 
 static void *grow(void *items, size_t len, size_t item_size)
 {
-    if (len & (len - 1)) /* room doubles at powers of two */
+    if (len & (len - 1)) /* the capacity doubles at powers of two */
         return items;
     return memory_resize(items, (len ? len * 2 : 1) * item_size);
 }
@@ -65,12 +65,12 @@ void args_finish(struct arg_parser *parser)
     free(parser->settings);
 }
 
-/* An option as written: "--name=value" or "-n". */
+/* An option on the command line: "--name=value" or "-n". */
 struct written {
     const char *text;  /* the whole argument */
-    const char *name;  /* behind the dashes */
-    size_t len;        /* of the name */
-    const char *value; /* behind '='; NULL */
+    const char *name;  /* after the dashes */
+    size_t len;        /* length of the name */
+    const char *value; /* after '='; NULL: none */
     bool is_letter;
 };
 
@@ -79,7 +79,7 @@ static bool name_is(const struct written *option, const char *name)
     return strlen(name) == option->len && memcmp(name, option->name, option->len) == 0;
 }
 
-/* "--no-key" is the flag "key" switched off. */
+/* "--no-key" switches the flag "key" off. */
 static bool strip_no(struct written *option)
 {
     if (option->is_letter || option->len < 4 || memcmp(option->name, "no-", 3) != 0)
@@ -136,7 +136,7 @@ static size_t edit_distance(const char *a, const char *b)
 
 const char *args_closest(const char *word, const char *const *candidates, size_t num_candidates)
 {
-    /* a third of the letters may be wrong, and one more */
+    /* a third of the letters may differ, and one more */
     size_t best_distance = strlen(word) / 3 + 2;
     const char *best = NULL;
     for (size_t i = 0; i < num_candidates; ++i) {
@@ -195,8 +195,8 @@ static bool store(const struct arg *arg, const struct written *option, const cha
 }
 
 /*
- * Whether the option is a flag, with or without "no-". `known` is a generation option where `arg`
- * is NULL.
+ * True if the option is a flag, with or without "no-". `known` is a generation option if `arg` is
+ * NULL.
  */
 static bool parse_flag(struct arg_parser *parser, const struct arg *arg, const mxg_option *known,
                        const struct written *option, bool on)
@@ -215,7 +215,7 @@ static bool parse_flag(struct arg_parser *parser, const struct arg *arg, const m
     return true;
 }
 
-/* One option; *index moves on where its value is the next argument. */
+/* Parses one option; *index advances if its value is the next argument. */
 static bool parse_option(struct arg_parser *parser, struct written option, int argc, char **argv,
                          int *index)
 {

@@ -10,10 +10,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define MAX_ARGS 48   /* of a command, the common ones included */
-#define MAX_ERRORS 20 /* of a document, unless said */
+#define MAX_ARGS 48   /* options of a command, including the common ones */
+#define MAX_ERRORS 20 /* default limit per document */
 
-/* The options that every command has, written behind the command's own. */
+/* Adds the options that every command has after the command's own. */
 static size_t add_common_args(struct cli *cli, struct arg *table)
 {
     const struct arg common[] = {
@@ -63,7 +63,7 @@ static size_t add_common_args(struct cli *cli, struct arg *table)
     return sizeof common / sizeof *common;
 }
 
-/* True where the arguments ask for a text only. */
+/* True if the arguments request only help or the version; prints it. */
 static bool answer_help(const struct cli *cli, const struct command *command, int *out_exit)
 {
     if (cli->help)
@@ -118,7 +118,7 @@ static bool load_library(struct cli *cli)
     return report_status(&cli->report, status);
 }
 
-/* Bad values are bad usage: the option's own words say why. */
+/* Invalid values are bad usage; the message of the option gives the reason. */
 static bool apply_settings(struct cli *cli)
 {
     for (size_t i = 0; i < cli->parser.num_settings; ++i) {
@@ -243,7 +243,9 @@ mxg_document *cli_load(struct cli *cli, const char *path)
     if (document)
         report_list(&cli->report, mxg_document_diagnostics(document));
     bool good = report_status(&cli->report, status);
-    /* Errors of one part, a missing include among them, leave the others. */
+    /*
+     * Errors in one part, such as a missing include, do not prevent the generation of other parts.
+     */
     if (good || mxg_document_num_renderables(document))
         return document;
     mxg_document_destroy(document);
@@ -253,8 +255,8 @@ mxg_document *cli_load(struct cli *cli, const char *path)
 char *cli_file_name(const char *element_path)
 {
     /*
-     * File systems take 255 bytes: of a longer name the end is replaced by a hash of the whole, so
-     * that names stay different.
+     * File systems allow names of 255 bytes. In a longer name a hash of the whole name replaces the
+     * end, so that names stay distinct.
      */
     enum { MAX_NAME = 200 };
     unsigned hash = (unsigned)cli_hash(CLI_HASH_OF_NOTHING, element_path);

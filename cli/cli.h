@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * What the commands share: their common options, and the objects of the library made from them.
- * Everything stands on mxgen.h.
+ * Code that the commands share: their common options, and the library objects for them. It uses
+ * only mxgen.h.
  *
- * Exit codes: 0 everything asked for was done, 1 errors in the input or while writing, 2 bad usage.
+ * Exit codes: 0 success, 1 errors in the input or while writing, 2 bad usage.
  */
 #ifndef MXG_CLI_CLI_H
 #define MXG_CLI_CLI_H
@@ -13,7 +13,7 @@
 
 #include <mxgen/mxgen.h>
 
-/* What a document of standard input is called. */
+/* The name of the document from standard input. */
 #define CLI_STDIN_NAME "<stdin>"
 
 enum exit_code { EXIT_DONE = 0, EXIT_FAULT = 1, EXIT_USAGE = 2 };
@@ -25,15 +25,14 @@ struct command {
     const char *usage; /* "FILE... [--target T] [options]" */
     const char *brief;
     int (*run)(const struct command *command, int argc, char **argv);
-    struct help_book
-        *book; /* that its options are added to, and nothing else is done; NULL: none */
+    struct help_book *book; /* the command only adds its options; NULL: none */
 };
 
 struct cli {
     struct arg_parser parser;
     struct arg_list library_paths;
     bool quiet, verbose, version, no_builtin_library;
-    const char *help;         /* the word behind --help; NULL: help is not asked for */
+    const char *help;         /* the word after --help; NULL: no --help */
     struct arg_list warnings; /* words of -W */
     struct arg_list include_roots;
     bool trust, sandbox;
@@ -43,26 +42,28 @@ struct cli {
     struct report report;
     mxg_context *context;
     mxg_library *library;
-    mxg_options *options; /* of generation */
+    mxg_options *options; /* options of generation */
 };
 
-/* What a command wants besides its own table of options. */
+/* Parts that a command needs besides its own table of options. */
 enum cli_wants {
     CLI_GENERATES = 1,
     CLI_NEEDS_INPUT = 2,
-    CLI_LIBRARY_IS_INPUT = 4 /* loads none by itself */
+    CLI_LIBRARY_IS_INPUT = 4 /* the command loads no library */
 };
 
 /*
- * Parses the arguments and makes context, library and options. False: the command ends with
- * *out_exit, after --help or an error. cli_finish must follow in both cases.
+ * Parses the arguments and makes context, library and options. False, after --help or an error: the
+ * command ends with *out_exit. Call cli_finish in both cases.
  */
 bool cli_start(struct cli *cli, const struct command *command, const struct arg *args,
                size_t num_args, unsigned wants, int argc, char **argv, int *out_exit);
 void cli_finish(struct cli *cli);
 
-/* Appends the arguments that give another of our programs the same library, limits and options of
- * generation, and let it print errors only. The items are to be freed. */
+/*
+ * Appends the arguments that give another mxgen program the same library, limits and options of
+ * generation, and make it print only errors. The caller frees the items.
+ */
 void cli_forward(struct cli *cli, struct arg_list *args);
 
 /*
@@ -74,26 +75,26 @@ mxg_document *cli_load(struct cli *cli, const char *path);
 /* The target by its name, or by MaterialX's; prints that there is none, and which there are. */
 bool cli_find_target(const char *name, size_t len, mxg_target *out);
 
-/* What a file of an element is called: its path with dots. To be freed. */
+/* The file name for an element: its path with dots. The caller frees it. */
 char *cli_file_name(const char *element_path);
 
-/* Another of our programs: its path beside this one, else its name, for PATH. To be freed. */
+/* Another mxgen program: its path beside this one, else its name, for PATH. The caller frees it. */
 char *cli_program(const char *name);
 
-/* Formats into new memory, to be freed; ends the program where there is none. */
+/* Formats into new memory, which the caller frees; ends the program if memory is exhausted. */
 #if defined(__GNUC__)
 __attribute__((format(printf, 1, 2)))
 #endif
 char *
 cli_format(const char *format, ...);
 
-/* FNV-1a of a text and of what was hashed before, at first CLI_HASH_OF_NOTHING. */
+/* FNV-1a of a text and of the previous hash; the first is CLI_HASH_OF_NOTHING. */
 #define CLI_HASH_OF_NOTHING 0xcbf29ce484222325u
 uint64_t cli_hash(uint64_t hash, const char *text);
 
 /*
- * A copy of `len` bytes with a NUL behind them, to be freed; ends the program where there is no
- * memory.
+ * A copy of `len` bytes with a NUL after them, which the caller frees; ends the program if memory
+ * is exhausted.
  */
 char *cli_copy(const char *text, size_t len);
 

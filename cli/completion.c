@@ -5,7 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Calls `put` for each option of a chapter, then for each option of generation that it has. */
+/*
+ * Calls `put` for each option of a chapter, then for each option of generation if the command has
+ * them.
+ */
 static void for_each(const struct help_chapter *chapter, FILE *out,
                      void (*put)(const struct help_chapter *chapter, const struct arg *arg,
                                  FILE *out))
@@ -30,7 +33,7 @@ static bool takes_file(const struct arg *arg)
                || strstr(arg->value, "PATH"));
 }
 
-/* The names of all targets, to be freed. */
+/* The names of all targets; the caller frees the text. */
 static char *target_names(void)
 {
     char *names = cli_format("%s", "");
@@ -44,7 +47,10 @@ static char *target_names(void)
     return names;
 }
 
-/* The words that an option takes, with spaces between, to be freed; NULL where it takes any. */
+/*
+ * The values of an option, separated by spaces; the caller frees the text. NULL if any value is
+ * allowed.
+ */
 static char *values_of(const struct arg *arg)
 {
     if (!takes_value(arg))
@@ -161,7 +167,7 @@ static void put_zsh(const struct help_book *book, FILE *out)
     fputs("    )\n    if (( CURRENT == 2 )); then _describe command commands; fi\n"
           "    case $words[2] in\n",
           out);
-    for (size_t i = book->len; i-- > 0;) { /* the first is what is done without a command */
+    for (size_t i = book->len; i-- > 0;) { /* the first chapter is the default without a command */
         fprintf(out, i ? "    %s) _arguments \\\n" : "    *) _arguments \\\n",
                 book->chapters[i].command.name);
         for_each(&book->chapters[i], out, put_zsh_option);

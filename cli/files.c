@@ -11,7 +11,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* Reads to the end of fd; the size that fstat told is only a hint, since pipes have none. */
+/* Reads to the end of fd; the size from fstat is only a hint, because pipes have none. */
 static char *read_all(int fd, size_t hint, size_t *out_size)
 {
     size_t capacity = hint + 2, size = 0;
@@ -54,7 +54,7 @@ char *files_read(const char *path, size_t *out_size)
     return data;
 }
 
-/* Writes all of it and closes; 0 or errno. Some file systems report a full disk at close only. */
+/* Writes all bytes and closes; 0 or errno. Some file systems report a full disk only at close. */
 static int write_all(int fd, const char *data, size_t size)
 {
     int reason = 0;
@@ -106,7 +106,7 @@ const char *files_write(const char *path, const void *data, size_t size)
     return reason ? strerror(reason) : NULL;
 }
 
-/* Opens what the stream writes to; 0 or errno. */
+/* Opens the file of the stream; 0 or errno. */
 static int open_stream(struct files_stream *stream, const char *path)
 {
     struct stat info;

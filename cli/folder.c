@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MAX_DEPTH = 32 }; /* of folders in folders: links may go in circles */
+enum { MAX_DEPTH = 32 }; /* depth of nested folders, because links can form cycles */
 
 static const char *find_below(const char *folder, const char *ending, int depth,
                               struct arg_list *out)

@@ -5,8 +5,8 @@
 #include "cli/args.h"
 
 /*
- * Appends the files of a folder and the folders below it whose names end so, sorted by name; each
- * is to be freed. What is hidden is left out. Returns NULL, or why it failed.
+ * Appends the files below a folder whose names have this ending, sorted by name; the caller frees
+ * each. Skips hidden files. Returns NULL, or the reason for a failure.
  */
 const char *folder_find(const char *folder, const char *ending, struct arg_list *out);
 

@@ -13,14 +13,14 @@ struct generate {
     const char *target, *folder, *depfile;
     struct arg_list elements; /* empty: every renderable */
     bool to_stdout, reflect;
-    bool several; /* input files: each gets a folder of its own */
+    bool several; /* several input files: each gets its own folder */
 
     mxg_target target_info;
     struct arg_list outputs, sources; /* for the depfile; items are allocated */
-    struct arg_list folders;          /* of several inputs */
+    struct arg_list folders;          /* output folders of several inputs */
 };
 
-/* Writes one file of an element, "<folder>/<element>.<suffix>", or prints it below its name. */
+/* Writes one file of an element, "<folder>/<element>.<suffix>", or prints it after its name. */
 static void write_file(struct generate *gen, const char *folder, const char *element,
                        const char *suffix, const char *text, size_t size)
 {
@@ -52,8 +52,7 @@ static bool is_written(const struct generate *gen, const char *folder, const cha
 }
 
 /*
- * The lists of a network's layers, and the shaders that they are of, of which other elements may
- * have some, too.
+ * Writes the lists of a network's layers, and their shaders, which other elements may share.
  */
 static void write_network(struct generate *gen, const char *folder, const char *element,
                           const mxg_result *result)
@@ -121,7 +120,7 @@ static void generate_element(struct generate *gen, const mxg_document *document,
     if (result)
         report_list(&gen->cli.report, mxg_result_diagnostics(result));
     if (report_status(&gen->cli.report, status)) {
-        /* the path; the hash would have to be made */
+        /* only the path; computing the topology hash is expensive */
         mxg_shader_info info = {offsetof(mxg_shader_info, topology)};
         mxg_result_info(result, &info);
         write_result(gen, folder, info.path, result);
@@ -131,7 +130,7 @@ static void generate_element(struct generate *gen, const mxg_document *document,
     mxg_result_destroy(result);
 }
 
-/* A look is asked for its materials. */
+/* Generates the elements of the arguments; a look means its materials. */
 static void generate_asked(struct generate *gen, const mxg_document *document, const char *folder,
                            const char *path)
 {
@@ -156,11 +155,11 @@ static void generate_elements(struct generate *gen, const mxg_document *document
         mxg_document_renderable(document, i, &renderable);
         generate_element(gen, document, folder, renderable.path);
     }
-    if (count == 0) /* generation says what is missing */
+    if (count == 0) /* generation reports the missing material */
         generate_element(gen, document, folder, NULL);
 }
 
-/* The folder that an input's files go to, which is made; to be freed. NULL after an error. */
+/* Makes the output folder of an input; the caller frees its name. NULL after an error. */
 static char *output_folder(struct generate *gen, const char *input)
 {
     const char *base = strcmp(input, "-") == 0 ? "stdin" : files_base_name(input);
@@ -201,7 +200,7 @@ static void generate_file(struct generate *gen, const char *input)
     mxg_document_destroy(document);
 }
 
-/* "out1 out2: in1 in2": what make and ninja need to know when to run again. */
+/* "out1 out2: in1 in2": the dependencies for make and ninja. */
 static void write_depfile(struct generate *gen)
 {
     struct files_stream stream;

@@ -8,7 +8,7 @@
 
 enum { TEXT_COLUMN = 33, LAST_COLUMN = 100 };
 
-/* Writes words from the column of texts on, over as many lines as they need. */
+/* Writes words in the text column, over as many lines as needed. */
 static void print_wrapped(const char *text, FILE *out)
 {
     for (size_t column = TEXT_COLUMN; *text; text += strspn(text, " ")) {
@@ -36,7 +36,7 @@ static void print_row(const struct arg *arg, FILE *out)
     free(left);
 }
 
-/* False where the table has no option of the group. */
+/* False if the table has no option of the group. */
 static bool print_group(const struct arg_parser *parser, enum arg_group group, const char *title)
 {
     bool any = false;

@@ -8,7 +8,9 @@
 
 #include "cli/cli.h"
 
-/* Prints usage and options of a command; `word` follows --help: "" or "all". False: it is neither.
+/*
+ * Prints usage and options of a command; `word` is the word after --help: "" or "all". False for
+ * any other word.
  */
 bool help_print(const struct command *command, const struct arg_parser *parser, const char *word);
 
@@ -17,7 +19,7 @@ struct help_chapter {
     struct command command;
     struct arg *args;
     size_t num_args;
-    bool generation; /* it has the options of generation */
+    bool generation; /* the command has the options of generation */
 };
 
 struct help_book {
@@ -29,13 +31,13 @@ void help_add(struct help_book *book, const struct command *command,
               const struct arg_parser *parser);
 void help_finish(struct help_book *book);
 
-/* An option of generation as one of the table: "N", "a|b" or "TEXT" stands for its value. */
+/* A generation option as an entry of the table: "N", "a|b" or "TEXT" stands for its value. */
 struct arg help_generation_arg(uint32_t index);
 
-/* man.c: a page in the macros of man(7). */
+/* man.c: a page with the macros of man(7). */
 void help_write_man(const struct help_book *book, FILE *out);
 
-/* completion.c: for "bash", "zsh" or "fish"; false: for no other shell. */
+/* completion.c: for "bash", "zsh" or "fish"; false for any other shell. */
 bool help_write_completion(const struct help_book *book, const char *shell, FILE *out);
 
 #endif

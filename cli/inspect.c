@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* mxgen inspect: what the compiler sees at each stage, as text. */
+/* mxgen inspect: the state of the compiler after each stage, as text. */
 #include "cli/cli.h"
 
 #include <string.h>
@@ -29,7 +29,7 @@ static bool print_view(struct cli *cli, const mxg_document *document, const stru
     return report_status(&cli->report, status);
 }
 
-/* Every view that was asked for; the elements where none was. */
+/* Prints the requested views, or without any the elements. */
 static void print_views(struct cli *cli, const mxg_document *document,
                         const struct inspect *inspect)
 {

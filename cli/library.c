@@ -50,7 +50,7 @@ static void print_ports(const mxg_library *library, uint32_t nodedef, uint32_t f
     }
 }
 
-/* A line for each definition: "ND_mix_float  mix(fg:float, bg:float, mix:float) -> out:float". */
+/* Prints a line per definition: "ND_mix_float  mix(fg:float, bg:float, mix:float) -> out:float". */
 static void list(struct cli *cli, const struct library_args *args)
 {
     (void)args;
@@ -69,7 +69,7 @@ static void list(struct cli *cli, const struct library_args *args)
 static const struct action {
     const char *name;
     void (*run)(struct cli *cli, const struct library_args *args);
-    bool on_builtin; /* the paths extend the library that is built in */
+    bool on_builtin; /* the paths extend the built-in library */
 } actions[] = {{"pack", pack, false},
                {"list", list, false},
                {"expand", expand, false},
@@ -86,7 +86,7 @@ static const struct action *find_action(const char *name)
     return NULL;
 }
 
-/* The library of the paths; the built-in one where there are none. */
+/* Loads the library from the paths; without paths the built-in one. */
 static bool load(struct cli *cli, const struct action *action)
 {
     const struct arg_list *inputs = &cli->parser.inputs;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * mxgen: the command line. The first argument may name a command; without one, shaders are
- * generated.
+ * mxgen: the command line. The first argument may name a command; without one, mxgen generates
+ * shaders.
  */
 #define _POSIX_C_SOURCE 200809L
 #include "cli/cli.h"
@@ -56,7 +56,7 @@ static const struct command *find_command(const char *name)
 }
 
 /*
- * A first word which is neither an option nor a file, nor looks like one, was meant as a command.
+ * True if a first word is no option, no file and no file name: probably a misspelt command.
  */
 static bool is_unknown_command(const char *word)
 {
@@ -76,7 +76,7 @@ static int fail_unknown_command(const char *word)
     return EXIT_USAGE;
 }
 
-/* Output lost in a full disk or closed pipe must not look like success. */
+/* Output lost to a full disk or a closed pipe is an error. */
 static int flush(int code)
 {
     if (fflush(stdout) == 0 && !ferror(stdout))
@@ -90,7 +90,7 @@ static bool asks_for_help(const char *word)
     return strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0 || strcmp(word, "help") == 0;
 }
 
-/* Runs a command only for its table of options. */
+/* Runs a command only to get its table of options. */
 static void read_options(struct help_book *book, const struct command *command)
 {
     char name[] = "mxgen", *argv[] = {name, NULL};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* mxgen help --man: the manual page mxgen(1), in the macros of man(7). */
+/* mxgen help --man: the manual page mxgen(1), with the macros of man(7). */
 #include "cli/help.h"
 
 #include <string.h>

@@ -6,12 +6,12 @@
 #include <stdio.h>
 
 /*
- * With <, >, & and quotes escaped. What XML 1.0 has no place for (control characters, bytes that
- * are no UTF-8) becomes '?'.
+ * Escapes <, >, & and quotes. Characters that XML 1.0 does not allow (control characters, invalid
+ * UTF-8) become '?'.
  */
 void markup_text(FILE *out, const char *text);
 
-/* Style and script of the pages that we write, lines that end with NULL (page.c.in). */
+/* Style and script of the generated pages, as lists of lines that end with NULL (page.c.in). */
 extern const char *const manual_style[], *const manual_script[];
 extern const char *const gallery_style[], *const gallery_script[];
 void markup_lines(FILE *out, const char *const *lines);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Memory of the programs, which end where there is none. It is freed with free. */
+/* Memory of the programs, which end if memory is exhausted. Free it with free. */
 #ifndef MXG_CLI_MEMORY_H
 #define MXG_CLI_MEMORY_H
 
@@ -7,7 +7,7 @@
 
 /* Zeroed, and aligned for any object. */
 void *memory_alloc(size_t size);
-/* As realloc. */
+/* Like realloc. */
 void *memory_resize(void *memory, size_t size);
 
 #endif

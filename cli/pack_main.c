@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * mxgen-pack: packs the node library while mxgen is being built. It is the compiler without a
- * library of its own.
+ * mxgen-pack: packs the node library during the build of mxgen. It is the compiler without a
+ * built-in library.
  *
  *     mxgen-pack IMAGE DEPFILE ROOT FOLDER...
  *
- * Folders are relative to ROOT, so that the image does not depend on where that lies.
+ * Folders are relative to ROOT, so the image does not depend on the location of ROOT.
  */
 #define _POSIX_C_SOURCE 200809L
 #include "cli/files.h"
@@ -17,13 +17,16 @@
 #include <string.h>
 #include <unistd.h>
 
-/* Reads files below the root and remembers them for the depfile. */
+/* Reads files below the root and records their names for the depfile. */
 struct recorder {
     FILE *depfile;
     const char *root;
 };
 
-/* `ref` beside the file `from`, "./" and "folder/../" taken away; NULL without memory. */
+/*
+ * The path of `ref` beside the file `from`, without "./" and "folder/../"; NULL if memory is
+ * exhausted.
+ */
 static char *resolve_name(const char *from, const char *ref)
 {
     const char *slash = strrchr(from, '/');
@@ -68,7 +71,7 @@ static void release_file(void *user_data, mxg_blob *blob)
     free((void *)(uintptr_t)blob->data);
 }
 
-/* Loads the folders and writes their image; false after telling why not. */
+/* Loads the folders and writes their image; false after a message. */
 static bool pack(struct recorder *recorder, const char *image, const char *const *folders,
                  size_t num_folders)
 {
@@ -111,7 +114,7 @@ int main(int argc, char **argv)
         return 1;
     }
     size_t room = strlen(folder) + strlen(argv[1]) + 2;
-    char *image = malloc(room); /* absolute, since the working directory is the root now */
+    char *image = malloc(room); /* absolute, because ROOT is the working directory from here on */
     snprintf(image, room, "%s%s%s", argv[1][0] == '/' ? "" : folder, argv[1][0] == '/' ? "" : "/",
              argv[1]);
     fprintf(recorder.depfile, "%s:", argv[1]);

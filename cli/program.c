@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Where our programs lie: beside each other. */
+/* Finds the mxgen programs, which lie in one folder. */
 #define _POSIX_C_SOURCE 200809L
 #include "cli/cli.h"
 
@@ -7,7 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
-/* The folder of this program, with a '/' behind it; "" where the system does not tell. */
+/* The folder of this program, with a '/' at the end; "" if the system does not provide it. */
 static const char *program_folder(char *buffer, size_t capacity)
 {
     ssize_t len = readlink("/proc/self/exe", buffer, capacity - 1);

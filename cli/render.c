@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * mxgen render: starts the program mxgen-render, which lies beside this one. It is a program of its
- * own so that generation pays nothing for Vulkan and OpenImageIO.
+ * mxgen render: starts the program mxgen-render in the same folder. It is a separate program, so
+ * that generation does not load Vulkan and OpenImageIO.
  */
 #define _POSIX_C_SOURCE 200809L
 #include "cli/render_options.h"
@@ -11,7 +11,7 @@
 
 int command_render(const struct command *command, int argc, char **argv)
 {
-    if (command->book) { /* the table of options is all that is asked for */
+    if (command->book) { /* the caller needs only the table of options */
         struct render_options options = RENDER_OPTIONS_DEFAULTS;
         struct arg args[MAX_RENDER_ARGS];
         struct cli cli;

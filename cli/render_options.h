@@ -21,7 +21,7 @@ struct render_options {
 
 enum { MAX_RENDER_ARGS = 24 };
 
-/* Fills the table of options, which refers to the values; returns how many there are. */
+/* Fills the table of options, which refers to the values; returns the number of options. */
 size_t render_args(struct render_options *options, struct arg args[MAX_RENDER_ARGS]);
 
 #endif

@@ -39,7 +39,7 @@ void report_source(struct report *report, const char *file, char *source, size_t
 }
 
 /*
- * Makes `source` the text of the file, or NULL where it cannot be read (a file of the built-in
+ * Sets `source` to the text of the file, or to NULL if it cannot be read (files of the built-in
  * library).
  */
 static void load_source(struct report *report, const char *file)
@@ -51,7 +51,7 @@ static void load_source(struct report *report, const char *file)
     report_source(report, file, source, size);
 }
 
-/* Room for `size` bytes behind the text. */
+/* Reserves `size` bytes after the text. */
 static bool reserve(struct report *report, size_t size)
 {
     if (report->capacity - report->len >= size)
@@ -66,8 +66,8 @@ static bool reserve(struct report *report, size_t size)
 }
 
 /*
- * A line of the source, from 1, without its end; NULL where there is none. Each line is looked for
- * once.
+ * A line of the source, from 1, without its end; NULL if there is none. The report stores each line
+ * that it has found.
  */
 static const char *find_line(struct report *report, uint32_t number, size_t *out_len)
 {
@@ -97,7 +97,7 @@ static const char *find_line(struct report *report, uint32_t number, size_t *out
     return line;
 }
 
-/* Appends one message as it is printed. */
+/* Appends the printed form of one message. */
 static void render(struct report *report, const mxg_diagnostics *list, uint32_t index,
                    const mxg_diagnostic *diagnostic)
 {
@@ -128,7 +128,7 @@ const char *report_render(struct report *report, const mxg_diagnostics *list, ui
     return report->text ? report->text : "";
 }
 
-/* Notes are shown where their message is; those about upgrades only when asked for. */
+/* Notes appear with their message; notes about upgrades only with --verbose. */
 static bool is_shown(const struct report *report, const mxg_diagnostic *diagnostic)
 {
     if (diagnostic->severity == MXG_SEVERITY_NOTE && strcmp(diagnostic->id, "upgraded") == 0)
@@ -143,7 +143,7 @@ static uint64_t hash_text(uint64_t hash, const char *text)
     return (hash ^ 0xff) * 0x100000001b3u;
 }
 
-/* The place of a hash, or the free one where it belongs. */
+/* The entry for a hash, or the free entry for it. */
 static uint64_t *find_printed(uint64_t *table, size_t capacity, uint64_t hash)
 {
     size_t at = hash & (capacity - 1);
@@ -167,7 +167,10 @@ static bool grow_printed(struct report *report)
     return true;
 }
 
-/* Many materials of a document may meet the same fault: it is told once. */
+/*
+ * True if the message is new: many materials of a document can have the same fault, which is
+ * reported once.
+ */
 static bool is_new(struct report *report, const mxg_diagnostic *diagnostic)
 {
     uint64_t hash = 0xcbf29ce484222325u ^ ((uint64_t)diagnostic->line << 32 | diagnostic->column);
@@ -189,7 +192,7 @@ void report_document(struct report *report)
     report->is_rest_told = false;
 }
 
-/* A message with its notes may be printed; errors up to the limit. */
+/* True if a message and its notes may be printed; limits the number of errors. */
 static bool admit(struct report *report, const mxg_diagnostic *diagnostic)
 {
     if (!is_shown(report, diagnostic) || !is_new(report, diagnostic))
@@ -206,7 +209,7 @@ static bool admit(struct report *report, const mxg_diagnostic *diagnostic)
     return false;
 }
 
-/* The list may know that it is not whole. */
+/* True if the message repeats the hint that more errors exist. */
 static bool is_about_rest(struct report *report, const mxg_diagnostic *diagnostic)
 {
     bool is_note = strcmp(diagnostic->id, "too-many-errors") == 0, is_told = report->is_rest_told;
@@ -217,7 +220,7 @@ static bool is_about_rest(struct report *report, const mxg_diagnostic *diagnosti
 void report_list(struct report *report, const mxg_diagnostics *list)
 {
     uint32_t count = mxg_diagnostics_count(list);
-    bool shown = false; /* the message that notes belong to */
+    bool shown = false; /* the message of the notes was printed */
     for (uint32_t i = 0; i < count; ++i) {
         mxg_diagnostic diagnostic = {sizeof diagnostic};
         mxg_diagnostics_get(list, i, &diagnostic);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Diagnostics on a terminal: what the library found is printed as compilers do, with the source
- * line read again.
+ * Diagnostics on a terminal: prints messages like a compiler does, with source lines.
  */
 #ifndef MXG_CLI_REPORT_H
 #define MXG_CLI_REPORT_H
@@ -12,38 +11,37 @@
 
 struct report {
     bool quiet;   /* errors only */
-    bool verbose; /* also what was upgraded in older documents */
+    bool verbose; /* also reports upgrades of older documents */
     bool colour;
-    uint32_t errors;        /* told so far, repeated ones and those behind the limit too */
-    size_t max_errors;      /* that are printed of a document; 0: all */
-    size_t document_errors; /* printed of the document at hand */
-    bool is_rest_told;      /* that there are more */
-    uint64_t *printed;      /* hashes of the messages printed, in a table; 0: free */
+    uint32_t errors;        /* number of errors, including repeated ones and those past the limit */
+    size_t max_errors;      /* limit per document; 0: no limit */
+    size_t document_errors; /* errors printed for the current document */
+    bool is_rest_told;      /* the hint that more errors exist was printed */
+    uint64_t *printed;      /* hash table of printed messages; 0: free */
     size_t num_printed, capacity_printed;
-    char *source_name, *source; /* the file read last */
+    char *source_name, *source; /* the last file that was read */
     size_t source_size;
-    const char **lines; /* of it, as far as they were looked for */
+    const char **lines; /* its lines, as far as the report has found them */
     size_t num_lines, capacity_lines;
-    char *text; /* of the message at hand */
+    char *text; /* text of the current message */
     size_t len, capacity;
 };
 
-void report_init(struct report *report); /* colour where stderr is a terminal */
+void report_init(struct report *report); /* uses colour if stderr is a terminal */
 void report_finish(struct report *report);
 
-/* A message with its notes and source lines, as it is printed; lives until the next one. */
+/* The printed form of a message with its notes and source lines; valid until the next call. */
 const char *report_render(struct report *report, const mxg_diagnostics *list, uint32_t index);
 
 /*
- * The text of a file that messages are about, where it is no file to be read; it is freed by the
- * report.
+ * Sets the source text for messages about a name that is no file; the report frees it.
  */
 void report_source(struct report *report, const char *file, char *source, size_t size);
 
-/* What follows is about another document: its errors are counted anew. */
+/* Starts another document: its errors count from 0. */
 void report_document(struct report *report);
 
-/* Prints a list to stderr: what was not printed before, up to the limit of errors. */
+/* Prints a list to stderr, without repeated messages, up to the limit of errors. */
 void report_list(struct report *report, const mxg_diagnostics *list);
 
 /* An error of the program itself: "error: message [id]". */
@@ -59,7 +57,7 @@ __attribute__((format(printf, 3, 4)))
 void report_warning(struct report *report, const char *id, const char *format, ...);
 
 /*
- * What a status says beyond diagnostics: out of memory, cancelled, internal. Returns whether it is
+ * Reports a status without a diagnostic: out of memory, cancelled, internal. Returns true for
  * MXG_OK.
  */
 bool report_status(struct report *report, mxg_status status);

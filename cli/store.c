@@ -52,7 +52,7 @@ char *store_text(struct store *store, const char *text, size_t len)
 
 void *store_grow(struct store *store, void *items, size_t len, size_t item_size)
 {
-    if (len & (len - 1)) /* room doubles at powers of two */
+    if (len & (len - 1)) /* the capacity doubles at powers of two */
         return items;
     void *more = store_alloc(store, (len ? len * 2 : 1) * item_size);
     if (len)

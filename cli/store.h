@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Memory of one piece of work of a program, freed in one call. A program ends where there is none.
+ * Memory for one task of a program, freed in one call. A program ends if memory is exhausted.
  */
 #ifndef MXG_CLI_STORE_H
 #define MXG_CLI_STORE_H
@@ -14,19 +14,19 @@ struct store {
 /* Zeroed memory, aligned for any object. */
 void *store_alloc(struct store *store, size_t size);
 
-/* A copy with a NUL behind it. */
+/* A copy with a NUL after it. */
 char *store_text(struct store *store, const char *text, size_t len);
 
 /*
- * Room for one more item behind `len` items: the array itself, or a copy twice as large. `items` is
- * NULL at first.
+ * Reserves one more item after `len` items: returns the array itself, or a copy of twice the size.
+ * `items` is NULL at first.
  */
 void *store_grow(struct store *store, void *items, size_t len, size_t item_size);
 
-/* Room for `len` items, which store_grow can go on with. */
+/* Memory for `len` items, which store_grow can extend. */
 void *store_array(struct store *store, size_t len, size_t item_size);
 
-/* Frees everything; the store can be used again. */
+/* Frees all memory; the store stays usable. */
 void store_finish(struct store *store);
 
 #endif

@@ -6,16 +6,16 @@
 #include <stddef.h>
 
 /*
- * Bytes of the UTF-8 sequence at the start of a text that ends with NUL (Unicode 15, table 3-7); 0
- * where none begins.
+ * Length in bytes of the UTF-8 sequence at the start of a NUL-terminated text (Unicode 15, table
+ * 3-7); 0 if none begins there.
  */
 size_t utf8_length(const char *bytes);
 
 bool utf8_is_valid(const char *text);
 
 /*
- * The text with U+FFFD in place of each byte that is part of no character, to be freed; ends the
- * program where there is no memory.
+ * The text with U+FFFD for each invalid byte, which the caller frees; ends the program if memory is
+ * exhausted.
  */
 char *utf8_repair(const char *text);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* mxgen validate: documents against the library, without generation. */
+/* mxgen validate: checks documents against the library, without generation. */
 #include "cli/cli.h"
 
 static void validate(struct cli *cli, const char *path)

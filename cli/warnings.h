@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-/* -W: which warnings are told, and which are errors. */
+/* -W: which warnings are shown, and which are errors. */
 #ifndef MXG_CLI_WARNINGS_H
 #define MXG_CLI_WARNINGS_H
 
 #include "cli/args.h"
 
-/* Prints which word is none, and returns false. */
+/* Prints an invalid word and returns false. */
 bool warnings_check(const struct arg_list *words);
 
-/* The words as a context has them (mxg_context_desc.warnings); to be freed. */
+/* The words as one text for mxg_context_desc.warnings; the caller frees it. */
 char *warnings_join(const struct arg_list *words);
 
 #endif

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* What is said of a port, in words: type, default, values, meaning. */
+/* The texts of a port: type, default, values, meaning. */
 #include "doc/manual.h"
 
 #include <stdlib.h>
@@ -7,7 +7,7 @@
 
 enum { MAX_COMPONENTS = 16 };
 
-/* The numbers of a value, separated by commas; 0 where it is something else. */
+/* The numbers of a comma-separated value; 0 if it is no such value. */
 static size_t read_numbers(const char *text, double numbers[MAX_COMPONENTS])
 {
     for (size_t i = 0; i < MAX_COMPONENTS; ++i) {
@@ -43,8 +43,8 @@ static bool is_identity(const double *numbers, size_t count)
 }
 
 /*
- * Numbers without needless digits, one for all components where they are equal: so the variants of
- * a node agree.
+ * Numbers without needless digits, and one for all components if they are equal, so that variants
+ * of a node get equal texts.
  */
 static const char *shorten(struct manual *manual, const char *value)
 {
@@ -100,7 +100,7 @@ static size_t count_items(const char *list)
     return count;
 }
 
-/* The part of a list up to its next comma, without spaces around; *list moves behind the comma. */
+/* The part of a list up to its next comma, without spaces around it; *list moves past the comma. */
 static const char *next_item(struct manual *manual, const char **list)
 {
     const char *item = *list + strspn(*list, " ");
@@ -111,7 +111,7 @@ static const char *next_item(struct manual *manual, const char **list)
     return manual_keep(manual, cli_format("%.*s", (int)len, item));
 }
 
-/* "ggx, beckmann"; "linear = 0, smooth = 1" where a name stands for another value */
+/* "ggx, beckmann"; "linear = 0, smooth = 1" if names stand for other values */
 static const char *choices(struct manual *manual, const mxg_port *port)
 {
     const char *names = port->enum_names, *values = port->enum_values, *text = "";

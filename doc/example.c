@@ -9,8 +9,8 @@
 #include <string.h>
 
 struct line {
-    char side; /* '-', '+', ' ': of which side it is; '=': the name of a file; '$': arguments */
-    char of;   /* of '$': the side */
+    char side; /* '-', '+', ' ': the side; '=': the name of a file; '$': arguments */
+    char of;   /* for '$': the side */
     const char *text;
     size_t len;
 };
@@ -30,14 +30,17 @@ static bool next_line(const char **at, struct line *out)
     return true;
 }
 
-/* Examples are written with apostrophes where XML has quotation marks. */
+/* Examples contain apostrophes for the quotation marks of XML. */
 static void put(FILE *out, const char *text, size_t len)
 {
     for (size_t i = 0; i < len; ++i)
         fputc(text[i] == '\'' ? '"' : text[i], out);
 }
 
-/* For people: bytes that are no UTF-8, which an example is about, by their number. */
+/*
+ * Prints a text for people; invalid UTF-8 bytes, which some examples contain on purpose, appear as
+ * numbers.
+ */
 static void put_shown(FILE *out, const char *text, size_t len)
 {
     for (size_t i = 0, part; i < len; i += part ? part : 1) {
@@ -49,7 +52,7 @@ static void put_shown(FILE *out, const char *text, size_t len)
     }
 }
 
-/* What the wrong and the right side have as arguments differs, or is worth telling. */
+/* Prints arguments only if the two sides differ, or if they matter. */
 void example_print(const char *example, const char *indent, FILE *out)
 {
     struct line line;
@@ -84,8 +87,8 @@ static char *arguments_of(const char *example, char side)
 struct example_file {
     char *name, *text;
     size_t len;
-    bool is_whole; /* it needs no <materialx> around it */
-    bool is_there; /* on this side */
+    bool is_whole; /* the file has its own <materialx> element */
+    bool is_there; /* the file exists on this side */
 };
 
 static void append(struct example_file *file, const char *text, size_t len)
@@ -126,7 +129,7 @@ static void begin_file(struct example_file *file, const struct line *name)
     append(file, begin, name ? 0 : sizeof begin - 1);
 }
 
-/* One side of an example as files in a folder, its arguments in "arguments". */
+/* Writes one side of an example as files in a folder, with its arguments in "arguments". */
 static void write_side(struct cli *cli, const char *example, char side, const char *folder)
 {
     struct example_file file = {0};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * The reference as one page of HTML that needs nothing but itself and the pictures beside it. It is
- * well-formed XML too, so that any XML tool can read it.
+ * The reference as one self-contained page of HTML, with pictures beside it. It is well-formed XML
+ * too, so any XML tool can read it.
  */
 #include "doc/manual.h"
 #include "cli/markup.h"
@@ -86,7 +86,7 @@ static void put_signatures(FILE *out, const struct manual_edition *edition)
     fputs("</ul></details>\n", out);
 }
 
-/* An older version: what it has otherwise. */
+/* An older version: its differences. */
 static void put_older(FILE *out, const struct manual_edition *edition,
                       const struct manual_edition *first)
 {

@@ -27,7 +27,7 @@ static void write_page(const struct manual *manual, struct cli *cli, const char 
     free(path);
 }
 
-/* Of a library that extends the built-in one, its own definitions are told. */
+/* For a library that extends the built-in one, the reference contains only its own definitions. */
 static uint32_t first_nodedef(const struct cli *cli)
 {
     if (cli->no_builtin_library || cli->parser.inputs.len == 1)

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-/* The actions of `mxgen library`, and what their options say. */
+/* The actions of `mxgen library`, and their options. */
 #ifndef MXG_DOC_LIBRARY_H
 #define MXG_DOC_LIBRARY_H
 
 #include "cli/cli.h"
 
 struct library_args {
-    const char *output; /* a file, for doc a folder; NULL */
+    const char *output; /* a file; for `doc` a folder; NULL: none */
     bool html, markdown, pictures;
 };
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/* The reference as Markdown, with tables as GitHub and most others have them. */
+/* The reference as Markdown, with tables in GitHub's form. */
 #include "doc/manual.h"
 
 #include <string.h>
 
-/* Plain text: what Markdown would take as markup is escaped. */
+/* Plain text, with markup characters escaped. */
 static void put(FILE *out, const char *text)
 {
     for (; *text; ++text) {
@@ -14,7 +14,7 @@ static void put(FILE *out, const char *text)
     }
 }
 
-/* Code keeps every character but the bar, which ends a cell even there. */
+/* Code keeps every character except the bar, which ends a cell even in code. */
 static void put_code(FILE *out, const char *text)
 {
     putc('`', out);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Definitions of a library to entries of the reference. */
+/* Turns the definitions of a library into entries of the reference. */
 #include "doc/manual.h"
 
 #include <stdlib.h>
@@ -67,7 +67,7 @@ static void add_port(struct manual *manual, struct manual_edition *edition, cons
                          manual_cell(manual, port, (enum manual_column)column));
 }
 
-/* Inputs, then outputs, each kind in the order in which the variants first have them. */
+/* Inputs, then outputs, in the order of their first appearance among the variants. */
 static void add_ports(struct manual *manual, struct manual_edition *edition)
 {
     size_t capacity = 0;
@@ -97,7 +97,7 @@ static bool is_same_port(const struct manual_port *a, const struct manual_port *
     return same;
 }
 
-/* An edition behind the first keeps the ports in which it differs. */
+/* An edition after the first keeps only the ports that differ. */
 static void keep_differences(struct manual *manual, struct manual_edition *edition,
                              const struct manual_edition *first)
 {
@@ -136,7 +136,7 @@ static const char *signature(struct manual *manual, const struct manual_variant 
 
 /* ---- Order ---- */
 
-/* Of versions as numbers between dots. */
+/* Compares versions as numbers between dots. */
 static int compare_versions(const char *a, const char *b)
 {
     while (*a || *b) {
@@ -152,7 +152,7 @@ static int compare_versions(const char *a, const char *b)
     return 0;
 }
 
-/* By group, node, version (the default one, then from new to old), place in the library. */
+/* By group, node, version (the default one, then from new to old), position in the library. */
 static int compare_variants(const void *left, const void *right)
 {
     const struct manual_variant *a = left, *b = right;
@@ -171,7 +171,7 @@ static bool is_same_node(const struct manual_variant *a, const struct manual_var
     return strcmp(a->def.group, b->def.group) == 0 && strcmp(a->def.node, b->def.node) == 0;
 }
 
-/* How many of the variants from the first on belong to one edition. */
+/* The number of leading variants that belong to one edition. */
 static size_t count_edition(const struct manual_variant *variants, size_t num)
 {
     size_t len = 1;
@@ -196,7 +196,10 @@ static void add_targets(struct manual *manual, struct manual_node *node,
     }
 }
 
-/* Its name; in a further group (math has an "add", and pbr) also the group's. */
+/*
+ * The node's name. In a second group with this name (math and pbr both have "add") also the group's
+ * name.
+ */
 static const char *unique_id(struct manual *manual, const mxg_nodedef *def)
 {
     for (size_t i = 0; i < manual->num_nodes; ++i)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Pictures of nodes: a document for each, which mxgen-render draws on its ball. Patterns that vary
- * over a surface are pictured, and closures and shaders that stand on no others.
+ * Pictures of nodes: a document for each, which mxgen-render draws on its ball. The reference
+ * pictures patterns that vary over a surface, and closures and shaders that need no others.
  */
 #define _POSIX_C_SOURCE 200809L
 #include "doc/manual.h"
@@ -15,16 +15,16 @@
 
 extern char **environ;
 
-#define PICTURE_SIZE "288" /* twice that on the page */
+#define PICTURE_SIZE "288" /* the page shows it at half the size */
 
-/* ---- What can be pictured ---- */
+/* ---- Nodes with a picture ---- */
 
 static const struct shown_type {
     const char *name;
-    const char *input; /* of <surface>, for closures */
+    const char *input; /* input of <surface> for closures */
     bool is_pattern;
 } shown_types[] = {
-    /* the first one that a node has is shown */
+    /* a node shows its first output whose type is in this order */
     {"float", NULL, true},     {"color3", NULL, true},  {"color4", NULL, true},
     {"vector2", NULL, true},   {"vector3", NULL, true}, {"vector4", NULL, true},
     {"BSDF", "bsdf", false},   {"EDF", "edf", false},   {"surfaceshader", NULL, false},
@@ -37,7 +37,7 @@ struct shown {
     const struct manual_variant *variant;
     const struct shown_type *type;
     const char *output;
-    bool on_plane; /* it varies with the texture coordinates: seen best without distortion */
+    bool on_plane; /* it varies with the texture coordinates: a plane shows it without distortion */
 };
 
 static bool is_any_of(const char *text, const char *const *list)
@@ -51,7 +51,7 @@ static bool is_any_of(const char *text, const char *const *list)
 static const struct example {
     const char *node, *input; /* no input: the node has no picture */
     const char *value;
-    int scale; /* of the coordinates; 0: the value */
+    int scale; /* scale of the coordinates; 0: use the value */
 } examples[] = {
 #define VALUE(node, input, value) {#node, #input, value, 0},
 #define SCALE(node, input, factor) {#node, #input, NULL, factor},
@@ -82,7 +82,8 @@ static bool is_texture(const mxg_port *port)
 }
 
 /*
- * Its inputs can stay unconnected, and a pattern has one that varies. Only the plane has a texture.
+ * True if the inputs can stay unconnected, and for patterns if one input varies. Only the plane has
+ * a texture.
  */
 static bool is_worth_showing(const struct manual *manual, struct shown *shown)
 {
@@ -117,7 +118,7 @@ static bool choose_output(const struct manual *manual, const struct manual_varia
     return false;
 }
 
-/* The variant that gives one of the types first in the table; a texture shows colours. */
+/* Chooses the variant whose type comes first in the table; a texture shows colours. */
 static bool choose(const struct manual *manual, const struct manual_node *node, struct shown *shown)
 {
     const struct manual_edition *edition = &node->editions[0];
@@ -134,7 +135,7 @@ static bool choose(const struct manual *manual, const struct manual_node *node, 
 
 /* ---- Its document ---- */
 
-/* What an input gets instead of its default; NULL: the default. */
+/* The example value of an input; NULL: use its default. */
 static const struct example *find_example(const struct shown *shown, const mxg_port *port)
 {
     static const struct example texture = {NULL, NULL, "texture.png", 0};
@@ -144,7 +145,7 @@ static const struct example *find_example(const struct shown *shown, const mxg_p
     return is_texture(port) ? &texture : NULL;
 }
 
-/* Scaled coordinates come from nodes before the one that is shown. */
+/* Scaled coordinates come from extra nodes before the node in the picture. */
 static void put_coordinates(FILE *out, const mxg_port *port, int scale)
 {
     const char *source = strcmp(port->type, "vector2") == 0 ? "texcoord" : "position";
@@ -157,7 +158,7 @@ static void put_coordinates(FILE *out, const mxg_port *port, int scale)
             source, port->type, port->type, port->type, scale);
 }
 
-/* The inputs of the shown node that have examples; with `before` the nodes that they come from. */
+/* Writes the inputs with example values; with `before` the nodes that they come from. */
 static void put_inputs(const struct manual *manual, FILE *out, const struct shown *shown,
                        bool before)
 {
@@ -186,7 +187,7 @@ static void put_shown(const struct manual *manual, FILE *out, const struct shown
     fprintf(out, "    </%s>\n", shown->node->name);
 }
 
-/* A pattern is a graph's output; of vectors, -1 is black and 1 is white. */
+/* A pattern is an output of a graph; for vectors, -1 is black and 1 is white. */
 static void put_pattern(const struct manual *manual, FILE *out, const struct shown *shown)
 {
     bool is_vector = strcmp(shown->type->name, "vector3") == 0;
@@ -206,7 +207,7 @@ static void put_pattern(const struct manual *manual, FILE *out, const struct sho
     free(output);
 }
 
-/* A closure is a surface's, and a surface a material's. */
+/* A closure needs a surface, and a surface a material. */
 static void put_material(const struct manual *manual, FILE *out, const struct shown *shown)
 {
     const char *input = shown->type->input;
@@ -245,7 +246,7 @@ static bool write_document(const struct manual *manual, struct cli *cli, const s
 
 /* ---- Drawing it ---- */
 
-/* Starts the program and waits for its end; false after telling why it could not be started. */
+/* Starts the program and waits for its end; false after a message if it could not start. */
 static bool run(struct cli *cli, char **argv, int *out_status)
 {
     pid_t process;
@@ -261,7 +262,7 @@ static bool run(struct cli *cli, char **argv, int *out_status)
     return true;
 }
 
-/* The renderer's arguments: with the libraries that this program was given. To be freed. */
+/* The renderer's arguments, with the libraries of this run. The caller frees them. */
 static char **renderer_arguments(const struct cli *cli, char *program)
 {
     const struct arg_list *inputs = &cli->parser.inputs;
@@ -316,7 +317,7 @@ bool manual_draw(struct manual *manual, struct cli *cli, const char *folder)
         report_error(&cli->report, "output-failed", "cannot make the folder '%s': %s", pictures,
                      reason);
     bool good = argv && !reason, any = false;
-    /* Where the first one fails there is no device, and none can be drawn. */
+    /* If the first picture fails there is no device, so all would fail. */
     for (size_t i = 0; (good || any) && i < manual->num_nodes; ++i) {
         good = draw_node(manual, cli, &manual->nodes[i], folder, argv) && good;
         any = any || manual->nodes[i].picture;

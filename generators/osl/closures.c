@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * The effects of a shader in OSL, which has closures of its own: one output, or the two of a
- * surface with a back. Every node is older than its users, so one pass upwards rewrites the tree.
+ * The effects of a shader in OSL, which has its own closures: one output, or two for a surface with
+ * a back. Every node is older than its users, so one pass upwards rewrites the tree.
  */
 #include "generators/osl/tree.h"
 
@@ -52,7 +52,7 @@ static ir_ref rewrite(struct osl_tree *t, ir_ref ref)
     case IR_SURFACE_UNLIT: return unlit(t, a[0], a[1], a[2]);
     case IR_VOLUME_SHADER: return osl_sum(t, t->of[a[0]], t->of[a[1]]);
     case IR_LIGHT_SHADER: return light(t, t->of[a[0]], a[1], a[2]);
-    case IR_UNIFORM: /* another layer of a network gives it */
+    case IR_UNIFORM: /* an output of another OSL layer */
         return ir_build(t->graph, IR_UNIFORM, IR_TYPE_BSDF, node->attr, NULL, 0);
     default: return 0;
     }
@@ -86,7 +86,7 @@ static ir_ref incident(struct shader *shader)
     return shader_read(shader, shader_private_uniform(shader, name, IR_TYPE_VEC3, 0));
 }
 
-/* An OSL shader is given the way from the eye. */
+/* An OSL shader receives the direction from the eye. */
 static ir_ref with_incident(struct shader *shader, ir_ref root)
 {
     uint32_t eye = shader_find_variable(shader, BLOCK_PRIVATE_UNIFORMS, STR_u_viewPosition);
@@ -101,7 +101,7 @@ static ir_ref with_incident(struct shader *shader, ir_ref root)
                       shader->arena);
 }
 
-/* It is given a unit normal, too: nothing came between it and the surface. */
+/* OSL also provides a unit normal. It is the surface's normal if nothing has changed it. */
 static ir_ref with_unit_normal(struct shader *shader, ir_ref root)
 {
     ir_ref normal = shader_stream(shader, STR_normalWorld, IR_TYPE_VEC3),
@@ -124,14 +124,14 @@ static uint32_t output(struct osl_tree *t, str_id name, ir_type_id type, str_id 
                        .name = name, .block = BLOCK_OUTPUTS, .type = type, .doc_type = doc_type});
 }
 
-/* No closure at all is black. */
+/* An absent closure is black. */
 static ir_ref or_black(struct osl_tree *t, ir_ref closure)
 {
     ir_ref black = ir_const_splat(t->graph, IR_TYPE_VEC3, 0.0f);
     return closure ? closure : osl_emission(t, black);
 }
 
-/* Counts the leaves that are left: weights of 0 have dropped some. */
+/* Counts the remaining leaves; weights of 0 have removed some. */
 static void add_closures(const struct osl_tree *t, const ir_ref *roots, uint32_t num_roots)
 {
     const uint8_t *needed = ir_mark(t->graph, roots, num_roots, t->shader->arena);
@@ -163,7 +163,7 @@ static void emit_sides(struct osl_tree *t, ir_ref front, ir_ref back)
     effect(t, EFFECT_END, 0, 0);
 }
 
-/* A shader of its own moves the point: the vertex stage. */
+/* A separate shader, the vertex stage, moves the point. */
 static void emit_displacement(struct osl_tree *t, ir_ref displacement)
 {
     ir_ref offset = displacement ? closure_offset(t->shader, displacement) : 0;
@@ -189,7 +189,7 @@ static bool emit_value(struct osl_tree *t, ir_ref root)
 
 /* ---- Hooks ---- */
 
-/* The shaded point is seen along a ray, which OSL knows. */
+/* OSL sees the shaded point along a ray, which it provides. */
 static struct osl_tree start(struct shader *shader, const struct closure_host *host)
 {
     struct ir_graph *g = shader->graph;
@@ -228,7 +228,7 @@ static bool emit(struct shader *shader, const struct closure_host *host, ir_ref 
 
 const struct target_closures osl_closures = {.emit = emit};
 
-/* The value of a node's output; a displacement is the offset there, any shader a closure. */
+/* The value of a node's output: a displacement becomes its offset, any other shader a closure. */
 static void emit_output(struct osl_tree *t, const struct network_output *of)
 {
     ir_type_id type = ir_type_of(t->graph, of->value);
@@ -245,7 +245,7 @@ static void emit_output(struct osl_tree *t, const struct network_output *of)
     uint32_t out = output(t, of->name, type, doc_type);
     if (!value && type == IR_TYPE_VEC3)
         value = ir_const_splat(t->graph, type, 0.0f);
-    if (value) /* an output is no closure at all at first */
+    if (value) /* an output starts as an empty closure */
         effect(t, EFFECT_OUTPUT, out, value);
     else
         t->shader->variables.items[out].stages = 1 << STAGE_PIXEL;

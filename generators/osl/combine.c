@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Closures put together: sums, factors, mixes and layers, as far as constants leave any. */
+/* Combines closures: sums, factors, mixes and layers. Constants simplify the result. */
 #include "generators/osl/tree.h"
 
 #include <assert.h>
@@ -25,7 +25,7 @@ ir_ref osl_emission(struct osl_tree *t, ir_ref radiance)
     return osl_call(t, "uniform_edf", IR_TYPE_EDF, &radiance, 1);
 }
 
-/* The number that a colour has in all of its parts; the colour itself, where there is none. */
+/* The number that all parts of a colour share; otherwise the colour itself. */
 static ir_ref number_of(const struct ir_graph *g, ir_ref color)
 {
     const struct ir_node *node = ir_get(g, color);
@@ -52,7 +52,7 @@ ir_ref osl_sum(struct osl_tree *t, ir_ref a, ir_ref b)
     return ir_build(t->graph, IR_CLOSURE_ADD, ir_type_of(t->graph, a), 0, args, 2);
 }
 
-/* The factor of one closure in another that is nothing but its multiple; 0: it is none. */
+/* The factor f if `closure` is f times the other closure; 0 if it is not. */
 static ir_ref factor_over(struct osl_tree *t, ir_ref closure, ir_ref scale)
 {
     const struct ir_node *node = ir_get(t->graph, scale);
@@ -79,7 +79,7 @@ ir_ref osl_mixed(struct osl_tree *t, ir_ref bg, ir_ref fg, ir_ref mix)
     if (!fg)
         return osl_scaled(t, bg, closure_one_minus(t->graph, mix));
     ir_ref factor = factor_over(t, bg, fg);
-    if (factor) /* the closure once, by a mix of 1 and the factor */
+    if (factor) /* the closure once, mixed between 1 and the factor */
         return osl_scaled(t, bg,
                           ir_op3(t->graph, IR_MIX,
                                  ir_const_splat(t->graph, ir_type_of(t->graph, factor), 1.0f),

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * How OSL writes what depends on types: its vectors have three components, so those of two and four
- * are structs, and operations on them are functions that the file declares for itself (helpers.def;
- * by component where it says nothing). Operators of structs are OSL's overloads: `a + b` calls
+ * Forms of operations that depend on types. OSL's vectors have three components, so vectors of two
+ * and four are structs, and operations on them are functions that the file declares (helpers.def;
+ * by component if it has no row). Operators of structs are OSL overloads: `a + b` calls
  * __operator__add__.
  */
 #include "generators/osl/osl.h"
@@ -21,7 +21,7 @@ static unsigned components(ir_type_id type)
     return type < IR_NUM_TYPES ? ir_type_info(type)->components : 0;
 }
 
-/* ---- Forms made here: they live as long as the file is written ---- */
+/* ---- Forms made here: they live until the file is complete ---- */
 
 static const struct lang_pieces *form_of(struct osl *osl, const char *text,
                                          enum lang_precedence precedence)
@@ -36,7 +36,7 @@ static const struct lang_pieces *usual_form(const struct osl *osl, enum ir_op op
     return lang_style_form(osl->spell->style, op);
 }
 
-/* "name($0, $1)". `order` gives the operands, as digits; NULL: as they come. */
+/* "name($0, $1)". `order` gives the operands as digits; NULL: in their own order. */
 static const struct lang_pieces *call_form(struct osl *osl, const char *name, unsigned num_operands,
                                            const char *order)
 {
@@ -87,7 +87,7 @@ static const struct helper_row *find_helper(const struct osl *osl, const struct 
     return NULL;
 }
 
-/* A helper's text names the types of its operands and of its result. */
+/* The name of a helper contains the types of its operands and of its result. */
 static void add_row(struct osl *osl, const struct helper_row *row, const struct lang_use *use)
 {
     osl_type(osl, use->type);
@@ -120,7 +120,7 @@ static const char *operator_word(enum ir_op op)
     }
 }
 
-/* "min" of "min($0, $1)"; the op's own name where the form is no call. */
+/* "min" for the form "min($0, $1)"; the op's own name if the form is no call. */
 static const char *function_name(struct osl *osl, enum ir_op op, const struct lang_pieces *scalar)
 {
     const char *end = strchr(scalar->text, '(');
@@ -136,8 +136,8 @@ static ir_type_id scalar_of(ir_type_id type)
 }
 
 /*
- * A form of the operands themselves ("$0", where `named`) or of parameters a, b…; of those with
- * parts, of one.
+ * A form of the operands ("$0", if `named`) or of the parameters a, b…; for operands with parts, a
+ * form of one part.
  */
 static void write_part(struct osl *osl, const char *form, const struct lang_use *use,
                        unsigned component, bool named, struct text *out)
@@ -175,8 +175,8 @@ static void write_component_function(struct osl *osl, const char *name, const st
 }
 
 /*
- * "vector2($0.x + $1.x, $0.y + $1.y)": a pair of names and numbers needs no function; NULL: there
- * is more to it.
+ * "vector2($0.x + $1.x, $0.y + $1.y)": names and numbers as operands need no function; NULL: other
+ * operands do.
  */
 static const struct lang_pieces *pair_form(struct osl *osl, const struct lang_use *use,
                                            const struct lang_pieces *scalar)
@@ -229,7 +229,7 @@ static bool is_color_operand(const struct osl *osl, const struct lang_use *use, 
            && osl->kinds[ir_arg(osl->spell->shader->graph, use->node, index)] == OSL_COLOR;
 }
 
-/* "$0.x", "vector2($0.y, $0.x)"; of something that is no variable, by a function. */
+/* "$0.x", "vector2($0.y, $0.x)". An operand that is no variable needs a function. */
 static const struct lang_pieces *swizzle_form(struct osl *osl, const struct lang_use *use)
 {
     unsigned count = use->attr >> 8;
@@ -260,8 +260,7 @@ static const struct lang_pieces *swizzle_form(struct osl *osl, const struct lang
 }
 
 /*
- * The parts of all operands in a row: of "$0", "$1"… where they are `named`, else of the parameters
- * a, b…
+ * The parts of all operands in sequence: of "$0", "$1"… if `named`, else of the parameters a, b…
  */
 static void write_parts(const struct osl *osl, const struct lang_use *use, bool named,
                         struct text *out)
@@ -276,7 +275,7 @@ static void write_parts(const struct osl *osl, const struct lang_use *use, bool 
                 text_fmt(out, ".%c", (named && is_color_operand(osl, use, i) ? "rgba" : parts)[k]);
         }
     }
-    /* one scalar fills all */
+    /* one scalar fills all components */
     for (; wanted == 1 && left && components(use->operands[0]) == 1; left--)
         text_str(out, named ? ", $0" : ", a");
 }
@@ -330,7 +329,7 @@ static const struct lang_pieces *convert_form(struct osl *osl, const struct lang
         return form_of(osl, from == IR_TYPE_BOOL ? "$0" : "$0 != 0",
                        from == IR_TYPE_BOOL ? LANG_PREC_ASSIGN : LANG_PREC_EQUAL);
     if (components(from) == 1 && strcmp(osl_type(osl, from), osl_type(osl, to)) == 0)
-        return form_of(osl, "$0", LANG_PREC_ASSIGN); /* between int, uint and bool */
+        return form_of(osl, "$0", LANG_PREC_ASSIGN); /* conversion between int, uint and bool */
     if (from == IR_TYPE_MAT3 && to == IR_TYPE_MAT4)
         return form_of(osl, "$0", LANG_PREC_ASSIGN);
     if (is_vector(from) && is_vector(to) && scalar_of(from) == scalar_of(to)) { /* cut */
@@ -370,7 +369,7 @@ static enum osl_kind operand_kind(const struct osl *osl, const struct lang_use *
     if (!use->node || use->operands[index] != IR_TYPE_VEC3)
         return OSL_ANY;
     ir_ref operand = ir_arg(osl->spell->shader->graph, use->node, index);
-    bool is_local = osl->spell->local_of[operand]; /* declared as vector or color */
+    bool is_local = osl->spell->local_of[operand]; /* the shader declares it as vector or color */
     return is_local && osl->kinds[operand] == OSL_POINT ? OSL_VECTOR
                                                         : (enum osl_kind)osl->kinds[operand];
 }
@@ -381,7 +380,7 @@ static bool is_no_vector(const struct osl *osl, const struct lang_use *use, unsi
     return kind == OSL_COLOR || kind == OSL_POINT;
 }
 
-/* Sums of a number and a matrix have the matrix first. */
+/* In sums of a number and a matrix the matrix comes first. */
 static const struct lang_pieces *turned_sum_form(struct osl *osl, const struct lang_use *use)
 {
     if (use->op != IR_ADD || use->operands[0] != IR_TYPE_FLOAT
@@ -397,15 +396,15 @@ static const struct lang_pieces *turned_sum_form(struct osl *osl, const struct l
 }
 
 /*
- * A row vector times a matrix in OSL is ours times a column vector; products of matrices turn
- * around.
+ * A row vector times a matrix in OSL is a matrix times a column vector in the IR, so products of
+ * matrices swap their operands.
  */
 static const struct lang_pieces *product_form(struct osl *osl, const struct lang_use *use)
 {
     ir_type_id a = use->operands[0], b = use->operands[1];
     if (ir_type_is_matrix(a) && ir_type_is_matrix(b))
         return form_of(osl, "$1 * $0", LANG_PREC_POSTFIX);
-    /* transform() gives a vector */
+    /* transform() returns a vector */
     bool is_color = use->node && osl->kinds[use->node] == OSL_COLOR;
     if (a == IR_TYPE_MAT3 && b == IR_TYPE_VEC3)
         return form_of(osl,
@@ -430,13 +429,13 @@ static const struct lang_pieces *product_form(struct osl *osl, const struct lang
 }
 
 /*
- * The type that an operand must be cast to, lest a call mixes colours and vectors; NULL: it may
- * stay.
+ * The type to which a form must cast an operand, so that calls do not mix colours and vectors;
+ * NULL: no cast.
  */
 static const char *cast_of(const struct osl *osl, const struct lang_use *use, unsigned index)
 {
     enum osl_kind have = operand_kind(osl, use, index);
-    if (use->op == IR_NORMALIZE) /* there is one of vectors and one of normals */
+    if (use->op == IR_NORMALIZE) /* overloads exist for vectors and for normals */
         return is_no_vector(osl, use, index) ? "vector" : NULL;
     bool is_color = use->node && osl->kinds[use->node] == OSL_COLOR;
     bool is_call = ir_op_info(use->op)->flags & OP_BUILTIN || use->op == IR_SELECT;
@@ -445,7 +444,7 @@ static const char *cast_of(const struct osl *osl, const struct lang_use *use, un
     return is_call && is_color && (have == OSL_VECTOR || have == OSL_POINT) ? "color" : NULL;
 }
 
-/* "dot(vector($0), $1)"; NULL: no operand is cast. */
+/* "dot(vector($0), $1)"; NULL: no operand needs a cast. */
 static const struct lang_pieces *cast_form(struct osl *osl, const struct lang_use *use)
 {
     const struct lang_pieces *own = usual_form(osl, use->op);
@@ -468,7 +467,7 @@ static const struct lang_pieces *cast_form(struct osl *osl, const struct lang_us
     return form_of(osl, text_cstr(&text), (enum lang_precedence)own->precedence);
 }
 
-/* A colour made of numbers: "color(1.0)", "color($0, $1, $2)"; NULL: it is a vector. */
+/* A colour made of numbers: "color(1.0)", "color($0, $1, $2)"; NULL: the node is a vector. */
 static const struct lang_pieces *color_form(struct osl *osl, const struct lang_use *use)
 {
     if (use->type != IR_TYPE_VEC3 || !use->node || osl->kinds[use->node] != OSL_COLOR)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* How much more an interface reflects at a cosine than head-on, as nodes. */
+/* The reflectance of an interface at a cosine, relative to normal incidence, as nodes. */
 #include "generators/osl/tree.h"
 
 static ir_ref squared(struct ir_graph *g, ir_ref x)
@@ -7,7 +7,7 @@ static ir_ref squared(struct ir_graph *g, ir_ref x)
     return ir_op2(g, IR_MUL, x, x);
 }
 
-/* The reflectance of a conductor head-on: ((n - 1)^2 + k^2) / ((n + 1)^2 + k^2). */
+/* The reflectance of a conductor at normal incidence: ((n - 1)^2 + k^2) / ((n + 1)^2 + k^2). */
 static ir_ref frontal_of_conductor(struct ir_graph *g, ir_ref n, ir_ref k)
 {
     ir_ref one = ir_const_float(g, 1.0f), extinct = squared(g, k);
@@ -27,7 +27,7 @@ static ir_ref schlick_rise(struct ir_graph *g, ir_ref frontal, ir_ref edge, ir_r
 }
 
 /*
- * Of a dielectric: F = ((d - c) / (d + c))^2 (1 + ((c (d + c) - 1) / (c (d - c) + 1))^2) / 2 with
+ * For a dielectric: F = ((d - c) / (d + c))^2 (1 + ((c (d + c) - 1) / (c (d - c) + 1))^2) / 2 with
  * d^2 = n^2 - 1 + c^2 (Cook 1982).
  */
 static ir_ref dielectric_rise(struct ir_graph *g, ir_ref n, ir_ref cosine)

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * The library's functions above the shader, those that were called. The ones that OSL has of itself
- * (natives.def) call it, so the functions that only these would call are left out.
+ * Writes the called library functions above the shader. A function with a native counterpart
+ * (natives.def) calls it instead of running library code, so functions that only this code calls
+ * are left out.
  */
 #include "generators/osl/osl.h"
+
+#include <assert.h>
 
 static const struct {
     const char *function, *types, *name;
@@ -59,7 +62,7 @@ const char *osl_function_name(void *user_data, uint32_t id)
 }
 
 /*
- * "float mx_noise_float(vector p) {…}" by what OSL has; false: the function is the library's alone.
+ * "float mx_noise_float(vector p) {…}" with OSL's native function; false: there is none.
  */
 static bool write_native(struct osl *osl, uint32_t id, struct text *out)
 {
@@ -79,7 +82,7 @@ static bool write_native(struct osl *osl, uint32_t id, struct text *out)
     return false;
 }
 
-/* Those that functions read; arrays stand in the functions (lang_syntax.defines_constants). */
+/* Constants that functions read; arrays are local to functions (lang_syntax.defines_constants). */
 static void write_constants(const struct osl *osl, struct text *out)
 {
     const struct spell *spell = osl->spell;
@@ -93,25 +96,33 @@ static void write_constants(const struct osl *osl, struct text *out)
     }
 }
 
-/* Callees stand above their callers, so every call of a function is written before it is asked. */
+struct written {
+    uint32_t id;
+    struct text text;
+};
+
+/* Callees stand above their callers, so a function is written after all its calls. */
 void osl_write_functions(struct osl *osl, struct text *out)
 {
     struct spell *spell = osl->spell;
+    assert(spell->out == out);
     const struct lang_reach *reach = &spell->stage->reach;
-    VEC(struct text) kept = {0};
+    VEC(struct written) kept = {0};
     for (uint32_t i = reach->functions.len; i-- > 0;) {
         uint32_t id = reach->functions.items[i];
         if (!osl->called[id] || osl_same_function(spell, id))
             continue;
-        struct text text;
-        text_init(&text, spell->scratch);
-        if (!write_native(osl, id, &text))
-            lang_print_function(spell->style, &spell->lang_names, spell->shader->unit, id, &text);
-        vec_push(spell->scratch, &kept, text);
+        struct written function = {.id = id};
+        struct text *text = &function.text;
+        text_init(text, spell->scratch);
+        if (!write_native(osl, id, text))
+            lang_print_function(spell->style, &spell->lang_names, spell->shader->unit, id, text);
+        vec_push(spell->scratch, &kept, function);
     }
     write_constants(osl, out);
     for (uint32_t i = kept.len; i-- > 0;) {
-        text_mem(out, kept.items[i].data, kept.items[i].len);
+        spell_function_doc(spell, kept.items[i].id);
+        text_mem(out, kept.items[i].text.data, kept.items[i].text.len);
         text_char(out, '\n');
     }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Which groups a network becomes, the layers that each one needs, and the shaders at their ends. */
+/* The groups of a network, the layers of each group, and the shaders at their ends. */
 #include "generators/osl/groups.h"
 
 #include "base/hash.h"
@@ -61,7 +61,7 @@ static const bool *find_needed(struct network *network, const struct osl_end *en
         struct network_node *node = &network->nodes.items[layer->node];
         for (uint32_t k = 0; needed[i] && k < node->num_inputs; k++) {
             const struct network_input *input = &network->inputs.items[layer->first_input + k];
-            assert(input->kind != NETWORK_LAYER || input->layer < i); /* layers follow theirs */
+            assert(input->kind != NETWORK_LAYER || input->layer < i); /* sources come first */
             need(needed, input);
         }
         node->is_needed |= needed[i];

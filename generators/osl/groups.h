@@ -1,31 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Shader groups, which a network becomes: the layers that a result of the network needs, and behind
- * them a shader that takes the result.
+ * Shader groups of a network: the layers for one result of the network, then a shader that takes
+ * the result.
  */
 #ifndef MXG_GENERATORS_OSL_GROUPS_H
 #define MXG_GENERATORS_OSL_GROUPS_H
 
 #include "spell/target.h"
 
-#define OSL_END_LAYER "root" /* the last layer's name */
-enum { OSL_MAX_ENDS = 2 };   /* results that a group can take */
+#define OSL_END_LAYER "root" /* name of the last layer */
+enum { OSL_MAX_ENDS = 2 };   /* results that one group can take */
 
-/* A kind of group, and the shader that it ends in. */
+/* A kind of group, and its last shader. */
 struct osl_end {
     enum shader_stage_id stage;
     const char *use;  /* "surface" */
-    const char *name; /* of the shader; NULL: the group ends in the result's own layer */
+    const char *name; /* name of the shader; NULL: the group ends with the layer of the result */
     const char *source;
     struct {
         enum network_result result;
-        const char *parameter; /* NULL: behind the last */
+        const char *parameter; /* NULL: end of the list */
     } inputs[OSL_MAX_ENDS];
 };
 
 struct osl_group {
     const struct osl_end *end;
-    const bool *needed; /* per layer */
+    const bool *needed; /* per layer: the group contains it */
 };
 
 struct osl_program { /* network->program */

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Which of the graph's vec3 are colours. OSL tells colours, vectors and points apart, and warns of
- * calls that mix them. One pass upwards: what comes from a colour is one. One pass downwards: what
- * could be anything, a literal for the most part, is what it is used for.
+ * Finds the vec3 nodes that are colours. OSL distinguishes colours, vectors and points, and warns
+ * of calls that mix them. One pass upwards: results of colours are colours. One pass downwards:
+ * nodes that could be either, usually literals, get the kind of their use.
  */
 #include "generators/osl/osl.h"
 
@@ -11,7 +11,7 @@ static bool is_triple(const struct ir_graph *graph, ir_ref ref)
     return ref && ir_type_of(graph, ref) == IR_TYPE_VEC3;
 }
 
-/* These give a direction, or what functions of the library return, whatever goes in. */
+/* Ops that return a vector, and calls of library functions, for any operands. */
 static bool gives_vector(enum ir_op op)
 {
     return op == IR_NORMALIZE || op == IR_CROSS || op == IR_REFLECT || op == IR_REFRACT
@@ -28,7 +28,7 @@ static enum osl_kind kind_of_variable(const struct osl *osl, uint32_t index)
     return variable->doc_type == STR_color3 ? OSL_COLOR : OSL_VECTOR;
 }
 
-/* A call of the library's function, in whose place stands one of stdosl.h. */
+/* True for a call of a library function that a function of stdosl.h replaces. */
 static bool is_same_call(const struct osl *osl, ir_ref ref)
 {
     const struct spell *spell = osl->spell;
@@ -59,7 +59,7 @@ static enum osl_kind kind_of(const struct osl *osl, ir_ref ref)
     return kind;
 }
 
-/* What an operation does with operands that could be anything. */
+/* The kind that an op needs for operands that could be either. */
 static enum osl_kind wanted_kind(const struct osl *osl, ir_ref user)
 {
     const struct ir_graph *graph = osl->spell->shader->graph;

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Leaves as calls of OSL's closures: a row of closures.def says which, and with what. */
+/*
+ * Leaves become calls of OSL closures: a row of closures.def gives the closure and its arguments.
+ */
 #include "generators/osl/tree.h"
 
 #include <assert.h>
@@ -10,7 +12,7 @@ enum leaf_input {
 #define INPUT(name) INPUT_##name,
 #include "generators/osl/closures.def"
     NUM_INPUTS,
-    INPUT_white = NUM_INPUTS, /* in the place of a tint */
+    INPUT_white = NUM_INPUTS, /* replaces a tint */
 };
 
 static const char *const input_names[NUM_INPUTS] = {
@@ -38,18 +40,18 @@ struct argument {
     int number;
 };
 
-/* Further arguments of a closure, given where an input says something. */
+/* Optional arguments of a closure, written if an input differs from its default. */
 struct option {
     enum leaf_input input;
-    const char *word; /* of a text: the only one that says something */
+    const char *word; /* for strings: the only value that adds the arguments */
     const struct argument *arguments;
 };
 
 struct row {
-    const char *family; /* of the leaf's functions: "mx_dielectric_bsdf" */
+    const char *family; /* family of the leaf: "mx_dielectric_bsdf" */
     const char *closure;
     const struct argument *arguments;
-    struct option option; /* arguments NULL: there is none */
+    struct option option; /* arguments NULL: no option */
 };
 
 #define ARG(name) \
@@ -116,16 +118,16 @@ static const struct row *find_row(const char *family)
     return NULL;
 }
 
-/* ---- Inputs of the leaf at hand ---- */
+/* ---- Inputs of the current leaf ---- */
 
 enum side { BOTH_SIDES, REFLECTED, TRANSMITTED };
 
 struct leaf {
     struct osl_tree *tree;
     ir_ref ref;
-    ir_ref inputs[NUM_INPUTS]; /* 0: it has no such input */
-    ir_ref turned;  /* whether it reflects back to where the light came from; 0: it does not */
-    enum side side; /* the one that its closure is for */
+    ir_ref inputs[NUM_INPUTS]; /* 0: the leaf lacks this input */
+    ir_ref turned;             /* true if it reflects light back to its source; 0: false */
+    enum side side;            /* the side of the closure */
 };
 
 static void find_inputs(struct leaf *leaf)
@@ -160,7 +162,7 @@ static bool scatters(const struct leaf *leaf, enum side side)
 
 /* ---- Arguments ---- */
 
-/* Facets that mirror about the view direction send light back along it. */
+/* Retroreflecting facets send light back along the view direction. */
 static ir_ref facing(const struct leaf *leaf, ir_ref normal)
 {
     struct osl_tree *t = leaf->tree;
@@ -168,7 +170,7 @@ static ir_ref facing(const struct leaf *leaf, ir_ref normal)
     return leaf->turned ? ir_build(t->graph, IR_SELECT, IR_TYPE_VEC3, 0, args, 3) : normal;
 }
 
-/* A tint that counts on the side that it is for; black where the closure at hand is for another. */
+/* The tint of one side; black if the current closure is for the other side. */
 static ir_ref scattered(const struct leaf *leaf, ir_ref tint, enum side side)
 {
     bool counts = scatters(leaf, side) && (leaf->side == BOTH_SIDES || leaf->side == side);
@@ -176,9 +178,9 @@ static ir_ref scattered(const struct leaf *leaf, ir_ref tint, enum side side)
 }
 
 /*
- * Schlick's curve F is bent by color82 at 82 degrees (Hoffman 2019, "Fresnel Equations Considered
- * Harmful"). Closures know no such colour, so the one at 90 degrees is chosen for which the plain
- * curve passes through the same reflectance there, with q = (6/7)^exponent:
+ * The input color82 changes Schlick's curve F at 82 degrees (Hoffman 2019, "Fresnel Equations
+ * Considered Harmful"). OSL closures lack this colour. So the code chooses a colour at 90 degrees
+ * for which the plain curve has the same reflectance at 82 degrees, with q = (6/7)^exponent:
  *
  *     F'(82) = color82 · F(82)    color90' = color90 - (1 - color82) · F(82) / q
  */
@@ -195,7 +197,7 @@ static ir_ref bent_edge(const struct leaf *leaf, ir_ref color90)
     return ir_op2(g, IR_MAX, edge, ir_const_float(g, 0.0f));
 }
 
-/* Ops that work component by component, and have no other meaning for scalars. */
+/* True for componentwise ops that have the same meaning for scalars. */
 static bool is_componentwise(enum ir_op op)
 {
     uint8_t rule = ir_op_info(op)->rule;
@@ -208,8 +210,8 @@ static bool is_componentwise(enum ir_op op)
 enum { MAX_DEPTH = 12 };
 
 /*
- * A component of a vector, taken of the operands as far down as that goes: OSL has no vectors of
- * two components, which roughness is, and is spared the struct.
+ * A component of a vector, through its operands as far as possible: roughness has two components,
+ * which OSL would hold in a struct.
  */
 static ir_ref component(struct ir_graph *g, ir_ref value, unsigned index, unsigned depth)
 {
@@ -242,7 +244,7 @@ static ir_ref argument(const struct leaf *leaf, const struct argument *argument)
         return ir_const_int(g, argument->number);
     ir_ref value = argument->input == INPUT_white ? ir_const_splat(g, IR_TYPE_VEC3, 1.0f)
                                                   : leaf->inputs[argument->input];
-    assert(value); /* the library's leaf has every input that its row names */
+    assert(value); /* a row names only inputs of its leaf */
     switch (argument->kind) {
     case ARGUMENT_X: return component(g, value, 0, MAX_DEPTH);
     case ARGUMENT_Y: return component(g, value, 1, MAX_DEPTH);
@@ -294,8 +296,8 @@ static ir_ref side_call(struct leaf *leaf, const struct row *row, enum side side
 }
 
 /*
- * Facets that mirror about the view direction are met head-on, whatever the angle to the surface
- * is: they reflect as much more as they would at that angle.
+ * Light meets retroreflecting facets head-on at every angle to the surface. This factor is the
+ * increase of reflectance at that angle.
  */
 static ir_ref turned_factor(const struct leaf *leaf)
 {
@@ -313,7 +315,7 @@ static ir_ref turned_factor(const struct leaf *leaf)
     return ir_build(g, IR_SELECT, ir_type_of(g, more), 0, (ir_ref[]){leaf->turned, more, one}, 3);
 }
 
-/* The tint of transmission; NULL: the row's leaf has no other side. */
+/* The tint of transmission; NULL: the leaf of the row does not transmit. */
 static const struct argument *transmitted_argument(const struct row *row)
 {
     const struct argument *at = row->arguments;
@@ -323,8 +325,8 @@ static const struct argument *transmitted_argument(const struct row *row)
 }
 
 /*
- * One closure; of leaves that transmit one for each side, where the sides differ in more than in
- * tints. Through a shell without an inside light goes on as it came, in the colour of transmission.
+ * One closure. For leaves that transmit, one closure per side if the sides differ in more than
+ * tints. Light passes straight through a thin-walled shell, in the colour of transmission.
  */
 static ir_ref row_call(struct leaf *leaf, const struct row *row)
 {
@@ -353,7 +355,7 @@ static ir_ref row_call(struct leaf *leaf, const struct row *row)
     return osl_mixed(t, whole, shell, ir_convert(t->graph, IR_TYPE_FLOAT, thin));
 }
 
-/* ---- Leaves without a row: what their own functions give for the view at hand ---- */
+/* ---- Leaves without a row: the value of their own functions for the current view ---- */
 
 static ir_ref emission(struct osl_tree *t, ir_ref leaf)
 {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * What parameters say of themselves:
+ * Metadata of parameters:
  *
  *     #define UNIT float min = 0, float max = 1
  *
@@ -13,13 +13,13 @@ static const char *text_of(const struct osl *osl, str_id id)
     return str_text(osl->spell->shader->strings, id);
 }
 
-/* "[[ " or ", " in front of the next piece. */
+/* Starts a piece of metadata with "[[ " or ", ". */
 static void write_piece(struct spell *spell, const char *piece, unsigned *count)
 {
     SPELL(spell, (*count)++ ? ", " : " [[ ", piece);
 }
 
-/* "string page = "Base"", or "" where there is nothing to say. */
+/* "string page = "Base"", or "" if the value is empty. */
 static const char *hint_text(const struct spell *spell, const char *name, const char *text)
 {
     struct text piece;
@@ -58,7 +58,7 @@ static void add_limit(struct text *piece, const char *name, const char *limit, i
     text_mem(piece, limit, len);
 }
 
-/* "float min = 0, float max = 1"; "": it has no limits. */
+/* "float min = 0, float max = 1", or "" without limits. */
 static const char *range_text(const struct spell *spell, const struct shader_variable *variable,
                               const struct shader_ui *ui)
 {
@@ -71,7 +71,7 @@ static const char *range_text(const struct spell *spell, const struct shader_var
     return text_cstr(&piece);
 }
 
-/* ---- What many parameters say ---- */
+/* ---- Metadata that many parameters share ---- */
 
 static struct osl_macro *find_macro(struct osl *osl, const char *text)
 {
@@ -92,7 +92,7 @@ static void count_piece(struct osl *osl, const char *text, const char *name)
         vec_push(osl->spell->scratch, &osl->macros, (struct osl_macro){text, name, 1});
 }
 
-/* "THIN_FILM" of the page "Thin Film". */
+/* "THIN_FILM" for the page "Thin Film". */
 static const char *page_name(const struct spell *spell, const char *page)
 {
     size_t len;
@@ -116,7 +116,7 @@ static bool is_parameter(const struct osl *osl, const struct shader_variable *va
            && osl_is_read(osl, variable);
 }
 
-enum { MIN_USES = 3 }; /* what two parameters share is no longer than a line about it */
+enum { MIN_USES = 3 }; /* with fewer uses, the definition is longer than the text that it saves */
 
 static bool is_worth_it(const struct osl_macro *macro)
 {
@@ -125,7 +125,7 @@ static bool is_worth_it(const struct osl_macro *macro)
            && macro->uses * text > macro->uses * name + strlen("#define  \n") + name + text;
 }
 
-/* Pages and ranges that many parameters share have a name, defined above the shader. */
+/* Pages and ranges that many parameters share become macros above the shader. */
 void osl_write_macros(struct osl *osl)
 {
     struct spell *spell = osl->spell;
@@ -165,8 +165,8 @@ static void write_shared(struct osl *osl, const char *text, unsigned *count)
 /* ---- The rest ---- */
 
 /*
- * A label that only says the name again, "Base Color" of base_color, is what user interfaces make
- * of the name themselves; the underscore behind a word of the language does not count.
+ * True for a label that repeats the name, such as "Base Color" for base_color: user interfaces
+ * derive it from the name. An underscore after a keyword does not count.
  */
 static bool says_name(const char *label, const char *name)
 {
@@ -182,7 +182,7 @@ static void write_label(struct spell *spell, const char *name, const char *label
         write_hint(spell, "label", label, count);
 }
 
-/* Of colours and images; those in the working space need no word. */
+/* The colour space of colours and images; NULL for the working space. */
 static const char *colorspace_of(const struct osl *osl, const struct shader_variable *variable)
 {
     const char *space = text_of(osl, variable->colorspace);
@@ -192,7 +192,7 @@ static const char *colorspace_of(const struct osl *osl, const struct shader_vari
     return has_space && !(working && strcmp(space, working) == 0) ? space : NULL;
 }
 
-/* "a:0|b:1" of the words "a, b" and the values "0, 1", which count from 0 where there are none. */
+/* "a:0|b:1" from the names "a, b" and the values "0, 1"; without values, they count from 0. */
 static void write_choices(struct spell *spell, const char *names, const char *values,
                           unsigned *count)
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Shader groups as the text that hosts give to ShadingSystem::ShaderGroupBegin, and testshade
- * takes: values, layer, connections, layer by layer.
+ * Shader groups as text for ShadingSystem::ShaderGroupBegin and testshade. Each layer has its
+ * values, its shader and its connections.
  *
  *     param float amplitude 0.5 ;
  *     shader ND_noise2d_float NG_marble_noise ;
@@ -30,7 +30,7 @@ static void write_numbers(const struct ir_value *value, unsigned count, struct t
     }
 }
 
-/* The upper left of a 4x4 matrix, whose rows are our columns. */
+/* The upper left of a 4x4 matrix, whose rows are the IR's columns. */
 static void write_matrix33(const struct ir_value *value, struct text *out)
 {
     for (unsigned i = 0; i < 16; i++) {

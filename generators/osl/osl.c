@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Open Shading Language 1.14 and later: one shader per file, closures for what scatters light
+ * Open Shading Language 1.14 and later: one shader per file, with closures for scattered light
  * (docs/osl.md).
  */
 #include "generators/osl/osl.h"
@@ -21,7 +21,7 @@ static const struct {
 };
 enum { NUM_STRUCTS = sizeof structs / sizeof *structs };
 
-/* Nobody but their text says what sources of the document need. */
+/* The types that verbatim source needs; only its text shows them. */
 static void note_verbatim_types(struct osl *osl, str_id text)
 {
     for (size_t i = 0; i < NUM_STRUCTS; i++)
@@ -29,7 +29,7 @@ static void note_verbatim_types(struct osl *osl, str_id text)
             osl->types |= 1u << structs[i].type;
 }
 
-/* Above the rest stand the structs and helpers that it needs. */
+/* Writes the structs and helpers that the rest of the file needs, above it. */
 static void write_declarations(struct osl *osl)
 {
     struct spell *spell = osl->spell;
@@ -52,7 +52,7 @@ static const char *shader_type(const struct spell *spell)
     return spell->stage_id == STAGE_VERTEX ? "displacement" : words[spell->shader->kind];
 }
 
-/* "NG_out": the element's path. */
+/* "NG_out": from the element's path. */
 static const char *shader_name(struct spell *spell)
 {
     if (spell->options->shader_name)
@@ -103,7 +103,10 @@ static void start(struct osl *osl)
     osl_find_kinds(osl);
 }
 
-/* From the end to the beginning of the file: what is written marks what must stand above it. */
+/*
+ * Writes from the end of the file to its beginning, because each part marks the declarations that
+ * must stand above it.
+ */
 static void write_stage(struct spell *spell, enum shader_stage_id stage)
 {
     (void)stage;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Shared by the files of this target. */
+/* Declarations that the files of this target share. */
 #ifndef MXG_GENERATORS_OSL_H
 #define MXG_GENERATORS_OSL_H
 
@@ -14,33 +14,33 @@ struct osl_macro {
     uint32_t uses;
 };
 
-/* What is known while a file is written. */
+/* State while a file is written. */
 struct osl {
     struct spell *spell;
-    /* by interface variable: the parameter that a stream of several numbers comes as */
+    /* by interface variable: the array parameter of a stream with several components */
     const char **arrays;
     uint8_t *kinds; /* per node of three components: enum osl_kind */
-    /* the first row of helpers.def for an op, + 1; 0: there is none */
+    /* the first row of helpers.def for an op, + 1; 0: none */
     uint8_t first_helper[IR_NUM_OPS];
     VEC(struct osl_macro) macros;
-    /* marked while text is written: what it names must stand above it */
+    /* set while text is written: the file must declare these above the text */
     bool *called;              /* per portable function */
     bool *read;                /* per portable global */
     uint32_t types;            /* 1 << type of each built-in type */
-    VEC(const char *) helpers; /* functions that the file declares for itself, callees first */
+    VEC(const char *) helpers; /* functions that the file declares, callees first */
 };
 
 /*
- * The IR's vec3 is OSL's `vector`, or `color` where a colour is known to be in it; P is a `point`.
+ * The IR's vec3 is OSL's `vector`, or `color` if it holds a colour; P is a `point`.
  */
 enum osl_kind { OSL_ANY, OSL_VECTOR, OSL_COLOR, OSL_POINT };
 
-/* syntax.c: tables, and marks of what is used */
+/* syntax.c: tables, and marks of use */
 extern const struct lang_syntax osl_syntax;
-char osl_type_letter(ir_type_id type);                  /* as in helpers.def */
+char osl_type_letter(ir_type_id type);                  /* the letter in helpers.def */
 void osl_note_type(void *user_data, ir_type_id type);   /* lang_names.type */
-const char *osl_type(struct osl *osl, ir_type_id type); /* a name that is written now */
-void osl_add_helper(struct osl *osl, const char *text); /* unless it is there */
+const char *osl_type(struct osl *osl, ir_type_id type); /* its name; marks it as used */
+void osl_add_helper(struct osl *osl, const char *text); /* adds a helper once */
 static inline bool osl_is_struct(ir_type_id type)
 {
     return type == IR_TYPE_VEC2 || type == IR_TYPE_VEC4 || type == IR_TYPE_IVEC2;
@@ -48,29 +48,29 @@ static inline bool osl_is_struct(ir_type_id type)
 
 /* kinds.c */
 void osl_find_kinds(struct osl *osl);
-/* "color"; NULL: as its type says */
+/* "color"; NULL: the usual name of its type */
 const char *osl_node_type(const struct spell *spell, ir_ref ref);
 
 /* forms.c */
 void osl_index_helpers(struct osl *osl);
-/* lang_names.form; `user_data` is the spell, whose target_data the osl. */
+/* lang_names.form; `user_data` is the spell, whose target_data is the struct osl. */
 const struct lang_pieces *osl_form(void *user_data, const struct lang_use *use);
 
-/* functions.c: the library's functions that were called, and their constants */
-/* The function of stdosl.h that stands for one; NULL: none. */
+/* functions.c: the called library functions, and their constants */
+/* The function of stdosl.h that replaces a library function; NULL: none. */
 const char *osl_same_function(const struct spell *spell, uint32_t id);
 void osl_name_same_functions(struct spell *spell);
 const char *osl_function_name(void *user_data, uint32_t id); /* lang_names.function */
-void osl_write_functions(struct osl *osl, struct text *out); /* below them nothing is called */
+void osl_write_functions(struct osl *osl, struct text *out); /* call this last */
 
-/* structs.c: those of the document's functions, with the makers that were called */
+/* structs.c: the structs of the document's functions, with the makers that are called */
 void osl_name_makers(struct osl *osl);
 const char *osl_maker(void *user_data, const char *type); /* lang_names.maker */
 void osl_write_structs(struct osl *osl, struct text *out);
 
 /*
- * textures.c: the form that reads a texture of the graph; NULL: it is one that a function was
- * given.
+ * textures.c: the form that reads a texture of the graph; NULL for the texture parameter of a
+ * function.
  */
 const char *osl_texture_call(struct osl *osl, const struct lang_use *use);
 
@@ -79,7 +79,7 @@ static inline const struct shader_variable *osl_interface_variable(const struct 
 {
     return &osl->spell->shader->variables.items[osl->spell->shader->interface.items[i]];
 }
-/* Does the stage at hand read it? */
+/* True if the current stage reads the variable. */
 static inline bool osl_is_read(const struct osl *osl, const struct shader_variable *variable)
 {
     return variable->stages >> osl->spell->stage_id & 1;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * What stands between the parentheses of a shader, and the locals at its beginning: parameters with
- * metadata, streams, outputs.
+ * The parameters of a shader with their metadata, its streams and outputs, and the locals at its
+ * beginning.
  *
- * A stream that OSL knows is an expression; any other is a parameter with lockgeom=0, which
- * renderers fill from the primitive's variable of that name. Those of two and four components are
- * arrays there, since renderers do not fill structs.
+ * A stream that OSL provides is an expression; any other is a parameter with lockgeom=0, which
+ * renderers fill from the primitive variable of that name. Streams of two and four components are
+ * arrays in the parameter list, because renderers do not fill structs.
  */
 #include "generators/osl/osl.h"
 
@@ -40,7 +40,7 @@ static const char *text_of(const struct osl *osl, str_id id)
     return str_text(osl->spell->shader->strings, id);
 }
 
-/* What OSL has for a variable; NULL: it is a parameter. */
+/* The row of OSL's expression for a variable; NULL: it is a parameter. */
 static const struct known_row *known_of(const struct osl *osl,
                                         const struct shader_variable *variable)
 {
@@ -53,7 +53,7 @@ static const struct known_row *known_of(const struct osl *osl,
     return NULL;
 }
 
-/* "st" of the stream "geomprop_st": the name of the primitive's variable. */
+/* "st" for the stream "geomprop_st": the name of the primitive variable. */
 static const char *primitive_name(const char *stream)
 {
     return strncmp(stream, "geomprop_", 9) == 0      ? stream + 9
@@ -62,7 +62,7 @@ static const char *primitive_name(const char *stream)
                                                      : stream;
 }
 
-/* The closure that surfaces and volumes end in is a variable of OSL. */
+/* True for the closure result of surfaces and volumes, which is OSL's variable Ci. */
 static bool is_result(const struct osl *osl, const struct shader_variable *variable)
 {
     return variable->block == BLOCK_OUTPUTS && ir_type_is_closure(variable->type)
@@ -79,7 +79,7 @@ static bool is_stream(const struct shader_variable *variable)
     return variable->block == BLOCK_VERTEX_DATA || variable->block == BLOCK_PRIVATE_UNIFORMS;
 }
 
-/* "st_value": the struct that an array is put into. */
+/* "st_value": the struct that receives the array. */
 static const char *value_name(struct spell *spell, const char *stream)
 {
     struct text name;
@@ -116,7 +116,7 @@ void osl_name_interface(struct osl *osl)
     }
 }
 
-/* Functions do not see the shader's locals: they have expressions for them. */
+/* Functions do not see the shader's locals, so they get expressions. */
 const char *osl_global_name(void *user_data, uint32_t id)
 {
     struct spell *spell = user_data;
@@ -144,7 +144,7 @@ static const char *type_name(struct osl *osl, const struct shader_variable *vari
     return is_color ? "color" : osl_type(osl, variable->type);
 }
 
-/* "0.5", "1": as people write what a parameter is at first. */
+/* "0.5", "1": numbers as people write initial values. */
 static void write_number(struct spell *spell, union ir_word word)
 {
     struct text number;
@@ -163,7 +163,7 @@ static void write_numbers(struct spell *spell, const union ir_word *words, unsig
     }
 }
 
-/* "color(0.8, 0.2, 0.1)"; or a number, which fills all three. */
+/* "color(0.8, 0.2, 0.1)", or one number for all three components. */
 static void write_triple(struct osl *osl, const struct shader_variable *variable,
                          const union ir_word *words)
 {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * The structs of a shader's functions. Constructors of oslc (1.15.6) lose what stands for a member
- * that is a struct itself, unless it is a constructor or call: such structs have a function that
- * puts them together member by member.
+ * The structs of a shader's functions. oslc (1.15.6) drops a constructor's argument for a struct
+ * member unless the argument is a constructor or call. So such structs have a function that assigns
+ * each member.
  */
 #include "generators/osl/osl.h"
 

@@ -34,7 +34,7 @@ static const char *const type_names[IR_NUM_TYPES] = {
     [IR_TYPE_EDF] = "closure color", [IR_TYPE_VDF] = "closure color",
 };
 
-/* Structs and small matrices, in which every part is written. */
+/* Writes structs and small matrices part by part. */
 static bool write_value(const struct lang_style *style, ir_type_id type, const union ir_word *words,
                         struct text *out)
 {
@@ -101,7 +101,7 @@ void osl_add_helper(struct osl *osl, const char *text)
 
 /* ---- Letters of types ---- */
 
-/* A type as one letter: helpers.def. */
+/* A type as one letter, for helpers.def. */
 char osl_type_letter(ir_type_id type)
 {
     static const char letters[IR_NUM_TYPES] = {

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Reads of textures with what the node says about them: address modes, filter, and the colour where
- * there is no image.
+ * Texture reads with the node's address modes, filter, and colour for a missing image.
  *
  *     color c = (color)texture(file, uv.x, 1 - uv.y, "swrap", "clamp", "twrap", "periodic");
  */
 #include "generators/osl/osl.h"
 
-/* Beyond the border of `constant` the shader itself has the default. */
+/* Outside the border with mode `constant`, the shader itself computes the default. */
 static const char *const wraps[][2] = {
     {"constant", "clamp"}, {"clamp", "clamp"}, {"periodic", "periodic"}, {"mirror", "mirror"}};
-/* "linear" is what texture() does unless it is told: it filters better than that. */
+/* "linear" is the default of texture(), which filters better than the explicit mode. */
 static const char *const filters[][2] = {
     {"closest", "closest"}, {"linear", "smartcubic"}, {"cubic", "cubic"}};
 
@@ -25,7 +24,7 @@ static const char *translate(const char *const (*words)[2], size_t count, const 
 
 struct modes {
     const char *swrap, *twrap, *interp;
-    const char *layer; /* a subimage by name; "" for the first */
+    const char *layer; /* name of a subimage; "" for the first */
 };
 
 static struct modes modes_of(const struct spell *spell, const struct shader_variable *texture)
@@ -37,14 +36,14 @@ static struct modes modes_of(const struct spell *spell, const struct shader_vari
         .twrap = translate(wraps, 4, str_text(strings, texture->sampling.vaddressmode), "periodic"),
         .interp =
             translate(filters, 3, str_text(strings, texture->sampling.filtertype), "smartcubic"),
-        /* it becomes part of a form, where that is an operand */
+        /* the name becomes part of a form, in which '$' marks an operand */
         .layer = strchr(layer, '$') ? "" : layer,
     };
 }
 
 /*
- * Images have their first row on top, texture coordinates at the bottom. texture() finds the tile
- * of <UDIM> by the whole part of its coordinates, so only the rest is turned round.
+ * Images have their first row at the top, texture coordinates have it at the bottom. texture()
+ * finds a tile of <UDIM> by the whole part of the coordinates, so only the fraction is flipped.
  */
 static bool has_tiles(const struct spell *spell, const struct shader_variable *texture)
 {
@@ -52,7 +51,7 @@ static bool has_tiles(const struct spell *spell, const struct shader_variable *t
     return strstr(file, "<UDIM>") || strstr(file, "<UVTILE>");
 }
 
-/* A channel of the parameter that the default is; it has `n`. */
+/* A channel of the parameter that holds the default; the parameter has `n` channels. */
 static void write_part_of(const struct spell *spell, uint32_t parameter, unsigned n,
                           unsigned channel, struct text *out)
 {
@@ -64,7 +63,7 @@ static void write_part_of(const struct spell *spell, uint32_t parameter, unsigne
         text_fmt(out, "[%u]", channel);
 }
 
-/* What stands for a missing image: the node's default, as four channels. */
+/* The default for a missing image, as four channels. */
 static void write_missing(const struct spell *spell, const struct shader_variable *texture,
                           unsigned count, struct text *out)
 {
@@ -90,7 +89,7 @@ static bool is_color(const struct spell *spell, uint32_t parameter)
     return spell->shader->variables.items[parameter].doc_type == STR_color3;
 }
 
-/* One or three channels are what OSL's texture() gives by itself. */
+/* OSL's texture() returns one or three channels. */
 static void write_call(const struct spell *spell, const struct shader_variable *texture,
                        ir_type_id type, struct text *out)
 {

@@ -4,8 +4,8 @@
  *
  * Every object owns its memory, because any thread may drop the last reference. Work on an object
  * runs inside object_run, which catches a lack of memory (base/mem.h). Afterwards the object is
- * immutable, except for texts that the first use makes and for the cache of node matches in a
- * document.
+ * immutable, except for texts that their first use writes, and for a document's cache of node
+ * matches.
  */
 #ifndef MXG_API_API_H
 #define MXG_API_API_H
@@ -37,12 +37,12 @@ enum { OBJECT_MAX_TEXTS = 2 };
 struct object {
     struct mxg_context *context;
     /*
-     * the object that it refers to and keeps alive: the library of a document, the document of a
-     * result
+     * the object that it refers to and keeps alive: for a document its library, for a result its
+     * document
      */
     struct object *below;
     atomic_uint refs;
-    size_t size;    /* size of the block that begins here */
+    size_t size;    /* size of this block */
     size_t counted; /* bytes that the context counts for this object */
     struct mem mem;
     struct arena arena; /* owns all its data */
@@ -105,14 +105,14 @@ mxg_status struct_write(void *out, const void *from, size_t from_size);
 struct mxg_library {
     struct object object;
     struct library layer;
-    const void *image; /* the bytes of the mapped image; NULL for a layer from files */
+    const void *image; /* the mapped library image; NULL for a layer from files */
     size_t image_size;
-    VEC(const char *) files; /* that it was read from */
+    VEC(const char *) files; /* names of the files that it was read from */
 };
 
 struct mxg_context {
     struct mem mem;     /* for this block; all objects have the same allocator */
-    atomic_size_t used; /* bytes of all its objects */
+    atomic_size_t used; /* bytes of all objects of the context */
     size_t max_memory;  /* 0 = unlimited */
     mxg_resolver resolver;
     bool (*cancel)(void *user_data);
@@ -121,14 +121,14 @@ struct mxg_context {
     uint32_t max_nodes, max_output_mib, max_errors;
     struct diag_policy policy;
     bool sandbox;
-    enum library_trust trust;   /* for source in documents */
+    enum library_trust trust;   /* for verbatim source in documents */
     struct sandbox_root *roots; /* canonical */
-    struct mxg_library builtin; /* size 0: this build has none */
+    struct mxg_library builtin; /* size 0: this build has no built-in library */
 };
 
 struct mxg_document {
     struct object object;
-    struct library layer; /* above the layers of its library */
+    struct library layer; /* above the library layers of its library */
     VEC(const char *) files;
     VEC(elem_id) renderables;
     const char **renderable_paths;
@@ -140,15 +140,15 @@ struct mxg_document {
 struct file_source {
     struct object *object; /* the object that reads the files; owns their names */
     const mxg_resolver *resolver;
-    struct arena scratch;    /* owns texts of sources */
+    struct arena scratch;    /* owns the texts of source files */
     VEC(const char *) names; /* canonical names of all files, each once */
     mxg_blob blob;
-    bool is_open;    /* `blob` must be released */
-    uint64_t digest; /* hash of the bytes of all files, unless it is 0 at the start */
+    bool is_open;    /* the source must release `blob` */
+    uint64_t digest; /* hash of the bytes of all files; 0 at the start: no hash */
 };
 
 void file_source_init(struct file_source *source, struct object *object);
-void file_source_finish(struct file_source *source); /* also after a jump */
+void file_source_finish(struct file_source *source); /* also call this after a jump out of memory */
 struct xml_files file_source_for_xml(struct file_source *source);
 struct lang_reader file_source_for_lang(struct file_source *source);
 /* The bytes of a file, valid as long as the object; false after a diagnostic. */
@@ -156,30 +156,30 @@ bool file_source_read(struct file_source *source, const char *path, const char *
                       size_t *out_size, struct diag_list *diags);
 
 /*
- * The default resolver, which reads files with stdio. If a read runs out of memory, its reason is
+ * The default resolver, which reads files with stdio. If a read runs out of memory, the reason is
  * stdio_no_memory.
  */
 mxg_resolver stdio_resolver(struct mxg_context *context);
 extern const char stdio_no_memory[];
 
 /*
- * sandbox.c: admits the folder of a file of the caller for the files of documents. false: out of
+ * sandbox.c: lets documents read files in the folder of a file that the caller names. false: out of
  * memory.
  */
 bool sandbox_admit_file(struct mxg_context *context, const char *file);
 bool sandbox_admit_folder(struct mxg_context *context, const char *folder);
-/* The reason why a document may not read a file; NULL: it may. */
+/* The reason why a document may not read a file; NULL if it may. */
 const char *sandbox_fault(const struct mxg_context *context, const char *path);
 void sandbox_finish(struct mxg_context *context);
 
 /*
- * folder.c: true if the path is a folder. Below: the files in it whose name ends with `suffix`,
- * sorted.
+ * folder.c: true if the path is a folder. The functions after this one list the files in a folder
+ * whose name ends with `suffix`, sorted.
  */
 bool folder_exists(const char *path);
 /*
- * Writes the names in a folder, each with its NUL, as far as they fit, and the bytes that all names
- * need. NULL or an error.
+ * Writes the names in a folder, each with its NUL, as far as they fit, and the number of bytes that
+ * all names need. NULL or an error.
  */
 const char *folder_names(const char *folder, char *names, size_t capacity, size_t *out_size);
 struct path_list {
@@ -200,10 +200,10 @@ enum option_id {
 };
 
 struct option_value {
-    int32_t number;   /* BOOL, INT; ENUM: index of the word */
-    const char *text; /* STRING; ENUM: the word */
+    int32_t number;   /* BOOL, INT: the value; ENUM: index of the word */
+    const char *text; /* STRING: the value; ENUM: the word */
     VEC(const char *) list;
-    bool is_set; /* not the default */
+    bool is_set; /* differs from the default */
 };
 
 /* The defaults; the arena owns them. */
@@ -218,8 +218,8 @@ void document_find_renderables(struct mxg_document *document, struct arena *scra
 
 /*
  * The node or <output> to generate for a path: the element, the only output of a nodegraph, or the
- * material of a look. NULL: the first renderable. 0 after a diagnostic. Also the output of a node:
- * its name (empty without one in the path) and index.
+ * material of a look. NULL: the first renderable. 0 after a diagnostic. Also gives the output of a
+ * node: its name (empty if the path has none) and index.
  */
 elem_id document_find_element(const struct mxg_document *document, const char *path,
                               struct diag_list *diags, str_id *out_output, unsigned *out_index);

@@ -38,7 +38,7 @@ static void map_builtin(struct mxg_context *context)
     struct mxg_library *builtin = &context->builtin;
     size_t size = (size_t)(mxg_builtin_image_end - mxg_builtin_image);
     object_init(&builtin->object, context, 0);
-    /* Part of the program: as sound as its code. */
+    /* The image is part of the program, so it needs no validation. */
     if (!size || library_map_image(&builtin->layer, mxg_builtin_image, size, false))
         return;
     builtin->image = mxg_builtin_image;

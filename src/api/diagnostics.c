@@ -76,7 +76,7 @@ static void run_job(void *arg)
     job->render(job->diag, job->source, job->source_size, job->colour, &job->text);
 }
 
-/* The text is made in memory of its own: other threads may read the same list. */
+/* Formats the text in memory of its own, because other threads may read the same list. */
 static size_t format(const mxg_diagnostics *list, uint32_t index, struct format_job *job,
                      char *buffer, size_t capacity)
 {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Documents: a layer on the library's, and what in it can be rendered. */
+/* Documents: a library layer above the library's, and its renderables. */
 #include "api/api.h"
 
 struct load {
     mxg_document *document;
     struct library *base;
-    const char *name, *data; /* data NULL: the file `name` */
+    const char *name, *data; /* data NULL: read the file `name` */
     size_t size;
     struct file_source files;
 };
@@ -73,7 +73,7 @@ mxg_status mxg_document_parse(mxg_context *context, mxg_library *library, const 
                               const char *data, size_t size, mxg_document **out_document)
 {
     if (!data && size)
-        name = NULL; /* refused */
+        name = NULL; /* the sandbox refuses the file */
     return load_document(context, library,
                          &(struct load){.name = name, .data = data ? data : "", .size = size},
                          out_document);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* From a path, as users write it, to the element that is generated. */
+/* Finds the element to generate from a path in the form that users write. */
 #include "api/api.h"
 
 struct search {
@@ -44,7 +44,7 @@ static void report_kind(const struct search *s, elem_id element)
     report_not_renderable(s, element, text_cstr(&reason));
 }
 
-/* Adds a path to "a, b, c"; `output` is an output of a node, or 0. */
+/* Appends a path to the list "a, b, c"; `output` is an output of a node, or 0. */
 static void list_choice(const struct search *s, struct text *list, elem_id element, str_id output)
 {
     text_str(list, list->len ? ", " : "");
@@ -87,14 +87,14 @@ static elem_id only_choice(const struct search *s, elem_id element, const struct
     return 0;
 }
 
-/* The material that a <materialassign> names; 0: there is none. */
+/* The material of a <materialassign>; 0: none. */
 static elem_id assigned_material(const struct search *s, elem_id assign)
 {
     return doc_child_of_kind(s->doc, s->doc->root, KIND_NODE,
                              doc_attr_value(s->doc, assign, STR_material));
 }
 
-/* Looks inherit from looks. */
+/* True if a look, or a look that it inherits from, assigns a material. */
 static bool look_assigns(const struct search *s, elem_id look, elem_id material)
 {
     for (unsigned depth = 0; look && depth < 100; depth++) {
@@ -116,7 +116,10 @@ static elem_id find_top(const struct search *s, enum element_kind kind, const ch
     return id ? doc_child_of_kind(s->doc, s->doc->root, kind, id) : 0;
 }
 
-/* A look, or a group of looks and groups by name: "day, night". */
+/*
+ * True if a look assigns a material. For names such as "day, night": one of the looks or look
+ * groups.
+ */
 static bool assigns(const struct search *s, elem_id look, elem_id material, unsigned depth)
 {
     enum { MAX_GROUPS = 16 };
@@ -137,7 +140,8 @@ static bool assigns(const struct search *s, elem_id look, elem_id material, unsi
 }
 
 /*
- * A look stands for its material, where it has only one; a group for its default look, or for all.
+ * A look with one material stands for this material; a look group for its default look, or for all
+ * its looks.
  */
 static elem_id find_in_look(const struct search *s, elem_id look)
 {
@@ -150,7 +154,7 @@ static elem_id find_in_look(const struct search *s, elem_id look)
     return only_choice(s, look, &materials);
 }
 
-/* A graph stands for its output, where it has only one. */
+/* A nodegraph with one output stands for this output. */
 static elem_id find_in_graph(const struct search *s, elem_id graph)
 {
     struct choices outputs = {0};
@@ -160,7 +164,7 @@ static elem_id find_in_graph(const struct search *s, elem_id graph)
     return only_choice(s, graph, &outputs);
 }
 
-/* `output` of a node (0: its only one); false after a diagnostic. */
+/* Finds `output` of a node (0: its only output); false after a diagnostic. */
 static bool find_output(const struct search *s, elem_id node, str_id output, unsigned *out_index)
 {
     const struct library *lib = &s->document->layer;
@@ -205,7 +209,7 @@ static elem_id find_meant(const struct search *s, elem_id element)
     return 0;
 }
 
-/* The element of a path, of the document itself and not of its library; 0. */
+/* The element at a path, if it belongs to the document itself instead of its library; else 0. */
 static elem_id find_own(const struct search *s, const char *path, size_t len)
 {
     elem_id element = doc_find(s->doc, path, len);
@@ -213,7 +217,8 @@ static elem_id find_own(const struct search *s, const char *path, size_t len)
 }
 
 /*
- * "node/out": *out_output is the name of a node's output, whether the document declares it or not.
+ * Finds "node/out": *out_output becomes the name of the node's output, declared in the document or
+ * not.
  */
 static elem_id find_path(const struct search *s, const char *path, str_id *out_output)
 {
@@ -235,7 +240,7 @@ static elem_id find_path(const struct search *s, const char *path, str_id *out_o
 static elem_id find_asked(const struct search *s, const char *path, str_id *out_output)
 {
     elem_id found = find_path(s, path, out_output);
-    /* faulty names may hold a '/' */
+    /* invalid names may contain a '/' */
     for (uint32_t i = 0; i < s->document->renderables.len && !found; i++)
         if (strcmp(s->document->renderable_paths[i], path) == 0)
             found = s->document->renderables.items[i];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* How files are opened: the host's resolver as the readers of other rooms see it. */
+/* Opens files: the host's resolver, as an interface for the readers in other rooms. */
 #include "api/api.h"
 
 #include "base/hash.h"
@@ -36,7 +36,7 @@ static const char *remember(struct file_source *source, const char *name)
     return vec_last(&source->names);
 }
 
-/* The file counts in the context's memory while it is open, where the resolver is ours. */
+/* With the default resolver, an open file counts towards the context's memory. */
 static bool open_file(struct file_source *source, const char *from, const char *ref,
                       const char **out_reason)
 {
@@ -87,7 +87,9 @@ struct xml_files file_source_for_xml(struct file_source *source)
         .user_data = source, .open = open_for_xml, .release = release_for_xml};
 }
 
-/* Sources include each other, so their texts are copied instead of being held open. */
+/*
+ * Source files include each other, so the reader copies their text instead of holding files open.
+ */
 static bool read_for_lang(void *user_data, const char *from, const char *ref, const char **out_name,
                           const char **out_text, size_t *out_len, const char **out_reason)
 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Folders of a library. */
+/* Lists folders of a library. */
 #define _POSIX_C_SOURCE 200809L
 #include "api/api.h"
 
@@ -53,8 +53,8 @@ const char *folder_names(const char *folder, char *names, size_t capacity, size_
 }
 
 /*
- * The names in a folder as paths: a jump out of memory must not cross the open folder, so they are
- * counted first.
+ * The names in a folder as paths. A jump out of memory must not skip closing the folder, so the
+ * code counts the names before it allocates.
  */
 static const char *list_one(struct arena *arena, const char *folder, struct path_list *out)
 {
@@ -66,7 +66,7 @@ static const char *list_one(struct arena *arena, const char *folder, struct path
     if (reason)
         return reason;
     for (size_t at = 0; at < size; at += strlen(names + at) + 1)
-        if (names[at] != '.') /* hidden files, and the folder and its parent */
+        if (names[at] != '.') /* skips hidden files, the folder and its parent */
             vec_push(arena, out, join(arena, folder, names + at));
     return NULL;
 }

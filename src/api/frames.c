@@ -3,7 +3,7 @@
  * Files of image sequences (specification, "Filename Substitutions", and "Texture Node Notes" on
  * frame ranges).
  *
- *     {frame} {04frame}    the frame, and with zeros in front to four digits
+ *     {frame} {04frame}    the frame; the frame with leading zeros, four digits wide
  */
 #include "api/generation.h"
 
@@ -11,7 +11,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-/* "10-99"; false: there is no limit. */
+/* Reads "10-99"; false: the sequence has no range. */
 static bool read_range(const char *text, int64_t *out_first, int64_t *out_last)
 {
     char *end;
@@ -30,7 +30,7 @@ static int64_t modulo(int64_t a, int64_t b)
     return (a % b + b) % b;
 }
 
-/* False: the frame has no image. */
+/* Maps a frame to an image of the sequence. false: the frame has no image. */
 static bool find_frame(const struct frame_sequence *sequence, int64_t *frame)
 {
     int64_t first, last;
@@ -44,13 +44,13 @@ static bool find_frame(const struct frame_sequence *sequence, int64_t *frame)
     } else if (strcmp(sequence->end_action, "mirror") == 0) {
         int64_t span = last - first, at = span ? modulo(*frame - first, 2 * span) : 0;
         *frame = first + (at > span ? 2 * span - at : at);
-    } else { /* "constant" */
+    } else { /* end action "constant" */
         return false;
     }
     return true;
 }
 
-struct out { /* a text of which the first `capacity` bytes are kept */
+struct out { /* a buffer that keeps the first `capacity` bytes of a text */
     char *data;
     size_t capacity, len;
 };
@@ -67,8 +67,8 @@ static void put(struct out *out, const char *text, size_t len)
 }
 
 /*
- * "{frame}" or "{04frame}": what stands behind it, and how many digits it has at least; NULL:
- * something else.
+ * Reads "{frame}" or "{04frame}": returns the end of the token, and its minimum number of digits;
+ * NULL: no token.
  */
 static const char *read_token(const char *p, int *out_digits)
 {

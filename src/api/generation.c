@@ -6,10 +6,10 @@ static struct diag_list *diags_of(struct generation *g)
     return &g->result->object.diagnostics.list;
 }
 
-/* Options and targets stand in no file. */
+/* Options and targets have no place in a file. */
 static const struct diag_place nowhere = {0};
 
-/* ---- Start: what is asked for ---- */
+/* ---- Start: target, element, options ---- */
 
 static bool find_target(struct generation *g)
 {
@@ -24,7 +24,7 @@ static bool find_target(struct generation *g)
     return false;
 }
 
-/* NULL for the target's usual version. */
+/* The version from the options; NULL for the target's default version. */
 static const char *version_of(const struct generation *g)
 {
     const char *version = g->options[OPTION_version].text;
@@ -64,7 +64,7 @@ static bool check_network(struct generation *g)
     return false;
 }
 
-/* MaterialX names of the target and those it inherits, nearest first. */
+/* MaterialX names of the target and of the targets that it inherits, nearest first. */
 static const str_id *target_names(struct generation *g, unsigned *out_count)
 {
     unsigned count = 0;
@@ -118,7 +118,7 @@ static void set_build_options(struct generation *g)
     g->build_options.targets = target_names(g, &g->build_options.num_targets);
 }
 
-/* The result's own layers: the document is only read. */
+/* The result's own library layers, because generation does not write to the document. */
 static void init_layers(struct generation *g)
 {
     mxg_result *result = g->result;
@@ -132,8 +132,8 @@ static void init_layers(struct generation *g)
 }
 
 /*
- * The type that the document gives what is generated; 0: a node has several outputs, and the
- * definition's is not asked for.
+ * The document type of the generated element; 0 if the node has several outputs, because then the
+ * type of the definition does not apply.
  */
 static str_id value_type(const struct generation *g)
 {
@@ -201,7 +201,7 @@ void generation_report_not_renderable(struct generation *g, const char *why)
 
 static const char gives_nothing[] = "it is not a surface, volume, light or colour";
 
-/* Whether work may go on: not cancelled, within limits, nothing reported. */
+/* True if work may go on: not cancelled, within limits, no error. */
 static bool is_good(struct generation *g)
 {
     if (is_cancelled(g))
@@ -287,9 +287,9 @@ static bool emit(struct generation *g)
     return closure_emit(shader, &g->closure_host, &g->lighting, g->root);
 }
 
-enum { NODES_PER_NODE = 64, MORE_NODES = 1 << 16 }; /* emitting adds fewer by far */
+enum { NODES_PER_NODE = 64, MORE_NODES = 1 << 16 }; /* emission adds far fewer nodes */
 
-/* How a surface is lit has no messages, as long as there is no lack of nodes. */
+/* True if lighting the surface reports nothing, as long as the graph has room. */
 static bool has_nothing_to_tell(const struct generation *g)
 {
     const struct ir_graph *graph = &g->result->graph;
@@ -313,7 +313,7 @@ bool generation_emit(struct generation *g)
     return is_good(g);
 }
 
-/* No messages come of this, and the few nodes that it adds are counted in no limit. */
+/* This step reports nothing, and no limit counts the few nodes that it adds. */
 bool generation_finish(struct generation *g)
 {
     g->result->graph.max_nodes = 0;
@@ -325,8 +325,8 @@ bool generation_finish(struct generation *g)
 /* ---- Spell ---- */
 
 /*
- * Nodes of the document by their path; those inside of definitions by the path of the node that
- * uses these. NULL: of no element.
+ * The path of the document node that an IR node comes from. For nodes inside definitions: the path
+ * of the document node that uses the definition. NULL: no element.
  */
 static const char *origin_path(void *user_data, uint32_t origin)
 {
@@ -357,7 +357,7 @@ static bool spell_one(struct generation *g, const struct spell_options *options,
     struct spell_mark *marks;
     struct stage_source *out = &result->stages[stage];
     text_init(&source, &result->object.arena);
-    text_reserve(&source, USUAL_SOURCE); /* so that it is not moved while it grows */
+    text_reserve(&source, USUAL_SOURCE); /* avoids moves while it grows */
     spell_shader_stage(result->target, options, &result->shader, stage, &g->scratch, &source,
                        &marks, &out->num_marks);
     uint32_t limit = result->object.context->max_output_mib;
@@ -376,8 +376,8 @@ static bool spell_one(struct generation *g, const struct spell_options *options,
 }
 
 /*
- * A vertex stage may have nothing to do: path tracers call a function, and a target without a
- * vertex stage has only what moves the surface there.
+ * True if the stage has code. A path tracer calls a function instead of a vertex stage, and a
+ * target without a vertex stage has only the displacement in it.
  */
 static bool has_stage(const mxg_result *result, int stage)
 {
@@ -418,7 +418,7 @@ bool generation_spell(struct generation *g)
     return is_good(g);
 }
 
-/* ---- The whole ---- */
+/* ---- All steps ---- */
 
 struct run {
     struct generation generation;
@@ -442,7 +442,7 @@ mxg_status generation_run(mxg_context *context, const mxg_document *document,
     if (!context || !document || !out_result
         || (desc && !struct_read(&g->desc, sizeof g->desc, desc)))
         return MXG_ERROR_ARGUMENT;
-    /* only its references are counted */
+    /* only its reference count changes */
     struct object *below = (struct object *)(uintptr_t)&document->object;
     mxg_result *result = object_new(context, sizeof *result, below);
     if (!result)

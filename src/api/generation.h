@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * A generation step by step, for mxg_generate, which takes all of them, and inspect.c, which stops
- * on the way.
+ * A generation in steps, for mxg_generate, which takes all steps, and for inspect.c, which stops
+ * after some.
  */
 #ifndef MXG_API_GENERATION_H
 #define MXG_API_GENERATION_H
@@ -9,7 +9,9 @@
 #include "api/api.h"
 #include "closure/closure.h"
 
-/* For comments and reflection. The patch number, which does not affect output, is missing. */
+/*
+ * For comments and reflection. The patch number is missing because it does not affect the output.
+ */
 #define GENERATOR_NAME "mxgen 0.1"
 
 struct stage_source {
@@ -23,7 +25,7 @@ struct mxg_result {
     struct object object; /* keeps the document alive */
     const mxg_document *document;
     const struct target *target;
-    struct strpool strings; /* above the strings of the document */
+    struct strpool strings; /* a layer above the strings of the document */
     struct lang_unit unit;
     struct ir_graph graph;
     struct shader shader;
@@ -51,12 +53,12 @@ struct generation {
     struct closure_point point;
     struct closure_lighting lighting;
     ir_ref root;
-    str_id unknown_leaf; /* the family of a leaf that the target has no closure for; 0: none */
+    str_id unknown_leaf; /* the family of a leaf for which the target has no closure; 0: none */
     struct arena scratch;
-    struct file_source files; /* reads further files */
+    struct file_source files; /* the files that the generation reads */
     struct lang_reader reader;
     bool cancelled;
-    void *user_data; /* for the caller's steps */
+    void *user_data; /* for the caller's `steps` */
 };
 
 /*
@@ -72,14 +74,14 @@ bool generation_start(struct generation *g); /* target, element, options */
 bool generation_build(struct generation *g); /* g->root */
 /* prepares the closure room; generation_emit calls it itself */
 void generation_start_closures(struct generation *g);
-/* the effects of the stages; later steps cannot fail */
+/* makes the effects of the stages; later steps cannot fail */
 bool generation_emit(struct generation *g);
 bool generation_finish(struct generation *g); /* scheduling and layout */
 bool generation_spell(struct generation *g);  /* source */
-/* Instead of the last two. */
+/* replaces the last two steps */
 bool generation_make_network(struct generation *g); /* network.c */
 
-/* What network.c shares with them. */
+/* generation.c: shared with network.c. */
 struct closure_host generation_closure_host(struct builder *builder, struct closure_point *point);
 struct shader_layout_rules generation_layout_rules(const struct generation *g);
 struct spell_options generation_spell_options(const struct generation *g);

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Globs of the options "uniform" and "constant" that match no input of the document: most likely
- * misspelt.
+ * Warns about globs of the options "uniform" and "constant" that match no input of the document,
+ * because most of them are misspelt.
  */
 #include "api/generation.h"
 
 struct search {
     const struct library *lib;
     const char *glob;
-    struct text path;         /* of the element at hand */
-    struct diag_list ignored; /* faults of nodes are told when these are built */
+    struct text path;         /* path of the current element */
+    struct diag_list ignored; /* building a node reports its faults, not this search */
 };
 
 static bool input_matches(struct search *s, size_t element_len, str_id input)
@@ -19,7 +19,7 @@ static bool input_matches(struct search *s, size_t element_len, str_id input)
     return build_glob_matches(s->glob, text_cstr(&s->path));
 }
 
-/* Inputs that the element has, and those that only its definition has. */
+/* True if a glob matches an input of the element, or an input that only its definition has. */
 static bool element_matches(struct search *s, elem_id element)
 {
     const struct document *doc = &s->lib->doc;

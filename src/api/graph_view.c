@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/* The graph of a document: nodes with their definitions, inputs with what they are connected to. */
+/*
+ * Prints the graph of a document: nodes with their definitions, and inputs with their connections.
+ */
 #include "api/generation.h"
 
 struct graph_view {
@@ -30,7 +32,7 @@ static void write_path(const struct graph_view *view, elem_id element)
     doc_path(view->doc, element, '/', view->out);
 }
 
-/* The name of an output of a node that has several; NULL. */
+/* The name of a node's output if the node has several; else NULL. */
 static const char *output_name(const struct graph_view *view, const struct binding *binding)
 {
     struct diag_list ignored;
@@ -46,10 +48,10 @@ static const char *output_name(const struct graph_view *view, const struct bindi
                   .name);
 }
 
-/* A node with its definition and bindings, which are good until the next one is resolved. */
+/* A node with its definition and bindings, which are valid until the next call. */
 static struct graph_node resolve(struct graph_view *view, elem_id node)
 {
-    struct diag_list ignored; /* validation tells faults; a view shows what there is */
+    struct diag_list ignored; /* validation reports faults; a view shows the document as it is */
     diag_list_init(&ignored, &view->g->scratch);
     view->resolved.bindings.len = 0;
     return library_resolve_node(view->layer, node, &view->resolved, &ignored);
@@ -145,7 +147,7 @@ static void draw_output(struct graph_view *view, elem_id output)
 
 /* ---- Both ---- */
 
-/* Marks what an element needs. */
+/* Marks the elements that an element needs. */
 static void mark_upstream(struct graph_view *view, elem_id root)
 {
     struct arena *scratch = &view->g->scratch;

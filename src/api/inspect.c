@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Looking inside: each view is a text. */
+/* The views of mxg_inspect: each is a text. */
 #include "api/generation.h"
 
 static struct diag_list *diags_of(struct generation *g)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Libraries: the one that is built in, and those of files, folders and images. */
+/* Libraries: the built-in library, and libraries from files, folders and images. */
 #include "api/api.h"
 
 #include "base/hash.h"
@@ -92,8 +92,8 @@ static void read_path(struct load *load, const char *path)
 }
 
 /*
- * Who loads a library wants to know of every fault at once; in a document they are told when the
- * implementation is needed.
+ * Loading a library reports every fault at once. In a document, an implementation reports its
+ * faults when a node needs it.
  */
 static void tell_deferred(mxg_library *library)
 {
@@ -118,7 +118,7 @@ static void read_paths(void *arg)
     lang_make_canonical(&library->layer.unit);
 }
 
-/* One layer: what `work` makes of the paths. */
+/* Makes one library layer: `work` reads the paths. */
 static mxg_status load_layer(mxg_context *context, mxg_library *base, const char *const *paths,
                              size_t num_paths, void (*work)(void *), mxg_library **out)
 {
@@ -161,7 +161,7 @@ mxg_status mxg_library_load(mxg_context *context, mxg_library *base, const char 
         return MXG_ERROR_ARGUMENT;
     if (base || num_paths == 0 || !is_image(paths[0]))
         return load_layer(context, base, paths, num_paths, read_paths, out_library);
-    /* An image stands at the bottom; further paths are a layer on it. */
+    /* A library image is the lowest layer; further paths form a layer above it. */
     mxg_status status = load_layer(context, NULL, paths, 1, map_image, out_library);
     if (status != MXG_OK || num_paths == 1)
         return status;
@@ -201,7 +201,7 @@ const char *mxg_library_file(const mxg_library *library, uint32_t index)
 
 enum { TEXT_IMAGE, TEXT_EXPANDED };
 
-/* The syntax that images hold functions in; NULL: no target has one. */
+/* The syntax in which images hold functions; NULL: no target has one. */
 static const struct lang_syntax *image_syntax(void)
 {
     for (const struct target *const *target = targets; *target; target++)
@@ -269,7 +269,7 @@ uint32_t mxg_library_num_nodedefs(const mxg_library *library)
     return library ? library_num_nodedefs(&library->layer) : 0;
 }
 
-/* `target` NULL: any. */
+/* True if an implementation serves the target; `target` NULL: any target. */
 static bool serves(const struct library *lib, const struct implementation *impl,
                    const struct target *target)
 {

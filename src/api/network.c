@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/* The network of an element: the shader of each node, and the target's text of the whole. */
+/*
+ * The network of an element: the shader of each node, and the text that the target writes for the
+ * network.
+ */
 #include "api/generation.h"
 
 /* ---- Shaders of nodes ---- */
@@ -20,7 +23,10 @@ static struct shader *new_shader(struct generation *g, const struct network_node
     return shader;
 }
 
-/* What is wrong with a node has been told where it was built for the document. */
+/*
+ * The build for the document has reported the faults of a node already, so this build drops its
+ * messages.
+ */
 static bool emit_node(struct generation *g, struct shader *shader, struct network_node *node)
 {
     struct arena *arena = shader->arena;
@@ -52,7 +58,7 @@ static bool emit_node(struct generation *g, struct shader *shader, struct networ
     return n == node->num_outputs;
 }
 
-/* Inputs that the shader does not read are no parameters of it. */
+/* Removes parameters that the shader does not read. */
 static void drop_unread(const struct shader *shader, struct network_node *node)
 {
     str_id *names = ARENA_ARRAY(shader->arena, str_id, node->num_inputs);
@@ -93,8 +99,8 @@ static bool make_parts(struct generation *g)
 {
     struct network *network = &g->result->network;
     struct spell_options options = generation_spell_options(g);
-    options.path = NULL;      /* they belong to no element, and are the same */
-    options.interface = NULL; /* whatever stays variable */
+    options.path = NULL;      /* shaders of nodes belong to no element and have equal options */
+    options.interface = NULL; /* the interface option does not matter: all inputs are parameters */
     for (uint32_t i = 0; i < network->nodes.len; i++)
         if (network->nodes.items[i].is_needed && !make_node(g, &options, &network->nodes.items[i]))
             return false;
@@ -126,7 +132,7 @@ bool generation_make_network(struct generation *g)
     return true;
 }
 
-/* ---- What callers see ---- */
+/* ---- Access for callers ---- */
 
 uint32_t mxg_result_num_parts(const mxg_result *result)
 {

@@ -2,14 +2,14 @@
 /* Memory and lifetime of objects. */
 #include "api/api.h"
 
-/* What an object may take: what the others have left of the context's limit. */
+/* Sets the memory limit of an object: the rest of the context's limit after the other objects. */
 static void init_mem(struct mem *mem, struct mxg_context *context)
 {
     mem_init(mem, context->mem.realloc, context->mem.user_data);
     if (!context->max_memory)
         return;
     size_t used = atomic_load(&context->used);
-    /* 0 would be no limit */
+    /* 0 would mean no limit */
     mem->limit = used < context->max_memory ? context->max_memory - used : 1;
 }
 
@@ -43,14 +43,14 @@ static void allocate(void *arg)
 void object_settle(struct object *object)
 {
     struct mxg_context *context = object->context;
-    /* wraps where it is less */
+    /* the difference wraps if the object shrinks */
     size_t now = object->mem.used + object->size, more = now - object->counted;
     size_t others = atomic_fetch_add(&context->used, more) + more - object->mem.used;
     object->counted = now;
     if (!context->max_memory)
         return;
     size_t left = others < context->max_memory ? context->max_memory - others : 1;
-    /* 0 would be no limit */
+    /* 0 would mean no limit */
     object->mem.limit = left > object->mem.used ? left : object->mem.used + 1;
 }
 
@@ -77,7 +77,7 @@ void object_ref(struct object *object)
 
 static void free_text(struct mxg_context *context, struct made_text *text)
 {
-    struct mem mem = text->mem; /* stands in the block that goes */
+    struct mem mem = text->mem; /* a copy, because the block contains the original */
     text->arena.mem = &mem;
     atomic_fetch_sub(&context->used, mem.used);
     struct arena arena = text->arena;
@@ -152,7 +152,7 @@ struct text_job {
     struct made_text *made;
 };
 
-/* The block stands in its own arena. */
+/* The arena of the text contains the block of the text. */
 static void write_text(void *arg)
 {
     struct text_job *job = arg;
@@ -167,7 +167,7 @@ static void write_text(void *arg)
 const struct made_text *object_text(const struct object *object, unsigned index,
                                     void (*write)(const struct object *object, struct text *out))
 {
-    /* objects are never const themselves */
+    /* objects themselves are never const */
     struct object *owner = (struct object *)(uintptr_t)object;
     struct made_text *found = atomic_load(&owner->texts[index]);
     if (found)
@@ -185,6 +185,6 @@ const struct made_text *object_text(const struct object *object, unsigned index,
     atomic_fetch_add(&object->context->used, mem.used);
     if (atomic_compare_exchange_strong(&owner->texts[index], &found, job.made))
         return job.made;
-    free_text(object->context, job.made); /* another thread was faster */
+    free_text(object->context, job.made); /* another thread has set the text first */
     return found;
 }

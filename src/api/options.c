@@ -75,7 +75,7 @@ static bool parse_enum(struct arena *arena, const mxg_option *option, const char
 static void parse_list(struct arena *arena, const char *text, struct option_value *out)
 {
     if (!out->is_set)
-        out->list.len = 0; /* the first setting takes the default's place */
+        out->list.len = 0; /* the first setting replaces the default */
     while (*text) {
         size_t len = strcspn(text, ",");
         if (len)
@@ -173,7 +173,7 @@ static const char *unknown_key(struct arena *arena, const char *key)
     for (unsigned i = 0; i < NUM_OPTIONS; i++)
         keys[i] = table[i].key;
     struct text text;
-    struct diag_list unheard; /* the message is the options' own */
+    struct diag_list unheard; /* struct options holds its own message */
     text_init(&text, arena);
     diag_list_init(&unheard, arena);
     text_fmt(&text, "unknown option '%s'%s", key, diag_suggest(&unheard, key, keys, NUM_OPTIONS));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * What a host needs to know of a shader: variables, compiled inputs, facts; and the same as JSON.
+ * The reflection of a shader: variables, compiled inputs, facts; and its JSON form.
  */
 #include "api/generation.h"
 
@@ -34,8 +34,8 @@ static const struct shader_variable *variable_at(const mxg_result *result, uint3
 }
 
 /*
- * Ranges of a node's input hold for the input of a graph that goes there; what it is called does
- * not: it is no "left operand".
+ * True if an input of a graph takes a UI attribute from the node input that it connects to. Ranges
+ * apply; names and descriptions such as "left operand" do not.
  */
 static bool is_inherited(const struct document *doc, elem_id input, str_id attr)
 {
@@ -46,7 +46,7 @@ static bool is_inherited(const struct document *doc, elem_id input, str_id attr)
                && attr != STR_uiadvanced);
 }
 
-/* An attribute of the document's own element, else of the definition's. */
+/* An attribute of the document's element, else of the definition's. */
 static const char *ui_text(const mxg_result *result, const struct shader_variable *variable,
                            str_id attr)
 {
@@ -255,7 +255,7 @@ mxg_status mxg_result_info(const mxg_result *result, mxg_shader_info *out)
         .displaced = shader->displaced,
         .lit = shader->lit,
     };
-    /* the only part that costs something */
+    /* only the topology is expensive */
     if (out && out->size > offsetof(mxg_shader_info, topology)) {
         const struct made_text *topology =
             object_text(&result->object, TEXT_TOPOLOGY, write_topology);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * What of a document can be rendered, as MaterialX chooses it: its materials; in a document without
- * any, the outputs of its graphs and its own, and beyond MaterialX the shaders that nothing uses.
- * An element is used where an input or output is connected to it.
+ * Finds the renderables of a document, as MaterialX defines them: its materials, or without
+ * materials its outputs and the outputs of its graphs. Beyond MaterialX, shaders without a user are
+ * renderables too. A connection to an element is a use of it.
  */
 #include "api/api.h"
 
@@ -16,7 +16,7 @@ static void mark_connection(struct scan *scan, elem_id port)
     const struct document *doc = scan->doc;
     const struct element *e = doc_element(doc, port);
     str_id node = doc_attr_value(doc, port, STR_nodename);
-    /* An input's connection is a name beside its node, an output's one beside itself. */
+    /* An input names its node and the output beside it; an output names itself. */
     elem_id target =
         node ? doc_child(
             doc, e->kind == KIND_OUTPUT ? e->parent : doc_element(doc, e->parent)->parent, node)
@@ -42,7 +42,7 @@ static bool is_used(const struct scan *scan, elem_id element)
     return scan->used[element - scan->doc->first_element];
 }
 
-/* A material without a shader is of no use. */
+/* True if a material has a shader; without one it is no renderable. */
 static bool has_shader(const struct document *doc, elem_id material)
 {
     for (elem_id e = doc_element(doc, material)->first_child; e; e = doc_element(doc, e)->next) {
@@ -68,7 +68,10 @@ static bool is_loose_shader(const struct scan *scan, elem_id node)
            && (type == STR_surfaceshader || type == STR_volumeshader) && !is_used(scan, node);
 }
 
-/* Closures and lights mean nothing by themselves, and text cannot be seen. */
+/*
+ * True if an output can be a renderable: closures and lights have no meaning alone, and strings
+ * have no colour.
+ */
 static bool is_renderable_output(const struct document *doc, elem_id output)
 {
     str_id type = doc_attr_value(doc, output, STR_type);

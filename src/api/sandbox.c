@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Which files documents may refer to. In a sandbox these lie in or below the folder of a file that
- * the caller named, or one of the context's include roots. Links are followed before paths are
- * compared.
+ * The files that documents may refer to. A sandbox allows files in or below the folder of a file
+ * that the caller names, and below the include roots of the context. Links are resolved before
+ * paths are compared.
  */
 #define _XOPEN_SOURCE 700
 #include "api/api.h"
@@ -18,7 +18,7 @@
 struct sandbox_root {
     struct sandbox_root *next;
     size_t size;
-    size_t len; /* of the path, which does not end with '/' but for the root of the file system */
+    size_t len; /* length of the path, which ends with '/' only for the root of the file system */
     char path[];
 };
 
@@ -75,7 +75,7 @@ const char *sandbox_fault(const struct mxg_context *context, const char *path)
     char real[PATH_MAX];
     struct stat info;
     if (stat(path, &info) != 0)
-        return NULL; /* opening it tells why */
+        return NULL; /* the attempt to open it gives the reason */
     if (context->sandbox && (!realpath(path, real) || !is_known(context, real)))
         return "it is outside the folders that documents may read; see --sandbox";
     return S_ISREG(info.st_mode) || S_ISDIR(info.st_mode) ? NULL : "it is not a regular file";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* The source of a result, and the places of the document that its lines come from. */
+/* The source of a result, and the places in the document that its lines come from. */
 #include "api/generation.h"
 
 #include <stdio.h>
@@ -12,7 +12,7 @@ const char *mxg_result_source(const mxg_result *result, mxg_stage stage, size_t 
     return known ? result->stages[stage].text : NULL;
 }
 
-/* Where a line (from 1) begins; the end of the source where it has fewer. */
+/* The offset where a line (from 1) begins; the end of the source if it has fewer lines. */
 static size_t start_of_line(const struct stage_source *source, uint32_t line)
 {
     const char *start = source->text, *end = start + source->size;
@@ -23,7 +23,7 @@ static size_t start_of_line(const struct stage_source *source, uint32_t line)
     return (size_t)(start - source->text);
 }
 
-/* The first origin that a line was marked with; 0: none. */
+/* The first origin that a line has; 0: none. */
 static uint32_t origin_of_line(const mxg_result *result, mxg_stage stage, uint32_t line)
 {
     const struct stage_source *source = &result->stages[stage];
@@ -41,7 +41,7 @@ static uint32_t origin_of_line(const mxg_result *result, mxg_stage stage, uint32
     return low < source->num_marks && source->marks[low].at < end ? source->marks[low].origin : 0;
 }
 
-/* The innermost element of the document itself that the origin belongs to; 0: none. */
+/* The innermost element of the document itself for an origin; 0: none. */
 static elem_id document_element(const mxg_result *result, uint32_t origin)
 {
     const struct ir_origin *origins = result->graph.origins.items;
@@ -71,7 +71,7 @@ bool mxg_result_source_place(const mxg_result *result, mxg_stage stage, uint32_t
     return true;
 }
 
-enum { MAX_NAMES = 64 }; /* of a path; outer ones are left out beyond */
+enum { MAX_NAMES = 64 }; /* in a path; names of outer elements beyond this number are missing */
 
 struct names {
     const char *items[MAX_NAMES]; /* the innermost first */
@@ -85,7 +85,7 @@ static void add_name(struct names *names, const struct document *doc, elem_id el
         names->items[names->len++] = name;
 }
 
-/* Names of what was instantiated in what, then those of the elements around the outermost. */
+/* Collects the names of nested uses, then the names of the elements around the outermost use. */
 static void collect_names(const mxg_result *result, uint32_t origin, struct names *out)
 {
     const struct document *doc = origin ? &result->document->layer.doc : NULL;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * The resolver of contexts that were given none: files relative to the referring file, then to the
- * working directory.
+ * The default resolver: it looks for files beside the referring file, then in the working
+ * directory.
  */
 #include "api/api.h"
 
@@ -13,7 +13,8 @@ enum { FIRST_READ = 32 << 10 };
 const char stdio_no_memory[] = "out of memory";
 
 /*
- * A block from the context's allocator that knows its size. It holds one file: text, then its name.
+ * A block from the context's allocator that stores its size. It holds one file: its text, then its
+ * name.
  */
 struct block {
     size_t size;
@@ -21,7 +22,7 @@ struct block {
     char bytes[];
 };
 
-/* NULL without memory; the old block stays then. */
+/* NULL if memory is exhausted; the old block stays valid. */
 static struct block *resize(struct mxg_context *context, struct block *block, size_t capacity)
 {
     size_t size = sizeof *block + capacity, old_size = block ? block->size : 0,
@@ -51,7 +52,7 @@ static bool is_absolute(const char *path)
     return path[0] == '/' || path[0] == '\\' || (path[0] && path[1] == ':');
 }
 
-/* `ref` beside the file `from`, with leading "./" and "../" of it applied. */
+/* The path of `ref` beside the file `from`; leading "./" and "../" of `ref` are resolved. */
 static struct block *join(struct mxg_context *context, const char *from, const char *ref)
 {
     const char *slash = strrchr(from, '/');
@@ -67,7 +68,7 @@ static struct block *join(struct mxg_context *context, const char *from, const c
         while (parent > 0 && name->bytes[parent - 1] != '/')
             parent--;
         if (memcmp(name->bytes + parent, "../", 3) == 0)
-            break; /* already above where it began */
+            break; /* `ref` leads above the first folder of `from` */
         ref += memcmp(name->bytes + parent, "./", 2) == 0 ? 0 : 3; /* "./" is no folder to leave */
         folder = parent;
     }
@@ -75,7 +76,7 @@ static struct block *join(struct mxg_context *context, const char *from, const c
     return name;
 }
 
-/* Stops behind the size limit: the reader of the file refuses it then. */
+/* Stops past the size limit: then the reader of the file refuses it. */
 static struct block *read_all(struct mxg_context *context, FILE *file, size_t room,
                               const char **out_reason)
 {
@@ -122,20 +123,19 @@ static enum outcome open_at(struct mxg_context *context, const char *name, mxg_b
 }
 
 /*
- * A file that is there but cannot be read is not looked for elsewhere: it is the one that was
- * meant.
+ * If a file exists but cannot be read, the search stops: this file is the intended one.
  */
 static bool open_file(void *user_data, const char *from, const char *ref, mxg_blob *out_blob,
                       const char **out_reason)
 {
     struct mxg_context *context = user_data;
-    /* beside the referring file is the working directory */
+    /* the referring file is in the working directory, so both places are one */
     bool one_place = !strchr(from, '/') || is_absolute(ref);
     enum outcome outcome = MISSING;
     for (int i = one_place; i < 2 && outcome == MISSING; i++) {
         struct block *name = join(context, i == 0 ? from : "", ref);
         const char *fault = name ? NULL : stdio_no_memory;
-        if (name && *from) /* what the caller names may be anything */
+        if (name && *from) /* the sandbox does not apply to files that the caller names */
             fault = sandbox_fault(context, name->bytes);
         if (fault)
             *out_reason = fault;

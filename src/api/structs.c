@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Structs that begin with their size, so that later versions may add members: an older caller's is
- * shorter than ours, a newer caller's is longer.
+ * Structs that begin with their size, so that later versions can add members: the struct of an
+ * older caller is shorter than this version's, the struct of a newer caller is longer.
  */
 #include "api/api.h"
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Checks of a whole document against its library, and of the files that it names. */
+/* Validates a whole document against its library, and the files that it names. */
 #include "api/generation.h"
 
 /*
- * ---- Textures: whether their files are there, as far as the host tells what lies in a folder ----
+ * ---- Textures: reports missing files, if the host lists folders ----
  */
 
 struct texture_check {
@@ -11,13 +11,13 @@ struct texture_check {
     const mxg_resolver *resolver;
     struct arena *arena;
     struct diag_list *diags;
-    /* whose names these are: textures of a document often lie in one folder */
+    /* the folder of these names: textures of a document often share a folder */
     const char *from, *folder;
     const char *names;
     size_t size;
 };
 
-enum { FIRST_NAMES = 4096 }; /* bytes, most folders have less */
+enum { FIRST_NAMES = 4096 }; /* bytes; most folders need less */
 
 static void list_folder(struct texture_check *c, const char *from, const char *folder)
 {
@@ -44,7 +44,7 @@ static bool has_name(const struct texture_check *c, const char *name, size_t len
 
 enum { FIRST_TILE = 1001, TILE_ROW = 10, NUM_TILES = 1000 };
 
-/* Which tiles of "wood.<UDIM>.png" lie in the folder. */
+/* Finds the tiles of a name such as "wood.<UDIM>.png" in the folder. */
 static void find_tiles(const struct texture_check *c, const char *pattern, bool is_there[NUM_TILES])
 {
     size_t before = (size_t)(strstr(pattern, "<UDIM>") - pattern),
@@ -66,8 +66,8 @@ static void find_tiles(const struct texture_check *c, const char *pattern, bool 
 }
 
 /*
- * The tiles of the rows that have any, up to the last one of each: a row that ends early is usual,
- * one with a hole is not.
+ * Reports holes in a row of tiles: a tile is missing if a later tile of the same row exists. Rows
+ * may end early.
  */
 static void check_tiles(struct texture_check *c, const char *path, const char *pattern,
                         struct diag_place place)
@@ -88,7 +88,10 @@ static void check_tiles(struct texture_check *c, const char *path, const char *p
         diag_add(c->diags, DIAG_ID_missing_tiles, place, path, text_cstr(&missing));
 }
 
-/* Tokens and frames are known when it is drawn; of tiles, generation tells where there are none. */
+/*
+ * Skips names with tokens and frames, whose values are unknown before drawing. Generation reports
+ * tiled names without any tile.
+ */
 static void check_texture(struct texture_check *c, elem_id element)
 {
     str_id value = doc_attr_value(c->doc, element, STR_value),

@@ -14,6 +14,8 @@ static const double exact_pow10[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1
 
 enum { MAX_EXACT_POW10 = 22 };
 
+#define LOG10_2 0.30102999566398120
+
 static double scale_pow10(double value, int exponent)
 {
     for (; exponent > MAX_EXACT_POW10; exponent -= MAX_EXACT_POW10)
@@ -98,7 +100,9 @@ size_t num_print_float(char *out, float value)
     if (value == 0.0f)
         return n + put(out + n, "0.0");
     int exponent;
-    uint32_t integer = shortest_digits(value, (int)floor(log10((double)value)), &exponent);
+    int binary; /* value < 2^binary */
+    frexpf(value, &binary);
+    uint32_t integer = shortest_digits(value, (int)floor(binary * LOG10_2), &exponent);
     char buffer[20], *end = buffer + sizeof buffer, *digits = end;
     for (; integer; integer /= 10)
         *--digits = (char)('0' + integer % 10);

@@ -31,7 +31,7 @@ void table_add(struct table *table, struct arena *arena, uint32_t hash, uint32_t
 {
     assert(number && !table->narrow);
     uint32_t num_slots = table->slots ? table->mask + 1 : 0;
-    if (num_slots / 4 * 3 <= table->num) {
+    if (num_slots / 8 * 5 <= table->num) {
         if (num_slots > UINT32_MAX / 2)
             mem_fail(arena->mem);
         resize(table, arena, num_slots ? num_slots * 2 : FIRST_SLOTS);

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * blur: a shader computes its input at one point, but the input is a graph, which can be built
- * again for other texture coordinates:
+ * blur: a shader computes its input at one point, but the input is a graph, which the builder can
+ * build again for other texture coordinates:
  *
  *     blur(in) = Σ weight[i] weight[j] in(uv + size (node[i], node[j])),  i, j = 0..2
  *
- * The nodes are those of quadrature with three points (Abramowitz and Stegun, "Handbook of
- * Mathematical Functions", 25.4.30 and 25.4.46), exact where the input is a polynomial of degree 5
- * over the kernel. Textures are read with a footprint as wide as the nodes are apart, so that what
- * lies between is seen in their smaller levels.
+ * The nodes are those of three-point quadrature (Abramowitz and Stegun, "Handbook of Mathematical
+ * Functions", 25.4.30 and 25.4.46), exact if the input is a polynomial of degree 5 over the kernel.
+ * The footprint of a texture read is as wide as the distance between nodes, so smaller mip levels
+ * cover the space between them.
  *
- * What does not follow texture coordinates is the same everywhere, and stays.
+ * IR nodes that do not depend on texture coordinates stay unchanged.
  */
 #include "build/build_priv.h"
 
@@ -22,7 +22,7 @@ static const struct kernel {
 } kernels[] = {
     /* Gauss-Legendre: sqrt(3/5) of half the size */
     {"box", 0.38729833f, 5.0f / 18.0f, 8.0f / 18.0f},
-    /* Gauss-Hermite: sqrt(3) standard deviations, of which a size has six */
+    /* Gauss-Hermite: sqrt(3) standard deviations; a size is six of them */
     {"gaussian", 0.28867513f, 1.0f / 6.0f, 4.0f / 6.0f},
 };
 
@@ -31,9 +31,9 @@ struct blur {
     const uint8_t *needed;
     ir_ref in;
     ir_ref offsets[TAPS][2];
-    ir_ref *moved; /* TAPS per node: 0 where it does not follow texture coordinates */
+    ir_ref *moved; /* TAPS per node: 0 if it does not depend on texture coordinates */
     uint32_t num_moved;
-    bool is_unknown; /* it depends on what the caller of a function passes */
+    bool is_unknown; /* it depends on an argument of the function around it */
 };
 
 static const struct kernel *find_kernel(const struct builder *b, ir_ref filtertype)
@@ -85,8 +85,8 @@ static void move_texcoord(struct blur *blur, ir_ref ref)
 }
 
 /*
- * Half of what coordinates change by between the outer nodes along an axis, added to what they
- * change by on the screen.
+ * Half the change of the coordinates between the outer nodes along an axis, plus their change on
+ * the screen.
  */
 static ir_ref footprint(struct blur *blur, ir_ref uv, enum ir_op derivative, int before, int behind)
 {
@@ -109,7 +109,7 @@ static void move_texture(struct blur *blur, ir_ref ref)
     }
 }
 
-/* The derivative of coordinates that a texture is read with, as wide as the nodes are apart. */
+/* The derivative of texture coordinates for a read, as wide as the distance between nodes. */
 static ir_ref widened(struct blur *blur, ir_ref gradient, enum ir_op derivative, int before,
                       int behind)
 {
@@ -118,7 +118,7 @@ static ir_ref widened(struct blur *blur, ir_ref gradient, enum ir_op derivative,
     return uv && moved_of(blur, uv)[0] ? footprint(blur, uv, derivative, before, behind) : gradient;
 }
 
-/* Tiles, and filters of the shader's own. */
+/* Reads of tiles, and of images with filters in shader code. */
 static void move_gradient_texture(struct blur *blur, ir_ref ref)
 {
     struct ir_graph *g = blur->b->graph;

@@ -9,17 +9,17 @@ static const struct document *doc_of(const struct builder *b)
     return &b->lib->doc;
 }
 
-/* What functions know of the options. */
+/* The options that library functions can read. */
 static const struct known_option {
     const char *name;
-    size_t offset; /* of an int in struct build_options */
+    size_t offset; /* offset of an int in struct build_options */
 } known_options[] = {{"option_environment", offsetof(struct build_options, environment)},
                      {"option_albedo", offsetof(struct build_options, albedo)},
                      {"option_texture_modes", offsetof(struct build_options, texture_modes)},
                      {"option_integrator", offsetof(struct build_options, integrator)},
                      {"option_sample_filter", offsetof(struct build_options, sample_filter)}};
 
-/* The value of "option_environment"…; NULL where there is no such option. */
+/* The value of "option_environment"…; NULL if no such option exists. */
 static const int *find_option(const struct build_options *options, const char *name)
 {
     for (size_t i = 0; i < sizeof known_options / sizeof *known_options; i++)
@@ -29,8 +29,8 @@ static const int *find_option(const struct build_options *options, const char *n
 }
 
 /*
- * How functions of the library see the host: uniforms and streams become interface variables,
- * options constants.
+ * Resolves the globals of library functions: uniforms and streams become interface variables,
+ * options become constants.
  */
 static ir_ref make_global(struct builder *b, struct ir_graph *graph, const struct lang_unit *unit,
                           uint32_t global_id)
@@ -83,7 +83,7 @@ struct builder *build_start(const struct library *lib, const struct build_option
     b->graph = shader->graph;
     b->arena = shader->arena;
     b->diags = diags;
-    diags->trace = build_trace; /* the builder lives as long as the list: both are the result's */
+    diags->trace = build_trace; /* the builder lives as long as the list: the result owns both */
     diags->trace_data = b;
     b->resolved.arena = b->arena;
     b->apply = build_apply_definition;
@@ -109,11 +109,11 @@ const struct lang_host *build_lang_host(struct builder *b)
     return &b->host;
 }
 
-/* A material's interface is that of the shaders connected to it. */
+/* The interface of a material is the interface of its shaders. */
 static void publish_nodes(struct builder *b, elem_id node)
 {
     vec_push(b->arena, &b->public_nodes, node);
-    struct diag_list ignored; /* told when the node itself is resolved */
+    struct diag_list ignored; /* the resolution of the node itself reports them */
     diag_list_init(&ignored, b->arena);
     for (elem_id e = doc_element(doc_of(b), node)->first_child; e;
          e = doc_element(doc_of(b), e)->next) {
@@ -143,7 +143,10 @@ static ir_ref build_output_element(struct builder *b, elem_id output)
     if (binding.kind == BIND_NODE) {
         if (ir_type_is_shader(library_type_ir(b->lib, type)))
             return build_node_element(b, binding.ref, binding.output);
-        /* An output of the document itself shows its node's inputs; one of a graph, the graph's. */
+        /*
+         * An <output> of the document shows the inputs of its node; an <output> of a nodegraph
+         * shows the inputs of the graph.
+         */
         if (doc_element(doc_of(b), output)->parent == doc_of(b)->root)
             vec_push(b->arena, &b->public_nodes, binding.ref);
         build_demand(b, b->document, binding.ref);

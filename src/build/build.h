@@ -28,8 +28,8 @@ struct build_options {
     str_id colorspace; /* working colour space: "lin_rec709" */
     str_id distance_unit, angle_unit;
     bool strings;       /* the target has strings at run time */
-    bool neutral_names; /* uniforms have numbers as names */
-    bool short_names;   /* inputs have their own names, without the name of their node */
+    bool neutral_names; /* uniform names are numbers */
+    bool short_names;   /* input names omit the name of their node */
     int environment;    /* values of option_environment… */
     int albedo;
     int sample_filter;
@@ -37,8 +37,8 @@ struct build_options {
     /* texture() takes the default of a missing image as an argument, which may be a uniform */
     bool missing_colors;
     /*
-     * a tangent belongs to the texture coordinates of its index; otherwise to the first ones, as in
-     * MaterialX
+     * a tangent belongs to the texture coordinates with its index; otherwise to the first ones, as
+     * in MaterialX
      */
     bool indexed_tangents;
     bool tiles;                       /* images with tiles are texture arrays */
@@ -66,18 +66,18 @@ struct builder *build_start(const struct library *lib, const struct build_option
 ir_ref build_element(struct builder *builder, elem_id element, unsigned output);
 
 /*
- * network.c: from now on the builder records layers in `network`, and the value of build_element
- * is over sources that stand for them.
+ * network.c: makes the builder record layers in `network`. The value of build_element then depends
+ * on sources that stand for the layers.
  */
 void build_record_network(struct builder *builder, struct network *network);
 /*
- * Fills network->results for the root that build_element gave. `type` is that of a plain
- * value; false: the library has no node that gives a constant of that type.
+ * Fills network->results for the root that build_element returned. `type` is the type of a plain
+ * value; false: the library has no node for a constant of this type.
  */
 bool build_network_results(struct builder *builder, ir_ref root, str_id type);
 /*
- * With a builder of its own: the results of a node of a network over parameters, whose names are
- * noted, and the names of its outputs.
+ * Builds one node of a network over parameters, with a separate builder. Returns the results, the
+ * names of the parameters, and the names of the outputs.
  */
 void build_network_node(struct builder *builder, struct network_node *node, ir_ref *results);
 str_id build_network_output(struct builder *builder, const struct network_node *node,
@@ -98,10 +98,10 @@ const char *build_leaf_input(struct builder *builder, uint32_t callee, unsigned 
 bool build_glob_matches(const char *glob, const char *path);
 
 /*
- * lights.c: fills shader->lights. An item is the node of a light shader or the path of a <light>
- * of the document, with "=" and the light's number behind; without a number, it is the item's
- * place, from 1. "none" is no light. `is_said` is false for the default, of which lights may be
- * absent.
+ * lights.c: fills shader->lights. An item names the node of a light shader, or is the path of a
+ * <light> of the document; "=" and the light's number may follow. Without a number, it is the
+ * item's position, from 1. "none" is no light. `is_said` is false for the default list, whose
+ * lights may be absent.
  */
 void build_lights(struct builder *builder, const char *const *items, uint32_t num_items,
                   bool is_said);

@@ -32,10 +32,10 @@ struct frame {
     struct graph_node node;
     const struct binding *bindings;
     const struct implementation *impl;
-    uint32_t next; /* next input or output to visit */
+    uint32_t next; /* index of the next input or output to visit */
     uint8_t phase; /* enum frame_phase */
     ir_ref *args;
-    bool has_tokens; /* cannot share its results with another use */
+    bool has_tokens; /* it sets tokens, so no other use can share its results */
     uint32_t memo_key;
     /* memo of the function that `inner` becomes; LIBRARY_NONE: inlined */
     uint32_t outline;
@@ -43,8 +43,8 @@ struct frame {
 };
 
 /*
- * The results of nodegraphs, and the functions of outline.c, by definition and arguments: equal
- * uses are built once.
+ * The results of nodegraphs, and the functions of outline.c, by definition and arguments: the
+ * builder builds equal uses once.
  */
 struct memo {
     uint32_t hash, impl;
@@ -69,7 +69,9 @@ struct builder {
     struct ir_graph *graph;
     struct arena *arena;
     struct diag_list *diags;
-    /* build_apply: demand.c asks for inputs, and an input may need a definition applied */
+    /*
+     * build_apply, as a pointer: demand.c visits inputs, and an input may need a definition applied
+     */
     void (*apply)(struct builder *b, uint32_t nodedef, elem_id where, const ir_ref *args,
                   ir_ref *results);
     struct lang_host host;
@@ -86,8 +88,8 @@ struct builder {
     struct build_prefix path, name; /* prefixes of the paths and names of a node's inputs */
     ir_ref missing_texel;           /* the current node's texel outside all tiles of its image */
     struct recorder *recorder;      /* network.c; NULL: one shader is built */
-    bool has_colorspace;            /* the option names a space that the library converts to */
-    bool has_distance_unit;         /* the option names a unit of the library */
+    bool has_colorspace;            /* the library has transforms to the option's colour space */
+    bool has_distance_unit;         /* the library has the option's unit */
     bool cancelled;
 };
 
@@ -96,7 +98,7 @@ static inline const char *build_text(const struct builder *b, str_id id)
     return str_text(b->shader->strings, id);
 }
 
-/* Types whose values are numbers: what parameters and uniforms can be. */
+/* True for types whose values are numbers: the types of parameters and uniforms. */
 static inline bool build_is_number(ir_type_id type)
 {
     return type >= IR_TYPE_BOOL && type <= IR_TYPE_MAT4;
@@ -110,15 +112,15 @@ static inline uint32_t *build_slot(struct instance *scope, elem_id node)
     assert(node - scope->first < scope->num_slots);
     return &scope->slots[node - scope->first];
 }
-/* The scope of a graph within another. */
+/* The scope of a nodegraph inside another scope. */
 struct instance *build_new_instance(struct builder *b, struct instance *parent, elem_id graph);
-/* Output `output` of a node that was asked for; POISON of `type` after an error. */
+/* Output `output` of a node that build_demand has visited; POISON of `type` after an error. */
 ir_ref build_result(struct builder *b, struct instance *scope, elem_id node, unsigned output,
                     doc_type type);
 
-/* demand.c: asks for a node's results; afterwards its slot is SLOT_ERROR or holds results. */
+/* demand.c: computes the results of a node. Afterwards its slot is SLOT_ERROR or holds results. */
 void build_demand(struct builder *b, struct instance *scope, elem_id node);
-/* builder->apply */
+/* the value of builder->apply */
 void build_apply_definition(struct builder *b, uint32_t nodedef, elem_id where, const ir_ref *args,
                             ir_ref *results);
 
@@ -141,7 +143,7 @@ struct memo *build_memo(struct builder *b, uint32_t impl, const ir_ref *args, ui
 
 /* outline.c: the memo of the function for a nodegraph, or LIBRARY_NONE to inline it. */
 uint32_t build_outlined(struct builder *b, const struct frame *frame);
-/* Gives frame->inner parameters in place of arguments. */
+/* Replaces the arguments of frame->inner by parameters. */
 void build_begin_function(struct builder *b, struct frame *frame);
 /* Writes one ref per output of the definition. */
 void build_call_function(struct builder *b, const struct frame *frame, uint32_t function,
@@ -155,18 +157,18 @@ void build_trace(void *builder, struct diag_list *list);
 
 /* input.c */
 
-/* The value of a binding. A bound node must be built already. `node` owns the input. */
+/* The value of a binding. The bound node must have results already. `node` owns the input. */
 ir_ref build_input(struct builder *b, struct instance *scope, elem_id node, const struct port *port,
                    const struct binding *binding);
 
 /* interface.c */
 
-/* The variable that an input of a node would be; `element` says its value, 0: none does. */
+/* The interface variable for an input of a node. `element` holds its value; 0: no element does. */
 struct shader_variable build_describe(struct builder *b, elem_id node, const struct port *port,
                                       elem_id element, str_id input, str_id path);
 /*
- * A literal or default of an input of a node of the document: uniform or constant as the interface
- * mode says. `authored`: the document says it.
+ * A literal or default of an input of a document node: a uniform or a constant, according to the
+ * interface mode. `authored`: the document holds the value.
  */
 ir_ref build_publish(struct builder *b, elem_id node, const struct port *port, elem_id element,
                      str_id input, ir_ref value, bool authored);
@@ -176,8 +178,8 @@ str_id build_input_path(struct builder *b, elem_id node, str_id input, elem_id e
 /* value.c */
 
 /*
- * The constant that attribute `value` of an element says, as `text`; poison and a diagnostic where
- * it does not parse.
+ * The constant in attribute `value` of an element, given as `text`; poison and a diagnostic if it
+ * does not parse.
  */
 ir_ref build_constant(struct builder *b, const struct port *port, str_id text, elem_id element);
 /* The default of an input: default value, geometric property, or absent (0 for closures). */
@@ -185,8 +187,8 @@ ir_ref build_default(struct builder *b, const struct port *port);
 /* The value of a geometric property by name: defaultgeomprop. */
 ir_ref build_geomprop(struct builder *b, str_id name, doc_type type, struct diag_place place);
 /*
- * The value of a constant, or the initial value of a uniform, for decisions at compile time; false
- * for other nodes.
+ * The value of a constant, or the initial value of a uniform, for compile-time decisions; false for
+ * other nodes.
  */
 bool build_initial(const struct builder *b, ir_ref value, struct ir_value *out);
 
@@ -209,13 +211,16 @@ ir_ref build_unit_conversion(struct builder *b, ir_ref value, elem_id element,
 /* texture.c: a variable for the file of `variable`. */
 ir_ref build_texture(struct builder *b, struct shader_variable variable, elem_id element);
 /*
- * Records how a node reads its textures, before it is built, and replaces its arguments by the
- * textures with these modes. True if a texture has tiles.
+ * Records how a node reads its textures before the node is built. Replaces its arguments by
+ * textures with these address modes. True if a texture has tiles.
  */
 bool build_note_textures(struct builder *b, const struct frame *frame);
 /* lang_host.texture: reads the current tile. */
 ir_ref build_read_tiles(void *user_data, enum ir_op op, const ir_ref *args);
-/* Reports tile reads that could not become nodes, in the code of a node from `first_node` on. */
+/*
+ * Reports tile reads that could not become nodes, in the IR of a document node from `first_node`
+ * on.
+ */
 void build_check_tiles(struct builder *b, const struct frame *frame, uint32_t first_node);
 
 /* tiles.c: finds the tiles of a filename; false: it is a single image, or an error was reported. */
@@ -233,9 +238,12 @@ bool build_has_tokens(const struct builder *b, elem_id node);
 
 /* The implementation of a definition for the target; NULL after a diagnostic. */
 const struct implementation *build_choose(struct builder *b, uint32_t nodedef, elem_id node);
-/* The function that a definition is for the target; LIBRARY_NONE: it is none. */
+/* The function that implements a definition for the target; LIBRARY_NONE if no function does. */
 uint32_t build_light_function(struct builder *b, uint32_t nodedef);
-/* "ND_constant_color3" of "constant"; LIBRARY_NONE: the library has none of the type. */
+/*
+ * The definition of a node for a type: "ND_constant_color3" for "constant"; LIBRARY_NONE if the
+ * library has none.
+ */
 uint32_t build_definition_of(const struct builder *b, const char *node, str_id type);
 
 /* node.c: results of a node from its arguments, except graphs. Writes one ref per output. */
@@ -257,11 +265,11 @@ ir_ref build_measured_edf(struct builder *b, ir_ref color, ir_ref normal, ir_ref
                           elem_id node);
 
 /*
- * network.c, where there is a recorder. build_node: notes a layer for results that are no plain
- * values; they become sources that stand for it.
+ * network.c, for builders that record a network. build_node: records a layer for results that are
+ * no plain values. The results become sources that stand for the layer.
  */
 void build_record_node(struct builder *b, const struct frame *frame, ir_ref *results);
-/* The default of an input, as its layers have it; type VOID or 0: it has no number. */
+/* The default of an input in the network's layers; type VOID or 0: it has no number. */
 struct ir_value build_network_default(struct builder *b, const struct port *port);
 
 /* dynamic.c: builds nodes in C; false if the definition has no such code. */

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Which definition, and which of its implementations, a node is for the target at hand. */
+/* Chooses the definition of a node, and the implementation of a definition for the target. */
 #include "build/build_priv.h"
 
-/* 0: not for this target; more is nearer: own target before inherited ones before portable. */
+/*
+ * 0: not for this target. Higher is better: the target itself, then inherited targets, then
+ * portable.
+ */
 static unsigned fitness(const struct builder *b, const struct implementation *impl)
 {
     if (!impl->target)

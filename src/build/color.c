@@ -82,7 +82,7 @@ ir_ref build_unit_conversion(struct builder *b, ir_ref value, elem_id element,
         type = doc_attr_value(doc, port->element, STR_unittype);
     if (!type)
         type = library_unit_type_of(b->lib, unit);
-    /* What the definition works in, else the option's unit (specification, "Units"). */
+    /* The unit that the definition declares, else the option's unit (specification, "Units"). */
     str_id target = doc_attr_value(doc, port->element, STR_unit);
     if (!target)
         target = type == STR_angle ? b->options->angle_unit : b->options->distance_unit;

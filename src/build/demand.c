@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * The machine that asks: each frame is a node whose inputs are being asked for. A node is built
- * once per scope; a graph used twice with equal arguments is built once.
+ * Walks from a node to its inputs: each frame is a node whose inputs are in progress. Each node is
+ * built once per scope; a graph with two uses and equal arguments is built once.
  */
 #include "build/build_priv.h"
 
@@ -23,7 +23,7 @@ static const char *name_of(const struct builder *b, elem_id element)
     return build_text(b, doc_element(doc_of(b), element)->name);
 }
 
-/* "a -> b -> a": from the frame that asked first for the node to the one that asks again. */
+/* Reports a cycle as "a -> b -> a", from the frame of the first visit to the current one. */
 static void report_cycle(struct builder *b, const struct instance *scope, elem_id node)
 {
     struct text path;
@@ -66,7 +66,7 @@ static void report_recursion(struct builder *b, const struct instance *scope, el
              text_cstr(&path));
 }
 
-/* Finds definition and bindings, from the library's own tables or now. */
+/* Finds definition and bindings: from the library's tables, or by resolution now. */
 static void resolve(struct builder *b, struct frame *frame, elem_id node)
 {
     const struct library *layer;
@@ -77,9 +77,9 @@ static void resolve(struct builder *b, struct frame *frame, elem_id node)
         frame->bindings = layer->bindings.items + frame->node.first_binding;
         return;
     }
-    if (layer == b->lib) /* what no definition reads must not go by in silence */
+    if (layer == b->lib) /* report attributes that no definition reads */
         doc_check_children(doc_of(b), node, b->diags);
-    /* Bindings move when the vector grows: each frame keeps its own copy. */
+    /* Bindings move when the vector grows, so each frame keeps its own copy. */
     uint32_t before = b->resolved.bindings.len;
     frame->node = library_resolve_node(b->lib, node, &b->resolved, b->diags);
     uint32_t n = b->resolved.bindings.len - before;
@@ -125,7 +125,7 @@ static void finish(struct builder *b, uint32_t first_result)
 static uint32_t add_results(struct builder *b, const ir_ref *results, uint32_t n)
 {
     uint32_t first = b->results.len;
-    for (uint32_t i = 0; i < n; i++) /* of a definition without outputs there are none */
+    for (uint32_t i = 0; i < n; i++) /* a definition without outputs has no results */
         vec_push(b->arena, &b->results, results[i]);
     return first;
 }
@@ -141,8 +141,8 @@ static void build_args(struct builder *b, struct frame *frame)
 }
 
 /*
- * Image nodes read a file that is given in a colour space: what they return is converted
- * (specification, "Color Spaces").
+ * Converts the results of image nodes from the colour space of their file (specification, "Color
+ * Spaces").
  */
 static void convert_colors(struct builder *b, const struct frame *frame, ir_ref *results)
 {
@@ -170,7 +170,7 @@ static void push_origin(struct builder *b, const struct frame *frame)
                    ir_add_origin(b->graph, name, frame->node.element, frame->scope->origin));
 }
 
-/* "noise1", and "separate1_outr" where a node has several results. */
+/* Names results: "noise1", or "separate1_outr" if a node has several results. */
 static void name_results(struct builder *b, const struct frame *frame, const ir_ref *results)
 {
     const struct nodedef *def = library_nodedef(b->lib, frame->node.nodedef);
@@ -189,7 +189,7 @@ static void name_results(struct builder *b, const struct frame *frame, const ir_
     }
 }
 
-/* The results of a graph for these arguments are known: they are kept for equal uses. */
+/* The results of a graph for these arguments are complete; the memo keeps them for equal uses. */
 static void finish_graph(struct builder *b, struct frame *frame, ir_ref *results)
 {
     convert_colors(b, frame, results);
@@ -260,7 +260,7 @@ static void step_inputs(struct builder *b)
             uint32_t before = b->frames.len;
             push(b, frame->scope, binding->ref);
             if (b->frames.len > before)
-                return; /* this frame goes on when that one has answered */
+                return; /* this frame continues after the other one ends */
         }
     }
     push_origin(b, frame);
@@ -277,7 +277,7 @@ static void step_inputs(struct builder *b)
     ir_pop_origin(b->graph);
 }
 
-/* The <output> of the inner graph that gives output `i` of the definition. */
+/* The <output> of the inner graph for output `i` of the definition. */
 static elem_id inner_output(const struct builder *b, const struct frame *frame, uint32_t i)
 {
     const struct nodedef *def = library_nodedef(b->lib, frame->node.nodedef);
@@ -316,7 +316,7 @@ static void step_outputs(struct builder *b)
 {
     struct frame *frame = &vec_last(&b->frames);
     const struct nodedef *def = library_nodedef(b->lib, frame->node.nodedef);
-    struct diag_list ignored; /* faults of the connection are told when the graph is left */
+    struct diag_list ignored; /* the exit from the graph reports faults of the connection */
     diag_list_init(&ignored, b->arena);
     while (frame->next < def->num_outputs) {
         elem_id output = inner_output(b, frame, frame->next++);

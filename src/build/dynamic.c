@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Nodes that C code builds: named streams, and the closure and shader constructors, whose meaning
- * is an operation of the IR.
+ * Dynamic implementations: named streams, and the constructors of closures and shaders, each of
+ * which is an op of the IR.
  */
 #include "build/build_priv.h"
 
@@ -10,7 +10,7 @@ struct call {
     const struct frame *frame;
     const struct nodedef *def;
     const struct port *ports;
-    ir_type_id type; /* of the first output */
+    ir_type_id type; /* type of the first output */
 };
 
 static ir_ref arg(const struct call *c, str_id name)
@@ -30,7 +30,7 @@ static ir_ref build_op(const struct call *c, enum ir_op op, const ir_ref *args, 
 
 static ir_ref not_constant(const struct call *c, str_id input)
 {
-    /* it has been told what is wrong with it */
+    /* the fault is already reported */
     if (ir_get(c->b->graph, arg(c, input))->op == IR_POISON)
         return ir_poison(c->b->graph, c->type);
     diag_add(c->b->diags, DIAG_ID_input_must_be_constant,
@@ -53,7 +53,10 @@ static ir_ref named_stream(const struct call *c, const char *prefix, str_id name
                          type);
 }
 
-/* A stream of more or fewer components than the node's output: cut, or filled with 0. */
+/*
+ * Fits a stream to the number of components of the node's output: drops components, or fills with
+ * 0.
+ */
 static ir_ref fit_components(const struct call *c, ir_ref value)
 {
     static const uint8_t first[] = {0, 1, 2, 3};
@@ -89,7 +92,7 @@ static ir_ref build_geomcolor(const struct call *c)
     return indexed_stream(c, "color_", IR_TYPE_VEC4);
 }
 
-/* How a value, or a part of it, changes from pixel to pixel. */
+/* The change of a value, or of a part of it, from pixel to pixel. */
 static ir_ref change(const struct call *c, enum ir_op axis, ir_ref value, int part)
 {
     ir_ref all = ir_op1(c->b->graph, axis, value);
@@ -97,11 +100,12 @@ static ir_ref change(const struct call *c, enum ir_op axis, ir_ref value, int pa
 }
 
 /*
- * Along u and v of other texture coordinates than the first there are no tangents: they are found
- * by what the point P and the coordinates do from pixel to pixel, up to a positive factor,
+ * Tangent and bitangent for texture coordinates other than the first. They follow from the change
+ * of the point P and of the coordinates from pixel to pixel, up to a positive factor:
  *
- *     T = (dP/dx · dv/dy - dP/dy · dv/dx) sign D    B = (dP/dy · du/dx - dP/dx · du/dy) sign D    D
- * = du/dx · dv/dy - du/dy · dv/dx
+ *     T = (dP/dx · dv/dy - dP/dy · dv/dx) sign D
+ *     B = (dP/dy · du/dx - dP/dx · du/dy) sign D
+ *     D = du/dx · dv/dy - du/dy · dv/dx
  */
 static ir_ref tangent_of(const struct call *c, ir_ref point, ir_ref uv, bool along_v)
 {
@@ -145,7 +149,7 @@ static ir_ref build_bitangent(const struct call *c)
     return build_axis(c, STR_bitangentObject, STR_bitangentWorld, true);
 }
 
-/* What hosts bind where the geometry has no such property. */
+/* Records the value that hosts bind if the geometry lacks the property. */
 static void tell_default(const struct call *c, uint32_t index)
 {
     struct shader_variable *variable = &c->b->shader->variables.items[index];
@@ -171,8 +175,8 @@ static ir_ref geomprop_uniform(const struct call *c, str_id name)
 }
 
 /*
- * Booleans cannot be interpolated and strings not be streamed: hosts give them per object (as
- * MaterialX 1.39 does).
+ * Booleans cannot be interpolated, and strings cannot be streams: hosts set them per object (as in
+ * MaterialX 1.39).
  */
 static ir_ref build_geompropvalue(const struct call *c)
 {
@@ -180,7 +184,7 @@ static ir_ref build_geompropvalue(const struct call *c)
     if (!ir_get_const(c->b->graph, arg(c, STR_geomprop), &name))
         return not_constant(c, STR_geomprop);
     if (!name.w[0].u)
-        return arg(c, STR_default); /* no property is named */
+        return arg(c, STR_default); /* the node names no property */
     if (c->type == IR_TYPE_STRING)
         return arg(c, STR_default);
     if (c->type == IR_TYPE_BOOL || c->type == IR_TYPE_SAMPLER)
@@ -201,7 +205,7 @@ static ir_ref blur(const struct call *c)
                       c->frame->node.element);
 }
 
-/* ---- closures; ref 0 is "no closure" and the neutral element of these ---- */
+/* ---- closures; ref 0 is "no closure", the neutral element of these ops ---- */
 
 static ir_ref build_layer(const struct call *c)
 {
@@ -293,9 +297,8 @@ static ir_ref build_volumematerial(const struct call *c)
 }
 
 /*
- * Not a node but a function of implementations: the first input is a number, from 0, and chooses
- * among the inputs behind it. What is chosen for a material may be of any type, since any value can
- * be the root of a shader.
+ * The implementation of a choice: the first input is an index, from 0, into the inputs after it.
+ * For a material the choice may have any type, because any value can be the root of a shader.
  */
 static ir_ref build_chosen_input(const struct call *c)
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Names of files: their prefix, and interface tokens in square brackets (specification, "Filename
- * Substitutions"). What stands in angle brackets or braces is the host's.
+ * File names: their prefix, and interface tokens in square brackets (specification, "Filename
+ * Substitutions"). The host substitutes angle brackets and braces.
  */
 #include "build/build_priv.h"
 
@@ -25,8 +25,8 @@ bool build_has_tokens(const struct builder *b, elem_id node)
 }
 
 /*
- * The definition that a graph implements, used by a node or generated itself; 0: it is a part of
- * the document's own graph.
+ * The definition that a graph implements, if a node uses the graph or the graph is generated
+ * itself; 0: the graph belongs to the document's own graph.
  */
 static elem_id definition_of(const struct builder *b, const struct instance *scope, elem_id graph)
 {
@@ -41,9 +41,9 @@ static elem_id definition_of(const struct builder *b, const struct instance *sco
 }
 
 /*
- * The token that an element sees under a name: its own or that of what is around it; in a
- * definition, that of the node that uses it, else the definition's. A token may in turn name
- * another one by `interfacename`. 0: there is none.
+ * The token that an element sees under a name: its own or an ancestor's. In a definition: the token
+ * of the node that uses it, else the definition's. A token can name another token with
+ * `interfacename`. 0: no such token.
  */
 static elem_id find_token(const struct builder *b, const struct instance *scope, elem_id at,
                           str_id name)
@@ -69,7 +69,7 @@ static elem_id find_token(const struct builder *b, const struct instance *scope,
     return 0;
 }
 
-/* What "[name" stands for; false: nothing, which is told. */
+/* Prints the value of the token "[name"; false: no such token, after a diagnostic. */
 static bool print_token(struct builder *b, const struct instance *scope, elem_id element,
                         const char *name, size_t len, struct text *out)
 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Where a connection ends: at a node, a value, a texture or a default. */
+/* The end of a connection: a node, a value, a texture or a default. */
 #include "build/build_priv.h"
 
 static const struct document *doc_of(const struct builder *b)
@@ -16,7 +16,9 @@ static ir_ref texture(struct builder *b, const struct instance *scope, elem_id n
     return build_texture(b, v, element ? element : node);
 }
 
-/* The value that an element of the document or a graph says, with its colour space and unit. */
+/*
+ * The value attribute of an element of the document or of a graph, with its colour space and unit.
+ */
 static ir_ref literal(struct builder *b, const struct instance *scope, elem_id owner,
                       const struct port *port, elem_id element, bool outermost)
 {
@@ -25,7 +27,7 @@ static ir_ref literal(struct builder *b, const struct instance *scope, elem_id o
     if (type == IR_TYPE_SAMPLER)
         return texture(b, scope, owner, port, element, name);
     if (ir_type_is_closure(type) || ir_type_is_shader(type))
-        return 0; /* value="" is how documents write "nothing" */
+        return 0; /* documents write value="" for "no value" */
     ir_ref value = build_constant(b, port, doc_attr_value(doc_of(b), element, STR_value), element);
     if (outermost)
         value = build_publish(b, owner, port, element, name, value, true);
@@ -61,15 +63,15 @@ static elem_id graph_around(const struct builder *b, elem_id element)
 }
 
 /*
- * A functional graph that is not used as a node, but is itself generated, has the defaults of its
- * definition.
+ * A functional graph that is generated directly, without a node that uses it, has the defaults of
+ * its definition.
  */
 static ir_ref interface_arg(struct builder *b, struct instance *scope, const struct port *port,
                             const struct binding *binding)
 {
     elem_id alone = scope->graph ? 0 : graph_around(b, binding->element);
     uint32_t nodedef = alone ? library_implemented_nodedef(b->lib, alone) : scope->nodedef;
-    /* reported when the document was read */
+    /* the reader of the document has reported it */
     if (nodedef == LIBRARY_NONE && doc_attr_value(doc_of(b), alone, STR_nodedef))
         return unset(b, scope, doc_element(doc_of(b), binding->element)->parent, port,
                      binding->element, true);
@@ -82,8 +84,9 @@ static ir_ref interface_arg(struct builder *b, struct instance *scope, const str
 }
 
 /*
- * A value that ends here. In the document it is made once however many nodes read it, and belongs
- * to the element that says it: perhaps an interface input further up, which is what a host changes.
+ * The value at the end of a chain of connections. In the document it exists once for all readers,
+ * and belongs to the element with the value attribute. This can be an interface input further up;
+ * the host changes that one.
  */
 static ir_ref end_of_chain(struct builder *b, struct instance *scope, elem_id node,
                            const struct port *port, const struct binding *binding)
@@ -97,7 +100,7 @@ static ir_ref end_of_chain(struct builder *b, struct instance *scope, elem_id no
     if (slot && *slot >= SLOT_RESULTS)
         return b->results.items[*slot - SLOT_RESULTS];
     bool says_value = binding->kind == BIND_VALUE;
-    /* MaterialX's generators all do so, and materials depend on it */
+    /* all MaterialX generators do so, and materials depend on it */
     if (says_value && port->geomprop && owner == node) {
         diag_add(b->diags, DIAG_ID_geomprop_literal, doc_attr_place(doc_of(b), element, STR_value),
                  build_text(b, port->name), build_text(b, port->geomprop));

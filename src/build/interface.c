@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Inputs of the shader's interface: names, paths, and which of them stay variable. */
+/* Inputs of the shader's interface: their names, their paths, and which of them become uniforms. */
 #include "build/build_priv.h"
 
 static const struct document *doc_of(const struct builder *b)
@@ -8,8 +8,8 @@ static const struct document *doc_of(const struct builder *b)
 }
 
 /*
- * Goes back to what stands in front of the names of an owner's inputs; true where that is to be
- * written.
+ * Returns to the prefix of the names of an owner's inputs; true if the caller must write the
+ * prefix.
  */
 static bool begin_text(struct builder *b, struct build_prefix *prefix, elem_id owner)
 {
@@ -40,13 +40,13 @@ str_id build_input_path(struct builder *b, elem_id node, str_id input, elem_id e
     return end_text(b, path, element ? doc_element(doc_of(b), element)->name : input);
 }
 
-struct glob_retry { /* where to go on when what stands behind a star does not match */
+struct glob_retry { /* the position to retry from, if the text after a star does not match */
     const char *glob, *path;
 };
 
 bool build_glob_matches(const char *glob, const char *path)
 {
-    struct glob_retry star = {0}, deep = {0}; /* the last '*' since the last '**', and that */
+    struct glob_retry star = {0}, deep = {0}; /* the last '*' since the last '**'; the last '**' */
     while (*glob || *path) {
         if (*glob == '*') {
             bool is_deep = glob[1] == '*';
@@ -80,8 +80,8 @@ static bool any_glob(const char *const *globs, unsigned n, const char *path)
 }
 
 /*
- * True for inputs of the shader nodes and of the document's graphs: those that the interface mode
- * is about.
+ * True for inputs of the shader nodes and of the document's graphs: the interface mode applies to
+ * them.
  */
 static bool is_public(const struct builder *b, elem_id node)
 {
@@ -108,7 +108,8 @@ static bool stays_variable(const struct builder *b, elem_id node, bool authored,
 }
 
 /*
- * "SR_gold_base_color": the path's last two names; or "base_color", as long as there is one of it.
+ * A variable name: the last two names of the path, "SR_gold_base_color"; with short names
+ * "base_color", if it is unique.
  */
 static str_id variable_name(struct builder *b, elem_id node, str_id input)
 {

@@ -7,7 +7,7 @@
 
 #include <assert.h>
 
-/* Options stand in no file. */
+/* Options have no place in a file. */
 static const struct diag_place nowhere = {0};
 
 static bool gives_light(const struct library *layer, const struct nodedef *def)
@@ -29,13 +29,13 @@ static uint32_t find_light(const struct builder *b, const char *node, size_t len
     return LIBRARY_NONE;
 }
 
-/* The EDF of the node `light` is no member: nothing is connected to it. */
+/* The EDF input of the node `light` is no member, because it is a connection. */
 static bool is_member(const struct builder *b, const struct port *input)
 {
     return !ir_type_is_closure(library_type_ir(b->lib, input->type));
 }
 
-/* Its inputs become members of LightData. */
+/* The inputs of a light shader become members of LightData. */
 static struct shader_light start_light(struct builder *b, uint32_t nodedef, int32_t type)
 {
     struct shader *shader = b->shader;
@@ -54,7 +54,7 @@ static struct shader_light start_light(struct builder *b, uint32_t nodedef, int3
     return light;
 }
 
-/* A host that does not know a member leaves it at the default of its definition. */
+/* Hosts that do not set a member leave it at the default of its definition. */
 static void set_default(struct builder *b, const struct port *input, uint32_t member)
 {
     struct shader_variable *variable = &b->shader->variables.items[member];
@@ -63,7 +63,7 @@ static void set_default(struct builder *b, const struct port *input, uint32_t me
         variable->has_default = ir_get_const(b->graph, value, &variable->value);
 }
 
-/* A light made of nodes stands somewhere and faces something, which the host says. */
+/* A light made of nodes has a position and a direction, which the host sets. */
 static void place_light(struct builder *b, struct shader_light *light)
 {
     light->position = shader_light_member(b->shader, STR_position, IR_TYPE_VEC3);
@@ -96,7 +96,7 @@ static ir_ref shader_of(struct builder *b, uint32_t nodedef, const struct shader
     return result && ir_get(b->graph, result)->op == IR_LIGHT_SHADER ? result : 0;
 }
 
-/* A light shader by its definition: a function, or nodes over the members. */
+/* Adds a light shader by its definition: a function, or nodes over the members. */
 static bool add_defined_light(struct builder *b, uint32_t nodedef, int32_t type)
 {
     struct shader_light light = start_light(b, nodedef, type);
@@ -111,7 +111,8 @@ static bool add_defined_light(struct builder *b, uint32_t nodedef, int32_t type)
 }
 
 /*
- * A light of the document: a <light> with its EDF. Its inputs are those of the shader's interface.
+ * Adds a light of the document: a <light> with its EDF. Its inputs belong to the shader's
+ * interface.
  */
 static bool add_light_element(struct builder *b, const char *path, int32_t type)
 {
@@ -130,7 +131,7 @@ static bool add_light_element(struct builder *b, const char *path, int32_t type)
     return true;
 }
 
-/* Does a host describe it without a node that is connected? */
+/* True if a host can describe the light without a connected node. */
 static bool stands_alone(const struct library *layer, const struct nodedef *def)
 {
     const struct port *inputs = layer->ports.items + def->first_port;
@@ -140,7 +141,7 @@ static bool stands_alone(const struct library *layer, const struct nodedef *def)
     return true;
 }
 
-/* The definitions of light shaders, for a message. */
+/* Writes the definitions of light shaders, for a message. */
 static void put_lights(const struct builder *b, struct text *out)
 {
     const char *separator = "; expected one of: ";
@@ -154,7 +155,9 @@ static void put_lights(const struct builder *b, struct text *out)
         }
 }
 
-/* A node whose definition is a function is no light by itself, but its definition is. */
+/*
+ * The hint for a node whose definition is a function: the definition is a light, the node is not.
+ */
 static const char *light_hint(struct builder *b, const char *item, size_t len)
 {
     const struct document *doc = &b->lib->doc;
@@ -181,7 +184,7 @@ static bool has_light(const struct shader *shader, int32_t type)
     return false;
 }
 
-/* The number behind "=" of an item, or `next`; false after a diagnostic. */
+/* The number after "=" of an item, or `next`; false after a diagnostic. */
 static bool number_of(struct builder *b, const char *item, int64_t next, int32_t *out)
 {
     const char *sign = strchr(item, '='), *number = sign ? sign + 1 : "";

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Networks: what a node is built to is looked at and put away, and a layer is noted instead, whose
- * outputs are sources of which nothing is known. So graphs are flattened, values, tokens and
- * conversions found, and nodes that come to nothing left out as for any shader:
+ * Networks: the builder inspects the results of a node, discards them, and records an OSL layer
+ * instead. The layer's outputs are sources of unknown value. So flattening of graphs, values,
+ * tokens, conversions and the removal of trivial nodes work as for any shader:
  *
- *     multiply(in1, 1)  in1      mix of two constants  a constant      layer(top, nothing)  top
+ *     multiply(in1, 1)       →  in1
+ *     mix of two constants   →  a constant
+ *     layer(top, nothing)    →  top
  */
 #include "build/build_priv.h"
 
@@ -12,10 +14,10 @@
 
 struct recorder {
     struct network *network;
-    uint32_t *layer_of; /* by variable of the shader: the layer that it is an output of, + 1 */
+    uint32_t *layer_of; /* by variable of the shader: the layer with this output, + 1 */
     uint32_t num_layers_of;
-    VEC(uint8_t) output_of; /* by such a variable, too */
-    ir_ref *source_of;      /* by node that was put away: the layer's output that stands for it */
+    VEC(uint8_t) output_of; /* by variable of the shader: the output of the layer */
+    ir_ref *source_of;      /* by discarded node: the layer's output that stands for it */
     uint32_t num_sources;
 };
 
@@ -26,7 +28,7 @@ void build_record_network(struct builder *b, struct network *network)
     b->recorder->network = network;
 }
 
-/* Element `index` of an array that grows with what it is indexed by. */
+/* Element `index` of an array that grows on demand. */
 static uint32_t *at(struct arena *arena, uint32_t **items, uint32_t *len, uint32_t index)
 {
     if (index >= *len) {
@@ -45,9 +47,12 @@ static uint32_t layer_of(const struct recorder *r, uint32_t variable)
     return variable < r->num_layers_of ? r->layer_of[variable] : 0;
 }
 
-/* ---- What of an input is settled with the shader ---- */
+/* ---- Inputs that are compiled into the layer's shader ---- */
 
-/* Texts choose code; nodes of C code read streams by index, and profiles. */
+/*
+ * True for strings, which choose code, for nodes with dynamic implementations, which read streams
+ * by index, and for profiles.
+ */
 static bool is_settled(const struct builder *b, const struct implementation *impl,
                        const struct port *port)
 {
@@ -58,8 +63,9 @@ static bool is_settled(const struct builder *b, const struct implementation *imp
 }
 
 /*
- * Languages that find tiles by themselves read them in another way: of other files no more than
- * that is settled.
+ * The part of a file name that is compiled in: the whole name for dynamic implementations; "<UDIM>"
+ * for tiled images, because targets that find tiles themselves read them in another way; nothing
+ * for other files.
  */
 static str_id settled_file(struct builder *b, const struct implementation *impl, str_id file)
 {
@@ -71,7 +77,7 @@ static str_id settled_file(struct builder *b, const struct implementation *impl,
                : 0;
 }
 
-/* Type VOID: nothing is settled. */
+/* The value that is compiled in; type VOID: none. */
 static struct ir_value settled_value(struct builder *b, const struct implementation *impl,
                                      const struct port *port, ir_ref arg)
 {
@@ -108,13 +114,13 @@ static void add_word(struct text *name, const char *word)
         text_char(name, is_word ? *c : '_');
         is_plain &= is_word;
     }
-    if (!is_plain) /* other words may look the same */
+    if (!is_plain) /* other strings may give the same code */
         text_fmt(name, "x%u", (unsigned)hash_stable(0, word, strlen(word)));
 }
 
 /*
- * "ND_dielectric_bsdf_scatter_mode_T": of the definition "ND_dielectric_bsdf" where the mode is not
- * the usual one.
+ * The name of a layer's shader: the definition's name, and the mode if it is not the default:
+ * "ND_dielectric_bsdf_scatter_mode_T" for "ND_dielectric_bsdf".
  */
 static str_id node_name(struct builder *b, const struct nodedef *def, const struct port *ports,
                         const struct ir_value *fixed)
@@ -200,7 +206,7 @@ static struct network_input input_of(struct builder *b, ir_ref arg)
         input.path = variable->path;
     } else if (ir_get_const(b->graph, arg, &input.value)) {
         input.kind = NETWORK_VALUE;
-    } else { /* a uniform, perhaps in another unit: what a host sets is the value that results */
+    } else { /* a uniform, perhaps in another unit: the host sets the converted value */
         struct ir_eval_env env = {.user_data = b, .source = uniform_value};
         if (ir_eval(b->graph, arg, &env, b->arena, &input.value))
             input.kind = NETWORK_VALUE;
@@ -227,7 +233,7 @@ static void add_input(struct builder *b, const struct frame *frame, const struct
 
 /* ---- Layers ---- */
 
-/* "NG_marble/noise": by what the node at hand was built for. */
+/* The path of the document node behind the current node: "NG_marble/noise". */
 static void write_path(const struct builder *b, uint32_t origin, char between, struct text *out)
 {
     const struct ir_origin *o = &b->graph->origins.items[origin];
@@ -242,8 +248,8 @@ static void write_path(const struct builder *b, uint32_t origin, char between, s
 }
 
 /*
- * A node that no element stands for, a conversion, has its own name behind that of the node that
- * needs it.
+ * The path of a node. A node without a document element, such as a conversion, adds its name to the
+ * path of the node that needs it.
  */
 static str_id path_of(struct builder *b, const struct frame *frame, char between)
 {
@@ -257,8 +263,7 @@ static str_id path_of(struct builder *b, const struct frame *frame, char between
 }
 
 /*
- * A source of which nothing is known; its variable gives the first output's layer a name that is
- * unique.
+ * Adds a source of unknown value. Its variable gives the layer of the first output a unique name.
  */
 static ir_ref add_source(struct builder *b, str_id name, ir_type_id type, uint32_t layer,
                          unsigned output)
@@ -282,7 +287,10 @@ static bool is_argument(const struct builder *b, const struct frame *frame, ir_r
     return false;
 }
 
-/* The value needs no layer: it is a constant, nothing, what another layer gives, or an argument. */
+/*
+ * True if the value needs no layer: a constant, no closure, an output of another layer, or an
+ * argument.
+ */
 static bool is_plain(const struct builder *b, const struct frame *frame, ir_ref value)
 {
     const struct ir_node *node = ir_get(b->graph, value);
@@ -329,7 +337,9 @@ void build_record_node(struct builder *b, const struct frame *frame, ir_ref *res
     }
 }
 
-/* A layer that gives a value which is no layer's; UINT32_MAX: there is none of its type. */
+/*
+ * A constant layer for a value that no layer gives; UINT32_MAX: the library has none for its type.
+ */
 static uint32_t constant_layer(struct builder *b, ir_ref value, str_id type)
 {
     struct frame frame = {.node = {.nodedef = build_definition_of(b, "constant", type)},
@@ -364,7 +374,7 @@ bool build_network_results(struct builder *b, ir_ref root, str_id type)
         for (unsigned i = 0; i < NETWORK_PLAIN_VALUE; i++)
             network->results[i] = input_of(b, ir_arg(b->graph, root, i));
         if (!ir_arg(b->graph, root, 0) && !ir_arg(b->graph, root, 1) && !ir_arg(b->graph, root, 3))
-            network->results[NETWORK_SURFACE].type = IR_TYPE_SURFACE; /* one that is black */
+            network->results[NETWORK_SURFACE].type = IR_TYPE_SURFACE; /* a black surface */
         return true;
     }
     enum network_result result = result_of(ir_type_of(b->graph, root));

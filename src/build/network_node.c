@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-/* One node of a network: its definition over parameters, for a shader of its own. */
+/* One node of a network: its definition over parameters, as a shader of its own. */
 #include "build/build_priv.h"
 
-/* What comes from another layer is a closure of any kind; of displacements, the offset. */
+/*
+ * The type of an input from another layer: closures have any kind, and a displacement is its
+ * offset.
+ */
 static ir_type_id parameter_type(ir_type_id type)
 {
     return type == IR_TYPE_DISPLACEMENT                          ? IR_TYPE_VEC3

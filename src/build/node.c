@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* From a node's arguments to its results, by the implementation for the target. */
+/* From the arguments of a node to its results, by the implementation for the target. */
 #include "build/build_priv.h"
 #include "lower/lower.h"
 
@@ -21,9 +21,8 @@ uint32_t build_leaf_callee(struct builder *b, uint32_t family)
 }
 
 /*
- * Weight first where the definition has one (else 1), then the inputs in order without closures,
- * then the base of a modifier. So equal lobes under different weights differ in the first operand
- * only.
+ * Weight first if the definition has one (else 1), then the inputs in order without closures, then
+ * the base of a modifier. So equal lobes with different weights differ only in the first operand.
  */
 static void build_leaf(struct builder *b, const struct implementation *impl, const ir_ref *args,
                        ir_ref *results)
@@ -74,7 +73,7 @@ const char *build_leaf_input(struct builder *b, uint32_t callee, unsigned index)
     return NULL;
 }
 
-/* "{{in1}}" becomes "{{0}}": the shader's verbatim expressions know operands by number. */
+/* "{{in1}}" becomes "{{0}}": verbatim expressions of the shader refer to operands by number. */
 static str_id number_inputs(struct builder *b, const struct nodedef *def, const struct port *ports,
                             str_id source)
 {
@@ -141,8 +140,8 @@ static void call_verbatim(struct builder *b, const struct implementation *impl, 
 }
 
 /*
- * A light's function wants the shaded point, which only the loop over lights has: elsewhere such a
- * node is a light without emission.
+ * A light function needs the shaded point, which only the light loop has. Outside it, such a node
+ * is a light without emission.
  */
 static ir_ref dark_light(struct builder *b)
 {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Functional graphs as functions of the shader. A graph is built anew for each use with other
- * arguments, which folds best; but definitions that use others twice, to a depth of n, are 2^n
- * uses. So from its INLINE_USES-th use on a graph is a function, built once:
+ * Functional graphs as functions of the shader. The builder builds a graph anew for each use with
+ * other arguments, because this folds best. But definitions that use others twice, to a depth of n,
+ * give 2^n uses. So from its INLINE_USES-th use on, a graph becomes a function, built once:
  *
  *     d2(x) = d1(x) + d1(d1(x)),  d1(x) = d0(x) + d0(d0(x)),  …
  */
@@ -11,8 +11,8 @@
 enum { INLINE_USES = 16, MAX_FUNCTIONS = 60000 };
 
 /*
- * Numbers are parameters. Anything else is part of the function, and so are constants that choose
- * (an index, a switch), because nodes may ask to know them.
+ * Numbers become parameters. All other arguments belong to the function, and so do constants that
+ * choose (an index, a switch), because nodes may read their values.
  */
 static bool is_parameter(const struct builder *b, ir_ref arg)
 {
@@ -30,7 +30,7 @@ static bool gives_numbers(const struct builder *b, const struct nodedef *def,
     return true;
 }
 
-/* The arguments with the parameters left out. */
+/* The arguments, with 0 for those that become parameters. */
 static ir_ref *fixed_args(struct builder *b, const ir_ref *args, uint32_t n)
 {
     ir_ref *fixed = ARENA_ARRAY(b->arena, ir_ref, n);
@@ -46,7 +46,7 @@ uint32_t build_outlined(struct builder *b, const struct frame *frame)
     if (b->recorder || !gives_numbers(b, def, ports + def->num_inputs)
         || b->graph->functions.len >= MAX_FUNCTIONS)
         return LIBRARY_NONE;
-    /* Complemented, an implementation's number is that of no other memo. */
+    /* The complement of an implementation's number is unique among memos. */
     struct memo *memo = build_memo(b, ~frame->impl->ref,
                                    fixed_args(b, frame->args, def->num_inputs), def->num_inputs);
     return memo->uses++ < INLINE_USES ? LIBRARY_NONE : (uint32_t)(memo - b->memos.items);
@@ -67,7 +67,7 @@ void build_begin_function(struct builder *b, struct frame *frame)
         args[i] = is_parameter(b, frame->args[i]) ? ir_param(b->graph, frame->function, n++)
                                                   : frame->args[i];
     frame->inner->args = args;
-    /* Its nodes belong to the definition, not to this use. */
+    /* The nodes belong to the definition instead of this use. */
     frame->inner->origin = ir_add_origin(
         b->graph, doc_element(&b->lib->doc, frame->inner->graph)->name, frame->inner->graph, 0);
 }

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
  * measured_edf: emission by a photometric file (ANSI/IES LM-63, type C). The shader gets a table of
- * intensities by the angle from the normal, relative to the greatest; around the normal, for which
- * the node has no direction, they are averaged.
+ * intensities by the angle from the normal, relative to the maximum. The table averages around the
+ * normal, because the node has no direction for the horizontal angle.
  */
 #include "build/build_priv.h"
 
 #include "base/num.h"
 
-/* degrees between entries, and how many there are */
+/* degrees between entries, and number of entries */
 enum { STEP = 2, LENGTH = 180 / STEP + 1, MAX_ANGLES = 4096 };
 
 struct measurement {
     const char *at, *end;
-    const char *fault; /* NULL: none */
+    const char *fault; /* NULL: no fault */
     unsigned num_vertical, num_horizontal;
     /* candela: all vertical angles of the first horizontal one, then of the next … */
     float *vertical, *horizontal, *candela;
@@ -21,7 +21,10 @@ struct measurement {
 
 /* ---- Reading ---- */
 
-/* Behind the line that begins with "TILT="; out_include: the lamp's tilt follows. */
+/*
+ * Skips to the end of the line that begins with "TILT="; out_include: the tilt table of the lamp
+ * follows.
+ */
 static void skip_keywords(struct measurement *m, bool *out_include)
 {
     while (m->at < m->end) {
@@ -73,7 +76,7 @@ static bool ascends(const float *numbers, unsigned count)
 
 static void read_measurement(struct measurement *m, struct arena *arena)
 {
-    /* lamps, lumens, factor; units, three sizes, two of the ballast, watts */
+    /* lamps, lumens, factor; units, three sizes, two ballast values, watts */
     enum { BEFORE_ANGLES = 3, BEHIND_TYPE = 7 };
     bool has_tilt = false;
     skip_keywords(m, &has_tilt);
@@ -99,7 +102,7 @@ static void read_measurement(struct measurement *m, struct arena *arena)
 
 /* ---- The table ---- */
 
-/* How much of the circle a horizontal angle stands for: up to half way to its neighbours. */
+/* The part of the circle for a horizontal angle: half the way to each neighbour. */
 static float share(const struct measurement *m, unsigned i)
 {
     if (m->num_horizontal == 1)
@@ -109,7 +112,7 @@ static float share(const struct measurement *m, unsigned i)
     return 0.5f * (behind - before) / (m->horizontal[m->num_horizontal - 1] - m->horizontal[0]);
 }
 
-/* Around the axis, at a measured vertical angle. */
+/* The mean around the axis, at a measured vertical angle. */
 static float mean(const struct measurement *m, unsigned vertical)
 {
     float sum = 0.0f;
@@ -118,7 +121,7 @@ static float mean(const struct measurement *m, unsigned vertical)
     return sum;
 }
 
-/* Linear between the angles measured; nothing is emitted beyond them. */
+/* Linear between the measured angles; 0 outside them. */
 static float intensity(const struct measurement *m, float angle)
 {
     unsigned i = 0;
@@ -168,7 +171,7 @@ static bool read_table(struct builder *b, elem_id element, const char *file, flo
 
 /* ---- In the shader ---- */
 
-/* The entries up to the last that is not 0, and one behind it. */
+/* The number of entries up to the last nonzero one, and one more. */
 static unsigned used_length(const float table[LENGTH])
 {
     unsigned length = LENGTH;
@@ -207,8 +210,8 @@ static ir_ref look_up(struct builder *b, const float table[LENGTH], ir_ref norma
 }
 
 /*
- * The even emission, if the library has it, scaled by the profile of the file that the texture
- * `file` names.
+ * The library's even emission, scaled by the profile in the file of the texture `file`. Without
+ * this library node the result is 0.
  */
 ir_ref build_measured_edf(struct builder *b, ir_ref color, ir_ref normal, ir_ref file, elem_id node)
 {

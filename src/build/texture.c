@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
  * Textures: the variables that stand for files, and how nodes read them. Hosts make samplers and
- * choose files, so they are told what a node says about both.
+ * choose files, so the reflection contains the sampling inputs of the nodes.
  *
- * An image of several tiles is a texture array, a layer per tile (tiles.c). Texture coordinates
- * choose the layer by their whole part and the place in it by the rest:
+ * An image of several tiles is a texture array with one array layer per tile (tiles.c). The whole
+ * part of the texture coordinates chooses the array layer, the rest the position in it:
  *
- *     texture(file, uv) = inside the tiles ? textureGrad(file, vec3(fract(uv), layer), dFdx(uv),
- * dFdy(uv)) : default
+ *     texture(file, uv) = inside the tiles
+ *         ? textureGrad(file, vec3(fract(uv), layer), dFdx(uv), dFdy(uv)) : default
  */
 #include "build/build_priv.h"
 
@@ -23,10 +23,10 @@ ir_ref build_texture(struct builder *b, struct shader_variable variable, elem_id
                     NULL, 0);
 }
 
-/* ---- What nodes say of their textures ---- */
+/* ---- Sampling inputs of nodes ---- */
 
 static const struct sampling_input {
-    /* of inputs that belong to one file, without what stands behind "file" in its name */
+    /* name of an input for one file, without the part of the file's name after "file" */
     const char *name;
     size_t at;
 } sampling_inputs[] = {
@@ -38,7 +38,7 @@ static const struct sampling_input {
     {"frameendaction", offsetof(struct shader_sampling, frameendaction)},
 };
 
-/* "layer", or "layerx" of "filex". */
+/* True if an input belongs to a file: "layer" to "file", "layerx" to "filex". */
 static bool belongs(const char *input, const char *name, const char *file)
 {
     size_t len = strlen(name);
@@ -48,7 +48,7 @@ static bool belongs(const char *input, const char *name, const char *file)
 }
 
 /*
- * The string that an input says; 0: none, or not known. UsdUVTexture's "black" is "constant" with
+ * The string value of an input; 0: none, or not constant. UsdUVTexture's "black" is "constant" with
  * the default.
  */
 static str_id said(const struct builder *b, ir_ref arg)
@@ -79,11 +79,11 @@ static void note_input(const struct builder *b, const struct port *file, const s
     }
 }
 
-/* What stands for nothing is not told. */
+/* Drops sampling values that have no effect. */
 static void leave_out_defaults(struct shader_variable *texture)
 {
     struct shader_sampling *s = &texture->sampling;
-    if (texture->num_tiles) /* a layer ends at its border */
+    if (texture->num_tiles) /* an array layer ends at its border */
         s->uaddressmode = s->vaddressmode = STR_clamp;
     if (!s->framerange)
         s->frameendaction = 0;
@@ -97,7 +97,7 @@ static bool reads_alike(const struct shader_variable *a, const struct shader_var
            && (!has_literal || memcmp(&a->value, &b->value, sizeof a->value) == 0);
 }
 
-/* Two nodes that read one file in different ways have a variable each, with the same path. */
+/* Two nodes that read one file in different ways have one variable each, with the same path. */
 static uint32_t variable_for(struct builder *b, uint32_t index,
                              const struct shader_variable *wanted)
 {
@@ -134,7 +134,7 @@ static void note_reader(struct builder *b, const struct nodedef *def, const stru
 
 /* ---- Reading ---- */
 
-/* The node's default as what a texture gives: 0 for channels that it has not, 1 for alpha. */
+/* The node's default as a texel: 0 for missing channels, 1 for alpha. */
 static ir_ref as_texel(struct builder *b, ir_ref value)
 {
     ir_ref parts[4] = {value};
@@ -147,7 +147,7 @@ static ir_ref as_texel(struct builder *b, ir_ref value)
     return ir_construct(b->graph, IR_TYPE_VEC4, parts, n);
 }
 
-/* Address modes say what lies beyond the one image; where there are tiles, other tiles do. */
+/* Address modes apply outside a single image; outside a tile lie other tiles. */
 static void begin_tiles(struct builder *b, const struct nodedef *def, const struct port *ports,
                         ir_ref *args)
 {
@@ -191,10 +191,10 @@ ir_ref build_read_tiles(void *user_data, enum ir_op op, const ir_ref *args)
     struct builder *b = user_data;
     struct ir_graph *g = b->graph;
     if (op == IR_TEX_SIZE)
-        return 0; /* layers are of one size */
+        return 0; /* all array layers have one size */
     const struct shader_variable *texture = &b->shader->variables.items[ir_get(g, args[0])->attr];
     if (op == IR_TEX_FETCH)
-        return ir_poison(g, IR_TYPE_VEC4); /* build_check_tiles tells */
+        return ir_poison(g, IR_TYPE_VEC4); /* build_check_tiles reports it */
     ir_ref inside, layer = build_tile_layer(b, texture, args[1], &inside);
     ir_ref at = ir_construct(g, IR_TYPE_VEC3, (ir_ref[]){ir_op1(g, IR_FRACT, args[1]), layer}, 2),
            texel;
@@ -208,7 +208,7 @@ ir_ref build_read_tiles(void *user_data, enum ir_op op, const ir_ref *args)
     return ir_build(g, IR_SELECT, IR_TYPE_VEC4, 0, (ir_ref[]){inside, texel, b->missing_texel}, 3);
 }
 
-/* Functions that loop, or that are the target's own, do not become nodes. */
+/* Functions with loops, and verbatim functions, do not become nodes. */
 void build_check_tiles(struct builder *b, const struct frame *frame, uint32_t first_node)
 {
     for (ir_ref ref = first_node; ref < b->graph->nodes.len; ref++) {

@@ -5,18 +5,18 @@
  *
  *     <UDIM>     1001 + u + 10 v           <UVTILE>     u(1 + u)_v(1 + v)
  *
- * The tiles are those that the geometry property 'udimset' or 'uvtileset' lists, else those of
- * which there are files.
+ * The geometry property 'udimset' or 'uvtileset' lists the tiles; without it, the existing files
+ * do.
  */
 #include "build/build_priv.h"
 
 #include <limits.h>
 
-enum { MAX_CELLS = 1000 }; /* of the rectangle around the tiles: the places that four digits have */
+enum { MAX_CELLS = 1000 }; /* cells of the rectangle around the tiles: four digits number no more */
 
 static const struct tile_token {
     const char *text;
-    str_id property; /* its values, for any geometry */
+    str_id property; /* a geometry property; its values apply to any geometry */
 } tile_tokens[] = {{"<UDIM>", STR_udimset}, {"<UVTILE>", STR_uvtileset}};
 
 typedef VEC(struct shader_tile) tile_list;
@@ -31,7 +31,7 @@ static const char *read_number(const char *p, int32_t *out)
     return p > start ? p : NULL;
 }
 
-/* What stands for a token at `p`; behind it, or NULL where there is no such tile. */
+/* Reads the text for a token at `p`. Returns the end of the text, or NULL if it is no tile. */
 static const char *read_tile(const struct tile_token *token, const char *p, struct shader_tile *out)
 {
     int32_t u, v;
@@ -50,7 +50,7 @@ static const char *read_tile(const struct tile_token *token, const char *p, stru
     return p;
 }
 
-/* Is `name` the file of a tile? Frame numbers, in braces, are any. */
+/* True if `name` is the file of a tile. Frame numbers, in braces, match any digits. */
 static bool match(const struct tile_token *token, const char *pattern, const char *name,
                   struct shader_tile *out)
 {
@@ -96,7 +96,7 @@ static str_id file_of(struct builder *b, const struct tile_token *token, const c
     return str_intern(b->shader->strings, name.data, name.len);
 }
 
-/* ---- Which tiles there are ---- */
+/* ---- Existing tiles ---- */
 
 static void add_tile(struct builder *b, tile_list *tiles, struct shader_tile tile)
 {
@@ -129,7 +129,7 @@ static void add_listed(struct builder *b, const struct tile_token *token, elem_i
     }
 }
 
-/* The union over all geometry: what a shader is bound to is not known. */
+/* The union over all geometry, because a shader does not know the geometry that it is bound to. */
 static void find_listed(struct builder *b, const struct tile_token *token, tile_list *tiles)
 {
     const struct document *doc = &b->lib->doc;
@@ -198,7 +198,7 @@ bool build_find_tiles(struct builder *b, elem_id element, struct shader_variable
     if (!tiles.len)
         find_files(b, token, element, file, &tiles);
     struct diag_place place = doc_attr_place(&b->lib->doc, element, STR_value);
-    if (!tiles.len && b->options->list_folder) /* otherwise the host knows them */
+    if (!tiles.len && b->options->list_folder) /* otherwise the host finds them */
         diag_add(b->diags, DIAG_ID_no_tiles, place, file, build_text(b, token->property));
     else if (tiles.len && are_too_many(&tiles))
         diag_add(b->diags, DIAG_ID_too_many_tiles, place, file, MAX_CELLS);
@@ -215,7 +215,7 @@ bool build_find_tiles(struct builder *b, elem_id element, struct shader_variable
 
 /* ---- Layers ---- */
 
-/* The layer of each cell, -1 where there is no tile. */
+/* The array layer of each cell, -1 for a cell without a tile. */
 static ir_ref layer_table(struct builder *b, const struct shader_tile *tiles, uint32_t n,
                           const struct cells *cells, ir_ref cell)
 {

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-/* A fault inside of a definition: by which nodes of the document the work came there. */
+/*
+ * For a fault inside a definition: the nodes of the document through which the builder reached it.
+ */
 #include "build/build_priv.h"
 
 enum { MAX_TOLD = 8 };
 
-/* The scope of what is being asked for. */
+/* The scope of the current node. */
 static const struct instance *current_scope(const struct builder *b)
 {
     if (b->frames.len == 0)

@@ -7,7 +7,7 @@ static const struct document *doc_of(const struct builder *b)
     return &b->lib->doc;
 }
 
-/* An enum's name stands for the value in the same place of enumvalues. */
+/* The name of an enum value stands for the value at the same position of enumvalues. */
 static str_id enum_value(struct builder *b, const struct port *port, str_id text)
 {
     str_id names = doc_attr_value(doc_of(b), port->element, STR_enum);
@@ -94,7 +94,7 @@ static ir_ref property_stream(struct builder *b, const struct geomprop *prop)
 }
 
 /*
- * A property that a node gives is that node with the property's space and index. Any other is a
+ * A property with a node is this node, with the property's space and index. Any other property is a
  * stream of its name, or in a network the node that reads it.
  */
 static ir_ref make_geomprop(struct builder *b, const struct geomprop *prop)
@@ -148,7 +148,7 @@ ir_ref build_default(struct builder *b, const struct port *port)
     ir_type_id type = library_type_ir(b->lib, port->type);
     if (type == IR_TYPE_STRING)
         return ir_const_string(b->graph, port->value);
-    if (type >= IR_NUM_TYPES || !ir_type_info(type)->components) /* of no value */
+    if (type >= IR_NUM_TYPES || !ir_type_info(type)->components) /* the type has no values */
         return 0;
     return port->flags & PORT_HAS_VALUE && port->value
                ? build_constant(b, port, port->value, port->element)

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-/* What an alpha can be, found in the graph: a cut-out needs a test and no blending. */
+/*
+ * The possible values of an alpha, from the graph. An alpha of only 0 and 1 (a cut-out) needs a
+ * test but no blending.
+ */
 #include "closure/closure_priv.h"
 
 #include <assert.h>
 
 /*
- * Whether an operation over values that are 0 or 1 gives such a value. `is_binary` is known of all
- * nodes below `ref`.
+ * True if an op over values that are 0 or 1 gives such a value. `is_binary` is valid for all nodes
+ * below `ref`.
  */
 static bool keeps_binary(const struct ir_graph *g, ir_ref ref, const bool *is_binary)
 {

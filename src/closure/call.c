@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Calls of a leaf's functions: the node's inputs in order, then what the function wants to know of
- * the shaded point.
+ * Calls of a leaf's functions. Arguments: the node's inputs in order, then the values of the shaded
+ * point that the function takes.
  */
 #include "closure/closure_priv.h"
 #include "lower/lower.h"
@@ -72,8 +72,8 @@ ir_ref closure_position(struct shader *shader, const struct closure_host *host)
 }
 
 /*
- * A leaf's function is composed of calls: what depends on the view only is computed once when the
- * function is seen through, and shared with the leaf's other functions.
+ * A leaf function calls other functions. Inlined, its parts that depend only on the view are
+ * computed once and shared with the leaf's other functions.
  */
 enum { MAX_LEAF_NODES = 50 };
 

@@ -43,8 +43,8 @@ struct closure_host {
     const char *(*leaf_input)(void *user_data, uint32_t callee, unsigned index);
     const struct lang_host *lang;
     /*
-     * light direction for the throughput of layers with two-sided layering; NULL: only the view
-     * direction counts
+     * the direction to the light, for the throughput of layers under two-sided layering; NULL:
+     * throughput depends only on the view direction
      */
     const ir_ref *way_in;
 };
@@ -57,7 +57,7 @@ struct closure_leaf {
     ir_ref leaf;   /* LEAF node with weight 1 */
     ir_ref scalar; /* float */
     ir_ref color;  /* vec3; 0 = white */
-    /* vec3: transmittance of the volume behind for light that the leaf refracts; 0 = 1 */
+    /* vec3: transmittance of the volume behind, for the light that the leaf refracts; 0 = 1 */
     ir_ref medium;
 };
 
@@ -93,8 +93,9 @@ bool closure_is_surface(const struct shader *shader, ir_ref root);
 /* ---- For targets with closures of their own ---- */
 
 /*
- * The value of one function of a leaf's family for the leaf's inputs; 0 where the family has none.
- * `light` gives L for LEAF_EVAL; view direction, normal and position are the shaded point's.
+ * The value of one function of a leaf's family for the leaf's inputs; 0 if the family lacks the
+ * function. `light` gives L for LEAF_EVAL; view direction, normal and position come from the shaded
+ * point.
  */
 ir_ref closure_call(struct shader *shader, const struct closure_host *host, ir_ref leaf,
                     enum leaf_function which, const ir_ref *light);

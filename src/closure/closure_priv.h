@@ -11,7 +11,7 @@ ir_ref closure_position(struct shader *shader, const struct closure_host *host);
 /* Its unit normal. */
 ir_ref closure_normal(struct shader *shader, const struct closure_host *host);
 
-/* The same for functions with several results; false if the family does not have it. */
+/* closure_call for functions with several results; false if the family lacks the function. */
 bool closure_call_all(struct shader *shader, const struct closure_host *host, ir_ref leaf,
                       enum leaf_function which, const ir_ref *light, ir_ref *results);
 
@@ -34,7 +34,7 @@ void closure_volume(struct shader *shader, const struct closure_host *host, ir_r
 /* lights.c: the current light, for effects inside EFFECT_LIGHTS. */
 struct closure_light {
     ir_ref direction; /* unit, to the light */
-    ir_ref intensity; /* arriving radiance */
+    ir_ref intensity; /* radiance that arrives */
 };
 void closure_sample_light(struct shader *shader, const struct closure_host *host,
                           struct closure_light *out);
@@ -79,7 +79,7 @@ enum shader_alpha closure_alpha(struct shader *shader, ir_ref alpha);
 
 /* a · b; 0 stands for 1. */
 ir_ref closure_mul(struct ir_graph *graph, ir_ref a, ir_ref b);
-/* product.c: the same, with the loop-invariant factors first. */
+/* product.c: closure_mul with the loop-invariant factors first. */
 ir_ref closure_product(struct ir_graph *graph, ir_ref value, ir_ref weight);
 /* guard.c: finds the parts that need a branch. in_loop: considers only code inside the loop. */
 void closure_find_guarded(struct shader *shader, struct closure_parts *list, bool in_loop);

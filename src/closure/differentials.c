@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Derivatives along the screen for path tracers, which have no neighbours. What a quad of pixels
- * does is written out instead:
+ * Derivatives along the screen for path tracers, which have no neighbouring pixels. The code writes
+ * out the work of a quad of pixels:
  *
- *     dFdx(e) = e over streams that are a pixel further - e
+ *     dFdx(e) = e over streams one pixel further - e
  *
- * Those streams are positionWorld + dx_positionWorld, texcoord_0 + dx_texcoord_0, …
+ * These streams are positionWorld + dx_positionWorld, texcoord_0 + dx_texcoord_0, …
  *
- * The host says by how much streams change over a pixel (Igehy 1999, "Tracing Ray Differentials").
- * Derivatives inside of e stay what they are. Functions that are called whole, and IR functions,
- * know none: they are 0 there.
+ * The host gives the change of each stream over a pixel (Igehy 1999, "Tracing Ray Differentials").
+ * Derivatives inside of e stay unchanged. In called functions and IR functions, screen derivatives
+ * are 0.
  */
 #include "closure/closure_priv.h"
 
@@ -19,8 +19,8 @@ struct differ {
     struct shader *shader;
     struct ir_graph *graph;
     uint32_t num_nodes;
-    uint8_t *wanted;        /* per node and axis: its value a pixel further is asked for */
-    ir_ref *here, *next[2]; /* per node: its value, and that a pixel further along x and y */
+    uint8_t *wanted;        /* per node and axis: a derivative needs its value one pixel further */
+    ir_ref *here, *next[2]; /* per node: its value here, and one pixel further along x and y */
 };
 
 static bool is_derivative(enum ir_op op)
@@ -43,7 +43,7 @@ static void find_wanted(struct differ *d, const uint8_t *needed)
     d->wanted[0] = 0;
 }
 
-/* A stream of the geometry a pixel further; others are the same there. */
+/* The value of a geometric stream one pixel further; other streams do not change. */
 static ir_ref shifted_stream(struct differ *d, ir_ref ref, unsigned axis)
 {
     const struct ir_node *node = ir_get(d->graph, ref);
@@ -60,7 +60,7 @@ static ir_ref shifted_stream(struct differ *d, ir_ref ref, unsigned axis)
     return change ? ir_op2(d->graph, IR_ADD, ref, change) : ref;
 }
 
-/* A node over what its operands became; itself where nothing changed. */
+/* The node over its new operands; the node itself if no operand changed. */
 static ir_ref rebuilt(struct differ *d, ir_ref ref, const ir_ref *became)
 {
     const struct ir_node node = *ir_get(d->graph, ref);

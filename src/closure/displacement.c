@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Displacement: D is evaluated in both stages, over the surface before it moved.
+ * Displacement: both stages evaluate D over the surface before the displacement.
  *
  *     vertex stage    position = u_viewProjectionMatrix · (P + D)
- *     pixel stage     the shaded point is P + D, and its normal is bent:
+ *     pixel stage     the shaded point is P + D, and its normal is N':
  *
  *         N' = N + g(P + D) - g(P),    g(X) = normalize(dX/dx × dX/dy) on the side of N
  *
- * (A path tracer moves its mesh beforehand, and knows N'.)
+ * (A path tracer moves its mesh first and computes N' itself.)
  *
- * The normals g of the facets go out of the difference, so the surface stays as smooth as it was.
- * What a material reads of the geometry is that of the surface before it moved, except for the
- * normal, which is bent wherever it is read, in functions, too.
+ * The facet normals g cancel in the difference, so the surface stays smooth. A material reads the
+ * geometry of the surface before the displacement, except the normal: every read gives N', also in
+ * functions.
  */
 #include "closure/closure_priv.h"
 
@@ -22,7 +22,10 @@ static ir_ref stream(struct shader *shader, str_id name)
     return shader_stream(shader, name, IR_TYPE_VEC3);
 }
 
-/* A height along the normal, or (x, y, z) along tangent, bitangent and normal. 0: nothing moves. */
+/*
+ * The offset: a height along the normal, or (x, y, z) along tangent, bitangent and normal. 0: no
+ * displacement.
+ */
 static ir_ref offset_of_shader(struct shader *shader, ir_ref displacement, ir_ref scale)
 {
     struct ir_graph *g = shader->graph;
@@ -48,7 +51,7 @@ static ir_ref mixed(struct ir_graph *g, ir_ref bg, ir_ref fg, ir_ref mix)
     return bg || fg ? ir_op3(g, IR_MIX, bg ? bg : nothing, fg ? fg : nothing, mix) : 0;
 }
 
-/* Operands come before their node, so mixes of mixes are found in one pass. */
+/* Operands precede their node, so one pass finds nested mixes. */
 ir_ref closure_offset(struct shader *shader, ir_ref root)
 {
     struct ir_graph *g = shader->graph;
@@ -62,7 +65,7 @@ ir_ref closure_offset(struct shader *shader, ir_ref root)
         ir_push_origin(g, node.origin);
         if (node.op == IR_DISPLACEMENT_SHADER)
             known[ref] = offset_of_shader(shader, ir_arg(g, ref, 0), ir_arg(g, ref, 1));
-        else if (node.op == IR_UNIFORM) /* the offset, from another layer of a network */
+        else if (node.op == IR_UNIFORM) /* the offset, an output of another OSL layer */
             known[ref] = ir_build(g, IR_UNIFORM, IR_TYPE_VEC3, node.attr, NULL, 0);
         else if (node.op == IR_SHADER_MIX)
             known[ref] =
@@ -73,7 +76,7 @@ ir_ref closure_offset(struct shader *shader, ir_ref root)
     return known[root];
 }
 
-/* The normal of the surface that the screen's neighbours span, on the side of `normal`. */
+/* The normal of the facet that adjacent pixels span, on the side of `normal`. */
 static ir_ref facet(struct shader *shader, ir_ref point, ir_ref normal)
 {
     struct ir_graph *g = shader->graph;
@@ -107,8 +110,8 @@ static void move_vertices(struct shader *shader, ir_ref point)
 }
 
 /*
- * A path tracer asks for the offset of each vertex before it moves the mesh, and knows the normals
- * then.
+ * A path tracer calls this output for each vertex before it moves the mesh, and then computes the
+ * normals.
  */
 static void tell_offset(struct shader *shader, ir_ref offset)
 {

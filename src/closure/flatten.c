@@ -8,17 +8,17 @@
  *     add(a, b)            a · w,  b · w
  *     scale(a, c)          a · w c
  *
- * T, the throughput, is what an operand lets through to what lies beneath. Operands have smaller
- * indices than operators, so one pass upwards finds every throughput that a layer asks for and one
- * pass downwards every weight; nothing recurses.
+ * T, the throughput, is the fraction of light that an operand transmits to its base. Operands have
+ * smaller indices than operators, so one pass upwards finds every throughput that a layer needs,
+ * and one pass downwards every weight; nothing recurses.
  */
 #include "closure/closure_priv.h"
 
 #include <assert.h>
 
 struct weight {
-    ir_ref scalar, color; /* scalar 0: not reached */
-    ir_ref medium;        /* what a volume behind lets through of refracted light; 0 = all */
+    ir_ref scalar, color; /* scalar 0: the node is not reached */
+    ir_ref medium;        /* transmittance of the volume behind for refracted light; 0 = 1 */
 };
 
 struct flattener {
@@ -27,8 +27,8 @@ struct flattener {
     const struct closure_host *host;
     ir_ref root;
     struct weight *weights; /* per node */
-    ir_ref *throughputs;    /* per node; 0: not asked for */
-    uint8_t *wanted;        /* per node: its throughput is needed */
+    ir_ref *throughputs;    /* per node; 0: no layer needs it */
+    uint8_t *wanted;        /* per node: a layer needs its throughput */
 };
 
 static bool is_operator(const struct ir_node *node)
@@ -57,7 +57,7 @@ ir_ref closure_mixed(struct ir_graph *g, ir_ref bg, ir_ref fg, ir_ref mix)
     return bg == fg ? bg : ir_build(g, IR_CLOSURE_MIX, ir_type_of(g, bg ? bg : fg), 0, args, 3);
 }
 
-/* The base of a leaf that modifies another closure; 0 where the leaf is none such. */
+/* The base of a leaf that modifies another closure; 0 for other leaves. */
 static ir_ref modified_base(const struct flattener *f, ir_ref ref)
 {
     const struct ir_node *node = ir_get(f->graph, ref);
@@ -73,7 +73,7 @@ static ir_ref leaf_throughput(struct flattener *f, ir_ref ref)
 {
     assert(ir_get(f->graph, ref)->op == IR_LEAF);
     struct ir_graph *g = f->graph;
-    if (ir_type_of(g, ref) == IR_TYPE_VDF) /* it fills what is above it, and is no surface */
+    if (ir_type_of(g, ref) == IR_TYPE_VDF) /* a volume fills the space and is no surface */
         return ir_const_splat(g, IR_TYPE_VEC3, 1.0f);
     ir_ref through = closure_call(f->shader, f->host, ref, LEAF_THROUGHPUT, NULL);
     ir_ref weight = ir_arg(g, ref, 0);
@@ -110,11 +110,11 @@ static ir_ref operator_throughput(struct flattener *f, ir_ref ref)
         ir_ref rest = ir_op2(g, IR_SUB, sum, ir_const_float(g, 1.0f));
         return ir_op2(g, IR_MAX, rest, ir_const_float(g, 0.0f));
     }
-    default: /* a scaled closure hides as much as before */ return through_of(f, a);
+    default: /* scaling a closure does not change its throughput */ return through_of(f, a);
     }
 }
 
-/* Marks what a layer's top is made of: the throughputs that are needed. */
+/* Marks the operands of the top of each layer: their throughputs are needed. */
 static void want_throughputs(struct flattener *f, uint32_t num_nodes)
 {
     for (ir_ref ref = num_nodes; ref-- > 1;) {
@@ -133,7 +133,7 @@ static void want_throughputs(struct flattener *f, uint32_t num_nodes)
         unsigned closures = node->op == IR_CLOSURE_SCALE ? 1 : 2;
         for (unsigned i = 0; i < closures; i++) {
             if (args[i] && f->weights[ref].scalar)
-                f->weights[args[i]].scalar = 1; /* reached: the weight itself comes later */
+                f->weights[args[i]].scalar = 1; /* reached; the weight comes later */
             if (args[i] && (f->wanted[ref] || (node->op == IR_LAYER && i == 0)))
                 f->wanted[args[i]] = 1;
         }
@@ -147,7 +147,7 @@ static void find_throughputs(struct flattener *f, uint32_t num_nodes)
             continue;
         uint8_t op = ir_get(f->graph, ref)->op;
         ir_push_origin_of(f->graph, ref);
-        if (modified_base(f, ref)) /* a modifier hides as much as what it modifies */
+        if (modified_base(f, ref)) /* a modifier has the throughput of its base */
             f->throughputs[ref] = f->throughputs[modified_base(f, ref)];
         else if (op == IR_LEAF)
             f->throughputs[ref] = leaf_throughput(f, ref);
@@ -159,8 +159,9 @@ static void find_throughputs(struct flattener *f, uint32_t num_nodes)
 }
 
 /*
- * What is let through on the way in is what would be let through to a viewer in that direction.
- * Light that bounces between layers is lost, so the product is a lower bound.
+ * Multiplies weights by the throughput for incoming light, which is the throughput for a viewer in
+ * the light's direction. The product ignores light that bounces between layers, so it is a lower
+ * bound.
  */
 static void add_way_in(struct flattener *f, uint32_t num_nodes)
 {
@@ -177,7 +178,7 @@ static void add_way_in(struct flattener *f, uint32_t num_nodes)
 
 /* ---- weights, downwards ---- */
 
-/* s·c as one value: for sums of weights. */
+/* s·c as one value, so that weights can be added. */
 static ir_ref combined(struct ir_graph *g, struct weight w)
 {
     return ir_convert(g, IR_TYPE_VEC3, w.color ? closure_mul(g, w.color, w.scalar) : w.scalar);
@@ -185,7 +186,7 @@ static ir_ref combined(struct ir_graph *g, struct weight w)
 
 static ir_ref sum_of_weights(struct ir_graph *g, struct weight a, struct weight b)
 {
-    /* nodes are made in an order that C does not leave open */
+    /* C leaves the evaluation order of arguments open; statements fix the order of the nodes */
     ir_ref first = combined(g, a), second = combined(g, b);
     return ir_op2(g, IR_ADD, first, second);
 }
@@ -209,7 +210,7 @@ static void add_weight(struct flattener *f, ir_ref ref, struct weight add)
     *w = (struct weight){ir_const_float(g, 1.0f), sum_of_weights(g, *w, add), w->medium};
 }
 
-/* A factor goes with the scalar part when it is a float, else with the colour. */
+/* A factor multiplies the scalar if it is a float, else the colour. */
 static void add_scaled(struct flattener *f, ir_ref ref, struct weight w, ir_ref factor)
 {
     struct ir_graph *g = f->graph;
@@ -224,7 +225,7 @@ static void add_scaled(struct flattener *f, ir_ref ref, struct weight w, ir_ref 
     add_weight(f, ref, w);
 }
 
-/* What a volume lets through over a unit of length: exp(-absorption), by Beer's law. */
+/* The transmittance of a volume over a unit of length: exp(-absorption), Beer's law. */
 static ir_ref medium_of(struct flattener *f, ir_ref volume)
 {
     struct ir_graph *g = f->graph;
@@ -251,7 +252,7 @@ static void spread(struct flattener *f, ir_ref ref)
     ir_ref a = ir_arg(g, ref, 0), b = ir_arg(g, ref, 1);
     assert(a < ref && b < ref);
     if (op == IR_LAYER) {
-        /* a volume behind changes what is refracted only */
+        /* a volume behind changes only refracted light */
         if (b && ir_type_of(g, b) == IR_TYPE_VDF)
             w.medium = closure_mul(g, w.medium, medium_of(f, b));
         else if (b)
@@ -264,14 +265,14 @@ static void spread(struct flattener *f, ir_ref ref)
     } else if (op == IR_CLOSURE_ADD) {
         add_weight(f, a, w);
         add_weight(f, b, w);
-    } else { /* scale: BSDFs must not gain energy by it */
+    } else { /* scale: a BSDF must not gain energy from it */
         ir_ref zero = ir_const_float(g, 0.0f), one = ir_const_float(g, 1.0f);
         bool reflects = ir_type_of(g, ref) == IR_TYPE_BSDF;
         add_scaled(f, a, w, reflects ? ir_op3(g, IR_CLAMP, b, zero, one) : b);
     }
 }
 
-/* A leaf as the list has it: its own weight moves into the total. */
+/* The leaf with weight 1: its own weight moves into the total. */
 static ir_ref unit_leaf(struct ir_graph *g, ir_ref ref, struct arena *arena)
 {
     const struct ir_node node = *ir_get(g, ref);
@@ -316,7 +317,7 @@ static void take_leaf(struct flattener *f, ir_ref ref, struct closure_list *out)
     if (ir_const_is(g, scalar, 0.0f))
         return;
     ir_ref leaf = unit_leaf(g, ref, f->shader->arena);
-    if (ir_get(g, leaf)->op == IR_LEAF) /* it is POISON where the graph is full */
+    if (ir_get(g, leaf)->op == IR_LEAF) /* the node is POISON if the graph is full */
         merge_leaf(f, out, leaf, (struct weight){scalar, w.color, w.medium});
 }
 
@@ -341,7 +342,7 @@ void closure_flatten(struct shader *shader, const struct closure_host *host, ir_
     for (ir_ref ref = num_nodes; ref-- > 1;) {
         if (!f.weights[ref].scalar)
             continue;
-        /* weights are named after the operator that makes them */
+        /* a weight gets the name of the operator that makes it */
         ir_push_origin_of(f.graph, ref);
         if (is_operator(ir_get(f.graph, ref)))
             spread(&f, ref);
@@ -350,7 +351,10 @@ void closure_flatten(struct shader *shader, const struct closure_host *host, ir_
         ir_pop_origin(f.graph);
     }
     assert(out->leaves.len < num_nodes);
-    /* Found from the root downwards; shown as written: bases first. */
+    /*
+     * The pass finds leaves from the root downwards; the list has them in source order: bases
+     * first.
+     */
     for (uint32_t i = 0, j = out->leaves.len; i + 1 < j; i++) {
         struct closure_leaf swap = out->leaves.items[i];
         out->leaves.items[i] = out->leaves.items[--j];

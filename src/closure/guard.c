@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Which values need a branch where their weight is 0: those with a call or a texture that no other
- * value has, and those whose inputs may be undefined when nobody asks for them (a colour that is
- * divided by what the weight is made of). All else is cheaper computed than jumped over, and
- * processors that mask branches instead of taking them compute it in any case.
+ * Finds the values that need a branch around them for the case that their weight is 0: values with
+ * a call or a texture read that no other value shares, and values whose inputs may be undefined at
+ * weight 0 (for example a colour divided by a part of its weight). All other values cost less than
+ * the branch; processors that mask branches compute them anyway.
  */
 #include "closure/closure_priv.h"
 
@@ -17,7 +17,7 @@ static bool is_dear(enum ir_op op)
            || (op >= IR_TEX && op <= IR_TEX_FETCH && op != IR_TEX_SIZE);
 }
 
-/* Returns whether nobody has claimed it before. */
+/* Returns true if no other part has claimed the node. */
 static bool claim(uint16_t *owner, uint16_t by)
 {
     assert(by > 0);
@@ -27,8 +27,8 @@ static bool claim(uint16_t *owner, uint16_t by)
 }
 
 /*
- * Operands come before their node, so one pass down finds who owns each node; those that are dear,
- * or stand on such, are asked.
+ * Operands precede their node, so one downward pass finds the owner of each node. Only nodes with
+ * IR_NODE_DEAR need an owner.
  */
 static void guard_dear(struct shader *shader, struct closure_part *parts, uint32_t count,
                        bool in_loop)
@@ -39,7 +39,7 @@ static void guard_dear(struct shader *shader, struct closure_part *parts, uint32
     for (uint32_t i = 0; i < count; i++)
         last = parts[i].value > last ? parts[i].value : last;
     uint16_t *owners = ARENA_ARRAY(shader->arena, uint16_t, last + 1);
-    uint32_t num_open = 0; /* claimed and not passed yet */
+    uint32_t num_open = 0; /* nodes with a claim that the pass has not visited yet */
     for (uint32_t i = 0; i < count; i++)
         num_open += claim(&owners[parts[i].value], i + 1 < SHARED ? (uint16_t)(i + 1) : SHARED);
     for (ir_ref ref = last; ref > 0 && num_open > 0; ref--) {
@@ -58,7 +58,7 @@ static void guard_dear(struct shader *shader, struct closure_part *parts, uint32
     }
 }
 
-/* Whether one of the nodes that a leaf's inputs stand on, they among them, is partial. */
+/* True if a leaf's inputs, or the nodes that they depend on, include a partial node. */
 static bool has_partial_input(const struct ir_graph *g, ir_ref leaf)
 {
     unsigned flags = 0;

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * The light at hand, inside the loop over lights: which of the bound light shaders it is decides
- * direction and intensity. All are expressions over the members of u_lightData[i]; what they share
- * is computed once.
+ * The current light in the light loop: the type of the bound light chooses direction and intensity.
+ * All are expressions over the members of u_lightData[i], and share their common parts.
  *
- *     L = type == 1 ? L₁ : type == 2 ? L₂ : L₃,  the same for the intensity; a light of unknown
- * type is dark
+ *     L = type == 1 ? L₁ : type == 2 ? L₂ : L₃,  the same for the intensity
+ *
+ * A light of unknown type is dark.
  */
 #include "closure/closure_priv.h"
 #include "lower/lower.h"
 
 #include <assert.h>
 
-/* Light functions are seen through: there is one call of each. */
+/* Light functions are inlined: each has one call. */
 enum { MAX_LIGHT_NODES = 400 };
 
 static ir_ref member(struct shader *shader, uint32_t variable)
@@ -22,7 +22,7 @@ static ir_ref member(struct shader *shader, uint32_t variable)
                     NULL, 0);
 }
 
-/* Direction and intensity as the function of one light shader gives them. */
+/* Direction and intensity from the function of one light shader. */
 static void call_function(struct shader *shader, const struct closure_host *host,
                           const struct shader_light *light, ir_ref *results)
 {
@@ -36,7 +36,10 @@ static void call_function(struct shader *shader, const struct closure_host *host
     lang_lower_call(shader->unit, shader->graph, &see_through, light->function, args, results);
 }
 
-/* What a light emits along `to_point`; its normal is the direction that it faces. 0: nothing. */
+/*
+ * The emission of a light along `to_point`; the light's normal is the direction that it faces. 0:
+ * no emission.
+ */
 static ir_ref emission(struct shader *shader, const struct closure_host *host, ir_ref edf,
                        ir_ref facing, ir_ref to_point)
 {
@@ -95,7 +98,7 @@ void closure_sample_light(struct shader *shader, const struct closure_host *host
 {
     struct ir_graph *g = shader->graph;
     ir_ref type = type_of_light(shader);
-    closure_position(shader, host); /* once, outside of the loop */
+    closure_position(shader, host); /* once, outside the loop */
     *out = (struct closure_light){0, ir_const_splat(g, IR_TYPE_VEC3, 0.0f)};
     for (uint32_t i = shader->lights.len; i-- > 0;) {
         const struct shader_light *light = &shader->lights.items[i];

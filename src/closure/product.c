@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * A leaf's value times its weight. What is the same in every turn of a loop is multiplied first: as
- * one node it is computed once in front of the loop, and the loop over lights shares it with the
+ * A leaf's value times its weight. Loop-invariant factors come first: their product is one node,
+ * which the scheduler moves in front of the loop, and which the light loop shares with the
  * environment.
  *
  *     ((c · lobe) · fresnel) · w    →    (c · w) · lobe · fresnel
@@ -12,7 +12,7 @@
 
 enum { VARIES = 1, IS_VECTOR = 2, NUM_KINDS = 4, MAX_FACTORS = 16 };
 
-/* by kind, each kind in the order of the nodes, so that equal products are equal nodes */
+/* by kind, each kind in the order of its nodes, so that equal products are equal nodes */
 struct factors {
     ir_ref items[NUM_KINDS][MAX_FACTORS];
     unsigned counts[NUM_KINDS], count;
@@ -30,7 +30,10 @@ static void insert(const struct ir_graph *g, struct factors *f, ir_ref ref)
     f->count++;
 }
 
-/* Outside of loops a colour and its scale stay together: other leaves may have the same one. */
+/*
+ * Outside loops a colour and its scale stay together, because other leaves may use the same
+ * product.
+ */
 static bool is_product(const struct ir_graph *g, ir_ref ref)
 {
     const struct ir_node *node = ir_get(g, ref);
@@ -44,7 +47,7 @@ static bool is_product(const struct ir_graph *g, ir_ref ref)
     return true;
 }
 
-/* A vector of one scalar is that scalar's factor. */
+/* A vector of one scalar is a factor of that scalar. */
 static bool is_splat(const struct ir_graph *g, ir_ref ref)
 {
     const struct ir_node *node = ir_get(g, ref);

@@ -1,27 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * What a path tracer asks of a surface: light that it emits, opacity, one direction to go on in,
- * and what it makes of light.
+ * The function that a path tracer calls for a surface: emission, opacity, one sampled direction,
+ * and the response to the direction of a light.
  *
  *     out1 = vec4(emission, opacity)
- *     pick = random.w · Σ pᵢ                       pᵢ = the mean of wᵢ · (1 + 9 albedoᵢ) / 10,  Pᵢ
- * = pᵢ / Σ pᵢ for each leaf:  if (0 <= pick < pᵢ) { L, f cos / pdf, pdf = sample(random.xyz);
- * weight = wᵢ · f cos / pdf / Pᵢ;  density = Pᵢ · pdf } pick -= pᵢ out2 = vec4(L, is it inside)
- * out3 = vec4(weight, density)      out4 = vec4(medium, 0) out5 = vec4(Σ wᵢ · evalᵢ(lightWorld.xyz)
- * / (1 + lightWorld.w · Pᵢ · pdfᵢ(lightWorld.xyz)), 0) out6, out7: one of the bound lights, see
- * light_up
+ *     pick = random.w · Σ pᵢ    pᵢ = the mean of wᵢ · (1 + 9 albedoᵢ) / 10,  Pᵢ = pᵢ / Σ pᵢ
+ *     for each leaf:
+ *         if (0 <= pick < pᵢ) {
+ *             L, f cos / pdf, pdf = sample(random.xyz)
+ *             weight = wᵢ · f cos / pdf / Pᵢ;  density = Pᵢ · pdf
+ *         }
+ *         pick -= pᵢ
+ *     out2 = vec4(L, is it inside)
+ *     out3 = vec4(weight, density)
+ *     out4 = vec4(medium, 0)
+ *     out5 = vec4(Σ wᵢ · evalᵢ(lightWorld.xyz) / (1 + lightWorld.w · Pᵢ · pdfᵢ(lightWorld.xyz)), 0)
+ *     out6, out7: one of the bound lights, see light_up
  *
- * One leaf is picked, and its sample weighs what that leaf alone gives there, over the chance to
- * pick it: the expectation is the sum of all leaves (Pharr, Jakob, Humphreys, "Physically Based
- * Rendering", section 2.2.3, on a discrete choice). Densities of the other leaves do not enter, so
- * lobes may be as sharp as they like, mirrors included; and weights stay near Σ pᵢ, since a leaf's
+ * The code picks one leaf. The weight of its sample is the response of this leaf alone, divided by
+ * the chance to pick it, so the expectation is the sum of all leaves (Pharr, Jakob, Humphreys,
+ * "Physically Based Rendering", section 2.2.3, on a discrete choice). The densities of other leaves
+ * have no effect, so lobes may be as sharp as mirrors; and weights stay near Σ pᵢ, because a leaf's
  * own sample is near its albedo.
  *
- * Directions that lights draw are weighed against those by the balance heuristic (Veach and Guibas
- * 1995, "Optimally Combining Sampling Techniques"), for each leaf by itself: lightWorld.w is one
- * over the density of the light's direction, 0 for a light that is a point. Light that goes into a
- * solid meets its other side first, so lights do not shine through it: density is 0 there, and out5
- * black.
+ * The balance heuristic (Veach and Guibas 1995, "Optimally Combining Sampling Techniques") weighs
+ * light samples against these directions, for each leaf by itself: lightWorld.w is 1 / the density
+ * of the light's direction, and 0 for a point light. Light that enters a solid meets the other side
+ * of the solid first, so lights do not shine through it: there density is 0 and out5 black.
  */
 #include "closure/closure_priv.h"
 
@@ -32,7 +37,7 @@ struct scatter {
     struct ir_graph *graph;
     const struct closure_host *host;
     const struct closure_list *list;
-    /* p of each leaf; 0: it is never picked */
+    /* p of each leaf; 0: never picked */
     ir_ref *shares;
     uint32_t pick, direction, is_inside, weight, density, medium; /* locals */
     ir_ref total;
@@ -99,9 +104,9 @@ static bool refracts(struct scatter *s, const struct closure_leaf *leaf)
 }
 
 /*
- * The chance to pick a leaf, times the sum of all: what it makes of light, so that paths keep their
- * weight. An albedo tells of reflection only; what refracts loses nothing. The tenth is for albedos
- * that are fits.
+ * p of a leaf: the chance to pick it times the sum of all p. It follows the scattered light, so
+ * that paths keep their weight. An albedo covers only reflection; refraction loses no light. The
+ * tenth is a reserve, because albedos are fits.
  */
 static ir_ref share_of(struct scatter *s, const struct closure_leaf *leaf)
 {
@@ -116,7 +121,7 @@ static ir_ref share_of(struct scatter *s, const struct closure_leaf *leaf)
     return op2(s, IR_MAX, mean_of(s, light), number(s, 0.0f));
 }
 
-/* Light from L comes from the side that is seen. */
+/* True if the light from L comes from the visible side. */
 static ir_ref is_in_front(struct scatter *s, ir_ref direction)
 {
     ir_ref normal = closure_normal(s->shader, s->host), view = closure_view(s->shader, s->host);
@@ -179,7 +184,8 @@ static void sample_leaves(struct scatter *s)
 }
 
 /*
- * What all leaves make of light from a direction; solid_angle 0: of a light that no sample finds.
+ * The response of all leaves to light from a direction. solid_angle 0: the light of a point, which
+ * no sample finds.
  */
 static ir_ref response(struct scatter *s, ir_ref direction, ir_ref solid_angle)
 {
@@ -214,12 +220,16 @@ static void write_output(struct scatter *s, str_id name, ir_ref rgb, ir_ref a)
 }
 
 /*
- * One of the bound lights, picked by what would come of it were nothing in between, in one pass
- * (reservoir sampling: Chao 1982, "A General Purpose Unequal Probability Sampling Plan"):
+ * One of the bound lights, in one pass, with a probability proportional to its unshadowed
+ * contribution (reservoir sampling: Chao 1982, "A General Purpose Unequal Probability Sampling
+ * Plan"):
  *
- *     for each light:  c = intensity · Σ wᵢ · evalᵢ,  m = mean(c),  sum += m
- *                      if (chance · sum < m) { keep L, distance, c / m }      what is left of the
- * chance serves the next out6 = vec4(L, distance)      out7 = vec4(kept · sum, 0)
+ *     for each light:
+ *         c = intensity · Σ wᵢ · evalᵢ,  m = mean(c),  sum += m
+ *         if (chance · sum < m) { keep L, distance, c / m }
+ *         rescale chance for the next light
+ *     out6 = vec4(L, distance)
+ *     out7 = vec4(kept · sum, 0)
  */
 static void light_up(struct scatter *s)
 {

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * What the pixel stage does for a surface:
+ * The code of the pixel stage for a surface:
  *
  *     color = emission
  *     for each light: color += intensity · Σ w · eval
  *     color += Σ w · environment + Σ w · transmission
- *     for each sample of the environment: color += what these functions give for it
+ *     for each sample of the environment: color += Σ of the sample functions
  *     out1 = vec4(color · opacity, opacity)
  *
- * A leaf whose weight is not known at compile time may have weight 0: what is dear of it stands
- * behind `if (weight > 0)`.
+ * A leaf with a variable weight may have weight 0: its expensive part stands behind `if (weight >
+ * 0)`.
  */
 #include "closure/closure_priv.h"
 
@@ -41,7 +41,7 @@ static ir_ref vec3_of(struct emitter *e, ir_ref value)
     return ir_convert(e->graph, IR_TYPE_VEC3, value);
 }
 
-/* value · weight; 0 where nothing is left of it. */
+/* value · weight; 0 if the product vanishes. */
 static ir_ref weighted(struct emitter *e, const struct closure_leaf *leaf, ir_ref value)
 {
     struct ir_graph *g = e->graph;
@@ -87,7 +87,7 @@ static void comment(struct emitter *e, str_id text)
     shader_effect(e->shader, STAGE_PIXEL, (struct effect){.kind = EFFECT_COMMENT, .text = text});
 }
 
-/* "metal, reflection": the leaves whose parts follow, each once. */
+/* Writes a comment such as "metal, reflection": the leaves of the next parts, each once. */
 static void comment_leaves(struct emitter *e, const struct closure_part *parts, uint32_t count)
 {
     struct text names;
@@ -106,8 +106,7 @@ static void comment_leaves(struct emitter *e, const struct closure_part *parts, 
 }
 
 /*
- * color += factor · Σ parts. Leaves that are always computed share one line; the others stand
- * behind their guards.
+ * color += factor · Σ parts. Unguarded leaves share one line; the others stand behind their guards.
  */
 static void accumulate_all(struct emitter *e, enum closure_place place, ir_ref factor)
 {
@@ -159,7 +158,7 @@ static bool any_has(const struct emitter *e, const struct closure_list *list,
     return false;
 }
 
-/* Leaves under light from a direction. */
+/* Flattens the closure for light from a direction. */
 static void flatten_under(struct emitter *e, ir_ref bsdf, const ir_ref *direction,
                           struct closure_list *out)
 {
@@ -191,7 +190,7 @@ static void find_lit_parts(struct emitter *e, ir_ref bsdf, const struct closure_
     }
 }
 
-/* What a function gives at once, and what it gives sample by sample. */
+/* Finds the values of whole functions, and the values per environment sample. */
 static void find_surrounding_parts(struct emitter *e, const struct closure_list *list,
                                    bool *emitted)
 {
@@ -213,7 +212,7 @@ static void find_surrounding_parts(struct emitter *e, const struct closure_list 
     }
 }
 
-/* The parts as effects. */
+/* Emits the parts as effects. */
 static void emit_lit(struct emitter *e)
 {
     bool has_lights = e->lit.light.intensity != 0,
@@ -270,7 +269,7 @@ static void write_output(struct emitter *e, ir_ref color, ir_ref alpha)
     effect(e, EFFECT_OUTPUT, out, ir_construct(g, IR_TYPE_VEC4, parts, 2));
 }
 
-/* Pixels below the host's threshold are not drawn at all. */
+/* The pixel stage discards pixels below the host's threshold. */
 static void alpha_test(struct emitter *e, ir_ref alpha)
 {
     uint32_t threshold = shader_private_uniform(e->shader, STR_u_alphaThreshold, IR_TYPE_FLOAT, 0);
@@ -295,9 +294,9 @@ static ir_ref final_color(struct emitter *e)
 
 struct surface { /* parts of a surface, each 0 where absent */
     ir_ref bsdf, edf;
-    ir_ref unlit;       /* colour that no light changes */
+    ir_ref unlit;       /* colour that does not depend on lights */
     ir_ref alpha;       /* 0 = 1 */
-    bool premultiplied; /* the parts are scaled by alpha already */
+    bool premultiplied; /* alpha already scales the parts */
 };
 
 static void finish_surface(struct emitter *e, const struct surface *s)
@@ -349,8 +348,7 @@ static struct surface mixed(struct emitter *e, struct surface bg, struct surface
 }
 
 /*
- * What it transmits lets what is behind show through (MaterialX PBR specification,
- * <surface_unlit>).
+ * Its transmission shows the background (MaterialX PBR specification, <surface_unlit>).
  */
 static struct surface unlit_surface(struct emitter *e, ir_ref emitted, ir_ref transmitted,
                                     ir_ref opacity)
@@ -363,7 +361,7 @@ static struct surface unlit_surface(struct emitter *e, ir_ref emitted, ir_ref tr
                             .premultiplied = true};
 }
 
-/* Operands come before their node, so mixes of mixes are found in one pass. */
+/* Operands precede their node, so one pass finds nested mixes. */
 static struct surface surface_of(struct emitter *e, ir_ref root)
 {
     assert(ir_type_of(e->graph, root) == IR_TYPE_SURFACE);
@@ -389,7 +387,7 @@ static struct surface surface_of(struct emitter *e, ir_ref root)
     return known[root];
 }
 
-/* Under lights and environment. Returns which leaves do something there. */
+/* Finds the parts under lights and environment. Returns which leaves contribute there. */
 static const bool *find_parts(struct emitter *e, ir_ref bsdf, const struct closure_list *list)
 {
     bool *emitted = ARENA_ARRAY(e->shader->arena, bool, list->leaves.len);
@@ -398,11 +396,11 @@ static const bool *find_parts(struct emitter *e, ir_ref bsdf, const struct closu
     return emitted;
 }
 
-/* Lights, environment and emission; false where it is left to path tracers. */
+/* Emits lights, environment and emission; false if a path tracer computes them. */
 static bool light_surface(struct emitter *e, const struct surface *s)
 {
     struct closure_list list;
-    /* from around, most light comes at the viewer's angle: by mirroring */
+    /* most environment light arrives at the mirror of the viewer's angle */
     if (e->lighting->two_sided) {
         ir_ref view = closure_view(e->shader, e->host);
         flatten_under(e, s->bsdf, &view, &list);
@@ -437,7 +435,7 @@ static void emit_volume(struct emitter *e, ir_ref root)
     struct closure_volume volume;
     closure_volume(e->shader, e->host, root, &volume);
     struct closure_lighting lighting = *e->lighting;
-    lighting.two_sided = false; /* nothing is layered inside */
+    lighting.two_sided = false; /* a volume has no layers */
     e->lighting = &lighting;
     ir_ref emitted_light = emission(e, volume.edf);
     e->lit.base =
@@ -447,14 +445,14 @@ static void emit_volume(struct emitter *e, ir_ref root)
         shader_add_closure(e->shader, volume.scattering.leaves.items[i].leaf);
     emit_lit(e);
     e->shader->transparent = true;
-    /* no alpha test: what glows may take nothing from the background */
+    /* no alpha test: emission may leave the background unchanged */
     e->shader->alpha = ALPHA_BLEND;
     write_output(e, final_color(e), volume.alpha);
 }
 
 /* ---- values ---- */
 
-/* A value as a colour: scalars grey, two components red and green, an alpha kept. */
+/* A value as a colour: scalars are grey, two components are red and green, an alpha is kept. */
 static bool emit_value(struct emitter *e, ir_ref root)
 {
     struct ir_graph *g = e->graph;

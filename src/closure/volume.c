@@ -1,26 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * A volume as a pixel stage can draw it: a homogeneous medium between the shaded point and the
- * other side, as far as it is through a ball of the diameter u_volumeDepth, with light scattered
- * once (MaterialX PBR specification, "Volume Shaders" and <anisotropic_vdf>; Pharr, Jakob,
- * Humphreys, "Physically Based Rendering", chapter 11). Faces that are seen from inside add
- * nothing.
+ * A volume in a pixel stage: a homogeneous medium between the shaded point and the other side, as
+ * thick as a ball of diameter u_volumeDepth, with single scattering (MaterialX PBR specification,
+ * "Volume Shaders" and <anisotropic_vdf>; Pharr, Jakob, Humphreys, "Physically Based Rendering",
+ * chapter 11). Back faces add nothing.
  *
  *     depth = u_volumeDepth · max(N · V, 0)
  *     τ = (σa + σs) · depth               optical depth
- *     alpha = the mean of 1 - exp(-τ)     what the background loses
- *     path = depth · (1 - exp(-τ)) / τ    length over which light is gathered: the integral of
- * exp(-σt · x) over the depth color = path · (emission + Σ σs · light · phase + σs · environment)
+ *     alpha = the mean of 1 - exp(-τ)     the attenuation of the background
+ *     path = depth · (1 - exp(-τ)) / τ    the effective length: ∫ exp(-σt · x) dx over the depth
+ *     color = path · (emission + Σ σs · light · phase + σs · environment)
  *
- * Light is not attenuated on its way in.
+ * Incoming light is not attenuated.
  */
 #include "closure/closure_priv.h"
 
 #include <assert.h>
 
 /*
- * Below this optical depth (1 - exp(-τ)) / τ is 1: within 0.05 %, where the difference from 1 would
- * be lost to rounding.
+ * Below this optical depth (1 - exp(-τ)) / τ is 1 within 0.05 %, and rounding would lose the
+ * difference from 1.
  */
 static const float thin = 1e-3f;
 
@@ -28,7 +27,7 @@ struct parts { /* each 0 where absent */
     ir_ref vdf, edf;
 };
 
-/* Operands come before their node, so mixes of mixes are found in one pass. */
+/* Operands precede their node, so one pass finds nested mixes. */
 static struct parts parts_of(struct shader *shader, ir_ref root)
 {
     struct ir_graph *g = shader->graph;
@@ -87,7 +86,7 @@ void closure_volume(struct shader *shader, const struct closure_host *host, ir_r
     ir_push_name(g, STR_depth);
     ir_ref diameter =
         shader_read(shader, shader_private_uniform(shader, STR_u_volumeDepth, IR_TYPE_FLOAT, 0));
-    /* in an order that is not the compiler's */
+    /* statements fix the order of the nodes; C leaves the order of arguments open */
     ir_ref view = closure_view(shader, host), normal = closure_normal(shader, host);
     ir_ref facing = ir_op2(g, IR_DOT, normal, view);
     ir_ref depth = ir_op2(g, IR_MUL, diameter, ir_op2(g, IR_MAX, facing, ir_const_float(g, 0.0f)));

@@ -2,6 +2,7 @@
 /* The catalogue and the list of diagnostics. */
 #include "diag/diag.h"
 
+#include <assert.h>
 #include <stdarg.h>
 #include <stdio.h>
 
@@ -17,6 +18,7 @@ static const struct {
 
 const char *diag_id_text(enum diag_id id)
 {
+    assert((unsigned)id < DIAG_NUM_IDS);
     return catalogue[id].stable;
 }
 
@@ -38,6 +40,7 @@ const char *diag_severity_text(enum diag_severity severity)
                                         [DIAG_NOTE] = "note",
                                         [DIAG_REMARK] = "remark",
                                         [DIAG_IGNORED] = "ignored"};
+    assert((unsigned)severity < sizeof texts / sizeof *texts);
     return texts[severity];
 }
 
@@ -91,6 +94,7 @@ static void append(struct diag_list *list, enum diag_id id, struct diag_place pl
                    const char *message)
 {
     enum diag_severity severity = severity_in(list, id);
+    assert(severity != DIAG_IGNORED);
     bool is_note = severity == DIAG_NOTE && list->items.len > 0;
     if (!is_note)
         list->last = list->items.len;
@@ -101,6 +105,7 @@ static void append(struct diag_list *list, enum diag_id id, struct diag_place pl
                            .message = message,
                            .place = place,
                            .parent = list->last});
+    assert(list->last < list->items.len);
     if (!is_note && list->trace)
         list->trace(list->trace_data, list);
 }

@@ -2,6 +2,8 @@
 /* Renders diagnostics for people, with the source line and a caret. */
 #include "diag/diag.h"
 
+#include <assert.h>
+
 enum {
     LINE_SHOWN = 160, /* maximum of code points of a source line */
     LINE_BEFORE = 80, /* of these, before the column, if the line is longer */
@@ -109,6 +111,7 @@ static void render_source(const struct diag_place *place, struct line line, bool
         ellipsis = "...";
     }
     struct line shown = first(line, LINE_SHOWN);
+    assert(before <= code_points(shown));
     text_fmt(out, "    %s", ellipsis);
     put_clean(out, shown.text, shown.len);
     text_str(out, shown.len < line.len ? "...\n    " : "\n    ");

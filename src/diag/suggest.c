@@ -2,6 +2,8 @@
 /* Suggests the intended name for an unknown one. */
 #include "diag/diag.h"
 
+#include <assert.h>
+
 enum {
     MAX_WORD = 64,    /* longer names are not compared: each position is a bit */
     MAX_GUESSES = 64, /* per list */
@@ -16,6 +18,7 @@ enum {
  */
 static size_t edit_distance(const struct diag_guess *guess, const char *word, size_t len)
 {
+    assert(guess->len > 0 && guess->len <= MAX_WORD);
     uint64_t more = UINT64_MAX, less = 0, same = 0, before = 0,
              last = (uint64_t)1 << (guess->len - 1);
     size_t distance = guess->len;
@@ -33,12 +36,14 @@ static size_t edit_distance(const struct diag_guess *guess, const char *word, si
         less = grows & same;
         before = places;
     }
+    assert(distance <= guess->len + len);
     return distance;
 }
 
 /* MaterialX names are mostly lower case, so the comparison ignores case. */
 static void add_place(struct diag_guess *guess, unsigned char c, size_t place)
 {
+    assert(place < MAX_WORD);
     unsigned char lower = c | 0x20;
     guess->places[c] |= (uint64_t)1 << place;
     if (lower >= 'a' && lower <= 'z')
@@ -71,6 +76,7 @@ void diag_guess_add(struct diag_guess *guess, const char *candidate)
            difference = len > guess->len ? len - guess->len : guess->len - len;
     if (!guess->len || len > MAX_WORD || difference >= guess->best_distance)
         return;
+    assert(len <= MAX_WORD && guess->len + guess->best_distance > len);
     size_t distance = edit_distance(guess, candidate, len);
     if (distance < guess->best_distance && (distance || strcmp(guess->word, candidate) != 0)) {
         guess->best_distance = distance;

@@ -34,6 +34,7 @@ static struct element *own(struct document *doc, elem_id element)
 
 static struct doc_link *link_of(struct document *doc, elem_id element)
 {
+    assert(element - doc->first_element < doc->links.len);
     return &doc->links.items[element - doc->first_element];
 }
 
@@ -52,6 +53,7 @@ void doc_init(struct document *doc, struct arena *arena, struct strpool *strings
         doc->first_file = base->first_file + base->files.len;
     }
     doc->root = doc_add_element(doc, 0, STR_materialx, STR_EMPTY, 0, 0, 0);
+    assert(doc->root == doc->first_element);
 }
 
 /* Building */
@@ -59,6 +61,7 @@ void doc_init(struct document *doc, struct arena *arena, struct strpool *strings
 static void link_last(struct document *doc, elem_id parent, elem_id element)
 {
     struct doc_link *link = link_of(doc, parent);
+    assert(!own(doc, element)->parent && element != parent);
     assert(!link->last_child == !own(doc, parent)->first_child);
     if (link->last_child)
         own(doc, link->last_child)->next = element;
@@ -108,6 +111,7 @@ void doc_add_attr(struct document *doc, elem_id element, struct attribute attr)
 {
     struct element *e = own(doc, element);
     uint32_t at = e->first_attr - doc->first_attr;
+    assert(at + e->num_attrs <= doc->attrs.len || e->num_attrs == 0);
     if (e->num_attrs == UINT16_MAX)
         mem_fail(doc->arena->mem);
     if (at + e->num_attrs != doc->attrs.len) {
@@ -173,6 +177,7 @@ void doc_remove_element(struct document *doc, elem_id element)
     if (!e->parent)
         return;
     elem_id previous = link_of(doc, element)->previous;
+    assert(!e->next || link_of(doc, e->next)->previous == element);
     assert(previous ? own(doc, previous)->next == element
                     : own(doc, e->parent)->first_child == element);
     if (previous)
@@ -198,7 +203,9 @@ void doc_move_before(struct document *doc, elem_id element, elem_id sibling)
     doc_remove_element(doc, element);
     struct element *e = own(doc, element);
     elem_id previous = link_of(doc, sibling)->previous;
+    assert(!previous || own(doc, previous)->next == sibling);
     assert(element != sibling && own(doc, sibling)->parent);
+    assert(previous || own(doc, own(doc, sibling)->parent)->first_child == sibling);
     e->parent = own(doc, sibling)->parent;
     e->next = sibling;
     if (previous)
@@ -228,6 +235,7 @@ struct doc_mark doc_mark(const struct document *doc, elem_id root)
 
 void doc_rollback(struct document *doc, elem_id root, const struct doc_mark *mark)
 {
+    assert(root - doc->first_element < mark->num_elements);
     assert(mark->num_elements <= doc->elements.len && mark->num_attrs <= doc->attrs.len);
     doc->elements.len = doc->links.len = mark->num_elements;
     doc->attrs.len = mark->num_attrs;
@@ -327,6 +335,7 @@ static bool is_named_child(const struct document *doc, elem_id element)
 
 static bool is_child(const struct document *doc, elem_id element, elem_id parent, str_id name)
 {
+    assert(element - doc->first_element < doc->elements.len);
     const struct element *e = &doc->elements.items[element - doc->first_element];
     return e->parent == parent && e->name == name;
 }
@@ -393,6 +402,7 @@ void doc_index_names(struct document *doc, struct diag_list *diags)
 
 void doc_index_element(struct document *doc, elem_id element)
 {
+    assert(element >= doc->first_element);
     if (!is_named_child(doc, element))
         return;
     const struct element *e = doc_element(doc, element);

@@ -6,6 +6,8 @@
  */
 #include "document/document.h"
 
+#include <assert.h>
+
 /* Attributes whose value names top-level elements; lists have commas. */
 static const str_id references[] = {
     STR_nodedef,           STR_nodegraph, STR_inherit, STR_material,   STR_collection,
@@ -59,6 +61,7 @@ static bool is_top_level(const struct document *doc, str_id name)
 static void qualify_definition(struct qualifier *q, elem_id element)
 {
     struct document *doc = q->doc;
+    assert(doc_element(doc, element)->parent == doc->root);
     const struct element *e = doc_element(doc, element);
     if (e->name && !is_qualified(doc, e->name))
         doc_set_name(doc, element, add_qualified(q, e->name));
@@ -94,6 +97,7 @@ static void qualify_reference(struct qualifier *q, elem_id element, str_id attr)
 static void qualify_category(struct qualifier *q, elem_id element)
 {
     struct document *doc = q->doc;
+    assert(doc_element(doc, element)->kind == KIND_NODE);
     str_id category = doc_element(doc, element)->category;
     str_id qualified =
         find_qualified(q, str_text(doc->strings, category), str_len(doc->strings, category));
@@ -109,6 +113,7 @@ static void qualify_category(struct qualifier *q, elem_id element)
 static void qualify_references(struct qualifier *q, elem_id top)
 {
     struct document *doc = q->doc;
+    assert(doc_element(doc, top)->parent == doc->root);
     bool in_graph = doc_element(doc, top)->kind == KIND_NODEGRAPH;
     for (elem_id element = top; element; element = doc_next_in_tree(doc, top, element)) {
         q->namespace = doc_inherited_attr(doc, element, STR_namespace);

@@ -8,6 +8,8 @@
  */
 #include "document/document.h"
 
+#include <assert.h>
+
 enum { MAX_VARIABLES = 16 };
 
 struct slice {
@@ -64,6 +66,7 @@ static void print_components(struct text *out, doc_type type, const char *off_di
     ir_type_id ir = doc_type_ir(type);
     unsigned count = doc_type_components(type),
              columns = ir_type_is_matrix(ir) ? ir_type_info(ir)->columns : 1;
+    assert(columns == 1 || columns * columns == count);
     for (unsigned i = 0; i < count; i++) {
         text_str(out, i ? ", " : "");
         text_str(out, columns == 1 || i % (columns + 1) == 0 ? diagonal : off_diagonal);
@@ -103,6 +106,7 @@ enum token_result { TOKEN_REPLACED, TOKEN_OF_OTHERS, TOKEN_BAD };
 static enum token_result print_token(const struct expansion *x, struct slice token,
                                      struct text *out)
 {
+    assert(x->num_vars <= MAX_VARIABLES);
     const char *dot = memchr(token.text, '.', token.len);
     size_t len = dot ? (size_t)(dot - token.text) : token.len;
     for (size_t i = 0; i < x->num_vars; i++) {
@@ -160,6 +164,7 @@ static str_id substitute(struct expansion *x, str_id value, bool nested)
         else
             text_char(out, *text++);
     }
+    assert(text <= end);
     text_mem(out, text, (size_t)(end - text));
     return str_intern(x->doc->strings, out->data, out->len);
 }
@@ -183,11 +188,13 @@ static elem_id copy_element(struct expansion *x, elem_id source, elem_id parent,
     struct document *doc = x->doc;
     const struct element e = *doc_element(doc, source);
     elem_id copy = doc_add_like(doc, parent, e.category, substitute(x, e.name, nested), source);
+    assert(doc_element(doc, copy)->kind == e.kind);
     for (uint32_t i = 0; i < e.num_attrs; i++) {
         struct attribute attr = doc_attrs(doc, source)[i];
         attr.value = substitute(x, attr.value, nested);
         doc_add_attr(doc, copy, attr);
     }
+    assert(doc_element(doc, copy)->num_attrs == e.num_attrs);
     return copy;
 }
 
@@ -197,6 +204,7 @@ static void copy_tree(struct expansion *x, elem_id source)
     elem_id template = 0; /* the outermost inner template that contains `from` */
     elem_id copy = copy_element(x, source, doc_element(doc, x->template)->parent, false);
     doc_move_before(doc, copy, x->template);
+    assert(doc_element(doc, copy)->next == x->template);
     for (elem_id from = source; !doc_is_full(doc);) {
         if (!template && doc_element(doc, from)->kind == KIND_TEMPLATE) {
             template = from;
@@ -240,6 +248,7 @@ static bool read_vars(struct expansion *x)
 /* Splits the next row off `rest`; false at the end. Skips empty rows. */
 static bool read_row(struct expansion *x, struct slice *rest)
 {
+    assert(x->num_vars > 0 && x->num_vars <= MAX_VARIABLES);
     while (rest->len) {
         const char *semicolon = memchr(rest->text, ';', rest->len);
         struct slice line = {rest->text, semicolon ? (size_t)(semicolon - rest->text) : rest->len};
@@ -260,6 +269,7 @@ static bool read_row(struct expansion *x, struct slice *rest)
 static void expand(struct expansion *x)
 {
     struct document *doc = x->doc;
+    assert(x->num_vars == 0 && doc_element(doc, x->template)->kind == KIND_TEMPLATE);
     struct slice rest = attr_slice(doc, x->template, STR_rows);
     if (!read_vars(x))
         return;

@@ -8,6 +8,8 @@
 
 #include "base/num.h"
 
+#include <assert.h>
+
 enum { FIRST_MINOR = 22, CURRENT_MINOR = 39 };
 
 /* Types with a new name since 1.<minor>. */
@@ -155,6 +157,7 @@ static void rename_inputs(struct upgrade *u, elem_id node, const char *pairs)
     str_id names[MAX_PAIRS];
     size_t count = 0;
     for (; *pairs; count++, pairs += strspn(pairs, " ")) {
+        assert(count < MAX_PAIRS);
         size_t old_len = strcspn(pairs, ">"), new_len = strcspn(pairs + old_len + 1, " ");
         inputs[count] = doc_child(u->doc, node, str_find(u->doc->strings, pairs, old_len));
         names[count] = str_intern(u->doc->strings, pairs + old_len + 1, new_len);
@@ -264,6 +267,7 @@ static void upgrade_values_and_inheritance(struct upgrade *u)
 static void move_nodedef_type(struct upgrade *u, elem_id nodedef)
 {
     struct document *doc = u->doc;
+    assert(doc_element(doc, nodedef)->kind == KIND_NODEDEF);
     str_id type = doc_attr_value(doc, nodedef, STR_type),
            default_input = doc_attr_value(doc, nodedef, STR_defaultinput);
     doc_remove_attr(doc, nodedef, STR_type);
@@ -283,6 +287,7 @@ static void move_nodedef_type(struct upgrade *u, elem_id nodedef)
 static void upgrade_backdrop(struct upgrade *u, elem_id backdrop)
 {
     struct document *doc = u->doc;
+    assert(doc_element(doc, backdrop)->kind == KIND_BACKDROP);
     for (elem_id e = doc_element(doc, backdrop)->first_child, next; e; e = next) {
         next = doc_element(doc, e)->next;
         if (!upgrade_is_category(u, e, "parameter"))
@@ -565,6 +570,7 @@ static bool is_outdated(const struct document *doc, elem_id root, elem_id end)
 
 void doc_upgrade(struct document *doc, elem_id root, elem_id end, struct diag_list *diags)
 {
+    assert(root < end && end <= doc->first_element + doc->elements.len);
     int minor = read_version(doc, root, diags);
     struct upgrade u = {.doc = doc,
                         .diags = diags,
@@ -590,6 +596,7 @@ void doc_upgrade(struct document *doc, elem_id root, elem_id end, struct diag_li
     }
     for (size_t i = 0; i < LENGTH(steps); i++) {
         u.minor = steps[i].minor;
+        assert(i == 0 || steps[i].minor > steps[i - 1].minor);
         if (u.minor <= minor)
             continue;
         if (steps[i].before)

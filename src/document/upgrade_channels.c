@@ -6,6 +6,8 @@
  */
 #include "document/upgrade.h"
 
+#include <assert.h>
+
 enum { MAX_CHANNELS = 4 };
 
 /* 0 to 3: a channel; CHANNEL_ZERO, CHANNEL_ONE: a constant; CHANNEL_BAD: invalid. */
@@ -46,6 +48,7 @@ static bool read_selection(const struct upgrade *u, str_id from, str_id to, str_
     size_t len = str_len(u->doc->strings, channels);
     *out = (struct selection){
         .from = from, .to = to, .num_from = channel_count(from), .num_to = channel_count(to)};
+    assert(out->num_from <= MAX_CHANNELS && out->num_to <= MAX_CHANNELS);
     for (unsigned i = 0; i < out->num_to; i++) {
         unsigned channel = i < len ? channel_of(text[i]) : CHANNEL_BAD;
         bool missing =
@@ -76,6 +79,7 @@ static bool is_conversion(const struct selection *s)
 
 static const char *output_of(str_id type, unsigned channel)
 {
+    assert(channel < MAX_CHANNELS);
     static const char *const color[] = {"outr", "outg", "outb", "outa"}, *const vector[] = {
                                                                              "outx", "outy", "outz",
                                                                              "outw"};
@@ -84,6 +88,7 @@ static const char *output_of(str_id type, unsigned channel)
 
 static const char *combine_input(unsigned channel)
 {
+    assert(channel < MAX_CHANNELS);
     static const char *const inputs[] = {"in1", "in2", "in3", "in4"};
     return inputs[channel];
 }
@@ -92,6 +97,7 @@ static const char *combine_input(unsigned channel)
 static void add_combine_inputs(struct upgrade *u, elem_id node, const struct selection *s,
                                elem_id in)
 {
+    assert(s->num_to >= 2 && s->num_to <= MAX_CHANNELS);
     char category[] = "separate0";
     category[8] = (char)('0' + s->num_from);
     elem_id separate = 0;
@@ -123,6 +129,7 @@ static str_id select_value(struct upgrade *u, const struct selection *s, str_id 
     text_init(&text, u->doc->arena);
     for (unsigned i = 0; i < s->num_to; i++) {
         unsigned channel = s->channels[i];
+        assert(channel < CHANNEL_BAD);
         float component = channel == CHANNEL_ONE            ? 1.0f
                           : channel < CHANNEL_ZERO && known ? in.w[channel].f
                                                             : 0.0f;
@@ -139,6 +146,7 @@ static str_id select_value(struct upgrade *u, const struct selection *s, str_id 
 static void build_selection(struct upgrade *u, elem_id node, const struct selection *s, elem_id in)
 {
     struct document *doc = u->doc;
+    assert(!doc_element(doc, node)->first_child);
     bool connected = in && upgrade_is_connected(u, in);
     char combine[] = "combine0";
     combine[7] = (char)('0' + s->num_to);
@@ -148,6 +156,7 @@ static void build_selection(struct upgrade *u, elem_id node, const struct select
         upgrade_add_input(u, node, "value", s->to, select_value(u, s, value));
     } else if (s->num_to == 1 && s->num_from > 1) {
         static const char *const indices[] = {"0", "1", "2", "3"};
+        assert(s->channels[0] < s->num_from);
         upgrade_set_category(u, node, "extract");
         upgrade_copy_input(u, in, node, "in", str_text(doc->strings, s->from));
         upgrade_add_input(u, node, "index", STR_integer, upgrade_word(u, indices[s->channels[0]]));
@@ -185,6 +194,7 @@ static bool is_port(const struct upgrade *u, elem_id element)
 
 static void upgrade_port_channels(struct upgrade *u, elem_id port, str_id channels)
 {
+    assert(is_port(u, port));
     struct document *doc = u->doc;
     str_id to = doc_attr_value(doc, port, STR_type), from = upgrade_upstream_type(u, port);
     struct selection s;

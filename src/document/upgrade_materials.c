@@ -6,6 +6,8 @@
  */
 #include "document/upgrade.h"
 
+#include <assert.h>
+
 static bool is_shader_ref(const struct upgrade *u, elem_id element)
 {
     return doc_element(u->doc, element)->parent && upgrade_is_category(u, element, "shaderref");
@@ -110,6 +112,7 @@ static elem_id add_binding(struct upgrade *u, elem_id shader_ref, elem_id input)
         doc, binding,
         (struct attribute){.name = STR_type, .value = doc_attr_value(doc, input, STR_type)});
     doc_index_element(doc, binding);
+    assert(doc_element(doc, binding)->parent == shader_ref);
     return binding;
 }
 
@@ -270,6 +273,7 @@ static str_id shader_category(struct upgrade *u, elem_id shader_ref, elem_id nod
  */
 static str_id convert_shader_ref(struct upgrade *u, elem_id shader_ref, elem_id material)
 {
+    assert(doc_element(u->doc, material)->parent == u->root);
     struct document *doc = u->doc;
     elem_id nodedef = shader_definition(u, shader_ref);
     str_id category = shader_category(u, shader_ref, nodedef),
@@ -279,6 +283,7 @@ static str_id convert_shader_ref(struct upgrade *u, elem_id shader_ref, elem_id 
     str_id name =
         upgrade_free_name(u, u->root, str_text(doc->strings, doc_element(doc, shader_ref)->name));
     doc_move_before(doc, shader_ref, material);
+    assert(doc_element(doc, shader_ref)->next == material);
     upgrade_set_name(u, shader_ref, name);
     doc_set_category(doc, shader_ref, category);
     doc_remove_attr(doc, shader_ref, STR_node);

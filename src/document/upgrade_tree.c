@@ -2,6 +2,7 @@
 /* Queries and changes of the tree during an upgrade. */
 #include "document/upgrade.h"
 
+#include <assert.h>
 #include <stdarg.h>
 #include <stdio.h>
 
@@ -15,11 +16,14 @@ static bool is_in_tree(const struct upgrade *u, elem_id element)
 elem_id upgrade_first(struct upgrade *u)
 {
     u->pass_end = u->doc->first_element + u->doc->elements.len;
+    assert(u->first_added <= u->pass_end);
+    assert(u->root < u->end && u->end <= u->first_added);
     return u->root;
 }
 
 elem_id upgrade_next(const struct upgrade *u, elem_id element)
 {
+    assert(element >= u->root && element < u->pass_end);
     do {
         element++;
         if (element == u->end && element < u->first_added)
@@ -72,6 +76,7 @@ void upgrade_note(struct upgrade *u, elem_id element, const char *format, ...)
     va_list args;
     va_start(args, format);
     int len = snprintf(message, sizeof message, "1.%d: ", u->minor);
+    assert(len > 0 && (size_t)len < sizeof message);
     vsnprintf(message + len, sizeof message - (size_t)len, format, args);
     va_end(args);
     diag_add(u->diags, u->outdated ? DIAG_ID_outdated : DIAG_ID_upgraded, place, message);
@@ -115,6 +120,7 @@ elem_id upgrade_add_node(struct upgrade *u, elem_id before, const char *name, co
     doc_move_before(doc, node, before);
     doc_add_attr(doc, node, (struct attribute){.name = STR_type, .value = type});
     doc_index_element(doc, node);
+    assert(doc_element(doc, node)->next == before);
     return node;
 }
 

@@ -5,6 +5,8 @@
  */
 #include "document/validate.h"
 
+#include <assert.h>
+
 #define IN(KIND) ((uint64_t)1 << KIND_##KIND)
 #define IN_INTERFACE (IN(NODEDEF) | IN(NODEGRAPH) | IN(NODE))
 
@@ -113,6 +115,7 @@ static void check_place(struct validation *v, elem_id element)
 {
     const struct element *e = doc_element(v->doc, element);
     const struct element *parent = doc_element(v->doc, e->parent);
+    assert(parent->kind < NUM_ELEMENT_KINDS && parent->kind < 64);
     if (rules[e->kind].parents >> parent->kind & 1)
         return;
     if (is_outdated(v, element)) {

@@ -2,6 +2,8 @@
 /* Checks of references: inheritance, looks, and cycles in a nodegraph. */
 #include "document/validate.h"
 
+#include <assert.h>
+
 static const char *text_of(const struct validation *v, str_id id)
 {
     return str_text(v->doc->strings, id);
@@ -106,6 +108,7 @@ struct walk {
 
 static void report_cycle(struct walk *w, elem_id again)
 {
+    assert(w->path.len > 0);
     const struct document *doc = w->v->doc;
     struct text text;
     text_init(&text, w->v->arena);
@@ -123,6 +126,7 @@ static void report_cycle(struct walk *w, elem_id again)
 static void enter(struct walk *w, elem_id node)
 {
     const struct document *doc = w->v->doc;
+    assert(node - doc->first_element < doc->elements.len);
     uint8_t *state = &w->states[node - doc->first_element];
     if (*state == ON_PATH)
         report_cycle(w, node);
@@ -134,12 +138,14 @@ static void enter(struct walk *w, elem_id node)
 
 static void check_cycles_from(struct walk *w, elem_id start)
 {
+    assert(w->path.len == 0);
     const struct document *doc = w->v->doc;
     enter(w, start);
     while (w->path.len) {
         struct path_step *step = &vec_last(&w->path);
         elem_id input = step->input;
         if (!input) {
+            assert(w->states[step->node - doc->first_element] == ON_PATH);
             w->states[step->node - doc->first_element] = DONE;
             (void)vec_pop(&w->path);
             continue;

@@ -3,6 +3,8 @@
 #include "base/num.h"
 #include "document/document.h"
 
+#include <assert.h>
+
 static bool is_space(char c)
 {
     return c == ' ' || c == '\t' || c == '\n' || c == '\r';
@@ -98,6 +100,7 @@ bool doc_parse_value(doc_type type, const char *text, size_t len, struct strpool
     default: break;
     }
     unsigned components = doc_type_components(type);
+    assert(components <= sizeof out->w / sizeof *out->w);
     return components
            && parse_numbers(type == DOC_TYPE_integer, text, len, out->w, 16) == (int64_t)components;
 }
@@ -110,6 +113,7 @@ bool doc_value_is_valid(doc_type type, const char *text, size_t len)
     if (type < DOC_TYPE_integerarray || type > DOC_TYPE_vector4array)
         return true; /* a string, or a type without a value syntax */
     static const uint8_t group[] = {1, 1, 3, 4, 2, 3, 4};
+    assert((size_t)(type - DOC_TYPE_integerarray) < sizeof group);
     int64_t count = parse_numbers(type == DOC_TYPE_integerarray, text, len, NULL, 0);
     return count >= 0 && count % group[type - DOC_TYPE_integerarray] == 0;
 }
@@ -129,6 +133,7 @@ const char *doc_value_fault(doc_type type, const char *text, size_t len, struct 
             text_fmt(&said, " instead of %u", doc_type_components(type));
         return text_cstr(&said);
     }
+    assert(fault <= len);
     for (end = fault; end < len && text[end] != ',' && !is_space(text[end]);)
         end++;
     if (end == fault)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "document/document.h"
 
+#include <assert.h>
+
 static void write_escaped(struct text *out, const char *value, size_t len)
 {
     static const char special[] = "&<>\"\n\r\t";
@@ -58,6 +60,7 @@ void doc_write(const struct document *doc, elem_id root, struct text *out)
         }
         while (element != root && !(next = doc_element(doc, element)->next)) {
             element = doc_element(doc, element)->parent;
+            assert(depth > 0);
             indent(out, --depth);
             text_fmt(out, "</%s>\n", str_text(doc->strings, doc_element(doc, element)->category));
         }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * build: the one way to make nodes. In order: commutative operands are sorted, constants folded,
- * rules.def applied, constructors and swizzles cancelled, and what remains is hash-consed.
+ * build: the only code that makes nodes. It sorts commutative operands, folds constants, applies
+ * rules.def, cancels constructors and swizzles, and hash-conses the result, in this order.
  */
 #include "ir/internal.h"
 
@@ -49,8 +49,8 @@ static void sort_operands(const struct ir_graph *graph, enum ir_op op, ir_ref *a
 }
 
 /*
- * Arithmetic, choices and functions are simplified where they are of vectors; what builds and takes
- * apart, wherever it is.
+ * The simplifier sees arithmetic, choices and functions only if they have vector operands. It sees
+ * constructors, swizzles, members and indices of every type.
  */
 static bool may_simplify(enum ir_op op, ir_type_id type)
 {
@@ -77,11 +77,10 @@ static uint64_t equal_bit(const ir_ref *args, unsigned num_args)
     return 0;
 }
 
-/* To look at all of a node takes about as long as making it: builds that test do so. */
+/* This check costs about as much as making the node, so only test builds do it. */
 static void assert_well_formed(const struct ir_graph *graph, enum ir_op op, ir_type_id type,
                                uint32_t attr, const ir_ref *args, unsigned num_args)
 {
-    assert(ir_op_info(op)->arity < 0 || num_args == (unsigned)ir_op_info(op)->arity);
 #ifdef MXG_CHECK_IR
     const char *problem = ir_node_problem(graph, op, type, attr, args, num_args);
     if (problem)
@@ -97,7 +96,7 @@ ir_ref ir_build(struct ir_graph *graph, enum ir_op op, ir_type_id type, uint32_t
     assert_well_formed(graph, op, type, attr, args, num_args);
     if (graph->no_fold || num_args == 0 || num_args > MAX_FOLD_ARGS)
         return ir_intern(graph, op, type, attr, args, num_args);
-    ir_ref own[MAX_FOLD_ARGS]; /* simplifying adds nodes, and `args` may lie in the graph */
+    ir_ref own[MAX_FOLD_ARGS]; /* the simplifier adds nodes, and `args` may point into the graph */
     unsigned num_consts = 0, flags = ir_op_info(op)->flags;
     uint64_t present = 0, wanted = ir_rules[op].any;
     for (unsigned i = 0; i < num_args; i++) {
@@ -158,7 +157,7 @@ ir_ref ir_op3(struct ir_graph *graph, enum ir_op op, ir_ref a, ir_ref b, ir_ref 
     return build_by_rule(graph, op, (ir_ref[]){a, b, c}, 3);
 }
 
-/* Constants */
+/* ---- Constants ---- */
 
 ir_ref ir_const(struct ir_graph *graph, const struct ir_value *value)
 {
@@ -198,7 +197,7 @@ ir_ref ir_const_splat(struct ir_graph *graph, ir_type_id type, float f)
     return fits ? ir_const(graph, &value) : ir_poison(graph, type);
 }
 
-/* Building and taking apart */
+/* ---- Constructors and parts ---- */
 
 ir_ref ir_swizzle(struct ir_graph *graph, ir_ref a, const uint8_t *components, unsigned count)
 {
@@ -217,7 +216,7 @@ ir_ref ir_component(struct ir_graph *graph, ir_ref a, unsigned index)
     return ir_swizzle(graph, a, &component, 1);
 }
 
-/* The type of `from`'s shape and another scalar type; VOID where there is none. */
+/* The type with the shape of `from` and another scalar type; VOID if there is none. */
 static ir_type_id with_scalar(ir_type_id from, ir_type_id scalar)
 {
     const struct ir_type_info *info = ir_type_info(from);
@@ -260,7 +259,7 @@ ir_ref ir_convert(struct ir_graph *graph, ir_type_id type, ir_ref a)
     const struct ir_type_info *info = ir_type_info(type);
     if (ir_type_info(from)->components == 1 && info->components > 1)
         return ir_construct(graph, type, &a, 1);
-    if (!ir_type_is_matrix(type)) { /* cut before converting: fewer components to convert */
+    if (!ir_type_is_matrix(type)) { /* cut first: fewer components to convert */
         if (ir_type_info(from)->components > info->components && ir_type_info(from)->columns == 1)
             a = ir_build(graph, IR_CONVERT,
                          ir_type_vector(ir_type_info(from)->scalar, info->components), 0, &a, 1);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * check: the rules that every node keeps, and the graph as a whole. ir_node_problem is the one
+ * check: the invariants of each node and of the graph as a whole. ir_node_problem is the one
  * definition of a well-formed node: the builder asserts it, the parser reports it, and ir_check
- * asks it for each node.
+ * applies it to each node.
  */
 #include "ir/internal.h"
 
@@ -189,7 +189,7 @@ static const char *param_problem(const struct ir_graph *graph, ir_type_id type, 
                : "the parameter has another type";
 }
 
-/* Ops whose operands follow no rule of types.c. */
+/* Ops whose operands follow no rule in types.c. */
 static const char *special_problem(const struct ir_graph *graph, enum ir_op op, ir_type_id type,
                                    uint32_t attr, const ir_ref *args, unsigned num_args)
 {
@@ -268,8 +268,7 @@ static const char *args_problem(const struct ir_graph *graph, ir_ref ref)
     return NULL;
 }
 
-/* The body of a function is older than its calls: whoever walks the nodes downwards sees it later.
- */
+/* The body of a function is older than its calls, so a walk from the newest node sees it later. */
 static bool has_body_below(const struct ir_graph *graph, ir_ref call)
 {
     const struct ir_function *function = &graph->functions.items[ir_get(graph, call)->attr];
@@ -335,7 +334,7 @@ static const char *user_type_problem(const struct ir_graph *graph, uint32_t inde
     return NULL;
 }
 
-/* What nodes refer to. */
+/* The tables that nodes refer to. */
 static const char *tables_problem(const struct ir_graph *graph)
 {
     const char *problem = NULL;

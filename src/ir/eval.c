@@ -1,21 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * eval: the value of a node, computed in array order over what it needs. An unknown value makes its
- * users unknown, but not a SELECT that does not choose it, so that undefined operations behind a
- * condition do no harm. Calls of IR functions are frames on a stack of ours.
+ * eval: the value of a node. The evaluator computes the nodes that it needs in array order. An
+ * unknown value makes its users unknown, except a SELECT that does not choose it. So undefined
+ * operations behind a condition do no harm. Calls of IR functions are frames on an explicit stack.
  */
 #include "ir/ir.h"
 
 #include <assert.h>
 
 struct frame {
-    ir_ref at, end;  /* next node, and where to stop */
+    ir_ref at, end;  /* next node, and end of the range */
     uint8_t *needed; /* per node */
     /*
-     * per node: its value in ->words; of a call of a function its results in ->results; 0 = unknown
+     * per node: index of its value in ->words, or for a function call of its results in ->results;
+     * 0 = unknown
      */
     uint32_t *places;
-    ir_ref call; /* the node of the frame below that waits for this one; 0 in the lowest */
+    ir_ref call; /* the node that waits for this frame; 0 in the outermost frame */
 };
 
 struct evaluator {
@@ -62,7 +63,7 @@ static bool load(const struct evaluator *e, uint32_t place, ir_type_id type, str
     return true;
 }
 
-/* The value of an operand that has been passed. */
+/* The value of an operand that the frame has already visited. */
 static bool value_of(const struct evaluator *e, const struct frame *frame, ir_ref ref,
                      struct ir_value *out)
 {
@@ -108,7 +109,7 @@ static bool eval_call(const struct evaluator *e, ir_ref call, uint32_t result, i
            && e->env->call(e->env->user_data, e->graph, call, args, result, out);
 }
 
-/* SELECT, LAND and LOR may be known where an operand is not. */
+/* SELECT, LAND and LOR can have a value although an operand is unknown. */
 static bool eval_choice(const struct evaluator *e, ir_ref ref, struct ir_value *out)
 {
     const struct frame *frame = &vec_last(&e->frames);
@@ -147,7 +148,7 @@ static bool eval_node(const struct evaluator *e, ir_ref ref, struct ir_value *ou
     }
 }
 
-/* The body of a called function has been passed: its results go to the call, the frame goes. */
+/* The frame reached the end of a function: its results go to the call, and the frame ends. */
 static void return_to_caller(struct evaluator *e)
 {
     const struct frame *frame = &vec_last(&e->frames);

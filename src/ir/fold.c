@@ -2,9 +2,9 @@
 /*
  * fold: the arithmetic of constants.
  *
- * Componentwise ops are one kernel per op and scalar type (kernels.def), applied to each component
- * with scalars spread. Ops over whole vectors, and those that build and take apart, are a function
- * each.
+ * Componentwise ops have one kernel per op and scalar type (kernels.def), which runs on each
+ * component; scalars are spread. Each op over whole vectors, and each constructor or part, has a
+ * function.
  */
 #include "ir/internal.h"
 
@@ -36,7 +36,7 @@ static float hermite_step(float low, float high, float x)
     return t * t * (3.0f - 2.0f * t);
 }
 
-/* w: three operand words, 0 where the op has fewer. */
+/* w: three operand words, 0 if the op has fewer. */
 typedef bool kernel_fn(const union ir_word *w, union ir_word *out);
 
 #define KERNEL(name, T, member, defined, assignment) \
@@ -219,8 +219,8 @@ static bool eval_transpose(const struct ir_value *args, struct ir_value *out)
 }
 
 /*
- * Gauss-Jordan elimination with row pivots, in double: the determinant of the n×n matrix m, which
- * becomes singular (0) where no pivot is left; otherwise `inverse` receives its inverse.
+ * Gauss-Jordan elimination with row pivots, in double. Returns the determinant of the n×n matrix m.
+ * If no pivot is left, m is singular and the result is 0; otherwise `inverse` receives the inverse.
  */
 static double invert(double m[16], double inverse[16], unsigned n)
 {
@@ -235,7 +235,7 @@ static double invert(double m[16], double inverse[16], unsigned n)
         if (p == 0.0)
             return 0.0;
         determinant *= pivot == c ? p : -p;
-        for (unsigned k = 0; k < n; k++) { /* swap the pivot's row up, and make the pivot 1 */
+        for (unsigned k = 0; k < n; k++) { /* swap the pivot's row up, and scale the pivot to 1 */
             double a = m[pivot * n + k], b = inverse[pivot * n + k];
             m[pivot * n + k] = m[c * n + k];
             inverse[pivot * n + k] = inverse[c * n + k];
@@ -254,8 +254,7 @@ static double invert(double m[16], double inverse[16], unsigned n)
 }
 
 /*
- * The inverse of the transpose is the transpose of the inverse, so that columns may be taken for
- * rows.
+ * The inverse of the transpose is the transpose of the inverse, so columns can serve as rows.
  */
 static double invert_value(const struct ir_value *value, double inverse[16])
 {
@@ -338,9 +337,9 @@ static whole_fn *const wholes[IR_NUM_OPS] = {
     [IR_SELECT] = eval_select,
 };
 
-/* Building and taking apart */
+/* ---- Constructors and parts ---- */
 
-/* GLSL 4.50, 5.4.1. Floats outside of an integer's range are undefined. */
+/* GLSL 4.50, 5.4.1. Floats outside an integer's range are undefined. */
 static bool convert_word(ir_type_id from, ir_type_id to, union ir_word w, union ir_word *out)
 {
     if (from == to || (from != IR_TYPE_FLOAT && (to == IR_TYPE_INT || to == IR_TYPE_UINT))) {
@@ -428,7 +427,7 @@ static bool eval_swizzle(const struct ir_value *arg, uint32_t attr, struct ir_va
 
 static bool eval_index(const struct ir_value *args, struct ir_value *out)
 {
-    unsigned size = components_of(out); /* 1, or a column's */
+    unsigned size = components_of(out); /* 1, or the size of a column */
     if (args[1].w[0].u >= components_of(&args[0]) / size)
         return false;
     memcpy(out->w, args[0].w + args[1].w[0].u * size, size * sizeof *out->w);

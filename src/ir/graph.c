@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-/* graph: the arrays of a graph, and hash-consing: content that is asked for twice is one node. */
+/* graph: the arrays of a graph, and hash-consing: equal content is one node. */
 #include "ir/internal.h"
 
 #include "base/hash.h"
 
 #include <assert.h>
 
-/* a shading model has some hundred nodes */
+/* a shading model has a few hundred nodes */
 enum { FIRST_NODES = 768 };
 
-/* What makes a node the node it is: all of struct ir_node but its flags and origin. */
+/* The identity of a node: all of struct ir_node except flags and origin. */
 struct content {
     enum ir_op op;
     ir_type_id type;
-    uint32_t attr; /* 0 for a constant, whose attr is a place */
+    uint32_t attr; /* 0 for a constant, whose attr is the index of its words */
     uint32_t count;
     const uint32_t *data; /* the operands, or the words of a constant */
 };
@@ -64,7 +64,7 @@ static inline bool has_content(const struct ir_graph *graph, ir_ref ref, struct 
     return true;
 }
 
-/* The node of this content; 0: there is none. */
+/* The node with this content; 0 if there is none. */
 static inline ir_ref find(const struct ir_graph *graph, struct content c, uint32_t hash)
 {
     for (uint32_t at = hash, ref; (ref = table_next(&graph->table, hash, &at));)
@@ -79,7 +79,7 @@ ir_ref ir_find_equal(const struct ir_graph *graph, ir_ref ref)
     return find(graph, c, hash_content(c));
 }
 
-/* Room for n more nodes; everyone else sees the array as constant. */
+/* Reserves n more nodes. All other code sees the array as constant. */
 static struct ir_node *reserve_nodes(struct ir_graph *graph, uint32_t n)
 {
     struct ir_node *nodes = (struct ir_node *)(uintptr_t)graph->nodes.items;
@@ -89,7 +89,7 @@ static struct ir_node *reserve_nodes(struct ir_graph *graph, uint32_t n)
     return nodes + graph->nodes.len;
 }
 
-/* The same for operands. */
+/* Reserves n more operands. */
 static ir_ref *reserve_args(struct ir_graph *graph, uint32_t n)
 {
     ir_ref *args = (ir_ref *)(uintptr_t)graph->args.items;
@@ -102,9 +102,9 @@ static ir_ref *reserve_args(struct ir_graph *graph, uint32_t n)
 void ir_graph_init(struct ir_graph *graph, struct arena *arena, struct strpool *strings)
 {
     *graph = (struct ir_graph){.arena = arena, .strings = strings};
-    /* 0 is no node; it must not look like a constant */
+    /* index 0 means "no node"; it must not look like a constant */
     *reserve_nodes(graph, FIRST_NODES) = (struct ir_node){.op = IR_POISON};
-    *reserve_args(graph, 2 * FIRST_NODES) = 0; /* so that there is something to point to */
+    *reserve_args(graph, 2 * FIRST_NODES) = 0; /* index 0 must exist */
     graph->nodes.len = graph->args.len = 1;
     vec_reserve(arena, &graph->labels, FIRST_NODES);
     vec_push(arena, &graph->labels, (struct ir_label){0});
@@ -113,7 +113,7 @@ void ir_graph_init(struct ir_graph *graph, struct arena *arena, struct strpool *
     table_reserve(&graph->table, arena, FIRST_NODES / 2);
 }
 
-/* What calls of an IR function have of its body. */
+/* The flags that calls of an IR function inherit from its body. */
 static unsigned function_flags(const struct ir_graph *graph, const struct ir_function *function)
 {
     unsigned flags = 0;
@@ -122,7 +122,7 @@ static unsigned function_flags(const struct ir_graph *graph, const struct ir_fun
     return flags & (IR_NODE_DERIVATIVE | IR_NODE_PARTIAL);
 }
 
-/* A constant, or never below one; a divisor must not be 0. */
+/* True for a constant, or for a value that is never below a constant. A divisor must not be 0. */
 static bool is_bounded(const struct ir_graph *graph, ir_ref ref, bool is_divisor)
 {
     const struct ir_node *node = ir_get(graph, ref);
@@ -133,7 +133,7 @@ static bool is_bounded(const struct ir_graph *graph, ir_ref ref, bool is_divisor
     return ir_is_const(graph, ref) && !(is_divisor && ir_const_is(graph, ref, 0.0f));
 }
 
-/* What an op is by itself; PARTIAL ops are so unless their operand is bounded. */
+/* The flags of an op itself. An op with PARTIAL has this flag unless its operand is bounded. */
 static const uint8_t flags_of_ops[IR_NUM_OPS] = {
     [IR_CONTEXT] = IR_NODE_LOOP,      [IR_SAMPLE] = IR_NODE_LOOP,
     [IR_DFDX] = IR_NODE_DERIVATIVE,   [IR_DFDY] = IR_NODE_DERIVATIVE,
@@ -149,7 +149,7 @@ static const uint8_t flags_of_ops[IR_NUM_OPS] = {
     [IR_ATANH] = IR_NODE_PARTIAL,
 };
 
-/* Of the node itself; those of its operands are added to them. */
+/* The flags of the node itself, without the flags that it inherits from operands. */
 static unsigned own_flags(const struct ir_graph *graph, struct content c)
 {
     unsigned flags = flags_of_ops[c.op];
@@ -177,8 +177,8 @@ unsigned ir_flags_of(const struct ir_graph *graph, ir_ref ref)
 }
 
 /*
- * Copies the operands to graph->args and returns their flags; they may lie there already, so that
- * growing would move them.
+ * Copies the operands to graph->args and returns their flags. The operands may lie in this array
+ * already, and growing it moves them.
  */
 static unsigned push_args(struct ir_graph *graph, const ir_ref *args, uint32_t num_args)
 {
@@ -205,7 +205,10 @@ static void push_words(struct ir_graph *graph, const uint32_t *words, uint32_t n
         to[i].u = words[i];
 }
 
-/* May a node be added? The limit is told once, by what the graph gives instead. */
+/*
+ * True if the graph accepts one more node. Past the limit, the graph gives POISON and reports the
+ * limit once.
+ */
 static bool has_room(struct ir_graph *graph, enum ir_op op)
 {
     bool is_full = graph->max_nodes && graph->nodes.len > graph->max_nodes && op != IR_POISON;

@@ -6,19 +6,22 @@
 #include "ir/ir.h"
 
 /*
- * types.c: true if the product of these types is a product of linear algebra, not a componentwise
- * one.
+ * types.c: true if the product of these types is a product of linear algebra instead of a
+ * componentwise one.
  */
 bool ir_is_linear_mul(ir_type_id a, ir_type_id b);
 
 /* graph.c: the node with this content; adds it if there is none. Does not fold. */
 ir_ref ir_intern(struct ir_graph *graph, enum ir_op op, ir_type_id type, uint32_t attr,
                  const ir_ref *args, unsigned num_args);
-/* The same for a constant of a built-in type. */
+/* ir_intern for a constant of a built-in type. */
 ir_ref ir_intern_const(struct ir_graph *graph, ir_type_id type, const union ir_word *words);
-/* For ir_check: the node with the content of node `ref`, which is itself unless it stands twice. */
+/*
+ * For ir_check: the first node with the content of node `ref`. It is `ref` itself unless the graph
+ * has a duplicate.
+ */
 ir_ref ir_find_equal(const struct ir_graph *graph, ir_ref ref);
-/* For ir_check: the flags that follow from the op of node `ref` and from its operands. */
+/* For ir_check: the flags that follow from the op of node `ref` and its operands. */
 unsigned ir_flags_of(const struct ir_graph *graph, ir_ref ref);
 
 /*
@@ -94,7 +97,7 @@ ir_ref ir_apply_rules(struct ir_graph *graph, enum ir_op op, ir_type_id type, co
 /* check.c: NULL, or the reason why the node is invalid. */
 const char *ir_node_problem(const struct ir_graph *graph, enum ir_op op, ir_type_id type,
                             uint32_t attr, const ir_ref *args, unsigned num_args);
-/* Ends the program: a rule is broken, which only a fault of mxgen can do. */
+/* Ends the program: a node breaks an invariant, which only a defect of mxgen can cause. */
 _Noreturn void ir_fail(const char *where, ir_ref node, enum ir_op op, const char *problem);
 
 #endif

@@ -24,8 +24,8 @@ enum ir_type {
 #undef IR_TYPE
     IR_NUM_TYPES,
     /*
-     * The first of the structs and arrays of one graph or function unit: IR_TYPE_FIRST_USER + index
-     * in its ir_user_types.
+     * The first struct or array type of a graph or function unit: IR_TYPE_FIRST_USER + index in its
+     * ir_user_types.
      */
     IR_TYPE_FIRST_USER = 64
 };
@@ -167,7 +167,7 @@ struct ir_node {
     uint32_t num_args;
     uint32_t first_arg; /* in graph->args */
     uint32_t attr;
-    uint32_t origin; /* what the node was built for: index in graph->origins; 0 = nothing */
+    uint32_t origin; /* index in graph->origins: the source of the node; 0 = none */
 };
 
 enum ir_node_flags {
@@ -183,11 +183,11 @@ enum ir_node_flags {
     IR_NODE_INHERITED = IR_NODE_DERIVATIVE | IR_NODE_LOOP | IR_NODE_DEAR | IR_NODE_PARTIAL
 };
 
-/* What readers call a node, which is no part of it: names.c. */
+/* The name that a shader gives to a node, stored beside the node: names.c. */
 struct ir_label {
-    str_id name;    /* 0 = nothing, or several things */
-    uint8_t rank;   /* enum ir_name_rank: of two names the one of the higher rank wins */
-    bool is_shared; /* more than one origin asked for the node */
+    str_id name;    /* 0 = no name, or several candidates */
+    uint8_t rank;   /* enum ir_name_rank: the name of the higher rank wins */
+    bool is_shared; /* the node has more than one origin */
 };
 
 /*
@@ -247,11 +247,11 @@ struct ir_graph {
     struct table table;          /* hash-consing: of nodes */
     struct table callee_table;   /* callee indices + 1 */
     uint32_t origin;             /* of new nodes: ir_push_origin */
-    VEC(uint32_t) outer_origins; /* those below it on the stack */
+    VEC(uint32_t) outer_origins; /* origins below it on the stack */
     uint32_t max_nodes; /* 0 = unlimited; beyond it ->overflow is set and POISON returned */
     bool overflow;
     bool exact;   /* only apply exact rules, which hold for infinities and NaN, too */
-    bool no_fold; /* do not fold; for tests */
+    bool no_fold; /* no folding; for tests */
 };
 
 void ir_graph_init(struct ir_graph *graph, struct arena *arena, struct strpool *strings);
@@ -314,15 +314,15 @@ ir_ref ir_convert(struct ir_graph *graph, ir_type_id type, ir_ref a);
 
 bool ir_is_const(const struct ir_graph *graph, ir_ref ref);
 /*
- * The components of a constant of a built-in type, valid until the next node is built; NULL for
- * other nodes.
+ * The components of a constant of a built-in type. The pointer is valid until the next node is
+ * built. NULL for other nodes.
  */
 static inline const union ir_word *ir_constant_words(const struct ir_graph *graph, ir_ref ref)
 {
     const struct ir_node *node = ir_get(graph, ref);
     return node->op == IR_CONST ? graph->words.items + node->attr : NULL;
 }
-/* The value of such a constant; false for other nodes. */
+/* The value of a constant of a built-in type; false for other nodes. */
 bool ir_get_const(const struct ir_graph *graph, ir_ref ref, struct ir_value *out);
 bool ir_const_is(const struct ir_graph *graph, ir_ref ref, float f); /* all components equal f */
 
@@ -349,8 +349,8 @@ static inline const struct ir_label *ir_label(const struct ir_graph *graph, ir_r
 
 uint32_t ir_add_origin(struct ir_graph *graph, str_id name, uint32_t element, uint32_t parent);
 /*
- * New nodes have the origin on top of a stack, whose lowest is nothing. Each push has its pop in
- * the same step of a generation.
+ * New nodes get the origin on top of a stack. The lowest entry is "no origin". Each push has its
+ * pop in the same step of a generation.
  */
 static inline void ir_push_origin(struct ir_graph *graph, uint32_t origin)
 {
@@ -363,12 +363,12 @@ static inline void ir_pop_origin(struct ir_graph *graph)
     assert(graph->outer_origins.len > 0);
     graph->origin = vec_pop(&graph->outer_origins);
 }
-/* a new origin that is only a name */
+/* pushes a new origin that has only a name */
 static inline void ir_push_name(struct ir_graph *graph, str_id name)
 {
     ir_push_origin(graph, ir_add_origin(graph, name, 0, 0));
 }
-/* another name in the place of the top */
+/* replaces the name on top of the stack */
 static inline void ir_change_name(struct ir_graph *graph, str_id name)
 {
     ir_pop_origin(graph);
@@ -378,7 +378,7 @@ static inline void ir_push_origin_of(struct ir_graph *graph, ir_ref ref)
 {
     ir_push_origin(graph, ir_get(graph, ref)->origin);
 }
-/* the same number for an equal callee */
+/* returns the same index for an equal callee */
 uint32_t ir_add_callee(struct ir_graph *graph, struct ir_callee callee);
 uint32_t ir_add_struct(struct ir_graph *graph, str_id name, const struct ir_member *members,
                        unsigned num_members);
@@ -411,22 +411,26 @@ uint8_t *ir_count_uses(const struct ir_graph *graph, const uint8_t *marked, cons
 ir_ref ir_replace(struct ir_graph *graph, ir_ref root, ir_ref from, ir_ref to, struct arena *arena);
 
 /*
- * rebuild.c: makes the graph anew of the nodes that the roots need. Returns the new node per old
- * one, 0 for those that are gone. Types, callees, origins and functions keep their indices.
+ * rebuild.c: makes a new graph from the needed nodes (ir_mark). Returns the new node per old
+ * node, 0 for removed nodes. Types, callees, origins and functions keep their indices.
  */
 struct ir_pass {
     void *user_data;
     /*
-     * Builds the new node of the same type for the node `old` over `args`, the new operands, which
-     * it may overwrite; `node` is what stood there. Nothing is folded. Constants are not asked for.
+     * Builds the new node for the node `old`, of the same type. `node` is the content of `old`;
+     * `args` are the new operands, which the function may overwrite. The rebuild does not fold, and
+     * copies constants without this call.
      */
     ir_ref (*build)(void *user_data, struct ir_graph *graph, ir_ref old, const struct ir_node *node,
                     ir_ref *args);
 };
-const ir_ref *ir_rebuild(struct ir_graph *graph, const ir_ref *roots, uint32_t num_roots,
-                         const struct ir_pass *pass, struct arena *arena);
+const ir_ref *ir_rebuild(struct ir_graph *graph, const uint8_t *needed, const struct ir_pass *pass,
+                         struct arena *arena);
 
-/* print.c, parse.c: the text form (docs/ir.md); what is printed parses back to an equal graph. */
+/*
+ * print.c, parse.c: the text form (docs/ir.md). ir_parse reads the output of ir_print back to an
+ * equal graph.
+ */
 
 void ir_print(const struct ir_graph *graph, const ir_ref *roots, uint32_t num_roots,
               struct text *out);
@@ -435,13 +439,13 @@ const char *ir_parse(struct ir_graph *graph, const char *text, size_t len, ir_re
                      uint32_t *out_num_roots, uint32_t *out_line);
 
 /*
- * check.c: NULL, or the first broken rule of a graph, with the node that breaks it (0: no node
- * does, but a table of the graph).
+ * check.c: NULL, or the first broken invariant of a graph. *out_node receives the node that breaks
+ * it, or 0 if a table of the graph breaks it.
  */
 const char *ir_check(const struct ir_graph *graph, ir_ref *out_node);
 /*
- * In builds with -Dcheck_ir=true: ends the program if ir_check finds a broken rule, and names the
- * step after which, the node, and the rule. Other builds do nothing here.
+ * With -Dcheck_ir=true: if ir_check finds a broken invariant, ends the program and names the step,
+ * the node and the invariant. Other builds do nothing here.
  */
 void ir_assert_valid(const struct ir_graph *graph, const char *step);
 
@@ -450,8 +454,8 @@ void ir_assert_valid(const struct ir_graph *graph, const char *step);
 struct ir_eval_env {
     void *user_data;
     /*
-     * The value of a source (UNIFORM, STREAM, PARAM, LOCAL, CONTEXT) or of a CALL's result; false:
-     * unknown.
+     * The value of a source (UNIFORM, STREAM, PARAM, LOCAL, CONTEXT) or of a CALL's result; false
+     * if it is unknown.
      */
     bool (*source)(void *user_data, const struct ir_graph *graph, ir_ref ref, struct ir_value *out);
     bool (*call)(void *user_data, const struct ir_graph *graph, ir_ref call,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * mark: what the roots need. Operands are older than their users, so one walk from the newest node
- * to the oldest does.
+ * mark: the nodes that the roots need. Operands are older than their users, so one walk from the
+ * newest node to the oldest is enough.
  */
 #include "ir/ir.h"
 

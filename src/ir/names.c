@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * names: what a reader calls a node. Names come from three places: a node of the document names its
- * result, a library function its local variables, its parameters and its value.
+ * names: suggests names for nodes. A document node names its result; a library function names its
+ * local variables, its parameters and its value.
  */
 #include "ir/ir.h"
 
@@ -14,7 +14,7 @@ static void suggest(struct ir_graph *graph, ir_ref ref, str_id name, unsigned ra
     assert(graph->labels.len == graph->nodes.len);
     if (node->op == IR_CONST || rank < label->rank)
         return;
-    /* what a graph gives is called after the graph's node, not after the node inside */
+    /* the name of the nodegraph wins over the name of the node inside */
     bool is_inside =
         node->origin && graph->origin && graph->origins.items[node->origin].parent == graph->origin;
     if (rank > label->rank || (rank == IR_NAME_RESULT && is_inside)) {
@@ -25,7 +25,7 @@ static void suggest(struct ir_graph *graph, ir_ref ref, str_id name, unsigned ra
     }
 }
 
-/* A vector of one scalar is written as that scalar for the most part: both have the name. */
+/* A shader usually writes a vector of one scalar as this scalar, so both get the name. */
 static ir_ref splatted(const struct ir_graph *graph, ir_ref ref)
 {
     const struct ir_node *node = ir_get(graph, ref);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * parse: the text form of a graph (docs/ir.md). One statement per line. Nodes are made by the
- * builder, so the text is folded as anything else, unless graph->no_fold is set.
+ * parse: the text form of a graph (docs/ir.md). One statement per line. The builder makes the
+ * nodes, so it folds the text like any other input, unless graph->no_fold is set.
  */
 #include "ir/internal.h"
 
@@ -12,11 +12,11 @@
 struct parser {
     struct ir_graph *graph;
     const char *at, *end;
-    const char *problem; /* the first one; everything fails after it */
+    const char *problem; /* the first problem; all later reads fail */
     struct strpool labels;
-    VEC(ir_ref) label_refs; /* by id of the label; 0 = not defined */
+    VEC(ir_ref) label_refs; /* node by label id; 0 = not defined */
     VEC(ir_ref) roots;
-    VEC(ir_ref) operands; /* of the current statement */
+    VEC(ir_ref) operands; /* operands of the current statement */
 };
 
 static bool fail(struct parser *p, const char *problem)
@@ -109,8 +109,8 @@ static int hex_digit(char c)
 }
 
 /*
- * The character after a backslash, which is '"', '\' or u00XX, as text_json_string writes. 0 where
- * it is none.
+ * The character of an escape: '"', '\\' or u00XX, as text_json_string writes them. 0 for any other
+ * escape.
  */
 static char read_escape(struct parser *p)
 {
@@ -170,7 +170,7 @@ static bool read_type(struct parser *p, ir_type_id *out)
     return fail(p, "a type was expected");
 }
 
-/* Constants */
+/* ---- Constants ---- */
 
 static bool read_float(struct parser *p, union ir_word *out)
 {
@@ -222,8 +222,8 @@ static bool read_scalar(struct parser *p, ir_type_id scalar, union ir_word *out)
 }
 
 /*
- * What kind of number begins here: digits alone are an int, with a 'u' behind a uint, anything else
- * is a float.
+ * The type of the number that begins here: digits alone are an int, digits and 'u' a uint, all else
+ * a float.
  */
 static ir_type_id number_type(const struct parser *p)
 {
@@ -269,7 +269,7 @@ static bool read_const(struct parser *p, ir_ref *out)
     return true;
 }
 
-/* Operands */
+/* ---- Operands ---- */
 
 static ir_ref *label_place(struct parser *p)
 {
@@ -320,7 +320,7 @@ static bool read_refs(struct parser *p)
     return p->operands.len > 0 || fail(p, "a node or constant was expected");
 }
 
-/* Statements */
+/* ---- Statements ---- */
 
 static bool read_swizzle(struct parser *p, uint32_t *out)
 {
@@ -377,7 +377,7 @@ static bool parse_node(struct parser *p)
     uint32_t attr;
     if (!label || !expect(p, '=', "'=' was expected"))
         return false;
-    size_t index = (size_t)(label - p->label_refs.items); /* operands may move the array */
+    size_t index = (size_t)(label - p->label_refs.items); /* reading operands may move the array */
     if (*label)
         return fail(p, "a node of this name stands before");
     if (!read_op(p, &op) || !read_type(p, &type) || !read_attr(p, op, &attr) || !read_operands(p))

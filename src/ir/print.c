@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * print: the text form of a graph (docs/ir.md): declarations, then the nodes that the roots need in
- * order.
+ * print: the text form of a graph (docs/ir.md): declarations, then the nodes that the roots need,
+ * in array order.
  */
 #include "ir/ir.h"
 
@@ -10,7 +10,7 @@
 struct printer {
     const struct ir_graph *graph;
     struct text *out;
-    uint32_t *number; /* of each node that has a line; constants have none */
+    uint32_t *number; /* line number per node; constants have none */
     uint32_t last_number;
     uint8_t *printed; /* per function: its results are printed */
 };
@@ -128,7 +128,7 @@ static void print_results(struct printer *p, uint32_t index)
     text_char(p->out, '\n');
 }
 
-/* As a comment, which a line break would end. */
+/* Prints the origin as a comment. A line break would end the comment. */
 static void print_origin(struct printer *p, const struct ir_node *node)
 {
     str_id name = p->graph->origins.items[node->origin].name;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * rebuild: a pass over a graph that changes some of its nodes. It changes none in place: it makes
- * the graph anew, node by node, and drops what the roots do not need. Nodes keep their order, so a
- * node that does not change keeps its operands in their order, too.
+ * rebuild: a pass that changes some nodes of a graph. It makes a new graph, node by node, and drops
+ * the nodes that are not needed. Nodes keep their order, so an unchanged node keeps the
+ * order of its operands.
  */
 #include "ir/internal.h"
 
@@ -11,8 +11,8 @@ struct rebuild {
     struct ir_graph old;
     const struct ir_pass *pass;
     struct arena *arena;
-    ir_ref *copies;   /* by old node */
-    VEC(ir_ref) args; /* of the node at hand */
+    ir_ref *copies;   /* new node per old node */
+    VEC(ir_ref) args; /* operands of the current node */
 };
 
 /* Types, callees, origins and functions keep their indices; functions lose their results. */
@@ -30,7 +30,10 @@ static void keep_tables(struct ir_graph *graph, const struct ir_graph *old)
     }
 }
 
-/* The body of a function is older than its first call, so its copy stands by then. */
+/*
+ * The body of a function is older than its first call, so the copy of the body exists before the
+ * call.
+ */
 static void complete_function(struct rebuild *r, uint32_t index)
 {
     const struct ir_function *function = &r->old.functions.items[index];
@@ -60,7 +63,10 @@ static ir_ref copy_node(struct rebuild *r, ir_ref ref)
     return r->pass->build(r->pass->user_data, r->graph, ref, node, r->args.items);
 }
 
-/* A copy that stands for one node has its label; several nodes suggest theirs. */
+/*
+ * A copy of one node gets its label. If a copy stands for several nodes, each suggests its
+ * label.
+ */
 static void label_copy(struct rebuild *r, ir_ref ref)
 {
     const struct ir_label *old = ir_label(&r->old, ref);
@@ -73,12 +79,11 @@ static void label_copy(struct rebuild *r, ir_ref ref)
     label->is_shared |= old->is_shared;
 }
 
-const ir_ref *ir_rebuild(struct ir_graph *graph, const ir_ref *roots, uint32_t num_roots,
-                         const struct ir_pass *pass, struct arena *arena)
+const ir_ref *ir_rebuild(struct ir_graph *graph, const uint8_t *needed, const struct ir_pass *pass,
+                         struct arena *arena)
 {
     struct rebuild r = {.graph = graph, .old = *graph, .pass = pass, .arena = arena};
     assert(graph->outer_origins.len == 0);
-    const uint8_t *needed = ir_mark(graph, roots, num_roots, arena);
     r.copies = ARENA_ARRAY(arena, ir_ref, graph->nodes.len);
     ir_graph_init(graph, r.old.arena, r.old.strings);
     keep_tables(graph, &r.old);

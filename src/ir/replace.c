@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * A node in the place of another, in all that a root reaches. Where an IR function reads the node,
- * a copy of the function gets it as one more parameter, and whoever calls it passes it on:
+ * replace: one node in the place of another, in everything that a root reaches. If an IR function
+ * reads the node, a copy of the function gets it as one more parameter, and its callers pass it on:
  *
  *     f(x) = x · N,  f(2)    with M for N:    f'(x, n) = x · n,  f'(2, M)
  *
- * A body stands before its calls, so functions in the order of their last result come after those
- * that they call.
+ * A body stands before its calls, so functions in the order of their last result come after the
+ * functions that they call.
  */
 #include "ir/ir.h"
 
@@ -19,8 +19,8 @@ struct replacement {
     struct ir_graph *graph;
     struct arena *arena;
     ir_ref from, to;
-    uint32_t num_nodes; /* those that were there */
-    uint8_t *reads;     /* per node: it is over `from` */
+    uint32_t num_nodes; /* number of nodes before the replacement */
+    uint8_t *reads;     /* per node: it depends on `from` */
     uint32_t *copied;   /* per function: its copy + 1 */
     uint32_t num_functions;
 };
@@ -39,7 +39,7 @@ static bool function_reads(const struct replacement *r, uint32_t index)
     return any;
 }
 
-/* Bodies and operands are older than what uses them: one pass upwards. */
+/* Bodies and operands are older than their users, so one pass in array order is enough. */
 static void find_readers(struct replacement *r)
 {
     for (ir_ref ref = 1; ref < r->num_nodes; ref++) {
@@ -52,7 +52,10 @@ static void find_readers(struct replacement *r)
     }
 }
 
-/* A node over the copies of its operands; `to` is what stands for `from` here. */
+/*
+ * Copies a node with new operands. `to` is the node that replaces `from` in this graph or
+ * function.
+ */
 static ir_ref copy_node(struct replacement *r, ir_ref ref, const ir_ref *copies, ir_ref to)
 {
     const struct ir_node node = *ir_get(r->graph, ref);
@@ -72,7 +75,7 @@ static ir_ref copy_node(struct replacement *r, ir_ref ref, const ir_ref *copies,
     return copy;
 }
 
-/* What the roots are over, without the bodies of functions. */
+/* The nodes that the roots depend on, without the bodies of functions. */
 static uint8_t *mark_operands(const struct replacement *r, const ir_ref *roots, uint32_t num_roots)
 {
     uint8_t *marked = ARENA_ARRAY(r->arena, uint8_t, r->num_nodes);
@@ -85,8 +88,8 @@ static uint8_t *mark_operands(const struct replacement *r, const ir_ref *roots, 
 }
 
 /*
- * What the roots reach, over `to`; parameters of `function` become those of `copy`. Returns a ref
- * per old node.
+ * Copies the nodes that the roots reach, with `to` for `from`. Parameters of `function` become
+ * parameters of `copy`. Returns the new node per old node.
  */
 static ir_ref *copy_over(struct replacement *r, const ir_ref *roots, uint32_t num_roots,
                          uint32_t function, uint32_t copy, ir_ref to)
@@ -157,7 +160,7 @@ static void copy_functions(struct replacement *r, const uint8_t *needed)
             readers[n].last = results[k] > readers[n].last ? results[k] : readers[n].last;
         n++;
     }
-    /* a PARAM numbers no more: their bodies are left as they are */
+    /* a PARAM cannot number more functions: their bodies stay unchanged */
     if (r->num_functions + n > MAX_FUNCTIONS)
         return;
     if (n)

@@ -28,7 +28,7 @@ enum {
 
 enum { FINITE, EXACT };
 
-/* Also evaluated, and not used, for ops: the shift must be in range. */
+/* The shift must be in range for ops too: the compiler evaluates it, although nothing uses it. */
 #define CONSTANT_BIT(token) ((uint64_t)1 << ((token) < K ? 0 : IR_OP_BITS + (token)-K))
 #define HEAD(token) ((token) < A ? IR_OP_BIT(token) : (token) >= K ? CONSTANT_BIT(token) : 0)
 static_assert(IR_OP_BITS + RULE_FALSE - RULE_K < 63, "the bits do not suffice");
@@ -64,9 +64,9 @@ static float token_value(unsigned token)
 
 struct match {
     const struct ir_graph *graph;
-    bool exact;      /* the rule's mark */
+    bool exact;      /* the rule is exact */
     bool linear;     /* the root is a product of linear algebra */
-    ir_ref bound[4]; /* to A B C D; 0 = not yet */
+    ir_ref bound[4]; /* nodes bound to A B C D; 0 = not bound yet */
 };
 
 static bool has_word(const struct match *m, unsigned token, ir_type_id scalar, union ir_word w)
@@ -113,7 +113,7 @@ static bool match_leaf(struct match *m, unsigned token, ir_ref ref)
     return node->op == IR_CONST && (token == RULE_K || match_constant(m, token, node));
 }
 
-/* Patterns are two ops deep at most, so that no stack is needed. */
+/* Patterns are at most two ops deep, so the match needs no stack. */
 static bool match(struct match *m, const struct rule *rule, const ir_ref *args, unsigned num_args)
 {
     const uint8_t *token = rule->pattern + 1;
@@ -146,7 +146,7 @@ static ir_ref build_op(struct ir_graph *graph, enum ir_op op, const ir_ref *args
     }
 }
 
-/* A scalar where a vector is due fills it; 0 where it would have to fill a matrix. */
+/* Spreads a scalar to a vector type; 0 if it would have to become a matrix. */
 static ir_ref widen(struct ir_graph *graph, ir_type_id type, ir_ref ref)
 {
     if (ir_type_of(graph, ref) == type)
@@ -176,7 +176,7 @@ static ir_ref replace(struct ir_graph *graph, const struct rule *rule, ir_type_i
                       ? bound[token - RULE_A]
                       : ir_const_splat(graph, ir_type_info(type)->scalar, token_value(token));
         }
-        if (!ref) /* the types do not fit: (A vector, B scalar) and the like */
+        if (!ref) /* the types do not fit, for example if A is a vector and B a scalar */
             return 0;
         assert(top > 0);
         stack[--top] = ref;

@@ -2,12 +2,13 @@
 /*
  * simplify: ops that build and take apart cancel out.
  *
- * Vectors are seen as lists of components, each a scalar node or one component of a vector node.
- * Swizzles and constructors are taken to such lists and put together again in one canonical way:
+ * A vector is a list of components: each is a scalar node or one component of a vector node.
+ * Swizzles and constructors become such lists, and the lists become nodes again in one canonical
+ * form:
  *
  *     construct(v.x, v.y, v.z)  →  v                    v.zyx.xy                →  v.zy
- *     construct(a, b, c).yx     →  construct(b, a)      construct(v.x, v.y, s)  →  construct(v.xy,
- * s)
+ *     construct(a, b, c).yx     →  construct(b, a)
+ *     construct(v.x, v.y, s)    →  construct(v.xy, s)
  */
 #include "ir/internal.h"
 
@@ -16,7 +17,7 @@
 
 struct component {
     ir_ref source;  /* a scalar, or a vector other than a constant, swizzle or constructor */
-    unsigned index; /* in a vector */
+    unsigned index; /* index in a vector */
 };
 
 static bool is_vector(ir_type_id type)
@@ -56,7 +57,10 @@ static struct component component_of_part(struct ir_graph *graph, ir_ref ref, un
     return (struct component){.source = ref, .index = index};
 }
 
-/* The same through a constructor too, whose own parts are no constructors any more. */
+/*
+ * component_of_part, through a constructor too. The parts of the constructor are no constructors
+ * themselves.
+ */
 static struct component component_of(struct ir_graph *graph, ir_ref ref, unsigned index)
 {
     const struct ir_node *node = ir_get(graph, ref);
@@ -73,7 +77,7 @@ static struct component component_of(struct ir_graph *graph, ir_ref ref, unsigne
     }
 }
 
-/* How many components, from the first, come from one vector. */
+/* Counts the components, from the first, that belong to one vector. */
 static unsigned run_length(const struct ir_graph *graph, const struct component *list,
                            unsigned count)
 {
@@ -132,7 +136,7 @@ static ir_ref join(struct ir_graph *graph, ir_type_id type, const struct compone
     return ir_intern(graph, IR_CONSTRUCT, type, 0, parts, num_parts);
 }
 
-/* Constants are folded before; so some component here is not one. */
+/* Constants are folded before, so at least one component here is not constant. */
 static ir_ref simplify_swizzle(struct ir_graph *graph, ir_type_id type, uint32_t attr, ir_ref a)
 {
     struct component list[4];
@@ -147,11 +151,11 @@ static ir_ref simplify_swizzle(struct ir_graph *graph, ir_type_id type, uint32_t
             return join(graph, type, list, count);
         words[i] = graph->words.items[node->attr];
     }
-    /* of a constructor with a variable that was not asked for */
+    /* a swizzle that drops the variable part of a constructor */
     return ir_intern_const(graph, type, words);
 }
 
-/* The struct that all members are of, in their order; 0 where they are not one's. */
+/* The struct if these are all its members in order; 0 otherwise. */
 static ir_ref whole_of(const struct ir_graph *graph, ir_type_id type, const ir_ref *members,
                        unsigned count)
 {
@@ -200,7 +204,8 @@ static ir_ref simplify_convert(struct ir_graph *graph, ir_type_id type, ir_ref a
 }
 
 /*
- * The index-th part of a constructor of a struct, array or matrix of columns; 0 where `a` is none.
+ * Part `index` of a constructor of a struct, array or matrix of columns; 0 if `a` is no such
+ * constructor.
  */
 static ir_ref part_of(const struct ir_graph *graph, ir_ref a, uint32_t index)
 {
@@ -231,7 +236,7 @@ static bool is_scalar_float(const struct ir_graph *graph, ir_ref ref)
     return ir_type_of(graph, ref) == IR_TYPE_FLOAT;
 }
 
-/* The scalar that fills a vector; 0 where it is none such. */
+/* The scalar that fills a vector; 0 if the components differ. */
 static ir_ref splat_of(struct ir_graph *graph, ir_ref ref)
 {
     const struct ir_node *node = ir_get(graph, ref);
@@ -248,7 +253,7 @@ static ir_ref splat_of(struct ir_graph *graph, ir_ref ref)
     return ir_const_float(graph, words[0].f);
 }
 
-/* v.y of v.yyy, else 0. */
+/* v.y for v.yyy; 0 for other nodes. */
 static ir_ref repeated_of(struct ir_graph *graph, ir_ref ref)
 {
     const struct ir_node *node = ir_get(graph, ref);
@@ -260,7 +265,7 @@ static ir_ref repeated_of(struct ir_graph *graph, ir_ref ref)
     return ir_component(graph, ir_arg(graph, ref, 0), node->attr & 3);
 }
 
-/* (v · s) · t = v · (s t): one product of scalars for one of vectors. */
+/* (v · s) · t = v · (s t): a product of scalars replaces a product of vectors. */
 static ir_ref gather_scalars(struct ir_graph *graph, ir_ref a, ir_ref b)
 {
     if (is_scalar_float(graph, a)) {
@@ -271,7 +276,7 @@ static ir_ref gather_scalars(struct ir_graph *graph, ir_ref a, ir_ref b)
     const struct ir_node *node = ir_get(graph, a);
     if (graph->exact || node->op != IR_MUL || !is_vector(node->type) || !is_scalar_float(graph, b))
         return 0;
-    /* v · s may stand in front of the loop, or be what several have in common */
+    /* v · s may move in front of the loop, or several products may share it */
     if (ir_get(graph, b)->flags & IR_NODE_LOOP)
         return 0;
     ir_ref v = ir_arg(graph, a, 0), s = ir_arg(graph, a, 1);
@@ -285,7 +290,7 @@ static bool is_negative(float f)
     return f < 0.0f;
 }
 
-/* One whose reciprocal is exact. */
+/* True if the reciprocal of f is exact. */
 static bool is_power_of_two(float f)
 {
     int exponent;
@@ -319,7 +324,7 @@ ir_ref ir_simplify_abs(const struct ir_graph *graph, ir_ref a)
 ir_ref ir_simplify_by_constant(struct ir_graph *graph, enum ir_op op, ir_ref a, ir_ref b)
 {
     const struct ir_type_info *info = ir_type_info(ir_type_of(graph, b));
-    /* a product of matrices is another thing */
+    /* a product of matrices is not componentwise */
     if (!ir_is_const(graph, b) || info->scalar != IR_TYPE_FLOAT || info->columns != 1)
         return 0;
     if (op == IR_DIV && all_components(graph, b, is_power_of_two))
@@ -331,8 +336,8 @@ ir_ref ir_simplify_by_constant(struct ir_graph *graph, enum ir_op op, ir_ref a, 
 }
 
 /*
- * vec3(a) op vec3(b) = vec3(a op b), and vec3(a) op v = a op v. A constant stays a vector where
- * that is what the target computes with anyway; in a product it does not.
+ * vec3(a) op vec3(b) = vec3(a op b), and vec3(a) op v = a op v. A constant stays a vector, except
+ * in a product, because targets compute with the vector anyway.
  */
 static ir_ref simplify_arithmetic(struct ir_graph *graph, enum ir_op op, ir_type_id type, ir_ref a,
                                   ir_ref b)
@@ -375,7 +380,7 @@ static ir_ref simplify_componentwise(struct ir_graph *graph, enum ir_op op, ir_t
     return ir_build(graph, IR_CONSTRUCT, type, 0, &scalar, 1);
 }
 
-/* The scalar s of a product v s; 0 where `ref` is no such product. */
+/* The scalar s of a product v s; 0 if `ref` is no such product. */
 static ir_ref scalar_factor(const struct ir_graph *graph, ir_ref ref, ir_ref v)
 {
     if (ir_get(graph, ref)->op != IR_MUL)
@@ -403,7 +408,7 @@ static ir_ref simplify_select_or_zero(struct ir_graph *graph, ir_ref condition, 
                   ir_op3(graph, IR_SELECT, condition, s, ir_const_float(graph, 0.0f)));
 }
 
-/* c ? v : v s = v (c ? 1 : s): what is chosen is a scalar. */
+/* c ? v : v s = v (c ? 1 : s): the choice is between scalars. */
 static ir_ref simplify_select(struct ir_graph *graph, ir_type_id type, ir_ref condition, ir_ref a,
                               ir_ref b)
 {

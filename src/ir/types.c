@@ -58,7 +58,7 @@ bool ir_is_linear_mul(ir_type_id a, ir_type_id b)
     return (ir_type_is_matrix(a) && !is_scalar(b)) || (ir_type_is_matrix(b) && !is_scalar(a));
 }
 
-/* Whether SAME, SPLAT and REDUCE ops compute over `type`. */
+/* True if SAME, SPLAT and REDUCE ops compute over `type`. */
 static bool in_domain(enum ir_op op, ir_type_id type)
 {
     unsigned flags = ir_ops[op].flags;
@@ -131,7 +131,7 @@ static ir_type_id result_integer(enum ir_op op, const ir_type_id *args, unsigned
     return a == b || (shift && is_scalar(b)) ? a : IR_TYPE_VOID;
 }
 
-/* Operands of the built-in functions whose types follow no rule. */
+/* The operands of built-in functions whose types follow no rule. */
 static const struct signature {
     uint8_t op;
     ir_type_id result, args[4];
@@ -154,7 +154,7 @@ static const struct signature {
 
 static ir_type_id result_builtin(enum ir_op op, const ir_type_id *args, unsigned num_args)
 {
-    if (op == IR_STEP || op == IR_SMOOTHSTEP) { /* edges first: all of x's type, or all scalar */
+    if (op == IR_STEP || op == IR_SMOOTHSTEP) { /* edges of the type of x, or scalar */
         ir_type_id x = args[num_args - 1];
         bool fits = in_domain(op, x) && all_equal(args, num_args - 1)
                     && (args[0] == x || args[0] == IR_TYPE_FLOAT);

@@ -5,6 +5,7 @@
  */
 #include "library/library.h"
 
+#include <assert.h>
 #include <stdio.h>
 
 /*
@@ -96,6 +97,7 @@ static const char *suggest_space(const char *space, struct diag_list *diags)
     for (size_t i = 0; i < sizeof aliases / sizeof *aliases; i++)
         for (size_t k = 0; k < 2; k++)
             names[count++] = aliases[i][k];
+    assert(count == sizeof names / sizeof *names);
     return diag_suggest(diags, space, names, count);
 }
 

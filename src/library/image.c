@@ -75,7 +75,7 @@ static uint64_t checksum(const void *image, size_t size)
 static uint64_t fingerprint(void)
 {
     uint64_t h = HASH_STABLE_SEED;
-    uint32_t facts[NUM_VECS + 4] = {7 /* increase it when meanings change but sizes do not */,
+    uint32_t facts[NUM_VECS + 4] = {8 /* increase it when meanings change but sizes do not */,
                                     STR_NUM_WORDS, IR_NUM_OPS, NUM_ELEMENT_KINDS};
     for (unsigned i = 0; i < NUM_VECS; i++)
         facts[i + 4] = (uint32_t)section_infos[i].item_size;
@@ -92,6 +92,7 @@ static uint32_t begin_section(struct text *out)
 static void put_section(struct text *out, struct header *header, unsigned section,
                         const void *items, uint32_t len, size_t item_size)
 {
+    assert(section < NUM_SECTIONS && header->sections[section].offset == 0);
     header->sections[section].offset = begin_section(out);
     header->sections[section].len = len;
     text_mem(out, items, len * item_size);
@@ -123,6 +124,7 @@ static void put_table(struct text *out, struct header *header, unsigned section,
                       const struct table *table, uint32_t max_number)
 {
     uint32_t num_slots = table->slots ? table->mask + 1 : 0;
+    assert((num_slots & (num_slots - 1)) == 0 && table->num <= num_slots);
     if (!is_narrow(max_number)) {
         put_section(out, header, section, table->slots, num_slots, sizeof *table->slots);
         return;
@@ -158,6 +160,7 @@ struct runs {
 
 static void share_run(struct runs *runs, uint32_t index, struct arena *arena)
 {
+    assert(index < runs->doc->elements.len);
     struct document *doc = runs->doc;
     struct element *e = &doc->elements.items[index];
     const struct attribute *attrs = runs->from + (e->first_attr - doc->first_attr);
@@ -189,6 +192,7 @@ static void share_attributes(struct document *doc, struct arena *arena)
     memset(&doc->attrs, 0, sizeof doc->attrs);
     memcpy(vec_extend(arena, &doc->elements, num_elements), elements,
            num_elements * sizeof *elements);
+    assert(doc->elements.len == num_elements);
     for (uint32_t i = 0; i < num_elements; i++)
         if (doc->elements.items[i].num_attrs)
             share_run(&runs, i, arena);
@@ -203,6 +207,7 @@ static void put_strings(const struct strpool *pool, struct text *out, struct hea
     table_reserve(&table, out->arena, pool->num);
     for (str_id id = 1; id < pool->num; id++)
         table_add(&table, out->arena, hash_bytes(str_text(pool, id), str_len(pool, id)), id);
+    assert(table.num == pool->num - 1);
     struct text bytes;
     text_init(&bytes, out->arena);
     uint32_t *offsets = ARENA_ARRAY(out->arena, uint32_t, pool->num + 1);
@@ -219,6 +224,7 @@ static void put_strings(const struct strpool *pool, struct text *out, struct hea
 void library_write_image(const struct library *lib, const struct lang_syntax *syntax,
                          struct text *out)
 {
+    assert(lib->base_nodedefs == 0 && lib->doc.first_element == 1);
     struct header header = {
         .fingerprint = fingerprint(),
         .first_element = lib->doc.first_element,
@@ -234,6 +240,7 @@ void library_write_image(const struct library *lib, const struct lang_syntax *sy
     if (syntax)
         lang_make_texts(&packed.unit, syntax, out->arena);
     size_t start = out->len;
+    assert(start % ALIGNMENT == 0);
     text_mem(out, (const char *)&header, sizeof header);
     for (unsigned i = 0; i < NUM_VECS; i++) {
         const struct any_vec *vec = (const void *)((const char *)&packed + section_infos[i].offset);

@@ -7,6 +7,8 @@
 
 #include "base/hash.h"
 
+#include <assert.h>
+
 struct indexer {
     struct library *lib;
     struct arena *arena;
@@ -37,6 +39,8 @@ static bool has_type(struct indexer *ix, elem_id element, doc_type *out_type)
 /* Stores the index of an element in the table of its kind. */
 static void set_info(struct indexer *ix, elem_id element, uint32_t own)
 {
+    assert(element - ix->lib->doc.first_element < ix->lib->element_info.len);
+    assert(!ix->lib->element_info.items[element - ix->lib->doc.first_element]);
     ix->lib->element_info.items[element - ix->lib->doc.first_element] = own + 1;
 }
 
@@ -110,6 +114,7 @@ static void add_ports_of(struct indexer *ix, elem_id nodedef, enum element_kind 
                          uint32_t first)
 {
     struct library *lib = ix->lib;
+    assert(lib->ports.len - first <= MAX_PORTS);
     for (elem_id e = doc_element(&lib->doc, nodedef)->first_child; e;
          e = doc_element(&lib->doc, e)->next) {
         if (doc_element(&lib->doc, e)->kind != kind
@@ -156,10 +161,12 @@ static void link_by_node(struct indexer *ix, uint32_t own)
 {
     struct library *lib = ix->lib;
     struct nodedef *def = &lib->nodedefs.items[own];
+    assert(def->next_same_node == LIBRARY_NONE);
     uint32_t hash = hash_pair(def->node, 0), at = hash, first;
     while ((first = table_next(&lib->node_table, hash, &at))
            && lib->nodedefs.items[first - 1].node != def->node)
         ;
+    assert(!first || first - 1 > own);
     def->next_same_node = first - 1; /* LIBRARY_NONE: 0 - 1 */
     if (first)
         table_replace(&lib->node_table, at, own + 1);
@@ -197,6 +204,7 @@ static void add_nodedef(struct indexer *ix, elem_id element)
     uint32_t before = lib->ports.len;
     add_ports(ix, element, KIND_OUTPUT);
     def.num_outputs = (uint16_t)(lib->ports.len - before);
+    assert(def.first_port + def.num_inputs + def.num_outputs == lib->ports.len);
     vec_push(ix->arena, &lib->nodedefs, def);
     set_info(ix, element, lib->nodedefs.len - 1);
 }
@@ -253,6 +261,7 @@ static uint32_t input_types(const struct indexer *ix, uint32_t nodedef, struct l
                             uint32_t max)
 {
     const struct nodedef *def = library_nodedef(ix->lib, nodedef);
+    assert(def->num_inputs <= max);
     const struct port *ports = library_ports(ix->lib, nodedef, NULL);
     uint32_t n = def->num_inputs < max ? def->num_inputs : max;
     for (uint32_t i = 0; i < n; i++)
@@ -267,6 +276,7 @@ static uint32_t parse_expression(struct indexer *ix, uint32_t nodedef, unsigned 
     struct lang_input inputs[MAX_PORTS];
     uint32_t n = input_types(ix, nodedef, inputs, MAX_PORTS);
     const struct nodedef *def = library_nodedef(ix->lib, nodedef);
+    assert(output < def->num_outputs);
     const struct port *out = library_ports(ix->lib, nodedef, NULL) + def->num_inputs + output;
     return lang_parse_expression(&ix->lib->unit, text_of(ix->lib, source),
                                  str_len(&ix->lib->strings, source), inputs, n,
@@ -329,6 +339,7 @@ static bool parse_expressions(struct indexer *ix, struct implementation *impl, s
     impl->count = def->num_outputs;
     for (unsigned i = 0; i < def->num_outputs; i++)
         vec_push(ix->arena, &ix->lib->refs, ids[i]);
+    assert(impl->ref + impl->count == ix->lib->refs.len);
     return true;
 }
 
@@ -386,6 +397,7 @@ static const char *check_signature(const struct indexer *ix, const struct implem
                "value)";
     if (fn->return_type != IR_TYPE_VOID && def->num_outputs != 1)
         return "it returns a value, but the node has several outputs";
+    assert(fn->first_slot + fn->num_params <= unit->slots.len);
     for (uint32_t i = 0; i < fn->num_params; i++) {
         const struct lang_slot *slot = &unit->slots.items[fn->first_slot + i];
         bool out = i >= def->num_inputs;
@@ -402,6 +414,7 @@ static bool find_implementation_function(struct indexer *ix, struct implementati
 {
     const struct library *lib = ix->lib;
     const struct nodedef *def = library_nodedef(lib, impl->nodedef);
+    assert(def->num_outputs > 0);
     const struct port *ports = library_ports(lib, impl->nodedef, NULL);
     struct diag_place where = doc_attr_place(&lib->doc, impl->element, STR_function);
     if (is_closure(ports[def->num_inputs].type)) {
@@ -613,6 +626,7 @@ static void for_each(struct indexer *ix, enum element_kind kind,
 
 void library_index(struct library *lib, const struct lang_reader *reader, struct diag_list *diags)
 {
+    assert(lib->element_info.len == 0 && lib->impls.len == 0);
     struct indexer ix = {lib, lib->doc.arena, reader, diags};
     lib->deferred = ARENA_NEW(ix.arena, struct diag_list);
     diag_list_init(lib->deferred, ix.arena);
@@ -627,6 +641,7 @@ void library_index(struct library *lib, const struct lang_reader *reader, struct
     link_implementations(lib);
     for_each(&ix, KIND_UNITDEF, add_unitdef);
     library_sort_units(lib);
+    assert(lib->element_info.len == lib->doc.elements.len);
 }
 
 /*
@@ -655,8 +670,10 @@ static void resolve_graph(struct library *lib, const struct implementation *impl
             continue;
         uint32_t first = out->bindings.len;
         struct graph_node node = library_resolve_node(lib, e, out, diags);
+        assert(node.first_binding == first);
         number_interface(lib, impl->nodedef, out->bindings.items + first,
                          out->bindings.len - first);
+        assert(lib->graph_nodes.len < lib->doc.elements.len);
         vec_push(out->arena, &lib->graph_nodes, node);
         lib->element_info.items[e - lib->doc.first_element] = lib->graph_nodes.len;
     }

@@ -2,6 +2,8 @@
 /* Nodegraphs that implement definitions: resolves `interfacename` inside them. */
 #include "library/library.h"
 
+#include <assert.h>
+
 static const char *text_of(const struct library *lib, str_id id)
 {
     return str_text(&lib->strings, id);
@@ -45,6 +47,7 @@ int library_resolve_interface(const struct library *lib, elem_id asker, uint32_t
                               const struct binding *binding, const struct port *port,
                               struct diag_list *diags)
 {
+    assert(binding->kind == BIND_INTERFACE);
     str_id name = binding->ref;
     const struct port *ports = nodedef != LIBRARY_NONE ? library_ports(lib, nodedef, NULL) : NULL;
     int index =
@@ -63,5 +66,6 @@ int library_resolve_interface(const struct library *lib, elem_id asker, uint32_t
                  text_of(lib, library_type_name(lib, ports[index].type)));
         return -1;
     }
+    assert(index < library_nodedef(lib, nodedef)->num_inputs);
     return index;
 }

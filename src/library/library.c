@@ -20,12 +20,15 @@ void library_init(struct library *lib, struct arena *arena, struct library *base
     lib->base_verbatims = base->base_verbatims + base->verbatims.len;
     lib->base_types = base->base_types + base->types.len;
     lib->base_geomprops = base->base_geomprops + base->geomprops.len;
+    assert(lib->doc.root == base->doc.first_element + base->doc.elements.len);
+    assert(lib->base_nodedefs == library_num_nodedefs(base));
 }
 
 const struct nodedef *library_nodedef(const struct library *lib, uint32_t id)
 {
     while (id < lib->base_nodedefs)
         lib = lib->base;
+    assert(id - lib->base_nodedefs < lib->nodedefs.len);
     return &lib->nodedefs.items[id - lib->base_nodedefs];
 }
 
@@ -36,6 +39,7 @@ const struct implementation *library_impl(const struct library *lib, uint32_t id
         lib = lib->base;
     if (out_layer)
         *out_layer = lib;
+    assert(id - lib->base_impls < lib->impls.len);
     return &lib->impls.items[id - lib->base_impls];
 }
 
@@ -43,6 +47,7 @@ const struct family *library_family(const struct library *lib, uint32_t id)
 {
     while (id < lib->base_families)
         lib = lib->base;
+    assert(id - lib->base_families < lib->families.len);
     return &lib->families.items[id - lib->base_families];
 }
 
@@ -50,6 +55,7 @@ const struct verbatim *library_verbatim(const struct library *lib, uint32_t id)
 {
     while (id < lib->base_verbatims)
         lib = lib->base;
+    assert(id - lib->base_verbatims < lib->verbatims.len);
     return &lib->verbatims.items[id - lib->base_verbatims];
 }
 
@@ -57,6 +63,7 @@ const struct library *library_of_element(const struct library *lib, elem_id elem
 {
     while (element < lib->doc.first_element)
         lib = lib->base;
+    assert(element - lib->doc.first_element < lib->doc.elements.len);
     return lib;
 }
 
@@ -67,6 +74,7 @@ uint32_t library_element_info(const struct library *lib, elem_id element,
     if (out_layer)
         *out_layer = lib;
     uint32_t own = element - lib->doc.first_element;
+    assert(!lib->narrow_info || lib->element_info.len == 0);
     if (lib->narrow_info)
         return own < lib->doc.elements.len ? (uint32_t)lib->narrow_info[own] - 1 : LIBRARY_NONE;
     return own < lib->element_info.len ? lib->element_info.items[own] - 1 : LIBRARY_NONE;
@@ -86,6 +94,7 @@ const struct geomprop *library_geomprop(const struct library *lib, str_id name)
     uint32_t own = LIBRARY_NONE;
     for (; lib && (own = own_index(lib, KIND_GEOMPROPDEF, name)) == LIBRARY_NONE; lib = lib->base)
         continue;
+    assert(!lib || own < lib->geomprops.len);
     return lib ? &lib->geomprops.items[own] : NULL;
 }
 
@@ -99,6 +108,7 @@ const struct port *library_ports(const struct library *lib, uint32_t nodedef,
 {
     while (nodedef < lib->base_nodedefs)
         lib = lib->base;
+    assert(nodedef - lib->base_nodedefs < lib->nodedefs.len);
     if (out_layer)
         *out_layer = lib;
     return lib->ports.items + lib->nodedefs.items[nodedef - lib->base_nodedefs].first_port;
@@ -106,6 +116,7 @@ const struct port *library_ports(const struct library *lib, uint32_t nodedef,
 
 static int find_port(const struct port *ports, int first, int end, str_id name)
 {
+    assert(first <= end);
     for (int i = first; i < end; i++)
         if (ports[i].name == name)
             return i - first;
@@ -132,6 +143,7 @@ uint32_t library_nodedef_by_name(const struct library *lib, str_id name)
         if (!element || doc_element(&lib->doc, element)->kind != KIND_NODEDEF)
             continue;
         uint32_t own = library_element_info(lib, element, NULL);
+        assert(own == LIBRARY_NONE || own < lib->nodedefs.len);
         if (own != LIBRARY_NONE)
             return library_of_element(lib, element)->base_nodedefs + own;
     }
@@ -155,6 +167,7 @@ doc_type library_type(const struct library *lib, str_id name)
     uint32_t own = LIBRARY_NONE;
     for (; lib && (own = own_index(lib, KIND_TYPEDEF, name)) == LIBRARY_NONE; lib = lib->base)
         continue;
+    assert(!lib || own < lib->types.len);
     return lib ? (doc_type)(DOC_TYPE_FIRST_USER + lib->base_types + own) : DOC_TYPE_NONE;
 }
 

@@ -4,6 +4,7 @@
 
 #include "base/hash.h"
 
+#include <assert.h>
 #include <stdatomic.h>
 
 static const char *text_of(const struct library *lib, str_id id)
@@ -56,6 +57,7 @@ static struct candidate fit_outputs(const struct library *lib, const struct node
     if (def->num_outputs > 1 && type == STR_multioutput)
         return (struct candidate){FIT_EXACT, NULL, 0, 0, 0};
     const struct port *out = &ports[def->num_inputs];
+    assert(out->type != DOC_TYPE_NONE);
     if (def->num_outputs == 1 && library_type(lib, type) == out->type)
         return (struct candidate){FIT_EXACT, NULL, 0, 0, 0};
     str_id has = def->num_outputs == 1 ? library_type_name(lib, out->type) : STR_multioutput;
@@ -120,12 +122,14 @@ static void report_unknown_inputs(const struct library *lib, uint32_t id, elem_i
 static void report_candidate(const struct library *lib, const struct nodedef *def,
                              const struct candidate *c, struct diag_list *diags)
 {
+    assert(c->fit == FIT_NOT);
     const char *args[3] = {text_of(lib, c->a), text_of(lib, c->b), text_of(lib, c->c)};
     struct text reason;
     text_init(&reason, diags->arena);
     unsigned arg = 0;
     for (const char *p = c->reason; *p; p++) {
         if (p[0] == '%' && p[1] == 's') {
+            assert(arg < sizeof args / sizeof *args);
             text_str(&reason, args[arg++]);
             p++;
         } else {
@@ -173,8 +177,10 @@ static void report_candidates(const struct library *lib, elem_id node, struct di
     collect_misfits(lib, node, true, diags->arena, &misfits);
     uint32_t of_type = misfits.len;
     collect_misfits(lib, node, false, diags->arena, &misfits);
+    assert(of_type <= misfits.len);
     uint32_t shown = of_type ? of_type : misfits.len;
     shown = shown < MAX_CANDIDATES ? shown : MAX_CANDIDATES;
+    assert(shown <= misfits.len);
     for (uint32_t i = 0; i < shown; i++) {
         struct candidate c = fit(lib, misfits.items[i], node, false);
         report_candidate(lib, library_nodedef(lib, misfits.items[i]), &c, diags);
@@ -211,12 +217,14 @@ const char *library_suggest_nodedef(const struct library *lib, str_id name, stru
 
 void library_keep_matches(struct library *lib, struct arena *arena)
 {
+    assert(lib->element_info.len == lib->doc.elements.len);
     lib->matches = arena_zalloc(
         arena, mem_array_size(arena->mem, lib->doc.elements.len, sizeof *lib->matches));
 }
 
 static _Atomic uint32_t *match_of(const struct library *lib, elem_id node)
 {
+    assert(node < lib->doc.first_element + lib->doc.elements.len);
     return lib->matches && node >= lib->doc.first_element
                ? &lib->matches[node - lib->doc.first_element]
                : NULL;
@@ -225,6 +233,7 @@ static _Atomic uint32_t *match_of(const struct library *lib, elem_id node)
 /* Threads may race: all compute the same value. */
 static void keep(const struct library *lib, elem_id node, uint32_t nodedef)
 {
+    assert(nodedef < library_num_nodedefs(lib));
     _Atomic uint32_t *match = match_of(lib, node);
     if (match)
         atomic_store_explicit(match, nodedef + 1, memory_order_relaxed);
@@ -240,6 +249,7 @@ static uint32_t match_explicit(const struct library *lib, elem_id node, str_id n
         return LIBRARY_NONE;
     }
     const struct nodedef *def = library_nodedef(lib, id);
+    assert(def->name == name);
     str_id category = doc_element(&lib->doc, node)->category;
     if (def->node != category)
         diag_add(diags, DIAG_ID_nodedef_of_other_node, doc_attr_place(&lib->doc, node, STR_nodedef),
@@ -276,6 +286,7 @@ static uint32_t find_match(const struct library *lib, elem_id node, struct diag_
             if (c.fit == FIT_EXTRA_INPUTS && with_extra == LIBRARY_NONE)
                 with_extra = layer->base_nodedefs + own;
         }
+    assert(with_extra == LIBRARY_NONE || known);
     if (with_extra != LIBRARY_NONE)
         report_unknown_inputs(lib, with_extra, node, diags);
     else if (known)
@@ -289,5 +300,6 @@ uint32_t library_match(const struct library *lib, elem_id node, struct diag_list
 {
     _Atomic uint32_t *match = match_of(lib, node);
     uint32_t known = match ? atomic_load_explicit(match, memory_order_relaxed) : 0;
+    assert(known <= library_num_nodedefs(lib));
     return known ? known - 1 : find_match(lib, node, diags);
 }

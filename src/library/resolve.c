@@ -2,6 +2,8 @@
 /* Resolves names to elements: the connections of a node's inputs. */
 #include "library/library.h"
 
+#include <assert.h>
+
 static const char *text_of(const struct library *lib, str_id id)
 {
     return str_text(&lib->strings, id);
@@ -113,6 +115,7 @@ int library_resolve_output(const struct library *lib, elem_id port, elem_id node
     const char *name = text_of(lib, doc_element(&lib->doc, node)->name);
     int index = output ? library_find_output(lib, id, output)
                        : assume_output(outputs, def->num_outputs, type);
+    assert(index < def->num_outputs);
     if (!output && def->num_outputs > 1)
         report_assumed(lib, port, name, outputs[index].name, diags);
     if (index < 0) {
@@ -136,6 +139,7 @@ static str_id output_type(const struct library *lib, elem_id node, int output,
     if (id == LIBRARY_NONE)
         return 0;
     const struct nodedef *def = library_nodedef(lib, id);
+    assert((uint32_t)output < def->num_outputs);
     return library_type_name(lib,
                              library_ports(lib, id, NULL)[def->num_inputs + (uint32_t)output].type);
 }
@@ -219,6 +223,7 @@ static elem_id graph_output(const struct library *lib, elem_id port, elem_id gra
         diag_add(diags, DIAG_ID_dangling_output, doc_place(&lib->doc, port), graph_name, "out", "");
     if (count > 1)
         report_assumed(lib, port, graph_name, doc_element(&lib->doc, assumed)->name, diags);
+    assert(!assumed == (count == 0));
     return assumed;
 }
 
@@ -359,8 +364,10 @@ struct graph_node library_resolve_node(const struct library *lib, elem_id node,
             input->kind == KIND_INPUT ? library_find_input(lib, result.nodedef, input->name) : -1;
         if (port < 0)
             continue;
+        assert((unsigned)port < def->num_inputs);
         struct binding b = library_resolve_connection(lib, e, ports[port].type, diags);
         out->bindings.items[result.first_binding + (unsigned)port] = b;
     }
+    assert(out->bindings.len == result.first_binding + def->num_inputs);
     return result;
 }

@@ -5,6 +5,7 @@
  */
 #include "library/library.h"
 
+#include <assert.h>
 #include <stdlib.h>
 
 static const char *text_of(const struct library *lib, str_id id)
@@ -59,6 +60,8 @@ static const struct unit *first_unit(const struct library *layer, str_id name)
         else
             end = middle;
     }
+    assert(first == layer->units.len || layer->units.items[first].name >= name);
+    assert(first == 0 || layer->units.items[first - 1].name < name);
     return layer->units.items + first;
 }
 

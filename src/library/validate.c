@@ -2,6 +2,8 @@
 /* Checks a document against the definitions: nodes, connections, unused nodes. */
 #include "library/validate.h"
 
+#include <assert.h>
+
 static const char *text_of(const struct validate *v, str_id id)
 {
     return str_text(&v->lib->strings, id);
@@ -10,6 +12,7 @@ static const char *text_of(const struct validate *v, str_id id)
 static void note_use(struct validate *v, const struct binding *binding)
 {
     elem_id first = v->doc->first_element;
+    assert(binding->kind != BIND_NODE || binding->ref < first + v->doc->elements.len);
     if (binding->kind == BIND_NODE && binding->ref >= first)
         v->used[binding->ref - first] = 1;
 }
@@ -60,6 +63,7 @@ static void check_node(struct validate *v, elem_id node)
     if (nodedef == LIBRARY_NONE)
         return;
     const struct nodedef *def = library_nodedef(v->lib, nodedef);
+    assert(v->resolved.bindings.len == def->num_inputs);
     const struct port *ports = library_ports(v->lib, nodedef, NULL);
     for (uint32_t i = 0; i < def->num_inputs; i++) {
         check_binding(v, &ports[i], &v->resolved.bindings.items[i]);
@@ -119,6 +123,7 @@ static void check_use(struct validate *v)
 
 void library_validate(const struct library *lib, struct arena *scratch, struct diag_list *diags)
 {
+    assert(lib->element_info.len == lib->doc.elements.len);
     struct validate v = {.lib = lib, .doc = &lib->doc, .diags = diags, .resolved.arena = scratch};
     v.used = ARENA_ARRAY(scratch, uint8_t, lib->doc.elements.len);
     doc_validate(v.doc, diags);

@@ -14,7 +14,7 @@ static inline void copy_leaves(const ir_ref *from, uint32_t count, ir_ref *out)
         out[i] = from[i];
 }
 
-/* Is there room for one more node of the tree? */
+/* True if one more tree node may run. */
 static inline bool may_go_on(struct lower *lo)
 {
     if (lo->frame->budget-- == 0 || lo->graph->nodes.len > lo->max_graph_nodes)
@@ -149,7 +149,7 @@ static void lower_aggregate(struct lower *lo, const struct lang_node *node, ir_r
     }
 }
 
-/* An index that is known and in range; lo->failed otherwise. */
+/* The value of an index that is constant and in range; otherwise sets lo->failed. */
 static uint32_t known_index(struct lower *lo, lang_ref ref, uint32_t length)
 {
     ir_ref index = lower_single(lo, lower_node(lo, ref));
@@ -158,7 +158,7 @@ static uint32_t known_index(struct lower *lo, lang_ref ref, uint32_t length)
     return lo->failed ? 0 : words->u;
 }
 
-/* Where a member of a struct or an element of an array lies among its leaves. */
+/* The offset of a struct member or array element among the leaves of its variable. */
 static uint32_t part_offset(struct lower *lo, const struct lang_node *node)
 {
     const struct lang_node *whole = lower_node(lo, node->a);
@@ -209,7 +209,7 @@ static void lower_op(struct lower *lo, const struct lang_node *node, ir_ref *out
 
 /* Assignment */
 
-/* Component `index` of a vector that may be undefined: then any value does. */
+/* Component `index` of a vector. If the vector is undefined, any value will do. */
 static ir_ref component(struct lower *lo, ir_ref vector, ir_type_id type, unsigned index)
 {
     ir_type_id scalar = ir_type_info(type)->scalar;
@@ -231,7 +231,7 @@ static ir_ref with_components(struct lower *lo, ir_ref vector, ir_type_id type, 
     return ir_construct(lo->graph, type, parts, count);
 }
 
-/* A matrix with one column, or a vector with one component, replaced. */
+/* Replaces one column of a matrix, or one component of a vector. */
 static ir_ref with_element(struct lower *lo, ir_ref whole, ir_type_id type, uint32_t index,
                            ir_ref value, ir_type_id value_type)
 {
@@ -268,7 +268,7 @@ static void assign_element(struct lower *lo, const struct lang_node *node, ir_re
     lower_assign(lo, node->a, &whole);
 }
 
-/* A member of a struct, or an element of an array, somewhere in a variable. */
+/* Assigns to a struct member or array element inside a variable. */
 static void assign_part(struct lower *lo, const struct lang_node *node, const ir_ref *leaves)
 {
     ir_ref whole[LOWER_MAX_LEAVES];

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Calls into IR. A call is, in this order of preference: a constant, the nodes of the callee's
- * body, a CALL.
+ * Lowers calls to IR. A call becomes, in this order of preference: a constant, the nodes of the
+ * callee's body, a CALL.
  */
 #include "lower/lower_priv.h"
 #include "tree/eval.h"
@@ -19,7 +19,7 @@ unsigned lang_num_results(const struct lang_unit *unit, uint32_t id)
     return count;
 }
 
-/* Structs and arrays between rows of leaves and single nodes */
+/* ---- Structs and arrays: leaves to and from single nodes ---- */
 
 ir_type_id lower_graph_type(const struct lang_unit *unit, struct ir_graph *graph, ir_type_id type)
 {
@@ -139,7 +139,7 @@ static bool evaluate(struct lower *lo, uint32_t id, const ir_ref *in, ir_ref *ou
 
 /* The callee's body */
 
-struct few { /* room for the frame of a usual function */
+struct few { /* room for the frame of a typical function */
     uint32_t offsets[FEW_SLOTS + 1];
     ir_ref leaves[FEW_LEAVES];
 };
@@ -215,14 +215,15 @@ static void collect_results(const struct lower_frame *frame, ir_ref *out)
 
 enum known { NOTHING_KNOWN, A_NUMBER_KNOWN, A_CHOICE_KNOWN };
 
-/* What a function is called with: strings, flags and options choose what it is. */
+/*
+ * The kind of constant in the arguments of a call. Constant strings, flags and options choose code.
+ */
 static enum known known_of(const struct lower *lo, const struct lang_unit *layer,
                            const struct lang_function *fn, const ir_ref *in)
 {
     enum known known = NOTHING_KNOWN;
     for (uint32_t i = 0; i < fn->num_globals; i++)
-        if (lang_global(lo->unit, layer->refs.items[fn->first_global + i], NULL)->kind
-            == LANG_GLOBAL_OPTION)
+        if (lang_global(lo->unit, ast_globals(layer, fn)[i], NULL)->kind == LANG_GLOBAL_OPTION)
             return A_CHOICE_KNOWN;
     for (uint32_t i = 0; i < fn->num_params; i++) {
         const struct lang_slot *slot = ast_slot(layer, fn, i);
@@ -252,9 +253,10 @@ static bool has_special_texture(const struct lower *lo, const struct lang_unit *
 }
 
 /*
- * Is a function's body worth more than a call? A larger one may be small with what is known, and is
- * tried: where a choice is known, until it has executed as many nodes as a small function has,
- * where a number is, until it has added many to the graph.
+ * True if the body of a function can replace its call. Small functions always do. Larger ones get a
+ * trial, because constant arguments may shrink them: with a constant choice, until the trial has
+ * run as many tree nodes as a small function has; with a constant number, until it has added too
+ * many nodes to the graph.
  */
 static bool is_worth_trying(struct lower *lo, const struct lang_unit *layer,
                             const struct lang_function *fn, const ir_ref *in, uint32_t *out_budget)
@@ -282,7 +284,7 @@ static bool is_worth_trying(struct lower *lo, const struct lang_unit *layer,
 }
 
 /*
- * False where the body cannot become nodes; those that it has made by then are not used by anybody.
+ * False if the body cannot become nodes; the nodes that it has made by then stay unused.
  */
 static bool lower_inline(struct lower *lo, uint32_t id, const ir_ref *in, ir_ref *out)
 {
@@ -314,7 +316,7 @@ static bool lower_inline(struct lower *lo, uint32_t id, const ir_ref *in, ir_ref
 
 /* A CALL */
 
-/* Operands of a CALL: one node per in and inout parameter; false where one has no value. */
+/* The operands of a CALL: one node per in and inout parameter; false if one has no value. */
 static bool join_arguments(struct lower *lo, uint32_t id, const ir_ref *in, ir_ref *args,
                            uint32_t *out_count)
 {
@@ -349,7 +351,7 @@ static void poison_results(struct lower *lo, uint32_t id, ir_ref *out)
             out = poison(lo, ast_slot(layer, fn, i)->type, out);
 }
 
-/* The graph's number for a function that is called. */
+/* The callee index in the graph of a function. */
 static uint32_t callee(struct lower *lo, uint32_t id)
 {
     const struct lang_function *fn = lang_function(lo->unit, id, NULL);
@@ -401,13 +403,13 @@ void lower_call(struct lower *lo, uint32_t id, const ir_ref *in, ir_ref *out)
 
 static void lower_inline_expression(struct lower *lo, const ir_ref *args, ir_ref *results)
 {
-    lo->inputs = args; /* what an expression names; it has no variables */
+    lo->inputs = args; /* the inputs of the expression; it has no variables */
     results[0] = lower_single(lo, lower_node(lo, ast_returned(lo->frame->layer, lo->frame->fn)));
     if (lo->failed)
         results[0] = ir_poison(lo->graph, lo->frame->fn->return_type);
 }
 
-/* Does everything that the call takes and gives fit into the arrays here? */
+/* True if the call's arguments and results fit into the fixed arrays. */
 static bool fits(const struct lower *lo)
 {
     const struct lang_function *fn = lo->frame->fn;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Calls of functions become IR. */
+/* Lowers function calls to IR. */
 #ifndef MXG_LOWER_LOWER_H
 #define MXG_LOWER_LOWER_H
 
@@ -8,12 +8,12 @@
 /*
  * Builds a call of function `id`: args are one IR node per `in`/`inout` parameter in order (for
  * expressions: per input; a ref of 0 means the input is absent and must not be read). results
- * receives the returned value, if any, then each `out`/`inout` parameter. Straight-line code and
- * branches that are known or can be merged by SELECT become nodes; all-constant calls are
- * evaluated; anything else becomes a CALL with all its arguments, which lang_plan_call is told when
- * the shader stands. Writes num_results (lang_num_results) refs. Never fails: POISON after an
- * error. `generated` is the unit of the generation: versions of functions go there; its base is the
- * library's unit.
+ * receives the returned value, if any, then each `out`/`inout` parameter. Straight-line code
+ * becomes nodes, and so do branches with a constant condition and branches that a SELECT can merge.
+ * Calls with only constant arguments are evaluated. Any other call becomes a CALL with all its
+ * arguments; lang_plan_call receives it when the shader is complete. Writes num_results
+ * (lang_num_results) refs. Never fails: POISON after an error. `generated` is the unit of the
+ * generation, which receives specialised functions; its base is the library's unit.
  */
 void lang_lower_call(struct lang_unit *generated, struct ir_graph *graph,
                      const struct lang_host *host, uint32_t id, const ir_ref *args,

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Statements, executed with nodes for values. Under a condition that is not known both branches are
- * executed on copies of the variables, and what they disagree on becomes a SELECT; where one of
- * them returns, what follows belongs to the other.
+ * Executes statements with nodes as values. If a condition is not constant, both branches run on
+ * copies of the variables, and a SELECT merges each difference. If one branch returns, the
+ * statements after it belong to the other branch.
  */
 #include "lower/lower_priv.h"
 
@@ -63,7 +63,7 @@ static void restore_leaves(struct lower *lo, const ir_ref *saved)
         memcpy(lo->frame->leaves, saved, lo->frame->num_leaves * sizeof *saved);
 }
 
-/* Where a branch begins. */
+/* The state of the graph at the start of a branch. */
 struct mark {
     uint32_t nodes, calls;
 };
@@ -74,8 +74,9 @@ static struct mark mark(const struct lower *lo)
 }
 
 /*
- * May the nodes since `begin` be computed although they may not be needed? A call may not, though
- * there be an equal one, nor a derivative, which is for all pixels; what is computed from one may.
+ * True if the shader may compute the nodes since `begin` without need. Excludes calls, even if an
+ * equal one exists, and derivatives, which need all pixels; nodes that use their results are
+ * allowed.
  */
 static bool is_cheap(struct lower *lo, struct mark begin)
 {
@@ -99,14 +100,14 @@ static bool is_selectable(ir_type_id type)
     return !ast_is_user_type(type) && type != IR_TYPE_STRING && ir_type_info(type)->components > 0;
 }
 
-/* The variables now are those of the untrue branch. */
+/* Merges the branches; the variables now hold the values of the false branch. */
 static void merge(struct lower *lo, ir_ref condition, const ir_ref *yes)
 {
     for (uint32_t i = 0; i < lo->frame->num_leaves && !lo->failed; i++) {
         ir_ref *no = &lo->frame->leaves[i];
         if (yes[i] == *no || !yes[i])
             continue;
-        if (!*no) { /* undefined there: any value does */
+        if (!*no) { /* undefined in this branch: any value will do */
             *no = yes[i];
             continue;
         }
@@ -120,8 +121,7 @@ static void merge(struct lower *lo, ir_ref condition, const ir_ref *yes)
 }
 
 /*
- * What follows a statement of which one branch has returned: it must return as well, or be the end
- * of a void function.
+ * The statements after a branch that returned: they must return as well, or end a void function.
  */
 static void lower_rest(struct lower *lo, lang_ref rest)
 {
@@ -131,14 +131,14 @@ static void lower_rest(struct lower *lo, lang_ref rest)
     lo->failed |= (!returned && !ends) || !is_cheap(lo, begin);
 }
 
-/* An `if` whose condition is not known, with the statements behind it. */
+/* Lowers an `if` with a variable condition, and the statements after it. */
 static bool lower_branches(struct lower *lo, const struct lang_node *node, ir_ref condition)
 {
     struct mark begin = mark(lo);
     const ir_ref *before = save_leaves(lo);
     bool yes_returned = lower_body(lo, node->b);
     lo->failed |= !is_cheap(lo, begin);
-    /* `if (c) return x;`: the rest is the other branch */
+    /* `if (c) return x;`: the remaining statements are the other branch */
     if (yes_returned && !node->c && !lo->failed) {
         const ir_ref *yes = save_leaves(lo);
         restore_leaves(lo, before);

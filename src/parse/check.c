@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Types of operators, implicit conversions, what may be assigned. GLSL 4.50, 4.1.10 and 5.9. */
+/* Types of operators, implicit conversions, assignable expressions. GLSL 4.50, 4.1.10 and 5.9. */
 #include "parse/parse_priv.h"
 
 #include <assert.h>
@@ -65,8 +65,8 @@ lang_ref check_unary(struct parser *p, enum ir_op op, lang_ref a, uint32_t place
 }
 
 /*
- * The type of `a op b` after implicit conversions, which replace the operands; VOID where they do
- * not fit.
+ * The type of `a op b` after implicit conversions, which replace the operands; VOID if the types do
+ * not match.
  */
 static ir_type_id binary_type(struct parser *p, enum ir_op op, lang_ref operands[2])
 {
@@ -142,7 +142,7 @@ static lang_ref check_struct_member(struct parser *p, lang_ref a, const struct t
     return 0;
 }
 
-/* The components that ".name" selects; 0 where it is no swizzle of so many components. */
+/* The components that ".name" selects; 0 if it is no swizzle of a vector of this size. */
 static unsigned read_swizzle(const struct token *name, unsigned size, uint8_t out_components[4])
 {
     assert(size >= 1 && size <= 4);
@@ -180,7 +180,7 @@ lang_ref check_member(struct parser *p, lang_ref a, const struct token *name)
             parse_say(p, "%s has no '.%s'", parse_type_text(p, type), parse_token_text(p, name)));
         return 0;
     }
-    if (size == 1) /* GLSL 4.20 lets scalars be swizzled; other targets do not */
+    if (size == 1) /* only GLSL 4.20 and later allow swizzles of scalars */
         return count == 1 ? a
                           : tree_op(p, IR_CONSTRUCT, ir_type_vector(type, count), 0, &a, 1,
                                     parse_place(name));
@@ -217,7 +217,7 @@ lang_ref check_index(struct parser *p, lang_ref a, lang_ref index, uint32_t plac
         return 0;
     }
     struct ir_value value;
-    /* a negative int is a large uint */
+    /* a negative int becomes a large uint */
     if (check_value(p, index, &value) && value.w[0].u >= length) {
         PARSE_TYPE_ERROR(p, tree_place(p, index), "index %d is outside of %s", value.w[0].i,
                          parse_type_text(p, tree_type(p, a)));

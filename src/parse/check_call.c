@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Calls: built-in functions by the op table, the file's own functions by overload resolution. */
+/*
+ * Calls: the op table resolves built-in functions, overload resolution the functions of the file.
+ */
 #include "parse/parse_priv.h"
 
 #include <assert.h>
 
-/* IR_NUM_OPS where there is no such built-in. GLSL's name of ATAN2 is `atan` too. */
+/* IR_NUM_OPS if there is no such built-in. GLSL uses the name `atan` for ATAN2 too. */
 static enum ir_op find_builtin(const char *name, size_t len, unsigned num_args)
 {
     for (int op = 0; op < IR_NUM_OPS; op++) {
@@ -21,7 +23,7 @@ bool check_is_builtin(const char *name, size_t len)
     return find_builtin(name, len, 1) != IR_NUM_OPS;
 }
 
-/* The op's result over the arguments' types as they are. */
+/* The result of the op for the arguments' types without conversion. */
 static ir_type_id builtin_type(struct parser *p, enum ir_op op, const lang_ref *args,
                                unsigned num_args)
 {
@@ -37,13 +39,16 @@ static lang_ref call_builtin(struct parser *p, enum ir_op op, lang_ref *args, un
 {
     if (num_args != (unsigned)ir_op_info(op)->arity)
         return 0;
-    /* mix(a, b, bool) of scalars chooses. */
+    /* mix(a, b, bool) of scalars is a choice. */
     if (op == IR_MIX && tree_type(p, args[2]) == IR_TYPE_BOOL) {
         bool fits = check_unify(p, args, 2, 0) && tree_type(p, args[0]) == tree_type(p, args[1])
                     && tree_type(p, args[0]) == check_scalar(tree_type(p, args[0]));
         return fits ? check_select(p, args[2], args[1], args[0], place) : 0;
     }
-    /* As they are; else all of the highest scalar type among them; else all of float. */
+    /*
+     * First without conversion, then with all arguments of their highest scalar type, then all of
+     * float.
+     */
     ir_type_id type = builtin_type(p, op, args, num_args);
     for (unsigned min_rank = 0; type == IR_TYPE_VOID && min_rank <= 3; min_rank += 3)
         if (check_unify(p, args, num_args, min_rank))
@@ -116,7 +121,7 @@ static lang_ref no_function(struct parser *p, const struct token *name, str_id i
 /* Overloads */
 
 /*
- * The function that takes the arguments with the fewest conversions; *out_ambiguous where two do.
+ * The function that accepts the arguments with the fewest conversions; *out_ambiguous if two do.
  */
 static uint32_t find_overload(struct parser *p, str_id name, const lang_ref *args,
                               unsigned num_args, bool *out_ambiguous)

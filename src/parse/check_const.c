@@ -96,7 +96,7 @@ static bool array_words(struct parser *p, lang_ref ref)
         if (global->kind != LANG_GLOBAL_CONST)
             return false;
         assert(global->words + global->num_words <= layer->words.len);
-        for (uint32_t i = 0; i < global->num_words; i++) { /* pushing may move what is copied */
+        for (uint32_t i = 0; i < global->num_words; i++) { /* pushing may move the words */
             union ir_word word = layer->words.items[global->words + i];
             vec_push(p->unit->arena, &p->unit->words, word);
         }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Constructors: GLSL 4.50, 5.4. What they convert and cut is made explicit, so that CONSTRUCT only
- * joins parts.
+ * Constructors: GLSL 4.50, 5.4. The code adds their conversions and cuts as nodes, so that
+ * CONSTRUCT only joins parts.
  */
 #include "parse/parse_priv.h"
 
@@ -14,13 +14,13 @@ static unsigned components_of(ir_type_id type)
     return type < IR_NUM_TYPES ? ir_type_info(type)->components : 0;
 }
 
-/* A scalar or vector of numbers or a bool: what other scalars and vectors are built from. */
+/* True for numbers, bools and their vectors: other scalars and vectors can be built from them. */
 static bool is_part(ir_type_id type)
 {
     return type == IR_TYPE_BOOL || (check_rank(check_scalar(type)) && !ir_type_is_matrix(type));
 }
 
-/* Components of another scalar type, in the same number. */
+/* Converts to components of another scalar type; their number stays. */
 static lang_ref with_scalar(struct parser *p, lang_ref a, ir_type_id scalar)
 {
     ir_type_id type = ir_type_vector(scalar, components_of(tree_type(p, a)));

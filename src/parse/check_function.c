@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * What bodies use: callees, globals, flags. And an order in which callees come before callers,
- * which refuses recursion.
+ * Collects the callees, globals and flags of bodies. Sorts callees before callers, and rejects
+ * recursion.
  */
 #include "parse/parse_priv.h"
+#include "tree/ast.h"
 
 #include <assert.h>
 
@@ -50,7 +51,7 @@ static void use_node(struct uses *uses, const struct lang_node *node)
     }
 }
 
-/* Recursion is bounded: statements and expressions are nested at most PARSE_MAX_DEPTH deep each. */
+/* Statements and expressions are at most PARSE_MAX_DEPTH deep each, so recursion is bounded. */
 static void use_tree(struct uses *uses, lang_ref ref)
 {
     for (; ref; ref = tree_node(uses->p, ref)->next) {
@@ -81,13 +82,11 @@ static void find_uses(struct uses *uses, struct lang_function *function)
     }
     function->flags |= uses->flags;
     function->num_nodes = uses->num_nodes;
-    function->first_callee = unit->refs.len;
+    function->first_ref = unit->refs.len;
     function->num_callees = uses->callees.len;
     for (uint32_t i = 0; i < uses->callees.len; i++)
         vec_push(unit->arena, &unit->refs, uses->callees.items[i]);
-    function->first_global = unit->refs.len;
     function->num_globals = uses->globals.len;
-    assert(function->first_callee + function->num_callees == function->first_global);
     for (uint32_t i = 0; i < uses->globals.len; i++)
         vec_push(unit->arena, &unit->refs, uses->globals.items[i]);
 }
@@ -97,8 +96,8 @@ static void find_uses(struct uses *uses, struct lang_function *function)
 struct order {
     struct parser *p;
     uint32_t first, num;   /* functions of the file */
-    uint32_t *new_id;      /* of each; LANG_NONE: not placed yet */
-    uint32_t *next_callee; /* of each: how far its callees are visited */
+    uint32_t *new_id;      /* per function; LANG_NONE: no place yet */
+    uint32_t *next_callee; /* per function: the next callee to visit */
     VEC(uint32_t) stack;   /* functions being visited, by index */
     uint32_t num_placed;
 };
@@ -124,7 +123,10 @@ static void refuse_recursion(struct order *order, uint32_t index)
                 text_cstr(&path));
 }
 
-/* Goes on with the function on top of the stack: into a callee that is not placed, or places it. */
+/*
+ * Continues with the function on top of the stack: visits its next callee, or gives the function
+ * its place.
+ */
 static bool visit_top(struct order *order)
 {
     const struct lang_unit *unit = order->p->unit;
@@ -132,9 +134,8 @@ static bool visit_top(struct order *order)
     const struct lang_function *function = ordered(order, top);
     assert(order->next_callee[top] <= function->num_callees);
     while (order->next_callee[top] < function->num_callees) {
-        uint32_t callee =
-            unit->refs.items[function->first_callee + order->next_callee[top]++] - order->first;
-        bool own = callee < order->num; /* of a file below: wraps to a large number */
+        uint32_t callee = ast_callees(unit, function)[order->next_callee[top]++] - order->first;
+        bool own = callee < order->num; /* wraps for other files */
         if (!own || order->new_id[callee] != LANG_NONE)
             continue;
         if (holds(order->stack.items, order->stack.len, callee)) {
@@ -177,8 +178,8 @@ static void apply_order(struct order *order)
     for (uint32_t i = 0; i < order->num; i++) {
         struct lang_function *function = ordered(order, i);
         for (uint32_t k = 0; k < function->num_callees; k++)
-            unit->refs.items[function->first_callee + k] =
-                renamed(order, unit->refs.items[function->first_callee + k]);
+            unit->refs.items[function->first_ref + k] =
+                renamed(order, unit->refs.items[function->first_ref + k]);
         assert(order->new_id[i] - order->first < order->num);
         sorted[order->new_id[i] - order->first] = *function;
     }
@@ -202,13 +203,12 @@ static bool order_functions(struct parser *p, uint32_t first, uint32_t num)
     return true;
 }
 
-/* Flags of callees come before those of callers. */
+/* Adds the flags of callees; callees come first. */
 static void inherit_flags(const struct lang_unit *unit, struct lang_function *function)
 {
     const uint16_t all_of = LANG_FN_PURE | LANG_FN_STRAIGHT, any_of = LANG_FN_DERIVATIVE;
     for (uint32_t i = 0; i < function->num_callees; i++) {
-        uint16_t flags =
-            lang_function(unit, unit->refs.items[function->first_callee + i], NULL)->flags;
+        uint16_t flags = lang_function(unit, ast_callees(unit, function)[i], NULL)->flags;
         function->flags &= (uint16_t)(flags | ~all_of);
         function->flags |= flags & any_of;
     }

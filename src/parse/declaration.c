@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* What stands at file scope: structs, globals, functions. */
+/* Declarations at file scope: structs, globals, functions. */
 #include "parse/parse_priv.h"
 
 #include <assert.h>
@@ -12,7 +12,7 @@ static struct lang_file *own_file(struct parser *p)
     return &p->unit->files.items[p->file - p->unit->base_files];
 }
 
-/* TYPE or TYPE[n], as a struct's member, a parameter or a global begins. */
+/* Parses TYPE or TYPE[n], the start of a struct member, a parameter or a global. */
 static ir_type_id parse_sized_type(struct parser *p, bool *out_unsized)
 {
     bool bad;
@@ -63,7 +63,7 @@ static bool same_members(const struct parser *p, ir_type_id type, uint32_t first
 }
 
 /*
- * Structs are found by name in the whole unit: an equal one of another file is the same type, a
+ * Structs have one name space per unit: an equal struct of another file is the same type, a
  * different one hides it.
  */
 static void declare_struct(struct parser *p, const struct token *at, str_id name, uint32_t first)
@@ -104,7 +104,7 @@ static void parse_struct(struct parser *p)
 
 /* Globals */
 
-/* The words of `a` are in its layer, those of `b` in this unit. */
+/* `a` has its words in its own layer, `b` in this unit. */
 static bool same_value(struct parser *p, const struct lang_global *a, const struct lang_unit *layer,
                        const struct lang_global *b)
 {
@@ -115,8 +115,7 @@ static bool same_value(struct parser *p, const struct lang_global *a, const stru
 }
 
 /*
- * A declaration that says the same as one that is visible is that one; constants may repeat only by
- * #define.
+ * A repeated equal declaration refers to the first one. Constants may repeat only by #define.
  */
 static void declare_global(struct parser *p, const struct token *at, struct lang_global global,
                            bool may_repeat)
@@ -160,7 +159,7 @@ static void parse_constant(struct parser *p, const struct token *at, str_id name
                         parse_say(p, "the value of '%s'", parse_text(p, name)));
         else if (global.kind == LANG_GLOBAL_OPTION && !scalar)
             PARSE_TYPE_ERROR(p, parse_place(at), "an option is a bool, int or float");
-    } else { /* stands in for the value, so that uses of the name are not errors too */
+    } else { /* a replacement value, so that uses of the name cause no more errors */
         global.type = type;
         global.num_words = type < IR_NUM_TYPES && !unsized ? ir_type_info(type)->components : 0;
         for (uint32_t i = 0; i < global.num_words; i++)
@@ -177,7 +176,7 @@ void parse_define(struct parser *p)
     struct parse_mark mark = parse_mark(p->unit);
     struct token at = p->token;
     str_id name = parse_name(p);
-    if (!name || p->token.kind == TOKEN_END) /* a flag without a value says nothing here */
+    if (!name || p->token.kind == TOKEN_END) /* a flag without a value declares nothing */
         return;
     if (p->token.kind == TOKEN_OPEN && p->token.text == at.text + at.len) {
         PARSE_ERROR(p, parse_where_token(p, &at), lang_unsupported, "#define",
@@ -210,13 +209,13 @@ static void parse_host_variable(struct parser *p, const struct token *at, str_id
         || (kind == LANG_GLOBAL_STREAM && (type == IR_TYPE_SAMPLER || type >= IR_TYPE_FIRST_USER)))
         PARSE_TYPE_ERROR(p, parse_place(at), "'%s' cannot have type %s", parse_text(p, name),
                          parse_type_text(p, type));
-    check_is_array(p, type, &type, &length); /* then `type` is that of its elements */
+    check_is_array(p, type, &type, &length); /* then `type` is the type of its elements */
     struct lang_global global = {
         .name = name, .kind = (uint8_t)kind, .type = type, .array_length = length};
     declare_global(p, at, global, true);
 }
 
-/* const, uniform or in: the current token says which. */
+/* Parses const, uniform or in; the current token is this keyword. */
 static void parse_globals(struct parser *p)
 {
     enum token_kind keyword = p->token.kind;
@@ -331,8 +330,8 @@ static bool check_repeats(struct parser *p, const struct token *at, uint32_t id,
 }
 
 /*
- * The own function with this signature: known from a prototype, or new. LANG_NONE where it may not
- * be defined.
+ * The file's function with this signature: from a prototype, or new. LANG_NONE if it already has a
+ * body.
  */
 static uint32_t declare_function(struct parser *p, const struct token *at, str_id name,
                                  ir_type_id return_type, bool is_definition)
@@ -364,7 +363,7 @@ static uint32_t declare_function(struct parser *p, const struct token *at, str_i
     return p->unit->base_functions + p->unit->functions.len - 1;
 }
 
-/* The first sentence of a comment, without the slashes and line ends; 0: it is empty. */
+/* The first sentence of a comment, without slashes and line ends; 0 if it is empty. */
 static str_id doc_of(struct parser *p, const struct token *first)
 {
     struct text doc;
@@ -376,7 +375,7 @@ static str_id doc_of(struct parser *p, const struct token *first)
             is_blank = doc.len > 0;
             line_begins |= *at == '\n';
         } else if (*at != '/' || !line_begins) {
-            /* "et al. 2023" goes on */
+            /* "et al. 2023" is no end of a sentence */
             bool is_new = is_blank && doc.data[doc.len - 1] == '.' && *at >= 'A' && *at <= 'Z';
             if (is_new)
                 break;

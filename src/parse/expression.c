@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Expressions: precedence climbing over the symbol table. Every function returns 0 after an error
- * it has reported.
+ * Expressions: precedence climbing with the symbol table. Every function reports its errors and
+ * then returns 0.
  */
 #include "parse/parse_priv.h"
 
@@ -9,7 +9,7 @@
 
 static lang_ref parse_unary(struct parser *p);
 
-/* Arguments up to ')' go to the operand stack; false after an error. */
+/* Parses arguments up to ')' onto the operand stack; false after an error. */
 static bool parse_arguments(struct parser *p)
 {
     bool good = true;
@@ -27,7 +27,7 @@ static bool parse_arguments(struct parser *p)
     return parse_expect(p, TOKEN_CLOSE) && good;
 }
 
-/* NAME( or TYPE(: the current token is '('. */
+/* Parses NAME( or TYPE(; the current token is '('. */
 static lang_ref parse_call(struct parser *p, const struct token *name, ir_type_id type)
 {
     assert(p->token.kind == TOKEN_OPEN);
@@ -116,7 +116,7 @@ static lang_ref parse_input(struct parser *p)
 
 static lang_ref parse_local(struct parser *p, const struct local *local, const struct token *token)
 {
-    if (local->type == IR_TYPE_VOID) /* its declaration was reported */
+    if (local->type == IR_TYPE_VOID) /* the declaration has reported the error */
         return 0;
     assert(p->first_slot + local->slot < p->unit->slots.len);
     lang_ref ref = tree_new(p, LANG_VAR, IR_NUM_OPS, local->type, parse_place(token));
@@ -129,7 +129,8 @@ static lang_ref parse_global(struct parser *p, uint32_t id, const struct token *
     const struct lang_unit *layer;
     const struct lang_global *global = lang_global(p->unit, id, &layer);
     /*
-     * A matrix is printed best by its name; a scalar or vector folds and reads best as its value.
+     * A matrix stays a reference, because its name reads best; a scalar or vector becomes its
+     * value, which folds.
      */
     bool is_small = global->type < IR_TYPE_FIRST_USER && !ir_type_is_matrix(global->type);
     if (global->kind == LANG_GLOBAL_CONST && is_small) {

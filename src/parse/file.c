@@ -15,7 +15,7 @@ static bool is_word(const struct token *token, const char *word)
     return token->len == strlen(word) && memcmp(token->text, word, token->len) == 0;
 }
 
-/* A lexer over what stands behind '#'. */
+/* A lexer for the text after '#'. */
 static struct lexer directive_lexer(const struct token *directive)
 {
     assert(directive->kind == TOKEN_DIRECTIVE && directive->len > 0);
@@ -26,7 +26,7 @@ static struct lexer directive_lexer(const struct token *directive)
     return lexer;
 }
 
-/* The includes were parsed before; here they are skipped. */
+/* Skips includes, which are parsed already. */
 void parse_directive(struct parser *p)
 {
     static const char *const skipped[] = {"include", "version", "extension", "pragma"};
@@ -93,7 +93,7 @@ static void parse_include(struct parser *p, const struct token *directive, struc
         see_file(p, layer->refs.items[included->first_include + i]);
 }
 
-/* Includes come first wherever they stand, so that a file's own functions are contiguous. */
+/* Parses all includes first, so that the functions of a file have contiguous ids. */
 static void parse_includes(struct parser *p, const char *text, size_t len)
 {
     struct lexer lexer;
@@ -122,7 +122,7 @@ static uint32_t find_file(const struct lang_unit *unit, str_id name)
     return LANG_NONE;
 }
 
-/* Reports an include of a file by itself, or a nesting that is too deep. */
+/* Reports a file that includes itself, and includes that nest too deep. */
 static bool check_nesting(const struct parser *includer, const char *name, struct diag_place where,
                           struct diag_list *diags)
 {
@@ -140,7 +140,10 @@ static bool check_nesting(const struct parser *includer, const char *name, struc
     return depth <= PARSE_MAX_INCLUDES;
 }
 
-/* A file that many include is parsed once, and its errors are reported once. */
+/*
+ * True if the file has failed before: a file with many includers is parsed once and reports its
+ * errors once.
+ */
 static bool failed_before(const struct diag_list *diags, const char *name)
 {
     for (uint32_t i = 0; i < diags->items.len; i++) {
@@ -177,7 +180,7 @@ static uint32_t parse_text_of_file(struct parser *p, str_id name, const char *te
         len -= 3;
     }
     parse_includes(p, text, len);
-    if (p->num_errors) /* names from there would be unknown here */
+    if (p->num_errors) /* after errors in an include, its names would be undeclared here */
         return LANG_NONE;
     struct parse_mark mark = parse_mark(p->unit);
     begin_file(p, name);

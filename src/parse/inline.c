@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Inline expressions: whole texts of one expression, which become functions. */
+/* Inline expressions: a text of one expression, which becomes a function. */
 #include "parse/parse_priv.h"
 
 #include <assert.h>

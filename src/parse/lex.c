@@ -61,7 +61,7 @@ static void step(struct lexer *lexer)
         lexer->line++;
         lexer->column = 1;
         lexer->line_begins = true;
-    } else if (((unsigned char)c & 0xc0) != 0x80) { /* columns are code points */
+    } else if (((unsigned char)c & 0xc0) != 0x80) { /* a column is a code point */
         lexer->column++;
     }
 }
@@ -88,12 +88,12 @@ static void skip_line(struct lexer *lexer)
 }
 
 /*
- * False at a comment that does not end. `token` gets the line comments that stand right above it:
- * lines of their own without an empty line in between or behind.
+ * Skips blanks and comments; false if a comment does not end. `token` gets the line comments right
+ * above it: whole-line comments without an empty line between or after them.
  */
 static bool skip_blanks(struct lexer *lexer, struct token *token)
 {
-    unsigned line_ends = 0; /* since the last line comment */
+    unsigned line_ends = 0; /* line ends since the last line comment */
     while (lexer->at < lexer->end) {
         size_t joined = continuation(lexer);
         if (joined) {
@@ -158,15 +158,14 @@ static void read_integer(struct token *token)
         bad(token, "is octal in GLSL; write it without the leading zero");
     else if (num_parse_int(token->text, len, &value) != len)
         bad(token, "is not a number");
-    /* GLSL 4.50, 4.1.3: any pattern of 32 bits is allowed, for int too */
+    /* GLSL 4.50, 4.1.3: any 32-bit pattern is valid, for int too */
     else if (value > UINT32_MAX)
         bad(token, "does not fit in 32 bits");
     token->value.u = (uint32_t)value;
 }
 
 /*
- * Letters, digits, points, and signs of exponents: what does not read as a number as a whole is
- * none.
+ * Reads letters, digits, points, and signs of exponents; the text is a number only as a whole.
  */
 static bool is_of_number(const char *start, const char *at, bool hex)
 {
@@ -228,7 +227,7 @@ static bool lex_input(struct lexer *lexer, struct token *token)
     while (at < lexer->end && *at == ' ')
         at++;
     const char *name = at;
-    while (at < lexer->end && (is_word(*at) || *at == ':')) /* names of a namespace have a colon */
+    while (at < lexer->end && (is_word(*at) || *at == ':')) /* NAMESPACE:NAME */
         at++;
     const char *name_end = at;
     while (at < lexer->end && *at == ' ')
@@ -271,7 +270,7 @@ static void lex_token(struct lexer *lexer, struct token *token, bool line_begins
     } else if (lexer->inputs && begins(lexer, "{{", 2) && lex_input(lexer, token)) {
         return;
     } else if (!lex_symbol_at(lexer, token)) {
-        do /* all bytes of a code point */
+        do /* consumes all bytes of a code point */
             step(lexer);
         while (lexer->at < lexer->end && ((unsigned char)*lexer->at & 0xc0) == 0x80);
         token->len = (size_t)(lexer->at - token->text);

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Names through files and layers. Files hold few declarations, so all searches are linear. */
+/*
+ * Looks up names through files and layers. Files have few declarations, so all searches are linear.
+ */
 #include "parse/parse_priv.h"
 
 #include <assert.h>
@@ -80,7 +82,7 @@ const struct lang_slot *lookup_param(const struct lang_unit *unit, uint32_t func
 }
 
 /*
- * Number of implicit conversions that the arguments need; -1 where the function does not take them.
+ * The number of implicit conversions for the arguments; -1 if the function does not accept them.
  */
 static int conversions(const struct lang_unit *unit, uint32_t function, const ir_type_id *types,
                        unsigned num_types)

@@ -36,8 +36,8 @@ lang_ref tree_const(struct parser *p, const struct ir_value *value, uint32_t pla
 }
 
 /*
- * Chains the operands and returns the height of a node above them; 0, with a message, where that is
- * beyond the limit.
+ * Chains the operands and returns the height of a node above them; 0, after a message, if it
+ * exceeds the limit.
  */
 static unsigned chain_operands(struct parser *p, const lang_ref *args, unsigned num_args,
                                uint32_t place)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * The parser's core: tokens, messages, recovery, taking back.
+ * The parser's core: tokens, messages, error recovery, rollback.
  */
 #include "parse/parse_priv.h"
 
@@ -141,7 +141,7 @@ bool parse_expect(struct parser *p, enum token_kind kind)
         parse_unexpected(p, expected);
         return false;
     }
-    /* A forgotten ';' is shown where it belongs, and the next line is read as if it were there. */
+    /* Reports a missing ';' after the last token. The parser continues as if it were there. */
     struct diag_place where = parse_where_token(p, &p->last);
     where.column += p->last.columns;
     where.length = 1;

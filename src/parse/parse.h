@@ -7,8 +7,8 @@
 #include "tree/tree.h"
 
 /*
- * Where source files come from: false with *out_reason set where a file cannot be read. `from` is
- * the including file or "".
+ * The source of files: false, with *out_reason, if a file cannot be read. `from` is the including
+ * file or "".
  */
 struct lang_reader {
     void *user_data;
@@ -17,8 +17,8 @@ struct lang_reader {
 };
 
 /*
- * Parses a file with its includes, each file once per unit and the layers below. LANG_NONE after
- * errors, which are in diags.
+ * Parses a file with its includes, each file once in the unit and the layers below. LANG_NONE after
+ * errors, which go to diags.
  */
 uint32_t lang_parse_file(struct lang_unit *unit, const struct lang_reader *reader, const char *from,
                          const char *ref, struct diag_place where, struct diag_list *diags);
@@ -40,9 +40,9 @@ uint32_t lang_parse_expression(struct lang_unit *unit, const char *text, size_t 
                                struct diag_list *diags);
 
 /*
- * A function by name in a file and its includes; `params` (may be NULL: then the only one of that
- * name) chooses among overloads by exact types, then by implicit conversion. LANG_NONE where there
- * is none.
+ * Finds a function by name in a file and its includes. `params` chooses among overloads, by exact
+ * types, then by implicit conversion; NULL: the name must be unique. LANG_NONE if no function
+ * matches.
  */
 uint32_t lang_find_function(const struct lang_unit *unit, uint32_t file, str_id name,
                             const ir_type_id *params, unsigned num_params);

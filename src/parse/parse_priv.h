@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * What the files of the language's front half share: tokens, the parser's state, the checks that
+ * Declarations that the files of the parse room share: tokens, the parser's state, the checks that
  * build typed trees.
  */
 #ifndef MXG_PARSE_PARSE_PRIV_H
@@ -13,7 +13,7 @@
 
 /*
  * SYMBOL(ID, text, role, op, precedence): punctuation, longest first. BINARY symbols are operators
- * between operands, SET symbols assign; `op` is the IR's (IR_NUM_OPS for plain '=').
+ * between operands, SET symbols assign; `op` is an enum ir_op (IR_NUM_OPS for plain '=').
  */
 #define LANG_SYMBOLS(SYMBOL) \
     SYMBOL(SHL_SET, "<<=", SET, IR_SHL, 0) \
@@ -62,7 +62,7 @@
     SYMBOL(OPEN_BLOCK, "{", OTHER, IR_NUM_OPS, 0) \
     SYMBOL(CLOSE_BLOCK, "}", OTHER, IR_NUM_OPS, 0)
 
-/* KEYWORD(ID, text). REFUSED ones are GLSL's that the portable language leaves out. */
+/* KEYWORD(ID, text). REFUSED keywords belong to GLSL but not to the portable language. */
 #define LANG_KEYWORDS(KEYWORD) \
     KEYWORD(CONST, "const") \
     KEYWORD(IN, "in") \
@@ -96,14 +96,14 @@
 
 enum token_kind {
     TOKEN_END,
-    TOKEN_BAD, /* not a token; `reason` says why */
+    TOKEN_BAD, /* invalid; `reason` is the message */
     TOKEN_NAME,
     TOKEN_INT,
     TOKEN_UINT,
     TOKEN_FLOAT,
     TOKEN_STRING,    /* text without its quotes */
     TOKEN_INPUT,     /* {{name}}: text is the name */
-    TOKEN_DIRECTIVE, /* a line that begins with '#': text is all of it */
+    TOKEN_DIRECTIVE, /* a line that begins with '#': text is the whole line */
 #define SYMBOL(ID, text, role, op, precedence) TOKEN_##ID,
     LANG_SYMBOLS(SYMBOL)
 #undef SYMBOL
@@ -134,24 +134,24 @@ struct symbol {
     const char *text;
     uint8_t len, role, op, precedence;
 };
-/* NULL where the kind is not a symbol. */
+/* NULL if the kind is not a symbol. */
 const struct symbol *lex_symbol(enum token_kind kind);
 
 struct token {
     enum token_kind kind;
-    const char *text; /* in the source */
+    const char *text; /* points into the source */
     size_t len;
-    uint32_t line, column, columns; /* columns: code points it covers */
-    const char *comment;            /* the line comments right above it; NULL: none */
+    uint32_t line, column, columns; /* `columns`: its width in code points */
+    const char *comment;            /* the line comments right above it; NULL = none */
     size_t comment_len;
-    union ir_word value; /* of a number */
-    const char *reason;  /* of TOKEN_BAD */
+    union ir_word value; /* value of a number */
+    const char *reason;  /* reason of a TOKEN_BAD */
 };
 
 struct lexer {
     const char *at, *end;
     uint32_t line, column;
-    bool line_begins; /* nothing but blanks so far on this line */
+    bool line_begins; /* the line has only blanks so far */
     bool inputs;      /* "{{" begins an input */
 };
 
@@ -162,75 +162,75 @@ void lex_next(struct lexer *lexer, struct token *out_token);
 
 enum {
     PARSE_MAX_ERRORS = 20,
-    PARSE_MAX_DEPTH = 200, /* of statements and parentheses, and of expression trees */
+    PARSE_MAX_DEPTH = 200, /* depth limit of statements and parentheses, and of expression trees */
     PARSE_MAX_INCLUDES = 32,
     PARSE_MAX_ARRAY = 65535,
 };
 
 struct local { /* a parameter or local variable in scope */
     str_id name;
-    ir_type_id type; /* VOID: its declaration was wrong; uses are not reported */
+    ir_type_id type; /* VOID: the declaration had an error; uses report nothing */
     uint16_t slot;
     bool read_only;
-    bool has_value; /* a const whose value is known */
-    uint32_t words; /* that value, in unit->words */
+    bool has_value; /* a const with a constant value */
+    uint32_t words; /* its value, in unit->words */
     uint32_t place;
 };
 
-struct tree_origin { /* what the parser knows of a node, and nobody else asks for */
+struct tree_origin { /* data of a node that only the parser needs */
     uint32_t place;  /* line << 12 | column in the function's file */
-    uint8_t height;  /* as an expression */
+    uint8_t height;  /* height as an expression */
 };
 
 struct parser {
     struct lang_unit *unit;
     struct diag_list *diags;
     const struct lang_reader *reader; /* NULL in an expression */
-    const struct parser *includer;    /* whose #include is being parsed */
+    const struct parser *includer;    /* the parser of the file that includes this one */
     unsigned include_depth;
     const char *file_name;
-    uint32_t file; /* id, LANG_NONE outside of files */
-    /* files whose declarations are seen, the own one among them */
+    uint32_t file; /* id; LANG_NONE outside files */
+    /* files with visible declarations, including this file */
     VEC(uint32_t) visible;
-    uint32_t first_user_type; /* user types from here on are this file's */
+    uint32_t first_user_type; /* the first user type of this file */
     struct lexer lexer;
-    struct token token; /* the current one */
-    struct token last;  /* the one before */
+    struct token token; /* the current token */
+    struct token last;  /* the previous token */
     unsigned depth, num_errors;
-    /* after a syntax error, until parse_recover: nothing is reported */
+    /* after a syntax error, until parse_recover: suppresses messages */
     bool panic;
-    bool stopped; /* too many errors */
-    /* the last message was not suppressed: its notes may follow */
+    bool stopped; /* stopped after too many errors */
+    /* the last message was reported, so its notes may follow */
     bool reported;
-    uint32_t first_node;             /* nodes from here on belong to this parse … */
-    VEC(struct tree_origin) origins; /* … and come from here */
+    uint32_t first_node;             /* the first node of this parse … */
+    VEC(struct tree_origin) origins; /* … and the origins of the nodes from there */
     VEC(lang_ref) operands;          /* stack of operands that wait for their node */
     /* the function being parsed */
     ir_type_id return_type;
     unsigned loops;
     uint32_t first_slot;
-    uint32_t scope; /* where the innermost scope begins in locals */
+    uint32_t scope; /* index in locals where the innermost scope begins */
     VEC(struct local) locals;
-    const struct lang_input *inputs; /* of an expression */
+    const struct lang_input *inputs; /* inputs of an inline expression */
     unsigned num_inputs;
 };
 
 void parse_advance(struct parser *p);
 bool parse_accept(struct parser *p, enum token_kind kind);
-/* reports and panics where another token stands */
+/* reports an error and panics if the current token is another one */
 bool parse_expect(struct parser *p, enum token_kind kind);
-/* the same for a whole construct: "an expression" */
+/* parse_expect for a whole construct: "an expression" */
 void parse_unexpected(struct parser *p, const char *expected);
 struct token parse_peek(const struct parser *p); /* the token after the current one */
-bool parse_is_word(const struct token *token, const char *word); /* a name of these letters */
-/* expects a name and goes past it; 0 after an error */
+bool parse_is_word(const struct token *token, const char *word); /* a name with this text */
+/* expects a name and consumes it; 0 after an error */
 str_id parse_name(struct parser *p);
 /*
- * Skips what an error left behind: past the next ';', or to (at file level past) the '}' that
+ * Skips to a safe point after an error: past the next ';', or to (at file level past) the '}' that
  * closes the block.
  */
 void parse_recover(struct parser *p, bool at_file_level);
-bool parse_enter(struct parser *p); /* one level deeper; false, and panic, beyond PARSE_MAX_DEPTH */
+bool parse_enter(struct parser *p); /* enters one level; false, and panic, beyond PARSE_MAX_DEPTH */
 void parse_leave(struct parser *p);
 
 uint32_t parse_place(const struct token *token);
@@ -242,17 +242,17 @@ bool parse_may_report(struct parser *p);
 #if defined(__GNUC__)
 __attribute__((format(printf, 2, 3)))
 #endif
-/* text in the diagnostics' arena */
+/* formats text in the diagnostics' arena */
 const char *
 parse_say(struct parser *p, const char *format, ...);
 const char *parse_text(const struct parser *p, str_id name);
-/* as shown in messages */
+/* the token as messages show it */
 const char *parse_token_text(struct parser *p, const struct token *token);
 const char *parse_type_text(struct parser *p, ir_type_id type);
 
 /*
- * PARSE_ERROR(p, where, id, …): the arguments of the id's format. PARSE_NOTE belongs to the error
- * before it.
+ * PARSE_ERROR(p, where, id, …): the arguments fit the format of the id. PARSE_NOTE adds to the
+ * previous error.
  */
 #define PARSE_ERROR(p, where, id, ...) \
     (parse_may_report(p) ? diag_add((p)->diags, DIAG_ID_##id, (where), __VA_ARGS__) : (void)0)
@@ -263,13 +263,13 @@ const char *parse_type_text(struct parser *p, ir_type_id type);
 #define PARSE_SYNTAX_ERROR(p, token, ...) \
     PARSE_ERROR(p, parse_where_token(p, token), lang_syntax, parse_say(p, __VA_ARGS__))
 
-/* What a failed parse takes back. */
+/* The state to restore after a failed parse. */
 struct parse_mark {
     uint32_t nodes, slots, functions, globals, files, words, refs, user_types, members;
 };
 struct parse_mark parse_mark(const struct lang_unit *unit);
 void parse_roll_back(struct lang_unit *unit, const struct parse_mark *mark);
-/* Takes back what a constant expression leaves behind, but for `keep` words at the end. */
+/* Removes the tree of a constant expression, and all but the last `keep` words. */
 void parse_drop_tree(struct parser *p, const struct parse_mark *mark, uint32_t keep);
 void parse_init(struct parser *p, struct lang_unit *unit, struct diag_list *diags);
 void parse_begin(struct parser *p, const char *file_name, const char *text, size_t len,
@@ -278,21 +278,21 @@ void parse_begin(struct parser *p, const char *file_name, const char *text, size
 /* declaration.c, statement.c, expression.c */
 
 void parse_declarations(struct parser *p); /* a whole file */
-void parse_define(struct parser *p);       /* behind #define, up to the end */
+void parse_define(struct parser *p);       /* after #define, to the end of the line */
 void parse_directive(struct parser *p);    /* file.c: at a TOKEN_DIRECTIVE */
-bool parse_at_type(struct parser *p);      /* does a type begin here? (a struct's name counts) */
+bool parse_at_type(struct parser *p);      /* true if a type begins here (a struct's name counts) */
 /* A type without array suffix; VOID, with *out_bad set, after an error. */
 ir_type_id parse_type(struct parser *p, bool may_be_void, bool *out_bad);
 /*
- * `[n]` behind a type or name: the array type, VOID after an error. `[]`: VOID with *out_unsized
- * set; an error where out_unsized is NULL.
+ * Parses `[n]` after a type or name: the array type, VOID after an error. `[]`: VOID with
+ * *out_unsized set; an error if out_unsized is NULL.
  */
 ir_type_id parse_array_suffix(struct parser *p, ir_type_id element, bool *out_unsized);
 /* After '=': a value converted to the type, or (unsized) an array of it; 0 after errors. */
 lang_ref parse_initialiser(struct parser *p, ir_type_id type, bool unsized);
-lang_ref parse_block(struct parser *p); /* from '{' to '}'; the scope is the caller's */
+lang_ref parse_block(struct parser *p); /* from '{' to '}'; the caller opens the scope */
 bool parse_returns(const struct parser *p, lang_ref block); /* every path ends in a return */
-lang_ref parse_expression(struct parser *p); /* 0 after an error, which has been reported */
+lang_ref parse_expression(struct parser *p); /* 0 after an error, which is already reported */
 
 /* node.c: building nodes */
 
@@ -300,13 +300,13 @@ static inline struct lang_node *tree_node(struct parser *p, lang_ref ref)
 {
     return &p->unit->nodes.items[ref];
 }
-uint32_t tree_place(const struct parser *p, lang_ref ref); /* of a node of this parse */
+uint32_t tree_place(const struct parser *p, lang_ref ref); /* the place of a node of this parse */
 lang_ref tree_new(struct parser *p, enum lang_kind kind, enum ir_op op, ir_type_id type,
                   uint32_t place);
 lang_ref tree_const(struct parser *p, const struct ir_value *value, uint32_t place);
 /*
- * An op over operands, which are chained; over literals, its value where that is finite. 0 and a
- * message where the tree would be too high.
+ * An op over operands, which it chains; over literals, its value if it is finite. 0, after a
+ * message, if the tree would be too high.
  */
 lang_ref tree_op(struct parser *p, enum ir_op op, ir_type_id type, uint32_t attr,
                  const lang_ref *args, unsigned num_args, uint32_t place);
@@ -322,16 +322,16 @@ static inline ir_type_id tree_type(const struct parser *p, lang_ref ref)
 struct tree_chain {
     lang_ref first, last;
 };
-void tree_append(struct parser *p, struct tree_chain *chain, lang_ref ref); /* 0 is ignored */
+void tree_append(struct parser *p, struct tree_chain *chain, lang_ref ref); /* ignores 0 */
 
 /* types.c */
 
-/* of arithmetic scalars, growing with implicit conversion; 0 for others */
+/* rank of arithmetic scalars, in the order of implicit conversion; 0 for other types */
 unsigned check_rank(ir_type_id scalar);
 /* component type; VOID for user types and opaque ones */
 ir_type_id check_scalar(ir_type_id type);
-unsigned check_rank_of(ir_type_id type); /* of its components */
-/* The same shape with components of a higher rank; VOID where there is none. */
+unsigned check_rank_of(ir_type_id type); /* rank of its components */
+/* The type of equal shape with components of a higher rank; VOID if there is none. */
 ir_type_id check_with_rank(ir_type_id type, unsigned rank);
 bool check_converts(ir_type_id from, ir_type_id to); /* implicitly, or equal */
 bool check_is_array(const struct parser *p, ir_type_id type, ir_type_id *out_element,
@@ -339,18 +339,18 @@ bool check_is_array(const struct parser *p, ir_type_id type, ir_type_id *out_ele
 
 /* check.c: conversions and operators */
 
-/* an explicit CONVERT; constants are folded */
+/* an explicit CONVERT; folds constants */
 lang_ref check_cast(struct parser *p, lang_ref a, ir_type_id type);
-/* Converted implicitly; 0 and "WHAT is X; Y was expected" where that is impossible. */
+/* Converts implicitly; if this is impossible, reports "WHAT is X; Y was expected" and returns 0. */
 lang_ref check_convert(struct parser *p, lang_ref a, ir_type_id type, const char *what);
-/* to their highest scalar type */
+/* converts the arguments to their highest scalar type */
 bool check_unify(struct parser *p, lang_ref *args, unsigned num_args, unsigned min_rank);
 lang_ref check_unary(struct parser *p, enum ir_op op, lang_ref a, uint32_t place);
 lang_ref check_binary(struct parser *p, enum ir_op op, lang_ref a, lang_ref b, uint32_t place);
 lang_ref check_select(struct parser *p, lang_ref condition, lang_ref a, lang_ref b, uint32_t place);
 lang_ref check_member(struct parser *p, lang_ref a, const struct token *name);
 lang_ref check_index(struct parser *p, lang_ref a, lang_ref index, uint32_t place);
-/* reports; marks the variable as assigned */
+/* reports an error, or marks the variable as assigned */
 bool check_assignable(struct parser *p, lang_ref target, const char *doing);
 lang_ref check_assign(struct parser *p, enum ir_op op, lang_ref target, lang_ref value,
                       uint32_t place);
@@ -364,28 +364,28 @@ bool check_is_builtin(const char *name, size_t len);
 
 /* check_const.c */
 
-/* of a constant expression */
+/* the value of a constant expression */
 bool check_value(struct parser *p, lang_ref ref, struct ir_value *out_value);
 /*
- * The words of a constant of built-in or array type go to unit->words; false where it is not
+ * Appends the words of a constant of built-in or array type to unit->words; false if it is not
  * constant.
  */
 bool check_words(struct parser *p, lang_ref ref, uint32_t *out_words, uint32_t *out_num_words);
 
-/* check_function.c: what a body uses */
+/* check_function.c: the callees and globals of bodies */
 
-/* callees, flags, order; false on recursion */
+/* sets callees, flags and order; false on recursion */
 bool check_finish_functions(struct parser *p, uint32_t first_function);
 
 /* lookup.c: names through files and layers */
 
-/* VOID where there is none */
+/* VOID if there is none */
 ir_type_id lookup_type(const struct lang_unit *unit, const char *name, size_t len);
-/* made where it is new */
+/* adds the type if it is new */
 ir_type_id lookup_array(struct lang_unit *unit, ir_type_id element, uint32_t length);
 uint32_t lookup_global(const struct lang_unit *unit, const uint32_t *files, uint32_t num_files,
                        str_id name);
-/* The next function of a name; start with *cursor = {0, 0}. LANG_NONE at the end. */
+/* Iterates over the functions of a name; start with *cursor = {0, 0}. LANG_NONE at the end. */
 struct lookup_cursor {
     uint32_t file, function;
 };
@@ -393,8 +393,8 @@ uint32_t lookup_next_function(const struct lang_unit *unit, const uint32_t *file
                               uint32_t num_files, str_id name, struct lookup_cursor *cursor);
 struct local *lookup_local(struct parser *p, str_id name);
 /*
- * The function that takes arguments of these types with the fewest implicit conversions. LANG_NONE
- * where there is none, and, with *out_ambiguous set, where two do.
+ * The function that accepts arguments of these types with the fewest implicit conversions.
+ * LANG_NONE if no function does, or, with *out_ambiguous set, if two do.
  */
 uint32_t lookup_overload(const struct lang_unit *unit, const uint32_t *files, uint32_t num_files,
                          str_id name, const ir_type_id *types, unsigned num_types,

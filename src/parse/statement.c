@@ -41,7 +41,7 @@ static void close_scope(struct parser *p, struct scope scope)
 
 /* Declarations */
 
-/* { a, b, … } of an array; `unsized`: of `type` in any number. */
+/* Parses { a, b, … } of an array. `unsized`: any number of elements of `type`. */
 static lang_ref parse_elements(struct parser *p, ir_type_id type, bool unsized)
 {
     uint32_t place = parse_place(&p->last), first = p->operands.len;
@@ -101,7 +101,7 @@ static void check_redeclared(struct parser *p, str_id name, const struct token *
         }
 }
 
-/* A new variable of the function; type VOID where its declaration was wrong. */
+/* Declares a new variable of the function; type VOID if its declaration had an error. */
 static struct local *declare(struct parser *p, const struct token *name_token, str_id name,
                              ir_type_id type, bool is_const)
 {
@@ -123,8 +123,8 @@ static struct local *declare(struct parser *p, const struct token *name_token, s
 }
 
 /*
- * NAME [n] = value; the name is in scope behind its initialiser. `unsized`: an array of `type`
- * whose length the initialiser gives.
+ * Parses NAME [n] = value; the name is in scope after its initialiser. `unsized`: an array of
+ * `type` with the length of the initialiser.
  */
 static lang_ref parse_declarator(struct parser *p, ir_type_id type, bool unsized, bool is_const)
 {
@@ -198,7 +198,7 @@ static lang_ref parse_effect(struct parser *p, lang_ref value, const struct toke
     return ref;
 }
 
-/* An assignment, ++, -- or call, without its ';'. */
+/* Parses an assignment, ++, -- or call, without its ';'. */
 static lang_ref parse_simple(struct parser *p)
 {
     struct token start = p->token;
@@ -227,7 +227,7 @@ static lang_ref parse_simple(struct parser *p)
 
 /* Control flow */
 
-/* The body of a branch or loop, as a block with a scope of its own. */
+/* Parses the body of a branch or loop, as a block with its own scope. */
 static lang_ref parse_body(struct parser *p)
 {
     struct scope scope = open_scope(p);
@@ -279,7 +279,7 @@ static lang_ref loop_node(struct parser *p, enum lang_kind kind, lang_ref condit
     return ref;
 }
 
-/* A loop of several variables stands in a block, behind their declarations. */
+/* A loop with several variables becomes a block: their declarations, then the loop. */
 static struct tree_chain parse_for(struct parser *p, uint32_t place)
 {
     struct tree_chain init = {0}, none = {0};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Types as they are written. */
+/* Parses types. */
 #include "parse/parse_priv.h"
 
 #include <assert.h>

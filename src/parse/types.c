@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Facts about types, which ask for no tree. GLSL 4.50, 4.1.10. */
+/* Facts about types that need no tree. GLSL 4.50, 4.1.10. */
 #include "parse/parse_priv.h"
 
 #include <assert.h>

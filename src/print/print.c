@@ -45,11 +45,9 @@ static uint32_t num_outer(const struct printer *p)
 static const char *outer_name(const struct printer *p, uint32_t index)
 {
     assert(index < num_outer(p));
-    const uint32_t *refs = p->layer->refs.items;
-    if (index < p->fn->num_callees)
-        return print_function_name(p->names, p->unit, refs[p->fn->first_callee + index]);
-    return print_global_name(p->names, p->unit,
-                             refs[p->fn->first_global + index - p->fn->num_callees]);
+    uint32_t id = ast_callees(p->layer, p->fn)[index];
+    return index < p->fn->num_callees ? print_function_name(p->names, p->unit, id)
+                                      : print_global_name(p->names, p->unit, id);
 }
 
 static bool is_taken(const struct printer *p, struct text_word name)
@@ -635,7 +633,7 @@ static void print_param(struct printer *p, uint32_t slot)
 static void print_constant_arrays(struct printer *p)
 {
     for (uint32_t i = 0; p->style->syntax->defines_constants && i < p->fn->num_globals; i++) {
-        uint32_t id = p->layer->refs.items[p->fn->first_global + i];
+        uint32_t id = ast_globals(p->layer, p->fn)[i];
         const struct lang_global *global = lang_global(p->unit, id, NULL);
         if (!ast_is_user_type(global->type) || !global->num_words)
             continue;

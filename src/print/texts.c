@@ -97,12 +97,12 @@ static bool has_own_names(const struct lang_names *names, const struct lang_unit
     const struct strpool *strings = unit->strings;
     if (print_function_name(names, unit, id) != str_text(strings, fn->name))
         return false;
-    const uint32_t *refs = layer->refs.items + fn->first_callee;
+    const uint32_t *refs = ast_callees(layer, fn);
     for (uint32_t i = 0; i < fn->num_callees; i++)
         if (print_function_name(names, unit, refs[i])
             != str_text(strings, lang_function(unit, refs[i], NULL)->name))
             return false;
-    refs = layer->refs.items + fn->first_global;
+    refs = ast_globals(layer, fn);
     for (uint32_t i = 0; i < fn->num_globals; i++)
         if (print_global_name(names, unit, refs[i])
             != str_text(strings, lang_global(unit, refs[i], NULL)->name))

@@ -69,10 +69,9 @@ static uint32_t plan_call(struct shader *shader, ir_ref call)
     return lang_plan_call(shader->unit, id, known);
 }
 
-static const uint32_t *plan_calls(struct shader *shader, const struct ref_list *roots)
+static const uint32_t *plan_calls(struct shader *shader, const uint8_t *needed)
 {
     const struct ir_graph *graph = shader->graph;
-    const uint8_t *needed = ir_mark(graph, roots->items, roots->len, shader->arena);
     uint32_t *planned = ARENA_ARRAY(shader->arena, uint32_t, graph->nodes.len), num_calls = 0;
     for (ir_ref ref = 1; ref < graph->nodes.len; ref++)
         if (needed[ref] && ir_get(graph, ref)->op == IR_CALL) {
@@ -130,10 +129,10 @@ void shader_specialise_calls(struct shader *shader, bool typed_textures)
 {
     struct ref_list roots = {.arena = shader->arena};
     for_each_root(shader, add_root, &roots);
-    struct final_pass pass = {
-        .shader = shader, .planned = plan_calls(shader, &roots), .typed_textures = typed_textures};
-    const ir_ref *copies =
-        ir_rebuild(shader->graph, roots.items, roots.len,
-                   &(struct ir_pass){.user_data = &pass, .build = build_node}, shader->arena);
+    const uint8_t *needed = ir_mark(shader->graph, roots.items, roots.len, shader->arena);
+    struct final_pass final = {
+        .shader = shader, .planned = plan_calls(shader, needed), .typed_textures = typed_textures};
+    const struct ir_pass pass = {.user_data = &final, .build = build_node};
+    const ir_ref *copies = ir_rebuild(shader->graph, needed, &pass, shader->arena);
     for_each_root(shader, move_root, (void *)(uintptr_t)copies);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * The forward step over calls: evaluated where all arguments are constant, else noted in the plan.
+ * The forward step over calls: evaluates a call if all arguments are constant, else records it in
+ * the plan.
  */
 #include "specialise/spec.h"
 #include "tree/eval.h"
@@ -29,7 +30,7 @@ static lang_ref evaluate(struct spec *s, const struct lang_node *call, const lan
     return spec_constant(s, &result);
 }
 
-/* The plan learns what the callee is passed. */
+/* Records the arguments of the call in the plan. */
 static lang_ref note_call(struct spec *s, struct lang_node node, const lang_ref *args,
                           unsigned num_args, bool have_effects)
 {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * What specialising does to a function where nothing is known of its arguments is the same in every
- * shader. It is done once, when a library is packed: trees are replaced by those of the versions
- * (plan.c), so that a generation can take them as they are.
+ * Specialising a function without constant arguments gives the same result in every shader. So the
+ * packer of a library does it once: it replaces trees by the trees of the versions (plan.c), which
+ * a generation can use unchanged.
  *
- * Functions keep their ids and parameters. All arrays that trees refer to are written anew, without
- * what has been dropped.
+ * Functions keep their ids and parameters. The step rewrites all arrays that trees refer to,
+ * without the dropped parts.
  */
 #include "base/hash.h"
 #include "specialise/spec.h"
@@ -13,15 +13,15 @@
 #include <assert.h>
 
 struct copier {
-    const struct lang_unit *from; /* of the tree being copied */
+    const struct lang_unit *from; /* unit of the tree that is copied */
     struct lang_unit *to;
-    const struct lang_unit *made; /* the layer of the versions */
-    VEC(lang_ref) calls;          /* of the function, arguments before the call that they are for */
-    uint8_t *is_used;             /* by slot */
-    /* open addressing: 1 + a function, of each distinct run of slots */
+    const struct lang_unit *made; /* layer of the versions */
+    VEC(lang_ref) calls; /* calls of the function; a call comes after the calls in its arguments */
+    uint8_t *is_used;    /* by slot */
+    /* open addressing: 1 + a function, for each distinct sequence of slots */
     struct table runs;
-    uint32_t num_effects; /* calls so far that assign to their arguments */
-    bool is_simple;       /* no call has arguments with effects, or very many */
+    uint32_t num_effects; /* number of calls so far that assign to their arguments */
+    bool is_simple;       /* no call has very many arguments, or arguments with effects */
 };
 
 static lang_ref copy_list(struct copier *c, lang_ref first);
@@ -126,29 +126,25 @@ static lang_ref copy_list(struct copier *c, lang_ref first)
     return copy;
 }
 
-static uint32_t copy_refs(struct copier *c, const struct lang_unit *from, uint32_t first,
-                          uint32_t count, bool are_functions)
+static uint32_t copy_refs(struct copier *c, const uint32_t *ids, uint32_t count, bool are_functions)
 {
     uint32_t at = c->to->refs.len;
-    for (uint32_t i = 0; i < count; i++) {
-        uint32_t id = from->refs.items[first + i];
-        vec_push(c->to->arena, &c->to->refs, are_functions ? given_function(c, id) : id);
-    }
+    for (uint32_t i = 0; i < count; i++)
+        vec_push(c->to->arena, &c->to->refs, are_functions ? given_function(c, ids[i]) : ids[i]);
     return at;
 }
 
 static bool reads_option(const struct copier *c, const struct lang_function *fn)
 {
     for (uint32_t i = 0; i < fn->num_globals; i++)
-        if (lang_global(c->made, c->to->refs.items[fn->first_global + i], NULL)->kind
-            == LANG_GLOBAL_OPTION)
+        if (lang_global(c->made, ast_globals(c->to, fn)[i], NULL)->kind == LANG_GLOBAL_OPTION)
             return true;
     return false;
 }
 
 /*
- * A function whose tree is what a generation would make of it, as long as it knows nothing of the
- * arguments and callees.
+ * True if a generation would not change the tree of a function, unless arguments or callees are
+ * constant.
  */
 static bool is_final(const struct copier *c, const struct lang_function *fn)
 {
@@ -160,7 +156,9 @@ static bool is_final(const struct copier *c, const struct lang_function *fn)
     return true;
 }
 
-/* Equal runs of slots are one: expressions of many nodes have inputs of equal names and types. */
+/*
+ * Shares equal sequences of slots, because many expressions have inputs of equal names and types.
+ */
 static uint32_t copy_slots(struct copier *c, const struct lang_function *fn)
 {
     const struct lang_slot *slots = ast_slot(c->from, fn, 0);
@@ -171,7 +169,7 @@ static uint32_t copy_slots(struct copier *c, const struct lang_function *fn)
             && memcmp(ast_slot(c->to, other, 0), slots, fn->num_slots * sizeof *slots) == 0)
             return other->first_slot;
     }
-    /* the number of the function that this one becomes, + 1 */
+    /* the index of the function that this one becomes, + 1 */
     table_add(&c->runs, c->to->arena, hash, c->to->functions.len + 1);
     uint32_t first = c->to->slots.len;
     memcpy(vec_extend(c->to->arena, &c->to->slots, fn->num_slots), slots,
@@ -188,8 +186,9 @@ static struct lang_function copy_version(struct copier *c, uint32_t version)
     c->is_used = arena_zalloc(c->to->arena, fn.num_slots);
     fn.body = copy_node(c, fn.body);
     fn.first_slot = fn.num_slots ? copy_slots(c, &fn) : 0;
-    fn.first_callee = copy_refs(c, c->from, fn.first_callee, fn.num_callees, true);
-    fn.first_global = copy_refs(c, c->from, fn.first_global, fn.num_globals, false);
+    const uint32_t *callees = ast_callees(c->from, &fn), *globals = ast_globals(c->from, &fn);
+    fn.first_ref = copy_refs(c, callees, fn.num_callees, true);
+    copy_refs(c, globals, fn.num_globals, false);
     return fn;
 }
 
@@ -198,7 +197,7 @@ static struct lang_function copy_function(struct copier *c, uint32_t id, uint32_
     struct lang_function fn = copy_version(c, version);
     assert(fn.num_params == lang_function(c->made, id, NULL)->num_params);
     fn.num_calls = c->calls.len;
-    fn.first_call = c->to->refs.len;
+    assert(ast_calls(c->to, &fn) == c->to->refs.items + c->to->refs.len);
     for (uint32_t i = 0; i < c->calls.len; i++)
         vec_push(c->to->arena, &c->to->refs, c->calls.items[i]);
     fn.flags |= lang_function(c->made, id, NULL)->flags & LANG_FN_STRINGS;
@@ -208,8 +207,8 @@ static struct lang_function copy_function(struct copier *c, uint32_t id, uint32_
 }
 
 /*
- * Each function's version where nothing is known and no parameter may go. Inline expressions are
- * always seen through.
+ * Makes the version of each function without constant arguments, with all parameters. Inline
+ * expressions are always inlined.
  */
 static uint32_t *make_versions(struct lang_unit *made, uint32_t first, uint32_t count)
 {
@@ -247,7 +246,8 @@ void lang_make_canonical(struct lang_unit *unit)
     }
     for (uint32_t i = 0; i < unit->files.len; i++) {
         struct lang_file *file = &unit->files.items[i];
-        file->first_include = copy_refs(&c, unit, file->first_include, file->num_includes, false);
+        file->first_include =
+            copy_refs(&c, unit->refs.items + file->first_include, file->num_includes, false);
     }
     assert(to.functions.len == unit->functions.len && made.functions.len == made.versions.len);
     *unit = to;

@@ -4,7 +4,7 @@
 
 #include <assert.h>
 
-/* A literal that is longer than a name: a vector or matrix with different components. */
+/* True for a literal longer than a name: a vector or matrix with different components. */
 static bool is_long(const struct spec *s, const struct lang_node *constant)
 {
     uint32_t count = ir_type_info(constant->type)->components;
@@ -25,7 +25,7 @@ static lang_ref spec_variable(struct spec *s, struct lang_node node)
     struct lang_node constant = *spec_node(s, known);
     constant.c = 0;
     if (!ast_slot(s->layer, &s->fn, node.a)->assigned && is_long(s, &constant))
-        constant.c = node.a + 1; /* may become the variable again (sweep.c) */
+        constant.c = node.a + 1; /* sweep.c may turn it into the variable again */
     return spec_add(s, constant);
 }
 
@@ -52,7 +52,7 @@ static lang_ref spec_global(struct spec *s, struct lang_node node)
     return spec_add(s, node);
 }
 
-/* The operands of a part of the source, rebuilt and chained. */
+/* Rebuilds the operands of a source node and chains them. */
 static unsigned spec_operands(struct spec *s, lang_ref first, struct chain *chain, lang_ref *out,
                               unsigned max)
 {
@@ -82,7 +82,7 @@ static lang_ref spec_select(struct spec *s, struct lang_node node)
     return spec_add(s, node);
 }
 
-/* && and || do not compute what the left side decides. */
+/* && and || do not evaluate the right side if the left side decides. */
 static lang_ref spec_logic(struct spec *s, struct lang_node node)
 {
     lang_ref left = spec_expression(s, node.a), source = ast_node(s->layer, node.a)->next;
@@ -100,7 +100,7 @@ static lang_ref spec_logic(struct spec *s, struct lang_node node)
     return folded ? folded : spec_add(s, node);
 }
 
-/* An element of a constant table, known by its index. */
+/* An element of a constant table at a constant index. */
 static lang_ref element_of_global(struct spec *s, const struct lang_node *node, uint32_t global_id,
                                   uint32_t index)
 {
@@ -113,7 +113,7 @@ static lang_ref element_of_global(struct spec *s, const struct lang_node *node, 
     return spec_constant_words(s, node->type, layer->words.items + global->words + index * size);
 }
 
-/* A member or element of a struct or array whose parts are all constants. */
+/* A member or element of a struct or array of constants. */
 static lang_ref part_of_known(struct spec *s, uint32_t slot, uint32_t index)
 {
     if (!s->known[slot] || spec_node(s, s->known[slot])->kind != LANG_OP)

@@ -29,7 +29,7 @@ static lang_ref fold_constants(struct spec *s, const struct lang_node *op, const
     return spec_constant(s, &result);
 }
 
-/* Is it a constant scalar or vector with all components equal to `number`? */
+/* True for a constant scalar or vector whose components all equal `number`. */
 static bool is_number(const struct spec *s, lang_ref ref, int number)
 {
     const struct lang_node *node = ast_node(s->unit, ref);
@@ -61,7 +61,7 @@ static bool is_false_or_true(const struct spec *s, lang_ref ref, bool wanted)
            && (ast_words(s->unit, node)->u != 0) == wanted;
 }
 
-/* An operand as the result of an op, spread where the op would have spread it. */
+/* An operand as the result of an op, spread if the op spreads it. */
 static lang_ref as_result(struct spec *s, const struct lang_node *op, lang_ref ref)
 {
     bool fits = spec_node(s, ref)->type == op->type;
@@ -83,8 +83,7 @@ static lang_ref zero(struct spec *s, const struct lang_node *op, lang_ref droppe
 }
 
 /*
- * A product in the sense of linear algebra with a vector of ones is a sum of columns, not an
- * identity.
+ * A linear-algebra product with a vector of ones is a sum of columns instead of an identity.
  */
 static bool is_linear(const struct spec *s, lang_ref a, lang_ref b)
 {
@@ -140,7 +139,7 @@ static lang_ref simplify_mix(struct spec *s, const struct lang_node *op, const l
     return 0;
 }
 
-/* Components of a vector that was made by spreading a scalar. */
+/* Simplifies components of a spread scalar. */
 static lang_ref simplify_swizzle(struct spec *s, const struct lang_node *op, lang_ref a)
 {
     const struct lang_node *inner = spec_node(s, a);
@@ -153,8 +152,8 @@ static lang_ref simplify_swizzle(struct spec *s, const struct lang_node *op, lan
 }
 
 /*
- * vec3(2.0) * v is 2.0 * v: the scalar is shorter, and the op spreads it. Writes the op where that
- * is so.
+ * vec3(2.0) * v is 2.0 * v: the scalar is shorter, and the op spreads it. Writes the op if this
+ * applies.
  */
 static lang_ref shorten(struct spec *s, const struct lang_node *op, const lang_ref *args)
 {

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * The forward step over calls of small functions: `return expression;` with the arguments in the
- * parameters' places.
+ * The forward step over calls of small functions: replaces the call by the expression of `return
+ * expression;`, with the arguments for the parameters.
  */
 #include "specialise/spec.h"
 
 #include <assert.h>
 
-enum { MAX_NODES = 14 /* of the function: what is larger stays a function */ };
+enum { MAX_NODES = 14 /* size limit of an inlined function */ };
 
 struct inlining {
     struct spec *s;
-    const struct lang_unit *layer; /* of the function */
-    const lang_ref *args;          /* NULL: variables stay as they are */
+    const struct lang_unit *layer; /* unit of the function */
+    const lang_ref *args;          /* NULL: variables stay unchanged */
 };
 
 static lang_ref copy(struct inlining *in, lang_ref ref);
@@ -56,7 +56,7 @@ static lang_ref copy(struct inlining *in, lang_ref ref)
     return folded ? folded : spec_add(in->s, node);
 }
 
-/* A name, a number, or a part of a name: may be written twice. */
+/* True for a name, a number, or a part of a name: the code may repeat it. */
 static bool is_trivial(const struct spec *s, lang_ref ref)
 {
     const struct lang_node *node = ast_node(s->unit, ref);
@@ -66,7 +66,10 @@ static bool is_trivial(const struct spec *s, lang_ref ref)
     return node->kind == LANG_VAR || node->kind == LANG_CONST || node->kind == LANG_GLOBAL;
 }
 
-/* Counts the uses of parameters; false where the expression calls something that assigns. */
+/*
+ * Counts the uses of parameters; false if the expression calls a function that assigns to its
+ * arguments.
+ */
 static bool count_uses(const struct lang_unit *layer, const struct spec *s, lang_ref ref,
                        uint8_t *uses)
 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Nodes of the result: how they are made and read. */
+/* Makes and reads nodes of the result. */
 #include "specialise/spec.h"
 
 #include <assert.h>
@@ -25,7 +25,7 @@ void spec_append(struct spec *s, struct chain *chain, lang_ref ref)
 lang_ref spec_constant_words(struct spec *s, ir_type_id type, const union ir_word *words)
 {
     uint32_t count = ir_type_info(type)->components, at = s->unit->words.len;
-    union ir_word copy[16]; /* the words may be of this unit, which moves when it grows */
+    union ir_word copy[16]; /* the words may move when the unit grows */
     assert(count <= sizeof copy / sizeof *copy);
     memcpy(copy, words, count * sizeof *copy);
     union ir_word *to = vec_extend(s->unit->arena, &s->unit->words, count);

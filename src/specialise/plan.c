@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Whole-shader specialisation: which constants a function may take for granted.
+ * Whole-shader specialisation: chooses the constants that a function assumes.
  *
- * A version for each set of constant arguments would be text for each. So calls are made with all
- * their arguments first, and when the shader stands, each function gets one version: a parameter is
- * bound where every call that is left passes the same constant (interprocedural constant
- * propagation). Only strings and flags, which choose what a function *is*, make variants of it.
- * Callees have smaller ids than callers: one pass from the highest id down sees every call of a
- * function before the function, and one from the lowest up has every callee's version before its
- * calls.
+ * One version per set of constant arguments would repeat the text of the function. So the
+ * generation first makes calls with all their arguments. When the shader is complete, each function
+ * gets one version: a parameter is bound if every remaining call passes the same constant
+ * (interprocedural constant propagation). Only strings and flags, which choose code, make several
+ * variants of a function. Callees have smaller ids than callers: a pass from the highest id down
+ * sees every call of a function before the function, and a pass from the lowest id up has every
+ * callee's version before its calls.
  */
 #include "specialise/spec.h"
 
@@ -68,7 +68,7 @@ static uint32_t add_variant(struct lang_unit *unit, uint32_t function, uint32_t 
     return plan->variants.len;
 }
 
-/* In an open plan, the only variant of a function. */
+/* In an open plan: records the only variant of a function. */
 static uint32_t note_anything(struct lang_unit *unit, uint32_t function)
 {
     struct lang_plan *plan = unit->plan;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Calls get the versions of their callees, or become what these stand for. */
+/* Redirects calls to the versions of their callees, or replaces them by simpler expressions. */
 #include "specialise/spec.h"
 
 #include <assert.h>
 
-/* Arguments that the version of the callee still takes. */
+/* The arguments that the callee's version still takes. */
 static lang_ref remaining_arguments(struct spec *s, uint32_t given, uint32_t version,
                                     lang_ref first)
 {
@@ -21,7 +21,7 @@ static lang_ref remaining_arguments(struct spec *s, uint32_t given, uint32_t ver
     return chain.first;
 }
 
-/* Is every parameter of a wrapper handed on once, as what it is, and is nothing else computed? */
+/* True if a wrapper passes every parameter on once, unchanged, and computes nothing else. */
 static bool hands_on(const struct spec *s, const struct lang_unit *layer,
                      const struct lang_function *wrapper, const struct lang_node *inner)
 {
@@ -41,7 +41,7 @@ static bool hands_on(const struct spec *s, const struct lang_unit *layer,
     return handed == wrapper->num_params;
 }
 
-/* A constant of the layer's, in the generation's. */
+/* Copies a constant of the layer to the generation's unit. */
 static lang_ref copy_constant(struct spec *s, const struct lang_unit *layer,
                               const struct lang_node *constant)
 {
@@ -67,9 +67,9 @@ static lang_ref call_inner(struct spec *s, const struct lang_unit *layer,
 }
 
 /*
- * A version that was left with `return constant;` or `return g(its parameters, constants);` is not
- * worth a name: the constant, or the call of g, stands in its place. `call` has the version's
- * arguments. 0 where it is none of these.
+ * A version that shrank to `return constant;` or `return g(its parameters, constants);` needs no
+ * name: the constant or the call of g replaces the call. `call` has the version's arguments. 0 for
+ * other versions.
  */
 static lang_ref skip_wrapper(struct spec *s, const struct lang_node *call)
 {

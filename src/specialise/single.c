@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * The last step over a version's body: a variable that is read once is not worth a name.
+ * The last step over a version's body: replaces variables with a single read by their values.
  *
  *     float d = dot(e, e);  return 1.0 / d;      →      return 1.0 / dot(e, e);
  *
- * It is forwarded where it is declared and read in one list of statements, and nothing that it is
- * made of is assigned anywhere.
+ * A value moves if its declaration and its read are in one list of statements, and nothing assigns
+ * to its operands.
  */
 #include "specialise/spec.h"
 
 #include <assert.h>
 
-enum { MAX_NODES = 24 /* of a value that is forwarded: lines stay readable */ };
+enum { MAX_NODES = 24 /* size limit of a value that moves, to keep lines readable */ };
 
 struct forwarder {
     struct spec *s;
-    uint16_t *reads;    /* by slot: VAR nodes; 2 = more than one */
-    lang_ref *declared; /* by slot: its DECLARE in the list at hand, when it may be forwarded */
+    uint16_t *reads;    /* by slot: number of VAR nodes; 2 = more than one */
+    lang_ref *declared; /* by slot: its DECLARE in the current list, if the value may move */
     bool any;
 };
 
@@ -25,7 +25,7 @@ static lang_ref children_of(const struct lang_node *node)
     return node->kind == LANG_OP ? node->a : node->kind == LANG_CALL ? node->b : 0;
 }
 
-/* Nodes of an expression; more than MAX_NODES where it reads something that is assigned. */
+/* The number of nodes of an expression; more than MAX_NODES if it reads an assigned variable. */
 static unsigned movable_size(const struct forwarder *f, lang_ref ref)
 {
     const struct lang_node *node = spec_node(f->s, ref);
@@ -38,7 +38,7 @@ static unsigned movable_size(const struct forwarder *f, lang_ref ref)
     return size;
 }
 
-/* Such a value stays where all pixels compute it together. */
+/* True for derivatives: these stay in code that all pixels run together. */
 static bool has_derivative(const struct forwarder *f, lang_ref ref)
 {
     const struct lang_node *node = spec_node(f->s, ref);
@@ -66,7 +66,7 @@ static void consider(struct forwarder *f, lang_ref statement)
         f->declared[slot] = statement;
 }
 
-/* Puts values in the places of variables declared before, in this list. */
+/* Replaces variables that this list declares by their values. */
 static void replace(struct forwarder *f, lang_ref ref)
 {
     struct lang_node *node = spec_node(f->s, ref);
@@ -78,7 +78,7 @@ static void replace(struct forwarder *f, lang_ref ref)
         struct lang_node value = *spec_node(f->s, spec_node(f->s, declaration)->b);
         f->declared[node->a] = 0;
         f->s->slots[node->a].uses = 0;
-        spec_node(f->s, declaration)->b = 0; /* marks it as gone */
+        spec_node(f->s, declaration)->b = 0; /* marks the declaration as removed */
         value.next = node->next;
         *node = value;
         f->any = true;
@@ -124,7 +124,7 @@ static void forward_statement(struct forwarder *f, lang_ref ref)
     }
 }
 
-/* Inner lists have candidates of their own: nothing moves into a branch or a loop. */
+/* Inner lists have candidates of their own: no value moves into a branch or a loop. */
 static lang_ref forward_list(struct forwarder *f, lang_ref first)
 {
     struct spec *s = f->s;
@@ -156,7 +156,7 @@ lang_ref spec_single(struct spec *s, lang_ref first)
     }
     first = forward_list(&f, first);
     s->changed |= f.any;
-    uint32_t kept = 0; /* what has become a value names no slot any more */
+    uint32_t kept = 0; /* removes VAR nodes that became values */
     for (uint32_t i = 0; i < s->vars.len; i++) {
         uint8_t kind = spec_node(s, s->vars.items[i])->kind;
         if (kind == LANG_VAR || kind == LANG_DECLARE)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Making the version of a variant. The steps are in spec_*.c. */
+/* Makes the version of a variant. The other files of this room hold the steps. */
 #include "specialise/spec.h"
 
 #include <assert.h>
@@ -35,7 +35,7 @@ static bool is_bound(const struct spec *s, uint32_t param)
     return known != FACT_UNSEEN && known != FACT_VARIES;
 }
 
-/* Bound parameters become what is known at the start; one that is assigned becomes a local. */
+/* Bound parameters start as constants; an assigned one becomes a local. */
 static void bind(struct spec *s, struct chain *out)
 {
     for (uint32_t i = 0; i < s->fn.num_params; i++) {
@@ -51,7 +51,7 @@ static void bind(struct spec *s, struct chain *out)
     }
 }
 
-/* What a function passes whose tree is taken as it is. */
+/* Records the arguments of a function whose tree stays unchanged. */
 static void note_call(struct spec *s, const struct lang_node *call)
 {
     struct lang_unit *unit = s->unit;
@@ -80,14 +80,14 @@ static bool begin_final(struct spec *s)
             return false;
     uint32_t first_call = s->unit->plan->calls.len;
     for (uint32_t i = 0; i < s->fn.num_calls; i++)
-        note_call(s, ast_node(s->layer, s->layer->refs.items[s->fn.first_call + i]));
+        note_call(s, ast_node(s->layer, ast_calls(s->layer, &s->fn)[i]));
     struct variant *v = variant_of(s);
     v->is_final = true;
     v->first_call = first_call;
     return true;
 }
 
-/* Does it call what other functions are, too? */
+/* True if all callees keep their trees too. */
 static bool stays_final(const struct spec *s)
 {
     const struct lang_plan *plan = s->unit->plan;
@@ -125,7 +125,7 @@ static void begin(struct lang_unit *unit, uint32_t variant)
         forward(s);
 }
 
-/* Slots of the result: the parameters that are left, then what else is named. */
+/* Slots of the result: the remaining parameters, then the other named slots. */
 
 static bool is_dropped(const struct spec *s, uint32_t param)
 {
@@ -167,12 +167,10 @@ static void finish_slots(struct spec *s, struct lang_function *out, struct lang_
     }
 }
 
-static uint32_t push_refs(struct lang_unit *unit, const uint32_t *ids, uint32_t count)
+static void push_refs(struct lang_unit *unit, const uint32_t *ids, uint32_t count)
 {
-    uint32_t first = unit->refs.len;
     if (count)
         memcpy(vec_extend(unit->arena, &unit->refs, count), ids, count * sizeof *ids);
-    return first;
 }
 
 static uint32_t add_version(struct spec *s, lang_ref body)
@@ -185,11 +183,12 @@ static uint32_t add_version(struct spec *s, lang_ref body)
     fn.flags = s->flags;
     fn.body = spec_add(s, (struct lang_node){.kind = LANG_BLOCK, .a = body});
     fn.num_nodes = s->num_nodes;
+    fn.first_ref = unit->refs.len;
     fn.num_callees = s->callees.len;
-    fn.first_callee = push_refs(unit, s->callees.items, s->callees.len);
     fn.num_globals = s->globals.len;
-    fn.first_global = push_refs(unit, s->globals.items, s->globals.len);
-    while (unit->versions.len < unit->functions.len) /* functions that were written */
+    push_refs(unit, s->callees.items, s->callees.len);
+    push_refs(unit, s->globals.items, s->globals.len);
+    while (unit->versions.len < unit->functions.len) /* functions that the parser wrote */
         vec_push(unit->arena, &unit->versions, (struct lang_version){LANG_NONE});
     vec_push(unit->arena, &unit->functions, fn);
     vec_push(unit->arena, &unit->versions, version);
@@ -217,7 +216,7 @@ static void finish(struct lang_unit *unit, uint32_t variant)
             variant_of(s)->version = variant_of(s)->function;
             return;
         }
-        forward(s); /* its calls have been noted: nothing new is said of the callees */
+        forward(s); /* the plan has its calls already, so this pass adds no arguments */
     }
     s->changed = variant_of(s)->changed;
     start_backward(s);
@@ -231,7 +230,7 @@ static void finish(struct lang_unit *unit, uint32_t variant)
 void lang_plan_finish(struct lang_unit *unit)
 {
     struct lang_plan *plan = plan_of(unit);
-    for (uint32_t id = plan->num_ids; id-- > 0;) /* callees are added on the way */
+    for (uint32_t id = plan->num_ids; id-- > 0;) /* the loop adds callees with smaller ids */
         for (uint32_t link = plan->first_variant[id]; link;
              link = plan->variants.items[link - 1].next)
             begin(unit, link - 1);

@@ -6,29 +6,28 @@
 
 /*
  * plan.c (specialise.c): one version per function for a whole shader. First lang_plan_call for
- * every call in the IR, then lang_plan_finish, then lang_plan_version of what each lang_plan_call
- * returned.
+ * every call in the IR, then lang_plan_finish, then lang_plan_version with each result of
+ * lang_plan_call.
  *
- * A version has some parameters bound to constants: those that all calls agree on, and strings and
- * flags, which choose what a function is, so that calls with others get versions of their own.
- * Options have their values. Code is folded, branches that are never taken, locals and assignments
- * nobody needs are dropped, small functions put in place of their calls. Bound parameters are gone,
- * and `in` parameters that turn out to be unused: whoever calls a version passes what
- * lang_param_dropped leaves. The version is the function itself where nothing changes.
+ * A version has some parameters bound to constants: parameters with equal arguments in all calls,
+ * and strings and flags. These choose code, so calls with other strings or flags get other
+ * versions. Options become constants. The version folds code, drops dead branches, locals and
+ * assignments, and inlines small functions. It lacks bound parameters and unused `in` parameters:
+ * its callers pass only the parameters that lang_param_dropped keeps. If nothing changes, the
+ * version is the function itself.
  */
 /* a constant's words, or NULL */
 uint32_t lang_plan_call(struct lang_unit *generated, uint32_t id, const union ir_word *const *args);
 void lang_plan_finish(struct lang_unit *generated);
 uint32_t lang_plan_version(const struct lang_unit *generated, uint32_t call);
 
-/* Is parameter `index` of the function that was given to lang_plan_call gone from its version? */
+/* True if the version lacks parameter `index` of the function that lang_plan_call received. */
 bool lang_param_dropped(const struct lang_unit *generated, uint32_t version, uint32_t given,
                         unsigned index);
 
 /*
- * canonical.c: replaces the trees of a layer's functions by what specialising makes of them where
- * nothing is known of their arguments. For a library, once everything that is parsed for it has
- * been; no generation may use it yet.
+ * canonical.c: replaces the trees of a layer's functions by specialised trees without constant
+ * arguments. For a library, after its last parse and before its first generation.
  */
 void lang_make_canonical(struct lang_unit *unit);
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * The forward step over statements. What is known of a variable follows control: branches are taken
- * with what was known before them and keep what both agree on; a loop begins, and is left, with
- * nothing known of what it assigns.
+ * The forward step over statements. Constants follow control flow: branches start with the
+ * constants before them, and the code after them has the constants on which both agree. A loop, and
+ * the code after it, has no constants for variables that the loop assigns.
  */
 #include "specialise/spec.h"
 
@@ -32,7 +32,7 @@ static void forget_outputs(struct spec *s, lang_ref expression)
     }
 }
 
-/* Nothing is known any more of what a statement, or what stands in it, may assign. */
+/* Forgets the constants of all variables that a statement, or a nested one, may assign. */
 static void forget_assigned(struct spec *s, lang_ref statement)
 {
     if (!statement)
@@ -67,7 +67,10 @@ static void forget_assigned(struct spec *s, lang_ref statement)
     }
 }
 
-/* An expression that may stand for a variable: a constant, or a struct or array of constants. */
+/*
+ * True if an expression can replace a variable or its parts: a constant, or a struct or array with
+ * a constant.
+ */
 static bool is_known(const struct spec *s, lang_ref value)
 {
     const struct lang_node *node = ast_node(s->unit, value);
@@ -77,7 +80,7 @@ static bool is_known(const struct spec *s, lang_ref value)
         return false;
     for (lang_ref part = node->a; part; part = ast_node(s->unit, part)->next)
         if (ast_node(s->unit, part)->kind == LANG_CONST)
-            return true; /* the others are not found there when they are looked for */
+            return true; /* lookups skip the variable parts */
     return false;
 }
 
@@ -90,7 +93,7 @@ static void spec_declare(struct spec *s, struct lang_node node, struct chain *ou
     spec_append(s, out, spec_add(s, node));
 }
 
-/* x op= y with both sides known, as x = value; 0 where they are not. */
+/* Folds x op= y to x = value if both sides are constant; 0 otherwise. */
 static lang_ref fold_assignment(struct spec *s, const struct lang_node *node, lang_ref value,
                                 uint32_t slot)
 {
@@ -98,13 +101,13 @@ static lang_ref fold_assignment(struct spec *s, const struct lang_node *node, la
     if (!args[0] || spec_node(s, args[0])->kind != LANG_CONST
         || spec_node(s, value)->kind != LANG_CONST)
         return 0;
-    for (unsigned i = 0; i < 2; i++) /* the originals stay where they are */
+    for (unsigned i = 0; i < 2; i++) /* the originals stay unchanged */
         args[i] = spec_add(s, *spec_node(s, args[i]));
     struct lang_node op = {.kind = LANG_OP, .op = node->op, .type = spec_node(s, args[0])->type};
     return spec_fold(s, &op, args, 2);
 }
 
-/* x = x: what is left of x = pow(x, p) where p is 1. */
+/* True for x = x, for example the rest of x = pow(x, p) with p = 1. */
 static bool is_idle(struct spec *s, const struct lang_node *assignment)
 {
     const struct lang_node *target = spec_node(s, assignment->a),
@@ -136,7 +139,7 @@ static void spec_assign(struct spec *s, struct lang_node node, struct chain *out
     spec_append(s, out, spec_add(s, node));
 }
 
-/* Scratch that lives as long as the statement which takes it. */
+/* Scratch memory that lives as long as its statement. */
 static uint32_t save_known(struct spec *s)
 {
     uint32_t mark = s->stack.len;
@@ -232,7 +235,7 @@ static void spec_loop(struct spec *s, const struct lang_node *source, struct cha
         }
     }
     spec_body(s, node.c, &body);
-    /* `continue` leads here with less known than the end of the body has */
+    /* `continue` gets here with fewer constants than the end of the body */
     if (node.kind != LANG_WHILE)
         forget_round(s, source);
     if (node.kind == LANG_DO)
@@ -255,7 +258,7 @@ static bool spec_statement(struct spec *s, lang_ref ref, struct chain *out)
     case LANG_ASSIGN: spec_assign(s, node, out); return true;
     case LANG_EXPR:
         node.a = spec_expression(s, node.a);
-        if (spec_node(s, node.a)->kind == LANG_CALL) /* else it was evaluated */
+        if (spec_node(s, node.a)->kind == LANG_CALL) /* otherwise it was evaluated */
             spec_append(s, out, spec_add(s, node));
         return true;
     case LANG_IF: return spec_if(s, node, out);

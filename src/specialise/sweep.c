@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * The backward step: statements are visited last to first, so that all uses of a variable are known
- * where it is assigned. The language has no effects but assignments, by statements and by `out`
- * arguments: what assigns only to variables that nobody reads later is dropped. In a loop "later"
- * includes the whole loop, whose reads are collected first.
+ * The backward step visits statements last to first, so an assignment sees all later uses of its
+ * variable. The only effects in the language are assignments, by statements and by `out` arguments.
+ * So the step drops statements that assign only to variables without a later read. In a loop
+ * "later" includes the whole loop, so the step collects the loop's reads first.
  */
 #include "specialise/spec.h"
 
@@ -17,11 +17,11 @@ static bool holds(const uint32_t *items, uint32_t len, uint32_t id)
     return false;
 }
 
-/* What stays: uses, and what the function's description will say */
+/* ---- Uses in the remaining code, for the function's record ---- */
 
 static void use_expression(struct spec *s, lang_ref ref);
 
-/* An assigned expression: its variable is written, indices in it are read. */
+/* A target: the assignment writes its variable and reads the indices. */
 static void use_target(struct spec *s, lang_ref ref, unsigned use)
 {
     struct lang_node *node = spec_node(s, ref);
@@ -102,7 +102,7 @@ static void use_expression(struct spec *s, lang_ref ref)
     }
 }
 
-/* Effects on variables that are read later */
+/* ---- Effects on variables with later reads ---- */
 
 static bool is_live(const struct spec *s, lang_ref target)
 {
@@ -126,7 +126,7 @@ static bool has_live_effects(const struct spec *s, lang_ref ref)
     return false;
 }
 
-/* Everything that a loop reads, before it is swept. */
+/* Collects the reads of a loop before the sweep of the loop. */
 
 static void read_expression(struct spec *s, lang_ref ref)
 {
@@ -153,7 +153,8 @@ static void read_statement(struct spec *s, lang_ref ref)
     switch (node->kind) {
     case LANG_ASSIGN:
         if (spec_node(s, node->a)->kind != LANG_VAR)
-            read_expression(s, node->a); /* the variable too: a part is assigned, the rest stays */
+            read_expression(s, node->a); /* a read of the variable too, because the assignment keeps
+                                            its other parts */
         read_expression(s, node->b);
         break;
     case LANG_DECLARE:
@@ -186,13 +187,13 @@ static void read_statement(struct spec *s, lang_ref ref)
     }
 }
 
-/* Statements; each returns whether it stays */
+/* ---- Statements; each function returns whether the statement stays ---- */
 
 static lang_ref sweep_list(struct spec *s, lang_ref first, unsigned loops);
 
 /*
- * A value that nobody wants but whose computation has effects: the call remains, or else the
- * statement as it is.
+ * Handles an unused value whose computation has effects: keeps the call, or else the whole
+ * statement.
  */
 static bool becomes_call(struct spec *s, lang_ref ref, lang_ref value)
 {
@@ -207,8 +208,7 @@ static bool becomes_call(struct spec *s, lang_ref ref, lang_ref value)
 }
 
 /*
- * Literals that stand for a variable, and are long, stand for it no more where there are two of
- * them.
+ * Turns long literals back into their variable if two or more stand for it.
  */
 static void name_literals(struct spec *s, uint32_t slot)
 {
@@ -243,8 +243,8 @@ static bool names_slot(const struct spec *s, lang_ref ref, uint32_t slot)
 }
 
 /*
- * Is the next thing that happens to a variable that it gets a new value, by the statement this
- * returns?
+ * The statement that assigns a new value to a variable, if this is the next mention of the
+ * variable; else 0.
  */
 static lang_ref overwriting(const struct spec *s, uint32_t slot, uint32_t list)
 {
@@ -256,7 +256,7 @@ static lang_ref overwriting(const struct spec *s, uint32_t slot, uint32_t list)
     return overwrites ? ref : 0;
 }
 
-/* Then the variable declares itself there. */
+/* Moves the declaration of the variable to this statement. */
 static bool moves_down(struct spec *s, uint32_t slot, uint32_t list)
 {
     lang_ref next = overwriting(s, slot, list);
@@ -286,7 +286,7 @@ static bool sweep_declare(struct spec *s, lang_ref ref, uint32_t list)
     spec_node(s, ref)->b = value;
     if (value) {
         use_expression(s, value);
-        s->slots[slot].uses |= is_read ? 0 : SLOT_WRITTEN; /* it has a place among the slots */
+        s->slots[slot].uses |= is_read ? 0 : SLOT_WRITTEN; /* the variable keeps its slot */
     }
     vec_push(s->unit->arena, &s->vars, ref);
     return true;
@@ -344,7 +344,7 @@ static bool sweep_if(struct spec *s, lang_ref ref, unsigned loops)
     return true;
 }
 
-/* Does the head of an empty loop do nothing but count a variable of its own? */
+/* True if the head of an empty loop only counts its own variable. */
 static bool is_idle(const struct spec *s, const struct lang_node *loop)
 {
     if (loop->b && has_live_effects(s, loop->b))

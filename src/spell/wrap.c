@@ -39,35 +39,37 @@ static const char *end_of_string(const char *at, const char *end)
     return at;
 }
 
+/* What a character means where a break is sought. */
+enum meaning { PLAIN, OPENS, CLOSES, QUOTE, SLASH, SPACE };
+
+static const uint8_t meanings[256] = {
+    ['('] = OPENS,  ['['] = OPENS, ['{'] = OPENS, [')'] = CLOSES, [']'] = CLOSES,
+    ['}'] = CLOSES, ['"'] = QUOTE, ['/'] = SLASH, [' '] = SPACE,
+};
+
 /*
  * Where to break [from, end), which begins at column `column`: of the places that leave no more
  * than MAX_COLUMNS, the last of those with the fewest open brackets; NULL: nowhere.
  */
 static const char *find_break(const char *from, const char *end, size_t column)
 {
-    const char *best = NULL, *first = column < MIN_COLUMNS ? from + (MIN_COLUMNS - column) : from,
-               *last = from + (MAX_COLUMNS - column);
+    const char *best = NULL, *first = column < MIN_COLUMNS ? from + (MIN_COLUMNS - column) : from;
+    size_t room = column < MAX_COLUMNS ? MAX_COLUMNS - column + 1 : 0;
+    const char *stop = (size_t)(end - from) < room ? end : from + room;
     int depth = 0, best_depth = 0;
-    for (const char *at = from; at < end && at <= last; at++) {
-        switch (*at) {
-        case '"': at = end_of_string(at, end); break;
-        case '(':
-        case '[':
-        case '{': depth++; break;
-        case ')':
-        case ']':
-        case '}': depth--; break;
-        case '/':
-            if (at + 1 < end && at[1] == '/')
-                return NULL;
-            break;
-        case ' ':
-            if (at >= first && at > from && (!best || depth <= best_depth) && may_break(at, end)) {
-                best = at;
-                best_depth = depth;
-            }
-            break;
-        default: break;
+    for (const char *at = from; at < stop; at++) {
+        enum meaning meaning = meanings[(unsigned char)*at];
+        if (meaning == PLAIN)
+            continue;
+        depth += (meaning == OPENS) - (meaning == CLOSES);
+        if (meaning == QUOTE)
+            at = end_of_string(at, end);
+        else if (meaning == SLASH && at + 1 < end && at[1] == '/')
+            return NULL;
+        else if (meaning == SPACE && at >= first && at > from && (!best || depth <= best_depth)
+                 && may_break(at, end)) {
+            best = at;
+            best_depth = depth;
         }
     }
     return best;

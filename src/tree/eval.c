@@ -2,9 +2,9 @@
 /*
  * The interpreter: a call with constant arguments becomes values.
  *
- * A value of any type is its scalars in a row (structs member by member, arrays element by
- * element), so that a member, an element or a column of a variable is a part of its words. Whatever
- * GLSL leaves undefined ends the evaluation.
+ * A value of any type is the sequence of its scalars (structs by member, arrays by element), so a
+ * member, an element or a column of a variable is a range of its words. Behaviour that GLSL leaves
+ * undefined ends the evaluation.
  */
 #include "tree/eval.h"
 
@@ -17,9 +17,9 @@ enum { MAX_CALL_DEPTH = 64, MAX_EXPRESSION_DEPTH = 400, MAX_WORDS = 1 << 16 };
 struct frame { /* an active call */
     const struct lang_unit *layer;
     const struct lang_function *fn;
-    union ir_word *words; /* of all slots */
-    uint32_t *offsets;    /* by slot, in words */
-    uint8_t *defined;     /* by slot: something has been assigned */
+    union ir_word *words; /* words of all slots */
+    uint32_t *offsets;    /* by slot: its first word */
+    uint8_t *defined;     /* by slot: it has a value */
     union ir_word *result;
 };
 
@@ -31,7 +31,7 @@ struct eval {
     struct frame frame;
 };
 
-/* A place that can be assigned: consecutive words, or up to 4 chosen by a swizzle. */
+/* The target of an assignment: consecutive words, or up to 4 words that a swizzle selects. */
 struct place {
     union ir_word *base;
     ir_type_id type;
@@ -88,7 +88,7 @@ static void find_swizzle(const struct lang_node *node, struct place *place)
     place->scattered = true;
 }
 
-/* The words of a constant; an option's value is the generation's to say. */
+/* The words of a constant. The generation sets the values of options. */
 static const union ir_word *global_words(struct eval *ev, const struct lang_node *node)
 {
     const struct lang_unit *layer;
@@ -104,7 +104,7 @@ static bool find_place(struct eval *ev, lang_ref ref, struct place *place)
                                 .type = node->type};
         return true;
     }
-    if (node->kind == LANG_GLOBAL) { /* only read: the parser lets nobody assign to it */
+    if (node->kind == LANG_GLOBAL) { /* read-only: the parser rejects assignments to globals */
         *place = (struct place){.base = (union ir_word *)(uintptr_t)global_words(ev, node),
                                 .type = node->type};
         return place->base != NULL;
@@ -154,7 +154,7 @@ static bool eval_aggregate(struct eval *ev, lang_ref first, union ir_word *out)
     return true;
 }
 
-/* A part of a value that has no place: of a call's result… */
+/* A part of a value without a place, such as the result of a call. */
 static bool eval_part(struct eval *ev, const struct lang_node *node, union ir_word *out)
 {
     const struct lang_node *whole = ast_node(ev->frame.layer, node->a);
@@ -230,8 +230,7 @@ static bool eval_op(struct eval *ev, const struct lang_node *node, union ir_word
 }
 
 /*
- * The variable or global that the expression is, or is a part of; NULL for the result of a
- * computation.
+ * The variable or global that contains the expression; NULL for the result of a computation.
  */
 static const struct lang_node *place_root(const struct lang_unit *layer,
                                           const struct lang_node *node)
@@ -275,7 +274,7 @@ static bool open_frame(struct eval *ev, uint32_t id, struct frame *frame)
     return true;
 }
 
-/* Arguments into the callee's frame; where results go into places[], by parameter. */
+/* Copies arguments to the callee's frame; places[] receives the target of each out parameter. */
 static bool eval_arguments(struct eval *ev, lang_ref first, struct frame *callee,
                            struct place *places)
 {
@@ -357,7 +356,7 @@ static bool eval_expression(struct eval *ev, lang_ref ref, union ir_word *out)
 
 enum flow { FLOW_NEXT, FLOW_BREAK, FLOW_CONTINUE, FLOW_RETURN, FLOW_FAIL };
 
-static enum flow run_one(struct eval *ev, lang_ref ref); /* a statement, or a block */
+static enum flow run_one(struct eval *ev, lang_ref ref); /* runs a statement or a block */
 
 static union ir_word *temporary(struct eval *ev, ir_type_id type, union ir_word *small)
 {
@@ -381,7 +380,7 @@ static bool run_declare(struct eval *ev, const struct lang_node *node)
     return true;
 }
 
-/* x op= y computes `x op y` of the operands' types into x's. */
+/* x op= y computes `x op y` in the types of the operands, then converts to the type of x. */
 static bool apply_operator(struct eval *ev, const struct lang_node *node, const struct place *place,
                            union ir_word *words)
 {

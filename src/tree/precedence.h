@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-/* How tightly operators bind: the parser and the printers share it. */
+/* The precedence of operators, for the parser and the printers. */
 #ifndef MXG_TREE_PRECEDENCE_H
 #define MXG_TREE_PRECEDENCE_H
 
-/* binds tighter as it grows; an operand is parenthesised when its own is lower */
+/* in increasing order; printers parenthesise an operand of lower precedence */
 enum lang_precedence {
     LANG_PREC_COMMA,
     LANG_PREC_ASSIGN,

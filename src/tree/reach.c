@@ -5,7 +5,7 @@
 
 #include <assert.h>
 
-/* Was `index` new to the set of bytes, which grows to hold it? */
+/* Adds `index` to a set of bytes, which grows as needed. True if it is new. */
 static bool mark(struct arena *arena, uint8_t **seen, uint32_t *cap, uint32_t index)
 {
     if (index >= *cap) {
@@ -21,8 +21,8 @@ static bool mark(struct arena *arena, uint8_t **seen, uint32_t *cap, uint32_t in
 }
 
 /*
- * Members before the struct that holds them. Types nest as deep as their declarations, which cannot
- * be recursive.
+ * Adds members before the struct that contains them. Declarations cannot be recursive, so they
+ * bound the depth.
  */
 static void add_type(struct lang_reach *reach, const struct lang_unit *unit, ir_type_id type)
 {
@@ -57,12 +57,11 @@ static void add_own_needs(struct lang_reach *reach, const struct lang_unit *unit
     for (uint32_t i = 0; i < fn->num_slots; i++)
         add_type(reach, unit, ast_slot(layer, fn, i)->type);
     for (uint32_t i = 0; i < fn->num_globals; i++)
-        add_global(reach, unit, layer->refs.items[fn->first_global + i]);
+        add_global(reach, unit, ast_globals(layer, fn)[i]);
 }
 
 /*
- * Calls nest as deep as the author's functions call each other, which has no bound: hence a stack
- * of our own.
+ * Nothing bounds the depth of calls in the author's functions, so the walk uses an explicit stack.
  */
 void lang_reach_add(struct lang_reach *reach, const struct lang_unit *unit, uint32_t id)
 {
@@ -83,7 +82,7 @@ void lang_reach_add(struct lang_reach *reach, const struct lang_unit *unit, uint
             (void)vec_pop(&stack);
             continue;
         }
-        uint32_t callee = layer->refs.items[fn->first_callee + top->next_callee++];
+        uint32_t callee = ast_callees(layer, fn)[top->next_callee++];
         assert(callee < top->id);
         if (mark(reach->arena, &reach->seen_functions, &reach->cap_functions, callee))
             vec_push(reach->arena, &stack, (struct visit){callee, 0});

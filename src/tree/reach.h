@@ -5,13 +5,13 @@
 #include "tree/tree.h"
 
 /*
- * Adds to `functions` (ids, callees before callers, each once) what function `id` needs, itself
- * last, and to `globals` what these read.
+ * Adds the functions that `id` needs to `functions` (ids, callees before callers, each once, `id`
+ * last), and the globals that they read to `globals`.
  */
 struct lang_reach {
     struct arena *arena;
     VEC(uint32_t) functions, globals;
-    VEC(ir_type_id) user_types; /* structs used in signatures and locals, in order of need */
+    VEC(ir_type_id) user_types; /* structs in signatures and locals, in order of use */
     uint8_t *seen_functions, *seen_globals, *seen_types;
     uint32_t cap_functions, cap_globals, cap_types;
 };

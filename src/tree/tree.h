@@ -23,7 +23,7 @@ typedef uint32_t lang_ref; /* index of a node in its unit; 0 = none */
 
 enum lang_kind {
     /* expressions */
-    LANG_CONST,  /* a: index in unit->words; type says how many */
+    LANG_CONST,  /* a: index in unit->words; the type gives their number */
     LANG_VAR,    /* a: slot of a parameter or local of the function */
     LANG_GLOBAL, /* a: index in unit->globals */
     LANG_INPUT,  /* a: slot of an inline expression's {{input}} */
@@ -46,7 +46,7 @@ enum lang_kind {
     LANG_FOR,
     LANG_WHILE, /* b: condition; c: body block */
     LANG_DO,    /* b: condition; c: body block */
-    /* a: first statement, chained by next; b: of the body of a FOR, its step statement or 0 */
+    /* a: first statement, chained by next; b: the step statement of a FOR body, or 0 */
     LANG_BLOCK,
     LANG_RETURN, /* a: value or 0 */
     LANG_BREAK,
@@ -55,7 +55,7 @@ enum lang_kind {
 };
 
 /*
- * Which of a node's fields are its children, by kind; `next`, where it is set, is a sibling. ast.c
+ * The child fields of a node, by kind; a nonzero `next` is a sibling. ast.c
  */
 enum lang_child_field { LANG_CHILD_A = 1, LANG_CHILD_B = 2, LANG_CHILD_C = 4 };
 extern const uint8_t lang_child_fields[LANG_NUM_KINDS];
@@ -63,7 +63,7 @@ extern const uint8_t lang_child_fields[LANG_NUM_KINDS];
 struct lang_node {
     uint8_t kind;
     uint8_t op;
-    ir_type_id type; /* of an expression */
+    ir_type_id type; /* type of an expression */
     lang_ref next;   /* next sibling: operand, argument or statement */
     uint32_t a, b, c;
 };
@@ -73,25 +73,25 @@ enum lang_param_mode { LANG_IN, LANG_OUT, LANG_INOUT };
 struct lang_slot { /* a parameter or local variable */
     str_id name;
     ir_type_id type;
-    uint8_t mode;     /* enum lang_param_mode; of a parameter */
-    uint8_t assigned; /* somebody assigns it after its declaration */
+    uint8_t mode;     /* enum lang_param_mode of a parameter */
+    uint8_t assigned; /* an assignment after its declaration exists */
 };
 
 enum lang_function_flags {
-    /* it or what it calls reads derivatives or textures with implicit level of detail */
+    /* it or a callee reads derivatives, or textures with implicit level of detail */
     LANG_FN_DERIVATIVE = 1,
-    LANG_FN_PURE = 2,     /* it and what it calls read no uniform, stream, option or sampler */
-    LANG_FN_STRAIGHT = 4, /* no loops, nor in what it calls: may be lowered to IR whole */
-    /* it has string parameters: to be specialised before it is printed for hardware */
+    LANG_FN_PURE = 2,     /* it and its callees read no uniform, stream, option or sampler */
+    LANG_FN_STRAIGHT = 4, /* no loops, also in callees: lowering makes nodes */
+    /* it has string parameters: targets without strings need a specialised copy */
     LANG_FN_STRINGS = 8,
     /* an inline expression: no name, LANG_INPUT slots, body is RETURN expr */
     LANG_FN_EXPRESSION = 16,
-    LANG_FN_FINAL = 32, /* nothing to specialise, unless arguments or callees are: canonical.c */
+    LANG_FN_FINAL = 32, /* nothing to specialise, except for arguments and callees: canonical.c */
 };
 
 struct lang_function {
     str_id name;
-    str_id doc; /* the first sentence of the comment above it; 0: none */
+    str_id doc; /* the first sentence of the comment above it; 0 = none */
     uint16_t flags;
     ir_type_id return_type;
     uint16_t num_params, num_slots; /* parameters come first among the slots */
@@ -100,16 +100,16 @@ struct lang_function {
     uint32_t file;                  /* index in unit->files */
     uint32_t place;
     uint32_t num_nodes; /* size of the body: for inlining decisions */
-    /* in unit->refs: function ids called directly, each once */
-    uint32_t first_callee, num_callees;
-    uint32_t first_global, num_globals; /* in unit->refs: globals read directly, each once */
-    /* in unit->refs, where it is LANG_FN_FINAL: its CALL nodes, arguments first */
-    uint32_t first_call, num_calls;
+    /*
+     * in unit->refs, one after the other: ids of functions called directly and of globals read
+     * directly, each once; with LANG_FN_FINAL its CALL nodes, arguments first
+     */
+    uint32_t first_ref, num_callees, num_globals, num_calls;
 };
 
-struct lang_version {    /* what a function of a generation's layer is (plan.c) */
-    uint32_t origin;     /* id of the function that it was made from */
-    uint32_t dropped[2]; /* bit i is set where parameter i of that is gone */
+struct lang_version {    /* the origin of a function in a generation's layer (plan.c) */
+    uint32_t origin;     /* id of the original function */
+    uint32_t dropped[2]; /* bit i: the copy lacks parameter i of the original */
 };
 
 enum lang_global_kind {
@@ -129,14 +129,14 @@ struct lang_global {
      */
     uint32_t words;
     uint32_t num_words;
-    uint32_t array_length; /* of a uniform array; 0 = none */
+    uint32_t array_length; /* length of a uniform array; 0 = none */
     uint32_t file;
 };
 
 struct lang_file {
-    str_id name;                          /* as given to the reader */
+    str_id name;                          /* name in the form that the reader received */
     uint32_t first_include, num_includes; /* in unit->refs: files included directly */
-    /* ids of the functions that the file itself defines are contiguous */
+    /* a file's functions have contiguous ids */
     uint32_t first_function, num_functions;
     uint32_t first_global, num_globals;
 };
@@ -151,29 +151,31 @@ struct lang_host { /* how globals become IR nodes */
     ir_ref (*global)(void *user_data, struct ir_graph *graph, const struct lang_unit *unit,
                      uint32_t global_id);
     /*
-     * What a built-in function of textures gives where the texture is not a plain one; 0: it is
-     * plain. Functions that are given such a texture, which the portable language has no name for,
-     * are lowered whatever their size. May be NULL.
+     * The result of a built-in texture function if the texture is special; 0: it is plain. The
+     * portable language has no name for a special texture, so functions with such arguments are
+     * lowered regardless of their size. May be NULL.
      */
     ir_ref (*texture)(void *user_data, enum ir_op op, const ir_ref *args);
     /*
-     * the same limit for the called function itself and what it calls directly; 0: max_inline_nodes
+     * max_inline_nodes for the called function itself and its direct callees; 0: max_inline_nodes
      */
     uint32_t max_outer_nodes;
-    /* functions larger than this are called, not lowered, unless their result folds to constants */
+    /*
+     * calls of functions with more tree nodes than this stay calls, unless their result folds to
+     * constants
+     */
     uint32_t max_inline_nodes;
 };
 
 /*
- * A layer of functions. Function, file, global and type ids count through the layers (base first);
- * node, slot, word and ref indices are the layer's own. User type ids also count through the
- * layers.
+ * A layer of functions. Ids of functions, files, globals and user types count through all layers
+ * (base first); indices of nodes, slots, words and refs count within the layer.
  */
 struct lang_unit {
     const struct lang_unit *base;
     struct strpool *strings;
     struct arena *arena; /* NULL in an image layer */
-    /* how many the layers below have */
+    /* numbers of items in the layers below */
     uint32_t base_functions, base_files, base_globals, base_user_types;
     VEC(struct lang_node) nodes; /* [0] unused; cap 0 in an image layer */
     VEC(struct lang_slot) slots;
@@ -184,16 +186,16 @@ struct lang_unit {
     VEC(uint32_t) refs;
     VEC(struct ir_user_type) user_types;
     VEC(struct ir_member) members;
-    /* Of an image layer: */
-    /* where the text of each function begins, and where the last one's ends (texts.c) */
+    /* image layers only: */
+    /* offset of each function's text, and the end of the last one (texts.c) */
     VEC(uint32_t) texts;
     VEC(char) text_bytes;
-    /* Of a generation's layer: */
-    /* who knows the options, and the graph that their values are nodes of; from lang_lower_call */
+    /* layers of a generation only: */
+    /* resolves options, and holds the graph of their values; from lang_lower_call */
     struct lang_host host;
     struct ir_graph *graph;
     VEC(struct lang_version) versions; /* by function */
-    /* plan.c: which constants functions take for granted; NULL until the shader stands */
+    /* plan.c: the constants that functions assume; NULL until the shader is complete */
     struct lang_plan *plan;
 };
 
@@ -252,6 +254,6 @@ static inline const struct ir_user_type *lang_user_type(const struct lang_unit *
 
 #define LANG_NONE UINT32_MAX /* no function, file… */
 
-enum { LANG_TINY = 8 }; /* functions of at most so many nodes are never worth a call */
+enum { LANG_TINY = 8 }; /* functions with at most this many nodes are always lowered */
 
 #endif

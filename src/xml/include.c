@@ -5,6 +5,8 @@
  */
 #include "xml/internal.h"
 
+#include <assert.h>
+
 static struct xml_file *find_opened(struct xml_reader *reader, str_id name)
 {
     for (uint32_t i = 0; i < reader->opened.len; i++)
@@ -76,6 +78,7 @@ static void include_opened(struct xml_reader *reader, elem_id include, const cha
     reader->include_depth++;
     elem_id root = xml_read_text(reader, name, doc_add_file(doc, id), 0, data, size);
     reader->include_depth--;
+    assert(index < reader->opened.len && reader->opened.items[index].open);
     reader->opened.items[index].open = false;
     if (root)
         xml_merge_root(doc, root, 0, include);
@@ -85,6 +88,7 @@ static void include_opened(struct xml_reader *reader, elem_id include, const cha
 
 static void process(struct xml_reader *reader, const struct xml_source *source, elem_id include)
 {
+    assert(!reader->handle_open && reader->include_depth <= reader->limits.max_include_depth);
     struct document *doc = reader->doc;
     const char *href = str_text(doc->strings, attr_by_text(doc, include, "href"));
     const char *parse = str_text(doc->strings, attr_by_text(doc, include, "parse"));
@@ -120,11 +124,13 @@ void xml_process_includes(struct xml_reader *reader, const struct xml_source *so
                           uint32_t first)
 {
     uint32_t end = reader->includes.len;
+    assert(first <= end);
     for (uint32_t i = first; i < end; i++) {
         elem_id include = reader->includes.items[i];
         if (!is_below(reader->doc, include, source->root))
             continue;
         process(reader, source, include);
+        assert(reader->includes.len == end);
         doc_remove_element(reader->doc, include);
     }
 }

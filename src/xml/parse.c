@@ -5,6 +5,7 @@
  */
 #include "xml/internal.h"
 
+#include <assert.h>
 #include <libxml/parser.h>
 #include <libxml/parserInternals.h>
 #include <limits.h>
@@ -106,12 +107,14 @@ static size_t next_value(const struct xml_source *source, size_t *at, bool *out_
                                                       source->size - value)
                                              : NULL;
     *at = close ? (size_t)(close - source->text) + 1 : source->size;
+    assert(*at <= source->size);
     return value < source->size ? value : source->size;
 }
 
 static void add_attr(struct xml_reader *reader, elem_id element, str_id name, str_id value,
                      struct diag_place element_place, size_t offset)
 {
+    assert(element_place.line <= reader->source->position.line);
     uint32_t column = xml_column(reader->source, offset),
              lines = reader->source->position.line - element_place.line;
     doc_add_attr(
@@ -284,6 +287,7 @@ static void on_end_element(void *user, const xmlChar *name, const xmlChar *prefi
     struct xml_reader *reader = user;
     if (reader->stopped)
         return;
+    assert(reader->source->depth > 0);
     reader->source->depth--;
     reader->source->current = doc_element(reader->doc, reader->source->current)->parent;
 }
@@ -494,6 +498,8 @@ bool xml_parse_source(struct xml_reader *reader)
         report_raw_less(reader);
     }
     bool parsed = !reader->stopped && !reader->repair_failed;
+    assert(reader->includes.len >= num_includes);
+    assert(!parsed || source->depth == 0);
     if (!parsed) /* a partial document does not count */
         doc_rollback(reader->doc, source->root, &mark);
     return parsed;

@@ -2,8 +2,11 @@
 /* Offsets in a source as lines and columns. */
 #include "xml/internal.h"
 
+#include <assert.h>
+
 static uint32_t count_code_points(const struct xml_source *source, size_t begin, size_t end)
 {
+    assert(begin <= end && end <= source->size);
     uint32_t count = (uint32_t)(end - begin);
     for (size_t at = begin; at < end && !source->is_ascii; at++)
         /* continuation bytes do not count */
@@ -20,6 +23,7 @@ uint32_t xml_column(struct xml_source *source, size_t offset)
          (newline = memchr(source->text + p->offset, '\n', offset - p->offset)) != NULL; p->line++)
         p->offset = p->line_begin = (size_t)(newline - source->text) + 1;
     p->offset = offset;
+    assert(p->line_begin <= offset && p->line > 0);
     return count_code_points(source, p->line_begin, offset) + 1;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "xml/internal.h"
 
+#include <assert.h>
 #include <libxml/parser.h>
 
 /* Files */
@@ -9,6 +10,7 @@ bool xml_open_file(struct xml_reader *reader, const char *from, const char *ref,
                    const char **out_name, const char **out_data, size_t *out_size,
                    const char **out_reason)
 {
+    assert(!reader->handle_open);
     const struct xml_files *files = reader->files;
     const char *name = NULL, *reason = NULL;
     reader->handle_open = files
@@ -46,6 +48,7 @@ static void carry_scope(struct document *doc, elem_id root, elem_id child, bool 
 
 void xml_merge_root(struct document *doc, elem_id root, elem_id parent, elem_id sibling)
 {
+    assert(!doc_element(doc, root)->parent);
     bool into_namespace =
         doc_inherited_attr(doc, sibling ? sibling : parent, STR_namespace) != STR_EMPTY;
     for (elem_id child = doc_element(doc, root)->first_child; child;
@@ -81,6 +84,7 @@ elem_id xml_read_text(struct xml_reader *reader, const char *name, uint16_t file
         xml_process_includes(reader, &source, first_include);
         doc_upgrade(doc, source.root, end, reader->diags);
     }
+    assert(reader->includes.len >= first_include && reader->source == outer);
     reader->includes.len = first_include;
     return parsed ? source.root : 0;
 }

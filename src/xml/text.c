@@ -5,6 +5,8 @@
  */
 #include "xml/internal.h"
 
+#include <assert.h>
+
 static bool has_prefix(const char *text, size_t len, const char *prefix, size_t prefix_len)
 {
     return len >= prefix_len && memcmp(text, prefix, prefix_len) == 0;
@@ -12,6 +14,7 @@ static bool has_prefix(const char *text, size_t len, const char *prefix, size_t 
 
 static size_t find_text(const char *text, size_t len, size_t from, const char *wanted)
 {
+    assert(from <= len);
     size_t n = strlen(wanted);
     for (const char *p = text + from; (p = memchr(p, wanted[0], (size_t)(text + len - p))) != NULL;
          p++)
@@ -63,6 +66,7 @@ static bool decode_utf16(struct xml_reader *reader, const unsigned char *bytes, 
         }
         out = put_utf8(out, code);
     }
+    assert((size_t)(out - text) <= size / 2 * 3);
     reader->source->text = text;
     reader->source->size = (size_t)(out - text);
     return size % 2 == 0;
@@ -75,6 +79,7 @@ static void decode_latin1(struct xml_reader *reader)
          *out = text;
     for (size_t i = 0; i < source->size; i++)
         out = put_utf8(out, (unsigned char)source->text[i]);
+    assert((size_t)(out - text) <= source->size * 2);
     source->text = text;
     source->size = (size_t)(out - text);
 }
@@ -91,6 +96,7 @@ static void declared_encoding(const struct xml_source *source, char *out, size_t
         at++;
     for (at++; at < end && text[at] != '"' && text[at] != '\'' && n + 1 < out_size; at++)
         out[n++] = (char)(text[at] >= 'A' && text[at] <= 'Z' ? text[at] + 32 : text[at]);
+    assert(n < out_size && end <= len);
     out[n] = '\0';
 }
 
@@ -150,6 +156,7 @@ static bool find_start(struct xml_reader *reader)
         source->start = root;
     if (source->start)
         diag_add(reader->diags, DIAG_ID_xml_text_before, xml_place(reader, 0));
+    assert(source->start <= source->size);
     return check_first_bytes(reader);
 }
 
@@ -198,6 +205,7 @@ static size_t skip_past(const char *text, size_t len, size_t at, const char *end
 bool xml_repair_text(struct xml_reader *reader)
 {
     struct xml_source *source = reader->source;
+    assert(source->raw_less.len == 0);
     size_t len = source->size;
     if (memchr(source->text, XML_RAW_LESS, len))
         return false;
