@@ -5,6 +5,8 @@
  */
 #include "closure/closure_priv.h"
 
+#include <assert.h>
+
 /*
  * True if an op over values that are 0 or 1 gives such a value. `is_binary` is valid for all nodes
  * below `ref`.
@@ -35,6 +37,7 @@ static bool keeps_binary(const struct ir_graph *g, ir_ref ref, const bool *is_bi
 enum shader_alpha closure_alpha(struct shader *shader, ir_ref alpha)
 {
     const struct ir_graph *g = shader->graph;
+    assert(ir_type_of(g, alpha) == IR_TYPE_FLOAT);
     bool *is_binary = ARENA_ARRAY(shader->arena, bool, alpha + 1);
     uint8_t *needed = ir_mark(g, &alpha, 1, shader->arena);
     for (ir_ref ref = 1; ref <= alpha; ref++)

@@ -6,6 +6,8 @@
 #include "closure/closure_priv.h"
 #include "lower/lower.h"
 
+#include <assert.h>
+
 static ir_ref stream(struct shader *shader, str_id name)
 {
     return shader_stream(shader, name, IR_TYPE_VEC3);
@@ -80,6 +82,7 @@ bool closure_call_all(struct shader *shader, const struct closure_host *host, ir
 {
     struct ir_graph *g = shader->graph;
     const struct ir_node node = *ir_get(g, leaf);
+    assert(node.op == IR_LEAF && which < NUM_LEAF_FUNCTIONS);
     const uint32_t *functions = host->leaf_functions(host->user_data, node.attr);
     uint32_t id = functions[which];
     if (id == LANG_NONE)
@@ -88,6 +91,7 @@ bool closure_call_all(struct shader *shader, const struct closure_host *host, ir
     const struct lang_function *fn = lang_function(shader->unit, id, &unit);
     /* Operands: the weight, the inputs, and a modifier's base. */
     unsigned num_inputs = node.num_args - 1 - (functions[LEAF_FACTOR] != LANG_NONE);
+    assert(num_inputs < node.num_args);
     ir_ref *args = ARENA_ARRAY(shader->arena, ir_ref, fn->num_params);
     for (unsigned i = 0; i < fn->num_params; i++) {
         const struct lang_slot *slot = &unit->slots.items[fn->first_slot + i];
@@ -105,6 +109,7 @@ bool closure_call_all(struct shader *shader, const struct closure_host *host, ir
 ir_ref closure_call(struct shader *shader, const struct closure_host *host, ir_ref leaf,
                     enum leaf_function which, const ir_ref *light)
 {
+    assert(which != LEAF_SAMPLE);
     ir_ref result[1];
     return closure_call_all(shader, host, leaf, which, light, result) ? result[0] : 0;
 }

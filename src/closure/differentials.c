@@ -13,6 +13,8 @@
  */
 #include "closure/closure_priv.h"
 
+#include <assert.h>
+
 struct differ {
     struct shader *shader;
     struct ir_graph *graph;
@@ -45,6 +47,7 @@ static void find_wanted(struct differ *d, const uint8_t *needed)
 static ir_ref shifted_stream(struct differ *d, ir_ref ref, unsigned axis)
 {
     const struct ir_node *node = ir_get(d->graph, ref);
+    assert(node->op == IR_STREAM && node->attr < d->shader->variables.len);
     str_id name = d->shader->variables.items[node->attr].name;
     if (name == STR_random || name == STR_viewWorld || name == STR_lightWorld
         || ir_type_info(node->type)->scalar != IR_TYPE_FLOAT)
@@ -64,6 +67,7 @@ static ir_ref rebuilt(struct differ *d, ir_ref ref, const ir_ref *became)
     ir_ref *args = ARENA_ARRAY(d->shader->arena, ir_ref, node.num_args + 1u);
     bool changed = false;
     for (uint32_t i = 0; i < node.num_args; i++) {
+        assert(ir_arg(d->graph, ref, i) < ref);
         args[i] = became[ir_arg(d->graph, ref, i)];
         changed |= args[i] != ir_arg(d->graph, ref, i);
     }
@@ -79,6 +83,7 @@ static ir_ref difference(struct differ *d, ir_ref arg, unsigned axis)
 
 static ir_ref derivative(struct differ *d, enum ir_op op, ir_ref arg)
 {
+    assert(is_derivative(op));
     if (op != IR_FWIDTH)
         return difference(d, arg, op == IR_DFDY);
     ir_ref x = ir_op1(d->graph, IR_ABS, difference(d, arg, 0)),
@@ -88,6 +93,7 @@ static ir_ref derivative(struct differ *d, enum ir_op op, ir_ref arg)
 
 static void visit(struct differ *d, ir_ref ref)
 {
+    assert(ref < d->num_nodes);
     enum ir_op op = (enum ir_op)ir_get(d->graph, ref)->op;
     bool differs = is_derivative(op);
     d->here[ref] = differs ? derivative(d, op, ir_arg(d->graph, ref, 0)) : rebuilt(d, ref, d->here);
@@ -118,5 +124,6 @@ ir_ref closure_differentials(struct shader *shader, ir_ref root)
         visit(&d, ref);
         ir_pop_origin(d.graph);
     }
+    assert(ir_type_of(d.graph, d.here[root]) == ir_type_of(d.graph, root));
     return d.here[root];
 }

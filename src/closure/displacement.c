@@ -15,6 +15,8 @@
  */
 #include "closure/closure_priv.h"
 
+#include <assert.h>
+
 static ir_ref stream(struct shader *shader, str_id name)
 {
     return shader_stream(shader, name, IR_TYPE_VEC3);
@@ -33,6 +35,7 @@ static ir_ref offset_of_shader(struct shader *shader, ir_ref displacement, ir_re
     ir_ref normal = ir_op1(g, IR_NORMALIZE, stream(shader, STR_normalWorld));
     if (ir_type_of(g, amount) == IR_TYPE_FLOAT)
         return ir_op2(g, IR_MUL, normal, amount);
+    assert(ir_type_of(g, amount) == IR_TYPE_VEC3);
     ir_ref tangent = ir_op1(g, IR_NORMALIZE, stream(shader, STR_tangentWorld));
     ir_ref axes[3] = {tangent, ir_op2(g, IR_CROSS, normal, tangent), normal}, sum = 0;
     for (unsigned i = 0; i < 3; i++) {
@@ -52,6 +55,7 @@ static ir_ref mixed(struct ir_graph *g, ir_ref bg, ir_ref fg, ir_ref mix)
 ir_ref closure_offset(struct shader *shader, ir_ref root)
 {
     struct ir_graph *g = shader->graph;
+    assert(ir_type_of(g, root) == IR_TYPE_DISPLACEMENT);
     ir_ref *known = ARENA_ARRAY(shader->arena, ir_ref, root + 1);
     uint8_t *needed = ir_mark(g, &root, 1, shader->arena);
     for (ir_ref ref = 1; ref <= root; ref++) {
@@ -68,6 +72,7 @@ ir_ref closure_offset(struct shader *shader, ir_ref root)
                 mixed(g, known[ir_arg(g, ref, 0)], known[ir_arg(g, ref, 1)], ir_arg(g, ref, 2));
         ir_pop_origin(g);
     }
+    assert(!known[root] || ir_type_of(g, known[root]) == IR_TYPE_VEC3);
     return known[root];
 }
 
@@ -94,6 +99,7 @@ static ir_ref bent_normal(struct shader *shader, ir_ref before, ir_ref after)
 static void move_vertices(struct shader *shader, ir_ref point)
 {
     struct ir_graph *g = shader->graph;
+    assert(ir_type_of(g, point) == IR_TYPE_VEC3);
     ir_ref parts[2] = {point, ir_const_float(g, 1.0f)};
     ir_ref matrix = shader_read(
         shader, shader_private_uniform(shader, STR_u_viewProjectionMatrix, IR_TYPE_MAT4, 0));

@@ -52,6 +52,7 @@ ir_ref closure_one_minus(struct ir_graph *g, ir_ref a)
 
 ir_ref closure_mixed(struct ir_graph *g, ir_ref bg, ir_ref fg, ir_ref mix)
 {
+    assert(!bg || !fg || ir_type_of(g, bg) == ir_type_of(g, fg));
     ir_ref args[3] = {bg, fg, mix};
     return bg == fg ? bg : ir_build(g, IR_CLOSURE_MIX, ir_type_of(g, bg ? bg : fg), 0, args, 3);
 }
@@ -70,6 +71,7 @@ static ir_ref modified_base(const struct flattener *f, ir_ref ref)
 
 static ir_ref leaf_throughput(struct flattener *f, ir_ref ref)
 {
+    assert(ir_get(f->graph, ref)->op == IR_LEAF);
     struct ir_graph *g = f->graph;
     if (ir_type_of(g, ref) == IR_TYPE_VDF) /* a volume fills the space and is no surface */
         return ir_const_splat(g, IR_TYPE_VEC3, 1.0f);
@@ -94,6 +96,7 @@ static ir_ref operator_throughput(struct flattener *f, ir_ref ref)
 {
     struct ir_graph *g = f->graph;
     const struct ir_node node = *ir_get(g, ref);
+    assert(is_operator(&node));
     ir_ref a = ir_arg(g, ref, 0), b = ir_arg(g, ref, 1);
     switch (node.op) {
     case IR_LAYER: return ir_op2(g, IR_MUL, through_of(f, a), through_of(f, b));
@@ -119,6 +122,7 @@ static void want_throughputs(struct flattener *f, uint32_t num_nodes)
         if (!f->weights[ref].scalar && !f->wanted[ref])
             continue;
         ir_ref base = modified_base(f, ref);
+        assert(base < ref);
         if (base) {
             f->wanted[base] |= f->wanted[ref];
             f->weights[base].scalar |= f->weights[ref].scalar;
@@ -211,6 +215,7 @@ static void add_scaled(struct flattener *f, ir_ref ref, struct weight w, ir_ref 
 {
     struct ir_graph *g = f->graph;
     bool is_scalar = ir_type_of(g, factor) == IR_TYPE_FLOAT;
+    assert(is_scalar || ir_type_of(g, factor) == IR_TYPE_VEC3);
     if (is_scalar)
         w.scalar = closure_mul(g, w.scalar, factor);
     else if (!ir_const_is(g, factor, 1.0f))
@@ -245,6 +250,7 @@ static void spread(struct flattener *f, ir_ref ref)
     uint8_t op = ir_get(g, ref)->op;
     assert(w.scalar && ir_type_of(g, w.scalar) == IR_TYPE_FLOAT);
     ir_ref a = ir_arg(g, ref, 0), b = ir_arg(g, ref, 1);
+    assert(a < ref && b < ref);
     if (op == IR_LAYER) {
         /* a volume behind changes only refracted light */
         if (b && ir_type_of(g, b) == IR_TYPE_VDF)
@@ -270,6 +276,7 @@ static void spread(struct flattener *f, ir_ref ref)
 static ir_ref unit_leaf(struct ir_graph *g, ir_ref ref, struct arena *arena)
 {
     const struct ir_node node = *ir_get(g, ref);
+    assert(node.op == IR_LEAF && node.num_args > 0);
     ir_ref *args = ARENA_ARRAY(arena, ir_ref, node.num_args);
     memcpy(args, ir_args(g, ref), node.num_args * sizeof *args);
     args[0] = ir_const_float(g, 1.0f);
@@ -343,6 +350,7 @@ void closure_flatten(struct shader *shader, const struct closure_host *host, ir_
             take_leaf(&f, ref, out);
         ir_pop_origin(f.graph);
     }
+    assert(out->leaves.len < num_nodes);
     /*
      * The pass finds leaves from the root downwards; the list has them in source order: bases
      * first.

@@ -10,11 +10,14 @@
 #include "closure/closure_priv.h"
 #include "lower/lower.h"
 
+#include <assert.h>
+
 /* Light functions are inlined: each has one call. */
 enum { MAX_LIGHT_NODES = 400 };
 
 static ir_ref member(struct shader *shader, uint32_t variable)
 {
+    assert(shader->variables.items[variable].block == BLOCK_LIGHT_DATA);
     return ir_build(shader->graph, IR_CONTEXT, shader->variables.items[variable].type, variable,
                     NULL, 0);
 }
@@ -23,6 +26,7 @@ static ir_ref member(struct shader *shader, uint32_t variable)
 static void call_function(struct shader *shader, const struct closure_host *host,
                           const struct shader_light *light, ir_ref *results)
 {
+    assert(light->first_member + light->num_members <= shader->light_members.len);
     struct lang_host see_through = *host->lang;
     see_through.max_inline_nodes = MAX_LIGHT_NODES;
     ir_ref *args = ARENA_ARRAY(shader->arena, ir_ref, light->num_members + 1);
@@ -140,5 +144,6 @@ ir_ref closure_light_distance(struct shader *shader, const struct closure_host *
         distance = ir_op3(g, IR_SELECT, ir_op2(g, IR_EQ, type, ir_const_int(g, light->type)),
                           this_one, distance);
     }
+    assert(ir_type_of(g, distance) == IR_TYPE_FLOAT);
     return distance;
 }

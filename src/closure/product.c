@@ -8,6 +8,8 @@
  */
 #include "closure/closure_priv.h"
 
+#include <assert.h>
+
 enum { VARIES = 1, IS_VECTOR = 2, NUM_KINDS = 4, MAX_FACTORS = 16 };
 
 /* by kind, each kind in the order of its nodes, so that equal products are equal nodes */
@@ -20,6 +22,7 @@ static void insert(const struct ir_graph *g, struct factors *f, ir_ref ref)
 {
     unsigned kind = (ir_get(g, ref)->flags & IR_NODE_LOOP ? VARIES : 0)
                     | (ir_type_of(g, ref) == IR_TYPE_FLOAT ? 0 : IS_VECTOR);
+    assert(f->counts[kind] < MAX_FACTORS);
     unsigned at = f->counts[kind]++;
     for (; at > 0 && f->items[kind][at - 1] > ref; at--)
         f->items[kind][at] = f->items[kind][at - 1];
@@ -57,6 +60,7 @@ static void gather(const struct ir_graph *g, struct factors *f, ir_ref value)
     ir_ref open[MAX_FACTORS] = {value};
     for (unsigned len = 1; len;) {
         ir_ref ref = open[--len];
+        assert(f->count + len < MAX_FACTORS);
         if (is_splat(g, ref))
             ref = ir_arg(g, ref, 0);
         if (f->count + len + 2 <= MAX_FACTORS && is_product(g, ref)) {
@@ -82,6 +86,7 @@ ir_ref closure_product(struct ir_graph *g, ir_ref value, ir_ref weight)
     struct factors f = {.count = 1};
     gather(g, &f, value);
     insert(g, &f, weight);
+    assert(f.counts[0] + f.counts[1] + f.counts[2] + f.counts[3] + 1 == f.count);
     ir_ref constant = product_of(g, &f, IS_VECTOR, 0);
     constant = closure_mul(g, constant, product_of(g, &f, 0, 0));
     ir_ref varying = product_of(g, &f, VARIES | IS_VECTOR, 0);

@@ -30,6 +30,8 @@
  */
 #include "closure/closure_priv.h"
 
+#include <assert.h>
+
 struct scatter {
     struct shader *shader;
     struct ir_graph *graph;
@@ -56,6 +58,7 @@ static uint32_t local(struct scatter *s, str_id name, ir_ref value)
 
 static ir_ref read(struct scatter *s, uint32_t index)
 {
+    assert(index < s->shader->locals.len);
     return ir_build(s->graph, IR_LOCAL, s->shader->locals.items[index].type, index, NULL, 0);
 }
 
@@ -114,6 +117,7 @@ static ir_ref share_of(struct scatter *s, const struct closure_leaf *leaf)
         albedo = op2(s, IR_MUL, grey(s, 0.9f), ir_convert(g, IR_TYPE_VEC3, albedo));
         light = op2(s, IR_MUL, light, op2(s, IR_ADD, grey(s, 0.1f), albedo));
     }
+    assert(ir_type_of(g, light) == IR_TYPE_VEC3);
     return op2(s, IR_MAX, mean_of(s, light), number(s, 0.0f));
 }
 
@@ -266,6 +270,7 @@ void closure_scatter(struct shader *shader, const struct closure_host *host,
 {
     struct scatter s = {.shader = shader, .graph = shader->graph, .host = host, .list = list};
     ir_ref one = number(&s, 1.0f), nothing = number(&s, 0.0f);
+    assert(!alpha || ir_type_of(s.graph, alpha) == IR_TYPE_FLOAT);
     find_shares(&s);
     sample_leaves(&s);
     write_output(&s, STR_out1,

@@ -76,6 +76,7 @@ static void add_part(struct emitter *e, enum closure_place place, const struct c
 
 static void accumulate(struct emitter *e, ir_ref factor, ir_ref value)
 {
+    assert(e->lit.color < e->shader->locals.len);
     ir_push_origin_of(e->graph, value);
     effect(e, EFFECT_ACCUMULATE, e->lit.color, vec3_of(e, closure_mul(e->graph, factor, value)));
     ir_pop_origin(e->graph);
@@ -263,6 +264,7 @@ static void write_output(struct emitter *e, ir_ref color, ir_ref alpha)
         out = shader_add_variable(e->shader, &(struct shader_variable){.name = STR_out1,
                                                                        .block = BLOCK_OUTPUTS,
                                                                        .type = IR_TYPE_VEC4});
+    assert(ir_type_of(g, color) == IR_TYPE_VEC3 && ir_type_of(g, alpha) == IR_TYPE_FLOAT);
     ir_ref parts[2] = {color, alpha};
     effect(e, EFFECT_OUTPUT, out, ir_construct(g, IR_TYPE_VEC4, parts, 2));
 }
@@ -320,6 +322,7 @@ static struct surface premultiplied(struct emitter *e, struct surface s)
 {
     if (s.premultiplied || is_opaque(e, s.alpha))
         return s;
+    assert(ir_type_of(e->graph, s.alpha) == IR_TYPE_FLOAT);
     s.bsdf = scaled_closure(e->graph, s.bsdf, s.alpha);
     s.edf = scaled_closure(e->graph, s.edf, s.alpha);
     if (s.unlit)
@@ -361,6 +364,7 @@ static struct surface unlit_surface(struct emitter *e, ir_ref emitted, ir_ref tr
 /* Operands precede their node, so one pass finds nested mixes. */
 static struct surface surface_of(struct emitter *e, ir_ref root)
 {
+    assert(ir_type_of(e->graph, root) == IR_TYPE_SURFACE);
     struct ir_graph *g = e->graph;
     if (ir_get(g, root)->op == IR_SURFACE_SHADER)
         return (struct surface){

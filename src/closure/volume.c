@@ -15,6 +15,8 @@
  */
 #include "closure/closure_priv.h"
 
+#include <assert.h>
+
 /*
  * Below this optical depth (1 - exp(-τ)) / τ is 1 within 0.05 %, and rounding would lose the
  * difference from 1.
@@ -38,6 +40,7 @@ static struct parts parts_of(struct shader *shader, ir_ref root)
         if (!needed[ref] || node.type != IR_TYPE_VOLUME)
             continue;
         ir_ref a = ir_arg(g, ref, 0), b = ir_arg(g, ref, 1);
+        assert(a < ref && b < ref);
         if (node.op == IR_VOLUME_SHADER)
             known[ref] = (struct parts){a, b};
         else if (node.op == IR_SHADER_MIX)
@@ -69,6 +72,7 @@ static ir_ref extinction(struct shader *shader, const struct closure_host *host,
                              closure_mul(g, value, closure_mul(g, leaf->color, leaf->scalar)));
         }
     }
+    assert(ir_type_of(g, sum) == IR_TYPE_VEC3);
     return sum;
 }
 
@@ -98,6 +102,7 @@ void closure_volume(struct shader *shader, const struct closure_host *host, ir_r
     ir_change_name(g, STR_alpha);
     out->alpha = ir_op2(g, IR_DOT, lost, splat(g, 1.0f / 3.0f));
     ir_pop_origin(g);
+    assert(ir_type_of(g, out->path) == IR_TYPE_VEC3 && ir_type_of(g, out->alpha) == IR_TYPE_FLOAT);
     for (uint32_t i = 0; i < out->scattering.leaves.len; i++) {
         struct closure_leaf *leaf = &out->scattering.leaves.items[i];
         leaf->color = leaf->color

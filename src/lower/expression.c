@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lower/lower_priv.h"
 
+#include <assert.h>
+
 static ir_ref value_of(struct lower *lo, ir_ref leaf, ir_type_id type)
 {
     return leaf ? leaf : ir_poison(lo->graph, type);
@@ -24,6 +26,7 @@ static void lower_other(struct lower *lo, const struct lang_node *node, ir_ref *
 
 ir_ref lower_single(struct lower *lo, const struct lang_node *node)
 {
+    assert(!ast_is_user_type(node->type));
     ir_ref result = 0;
     if (!may_go_on(lo))
         return 0;
@@ -101,6 +104,7 @@ static void lower_select(struct lower *lo, const struct lang_node *node, ir_ref 
 {
     const struct lang_node *first = lower_node(lo, node->a), *yes = lower_node(lo, first->next),
                            *no = lower_node(lo, yes->next);
+    assert(no->next == 0 && yes->type == no->type);
     ir_ref condition = lower_single(lo, first);
     if (lo->failed)
         return;
@@ -219,6 +223,7 @@ static ir_ref with_components(struct lower *lo, ir_ref vector, ir_type_id type, 
 {
     ir_ref parts[4];
     unsigned count = ir_type_info(type)->components;
+    assert(attr >> 8 <= count);
     for (unsigned i = 0; i < count; i++)
         parts[i] = component(lo, vector, type, i);
     for (unsigned i = 0; i < attr >> 8; i++)
@@ -234,6 +239,7 @@ static ir_ref with_element(struct lower *lo, ir_ref whole, ir_type_id type, uint
         return with_components(lo, whole, type, 1u << 8 | index, value, value_type);
     ir_ref columns[4];
     unsigned count = ir_type_info(type)->columns;
+    assert(index < count);
     for (unsigned i = 0; i < count; i++) {
         ir_ref at = ir_const_int(lo->graph, (int32_t)i);
         columns[i] = i == index ? value
@@ -279,6 +285,7 @@ void lower_assign(struct lower *lo, lang_ref target, const ir_ref *leaves)
     const struct lang_node *node = lower_node(lo, target);
     if (lo->failed)
         return;
+    assert(node->kind != LANG_VAR || node->a < lo->frame->fn->num_slots);
     if (node->kind == LANG_VAR) {
         copy_leaves(leaves, lower_leaves(lo, node->type),
                     lo->frame->leaves + lo->frame->offsets[node->a]);
@@ -326,6 +333,8 @@ static void lower_nested_call(struct lower *lo, const struct lang_node *node, ir
     }
     if (lo->failed)
         return;
+    assert(slots == layer->slots.items + fn->first_slot + fn->num_params);
+    assert(num_in <= LOWER_MAX_LEAVES && num_results <= LOWER_MAX_LEAVES);
     lower_call(lo, node->a, in, results);
     copy_leaves(results, num_returned, out);
     if (num_results > num_returned)
@@ -334,6 +343,7 @@ static void lower_nested_call(struct lower *lo, const struct lang_node *node, ir
 
 static void lower_other(struct lower *lo, const struct lang_node *node, ir_ref *out)
 {
+    assert(node->kind != LANG_INPUT || node->a < lo->frame->fn->num_params);
     switch (node->kind) {
     case LANG_CONST:
         *out = ir_const_words(lo->graph, node->type, ast_words(lo->frame->layer, node));

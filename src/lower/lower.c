@@ -6,6 +6,8 @@
 #include "lower/lower_priv.h"
 #include "tree/eval.h"
 
+#include <assert.h>
+
 enum { MAX_EVAL_STEPS = 20000, FEW_SLOTS = 32, FEW_LEAVES = 64 };
 
 unsigned lang_num_results(const struct lang_unit *unit, uint32_t id)
@@ -46,6 +48,7 @@ static ir_type_id part_type(const struct lower *lo, ir_type_id type, uint32_t in
 {
     const struct lang_unit *layer;
     const struct ir_user_type *user = lang_user_type(lo->unit, type, &layer);
+    assert(user->array_length || index < user->num_members);
     *out_count = user->array_length ? user->array_length : user->num_members;
     return user->array_length ? user->element
                               : layer->members.items[user->first_member + index].type;
@@ -122,6 +125,7 @@ static bool evaluate(struct lower *lo, uint32_t id, const ir_ref *in, ir_ref *ou
             return false;
         num_in++;
     }
+    assert(num_in <= fn->num_params && num_out <= fn->num_params + 1u);
     struct ir_value args[AST_MAX_OPERANDS * 2], results[AST_MAX_OPERANDS * 2 + 1];
     for (uint32_t i = 0; i < num_in; i++)
         if (!ir_get_const(lo->graph, in[i], &args[i]))
@@ -169,6 +173,7 @@ void lower_name(struct lower *lo, ir_type_id type, ir_ref first_leaf, str_id nam
 void lower_name_slot(struct lower *lo, uint32_t slot, enum ir_name_rank rank)
 {
     const struct lower_frame *frame = lo->frame;
+    assert(slot < frame->fn->num_slots);
     const struct lang_slot *named = &frame->layer->slots.items[frame->fn->first_slot + slot];
     lower_name(lo, named->type, frame->leaves[frame->offsets[slot]], named->name, rank);
 }
@@ -186,6 +191,7 @@ static void open_frame(struct lower *lo, struct lower_frame *frame, const ir_ref
     const uint32_t *offsets = frame->offsets;
     const struct lang_slot *slots = frame->layer->slots.items + frame->fn->first_slot;
     frame->num_leaves = offsets[frame->fn->num_slots] + lower_leaves(lo, frame->fn->return_type);
+    assert(offsets[frame->fn->num_params] <= offsets[frame->fn->num_slots]);
     frame->leaves = frame->num_leaves <= FEW_LEAVES
                         ? few->leaves
                         : ARENA_ARRAY(lo->graph->arena, ir_ref, frame->num_leaves);
@@ -295,6 +301,7 @@ static bool lower_inline(struct lower *lo, uint32_t id, const ir_ref *in, ir_ref
     lo->depth++;
     lower_statements(lo, lower_node(lo, frame.fn->body)->a);
     lo->depth--;
+    assert(lo->frame == &frame && frame.nesting == 0);
     lo->frame = caller;
     bool done = !lo->failed;
     if (done) {
@@ -324,6 +331,7 @@ static bool join_arguments(struct lower *lo, uint32_t id, const ir_ref *in, ir_r
         if (!args[(*out_count)++])
             return false;
     }
+    assert(*out_count <= fn->num_params);
     return true;
 }
 
@@ -428,6 +436,7 @@ static void lower_function(struct lower *lo, uint32_t id, const ir_ref *args, ir
     for (uint32_t i = 0; i < fn->num_params; i++)
         if (ast_slot(layer, fn, i)->mode != LANG_OUT)
             end = split(lo, ast_slot(layer, fn, i)->type, *args++, end);
+    assert(end <= in + LOWER_MAX_LEAVES);
     lower_call(lo, id, in, out);
     const ir_ref *from = out;
     unsigned count = 0;
@@ -467,4 +476,5 @@ void lang_lower_call(struct lang_unit *generated, struct ir_graph *graph,
         poison_whole_results(&lo, results);
     else
         lower_function(&lo, id, args, results);
+    assert(lo.depth == 0 && lo.frame == &frame);
 }

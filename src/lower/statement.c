@@ -6,8 +6,11 @@
  */
 #include "lower/lower_priv.h"
 
+#include <assert.h>
+
 static void lower_declare(struct lower *lo, const struct lang_node *node)
 {
+    assert(node->a < lo->frame->fn->num_slots);
     const uint32_t *offsets = lo->frame->offsets;
     ir_ref *leaves = lo->frame->leaves + offsets[node->a];
     if (!node->b) {
@@ -78,6 +81,7 @@ static struct mark mark(const struct lower *lo)
 static bool is_cheap(struct lower *lo, struct mark begin)
 {
     const struct ir_graph *graph = lo->graph;
+    assert(begin.nodes <= graph->nodes.len && begin.calls <= lo->num_calls);
     uint32_t added = graph->nodes.len - begin.nodes;
     if (lo->num_calls != begin.calls)
         return false;
@@ -108,6 +112,7 @@ static void merge(struct lower *lo, ir_ref condition, const ir_ref *yes)
             continue;
         }
         ir_type_id type = ir_type_of(lo->graph, *no);
+        assert(ir_type_of(lo->graph, yes[i]) == type);
         if (is_selectable(type))
             *no = ir_build(lo->graph, IR_SELECT, type, 0, (ir_ref[]){condition, yes[i], *no}, 3);
         else

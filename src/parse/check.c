@@ -2,6 +2,8 @@
 /* Types of operators, implicit conversions, assignable expressions. GLSL 4.50, 4.1.10 and 5.9. */
 #include "parse/parse_priv.h"
 
+#include <assert.h>
+
 /* Conversions */
 
 lang_ref check_cast(struct parser *p, lang_ref a, ir_type_id type)
@@ -124,6 +126,7 @@ static lang_ref check_struct_member(struct parser *p, lang_ref a, const struct t
 {
     const struct lang_unit *layer;
     const struct ir_user_type *user = lang_user_type(p->unit, tree_type(p, a), &layer);
+    assert(user->first_member + user->num_members <= layer->members.len);
     str_id id = str_find(p->unit->strings, name->text, name->len);
     const char **names = ARENA_ARRAY(p->unit->arena, const char *, user->num_members);
     for (uint32_t i = 0; i < user->num_members; i++) {
@@ -142,6 +145,7 @@ static lang_ref check_struct_member(struct parser *p, lang_ref a, const struct t
 /* The components that ".name" selects; 0 if it is no swizzle of a vector of this size. */
 static unsigned read_swizzle(const struct token *name, unsigned size, uint8_t out_components[4])
 {
+    assert(size >= 1 && size <= 4);
     static const char *const sets[] = {"xyzw", "rgba", "stpq"};
     if (name->len > 4)
         return 0;
@@ -193,6 +197,7 @@ static bool indexed(struct parser *p, ir_type_id type, ir_type_id *out_element,
         return false;
     unsigned length = info->columns > 1 ? info->columns : info->components;
     *out_length = length;
+    assert(info->components % length == 0);
     *out_element = ir_type_vector(info->scalar, info->components / length);
     return true;
 }
@@ -226,6 +231,7 @@ lang_ref check_index(struct parser *p, lang_ref a, lang_ref index, uint32_t plac
 
 static bool repeats_component(uint32_t attr)
 {
+    assert(attr >> 8 <= 4);
     unsigned seen = 0;
     for (unsigned i = 0; i < attr >> 8; i++) {
         unsigned bit = 1u << (attr >> (2 * i) & 3);
@@ -278,6 +284,7 @@ bool check_assignable(struct parser *p, lang_ref target, const char *doing)
     if (local && local->read_only)
         return refuse_assignment(p, target, doing,
                                  parse_say(p, "'%s' is const", parse_text(p, local->name)));
+    assert(p->first_slot + node->a < p->unit->slots.len);
     p->unit->slots.items[p->first_slot + node->a].assigned = 1;
     return true;
 }

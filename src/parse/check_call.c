@@ -4,6 +4,8 @@
  */
 #include "parse/parse_priv.h"
 
+#include <assert.h>
+
 /* IR_NUM_OPS if there is no such built-in. GLSL uses the name `atan` for ATAN2 too. */
 static enum ir_op find_builtin(const char *name, size_t len, unsigned num_args)
 {
@@ -26,6 +28,7 @@ static ir_type_id builtin_type(struct parser *p, enum ir_op op, const lang_ref *
                                unsigned num_args)
 {
     ir_type_id types[4] = {0};
+    assert(num_args <= sizeof types / sizeof *types);
     for (unsigned i = 0; i < num_args; i++)
         types[i] = tree_type(p, args[i]);
     return ir_op_result(op, types, num_args);
@@ -133,6 +136,7 @@ static uint32_t find_overload(struct parser *p, str_id name, const lang_ref *arg
 static lang_ref call_function(struct parser *p, uint32_t id, lang_ref *args, unsigned num_args,
                               uint32_t place)
 {
+    assert(num_args == lang_function(p->unit, id, NULL)->num_params);
     for (unsigned i = 0; i < num_args; i++) {
         const struct lang_slot *param = lookup_param(p->unit, id, i);
         ir_type_id type = param->type;

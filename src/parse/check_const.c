@@ -2,10 +2,13 @@
 /* Constant expressions. Their trees are at most PARSE_MAX_DEPTH high, so recursion is bounded. */
 #include "parse/parse_priv.h"
 
+#include <assert.h>
+
 static bool load(const struct lang_unit *unit, ir_type_id type, uint32_t words,
                  struct ir_value *out)
 {
     *out = (struct ir_value){.type = type};
+    assert(words + ir_type_info(type)->components <= unit->words.len);
     memcpy(out->w, unit->words.items + words, ir_type_info(type)->components * sizeof out->w[0]);
     return true;
 }
@@ -47,6 +50,7 @@ static bool element_value(struct parser *p, const struct lang_node *node, struct
     unsigned size = ir_type_info(node->type)->components;
     if (global->kind != LANG_GLOBAL_CONST || index.w[0].u >= global->num_words / size)
         return false;
+    assert(global->num_words % size == 0);
     return load(layer, node->type, global->words + index.w[0].u * size, out);
 }
 
@@ -91,6 +95,7 @@ static bool array_words(struct parser *p, lang_ref ref)
         const struct lang_global *global = lang_global(p->unit, node->a, &layer);
         if (global->kind != LANG_GLOBAL_CONST)
             return false;
+        assert(global->words + global->num_words <= layer->words.len);
         for (uint32_t i = 0; i < global->num_words; i++) { /* pushing may move the words */
             union ir_word word = layer->words.items[global->words + i];
             vec_push(p->unit->arena, &p->unit->words, word);
@@ -117,6 +122,7 @@ bool check_words(struct parser *p, lang_ref ref, uint32_t *out_words, uint32_t *
         push_words(p, value.w, ir_type_info(type)->components);
     else if (!check_is_array(p, type, &element, &length) || !array_words(p, ref))
         return false;
+    assert(p->unit->words.len >= first);
     *out_words = first;
     *out_num_words = p->unit->words.len - first;
     return true;

@@ -5,6 +5,8 @@
  */
 #include "parse/parse_priv.h"
 
+#include <assert.h>
+
 static const uint8_t first_components[4] = {0, 1, 2, 3};
 
 static unsigned components_of(ir_type_id type)
@@ -59,6 +61,7 @@ static lang_ref construct_from_one(struct parser *p, ir_type_id type, lang_ref a
                    ? 0
                    : wrong_parts(p, type, place,
                                  parse_say(p, "%s does not convert", parse_type_text(p, from)));
+    assert(splats || components_of(tree_type(p, a)) == want);
     return splats ? tree_op(p, IR_CONSTRUCT, type, 0, &a, 1, place) : a;
 }
 
@@ -109,6 +112,7 @@ static lang_ref construct_struct(struct parser *p, ir_type_id type, lang_ref *ar
 {
     const struct lang_unit *layer;
     const struct ir_user_type *user = lang_user_type(p->unit, type, &layer);
+    assert(user->array_length == 0);
     if (num_args != user->num_members)
         return wrong_parts(
             p, type, place,

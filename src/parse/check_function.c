@@ -6,6 +6,8 @@
 #include "parse/parse_priv.h"
 #include "tree/ast.h"
 
+#include <assert.h>
+
 struct uses {
     struct parser *p;
     uint32_t num_nodes;
@@ -113,6 +115,7 @@ static void refuse_recursion(struct order *order, uint32_t index)
     uint32_t i = 0;
     while (order->stack.items[i] != index)
         i++;
+    assert(i < order->stack.len);
     for (; i < order->stack.len; i++)
         text_fmt(&path, "'%s' calls ", parse_text(p, ordered(order, order->stack.items[i])->name));
     text_fmt(&path, "'%s'", parse_text(p, ordered(order, index)->name));
@@ -129,6 +132,7 @@ static bool visit_top(struct order *order)
     const struct lang_unit *unit = order->p->unit;
     uint32_t top = vec_last(&order->stack);
     const struct lang_function *function = ordered(order, top);
+    assert(order->next_callee[top] <= function->num_callees);
     while (order->next_callee[top] < function->num_callees) {
         uint32_t callee = ast_callees(unit, function)[order->next_callee[top]++] - order->first;
         bool own = callee < order->num; /* wraps for other files */
@@ -141,6 +145,7 @@ static bool visit_top(struct order *order)
         vec_push(unit->arena, &order->stack, callee);
         return true;
     }
+    assert(order->new_id[top] == LANG_NONE && order->num_placed < order->num);
     order->new_id[top] = order->first + order->num_placed++;
     order->stack.len--;
     return true;
@@ -156,6 +161,7 @@ static bool find_order(struct order *order)
             if (!visit_top(order))
                 return false;
     }
+    assert(order->num_placed == order->num);
     return true;
 }
 
@@ -174,6 +180,7 @@ static void apply_order(struct order *order)
         for (uint32_t k = 0; k < function->num_callees; k++)
             unit->refs.items[function->first_ref + k] =
                 renamed(order, unit->refs.items[function->first_ref + k]);
+        assert(order->new_id[i] - order->first < order->num);
         sorted[order->new_id[i] - order->first] = *function;
     }
     if (order->num)
@@ -210,6 +217,7 @@ static void inherit_flags(const struct lang_unit *unit, struct lang_function *fu
 bool check_finish_functions(struct parser *p, uint32_t first_function)
 {
     struct lang_unit *unit = p->unit;
+    assert(first_function >= unit->base_functions);
     uint32_t first = first_function - unit->base_functions, num = unit->functions.len - first;
     struct uses uses = {.p = p};
     for (uint32_t i = 0; i < num; i++) {

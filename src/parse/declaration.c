@@ -2,10 +2,13 @@
 /* Declarations at file scope: structs, globals, functions. */
 #include "parse/parse_priv.h"
 
+#include <assert.h>
+
 enum { MAX_MEMBERS = 255, MAX_PARAMS = 255 };
 
 static struct lang_file *own_file(struct parser *p)
 {
+    assert(p->file - p->unit->base_files < p->unit->files.len);
     return &p->unit->files.items[p->file - p->unit->base_files];
 }
 
@@ -65,6 +68,7 @@ static bool same_members(const struct parser *p, ir_type_id type, uint32_t first
  */
 static void declare_struct(struct parser *p, const struct token *at, str_id name, uint32_t first)
 {
+    assert(first <= p->unit->members.len);
     uint32_t num_members = p->unit->members.len - first;
     uint32_t id = IR_TYPE_FIRST_USER + p->unit->base_user_types + p->unit->user_types.len;
     ir_type_id known = lookup_type(p->unit, at->text, at->len);
@@ -83,6 +87,7 @@ static void declare_struct(struct parser *p, const struct token *at, str_id name
 
 static void parse_struct(struct parser *p)
 {
+    assert(p->token.kind == TOKEN_STRUCT);
     parse_advance(p);
     struct token at = p->token;
     str_id name = parse_name(p);
@@ -115,6 +120,7 @@ static bool same_value(struct parser *p, const struct lang_global *a, const stru
 static void declare_global(struct parser *p, const struct token *at, struct lang_global global,
                            bool may_repeat)
 {
+    assert(global.words + global.num_words <= p->unit->words.len);
     uint32_t known = lookup_global(p->unit, p->visible.items, p->visible.len, global.name);
     if (known != LANG_NONE) {
         const struct lang_unit *layer;
@@ -128,6 +134,8 @@ static void declare_global(struct parser *p, const struct token *at, struct lang
     global.file = p->file;
     vec_push(p->unit->arena, &p->unit->globals, global);
     own_file(p)->num_globals++;
+    assert(own_file(p)->first_global + own_file(p)->num_globals
+           == p->unit->base_globals + p->unit->globals.len);
 }
 
 static void parse_constant(struct parser *p, const struct token *at, str_id name, ir_type_id type,
@@ -159,6 +167,7 @@ static void parse_constant(struct parser *p, const struct token *at, str_id name
     }
     parse_drop_tree(p, &mark, global.num_words);
     global.words = mark.words;
+    assert(global.words + global.num_words == p->unit->words.len);
     declare_global(p, at, global, false);
 }
 
@@ -188,6 +197,7 @@ void parse_define(struct parser *p)
     }
     parse_drop_tree(p, &mark, global.num_words);
     global.words = mark.words;
+    assert(global.words + global.num_words == p->unit->words.len);
     declare_global(p, &at, global, true);
 }
 
@@ -210,6 +220,7 @@ static void parse_globals(struct parser *p)
 {
     enum token_kind keyword = p->token.kind;
     bool base_unsized = false;
+    assert(keyword == TOKEN_CONST || keyword == TOKEN_UNIFORM || keyword == TOKEN_IN);
     parse_advance(p);
     ir_type_id base = parse_sized_type(p, &base_unsized);
     do {
@@ -270,10 +281,12 @@ static void parse_param(struct parser *p)
                             .slot = (uint16_t)slot,
                             .read_only = read_only || opaque,
                             .place = parse_place(&at)});
+    assert(p->locals.len == p->unit->slots.len - p->first_slot);
 }
 
 static bool parse_params(struct parser *p)
 {
+    assert(p->token.kind == TOKEN_OPEN);
     parse_advance(p);
     p->first_slot = p->unit->slots.len;
     p->locals.len = 0;
@@ -290,6 +303,7 @@ static bool parse_params(struct parser *p)
 
 static uint32_t find_declared(struct parser *p, str_id name, unsigned num_params)
 {
+    assert(num_params <= MAX_PARAMS);
     ir_type_id types[MAX_PARAMS];
     for (unsigned i = 0; i < num_params; i++)
         types[i] = p->unit->slots.items[p->first_slot + i].type;
@@ -300,6 +314,7 @@ static bool check_repeats(struct parser *p, const struct token *at, uint32_t id,
                           ir_type_id return_type, bool is_definition)
 {
     const struct lang_function *known = lang_function(p->unit, id, NULL);
+    assert(known->num_params == p->unit->slots.len - p->first_slot);
     bool same = known->return_type == return_type;
     for (unsigned i = 0; i < known->num_params; i++)
         same &= lookup_param(p->unit, id, i)->mode == p->unit->slots.items[p->first_slot + i].mode;
@@ -343,6 +358,8 @@ static uint32_t declare_function(struct parser *p, const struct token *at, str_i
                                     .file = p->file,
                                     .place = parse_place(at)});
     own_file(p)->num_functions++;
+    assert(own_file(p)->first_function + own_file(p)->num_functions
+           == p->unit->base_functions + p->unit->functions.len);
     return p->unit->base_functions + p->unit->functions.len - 1;
 }
 

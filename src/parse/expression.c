@@ -5,6 +5,8 @@
  */
 #include "parse/parse_priv.h"
 
+#include <assert.h>
+
 static lang_ref parse_unary(struct parser *p);
 
 /* Parses arguments up to ')' onto the operand stack; false after an error. */
@@ -28,6 +30,7 @@ static bool parse_arguments(struct parser *p)
 /* Parses NAME( or TYPE(; the current token is '('. */
 static lang_ref parse_call(struct parser *p, const struct token *name, ir_type_id type)
 {
+    assert(p->token.kind == TOKEN_OPEN);
     parse_advance(p);
     uint32_t first = p->operands.len;
     lang_ref result = 0;
@@ -37,6 +40,7 @@ static lang_ref parse_call(struct parser *p, const struct token *name, ir_type_i
         result = type == IR_TYPE_VOID ? check_call(p, name, args, num_args)
                                       : check_construct(p, type, args, num_args, parse_place(name));
     }
+    assert(p->operands.len >= first);
     p->operands.len = first;
     return result;
 }
@@ -64,6 +68,7 @@ static lang_ref parse_array_constructor(struct parser *p, const struct token *na
             result = check_construct(p, type, num_args ? &p->operands.items[first] : NULL, num_args,
                                      parse_place(name));
     }
+    assert(p->operands.len >= first);
     p->operands.len = first;
     return result;
 }
@@ -89,6 +94,7 @@ static lang_ref parse_literal(struct parser *p)
 
 static lang_ref parse_input(struct parser *p)
 {
+    assert(p->token.kind == TOKEN_INPUT);
     struct token token = p->token;
     parse_advance(p);
     str_id name = str_find(p->unit->strings, token.text, token.len);
@@ -112,6 +118,7 @@ static lang_ref parse_local(struct parser *p, const struct local *local, const s
 {
     if (local->type == IR_TYPE_VOID) /* the declaration has reported the error */
         return 0;
+    assert(p->first_slot + local->slot < p->unit->slots.len);
     lang_ref ref = tree_new(p, LANG_VAR, IR_NUM_OPS, local->type, parse_place(token));
     tree_node(p, ref)->a = local->slot;
     return ref;
@@ -127,6 +134,7 @@ static lang_ref parse_global(struct parser *p, uint32_t id, const struct token *
      */
     bool is_small = global->type < IR_TYPE_FIRST_USER && !ir_type_is_matrix(global->type);
     if (global->kind == LANG_GLOBAL_CONST && is_small) {
+        assert(global->num_words <= ir_type_info(global->type)->components);
         struct ir_value value = {.type = global->type};
         memcpy(value.w, layer->words.items + global->words, global->num_words * sizeof value.w[0]);
         return tree_const(p, &value, parse_place(token));

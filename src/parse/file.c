@@ -2,6 +2,8 @@
 /* Files, their includes and other directives. */
 #include "parse/parse_priv.h"
 
+#include <assert.h>
+
 static uint32_t parse_file(struct lang_unit *unit, const struct lang_reader *reader,
                            const char *from, const char *ref, struct diag_place where,
                            struct diag_list *diags, const struct parser *includer);
@@ -16,6 +18,7 @@ static bool is_word(const struct token *token, const char *word)
 /* A lexer for the text after '#'. */
 static struct lexer directive_lexer(const struct token *directive)
 {
+    assert(directive->kind == TOKEN_DIRECTIVE && directive->len > 0);
     struct lexer lexer;
     lex_begin(&lexer, directive->text + 1, directive->len - 1, directive->line,
               directive->column + 1);
@@ -85,6 +88,7 @@ static void parse_include(struct parser *p, const struct token *directive, struc
     see_file(p, file);
     const struct lang_unit *layer;
     const struct lang_file *included = lang_file(p->unit, file, &layer);
+    assert(included->first_include + included->num_includes <= layer->refs.len);
     for (uint32_t i = 0; i < included->num_includes; i++)
         see_file(p, layer->refs.items[included->first_include + i]);
 }
@@ -160,6 +164,7 @@ static void begin_file(struct parser *p, str_id name)
                              .first_global = unit->base_globals + unit->globals.len};
     for (uint32_t i = 0; i < p->visible.len; i++)
         vec_push(unit->arena, &unit->refs, p->visible.items[i]);
+    assert(file.first_include + file.num_includes == unit->refs.len);
     vec_push(unit->arena, &unit->files, file);
     p->file = unit->base_files + unit->files.len - 1;
     p->first_user_type = IR_TYPE_FIRST_USER + unit->base_user_types + unit->user_types.len;
@@ -182,6 +187,7 @@ static uint32_t parse_text_of_file(struct parser *p, str_id name, const char *te
     uint32_t first_function = p->unit->base_functions + p->unit->functions.len;
     parse_begin(p, p->file_name, text, len, 1, 1, false);
     parse_declarations(p);
+    assert(p->depth == 0 && p->operands.len == 0);
     if (p->stopped)
         diag_add(p->diags, DIAG_ID_too_many_errors, parse_where_token(p, &p->last),
                  (unsigned)PARSE_MAX_ERRORS);

@@ -2,6 +2,8 @@
 /* Inline expressions: a text of one expression, which becomes a function. */
 #include "parse/parse_priv.h"
 
+#include <assert.h>
+
 static void declare_inputs(struct parser *p, const struct lang_input *inputs, unsigned num_inputs)
 {
     p->inputs = inputs;
@@ -40,9 +42,11 @@ uint32_t lang_parse_expression(struct lang_unit *unit, const char *text, size_t 
     parse_begin(&p, where.file, text, len, where.line ? where.line : 1,
                 where.column ? where.column : 1, true);
     declare_inputs(&p, inputs, num_inputs);
+    assert(unit->slots.len == p.first_slot + num_inputs);
     uint32_t place = parse_place(&p.token);
 
     lang_ref value = parse_whole_expression(&p, type);
+    assert(p.depth == 0 && p.operands.len == 0);
     if (!value) {
         parse_roll_back(unit, &mark);
         return LANG_NONE;

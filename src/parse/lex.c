@@ -3,6 +3,8 @@
 
 #include "base/num.h"
 
+#include <assert.h>
+
 static const struct symbol symbols[] = {
 #define SYMBOL(ID, text, role, op, precedence) \
     {text, sizeof text - 1, SYMBOL_##role, op, precedence},
@@ -66,6 +68,7 @@ static void step(struct lexer *lexer)
 
 static void step_to(struct lexer *lexer, const char *at)
 {
+    assert(at <= lexer->end);
     while (lexer->at < at)
         step(lexer);
 }
@@ -192,6 +195,7 @@ static void lex_word(struct lexer *lexer, struct token *token)
     while (at < lexer->end && is_word(*at))
         at++;
     token->len = (size_t)(at - lexer->at);
+    assert(token->len > 0);
     token->kind = TOKEN_NAME;
     for (size_t i = 0; i < sizeof keywords / sizeof keywords[0]; i++)
         if (strlen(keywords[i].text) == token->len
@@ -293,5 +297,6 @@ void lex_next(struct lexer *lexer, struct token *out_token)
     bool line_begins = lexer->line_begins;
     lexer->line_begins = false;
     lex_token(lexer, out_token, line_begins);
+    assert(out_token->text + out_token->len <= lexer->at && lexer->at <= lexer->end);
     out_token->columns = lexer->line == out_token->line ? lexer->column - out_token->column : 1;
 }

@@ -4,6 +4,7 @@
  */
 #include "parse/parse_priv.h"
 
+#include <assert.h>
 #include <limits.h>
 
 /* Types */
@@ -25,6 +26,7 @@ ir_type_id lookup_type(const struct lang_unit *unit, const char *name, size_t le
 
 ir_type_id lookup_array(struct lang_unit *unit, ir_type_id element, uint32_t length)
 {
+    assert(length > 0);
     for (const struct lang_unit *layer = unit; layer; layer = layer->base)
         for (uint32_t i = 0; i < layer->user_types.len; i++) {
             const struct ir_user_type *user = &layer->user_types.items[i];
@@ -47,6 +49,7 @@ uint32_t lookup_global(const struct lang_unit *unit, const uint32_t *files, uint
     for (uint32_t f = 0; f < num_files; f++) {
         const struct lang_unit *layer;
         const struct lang_file *file = lang_file(unit, files[f], &layer);
+        assert(file->first_global + file->num_globals <= layer->base_globals + layer->globals.len);
         for (uint32_t i = 0; i < file->num_globals; i++)
             if (layer->globals.items[file->first_global - layer->base_globals + i].name == name)
                 return file->first_global + i;
@@ -61,6 +64,7 @@ uint32_t lookup_next_function(const struct lang_unit *unit, const uint32_t *file
         const struct lang_unit *layer;
         const struct lang_file *file = lang_file(unit, files[cursor->file], &layer);
         uint32_t first = file->first_function - layer->base_functions;
+        assert(first + file->num_functions <= layer->functions.len);
         while (cursor->function < file->num_functions)
             if (layer->functions.items[first + cursor->function++].name == name)
                 return file->first_function + cursor->function - 1;
@@ -73,6 +77,7 @@ const struct lang_slot *lookup_param(const struct lang_unit *unit, uint32_t func
 {
     const struct lang_unit *layer;
     const struct lang_function *f = lang_function(unit, function, &layer);
+    assert(index < f->num_params);
     return &layer->slots.items[f->first_slot + index];
 }
 
@@ -147,6 +152,7 @@ uint32_t lang_find_function(const struct lang_unit *unit, uint32_t file, str_id 
         return LANG_NONE;
     const struct lang_unit *layer;
     const struct lang_file *f = lang_file(unit, file, &layer);
+    assert(f->first_include + f->num_includes <= layer->refs.len);
     const uint32_t *includes = f->num_includes ? &layer->refs.items[f->first_include] : NULL;
     for (int exact = 1; exact >= 0; exact--) {
         uint32_t id = find_in(unit, &file, 1, name, params, num_params, exact);

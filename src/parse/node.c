@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "parse/parse_priv.h"
 
+#include <assert.h>
+
 uint32_t tree_place(const struct parser *p, lang_ref ref)
 {
+    assert(ref - p->first_node < p->origins.len);
     return p->origins.items[ref - p->first_node].place;
 }
 
@@ -10,6 +13,7 @@ static lang_ref push(struct parser *p, struct lang_node node, unsigned height, u
 {
     vec_push(p->unit->arena, &p->unit->nodes, node);
     vec_push(p->unit->arena, &p->origins, (struct tree_origin){place, (uint8_t)height});
+    assert(p->origins.len == p->unit->nodes.len - p->first_node);
     return p->unit->nodes.len - 1;
 }
 
@@ -40,6 +44,7 @@ static unsigned chain_operands(struct parser *p, const lang_ref *args, unsigned 
 {
     unsigned height = 0;
     for (unsigned i = 0; i < num_args; i++) {
+        assert(args[i] - p->first_node < p->origins.len);
         tree_node(p, args[i])->next = i + 1 < num_args ? args[i + 1] : 0;
         unsigned h = p->origins.items[args[i] - p->first_node].height;
         height = h > height ? h : height;
@@ -74,6 +79,7 @@ static bool is_finite(const struct ir_value *value)
 lang_ref tree_op(struct parser *p, enum ir_op op, ir_type_id type, uint32_t attr,
                  const lang_ref *args, unsigned num_args, uint32_t place)
 {
+    assert(num_args > 0);
     unsigned height = chain_operands(p, args, num_args, place);
     if (!height)
         return 0;
@@ -108,6 +114,7 @@ lang_ref tree_call(struct parser *p, uint32_t function, ir_type_id type, const l
 lang_ref tree_swizzle(struct parser *p, lang_ref a, const uint8_t *components, unsigned count,
                       uint32_t place)
 {
+    assert(count >= 1 && count <= 4);
     uint32_t attr = (uint32_t)count << 8;
     for (unsigned i = 0; i < count; i++)
         attr |= (uint32_t)components[i] << (2 * i);
@@ -119,6 +126,7 @@ void tree_append(struct parser *p, struct tree_chain *chain, lang_ref ref)
 {
     if (!ref)
         return;
+    assert(!chain->first == !chain->last);
     if (chain->last)
         tree_node(p, chain->last)->next = ref;
     else

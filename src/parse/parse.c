@@ -4,6 +4,7 @@
  */
 #include "parse/parse_priv.h"
 
+#include <assert.h>
 #include <stdarg.h>
 #include <stdio.h>
 
@@ -199,6 +200,7 @@ bool parse_enter(struct parser *p)
 
 void parse_leave(struct parser *p)
 {
+    assert(p->depth > 0);
     p->depth--;
 }
 
@@ -213,6 +215,8 @@ struct parse_mark parse_mark(const struct lang_unit *unit)
 
 void parse_roll_back(struct lang_unit *unit, const struct parse_mark *mark)
 {
+    assert(mark->nodes <= unit->nodes.len && mark->functions <= unit->functions.len);
+    assert(mark->words <= unit->words.len && mark->refs <= unit->refs.len);
     unit->nodes.len = mark->nodes;
     unit->slots.len = mark->slots;
     unit->functions.len = mark->functions;
@@ -227,6 +231,7 @@ void parse_roll_back(struct lang_unit *unit, const struct parse_mark *mark)
 void parse_drop_tree(struct parser *p, const struct parse_mark *mark, uint32_t keep)
 {
     union ir_word *words = p->unit->words.items;
+    assert(mark->words + keep <= p->unit->words.len && mark->nodes >= p->first_node);
     if (keep)
         memmove(words + mark->words, words + p->unit->words.len - keep, keep * sizeof *words);
     p->unit->words.len = mark->words + keep;

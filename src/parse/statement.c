@@ -2,6 +2,8 @@
 /* Statements. A statement is a chain of nodes: `float a, b;` makes two, `;` none. */
 #include "parse/parse_priv.h"
 
+#include <assert.h>
+
 static struct tree_chain parse_statement(struct parser *p);
 
 static struct tree_chain chain_of(lang_ref ref)
@@ -24,6 +26,7 @@ struct scope {
 
 static struct scope open_scope(struct parser *p)
 {
+    assert(p->scope <= p->locals.len);
     struct scope scope = {p->scope, p->locals.len};
     p->scope = p->locals.len;
     return scope;
@@ -31,6 +34,7 @@ static struct scope open_scope(struct parser *p)
 
 static void close_scope(struct parser *p, struct scope scope)
 {
+    assert(scope.outer <= p->scope && scope.locals <= p->locals.len);
     p->scope = scope.outer;
     p->locals.len = scope.locals;
 }
@@ -48,6 +52,7 @@ static lang_ref parse_elements(struct parser *p, ir_type_id type, bool unsized)
         vec_push(p->unit->arena, &p->operands, value);
     } while (!p->panic && parse_accept(p, TOKEN_COMMA) && p->token.kind != TOKEN_CLOSE_BLOCK);
     good &= parse_expect(p, TOKEN_CLOSE_BLOCK);
+    assert(p->operands.len > first);
     uint32_t num = p->operands.len - first;
     if (unsized)
         type = num <= PARSE_MAX_ARRAY ? lookup_array(p->unit, type, num) : IR_TYPE_VOID;
@@ -259,6 +264,7 @@ static lang_ref parse_loop_body(struct parser *p)
 {
     p->loops++;
     lang_ref body = parse_body(p);
+    assert(p->loops > 0);
     p->loops--;
     return body;
 }
@@ -266,6 +272,7 @@ static lang_ref parse_loop_body(struct parser *p)
 static lang_ref loop_node(struct parser *p, enum lang_kind kind, lang_ref condition, lang_ref body,
                           uint32_t place)
 {
+    assert(kind == LANG_FOR || kind == LANG_WHILE || kind == LANG_DO);
     lang_ref ref = tree_new(p, kind, IR_NUM_OPS, IR_TYPE_VOID, place);
     tree_node(p, ref)->b = condition;
     tree_node(p, ref)->c = body;
@@ -406,6 +413,7 @@ lang_ref parse_block(struct parser *p)
         chain.last = more.last;
     }
     parse_expect(p, TOKEN_CLOSE_BLOCK);
+    assert(!chain.first == !chain.last);
     return block_of(p, chain, place);
 }
 

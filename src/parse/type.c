@@ -2,6 +2,8 @@
 /* Parses types. */
 #include "parse/parse_priv.h"
 
+#include <assert.h>
+
 bool parse_at_type(struct parser *p)
 {
     if (p->token.kind != TOKEN_NAME)
@@ -62,6 +64,7 @@ ir_type_id parse_array_suffix(struct parser *p, ir_type_id element, bool *out_un
 {
     uint32_t place = parse_place(&p->token), length;
     ir_type_id inner, type = IR_TYPE_VOID;
+    assert(p->token.kind == TOKEN_OPEN_INDEX);
     parse_advance(p);
     bool unsized = p->token.kind == TOKEN_CLOSE_INDEX;
     if (unsized && !out_unsized)

@@ -2,6 +2,8 @@
 /* Facts about types that need no tree. GLSL 4.50, 4.1.10. */
 #include "parse/parse_priv.h"
 
+#include <assert.h>
+
 ir_type_id check_scalar(ir_type_id type)
 {
     return type < IR_NUM_TYPES ? ir_type_info(type)->scalar : IR_TYPE_VOID;
@@ -21,6 +23,7 @@ unsigned check_rank_of(ir_type_id type)
 
 ir_type_id check_with_rank(ir_type_id type, unsigned rank)
 {
+    assert(rank < sizeof scalar_of_rank / sizeof *scalar_of_rank);
     if (ir_type_is_matrix(type))
         return rank == 3 ? type : IR_TYPE_VOID;
     return ir_type_vector(scalar_of_rank[rank], ir_type_info(type)->components);
@@ -42,6 +45,7 @@ bool check_is_array(const struct parser *p, ir_type_id type, ir_type_id *out_ele
     const struct ir_user_type *user = lang_user_type(p->unit, type, NULL);
     if (user->array_length == 0)
         return false;
+    assert(user->num_members == 0);
     *out_element = user->element;
     *out_length = user->array_length;
     return true;

@@ -2,6 +2,8 @@
 /* Printing functions: statements and expressions of one tree in the syntax of a target. */
 #include "print/print_priv.h"
 
+#include <assert.h>
+
 struct printer {
     struct lang_style *style;
     const struct lang_names *names;
@@ -42,6 +44,7 @@ static uint32_t num_outer(const struct printer *p)
 
 static const char *outer_name(const struct printer *p, uint32_t index)
 {
+    assert(index < num_outer(p));
     uint32_t id = ast_callees(p->layer, p->fn)[index];
     return index < p->fn->num_callees ? print_function_name(p->names, p->unit, id)
                                       : print_global_name(p->names, p->unit, id);
@@ -75,6 +78,7 @@ static struct text_word variant(struct printer *p, struct text_word name, uint32
 
 static void bring_into_scope(struct printer *p, uint32_t slot)
 {
+    assert(slot < p->fn->num_slots && p->num_visible < p->fn->num_slots);
     str_id id = ast_slot(p->layer, p->fn, slot)->name;
     struct text_word own = {str_text(p->unit->strings, id), str_len(p->unit->strings, id)};
     struct text_word name = own;
@@ -86,6 +90,7 @@ static void bring_into_scope(struct printer *p, uint32_t slot)
 
 static void print_local(struct printer *p, uint32_t slot)
 {
+    assert(slot < p->fn->num_slots);
     text_put(p->out, p->locals[slot]);
 }
 
@@ -137,6 +142,7 @@ static void print_construct(struct printer *p, const struct lang_node *node)
 
 static void print_swizzle(struct printer *p, const struct lang_node *node)
 {
+    assert(node->b >> 8 >= 1 && node->b >> 8 <= 4);
     print_expression(p, node_at(p, node->a), LANG_PREC_POSTFIX);
     text_char(p->out, '.');
     for (unsigned i = 0; i < node->b >> 8; i++)
@@ -149,6 +155,7 @@ static void print_member(struct printer *p, const struct lang_node *node)
     print_expression(p, whole, LANG_PREC_POSTFIX);
     const struct lang_unit *layer;
     const struct ir_user_type *user = lang_user_type(p->unit, whole->type, &layer);
+    assert(node->b < user->num_members);
     text_char(p->out, '.');
     text_str(p->out, lang_member_name(p->style, p->unit->strings,
                                       layer->members.items[user->first_member + node->b].name));
@@ -222,6 +229,7 @@ static const struct lang_pieces *typed_form(struct printer *p, enum ir_op op, ui
                                             const struct lang_node *const *operands,
                                             unsigned num_operands)
 {
+    assert(num_operands <= AST_MAX_OPERANDS);
     ir_type_id types[AST_MAX_OPERANDS];
     struct lang_use use = {
         .op = op, .type = type, .attr = attr, .operands = types, .num_operands = num_operands};
@@ -237,6 +245,8 @@ static bool print_typed(struct printer *p, const struct lang_node *node, enum la
     lang_ref refs[AST_MAX_OPERANDS];
     const struct lang_node *operands[AST_MAX_OPERANDS];
     unsigned n = ast_list(p->layer, node->a, refs, AST_MAX_OPERANDS);
+    if (n > AST_MAX_OPERANDS) /* an array or struct, which has no form by type */
+        return false;
     for (unsigned i = 0; i < n; i++)
         operands[i] = node_at(p, refs[i]);
     const struct lang_pieces *form = typed_form(p, node->op, node->b, node->type, operands, n);
@@ -338,6 +348,7 @@ static void print_assignment(struct printer *p, const struct lang_node *node)
     print_expression(p, node_at(p, node->a), LANG_PREC_UNARY);
     const struct lang_pieces *form =
         node->op == IR_NUM_OPS ? NULL : lang_style_form(p->style, node->op);
+    assert(!form || !form->infix || form->num == 2);
     text_char(p->out, ' ');
     if (form && form->infix) /* the operator is what stands between "$0 " and " $1" */
         text_mem(p->out, form->text + 3, form->pieces[1].before.len - 2);
@@ -389,6 +400,7 @@ static void print_body(struct printer *p, const struct lang_node *body)
     else if (body)
         print_statement(p, body);
     p->indent--;
+    assert(p->num_visible >= mark);
     p->num_visible = mark;
 }
 
@@ -495,11 +507,13 @@ static void print_for(struct printer *p, const struct lang_node *node)
     print_governed(p, node->c, braces);
     if (braces)
         text_char(p->out, '\n');
+    assert(p->num_visible >= mark);
     p->num_visible = mark;
 }
 
 static void print_while(struct printer *p, const struct lang_node *node)
 {
+    assert(node_at(p, node->c)->kind == LANG_BLOCK);
     text_str(p->out, "while (");
     print_expression(p, node_at(p, node->b), LANG_PREC_COMMA);
     text_char(p->out, ')');
@@ -511,6 +525,7 @@ static void print_while(struct printer *p, const struct lang_node *node)
 
 static void print_do(struct printer *p, const struct lang_node *node)
 {
+    assert(node_at(p, node->c)->kind == LANG_BLOCK);
     text_str(p->out, "do");
     print_governed(p, node->c, true);
     text_str(p->out, " while (");
@@ -576,6 +591,7 @@ static struct printer start(struct lang_style *style, const struct lang_names *n
     p.visible = arena_alloc(out->arena, p.fn->num_slots * sizeof *p.visible);
     for (uint32_t i = 0; i < p.fn->num_params; i++)
         bring_into_scope(&p, i);
+    assert(p.num_visible == p.fn->num_params);
     return p;
 }
 
@@ -664,5 +680,6 @@ void lang_print_function(struct lang_style *style, const struct lang_names *name
     print_constant_arrays(&p);
     print_copies(&p);
     print_body(&p, node_at(&p, p.fn->body));
+    assert(p.num_visible == p.fn->num_params && p.indent == 0);
     text_str(out, "}\n");
 }

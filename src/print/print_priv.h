@@ -25,6 +25,7 @@ const char *print_maker(const struct lang_names *names, const struct lang_unit *
 static inline void print_type_name(const struct lang_style *style, const struct lang_names *names,
                                    ir_type_id type, struct text *out)
 {
+    assert(type < IR_NUM_TYPES);
     if (names && names->type)
         names->type(names->user_data, type);
     text_put(out, style->types[type]);

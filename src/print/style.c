@@ -61,6 +61,7 @@ void lang_form_split(const struct lang_form *form, struct lang_pieces *split)
         assert(split->num < LANG_MAX_PIECES);
         char before = p == form->text ? '\0' : p[-1] == ' ' ? p[-2] : p[-1];
         unsigned index = (unsigned)(p[1] - '0');
+        assert(p[1] == 'T' || index < 4);
         split->pieces[split->num++] = (struct lang_piece){
             .before = {from, (size_t)(p - from)},
             .index = p[1] == 'T' ? LANG_PIECE_TYPE : (uint8_t)index,
@@ -74,6 +75,7 @@ void lang_form_split(const struct lang_form *form, struct lang_pieces *split)
 
 const struct lang_pieces *lang_style_split(struct lang_style *style, enum ir_op op)
 {
+    assert(!style->forms[op]);
     struct lang_pieces *split = style->forms[op] = arena_alloc(style->arena, sizeof *split);
     lang_form_split(lang_syntax_form(style->syntax, op), split);
     split->spreads = split->text && spreads_constants(style->syntax, op);

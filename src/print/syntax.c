@@ -88,6 +88,7 @@ const struct lang_syntax lang_syntax_portable = {
 
 const struct lang_form *lang_syntax_form(const struct lang_syntax *syntax, enum ir_op op)
 {
+    assert(op < IR_NUM_OPS);
     const struct lang_form *form = NULL;
     for (; syntax; syntax = syntax->base) {
         if (!syntax->forms)

@@ -6,6 +6,8 @@
  */
 #include "print/print_priv.h"
 
+#include <assert.h>
+
 /* Can it be in a shader as it is? */
 static bool is_worth_text(const struct lang_function *fn)
 {
@@ -53,6 +55,7 @@ void lang_make_texts(struct lang_unit *unit, const struct lang_syntax *syntax, s
     memset(&unit->texts, 0, sizeof unit->texts);
     for (uint32_t i = 0; i < unit->functions.len; i++) {
         size_t before = text.len;
+        assert(unit->texts.len == i);
         vec_push(arena, &unit->texts, (uint32_t)before);
         struct type_watch watch = {.unit = unit, .fn = &unit->functions.items[i]};
         struct lang_names names = {.user_data = &watch, .user_type = watch_type};
@@ -62,6 +65,7 @@ void lang_make_texts(struct lang_unit *unit, const struct lang_syntax *syntax, s
             text.len = before;
     }
     vec_push(arena, &unit->texts, (uint32_t)text.len);
+    assert(unit->texts.len == unit->functions.len + 1);
     memset(&unit->text_bytes, 0, sizeof unit->text_bytes);
     if (text.len)
         memcpy(vec_extend(arena, &unit->text_bytes, text.len), text.data, text.len);
@@ -114,7 +118,9 @@ bool print_from_image(const struct lang_style *style, const struct lang_names *n
     if (!style->from_images || layer->texts.len == 0
         || (fn->flags & LANG_FN_DERIVATIVE && style->syntax->without_neighbours))
         return false;
+    assert(layer->texts.len == layer->functions.len + 1);
     const uint32_t *at = &layer->texts.items[id - layer->base_functions];
+    assert(at[0] <= at[1] && at[1] <= layer->text_bytes.len);
     if (at[0] == at[1] || !has_own_names(names, unit, layer, fn, id)
         || !has_own_types(names, unit, layer, fn))
         return false;

@@ -2,6 +2,7 @@
 /* Printing what has no control flow: types, values and the declarations at file scope. */
 #include "print/print_priv.h"
 
+#include <assert.h>
 #include <math.h>
 
 const char *print_function_name(const struct lang_names *names, const struct lang_unit *unit,
@@ -136,6 +137,7 @@ static void print_scalar(const struct lang_syntax *syntax, ir_type_id type, unio
 static unsigned count_needed(const struct ir_type_info *info, const union ir_word *w)
 {
     unsigned rows = info->components / info->columns;
+    assert(rows * info->columns == info->components);
     for (unsigned i = 1; i < info->components; i++) {
         bool on_diagonal = info->columns == 1 || i / rows == i % rows;
         if (w[i].u != (on_diagonal ? w[0].u : 0u))
@@ -190,6 +192,7 @@ static const union ir_word *print_words(const struct lang_style *style,
         return words + ir_type_info(type)->components;
     }
     const struct ir_user_type *user = lang_user_type(unit, type, NULL);
+    assert(user->array_length > 0);
     print_open_array(style, NULL, unit, type, out);
     for (uint32_t i = 0; i < user->array_length; i++) {
         if (i)
@@ -213,6 +216,7 @@ void lang_print_constant(const struct lang_style *style, const struct lang_names
 {
     const struct lang_unit *layer;
     const struct lang_global *global = lang_global(unit, global_id, &layer);
+    assert(global->words + global->num_words <= layer->words.len);
     const char *name = print_global_name(names, unit, global_id);
     bool is_local = style->syntax->defines_constants && ast_is_user_type(global->type);
     bool defines = style->syntax->defines_constants && !is_local;
@@ -252,6 +256,7 @@ void lang_print_struct(const struct lang_style *style, const struct lang_names *
 {
     const struct lang_unit *layer;
     const struct ir_user_type *user = lang_user_type(unit, type, &layer);
+    assert(user->first_member + user->num_members <= layer->members.len);
     text_str(out, "struct ");
     text_str(out, print_struct_name(names, unit, type));
     text_str(out, " {\n");

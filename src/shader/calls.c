@@ -8,6 +8,8 @@
 #include "shader/shader.h"
 #include "specialise/specialise.h"
 
+#include <assert.h>
+
 struct final_pass {
     struct shader *shader;
     const uint32_t *planned; /* by call: the number that lang_plan_call gave */
@@ -97,6 +99,7 @@ static ir_ref build_call(const struct final_pass *pass, struct ir_graph *graph, 
             args[kept++] = arg;
     }
     assert(read == node->num_args);
+    assert(version == given || kept <= lang_function(unit, version, NULL)->num_params);
     uint16_t flags = lang_function(unit, version, NULL)->flags;
     callee.index = version;
     callee.derivative = (flags & LANG_FN_DERIVATIVE) != 0;

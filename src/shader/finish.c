@@ -59,6 +59,7 @@ static void mark_outputs(struct shader *shader, enum shader_stage_id id)
 /* Vertex data that a displaced position is made of is written before it. */
 static void keep_inputs(struct shader *shader, ir_ref position)
 {
+    assert(ir_type_of(shader->graph, position) == IR_TYPE_VEC4);
     uint8_t *needed = ir_mark(shader->graph, &position, 1, shader->arena);
     for (ir_ref ref = 1; ref < shader->graph->nodes.len; ref++)
         if (needed[ref] && ir_get(shader->graph, ref)->op == IR_STREAM)
@@ -80,6 +81,7 @@ static void complete_vertex_stage(struct shader *shader)
         if (effect->kind != EFFECT_OUTPUT || shader->variables.items[effect->index].stages)
             effects->items[kept++] = *effect;
     }
+    assert(kept <= effects->len);
     effects->len = kept;
     if (has_position)
         return;
@@ -131,6 +133,7 @@ static void finish_displacement(struct shader *shader)
     for (uint32_t i = 0; i < effects->len; i++)
         if (effects->items[i].kind == EFFECT_POSITION)
             effects->items[kept++] = effects->items[i];
+    assert(kept <= effects->len);
     effects->len = kept;
     if (kept) {
         shader_schedule(shader, STAGE_VERTEX);
@@ -140,6 +143,7 @@ static void finish_displacement(struct shader *shader)
 
 void shader_finish(struct shader *shader, const struct shader_layout_rules *rules)
 {
+    assert(shader->interface.len == 0);
     shader->rules = *rules;
     shader_specialise_calls(shader, rules->typed_textures);
     complete_loops(shader, STAGE_PIXEL);

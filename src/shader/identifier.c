@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shader/shader.h"
 
+#include <assert.h>
+
 static bool is_digit(char c)
 {
     return (unsigned char)(c - '0') < 10;
@@ -50,6 +52,7 @@ const char *identifier_from(const char *text, size_t len, struct arena *arena, s
         if (c != '_' || n == 0 || out[n - 1] != '_')
             out[n++] = c;
     }
+    assert(n > 0 && n <= len + 1);
     out[n] = '\0';
     *out_len = n;
     return out;

@@ -53,6 +53,7 @@ static uint32_t find(const struct shader *shader, uint32_t scope, str_id name)
 {
     uint32_t hash = hash_pair(name, scope);
     for (uint32_t at = hash, found; (found = table_next(&shader->names, hash, &at));) {
+        assert(found <= shader->variables.len);
         const struct shader_variable *variable = &shader->variables.items[found - 1];
         if (variable->name == name && name_scope(variable->block) == scope)
             return found;
@@ -352,6 +353,7 @@ static ir_ref attribute(struct shader *shader, const struct stream_row *row, con
 
 bool shader_attribute(const struct shader *shader, uint32_t stream, uint32_t *out_index)
 {
+    assert(stream < shader->variables.len);
     str_id semantic = shader->variables.items[stream].semantic;
     for (uint32_t i = 0; i < shader->variables.len; i++)
         if (shader->variables.items[i].block == BLOCK_APP_DATA

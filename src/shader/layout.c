@@ -102,6 +102,7 @@ static void place_in_buffer(struct shader_buffer *buffer, enum shader_packing pa
 /* How many locations a vertex attribute or a member of vertex data takes. */
 static uint32_t num_locations(ir_type_id type)
 {
+    assert(ir_type_info(type)->columns > 0);
     return ir_type_info(type)->columns;
 }
 

@@ -4,6 +4,8 @@
  */
 #include "shader/schedule.h"
 
+#include <assert.h>
+
 /*
  * Expressions are kept to about a line. Costs are those of SPIR-V before any optimiser: reading a
  * block's member takes an access chain and a load, a local a variable, a store and a load per use.
@@ -201,6 +203,7 @@ static bool is_part(struct scheduler *s, const struct plan *plan)
         return true;
     if (plan->op != IR_SWIZZLE && plan->op != IR_MEMBER)
         return false;
+    assert(plan->num_args == 1);
     const struct plan *whole = plan_of(s, args_of(s, plan)[0]);
     return whole->flags & PLAN_LET || whole->op == IR_RESULT || whole->num_args == 0;
 }
@@ -219,6 +222,7 @@ static bool is_little_work(struct scheduler *s, const struct plan *arm)
  */
 static void let_arms(struct scheduler *s, const struct plan *plan)
 {
+    assert(plan->op == IR_SELECT && plan->num_args == 3);
     bool all = true;
     struct plan *arms[2];
     for (unsigned i = 0; i < 2; i++) {

@@ -4,6 +4,8 @@
 #include "base/hash.h"
 #include "shader/shader.h"
 
+#include <assert.h>
+
 void names_init(struct name_set *names, struct arena *arena, const struct lang_syntax *syntax)
 {
     *names = (struct name_set){.arena = arena, .syntax = syntax};
@@ -27,6 +29,7 @@ void names_open_scope(struct name_set *names)
 static uint32_t find(const struct name_set *names, const char *text, size_t len, uint32_t hash)
 {
     for (uint32_t at = hash, found; (found = table_next(&names->table, hash, &at));) {
+        assert(found <= names->entries.len);
         const struct name_entry *entry = &names->entries.items[found - 1];
         if (entry->len == len && memcmp(entry->text, text, len) == 0)
             return found;
@@ -84,6 +87,7 @@ enum { LONGEST_SUFFIX = sizeof "_4294967295" };
 /* The name with an underscore behind it, and room for a number. */
 static char *with_underscore(const struct name_set *names, const char *text, size_t *len)
 {
+    assert(*len > 0);
     char *longer = arena_alloc(names->arena, *len + LONGEST_SUFFIX);
     memcpy(longer, text, *len);
     if (longer[*len - 1] != '_')

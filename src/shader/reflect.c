@@ -2,6 +2,7 @@
 /* The reflection as JSON (docs/reflection.md). Fields that say nothing are left out. */
 #include "shader/reflect.h"
 
+#include <assert.h>
 #include <math.h>
 
 void reflect_id(struct reflect *r, const char *key, str_id value)
@@ -68,6 +69,7 @@ static void put_place(struct reflect *r, const struct shader_variable *variable)
     case BLOCK_LIGHT_DATA:
         if (!r->shader->buffers[variable->block].size)
             return;
+        assert(variable->offset + variable->size <= r->shader->buffers[variable->block].size);
         json_put_number(&r->json, "offset", variable->offset);
         json_put_number(&r->json, "size", variable->size);
         json_put_nonzero(&r->json, "arrayStride", variable->array_stride);
@@ -132,6 +134,7 @@ static void put_tiles(struct reflect *r, const struct shader_variable *variable)
 {
     if (!variable->num_tiles)
         return;
+    assert(variable->first_tile + variable->num_tiles <= r->shader->tiles.len);
     json_key(&r->json, "tiles");
     json_open(&r->json, '[');
     for (uint32_t i = 0; i < variable->num_tiles; i++) {
@@ -239,6 +242,7 @@ static void put_lights(struct reflect *r)
     json_open(&r->json, '[');
     for (uint32_t i = 0; i < shader->lights.len; i++) {
         const struct shader_light *light = &shader->lights.items[i];
+        assert(light->first_member + light->num_members <= shader->light_members.len);
         json_item(&r->json);
         json_open(&r->json, '{');
         json_put_number(&r->json, "type", (uint32_t)light->type);

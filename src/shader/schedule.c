@@ -37,6 +37,7 @@ unsigned shader_call_outs(const struct shader *shader, ir_ref call)
 
 static void need_verbatim(struct scheduler *s, uint32_t callee)
 {
+    assert(callee < s->shader->verbatim.len);
     for (uint32_t i = 0; i < s->stage->verbatim.len; i++)
         if (s->stage->verbatim.items[i] == callee)
             return;
@@ -69,6 +70,7 @@ static unsigned note_call(struct scheduler *s, ir_ref ref, const struct ir_node 
 
 static void note_variable(const struct scheduler *s, uint32_t index)
 {
+    assert(index < s->shader->variables.len);
     struct shader_variable *variable = &s->shader->variables.items[index];
     variable->stages |= s->stage_bit;
     if (variable->fallback)
@@ -102,6 +104,7 @@ static unsigned locals_below(const struct scheduler *s, const struct ir_node *no
 /* What the node depends on follows from its operands, which are reached before. */
 static inline void reach_node(struct scheduler *s, ir_ref ref)
 {
+    assert(s->reached.len < s->reached.cap);
     const struct ir_node *node = ir_get(s->graph, ref);
     unsigned flags = note_needs(s, ref, node) | (node->flags & PLAN_LOOP);
     if (s->any_local)
@@ -414,4 +417,5 @@ void shader_schedule(struct shader *shader, enum shader_stage_id stage)
     s.stage->functions.len = s.stage->verbatim.len = 0;
     schedule_effects(&s, &s.stage->effects, &s.stage->statements);
     schedule_functions(&s);
+    assert(s.visits.len == 0 && s.called.len == 0);
 }

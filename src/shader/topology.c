@@ -10,6 +10,8 @@
 #include "base/hash.h"
 #include "shader/shader.h"
 
+#include <assert.h>
+
 struct hasher {
     const struct shader *shader;
     struct arena *arena;
@@ -65,6 +67,7 @@ static void add_variables(struct hasher *h)
 static void add_tree_node(struct hasher *h, const struct lang_unit *layer,
                           const struct lang_node *node)
 {
+    assert(node->kind != LANG_CALL || h->function_numbers[node->a]);
     uint64_t own =
         (uint64_t)node->kind << 56 | (uint64_t)node->op << 48 | (uint64_t)node->type << 32;
     if (node->kind == LANG_VAR || node->kind == LANG_DECLARE)
@@ -136,6 +139,7 @@ static uint64_t attribute(struct hasher *h, ir_ref ref)
 
 static void add_node(struct hasher *h, ir_ref ref)
 {
+    assert(h->node_numbers[ref] == 0);
     const struct ir_graph *graph = h->shader->graph;
     const struct ir_node *node = ir_get(graph, ref);
     h->node_numbers[ref] = ++h->num_nodes;
@@ -217,5 +221,6 @@ uint64_t shader_topology(const struct shader *shader, struct arena *scratch)
         add(&h, (uint64_t)(uint32_t)shader->lights.items[i].type);
     for (int stage = 0; stage < NUM_STAGES; stage++)
         add_stage(&h, &shader->stages[stage]);
+    assert(h.num_nodes < shader->graph->nodes.len);
     return h.hash;
 }

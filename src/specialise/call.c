@@ -6,6 +6,8 @@
 #include "specialise/spec.h"
 #include "tree/eval.h"
 
+#include <assert.h>
+
 enum { MAX_EVAL_STEPS = 20000 };
 
 static lang_ref evaluate(struct spec *s, const struct lang_node *call, const lang_ref *args,
@@ -15,6 +17,7 @@ static lang_ref evaluate(struct spec *s, const struct lang_node *call, const lan
     if (!(callee->flags & LANG_FN_PURE) || ast_is_user_type(call->type)
         || call->type == IR_TYPE_VOID)
         return 0;
+    assert(num_args == callee->num_params);
     for (unsigned i = 0; i < num_args; i++)
         if (spec_node(s, args[i])->kind != LANG_CONST)
             return 0;
@@ -41,6 +44,7 @@ static lang_ref note_call(struct spec *s, struct lang_node node, const lang_ref 
     }
     node.b = chain.first;
     node.c = 1 + plan_note_call(s->unit, node.a, facts, have_effects);
+    assert(node.c - 1 < s->unit->plan->variants.len);
     lang_ref call = spec_add(s, node);
     vec_push(s->unit->arena, &s->unit->plan->calls, call);
     return call;
@@ -61,6 +65,7 @@ lang_ref spec_call(struct spec *s, struct lang_node node)
         args[i] = is_input ? spec_expression(s, ref) : spec_target(s, ref);
         has_outputs |= !is_input;
     }
+    assert(i == num_args);
     bool args_have_effects = s->num_effects != num_effects;
     if (has_outputs) {
         i = 0;

@@ -10,6 +10,8 @@
 #include "base/hash.h"
 #include "specialise/spec.h"
 
+#include <assert.h>
+
 struct copier {
     const struct lang_unit *from; /* unit of the tree that is copied */
     struct lang_unit *to;
@@ -49,6 +51,7 @@ static uint32_t given_function(const struct copier *c, uint32_t id)
     if (id < c->made->base_functions)
         return id;
     id -= c->made->base_functions;
+    assert(id < c->made->versions.len);
     return c->made->versions.items[id].origin;
 }
 
@@ -177,6 +180,7 @@ static uint32_t copy_slots(struct copier *c, const struct lang_function *fn)
 static struct lang_function copy_version(struct copier *c, uint32_t version)
 {
     struct lang_function fn = *lang_function(c->made, version, &c->from);
+    assert(fn.num_params <= fn.num_slots);
     c->calls.len = 0;
     c->is_simple = true;
     c->is_used = arena_zalloc(c->to->arena, fn.num_slots);
@@ -191,6 +195,7 @@ static struct lang_function copy_version(struct copier *c, uint32_t version)
 static struct lang_function copy_function(struct copier *c, uint32_t id, uint32_t version)
 {
     struct lang_function fn = copy_version(c, version);
+    assert(fn.num_params == lang_function(c->made, id, NULL)->num_params);
     fn.num_calls = c->calls.len;
     assert(ast_calls(c->to, &fn) == c->to->refs.items + c->to->refs.len);
     for (uint32_t i = 0; i < c->calls.len; i++)
@@ -231,6 +236,7 @@ void lang_make_canonical(struct lang_unit *unit)
     memset(&to.functions, 0, sizeof to.functions);
     vec_push(unit->arena, &to.nodes, (struct lang_node){0});
     for (uint32_t i = 0; i < unit->functions.len; i++) {
+        assert(to.functions.len == i);
         struct lang_function fn = copy_function(&c, unit->base_functions + i, versions[i]);
         vec_push(unit->arena, &to.functions, fn);
     }
@@ -243,5 +249,6 @@ void lang_make_canonical(struct lang_unit *unit)
         file->first_include =
             copy_refs(&c, unit->refs.items + file->first_include, file->num_includes, false);
     }
+    assert(to.functions.len == unit->functions.len && made.functions.len == made.versions.len);
     *unit = to;
 }

@@ -2,6 +2,8 @@
 /* The forward step over expressions. */
 #include "specialise/spec.h"
 
+#include <assert.h>
+
 /* True for a literal longer than a name: a vector or matrix with different components. */
 static bool is_long(const struct spec *s, const struct lang_node *constant)
 {
@@ -15,6 +17,7 @@ static bool is_long(const struct spec *s, const struct lang_node *constant)
 
 static lang_ref spec_variable(struct spec *s, struct lang_node node)
 {
+    assert(node.a < s->fn.num_slots);
     lang_ref known = s->known[node.a];
     if (!known || spec_node(s, known)->kind != LANG_CONST)
         return spec_add(s, node);
@@ -106,6 +109,7 @@ static lang_ref element_of_global(struct spec *s, const struct lang_node *node, 
     uint32_t size = ir_type_info(node->type)->components;
     if (global->kind != LANG_GLOBAL_CONST || size == 0 || index >= global->num_words / size)
         return 0;
+    assert(global->words + global->num_words <= layer->words.len);
     return spec_constant_words(s, node->type, layer->words.items + global->words + index * size);
 }
 

@@ -2,6 +2,7 @@
 /* Folding of ops: constants by ir_eval_op, then identities that hold for all finite operands. */
 #include "specialise/spec.h"
 
+#include <assert.h>
 #include <math.h>
 
 bool spec_is_finite(const struct ir_value *value)
@@ -66,6 +67,7 @@ static lang_ref as_result(struct spec *s, const struct lang_node *op, lang_ref r
     bool fits = spec_node(s, ref)->type == op->type;
     if (!fits && ir_type_is_matrix(op->type))
         return 0;
+    assert(fits || spec_node(s, ref)->type == ir_type_info(op->type)->scalar);
     spec_node(s, ref)->next = 0;
     if (fits)
         return ref;
@@ -201,5 +203,6 @@ lang_ref spec_fold(struct spec *s, const struct lang_node *op, const lang_ref *a
     lang_ref folded = fold_constants(s, op, args, num_args);
     if (!folded)
         folded = simplify(s, op, args);
+    assert(!folded || spec_node(s, folded)->type == op->type);
     return folded || op->op != IR_MUL ? folded : shorten(s, op, args);
 }

@@ -5,6 +5,8 @@
  */
 #include "specialise/spec.h"
 
+#include <assert.h>
+
 enum { MAX_NODES = 14 /* size limit of an inlined function */ };
 
 struct inlining {
@@ -17,6 +19,7 @@ static lang_ref copy(struct inlining *in, lang_ref ref);
 
 static lang_ref copy_argument(struct inlining *in, uint32_t param)
 {
+    assert(param < AST_MAX_OPERANDS);
     struct inlining plain = {in->s, in->s->unit, NULL};
     return copy(&plain, in->args[param]);
 }
@@ -71,6 +74,7 @@ static bool count_uses(const struct lang_unit *layer, const struct spec *s, lang
                        uint8_t *uses)
 {
     const struct lang_node *node = ast_node(layer, ref);
+    assert(node->kind != LANG_VAR || node->a < AST_MAX_OPERANDS);
     if (node->kind == LANG_VAR)
         uses[node->a]++;
     lang_ref child = node->kind == LANG_OP ? node->a : node->kind == LANG_CALL ? node->b : 0;

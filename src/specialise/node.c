@@ -2,6 +2,8 @@
 /* Makes and reads nodes of the result. */
 #include "specialise/spec.h"
 
+#include <assert.h>
+
 lang_ref spec_add(struct spec *s, struct lang_node node)
 {
     node.next = 0;
@@ -12,6 +14,7 @@ lang_ref spec_add(struct spec *s, struct lang_node node)
 
 void spec_append(struct spec *s, struct chain *chain, lang_ref ref)
 {
+    assert(!chain->first == !chain->last && ref != chain->last);
     if (chain->last)
         spec_node(s, chain->last)->next = ref;
     else
@@ -23,6 +26,7 @@ lang_ref spec_constant_words(struct spec *s, ir_type_id type, const union ir_wor
 {
     uint32_t count = ir_type_info(type)->components, at = s->unit->words.len;
     union ir_word copy[16]; /* the words may move when the unit grows */
+    assert(count <= sizeof copy / sizeof *copy);
     memcpy(copy, words, count * sizeof *copy);
     union ir_word *to = vec_extend(s->unit->arena, &s->unit->words, count);
     memcpy(to, copy, count * sizeof *copy);

@@ -23,6 +23,7 @@ struct lang_plan *plan_of(struct lang_unit *unit)
         unit->plan->spec = ARENA_NEW(unit->arena, struct spec);
         unit->plan->spec->unit = unit;
     }
+    assert(unit->plan->spec->unit == unit);
     return unit->plan;
 }
 
@@ -40,6 +41,7 @@ static bool is_same(const struct lang_unit *unit, ir_type_id type, fact a, fact 
 {
     if (a == b || a == FACT_VARIES || b == FACT_VARIES)
         return a == b;
+    assert(a - 1 < unit->words.len && b - 1 < unit->words.len);
     const union ir_word *words = unit->words.items - 1;
     return memcmp(words + a, words + b, ir_type_info(type)->components * sizeof *words) == 0;
 }
@@ -70,6 +72,7 @@ static uint32_t add_variant(struct lang_unit *unit, uint32_t function, uint32_t 
 static uint32_t note_anything(struct lang_unit *unit, uint32_t function)
 {
     struct lang_plan *plan = unit->plan;
+    assert(plan->is_open && function < plan->num_ids);
     uint32_t num_params = lang_function(unit, function, NULL)->num_params;
     if (plan->first_variant[function])
         return plan->first_variant[function] - 1;
@@ -99,6 +102,7 @@ uint32_t plan_note_call(struct lang_unit *unit, uint32_t function, const fact *a
         link = add_variant(unit, function, num_params);
         *(last ? &plan->variants.items[last - 1].next : &plan->first_variant[function]) = link;
     }
+    assert(link <= plan->variants.len);
     uint32_t index = link - 1;
     struct variant *variant = &plan->variants.items[index];
     fact *facts = plan->facts.items + variant->first_fact;
@@ -150,6 +154,7 @@ bool lang_param_dropped(const struct lang_unit *unit, uint32_t version, uint32_t
 {
     if (version == given || index >= SPEC_MAX_PARAMS)
         return false;
+    assert(version - unit->base_functions < unit->versions.len);
     const uint32_t *dropped = unit->versions.items[version - unit->base_functions].dropped;
     return dropped[index / 32] >> index % 32 & 1;
 }

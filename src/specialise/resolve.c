@@ -2,6 +2,8 @@
 /* Redirects calls to the versions of their callees, or replaces them by simpler expressions. */
 #include "specialise/spec.h"
 
+#include <assert.h>
+
 /* The arguments that the callee's version still takes. */
 static lang_ref remaining_arguments(struct spec *s, uint32_t given, uint32_t version,
                                     lang_ref first)
@@ -15,6 +17,7 @@ static lang_ref remaining_arguments(struct spec *s, uint32_t given, uint32_t ver
         spec_node(s, ref)->next = 0;
         spec_append(s, &chain, ref);
     }
+    assert(i == lang_function(s->unit, given, NULL)->num_params);
     return chain.first;
 }
 
@@ -52,6 +55,7 @@ static lang_ref call_inner(struct spec *s, const struct lang_unit *layer,
     lang_ref args[SPEC_MAX_PARAMS];
     struct chain chain = {0};
     ast_list(s->unit, call->b, args, SPEC_MAX_PARAMS);
+    assert(inner.kind == LANG_CALL);
     for (lang_ref ref = inner.b; ref; ref = ast_node(layer, ref)->next) {
         const struct lang_node node = *ast_node(layer, ref);
         lang_ref arg = node.kind == LANG_VAR ? args[node.a] : copy_constant(s, layer, &node);
@@ -86,6 +90,7 @@ static void resolve(struct spec *s, lang_ref ref)
 {
     struct lang_node call = *spec_node(s, ref);
     const struct variant *variant = &s->unit->plan->variants.items[call.c - 1];
+    assert(call.kind == LANG_CALL && variant->function == call.a);
     call.c = 0;
     if (variant->version != call.a) {
         s->changed = true;
@@ -104,6 +109,7 @@ static void resolve(struct spec *s, lang_ref ref)
 void spec_resolve(struct spec *s)
 {
     const struct variant *variant = &s->unit->plan->variants.items[s->variant];
+    assert(variant->first_call + variant->num_calls <= s->unit->plan->calls.len);
     for (uint32_t i = 0; i < variant->num_calls; i++)
         resolve(s, s->unit->plan->calls.items[variant->first_call + i]);
 }

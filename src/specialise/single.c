@@ -9,6 +9,8 @@
  */
 #include "specialise/spec.h"
 
+#include <assert.h>
+
 enum { MAX_NODES = 24 /* size limit of a value that moves, to keep lines readable */ };
 
 struct forwarder {
@@ -55,6 +57,7 @@ static void consider(struct forwarder *f, lang_ref statement)
 {
     const struct lang_node *node = spec_node(f->s, statement);
     uint32_t slot = node->a;
+    assert(node->kind == LANG_DECLARE && slot < f->s->fn.num_slots);
     if (!node->b || f->reads[slot] != 1 || f->s->slots[slot].uses & SLOT_WRITTEN
         || ast_is_user_type(spec_node(f->s, node->b)->type))
         return;
@@ -71,6 +74,7 @@ static void replace(struct forwarder *f, lang_ref ref)
         lang_ref declaration = f->declared[node->a];
         if (!declaration)
             return;
+        assert(f->reads[node->a] == 1);
         struct lang_node value = *spec_node(f->s, spec_node(f->s, declaration)->b);
         f->declared[node->a] = 0;
         f->s->slots[node->a].uses = 0;
@@ -158,6 +162,7 @@ lang_ref spec_single(struct spec *s, lang_ref first)
         if (kind == LANG_VAR || kind == LANG_DECLARE)
             s->vars.items[kept++] = s->vars.items[i];
     }
+    assert(kept == s->vars.len || f.any);
     s->vars.len = kept;
     return first;
 }

@@ -30,6 +30,7 @@ static struct spec *open_variant(struct lang_unit *unit, uint32_t variant)
 
 static bool is_bound(const struct spec *s, uint32_t param)
 {
+    assert(param < s->fn.num_params);
     fact known = s->unit->plan->facts.items[variant_of(s)->first_fact + param];
     return known != FACT_UNSEEN && known != FACT_VARIES;
 }
@@ -57,6 +58,7 @@ static void note_call(struct spec *s, const struct lang_node *call)
     fact args[SPEC_MAX_PARAMS];
     uint32_t i = 0;
     for (lang_ref ref = call->b; ref; ref = ast_node(s->layer, ref)->next, i++) {
+        assert(i < SPEC_MAX_PARAMS);
         const struct lang_node *arg = ast_node(s->layer, ref);
         args[i] = arg->kind == LANG_CONST ? unit->words.len + 1 : FACT_VARIES;
         if (arg->kind != LANG_CONST)
@@ -91,6 +93,7 @@ static bool stays_final(const struct spec *s)
     const struct lang_plan *plan = s->unit->plan;
     uint32_t first_call = variant_of(s)->first_call;
     for (uint32_t i = 0; i < s->fn.num_calls; i++) {
+        assert(plan->calls.items[first_call + i] < plan->variants.len);
         const struct variant *called = &plan->variants.items[plan->calls.items[first_call + i]];
         if (called->version != called->function)
             return false;
@@ -156,6 +159,8 @@ static void finish_slots(struct spec *s, struct lang_function *out, struct lang_
     for (uint32_t i = 0; i < s->fn.num_slots; i++)
         if (s->slots[i].uses && (i >= s->fn.num_params || s->slots[i].is_dropped))
             add_slot(s, i, out);
+    assert(s->unit->slots.len == out->first_slot + out->num_slots);
+    assert(out->num_slots <= s->fn.num_slots);
     for (uint32_t i = 0; i < s->vars.len; i++) {
         struct lang_node *node = spec_node(s, s->vars.items[i]);
         node->a = s->slots[node->a].number;
@@ -174,6 +179,7 @@ static uint32_t add_version(struct spec *s, lang_ref body)
     struct lang_function fn = s->fn;
     struct lang_version version = {.origin = variant_of(s)->function};
     finish_slots(s, &fn, &version);
+    assert(fn.num_params <= s->fn.num_params);
     fn.flags = s->flags;
     fn.body = spec_add(s, (struct lang_node){.kind = LANG_BLOCK, .a = body});
     fn.num_nodes = s->num_nodes;
@@ -186,6 +192,7 @@ static uint32_t add_version(struct spec *s, lang_ref body)
         vec_push(unit->arena, &unit->versions, (struct lang_version){LANG_NONE});
     vec_push(unit->arena, &unit->functions, fn);
     vec_push(unit->arena, &unit->versions, version);
+    assert(unit->versions.len == unit->functions.len);
     return unit->base_functions + unit->functions.len - 1;
 }
 

@@ -6,6 +6,8 @@
  */
 #include "specialise/spec.h"
 
+#include <assert.h>
+
 static void forget_outputs(struct spec *s, lang_ref expression);
 
 static void forget_list(struct spec *s, lang_ref first)
@@ -84,6 +86,7 @@ static bool is_known(const struct spec *s, lang_ref value)
 
 static void spec_declare(struct spec *s, struct lang_node node, struct chain *out)
 {
+    assert(node.a < s->fn.num_slots);
     if (node.b)
         node.b = spec_expression(s, node.b);
     s->known[node.a] = node.b && is_known(s, node.b) ? node.b : 0;
@@ -116,6 +119,7 @@ static bool is_idle(struct spec *s, const struct lang_node *assignment)
 static void spec_assign(struct spec *s, struct lang_node node, struct chain *out)
 {
     uint32_t slot = ast_target_slot(s->layer, node.a);
+    assert(slot < s->fn.num_slots);
     bool is_whole = ast_node(s->layer, node.a)->kind == LANG_VAR;
     node.b = spec_expression(s, node.b);
     node.a = spec_target(s, node.a);
@@ -180,6 +184,7 @@ static bool spec_if(struct spec *s, struct lang_node node, struct chain *out)
     struct chain yes = {0}, no = {0};
     bool yes_falls = spec_body(s, node.b, &yes);
     uint32_t after = save_known(s);
+    assert(after == before + s->fn.num_slots);
     if (s->fn.num_slots)
         memcpy(s->known, s->stack.items + before, s->fn.num_slots * sizeof *s->known);
     bool no_falls = spec_body(s, node.c, &no);
@@ -190,6 +195,7 @@ static bool spec_if(struct spec *s, struct lang_node node, struct chain *out)
         else if (!is_same(s, s->known[i], after_yes))
             s->known[i] = 0;
     }
+    assert(s->stack.len == after + s->fn.num_slots);
     s->stack.len = before;
     node.a = condition;
     node.b = add_block(s, yes.first);

@@ -7,6 +7,8 @@
  */
 #include "specialise/spec.h"
 
+#include <assert.h>
+
 static bool holds(const uint32_t *items, uint32_t len, uint32_t id)
 {
     for (uint32_t i = 0; i < len; i++)
@@ -27,6 +29,7 @@ static void use_target(struct spec *s, lang_ref ref, unsigned use)
     if (node->kind == LANG_VAR) {
         s->slots[node->a].uses |= (uint8_t)use;
         s->slots[node->a].mention = s->statement;
+        assert(node->a < s->fn.num_slots);
         vec_push(s->unit->arena, &s->vars, ref);
         return;
     }
@@ -45,10 +48,12 @@ static void use_arguments(struct spec *s, const struct lang_node *call)
         else
             use_target(s, ref, mode == LANG_OUT ? SLOT_WRITTEN : SLOT_WRITTEN | SLOT_READ);
     }
+    assert(i == lang_function(s->unit, call->a, NULL)->num_params);
 }
 
 static void use_callee(struct spec *s, uint32_t id)
 {
+    assert(id < s->unit->base_functions + s->unit->functions.len);
     const struct lang_function *callee = lang_function(s->unit, id, NULL);
     s->flags |= callee->flags & LANG_FN_DERIVATIVE;
     s->flags &= (uint16_t)(callee->flags | ~(LANG_FN_PURE | LANG_FN_STRAIGHT));
@@ -220,6 +225,7 @@ static void name_literals(struct spec *s, uint32_t slot)
         node->c = 0;
         vec_push(s->unit->arena, &s->vars, ref);
     }
+    assert(kept + 2 <= s->longs.len);
     s->longs.len = kept;
     s->slots[slot].uses |= SLOT_READ;
 }
@@ -266,6 +272,7 @@ static bool sweep_declare(struct spec *s, lang_ref ref, uint32_t list)
 {
     struct lang_node *node = spec_node(s, ref);
     uint32_t slot = node->a;
+    assert(slot < s->fn.num_slots);
     if (s->slots[slot].literals > 1)
         name_literals(s, slot);
     bool is_read = s->slots[slot].uses & SLOT_READ;
@@ -412,11 +419,13 @@ static lang_ref sweep_list(struct spec *s, lang_ref first, unsigned loops)
         spec_node(s, ref)->next = next;
         next = ref;
     }
+    assert(s->stack.len >= begin);
     s->stack.len = begin;
     return next;
 }
 
 lang_ref spec_sweep(struct spec *s, lang_ref first)
 {
+    assert(s->vars.len == 0 && s->longs.len == 0);
     return sweep_list(s, first, 0);
 }

@@ -2,6 +2,8 @@
 /* The interface of a stage: its names, and what the frames of languages declare it with. */
 #include "spell/spell.h"
 
+#include <assert.h>
+
 static struct spell_name prefixed(struct spell *spell, const char *prefix, struct spell_name name)
 {
     struct text text;
@@ -13,6 +15,7 @@ static struct spell_name prefixed(struct spell *spell, const char *prefix, struc
 
 const struct shader_variable *spell_interface_variable(const struct spell *spell, uint32_t place)
 {
+    assert(place < spell->shader->interface.len);
     return &spell->shader->variables.items[spell->shader->interface.items[place]];
 }
 
@@ -62,6 +65,7 @@ void spell_declare(struct spell *spell, const struct shader_variable *variable,
 /* Does this stage use a variable of the block? */
 bool spell_uses_block(const struct spell *spell, enum shader_block block)
 {
+    assert(spell->shader->first_of_block[block] <= spell->shader->first_of_block[block + 1]);
     SPELL_EACH_OF_BLOCK(i, spell, block)
     if (spell_uses(spell, spell_interface_variable(spell, i)))
         return true;

@@ -13,6 +13,8 @@
  */
 static const struct ir_user_type *user_type(const struct spell *spell, ir_type_id type)
 {
+    assert(type < IR_TYPE_FIRST_USER
+           || type - IR_TYPE_FIRST_USER < (int)spell->shader->graph->user_types.len);
     return type < IR_TYPE_FIRST_USER
                ? NULL
                : &spell->shader->graph->user_types.items[type - IR_TYPE_FIRST_USER];
@@ -65,6 +67,7 @@ void spell_variable(struct spell *spell, ir_type_id type, struct spell_name name
 
 static void write_swizzle(struct spell *spell, ir_ref ref, uint32_t attr)
 {
+    assert(attr >> 8 >= 1 && attr >> 8 <= 4);
     ir_ref operand = ir_arg(spell->shader->graph, ref, 0);
     spell_expression(spell, operand, LANG_PREC_POSTFIX);
     text_char(spell->out, '.');
@@ -77,6 +80,7 @@ static void write_member(struct spell *spell, ir_ref ref, uint32_t attr)
     ir_ref operand = ir_arg(spell->shader->graph, ref, 0);
     spell_expression(spell, operand, LANG_PREC_POSTFIX);
     const struct ir_user_type *type = user_type(spell, ir_type_of(spell->shader->graph, operand));
+    assert(attr < type->num_members);
     text_char(spell->out, '.');
     spell_text(spell, lang_member_name(
                           spell->style, spell->shader->strings,
@@ -259,6 +263,7 @@ static void write_result(struct spell *spell, ir_ref call, uint32_t index,
                          enum lang_precedence least)
 {
     uint32_t first = spell->local_of[call];
+    assert(!first || first - 1 + index < spell->let_names.len);
     if (first)
         spell_name(spell, spell->let_names.items[first - 1 + index]);
     else

@@ -8,6 +8,7 @@
  */
 #include "spell/spell.h"
 
+#include <assert.h>
 #include <ctype.h>
 #include <stdlib.h>
 
@@ -100,6 +101,7 @@ static const struct {
 
 static struct spell_name without(struct spell_name name, size_t len)
 {
+    assert(len <= name.len);
     return (struct spell_name){name.text + len, name.len - len};
 }
 
@@ -140,6 +142,7 @@ static struct spell_name bare_name(const struct spell *spell, str_id id)
 /* How the code above calls an operand; without text: the operand is an expression. */
 static struct spell_name operand_name(const struct spell *spell, ir_ref ref)
 {
+    assert(spell->local_of[ref] <= spell->let_names.len);
     const struct ir_node *node = ir_get(spell->shader->graph, ref);
     str_id own = ir_label(spell->shader->graph, ref)->name;
     /* a description of a description says nothing */
@@ -168,6 +171,7 @@ static ir_ref only_operand(const struct ir_graph *graph, ir_ref ref)
 /* "n_dot_v" of the normal and the view direction; without text: they have no short names. */
 static struct spell_name dot_name(struct spell *spell, ir_ref ref)
 {
+    assert(ir_get(spell->shader->graph, ref)->num_args == 2);
     struct spell_name a = operand_name(spell, ir_arg(spell->shader->graph, ref, 0)),
                       b = operand_name(spell, ir_arg(spell->shader->graph, ref, 1));
     if (!a.len || !b.len || a.len + b.len > MAX_OPERAND_NAME)

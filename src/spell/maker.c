@@ -5,8 +5,11 @@
  */
 #include "spell/spell.h"
 
+#include <assert.h>
+
 void spell_name_maker(struct spell *spell, ir_type_id type)
 {
+    assert(type >= IR_TYPE_FIRST_USER);
     const char *type_name = spell->user_types[type - IR_TYPE_FIRST_USER];
     struct text name;
     text_init(&name, spell->scratch);
@@ -49,6 +52,7 @@ void spell_write_maker(const struct spell *spell, const struct spell_maker *make
 {
     const struct lang_unit *unit = spell->shader->unit, *layer;
     const struct ir_user_type *user = lang_user_type(unit, maker->type, &layer);
+    assert(user->array_length == 0 && user->first_member + user->num_members <= layer->members.len);
     const struct ir_member *members = layer->members.items + user->first_member;
     const char *made = local_name(spell, members, user->num_members);
     text_fmt(out, "%s %s(", maker->type_name, maker->name);

@@ -182,6 +182,7 @@ static inline void spell_indent(struct spell *spell, unsigned indent)
 /* Notes that what follows on the line at hand comes from an origin. */
 static inline void spell_mark(struct spell *spell, uint32_t origin)
 {
+    assert(spell->marks.len == 0 || vec_last(&spell->marks).at <= spell->out->len);
     if (origin)
         vec_push(spell->scratch, &spell->marks, (struct spell_mark){spell->out->len, origin});
 }

@@ -3,6 +3,8 @@
 #include "base/hash.h"
 #include "spell/spell.h"
 
+#include <assert.h>
+
 /* ---- Names of functions and types ---- */
 
 /* As they are spelled: a target may have one type for several. */
@@ -40,6 +42,7 @@ static struct overloads overloads_init(const struct spell *spell)
     uint32_t n = spell->stage->reach.functions.len, slots = 16;
     while (slots < 2 * n)
         slots *= 2;
+    assert((slots & (slots - 1)) == 0);
     return (struct overloads){.last = ARENA_ARRAY(spell->scratch, uint32_t, slots),
                               .mask = slots - 1,
                               .before = ARENA_ARRAY(spell->scratch, uint32_t, n + 1)};
@@ -54,9 +57,11 @@ static const char *overload_of(const struct spell *spell, struct overloads *over
 {
     const uint32_t *ids = spell->stage->reach.functions.items;
     uint32_t *last = &overloads->last[hash_pair(name, 0) & overloads->mask];
+    assert(*last <= index);
     const char *shared = NULL;
     bool clash = false;
     for (uint32_t place = *last; place; place = overloads->before[place]) {
+        assert(overloads->before[place] < place);
         uint32_t id = ids[place - 1];
         if (lang_function(spell->shader->unit, id, NULL)->name != name)
             continue;
@@ -120,6 +125,7 @@ static const char *global_name(void *user_data, uint32_t id)
 
 static const char *user_type_name(void *user_data, ir_type_id type)
 {
+    assert(type >= IR_TYPE_FIRST_USER);
     const struct spell *spell = user_data;
     return spell->user_types[type - IR_TYPE_FIRST_USER];
 }
@@ -173,6 +179,7 @@ void spell_verbatim_sources(struct spell *spell)
     const struct shader *shader = spell->shader;
     spell->verbatim_begin = spell->out->len;
     for (uint32_t i = 0; i < spell->stage->verbatim.len; i++) {
+        assert(spell->stage->verbatim.items[i] < shader->verbatim.len);
         str_id source = shader->verbatim.items[spell->stage->verbatim.items[i]].source;
         bool written = source == 0;
         for (uint32_t j = 0; j < i && !written; j++)
@@ -332,6 +339,7 @@ void spell_shader_stage(const struct target *target, const struct spell_options 
     spell.frame = writer->frame;
     init(&spell);
     (writer->stage ? writer->stage : spell_stage)(&spell, stage);
+    assert(spell.out == out && out->len >= begin);
     spell_wrap(&spell, begin);
     *out_marks = spell.marks.items;
     *out_num_marks = spell.marks.len;

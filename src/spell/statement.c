@@ -2,6 +2,7 @@
 /* Scheduled effects as statements. */
 #include "spell/spell.h"
 
+#include <assert.h>
 #include <stdio.h>
 
 static void open_line(struct spell *spell, unsigned indent, uint32_t origin)
@@ -93,6 +94,7 @@ static struct call_out portable_out(const struct spell *spell, ir_ref call, unsi
     const struct lang_function *fn =
         lang_function(spell->shader->unit, shader_callee(spell->shader, call), &layer);
     for (uint32_t i = 0;; i++) {
+        assert(i < fn->num_params);
         const struct lang_slot *slot = &layer->slots.items[fn->first_slot + i];
         if (slot->mode != LANG_IN && index-- == 0)
             return (struct call_out){slot->type, str_text(spell->shader->strings, slot->name),
@@ -108,12 +110,14 @@ static struct call_out describe_out(const struct spell *spell, ir_ref call, unsi
         return portable_out(spell, call, index);
     if (node->op == IR_GRAPH_CALL) {
         const struct ir_function *fn = &shader->graph->functions.items[node->attr];
+        assert(index + 1 < fn->num_results);
         return (struct call_out){
             ir_type_of(shader->graph,
                        shader->graph->function_results.items[fn->first_result + index + 1]),
             "result", false};
     }
     const struct shader_verbatim *verbatim = &shader->verbatim.items[shader_callee(shader, call)];
+    assert(index < verbatim->num_results);
     return (struct call_out){shader->result_types.items[verbatim->first_result + index], "result",
                              false};
 }
@@ -139,6 +143,8 @@ static void write_portable_arguments(struct spell *spell, ir_ref call, uint32_t 
             spell_name(spell, spell->let_names.items[first_name + 1 + out++]);
         operand += mode != LANG_OUT;
     }
+    assert(operand == ir_get(spell->shader->graph, call)->num_args);
+    assert(out == shader_call_outs(spell->shader, call));
 }
 
 static void write_call_arguments(struct spell *spell, ir_ref call, uint32_t first_name,
@@ -169,6 +175,7 @@ static ir_ref inout_operand(const struct spell *spell, ir_ref call, unsigned ind
         lang_function(spell->shader->unit, shader_callee(spell->shader, call), &layer);
     uint32_t operand = 0;
     for (uint32_t i = 0;; i++) {
+        assert(i < fn->num_params);
         uint8_t mode = layer->slots.items[fn->first_slot + i].mode;
         if (mode != LANG_IN && index-- == 0)
             return ir_arg(spell->shader->graph, call, operand);
@@ -231,6 +238,7 @@ static void write_call_let(struct spell *spell, unsigned indent, ir_ref call, un
     else
         (void)add_local(spell, spell_call_base(spell, call));
     declare_outs(spell, indent, call, outs);
+    assert(spell->let_names.len == first + 1 + outs);
     open_line(spell, indent, node->origin);
     if (node->type != IR_TYPE_VOID) {
         spell_variable(spell, node->type, spell->let_names.items[first]);
@@ -243,6 +251,7 @@ static void write_call_let(struct spell *spell, unsigned indent, ir_ref call, un
 
 static void write_let(struct spell *spell, unsigned indent, ir_ref ref)
 {
+    assert(spell->local_of[ref] == 0);
     const struct ir_node *node = ir_get(spell->shader->graph, ref);
     write_path(spell, indent, node->origin);
     if (node->op == IR_CALL || node->op == IR_VERBATIM || node->op == IR_GRAPH_CALL) {
@@ -300,6 +309,7 @@ static void write_discard(struct spell *spell, unsigned indent, ir_ref condition
 
 static void write_variable(struct spell *spell, unsigned indent, const struct effect *effect)
 {
+    assert(effect->index < spell->shader->locals.len);
     const struct shader_local *local = &spell->shader->locals.items[effect->index];
     struct spell_name name = spell->options->neutral_names
                                  ? (struct spell_name){"v", 1}
@@ -409,8 +419,10 @@ void spell_statements(struct spell *spell, const struct effect_list *statements,
 
 void spell_graph_function(struct spell *spell, const struct shader_function *function)
 {
+    assert(function->function < spell->shader->graph->functions.len);
     const struct ir_graph *graph = spell->shader->graph;
     const struct ir_function *fn = &graph->functions.items[function->function];
+    assert(fn->num_results > 0);
     const struct lang_syntax *syntax = spell->target->syntax;
     names_open_scope(&spell->names);
     spell_type(spell, ir_type_of(graph, graph->function_results.items[fn->first_result]));

@@ -6,6 +6,7 @@
  */
 #include "spell/spell.h"
 
+#include <assert.h>
 #include <ctype.h>
 
 enum { MAX_COLUMNS = 120, MIN_COLUMNS = 40, INDENT = 4 };
@@ -77,6 +78,7 @@ static const char *find_break(const char *from, const char *end, size_t column)
 /* Copies what stands in front of `to` and is not copied yet. */
 static void copy(struct wrapper *w, const char *to)
 {
+    assert(to >= w->copied);
     const struct spell *spell = w->spell;
     const char *base = spell->out->data;
     size_t start = (size_t)(w->copied - base);
@@ -136,11 +138,13 @@ static void wrap_line(struct wrapper *w, const char *line, const char *end)
             text_str(&w->out, "// ");
         column += is_comment ? strlen("// ") : 0;
         w->copied = from = at + 1;
+        assert(from <= end);
     }
 }
 
 void spell_wrap(struct spell *spell, size_t begin)
 {
+    assert(spell->verbatim_begin <= spell->verbatim_end);
     const char *base = spell->out->data, *end = base + spell->out->len;
     struct wrapper w = {.spell = spell, .copied = base};
     text_init(&w.out, spell->out->arena);
@@ -155,6 +159,7 @@ void spell_wrap(struct spell *spell, size_t begin)
         line = newline ? newline + 1 : end;
     }
     copy(&w, end);
+    assert(w.next_mark == spell->marks.len && w.marks.len >= spell->marks.len);
     *spell->out = w.out;
     spell->marks.items = w.marks.items;
     spell->marks.len = w.marks.len;

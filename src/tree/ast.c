@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tree/ast.h"
 
+#include <assert.h>
+
 const uint8_t lang_child_fields[LANG_NUM_KINDS] = {
     [LANG_OP] = LANG_CHILD_A,
     [LANG_CALL] = LANG_CHILD_B,
@@ -22,6 +24,7 @@ static uint32_t type_size(const struct lang_unit *unit, ir_type_id type,
     const struct ir_user_type *user = lang_user_type(unit, type, &layer);
     if (user->array_length)
         return user->array_length * size_of(unit, user->element);
+    assert(user->first_member + user->num_members <= layer->members.len);
     uint32_t size = 0;
     for (uint32_t i = 0; i < user->num_members; i++)
         size += size_of(unit, layer->members.items[user->first_member + i].type);
@@ -44,6 +47,7 @@ uint32_t ast_member_offset(const struct lang_unit *unit, ir_type_id type, uint32
 {
     const struct lang_unit *layer;
     const struct ir_user_type *user = lang_user_type(unit, type, &layer);
+    assert(index < user->num_members);
     const struct ir_member *members = layer->members.items + user->first_member;
     uint32_t offset = 0;
     for (uint32_t i = 0; i < index; i++)
@@ -65,6 +69,7 @@ uint8_t ast_param_mode(const struct lang_unit *unit, uint32_t function, uint32_t
 {
     const struct lang_unit *layer;
     const struct lang_function *fn = lang_function(unit, function, &layer);
+    assert(param < fn->num_params);
     return ast_slot(layer, fn, param)->mode;
 }
 
@@ -80,6 +85,7 @@ unsigned ast_list(const struct lang_unit *layer, lang_ref first, lang_ref *out, 
 lang_ref ast_returned(const struct lang_unit *layer, const struct lang_function *fn)
 {
     const struct lang_node *body = ast_node(layer, fn->body);
+    assert(body->kind == LANG_BLOCK);
     const struct lang_node *first = body->a ? ast_node(layer, body->a) : NULL;
     return first && first->kind == LANG_RETURN ? first->a : 0;
 }

@@ -10,6 +10,8 @@
 
 #include "tree/ast.h"
 
+#include <assert.h>
+
 enum { MAX_CALL_DEPTH = 64, MAX_EXPRESSION_DEPTH = 400, MAX_WORDS = 1 << 16 };
 
 struct frame { /* an active call */
@@ -53,6 +55,7 @@ static bool find_index(struct eval *ev, lang_ref ref, uint32_t limit, uint32_t *
 
 static void select_word(struct place *place, uint32_t index)
 {
+    assert(!place->scattered || index < sizeof place->map);
     place->base += place->scattered ? place->map[index] : index;
     place->scattered = false;
 }
@@ -65,6 +68,7 @@ static bool find_element(struct eval *ev, const struct lang_node *node, ir_type_
         || !find_index(ev, ast_node(ev->frame.layer, node->a)->next,
                        ast_type_words(ev->unit, container) / size, &index))
         return false;
+    assert(size == 1 || !place->scattered);
     if (size == 1)
         select_word(place, index);
     else
@@ -74,6 +78,7 @@ static bool find_element(struct eval *ev, const struct lang_node *node, ir_type_
 
 static void find_swizzle(const struct lang_node *node, struct place *place)
 {
+    assert(node->b >> 8 <= sizeof place->map);
     uint8_t map[4] = {0};
     for (unsigned i = 0; i < node->b >> 8; i++) {
         uint8_t from = node->b >> 2 * i & 3;
@@ -124,6 +129,7 @@ static bool find_place(struct eval *ev, lang_ref ref, struct place *place)
 static void load(struct eval *ev, const struct place *place, union ir_word *out)
 {
     uint32_t size = ast_type_words(ev->unit, place->type);
+    assert(!place->scattered || size <= sizeof place->map);
     for (uint32_t i = 0; i < size; i++)
         out[i] = place->base[place->scattered ? place->map[i] : i];
 }
@@ -131,6 +137,7 @@ static void load(struct eval *ev, const struct place *place, union ir_word *out)
 static void store(struct eval *ev, const struct place *place, const union ir_word *words)
 {
     uint32_t size = ast_type_words(ev->unit, place->type);
+    assert(!place->scattered || size <= sizeof place->map);
     for (uint32_t i = 0; i < size; i++)
         place->base[place->scattered ? place->map[i] : i] = words[i];
 }
@@ -164,6 +171,7 @@ static bool eval_part(struct eval *ev, const struct lang_node *node, union ir_wo
             return false;
         offset = index * size;
     }
+    assert(offset + size <= num_words);
     memcpy(out, words + offset, size * sizeof *out);
     return true;
 }
@@ -236,6 +244,7 @@ static const struct lang_node *place_root(const struct lang_unit *layer,
 static bool eval_place(struct eval *ev, lang_ref ref, const struct lang_node *root,
                        union ir_word *out)
 {
+    assert(root->kind != LANG_VAR || root->a < ev->frame.fn->num_slots);
     struct place place;
     if ((root->kind == LANG_VAR && !ev->frame.defined[root->a]) || !find_place(ev, ref, &place))
         return false;
@@ -249,6 +258,7 @@ static bool open_frame(struct eval *ev, uint32_t id, struct frame *frame)
 {
     *frame = (struct frame){0};
     frame->fn = lang_function(ev->unit, id, &frame->layer);
+    assert(frame->fn->num_params <= frame->fn->num_slots);
     frame->offsets = arena_alloc(ev->scratch, frame->fn->num_slots * sizeof *frame->offsets);
     frame->defined = arena_zalloc(ev->scratch, frame->fn->num_slots);
     uint32_t size = 0;
@@ -278,6 +288,7 @@ static bool eval_arguments(struct eval *ev, lang_ref first, struct frame *callee
             return false;
         callee->defined[i] = param->mode != LANG_OUT;
     }
+    assert(i == callee->fn->num_params);
     return true;
 }
 
@@ -293,6 +304,7 @@ static bool return_outputs(struct eval *ev, lang_ref first, const struct frame *
         store(ev, &places[i], callee->words + callee->offsets[i]);
         ev->frame.defined[ast_target_slot(ev->frame.layer, ref)] = 1;
     }
+    assert(i == callee->fn->num_params);
     return true;
 }
 
@@ -354,6 +366,7 @@ static union ir_word *temporary(struct eval *ev, ir_type_id type, union ir_word 
 
 static bool run_declare(struct eval *ev, const struct lang_node *node)
 {
+    assert(node->a < ev->frame.fn->num_slots);
     ev->frame.defined[node->a] = 0;
     if (!node->b)
         return true;
@@ -395,6 +408,7 @@ static bool run_assign(struct eval *ev, const struct lang_node *node)
         return false;
     if (node->op != IR_NUM_OPS && !apply_operator(ev, node, &place, value))
         return false;
+    assert(place.type == ast_node(ev->frame.layer, node->b)->type || node->op != IR_NUM_OPS);
     store(ev, &place, value);
     ev->frame.defined[ast_target_slot(ev->frame.layer, node->a)] = 1;
     return true;
@@ -511,6 +525,7 @@ bool lang_eval_call(const struct lang_unit *unit, uint32_t id, const struct ir_v
     bool returns = frame.fn->return_type != IR_TYPE_VOID;
     if ((returns && !is_plain(frame.fn->return_type)) || !eval_function(&ev, &frame))
         return false;
+    assert(ev.call_depth == 0 && ev.expression_depth == 0);
     if (returns)
         *results++ = ast_value(frame.fn->return_type, frame.result);
     for (uint32_t i = 0; i < frame.fn->num_params; i++) {

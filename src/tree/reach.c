@@ -14,6 +14,7 @@ static bool mark(struct arena *arena, uint8_t **seen, uint32_t *cap, uint32_t in
         memset(*seen + old, 0, want - old);
         *cap = want;
     }
+    assert(index < *cap);
     bool is_new = !(*seen)[index];
     (*seen)[index] = 1;
     return is_new;
@@ -31,6 +32,7 @@ static void add_type(struct lang_reach *reach, const struct lang_unit *unit, ir_
         return;
     const struct lang_unit *layer;
     const struct ir_user_type *user = lang_user_type(unit, type, &layer);
+    assert(user->first_member + user->num_members <= layer->members.len || user->array_length);
     if (user->array_length) {
         add_type(reach, unit, user->element);
         return;
@@ -81,6 +83,7 @@ void lang_reach_add(struct lang_reach *reach, const struct lang_unit *unit, uint
             continue;
         }
         uint32_t callee = ast_callees(layer, fn)[top->next_callee++];
+        assert(callee < top->id);
         if (mark(reach->arena, &reach->seen_functions, &reach->cap_functions, callee))
             vec_push(reach->arena, &stack, (struct visit){callee, 0});
     }

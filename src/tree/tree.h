@@ -213,6 +213,7 @@ static inline const struct lang_function *lang_function(const struct lang_unit *
         unit = unit->base;
     if (out_unit)
         *out_unit = unit;
+    assert(id - unit->base_functions < unit->functions.len);
     return &unit->functions.items[id - unit->base_functions];
 }
 
@@ -223,6 +224,7 @@ static inline const struct lang_global *lang_global(const struct lang_unit *unit
         unit = unit->base;
     if (out_unit)
         *out_unit = unit;
+    assert(id - unit->base_globals < unit->globals.len);
     return &unit->globals.items[id - unit->base_globals];
 }
 
@@ -233,6 +235,7 @@ static inline const struct lang_file *lang_file(const struct lang_unit *unit, ui
         unit = unit->base;
     if (out_unit)
         *out_unit = unit;
+    assert(id - unit->base_files < unit->files.len);
     return &unit->files.items[id - unit->base_files];
 }
 
@@ -245,6 +248,7 @@ static inline const struct ir_user_type *lang_user_type(const struct lang_unit *
         unit = unit->base;
     if (out_unit)
         *out_unit = unit;
+    assert(id - unit->base_user_types < unit->user_types.len);
     return &unit->user_types.items[id - unit->base_user_types];
 }
 
