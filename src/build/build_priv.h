@@ -104,8 +104,6 @@ static inline bool build_is_number(ir_type_id type)
     return type >= IR_TYPE_BOOL && type <= IR_TYPE_MAT4;
 }
 
-enum { BUILD_MAX_OUTPUTS = 64 };
-
 /* scope.c */
 static inline uint32_t *build_slot(struct instance *scope, elem_id node)
 {

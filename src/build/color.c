@@ -25,7 +25,7 @@ static ir_ref transform(struct builder *b, ir_ref value, doc_type type, const ch
         library_color_transform(b->lib, from, to, build_text(b, library_type_name(b->lib, type)));
     if (!value || nodedef == LIBRARY_NONE)
         return 0;
-    ir_ref results[BUILD_MAX_OUTPUTS];
+    ir_ref results[LIBRARY_MAX_OUTPUTS];
     build_apply(b, nodedef, b->document->node, &value, results);
     return results[0];
 }

@@ -210,7 +210,7 @@ static void finish_graph(struct builder *b, struct frame *frame, ir_ref *results
 
 static void finish_call(struct builder *b, struct frame *frame, uint32_t function)
 {
-    ir_ref results[BUILD_MAX_OUTPUTS];
+    ir_ref results[LIBRARY_MAX_OUTPUTS];
     push_origin(b, frame);
     build_call_function(b, frame, function, results);
     finish_graph(b, frame, results);
@@ -276,7 +276,7 @@ static void step_inputs(struct builder *b)
     if (frame->impl->kind == IMPL_GRAPH) {
         enter_graph(b, frame);
     } else {
-        ir_ref results[BUILD_MAX_OUTPUTS];
+        ir_ref results[LIBRARY_MAX_OUTPUTS];
         build_node(b, frame, results);
         convert_colors(b, frame, results);
         name_results(b, frame, results);
@@ -301,7 +301,7 @@ static void leave_graph(struct builder *b)
     const struct nodedef *def = library_nodedef(b->lib, frame->node.nodedef);
     assert(frame->phase == PHASE_OUTPUTS && frame->next == def->num_outputs);
     const struct port *outputs = library_ports(b->lib, frame->node.nodedef, NULL) + def->num_inputs;
-    ir_ref results[BUILD_MAX_OUTPUTS];
+    ir_ref results[LIBRARY_MAX_OUTPUTS];
     for (uint32_t i = 0; i < def->num_outputs; i++) {
         elem_id output = inner_output(b, frame, i);
         struct binding binding = {.kind = BIND_ERROR};

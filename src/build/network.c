@@ -270,7 +270,7 @@ static str_id path_of(struct builder *b, const struct frame *frame, char between
 static ir_ref add_source(struct builder *b, str_id name, ir_type_id type, uint32_t layer,
                          unsigned output)
 {
-    assert(output < BUILD_MAX_OUTPUTS && layer <= b->recorder->network->layers.len);
+    assert(output < LIBRARY_MAX_OUTPUTS && layer <= b->recorder->network->layers.len);
     struct recorder *r = b->recorder;
     uint32_t variable = shader_add_variable(
         b->shader,

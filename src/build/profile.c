@@ -232,7 +232,7 @@ ir_ref build_measured_edf(struct builder *b, ir_ref color, ir_ref normal, ir_ref
         if (read_table(b, texture->element, build_text(b, texture->file), table))
             color = ir_op2(b->graph, IR_MUL, color, look_up(b, table, normal));
     }
-    ir_ref results[BUILD_MAX_OUTPUTS] = {0};
+    ir_ref results[LIBRARY_MAX_OUTPUTS] = {0};
     if (nodedef != LIBRARY_NONE)
         build_apply(b, nodedef, node, &color, results);
     return results[0];

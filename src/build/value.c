@@ -114,7 +114,7 @@ static ir_ref make_geomprop(struct builder *b, const struct geomprop *prop)
     for (uint32_t i = 0; i < def->num_inputs; i++)
         args[i] = geomprop_arg(b, prop, &ports[i]);
     ir_push_name(b->graph, b->recorder ? prop->name : prop->geomprop);
-    ir_ref results[BUILD_MAX_OUTPUTS];
+    ir_ref results[LIBRARY_MAX_OUTPUTS];
     build_apply(b, nodedef, prop->element, args, results);
     ir_pop_origin(b->graph);
     return results[0];

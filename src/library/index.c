@@ -107,22 +107,22 @@ static bool port_exists(const struct library *lib, uint32_t first, str_id name)
     return false;
 }
 
-/* limit for the inputs and for the outputs of a definition, because lookups are linear */
-enum { MAX_PORTS = 1024 };
+enum { MAX_PORTS = 1024 }; /* of the inputs of a definition, because lookups are linear */
 
 static void add_ports_of(struct indexer *ix, elem_id nodedef, enum element_kind kind,
                          uint32_t first)
 {
     struct library *lib = ix->lib;
-    assert(lib->ports.len - first <= MAX_PORTS);
+    uint32_t max_ports = kind == KIND_INPUT ? MAX_PORTS : LIBRARY_MAX_OUTPUTS;
+    assert(lib->ports.len - first <= max_ports);
     for (elem_id e = doc_element(&lib->doc, nodedef)->first_child; e;
          e = doc_element(&lib->doc, e)->next) {
         if (doc_element(&lib->doc, e)->kind != kind
             || port_exists(lib, first, doc_element(&lib->doc, e)->name))
             continue;
-        if (lib->ports.len - first == MAX_PORTS) {
+        if (lib->ports.len - first == max_ports) {
             diag_add(ix->diags, DIAG_ID_too_many_ports, doc_place(&lib->doc, e),
-                     text_of(lib, doc_element(&lib->doc, nodedef)->name), MAX_PORTS);
+                     text_of(lib, doc_element(&lib->doc, nodedef)->name), (unsigned)max_ports);
             return;
         }
         add_port(ix, e, kind == KIND_INPUT);

@@ -31,6 +31,8 @@ struct port { /* an input or output of a definition */
     elem_id element;
 };
 
+enum { LIBRARY_MAX_OUTPUTS = 64 }; /* of a definition: the builder has room for them */
+
 struct nodedef {
     str_id name, node, version, target;
     elem_id element;

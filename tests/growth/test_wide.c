@@ -192,23 +192,35 @@ static unsigned count_messages(const struct text *text, const char *id)
     return count;
 }
 
-/* A definition has at most 1,024 inputs, and says so once. */
-static bool are_ports_limited(void)
+/* True if `most` ports of a shape are accepted, and one more gets one message. */
+static bool is_limited(const struct shape *ports, unsigned most)
 {
-    static const struct shape ports = {"ports",
-                                       "<nodedef name='D' node='g'>",
-                                       "<input name='i#' type='float' value='0'/>",
-                                       "<output name='out' type='float'/></nodedef>",
-                                       "",
-                                       ""};
-    struct text good = document(&ports, 1024), bad = document(&ports, 1025);
+    struct text good = document(ports, most), bad = document(ports, most + 1);
     bool limited =
         count_messages(&good, "too-many-ports") == 0 && count_messages(&bad, "too-many-ports") == 1;
     free(good.data);
     free(bad.data);
     if (!limited)
-        puts("failed: too-many-ports");
+        printf("failed: too-many-ports, %s\n", ports->name);
     return limited;
+}
+
+/* A definition has at most 1,024 inputs and 64 outputs. */
+static bool are_ports_limited(void)
+{
+    static const struct shape inputs = {"inputs",
+                                        "<nodedef name='D' node='g'>",
+                                        "<input name='i#' type='float' value='0'/>",
+                                        "<output name='out' type='float'/></nodedef>",
+                                        "",
+                                        ""},
+                              outputs = {"outputs",
+                                         "<nodedef name='D' node='g'>",
+                                         "<output name='o#' type='float'/>",
+                                         "</nodedef>",
+                                         "",
+                                         ""};
+    return is_limited(&inputs, 1024) && is_limited(&outputs, 64);
 }
 
 int main(void)
