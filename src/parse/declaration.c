@@ -205,8 +205,10 @@ static void parse_host_variable(struct parser *p, const struct token *at, str_id
                                 enum lang_global_kind kind, ir_type_id type)
 {
     uint32_t length = 0;
-    if (type == IR_TYPE_STRING
-        || (kind == LANG_GLOBAL_STREAM && (type == IR_TYPE_SAMPLER || type >= IR_TYPE_FIRST_USER)))
+    /* A stream is a scalar or a vector: no vertex attribute of a host is more. */
+    bool is_bad_stream =
+        type == IR_TYPE_SAMPLER || type >= IR_TYPE_FIRST_USER || ir_type_is_matrix(type);
+    if (type == IR_TYPE_STRING || (kind == LANG_GLOBAL_STREAM && is_bad_stream))
         PARSE_TYPE_ERROR(p, parse_place(at), "'%s' cannot have type %s", parse_text(p, name),
                          parse_type_text(p, type));
     check_is_array(p, type, &type, &length); /* then `type` is the type of its elements */

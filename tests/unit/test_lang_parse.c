@@ -356,6 +356,7 @@ static const struct {
     {"float sin(float x) { return x; }", "1:7: 'sin' is the name of a built-in function or type"},
     {"float g = 1.0;",
      "1:7: 'g' must be const, uniform or in: there are no other global variables"},
+    {"in mat3 texcoord_0;", "1:9: 'texcoord_0' cannot have type mat3"},
     {"uniform float u; const float K = u * 2.0;",
      "1:36: the value of 'K' is not a constant expression"},
     {"void f() { break; }", "1:12: 'break' outside of a loop"},
