@@ -4,11 +4,6 @@
 #include <assert.h>
 #include <stddef.h>
 
-static const struct document *doc_of(const struct builder *b)
-{
-    return &b->lib->doc;
-}
-
 /* The options that library functions can read. */
 static const struct known_option {
     const char *name;
@@ -119,10 +114,10 @@ static void publish_nodes(struct builder *b, elem_id node)
     vec_push(b->arena, &b->public_nodes, node);
     struct diag_list ignored; /* the resolution of the node itself reports them */
     diag_list_init(&ignored, b->arena);
-    for (elem_id e = doc_element(doc_of(b), node)->first_child; e;
-         e = doc_element(doc_of(b), e)->next) {
-        doc_type type = library_type(b->lib, doc_attr_value(doc_of(b), e, STR_type));
-        if (doc_element(doc_of(b), e)->kind != KIND_INPUT || !type
+    for (elem_id e = doc_element(build_doc(b), node)->first_child; e;
+         e = doc_element(build_doc(b), e)->next) {
+        doc_type type = library_type(b->lib, doc_attr_value(build_doc(b), e, STR_type));
+        if (doc_element(build_doc(b), e)->kind != KIND_INPUT || !type
             || !ir_type_is_shader(library_type_ir(b->lib, type)))
             continue;
         struct binding binding = library_resolve_connection(b->lib, e, type, &ignored);
@@ -144,7 +139,7 @@ static ir_ref build_node_element(struct builder *b, elem_id node, unsigned outpu
 
 static ir_ref build_output_element(struct builder *b, elem_id output)
 {
-    doc_type type = library_type(b->lib, doc_attr_value(doc_of(b), output, STR_type));
+    doc_type type = library_type(b->lib, doc_attr_value(build_doc(b), output, STR_type));
     struct binding binding = library_resolve_connection(b->lib, output, type, b->diags);
     if (binding.kind == BIND_NODE) {
         if (ir_type_is_shader(library_type_ir(b->lib, type)))
@@ -153,7 +148,7 @@ static ir_ref build_output_element(struct builder *b, elem_id output)
          * An <output> of the document shows the inputs of its node; an <output> of a nodegraph
          * shows the inputs of the graph.
          */
-        if (doc_element(doc_of(b), output)->parent == doc_of(b)->root)
+        if (doc_element(build_doc(b), output)->parent == build_doc(b)->root)
             vec_push(b->arena, &b->public_nodes, binding.ref);
         build_demand(b, b->document, binding.ref);
         if (b->document->slots[binding.ref - b->document->first] < SLOT_RESULTS)
@@ -162,13 +157,13 @@ static ir_ref build_output_element(struct builder *b, elem_id output)
     struct port port = {.name = STR_out, .type = type, .element = output};
     return binding.kind == BIND_ERROR
                ? 0
-               : build_input(b, b->document, doc_element(doc_of(b), output)->parent, &port,
+               : build_input(b, b->document, doc_element(build_doc(b), output)->parent, &port,
                              &binding);
 }
 
 ir_ref build_element(struct builder *b, elem_id element, unsigned output)
 {
     assert(b->frames.len == 0);
-    bool is_node = doc_element(doc_of(b), element)->kind == KIND_NODE;
+    bool is_node = doc_element(build_doc(b), element)->kind == KIND_NODE;
     return is_node ? build_node_element(b, element, output) : build_output_element(b, element);
 }

@@ -98,6 +98,11 @@ static inline const char *build_text(const struct builder *b, str_id id)
     return str_text(b->shader->strings, id);
 }
 
+static inline const struct document *build_doc(const struct builder *b)
+{
+    return &b->lib->doc;
+}
+
 /* True for types whose values are numbers: the types of parameters and uniforms. */
 static inline bool build_is_number(ir_type_id type)
 {

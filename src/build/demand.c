@@ -13,14 +13,9 @@ enum { MAX_DEFINITION_DEPTH = 200 };
 
 enum frame_phase { PHASE_INPUTS, PHASE_OUTPUTS };
 
-static const struct document *doc_of(const struct builder *b)
-{
-    return &b->lib->doc;
-}
-
 static const char *name_of(const struct builder *b, elem_id element)
 {
-    return build_text(b, doc_element(doc_of(b), element)->name);
+    return build_text(b, doc_element(build_doc(b), element)->name);
 }
 
 /* Reports a cycle as "a -> b -> a", from the frame of the first visit to the current one. */
@@ -40,7 +35,7 @@ static void report_cycle(struct builder *b, const struct instance *scope, elem_i
             shown++;
         }
     text_str(&path, shown == 64 ? "…" : name_of(b, node));
-    diag_add(b->diags, DIAG_ID_cycle, doc_place(doc_of(b), node), text_cstr(&path));
+    diag_add(b->diags, DIAG_ID_cycle, doc_place(build_doc(b), node), text_cstr(&path));
 }
 
 static bool is_recursive(const struct instance *scope, elem_id graph)
@@ -62,8 +57,8 @@ static void report_recursion(struct builder *b, const struct instance *scope, el
         if (s->graph == graph)
             break;
     }
-    diag_add(b->diags, DIAG_ID_recursive_definition, doc_place(doc_of(b), node), name_of(b, graph),
-             text_cstr(&path));
+    diag_add(b->diags, DIAG_ID_recursive_definition, doc_place(build_doc(b), node),
+             name_of(b, graph), text_cstr(&path));
 }
 
 /* Finds definition and bindings: from the library's tables, or by resolution now. */
@@ -79,7 +74,7 @@ static void resolve(struct builder *b, struct frame *frame, elem_id node)
         return;
     }
     if (layer == b->lib) /* report attributes that no definition reads */
-        doc_check_children(doc_of(b), node, b->diags);
+        doc_check_children(build_doc(b), node, b->diags);
     /* Bindings move when the vector grows, so each frame keeps its own copy. */
     uint32_t before = b->resolved.bindings.len;
     frame->node = library_resolve_node(b->lib, node, &b->resolved, b->diags);
@@ -163,7 +158,7 @@ static void convert_colors(struct builder *b, const struct frame *frame, ir_ref 
             if (type == DOC_TYPE_color3 || type == DOC_TYPE_color4)
                 results[o] = build_color_transform(
                     b, results[o], type, space,
-                    doc_attr_place(doc_of(b), frame->bindings[i].element, STR_colorspace));
+                    doc_attr_place(build_doc(b), frame->bindings[i].element, STR_colorspace));
         }
         return;
     }
@@ -171,7 +166,7 @@ static void convert_colors(struct builder *b, const struct frame *frame, ir_ref 
 
 static void push_origin(struct builder *b, const struct frame *frame)
 {
-    str_id name = doc_element(doc_of(b), frame->node.element)->name;
+    str_id name = doc_element(build_doc(b), frame->node.element)->name;
     ir_push_origin(b->graph,
                    ir_add_origin(b->graph, name, frame->node.element, frame->scope->origin));
 }
@@ -181,7 +176,7 @@ static void name_results(struct builder *b, const struct frame *frame, const ir_
 {
     const struct nodedef *def = library_nodedef(b->lib, frame->node.nodedef);
     const struct port *ports = library_ports(b->lib, frame->node.nodedef, NULL);
-    str_id node = doc_element(doc_of(b), frame->node.element)->name;
+    str_id node = doc_element(build_doc(b), frame->node.element)->name;
     for (uint32_t i = 0; i < def->num_outputs; i++) {
         str_id name = node;
         if (def->num_outputs > 1) {
@@ -224,7 +219,7 @@ static void enter_graph(struct builder *b, struct frame *frame)
     elem_id graph = frame->impl->ref;
     if (is_recursive(frame->scope, graph) || frame->scope->depth >= MAX_DEFINITION_DEPTH) {
         if (frame->scope->depth >= MAX_DEFINITION_DEPTH)
-            diag_add(b->diags, DIAG_ID_graph_depth, doc_place(doc_of(b), frame->node.element),
+            diag_add(b->diags, DIAG_ID_graph_depth, doc_place(build_doc(b), frame->node.element),
                      MAX_DEFINITION_DEPTH);
         else
             report_recursion(b, frame->scope, graph, frame->node.element);
@@ -292,7 +287,7 @@ static elem_id inner_output(const struct builder *b, const struct frame *frame, 
     assert(i < def->num_outputs);
     const struct port *port =
         library_ports(b->lib, frame->node.nodedef, NULL) + def->num_inputs + i;
-    return doc_child_of_kind(doc_of(b), frame->inner->graph, KIND_OUTPUT, port->name);
+    return doc_child_of_kind(build_doc(b), frame->inner->graph, KIND_OUTPUT, port->name);
 }
 
 static void leave_graph(struct builder *b)
@@ -308,8 +303,9 @@ static void leave_graph(struct builder *b)
         if (output)
             binding = library_resolve_connection(b->lib, output, outputs[i].type, b->diags);
         else
-            diag_add(b->diags, DIAG_ID_dangling_output, doc_place(doc_of(b), frame->inner->graph),
-                     name_of(b, frame->inner->graph), build_text(b, outputs[i].name), "");
+            diag_add(b->diags, DIAG_ID_dangling_output,
+                     doc_place(build_doc(b), frame->inner->graph), name_of(b, frame->inner->graph),
+                     build_text(b, outputs[i].name), "");
         results[i] = build_input(b, frame->inner, frame->inner->graph, &outputs[i], &binding);
     }
     if (frame->outline == LIBRARY_NONE) {
@@ -384,7 +380,8 @@ void build_apply_definition(struct builder *b, uint32_t nodedef, elem_id where, 
     inner->args = args;
     inner->origin = b->graph->origin;
     for (uint32_t i = 0; i < def->num_outputs; i++) {
-        elem_id output = doc_child_of_kind(doc_of(b), inner->graph, KIND_OUTPUT, outputs[i].name);
+        elem_id output =
+            doc_child_of_kind(build_doc(b), inner->graph, KIND_OUTPUT, outputs[i].name);
         struct binding binding = {.kind = BIND_ERROR};
         if (output)
             binding = library_resolve_connection(b->lib, output, outputs[i].type, b->diags);

@@ -5,21 +5,16 @@
  */
 #include "build/build_priv.h"
 
-static const struct document *doc_of(const struct builder *b)
-{
-    return &b->lib->doc;
-}
-
 static elem_id token_of(const struct builder *b, elem_id parent, str_id name)
 {
-    return parent ? doc_child_of_kind(doc_of(b), parent, KIND_TOKEN, name) : 0;
+    return parent ? doc_child_of_kind(build_doc(b), parent, KIND_TOKEN, name) : 0;
 }
 
 bool build_has_tokens(const struct builder *b, elem_id node)
 {
-    for (elem_id e = doc_element(doc_of(b), node)->first_child; e;
-         e = doc_element(doc_of(b), e)->next)
-        if (doc_element(doc_of(b), e)->kind == KIND_TOKEN)
+    for (elem_id e = doc_element(build_doc(b), node)->first_child; e;
+         e = doc_element(build_doc(b), e)->next)
+        if (doc_element(build_doc(b), e)->kind == KIND_TOKEN)
             return true;
     return false;
 }
@@ -30,11 +25,11 @@ bool build_has_tokens(const struct builder *b, elem_id node)
  */
 static elem_id definition_of(const struct builder *b, const struct instance *scope, elem_id graph)
 {
-    if (doc_element(doc_of(b), graph)->kind != KIND_NODEGRAPH)
+    if (doc_element(build_doc(b), graph)->kind != KIND_NODEGRAPH)
         return 0;
     uint32_t nodedef = scope->nodedef;
     if (scope->graph != graph) {
-        str_id name = doc_attr_value(doc_of(b), graph, STR_nodedef);
+        str_id name = doc_attr_value(build_doc(b), graph, STR_nodedef);
         nodedef = name ? library_nodedef_by_name(b->lib, name) : LIBRARY_NONE;
     }
     return nodedef == LIBRARY_NONE ? 0 : library_nodedef(b->lib, nodedef)->element;
@@ -48,16 +43,16 @@ static elem_id definition_of(const struct builder *b, const struct instance *sco
 static elem_id find_token(const struct builder *b, const struct instance *scope, elem_id at,
                           str_id name)
 {
-    for (; at; at = doc_element(doc_of(b), at)->parent) {
+    for (; at; at = doc_element(build_doc(b), at)->parent) {
         elem_id token = token_of(b, at, name), definition = definition_of(b, scope, at);
-        str_id interface = token ? doc_attr_value(doc_of(b), token, STR_interfacename) : 0;
+        str_id interface = token ? doc_attr_value(build_doc(b), token, STR_interfacename) : 0;
         if (token && !interface)
             return token;
         name = interface ? interface : name;
         if (!definition)
             continue;
         token = scope->graph == at ? token_of(b, scope->node, name) : 0;
-        interface = token ? doc_attr_value(doc_of(b), token, STR_interfacename) : 0;
+        interface = token ? doc_attr_value(build_doc(b), token, STR_interfacename) : 0;
         if (!interface && (token || (token = token_of(b, definition, name)) != 0))
             return token;
         if (!interface)
@@ -76,9 +71,9 @@ static bool print_token(struct builder *b, const struct instance *scope, elem_id
     str_id id = str_find(b->shader->strings, name, len);
     elem_id token = id ? find_token(b, scope, element, id) : 0;
     if (token)
-        text_str(out, build_text(b, doc_attr_value(doc_of(b), token, STR_value)));
+        text_str(out, build_text(b, doc_attr_value(build_doc(b), token, STR_value)));
     else
-        diag_add(b->diags, DIAG_ID_unknown_token, doc_attr_place(doc_of(b), element, STR_value),
+        diag_add(b->diags, DIAG_ID_unknown_token, doc_attr_place(build_doc(b), element, STR_value),
                  arena_strndup(b->arena, name, len));
     return token != 0;
 }
@@ -104,8 +99,8 @@ static void substitute(struct builder *b, const struct instance *scope, elem_id 
 
 str_id build_file_name(struct builder *b, const struct instance *scope, elem_id element)
 {
-    str_id file = doc_attr_value(doc_of(b), element, STR_value),
-           prefix = doc_inherited_attr(doc_of(b), element, STR_fileprefix);
+    str_id file = doc_attr_value(build_doc(b), element, STR_value),
+           prefix = doc_inherited_attr(build_doc(b), element, STR_fileprefix);
     if (!file || (!prefix && !strchr(build_text(b, file), '[')))
         return file;
     struct text name;

@@ -2,11 +2,6 @@
 /* The end of a connection: a node, a value, a texture or a default. */
 #include "build/build_priv.h"
 
-static const struct document *doc_of(const struct builder *b)
-{
-    return &b->lib->doc;
-}
-
 static ir_ref texture(struct builder *b, const struct instance *scope, elem_id node,
                       const struct port *port, elem_id element, str_id input)
 {
@@ -22,22 +17,23 @@ static ir_ref texture(struct builder *b, const struct instance *scope, elem_id n
 static ir_ref literal(struct builder *b, const struct instance *scope, elem_id owner,
                       const struct port *port, elem_id element, bool outermost)
 {
-    str_id name = doc_element(doc_of(b), element)->name;
+    str_id name = doc_element(build_doc(b), element)->name;
     ir_type_id type = library_type_ir(b->lib, port->type);
     if (type == IR_TYPE_SAMPLER)
         return texture(b, scope, owner, port, element, name);
     if (ir_type_is_closure(type) || ir_type_is_shader(type))
         return 0; /* documents write value="" for "no value" */
-    ir_ref value = build_constant(b, port, doc_attr_value(doc_of(b), element, STR_value), element);
+    ir_ref value =
+        build_constant(b, port, doc_attr_value(build_doc(b), element, STR_value), element);
     if (outermost)
         value = build_publish(b, owner, port, element, name, value, true);
     if (port->type == DOC_TYPE_color3 || port->type == DOC_TYPE_color4) {
-        str_id space = outermost || doc_attr(doc_of(b), element, STR_colorspace)
+        str_id space = outermost || doc_attr(build_doc(b), element, STR_colorspace)
                            ? build_colorspace(b, element)
                            : 0;
         if (space)
             value = build_color_transform(b, value, port->type, space,
-                                          doc_attr_place(doc_of(b), element, STR_colorspace));
+                                          doc_attr_place(build_doc(b), element, STR_colorspace));
     }
     return build_unit_conversion(b, value, element, port);
 }
@@ -51,14 +47,14 @@ static ir_ref unset(struct builder *b, const struct instance *scope, elem_id own
     if (!outermost || port->geomprop || !value)
         return value;
     return build_publish(b, owner, port, element,
-                         element ? doc_element(doc_of(b), element)->name : port->name, value,
+                         element ? doc_element(build_doc(b), element)->name : port->name, value,
                          false);
 }
 
 static elem_id graph_around(const struct builder *b, elem_id element)
 {
-    while (element && doc_element(doc_of(b), element)->kind != KIND_NODEGRAPH)
-        element = doc_element(doc_of(b), element)->parent;
+    while (element && doc_element(build_doc(b), element)->kind != KIND_NODEGRAPH)
+        element = doc_element(build_doc(b), element)->parent;
     return element;
 }
 
@@ -72,8 +68,8 @@ static ir_ref interface_arg(struct builder *b, struct instance *scope, const str
     elem_id alone = scope->graph ? 0 : graph_around(b, binding->element);
     uint32_t nodedef = alone ? library_implemented_nodedef(b->lib, alone) : scope->nodedef;
     /* the reader of the document has reported it */
-    if (nodedef == LIBRARY_NONE && doc_attr_value(doc_of(b), alone, STR_nodedef))
-        return unset(b, scope, doc_element(doc_of(b), binding->element)->parent, port,
+    if (nodedef == LIBRARY_NONE && doc_attr_value(build_doc(b), alone, STR_nodedef))
+        return unset(b, scope, doc_element(build_doc(b), binding->element)->parent, port,
                      binding->element, true);
     int index =
         library_resolve_interface(b->lib, binding->element, nodedef, binding, port, b->diags);
@@ -94,8 +90,8 @@ static ir_ref end_of_chain(struct builder *b, struct instance *scope, elem_id no
 {
     elem_id element = binding->element;
     bool outermost = !scope->graph;
-    elem_id owner = element && doc_element(doc_of(b), element)->kind == KIND_INPUT
-                        ? doc_element(doc_of(b), element)->parent
+    elem_id owner = element && doc_element(build_doc(b), element)->kind == KIND_INPUT
+                        ? doc_element(build_doc(b), element)->parent
                         : node;
     uint32_t *slot = element && outermost ? &scope->slots[element - scope->first] : NULL;
     assert(!slot || *slot < SLOT_RESULTS + b->results.len);
@@ -105,8 +101,9 @@ static ir_ref end_of_chain(struct builder *b, struct instance *scope, elem_id no
     bool says_value = binding->kind == BIND_VALUE;
     /* all MaterialX generators do so, and materials depend on it */
     if (says_value && port->geomprop && owner == node) {
-        diag_add(b->diags, DIAG_ID_geomprop_literal, doc_attr_place(doc_of(b), element, STR_value),
-                 build_text(b, port->name), build_text(b, port->geomprop));
+        diag_add(b->diags, DIAG_ID_geomprop_literal,
+                 doc_attr_place(build_doc(b), element, STR_value), build_text(b, port->name),
+                 build_text(b, port->geomprop));
         says_value = false;
     }
     ir_ref value = says_value ? literal(b, scope, owner, port, element, outermost)

@@ -2,11 +2,6 @@
 /* Inputs of the shader's interface: their names, their paths, and which of them become uniforms. */
 #include "build/build_priv.h"
 
-static const struct document *doc_of(const struct builder *b)
-{
-    return &b->lib->doc;
-}
-
 /*
  * Returns to the prefix of the names of an owner's inputs; true if the caller must write the
  * prefix.
@@ -31,14 +26,14 @@ static str_id end_text(struct builder *b, struct text *text, str_id name)
 str_id build_input_path(struct builder *b, elem_id node, str_id input, elem_id element)
 {
     struct text *path = &b->path.text;
-    elem_id owner = element ? doc_element(doc_of(b), element)->parent : node;
+    elem_id owner = element ? doc_element(build_doc(b), element)->parent : node;
     if (begin_text(b, &b->path, owner)) {
-        doc_path(doc_of(b), owner, '/', path);
+        doc_path(build_doc(b), owner, '/', path);
         if (path->len)
             text_char(path, '/');
         b->path.len = path->len;
     }
-    return end_text(b, path, element ? doc_element(doc_of(b), element)->name : input);
+    return end_text(b, path, element ? doc_element(build_doc(b), element)->name : input);
 }
 
 struct glob_retry { /* the position to retry from, if the text after a star does not match */
@@ -86,7 +81,7 @@ static bool any_glob(const char *const *globs, unsigned n, const char *path)
  */
 static bool is_public(const struct builder *b, elem_id node)
 {
-    if (doc_element(doc_of(b), node)->kind == KIND_NODEGRAPH)
+    if (doc_element(build_doc(b), node)->kind == KIND_NODEGRAPH)
         return true;
     for (uint32_t i = 0; i < b->public_nodes.len; i++)
         if (b->public_nodes.items[i] == node)
@@ -118,7 +113,7 @@ static str_id variable_name(struct builder *b, elem_id node, str_id input)
         return input;
     struct text *name = &b->name.text;
     if (begin_text(b, &b->name, node)) {
-        text_str(name, build_text(b, doc_element(doc_of(b), node)->name));
+        text_str(name, build_text(b, doc_element(build_doc(b), node)->name));
         text_char(name, '_');
         b->name.len = name->len;
     }
@@ -127,7 +122,7 @@ static str_id variable_name(struct builder *b, elem_id node, str_id input)
 
 static str_id element_attr(const struct builder *b, elem_id element, str_id name)
 {
-    return element ? doc_attr_value(doc_of(b), element, name) : 0;
+    return element ? doc_attr_value(build_doc(b), element, name) : 0;
 }
 
 struct shader_variable build_describe(struct builder *b, elem_id node, const struct port *port,
@@ -140,7 +135,7 @@ struct shader_variable build_describe(struct builder *b, elem_id node, const str
         .path = path,
         .element = element ? element : node,
         .definition = port->element,
-        .colorspace = element ? doc_inherited_attr(doc_of(b), element, STR_colorspace) : 0,
+        .colorspace = element ? doc_inherited_attr(build_doc(b), element, STR_colorspace) : 0,
         .unit = element_attr(b, element, STR_unit),
         .unittype = element_attr(b, element, STR_unittype),
     };

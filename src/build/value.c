@@ -2,16 +2,11 @@
 /* Values without a connection: constants, defaults and geometric properties. */
 #include "build/build_priv.h"
 
-static const struct document *doc_of(const struct builder *b)
-{
-    return &b->lib->doc;
-}
-
 /* The name of an enum value stands for the value at the same position of enumvalues. */
 static str_id enum_value(struct builder *b, const struct port *port, str_id text)
 {
-    str_id names = doc_attr_value(doc_of(b), port->element, STR_enum);
-    str_id values = doc_attr_value(doc_of(b), port->element, STR_enumvalues);
+    str_id names = doc_attr_value(build_doc(b), port->element, STR_enum);
+    str_id values = doc_attr_value(build_doc(b), port->element, STR_enumvalues);
     if (!names || !values)
         return 0;
     const char *name = build_text(b, names), *value = build_text(b, values),
@@ -48,13 +43,13 @@ ir_ref build_constant(struct builder *b, const struct port *port, str_id text, e
     ir_type_id ir = library_type_ir(b->lib, port->type);
     struct ir_value value;
     if (ir == IR_TYPE_STRING) {
-        library_check_enum(b->lib, port, text, doc_attr_place(doc_of(b), element, STR_value),
+        library_check_enum(b->lib, port, text, doc_attr_place(build_doc(b), element, STR_value),
                            b->diags);
         return ir_const_string(b->graph, text);
     }
     if (parse(b, port->type, text, port, &value))
         return ir_const(b->graph, &value);
-    diag_add(b->diags, DIAG_ID_bad_value, doc_attr_place(doc_of(b), element, STR_value),
+    diag_add(b->diags, DIAG_ID_bad_value, doc_attr_place(build_doc(b), element, STR_value),
              build_text(b, text), build_text(b, library_type_name(b->lib, port->type)),
              doc_value_fault(port->type, build_text(b, text), str_len(&b->lib->strings, text),
                              b->diags->arena));
@@ -147,7 +142,7 @@ ir_ref build_default(struct builder *b, const struct port *port)
 {
     if (port->geomprop)
         return build_geomprop(b, port->geomprop, port->type,
-                              doc_attr_place(doc_of(b), port->element, STR_defaultgeomprop));
+                              doc_attr_place(build_doc(b), port->element, STR_defaultgeomprop));
     ir_type_id type = library_type_ir(b->lib, port->type);
     if (type == IR_TYPE_STRING)
         return ir_const_string(b->graph, port->value);
