@@ -21,168 +21,52 @@ static const struct layer_file files[] = {
     {NULL, NULL},
 };
 
-/* gain: in · amount, plus: a + b; twice: a graph of gain; which: differs by target. */
+/*
+ * gain: in · amount, plus: a + b; twice: a graph of gain; which: differs by target. One definition
+ * per line.
+ */
+// clang-format off
 static const char standard[] =
     "<unittypedef name='distance'/><unitdef name='UD' unittype='distance'>"
     "<unit name='meter' scale='1'/><unit name='foot' scale='0.25'/></unitdef>"
-    "<geompropdef name='wear' type='float'/>" NODEDEF(
-        "ND_gain", "gain",
-        INPUT("in", "float", "value='3'") INPUT("amount", "float", "value='2'")
-            OUTPUT) IMPL("ND_gain",
-                         "sourcecode='{{in}} * {{amount}}'") NODEDEF("ND_plus", "plus",
-                                                                     INPUT("a", "float", "")
-                                                                         INPUT("b", "float",
-                                                                               "value='1'") OUTPUT)
-        IMPL("ND_plus", "sourcecode='{{a}} + {{b}}'") NODEDEF(
-            "ND_twice", "twice",
-            INPUT("x", "float", "value='5'")
-                OUTPUT) "<nodegraph name='NG_twice' nodedef='ND_twice'>"
-                        "<gain name='g' type='float'><input name='in' type='float' "
-                        "interfacename='x'/></gain>"
-                        "<output name='out' type='float' nodename='g'/></nodegraph>" NODEDEF(
-                            "ND_worn", "worn",
-                            INPUT("in", "float", "defaultgeomprop='wear'") OUTPUT)
-                            IMPL("ND_worn", "sourcecode='{{in}}'") NODEDEF(
-                                "ND_pick", "pick",
-                                INPUT("which", "integer",
-                                      "value='low' enum='low, middle, high' enumvalues='1, 5, 9'")
-                                    OUTPUT) IMPL("ND_pick",
-                                                 "sourcecode='float({{which}})'") NODEDEF("ND_"
-                                                                                          "which",
-                                                                                          "which",
-                                                                                          OUTPUT)
-                                IMPL(
-                                    "ND_which",
-                                    "sourcecode='1.0'") "<implementation name='I2' "
-                                                        "nodedef='ND_which' target='gen' "
-                                                        "sourcecode='2.0'/>"
-                                                        "<implementation name='I3' "
-                                                        "nodedef='ND_which' target='sub' "
-                                                        "sourcecode='3.0'/>" NODEDEF("ND_only", "only", OUTPUT) "<implementation name='I4' nodedef='ND_only' target='gen' sourcecode='4.0'/>" NODEDEF(
-                                                            "ND_shade", "shade",
-                                                            INPUT("color", "color3",
-                                                                  "value='1, 1, 1'") OUTPUT)
-                                                            IMPL(
-                                                                "ND_shade",
-                                                                "sourcecode='{{color}}.x + "
-                                                                "{{color}}.y'") "<nodedef "
-                                                                                "name='ND_acescg_"
-                                                                                "to_lin_rec709_"
-                                                                                "color3' "
-                                                                                "node='acescg_to_"
-                                                                                "lin_rec709'>"
-                                                                                "<input "
-                                                                                "name='in' "
-                                                                                "type='color3'/"
-                                                                                "><output "
-                                                                                "name='out' "
-                                                                                "type='color3'/"
-                                                                                "></"
-                                                                                "nodedef>" IMPL(
-                                                                                    "ND_acescg_"
-                                                                                    "to_lin_"
-                                                                                    "rec709_"
-                                                                                    "color3",
-                                                                                    "sourcecode='"
-                                                                                    "{{in}} * "
-                                                                                    "0.5'") "<nod"
-                                                                                            "edef"
-                                                                                            " nam"
-                                                                                            "e='"
-                                                                                            "ND_"
-                                                                                            "matt"
-                                                                                            "e' "
-                                                                                            "node"
-                                                                                            "='"
-                                                                                            "matt"
-                                                                                            "e'><"
-                                                                                            "inpu"
-                                                                                            "t "
-                                                                                            "name"
-                                                                                            "='"
-                                                                                            "shad"
-                                                                                            "e' "
-                                                                                            "type"
-                                                                                            "='"
-                                                                                            "floa"
-                                                                                            "t' "
-                                                                                            "valu"
-                                                                                            "e='"
-                                                                                            "0.5'"
-                                                                                            "/>"
-                                                                                            "<inp"
-                                                                                            "ut "
-                                                                                            "name"
-                                                                                            "='"
-                                                                                            "weig"
-                                                                                            "ht' "
-                                                                                            "type"
-                                                                                            "='"
-                                                                                            "floa"
-                                                                                            "t' "
-                                                                                            "valu"
-                                                                                            "e='"
-                                                                                            "1'/"
-                                                                                            "><"
-                                                                                            "inpu"
-                                                                                            "t "
-                                                                                            "name"
-                                                                                            "='"
-                                                                                            "colo"
-                                                                                            "r' "
-                                                                                            "type"
-                                                                                            "='"
-                                                                                            "colo"
-                                                                                            "r3'/"
-                                                                                            ">"
-                                                                                            "<out"
-                                                                                            "put "
-                                                                                            "name"
-                                                                                            "='"
-                                                                                            "out'"
-                                                                                            " typ"
-                                                                                            "e='"
-                                                                                            "BSDF"
-                                                                                            "'/"
-                                                                                            "></"
-                                                                                            "node"
-                                                                                            "def"
-                                                                                            ">" IMPL(
-                                                                                                "ND"
-                                                                                                "_m"
-                                                                                                "at"
-                                                                                                "t"
-                                                                                                "e",
-                                                                                                "fi"
-                                                                                                "le"
-                                                                                                "='"
-                                                                                                "ma"
-                                                                                                "tt"
-                                                                                                "e."
-                                                                                                "gl"
-                                                                                                "sl"
-                                                                                                "' "
-                                                                                                "fu"
-                                                                                                "nc"
-                                                                                                "ti"
-                                                                                                "on"
-                                                                                                "='"
-                                                                                                "ma"
-                                                                                                "tt"
-                                                                                                "e"
-                                                                                                "'")
-                                                                                                NODEDEF(
-                                                                                                    "ND_self",
-                                                                                                    "self",
-                                                                                                    INPUT(
-                                                                                                        "x",
-                                                                                                        "float",
-                                                                                                        "")
-                                                                                                        OUTPUT) "<nodegraph name='NG_self' nodedef='ND_self'><self name='s' type='float'/>"
-                                                                                                                "<output name='out' type='float' nodename='s'/></nodegraph>"
-                                                                                                                "<nodedef name='ND_lamp' node='lamp'><input name='power' type='float' value='3'/>"
-                                                                                                                "<output name='light' type='lightshader'/></nodedef>"
-                                                                                                                "<implementation name='IM_lamp' nodedef='ND_lamp' file='lamp.glsl' function='lamp'/>";
+    "<geompropdef name='wear' type='float'/>"
+    NODEDEF("ND_gain", "gain",
+            INPUT("in", "float", "value='3'") INPUT("amount", "float", "value='2'") OUTPUT)
+    IMPL("ND_gain", "sourcecode='{{in}} * {{amount}}'")
+    NODEDEF("ND_plus", "plus", INPUT("a", "float", "") INPUT("b", "float", "value='1'") OUTPUT)
+    IMPL("ND_plus", "sourcecode='{{a}} + {{b}}'")
+    NODEDEF("ND_twice", "twice", INPUT("x", "float", "value='5'") OUTPUT)
+    "<nodegraph name='NG_twice' nodedef='ND_twice'><gain name='g' type='float'>"
+    "<input name='in' type='float' interfacename='x'/></gain>"
+    "<output name='out' type='float' nodename='g'/></nodegraph>"
+    NODEDEF("ND_worn", "worn", INPUT("in", "float", "defaultgeomprop='wear'") OUTPUT)
+    IMPL("ND_worn", "sourcecode='{{in}}'")
+    NODEDEF("ND_pick", "pick",
+            INPUT("which", "integer", "value='low' enum='low, middle, high' enumvalues='1, 5, 9'")
+            OUTPUT)
+    IMPL("ND_pick", "sourcecode='float({{which}})'")
+    NODEDEF("ND_which", "which", OUTPUT)
+    IMPL("ND_which", "sourcecode='1.0'")
+    "<implementation name='I2' nodedef='ND_which' target='gen' sourcecode='2.0'/>"
+    "<implementation name='I3' nodedef='ND_which' target='sub' sourcecode='3.0'/>"
+    NODEDEF("ND_only", "only", OUTPUT)
+    "<implementation name='I4' nodedef='ND_only' target='gen' sourcecode='4.0'/>"
+    NODEDEF("ND_shade", "shade", INPUT("color", "color3", "value='1, 1, 1'") OUTPUT)
+    IMPL("ND_shade", "sourcecode='{{color}}.x + {{color}}.y'")
+    "<nodedef name='ND_acescg_to_lin_rec709_color3' node='acescg_to_lin_rec709'>"
+    "<input name='in' type='color3'/><output name='out' type='color3'/></nodedef>"
+    IMPL("ND_acescg_to_lin_rec709_color3", "sourcecode='{{in}} * 0.5'")
+    "<nodedef name='ND_matte' node='matte'><input name='shade' type='float' value='0.5'/>"
+    "<input name='weight' type='float' value='1'/><input name='color' type='color3'/>"
+    "<output name='out' type='BSDF'/></nodedef>"
+    IMPL("ND_matte", "file='matte.glsl' function='matte'")
+    NODEDEF("ND_self", "self", INPUT("x", "float", "") OUTPUT)
+    "<nodegraph name='NG_self' nodedef='ND_self'><self name='s' type='float'/>"
+    "<output name='out' type='float' nodename='s'/></nodegraph>"
+    "<nodedef name='ND_lamp' node='lamp'><input name='power' type='float' value='3'/>"
+    "<output name='light' type='lightshader'/></nodedef>"
+    "<implementation name='IM_lamp' nodedef='ND_lamp' file='lamp.glsl' function='lamp'/>";
+// clang-format on
 
 struct work {
     struct layers layers;
