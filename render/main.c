@@ -206,6 +206,15 @@ static bool tell_parts(struct job *job, unsigned made)
     return true;
 }
 
+static void tell_bad_environment(struct job *job, const char *name, const struct image *map)
+{
+    if (map->num_bad)
+        report_warning(&job->cli.report, "bad-pixels",
+                       "%llu pixels of the environment '%s' are NaN, infinite or 1e9 and more; "
+                       "they are black here",
+                       (unsigned long long)map->num_bad, name);
+}
+
 static bool make_scene(struct job *job)
 {
     struct painter *painter = &job->painter;
@@ -213,8 +222,10 @@ static bool make_scene(struct job *job)
     if (job->scene_kind == SCENE_STUDIO) {
         unsigned made = 0;
         struct studio_fault fault;
-        if (studio_open(&painter->studio, aspect, &painter->scene, &made, &fault))
+        if (studio_open(&painter->studio, aspect, &painter->scene, &made, &fault)) {
+            tell_bad_environment(job, painter->studio.environment, &painter->scene.radiance);
             return tell_parts(job, made);
+        }
         report_error(&job->cli.report, fault.id, "%s", fault.text);
         return false;
     }
@@ -513,6 +524,7 @@ static int bake(struct job *job)
              || !baked_write(&baked, job->options.output, reason, sizeof reason))
         report_error(&job->cli.report, "output-failed", "cannot write to '%s': %s",
                      job->options.output, why ? why : reason);
+    tell_bad_environment(job, job->options.baked, &map);
     baked_finish(&baked);
     image_finish(&map);
     return job->cli.report.errors ? EXIT_FAULT : EXIT_DONE;
