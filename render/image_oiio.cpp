@@ -190,8 +190,7 @@ bool read_levels(const char *path, const char *layer, bool all, struct image *ou
     out->width = static_cast<uint32_t>(spec.width);
     out->height = static_cast<uint32_t>(spec.height);
     uint32_t levels = all ? count_levels(*input, out->width, out->height) : 1;
-    out->pixels =
-        std::malloc(count_texels(*out, levels) * 4 * (out->is_float ? sizeof(float) : 1));
+    out->pixels = std::malloc(count_texels(*out, levels) * 4 * (out->is_float ? sizeof(float) : 1));
     if (!out->pixels)
         return fail(reason, capacity, "out of memory");
     out->levels = levels > 1 ? levels : 0;

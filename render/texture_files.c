@@ -47,8 +47,8 @@ static void warn_bad_pixels(struct bind *bind, const char *path, const struct im
 {
     bind->id = "bad-pixels";
     snprintf(bind->reason, sizeof bind->reason,
-             "%llu pixels of the texture '%.250s' are NaN or infinite; they are 0 here",
-             (unsigned long long)image->num_bad, path);
+             "the texture '%.250s' has pixels that are NaN or infinite (%llu); they are 0 here",
+             path, (unsigned long long)image->num_bad);
 }
 
 /* Files are relative to the document. */
