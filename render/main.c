@@ -4,6 +4,7 @@
 #include "cli/cli.h"
 #include "cli/files.h"
 #include "cli/folder.h"
+#include "cli/outputs.h"
 #include "cli/render_options.h"
 #include "render/applies.h"
 #include "render/bake.h"
@@ -37,6 +38,7 @@ struct job {
     enum scene_kind scene_kind;
     struct bind_value *values;
     struct arg_list found; /* documents, including those in folders; allocated */
+    struct outputs files;  /* files that the command reads or writes */
 };
 
 /* ---- Arguments ---- */
@@ -339,11 +341,25 @@ static void add_elements(struct job *job, struct items *list, const mxg_document
         add_item(list, document, path, job->options.element);
 }
 
+/* Loads a document and notes its files. */
+static mxg_document *load(struct job *job, const char *path)
+{
+    mxg_document *document = cli_load(&job->cli, path);
+    bool good = true;
+    for (uint32_t i = 0; i < mxg_document_num_files(document); ++i)
+        good = outputs_read(&job->files, &job->cli.report, mxg_document_file(document, i)) && good;
+    if (good)
+        return document;
+    job->painter.has_clash = true;
+    mxg_document_destroy(document);
+    return NULL;
+}
+
 static void load_items(struct job *job, struct items *list)
 {
     list->documents = calloc(job->found.len + 1, sizeof *list->documents);
     for (size_t i = 0; list->documents && i < job->found.len; ++i) {
-        mxg_document *document = cli_load(&job->cli, job->found.items[i]);
+        mxg_document *document = load(job, job->found.items[i]);
         if (!document)
             continue;
         list->documents[list->num_documents++] = document;
@@ -384,7 +400,8 @@ static void draw_sheet(struct job *job, const struct items *list)
         place(job, &sheet, i, &list->items[i]);
     }
     tell_progress(job, list->len, list->len, "");
-    if (!image_write(job->options.output, &sheet.image, reason, sizeof reason))
+    if (!job->painter.has_clash
+        && !image_write(job->options.output, &sheet.image, reason, sizeof reason))
         report_error(&job->cli.report, "output-failed", "cannot write '%s': %s",
                      job->options.output, reason);
     sheet_finish(&sheet);
@@ -448,7 +465,7 @@ static void tell_choice(const struct job *job, const mxg_document *document)
 /* Renders one picture of the first element, or of the requested one. */
 static void render_file(struct job *job, const char *path)
 {
-    mxg_document *document = cli_load(&job->cli, path);
+    mxg_document *document = load(job, path);
     struct subject subject = {document, path, job->options.element};
     if (document && prepare(job)) {
         tell_choice(job, document);
@@ -466,7 +483,7 @@ static void render_all(struct job *job)
 {
     struct items list = {0};
     load_items(job, &list);
-    if (list.len && prepare(job)) {
+    if (list.len && !job->painter.has_clash && prepare(job)) {
         if (list.len == 1)
             draw_one(job, &list.items[0].subject);
         else
@@ -478,21 +495,11 @@ static void render_all(struct job *job)
 /* Collects the documents, including those in folders. */
 static bool find_documents(struct job *job)
 {
-    const struct arg_list *inputs = &job->cli.parser.inputs;
-    for (size_t i = 0; i < inputs->len; ++i) {
-        if (!files_is_folder(inputs->items[i])) {
-            args_append(&job->found, cli_format("%s", inputs->items[i]));
-            continue;
-        }
-        size_t before = job->found.len;
-        const char *reason = folder_find(inputs->items[i], ".mtlx", &job->found);
-        if (reason || job->found.len == before) {
-            report_error(&job->cli.report, "nothing-to-render", "'%s': %s", inputs->items[i],
-                         reason ? reason : "the folder has no document (.mtlx)");
-            return false;
-        }
-    }
-    return true;
+    const char *reason = NULL,
+               *path = folder_documents(&job->cli.parser.inputs, &job->found, &reason);
+    if (path)
+        report_error(&job->cli.report, "nothing-to-render", "'%s': %s", path, reason);
+    return !path;
 }
 
 /* mxgen render --bake-environment FILE -o FOLDER */
@@ -521,6 +528,39 @@ static int bake(struct job *job)
     baked_finish(&baked);
     image_finish(&map);
     return job->cli.report.errors ? EXIT_FAULT : EXIT_DONE;
+}
+
+/* Notes the files that every picture needs. */
+static bool claim_inputs(struct job *job)
+{
+    struct report *report = &job->cli.report;
+    bool good = true;
+    for (size_t i = 0; i < job->found.len; ++i)
+        good = outputs_read(&job->files, report, job->found.items[i]) && good;
+    for (uint32_t i = 0; i < mxg_library_num_files(job->cli.library); ++i)
+        good = outputs_read(&job->files, report, mxg_library_file(job->cli.library, i)) && good;
+    if (job->painter.studio.environment)
+        good = outputs_read(&job->files, report, job->painter.studio.environment) && good;
+    if (files_is_regular(job->painter.studio.mesh))
+        good = outputs_read(&job->files, report, job->painter.studio.mesh) && good;
+    return good;
+}
+
+/* Notes the pictures; false after an error: one of them is an input, or two are one file. */
+static bool claim_outputs(struct job *job)
+{
+    struct report *report = &job->cli.report;
+    bool good = true;
+    for (size_t i = 0; i < job->options.frames; ++i) {
+        char *name = frame_name(job->options.output, i);
+        good = good && outputs_write(&job->files, report, name, "the turntable");
+        free(name);
+    }
+    if (job->options.output && !job->options.frames)
+        good = outputs_write(&job->files, report, job->options.output, "-o") && good;
+    if (job->options.copy)
+        good = outputs_write(&job->files, report, job->options.copy, "--copy") && good;
+    return claim_inputs(job) && good;
 }
 
 /* Checked before rendering, which may take long. */
@@ -584,7 +624,7 @@ static int run(struct job *job)
         || !applies_all(&job->cli.parser, find_facts(job, is_grid, is_one)))
         return EXIT_USAGE;
     if (can_write(job, job->options.output) && can_write(job, job->options.copy)
-        && find_documents(job)) {
+        && find_documents(job) && claim_outputs(job)) {
         compile_begin();
         if (is_one)
             render_file(job, job->found.items[0]);
@@ -609,6 +649,7 @@ int main(int argc, char **argv)
     int code;
     if (cli_start(&job.cli, &command, args, num_args, CLI_GENERATES, argc, argv, &code)) {
         job.painter.cli = &job.cli;
+        job.painter.files = &job.files;
         job.painter.studio.mesh = job.options.mesh;
         /*
          * llvmpipe's optimiser takes minutes for large shaders. Without it the pictures are the
@@ -620,6 +661,7 @@ int main(int argc, char **argv)
     }
     cli_finish(&job.cli);
     args_free(&job.found);
+    outputs_finish(&job.files);
     free_values(job.values, job.options.settings.len);
     free(job.options.settings.items);
     free(job.options.environments.items);

@@ -38,6 +38,8 @@ static bool choose_mesh(struct painting *painting)
 static bool fail(struct painting *painting, const struct subject *subject)
 {
     const struct bind *bind = painting->bind;
+    if (bind && bind->id && strcmp(bind->id, "output-clash") == 0)
+        painting->painter->has_clash = true;
     report_error(&painting->painter->cli->report, bind && bind->id ? bind->id : "render-failed",
                  "%s: %s", subject->element ? subject->element : subject->path,
                  bind ? bind->reason : "out of memory");
@@ -50,6 +52,7 @@ static struct bind bind_of(const struct painting *painting, const struct subject
     return (struct bind){.result = painting->result,
                          .scene = &painting->scene,
                          .document = subject->path,
+                         .files = painter->files,
                          .values = painter->values,
                          .num_values = painter->num_values,
                          .checker = painter->checker};

@@ -59,6 +59,12 @@ static bool read_file(struct bind *bind, const char *file, const char *layer, st
     int folder = slash && file[0] != '/' ? (int)(slash - bind->document) + 1 : 0;
     char path[4096], reason[256];
     snprintf(path, sizeof path, "%.*s%s", folder, bind->document, file);
+    if (bind->files && outputs_has(bind->files, path)) {
+        bind->id = "output-clash";
+        snprintf(bind->reason, sizeof bind->reason,
+                 "the picture would overwrite the texture '%.250s'; choose another name", path);
+        return false;
+    }
     if (image_read(path, layer, out, reason, sizeof reason)) {
         if (out->num_bad)
             warn_bad_pixels(bind, path, out);

@@ -135,6 +135,28 @@ for how in '' '--path-trace --paths 2'; do
     check 'and written, because it shows where' test -s hot.png
     rm -f hot.png
 done
+# A picture that would be written over an input, or over another picture
+cp red.pfm map.pfm && cp red.pfm t.png && cp plain.mtlx one.mtlx && cp nan.obj mesh.png && cp nan.pfm map.png
+echo '<materialx version="1.39" xmlns:xi="http://www.w3.org/2001/XInclude"><xi:include href="part.png"/></materialx>' >including.mtlx
+cp plain.mtlx part.png
+while IFS='|' read -r file options; do
+    cp "$file" before
+    # shellcheck disable=SC2086
+    check "one file: $options" exits 1 "$render" $options --size 8
+    check 'is told' grep -q '\[output-clash\]' err
+    check 'and kept' cmp "$file" before
+done <<'X'
+map.png|plain.mtlx --environment map.png -o map.png
+map.png|plain.mtlx --environment map.png -o y.png --copy map.png
+mesh.png|plain.mtlx -m mesh.png -o mesh.png
+t.png|huge_window.mtlx -o t.png
+t.png|huge_window.mtlx plain.mtlx -o t.png
+map.png|huge_window.mtlx --set i/file=map.png -o ./map.png
+part.png|including.mtlx -o part.png
+part.png|including.mtlx plain.mtlx -o part.png
+plain.mtlx|plain.mtlx -o y.png --copy y.png
+X
+check 'and nothing is written' test ! -e y.png
 sed '/<surfacematerial/{p;s/"M"/"M2"/}' plain.mtlx >both.mtlx
 check 'a document of two materials' exits 0 "$render" both.mtlx -o x.png --size 8
 check 'says which it draws' grep -q "^note: 'M' is rendered, the first of 2 elements; -e PATH" err
