@@ -72,8 +72,8 @@ bool outputs_read(struct outputs *outputs, struct report *report, const char *pa
     const struct name_entry *entry = add(outputs, path, NULL, &is_new);
     const char *owner = outputs->uses[entry->value].owner;
     if (owner)
-        report_error(report, "output-clash", "%s would overwrite the input '%s'; choose another name",
-                     owner, path);
+        report_error(report, "output-clash",
+                     "%s would overwrite the input '%s'; choose another name", owner, path);
     return !owner;
 }
 
@@ -86,8 +86,8 @@ bool outputs_write(struct outputs *outputs, struct report *report, const char *p
     const struct name_entry *entry = add(outputs, path, owner, &is_new);
     const char *other = outputs->uses[entry->value].owner;
     if (!other)
-        report_error(report, "output-clash", "%s would overwrite the input '%s'; choose another name",
-                     owner, path);
+        report_error(report, "output-clash",
+                     "%s would overwrite the input '%s'; choose another name", owner, path);
     else if (strcmp(other, owner) != 0)
         report_error(report, "output-clash", "%s and %s would write one file, '%s'", other, owner,
                      path);

@@ -32,6 +32,7 @@ sed 's/value="1, 0.5, 0"/value="abc"/' two.mtlx >bad.mtlx
 cp two.mtlx 'with space.mtlx'
 mkdir -p other && cp two.mtlx other/two.mtlx
 
+is() { [ "$1" = "$2" ] || { echo "'$1', not '$2'"; return 1; }; }
 files() { [ "$(cd "$1" && find . -type f | sort | tr '\n' ' ')" = "$2" ] || { find "$1"; return 1; }; }
 none_in() { [ -z "$(find "$1" -type f 2>/dev/null)" ]; }
 
@@ -100,6 +101,13 @@ check 'beside a file' files grove './lamp/A.frag ./lamp/A.vert ./two/A.frag ./tw
 check 'a folder without documents' exits 1 "$mxgen" tree/empty
 check 'is told' grep -q "'tree/empty': the folder has no document" err
 check 'validate takes a folder, too' exits 0 timeout 60 "$mxgen" validate tree
+
+mkdir -p library/sub && echo '<materialx version="1.39"><nodedef name="ND_own" node="own"><output name="out" type="float"/></nodedef></materialx>' >library/sub/own.mtlx
+ln -s . library/self && ln -s . library/again && ln -s .. library/sub/up && ln -s sub library/alias && mkfifo library/sub/pipe.mtlx
+check 'a library with circles of links and a pipe' exits 0 timeout 60 "$mxgen" library list library
+check 'has each file once' is "$(grep -c ND_own out)" 1
+check 'as the library of a document' exits 0 timeout 60 "$mxgen" two.mtlx -e A --library library -o linked --depfile linked.d
+check 'by the first path of its folder' grep -q ' library/alias/own.mtlx' linked.d
 
 # A file that is read and written, or written twice
 cp two.mtlx clash.mtlx && cp "$here/parts/name_clash.mtlx" .
