@@ -275,7 +275,7 @@ void build_record_node(struct builder *b, const struct frame *frame, ir_ref *res
 /* The default of an input in the network's layers; type VOID or 0: it has no number. */
 struct ir_value build_network_default(struct builder *b, const struct port *port);
 
-/* dynamic.c: builds nodes in C; false if the definition has no such code. */
+/* dynamic.c: builds nodes in C; false after a report that the definition has no such code. */
 bool build_dynamic(struct builder *b, const struct frame *frame, ir_ref *results);
 
 #endif

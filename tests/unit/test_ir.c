@@ -70,8 +70,19 @@ static const struct {
     /* folding */
     {"%r = add float 1.0, 2.0", "return 3.0"},
     {"%r = add vec3 vec3(1.0, 2.0, 3.0), 0.5", "return vec3(1.5, 2.5, 3.5)"},
-    /* no target can spell an infinity */
-    {"%r = div float 1.0, 0.0", "%r = div float 1.0, 0.0\nreturn %r"},
+    /* infinities and NaN are values like others */
+    {"%r = div float 1.0, 0.0", "return inf"},
+    {"%r = div float 0.0, 0.0", "return nan#2143289344"},
+    {"%r = sub float inf, inf", "return nan#2143289344"},
+    {"%r = neg float nan#2143289344", "return nan#2143289344"},
+    {"%r = convert int inf", "%r = convert int inf\nreturn %r"},
+    {"%r = add float %f, -inf", "%r = sub float %f, inf\nreturn %r"},
+    {"%r = add vec3 %v, -inf", "%r = sub vec3 %v, vec3(inf, inf, inf)\nreturn %r"},
+    {"%r = sub vec2 %k, inf", "%r = sub vec2 %k, vec2(inf, inf)\nreturn %r"},
+    {"%r = sub vec3 vec3(1.0, 0.5, 0.0), inf", "return vec3(-inf, -inf, -inf)"},
+    {"%r = add vec3 %v, nan#2143289344",
+     "%r = add vec3 %v, vec3(nan#2143289344, nan#2143289344, nan#2143289344)\nreturn %r"},
+    {"%r = div vec3 %v, inf", "%r = div vec3 %v, vec3(inf, inf, inf)\nreturn %r"},
     {"%r = div int 1, 0", "%r = div int 1, 0\nreturn %r"},
     {"%r = lt bool 1.0, 2.0", "return true"},
     {"%r = eq bool \"clamp\", \"clamp\"", "return true"},

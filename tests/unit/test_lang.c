@@ -182,6 +182,8 @@ static void test_print_target(void)
         .param_in_assigned = "",
         .param_out = "out ",
         .param_inout = "inout ",
+        .infinity = "INFINITY",
+        .nan = "NAN",
         .float_literals_need_suffix = true,
         .array_braces = true,
     };
