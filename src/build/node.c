@@ -205,6 +205,17 @@ static ir_ref dark_light(struct builder *b)
     return ir_build(b->graph, IR_LIGHT_SHADER, IR_TYPE_LIGHT, 0, args, 3);
 }
 
+void build_report_index(void *user_data, int32_t index, uint32_t length)
+{
+    struct builder *b = user_data;
+    const struct document *doc = build_doc(b);
+    elem_id input = b->called ? doc_child_of_kind(doc, b->called, KIND_INPUT, STR_index) : 0;
+    if (b->called) /* else the function is one of a closure or of the interface */
+        diag_add(b->diags, DIAG_ID_index_out_of_range,
+                 input ? doc_attr_place(doc, input, STR_value) : doc_place(doc, b->called), index,
+                 length, length - 1);
+}
+
 /* False after a report. */
 static bool call(struct builder *b, const struct frame *frame, ir_ref *results)
 {
@@ -216,6 +227,7 @@ static bool call(struct builder *b, const struct frame *frame, ir_ref *results)
         return true;
     }
     uint32_t first_node = b->graph->nodes.len;
+    b->called = frame->node.element;
     bool has_tiles = build_note_textures(b, frame);
     assert(frame->node.nodedef == impl->nodedef);
     if (impl->kind == IMPL_EXPRESSION)
@@ -226,6 +238,7 @@ static bool call(struct builder *b, const struct frame *frame, ir_ref *results)
         return false;
     if (has_tiles)
         build_check_tiles(b, frame, first_node);
+    b->called = 0;
     return true;
 }
 

@@ -65,6 +65,14 @@ uint32_t ast_target_slot(const struct lang_unit *layer, lang_ref target)
     return node->a;
 }
 
+uint32_t ast_num_parts(const struct lang_unit *unit, ir_type_id type)
+{
+    if (ast_is_user_type(type))
+        return lang_user_type(unit, type, NULL)->array_length;
+    const struct ir_type_info *info = ir_type_info(type);
+    return info->columns > 1 ? info->columns : info->components;
+}
+
 uint8_t ast_param_mode(const struct lang_unit *unit, uint32_t function, uint32_t param)
 {
     const struct lang_unit *layer;

@@ -94,6 +94,9 @@ uint32_t ast_member_offset(const struct lang_unit *unit, ir_type_id type, uint32
 /* The slot of a target expression: a VAR, or a SWIZZLE, INDEX or MEMBER of one. */
 uint32_t ast_target_slot(const struct lang_unit *layer, lang_ref target);
 
+/* The number of elements, columns or components that an index selects from. */
+uint32_t ast_num_parts(const struct lang_unit *unit, ir_type_id type);
+
 /* enum lang_param_mode of a function's parameter. */
 uint8_t ast_param_mode(const struct lang_unit *unit, uint32_t function, uint32_t param);
 

@@ -156,6 +156,8 @@ struct lang_host { /* how globals become IR nodes */
      * lowered regardless of their size. May be NULL.
      */
     ir_ref (*texture)(void *user_data, enum ir_op op, const ir_ref *args);
+    /* A constant index is out of range; the last part is read. May be NULL. */
+    void (*bad_index)(void *user_data, int32_t index, uint32_t length);
     /*
      * max_inline_nodes for the called function itself and its direct callees; 0: max_inline_nodes
      */
