@@ -73,6 +73,8 @@ struct ir_user_type {
     ir_type_id element; /* for arrays */
     uint16_t num_members;
     uint32_t first_member; /* in the members of the table */
+    /* of a value, all levels together: scalars, and vectors and scalars; not set in a graph */
+    uint32_t num_words, num_leaves;
 };
 
 /*

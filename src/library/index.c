@@ -58,14 +58,16 @@ static ir_type_id struct_type(struct indexer *ix, elem_id element, str_id name)
         vec_push(ix->arena, &lib->unit.members,
                  (struct ir_member){doc_element(&lib->doc, e)->name, library_type_ir(lib, type)});
     }
-    if (lib->unit.members.len == first)
-        return IR_TYPE_VOID;
-    vec_push(ix->arena, &lib->unit.user_types,
-             (struct ir_user_type){.name = name,
-                                   .num_members = (uint16_t)(lib->unit.members.len - first),
-                                   .first_member = first});
-    return (ir_type_id)(IR_TYPE_FIRST_USER + lib->unit.base_user_types + lib->unit.user_types.len
-                        - 1);
+    uint32_t num_members = lib->unit.members.len - first;
+    ir_type_id type = IR_TYPE_VOID;
+    if (num_members > 0 && num_members <= UINT16_MAX)
+        type = lang_add_type(&lib->unit, (struct ir_user_type){.name = name,
+                                                               .num_members = (uint16_t)num_members,
+                                                               .first_member = first});
+    if (num_members > 0 && type == IR_TYPE_VOID)
+        diag_add(ix->diags, DIAG_ID_lang_limit, doc_place(&lib->doc, element),
+                 "there are too many structs, or this one is too large");
+    return type;
 }
 
 static void add_typedef(struct indexer *ix, elem_id element)

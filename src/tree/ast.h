@@ -67,20 +67,18 @@ static inline struct ir_value ast_value(ir_type_id type, const union ir_word *wo
 /*
  * The number of scalars in a value of a type, including members and elements; 0 for opaque types.
  */
-uint32_t ast_user_type_words(const struct lang_unit *unit, ir_type_id type);
 static inline uint32_t ast_type_words(const struct lang_unit *unit, ir_type_id type)
 {
-    return ast_is_user_type(type) ? ast_user_type_words(unit, type)
+    return ast_is_user_type(type) ? lang_user_type(unit, type, NULL)->num_words
                                   : ir_type_info(type)->components;
 }
 
 /*
  * The number of leaves in a value of a type: 1 for a vector, the sum over the members for a struct.
  */
-uint32_t ast_user_type_leaves(const struct lang_unit *unit, ir_type_id type);
 static inline uint32_t ast_type_leaves(const struct lang_unit *unit, ir_type_id type)
 {
-    return ast_is_user_type(type) ? ast_user_type_leaves(unit, type) : type != IR_TYPE_VOID;
+    return ast_is_user_type(type) ? lang_user_type(unit, type, NULL)->num_leaves : type != IR_TYPE_VOID;
 }
 
 /*

@@ -254,6 +254,14 @@ static inline const struct ir_user_type *lang_user_type(const struct lang_unit *
     return &unit->user_types.items[id - unit->base_user_types];
 }
 
+enum { LANG_MAX_WORDS = 1 << 16 }; /* scalars of a struct or array */
+
+/*
+ * Adds a struct, whose members are the last of the unit, or an array. VOID: a value is larger than
+ * LANG_MAX_WORDS, or the unit has too many types.
+ */
+ir_type_id lang_add_type(struct lang_unit *unit, struct ir_user_type type);
+
 #define LANG_NONE UINT32_MAX /* no function, file… */
 
 enum { LANG_TINY = 8 }; /* functions with at most this many nodes are always lowered */
