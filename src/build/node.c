@@ -205,6 +205,14 @@ static ir_ref dark_light(struct builder *b)
     return ir_build(b->graph, IR_LIGHT_SHADER, IR_TYPE_LIGHT, 0, args, 3);
 }
 
+void build_report_large(void *user_data)
+{
+    struct builder *b = user_data;
+    diag_add(b->diags, DIAG_ID_lang_limit,
+             doc_place(build_doc(b), b->called ? b->called : build_doc(b)->root),
+             "the arguments and results of the function have more than 128 numbers and vectors");
+}
+
 void build_report_index(void *user_data, int32_t index, uint32_t length)
 {
     struct builder *b = user_data;

@@ -231,8 +231,7 @@ static ir_ref simplify_index(struct ir_graph *graph, ir_type_id type, ir_ref a, 
     const struct ir_node *node = ir_get(graph, index);
     if (node->op != IR_CONST)
         return 0;
-    uint32_t i = graph->words.items[node->attr].u,
-             length = num_parts(graph, ir_type_of(graph, a));
+    uint32_t i = graph->words.items[node->attr].u, length = num_parts(graph, ir_type_of(graph, a));
     if (i >= length) {
         ir_ref last = ir_const_int(graph, (int32_t)length - 1);
         return ir_build(graph, IR_INDEX, type, 0, (ir_ref[]){a, last}, 2);

@@ -132,6 +132,8 @@ static void add_ports_of(struct indexer *ix, elem_id nodedef, enum element_kind 
     }
 }
 
+enum { MAX_INHERIT = 256 };
+
 /*
  * Adds own ports first, then inherited ports without a redeclaration (specification, "NodeDef
  * Inheritance").
@@ -140,8 +142,8 @@ static uint16_t add_ports(struct indexer *ix, elem_id nodedef, enum element_kind
 {
     struct library *lib = ix->lib;
     uint32_t first = lib->ports.len;
-    elem_id at = nodedef;
-    for (unsigned depth = 0; at; depth++) {
+    elem_id at = nodedef, mark = nodedef; /* Brent: a cycle comes back to one of the marks */
+    for (unsigned depth = 1; at; depth++) {
         add_ports_of(ix, at, kind, first);
         str_id inherit = attr(ix, at, STR_inherit);
         if (!inherit)
@@ -149,13 +151,18 @@ static uint16_t add_ports(struct indexer *ix, elem_id nodedef, enum element_kind
         elem_id parent = 0;
         for (const struct library *layer = lib; !parent && layer; layer = layer->base)
             parent = doc_child_of_kind(&layer->doc, layer->doc.root, KIND_NODEDEF, inherit);
-        if (!parent || depth > 100) {
-            diag_add(ix->diags, parent ? DIAG_ID_inherit_cycle : DIAG_ID_inherit_missing,
+        if (parent == mark || depth == MAX_INHERIT || !parent) {
+            diag_add(ix->diags,
+                     !parent          ? DIAG_ID_inherit_missing
+                     : parent == mark ? DIAG_ID_inherit_cycle
+                                      : DIAG_ID_inherit_depth,
                      doc_attr_place(&lib->doc, at, STR_inherit),
                      text_of(lib, doc_element(&lib->doc, at)->name), text_of(lib, inherit));
             break;
         }
         at = parent;
+        if ((depth & (depth - 1)) == 0)
+            mark = at;
     }
     return (uint16_t)(lib->ports.len - first);
 }

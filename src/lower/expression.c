@@ -17,7 +17,8 @@ static inline void copy_leaves(const ir_ref *from, uint32_t count, ir_ref *out)
 /* True if one more tree node may run. */
 static inline bool may_go_on(struct lower *lo)
 {
-    if (lo->frame->budget-- == 0 || lo->graph->nodes.len > lo->max_graph_nodes)
+    if (lo->frame->budget-- == 0 || lo->graph->nodes.len > lo->max_graph_nodes
+        || (lo->depth > 0 && ++lo->num_steps > LOWER_MAX_STEPS))
         lo->failed = true;
     return !lo->failed;
 }

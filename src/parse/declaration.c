@@ -83,8 +83,10 @@ static void declare_struct(struct parser *p, const struct token *at, str_id name
                                                           .first_member = first})
              == IR_TYPE_VOID)
         PARSE_ERROR(p, parse_where_token(p, at), lang_limit,
-                    parse_say(p, "there are too many structs and arrays, or this one has more "
-                                 "than %d numbers", LANG_MAX_WORDS));
+                    parse_say(p,
+                              "there are too many structs and arrays, or this one has more "
+                              "than %d numbers",
+                              LANG_MAX_WORDS));
 }
 
 static void parse_struct(struct parser *p)

@@ -78,7 +78,8 @@ static inline uint32_t ast_type_words(const struct lang_unit *unit, ir_type_id t
  */
 static inline uint32_t ast_type_leaves(const struct lang_unit *unit, ir_type_id type)
 {
-    return ast_is_user_type(type) ? lang_user_type(unit, type, NULL)->num_leaves : type != IR_TYPE_VOID;
+    return ast_is_user_type(type) ? lang_user_type(unit, type, NULL)->num_leaves
+                                  : type != IR_TYPE_VOID;
 }
 
 /*

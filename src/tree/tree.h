@@ -158,6 +158,8 @@ struct lang_host { /* how globals become IR nodes */
     ir_ref (*texture)(void *user_data, enum ir_op op, const ir_ref *args);
     /* A constant index is out of range; the last part is read. May be NULL. */
     void (*bad_index)(void *user_data, int32_t index, uint32_t length);
+    /* A call has more numbers and vectors than it may have; its results are poison. May be NULL. */
+    void (*too_large)(void *user_data);
     /*
      * max_inline_nodes for the called function itself and its direct callees; 0: max_inline_nodes
      */
@@ -196,6 +198,7 @@ struct lang_unit {
     /* resolves options, and holds the graph of their values; from lang_lower_call */
     struct lang_host host;
     struct ir_graph *graph;
+    uint32_t eval_steps;               /* that lang_eval_constant has spent */
     VEC(struct lang_version) versions; /* by function */
     /* plan.c: the constants that functions assume; NULL until the shader is complete */
     struct lang_plan *plan;

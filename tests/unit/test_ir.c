@@ -186,7 +186,7 @@ static const struct {
     {"%r = convert float 3", "return 3.0"},
     {"%r = index float %v, 1", "%r = swizzle float .y %v\nreturn %r"},
     {"%r = index float %v, %i", "%r = index float %v, %i\nreturn %r"},
-    {"%r = index float %v, 3", "%r = index float %v, 3\nreturn %r"},
+    {"%r = index float %v, 3", "%r = swizzle float .z %v\nreturn %r"},
     {"%r = index vec3 %m, 1", "%r = index vec3 %m, 1\nreturn %r"},
     {"%a = construct mat3 %v, %w, %v\n%r = index vec3 %a, 1", "return %w"},
     {"%a = construct mat3 %f\n%r = index vec3 %a, 0",
