@@ -17,6 +17,8 @@
 
 #include "specialise/specialise.h"
 #include "tree/ast.h"
+#include "tree/uses.h"
+#include "tree/walk.h"
 
 enum {
     SPEC_MAX_PARAMS = 64, /* parameters beyond this are never bound or dropped */
@@ -88,9 +90,7 @@ struct spec {
     VEC(lang_ref) vars;   /* nodes of the result that name a slot: VAR and DECLARE */
     /* long CONST nodes of the result that stand for a slot */
     VEC(lang_ref) longs;
-    VEC(uint32_t) callees, globals; /* in the result, each once */
-    uint32_t num_nodes;
-    uint16_t flags; /* enum lang_function_flags of the result */
+    struct lang_uses uses; /* in the result */
 };
 
 /* The content of a node of the generated unit. */
@@ -110,8 +110,6 @@ bool spec_get(const struct spec *s, lang_ref ref, struct ir_value *out); /* the 
 lang_ref spec_expression(struct spec *s, lang_ref ref);
 /* the target of an assignment or an out argument: keeps its kind */
 lang_ref spec_target(struct spec *s, lang_ref ref);
-/* true if it calls a function that assigns to its arguments */
-bool spec_has_effects(const struct spec *s, lang_ref ref);
 
 /* call.c. Before resolve, a call has 1 + the callee's variant in c. */
 lang_ref spec_call(struct spec *s, struct lang_node call);
