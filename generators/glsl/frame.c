@@ -78,7 +78,7 @@ static void write_uniform(struct spell *spell, const struct shader_variable *var
 {
     spell_text(spell, "uniform ");
     spell_declare(spell, variable, spell_name_of(spell->shader->strings, variable->name));
-    bool fixed = variable->block == BLOCK_PRIVATE_UNIFORMS || !spell->options->neutral_names;
+    bool fixed = variable->block == BLOCK_PRIVATE_UNIFORMS || !spell->shader->rules.neutral_names;
     if (variable->has_default && variable->block != BLOCK_TEXTURES && fixed
         && spell_can(spell, CAP_UNIFORM_DEFAULTS)) {
         spell_text(spell, " = ");
@@ -92,7 +92,7 @@ static void write_uniforms(struct spell *spell, enum shader_block block)
 {
     if (!spell_uses_block(spell, block))
         return;
-    if (spell->blocks) {
+    if (spell->shader->rules.blocks) {
         write_uniform_block(spell, block);
         return;
     }
@@ -109,12 +109,13 @@ static void write_light_data(struct spell *spell)
     spell_text(spell, "struct LightData {\n");
     write_members(spell, BLOCK_LIGHT_DATA);
     spell_text(spell, "};\n");
-    if (spell->blocks)
+    if (spell->shader->rules.blocks)
         write_layout(spell, buffer->set, buffer->binding, true);
-    spell_text(spell, spell->blocks ? "uniform LightData_block { LightData u_lightData["
-                                    : "uniform LightData u_lightData[");
+    spell_text(spell, spell->shader->rules.blocks
+                          ? "uniform LightData_block { LightData u_lightData["
+                          : "uniform LightData u_lightData[");
     spell_number(spell, spell->shader->max_lights);
-    spell_text(spell, spell->blocks ? "]; };\n" : "];\n");
+    spell_text(spell, spell->shader->rules.blocks ? "]; };\n" : "];\n");
 }
 
 static void write_textures(struct spell *spell)

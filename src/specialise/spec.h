@@ -52,7 +52,7 @@ struct lang_plan {
     VEC(struct variant) variants;
     VEC(fact) facts;
     VEC(uint32_t) calls;
-    bool is_open;      /* unseen calls exist, so all arguments vary */
+    bool is_open;      /* unseen calls exist, so all arguments vary and no parameter is dropped */
     struct spec *spec; /* makes all versions and reuses its memory */
 };
 
@@ -139,12 +139,13 @@ lang_ref spec_single(struct spec *s, lang_ref first);
 /* plan.c: the unit's plan; the first call makes it. */
 struct lang_plan *plan_of(struct lang_unit *unit);
 
-/*
- * plan.c: records the arguments of a call. Returns the variant of the callee; later calls may move
- * it.
- */
-/* makes the plan an open one: no parameter is bound or dropped */
+/* plan.c: records calls with unknown arguments. The plan is open from then on. */
 uint32_t plan_note_any(struct lang_unit *unit, uint32_t function);
+
+/*
+ * plan.c: records the arguments of a call; NULL: all vary. Returns the variant of the callee; later
+ * calls may move it.
+ */
 uint32_t plan_note_call(struct lang_unit *unit, uint32_t function, const fact *args,
                         bool args_have_effects);
 

@@ -42,7 +42,7 @@ void spell_name_interface(struct spell *spell)
         if (variable->block == BLOCK_VERTEX_DATA)
             name = prefixed(spell, io_block ? "vd." : "vd_", name);
         spell->variables[spell->shader->interface.items[i]] = name;
-        bool declared = spell->blocks || spell_uses(spell, variable);
+        bool declared = spell->shader->rules.blocks || spell_uses(spell, variable);
         if (declared && variable->block != BLOCK_LIGHT_DATA
             && !(variable->block == BLOCK_VERTEX_DATA && io_block))
             names_take(&spell->names, name.text, name.len);

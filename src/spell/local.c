@@ -262,14 +262,15 @@ struct spell_name spell_call_base(struct spell *spell, ir_ref call)
     const struct ir_graph *graph = spell->shader->graph;
     const struct ir_label *label = ir_label(graph, call);
     str_id origin = graph->origins.items[ir_get(graph, call)->origin].name;
-    bool is_own = origin && !label->name && !label->is_shared && !spell->options->neutral_names;
+    bool is_own =
+        origin && !label->name && !label->is_shared && !spell->shader->rules.neutral_names;
     return is_own ? spell_name_of(spell->shader->strings, origin) : spell_local_base(spell, call);
 }
 
 struct spell_name spell_local_base(struct spell *spell, ir_ref ref)
 {
     const struct ir_node *node = ir_get(spell->shader->graph, ref);
-    if (spell->options->neutral_names)
+    if (spell->shader->rules.neutral_names)
         return word("v");
     if (node->op == IR_CONTEXT || node->op == IR_UNIFORM) {
         const struct shader_variable *variable = &spell->shader->variables.items[node->attr];

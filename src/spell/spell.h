@@ -30,7 +30,6 @@ struct spell {
     struct text *out;
     VEC(struct spell_mark) marks;        /* ascending */
     size_t verbatim_begin, verbatim_end; /* source of the document in `out`: no line is broken */
-    bool blocks;                         /* uniforms stand in blocks */
     struct name_set names;
     struct lang_style *style;     /* of the target's syntax */
     struct lang_names lang_names; /* for the portable printer */

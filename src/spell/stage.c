@@ -163,7 +163,8 @@ void spell_title(struct spell *spell)
             &shader->variables.items[shader->interface.items[i]];
         textures += variable->block == BLOCK_TEXTURES && !variable->semantic;
     }
-    for (size_t i = spell->options->neutral_names ? 2 : 0; i < sizeof parts / sizeof *parts; i++) {
+    for (size_t i = spell->shader->rules.neutral_names ? 2 : 0; i < sizeof parts / sizeof *parts;
+         i++) {
         if (!parts[i] || !*parts[i])
             continue;
         spell_comment(spell, parts[i], strlen(parts[i]));
@@ -195,7 +196,7 @@ void spell_verbatim_sources(struct spell *spell)
 void spell_function_doc(struct spell *spell, uint32_t function)
 {
     str_id doc = lang_function(spell->shader->unit, function, NULL)->doc;
-    if (!doc || !spell->options->comments || spell->options->neutral_names)
+    if (!doc || !spell->options->comments || spell->shader->rules.neutral_names)
         return;
     spell_text(spell, "// ");
     spell_comment(spell, str_text(spell->shader->strings, doc),
@@ -282,8 +283,6 @@ static void init(struct spell *spell)
     const struct shader *shader = spell->shader;
     struct arena *arena = spell->scratch;
     const struct lang_unit *unit = shader->unit;
-    spell->blocks = spell_can(spell, CAP_UNIFORM_BLOCKS)
-                    || (spell_can(spell, CAP_BLOCK_OPTION) && spell->options->uniform_blocks);
     spell->variables = ARENA_ARRAY(arena, struct spell_name, shader->variables.len + 1);
     uint32_t num_functions = unit->base_functions + unit->functions.len;
     spell->functions =
@@ -307,7 +306,7 @@ static void init(struct spell *spell)
         lang_style_init(spell->style, has_neighbours ? spell->target->syntax : syntax_alone(spell),
                         arena);
     names_init(&spell->names, arena, spell->style->syntax);
-    if (spell->options->comments && spell->options->path && !spell->options->neutral_names) {
+    if (spell->options->comments && spell->options->path && !spell->shader->rules.neutral_names) {
         names_init(&spell->paths, arena, NULL);
         spell->origins_seen = ARENA_ARRAY(arena, uint8_t, shader->graph->origins.len);
     }

@@ -33,7 +33,7 @@ static struct spell_name add_local(struct spell *spell, struct spell_name base)
 /* "metal_ior" for the part "ior" of a call's results. */
 static struct spell_name part_name(struct spell *spell, struct spell_name base, const char *part)
 {
-    if (!part || spell->options->neutral_names)
+    if (!part || spell->shader->rules.neutral_names)
         return base;
     struct text text;
     text_init(&text, spell->scratch);
@@ -311,7 +311,7 @@ static void write_variable(struct spell *spell, unsigned indent, const struct ef
 {
     assert(effect->index < spell->shader->locals.len);
     const struct shader_local *local = &spell->shader->locals.items[effect->index];
-    struct spell_name name = spell->options->neutral_names
+    struct spell_name name = spell->shader->rules.neutral_names
                                  ? (struct spell_name){"v", 1}
                                  : spell_name_of(spell->shader->strings, local->name);
     spell->locals[effect->index] = names_unique(&spell->names, name.text, name.len);
@@ -341,7 +341,7 @@ static struct spell_name position_name(const struct spell *spell)
 
 static void write_comment(struct spell *spell, unsigned indent, str_id text)
 {
-    if (!spell->options->comments || spell->options->neutral_names)
+    if (!spell->options->comments || spell->shader->rules.neutral_names)
         return;
     open_line(spell, indent, 0);
     text_mem(spell->out, "// ", 3);

@@ -147,9 +147,7 @@ struct spell_options {
     const char *colorspace; /* working colour space */
     /* metadata of parameters: 0 none, 1 for user interfaces, 2 with documentation */
     int metadata;
-    bool uniform_blocks;
-    bool vulkan_attributes; /* of HLSL: [[vk::binding(3, 0)]] */
-    bool neutral_names;
+    bool vulkan_attributes;  /* of HLSL: [[vk::binding(3, 0)]] */
     const char *shader_name; /* unique among functions and shaders; NULL: from the element's path */
     bool comments;           /* write element paths as comments */
     void *user_data;
