@@ -31,7 +31,6 @@ static void read_layer(void *arg)
         xml_read_file(&layer->doc, &files, limits, load->name, diags);
     }
     library_index(layer, &reader, diags);
-    library_keep_matches(layer, &document->object.arena);
     document_find_renderables(document, &load->files.scratch);
     document->files.items = load->files.names.items;
     document->files.len = load->files.names.len;
