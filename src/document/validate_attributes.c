@@ -16,17 +16,7 @@ static const struct {
     uint64_t kinds;
 } attributes[] = {
 #define ATTRIBUTE(name, kinds) {#name, kinds},
-#define RARE_ATTRIBUTE(name, kinds) {name, kinds},
 #include "document/attributes.def"
-#undef RARE_ATTRIBUTE
-#undef ATTRIBUTE
-};
-
-static const uint64_t kinds_of_word[STR_NUM_WORDS] = {
-#define ATTRIBUTE(name, kinds) [STR_##name] = kinds,
-#define RARE_ATTRIBUTE(name, kinds)
-#include "document/attributes.def"
-#undef RARE_ATTRIBUTE
 #undef ATTRIBUTE
 };
 enum { NUM_ATTRIBUTES = sizeof attributes / sizeof *attributes };
@@ -90,6 +80,5 @@ void validate_attributes(struct validation *v, elem_id element)
     const struct element *e = doc_element(v->doc, element);
     const struct attribute *attrs = doc_attrs(v->doc, element);
     for (uint32_t i = 0; i < e->num_attrs; i++)
-        if (attrs[i].name >= STR_NUM_WORDS || !(kinds_of_word[attrs[i].name] >> e->kind & 1))
-            check_attribute(v, element, attrs[i].name);
+        check_attribute(v, element, attrs[i].name);
 }
