@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * topology: one number for what a shader does, apart from the names of its variables and the values
- * of its uniforms. Shaders of equal topology can share a program.
+ * topology: a hash of a shader without the names of its variables and the values of its uniforms.
+ * Shaders of equal topology can share a program.
  *
- * Nodes, functions and variables are numbered in the order in which the statements meet them, so
- * that nothing depends on how the graph came about. Portable functions of a library stand for
- * themselves by name and size; versions of them are hashed node by node.
+ * Nodes, functions and variables get numbers in the order of the statements, so that the hash does
+ * not depend on the history of the graph. The hash takes a portable function of a library by name
+ * and size, and a version of it node by node.
  */
 #include "base/hash.h"
 #include "shader/shader.h"
@@ -17,10 +17,10 @@ struct hasher {
     const struct shader *shader;
     struct arena *arena;
     uint64_t hash;
-    uint32_t *node_numbers; /* node to its number, from 1; 0: not met */
+    uint32_t *node_numbers; /* by node: its number, from 1; 0: not reached yet */
     uint32_t num_nodes;
-    uint32_t *variable_numbers; /* variable to its place in the interface */
-    /* portable function to its place in the stage's reach; IR functions alike */
+    uint32_t *variable_numbers; /* by variable: 1 + its position in the interface */
+    /* by portable function, and by IR function: 1 + its position in the stage's reach */
     uint32_t *function_numbers;
     uint32_t *graph_function_numbers;
 };
@@ -36,7 +36,7 @@ static void add_text(struct hasher *h, str_id id)
     add(h, hash_stable(HASH_STABLE_SEED, text, str_len(h->shader->strings, id)));
 }
 
-/* Strings by their text: their ids depend on what else there is. */
+/* Adds a string by its text, because ids depend on the other strings. */
 static void add_words(struct hasher *h, ir_type_id type, const union ir_word *words)
 {
     if (type == IR_TYPE_STRING) {

@@ -46,7 +46,7 @@ static bool is_same(const struct lang_unit *unit, ir_type_id type, fact a, fact 
     return memcmp(words + a, words + b, ir_type_info(type)->components * sizeof *words) == 0;
 }
 
-/* Argument `index` of a call; all arguments vary where the caller knows none. */
+/* Argument `index` of a call. args NULL: all arguments vary. */
 static fact argument(const fact *args, uint32_t index)
 {
     return args ? args[index] : FACT_VARIES;

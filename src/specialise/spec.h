@@ -3,12 +3,12 @@
  * The partial evaluator. It first collects the arguments of each function, callers before callees,
  * and then makes each variant of a function once (plan.c):
  *
- *   forward  (statement.c, expression.c)  rebuilds the source tree in the generated unit with
- * constants for variables; folds, and skips branches that never run resolve  (resolve.c) redirects
- * calls to versions, or simplifies them backward (sweep.c)                    unlinks statements
- * without a use, counts uses of slots single   (single.c)                   replaces variables with
- * a single read by their values finish   (specialise.c)               renumbers slots and completes
- * the function record
+ *     forward    rebuilds the source tree in the unit of the generation, with constants for
+ *                variables; folds, and skips branches that never run (statement.c, expression.c)
+ *     resolve    redirects calls to versions, or simplifies them (resolve.c)
+ *     backward   unlinks statements without a use, and counts the uses of slots (sweep.c)
+ *     single     replaces variables with a single read by their values (single.c)
+ *     finish     renumbers slots, and completes the function's record (specialise.c)
  *
  * Until the last step, the new tree uses the slots of the source.
  */
