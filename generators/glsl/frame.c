@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * The frame of a GLSL stage: version and precision, uniforms loose or in blocks, what comes into
- * the stage and goes out, main.
+ * The frame of a GLSL stage: version and precision, loose uniforms or blocks, inputs and outputs of
+ * the stage, main.
  */
 #include "generators/glsl/glsl.h"
 
@@ -23,8 +23,10 @@ static void write_header(struct spell *spell)
     spell_text(spell, "\n");
 }
 
-/* "layout(set = 0, binding = 1, std140) ", as far as the target can; nothing where neither is asked
- * for. */
+/*
+ * "layout(set = 0, binding = 1, std140) ", with the parts that the target has; nothing without
+ * parts.
+ */
 static void write_layout(struct spell *spell, uint32_t set, uint32_t binding, bool std140)
 {
     if (!spell_can(spell, CAP_BINDINGS)) {
@@ -64,7 +66,7 @@ static void write_members(struct spell *spell, enum shader_block block)
     }
 }
 
-/* Blocks are declared whole in every stage that reads a member: their layout is shared. */
+/* Every stage that reads a member declares the whole block, because the stages share its layout. */
 static void write_uniform_block(struct spell *spell, enum shader_block block)
 {
     const struct shader_buffer *buffer = &spell->shader->buffers[block];
