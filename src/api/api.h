@@ -4,8 +4,7 @@
  *
  * Every object owns its memory, because any thread may drop the last reference. Work on an object
  * runs inside object_run, which catches a lack of memory (base/mem.h). Afterwards the object is
- * immutable, except for texts that their first use writes, and for a document's cache of node
- * matches.
+ * immutable, except for texts that their first use writes.
  */
 #ifndef MXG_API_API_H
 #define MXG_API_API_H

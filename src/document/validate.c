@@ -227,31 +227,9 @@ static void check_has_output(struct validation *v, elem_id element)
                  text_of(v, e->name));
 }
 
-/* A fast path for most ports: true if place, attributes and connection need no diagnostic. */
-static bool is_port_in_order(const struct document *doc, elem_id element)
-{
-    const struct element *e = doc_element(doc, element);
-    const struct attribute *attrs = doc_attrs(doc, element);
-    bool is_port = e->kind == KIND_INPUT || e->kind == KIND_OUTPUT, has_type = false;
-    unsigned num_connections = 0, num_values = 0;
-    if (!is_port || !(rules[e->kind].parents >> doc_element(doc, e->parent)->kind & 1))
-        return false;
-    for (uint32_t i = 0; i < e->num_attrs; i++) {
-        str_id name = attrs[i].name;
-        has_type |= name == STR_type;
-        num_values += name == STR_value && attrs[i].value;
-        num_connections +=
-            (name == STR_nodename || name == STR_nodegraph || name == STR_interfacename)
-            && attrs[i].value;
-    }
-    return has_type && num_connections + (num_connections ? num_values : 0) <= 1;
-}
-
 static void check_standing(struct validation *v, elem_id element)
 {
     const struct element *e = doc_element(v->doc, element);
-    if (is_port_in_order(v->doc, element))
-        return;
     check_place(v, element);
     if (!is_outdated(v, element))
         check_required(v, element);
