@@ -85,6 +85,7 @@ struct builder *build_start(const struct library *lib, const struct build_option
     diags->trace = build_trace; /* the builder lives as long as the list: the result owns both */
     diags->trace_data = b;
     b->resolved.arena = b->arena;
+    text_init(&b->scratch, b->arena);
     b->apply = build_apply_definition;
     b->globals =
         ARENA_ARRAY(b->arena, ir_ref, shader->unit->base_globals + shader->unit->globals.len);

@@ -54,12 +54,6 @@ enum lang_kind {
     LANG_NUM_KINDS
 };
 
-/*
- * The child fields of a node, by kind; a nonzero `next` is a sibling. ast.c
- */
-enum lang_child_field { LANG_CHILD_A = 1, LANG_CHILD_B = 2, LANG_CHILD_C = 4 };
-extern const uint8_t lang_child_fields[LANG_NUM_KINDS];
-
 struct lang_node {
     uint8_t kind;
     uint8_t op;
