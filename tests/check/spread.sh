@@ -126,7 +126,7 @@ check 'and not again' make -q
 check 'until an include changes' eval 'touch show/part.mtlx && ! make -q'
 printf '[budget]\nmax-closures = 100\n' >show/mxgen.toml
 echo show/whole.mtlx >list
-"$mxgen" check show/whole.mtlx --no-compile --json base.json >/dev/null
+"$mxgen" check show/whole.mtlx --no-compile --baseline base.json --update-baseline >/dev/null
 check 'a depfile names' exits 0 "$mxgen" check @list --library library --no-compile --baseline base.json --json r.json --depfile r.d
 for file in show/whole.mtlx show/part.mtlx show/mxgen.toml library/a.mtlx list base.json; do check "$file" grep -q "^ $file\( \|\$\)" r.d; done
 rm show/mxgen.toml
@@ -141,11 +141,25 @@ check 'into the same report' cmp merged.json none.json
 check 'of every kind' eval 'exits 1 "$mxgen" check show --no-compile --junit none.xml && cmp merged.xml none.xml'
 check 'a shard too few' exits 1 "$mxgen" check merge shards/[124].json
 check 'is told' grep -q 'shard 3 of 4 is missing \[shard-missing\]' err
+check 'with no other message' is "$(wc -l <err)" 1
+check 'the last shard is missing' exits 1 "$mxgen" check merge shards/[123].json
+check 'is told' grep -q 'shard 4 of 4 is missing \[shard-missing\]' err
+check 'two shards are missing' exits 1 "$mxgen" check merge shards/[24].json
+check 'are told at once' is "$(cat err)" 'error: shards 1, 3 of 4 are missing [shard-missing]'
 check 'a shard twice' exits 1 "$mxgen" check merge shards/*.json shards/2.json
-check 'is told, too' grep -q '\[shard-twice\]' err
+check 'is told once' is "$(cat err)" "error: 'shards/2.json' and 'shards/2.json' are both shard 2 of 4 [shard-twice]"
+check 'one twice and one missing' exits 1 "$mxgen" check merge shards/[124].json shards/2.json
+check 'are told, both' eval 'grep -q "shard 3 of 4 is missing" err && is "$(grep -c shard-twice err)" 1'
 "$mxgen" check show --no-compile --shard 1/2 --json other.json >/dev/null
 check 'shards of two runs' exits 1 "$mxgen" check merge shards/2.json other.json
 check 'are told apart' grep -q '\[shard-other\]' err
+"$mxgen" check show --no-compile --target essl --shard 3/4 --json other3.json >/dev/null
+check 'a shard with other targets' exits 1 "$mxgen" check merge shards/[124].json other3.json
+check 'is told, too' grep -q "'other3.json' and 'shards/1.json' are not shards of the same run \[shard-other\]" err
+"$mxgen" check show --no-compile --json all.json >/dev/null
+check 'two whole reports' exits 1 "$mxgen" check merge all.json none.json
+check 'are no shards' grep -q '\[shard-other\]' err
+check 'one whole report is one run' eval 'exits 1 "$mxgen" check merge all.json --json all2.json && cmp all.json all2.json'
 head -c $(($(wc -c <shards/2.json) / 2)) shards/2.json >cut.json
 check 'half a shard' exits 1 "$mxgen" check merge shards/[134].json cut.json --json half.json
 check 'is told as well' grep -q '\[report-unreadable\]' err
