@@ -56,7 +56,8 @@ static ir_type_id struct_type(struct indexer *ix, elem_id element, str_id name)
         if (doc_element(&lib->doc, e)->kind != KIND_MEMBER || !has_type(ix, e, &type))
             continue;
         vec_push(ix->arena, &lib->unit.members,
-                 (struct ir_member){doc_element(&lib->doc, e)->name, library_type_ir(lib, type)});
+                 (struct ir_member){.name = doc_element(&lib->doc, e)->name,
+                                    .type = library_type_ir(lib, type)});
     }
     if (lib->unit.members.len == first)
         return IR_TYPE_VOID;

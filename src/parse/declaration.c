@@ -42,7 +42,7 @@ static bool parse_member(struct parser *p, uint32_t first)
         for (uint32_t i = first; i < p->unit->members.len; i++)
             if (p->unit->members.items[i].name == name)
                 PARSE_ERROR(p, parse_where_token(p, &at), duplicate_name, parse_text(p, name));
-        vec_push(p->unit->arena, &p->unit->members, (struct ir_member){name, type});
+        vec_push(p->unit->arena, &p->unit->members, (struct ir_member){.name = name, .type = type});
     } while (parse_accept(p, TOKEN_COMMA));
     return parse_expect(p, TOKEN_SEMICOLON);
 }
