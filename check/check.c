@@ -11,6 +11,7 @@
 #include "check/inputs.h"
 #include "check/json.h"
 #include "check/pool.h"
+#include "check/progress.h"
 #include "check/protocol.h"
 #include "check/record_io.h"
 #include "cli/files.h"
@@ -47,6 +48,7 @@ struct check {
     struct check_inputs inputs;
     struct pool pool;
     struct cache cache;
+    struct progress progress;
     struct budget budget;
     struct gate gate;
     struct check_root root;
@@ -124,6 +126,15 @@ static void finish_slot(struct slot *slot)
     *slot = (struct slot){0};
 }
 
+static void show_progress(struct check *check, const struct check_document *document)
+{
+    const struct check_totals *totals = &check->reports.totals;
+    uint64_t failed = check->reports.run.is_compared
+                          ? totals->failing
+                          : totals->documents - totals->failed[CHECK_PASSED];
+    progress_show(&check->progress, totals->documents, failed, document->file);
+}
+
 static void tell_document(struct check *check, struct slot *slot)
 {
     struct store store = {0};
@@ -141,6 +152,7 @@ static void tell_document(struct check *check, struct slot *slot)
     gate_compare(&check->gate, &check->reports, &store, document, &check->cli.report);
     check->reports.totals.cached += slot->cached != NULL;
     reports_document(&check->reports, document);
+    show_progress(check, document);
     store_finish(&store);
     finish_slot(slot);
 }
@@ -213,6 +225,7 @@ static void check_all(struct check *check)
             take_answer(check);
         tell_done(check);
     }
+    progress_clear(&check->progress);
     if (check->pool.fault)
         report_error(&check->cli.report, "check-failed", "%s", check->pool.fault);
 }
@@ -369,6 +382,8 @@ static int run(struct check *check)
     cache_init(&check->cache, check->cache_folder, &check->worker_args, check->cli.library);
     pool_init(&check->pool, (char *const *)(uintptr_t)check->worker_args.items, check->jobs,
               (double)check->time_limit);
+    progress_init(&check->progress, !check->cli.quiet);
+    check->reports.run.progress = &check->progress;
     check_all(check);
     gate_tell_gone(&check->gate, &check->reports);
     reports_end(&check->reports, report, !check->pool.fault);

@@ -70,8 +70,8 @@ static struct entry *sort_messages(struct store *store, const struct check_docum
     struct entry *entries = store_array(store, document->num_messages, sizeof *entries);
     for (size_t i = 0; i < document->num_messages; ++i) {
         const struct check_message *message = &document->messages[i];
-        entries[i] = (struct entry){place_hash(document, message), message->line, message->column,
-                                    i};
+        entries[i] =
+            (struct entry){place_hash(document, message), message->line, message->column, i};
     }
     if (document->num_messages)
         qsort(entries, document->num_messages, sizeof *entries, compare_entries);
@@ -150,11 +150,11 @@ static void pair_messages(struct comparison *c, const struct check_document *bef
 {
     size_t num_old = 0, num_new = 0; /* entries without a partner, moved to the front */
     for (size_t i = 0, k = 0; i < was || k < is;) {
-        bool is_pair = i < was && k < is && old[i].line == new[k].line
-                       && old[i].column == new[k].column;
+        bool is_pair =
+            i < was && k < is && old[i].line == new[k].line &&old[i].column == new[k].column;
         bool old_first = i < was
                          && (k == is || old[i].line < new[k].line
-                             || (old[i].line == new[k].line && old[i].column < new[k].column));
+                             || (old[i].line == new[k].line &&old[i].column < new[k].column));
         if (is_pair)
             c->document->messages[new[k].index].state = "unchanged";
         else if (old_first)
@@ -179,10 +179,10 @@ static void compare_messages(struct comparison *c, const struct check_document *
     before = before ? before : &nothing;
     struct entry *old = sort_messages(&scratch, before), *new = sort_messages(&scratch, now);
     for (size_t i = 0, k = 0; i < before->num_messages || k < now->num_messages;) {
-        uint64_t hash = i == before->num_messages || (k < now->num_messages
-                                                      && new[k].hash < old[i].hash)
-                            ? new[k].hash
-                            : old[i].hash;
+        uint64_t hash =
+            i == before->num_messages || (k < now->num_messages && new[k].hash < old[i].hash)
+                ? new[k].hash
+                : old[i].hash;
         size_t was = 0, is = 0;
         while (i + was < before->num_messages && old[i + was].hash == hash)
             ++was;

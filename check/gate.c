@@ -9,12 +9,9 @@
 
 size_t gate_args(struct gate *gate, struct arg *args)
 {
-    args[0] = (struct arg){"update-baseline",
-                           0,
-                           ARG_FLAG,
-                           NULL,
-                           "writes the baseline, and accepts what has changed",
-                           &gate->update};
+    args[0] = (struct arg){
+        "update-baseline", 0, ARG_FLAG, NULL, "writes the baseline, and accepts what has changed",
+        &gate->update};
     args[1] = (struct arg){"fail-on",
                            0,
                            ARG_LIST,

@@ -30,8 +30,7 @@ static char *join(struct store *store, const char *begin, size_t len, const char
     return whole;
 }
 
-const char *place_name(struct store *store, const struct check_document *document,
-                       const char *path)
+const char *place_name(struct store *store, const struct check_document *document, const char *path)
 {
     size_t given, named;
     if (!document->name || !*document->name || !*path)
@@ -42,8 +41,7 @@ const char *place_name(struct store *store, const struct check_document *documen
     return join(store, document->name, named, path + given);
 }
 
-const char *place_text(struct store *store, const struct check_document *document,
-                       const char *text)
+const char *place_text(struct store *store, const struct check_document *document, const char *text)
 {
     const char *file = document->file, *name = document->name, *at;
     if (!name || !*name || strcmp(file, name) == 0)
@@ -51,8 +49,8 @@ const char *place_text(struct store *store, const struct check_document *documen
     const char *whole = text;
     for (size_t done = 0; (at = strstr(whole + done, file)) != NULL;) {
         size_t before = (size_t)(at - whole);
-        whole = join(store, join(store, whole, before, name), before + strlen(name),
-                     at + strlen(file));
+        whole =
+            join(store, join(store, whole, before, name), before + strlen(name), at + strlen(file));
         done = before + strlen(name);
     }
     return whole;

@@ -58,7 +58,8 @@ void check_root_finish(struct check_root *root)
     *root = (struct check_root){0};
 }
 
-/* The part of `path` below `root`, with a '/' at its end unless it is empty; NULL: it is outside. */
+/* The part of `path` below `root`, with a '/' at its end unless it is empty; NULL: it is outside.
+ */
 static char *below(const char *root, const char *path)
 {
     size_t len = strlen(root);

@@ -6,8 +6,9 @@
 #ifndef MXG_CHECK_SINK_H
 #define MXG_CHECK_SINK_H
 
-#include "cli/args.h"
+#include "check/progress.h"
 #include "check/record.h"
+#include "cli/args.h"
 #include "cli/files.h"
 
 enum { MAX_TARGETS = 16, MAX_SHARDS = 1000000 };
@@ -36,6 +37,7 @@ struct check_run {
     bool is_compared;           /* the run compares with a baseline */
     bool accepts;               /* it writes the baseline: no change and no failure fails it */
     check_change_set fail_on;   /* the changes that fail it */
+    struct progress *progress;  /* the text report erases it before it prints; NULL: none */
     bool with_times;            /* reports include times, which differ from run to run */
     uint64_t shard, num_shards; /* from 1; 0: the run has no shards */
     const char *outputs[8];     /* names of the report files */

@@ -94,9 +94,11 @@ static bool has_warning(const struct check_document *document)
     return false;
 }
 
-static void print_verdict(FILE *out, const char *verdict, const struct check_document *document,
-                          bool with_warnings)
+static void print_verdict(struct sink *sink, const char *verdict,
+                          const struct check_document *document, bool with_warnings)
 {
+    FILE *out = sink->out;
+    progress_clear(sink->run->progress);
     fprintf(out, "%s %s", verdict, document->file);
     fprintf(out, document->failed ? " (%s)\n" : "\n", check_stage_names[document->failed]);
     for (size_t i = 0; i < document->num_messages; ++i)
@@ -128,6 +130,8 @@ static void print_changes(struct sink *sink, const struct check_document *docume
     for (size_t i = 0; i < document->num_changes; ++i) {
         const struct check_change *change = &document->changes[i];
         bool fails = sink->run->fail_on >> change->kind & 1u;
+        if (fails)
+            progress_clear(sink->run->progress);
         if (fails || !sink->run->quiet)
             print_change(fails ? sink->out : others, document, change, fails);
     }
@@ -140,12 +144,12 @@ static void print_document(struct sink *sink, const struct check_document *docum
         rank_document(sink->state, document);
     if (run->is_compared && document->failed && run->verbose
         && !check_has_change(document, run->fail_on))
-        print_verdict(sink->out, "known", document, true);
+        print_verdict(sink, "known", document, true);
     else if (!run->is_compared && document->failed)
-        print_verdict(sink->out, "FAILED", document, !run->quiet);
+        print_verdict(sink, "FAILED", document, !run->quiet);
     else if (!document->failed
              && (run->verbose || (has_warning(document) && !run->quiet && !run->is_compared)))
-        print_verdict(sink->out, "passed", document, !run->quiet);
+        print_verdict(sink, "passed", document, !run->quiet);
     print_changes(sink, document);
 }
 

@@ -44,9 +44,6 @@ fi
 # Budgets in files
 cat >show/mxgen.toml <<'END'
 # for the whole show
-[tool]
-max-closures = "somebody else's"
-[[tool.part]]
 [ budget ]
 max-source-bytes = 1_000 # bytes
 [budget.essl]
@@ -68,11 +65,51 @@ check 'the command line says more' exits 0 "$mxgen" check show "${quick[@]}" --m
 check 'about its own measures' exits 1 "$mxgen" check show "${quick[@]}" --max-closures 100
 printf '[budget]\nmax-closures = 100\n' >show/deep/deeper/mxgen.toml
 check 'the nearest file holds' eval '"$mxgen" check show "${quick[@]}" --json near.json >out; says near.json "[x[\"status\"] for x in d]" "['"'passed', 'failed'"']"'
-for fault in 'max-closure = 1' 'max-closures = many' 'max-closures = 1__0' 'max-closures' '[budget.gsls]' '[budget' '[budget essl]' '[budget.] x'; do
-    printf '[budget]\n\n%s\n' "$fault" >show/deep/deeper/mxgen.toml
+# Faults with their columns and messages
+while IFS='|' read -r column fault message; do
+    printf '[budget]\n\n%b\n' "$fault" >show/deep/deeper/mxgen.toml
     check "a fault in a file: $fault" exits 1 "$mxgen" check show/deep/deeper "${quick[@]}"
-    check 'is told with its line' grep -q '^show/deep/deeper/mxgen.toml:3: error: .*\[budget-invalid\]' out
-done
+    check "is told: $message" grep -qF "show/deep/deeper/mxgen.toml:3:$column: error: $message [budget-invalid]" out
+    check 'with a caret under it' is "$(sed -n '/budget-invalid/{n;n;p}' out | sed 's/^    //; s/\^.*/^/' | wc -m)" "$((column + 1))"
+done <<'END'
+1|max-closure = 1|there is no budget 'max-closure'; did you mean 'max-closures'?
+1|colour = 1|there is no budget 'colour'; 'mxgen check --help all' lists them, without the dashes
+1|max-closures|a line is a table, a key with '=' and a value, or a comment
+1|= 3|a line is a table, a key with '=' and a value, or a comment
+16|max-closures = many|a budget is a whole number; 'many' is none
+16|max-closures = |a budget is a whole number; '' is none
+16|max-closures = "3"|a budget is a whole number, not a string
+16|max-closures = '3'|a budget is a whole number, not a string
+16|max-closures = true # yes|a budget is a whole number, not a boolean
+16|max-closures = 3.5|a budget is a whole number, not a number with a fraction
+16|max-closures = 1e3|a budget is a whole number, not a number with a fraction
+16|max-closures = inf|a budget is a whole number, not a number with a fraction
+16|max-closures = [3]|a budget is a whole number, not an array
+16|max-closures = { glsl = 3 }|a budget is a whole number, not a table
+16|max-closures = 2026-01-01|a budget is a whole number, not a date
+16|max-closures = 10:20:30|a budget is a whole number, not a time
+16|max-closures = -3|a budget is a whole number from 0, not a negative one
+16|max-closures = 1__0|a budget is a whole number; '1__0' is none
+16|max-closures = 007|a budget is a whole number; '007' is none
+16|max-closures = 99999999999999999999|a budget is a whole number; '99999999999999999999' is none
+17|\tmax-closures = x|a budget is a whole number; 'x' is none
+2|[budgets]|there is no table 'budgets'; did you mean 'budget'?
+2|[tool.x]|there is no table 'tool'; tables are [budget] and [budget.TARGET]
+9|[budget.gsls]|there is no target 'gsls'; did you mean 'glsl'?
+2|[[budget]]|a table has one pair of brackets: [budget]
+8|[budget|a table is a name in brackets: [budget] or [budget.TARGET]
+9|[budget essl]|a table is a name in brackets: [budget] or [budget.TARGET]
+9|[budget.] x|a table is a name in brackets: [budget] or [budget.TARGET]
+2|[budget]|this table stands above already
+END
+printf 'max-closures = 1\n' >show/deep/deeper/mxgen.toml
+check 'a key without a table' exits 1 "$mxgen" check show/deep/deeper "${quick[@]}"
+check 'is told' grep -q 'mxgen.toml:1:1: error: a key stands below a table: \[budget\] \[budget-invalid\]' out
+printf '[budget]\nmax-closures = 1\nmax-closures = 2\n' >show/deep/deeper/mxgen.toml
+check 'a key twice' exits 1 "$mxgen" check show/deep/deeper "${quick[@]}"
+check 'is told, too' grep -q "mxgen.toml:3:1: error: 'max-closures' stands above already" out
+printf '\n# all of these are 4096\r\n["budget"]\n"max-closures" = 0x1000\nmax-textures=0b1000000000000# bits\n[ budget . glsl ]\nmax-samplers = +4_096\nmax-source-bytes = 0o3641100\n' >show/deep/deeper/mxgen.toml
+check 'every form of whole numbers and names' exits 0 "$mxgen" check show/deep/deeper "${quick[@]}"
 ln -sf /proc/self/mem show/deep/deeper/mxgen.toml # which nobody can read from its beginning
 check 'a file that cannot be read' exits 1 "$mxgen" check show/deep/deeper "${quick[@]}"
 check 'is told, too' grep -q '^show/deep/deeper/mxgen.toml: error: cannot be read: .*\[budget-invalid\]' out
