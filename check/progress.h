@@ -7,9 +7,9 @@
 #include <stdint.h>
 
 struct progress {
-    bool is_shown;   /* stderr is a terminal that can erase a line */
-    bool has_line;   /* the line is visible */
-    double last;     /* the time when it was written, in seconds */
+    bool is_shown;    /* stderr is a terminal that can erase a line */
+    bool has_line;    /* the line is visible */
+    double last;      /* the time when it was written, in seconds */
     unsigned columns; /* width of the terminal */
 };
 

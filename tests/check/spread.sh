@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Incremental and distributed runs of mxgen check: the cache, also after kill -9, depfiles, shards, GNU parallel and Slurm. Arguments: mxgen
+# Incremental and distributed runs of mxgen check: the cache, also after kill -9, depfiles, shards and GNU parallel. Arguments: mxgen
 mxgen=$(realpath "$1")
 here=$(cd "$(dirname "$0")" && pwd)
 examples=$here/../../examples/check
@@ -175,67 +175,10 @@ check 'an empty shard passes' exits 0 "$mxgen" check show/m2.mtlx --no-compile -
 if command -v parallel >/dev/null; then
     check 'GNU parallel' exits 1 "$examples/parallel.sh" 2/: 4 show --no-compile
     check 'gives the same report' cmp report.json none.json
+    "$mxgen" check show --no-compile --baseline parallel.json --update-baseline >/dev/null
+    check 'against a baseline' env BASELINE=parallel.json "$examples/parallel.sh" 2/: 4 show --no-compile
 else
     skip 'GNU parallel is not installed'
-fi
-
-# Slurm: a controller and a node of our own
-slurm() {
-    local host port=$((20000 + $$ % 20000))
-    host=$(hostname -s)
-    mkdir -p slurm/state slurm/spool
-    cat >slurm/slurm.conf <<END
-ClusterName=test
-SlurmctldHost=$host(127.0.0.1)
-SlurmUser=$(id -un)
-SlurmdUser=$(id -un)
-AuthType=auth/none
-CredType=cred/none
-ProctrackType=proctrack/pgid
-TaskPlugin=task/none
-SelectType=select/cons_tres
-SelectTypeParameters=CR_CPU
-JobAcctGatherType=jobacct_gather/none
-MpiDefault=none
-SchedulerParameters=sched_interval=1
-SlurmctldPidFile=$work/slurm/slurmctld.pid
-SlurmdPidFile=$work/slurm/slurmd.pid
-SlurmdSpoolDir=$work/slurm/spool
-StateSaveLocation=$work/slurm/state
-SlurmctldPort=$port
-SlurmdPort=$((port + 1))
-SlurmctldLogFile=$work/slurm/slurmctld.log
-SlurmdLogFile=$work/slurm/slurmd.log
-NodeName=$host NodeAddr=127.0.0.1 CPUs=$(nproc) State=UNKNOWN
-PartitionName=all Nodes=ALL Default=YES MaxTime=INFINITE State=UP
-END
-    export SLURM_CONF=$work/slurm/slurm.conf
-    slurmctld -D >slurm/slurmctld.out 2>&1 &
-    controller=$!
-    slurmd -D >slurm/slurmd.out 2>&1 &
-    node=$!
-    trap 'kill $node $controller; wait; rm -rf "$work"' EXIT
-    for _ in $(seq 60); do
-        sinfo -h -o %T 2>/dev/null | grep -q idle && return
-        sleep 0.5
-    done
-    return 1
-}
-merge_array() {
-    local array
-    rm -rf shards report.json && mkdir shards
-    array=$(sbatch --parsable --array=1-3 "$examples/array.sbatch" show --no-compile) || return
-    timeout 100 sbatch --wait --output=merge.log --dependency=afterany:"$array" \
-        --wrap 'mxgen check merge shards/*.json --json report.json --html report.html'
-    [ $? -eq 1 ] || { cat merge.log shards/*.log; return 1; } # the merge's exit code
-}
-if ! command -v slurmctld >/dev/null || ! command -v slurmd >/dev/null; then
-    skip 'Slurm is not installed'
-elif slurm; then
-    check 'a Slurm array' merge_array
-    check 'gives the same report' cmp report.json none.json
-else
-    skip 'Slurm does not start here'
 fi
 
 finish check-spread
