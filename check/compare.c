@@ -2,10 +2,10 @@
 #define _POSIX_C_SOURCE 200809L
 #include "check/compare.h"
 
-#include "check/names.h"
 #include "check/picture.h"
 #include "check/place.h"
 #include "cli/cli.h"
+#include "cli/names.h"
 
 #include <assert.h>
 #include <inttypes.h>

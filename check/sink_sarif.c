@@ -4,9 +4,9 @@
  * it.
  */
 #include "check/json.h"
-#include "check/names.h"
 #include "check/place.h"
 #include "check/sink.h"
+#include "cli/names.h"
 
 #include <ctype.h>
 #include <inttypes.h>
