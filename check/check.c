@@ -38,7 +38,7 @@ struct slot {
 struct check {
     struct cli cli;
     struct arg_list target_args, files_from, targets, worker_args;
-    size_t jobs, time_limit;
+    size_t jobs, time_limit, memory_limit;
     bool no_compile, render, stats;
     bool needs_measures;    /* every document needs measures */
     bool needs_errors_only; /* only errors need their printed form */
@@ -71,7 +71,9 @@ static struct slot *slot_of(struct check *check, uint64_t number)
 static struct check_document *make_failure(struct store *store, const struct slot *slot)
 {
     struct check_document *document = store_alloc(store, sizeof *document);
-    const char *id = slot->failed == CHECK_TIMEOUT ? "check-timeout" : "check-crashed";
+    const char *id = slot->failed == CHECK_TIMEOUT  ? "check-timeout"
+                     : slot->failed == CHECK_MEMORY ? "check-memory"
+                                                    : "check-crashed";
     char *rendered = cli_format("%s: error: %s [%s]\n", slot->path, slot->reason, id);
     document->file = slot->path;
     document->failed = slot->failed;
@@ -282,6 +284,8 @@ static void make_worker_args(struct check *check)
         add_worker_arg(check, "--no-compile", NULL);
     if (check->render)
         add_worker_arg(check, "--render", NULL);
+    if (check->memory_limit)
+        args_append(&check->worker_args, cli_format("--memory-limit=%zu", check->memory_limit));
     cli_forward(&check->cli, &check->worker_args);
     args_append(&check->worker_args, NULL);
 }
@@ -371,9 +375,15 @@ static int run(struct check *check)
         return EXIT_FAULT;
     make_worker_args(check);
     inputs_init(&check->inputs, &check->cli.parser.inputs, &check->files_from);
-    cache_init(&check->cache, check->cache_folder, &check->worker_args, check->cli.library);
+    check->cache = (struct cache){
+        .folder = check->cache_folder,
+        .max_file_size = (uint64_t)(cli_max_file_size(&check->cli)) << 20,
+        .time_limit = (uint64_t)check->time_limit * 1000000000u,
+    };
+    cache_init(&check->cache, &check->worker_args, check->cli.library);
     pool_init(&check->pool, (char *const *)(uintptr_t)check->worker_args.items, check->jobs,
               (double)check->time_limit);
+    check->pool.memory_limit = check->memory_limit;
     check_all(check);
     if (check->reports.run.is_compared && !check->reports.run.num_shards)
         check->reports.totals.changes[CHANGE_GONE] +=
@@ -433,7 +443,7 @@ int command_check(const struct command *command, int argc, char **argv)
     json_use_memory();
     if (argc > 1 && strcmp(argv[1], "merge") == 0)
         return check_merge(command, argc - 1, argv + 1);
-    struct check check = {.time_limit = 120};
+    struct check check = {.time_limit = 120, .memory_limit = 4096};
     struct arg args[16 + NUM_SINK_KINDS + NUM_MEASURES] = {
         {"target", 't', ARG_LIST, "T,...", "targets (default: glsl)", &check.target_args},
         {"jobs", 'j', ARG_SIZE, "N",
@@ -447,6 +457,8 @@ int command_check(const struct command *command, int argc, char **argv)
         {"time-limit", 0, ARG_SIZE, "S",
          "limit in seconds for one step: one element for one target; 0: none (default: 120)",
          &check.time_limit, .high = MAX_TIME_LIMIT},
+        {"memory-limit", 0, ARG_SIZE, "MIB",
+         "limit of the memory of a worker; 0: none (default: 4096)", &check.memory_limit},
         {"cache", 0, ARG_TEXT, "DIR", "keeps results, and checks only changed documents again",
          &check.cache_folder},
         {"shard", 0, ARG_TEXT, "K/N",
