@@ -5,7 +5,6 @@
 #include "base/hash.h"
 
 #include <assert.h>
-#include <stdatomic.h>
 
 static const char *text_of(const struct library *lib, str_id id)
 {
@@ -213,32 +212,6 @@ const char *library_suggest_nodedef(const struct library *lib, str_id name, stru
     return diag_guess_text(&guess);
 }
 
-/* ---- Cache ---- */
-
-void library_keep_matches(struct library *lib, struct arena *arena)
-{
-    assert(lib->element_info.len == lib->doc.elements.len);
-    lib->matches = arena_zalloc(
-        arena, mem_array_size(arena->mem, lib->doc.elements.len, sizeof *lib->matches));
-}
-
-static _Atomic uint32_t *match_of(const struct library *lib, elem_id node)
-{
-    assert(node < lib->doc.first_element + lib->doc.elements.len);
-    return lib->matches && node >= lib->doc.first_element
-               ? &lib->matches[node - lib->doc.first_element]
-               : NULL;
-}
-
-/* Threads may race: all compute the same value. */
-static void keep(const struct library *lib, elem_id node, uint32_t nodedef)
-{
-    assert(nodedef < library_num_nodedefs(lib));
-    _Atomic uint32_t *match = match_of(lib, node);
-    if (match)
-        atomic_store_explicit(match, nodedef + 1, memory_order_relaxed);
-}
-
 static uint32_t match_explicit(const struct library *lib, elem_id node, str_id name,
                                struct diag_list *diags)
 {
@@ -261,12 +234,10 @@ static uint32_t match_explicit(const struct library *lib, elem_id node, str_id n
     }
     if (c.fit == FIT_EXTRA_INPUTS)
         report_unknown_inputs(lib, id, node, diags);
-    else if (def->node == category)
-        keep(lib, node, id);
     return id;
 }
 
-static uint32_t find_match(const struct library *lib, elem_id node, struct diag_list *diags)
+uint32_t library_match(const struct library *lib, elem_id node, struct diag_list *diags)
 {
     str_id explicit_name = doc_attr_value(&lib->doc, node, STR_nodedef);
     if (explicit_name)
@@ -279,10 +250,8 @@ static uint32_t find_match(const struct library *lib, elem_id node, struct diag_
              own = layer->nodedefs.items[own].next_same_node) {
             known = true;
             struct candidate c = fit(lib, layer->base_nodedefs + own, node, false);
-            if (c.fit == FIT_EXACT) {
-                keep(lib, node, layer->base_nodedefs + own);
+            if (c.fit == FIT_EXACT)
                 return layer->base_nodedefs + own;
-            }
             if (c.fit == FIT_EXTRA_INPUTS && with_extra == LIBRARY_NONE)
                 with_extra = layer->base_nodedefs + own;
         }
@@ -294,12 +263,4 @@ static uint32_t find_match(const struct library *lib, elem_id node, struct diag_
     else
         report_unknown_node(lib, node, diags);
     return with_extra;
-}
-
-uint32_t library_match(const struct library *lib, elem_id node, struct diag_list *diags)
-{
-    _Atomic uint32_t *match = match_of(lib, node);
-    uint32_t known = match ? atomic_load_explicit(match, memory_order_relaxed) : 0;
-    assert(known <= library_num_nodedefs(lib));
-    return known ? known - 1 : find_match(lib, node, diags);
 }
