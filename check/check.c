@@ -55,6 +55,9 @@ struct check {
     uint64_t num_found; /* number of documents, including other shards */
 
     /* a ring: limits how far workers can be ahead of the report */
+    struct outputs outputs; /* the files of the reports, and the inputs of the whole run */
+    bool has_clash;         /* a document is one of the former: no report may be written */
+
     struct slot *slots;
     size_t num_slots;
     uint64_t first, last; /* documents in the ring: the next one to report, and the end */
@@ -125,6 +128,16 @@ static void finish_slot(struct slot *slot)
     *slot = (struct slot){0};
 }
 
+/* A report would overwrite the file, so the run ends without reports. */
+static void check_clash(struct check *check, const char *path)
+{
+    if (check->has_clash || !outputs_has(&check->outputs, path))
+        return;
+    check->has_clash = true;
+    report_error(&check->cli.report, "output-clash",
+                 "a report would overwrite the input '%s'; choose another name", path);
+}
+
 static void tell_document(struct check *check, struct slot *slot)
 {
     struct store store = {0};
@@ -137,6 +150,8 @@ static void tell_document(struct check *check, struct slot *slot)
         document = make_failure(&store, slot);
     }
     document->index = slot->index;
+    for (size_t i = 0; i < document->num_files; ++i)
+        check_clash(check, document->files[i]);
     budget_judge(&check->budget, &store, document);
     if (check->reports.run.is_compared)
         baseline_compare(&check->baseline, &store, document);
@@ -180,6 +195,7 @@ static bool give_next(struct check *check)
     const char *path = next_path(check);
     if (!path)
         return false;
+    check_clash(check, path);
     struct slot *slot = slot_of(check, check->last++);
     *slot = (struct slot){.path = cli_copy(path, strlen(path)), .index = check->num_found - 1};
     slot->cached = cache_find(&check->cache, path, &slot->key);
@@ -207,7 +223,7 @@ static bool take_answer(struct check *check)
 static void check_all(struct check *check)
 {
     bool more = true;
-    while (!check->pool.fault && (more || check->pool.num_open)) {
+    while (!check->pool.fault && !check->has_clash && (more || check->pool.num_open)) {
         while (more && pool_wants(&check->pool) && check->last - check->first < check->num_slots)
             more = give_next(check);
         if (check->pool.num_open)
@@ -350,7 +366,13 @@ static bool prepare(struct check *check)
         cli->quiet && !check->needs_measures && !paths[SINK_SARIF] && !paths[SINK_JUNIT];
     check->num_slots = 2 * pool_capacity(check->jobs) + 64;
     check->slots = calloc(check->num_slots, sizeof *check->slots);
-    return check->slots && reports_begin(&check->reports, &check->cli.report);
+    bool good = reports_claim(&check->reports, &check->outputs, &check->cli.report);
+    for (size_t i = 0; i < run->inputs.len; ++i)
+        good =
+            (check->baseline_path && strcmp(run->inputs.items[i], check->baseline_path) == 0)
+                ? good
+                : outputs_read(&check->outputs, &check->cli.report, run->inputs.items[i]) && good;
+    return good && check->slots && reports_begin(&check->reports, &check->cli.report);
 }
 
 /* Reports a missing renderer once instead of for every element. */
@@ -388,7 +410,7 @@ static int run(struct check *check)
     if (check->reports.run.is_compared && !check->reports.run.num_shards)
         check->reports.totals.changes[CHANGE_GONE] +=
             baseline_list_gone(&check->baseline, check->reports.text.out);
-    reports_end(&check->reports, report, !check->pool.fault);
+    reports_end(&check->reports, report, !check->pool.fault && !check->has_clash);
     if (check->cache.fault)
         fprintf(stderr, "warning: the cache '%s' cannot be written: %s [output-failed]\n",
                 check->cache_folder, check->cache.fault);
@@ -408,6 +430,7 @@ static void finish(struct check *check)
     budget_finish(&check->budget);
     baseline_close(&check->baseline);
     inputs_finish(&check->inputs);
+    outputs_finish(&check->outputs);
     args_free(&check->worker_args);
     free(check->target_args.items);
     free(check->files_from.items);

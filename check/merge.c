@@ -145,7 +145,13 @@ static int run(struct merge *merge)
         .is_compared = json_is_true(json_object_get(header, "compared")),
         .with_times = merge->stats,
     };
-    if (!reports_begin(&merge->reports, &merge->cli.report))
+    struct outputs outputs = {0};
+    bool good = true;
+    for (size_t i = 0; i < merge->num_parts; ++i)
+        good = outputs_read(&outputs, &merge->cli.report, merge->parts[i].path) && good;
+    good = reports_claim(&merge->reports, &outputs, &merge->cli.report) && good;
+    outputs_finish(&outputs);
+    if (!good || !reports_begin(&merge->reports, &merge->cli.report))
         return EXIT_FAULT;
     tell_all(merge);
     reports_end(&merge->reports, &merge->cli.report, merge->cli.report.errors == 0);
