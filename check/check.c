@@ -123,7 +123,7 @@ static void finish_slot(struct slot *slot)
     *slot = (struct slot){0};
 }
 
-static void tell_document(struct check *check, struct slot *slot)
+static void report_slot(struct check *check, struct slot *slot)
 {
     struct store store = {0};
     struct check_document *document = read_record(check, &store, slot);
@@ -144,10 +144,10 @@ static void tell_document(struct check *check, struct slot *slot)
     finish_slot(slot);
 }
 
-static void tell_done(struct check *check)
+static void report_finished_slots(struct check *check)
 {
     for (; check->first < check->last && slot_of(check, check->first)->is_done; ++check->first)
-        tell_document(check, slot_of(check, check->first));
+        report_slot(check, slot_of(check, check->first));
 }
 
 /* ---- Work ---- */
@@ -210,7 +210,7 @@ static void check_all(struct check *check)
             more = give_next(check);
         if (check->pool.num_open)
             take_answer(check);
-        tell_done(check);
+        report_finished_slots(check);
     }
     if (check->pool.fault)
         report_error(&check->cli.report, "check-failed", "%s", check->pool.fault);

@@ -114,7 +114,7 @@ static struct part *find_next(const struct merge *merge)
     return found;
 }
 
-static void tell_all(struct merge *merge)
+static void report_all(struct merge *merge)
 {
     uint64_t expected = 0;
     for (size_t i = 0; i < merge->num_parts; ++i)
@@ -147,7 +147,7 @@ static int run(struct merge *merge)
     };
     if (!reports_begin(&merge->reports, &merge->cli.report))
         return EXIT_FAULT;
-    tell_all(merge);
+    report_all(merge);
     reports_end(&merge->reports, &merge->cli.report, merge->cli.report.errors == 0);
     return merge->cli.report.errors || !reports_are_good(&merge->reports) ? EXIT_FAULT : EXIT_DONE;
 }
