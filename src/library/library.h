@@ -41,6 +41,7 @@ struct nodedef {
     uint32_t first_impl;     /* of the same layer, linked by next; LIBRARY_NONE */
     uint32_t next_same_node; /* next definition of the same node in this layer; LIBRARY_NONE */
     bool is_default_version;
+    uint8_t reserved[3]; /* 0: a library image holds these bytes, so the record has no padding */
 };
 
 enum impl_kind {
