@@ -150,7 +150,7 @@ static void check_clash(struct check *check, const char *path)
                  "a report would overwrite the input '%s'; choose another name", path);
 }
 
-static void tell_document(struct check *check, struct slot *slot)
+static void report_slot(struct check *check, struct slot *slot)
 {
     struct store store = {0};
     struct check_document *document = read_record(check, &store, slot);
@@ -174,10 +174,10 @@ static void tell_document(struct check *check, struct slot *slot)
     finish_slot(slot);
 }
 
-static void tell_done(struct check *check)
+static void report_finished_slots(struct check *check)
 {
     for (; check->first < check->last && slot_of(check, check->first)->is_done; ++check->first)
-        tell_document(check, slot_of(check, check->first));
+        report_slot(check, slot_of(check, check->first));
 }
 
 /* ---- Work ---- */
@@ -241,7 +241,7 @@ static void check_all(struct check *check)
             more = give_next(check);
         if (check->pool.num_open)
             take_answer(check);
-        tell_done(check);
+        report_finished_slots(check);
     }
     progress_clear(&check->progress);
     if (check->pool.fault)

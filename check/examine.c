@@ -84,7 +84,7 @@ static void count_error(struct examiner *examiner, const struct check_message *m
 }
 
 /* Adds the number of further errors to the last one. */
-static void tell_rest(struct examiner *examiner, struct check_message *last)
+static void note_limit(struct examiner *examiner, struct check_message *last)
 {
     if (strstr(last->rendered, "the rest is not shown"))
         return;
@@ -115,7 +115,7 @@ void examine_add(struct examiner *examiner, struct check_shader *shader,
     if (index == examiner->document->num_messages && is_beyond_limit(examiner, &message)) {
         index = examiner->last_error;
         ++examiner->document->num_hidden;
-        tell_rest(examiner, &examiner->document->messages[index]);
+        note_limit(examiner, &examiner->document->messages[index]);
     } else if (index == examiner->document->num_messages) {
         message.id = copy(examiner, message.id);
         message.text = copy(examiner, message.text);
@@ -131,8 +131,8 @@ void examine_add(struct examiner *examiner, struct check_shader *shader,
         refer(examiner, shader, index);
 }
 
-static bool is_told(const struct examiner *examiner, const mxg_diagnostic *diagnostic,
-                    uint32_t index)
+static bool is_shown(const struct examiner *examiner, const mxg_diagnostic *diagnostic,
+                     uint32_t index)
 {
     if (diagnostic->parent != index)
         return false; /* it belongs to the message before it */
@@ -185,7 +185,7 @@ static void add_diagnostics(struct examiner *examiner, const mxg_diagnostics *li
         mxg_diagnostic diagnostic = {sizeof diagnostic};
         mxg_diagnostics_get(list, i, &diagnostic);
         examiner->document->num_hidden -= diagnostic.severity == MXG_SEVERITY_ERROR;
-        if (!is_told(examiner, &diagnostic, i))
+        if (!is_shown(examiner, &diagnostic, i))
             continue;
         if (is_about_absence(diagnostic.id))
             add_quoted_place(examiner, &diagnostic);

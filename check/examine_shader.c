@@ -286,8 +286,8 @@ static void compile(struct examiner *examiner, const mxg_result *result,
     compiled_finish(&compiled);
 }
 
-static void tell_facts(struct examiner *examiner, const mxg_result *result,
-                       struct check_shader *shader)
+static void add_facts(struct examiner *examiner, const mxg_result *result,
+                      struct check_shader *shader)
 {
     mxg_shader_info info = {sizeof info};
     mxg_result_info(result, &info);
@@ -303,7 +303,7 @@ void examine_shader(struct examiner *examiner, const mxg_result *result,
                     struct check_shader *shader, const char *element)
 {
     if (!examiner->is_brief)
-        tell_facts(examiner, result, shader);
+        add_facts(examiner, result, shader);
     if (examiner->compile && compile_knows_target(shader->target))
         compile(examiner, result, shader, element);
     rank_parts(shader);

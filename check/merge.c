@@ -168,19 +168,19 @@ static struct part *find_next(const struct merge *merge)
 }
 
 /* The shards may have been compared; the merge compares their documents again. */
-static void tell_document(struct merge *merge, struct part *part)
+static void report_part(struct merge *merge, struct part *part)
 {
     struct check_document *document = part->document;
     gate_compare(&merge->gate, &merge->reports, &part->store, document, &merge->cli.report);
     reports_document(&merge->reports, document);
 }
 
-static void tell_all(struct merge *merge)
+static void report_all(struct merge *merge)
 {
     for (size_t i = 0; i < merge->num_parts; ++i)
         advance(merge, &merge->parts[i]);
     for (struct part *part; (part = find_next(merge)) != NULL; advance(merge, part))
-        tell_document(merge, part);
+        report_part(merge, part);
     gate_tell_gone(&merge->gate, &merge->reports);
 }
 
@@ -239,7 +239,7 @@ static int run(struct merge *merge)
     if (!claim_outputs(merge) || !gate_open(&merge->gate, &merge->reports, NULL, &merge->cli.report)
         || !reports_begin(&merge->reports, &merge->cli.report))
         return EXIT_FAULT;
-    tell_all(merge);
+    report_all(merge);
     find_other_root(merge);
     reports_end(&merge->reports, &merge->cli.report, merge->cli.report.errors == 0);
     return merge->cli.report.errors || !reports_are_good(&merge->reports) ? EXIT_FAULT : EXIT_DONE;

@@ -132,7 +132,7 @@ static void add_document(struct check_totals *totals, const struct check_documen
 
 /* ---- Documents ---- */
 
-static void tell(struct sink *sink, const struct check_document *document)
+static void write_document(struct sink *sink, const struct check_document *document)
 {
     if (!sink->out)
         return;
@@ -144,8 +144,8 @@ void reports_document(struct check_reports *reports, const struct check_document
 {
     add_document(&reports->totals, document, &reports->run);
     for (size_t i = 0; i < NUM_SINK_KINDS; ++i)
-        tell(&reports->files[i], document);
-    tell(&reports->text, document);
+        write_document(&reports->files[i], document);
+    write_document(&reports->text, document);
 }
 
 void reports_gone(struct check_reports *reports, const struct check_document *document)

@@ -192,7 +192,7 @@ static bool is_new(struct report *report, const mxg_diagnostic *diagnostic)
 void report_document(struct report *report)
 {
     report->document_errors = 0;
-    report->is_rest_told = false;
+    report->has_cut_note = false;
 }
 
 /* True if a message and its notes may be printed; limits the number of errors. */
@@ -206,18 +206,18 @@ static bool admit(struct report *report, const mxg_diagnostic *diagnostic)
         ++report->document_errors;
         return true;
     }
-    if (!report->is_rest_told)
+    if (!report->has_cut_note)
         fprintf(stderr, "note: more than %zu errors; the rest is not shown\n", report->max_errors);
-    report->is_rest_told = true;
+    report->has_cut_note = true;
     return false;
 }
 
 /* True if the message repeats the hint that more errors exist. */
 static bool is_about_rest(struct report *report, const mxg_diagnostic *diagnostic)
 {
-    bool is_note = strcmp(diagnostic->id, "too-many-errors") == 0, is_told = report->is_rest_told;
-    report->is_rest_told = is_told || is_note;
-    return is_note && is_told;
+    bool is_note = strcmp(diagnostic->id, "too-many-errors") == 0, was_noted = report->has_cut_note;
+    report->has_cut_note = was_noted || is_note;
+    return is_note && was_noted;
 }
 
 static void print_list(struct report *report, const mxg_diagnostics *list, bool only_errors)
