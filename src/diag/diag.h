@@ -114,8 +114,9 @@ void diag_render_line(const struct diag *diag, const char *line, size_t line_len
                       struct text *out);
 
 /*
- * A suggestion " (did you mean 'x'?)" for an unknown word: the candidate with the smallest edit
- * distance, the first of several, or "" if none is close. It lives in the arena of the list. Each
+ * A suggestion " (did you mean 'x'?)" for an unknown word: the best candidate, the first of several,
+ * or "" if none is close. An alias (aliases.def) is best, then a misspelling, then a name that
+ * begins with the word, then a name with the same words and others. It lives in the arena of the list. Each
  * list has a limited number of suggestions, so that the report of a document with many errors takes
  * linear time: if diag_guess_begin returns false, the caller skips the candidates.
  *
@@ -125,10 +126,12 @@ void diag_render_line(const struct diag *diag, const char *line, size_t line_len
  *             diag_guess_add(&guess, name);
  *     diag_add(diags, …, diag_guess_text(&guess));
  */
+enum { DIAG_MAX_ALIASES = 4 }; /* of one word */
 struct diag_guess {
     struct diag_list *list;
     const char *word, *best;
-    size_t len, best_distance;
+    const char *aliases[DIAG_MAX_ALIASES]; /* NULL after the last */
+    size_t len, best_distance, best_score;
     uint64_t places[256]; /* bit set of positions for each byte of the word */
 };
 bool diag_may_guess(const struct diag_list *list);

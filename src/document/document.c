@@ -133,7 +133,7 @@ void doc_set_attr(struct document *doc, elem_id element, str_id name, str_id val
     else
         doc_add_attr(
             doc, element,
-            (struct attribute){.name = name, .value = value, .column = own(doc, element)->column});
+            (struct attribute){.name = name, .value = value});
 }
 
 void doc_remove_attr(struct document *doc, elem_id element, str_id name)
@@ -160,6 +160,13 @@ void doc_set_category(struct document *doc, elem_id element, str_id category)
 void doc_set_name(struct document *doc, elem_id element, str_id name)
 {
     own(doc, element)->name = name;
+}
+
+void doc_set_name_place(struct document *doc, elem_id element, uint32_t line, uint32_t column)
+{
+    struct doc_link *link = link_of(doc, element);
+    link->name_line = (uint16_t)(line < UINT16_MAX ? line : UINT16_MAX);
+    link->name_column = (uint16_t)(column < UINT16_MAX ? column : UINT16_MAX);
 }
 
 void doc_set_place(struct document *doc, elem_id element, uint16_t file, uint32_t line,
@@ -307,11 +314,35 @@ const char *doc_file_name(const struct document *doc, uint16_t file)
     return str_text(doc->strings, doc->files.items[file - doc->first_file]);
 }
 
+/* Code points of a text. */
+static uint32_t width_of(const struct document *doc, str_id text)
+{
+    uint32_t width = 0;
+    for (const char *c = str_text(doc->strings, text); *c; c++)
+        width += (*c & 0xc0) != 0x80;
+    return width;
+}
+
 struct diag_place doc_place(const struct document *doc, elem_id element)
 {
     const struct element *e = doc_element(doc, element);
-    return (struct diag_place){
-        .file = doc_file_name(doc, e->file), .line = e->line, .column = e->column};
+    return (struct diag_place){.file = doc_file_name(doc, e->file),
+                               .line = e->line,
+                               .column = e->column,
+                               .length = 1 + width_of(doc, e->category)};
+}
+
+struct diag_place doc_name_place(const struct document *doc, elem_id element)
+{
+    struct diag_place place = doc_place(doc, element);
+    const struct document *layer = doc_layer(doc, element);
+    uint32_t own = element - layer->first_element;
+    if (own >= layer->links.len || !layer->links.items[own].name_column)
+        return place;
+    place.line += layer->links.items[own].name_line;
+    place.column = layer->links.items[own].name_column;
+    place.length = width_of(doc, doc_element(doc, element)->name);
+    return place;
 }
 
 struct diag_place doc_attr_place(const struct document *doc, elem_id element, str_id attr)
@@ -321,7 +352,20 @@ struct diag_place doc_attr_place(const struct document *doc, elem_id element, st
     if (found && found->column) {
         place.line += found->line_delta;
         place.column = found->column;
+        place.length = width_of(doc, found->value);
     }
+    return place;
+}
+
+struct diag_place doc_attr_name_place(const struct document *doc, elem_id element, str_id attr)
+{
+    struct diag_place place = doc_attr_place(doc, element, attr);
+    const struct attribute *found = doc_attr(doc, element, attr);
+    uint32_t width = width_of(doc, attr), before = width + 2; /* name=" */
+    if (!found || found->column <= before || doc_layer(doc, element)->has_loose_attrs)
+        return place;
+    place.column -= before;
+    place.length = width;
     return place;
 }
 

@@ -82,9 +82,14 @@ struct attribute {
     uint16_t column;     /* of the value's first character */
 };
 
-/* Links for constant-time insertion and removal while the tree grows. */
+/*
+ * What only a tree in memory needs: links for constant-time insertion and removal while it grows,
+ * and the place of an element's name, for messages.
+ */
 struct doc_link {
     elem_id last_child, previous;
+    uint16_t name_line;   /* from the element's line; saturates */
+    uint16_t name_column; /* of the name's first character; 0: unknown */
 };
 
 struct document {
@@ -98,6 +103,8 @@ struct document {
     bool has_templates;           /* a <template> was added after the last expansion */
     bool has_attributedefs;       /* an <attributedef> was added somewhere */
     bool is_global;               /* no element has a namespace (set by doc_qualify_names) */
+    /* blanks surround some '=', so no place of an attribute's name is known */
+    bool has_loose_attrs;
     VEC(struct element) elements; /* elements of this layer */
     VEC(struct attribute) attrs;
     VEC(str_id) files;          /* names from the user or from includes */
@@ -129,6 +136,8 @@ void doc_remove_attr(struct document *doc, elem_id element, str_id name);
 /* also updates the kind */
 void doc_set_category(struct document *doc, elem_id element, str_id category);
 void doc_set_name(struct document *doc, elem_id element, str_id name);
+/* The place of the name, in lines from the element's. */
+void doc_set_name_place(struct document *doc, elem_id element, uint32_t line, uint32_t column);
 void doc_set_place(struct document *doc, elem_id element, uint16_t file, uint32_t line,
                    uint16_t column);
 /* Unlinks the element from its parent. Its parent becomes 0. */
@@ -209,9 +218,14 @@ void doc_path(const struct document *doc, elem_id element, char separator, struc
 enum element_kind doc_kind_of(str_id category);
 
 const char *doc_file_name(const struct document *doc, uint16_t file); /* NULL for 0 */
+/* The place of the beginning of the start tag, with the category. */
 struct diag_place doc_place(const struct document *doc, elem_id element);
+/* The place of the element's name, or of the element if the text has no name for it. */
+struct diag_place doc_name_place(const struct document *doc, elem_id element);
 /* The place of an attribute's value, or of the element if the attribute is absent. */
 struct diag_place doc_attr_place(const struct document *doc, elem_id element, str_id attr);
+/* The place of an attribute's name. */
+struct diag_place doc_attr_name_place(const struct document *doc, elem_id element, str_id attr);
 
 /* template.c: expands the <template> elements of this layer in place (docs/library.md). */
 void doc_expand_templates(struct document *doc, struct diag_list *diags);
