@@ -140,8 +140,8 @@ static struct word stem_of(const char *name, size_t len)
 }
 
 /*
- * Names that end with different numbers ("n1", "n2") are different on purpose, and in two letters no
- * one recognises a misspelling.
+ * Names that end with different numbers ("n1", "n2") are different on purpose, and in two letters
+ * no one recognises a misspelling.
  */
 static bool differs_on_purpose(const struct diag_guess *guess, const char *candidate, size_t len)
 {
@@ -243,10 +243,10 @@ static size_t score_of_words(const struct diag_guess *guess, const char *candida
 void diag_guess_add(struct diag_guess *guess, const char *candidate)
 {
     size_t len = strlen(candidate);
-    if (!guess->len || len > MAX_WORD || strcmp(guess->word, candidate) == 0)
+    if (!guess->len || len < 2 || len > MAX_WORD || strcmp(guess->word, candidate) == 0)
         return;
-    size_t score = is_alias(guess, candidate) ? SCORE_ALIAS
-                                              : score_of_misspelling(guess, candidate, len);
+    size_t score =
+        is_alias(guess, candidate) ? SCORE_ALIAS : score_of_misspelling(guess, candidate, len);
     if (score == SCORE_NONE)
         score = score_of_words(guess, candidate, len);
     if (score < guess->best_score) {

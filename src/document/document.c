@@ -131,9 +131,7 @@ void doc_set_attr(struct document *doc, elem_id element, str_id name, str_id val
     if (attr)
         doc->attrs.items[attr - doc->attrs.items].value = value;
     else
-        doc_add_attr(
-            doc, element,
-            (struct attribute){.name = name, .value = value});
+        doc_add_attr(doc, element, (struct attribute){.name = name, .value = value});
 }
 
 void doc_remove_attr(struct document *doc, elem_id element, str_id name)
@@ -420,10 +418,24 @@ static void report_duplicate(struct document *doc, elem_id first, elem_id second
 {
     bool equal = are_equal(doc, first, second);
     diag_add(diags, equal ? DIAG_ID_repeated_element : DIAG_ID_duplicate_name,
-             doc_place(doc, second), str_text(doc->strings, doc_element(doc, second)->name));
-    diag_add(diags, DIAG_ID_previous_definition, doc_place(doc, first));
-    if (equal)
-        doc_remove_element(doc, second);
+             doc_name_place(doc, second), str_text(doc->strings, doc_element(doc, second)->name));
+    diag_add(diags, DIAG_ID_previous_definition, doc_name_place(doc, first));
+    doc_remove_element(doc, second);
+    if (equal || doc_second_of_name(doc, first))
+        return;
+    vec_push(doc->arena, &doc->doubles, (struct doc_double){first, second});
+    table_add(&doc->double_table, doc->arena, hash_pair(first, 0), doc->doubles.len);
+}
+
+elem_id doc_second_of_name(const struct document *doc, elem_id element)
+{
+    doc = doc_layer(doc, element);
+    uint32_t at = hash_pair(element, 0);
+    for (uint32_t found;
+         doc->doubles.len && (found = table_next(&doc->double_table, hash_pair(element, 0), &at));)
+        if (doc->doubles.items[found - 1].first == element)
+            return doc->doubles.items[found - 1].second;
+    return 0;
 }
 
 void doc_index_names(struct document *doc, struct diag_list *diags)

@@ -50,6 +50,11 @@ bool doc_parse_value(doc_type type, const char *text, size_t len, struct strpool
  * (strings, filenames, shaders).
  */
 bool doc_value_is_valid(doc_type type, const char *text, size_t len);
+/*
+ * How many numbers the text has, if they are more than the type has; otherwise 0. `out`, which may
+ * be NULL, gets the first ones.
+ */
+unsigned doc_excess_numbers(doc_type type, const char *text, size_t len, struct ir_value *out);
 /* The reason why a value is invalid, as a suffix for a message. */
 const char *doc_value_fault(doc_type type, const char *text, size_t len, struct arena *arena);
 
@@ -92,6 +97,11 @@ struct doc_link {
     uint16_t name_column; /* of the name's first character; 0: unknown */
 };
 
+/* Two elements of one scope and name. The second is no longer in the tree. */
+struct doc_double {
+    elem_id first, second;
+};
+
 struct document {
     const struct document *base;                    /* the layer below, or NULL */
     struct strpool *strings;                        /* the pool of this layer */
@@ -100,9 +110,9 @@ struct document {
     elem_id root;
     /* limit of this layer for steps that multiply elements (doc_is_full); 0 = unlimited */
     uint32_t max_elements;
-    bool has_templates;           /* a <template> was added after the last expansion */
-    bool has_attributedefs;       /* an <attributedef> was added somewhere */
-    bool is_global;               /* no element has a namespace (set by doc_qualify_names) */
+    bool has_templates;     /* a <template> was added after the last expansion */
+    bool has_attributedefs; /* an <attributedef> was added somewhere */
+    bool is_global;         /* no element has a namespace (set by doc_qualify_names) */
     /* blanks surround some '=', so no place of an attribute's name is known */
     bool has_loose_attrs;
     VEC(struct element) elements; /* elements of this layer */
@@ -110,6 +120,9 @@ struct document {
     VEC(str_id) files;          /* names from the user or from includes */
     VEC(struct doc_link) links; /* parallel to `elements`; empty in an image layer */
     struct table names;         /* (parent, name) → element: doc_index_names */
+    /* names that differing elements share, and a table by the first element */
+    VEC(struct doc_double) doubles;
+    struct table double_table;
 };
 
 /* Makes an empty document with a root element <materialx>. */
@@ -172,9 +185,11 @@ elem_id doc_next_in_tree(const struct document *doc, elem_id root, elem_id eleme
 
 /*
  * Builds the index for doc_child and doc_find. Call it after the tree is complete, and again after
- * additions. With `diags` it reports duplicate names and removes elements that repeat an equal one.
+ * additions. With `diags` it reports duplicate names and removes the second element.
  */
 void doc_index_names(struct document *doc, struct diag_list *diags);
+/* The second element of this one's scope and name, which the index left out; 0: none. */
+elem_id doc_second_of_name(const struct document *doc, elem_id element);
 /* The same for one element that was added, renamed or moved since. */
 void doc_index_element(struct document *doc, elem_id element);
 
@@ -245,9 +260,27 @@ void doc_upgrade(struct document *doc, elem_id root, elem_id end, struct diag_li
 void doc_qualify_names(struct document *doc);
 
 /*
+ * paths.c: replaces the backslashes of file names by '/', with a warning for each name: the names
+ * are those of this layer.
+ */
+void doc_fix_paths(struct document *doc, struct diag_list *diags);
+/* The same for one name; `where` is its place. */
+str_id doc_fix_path(struct strpool *strings, str_id path, struct diag_place where,
+                    struct diag_list *diags);
+
+/*
  * write.c: writes the tree as MaterialX XML with two spaces per level, for `mxgen library expand`.
  */
 void doc_write(const struct document *doc, elem_id root, struct text *out);
+
+/*
+ * cycle.c: reports a cycle. Each node reads the next one through `port`, the last one the first.
+ */
+struct doc_cycle_link {
+    elem_id node, port; /* the port has the connection; it may belong to a nodegraph between them */
+};
+void doc_report_cycle(const struct document *doc, const struct doc_cycle_link *links, uint32_t n,
+                      struct diag_list *diags);
 
 /* validate.c: checks that need no library: names, attributes, value syntax, structure. */
 void doc_validate(const struct document *doc, struct diag_list *diags);
@@ -257,6 +290,9 @@ void doc_validate(const struct document *doc, struct diag_list *diags);
  */
 void doc_check_children(const struct document *doc, elem_id parent, struct diag_list *diags);
 
+/* value.c: reports excess numbers in a value; `suggestion` is the end of the message. */
+void doc_report_excess(const struct document *doc, elem_id element, doc_type type,
+                       const char *suggestion, struct diag_list *diags);
 /* Reports the type of an element if it is unknown or missing. */
 void doc_report_type(const struct document *doc, elem_id element, struct diag_list *diags);
 

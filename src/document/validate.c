@@ -136,13 +136,15 @@ static void check_name(struct validation *v, elem_id element)
         diag_add(v->diags, DIAG_ID_name_missing, doc_place(v->doc, element),
                  text_of(v, e->category));
     if (e->name && !is_name(text_of(v, e->name)))
-        diag_add(v->diags, DIAG_ID_bad_name, doc_place(v->doc, element), text_of(v, e->name));
+        diag_add(v->diags, DIAG_ID_bad_name, doc_name_place(v->doc, element), text_of(v, e->name));
 }
 
 static void check_required(struct validation *v, elem_id element)
 {
     const struct element *e = doc_element(v->doc, element);
-    for (size_t i = 0; i < 3 && rules[e->kind].required[i]; i++)
+    /* nodedef-nodename */
+    bool is_node_told = e->kind == KIND_NODEDEF && doc_attr(v->doc, element, STR_nodename);
+    for (size_t i = 0; i < 3 && rules[e->kind].required[i] && !is_node_told; i++)
         if (!doc_attr(v->doc, element, rules[e->kind].required[i]))
             diag_add(v->diags, DIAG_ID_missing_attribute, doc_place(v->doc, element),
                      text_of(v, e->category), text_of(v, rules[e->kind].required[i]));
@@ -203,11 +205,15 @@ static bool has_value(str_id attr)
 static void check_value(struct validation *v, elem_id element, doc_type type, str_id attr,
                         str_id value)
 {
-    if (value && !doc_value_is_valid(type, text_of(v, value), str_len(v->doc->strings, value)))
-        diag_add(
-            v->diags, DIAG_ID_bad_value, doc_attr_place(v->doc, element, attr), text_of(v, value),
-            text_of(v, doc_type_name(type)),
-            doc_value_fault(type, text_of(v, value), str_len(v->doc->strings, value), v->arena));
+    size_t len = str_len(v->doc->strings, value);
+    if (value && attr == STR_value && doc_excess_numbers(type, text_of(v, value), len, NULL)) {
+        /* the definition of a node has a suggestion: library_report_excess */
+        if (doc_element(v->doc, doc_element(v->doc, element)->parent)->kind != KIND_NODE)
+            doc_report_excess(v->doc, element, type, "", v->diags);
+    } else if (value && !doc_value_is_valid(type, text_of(v, value), len))
+        diag_add(v->diags, DIAG_ID_bad_value, doc_attr_place(v->doc, element, attr),
+                 text_of(v, value), text_of(v, doc_type_name(type)),
+                 doc_value_fault(type, text_of(v, value), len, v->arena));
 }
 
 static void check_type_and_values(struct validation *v, elem_id element)
@@ -225,6 +231,15 @@ static void check_type_and_values(struct validation *v, elem_id element)
             check_value(v, element, type, attrs[i].name, attrs[i].value);
 }
 
+/* interfacename-ignored */
+static bool refers_to_itself(const struct document *doc, elem_id element)
+{
+    const struct element *e = doc_element(doc, element), *owner = doc_element(doc, e->parent);
+    str_id name = doc_attr_value(doc, element, STR_interfacename);
+    return name && e->kind == KIND_INPUT && owner->kind == KIND_NODEGRAPH
+           && !doc_child_of_kind(doc, owner->parent, KIND_INPUT, name);
+}
+
 static void check_bindings(struct validation *v, elem_id element)
 {
     const struct element *e = doc_element(v->doc, element);
@@ -237,7 +252,8 @@ static void check_bindings(struct validation *v, elem_id element)
     if (connections > 1)
         diag_add(v->diags, DIAG_ID_several_connections, doc_place(v->doc, element),
                  text_of(v, e->name));
-    else if (connections && doc_attr_value(v->doc, element, STR_value))
+    else if (connections && doc_attr_value(v->doc, element, STR_value)
+             && !refers_to_itself(v->doc, element))
         diag_add(v->diags, DIAG_ID_value_and_connection, doc_attr_place(v->doc, element, STR_value),
                  text_of(v, e->name));
 }

@@ -73,12 +73,12 @@ uint32_t library_color_transform(const struct library *lib, const char *from, co
 
 const char *const library_color_hub = "lin_rec709";
 
-/* "lin_rec709, srgb_texture, …": the spaces that the library can convert to the hub. */
+/* "; expected one of: lin_rec709, …": the spaces that the library can convert to the hub. */
 static const char *known_spaces(const struct library *lib, struct arena *arena)
 {
     struct text out;
     text_init(&out, arena);
-    text_str(&out, library_color_hub);
+    text_fmt(&out, "; expected one of: %s", library_color_hub);
     for (; lib; lib = lib->base)
         for (uint32_t i = 0; i < lib->nodedefs.len; i++) {
             const char *name = str_text(&lib->strings, lib->nodedefs.items[i].node);
@@ -104,6 +104,7 @@ static const char *suggest_space(const char *space, struct diag_list *diags)
 void library_report_space(const struct library *lib, const char *space, struct diag_place place,
                           struct diag_list *diags)
 {
-    diag_add(diags, DIAG_ID_unknown_colorspace, place, space, suggest_space(space, diags),
-             known_spaces(lib, diags->arena));
+    const char *suggestion = suggest_space(space, diags);
+    diag_add(diags, DIAG_ID_unknown_colorspace, place, space,
+             *suggestion ? suggestion : known_spaces(lib, diags->arena));
 }

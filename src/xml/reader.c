@@ -157,6 +157,7 @@ static void read_all(void *arg)
     else
         read_file(reading);
     doc_expand_templates(doc, reader->diags);
+    doc_fix_paths(doc, reader->diags);
     doc_qualify_names(doc);
     doc_index_names(doc, reader->diags);
 }

@@ -60,8 +60,7 @@ static void test_list(void)
     REQUIRE_EQ(list.num_errors, 1);
     REQUIRE_EQ(list.num_warnings, 1);
     const struct diag *items = list.items.items;
-    REQUIRE_STR(items[0].message, "unknown node <mux> (did you mean 'mix'?); no loaded library "
-                                  "defines it; '--library' adds a library");
+    REQUIRE_STR(items[0].message, "unknown node <mux> (did you mean 'mix'?)");
     REQUIRE_STR(items[0].place.file, "wood.mtlx");
     REQUIRE_EQ(items[0].severity, DIAG_ERROR);
     REQUIRE_EQ(items[1].severity, DIAG_NOTE);
@@ -174,15 +173,14 @@ static void test_suggest_other_names(void)
     static const char *const defs[] = {"ND_lama_surface", "ND_standard_surface_surfaceshader_100",
                                        "ND_standard_surface_surfaceshader"};
     REQUIRE_STR(suggest("base_roughness", inputs, 1), "");
-    REQUIRE_STR(suggest("base_roughness", inputs, 4),
-                 " (did you mean 'base_diffuse_roughness'?)");
+    REQUIRE_STR(suggest("base_roughness", inputs, 4), " (did you mean 'base_diffuse_roughness'?)");
     REQUIRE_STR(suggest("node2", inputs, 4), "");
     REQUIRE_STR(suggest("s1", inputs, 4), "");
     REQUIRE_STR(suggest("1c", inputs, 4), " (did you mean 'c1'?)");
     REQUIRE_STR(suggest("node", inputs, 4), " (did you mean 'node1'?)");
     REQUIRE_STR(suggest("ND_standard_surface", defs, 1), "");
     REQUIRE_STR(suggest("ND_standard_surface", defs, 3),
-                 " (did you mean 'ND_standard_surface_surfaceshader'?)");
+                " (did you mean 'ND_standard_surface_surfaceshader'?)");
 }
 
 /* So that a document which is wrong throughout is reported in linear time. */
