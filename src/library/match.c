@@ -43,7 +43,7 @@ static bool has_version(const struct nodedef *def, str_id wanted)
 /* A definition that gives the type of the node. Its faults are the node's. */
 struct candidate {
     uint32_t nodedef;
-    bool is_of_version;
+    bool is_of_version, is_default;
     unsigned wrong_types; /* inputs of another type */
     unsigned before;      /* inputs of the right type before the first of another type */
     bool has_unknown;     /* the definition lacks an input of the node */
@@ -61,6 +61,7 @@ static struct candidate examine(const struct library *lib, uint32_t id, elem_id 
     const struct port *ports = library_ports(lib, id, NULL);
     c.is_of_version =
         has_version(library_nodedef(lib, id), doc_attr_value(&lib->doc, node, STR_version));
+    c.is_default = has_version(library_nodedef(lib, id), 0);
     for (elem_id child = doc_element(&lib->doc, node)->first_child; child;
          child = doc_element(&lib->doc, child)->next) {
         const struct element *input = doc_element(&lib->doc, child);
@@ -85,6 +86,8 @@ static bool is_better(const struct candidate *c, const struct candidate *best)
 {
     if (best->nodedef == LIBRARY_NONE || c->is_of_version != best->is_of_version)
         return best->nodedef == LIBRARY_NONE || c->is_of_version;
+    if (!c->is_of_version && c->is_default != best->is_default)
+        return c->is_default;
     if (c->wrong_types != best->wrong_types)
         return c->wrong_types < best->wrong_types;
     if (c->wrong_types && c->before != best->before)
