@@ -23,12 +23,16 @@ static const struct command commands[] = {
      "Prints elements, graph, IR, closures or statistics of a document.", command_inspect},
     {"validate", "validate FILE...",
      "Checks documents against the specification and the node library.", command_validate},
-    {"explain", "explain [ID...] [-o DIR | --markdown]",
-     "Prints cause, cure and example of a message, or a list of all messages.", command_explain},
+    {"explain", "explain [ID|NODE...] [-o DIR | --markdown]",
+     "Prints cause, cure and example of a message, the inputs of a node, or a list of all "
+     "messages.",
+     command_explain},
     {"render", "render FILE|FOLDER... -o PICTURE.png [options]",
      "Renders materials without a display: one picture, or a sheet of several.", command_render},
-    {"library", "library pack|list|expand|doc [PATH...] [-o PATH]",
-     "Packs, lists, expands or documents node libraries.", command_library},
+    {"library", "library pack|list|expand|doc [PATH...] [-o PATH]  |  library list WORD...",
+     "Packs, lists or documents node libraries, finds nodes by a part of their name, or writes "
+     "documents in MaterialX 1.39: 'mxgen library expand old.mtlx -o new.mtlx' upgrades one.",
+     command_library},
 };
 #define NUM_COMMANDS (sizeof commands / sizeof *commands)
 

@@ -20,11 +20,28 @@ static struct diag_place link_place(const struct document *doc, elem_id port)
     return doc_place(doc, port);
 }
 
+/* The upgrade of old documents makes nodes that the text does not have. */
+static bool is_in_text(const struct document *doc, elem_id node)
+{
+    return doc_name_place(doc, node).column != doc_place(doc, node).column;
+}
+
+/* Leaves out nodes that are not in the text, unless none is. */
+static uint32_t keep_text(const struct document *doc, struct doc_cycle_link *links, uint32_t n)
+{
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < n; i++)
+        if (is_in_text(doc, links[i].node))
+            links[kept++] = links[i];
+    return kept ? kept : n;
+}
+
 /* The message follows the data: links[i] reads links[i + 1], so the data runs to lower indices. */
-void doc_report_cycle(const struct document *doc, const struct doc_cycle_link *links, uint32_t n,
+void doc_report_cycle(const struct document *doc, struct doc_cycle_link *links, uint32_t n,
                       struct diag_list *diags)
 {
     assert(n > 0);
+    n = keep_text(doc, links, n);
     uint32_t first = 0;
     for (uint32_t i = 1; i < n; i++)
         if (links[i].node < links[first].node)

@@ -274,12 +274,13 @@ str_id doc_fix_path(struct strpool *strings, str_id path, struct diag_place wher
 void doc_write(const struct document *doc, elem_id root, struct text *out);
 
 /*
- * cycle.c: reports a cycle. Each node reads the next one through `port`, the last one the first.
+ * cycle.c: reports a cycle; may change `links`. Each node reads the next one through `port`, the
+ * last one the first.
  */
 struct doc_cycle_link {
     elem_id node, port; /* the port has the connection; it may belong to a nodegraph between them */
 };
-void doc_report_cycle(const struct document *doc, const struct doc_cycle_link *links, uint32_t n,
+void doc_report_cycle(const struct document *doc, struct doc_cycle_link *links, uint32_t n,
                       struct diag_list *diags);
 
 /* validate.c: checks that need no library: names, attributes, value syntax, structure. */

@@ -94,39 +94,51 @@ static bool is_foreign(const struct validation *v, elem_id element)
     return e->kind == KIND_NODE && e->parent && doc_element(v->doc, e->parent)->kind == KIND_NODE;
 }
 
-/*
- * True for elements of materials before 1.38 that the upgrade did not convert, because the document
- * declares a later version.
- */
-static bool is_outdated(const struct validation *v, elem_id element)
+/* Elements that later versions dropped, and that the document's own version does not upgrade. */
+static const struct outdated {
+    const char *name, *version, *advice;
+} outdated_elements[] = {
+#define OF_MATERIALS ", but the document has a later version; version=\"1.37\" would upgrade it"
+    {"shaderref", "1.37", OF_MATERIALS},
+    {"bindinput", "1.37", OF_MATERIALS},
+    {"bindparam", "1.37", OF_MATERIALS},
+    {"bindtoken", "1.37", OF_MATERIALS},
+    {"materialinherit", "1.37", OF_MATERIALS},
+#undef OF_MATERIALS
+    {"collectionadd", "1.35", "; write includegeom and includecollection on the <collection>"},
+    {"collectionremove", "1.35", "; write excludegeom on the <collection>"},
+};
+
+/* NULL: the element is none of them. */
+static const struct outdated *outdated(const struct validation *v, elem_id element)
 {
-    static const char *const names[] = {"shaderref", "bindinput", "bindparam", "bindtoken",
-                                        "materialinherit"};
-    if (!is_foreign(v, element))
-        return false;
-    const char *category = text_of(v, doc_element(v->doc, element)->category);
-    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
-        if (strcmp(names[i], category) == 0)
-            return true;
-    return false;
+    const struct element *e = doc_element(v->doc, element);
+    const char *category = e->kind == KIND_NODE ? text_of(v, e->category) : "";
+    for (size_t i = 0; i < sizeof outdated_elements / sizeof *outdated_elements; i++)
+        if (strcmp(outdated_elements[i].name, category) == 0)
+            return &outdated_elements[i];
+    return NULL;
 }
 
-static void check_place(struct validation *v, elem_id element)
+/* false after reporting that the element is not allowed here. */
+static bool check_place(struct validation *v, elem_id element)
 {
     const struct element *e = doc_element(v->doc, element);
     const struct element *parent = doc_element(v->doc, e->parent);
     assert(parent->kind < NUM_ELEMENT_KINDS && parent->kind < 64);
     if (rules[e->kind].parents >> parent->kind & 1)
-        return;
-    if (is_outdated(v, element)) {
+        return true;
+    const struct outdated *old = outdated(v, element);
+    if (old) {
         if (!v->is_age_told)
-            diag_add(v->diags, DIAG_ID_outdated_element, doc_place(v->doc, element),
-                     text_of(v, e->category));
+            diag_add(v->diags, DIAG_ID_outdated_element, doc_place(v->doc, element), old->name,
+                     old->version, old->advice);
         v->is_age_told = true;
-        return;
+        return false;
     }
     diag_add(v->diags, is_foreign(v, element) ? DIAG_ID_foreign_element : DIAG_ID_misplaced_element,
              doc_place(v->doc, element), text_of(v, e->category), text_of(v, parent->category));
+    return false;
 }
 
 static void check_name(struct validation *v, elem_id element)
@@ -296,8 +308,8 @@ static void check_standing(struct validation *v, elem_id element)
     const struct element *e = doc_element(v->doc, element);
     if (is_port_in_order(v->doc, element))
         return;
-    check_place(v, element);
-    if (!is_outdated(v, element))
+    bool is_placed = check_place(v, element);
+    if (is_placed)
         check_required(v, element);
     if (e->kind == KIND_INPUT || e->kind == KIND_OUTPUT)
         check_bindings(v, element);
@@ -316,7 +328,8 @@ static void check_element(struct validation *v, elem_id element)
         check_standing(v, element);
     check_name(v, element);
     check_type_and_values(v, element);
-    if (!is_foreign(v, element)) /* its other attributes have no effect */
+    /* the attributes of other elements have no effect */
+    if (!is_foreign(v, element) && !outdated(v, element))
         validate_attributes(v, element);
     validate_geometry(v, element);
     if (doc_element(v->doc, element)->kind == KIND_NODEDEF)
