@@ -30,8 +30,8 @@ static const struct command commands[] = {
     {"render", "render FILE|FOLDER... -o PICTURE.png [options]",
      "Renders materials without a display: one picture, or a sheet of several.", command_render},
     {"library", "library pack|list|expand|doc [PATH...] [-o PATH]  |  library list WORD...",
-     "Packs, lists or documents node libraries, finds nodes by a part of their name, or writes "
-     "documents in MaterialX 1.39: 'mxgen library expand old.mtlx -o new.mtlx' upgrades one.",
+     "Packs, lists and documents libraries. 'library expand OLD -o NEW' upgrades a document to "
+     "1.39.",
      command_library},
 };
 #define NUM_COMMANDS (sizeof commands / sizeof *commands)

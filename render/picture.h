@@ -23,7 +23,8 @@ struct painter {
     struct mesh fine; /* for displaced materials; made on first use */
     const struct bind_value *values;
     size_t num_values;
-    bool checker; /* replaces missing textures by a checker */
+    bool checker;                      /* replaces missing textures by a checker */
+    const mxg_document *told_textures; /* the last document whose missing textures were printed */
     enum background background;
     double exposure;
     uint32_t width, height;

@@ -10,9 +10,9 @@
 #include <assert.h>
 
 enum {
-    MAX_DEPTH = 5,    /* of operators; below, names stand for expressions */
-    MAX_TEXT = 200,   /* bytes, after which an expression ends with names */
-    PREC_LOWEST = 0,  /* no parentheses */
+    MAX_DEPTH = 5,   /* of operators; below, names stand for expressions */
+    MAX_TEXT = 200,  /* bytes, after which an expression ends with names */
+    PREC_LOWEST = 0, /* no parentheses */
 };
 
 struct describer {
@@ -158,7 +158,8 @@ void closure_describe_weight(const struct shader *shader, const struct closure_l
 {
     struct describer d = {shader, shader->graph, out, out->len};
     struct ir_value value;
-    bool is_one = leaf->color && ir_get_const(d.graph, leaf->scalar, &value) && value.w[0].f == 1.0f;
+    bool is_one =
+        leaf->color && ir_get_const(d.graph, leaf->scalar, &value) && value.w[0].f == 1.0f;
     if (!is_one)
         describe(&d, leaf->scalar, 0, leaf->color ? LANG_PREC_PRODUCT : PREC_LOWEST);
     if (!leaf->color)

@@ -90,6 +90,36 @@ static const char *known_spaces(const struct library *lib, struct arena *arena)
     return text_cstr(&out);
 }
 
+const char *library_expect_working_space(const struct library *lib, const char *space,
+                                         struct diag_list *diags)
+{
+    struct text names;
+    struct diag_guess guess;
+    text_init(&names, diags->arena);
+    text_fmt(&names, "one of: none, %s", library_color_hub);
+    bool may_guess = diag_guess_begin(&guess, diags, space);
+    if (may_guess)
+        diag_guess_add(&guess, library_color_hub);
+    size_t len = strlen(library_color_hub);
+    for (; lib; lib = lib->base)
+        for (uint32_t i = 0; i < lib->nodedefs.len; i++) {
+            const char *name = str_text(&lib->strings, lib->nodedefs.items[i].node);
+            bool again = i > 0 && lib->nodedefs.items[i - 1].node == lib->nodedefs.items[i].node,
+                 is_from_hub = strncmp(name, library_color_hub, len) == 0
+                               && strncmp(name + len, "_to_", 4) == 0;
+            if (!is_from_hub || again)
+                continue;
+            text_fmt(&names, ", %s", name + len + 4);
+            if (may_guess)
+                diag_guess_add(&guess, name + len + 4);
+        }
+    if (guess.best) {
+        text_init(&names, diags->arena);
+        text_fmt(&names, "%s, perhaps", guess.best);
+    }
+    return text_cstr(&names);
+}
+
 static const char *suggest_space(const char *space, struct diag_list *diags)
 {
     const char *names[sizeof aliases / sizeof *aliases * 2];
