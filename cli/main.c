@@ -23,6 +23,11 @@ static const struct command commands[] = {
      "Prints elements, graph, IR, closures or statistics of a document.", command_inspect},
     {"validate", "validate FILE...",
      "Checks documents against the specification and the node library.", command_validate},
+    {"format", "format FILE... [--in-place | --check | -o FILE]",
+     "Writes documents in one layout; comments and includes stay.", command_format},
+    {"upgrade", "upgrade FILE... [--in-place | --check | -o FILE]",
+     "Writes documents of older versions as version 1.39; comments and includes stay.",
+     command_upgrade},
     {"explain", "explain [ID|NODE...] [-o DIR | --markdown]",
      "Prints cause, cure and example of a message, the inputs of a node, or a list of all "
      "messages.",
@@ -30,8 +35,7 @@ static const struct command commands[] = {
     {"render", "render FILE|FOLDER... -o PICTURE.png [options]",
      "Renders materials without a display: one picture, or a sheet of several.", command_render},
     {"library", "library pack|list|expand|doc [PATH...] [-o PATH]  |  library list WORD...",
-     "Packs, lists and documents libraries. 'library expand OLD -o NEW' upgrades a document to "
-     "1.39.",
+     "Packs, lists, expands or documents node libraries; finds nodes by a part of their name.",
      command_library},
 };
 #define NUM_COMMANDS (sizeof commands / sizeof *commands)

@@ -333,7 +333,7 @@ static void print_rest(struct report *report, const struct groups *groups,
                 text, lines == MAX_LINES && count > lines ? ", …" : "");
 }
 
-void report_list(struct report *report, const mxg_diagnostics *list)
+static void print_list(struct report *report, const mxg_diagnostics *list, bool only_errors)
 {
     uint32_t count = mxg_diagnostics_count(list), open = count;
     bool shown = false; /* the message of the notes was printed */
@@ -345,7 +345,8 @@ void report_list(struct report *report, const mxg_diagnostics *list)
             if (open < count)
                 print_rest(report, &groups, list, open);
             bool is_first = !groups.first || groups.first[i] == i;
-            shown = is_first && admit(report, &diagnostic, i);
+            shown = is_first && (!only_errors || diagnostic.severity == MXG_SEVERITY_ERROR)
+                    && admit(report, &diagnostic, i);
             open = shown && groups.first ? i : count;
         }
         bool is_cause = is_about_cause(report, &diagnostic);
@@ -360,6 +361,16 @@ void report_list(struct report *report, const mxg_diagnostics *list)
         print_rest(report, &groups, list, open);
     free_groups(&groups);
     report->errors += mxg_diagnostics_errors(list);
+}
+
+void report_list(struct report *report, const mxg_diagnostics *list)
+{
+    print_list(report, list, false);
+}
+
+void report_errors(struct report *report, const mxg_diagnostics *list)
+{
+    print_list(report, list, true);
 }
 
 static void print_own(const struct report *report, const char *level, int colour, const char *id,

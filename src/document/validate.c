@@ -59,34 +59,6 @@ static const char *text_of(const struct validation *v, str_id id)
     return str_text(v->doc->strings, id);
 }
 
-static bool is_digit(char c)
-{
-    return c >= '0' && c <= '9';
-}
-
-static bool is_letter(char c)
-{
-    /* for both cases; characters before 'a' wrap to large values */
-    unsigned letter = ((unsigned char)c | 0x20u) - 'a';
-    return letter < 26 || c == '_';
-}
-
-/* Letters, digits and '_', no digit first ("MaterialX Names"), with an optional namespace. */
-static bool is_name(const char *text)
-{
-    for (; *text; text++) {
-        if (!is_letter(*text))
-            return false;
-        while (is_letter(*text) || is_digit(*text))
-            text++;
-        if (!*text)
-            return true;
-        if (*text != ':')
-            return false;
-    }
-    return false;
-}
-
 /* The reader turns an unknown element into a node. */
 static bool is_foreign(const struct validation *v, elem_id element)
 {
@@ -147,7 +119,7 @@ static void check_name(struct validation *v, elem_id element)
     if (!e->name && rules[e->kind].named)
         diag_add(v->diags, DIAG_ID_name_missing, doc_place(v->doc, element),
                  text_of(v, e->category));
-    if (e->name && !is_name(text_of(v, e->name)))
+    if (e->name && !doc_is_name(text_of(v, e->name)))
         diag_add(v->diags, DIAG_ID_bad_name, doc_name_place(v->doc, element), text_of(v, e->name));
 }
 
@@ -283,31 +255,9 @@ static void check_has_output(struct validation *v, elem_id element)
                  text_of(v, e->name));
 }
 
-/* A fast path for most ports: true if place, attributes and connection need no diagnostic. */
-static bool is_port_in_order(const struct document *doc, elem_id element)
-{
-    const struct element *e = doc_element(doc, element);
-    const struct attribute *attrs = doc_attrs(doc, element);
-    bool is_port = e->kind == KIND_INPUT || e->kind == KIND_OUTPUT, has_type = false;
-    unsigned num_connections = 0, num_values = 0;
-    if (!is_port || !(rules[e->kind].parents >> doc_element(doc, e->parent)->kind & 1))
-        return false;
-    for (uint32_t i = 0; i < e->num_attrs; i++) {
-        str_id name = attrs[i].name;
-        has_type |= name == STR_type;
-        num_values += name == STR_value && attrs[i].value;
-        num_connections +=
-            (name == STR_nodename || name == STR_nodegraph || name == STR_interfacename)
-            && attrs[i].value;
-    }
-    return has_type && num_connections + (num_connections ? num_values : 0) <= 1;
-}
-
 static void check_standing(struct validation *v, elem_id element)
 {
     const struct element *e = doc_element(v->doc, element);
-    if (is_port_in_order(v->doc, element))
-        return;
     bool is_placed = check_place(v, element);
     if (is_placed)
         check_required(v, element);

@@ -136,7 +136,8 @@ struct unit { /* <unit> of a <unitdef> */
 
 struct user_type { /* <typedef> that is not a standard type */
     str_id name, semantic;
-    ir_type_id ir; /* a struct of the lang unit, or VOID */
+    ir_type_id ir;     /* a struct of the lang unit, or VOID */
+    uint16_t reserved; /* 0: a library image holds these bytes, so the record has no padding */
     elem_id element;
 };
 
@@ -173,11 +174,6 @@ struct library {
     VEC(uint32_t) element_info;
     /* replaces `element_info` in an image layer whose indices fit in 16 bits */
     const uint16_t *narrow_info;
-    /*
-     * per element of this layer: 1 + its definition, if it matched without a diagnostic; 0:
-     * unknown. NULL: no cache
-     */
-    _Atomic uint32_t *matches;
     /* indices of implementations in this layer for nodedefs of lower layers */
     VEC(uint32_t) overrides;
     struct diag_list *deferred; /* errors of implementations, which appear when a node uses one */
@@ -236,12 +232,6 @@ void library_resolve_graphs(struct library *lib, struct diag_list *diags);
 /* match.c */
 
 /*
- * Switches on the cache of matches for the nodes of the layer, which any thread can use. The tree
- * must be complete.
- */
-void library_keep_matches(struct library *lib, struct arena *arena);
-
-/*
  * The definition of a node element: by its `nodedef` attribute, otherwise by name, version and
  * types. If none matches, the closest one that gives the node's type, after a diagnostic for each
  * fault of the node. LIBRARY_NONE after a diagnostic: an unknown node, or one of another type.
@@ -273,10 +263,10 @@ void library_report_nodedef(const struct library *lib, elem_id element, str_id n
                             struct diag_list *diags);
 
 /*
- * False after reporting that the name of an element stands for two elements. `where` is the place
- * of the reference.
+ * False after reporting that the name of an element stands for two elements. `attr` of `from` has
+ * the reference.
  */
-bool library_is_unique(const struct library *lib, elem_id element, struct diag_place where,
+bool library_is_unique(const struct library *lib, elem_id element, elem_id from, str_id attr,
                        struct diag_list *diags);
 
 /*

@@ -5,7 +5,6 @@
 #include "base/hash.h"
 
 #include <assert.h>
-#include <stdatomic.h>
 
 static const char *text_of(const struct library *lib, str_id id)
 {
@@ -271,32 +270,6 @@ void library_report_nodedef(const struct library *lib, elem_id element, str_id n
              text_of(lib, name), advice(suggestion));
 }
 
-/* ---- Cache ---- */
-
-void library_keep_matches(struct library *lib, struct arena *arena)
-{
-    assert(lib->element_info.len == lib->doc.elements.len);
-    lib->matches = arena_zalloc(
-        arena, mem_array_size(arena->mem, lib->doc.elements.len, sizeof *lib->matches));
-}
-
-static _Atomic uint32_t *match_of(const struct library *lib, elem_id node)
-{
-    assert(node < lib->doc.first_element + lib->doc.elements.len);
-    return lib->matches && node >= lib->doc.first_element
-               ? &lib->matches[node - lib->doc.first_element]
-               : NULL;
-}
-
-/* Threads may race: all compute the same value. */
-static void keep(const struct library *lib, elem_id node, uint32_t nodedef)
-{
-    assert(nodedef < library_num_nodedefs(lib));
-    _Atomic uint32_t *match = match_of(lib, node);
-    if (match)
-        atomic_store_explicit(match, nodedef + 1, memory_order_relaxed);
-}
-
 /* Ends a search: the faults of the best candidate are the node's. */
 static uint32_t settle(const struct library *lib, elem_id node, const struct candidate *best,
                        struct diag_list *diags)
@@ -306,8 +279,6 @@ static uint32_t settle(const struct library *lib, elem_id node, const struct can
     str_id type = doc_attr_value(&lib->doc, node, STR_type);
     if (type && !library_type(lib, type))
         doc_report_type(&lib->doc, node, diags);
-    else if (is_exact(best))
-        keep(lib, node, best->nodedef);
     report_inputs(lib, best->nodedef, node, diags);
     return best->nodedef;
 }
@@ -326,7 +297,7 @@ static uint32_t match_explicit(const struct library *lib, elem_id node, str_id n
     if (def->node != category)
         diag_add(diags, DIAG_ID_nodedef_of_other_node, doc_attr_place(&lib->doc, node, STR_nodedef),
                  text_of(lib, name), text_of(lib, def->node), text_of(lib, category));
-    if (!library_is_unique(lib, def->element, doc_attr_place(&lib->doc, node, STR_nodedef), diags))
+    if (!library_is_unique(lib, def->element, node, STR_nodedef, diags))
         return LIBRARY_NONE;
     if (!gives_type(lib, def, library_ports(lib, id, NULL),
                     doc_attr_value(&lib->doc, node, STR_type))) {
@@ -335,12 +306,10 @@ static uint32_t match_explicit(const struct library *lib, elem_id node, str_id n
     }
     struct candidate c = examine(lib, id, node);
     c.is_of_version = true; /* the name includes the version */
-    if (is_exact(&c) && def->node != category)
-        return id; /* the next search reports the category again */
     return settle(lib, node, &c, diags);
 }
 
-static uint32_t find_match(const struct library *lib, elem_id node, struct diag_list *diags)
+uint32_t library_match(const struct library *lib, elem_id node, struct diag_list *diags)
 {
     str_id explicit_name = doc_attr_value(&lib->doc, node, STR_nodedef),
            type = doc_attr_value(&lib->doc, node, STR_type),
@@ -369,12 +338,4 @@ static uint32_t find_match(const struct library *lib, elem_id node, struct diag_
     else
         report_unknown_node(lib, node, diags);
     return LIBRARY_NONE;
-}
-
-uint32_t library_match(const struct library *lib, elem_id node, struct diag_list *diags)
-{
-    _Atomic uint32_t *match = match_of(lib, node);
-    uint32_t known = match ? atomic_load_explicit(match, memory_order_relaxed) : 0;
-    assert(known <= library_num_nodedefs(lib));
-    return known ? known - 1 : find_match(lib, node, diags);
 }

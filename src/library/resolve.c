@@ -33,14 +33,14 @@ static elem_id find_named(const struct library *lib, elem_id scope, str_id name,
     return doc_child(&lib->doc, scope, name);
 }
 
-bool library_is_unique(const struct library *lib, elem_id element, struct diag_place where,
+bool library_is_unique(const struct library *lib, elem_id element, elem_id from, str_id attr,
                        struct diag_list *diags)
 {
     elem_id second = doc_second_of_name(&lib->doc, element);
     if (!second)
         return true;
     const char *name = text_of(lib, doc_element(&lib->doc, element)->name);
-    diag_add(diags, DIAG_ID_ambiguous_name, where, name);
+    diag_add(diags, DIAG_ID_ambiguous_name, doc_attr_place(&lib->doc, from, attr), name);
     diag_add(diags, DIAG_ID_defined_here, doc_name_place(&lib->doc, element), name);
     diag_add(diags, DIAG_ID_defined_here, doc_name_place(&lib->doc, second), name);
     return false;
@@ -270,8 +270,7 @@ static elem_id graph_output(const struct library *lib, elem_id port, elem_id gra
         elem_id output = doc_child_of_kind(&lib->doc, graph, KIND_OUTPUT, name);
         if (!output)
             report_output(lib, port, graph, name, diags);
-        struct diag_place place = doc_attr_place(&lib->doc, port, STR_output);
-        return output && library_is_unique(lib, output, place, diags) ? output : 0;
+        return output && library_is_unique(lib, output, port, STR_output, diags) ? output : 0;
     }
     const char *graph_name = text_of(lib, doc_element(&lib->doc, graph)->name);
     elem_id first = 0, fitting = 0;
@@ -328,7 +327,8 @@ static elem_id follow_name(const struct library *lib, elem_id port, elem_id scop
     elem_id target = said->node ? find_named(lib, scope, said->node, port) : 0;
     if (!target && said->graph && !(target = find_named(lib, scope, said->graph, port)))
         target = find_named(lib, root_of(lib, port), said->graph, port);
-    if (target && !library_is_unique(lib, target, connection_place(doc, port), diags))
+    str_id attr = said->node ? STR_nodename : STR_nodegraph;
+    if (target && !library_is_unique(lib, target, port, attr, diags))
         return 0;
     if (target && doc_element(doc, target)->kind == KIND_NODE) {
         *out = bind_node(lib, port, target, type, diags);
@@ -356,8 +356,7 @@ static elem_id follow_output(const struct library *lib, elem_id port, str_id out
         diag_add(diags, DIAG_ID_dangling_output, doc_attr_place(&lib->doc, port, STR_output),
                  "the document", text_of(lib, output),
                  suggest_child(lib, root, KIND_OUTPUT, output, diags));
-    struct diag_place place = doc_attr_place(&lib->doc, port, STR_output);
-    return target && library_is_unique(lib, target, place, diags) ? target : 0;
+    return target && library_is_unique(lib, target, port, STR_output, diags) ? target : 0;
 }
 
 /* The next port of the chain, or 0 with *out at its end. */
@@ -383,8 +382,7 @@ static elem_id follow(const struct library *lib, elem_id port, doc_type type, st
         elem_id input = doc_child_of_kind(doc, scope, KIND_INPUT, said.interface);
         bool is_plain = graph->kind != KIND_NODEGRAPH || !doc_attr(doc, scope, STR_nodedef);
         if (input && is_plain) {
-            struct diag_place place = doc_attr_place(doc, port, STR_interfacename);
-            return library_is_unique(lib, input, place, diags) ? input : 0;
+            return library_is_unique(lib, input, port, STR_interfacename, diags) ? input : 0;
         }
         if (owner->kind == KIND_NODEGRAPH && element->kind == KIND_INPUT && is_plain) {
             /* exporters of USD write it; in MaterialX it refers to the input itself */
