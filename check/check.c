@@ -4,17 +4,19 @@
  * document; this file orders, judges and reports the records.
  */
 #define _POSIX_C_SOURCE 200809L
-#include "check/baseline.h"
 #include "check/budget.h"
 #include "check/cache.h"
 #include "check/check.h"
+#include "check/gate.h"
 #include "check/inputs.h"
 #include "check/json.h"
 #include "check/pool.h"
+#include "check/progress.h"
 #include "check/protocol.h"
 #include "check/record_io.h"
 #include "cli/files.h"
 
+#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -46,10 +48,11 @@ struct check {
     struct check_inputs inputs;
     struct pool pool;
     struct cache cache;
+    struct progress progress;
     struct budget budget;
-    struct baseline baseline;
-    bool update_baseline;
-    const char *baseline_path;
+    struct gate gate;
+    struct check_root root;
+    const char *root_folder; /* NULL: the working directory */
     const char *budget_args[NUM_MEASURES];
     const char *cache_folder, *shard;
     uint64_t num_found; /* number of documents, including other shards */
@@ -123,6 +126,15 @@ static void finish_slot(struct slot *slot)
     *slot = (struct slot){0};
 }
 
+static void show_progress(struct check *check, const struct check_document *document)
+{
+    const struct check_totals *totals = &check->reports.totals;
+    uint64_t failed = check->reports.run.is_compared
+                          ? totals->failing
+                          : totals->documents - totals->failed[CHECK_PASSED];
+    progress_show(&check->progress, totals->documents, failed, document->file);
+}
+
 static void tell_document(struct check *check, struct slot *slot)
 {
     struct store store = {0};
@@ -135,11 +147,12 @@ static void tell_document(struct check *check, struct slot *slot)
         document = make_failure(&store, slot);
     }
     document->index = slot->index;
+    document->name = check_root_name(&check->root, &store, document->file);
     budget_judge(&check->budget, &store, document);
-    if (check->reports.run.is_compared)
-        baseline_compare(&check->baseline, &store, document);
+    gate_compare(&check->gate, &check->reports, &store, document, &check->cli.report);
     check->reports.totals.cached += slot->cached != NULL;
     reports_document(&check->reports, document);
+    show_progress(check, document);
     store_finish(&store);
     finish_slot(slot);
 }
@@ -212,6 +225,7 @@ static void check_all(struct check *check)
             take_answer(check);
         tell_done(check);
     }
+    progress_clear(&check->progress);
     if (check->pool.fault)
         report_error(&check->cli.report, "check-failed", "%s", check->pool.fault);
 }
@@ -286,20 +300,13 @@ static void make_worker_args(struct check *check)
     args_append(&check->worker_args, NULL);
 }
 
-/* Compares with an existing baseline; writes a missing one, or a new one on demand. */
-static bool prepare_baseline(struct check *check)
+static bool open_root(struct check *check)
 {
-    const char **path = &check->reports.paths[SINK_BASELINE];
-    if (!*path || !files_is_regular(*path))
+    if (check_root_open(&check->root, check->root_folder))
         return true;
-    check->baseline_path = *path;
-    check->reports.run.is_compared = baseline_open(&check->baseline, *path);
-    if (!check->reports.run.is_compared)
-        report_error(&check->cli.report, "report-unreadable", "cannot read '%s': %s", *path,
-                     check->baseline.reader.fault);
-    if (!check->update_baseline)
-        *path = NULL;
-    return check->reports.run.is_compared;
+    report_error(&check->cli.report, "file-missing", "cannot open '%s': %s",
+                 check->root_folder ? check->root_folder : ".", strerror(errno));
+    return false;
 }
 
 /* Names the inputs of all documents, for the depfile. */
@@ -315,7 +322,7 @@ static void name_inputs(struct check *check)
         if (check->cli.parser.inputs.items[i][0] == '@')
             args_append(inputs, check->cli.parser.inputs.items[i] + 1);
     if (check->reports.run.is_compared)
-        args_append(inputs, check->baseline_path);
+        args_append(inputs, check->gate.path);
 }
 
 static bool prepare(struct check *check)
@@ -335,7 +342,8 @@ static bool prepare(struct check *check)
     run->verbose = cli->verbose;
     run->compiles = !check->no_compile;
     run->with_times = check->stats;
-    if (!prepare_baseline(check))
+    if (!open_root(check)
+        || !gate_open(&check->gate, &check->reports, check->root.given, &check->cli.report))
         return false;
     name_inputs(check);
     const char *const *paths = check->reports.paths;
@@ -374,10 +382,10 @@ static int run(struct check *check)
     cache_init(&check->cache, check->cache_folder, &check->worker_args, check->cli.library);
     pool_init(&check->pool, (char *const *)(uintptr_t)check->worker_args.items, check->jobs,
               (double)check->time_limit);
+    progress_init(&check->progress, !check->cli.quiet);
+    check->reports.run.progress = &check->progress;
     check_all(check);
-    if (check->reports.run.is_compared && !check->reports.run.num_shards)
-        check->reports.totals.changes[CHANGE_GONE] +=
-            baseline_list_gone(&check->baseline, check->reports.text.out);
+    gate_tell_gone(&check->gate, &check->reports);
     reports_end(&check->reports, report, !check->pool.fault);
     if (check->cache.fault)
         fprintf(stderr, "warning: the cache '%s' cannot be written: %s [output-failed]\n",
@@ -396,7 +404,8 @@ static void finish(struct check *check)
     pool_finish(&check->pool);
     cache_finish(&check->cache);
     budget_finish(&check->budget);
-    baseline_close(&check->baseline);
+    gate_finish(&check->gate);
+    check_root_finish(&check->root);
     inputs_finish(&check->inputs);
     args_free(&check->worker_args);
     free(check->target_args.items);
@@ -424,6 +433,7 @@ static int run_if_sensible(struct check *check)
     if (misuse)
         fprintf(stderr, "mxgen: %s\n", misuse);
     return !misuse && find_targets(check) && parse_shard(check) && parse_budgets(check)
+                   && gate_parse(&check->gate, &check->reports)
                ? run(check)
                : EXIT_USAGE;
 }
@@ -434,7 +444,7 @@ int command_check(const struct command *command, int argc, char **argv)
     if (argc > 1 && strcmp(argv[1], "merge") == 0)
         return check_merge(command, argc - 1, argv + 1);
     struct check check = {.time_limit = 120};
-    struct arg args[16 + NUM_SINK_KINDS + NUM_MEASURES] = {
+    struct arg args[16 + NUM_GATE_ARGS + NUM_SINK_KINDS + NUM_MEASURES] = {
         {"target", 't', ARG_LIST, "T,...", "targets (default: glsl)", &check.target_args},
         {"jobs", 'j', ARG_SIZE, "N",
          "documents checked at the same time; 0: number of cores (default: 0)", &check.jobs,
@@ -451,8 +461,10 @@ int command_check(const struct command *command, int argc, char **argv)
          &check.cache_folder},
         {"shard", 0, ARG_TEXT, "K/N",
          "checks part K of N; 'mxgen check merge' joins the JSON reports", &check.shard},
-        {"update-baseline", 0, ARG_FLAG, NULL, "replaces the baseline after the comparison",
-         &check.update_baseline},
+        {"root", 0, ARG_TEXT, "DIR",
+         "names documents in reports and baselines by their path below this folder (default: the "
+         "working directory)",
+         &check.root_folder},
         {"stats", 0, ARG_FLAG, NULL, "prints times, the slowest documents and the largest shaders",
          &check.stats},
     };
@@ -460,6 +472,7 @@ int command_check(const struct command *command, int argc, char **argv)
     while (args[num_args].name)
         ++num_args;
     num_args += reports_args(&check.reports, args + num_args);
+    num_args += gate_args(&check.gate, args + num_args);
     for (int i = 0; i < NUM_MEASURES; ++i)
         args[num_args++] = (struct arg){
             measure_infos[i].option, 0,       ARG_TEXT, "N | T=N,...", measure_infos[i].meaning,

@@ -25,8 +25,11 @@ bool reports_begin(struct check_reports *reports, struct report *report);
 /* Passes a document to all reports. Documents come in order. */
 void reports_document(struct check_reports *reports, const struct check_document *document);
 
+/* Passes a document of the baseline that the run lacks, after all documents of the run. */
+void reports_gone(struct check_reports *reports, const struct check_document *document);
+
 /*
- * True if the run passes: all documents pass, or, with a baseline, no new failures occur.
+ * True if the run passes: all documents pass, or, with a baseline, no change fails the run.
  */
 bool reports_are_good(const struct check_reports *reports);
 

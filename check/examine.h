@@ -32,6 +32,10 @@ void examiner_finish(struct examiner *examiner);
 void examine_shader(struct examiner *examiner, const mxg_result *result,
                     struct check_shader *shader, const char *element);
 
+/* Records the published inputs and textures of an element, unless another target has done so. */
+void examine_settings(struct examiner *examiner, const mxg_result *result,
+                      struct check_element *element);
+
 /* examine_picture.c: lists the images in an element's picture; draws the picture. */
 void examine_images(struct examiner *examiner, const mxg_result *result);
 void examine_picture(struct examiner *examiner, struct check_element *element);

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Incremental and distributed runs of mxgen check: the cache, also after kill -9, depfiles, shards, GNU parallel and Slurm. Arguments: mxgen
+# Incremental and distributed runs of mxgen check: the cache, also after kill -9, depfiles, shards and GNU parallel. Arguments: mxgen
 mxgen=$(realpath "$1")
 here=$(cd "$(dirname "$0")" && pwd)
 examples=$here/../../examples/check
@@ -126,7 +126,7 @@ check 'and not again' make -q
 check 'until an include changes' eval 'touch show/part.mtlx && ! make -q'
 printf '[budget]\nmax-closures = 100\n' >show/mxgen.toml
 echo show/whole.mtlx >list
-"$mxgen" check show/whole.mtlx --no-compile --json base.json >/dev/null
+"$mxgen" check show/whole.mtlx --no-compile --baseline base.json --update-baseline >/dev/null
 check 'a depfile names' exits 0 "$mxgen" check @list --library library --no-compile --baseline base.json --json r.json --depfile r.d
 for file in show/whole.mtlx show/part.mtlx show/mxgen.toml library/a.mtlx list base.json; do check "$file" grep -q "^ $file\( \|\$\)" r.d; done
 rm show/mxgen.toml
@@ -141,11 +141,25 @@ check 'into the same report' cmp merged.json none.json
 check 'of every kind' eval 'exits 1 "$mxgen" check show --no-compile --junit none.xml && cmp merged.xml none.xml'
 check 'a shard too few' exits 1 "$mxgen" check merge shards/[124].json
 check 'is told' grep -q 'shard 3 of 4 is missing \[shard-missing\]' err
+check 'with no other message' is "$(wc -l <err)" 1
+check 'the last shard is missing' exits 1 "$mxgen" check merge shards/[123].json
+check 'is told' grep -q 'shard 4 of 4 is missing \[shard-missing\]' err
+check 'two shards are missing' exits 1 "$mxgen" check merge shards/[24].json
+check 'are told at once' is "$(cat err)" 'error: shards 1, 3 of 4 are missing [shard-missing]'
 check 'a shard twice' exits 1 "$mxgen" check merge shards/*.json shards/2.json
-check 'is told, too' grep -q '\[shard-twice\]' err
+check 'is told once' is "$(cat err)" "error: 'shards/2.json' and 'shards/2.json' are both shard 2 of 4 [shard-twice]"
+check 'one twice and one missing' exits 1 "$mxgen" check merge shards/[124].json shards/2.json
+check 'are told, both' eval 'grep -q "shard 3 of 4 is missing" err && is "$(grep -c shard-twice err)" 1'
 "$mxgen" check show --no-compile --shard 1/2 --json other.json >/dev/null
 check 'shards of two runs' exits 1 "$mxgen" check merge shards/2.json other.json
 check 'are told apart' grep -q '\[shard-other\]' err
+"$mxgen" check show --no-compile --target essl --shard 3/4 --json other3.json >/dev/null
+check 'a shard with other targets' exits 1 "$mxgen" check merge shards/[124].json other3.json
+check 'is told, too' grep -q "'other3.json' and 'shards/1.json' are not shards of the same run \[shard-other\]" err
+"$mxgen" check show --no-compile --json all.json >/dev/null
+check 'two whole reports' exits 1 "$mxgen" check merge all.json none.json
+check 'are no shards' grep -q '\[shard-other\]' err
+check 'one whole report is one run' eval 'exits 1 "$mxgen" check merge all.json --json all2.json && cmp all.json all2.json'
 head -c $(($(wc -c <shards/2.json) / 2)) shards/2.json >cut.json
 check 'half a shard' exits 1 "$mxgen" check merge shards/[134].json cut.json --json half.json
 check 'is told as well' grep -q '\[report-unreadable\]' err
@@ -161,67 +175,10 @@ check 'an empty shard passes' exits 0 "$mxgen" check show/m2.mtlx --no-compile -
 if command -v parallel >/dev/null; then
     check 'GNU parallel' exits 1 "$examples/parallel.sh" 2/: 4 show --no-compile
     check 'gives the same report' cmp report.json none.json
+    "$mxgen" check show --no-compile --baseline parallel.json --update-baseline >/dev/null
+    check 'against a baseline' env BASELINE=parallel.json "$examples/parallel.sh" 2/: 4 show --no-compile
 else
     skip 'GNU parallel is not installed'
-fi
-
-# Slurm: a controller and a node of our own
-slurm() {
-    local host port=$((20000 + $$ % 20000))
-    host=$(hostname -s)
-    mkdir -p slurm/state slurm/spool
-    cat >slurm/slurm.conf <<END
-ClusterName=test
-SlurmctldHost=$host(127.0.0.1)
-SlurmUser=$(id -un)
-SlurmdUser=$(id -un)
-AuthType=auth/none
-CredType=cred/none
-ProctrackType=proctrack/pgid
-TaskPlugin=task/none
-SelectType=select/cons_tres
-SelectTypeParameters=CR_CPU
-JobAcctGatherType=jobacct_gather/none
-MpiDefault=none
-SchedulerParameters=sched_interval=1
-SlurmctldPidFile=$work/slurm/slurmctld.pid
-SlurmdPidFile=$work/slurm/slurmd.pid
-SlurmdSpoolDir=$work/slurm/spool
-StateSaveLocation=$work/slurm/state
-SlurmctldPort=$port
-SlurmdPort=$((port + 1))
-SlurmctldLogFile=$work/slurm/slurmctld.log
-SlurmdLogFile=$work/slurm/slurmd.log
-NodeName=$host NodeAddr=127.0.0.1 CPUs=$(nproc) State=UNKNOWN
-PartitionName=all Nodes=ALL Default=YES MaxTime=INFINITE State=UP
-END
-    export SLURM_CONF=$work/slurm/slurm.conf
-    slurmctld -D >slurm/slurmctld.out 2>&1 &
-    controller=$!
-    slurmd -D >slurm/slurmd.out 2>&1 &
-    node=$!
-    trap 'kill $node $controller; wait; rm -rf "$work"' EXIT
-    for _ in $(seq 60); do
-        sinfo -h -o %T 2>/dev/null | grep -q idle && return
-        sleep 0.5
-    done
-    return 1
-}
-merge_array() {
-    local array
-    rm -rf shards report.json && mkdir shards
-    array=$(sbatch --parsable --array=1-3 "$examples/array.sbatch" show --no-compile) || return
-    timeout 100 sbatch --wait --output=merge.log --dependency=afterany:"$array" \
-        --wrap 'mxgen check merge shards/*.json --json report.json --html report.html'
-    [ $? -eq 1 ] || { cat merge.log shards/*.log; return 1; } # the merge's exit code
-}
-if ! command -v slurmctld >/dev/null || ! command -v slurmd >/dev/null; then
-    skip 'Slurm is not installed'
-elif slurm; then
-    check 'a Slurm array' merge_array
-    check 'gives the same report' cmp report.json none.json
-else
-    skip 'Slurm does not start here'
 fi
 
 finish check-spread
