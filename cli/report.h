@@ -17,6 +17,7 @@ struct report {
     size_t max_errors;      /* limit per document; 0: no limit */
     size_t document_errors; /* errors printed for the current document */
     bool has_cut_note;      /* the hint that more errors exist was printed */
+    bool is_cause_told;     /* the note about consequences was printed for the document */
     uint64_t *printed;      /* hash table of printed messages; 0: free */
     size_t num_printed, capacity_printed;
     char *source_name, *source; /* the last file that was read */

@@ -471,6 +471,7 @@ mxg_status generation_run(mxg_context *context, const mxg_document *document,
     arena_init(&g->scratch, &result->object.mem);
     file_source_init(&g->files, &result->object);
     g->reader = file_source_for_lang(&g->files);
+    diag_list_follow(&result->object.diagnostics.list, &document->object.diagnostics.list);
     mxg_status status = object_run(&result->object, run_steps, &run);
     result->files.items = g->files.names.items;
     result->files.len = g->files.names.len;

@@ -573,6 +573,9 @@ static void add_implementation(struct indexer *ix, elem_id element)
                  text_of(lib, nodedef));
         return;
     }
+    if (!library_is_unique(lib, library_nodedef(lib, impl.nodedef)->element, element, STR_nodedef,
+                           ix->diags))
+        return;
     if (!library_nodedef(lib, impl.nodedef)->num_outputs)
         return; /* reported as no-output or unknown-type */
     str_id graph = attr(ix, element, STR_nodegraph);
@@ -609,11 +612,12 @@ static void add_functional_graph(struct indexer *ix, elem_id element)
                                   .ref = element};
     impl.nodedef = library_nodedef_by_name(lib, name);
     if (impl.nodedef == LIBRARY_NONE) {
-        diag_add(ix->diags, DIAG_ID_unknown_nodedef,
-                 doc_attr_place(&lib->doc, element, STR_nodedef), text_of(lib, name),
-                 library_suggest_nodedef(lib, name, ix->diags));
+        library_report_nodedef(lib, element, name, ix->diags);
         return;
     }
+    if (!library_is_unique(lib, library_nodedef(lib, impl.nodedef)->element, element, STR_nodedef,
+                           ix->diags))
+        return;
     add_impl(ix, impl);
 }
 

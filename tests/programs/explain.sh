@@ -26,8 +26,8 @@ mentions() { # output, id
     note)
         ! grep -qF "[$2]" <<<"$1" || return 0 # of a message of its own
         message=$("$mxgen" explain "$2" | sed -n '2s/^ *//p')
-        [ "$message" = %s ] && message=.
-        message=$(sed 's/%[su]/.*/g; s/[][(]/\\&/g' <<<"$message")
+        [ "$message" = … ] && message=.
+        message=$(sed 's/…/.*/g; s/[][(]/\\&/g' <<<"$message")
         grep -Eq "note: $message" <<<"$1"
         ;;
     *) grep -qF "[$2]" <<<"$1" ;;
