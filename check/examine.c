@@ -214,16 +214,22 @@ static void add_status(struct examiner *examiner, mxg_status status, struct chec
 {
     if (status == MXG_OK || status == MXG_ERROR_DOCUMENT)
         return;
-    char *rendered =
-        cli_format("%s: error: %s [failed]\n", examiner->document->file, mxg_status_string(status));
+    bool is_limit =
+        status == MXG_ERROR_MEMORY && examiner->memory_limit && !examiner->cli->max_memory;
+    const char *id = is_limit ? "check-memory" : "failed";
+    char *text = is_limit ? cli_format("a worker needs more than %zu MiB of memory: %s",
+                                       examiner->memory_limit, element ? element : "the document")
+                          : cli_format("%s", mxg_status_string(status));
+    char *rendered = cli_format("%s: error: %s [%s]\n", examiner->document->file, text, id);
     examine_add(examiner, shader,
-                (struct check_message){.id = "failed",
-                                       .text = mxg_status_string(status),
+                (struct check_message){.id = id,
+                                       .text = text,
                                        .file = examiner->document->file,
                                        .element = element,
                                        .target = shader ? shader->target : NULL,
                                        .rendered = rendered});
     free(rendered);
+    free(text);
 }
 
 /* ---- Stages ---- */

@@ -10,6 +10,7 @@ struct examiner {
     struct cli *cli;
     struct arg_list targets;
     bool compile, render;
+    size_t memory_limit; /* of this process, in MiB; 0: none */
     struct channel channel;
     bool is_brief;    /* no report needs measures */
     bool errors_only; /* only errors need their printed form */

@@ -219,12 +219,24 @@ static void describe_run(struct merge *merge)
     run->with_times = merge->stats;
 }
 
+/* False after an error: a report would overwrite a part or another report. */
+static bool claim_outputs(struct merge *merge)
+{
+    struct outputs outputs = {0};
+    bool good = true;
+    for (size_t i = 0; i < merge->num_parts; ++i)
+        good = outputs_read(&outputs, &merge->cli.report, merge->parts[i].path) && good;
+    good = reports_claim(&merge->reports, &outputs, &merge->cli.report) && good;
+    outputs_finish(&outputs);
+    return good;
+}
+
 static int run(struct merge *merge)
 {
     if (!open_parts(merge) || !has_baseline(merge))
         return EXIT_FAULT;
     describe_run(merge);
-    if (!gate_open(&merge->gate, &merge->reports, NULL, &merge->cli.report)
+    if (!claim_outputs(merge) || !gate_open(&merge->gate, &merge->reports, NULL, &merge->cli.report)
         || !reports_begin(&merge->reports, &merge->cli.report))
         return EXIT_FAULT;
     tell_all(merge);

@@ -25,7 +25,8 @@
     X(RENDER, "render") \
     X(BUDGET, "budget") \
     X(CRASH, "crash")     /* the program that checked it died */ \
-    X(TIMEOUT, "timeout") /* or exceeded the time limit */
+    X(TIMEOUT, "timeout") /* or exceeded the time limit */ \
+    X(MEMORY, "memory")   /* or the limit of memory */
 
 enum check_stage {
 #define STAGE(name, text) CHECK_##name,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "check/check.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 const struct sink_kind *const sink_kinds[NUM_SINK_KINDS] = {
@@ -35,6 +36,20 @@ const char *reports_misuse(const struct check_reports *reports)
                 return "two reports would be one file, or one standard output; name a file for "
                        "each";
     return NULL;
+}
+
+bool reports_claim(const struct check_reports *reports, struct outputs *outputs,
+                   struct report *report)
+{
+    bool good = true;
+    for (size_t i = 0; i < NUM_SINK_KINDS; ++i) {
+        if (!reports->paths[i])
+            continue;
+        char *owner = cli_format("--%s", sink_kinds[i]->option);
+        good = outputs_write(outputs, report, reports->paths[i], owner) && good;
+        free(owner);
+    }
+    return good;
 }
 
 bool reports_begin(struct check_reports *reports, struct report *report)

@@ -47,7 +47,9 @@ static void load_source(struct report *report, const char *file)
     if (report->source_name && strcmp(report->source_name, file) == 0)
         return;
     size_t size = 0;
-    char *source = files_is_regular(file) ? files_read(file, &size) : NULL;
+    char *source = files_is_regular(file) && files_is_within(file, report->max_source_size)
+                       ? files_read(file, &size)
+                       : NULL;
     report_source(report, file, source, size);
 }
 
@@ -101,10 +103,11 @@ static const char *find_line(struct report *report, uint32_t number, size_t *out
 static void render(struct report *report, const mxg_diagnostics *list, uint32_t index,
                    const mxg_diagnostic *diagnostic)
 {
-    if (diagnostic->file)
+    if (diagnostic->file && diagnostic->line)
         load_source(report, diagnostic->file);
     size_t size = 0, room = report->capacity - report->len;
-    const char *line = diagnostic->file ? find_line(report, diagnostic->line, &size) : NULL;
+    const char *line =
+        diagnostic->file && diagnostic->line ? find_line(report, diagnostic->line, &size) : NULL;
     size_t len = mxg_diagnostics_format_line(list, index, line, size, report->colour,
                                              room ? report->text + report->len : NULL, room);
     if (!reserve(report, len + 2))

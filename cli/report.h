@@ -21,7 +21,8 @@ struct report {
     size_t num_printed, capacity_printed;
     char *source_name, *source; /* the last file that was read */
     size_t source_size;
-    const char **lines; /* its lines, as far as the report has found them */
+    size_t max_source_size; /* of larger files no lines are shown; 0: no limit */
+    const char **lines;     /* its lines, as far as the report has found them */
     size_t num_lines, capacity_lines;
     char *text; /* text of the current message */
     size_t len, capacity;

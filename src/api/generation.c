@@ -114,6 +114,8 @@ static void set_build_options(struct generation *g)
         .reader = &g->reader,
         .list_folder = context->resolver.list_folder,
         .list_user_data = context->resolver.user_data,
+        .texture_fault = stdio_texture_fault,
+        .texture_user_data = g->result->object.context,
         .integrator = o[OPTION_integrator].number != 0,
         .cancel = context->cancel,
         .cancel_user_data = context->cancel_user_data,
@@ -381,6 +383,7 @@ static bool spell_one(struct generation *g, const struct spell_options *options,
     out->marks = kept;
     out->text = text_cstr(&source);
     out->size = source.len;
+    source_find_lines(out, &result->object.arena);
     return !is_cancelled(g);
 }
 
@@ -437,6 +440,12 @@ static void run_steps(void *arg)
 {
     struct run *run = arg;
     run->steps(&run->generation);
+}
+
+bool generation_names_target(const mxg_generate_desc *desc)
+{
+    mxg_generate_desc known;
+    return desc && struct_read(&known, sizeof known, desc) && known.target;
 }
 
 mxg_status generation_run(mxg_context *context, const mxg_document *document,
@@ -501,7 +510,7 @@ mxg_status mxg_generate(mxg_context *context, const mxg_document *document,
 {
     if (out_result)
         *out_result = NULL;
-    if (!desc || !desc->target)
+    if (!generation_names_target(desc))
         return MXG_ERROR_ARGUMENT;
     return generation_run(context, document, desc, generate, NULL, out_result);
 }

@@ -61,13 +61,12 @@ static ir_type_id struct_type(struct indexer *ix, elem_id element, str_id name)
     }
     uint32_t num_members = lib->unit.members.len - first;
     ir_type_id type = IR_TYPE_VOID;
-    if (num_members > 0 && num_members <= UINT16_MAX)
+    if (num_members && num_members <= UINT16_MAX)
         type = lang_add_type(&lib->unit, (struct ir_user_type){.name = name,
                                                                .num_members = (uint16_t)num_members,
                                                                .first_member = first});
-    if (num_members > 0 && type == IR_TYPE_VOID)
-        diag_add(ix->diags, DIAG_ID_lang_limit, doc_place(&lib->doc, element),
-                 "there are too many structs, or this one is too large");
+    if (num_members && !type)
+        diag_add(ix->diags, DIAG_ID_lang_limit, doc_place(&lib->doc, element), "it is too large");
     return type;
 }
 

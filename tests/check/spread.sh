@@ -69,9 +69,16 @@ check 'until it is there' textured '' 0
 check 'which is remembered' textured 1 0
 rm textures/wood.png
 check 'until it is gone' textured '' 1
-for entry in cache/*/*.json; do printf 'x' >"$entry"; done
+for entry in cache/*/*.entry; do # still JSON, and no record any more
+    sed -i 's/"passed"/"failed"/; s/"record"/"recurd"/' "$entry"
+done
 check 'damaged entries are made anew' exits 1 "$mxgen" check show --no-compile --cache cache --json damaged.json
-check 'as if there were none' eval 'exits 1 "$mxgen" check show --no-compile --json none.json && cmp damaged.json none.json'
+check 'as if there were none' eval '"$mxgen" check show --no-compile --json none.json >out 2>err; cmp damaged.json none.json'
+check 'and kept' exits 1 "$mxgen" check show --no-compile --cache cache --json damaged.json
+check 'whole' is "$(unchanged)" 15
+for entry in cache/*/*.entry; do printf 'x' >"$entry"; done
+check 'entries of one byte are made anew' exits 1 "$mxgen" check show --no-compile --cache cache --json damaged.json
+check 'are none' eval 'exits 1 "$mxgen" check show --no-compile --json none.json && cmp damaged.json none.json'
 check 'a cache that cannot be written is told' exits 0 "$mxgen" check show/m2.mtlx --no-compile --cache show/m1.mtlx
 check 'and changes no verdict' grep -q '^warning: the cache' err
 
@@ -105,8 +112,8 @@ for delay in 0.01 0.02 0.03 0.05 0.08 0.12 0.2; do
     wait $! 2>/dev/null
 done
 whole() {
-    find killed -name '*.json' | while read -r entry; do
-        python3 -m json.tool "$entry" >/dev/null || exit 1
+    find killed -name '*.entry' | while read -r entry; do
+        [ "$(tail -n +2 "$entry" | sha256sum | cut -c -64)" = "$(head -n 1 "$entry")" ] || exit 1
     done
 }
 check 'kill -9 leaves no half entry' whole
@@ -114,6 +121,53 @@ check 'and no half report' eval '[ ! -e killed.json ] || python3 -m json.tool ki
 check 'the next run is right' eval 'exits 1 "$mxgen" check show --no-compile --cache killed --json killed.json && cmp killed.json none.json'
 sleep 0.2
 check 'no worker is left' eval '! pgrep -f "$work/programs/mxgen-check"'
+
+# Limits: of the files that the cache hashes, and of the memory of a worker
+truncate -s 3G sparse.mtlx
+cat >peak.py <<'P'
+import resource, subprocess, sys
+code = subprocess.run(sys.argv[2:], check=False).returncode
+peak = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss // 1024
+print(f"{peak} MiB", file=sys.stderr)
+sys.exit(code if peak < int(sys.argv[1]) else 99)
+P
+check 'a document of 3 GiB' exits 1 python3 peak.py 200 "$mxgen" check sparse.mtlx --cache cache --no-compile --max-file-size 1
+check 'is too large, and nobody reads it' grep -q 'larger than 1 MiB.*\[file-too-large\]' out
+python3 - <<'P'
+with open("heavy.mtlx", "w", encoding="ascii") as out:
+    out.write('<materialx version="1.39"><position name="n0" type="vector3"/>')
+    for i in range(1, 60000):
+        out.write(f'<add name="n{i}" type="vector3"><input name="in1" type="vector3" nodename="n{i - 1}"/>'
+                  f'<input name="in2" type="vector3" value="{i}, 1, 2"/></add>')
+    out.write('<output name="o" type="vector3" nodename="n59999"/></materialx>')
+P
+check 'a document that needs more memory than a worker has' exits 1 "$mxgen" check heavy.mtlx show/m2.mtlx -j1 --no-compile --memory-limit 48 --json heavy.json
+check 'is told' grep -q 'a worker needs more than 48 MiB of memory: .*\[check-memory\]' out
+check 'and the next is checked' says heavy.json '[x["status"] for x in d]' "['failed', 'passed']"
+
+# A run that ends while a worker waits: for the other end of a pipe
+mkfifo pipe.mtlx
+is_running() { case $(ps -o stat= -p "$1") in '' | Z*) return 1 ;; esac; }
+for signal in TERM HUP KILL; do # a shell makes its background jobs ignore SIGINT
+    "$mxgen" check pipe.mtlx --no-compile --json ended.json >/dev/null 2>&1 &
+    run=$! worker=
+    for _ in $(seq 200); do
+        worker=$(pgrep -P "$run") && [ -n "$(find . -maxdepth 1 -name 'ended.json.*')" ] && break
+        sleep 0.05
+    done
+    check "a worker waits before SIG$signal" test -n "$worker"
+    kill -s "$signal" "$run"
+    wait "$run" 2>/dev/null
+    for _ in $(seq 200); do
+        is_running "$worker" || break
+        sleep 0.05
+    done
+    check "no worker is left by SIG$signal" eval '! is_running "$worker"'
+    check 'no report' test ! -e ended.json
+    # no program can do anything about SIGKILL
+    [ "$signal" = KILL ] || check "no half report is left by SIG$signal" test -z "$(find . -maxdepth 1 -name 'ended.json*')"
+done
+rm -f ended.json*
 
 # Depfiles
 cat >Makefile <<END
