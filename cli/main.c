@@ -28,12 +28,15 @@ static const struct command commands[] = {
     {"upgrade", "upgrade FILE... [--in-place | --check | -o FILE]",
      "Writes documents of older versions as version 1.39; comments and includes stay.",
      command_upgrade},
-    {"explain", "explain [ID...] [-o DIR | --markdown]",
-     "Prints cause, cure and example of a message, or a list of all messages.", command_explain},
+    {"explain", "explain [ID|NODE...] [-o DIR | --markdown]",
+     "Prints cause, cure and example of a message, the inputs of a node, or a list of all "
+     "messages.",
+     command_explain},
     {"render", "render FILE|FOLDER... -o PICTURE.png [options]",
      "Renders materials without a display: one picture, or a sheet of several.", command_render},
-    {"library", "library pack|list|expand|doc [PATH...] [-o PATH]",
-     "Packs, lists, expands or documents node libraries.", command_library},
+    {"library", "library pack|list|expand|doc [PATH...] [-o PATH]  |  library list WORD...",
+     "Packs, lists, expands or documents node libraries; finds nodes by a part of their name.",
+     command_library},
 };
 #define NUM_COMMANDS (sizeof commands / sizeof *commands)
 

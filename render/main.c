@@ -5,6 +5,7 @@
 #include "cli/files.h"
 #include "cli/folder.h"
 #include "cli/outputs.h"
+#include "cli/parent.h"
 #include "cli/render_options.h"
 #include "render/applies.h"
 #include "render/bake.h"
@@ -647,6 +648,7 @@ int main(int argc, char **argv)
     struct arg args[MAX_RENDER_ARGS];
     size_t num_args = render_args(&job.options, args);
     int code;
+    parent_follow();
     if (cli_start(&job.cli, &command, args, num_args, CLI_GENERATES, argc, argv, &code)) {
         job.painter.cli = &job.cli;
         job.painter.files = &job.files;

@@ -114,6 +114,8 @@ static void set_build_options(struct generation *g)
         .reader = &g->reader,
         .list_folder = context->resolver.list_folder,
         .list_user_data = context->resolver.user_data,
+        .texture_fault = stdio_texture_fault,
+        .texture_user_data = g->result->object.context,
         .integrator = o[OPTION_integrator].number != 0,
         .cancel = context->cancel,
         .cancel_user_data = context->cancel_user_data,
@@ -381,6 +383,7 @@ static bool spell_one(struct generation *g, const struct spell_options *options,
     out->marks = kept;
     out->text = text_cstr(&source);
     out->size = source.len;
+    source_find_lines(out, &result->object.arena);
     return !is_cancelled(g);
 }
 
@@ -439,6 +442,12 @@ static void run_steps(void *arg)
     run->steps(&run->generation);
 }
 
+bool generation_names_target(const mxg_generate_desc *desc)
+{
+    mxg_generate_desc known;
+    return desc && struct_read(&known, sizeof known, desc) && known.target;
+}
+
 mxg_status generation_run(mxg_context *context, const mxg_document *document,
                           const mxg_generate_desc *desc, void (*steps)(struct generation *),
                           void *user_data, mxg_result **out_result)
@@ -462,6 +471,7 @@ mxg_status generation_run(mxg_context *context, const mxg_document *document,
     arena_init(&g->scratch, &result->object.mem);
     file_source_init(&g->files, &result->object);
     g->reader = file_source_for_lang(&g->files);
+    diag_list_follow(&result->object.diagnostics.list, &document->object.diagnostics.list);
     mxg_status status = object_run(&result->object, run_steps, &run);
     result->files.items = g->files.names.items;
     result->files.len = g->files.names.len;
@@ -501,7 +511,7 @@ mxg_status mxg_generate(mxg_context *context, const mxg_document *document,
 {
     if (out_result)
         *out_result = NULL;
-    if (!desc || !desc->target)
+    if (!generation_names_target(desc))
         return MXG_ERROR_ARGUMENT;
     return generation_run(context, document, desc, generate, NULL, out_result);
 }

@@ -9,6 +9,7 @@
 #ifndef MXG_BUILD_BUILD_H
 #define MXG_BUILD_BUILD_H
 
+#include "base/names.h"
 #include "library/library.h"
 #include "shader/network.h"
 
@@ -44,9 +45,11 @@ struct build_options {
     bool tiles;                       /* images with tiles are texture arrays */
     const struct lang_reader *reader; /* for photometric files; may be NULL */
     /* Like mxg_resolver.list_folder, to find tiles; may be NULL. */
-    size_t (*list_folder)(void *user_data, const char *from, const char *folder, char *names,
-                          size_t capacity);
+    names_fn *list_folder;
     void *list_user_data;
+    /* The reason why a document may not refer to a texture; NULL: it may. NULL: all are allowed. */
+    const char *(*texture_fault)(void *user_data, const char *from, const char *file);
+    void *texture_user_data;
     int integrator;
     bool (*cancel)(void *user_data);
     void *cancel_user_data;

@@ -8,6 +8,7 @@
  * The geometry property 'udimset' or 'uvtileset' lists the tiles; without it, the existing files
  * do.
  */
+#include "base/names.h"
 #include "build/build_priv.h"
 
 #include <limits.h>
@@ -152,11 +153,9 @@ static void find_files(struct builder *b, const struct tile_token *token, elem_i
         return;
     const char *folder = arena_strndup(b->arena, file, (size_t)(pattern - file));
     const char *from = doc_place(&b->lib->doc, element).file;
-    char *names = NULL;
-    size_t capacity = 0, size;
-    while ((size = o->list_folder(o->list_user_data, from ? from : "", folder, names, capacity))
-           > capacity)
-        names = arena_alloc(b->arena, capacity = size);
+    const char *names;
+    size_t size =
+        names_list(b->arena, o->list_folder, o->list_user_data, from ? from : "", folder, &names);
     for (size_t at = 0; at < size; at += strlen(names + at) + 1) {
         struct shader_tile tile;
         if (match(token, pattern, names + at, &tile))

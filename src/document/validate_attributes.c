@@ -61,12 +61,15 @@ static void check_attribute(struct validation *v, elem_id element, str_id name)
     /* a prefix marks the attribute of another program */
     if (kinds >> e->kind & 1 || strchr(text, ':') || is_declared(v, name))
         return;
-    struct diag_place place = doc_attr_place(v->doc, element, name);
+    struct diag_place place = doc_attr_name_place(v->doc, element, name);
     if (kinds)
         diag_add(v->diags, DIAG_ID_misplaced_attribute, place, text, text_of(v, e->category));
-    else
-        diag_add(v->diags, DIAG_ID_unknown_attribute, place, text,
-                 suggest(v, (enum element_kind)e->kind, name));
+    if (kinds)
+        return;
+    const char *suggestion = suggest(v, (enum element_kind)e->kind, name);
+    diag_add(v->diags, DIAG_ID_unknown_attribute, place, text,
+             *suggestion ? suggestion : "; an <attributedef> can declare it");
+    return;
 }
 
 void validate_attributes(struct validation *v, elem_id element)

@@ -117,7 +117,7 @@ static void check_use(struct validate *v)
             element->parent ? (enum element_kind)doc_element(v->doc, element->parent)->kind
                             : KIND_NODE;
         if (!is_used && (parent == KIND_MATERIALX || parent == KIND_NODEGRAPH))
-            diag_add(v->diags, DIAG_ID_unused_node, doc_place(v->doc, e),
+            diag_add(v->diags, DIAG_ID_unused_node, doc_name_place(v->doc, e),
                      text_of(v, element->name));
     }
 }

@@ -61,15 +61,16 @@ static bool gives_uniform(struct validate *v, elem_id node, unsigned output)
     return ports[library_nodedef(v->lib, nodedef)->num_inputs + output].flags & PORT_UNIFORM;
 }
 
-static bool is_uniform_interface(const struct validate *v, const struct binding *binding)
+/* The input of the definition if it varies; 0: it is uniform, or mxgen reports its absence. */
+static elem_id varying_interface(const struct validate *v, const struct binding *binding)
 {
     elem_id graph = library_graph_around(v->lib, binding->element);
     uint32_t nodedef = graph ? library_implemented_nodedef(v->lib, graph) : LIBRARY_NONE;
     int input = nodedef == LIBRARY_NONE ? -1 : library_find_input(v->lib, nodedef, binding->ref);
     if (input < 0)
-        return true; /* of a compound nodegraph, or reported already */
+        return 0;
     const struct port *port = &library_ports(v->lib, nodedef, NULL)[input];
-    return port->flags & PORT_UNIFORM || is_uniform_type(port->type);
+    return port->flags & PORT_UNIFORM || is_uniform_type(port->type) ? 0 : port->element;
 }
 
 void validate_uniform(struct validate *v, elem_id node, const struct port *port,
@@ -77,20 +78,22 @@ void validate_uniform(struct validate *v, elem_id node, const struct port *port,
 {
     if (!(port->flags & PORT_UNIFORM || is_uniform_type(port->type)))
         return;
-    str_id varies = 0;
-    if (binding->kind == BIND_INTERFACE && !is_uniform_interface(v, binding))
-        varies = binding->ref;
+    elem_id varies = 0;
+    if (binding->kind == BIND_INTERFACE)
+        varies = varying_interface(v, binding);
     if (binding->kind == BIND_NODE && binding->ref >= v->doc->first_element) {
         elem_id source = source_of_dots(v, binding->ref);
         if (source && !gives_uniform(v, source, source == binding->ref ? binding->output : 0))
-            varies = doc_element(v->doc, source)->name;
+            varies = source;
     }
     /* 0 for the output of a nodegraph between them */
     elem_id input = varies ? child_input(v, node, text_of(v, port->name)) : 0;
-    if (input)
-        diag_add(v->diags, DIAG_ID_uniform_connected, doc_place(v->doc, input),
-                 text_of(v, port->name), text_of(v, doc_element(v->doc, node)->category),
-                 text_of(v, varies));
+    if (!input)
+        return;
+    diag_add(v->diags, DIAG_ID_uniform_connected, doc_name_place(v->doc, input),
+             text_of(v, port->name), text_of(v, doc_element(v->doc, node)->category));
+    diag_add(v->diags, DIAG_ID_connected_here, doc_name_place(v->doc, varies),
+             text_of(v, doc_element(v->doc, varies)->name));
 }
 
 /* ---- Declarations ---- */
