@@ -11,15 +11,11 @@
 #define ON_GEOMETRY \
     (IN(MATERIALASSIGN) | IN(VISIBILITY) | IN(PROPERTYASSIGN) | IN(PROPERTYSETASSIGN))
 
-static const struct {
-    const char *name;
-    uint64_t kinds;
-} attributes[] = {
-#define ATTRIBUTE(name, kinds) {#name, kinds},
+static const uint64_t kinds_of_word[STR_NUM_WORDS] = {
+#define ATTRIBUTE(name, kinds) [STR_##name] = kinds,
 #include "document/attributes.def"
 #undef ATTRIBUTE
 };
-enum { NUM_ATTRIBUTES = sizeof attributes / sizeof *attributes };
 
 static const char *text_of(const struct validation *v, str_id id)
 {
@@ -48,11 +44,11 @@ static bool is_declared(struct validation *v, str_id name)
 /* Prefers the attributes of this kind of element. */
 static const char *suggest(struct validation *v, enum element_kind kind, str_id name)
 {
-    const char *names[NUM_ATTRIBUTES];
+    const char *names[STR_NUM_WORDS];
     size_t count = 0;
-    for (size_t i = 0; i < NUM_ATTRIBUTES; i++)
-        if (attributes[i].kinds >> kind & 1)
-            names[count++] = attributes[i].name;
+    for (str_id word = 1; word < STR_NUM_WORDS; word++)
+        if (kinds_of_word[word] >> kind & 1)
+            names[count++] = text_of(v, word);
     return diag_suggest(v->diags, text_of(v, name), names, count);
 }
 
@@ -61,9 +57,7 @@ static void check_attribute(struct validation *v, elem_id element, str_id name)
 {
     const struct element *e = doc_element(v->doc, element);
     const char *text = text_of(v, name);
-    uint64_t kinds = 0;
-    for (size_t i = 0; i < NUM_ATTRIBUTES && !kinds; i++)
-        kinds = strcmp(attributes[i].name, text) == 0 ? attributes[i].kinds : 0;
+    uint64_t kinds = name < STR_NUM_WORDS ? kinds_of_word[name] : 0;
     /* a prefix marks the attribute of another program */
     if (kinds >> e->kind & 1 || strchr(text, ':') || is_declared(v, name))
         return;
