@@ -121,17 +121,49 @@ static const struct attribute *pick(struct mutator *m, const char *name)
 }
 
 static const char *const extremes[] = {
-    "1e39",       "-1e39",   "nan",        "inf",         "-0.0",        "1e-45",       "0",
-    "1",          "-1",      "2",          "0.5",         "3.4028235e38", "2147483647", "2147483648",
-    "-2147483648", "4000000000", "",       "true",        "false",       "1, 2, 3, 4, 5",
-    "1e39, 1e39, 1e39", "0, 0, 0", "-1, 0, 1e39, 0", "1001,1002,1002,1999", "a.<UDIM>.png",
-    "../../x.png", "0, 0, 0, 0, 0, 0, 0, 0, 0", "periodic", "tangent", "world", "..", "/", "a/b",
+    "1e39",
+    "-1e39",
+    "nan",
+    "inf",
+    "-0.0",
+    "1e-45",
+    "0",
+    "1",
+    "-1",
+    "2",
+    "0.5",
+    "3.4028235e38",
+    "2147483647",
+    "2147483648",
+    "-2147483648",
+    "4000000000",
+    "",
+    "true",
+    "false",
+    "1, 2, 3, 4, 5",
+    "1e39, 1e39, 1e39",
+    "0, 0, 0",
+    "-1, 0, 1e39, 0",
+    "1001,1002,1002,1999",
+    "a.<UDIM>.png",
+    "../../x.png",
+    "0, 0, 0, 0, 0, 0, 0, 0, 0",
+    "periodic",
+    "tangent",
+    "world",
+    "..",
+    "/",
+    "a/b",
 };
 static const char *const types[] = {
-    "float",    "integer",  "boolean",  "color3",        "color4",   "vector2",      "vector3",
-    "vector4",  "matrix33", "matrix44", "string",        "filename", "BSDF",         "EDF",
-    "VDF",      "material", "multioutput", "surfaceshader", "lightshader", "volumeshader",
-    "displacementshader", "floatarray", "stringarray",
+    "float",       "integer",      "boolean",
+    "color3",      "color4",       "vector2",
+    "vector3",     "vector4",      "matrix33",
+    "matrix44",    "string",       "filename",
+    "BSDF",        "EDF",          "VDF",
+    "material",    "multioutput",  "surfaceshader",
+    "lightshader", "volumeshader", "displacementshader",
+    "floatarray",  "stringarray",
 };
 static const char *const references[] = {"nodename", "nodegraph", "interfacename", "output",
                                          "nodedef",  "inherit",   "node",          "name",
@@ -167,8 +199,9 @@ static void remove_attribute(struct mutator *m)
 /* A value becomes a connection, and the other way round. */
 static void rename_attribute(struct mutator *m)
 {
-    static const char *const names[] = {"value", "nodename", "interfacename", "nodegraph", "output",
-                                        "channels", "defaultgeomprop", "uniform", "enum", "unit"};
+    static const char *const names[] = {"value",  "nodename", "interfacename",   "nodegraph",
+                                        "output", "channels", "defaultgeomprop", "uniform",
+                                        "enum",   "unit"};
     const char *name = names[below(m, NUM(names))];
     if (m->num_attributes)
         replace(m, m->attributes[below(m, m->num_attributes)].name, name, strlen(name));
