@@ -90,7 +90,7 @@ static int flush(int code)
     return code == EXIT_DONE ? EXIT_FAULT : code;
 }
 
-static bool asks_for_help(const char *word)
+static bool is_help_word(const char *word)
 {
     return strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0 || strcmp(word, "help") == 0;
 }
@@ -138,7 +138,7 @@ int main(int argc, char **argv)
         fputs("usage: mxgen FILE... --target T; see --help\n", stderr);
         return EXIT_USAGE;
     }
-    if (argc == 2 && asks_for_help(argv[1])) {
+    if (argc == 2 && is_help_word(argv[1])) {
         print_overview();
         return flush(EXIT_DONE);
     }

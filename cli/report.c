@@ -47,7 +47,9 @@ static void load_source(struct report *report, const char *file)
     if (report->source_name && strcmp(report->source_name, file) == 0)
         return;
     size_t size = 0;
-    char *source = files_is_regular(file) ? files_read(file, &size) : NULL;
+    char *source = files_is_regular(file) && files_is_within(file, report->max_source_size)
+                       ? files_read(file, &size)
+                       : NULL;
     report_source(report, file, source, size);
 }
 
@@ -101,10 +103,11 @@ static const char *find_line(struct report *report, uint32_t number, size_t *out
 static void render(struct report *report, const mxg_diagnostics *list, uint32_t index,
                    const mxg_diagnostic *diagnostic)
 {
-    if (diagnostic->file)
+    if (diagnostic->file && diagnostic->line)
         load_source(report, diagnostic->file);
     size_t size = 0, room = report->capacity - report->len;
-    const char *line = diagnostic->file ? find_line(report, diagnostic->line, &size) : NULL;
+    const char *line =
+        diagnostic->file && diagnostic->line ? find_line(report, diagnostic->line, &size) : NULL;
     size_t len = mxg_diagnostics_format_line(list, index, line, size, report->colour,
                                              room ? report->text + report->len : NULL, room);
     if (!reserve(report, len + 2))
@@ -189,7 +192,7 @@ static bool is_new(struct report *report, const mxg_diagnostic *diagnostic)
 void report_document(struct report *report)
 {
     report->document_errors = 0;
-    report->is_rest_told = false;
+    report->has_cut_note = false;
 }
 
 /* True if a message and its notes may be printed; limits the number of errors. */
@@ -203,18 +206,18 @@ static bool admit(struct report *report, const mxg_diagnostic *diagnostic)
         ++report->document_errors;
         return true;
     }
-    if (!report->is_rest_told)
+    if (!report->has_cut_note)
         fprintf(stderr, "note: more than %zu errors; the rest is not shown\n", report->max_errors);
-    report->is_rest_told = true;
+    report->has_cut_note = true;
     return false;
 }
 
 /* True if the message repeats the hint that more errors exist. */
 static bool is_about_rest(struct report *report, const mxg_diagnostic *diagnostic)
 {
-    bool is_note = strcmp(diagnostic->id, "too-many-errors") == 0, is_told = report->is_rest_told;
-    report->is_rest_told = is_told || is_note;
-    return is_note && is_told;
+    bool is_note = strcmp(diagnostic->id, "too-many-errors") == 0, was_noted = report->has_cut_note;
+    report->has_cut_note = was_noted || is_note;
+    return is_note && was_noted;
 }
 
 static void print_list(struct report *report, const mxg_diagnostics *list, bool only_errors)

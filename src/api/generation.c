@@ -298,7 +298,7 @@ static bool emit(struct generation *g)
 enum { NODES_PER_NODE = 64, MORE_NODES = 1 << 16 }; /* emission adds far fewer nodes */
 
 /* True if lighting the surface reports nothing, as long as the graph has room. */
-static bool has_nothing_to_tell(const struct generation *g)
+static bool cannot_fail(const struct generation *g)
 {
     const struct ir_graph *graph = &g->result->graph;
     bool has_room = (uint64_t)graph->nodes.len * NODES_PER_NODE + MORE_NODES < graph->max_nodes;
@@ -311,7 +311,7 @@ bool generation_emit(struct generation *g)
     assert(g->root > 0 && g->root < g->result->graph.nodes.len);
     generation_start_closures(g);
     g->result->shader.scatters = g->options[OPTION_integrator].number == 2;
-    if (g->desc.only_diagnostics && has_nothing_to_tell(g))
+    if (g->desc.only_diagnostics && cannot_fail(g))
         return is_good(g);
     bool is_emitted = emit(g);
     ir_assert_valid(&g->result->graph, "after closures");

@@ -104,10 +104,10 @@ bool build_glob_matches(const char *glob, const char *path);
 /*
  * lights.c: fills shader->lights. An item names the node of a light shader, or is the path of a
  * <light> of the document; "=" and the light's number may follow. Without a number, it is the
- * item's position, from 1. "none" is no light. `is_said` is false for the default list, whose
+ * item's position, from 1. "none" is no light. `is_explicit` is false for the default list, whose
  * lights may be absent.
  */
 void build_lights(struct builder *builder, const char *const *items, uint32_t num_items,
-                  bool is_said);
+                  bool is_explicit);
 
 #endif

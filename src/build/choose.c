@@ -48,7 +48,7 @@ static const struct implementation *best_of(const struct builder *b, uint32_t no
     return best;
 }
 
-static void tell_deferred(struct builder *b, const struct implementation *impl)
+static void report_deferred(struct builder *b, const struct implementation *impl)
 {
     const struct library *layer = library_of_element(b->lib, impl->element);
     assert(impl->ref + impl->count <= layer->deferred->items.len);
@@ -63,7 +63,7 @@ const struct implementation *build_choose(struct builder *b, uint32_t nodedef, e
 {
     const struct implementation *impl = best_of(b, nodedef);
     if (impl && impl->kind == IMPL_BROKEN) {
-        tell_deferred(b, impl);
+        report_deferred(b, impl);
         return NULL;
     }
     if (!impl) {

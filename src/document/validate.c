@@ -91,10 +91,10 @@ static void check_place(struct validation *v, elem_id element)
     if (rules[e->kind].parents >> parent->kind & 1)
         return;
     if (is_outdated(v, element)) {
-        if (!v->is_age_told)
+        if (!v->has_age_note)
             diag_add(v->diags, DIAG_ID_outdated_element, doc_place(v->doc, element),
                      text_of(v, e->category));
-        v->is_age_told = true;
+        v->has_age_note = true;
         return;
     }
     diag_add(v->diags, is_foreign(v, element) ? DIAG_ID_foreign_element : DIAG_ID_misplaced_element,

@@ -9,7 +9,7 @@ struct validation {
     struct diag_list *diags;
     struct arena *arena;
     /* already reported that some elements are older than the document's version */
-    bool is_age_told;
+    bool has_age_note;
     /* per text: an <attributedef> declares it as an attribute; NULL until the first lookup */
     uint8_t *declared;
 };

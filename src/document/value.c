@@ -120,25 +120,25 @@ bool doc_value_is_valid(doc_type type, const char *text, size_t len)
 
 const char *doc_value_fault(doc_type type, const char *text, size_t len, struct arena *arena)
 {
-    struct text said;
+    struct text message;
     size_t fault = 0, end;
     bool integer = type == DOC_TYPE_integer || type == DOC_TYPE_integerarray;
-    text_init(&said, arena);
+    text_init(&message, arena);
     if (type == DOC_TYPE_boolean)
         return ": it is 'true' or 'false'";
     int64_t count = find_numbers(integer, text, len, NULL, 0, &fault);
     if (count >= 0) {
-        text_fmt(&said, ": it has %d number%s", (int)count, count == 1 ? "" : "s");
+        text_fmt(&message, ": it has %d number%s", (int)count, count == 1 ? "" : "s");
         if (doc_type_components(type))
-            text_fmt(&said, " instead of %u", doc_type_components(type));
-        return text_cstr(&said);
+            text_fmt(&message, " instead of %u", doc_type_components(type));
+        return text_cstr(&message);
     }
     assert(fault <= len);
     for (end = fault; end < len && text[end] != ',' && !is_space(text[end]);)
         end++;
     if (end == fault)
         return ": a number is missing after a comma";
-    text_fmt(&said, ": '%.*s' is not a valid %s", (int)(end - fault), text + fault,
+    text_fmt(&message, ": '%.*s' is not a valid %s", (int)(end - fault), text + fault,
              integer ? "integer" : "number");
-    return text_cstr(&said);
+    return text_cstr(&message);
 }

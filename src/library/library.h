@@ -41,7 +41,7 @@ struct nodedef {
     uint32_t first_impl;     /* of the same layer, linked by next; LIBRARY_NONE */
     uint32_t next_same_node; /* next definition of the same node in this layer; LIBRARY_NONE */
     bool is_default_version;
-    uint8_t reserved[3]; /* 0: a library image holds these bytes, so the record has no padding */
+    uint8_t reserved[3]; /* 0: no record of a library image has padding, which would be garbage */
 };
 
 enum impl_kind {
@@ -60,10 +60,10 @@ struct implementation {
     str_id name, target;
     uint32_t nodedef;
     uint32_t ref, count;
-    uint32_t next;       /* next implementation of the same nodedef in this layer */
-    elem_id element;     /* <implementation> or functional <nodegraph> */
-    uint8_t kind;        /* enum impl_kind */
-    uint8_t reserved[3]; /* as in nodedef */
+    uint32_t next;   /* next implementation of the same nodedef in this layer */
+    elem_id element; /* <implementation> or functional <nodegraph> */
+    uint8_t kind;    /* enum impl_kind */
+    uint8_t reserved[3];
 };
 
 /* The functions of a leaf family (docs/library.md); LIBRARY_NONE if absent. */
@@ -138,8 +138,8 @@ struct unit { /* <unit> of a <unitdef> */
 
 struct user_type { /* <typedef> that is not a standard type */
     str_id name, semantic;
-    ir_type_id ir;     /* a struct of the lang unit, or VOID */
-    uint16_t reserved; /* 0: a library image holds these bytes, so the record has no padding */
+    ir_type_id ir; /* a struct of the lang unit, or VOID */
+    uint16_t reserved;
     elem_id element;
 };
 

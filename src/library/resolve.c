@@ -228,51 +228,51 @@ static elem_id graph_output(const struct library *lib, elem_id port, elem_id gra
 }
 
 /* The connection attributes of a port. */
-struct said {
+struct port_source {
     str_id node, graph, interface, output;
     bool has_value;
 };
 
-static struct said read_port(const struct document *doc, elem_id port)
+static struct port_source read_port(const struct document *doc, elem_id port)
 {
-    struct said said = {0};
+    struct port_source source = {0};
     const struct attribute *attrs = doc_attrs(doc, port);
     for (uint32_t i = 0; i < doc_element(doc, port)->num_attrs; i++) {
         str_id value = attrs[i].value;
         switch (attrs[i].name) {
-        case STR_nodename: said.node = value; break;
-        case STR_nodegraph: said.graph = value; break;
-        case STR_interfacename: said.interface = value; break;
-        case STR_output: said.output = value; break;
-        case STR_value: said.has_value = true; break;
+        case STR_nodename: source.node = value; break;
+        case STR_nodegraph: source.graph = value; break;
+        case STR_interfacename: source.interface = value; break;
+        case STR_output: source.output = value; break;
+        case STR_value: source.has_value = true; break;
         default: break;
         }
     }
-    return said;
+    return source;
 }
 
 /* For a port with a nodename or nodegraph: the output of the nodegraph, or 0 with *out. */
 static elem_id follow_name(const struct library *lib, elem_id asker, elem_id port, elem_id scope,
-                           const struct said *said, doc_type type, struct binding *out,
+                           const struct port_source *source, doc_type type, struct binding *out,
                            struct diag_list *diags)
 {
     const struct document *doc = &lib->doc;
-    elem_id target = said->node ? find_named(lib, scope, said->node, port) : 0;
-    if (!target && said->graph && !(target = find_named(lib, scope, said->graph, port)))
-        target = find_named(lib, root_of(lib, port), said->graph, port);
+    elem_id target = source->node ? find_named(lib, scope, source->node, port) : 0;
+    if (!target && source->graph && !(target = find_named(lib, scope, source->graph, port)))
+        target = find_named(lib, root_of(lib, port), source->graph, port);
     if (target && doc_element(doc, target)->kind == KIND_NODE) {
         *out = bind_node(lib, asker, port, target, type, diags);
         return 0;
     }
     if (target && doc_element(doc, target)->kind == KIND_NODEGRAPH)
         return graph_output(lib, port, target, type, diags);
-    str_id missing = said->node ? said->node : said->graph;
-    diag_add(diags, said->node ? DIAG_ID_dangling_nodename : DIAG_ID_dangling_nodegraph,
-             doc_attr_place(doc, port, said->node ? STR_nodename : STR_nodegraph),
+    str_id missing = source->node ? source->node : source->graph;
+    diag_add(diags, source->node ? DIAG_ID_dangling_nodename : DIAG_ID_dangling_nodegraph,
+             doc_attr_place(doc, port, source->node ? STR_nodename : STR_nodegraph),
              text_of(lib, missing),
-             suggest_child(lib, scope, said->node ? KIND_NODE : KIND_NODEGRAPH, missing, diags));
-    if (said->node)
-        report_elsewhere(lib, root_of(lib, port), scope, said->node, diags);
+             suggest_child(lib, scope, source->node ? KIND_NODE : KIND_NODEGRAPH, missing, diags));
+    if (source->node)
+        report_elsewhere(lib, root_of(lib, port), scope, source->node, diags);
     return 0;
 }
 
@@ -303,21 +303,21 @@ static elem_id follow(const struct library *lib, elem_id asker, elem_id port, do
      */
     elem_id scope =
         element->kind == KIND_OUTPUT || !owner->parent ? element->parent : owner->parent;
-    struct said said = read_port(doc, port);
+    struct port_source source = read_port(doc, port);
     *out = bind_error;
-    if (said.node || said.graph)
-        return follow_name(lib, asker, port, scope, &said, type, out, diags);
-    if (said.interface) {
+    if (source.node || source.graph)
+        return follow_name(lib, asker, port, scope, &source, type, out, diags);
+    if (source.interface) {
         const struct element *graph = doc_element(doc, scope);
-        elem_id input = doc_child_of_kind(doc, scope, KIND_INPUT, said.interface);
+        elem_id input = doc_child_of_kind(doc, scope, KIND_INPUT, source.interface);
         if (input && !(graph->kind == KIND_NODEGRAPH && doc_attr(doc, scope, STR_nodedef)))
             return input;
-        *out = (struct binding){.kind = BIND_INTERFACE, .ref = said.interface, .element = port};
+        *out = (struct binding){.kind = BIND_INTERFACE, .ref = source.interface, .element = port};
         return 0;
     }
-    if (said.output && element->kind == KIND_INPUT)
-        return follow_output(lib, port, said.output, diags);
-    *out = (struct binding){.kind = said.has_value ? BIND_VALUE : BIND_DEFAULT, .element = port};
+    if (source.output && element->kind == KIND_INPUT)
+        return follow_output(lib, port, source.output, diags);
+    *out = (struct binding){.kind = source.has_value ? BIND_VALUE : BIND_DEFAULT, .element = port};
     return 0;
 }
 

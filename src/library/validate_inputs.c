@@ -94,16 +94,16 @@ static void check_unit(struct validate *v, elem_id element)
 /* A library without colour transforms knows no spaces, so the check needs at least one. */
 static void check_space(struct validate *v, elem_id element)
 {
-    str_id said = doc_attr_value(v->doc, element, STR_colorspace);
+    str_id attribute = doc_attr_value(v->doc, element, STR_colorspace);
     const char *hub = library_color_hub;
-    if (!said || said == v->known_space
+    if (!attribute || attribute == v->known_space
         || library_color_transform(v->lib, "srgb_texture", hub, "color3") == LIBRARY_NONE)
         return;
-    const char *space = library_canonical_space(text_of(v, said));
+    const char *space = library_canonical_space(text_of(v, attribute));
     bool is_known = strcmp(space, "none") == 0 || strcmp(space, hub) == 0
                     || library_color_transform(v->lib, space, hub, "color3") != LIBRARY_NONE;
     if (is_known)
-        v->known_space = said;
+        v->known_space = attribute;
     else
         library_report_space(v->lib, space, doc_attr_place(v->doc, element, STR_colorspace),
                              v->diags);

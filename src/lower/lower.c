@@ -198,18 +198,18 @@ static void collect_results(const struct lower_frame *frame, ir_ref *out)
             *out++ = frame->leaves[k];
 }
 
-enum known { NOTHING_KNOWN, A_NUMBER_KNOWN, A_CHOICE_KNOWN };
+enum constant_kind { NO_CONSTANT, CONSTANT_NUMBER, CONSTANT_CHOICE };
 
 /*
  * The kind of constant in the arguments of a call. Constant strings, flags and options choose code.
  */
-static enum known known_of(const struct lower *lo, const struct lang_unit *layer,
-                           const struct lang_function *fn, const ir_ref *in)
+static enum constant_kind constant_kind(const struct lower *lo, const struct lang_unit *layer,
+                                        const struct lang_function *fn, const ir_ref *in)
 {
-    enum known known = NOTHING_KNOWN;
+    enum constant_kind kind = NO_CONSTANT;
     for (uint32_t i = 0; i < fn->num_globals; i++)
         if (lang_global(lo->unit, ast_globals(layer, fn)[i], NULL)->kind == LANG_GLOBAL_OPTION)
-            return A_CHOICE_KNOWN;
+            return CONSTANT_CHOICE;
     for (uint32_t i = 0; i < fn->num_params; i++) {
         const struct lang_slot *slot = ast_slot(layer, fn, i);
         uint32_t count = slot->mode == LANG_OUT ? 0 : lower_leaves(lo, slot->type);
@@ -217,12 +217,12 @@ static enum known known_of(const struct lower *lo, const struct lang_unit *layer
             if (!in[k] || !ir_is_const(lo->graph, in[k]))
                 continue;
             if (slot->type == IR_TYPE_BOOL || slot->type == IR_TYPE_STRING)
-                return A_CHOICE_KNOWN;
-            known = A_NUMBER_KNOWN;
+                return CONSTANT_CHOICE;
+            kind = CONSTANT_NUMBER;
         }
         in += count;
     }
-    return known;
+    return kind;
 }
 
 static bool has_special_texture(const struct lower *lo, const struct lang_unit *layer,
@@ -258,14 +258,14 @@ static bool is_worth_trying(struct lower *lo, const struct lang_unit *layer,
         lo->max_graph_nodes = UINT32_MAX;
         return true;
     }
-    enum known known = known_of(lo, layer, fn, in);
-    if (known == A_CHOICE_KNOWN)
+    enum constant_kind kind = constant_kind(lo, layer, fn, in);
+    if (kind == CONSTANT_CHOICE)
         *out_budget = 2 * limit;
-    else if (known == A_NUMBER_KNOWN && is_outer && fn->num_nodes <= LOWER_MAX_TRIED
+    else if (kind == CONSTANT_NUMBER && is_outer && fn->num_nodes <= LOWER_MAX_TRIED
              && lo->max_graph_nodes == UINT32_MAX)
         lo->max_graph_nodes = lo->graph->nodes.len + LOWER_TRIED_NODES;
-    return known == A_CHOICE_KNOWN
-           || (known == A_NUMBER_KNOWN && is_outer && fn->num_nodes <= LOWER_MAX_TRIED);
+    return kind == CONSTANT_CHOICE
+           || (kind == CONSTANT_NUMBER && is_outer && fn->num_nodes <= LOWER_MAX_TRIED);
 }
 
 /*

@@ -35,10 +35,11 @@ static ir_type_id without_lengths(const struct lang_unit *unit, ir_type_id type)
 static const char *watch_type(void *user_data, ir_type_id type)
 {
     struct type_watch *watch = user_data;
-    bool is_told = without_lengths(watch->unit, watch->fn->return_type) == type;
+    bool is_of_function = without_lengths(watch->unit, watch->fn->return_type) == type;
     for (uint32_t i = 0; i < watch->fn->num_slots; i++)
-        is_told |= without_lengths(watch->unit, ast_slot(watch->unit, watch->fn, i)->type) == type;
-    watch->found_other |= !is_told;
+        is_of_function |=
+            without_lengths(watch->unit, ast_slot(watch->unit, watch->fn, i)->type) == type;
+    watch->found_other |= !is_of_function;
     return NULL;
 }
 

@@ -127,7 +127,7 @@ static void write_construct(struct spell *spell, ir_ref ref, ir_type_id type)
 
 enum { MAX_OPERANDS = 1 << 20 }; /* a bound of the numbers read */
 
-/* The number in "{{number}}" at *p, which moves behind it; -1: none is there. */
+/* The number of "{{number}}" at *p, which then moves past it; -1: there is none. */
 static int read_operand(const char **p)
 {
     const char *at = *p + 2;

@@ -116,6 +116,7 @@ enum lang_global_kind {
 struct lang_global {
     str_id name;
     uint8_t kind; /* enum lang_global_kind */
+    uint8_t reserved;
     ir_type_id type;
     /*
      * value of a CONST or OPTION of built-in or array type, in unit->words (arrays: elements in

@@ -130,6 +130,8 @@ name_clash.mtlx|name_clash.mtlx -t osl -o clashes
 name_clash.mtlx|name_clash.mtlx -t osl --osl-network -o clashes
 lib.mtlx|library pack lib.mtlx -o lib.mtlx
 lib.mtlx|library expand lib.mtlx -o ./lib.mtlx
+clash.mtlx|format clash.mtlx -o ./clash.mtlx
+clash.mtlx|upgrade clash.mtlx -o clash.mtlx
 X
 check 'before anything is written' test ! -e clashes
 ln -s clash.mtlx link.mtlx
