@@ -92,6 +92,7 @@ static void set_build_options(struct generation *g)
     const mxg_context *context = g->result->object.context;
     uint32_t caps = g->result->target->caps;
     g->build_options = (struct build_options){
+        .syntax = g->result->target->syntax,
         .interface = (enum build_interface)o[OPTION_interface].number,
         .uniform_globs = o[OPTION_uniform].list.items,
         .num_uniform_globs = o[OPTION_uniform].list.len,

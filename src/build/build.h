@@ -23,6 +23,7 @@ struct build_options {
     const str_id *targets;
     unsigned num_targets;
     enum build_interface interface;
+    const struct lang_syntax *syntax; /* of the target, whose words no uniform may have as name */
     /* patterns of element paths that become uniforms, or constants */
     const char *const *uniform_globs, *const *constant_globs;
     unsigned num_uniform_globs, num_constant_globs;

@@ -266,6 +266,8 @@ ir_ref build_measured_edf(struct builder *b, ir_ref color, ir_ref normal, ir_ref
  * no plain values. The results become sources that stand for the layer.
  */
 void build_record_node(struct builder *b, const struct frame *frame, ir_ref *results);
+/* True after a report: the network has too many layers, and the work ends. */
+bool build_network_is_full(const struct builder *b);
 /* The default of an input in the network's layers; type VOID or 0: it has no number. */
 struct ir_value build_network_default(struct builder *b, const struct port *port);
 

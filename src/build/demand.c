@@ -348,7 +348,7 @@ void build_demand(struct builder *b, struct instance *scope, elem_id node)
         if ((steps & 1023) == 1023 && b->options->cancel
             && b->options->cancel(b->options->cancel_user_data))
             b->cancelled = true;
-        if (b->cancelled || b->graph->overflow) {
+        if (b->cancelled || b->graph->overflow || build_network_is_full(b)) {
             b->frames.len = bottom;
             return;
         }

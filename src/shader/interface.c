@@ -225,6 +225,12 @@ static struct ir_value default_value(ir_type_id type, float number)
     return value;
 }
 
+ir_type_id shader_uniform_type(str_id name)
+{
+    const struct uniform_row *row = find_uniform(name);
+    return row ? row->type : IR_TYPE_VOID;
+}
+
 uint32_t shader_private_uniform(struct shader *shader, str_id name, ir_type_id type,
                                 uint16_t array_length)
 {

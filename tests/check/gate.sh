@@ -178,6 +178,10 @@ check 'then the rest' eval 'grep -q "^changed show/aaa.mtlx (new): is new" out &
 check 'and one summary' is "$(tail -n 3 out)" '3 documents, 3 elements, 6 shaders
 since the baseline: 1 document fails (fails 1, new-errors 1); others: new 1, gone 1
 1 passed, 2 failed (validate 2; known 1), 2 errors, 0 warnings'
+check 'JUnit fails what is gone on demand' eval '"$mxgen" check show "${quick[@]}" "${base[@]}" --fail-on gone --junit gone.xml >out; grep -A 1 "<testsuite name=\"show/wood.mtlx\" tests=\"1\" failures=\"1\"" gone.xml | grep "<failure type=\"gone\""'
+check 'and skips it otherwise' grep -q 'classname="show/wood.mtlx" name="document"><skipped message="gone: ' all.xml
+check 'as it does a known failure' grep -q 'classname="show/bad.mtlx" name="document"><skipped message="known failure: ' all.xml
+check 'without a temporary folder the text is complete' eval 'TMPDIR=none "$mxgen" check show "${quick[@]}" "${base[@]}" >unsorted; sort unsorted >a; "$mxgen" check show "${quick[@]}" "${base[@]}" | sort >b; cmp a b'
 check '--quiet' exits 1 "$mxgen" check show "${quick[@]}" "${base[@]}" --quiet
 check 'leaves out what does not fail' eval '! grep -q "^changed" out && grep -q "^FAILED show/deep/near.mtlx (fails)" out'
 check 'but not the summary' is "$(tail -n 3 out | head -n 1)" '3 documents, 3 elements, 6 shaders'

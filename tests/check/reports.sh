@@ -26,6 +26,28 @@ check 'with times too' exits 1 "$mxgen" check show --no-compile --stats --json t
 check 'which JUnit has' grep -q '<testcase [^>]* time="[0-9.]*"' t.xml
 check 'they still tell the same' "$here/reports.py" t.json t.sarif t.xml t.html
 
+# Messages with notes
+mkdir notes
+cat >notes/twice.mtlx <<'END'
+<materialx version="1.39">
+  <constant name="a" type="float"/>
+  <constant name="a" type="float"/>
+  <output name="out" type="float" nodename="a"/>
+</materialx>
+END
+check 'a document with notes' exits 0 "$mxgen" check notes --no-compile --json n.json --sarif n.sarif --junit n.xml --html n.html
+check 'has them in its record' says n.json '[n["line"] for m in d[0]["messages"] for n in m["notes"]]' '[2]'
+check 'and in all reports' "$here/reports.py" n.json n.sarif n.xml n.html
+
+# The date of the page, and a temporary folder that is not there
+check 'the date can be fixed' eval 'SOURCE_DATE_EPOCH=1700000000 "$mxgen" check show --no-compile --html a.html >out; grep -q "<time>2023-11-14 22:13 UTC</time>" a.html'
+check 'then the page is the same' eval 'SOURCE_DATE_EPOCH=1700000000 "$mxgen" check show --no-compile --html b.html >out; cmp a.html b.html'
+for kind in html junit; do
+    check "no temporary folder for --$kind" exits 1 env TMPDIR=none "$mxgen" check show/warned.mtlx --no-compile --$kind none.$kind
+    check 'is an error' grep -q "^error: cannot write 'none.$kind': No such file or directory \[output-failed\]" err
+    check 'and leaves no report' test ! -e none.$kind
+done
+
 # The page in a browser: cards that are shown after a filter, and their order
 browser=$(command -v chromium chromium-browser google-chrome | head -n 1)
 browse() { # OPTION...
