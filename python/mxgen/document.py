@@ -2,8 +2,9 @@
 """Documents and their elements."""
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
+from itertools import zip_longest
 from typing import TYPE_CHECKING, Any, Union
 
 from ._calls import Handle, Native, c_text, error_of, ffi, keep_text, lib, py_text, record, sized_text
@@ -326,7 +327,7 @@ class Document(Native):
         """Checks every node, connection and value against the library, without generating. Errors are in the result."""
         return self._call(context, lib.mxg_document_validate)[0].diagnostics
 
-    def _request(self, context: Context | None, target: str | None, element: str | Element | None,
+    def _request(self, context: Context | None, target: str, element: str | Element | None,
                  options: Mapping[str, OptionValue] | None, keep: list[Any]) -> Any:
         """A mxg_generate_desc; it lives as long as `keep`."""
         desc = ffi.new("mxg_generate_desc *", {"size": ffi.sizeof("mxg_generate_desc")})
@@ -334,9 +335,9 @@ class Document(Native):
             if element.document is not self:
                 raise ValueError("the element is of another document")
             element = element.path
-        for name, text in ("target", target), ("element", element):
-            if text is not None:
-                setattr(desc, name, keep_text(c_text(text, name), keep))
+        desc.target = keep_text(c_text(target, "target"), keep)
+        if element is not None:
+            desc.element = keep_text(c_text(element, "element"), keep)
         if options is not None:
             made_options = make_options(self._context_for(context), options)
             keep.append(made_options)
@@ -351,7 +352,6 @@ class Document(Native):
 
         `without_source` leaves out the source, `only_diagnostics` everything but the diagnostics. A thread that generates at the
         same time as another one gives its own `context`."""
-        c_text(target, "target")
         keep: list[Any] = []
         desc = self._request(context, target, element, options, keep)
         desc.without_source = without_source
@@ -361,7 +361,7 @@ class Document(Native):
             raise DocumentError(shader.diagnostics)
         return shader
 
-    def inspect(self, view: View, element: str | Element | None = None, *, target: str | None = None,
+    def inspect(self, view: View, element: str | Element | None = None, *, target: str = "glsl",
                 options: Mapping[str, OptionValue] | None = None, context: Context | None = None) -> str:
         """A text for people: the tree, the graph, the IR or the closures. Raises DocumentError."""
         keep: list[Any] = []
@@ -372,19 +372,12 @@ class Document(Native):
         return result._text()
 
 
-def equal(one: Document | Element, other: Document | Element, *, attributes: Sequence[str] | None = None) -> bool:
-    """Whether two trees have the same elements in the same order, with the same attributes. `attributes`: compares only these."""
-    a, b = (part.root if isinstance(part, Document) else part for part in (one, other))
+def equal(one: Document | Element, other: Document | Element) -> bool:
+    """Whether two trees have the same elements in the same order, with the same attributes."""
 
-    def of(element: Element) -> tuple[str, str, dict[str, str]]:
-        own = element.attributes
-        return element.category, element.name, {name: own[name] for name in own if attributes is None or name in attributes}
+    def contents(part: Document | Element) -> Iterator[tuple[object, ...]]:
+        # The number of children at each element determines the shape of the tree.
+        for element in part.walk():
+            yield element.category, element.name, element.attributes, sum(1 for _ in element.children)
 
-    def depth(element: Element, top: Element) -> int:
-        count = 0
-        while element != top and (parent := element.parent) is not None:
-            element, count = parent, count + 1
-        return count
-
-    left, right = ([(depth(e, top), of(e)) for e in top.walk()] for top in (a, b))
-    return left == right
+    return all(a == b for a, b in zip_longest(contents(one), contents(other)))
