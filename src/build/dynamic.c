@@ -243,6 +243,12 @@ static ir_ref build_multiply(const struct call *c)
     return build_op(c, IR_CLOSURE_SCALE, args, 2);
 }
 
+static ir_ref thin_film(const struct call *c)
+{
+    return build_film(c->b, arg(c, STR_thickness), arg(c, STR_ior), arg(c, STR_base),
+                      c->frame->node.element);
+}
+
 static ir_ref measured_edf(const struct call *c)
 {
     return build_measured_edf(c->b, arg(c, STR_color), arg(c, STR_normal), arg(c, STR_file),
@@ -332,6 +338,7 @@ static const struct {
     {STR_mix, build_mix},
     {STR_add, build_add},
     {STR_multiply, build_multiply},
+    {STR_thinfilmbsdf, thin_film},
     {STR_measured_edf, measured_edf},
     {STR_surface, build_surface},
     {STR_surface_unlit, build_surface_unlit},
