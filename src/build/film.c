@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * thinfilmbsdf: a film on a base (ShaderX 2018, section 4.2). A film changes Fresnel's factor, which
- * only microfacet leaves have, so the film becomes an input of these leaves: those with the inputs
- * thinfilm_thickness and thinfilm_ior. Other leaves stay as they are.
+ * thinfilmbsdf: a film on a base (ShaderX 2018, section 4.2). A film changes Fresnel's factor,
+ * which only microfacet leaves have, so the film becomes an input of these leaves: those with the
+ * inputs thinfilm_thickness and thinfilm_ior. Other leaves stay as they are.
  *
  *     film(metal)                    metal with a film
  *     film(mix(metal, diffuse))      mix(metal with a film, diffuse)
@@ -101,8 +101,7 @@ static ir_ref filmed(struct film *f, ir_ref ref)
         *thickness = over(f, is_bare, f->thickness, *thickness);
     }
     ir_push_origin(g, node.origin);
-    ir_ref result =
-        ir_build(g, (enum ir_op)node.op, node.type, node.attr, args, node.num_args);
+    ir_ref result = ir_build(g, (enum ir_op)node.op, node.type, node.attr, args, node.num_args);
     ir_pop_origin(g);
     return result;
 }

@@ -141,29 +141,27 @@ vec3 mx_fresnel_schlick(const float cosine, const vec3 f0, const vec3 f90)
     return mix(f0, f90, x * x * x * x * x);
 }
 
-// XYZ of light that has gone further by d / (2 pi) micrometre and changed by the amplitude re + i im: the Fourier
-// transform of the CIE sensitivities, a sum of Gaussians.
-vec3 mx_film_response(const float d, const vec3 re)
+// A channel after interference, the mean of both polarisations.
+float mx_film_channel(const vec2 a, const vec2 re, const vec2 terms)
 {
-    vec4 xyzx = vec4(0.84659, 1.000222, 1.001122, 0.153868)
-        * exp(vec4(-0.0043278, -0.0093046, -0.0066121, -0.0045282) * (d * d))
-        * (vec4(re, re.x) * cos(vec4(1.681, 1.7953, 2.2084, 2.2399) * d));
-    return xyzx.xyz + vec3(xyzx.w, 0.0, 0.0);
+    vec2 r23 = re * re;
+    vec2 t = vec2(1.0) - a * a;
+    vec2 even = t * t * r23 / (vec2(1.0) - a * a * r23);
+    vec2 both = a * a + even + 2.0 * (even - t) * terms;
+    return 0.5 * (both.x + both.y);
 }
 
-// XYZ after interference of one polarisation: real amplitude `a` of the film's own interface, which from behind is -a,
-// and re + i im of the one below; two terms of the series (section 3.3).
-vec3 mx_film_series(const float a, const vec3 re, const float d)
+// Two terms of the series (section 3.3) for one Gaussian: amplitude `a` of the film's own interface, which from behind
+// is -a, and re + i im of the one below, and light that goes further by d / (2 pi) micrometre.
+vec2 mx_film_terms(const vec2 a, const vec2 re, const float d, const vec3 gauss)
 {
-    vec3 r23 = re * re;
-    float r12 = a * a;
-    float t = 1.0 - r12;
-    vec3 constant = t * t * r23 / (vec3(1.0) - r12 * r23);
-    return r12 + constant + 2.0 * (constant - t)
-        * (r12 * mx_film_response(2.0 * d, re * re) - a * mx_film_response(d, re));
+    float decay = exp(gauss.z * d * d);
+    vec2 x = re * cos(gauss.x * d);
+    vec2 y = re * sin(gauss.x * d);
+    return gauss.y * decay * a * (a * (decay * decay * decay) * (x * x - y * y) - x);
 }
 
-// Amplitudes of the film's own interface: perpendicular, parallel.
+// Amplitudes of the film's own interface.
 vec2 mx_film_amplitudes(const float cosine, const float inside, const float ior)
 {
     vec2 x = vec2(cosine, ior * cosine);
@@ -180,8 +178,15 @@ vec3 mx_film_schlick(const float cosine, const vec3 f0, const vec3 f90, const fl
     float d = 0.012566372 * ior * c * film;
     vec3 r = (vec3(1.0) - 2.0 * step(sqrt(clamp(f0, vec3(0.01), vec3(0.99))), vec3((ior - 1.0) / (ior + 1.0))))
         * sqrt(max(0.5 * mx_fresnel_schlick(c, f0, f90), vec3(0.0)));
+    vec2 re = vec2(-r.x, r.x);
+    float x = mx_film_channel(a, re, mx_film_terms(a, re, d, vec3(1.681, 0.84659, -0.0043278))
+        + mx_film_terms(a, re, d, vec3(2.2399, 0.153868, -0.0045282)));
+    re = vec2(-r.y, r.y);
+    float y = mx_film_channel(a, re, mx_film_terms(a, re, d, vec3(1.7953, 1.000222, -0.0093046)));
+    re = vec2(-r.z, r.z);
     return clamp(mat3(2.3706744, -0.513885, 0.0052982, -0.9000405, 1.4253036, -0.0146949, -0.4706338, 0.0885814,
-        1.0093968) * (0.5 * (mx_film_series(a.x, -r, d) + mx_film_series(a.y, r, d))), vec3(0.0), vec3(1.0));
+        1.0093968) * vec3(x, y, mx_film_channel(a, re, mx_film_terms(a, re, d, vec3(2.2084, 1.001122, -0.0066121)))),
+        vec3(0.0), vec3(1.0));
 }
 
 vec3 mx_fresnel(const float cosine, const vec3 n, const vec3 f90, const float film, const float film_ior)

@@ -141,29 +141,33 @@ void mx_artistic_ior(const vec3 reflectivity, const vec3 edge_color, out vec3 io
 }
 
 // The index n + ik times the cosine behind its interface: (u + iv)^2 = (n + ik)^2 - sin^2.
-void mx_fresnel_refract(const float cosine, const vec3 n, const vec3 k, out vec3 u, out vec3 v)
+vec2 mx_fresnel_refract(const float cosine, const float n, const float k)
 {
-    vec3 t = n * n - k * k + (cosine * cosine - 1.0);
-    vec3 norm = sqrt(t * t + 4.0 * n * n * k * k);
-    u = sqrt(max(0.5 * (norm + t), vec3(0.0)));
-    v = sqrt(max(0.5 * (norm - t), vec3(0.0)));
+    float t = n * n - k * k + (cosine * cosine - 1.0);
+    float norm = sqrt(t * t + 4.0 * n * n * k * k);
+    return sqrt(max(0.5 * vec2(norm + t, norm - t), vec2(0.0)));
 }
 
 // |(x + iy - u - iv) / (x + iy + u + iv)|^2
-vec3 mx_fresnel_ratio(const vec3 x, const vec3 y, const vec3 u, const vec3 v)
+float mx_fresnel_ratio(const vec2 x, const vec2 u)
 {
-    return ((x - u) * (x - u) + (y - v) * (y - v)) / ((x + u) * (x + u) + (y + v) * (y + v));
+    return dot(x - u, x - u) / dot(x + u, x + u);
 }
 
 // Fresnel equations for the index n + ik (Pharr et al. 2023, section 9.3.6): against u + iv stands the cosine in the
 // perpendicular part, (n + ik)^2 times the cosine in the parallel part.
+float mx_fresnel_conductor(const float cosine, const float n, const float k)
+{
+    vec2 u = mx_fresnel_refract(cosine, n, k);
+    return 0.5 * (mx_fresnel_ratio(vec2(cosine, 0.0), u)
+        + mx_fresnel_ratio(cosine * vec2(n * n - k * k, 2.0 * n * k), u));
+}
+
+// One channel after the other, which needs a third of the registers.
 vec3 mx_fresnel_conductor(const float cosine, const vec3 n, const vec3 k)
 {
-    vec3 u;
-    vec3 v;
-    mx_fresnel_refract(cosine, n, k, u, v);
-    return 0.5 * (mx_fresnel_ratio(vec3(cosine), vec3(0.0), u, v)
-        + mx_fresnel_ratio(cosine * (n * n - k * k), 2.0 * cosine * n * k, u, v));
+    return vec3(mx_fresnel_conductor(cosine, n.x, k.x), mx_fresnel_conductor(cosine, n.y, k.y),
+        mx_fresnel_conductor(cosine, n.z, k.z));
 }
 
 // Where the light from a direction of the world lies in the environment's picture.

@@ -189,30 +189,29 @@ vec3 mx_fresnel_schlick(const float cosine, const vec3 f0, const vec3 bend)
     return mix(f0, vec3(1.0), x3 * x * x) - bend * (cosine * x3 * x3);
 }
 
-// XYZ of light that has gone further by d / (2 pi) micrometre and changed by the amplitude re + i im: the Fourier
-// transform of the CIE sensitivities, a sum of Gaussians.
-vec3 mx_film_response(const float d, const vec3 re, const vec3 im)
+// A channel after interference, the mean of both polarisations.
+float mx_film_channel(const vec2 a, const vec2 re, const vec2 im, const vec2 terms)
 {
-    vec4 a = vec4(1.681, 1.7953, 2.2084, 2.2399) * d;
-    vec4 xyzx = vec4(0.84659, 1.000222, 1.001122, 0.153868)
-        * exp(vec4(-0.0043278, -0.0093046, -0.0066121, -0.0045282) * (d * d))
-        * (vec4(re, re.x) * cos(a) - vec4(im, im.x) * sin(a));
-    return xyzx.xyz + vec3(xyzx.w, 0.0, 0.0);
+    vec2 r23 = re * re + im * im;
+    vec2 t = vec2(1.0) - a * a;
+    vec2 even = t * t * r23 / (vec2(1.0) - a * a * r23);
+    vec2 both = a * a + even + 2.0 * (even - t) * terms;
+    return 0.5 * (both.x + both.y);
 }
 
-// XYZ after interference of one polarisation: real amplitude `a` of the film's own interface, which from behind is -a,
-// and re + i im of the one below; two terms of the series (section 3.3).
-vec3 mx_film_series(const float a, const vec3 re, const vec3 im, const float d)
+// Two terms of the series (section 3.3) for one Gaussian: amplitude `a` of the film's own interface, which from behind
+// is -a, and re + i im of the one below, and light that goes further by d / (2 pi) micrometre.
+vec2 mx_film_terms(const vec2 a, const vec2 re, const vec2 im, const float d, const vec3 gauss)
 {
-    vec3 r23 = re * re + im * im;
-    float r12 = a * a;
-    float t = 1.0 - r12;
-    vec3 constant = t * t * r23 / (vec3(1.0) - r12 * r23);
-    vec3 terms = r12 * mx_film_response(2.0 * d, re * re - im * im, 2.0 * re * im) - a * mx_film_response(d, re, im);
-    return r12 + constant + 2.0 * (constant - t) * terms;
+    float c = cos(gauss.x * d);
+    float s = sin(gauss.x * d);
+    float decay = exp(gauss.z * d * d);
+    vec2 x = re * c - im * s;
+    vec2 y = re * s + im * c;
+    return gauss.y * decay * a * (a * (decay * decay * decay) * (x * x - y * y) - x);
 }
 
-// Amplitudes of the film's own interface: perpendicular, parallel.
+// Amplitudes of the film's own interface.
 vec2 mx_film_amplitudes(const float cosine, const float inside, const float ior)
 {
     vec2 x = vec2(cosine, ior * cosine);
@@ -229,9 +228,15 @@ vec3 mx_film_schlick(const float cosine, const vec3 f0, const vec3 bend, const f
     float d = 0.012566372 * ior * c * film;
     vec3 r = (vec3(1.0) - 2.0 * step(sqrt(clamp(f0, vec3(0.01), vec3(0.99))), vec3((ior - 1.0) / (ior + 1.0))))
         * sqrt(max(0.5 * mx_fresnel_schlick(c, f0, bend), vec3(0.0)));
+    vec2 re = vec2(-r.x, r.x);
+    float x = mx_film_channel(a, re, vec2(0.0), mx_film_terms(a, re, vec2(0.0), d, vec3(1.681, 0.84659, -0.0043278))
+        + mx_film_terms(a, re, vec2(0.0), d, vec3(2.2399, 0.153868, -0.0045282)));
+    re = vec2(-r.y, r.y);
+    float y = mx_film_channel(a, re, vec2(0.0), mx_film_terms(a, re, vec2(0.0), d, vec3(1.7953, 1.000222, -0.0093046)));
+    re = vec2(-r.z, r.z);
     return clamp(mat3(2.3706744, -0.513885, 0.0052982, -0.9000405, 1.4253036, -0.0146949, -0.4706338, 0.0885814,
-        1.0093968) * (0.5 * (mx_film_series(a.x, -r, vec3(0.0), d) + mx_film_series(a.y, r, vec3(0.0), d))), vec3(0.0),
-        vec3(1.0));
+        1.0093968) * vec3(x, y, mx_film_channel(a, re, vec2(0.0),
+        mx_film_terms(a, re, vec2(0.0), d, vec3(2.2084, 1.001122, -0.0066121)))), vec3(0.0), vec3(1.0));
 }
 
 vec3 mx_fresnel(const float cosine, const vec3 n, const vec3 k, const float film, const float film_ior)
@@ -241,20 +246,23 @@ vec3 mx_fresnel(const float cosine, const vec3 n, const vec3 k, const float film
     return mx_fresnel_schlick(cosine, n, k);
 }
 
-// The same with the amplitude (x + iy - u - iv) / (x + iy + u + iv).
-vec3 mx_film_polarized(const float a, const vec3 x, const vec3 y, const vec3 u, const vec3 v, const float d)
+// The index n + ik times the cosine behind its interface: (u + iv)^2 = (n + ik)^2 - sin^2.
+vec2 mx_fresnel_refract(const float cosine, const float n, const float k)
 {
-    vec3 norm = (x + u) * (x + u) + (y + v) * (y + v);
-    return mx_film_series(a, (x * x + y * y - u * u - v * v) / norm, 2.0 * (y * u - x * v) / norm, d);
+    float t = n * n - k * k + (cosine * cosine - 1.0);
+    float norm = sqrt(t * t + 4.0 * n * n * k * k);
+    return sqrt(max(0.5 * vec2(norm + t, norm - t), vec2(0.0)));
 }
 
-// The index n + ik times the cosine behind its interface: (u + iv)^2 = (n + ik)^2 - sin^2.
-void mx_fresnel_refract(const float cosine, const vec3 n, const vec3 k, out vec3 u, out vec3 v)
+// Amplitudes re + i im of the interface below: (x + iy - u - iv) / (x + iy + u + iv), as in mx_fresnel_conductor.
+void mx_film_base(const float cosine, const float n, const float k, out vec2 re, out vec2 im)
 {
-    vec3 t = n * n - k * k + (cosine * cosine - 1.0);
-    vec3 norm = sqrt(t * t + 4.0 * n * n * k * k);
-    u = sqrt(max(0.5 * (norm + t), vec3(0.0)));
-    v = sqrt(max(0.5 * (norm - t), vec3(0.0)));
+    vec2 u = mx_fresnel_refract(cosine, n, k);
+    vec2 x = cosine * vec2(1.0, n * n - k * k);
+    vec2 y = vec2(0.0, 2.0 * cosine * n * k);
+    vec2 norm = (x + u.x) * (x + u.x) + (y + u.y) * (y + u.y);
+    re = (x * x + y * y - dot(u, u)) / norm;
+    im = 2.0 * (y * u.x - x * u.y) / norm;
 }
 
 // A film on the index n + ik.
@@ -264,14 +272,17 @@ vec3 mx_film_index(const float cosine, const vec3 n, const float film, const flo
     float c = sqrt(1.0 - (1.0 - cosine * cosine) / (ior * ior));
     vec2 a = mx_film_amplitudes(cosine, c, ior);
     float d = 0.012566372 * ior * c * film;
-    vec3 m = n / ior;
-    vec3 l = vec3(0.0) / ior;
-    vec3 u;
-    vec3 v;
-    mx_fresnel_refract(c, m, l, u, v);
+    vec2 re;
+    vec2 im;
+    mx_film_base(c, n.x / ior, 0.0 / ior, re, im);
+    float x = mx_film_channel(a, re, im, mx_film_terms(a, re, im, d, vec3(1.681, 0.84659, -0.0043278))
+        + mx_film_terms(a, re, im, d, vec3(2.2399, 0.153868, -0.0045282)));
+    mx_film_base(c, n.y / ior, 0.0 / ior, re, im);
+    float y = mx_film_channel(a, re, im, mx_film_terms(a, re, im, d, vec3(1.7953, 1.000222, -0.0093046)));
+    mx_film_base(c, n.z / ior, 0.0 / ior, re, im);
+    float z = mx_film_channel(a, re, im, mx_film_terms(a, re, im, d, vec3(2.2084, 1.001122, -0.0066121)));
     return clamp(mat3(2.3706744, -0.513885, 0.0052982, -0.9000405, 1.4253036, -0.0146949, -0.4706338, 0.0885814,
-        1.0093968) * (0.5 * (mx_film_polarized(a.x, vec3(c), vec3(0.0), u, v, d)
-        + mx_film_polarized(a.y, c * (m * m - l * l), 2.0 * c * m * l, u, v, d))), vec3(0.0), vec3(1.0));
+        1.0093968) * vec3(x, y, z), vec3(0.0), vec3(1.0));
 }
 
 vec3 mx_fresnel(const float cosine, const vec3 n, const float film, const float film_ior)

@@ -172,29 +172,33 @@ void mx_artistic_ior(float3 reflectivity, float3 edge_color, out float3 ior, out
 }
 
 // The index n + ik times the cosine behind its interface: (u + iv)^2 = (n + ik)^2 - sin^2.
-void mx_fresnel_refract(float cosine, float3 n, float3 k, out float3 u, out float3 v)
+float2 mx_fresnel_refract(float cosine, float n, float k)
 {
-    float3 t = n * n - k * k + (cosine * cosine - 1.0);
-    float3 norm = sqrt(t * t + 4.0 * n * n * k * k);
-    u = sqrt(max(0.5 * (norm + t), 0.0));
-    v = sqrt(max(0.5 * (norm - t), 0.0));
+    float t = n * n - k * k + (cosine * cosine - 1.0);
+    float norm = sqrt(t * t + 4.0 * n * n * k * k);
+    return sqrt(max(0.5 * float2(norm + t, norm - t), 0.0));
 }
 
 // |(x + iy - u - iv) / (x + iy + u + iv)|^2
-float3 mx_fresnel_ratio(float3 x, float3 y, float3 u, float3 v)
+float mx_fresnel_ratio(float2 x, float2 u)
 {
-    return ((x - u) * (x - u) + (y - v) * (y - v)) / ((x + u) * (x + u) + (y + v) * (y + v));
+    return dot(x - u, x - u) / dot(x + u, x + u);
 }
 
 // Fresnel equations for the index n + ik (Pharr et al. 2023, section 9.3.6): against u + iv stands the cosine in the
 // perpendicular part, (n + ik)^2 times the cosine in the parallel part.
+float mx_fresnel_conductor(float cosine, float n, float k)
+{
+    float2 u = mx_fresnel_refract(cosine, n, k);
+    return 0.5 * (mx_fresnel_ratio(float2(cosine, 0.0), u)
+        + mx_fresnel_ratio(cosine * float2(n * n - k * k, 2.0 * n * k), u));
+}
+
+// One channel after the other, which needs a third of the registers.
 float3 mx_fresnel_conductor(float cosine, float3 n, float3 k)
 {
-    float3 u;
-    float3 v;
-    mx_fresnel_refract(cosine, n, k, u, v);
-    return 0.5 * (mx_fresnel_ratio((float3)cosine, float3(0.0, 0.0, 0.0), u, v)
-        + mx_fresnel_ratio(cosine * (n * n - k * k), 2.0 * cosine * n * k, u, v));
+    return float3(mx_fresnel_conductor(cosine, n.x, k.x), mx_fresnel_conductor(cosine, n.y, k.y),
+        mx_fresnel_conductor(cosine, n.z, k.z));
 }
 
 // Where the light from a direction of the world lies in the environment's picture.

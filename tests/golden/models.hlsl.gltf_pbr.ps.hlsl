@@ -171,29 +171,27 @@ float3 mx_fresnel_schlick(float cosine, float3 f0, float3 f90)
     return lerp(f0, f90, x * x * x * x * x);
 }
 
-// XYZ of light that has gone further by d / (2 pi) micrometre and changed by the amplitude re + i im: the Fourier
-// transform of the CIE sensitivities, a sum of Gaussians.
-float3 mx_film_response(float d, float3 re)
+// A channel after interference, the mean of both polarisations.
+float mx_film_channel(float2 a, float2 re, float2 terms)
 {
-    float4 xyzx = float4(0.84659, 1.000222, 1.001122, 0.153868)
-        * exp(float4(-0.0043278, -0.0093046, -0.0066121, -0.0045282) * (d * d))
-        * (float4(re, re.x) * cos(float4(1.681, 1.7953, 2.2084, 2.2399) * d));
-    return xyzx.xyz + float3(xyzx.w, 0.0, 0.0);
+    float2 r23 = re * re;
+    float2 t = 1.0 - a * a;
+    float2 even = t * t * r23 / (1.0 - a * a * r23);
+    float2 both = a * a + even + 2.0 * (even - t) * terms;
+    return 0.5 * (both.x + both.y);
 }
 
-// XYZ after interference of one polarisation: real amplitude `a` of the film's own interface, which from behind is -a,
-// and re + i im of the one below; two terms of the series (section 3.3).
-float3 mx_film_series(float a, float3 re, float d)
+// Two terms of the series (section 3.3) for one Gaussian: amplitude `a` of the film's own interface, which from behind
+// is -a, and re + i im of the one below, and light that goes further by d / (2 pi) micrometre.
+float2 mx_film_terms(float2 a, float2 re, float d, float3 gauss)
 {
-    float3 r23 = re * re;
-    float r12 = a * a;
-    float t = 1.0 - r12;
-    float3 constant = t * t * r23 / (1.0 - r12 * r23);
-    return r12 + constant + 2.0 * (constant - t)
-        * (r12 * mx_film_response(2.0 * d, re * re) - a * mx_film_response(d, re));
+    float decay = exp(gauss.z * d * d);
+    float2 x = re * cos(gauss.x * d);
+    float2 y = re * sin(gauss.x * d);
+    return gauss.y * decay * a * (a * (decay * decay * decay) * (x * x - y * y) - x);
 }
 
-// Amplitudes of the film's own interface: perpendicular, parallel.
+// Amplitudes of the film's own interface.
 float2 mx_film_amplitudes(float cosine, float inside, float ior)
 {
     float2 x = float2(cosine, ior * cosine);
@@ -210,7 +208,14 @@ float3 mx_film_schlick(float cosine, float3 f0, float3 f90, float film, float fi
     float d = 0.012566372 * ior * c * film;
     float3 r = (1.0 - 2.0 * step(sqrt(clamp(f0, 0.01, 0.99)), (float3)((ior - 1.0) / (ior + 1.0))))
         * sqrt(max(0.5 * mx_fresnel_schlick(c, f0, f90), 0.0));
-    return clamp(mul(0.5 * (mx_film_series(a.x, -r, d) + mx_film_series(a.y, r, d)),
+    float2 re = float2(-r.x, r.x);
+    float x = mx_film_channel(a, re, mx_film_terms(a, re, d, float3(1.681, 0.84659, -0.0043278))
+        + mx_film_terms(a, re, d, float3(2.2399, 0.153868, -0.0045282)));
+    re = float2(-r.y, r.y);
+    float y = mx_film_channel(a, re, mx_film_terms(a, re, d, float3(1.7953, 1.000222, -0.0093046)));
+    re = float2(-r.z, r.z);
+    return clamp(mul(float3(x, y, mx_film_channel(a, re,
+        mx_film_terms(a, re, d, float3(2.2084, 1.001122, -0.0066121)))),
         float3x3(2.3706744, -0.513885, 0.0052982, -0.9000405, 1.4253036, -0.0146949, -0.4706338, 0.0885814, 1.0093968)),
         0.0, 1.0);
 }

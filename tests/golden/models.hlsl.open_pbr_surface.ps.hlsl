@@ -220,30 +220,29 @@ float3 mx_fresnel_schlick(float cosine, float3 f0, float3 bend)
     return lerp(f0, float3(1.0, 1.0, 1.0), x3 * x * x) - bend * (cosine * x3 * x3);
 }
 
-// XYZ of light that has gone further by d / (2 pi) micrometre and changed by the amplitude re + i im: the Fourier
-// transform of the CIE sensitivities, a sum of Gaussians.
-float3 mx_film_response(float d, float3 re, float3 im)
+// A channel after interference, the mean of both polarisations.
+float mx_film_channel(float2 a, float2 re, float2 im, float2 terms)
 {
-    float4 a = float4(1.681, 1.7953, 2.2084, 2.2399) * d;
-    float4 xyzx = float4(0.84659, 1.000222, 1.001122, 0.153868)
-        * exp(float4(-0.0043278, -0.0093046, -0.0066121, -0.0045282) * (d * d))
-        * (float4(re, re.x) * cos(a) - float4(im, im.x) * sin(a));
-    return xyzx.xyz + float3(xyzx.w, 0.0, 0.0);
+    float2 r23 = re * re + im * im;
+    float2 t = 1.0 - a * a;
+    float2 even = t * t * r23 / (1.0 - a * a * r23);
+    float2 both = a * a + even + 2.0 * (even - t) * terms;
+    return 0.5 * (both.x + both.y);
 }
 
-// XYZ after interference of one polarisation: real amplitude `a` of the film's own interface, which from behind is -a,
-// and re + i im of the one below; two terms of the series (section 3.3).
-float3 mx_film_series(float a, float3 re, float3 im, float d)
+// Two terms of the series (section 3.3) for one Gaussian: amplitude `a` of the film's own interface, which from behind
+// is -a, and re + i im of the one below, and light that goes further by d / (2 pi) micrometre.
+float2 mx_film_terms(float2 a, float2 re, float2 im, float d, float3 gauss)
 {
-    float3 r23 = re * re + im * im;
-    float r12 = a * a;
-    float t = 1.0 - r12;
-    float3 constant = t * t * r23 / (1.0 - r12 * r23);
-    float3 terms = r12 * mx_film_response(2.0 * d, re * re - im * im, 2.0 * re * im) - a * mx_film_response(d, re, im);
-    return r12 + constant + 2.0 * (constant - t) * terms;
+    float c = cos(gauss.x * d);
+    float s = sin(gauss.x * d);
+    float decay = exp(gauss.z * d * d);
+    float2 x = re * c - im * s;
+    float2 y = re * s + im * c;
+    return gauss.y * decay * a * (a * (decay * decay * decay) * (x * x - y * y) - x);
 }
 
-// Amplitudes of the film's own interface: perpendicular, parallel.
+// Amplitudes of the film's own interface.
 float2 mx_film_amplitudes(float cosine, float inside, float ior)
 {
     float2 x = float2(cosine, ior * cosine);
@@ -260,8 +259,16 @@ float3 mx_film_schlick(float cosine, float3 f0, float3 bend, float film, float f
     float d = 0.012566372 * ior * c * film;
     float3 r = (1.0 - 2.0 * step(sqrt(clamp(f0, 0.01, 0.99)), (float3)((ior - 1.0) / (ior + 1.0))))
         * sqrt(max(0.5 * mx_fresnel_schlick(c, f0, bend), 0.0));
-    return clamp(mul(0.5 * (mx_film_series(a.x, -r, float3(0.0, 0.0, 0.0), d)
-        + mx_film_series(a.y, r, float3(0.0, 0.0, 0.0), d)),
+    float2 re = float2(-r.x, r.x);
+    float x = mx_film_channel(a, re, float2(0.0, 0.0),
+        mx_film_terms(a, re, float2(0.0, 0.0), d, float3(1.681, 0.84659, -0.0043278))
+        + mx_film_terms(a, re, float2(0.0, 0.0), d, float3(2.2399, 0.153868, -0.0045282)));
+    re = float2(-r.y, r.y);
+    float y = mx_film_channel(a, re, float2(0.0, 0.0),
+        mx_film_terms(a, re, float2(0.0, 0.0), d, float3(1.7953, 1.000222, -0.0093046)));
+    re = float2(-r.z, r.z);
+    return clamp(mul(float3(x, y, mx_film_channel(a, re, float2(0.0, 0.0),
+        mx_film_terms(a, re, float2(0.0, 0.0), d, float3(2.2084, 1.001122, -0.0066121)))),
         float3x3(2.3706744, -0.513885, 0.0052982, -0.9000405, 1.4253036, -0.0146949, -0.4706338, 0.0885814, 1.0093968)),
         0.0, 1.0);
 }
@@ -273,20 +280,23 @@ float3 mx_fresnel(float cosine, float3 n, float3 k, float film, float film_ior)
     return mx_fresnel_schlick(cosine, n, k);
 }
 
-// The same with the amplitude (x + iy - u - iv) / (x + iy + u + iv).
-float3 mx_film_polarized(float a, float3 x, float3 y, float3 u, float3 v, float d)
+// The index n + ik times the cosine behind its interface: (u + iv)^2 = (n + ik)^2 - sin^2.
+float2 mx_fresnel_refract(float cosine, float n, float k)
 {
-    float3 norm = (x + u) * (x + u) + (y + v) * (y + v);
-    return mx_film_series(a, (x * x + y * y - u * u - v * v) / norm, 2.0 * (y * u - x * v) / norm, d);
+    float t = n * n - k * k + (cosine * cosine - 1.0);
+    float norm = sqrt(t * t + 4.0 * n * n * k * k);
+    return sqrt(max(0.5 * float2(norm + t, norm - t), 0.0));
 }
 
-// The index n + ik times the cosine behind its interface: (u + iv)^2 = (n + ik)^2 - sin^2.
-void mx_fresnel_refract(float cosine, float3 n, float3 k, out float3 u, out float3 v)
+// Amplitudes re + i im of the interface below: (x + iy - u - iv) / (x + iy + u + iv), as in mx_fresnel_conductor.
+void mx_film_base(float cosine, float n, float k, out float2 re, out float2 im)
 {
-    float3 t = n * n - k * k + (cosine * cosine - 1.0);
-    float3 norm = sqrt(t * t + 4.0 * n * n * k * k);
-    u = sqrt(max(0.5 * (norm + t), 0.0));
-    v = sqrt(max(0.5 * (norm - t), 0.0));
+    float2 u = mx_fresnel_refract(cosine, n, k);
+    float2 x = cosine * float2(1.0, n * n - k * k);
+    float2 y = float2(0.0, 2.0 * cosine * n * k);
+    float2 norm = (x + u.x) * (x + u.x) + (y + u.y) * (y + u.y);
+    re = (x * x + y * y - dot(u, u)) / norm;
+    im = 2.0 * (y * u.x - x * u.y) / norm;
 }
 
 // A film on the index n + ik.
@@ -296,15 +306,17 @@ float3 mx_film_index(float cosine, float3 n, float film, float film_ior)
     float c = sqrt(1.0 - (1.0 - cosine * cosine) / (ior * ior));
     float2 a = mx_film_amplitudes(cosine, c, ior);
     float d = 0.012566372 * ior * c * film;
-    float3 m = n / ior;
-    float3 l = float3(0.0, 0.0, 0.0) / ior;
-    float3 u;
-    float3 v;
-    mx_fresnel_refract(c, m, l, u, v);
-    return clamp(mul(0.5 * (mx_film_polarized(a.x, (float3)c, float3(0.0, 0.0, 0.0), u, v, d)
-        + mx_film_polarized(a.y, c * (m * m - l * l), 2.0 * c * m * l, u, v, d)),
-        float3x3(2.3706744, -0.513885, 0.0052982, -0.9000405, 1.4253036, -0.0146949, -0.4706338, 0.0885814, 1.0093968)),
-        0.0, 1.0);
+    float2 re;
+    float2 im;
+    mx_film_base(c, n.x / ior, 0.0 / ior, re, im);
+    float x = mx_film_channel(a, re, im, mx_film_terms(a, re, im, d, float3(1.681, 0.84659, -0.0043278))
+        + mx_film_terms(a, re, im, d, float3(2.2399, 0.153868, -0.0045282)));
+    mx_film_base(c, n.y / ior, 0.0 / ior, re, im);
+    float y = mx_film_channel(a, re, im, mx_film_terms(a, re, im, d, float3(1.7953, 1.000222, -0.0093046)));
+    mx_film_base(c, n.z / ior, 0.0 / ior, re, im);
+    float z = mx_film_channel(a, re, im, mx_film_terms(a, re, im, d, float3(2.2084, 1.001122, -0.0066121)));
+    return clamp(mul(float3(x, y, z), float3x3(2.3706744, -0.513885, 0.0052982, -0.9000405, 1.4253036, -0.0146949,
+        -0.4706338, 0.0885814, 1.0093968)), 0.0, 1.0);
 }
 
 float3 mx_fresnel(float cosine, float3 n, float film, float film_ior)
