@@ -3,14 +3,9 @@
 
 struct mx_GgxLobe {
     mat3 frame;
-    vec3 stretch;
-    float area;
+    vec2 alpha;
     vec3 v;
     float masking;
-    vec3 cap;
-    float step;
-    float weight;
-    float level;
 };
 uniform vec3 u_viewPosition = vec3(0.0);
 uniform int u_numActiveLightSources = 0;
@@ -44,12 +39,6 @@ vec2 mx_ggx_albedo_fit(const float u, const float c)
         11.8506, -30.2645, 27.3289, -8.9414, -4.3199, 8.2596, -3.1648, -0.8054), u), 1.0), x * x * x * x * x);
 }
 
-mx_GgxLobe mx_ggx_lobe_at(const mat3 frame, const vec3 v)
-{
-    return mx_GgxLobe(frame, vec3(0.04, 0.04, 1.0), 0.0016, v, sqrt(mix(v.z * v.z, 1.0, 0.0016)),
-        normalize(v * vec3(0.04, 0.04, 1.0)), 0.0, 0.0, 0.0);
-}
-
 // Axes of the tangent space around N with x along X: `w * frame` enters it, `frame * w` leaves it.
 mat3 mx_frame(const vec3 N, const vec3 X)
 {
@@ -64,28 +53,23 @@ mat3 mx_frame(const vec3 N, const vec3 X)
 mx_GgxLobe mx_ggx_lobe(const vec3 N, const vec3 X, const vec3 V)
 {
     mat3 frame = mx_frame(N, X);
-    return mx_ggx_lobe_at(frame, max(V * frame, vec3(-1.0, -1.0, 1e-8)));
+    vec3 v = max(V * frame, vec3(-1.0, -1.0, 1e-8));
+    return mx_GgxLobe(frame, vec2(0.04), v, sqrt(mix(v.z * v.z, 1.0, 0.0016)));
 }
 
-// Distribution of normals (Burley 2012, appendix B.2, equation 13) at a normal that is stretched to that of a unit
-// sphere; `area` is the product of the roughness along x and y.
-float mx_ggx_distribution(const vec3 e, const float area)
+// The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor, with a facet's normal of
+// any length.
+float mx_ggx_light(const mx_GgxLobe lobe, const vec3 L)
 {
-    return 1.0 / (3.1415927 * area * dot(e, e) * dot(e, e));
-}
-
-// Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v; half is left of the divisor of the
-// reflection model.
-float mx_ggx_visibility(const mx_GgxLobe lobe, const float cos_l)
-{
-    return cos_l / (lobe.v.z * sqrt(mix(cos_l * cos_l, 1.0, lobe.area)) + cos_l * lobe.masking);
-}
-
-// The lobe towards L, but for Fresnel's factor.
-float mx_ggx_light(const mx_GgxLobe lobe, const vec3 L, const vec3 H)
-{
-    return 0.5 * mx_ggx_distribution(H * lobe.frame / lobe.stretch, lobe.area)
-        * mx_ggx_visibility(lobe, max(dot(L, lobe.frame[2]), 1e-8));
+    vec3 l = L * lobe.frame;
+    vec3 h = lobe.v + l;
+    vec2 slope = h.xy / lobe.alpha;
+    float area = lobe.alpha.x * lobe.alpha.y;
+    float cos_l = max(l.z, 1e-8);
+    float square = dot(h, h);
+    float e = dot(slope, slope) + h.z * h.z;
+    return square * square * cos_l / (6.2831855 * area * e * e
+        * (lobe.v.z * sqrt(mix(cos_l * cos_l, 1.0, area)) + cos_l * lobe.masking));
 }
 
 // Unpolarised Fresnel equations of a dielectric; the clamped root makes total internal reflection come out as 1.
@@ -114,12 +98,12 @@ void main()
         // coat, paint
         float intensity = u_lightData[i].intensity;
         vec3 L = -u_lightData[i].direction;
-        vec3 H = normalize(V - u_lightData[i].direction);
-        float fresnel = mx_fresnel_dielectric(clamp(dot(V, H), 1e-8, 1.0));
+        float v_dot_l = dot(V, L);
+        float fresnel = mx_fresnel_dielectric(sqrt(clamp(v_dot_l * 0.5 + 0.5, 1e-8, 1.0)));
         float cos_l = max(dot(L, facing), 1e-8);
         vec3 paint_response = scaled_paint_weight
-            * (cos_l / 3.1415927 * (max(dot(V, L) - cos_v * cos_l, 0.0) * 0.225 / max(cos_l, cos_v) + 0.89285713));
-        vec3 sum = ggx_compensation * mx_ggx_light(coat_ggx_lobe, L, H) * fresnel + paint_response;
+            * (cos_l / 3.1415927 * (max(v_dot_l - cos_v * cos_l, 0.0) * 0.225 / max(cos_l, cos_v) + 0.89285713));
+        vec3 sum = ggx_compensation * mx_ggx_light(coat_ggx_lobe, L) * fresnel + paint_response;
         color += u_lightData[i].color * (u_lightData[i].type == 1 ? intensity : 0.0) * sum;
     }
     out1 = vec4(color, 1.0);

@@ -3,14 +3,9 @@
 
 struct mx_GgxLobe {
     mat3 frame;
-    vec3 stretch;
-    float area;
+    vec2 alpha;
     vec3 v;
     float masking;
-    vec3 cap;
-    float step;
-    float weight;
-    float level;
 };
 uniform vec3 u_viewPosition = vec3(0.0);
 uniform int u_numActiveLightSources = 0;
@@ -46,12 +41,6 @@ vec2 mx_ggx_albedo(const float c)
     return vec2(sum, scales.y / sum);
 }
 
-mx_GgxLobe mx_ggx_lobe_at(const mat3 frame, const vec3 v)
-{
-    return mx_GgxLobe(frame, vec3(0.04, 0.04, 1.0), 0.0016, v, sqrt(mix(v.z * v.z, 1.0, 0.0016)),
-        normalize(v * vec3(0.04, 0.04, 1.0)), 0.0, 0.0, 0.0);
-}
-
 // Axes of the tangent space around N with x along X: `w * frame` enters it, `frame * w` leaves it.
 mat3 mx_frame(const vec3 N, const vec3 X)
 {
@@ -66,28 +55,23 @@ mat3 mx_frame(const vec3 N, const vec3 X)
 mx_GgxLobe mx_ggx_lobe(const vec3 N, const vec3 X, const vec3 V)
 {
     mat3 frame = mx_frame(N, X);
-    return mx_ggx_lobe_at(frame, max(V * frame, vec3(-1.0, -1.0, 1e-8)));
+    vec3 v = max(V * frame, vec3(-1.0, -1.0, 1e-8));
+    return mx_GgxLobe(frame, vec2(0.04), v, sqrt(mix(v.z * v.z, 1.0, 0.0016)));
 }
 
-// Distribution of normals (Burley 2012, appendix B.2, equation 13) at a normal that is stretched to that of a unit
-// sphere; `area` is the product of the roughness along x and y.
-float mx_ggx_distribution(const vec3 e, const float area)
+// The lobe towards L, but for Fresnel's factor: distribution and visibility over one divisor, with a facet's normal of
+// any length.
+float mx_ggx_light(const mx_GgxLobe lobe, const vec3 L)
 {
-    return 1.0 / (3.1415927 * area * dot(e, e) * dot(e, e));
-}
-
-// Height-correlated masking and shadowing G2 (Heitz 2014, equation 99) over 2 cos_v; half is left of the divisor of the
-// reflection model.
-float mx_ggx_visibility(const mx_GgxLobe lobe, const float cos_l)
-{
-    return cos_l / (lobe.v.z * sqrt(mix(cos_l * cos_l, 1.0, lobe.area)) + cos_l * lobe.masking);
-}
-
-// The lobe towards L, but for Fresnel's factor.
-float mx_ggx_light(const mx_GgxLobe lobe, const vec3 L, const vec3 H)
-{
-    return 0.5 * mx_ggx_distribution(H * lobe.frame / lobe.stretch, lobe.area)
-        * mx_ggx_visibility(lobe, max(dot(L, lobe.frame[2]), 1e-8));
+    vec3 l = L * lobe.frame;
+    vec3 h = lobe.v + l;
+    vec2 slope = h.xy / lobe.alpha;
+    float area = lobe.alpha.x * lobe.alpha.y;
+    float cos_l = max(l.z, 1e-8);
+    float square = dot(h, h);
+    float e = dot(slope, slope) + h.z * h.z;
+    return square * square * cos_l / (6.2831855 * area * e * e
+        * (lobe.v.z * sqrt(mix(cos_l * cos_l, 1.0, area)) + cos_l * lobe.masking));
 }
 
 // Unpolarised Fresnel equations of a dielectric; the clamped root makes total internal reflection come out as 1.
@@ -99,11 +83,24 @@ float mx_fresnel_dielectric(const float cosine)
     return 0.5 * dot(r, r);
 }
 
-// Where the light from a direction of the world lies in the environment's picture.
-vec2 mx_latlong(const vec3 direction)
+// The point of the picture for a unit direction in it.
+vec2 mx_map_point(const vec3 d)
 {
-    vec3 d = normalize((u_envMatrix * vec4(direction, 0.0)).xyz);
-    return vec2(atan(d.x, -d.z), -2.0 * asin(clamp(d.y, -1.0, 1.0))) * 0.15915494 + vec2(0.5);
+    vec2 a = abs(d.xz);
+    float t = min(a.x, a.y) / max(max(a.x, a.y), 1e-8);
+    float t2 = t * t;
+    float turn = t * (0.1590298 + t2 * (t2 * (0.0232785 - 0.0062048 * t2) - 0.0511165));
+    turn = a.x > a.y ? 0.25 - turn : turn;
+    turn = d.z > 0.0 ? 0.5 - turn : turn;
+    float y = abs(d.y);
+    float height = sqrt(max(1.0 - y, 0.0)) * (0.4999879 + y * (y * (0.0244774 - 0.0066502 * y) - 0.0677603));
+    return vec2(d.x < 0.0 ? 0.5 - turn : 0.5 + turn, d.y < 0.0 ? 1.0 - height : height);
+}
+
+vec3 mx_environment_radiance(const vec3 direction, const float lod)
+{
+    return textureLod(u_envRadiance, mx_map_point(normalize((u_envMatrix * vec4(direction, 0.0)).xyz)), lod).xyz
+        * u_envLightIntensity;
 }
 
 // A map whose mip levels are filtered for rising roughness.
@@ -111,8 +108,7 @@ vec3 mx_ggx_prefiltered(const vec3 N, const vec3 V)
 {
     vec2 albedo = mx_ggx_albedo(max(abs(dot(N, V)), 1e-8));
     return mix(vec3(0.033735953), vec3(1.0), albedo.y) * albedo.x
-        * (textureLod(u_envRadiance, mx_latlong(reflect(-V, faceforward(N, -V, N))), 0.2
-        * float(u_envRadianceMips - 1)).xyz * u_envLightIntensity);
+        * mx_environment_radiance(reflect(-V, faceforward(N, -V, N)), 0.2 * float(u_envRadianceMips - 1));
 }
 
 void main()
@@ -142,19 +138,21 @@ void main()
         float point_light_choice = type == 2 ? ratio : spot_light_choice;
         vec3 directional_light_to_light = -u_lightData[i].direction;
         vec3 L = type == 1 ? directional_light_to_light : to_light;
-        vec3 H = normalize(V + L);
-        float fresnel = mx_fresnel_dielectric(clamp(dot(V, H), 1e-8, 1.0));
+        float v_dot_l = dot(V, L);
+        float fresnel = mx_fresnel_dielectric(sqrt(clamp(v_dot_l * 0.5 + 0.5, 1e-8, 1.0)));
         float cos_l = max(dot(L, h), 1e-8);
         vec3 paint_response = scaled_paint_weight
-            * (cos_l / 3.1415927 * (max(dot(V, L) - cos_v * cos_l, 0.0) * 0.225 / max(cos_l, cos_v) + 0.89285713));
-        vec3 sum = scale * mx_ggx_light(coat_ggx_lobe, L, H) * fresnel + paint_response;
+            * (cos_l / 3.1415927 * (max(v_dot_l - cos_v * cos_l, 0.0) * 0.225 / max(cos_l, cos_v) + 0.89285713));
+        vec3 sum = scale * mx_ggx_light(coat_ggx_lobe, L) * fresnel + paint_response;
         color += u_lightData[i].color * (type == 1 ? intensity : point_light_choice) * sum;
     }
     // environment
     // coat, paint
+    vec3 environment_irradiance = textureLod(u_envIrradiance, mx_map_point(normalize((u_envMatrix * vec4(h, 0.0)).xyz)),
+        0.0).xyz * u_envLightIntensity;
     vec2 fit = (cos_v * vec2(-0.7632, -0.4993) - vec2(0.4297, 0.6076) + vec2(0.43155, 0.60945)) * 0.3 + vec2(1.0);
-    vec3 paint_product = paint_weight * clamp(fit.x / fit.y, 0.0, 1.0) * vec3(0.6, 0.1, 0.05);
-    vec3 paint_response_2 = textureLod(u_envIrradiance, mx_latlong(h), 0.0).xyz * u_envLightIntensity * paint_product;
+    vec3 paint_response_2 = environment_irradiance
+        * (paint_weight * clamp(fit.x / fit.y, 0.0, 1.0) * vec3(0.6, 0.1, 0.05));
     color += scale * mx_ggx_prefiltered(N, V) + paint_response_2;
     out1 = vec4(color, 1.0);
 }

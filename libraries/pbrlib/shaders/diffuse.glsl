@@ -121,9 +121,8 @@ vec3 mx_burley_diffuse_bsdf_eval(vec3 color, float roughness, vec3 N, vec3 V, ve
 {
     float cos_l = mx_facing_cosine(N, V, L);
     float cos_v = mx_view_cosine(N, V);
-    float cos_d = dot(L, normalize(L + V));
     vec2 x = 1.0 - vec2(cos_l, cos_v);
-    vec2 f = 1.0 + (2.0 * roughness * cos_d * cos_d - 0.5) * (x * x * x * x * x);
+    vec2 f = 1.0 + (roughness + roughness * dot(L, V) - 0.5) * (x * x * x * x * x); // cos^2 of half the angle is (1 + cos) / 2
     return color * (f.x * f.y * cos_l / MX_PI / mx_burley_excess(mx_burley_albedo(cos_v, roughness)));
 }
 
